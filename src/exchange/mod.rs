@@ -1,0 +1,1 @@
+//! Walls from and to other programs.

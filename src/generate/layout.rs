@@ -1,0 +1,144 @@
+//! What a wall is asked to be: the outline, the arrangement of its joints, and the distributions of its sizes.
+
+use crate::random::Family;
+
+/// Everything the generator needs to know; a member's wall is a pure function of this, the seed and the member.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layout {
+    /// The wall's outer shape.
+    pub outline: Outline,
+    /// How stones are arranged.
+    pub arrangement: Arrangement,
+    /// Density of a stone (kg/m^3), drawn per stone.
+    pub density: Family,
+    /// Stones spanning the thickness side by side (1 or more), and the headers that tie them.
+    pub wythes: Wythes,
+    /// Width of the open gap in every head joint (m); 0 for closed head joints.
+    pub head_joint_gap: f64,
+    /// Wedge stones, if any.
+    pub wedges: Option<Wedges>,
+    /// What a stone must at least be.
+    pub limits: Limits,
+}
+
+/// A wall with trapezoidal section, straight along x, its base in the plane z = 0, centred on y = 0 at the base.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outline {
+    /// Length along x (m); the wall spans x = 0 to length.
+    pub length: f64,
+    /// Height (m).
+    pub height: f64,
+    /// Thickness at the base (m), from y = -base/2 to y = base/2.
+    pub base_thickness: f64,
+    /// Thickness at the top (m).
+    pub top_thickness: f64,
+    /// Which face leans.
+    pub battered_face: BatteredFace,
+}
+
+/// Which face of the trapezoidal section leans. Front is +y (downhill), back is -y (where the load presses).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum BatteredFace {
+    /// The front leans, the back is vertical.
+    Front,
+    /// The back leans, the front is vertical.
+    Back,
+    /// Both lean by half: a symmetric section.
+    Both,
+}
+
+/// How the joints are arranged.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Arrangement {
+    /// Stack bond: head joints run through all courses.
+    Continuous {
+        /// Stone length (m); the last stone of a course takes what is left.
+        length: f64,
+        /// Course height (m); the number of courses is rounded so that they fill the height.
+        height: f64,
+    },
+    /// Running bond: every other course is shifted by `overlap` times the stone length.
+    Discontinuous {
+        /// Stone length (m).
+        length: f64,
+        /// Course height (m).
+        height: f64,
+        /// Shift of every other course as a share of the stone length, in (0, 1); 0.5 is a half bond.
+        overlap: f64,
+    },
+    /// Courses with random heights, stone lengths and one bed dip per bed about the wall's long axis.
+    Coursed {
+        /// Stone length (m), drawn per stone.
+        length: Family,
+        /// Course height (m), drawn per course.
+        height: Family,
+        /// Factor on all lengths and heights of one wall, drawn once per wall (mean size varies between walls).
+        wall_size_factor: Family,
+        /// Dip of a bed (rad), drawn once per bed.
+        dip: Family,
+        /// Head joints of neighbouring courses closer than this share of the mean stone length are redrawn; in [0, 0.5).
+        least_overlap: f64,
+    },
+    /// Recursive random joint planes, the analogue of 3DEC's random joint sets.
+    Cut {
+        /// Target stone length (m), drawn per cut.
+        length: Family,
+        /// Target stone height (m), drawn per cut.
+        height: Family,
+        /// Factor on all lengths and heights of one wall, drawn once per wall.
+        wall_size_factor: Family,
+        /// Dip of a joint plane (rad), drawn once per cut and axis.
+        dip: Family,
+        /// About which axes bed planes dip.
+        dip_about: DipAbout,
+    },
+}
+
+/// About which axis the bed planes of a `cut` wall dip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DipAbout {
+    /// The wall's long axis (x): beds lean towards a face.
+    LongAxis,
+    /// The thickness axis (y): beds rise along the wall.
+    ThicknessAxis,
+    /// Both, independently.
+    Both,
+}
+
+/// Stones through the thickness.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wythes {
+    /// Number of wythes, at least 1.
+    pub count: u32,
+    /// Share of stones (per course position) that span all wythes, in [0, 1]; drawn per position.
+    pub header_share: f64,
+}
+
+/// Wedge stones cut into bed joints from a face of the wall: each is cut off the underside of a stone and is as long
+/// as that stone, a triangular prism with its thin edge inside the wall.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wedges {
+    /// Share of stones above the first course that get a wedge, in [0, 1]; drawn per stone.
+    pub share: f64,
+    /// Height of the wedge at the face (m), drawn per wedge.
+    pub height: Family,
+    /// Depth of the wedge into the wall (m), drawn per wedge.
+    pub depth: Family,
+}
+
+/// What a stone must at least be, and how often a member may try.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Smallest width of a stone over its face normals (m).
+    pub min_size: f64,
+    /// Largest ratio of a stone's diameter to its smallest width.
+    pub max_aspect: f64,
+    /// Smallest width of a wedge stone at its thick end (m) is its height; its volume must exceed this (m^3).
+    pub min_volume: f64,
+    /// Redraws of a bed, a length, a cut or a wedge before the whole wall starts again.
+    pub max_redraws: u32,
+    /// Fresh starts of the whole wall before it is an invalid geometry.
+    pub max_attempts: u32,
+}

@@ -1,0 +1,9 @@
+//! Constitutive laws of a joint, one per file, with their parameters. Plain numbers in, stresses out.
+
+mod coulomb;
+mod damping;
+mod normal;
+
+pub use coulomb::{CohesionAfterSlip, Coulomb, Sampling};
+pub use damping::local_damping;
+pub use normal::NormalLaw;

@@ -1,0 +1,3 @@
+//! The `pirca` program: see [`pirca::cli`].
+
+fn main() {}

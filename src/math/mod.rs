@@ -1,0 +1,14 @@
+//! Vectors, elementary functions on libm, angles at the border, and the invariant check that stays on in release.
+
+mod elementary;
+mod invariant;
+
+pub use elementary::*;
+
+/// A vector or a position in metres (or whatever unit the user of it states); x along the wall, y out of plane
+/// (positive downhill), z up.
+pub type Vec3 = nalgebra::Vector3<f64>;
+/// A 3 x 3 matrix; a rotation matrix maps body axes to world axes.
+pub type Mat3 = nalgebra::Matrix3<f64>;
+/// A vector in a joint plane, in the joint's own (s, t) axes.
+pub type Vec2 = nalgebra::Vector2<f64>;

@@ -1,0 +1,1 @@
+//! Statistics on plain slices: moments, COV, intervals, bootstrap. Every statistic comes with its interval.
