@@ -1,5 +1,7 @@
 //! From a layout to a wall: bond, sizes, dip, wedge stones. `canonical` holds walls with known answers.
 
 mod layout;
+mod wall;
 
 pub use layout::*;
+pub use wall::{Generated, InvalidGeometry, Realised, generate};

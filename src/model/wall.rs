@@ -1,6 +1,4 @@
-//! A wall: its blocks, and the law of every joint.
-
-use std::collections::BTreeMap;
+//! A wall: its blocks, and who gives a joint its law.
 
 use crate::law::Coulomb;
 use crate::model::{Block, Tag};
@@ -19,23 +17,15 @@ impl Wall {
     }
 }
 
-/// The law of each joint: one for all, and exceptions by pair of blocks (lower id first).
-#[derive(Clone, Debug, PartialEq)]
-pub struct JointLaws {
-    /// The law of every joint without an entry of its own.
-    pub default: Coulomb,
-    /// Joints with their own law, keyed by (lower id, higher id).
-    pub by_pair: BTreeMap<(u32, u32), Coulomb>,
+/// Gives every joint its law; asked once per joint when it is first found, with the lower id first.
+pub trait JointLaws: Sync {
+    /// The law of the joint between blocks `a` and `b`; the same answer for (b, a).
+    fn of(&self, a: u32, b: u32) -> Coulomb;
 }
 
-impl JointLaws {
-    /// The same law for every joint.
-    pub fn uniform(law: Coulomb) -> Self {
-        JointLaws { default: law, by_pair: BTreeMap::new() }
-    }
-
-    /// The law of the joint between two blocks.
-    pub fn of(&self, a: u32, b: u32) -> &Coulomb {
-        self.by_pair.get(&(a.min(b), a.max(b))).unwrap_or(&self.default)
+/// The same law for every joint.
+impl JointLaws for Coulomb {
+    fn of(&self, _a: u32, _b: u32) -> Coulomb {
+        *self
     }
 }

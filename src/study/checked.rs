@@ -1,0 +1,133 @@
+//! The checked study: what every other module works from.
+
+use std::path::PathBuf;
+
+use crate::generate::Layout;
+use crate::law::{CohesionAfterSlip, Sampling};
+use crate::protocol::{Ends, Protocol};
+use crate::random::Family;
+use crate::solve::Solver;
+
+/// A study whose every value has been checked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Study {
+    /// Name: that of its folder.
+    pub name: String,
+    /// The question it answers, in words.
+    pub question: String,
+    /// Seed of all random streams.
+    pub seed: u64,
+    /// Named variant that was asked for, if any.
+    pub variant: Option<String>,
+    /// The arms, in the order of the file.
+    pub arms: Vec<Arm>,
+    /// Joint properties other than kn.
+    pub joint: Joint,
+    /// Normal stiffnesses of the joints (Pa/m), ascending: the points at which every arm is evaluated.
+    pub kn_points: Vec<f64>,
+    /// What is done to each wall.
+    pub protocol: Protocol,
+    /// How the ends are held.
+    pub ends: Ends,
+    /// Sub-contacts of a joint along its two in-plane axes.
+    pub sub_contacts: [u32; 2],
+    /// Which solver, with its settings.
+    pub solver: Solver,
+    /// Statements of other codes or papers to compare with, from published.toml.
+    pub published: Vec<Claim>,
+    /// Every input file with its SHA-256, in the order read.
+    pub inputs: Vec<InputFile>,
+    /// SHA-256 (hex) over everything that decides the results of a member (file contents after the variant has been
+    /// applied, without comments); guards results against mixing, never keys a random stream.
+    pub hash: String,
+}
+
+/// One arm: a population of walls.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Arm {
+    /// Name, unique in the study.
+    pub name: String,
+    /// Number of walls, at least 1.
+    pub members: u64,
+    /// What each wall is asked to be.
+    pub layout: Layout,
+}
+
+/// Joint properties; those that are families are drawn once per joint from a stream keyed by the pair of blocks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    /// Factor on the point's kn (mean 1 for pure scatter).
+    pub kn_factor: Family,
+    /// kn over ks.
+    pub kn_over_ks: f64,
+    /// Friction angle (deg, as stated; converted when the law is made).
+    pub phi_deg: Family,
+    /// Cohesion (Pa).
+    pub cohesion: Family,
+    /// Tensile strength (Pa).
+    pub tension: f64,
+    /// What happens to the cohesion of a sub-contact once it has slipped.
+    pub cohesion_after_slip: CohesionAfterSlip,
+    /// Where stress is sampled.
+    pub sampling: Sampling,
+}
+
+/// A statement of somebody else's about the quantity that the study computes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Claim {
+    /// The statement, in our words.
+    pub claim: String,
+    /// Where it stands.
+    pub source: String,
+    /// How it is judged.
+    pub test: ClaimTest,
+    /// Why the tolerance is what it is.
+    pub why: String,
+}
+
+/// How a statement is judged against our numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ClaimTest {
+    /// Mean of one arm over the mean of another lies within [low, high] at every kn.
+    RatioOfMeans {
+        /// The arm above the line.
+        arm: String,
+        /// The arm below the line.
+        over: String,
+        /// The value stated.
+        stated: f64,
+        /// Lowest ratio that counts as reproduced.
+        low: f64,
+        /// Highest ratio that counts as reproduced.
+        high: f64,
+    },
+    /// COV of an arm lies within [low, high] at every kn.
+    Cov {
+        /// The arm.
+        arm: String,
+        /// The value stated, in words ("0.21 to 0.25").
+        stated: String,
+        /// Lowest COV that counts as reproduced.
+        low: f64,
+        /// Highest COV that counts as reproduced.
+        high: f64,
+    },
+    /// The mean of an arm lies between the means of two others at every kn.
+    Between {
+        /// The arm in the middle.
+        arm: String,
+        /// The two others.
+        of: [String; 2],
+    },
+    /// The mean of every arm falls as kn grows.
+    FallsWithKn,
+}
+
+/// An input file of a study and its hash.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct InputFile {
+    /// Path relative to the study's folder, or to its `distributions` sibling.
+    pub path: PathBuf,
+    /// SHA-256 in hex.
+    pub sha256: String,
+}
