@@ -1,5 +1,6 @@
 //! From a layout to a wall: bond, sizes, dip, wedge stones. `canonical` holds walls with known answers.
 
+pub mod canonical;
 mod layout;
 mod wall;
 

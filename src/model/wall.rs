@@ -1,7 +1,12 @@
 //! A wall: its blocks, and who gives a joint its law.
 
 use crate::law::Coulomb;
-use crate::model::{Block, Tag};
+use crate::math::Vec3;
+use crate::model::{Block, Support, Tag};
+use crate::shape::Polyhedron;
+
+/// How far the base reaches beyond the wall on all sides, and its thickness (m).
+const BASE_MARGIN: f64 = 0.1;
 
 /// Any assembly of convex blocks. Axes: x along the wall, y out of plane (positive downhill), z up (m).
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -14,6 +19,36 @@ impl Wall {
     /// The stones, without base and ends: what the wall weighs and what is observed.
     pub fn stones(&self) -> impl Iterator<Item = (usize, &Block)> {
         self.blocks.iter().enumerate().filter(|(_, b)| !matches!(b.tag, Tag::Base | Tag::End))
+    }
+
+    /// Lowest and highest corner of the box around all blocks (m); infinite and inside out for a wall without blocks.
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        let mut box_around = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
+        for block in &self.blocks {
+            let (low, high) = block.shape.bounds();
+            box_around = (box_around.0.inf(&low), box_around.1.sup(&high));
+        }
+        box_around
+    }
+
+    /// The wall on the ground: adds one fixed block as the last one, so that the stones keep their ids. Its top is
+    /// the plane z = 0; it is 0.1 m thick and reaches 0.1 m beyond the wall on all sides. Its density is that of the
+    /// first stone; being fixed, its weight acts on nothing.
+    ///
+    /// A wall without blocks is returned as it is.
+    pub fn with_base(mut self) -> Wall {
+        let Some(density) = self.blocks.first().map(|b| b.density) else { return self };
+        let (low, high) = self.bounds();
+        self.blocks.push(Block {
+            shape: Polyhedron::cuboid(
+                Vec3::new(low.x - BASE_MARGIN, low.y - BASE_MARGIN, -BASE_MARGIN),
+                Vec3::new(high.x + BASE_MARGIN, high.y + BASE_MARGIN, 0.0),
+            ),
+            density,
+            support: Support::Fixed,
+            tag: Tag::Base,
+        });
+        self
     }
 }
 
