@@ -1,8 +1,15 @@
 //! From a layout to a wall: bond, sizes, dip, wedge stones. `canonical` holds walls with known answers.
 
 pub mod canonical;
+mod course;
+mod coursed;
+mod cut;
+mod draft;
 mod layout;
+mod outline;
+mod regular;
 mod wall;
+mod wedge;
 
 pub use layout::*;
 pub use wall::{Generated, InvalidGeometry, Realised, generate};

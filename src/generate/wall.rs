@@ -1,8 +1,12 @@
-//! A member's wall from its layout and its streams (skeleton).
+//! A member's wall from its layout and its streams: attempt after attempt until one is valid.
 
-use crate::generate::Layout;
-use crate::model::Wall;
-use crate::random::Streams;
+use crate::check;
+use crate::generate::coursed::{self, Coursed};
+use crate::generate::cut::{self, Cuts};
+use crate::generate::draft::{Draft, Fault, Stone, Tally};
+use crate::generate::{Arrangement, Layout, regular, wedge};
+use crate::model::{Block, Support, Tag, Wall};
+use crate::random::{Family, Streams};
 
 /// A wall and what it took to make it.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,7 +15,7 @@ pub struct Generated {
     pub wall: Wall,
     /// Fresh starts needed, 1 when the first one was valid.
     pub attempts: u32,
-    /// Slivers merged into a neighbour.
+    /// Slivers merged into a neighbour: stones at the end of a course that were too short to be one.
     pub merges: u32,
     /// Single redraws (bed, length, cut, wedge) over all attempts.
     pub redraws: u32,
@@ -20,18 +24,32 @@ pub struct Generated {
 }
 
 /// Realised values, in the order of drawing.
+///
+/// The `first_` values are draws before any rejection, of failed attempts as well: their distribution is the one asked
+/// for, and the difference to the realised ones is what rejection costs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Realised {
+    /// Factor on the lengths and heights of this wall; 1 where none is drawn.
+    pub size_factor: f64,
     /// Dips of beds or cuts (rad).
     pub dips: Vec<f64>,
     /// Dips as first drawn, before any rejection (rad).
     pub first_dips: Vec<f64>,
-    /// Stone lengths along x (m).
+    /// Stone lengths along x (m), from the middle of one head joint to that of the next; those of a cut wall
+    /// through the centroid, between slots.
     pub lengths: Vec<f64>,
-    /// Stone (course) heights (m).
+    /// Lengths as first drawn, with the wall's size factor (m).
+    pub first_lengths: Vec<f64>,
+    /// Course heights, in a cut wall stone heights through the centroid (m).
     pub heights: Vec<f64>,
+    /// Heights as first drawn, with the wall's size factor, before they were fitted to the wall (m).
+    pub first_heights: Vec<f64>,
+    /// Height and depth of every wedge stone (m).
+    pub wedge_sizes: Vec<[f64; 2]>,
     /// Number of wedge stones.
     pub wedges: u32,
+    /// Number of stones that were to get a wedge; more than `wedges` where none fitted.
+    pub wedges_wanted: u32,
     /// Number of header stones.
     pub headers: u32,
     /// Volume of the outline less the stated gaps (m^3).
@@ -40,7 +58,7 @@ pub struct Realised {
 
 /// Why no valid wall came out within the attempts.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{reason} (in each of {attempts} attempts)")]
+#[error("{reason} ({attempts} attempts, {redraws} redraws)")]
 pub struct InvalidGeometry {
     /// The fault of the last attempt, in words.
     pub reason: String,
@@ -50,10 +68,84 @@ pub struct InvalidGeometry {
     pub redraws: u32,
 }
 
-/// Builds the wall of one member.
+/// Builds the wall of one member: a pure function of the layout and the streams' seed and member.
+///
+/// Every stone is cut from the outline, so that neighbours fit; every attempt draws from its own streams.
 ///
 /// # Errors
-/// [`InvalidGeometry`] when the attempts ran out; never a substitute.
-pub fn generate(_layout: &Layout, _streams: &Streams) -> Result<Generated, InvalidGeometry> {
-    unimplemented!()
+/// [`InvalidGeometry`] when the attempts ran out, or at once when no attempt could succeed; never a substitute.
+pub fn generate(layout: &Layout, streams: &Streams) -> Result<Generated, InvalidGeometry> {
+    let mut tally = Tally::default();
+    let most = layout.limits.max_attempts.max(1);
+    let mut attempts = 1;
+    loop {
+        let mut draft = Draft::new(layout, streams, attempts, &mut tally);
+        match lay(&mut draft) {
+            Ok(stones) => return Ok(finish(draft, stones, attempts)),
+            Err(fault) if attempts == most || fault.is_final() => {
+                return Err(InvalidGeometry { reason: fault.to_string(), attempts, redraws: tally.redraws });
+            }
+            Err(_) => attempts += 1,
+        }
+    }
+}
+
+/// Lays the stones of one attempt.
+fn lay(draft: &mut Draft) -> Result<Vec<Stone>, Fault> {
+    if !draft.layout.outline.has_volume() {
+        return Err(Fault::NoOutline);
+    }
+    draft.realised.size_factor = 1.0;
+    let stones = match &draft.layout.arrangement {
+        Arrangement::Continuous { length, height } => regular::lay(draft, *length, *height, 0.0),
+        Arrangement::Discontinuous { length, height, overlap } => {
+            regular::lay(draft, *length, *height, *overlap)
+        }
+        Arrangement::Coursed { length, height, wall_size_factor, dip, least_overlap } => {
+            let factor = size_factor(draft, wall_size_factor)?;
+            coursed::lay(draft, &Coursed { length, height, factor, dip, least_overlap: *least_overlap })
+        }
+        Arrangement::Cut { length, height, wall_size_factor, dip, dip_about } => {
+            let factor = size_factor(draft, wall_size_factor)?;
+            cut::lay(draft, &Cuts { length, height, factor, dip, dip_about: *dip_about })
+        }
+    }?;
+    Ok(wedge::insert(draft, stones))
+}
+
+fn size_factor(draft: &mut Draft, family: &Family) -> Result<f64, Fault> {
+    let mut stream = draft.stream("wall size", "factor");
+    let factor = draft.draw("wall size factor", family, 1.0, 0.0, &mut stream)?;
+    draft.realised.size_factor = factor;
+    Ok(factor)
+}
+
+/// Draws the densities and closes the books.
+fn finish(draft: Draft, stones: Vec<Stone>, attempts: u32) -> Generated {
+    let (layout, mut realised) = (draft.layout, draft.realised.clone());
+    let blocks: Vec<Block> = stones
+        .into_iter()
+        .map(|stone| {
+            let quantity = if stone.tag == Tag::Wedge { "wedge density" } else { "density" };
+            Block {
+                density: layout.density.sample(&mut draft.stream(quantity, stone.place)),
+                shape: stone.shape,
+                support: Support::Free,
+                tag: stone.tag,
+            }
+        })
+        .collect();
+    let count = |tag: Tag| blocks.iter().filter(|b| b.tag == tag).count() as u32;
+    (realised.wedges, realised.headers) = (count(Tag::Wedge), count(Tag::Header));
+    realised.volume = layout.outline.volume() - draft.gaps;
+    let volume: f64 = blocks.iter().map(|b| b.shape.volume()).sum();
+    // A cut may move a vertex by the cut tolerance, 1e-9 m of metres: far below this bound.
+    check!(
+        (volume - realised.volume).abs() <= 1e-6 * realised.volume,
+        "the stones fill {volume} m^3 of {} m^3",
+        realised.volume
+    );
+    let Tally { redraws, first_dips, first_lengths, first_heights } = std::mem::take(draft.tally);
+    let realised = Realised { first_dips, first_lengths, first_heights, ..realised };
+    Generated { wall: Wall { blocks }, attempts, merges: draft.merges, redraws, realised }
 }

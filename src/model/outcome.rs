@@ -47,11 +47,17 @@ impl Outcome {
     pub fn reason(&self) -> String {
         match self {
             Outcome::Equilibrium => String::new(),
-            Outcome::Collapsed { load_factor } => format!("moved past the collapse criterion at load factor {load_factor}"),
-            Outcome::NotConverged { load_factor, unbalanced_ratio } => {
-                format!("unbalanced force ratio {unbalanced_ratio:.1e} when the steps ran out at load factor {load_factor}")
+            Outcome::Collapsed { load_factor } => {
+                format!("moved past the collapse criterion at load factor {load_factor}")
             }
-            Outcome::NonFinite { load_factor } => format!("a position or force became non-finite at load factor {load_factor}"),
+            Outcome::NotConverged { load_factor, unbalanced_ratio } => {
+                format!(
+                    "unbalanced force ratio {unbalanced_ratio:.1e} when the steps ran out at load factor {load_factor}"
+                )
+            }
+            Outcome::NonFinite { load_factor } => {
+                format!("a position or force became non-finite at load factor {load_factor}")
+            }
             Outcome::InvalidGeometry { reason } => reason.clone(),
         }
     }

@@ -1,68 +1,131 @@
-//! Distribution families (skeleton).
+//! The distribution families that a study can name.
 
-/// A distribution of one real variable, with checked parameters.
+use super::Stream;
+use super::discrete::{Constant, Empirical};
+use super::flat::{Triangular, Uniform};
+use super::gaussian::{Lognormal, Normal};
+use super::truncated::TruncatedNormal;
+
+/// A distribution of one real variable. The parameters have the unit of the variable.
+///
+/// `checked` comes first: the other functions expect parameters that it has accepted.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(tag = "family", rename_all = "snake_case")]
+#[serde(tag = "family", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Family {
     /// Always the same value.
-    Constant { value: f64 },
-    /// Uniform.
-    Uniform { low: f64, high: f64 },
+    Constant {
+        /// The value.
+        value: f64,
+    },
+    /// Uniform between two bounds.
+    Uniform {
+        /// Lower bound.
+        low: f64,
+        /// Upper bound.
+        high: f64,
+    },
     /// Normal.
-    Normal { mean: f64, sd: f64 },
-    /// Normal with parent mean and sd, restricted to [low, high].
-    TruncatedNormal { mean: f64, sd: f64, low: f64, high: f64 },
-    /// Lognormal with the given mean and sd of the variable itself.
-    Lognormal { mean: f64, sd: f64 },
-    /// Triangular.
-    Triangular { low: f64, mode: f64, high: f64 },
-    /// One of the listed values, each as likely.
-    Empirical { values: Vec<f64> },
+    Normal {
+        /// Mean.
+        mean: f64,
+        /// Standard deviation.
+        sd: f64,
+    },
+    /// A normal variable known to lie between two bounds.
+    TruncatedNormal {
+        /// Mean before truncation.
+        mean: f64,
+        /// Standard deviation before truncation.
+        sd: f64,
+        /// Lower bound.
+        low: f64,
+        /// Upper bound.
+        high: f64,
+    },
+    /// Lognormal: the logarithm of the variable is normal.
+    Lognormal {
+        /// Mean of the variable itself.
+        mean: f64,
+        /// Standard deviation of the variable itself.
+        sd: f64,
+    },
+    /// Density rising linearly from `low` to `mode` and falling linearly to `high`.
+    Triangular {
+        /// Lower bound.
+        low: f64,
+        /// Most likely value; may equal a bound.
+        mode: f64,
+        /// Upper bound.
+        high: f64,
+    },
+    /// One of the listed values, each entry as likely as any other.
+    Empirical {
+        /// The values; `checked` puts them in ascending order.
+        values: Vec<f64>,
+    },
 }
 
-/// A parameter that makes no distribution.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{parameter} = {found}: {allowed}")]
-pub struct BadFamily {
-    /// Name of the parameter.
-    pub parameter: &'static str,
-    /// Value found.
-    pub found: f64,
-    /// What is allowed, in words.
-    pub allowed: &'static str,
+/// What each family answers. Internal: users speak to [`Family`].
+pub(super) trait Distribution {
+    fn quantile(&self, u: f64) -> f64;
+    fn density(&self, x: f64) -> Option<f64>;
+    fn cdf(&self, x: f64) -> f64;
+    fn mean(&self) -> f64;
+    fn sd(&self) -> f64;
+    fn support(&self) -> (f64, f64);
 }
 
 impl Family {
-    /// Checks the parameters.
-    pub fn checked(self) -> Result<Self, Vec<BadFamily>> {
-        unimplemented!()
+    /// Inverse CDF: the smallest value whose CDF reaches `u`, for `u` in the open interval (0, 1).
+    pub fn quantile(&self, u: f64) -> f64 {
+        crate::check!(u > 0.0 && u < 1.0, "a quantile was asked at {u}, outside (0, 1)");
+        self.ask(|d| d.quantile(u))
     }
-    /// Inverse CDF of `u` in (0, 1).
-    pub fn quantile(&self, _u: f64) -> f64 {
-        unimplemented!()
+
+    /// Probability density at `x`, per unit of the variable; 0 outside the support. `None` for the constant and the
+    /// empirical family: all their probability sits in points, so no function is their density.
+    pub fn density(&self, x: f64) -> Option<f64> {
+        self.ask(|d| d.density(x))
     }
-    /// Density.
-    pub fn density(&self, _x: f64) -> f64 {
-        unimplemented!()
+
+    /// Probability of a value up to and including `x`.
+    pub fn cdf(&self, x: f64) -> f64 {
+        self.ask(|d| d.cdf(x))
     }
-    /// CDF.
-    pub fn cdf(&self, _x: f64) -> f64 {
-        unimplemented!()
-    }
-    /// Mean.
+
+    /// Mean of the variable (of the truncated variable, for the truncated normal).
     pub fn mean(&self) -> f64 {
-        unimplemented!()
+        self.ask(|d| d.mean())
     }
-    /// Standard deviation.
+
+    /// Standard deviation of the variable (of the truncated variable, for the truncated normal; of the list as a
+    /// whole population, for the empirical family).
     pub fn sd(&self) -> f64 {
-        unimplemented!()
+        self.ask(|d| d.sd())
     }
-    /// Smallest and largest value possible.
+
+    /// Smallest and largest value; infinite where there is no bound.
     pub fn support(&self) -> (f64, f64) {
-        unimplemented!()
+        self.ask(|d| d.support())
     }
-    /// One draw: the quantile of one uniform.
-    pub fn sample(&self, _stream: &mut super::Stream) -> f64 {
-        unimplemented!()
+
+    /// One draw: the quantile of exactly one uniform of the stream. The constant takes one too, so that exchanging the
+    /// family of a quantity leaves later draws from the same stream where they were.
+    pub fn sample(&self, stream: &mut Stream) -> f64 {
+        self.quantile(stream.uniform())
+    }
+
+    fn ask<R>(&self, question: impl FnOnce(&dyn Distribution) -> R) -> R {
+        match *self {
+            Family::Constant { value } => question(&Constant { value }),
+            Family::Uniform { low, high } => question(&Uniform { low, high }),
+            Family::Normal { mean, sd } => question(&Normal { mean, sd }),
+            Family::TruncatedNormal { mean, sd, low, high } => {
+                question(&TruncatedNormal::new(mean, sd, low, high))
+            }
+            Family::Lognormal { mean, sd } => question(&Lognormal::new(mean, sd)),
+            Family::Triangular { low, mode, high } => question(&Triangular { low, mode, high }),
+            Family::Empirical { ref values } => question(&Empirical { values }),
+        }
     }
 }

@@ -1,7 +1,20 @@
 //! Seeded streams keyed by (seed, member, quantity), and the distribution families that are sampled from them.
+//!
+//! Every variable is the inverse CDF of exactly one uniform, so the same uniforms can also come from a stratified or a
+//! low-discrepancy design, and two studies that differ in one family keep all their other draws.
 
+mod discrete;
 mod family;
+mod fault;
+mod flat;
+mod gaussian;
+pub mod standard_normal;
 mod stream;
+mod truncated;
 
-pub use family::{BadFamily, Family};
+pub use family::Family;
+pub use fault::BadFamily;
 pub use stream::{Stream, Streams};
+
+#[cfg(test)]
+mod tests;

@@ -80,7 +80,10 @@ pub fn clip_into(vertices: &[[f64; 2]], value: impl Fn(&[f64; 2]) -> f64, out: &
         let v = value(vertex);
         if (v <= 0.0) != (previous_value <= 0.0) {
             let w = previous_value / (previous_value - v);
-            out.push([previous[0] + w * (vertex[0] - previous[0]), previous[1] + w * (vertex[1] - previous[1])]);
+            out.push([
+                previous[0] + w * (vertex[0] - previous[0]),
+                previous[1] + w * (vertex[1] - previous[1]),
+            ]);
         }
         if v <= 0.0 {
             out.push(*vertex);

@@ -189,9 +189,7 @@ impl Polyhedron {
     /// Smallest extent over the directions of the face normals (m), the size that decides whether a stone is a
     /// sliver; for prisms and boxes this is the exact minimum width.
     pub fn smallest_width(&self) -> f64 {
-        (0..self.faces.len())
-            .map(|f| self.width(&self.face_plane(f).normal))
-            .fold(f64::INFINITY, f64::min)
+        (0..self.faces.len()).map(|f| self.width(&self.face_plane(f).normal)).fold(f64::INFINITY, f64::min)
     }
 
     /// Largest distance between two vertices (m).

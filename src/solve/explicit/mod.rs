@@ -17,6 +17,12 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Settings { unbalanced_ratio: 1e-5, damping: 0.8, step_safety: 0.5, max_steps: 200_000, scaled_inertia: true }
+        Settings {
+            unbalanced_ratio: 1e-5,
+            damping: 0.8,
+            step_safety: 0.5,
+            max_steps: 200_000,
+            scaled_inertia: true,
+        }
     }
 }
