@@ -1,5 +1,6 @@
 //! The checked study: what every other module works from.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use crate::generate::Layout;
@@ -37,8 +38,11 @@ pub struct Study {
     pub published: Vec<Claim>,
     /// Every input file with its SHA-256, in the order read.
     pub inputs: Vec<InputFile>,
-    /// SHA-256 (hex) over everything that decides the results of a member (file contents after the variant has been
-    /// applied, without comments); guards results against mixing, never keys a random stream.
+    /// Every value that decides a result, after the variant has been applied and with defaults and referenced
+    /// distributions filled in, by the path of its key.
+    pub effective: BTreeMap<String, String>,
+    /// SHA-256 (hex) over [`Study::effective`]; comments, layout and prose do not matter. Guards results against
+    /// mixing, never keys a random stream.
     pub hash: String,
 }
 
@@ -68,8 +72,18 @@ pub struct Joint {
     pub tension: f64,
     /// What happens to the cohesion of a sub-contact once it has slipped.
     pub cohesion_after_slip: CohesionAfterSlip,
+    /// Form of the normal law.
+    pub normal_law: NormalLawName,
     /// Where stress is sampled.
     pub sampling: Sampling,
+}
+
+/// Form of the normal law; its stiffness is the point's kn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum NormalLawName {
+    /// [`crate::law::NormalLaw::Linear`].
+    Linear,
 }
 
 /// A statement of somebody else's about the quantity that the study computes.

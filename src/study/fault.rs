@@ -1,0 +1,202 @@
+//! Faults of input files: where, which key, what was found, what is allowed, and how to mend it.
+
+use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// A text file as it was read, kept so that faults can point into it.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Source {
+    /// Name shown to the user, relative to the study's folder or to the folder above `distributions`.
+    pub name: String,
+    /// Order in which faults of several files are listed.
+    pub rank: usize,
+    /// The text.
+    pub text: String,
+}
+
+/// A stretch of a source.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// The file.
+    pub source: Arc<Source>,
+    /// Bytes from and to.
+    pub span: Range<usize>,
+}
+
+impl Place {
+    /// Line (from 1) and column in characters (from 1) of the beginning.
+    pub fn line_and_column(&self) -> (usize, usize) {
+        let before = &self.source.text[..self.start()];
+        let line_start = before.rfind('\n').map_or(0, |i| i + 1);
+        (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+    }
+
+    /// The line of the beginning with carets under the stretch.
+    fn excerpt(&self) -> String {
+        let (line, column) = self.line_and_column();
+        let Some(text) = self.source.text.split('\n').nth(line - 1) else { return String::new() };
+        let text = text.trim_end_matches('\r');
+        let left = (text.chars().count() + 1).saturating_sub(column).max(1);
+        let end = self.span.end.min(self.source.text.len());
+        let wanted = self.source.text.get(self.start()..end).map_or(1, |s| s.chars().count());
+        let gutter = line.to_string().len().max(4);
+        let marks = "^".repeat(wanted.clamp(1, left));
+        format!("{line:>gutter$} | {text}\n{:>gutter$} | {}{marks}", "", " ".repeat(column - 1))
+    }
+
+    /// First byte, moved to a character boundary inside the text.
+    fn start(&self) -> usize {
+        let text = &self.source.text;
+        let mut start = self.span.start.min(text.len());
+        while !text.is_char_boundary(start) {
+            start -= 1;
+        }
+        start
+    }
+}
+
+/// What was found at a key.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Found {
+    /// A value, as written in the file.
+    Value(String),
+    /// Nothing, where something is required.
+    Missing,
+    /// Something else, in words that follow the key ("is not a known key").
+    Words(String),
+}
+
+/// One fault of an input file.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct Fault {
+    /// File, relative to the study's folder or to the folder above `distributions`.
+    pub file: String,
+    /// Line, from 1; 0 when the fault is the file's as a whole.
+    pub line: usize,
+    /// Column in characters, from 1; 0 when the fault is the file's as a whole.
+    pub column: usize,
+    /// Path of the key, as `arm.irregular.dip_deg`; empty for the file as a whole.
+    pub key: String,
+    /// What was found.
+    pub found: Found,
+    /// What is allowed.
+    pub allowed: String,
+    /// How to mend it.
+    pub fix: String,
+    /// The line with carets below; empty for the file as a whole.
+    pub excerpt: String,
+    #[serde(skip)]
+    order: (usize, usize),
+}
+
+impl Fault {
+    /// A fault at a place.
+    pub fn at(
+        place: &Place,
+        key: &str,
+        found: Found,
+        allowed: impl Into<String>,
+        fix: impl Into<String>,
+    ) -> Fault {
+        let (line, column) = place.line_and_column();
+        Fault {
+            file: place.source.name.clone(),
+            line,
+            column,
+            key: key.to_owned(),
+            found,
+            allowed: allowed.into(),
+            fix: fix.into(),
+            excerpt: place.excerpt(),
+            order: (place.source.rank, place.span.start),
+        }
+    }
+
+    /// A fault of a whole file: `found` reads as a sentence part after the file's name.
+    pub fn of_file(file: &str, rank: usize, found: &str, allowed: &str, fix: impl Into<String>) -> Fault {
+        Fault {
+            file: file.to_owned(),
+            line: 0,
+            column: 0,
+            key: String::new(),
+            found: Found::Words(found.to_owned()),
+            allowed: allowed.to_owned(),
+            fix: fix.into(),
+            excerpt: String::new(),
+            order: (rank, 0),
+        }
+    }
+
+    /// The same fault, said to arise only under a variant.
+    pub(super) fn in_variant(mut self, variant: &str) -> Fault {
+        self.fix = format!("{} (variant \"{variant}\")", self.fix);
+        self
+    }
+
+    /// Whether both say the same about the same place.
+    pub(super) fn repeats(&self, other: &Fault) -> bool {
+        self.order == other.order
+            && self.file == other.file
+            && self.key == other.key
+            && self.found == other.found
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.file)?;
+        if self.line > 0 {
+            write!(f, ":{}", self.line)?;
+        }
+        f.write_str(":")?;
+        if !self.key.is_empty() {
+            write!(f, " {}", self.key)?;
+        }
+        match &self.found {
+            Found::Value(value) => write!(f, " = {value}")?,
+            Found::Missing => write!(f, " is missing")?,
+            Found::Words(words) => write!(f, " {words}")?,
+        }
+        write!(f, ": allowed is {}; {}", self.allowed, self.fix)?;
+        if !self.excerpt.is_empty() {
+            write!(f, "\n{}", self.excerpt)?;
+        }
+        Ok(())
+    }
+}
+
+/// All faults of a study and of the files it refers to, in the order of files and lines.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct Faults {
+    /// At least one.
+    pub faults: Vec<Fault>,
+}
+
+impl Faults {
+    /// Sorts by file and place and drops what was said before.
+    pub(super) fn sorted(mut faults: Vec<Fault>) -> Faults {
+        faults.sort_by_key(|fault| fault.order);
+        let mut kept: Vec<Fault> = Vec::with_capacity(faults.len());
+        for fault in faults {
+            if !kept.iter().any(|k| k.repeats(&fault)) {
+                kept.push(fault);
+            }
+        }
+        Faults { faults: kept }
+    }
+}
+
+impl fmt::Display for Faults {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let n = self.faults.len();
+        writeln!(f, "{n} fault{} in the input:", if n == 1 { "" } else { "s" })?;
+        for fault in &self.faults {
+            writeln!(f, "{fault}")?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Faults {}

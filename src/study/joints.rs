@@ -1,0 +1,56 @@
+//! The law of every joint of one wall: constants as stated, families drawn once per joint.
+
+use crate::law::{Coulomb, NormalLaw};
+use crate::math::{radians, tan};
+use crate::model::JointLaws;
+use crate::random::{Family, Streams};
+use crate::study::checked::{Joint, NormalLawName};
+
+/// Gives the joints of one member at one kn their laws.
+///
+/// A random property is one uniform per joint, from a stream keyed by the quantity and the pair of blocks; so another
+/// kn, or another property made random, leaves all other draws as they were.
+#[derive(Clone, Copy, Debug)]
+pub struct DrawnJoints<'s> {
+    joint: &'s Joint,
+    kn: f64,
+    streams: Streams,
+}
+
+impl<'s> DrawnJoints<'s> {
+    /// The joints of the member whose streams are given, at a normal stiffness `kn` (Pa/m).
+    pub fn new(joint: &'s Joint, kn: f64, streams: Streams) -> DrawnJoints<'s> {
+        DrawnJoints { joint, kn, streams }
+    }
+}
+
+impl JointLaws for DrawnJoints<'_> {
+    fn of(&self, a: u32, b: u32) -> Coulomb {
+        self.joint.law(self.kn, &self.streams, a, b)
+    }
+}
+
+impl Joint {
+    /// The law of the joint between blocks `a` and `b` of a member at a normal stiffness `kn` (Pa/m); the order of
+    /// the two does not matter.
+    pub fn law(&self, kn: f64, streams: &Streams, a: u32, b: u32) -> Coulomb {
+        let (a, b) = (a.min(b), a.max(b));
+        let draw = |family: &Family, quantity: &str| match family {
+            Family::Constant { value } => *value,
+            _ => family.sample(&mut streams.of(&format!("joint {quantity} {a}-{b}"))),
+        };
+        let kn = kn * draw(&self.kn_factor, "kn_factor");
+        Coulomb {
+            normal: match self.normal_law {
+                NormalLawName::Linear => NormalLaw::Linear { kn },
+            },
+            ks: kn / self.kn_over_ks,
+            tan_phi: tan(radians(draw(&self.phi_deg, "phi"))),
+            cohesion: draw(&self.cohesion, "cohesion"),
+            tension: self.tension,
+            cohesion_after_slip: self.cohesion_after_slip,
+            sampling: self.sampling,
+            bonded: false,
+        }
+    }
+}

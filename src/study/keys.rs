@@ -1,0 +1,511 @@
+//! Every key of study.toml, published.toml and the files below `distributions`: name, kind, unit, range, default, meaning.
+
+use crate::study::schema::Presence::{Default, Optional, Required};
+use crate::study::schema::{Interval, Key, Kind, Section};
+
+const COURSED: &[&str] = &["coursed"];
+const CUT: &[&str] = &["cut"];
+const REGULAR: &[&str] = &["continuous", "discontinuous"];
+const RUNNING: &[&str] = &["discontinuous"];
+const RANDOM: &[&str] = &["coursed", "cut"];
+
+/// A length above 0 (m); a kilometre is a slip of the unit.
+const SIZE: Interval = Interval::above(0.0, 1000.0);
+const SHARE: Interval = Interval::closed(0.0, 1.0);
+const POSITIVE: Interval = Interval::open(0.0, f64::INFINITY);
+
+const fn real(unit: &'static str, within: Interval) -> Kind {
+    Kind::Real { unit, within }
+}
+
+const fn quantity(unit: &'static str, within: Interval) -> Kind {
+    Kind::Quantity { unit, within }
+}
+
+/// study.toml as a whole.
+pub static STUDY: Section = Section {
+    title: "study.toml",
+    doc: "What is asked, of which walls, under which load, with which solver.",
+    chooser: None,
+    keys: &[&[
+        Key::new("study", Kind::Table(&QUESTION), Required, "The question and the seed."),
+        Key::new("wall", Kind::Table(&WALL), Required, "The outer shape, shared by all arms."),
+        Key::new("block", Kind::Table(&BLOCK), Required, "The stones' material."),
+        Key::new("joint", Kind::Table(&JOINT), Required, "The joints' properties."),
+        Key::new("load", Kind::Table(&LOAD), Required, "What is done to each wall."),
+        Key::new("restraint", Kind::Table(&RESTRAINT), Required, "How base and ends are held."),
+        Key::new("solver", Kind::Table(&SOLVER), Default("{}"), "Which solver, with its settings."),
+        Key::new("arm", Kind::Tables(&ARM), Required, "The populations of walls that are compared."),
+        Key::new("variant", Kind::Tables(&VARIANT), Optional, "Other readings of the study, chosen by name."),
+    ]],
+};
+
+static QUESTION: Section = Section {
+    title: "[study]",
+    doc: "The question and the seed.",
+    chooser: None,
+    keys: &[&[
+        Key::new("question", Kind::Text, Required, "What the study asks, in words."),
+        Key::new("seed", Kind::Whole { low: 0, high: u64::MAX }, Required, "Seed of all random streams."),
+    ]],
+};
+
+static WALL: Section = Section {
+    title: "[wall]",
+    doc: "A straight wall with trapezoidal section.",
+    chooser: None,
+    keys: &[&[
+        Key::new("height_m", real("m", SIZE), Required, "Height."),
+        Key::new("length_m", real("m", SIZE), Required, "Length along the wall."),
+        Key::new("base_thickness_m", real("m", SIZE), Required, "Thickness at the base."),
+        Key::new(
+            "top_thickness_m",
+            real("m", SIZE),
+            Required,
+            "Thickness at the top, at most that of the base.",
+        ),
+        Key::new(
+            "battered_face",
+            Kind::Choice(&["front", "back", "both"]),
+            Required,
+            "Which face leans; front is downhill, back is where the load presses.",
+        ),
+        Key::new("wythes", Kind::Whole { low: 1, high: 10 }, Default("1"), "Stones through the thickness."),
+        Key::new("header_share", real("1", SHARE), Default("0"), "Share of stones that span all wythes."),
+        Key::new(
+            "head_joint_gap_m",
+            real("m", Interval::closed(0.0, 0.1)),
+            Default("0"),
+            "Open gap in every head joint.",
+        ),
+    ]],
+};
+
+static BLOCK: Section = Section {
+    title: "[block]",
+    doc: "The stones' material; stones are rigid.",
+    chooser: None,
+    keys: &[&[Key::new(
+        "density_kg_per_m3",
+        quantity("kg/m3", POSITIVE),
+        Required,
+        "Density, drawn per stone.",
+    )
+    .usual(Interval::closed(500.0, 8000.0))]],
+};
+
+static JOINT: Section = Section {
+    title: "[joint]",
+    doc: "The joints' properties, per area of joint; those that may be random are drawn once per joint.",
+    chooser: None,
+    keys: &[&[
+        Key::new(
+            "kn_pa_per_m",
+            Kind::Reals { unit: "Pa/m", within: POSITIVE, at_most: 50, ascending: true },
+            Required,
+            "Normal stiffnesses: the points at which every arm is evaluated.",
+        )
+        .usual(Interval::closed(1e6, 1e12)),
+        Key::new("kn_factor", quantity("1", POSITIVE), Default("1"), "Factor on kn from joint to joint."),
+        Key::new("kn_over_ks", real("1", POSITIVE), Required, "Normal over shear stiffness."),
+        Key::new("phi_deg", quantity("deg", Interval::closed(0.0, 85.0)), Required, "Friction angle."),
+        Key::new("cohesion_pa", quantity("Pa", Interval::below(0.0, f64::INFINITY)), Required, "Cohesion."),
+        Key::new(
+            "tension_pa",
+            real("Pa", Interval::below(0.0, f64::INFINITY)),
+            Default("0"),
+            "Tensile strength.",
+        ),
+        Key::new(
+            "cohesion_after_slip",
+            Kind::Choice(&["kept", "lost"]),
+            Default("\"kept\""),
+            "What happens to the cohesion of a sub-contact once it has slipped.",
+        ),
+        Key::new(
+            "normal_law",
+            Kind::Choice(&["linear"]),
+            Default("\"linear\""),
+            "Stress as a function of closure.",
+        ),
+        Key::new(
+            "sampling",
+            Kind::Choice(&["area", "vertices"]),
+            Default("\"area\""),
+            "Stress integrated over the compressed area, or at the joint's corners only.",
+        ),
+        Key::new(
+            "sub_contacts",
+            Kind::Pair { low: 1, high: 32 },
+            Default("[2, 2]"),
+            "Sub-contacts of a joint along its two in-plane axes.",
+        ),
+    ]],
+};
+
+static LOAD: Section = Section {
+    title: "[load]",
+    doc: "Gravity, then a trapezoidal pressure on the back face in equal steps.",
+    chooser: None,
+    keys: &[&[
+        Key::new("protocol", Kind::Choice(&["lateral"]), Required, "What is done to each wall."),
+        Key::new(
+            "mean_pressure_pa",
+            real("Pa", Interval::above(0.0, 1e7)),
+            Required,
+            "Mean horizontal pressure.",
+        ),
+        Key::new(
+            "base_over_top",
+            real("1", Interval::closed(0.01, 100.0)),
+            Required,
+            "Pressure at the base over pressure at the top.",
+        ),
+        Key::new(
+            "steps",
+            Kind::Whole { low: 1, high: 10_000 },
+            Default("1"),
+            "Equal load steps after gravity.",
+        ),
+        Key::new(
+            "collapse_share",
+            real("1", Interval::above(0.0, 10.0)),
+            Default("0.5"),
+            "The wall counts as collapsed when its top has moved by this share of its base thickness.",
+        ),
+    ]],
+};
+
+static RESTRAINT: Section = Section {
+    title: "[restraint]",
+    doc: "How base and ends are held.",
+    chooser: None,
+    keys: &[&[
+        Key::new("base", Kind::Choice(&["fixed"]), Required, "The ground under the wall."),
+        Key::new(
+            "ends",
+            Kind::Choice(&["free", "fixed_end_blocks", "out_of_plane", "joint_springs"]),
+            Required,
+            "The ends: free; against fixed blocks by ordinary joints; held out of plane; by springs that do not open.",
+        ),
+    ]],
+};
+
+static SOLVER: Section = Section {
+    title: "[solver]",
+    doc: "Which solver, with its settings.",
+    chooser: None,
+    keys: &[&[
+        Key::new(
+            "name",
+            Kind::Choice(&["explicit"]),
+            Default("\"explicit\""),
+            "Central differences with local damping.",
+        ),
+        Key::new(
+            "unbalanced_ratio",
+            real("1", Interval::open(0.0, 1.0)),
+            Default("1e-5"),
+            "At rest when the unbalanced force ratio falls below this.",
+        ),
+        Key::new(
+            "damping",
+            real("1", Interval::below(0.0, 1.0)),
+            Default("0.8"),
+            "Local damping coefficient.",
+        ),
+        Key::new(
+            "step_safety",
+            real("1", Interval::above(0.0, 1.0)),
+            Default("0.5"),
+            "Share of the critical step taken.",
+        ),
+        Key::new(
+            "max_steps",
+            Kind::Whole { low: 1, high: 1_000_000_000 },
+            Default("200000"),
+            "Time steps per load step before a wall is called not converged.",
+        ),
+        Key::new(
+            "scaled_inertia",
+            Kind::Flag,
+            Default("true"),
+            "Inertia scaled per block so that all share one critical step; for quasi-static runs.",
+        ),
+    ]],
+};
+
+/// One population of walls.
+pub static ARM: Section = Section {
+    title: "[[arm]]",
+    doc: "One population of walls.",
+    chooser: Some("arrangement"),
+    keys: &[&[
+        Key::new("name", Kind::Name, Required, "Name of the arm."),
+        Key::new("members", Kind::Whole { low: 1, high: 1_000_000 }, Required, "Number of walls."),
+        Key::new(
+            "arrangement",
+            Kind::Choice(&["continuous", "discontinuous", "coursed", "cut"]),
+            Required,
+            "Stack bond; running bond; random courses; recursive random cuts.",
+        ),
+        Key::new("block_length_m", real("m", SIZE), Required, "Stone length.").only(REGULAR),
+        Key::new("course_height_m", real("m", SIZE), Required, "Course height.").only(REGULAR),
+        Key::new(
+            "overlap",
+            real("1", Interval::open(0.0, 1.0)),
+            Required,
+            "Shift of every other course as a share of the stone length.",
+        )
+        .only(RUNNING),
+        Key::new("length_m", quantity("m", SIZE), Required, "Stone length, drawn per stone or cut.").only(RANDOM),
+        Key::new("height_m", quantity("m", SIZE), Required, "Height, drawn per course or cut.").only(RANDOM),
+        Key::new(
+            "wall_size_factor",
+            quantity("1", Interval::above(0.0, 100.0)),
+            Default("1"),
+            "Factor on all sizes of one wall, drawn once per wall.",
+        )
+        .only(RANDOM),
+        Key::new(
+            "dip_deg",
+            quantity("deg", Interval::closed(-45.0, 45.0)),
+            Default("{ family = \"uniform\", low = -20, high = 20 }"),
+            "Dip of the bed joints, drawn per bed or cut.",
+        )
+        .only(RANDOM),
+        Key::new(
+            "least_overlap",
+            real("1", Interval::below(0.0, 0.5)),
+            Default("0.2"),
+            "Head joints of neighbouring courses closer than this share of the mean stone length are redrawn.",
+        )
+        .only(COURSED),
+        Key::new(
+            "dip_about",
+            Kind::Choice(&["long_axis", "thickness_axis", "both"]),
+            Required,
+            "About which axis the bed planes dip.",
+        )
+        .only(CUT),
+        Key::new("wythes", Kind::Whole { low: 1, high: 10 }, Optional, "As in [wall], for this arm."),
+        Key::new("header_share", real("1", SHARE), Optional, "As in [wall], for this arm."),
+        Key::new("head_joint_gap_m", real("m", Interval::closed(0.0, 0.1)), Optional, "As in [wall], for this arm."),
+        Key::new("wedges", Kind::Table(&WEDGES), Optional, "Wedge stones cut into bed joints."),
+        Key::new("limits", Kind::Table(&LIMITS), Default("{}"), "What a stone must at least be."),
+    ]],
+};
+
+static WEDGES: Section = Section {
+    title: "[arm.wedges]",
+    doc: "Wedge stones cut into bed joints from a face of the wall.",
+    chooser: None,
+    keys: &[&[
+        Key::new(
+            "share",
+            real("1", SHARE),
+            Required,
+            "Share of stones above the first course that get a wedge.",
+        ),
+        Key::new("height_m", quantity("m", SIZE), Required, "Height of a wedge at the face."),
+        Key::new("depth_m", quantity("m", SIZE), Required, "Depth of a wedge into the wall."),
+    ]],
+};
+
+static LIMITS: Section = Section {
+    title: "[arm.limits]",
+    doc: "What a stone must at least be, and how often a member may try.",
+    chooser: None,
+    keys: &[&[
+        Key::new(
+            "min_size_m",
+            real("m", SIZE),
+            Default("0.02"),
+            "Smallest width of a stone over its face normals.",
+        ),
+        Key::new(
+            "max_aspect",
+            real("1", Interval::closed(1.0, 1000.0)),
+            Default("40"),
+            "Largest ratio of a stone's diameter to its smallest width.",
+        ),
+        Key::new(
+            "min_volume_m3",
+            real("m3", Interval::above(0.0, 1.0)),
+            Default("1e-6"),
+            "Smallest volume of a stone or wedge.",
+        ),
+        Key::new(
+            "max_redraws",
+            Kind::Whole { low: 1, high: 100_000 },
+            Default("200"),
+            "Redraws of a bed, a length, a cut or a wedge before the whole wall starts again.",
+        ),
+        Key::new(
+            "max_attempts",
+            Kind::Whole { low: 1, high: 100_000 },
+            Default("50"),
+            "Fresh starts of the whole wall before it is an invalid geometry.",
+        ),
+    ]],
+};
+
+/// One named variant.
+pub static VARIANT: Section = Section {
+    title: "[[variant]]",
+    doc: "Another reading: key paths set to other values before anything is checked.",
+    chooser: None,
+    keys: &[&[
+        Key::new("name", Kind::Name, Required, "Name of the variant."),
+        Key::new("why", Kind::Text, Required, "Why somebody would read it so."),
+        Key::new(
+            "set",
+            Kind::Settings,
+            Required,
+            "Key paths and their values; an arm is addressed by its name.",
+        ),
+        Key::new(
+            "unset",
+            Kind::Paths,
+            Optional,
+            "Key paths that are taken away, as they mean nothing in the variant.",
+        ),
+    ]],
+};
+
+const FAMILY_KEYS: &[Key] = &[
+    Key::new(
+        "family",
+        Kind::Choice(&[
+            "constant",
+            "uniform",
+            "normal",
+            "truncated_normal",
+            "lognormal",
+            "triangular",
+            "empirical",
+        ]),
+        Required,
+        "Family of the distribution.",
+    ),
+    Key::new("value", real("", Interval::any()), Required, "The value.").only(&["constant"]),
+    Key::new(
+        "mean",
+        real("", Interval::any()),
+        Required,
+        "Mean; of the parent where the family is truncated.",
+    )
+    .only(&["normal", "truncated_normal", "lognormal"]),
+    Key::new(
+        "sd",
+        real("", Interval::any()),
+        Required,
+        "Standard deviation; of the parent where the family is truncated.",
+    )
+    .only(&["normal", "truncated_normal", "lognormal"]),
+    Key::new("low", real("", Interval::any()), Required, "Smallest value.").only(&[
+        "uniform",
+        "truncated_normal",
+        "triangular",
+    ]),
+    Key::new("mode", real("", Interval::any()), Required, "Most frequent value.").only(&["triangular"]),
+    Key::new("high", real("", Interval::any()), Required, "Largest value.").only(&[
+        "uniform",
+        "truncated_normal",
+        "triangular",
+    ]),
+    Key::new(
+        "values",
+        Kind::Reals { unit: "", within: Interval::any(), at_most: 10_000, ascending: false },
+        Required,
+        "The values, each as likely.",
+    )
+    .only(&["empirical"]),
+];
+
+/// A distribution written into a study.
+pub static FAMILY: Section = Section {
+    title: "{ family = ... }",
+    doc: "A distribution, in the unit of the key that takes it.",
+    chooser: Some("family"),
+    keys: &[FAMILY_KEYS],
+};
+
+/// The head of a file below `distributions`; every other key is an entry.
+pub static HEAD: Section = Section {
+    title: "distributions/*/*.toml",
+    doc: "One quantity; every table is an entry.",
+    chooser: None,
+    keys: &[&[
+        Key::new("quantity", Kind::Text, Required, "The quantity, in words."),
+        Key::new("symbol", Kind::Text, Required, "Its symbol."),
+        Key::new("unit", Kind::Choice(&["1", "m", "deg", "Pa", "Pa/m", "kg/m3"]), Required, "Its unit."),
+    ]],
+};
+
+/// An entry of a file below `distributions`.
+pub static ENTRY: Section = Section {
+    title: "[entry]",
+    doc: "A distribution with its provenance.",
+    chooser: Some("family"),
+    keys: &[
+        FAMILY_KEYS,
+        &[
+            Key::new(
+                "status",
+                Kind::Choice(&["measured", "literature", "calibrated", "assumed"]),
+                Required,
+                "Where the numbers come from.",
+            ),
+            Key::new("source", Kind::Text, Required, "Paper and table, or who assumed it and why."),
+            Key::new("n", Kind::Whole { low: 1, high: 1_000_000_000 }, Optional, "Number of observations."),
+            Key::new("note", Kind::Text, Optional, "What a user should know."),
+        ],
+    ],
+};
+
+/// published.toml as a whole.
+pub static PUBLISHED: Section = Section {
+    title: "published.toml",
+    doc: "Statements of others to compare with; decides no result.",
+    chooser: None,
+    keys: &[&[Key::new("claim", Kind::Tables(&CLAIM), Required, "The statements.")]],
+};
+
+const RATIO: &[&str] = &["ratio_of_means"];
+const COV: &[&str] = &["cov"];
+const BAND: &[&str] = &["ratio_of_means", "cov"];
+
+/// A statement.
+pub static CLAIM: Section =
+    Section {
+        title: "[[claim]]",
+        doc: "One statement and how it is judged, at every kn.",
+        chooser: Some("test"),
+        keys: &[&[
+            Key::new("claim", Kind::Text, Required, "The statement, in our words."),
+            Key::new("source", Kind::Text, Required, "Where it stands."),
+            Key::new("why", Kind::Text, Required, "Why the tolerance is what it is."),
+            Key::new(
+                "test",
+                Kind::Choice(&["ratio_of_means", "cov", "between", "falls_with_kn"]),
+                Required,
+                "How it is judged.",
+            ),
+            Key::new("arm", Kind::Name, Required, "The arm it speaks of; above the line in a ratio.")
+                .only(&["ratio_of_means", "cov", "between"]),
+            Key::new("over", Kind::Name, Required, "The arm below the line.").only(RATIO),
+            Key::new("stated", real("1", POSITIVE), Required, "The value stated.").only(RATIO),
+            Key::new("stated", Kind::Text, Required, "The value stated, in words.").only(COV),
+            Key::new(
+                "low",
+                real("1", Interval::below(0.0, f64::INFINITY)),
+                Required,
+                "Lowest value that counts as reproduced.",
+            )
+            .only(BAND),
+            Key::new("high", real("1", POSITIVE), Required, "Highest value that counts as reproduced.")
+                .only(BAND),
+            Key::new("of", Kind::NamePair, Required, "The two arms on either side.").only(&["between"]),
+        ]],
+    };

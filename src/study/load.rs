@@ -1,0 +1,222 @@
+//! Loading a study: every file read, every variant checked, every fault reported at once.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use crate::study::build::{self, Parts};
+use crate::study::catalogue::{Catalogue, Used};
+use crate::study::checked::{InputFile, Study};
+use crate::study::fault::{Fault, Faults};
+use crate::study::raw::{self, Node};
+use crate::study::reader::{Notes, table_name};
+use crate::study::schema::suggestion;
+use crate::study::variant::{self, Variant};
+use crate::study::{files, published};
+
+/// A study and what is to be said about it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Loaded {
+    /// The checked study.
+    pub study: Study,
+    /// What is allowed and yet looks wrong, as a kn of an unusual magnitude.
+    pub warnings: Vec<Fault>,
+    /// The variants that the study offers.
+    pub variants: Vec<VariantName>,
+    /// The entries of `distributions` that it takes, with their provenance.
+    pub used: Vec<Used>,
+}
+
+/// A variant that a study offers.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct VariantName {
+    /// Name, for the command line.
+    pub name: String,
+    /// Why somebody would read the study so.
+    pub why: String,
+}
+
+/// One reading of the study: the base or a variant.
+struct Reading {
+    parts: Option<Parts>,
+    notes: Notes,
+    used: Vec<Used>,
+}
+
+impl Study {
+    /// Loads and checks the study in `folder` (study.toml, published.toml if there is one, and the files that it refers
+    /// to below `../../distributions`), as the variant of that name reads it.
+    ///
+    /// All variants are checked, whichever is asked for.
+    ///
+    /// # Errors
+    /// All faults of all files.
+    pub fn load(folder: &Path, variant: Option<&str>) -> Result<Loaded, Faults> {
+        let folder = existing(folder).map_err(|fault| Faults::sorted(vec![fault]))?;
+        let mut faults = Vec::new();
+        let mut inputs = Vec::new();
+        let root = parsed(&folder, "study.toml", 0, &mut inputs, &mut faults);
+        let published_root = if folder.join("published.toml").exists() {
+            parsed(&folder, "published.toml", 1, &mut inputs, &mut faults)
+        } else {
+            None
+        };
+        let mut catalogue = Catalogue::new(folder.join("../../distributions"));
+        let mut notes = Notes::default();
+        let variants = root.as_ref().map_or_else(Vec::new, |root| variant::read(root, &mut notes));
+        let chosen = choose(variant, &variants, root.as_ref(), &mut notes.faults);
+        let reading =
+            root.as_ref().map(|root| read_all(root, &variants, chosen, &mut catalogue, &mut notes.faults));
+        let arms = root.as_ref().and_then(arm_names);
+        let claims = published_root
+            .map(|root| published::read(&root, arms.as_deref(), &mut notes))
+            .unwrap_or_default();
+        faults.append(&mut notes.faults);
+        faults.append(&mut catalogue.faults);
+        inputs.append(&mut catalogue.inputs);
+        match reading {
+            Some(Reading { parts: Some(parts), notes, used }) if faults.is_empty() => {
+                let name = folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+                let hash = hash_of(&notes.effective);
+                let study = Study {
+                    name,
+                    question: parts.question,
+                    seed: parts.seed,
+                    variant: chosen.map(|v| v.name.clone()),
+                    arms: parts.arms,
+                    joint: parts.joint,
+                    kn_points: parts.kn_points,
+                    protocol: parts.protocol,
+                    ends: parts.ends,
+                    sub_contacts: parts.sub_contacts,
+                    solver: parts.solver,
+                    published: claims,
+                    inputs,
+                    effective: notes.effective,
+                    hash,
+                };
+                let name_of = |v: &Variant| VariantName { name: v.name.clone(), why: v.why.clone() };
+                let warnings = Faults::sorted(notes.warnings).faults;
+                Ok(Loaded { study, warnings, variants: variants.iter().map(name_of).collect(), used })
+            }
+            _ => {
+                crate::check!(!faults.is_empty(), "the study was refused without a fault");
+                Err(Faults::sorted(faults))
+            }
+        }
+    }
+
+    /// The same study with another seed.
+    pub fn with_seed(mut self, seed: u64) -> Study {
+        self.seed = seed;
+        self.effective.insert("study.seed".to_owned(), seed.to_string());
+        self.hash = hash_of(&self.effective);
+        self
+    }
+
+    /// The same study with another number of walls in every arm that has more than one; at least one.
+    pub fn with_members(mut self, members: u64) -> Study {
+        for arm in self.arms.iter_mut().filter(|arm| arm.members > 1) {
+            arm.members = members.max(1);
+            self.effective.insert(format!("arm.{}.members", arm.name), arm.members.to_string());
+        }
+        self.hash = hash_of(&self.effective);
+        self
+    }
+}
+
+/// SHA-256 (hex) over the effective values in the order of their keys, one line each.
+fn hash_of(effective: &BTreeMap<String, String>) -> String {
+    let lines: String = effective.iter().map(|(key, value)| format!("{key} = {value}\n")).collect();
+    files::sha256(lines.as_bytes())
+}
+
+/// The study's folder, which must exist.
+fn existing(folder: &Path) -> Result<PathBuf, Fault> {
+    let shown = folder.display().to_string();
+    let fault =
+        |found: &str, fix: String| Err(Fault::of_file(&shown, 0, found, "the folder of a study", fix));
+    if folder.is_file() {
+        return fault("is a file", "give the folder that holds it".to_owned());
+    }
+    match folder.canonicalize() {
+        Ok(folder) => Ok(folder),
+        Err(_) => fault("does not exist", files::similar(folder)),
+    }
+}
+
+fn parsed(
+    folder: &Path,
+    name: &str,
+    rank: usize,
+    inputs: &mut Vec<InputFile>,
+    faults: &mut Vec<Fault>,
+) -> Option<Node> {
+    let read = files::read(&folder.join(name), name, rank).and_then(|file| {
+        inputs.push(InputFile { path: PathBuf::from(name), sha256: file.sha256 });
+        raw::parse(&file.source)
+    });
+    read.map_err(|fault| faults.push(fault)).ok()
+}
+
+/// The variant asked for.
+fn choose<'v>(
+    wanted: Option<&str>,
+    variants: &'v [Variant],
+    root: Option<&Node>,
+    faults: &mut Vec<Fault>,
+) -> Option<&'v Variant> {
+    let wanted = wanted?;
+    let found = variants.iter().find(|v| v.name == wanted);
+    if found.is_none() && root.is_some() {
+        let names: Vec<&str> = variants.iter().map(|v| v.name.as_str()).collect();
+        let words = format!("has no variant \"{wanted}\"");
+        let allowed = if names.is_empty() {
+            "no variant at all".to_owned()
+        } else {
+            format!("one of {}", names.join(", "))
+        };
+        faults.push(Fault::of_file("study.toml", 0, &words, &allowed, suggestion(wanted, &names)));
+    }
+    found
+}
+
+/// Reads the base and every variant, and answers with the reading asked for.
+fn read_all(
+    root: &Node,
+    variants: &[Variant],
+    chosen: Option<&Variant>,
+    catalogue: &mut Catalogue,
+    faults: &mut Vec<Fault>,
+) -> Reading {
+    let mut answer = read_one(root, catalogue);
+    faults.append(&mut answer.notes.faults.clone());
+    for variant in variants {
+        let mut notes = Notes::default();
+        let changed = variant.apply(root, &mut notes);
+        faults.append(&mut notes.faults);
+        let mut reading = read_one(&changed, catalogue);
+        for fault in reading.notes.faults.drain(..) {
+            if !faults.iter().any(|f| f.repeats(&fault)) {
+                faults.push(fault.in_variant(&variant.name));
+            }
+        }
+        if chosen.is_some_and(|c| c.name == variant.name) {
+            answer = reading;
+        }
+    }
+    answer
+}
+
+fn read_one(root: &Node, catalogue: &mut Catalogue) -> Reading {
+    let mut notes = Notes::default();
+    catalogue.used.clear();
+    let parts = build::parts(root, &mut notes, catalogue);
+    Reading { parts, notes, used: std::mem::take(&mut catalogue.used) }
+}
+
+/// Names of the arms, as far as they are valid names.
+fn arm_names(root: &Node) -> Option<Vec<String>> {
+    let raw::Value::Table(table) = &root.value else { return None };
+    let raw::Value::List(list) = &table.get("arm")?.node.value else { return None };
+    Some(list.iter().filter_map(|node| table_name(node).map(str::to_owned)).collect())
+}

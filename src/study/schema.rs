@@ -1,0 +1,295 @@
+//! The shape of a table of keys: one definition from which the parser checks, faults are worded and the
+//! reference of keys is printed.
+
+use std::fmt;
+
+/// A table of the input and its keys.
+#[derive(Debug)]
+pub struct Section {
+    /// How the table is called in the reference, as `[wall]`.
+    pub title: &'static str,
+    /// What it is about.
+    pub doc: &'static str,
+    /// The key whose value decides which other keys apply.
+    pub chooser: Option<&'static str>,
+    /// Its keys, in groups that several sections may share.
+    pub keys: &'static [&'static [Key]],
+}
+
+/// One key.
+#[derive(Debug)]
+pub struct Key {
+    /// Name, with its unit at the end.
+    pub name: &'static str,
+    /// Kind of value and what is allowed.
+    pub kind: Kind,
+    /// Whether it must be there.
+    pub presence: Presence,
+    /// Values of the section's chooser for which the key is used; empty for all.
+    pub only: &'static [&'static str],
+    /// Where a value is usual; outside it a warning is given.
+    pub usual: Option<Interval>,
+    /// What it means, in one line.
+    pub doc: &'static str,
+}
+
+/// Whether a key must be there.
+#[derive(Clone, Copy, Debug)]
+pub enum Presence {
+    /// It must.
+    Required,
+    /// It may be left out, and then means nothing or what another table says.
+    Optional,
+    /// It may be left out, and then has this value, written in TOML.
+    Default(&'static str),
+}
+
+/// Kind of a value and what is allowed. Units are SI or deg; "1" is a plain number.
+#[derive(Clone, Copy, Debug)]
+pub enum Kind {
+    /// Prose: does not decide any result.
+    Text,
+    /// A name: lower-case letters, digits, `-` and `_`.
+    Name,
+    /// true or false.
+    Flag,
+    /// One of the names.
+    Choice(&'static [&'static str]),
+    /// A whole number.
+    Whole {
+        /// Smallest.
+        low: u64,
+        /// Largest.
+        high: u64,
+    },
+    /// A number.
+    Real {
+        /// Unit.
+        unit: &'static str,
+        /// Allowed values.
+        within: Interval,
+    },
+    /// A number, or a distribution: an inline table, or a reference to an entry below `distributions`.
+    Quantity {
+        /// Unit.
+        unit: &'static str,
+        /// Where the whole distribution must lie.
+        within: Interval,
+    },
+    /// A list of numbers.
+    Reals {
+        /// Unit.
+        unit: &'static str,
+        /// Allowed values.
+        within: Interval,
+        /// Largest number of entries.
+        at_most: usize,
+        /// Whether each must be above the one before.
+        ascending: bool,
+    },
+    /// Two whole numbers.
+    Pair {
+        /// Smallest.
+        low: u64,
+        /// Largest.
+        high: u64,
+    },
+    /// Two names.
+    NamePair,
+    /// A table.
+    Table(&'static Section),
+    /// A list of tables, each with a `name` or a number.
+    Tables(&'static Section),
+    /// A table from paths of keys to values.
+    Settings,
+    /// A list of paths of keys.
+    Paths,
+}
+
+/// An interval of the real line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    /// Lower bound.
+    pub low: f64,
+    /// Upper bound.
+    pub high: f64,
+    /// Whether the lower bound itself is outside.
+    pub open_low: bool,
+    /// Whether the upper bound itself is outside.
+    pub open_high: bool,
+}
+
+impl Interval {
+    /// `[low, high]`
+    pub const fn closed(low: f64, high: f64) -> Interval {
+        Interval { low, high, open_low: false, open_high: false }
+    }
+
+    /// `(low, high]`
+    pub const fn above(low: f64, high: f64) -> Interval {
+        Interval { low, high, open_low: true, open_high: false }
+    }
+
+    /// `[low, high)`
+    pub const fn below(low: f64, high: f64) -> Interval {
+        Interval { low, high, open_low: false, open_high: true }
+    }
+
+    /// `(low, high)`
+    pub const fn open(low: f64, high: f64) -> Interval {
+        Interval { low, high, open_low: true, open_high: true }
+    }
+
+    /// Every finite number.
+    pub const fn any() -> Interval {
+        Interval::open(f64::NEG_INFINITY, f64::INFINITY)
+    }
+
+    /// Whether `x` is inside; NaN never is.
+    pub fn contains(&self, x: f64) -> bool {
+        let above = if self.open_low { x > self.low } else { x >= self.low };
+        let below = if self.open_high { x < self.high } else { x <= self.high };
+        above && below
+    }
+}
+
+impl fmt::Display for Interval {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (low, high) = (Short(self.low), Short(self.high));
+        match (self.low.is_finite(), self.high.is_finite()) {
+            (false, false) => write!(f, "finite"),
+            (true, false) => write!(f, "{} {low}", if self.open_low { "above" } else { "at least" }),
+            (false, true) => write!(f, "{} {high}", if self.open_high { "below" } else { "at most" }),
+            (true, true) if !self.open_low && !self.open_high => write!(f, "within {low} to {high}"),
+            (true, true) => write!(
+                f,
+                "{} {low} and {} {high}",
+                if self.open_low { "above" } else { "at least" },
+                if self.open_high { "below" } else { "at most" },
+            ),
+        }
+    }
+}
+
+/// A number as people write it: `1e12` instead of `1000000000000`.
+pub struct Short(pub f64);
+
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let x = self.0;
+        if x != 0.0 && (x.abs() >= 1e5 || x.abs() < 1e-3) { write!(f, "{x:e}") } else { write!(f, "{x}") }
+    }
+}
+
+impl Kind {
+    /// What is allowed, in words.
+    pub fn allowed(&self) -> String {
+        match self {
+            Kind::Text => "a text in quotes that is not empty".to_owned(),
+            Kind::Name => "a name of lower-case letters, digits, - and _, at most 64 characters".to_owned(),
+            Kind::Flag => "true or false".to_owned(),
+            Kind::Choice(names) => format!("one of {}", quoted(names)),
+            Kind::Whole { low, high } => format!("a whole number within {low} to {high}"),
+            Kind::Real { unit, within } => format!("a number {within}{}", in_unit(unit)),
+            Kind::Quantity { unit, within } => {
+                format!("a number or a distribution {within}{}", in_unit(unit))
+            }
+            Kind::Reals { unit, within, at_most, ascending } => {
+                let order = if *ascending { "ascending " } else { "" };
+                format!("a list of 1 to {at_most} {order}numbers, each {within}{}", in_unit(unit))
+            }
+            Kind::Pair { low, high } => format!("a list of two whole numbers within {low} to {high}"),
+            Kind::NamePair => "a list of two different names".to_owned(),
+            Kind::Table(section) => format!("a table {}", section.title),
+            Kind::Tables(section) => format!("one or more tables {}", section.title),
+            Kind::Settings => {
+                "a table from paths of keys to values, as \"joint.sampling\" = \"vertices\"".to_owned()
+            }
+            Kind::Paths => "a list of paths of keys, as \"arm.irregular.least_overlap\"".to_owned(),
+        }
+    }
+}
+
+fn in_unit(unit: &str) -> String {
+    if unit == "1" || unit.is_empty() { String::new() } else { format!(" ({unit})") }
+}
+
+/// Names in quotes, separated by commas.
+pub fn quoted<S: AsRef<str>>(names: &[S]) -> String {
+    names.iter().map(|n| format!("\"{}\"", n.as_ref())).collect::<Vec<_>>().join(", ")
+}
+
+impl Key {
+    /// A key that is used whatever the section's chooser says.
+    pub const fn new(name: &'static str, kind: Kind, presence: Presence, doc: &'static str) -> Key {
+        Key { name, kind, presence, only: &[], usual: None, doc }
+    }
+
+    /// The same key, used for some values of the chooser only.
+    pub const fn only(self, only: &'static [&'static str]) -> Key {
+        Key { only, ..self }
+    }
+
+    /// The same key, with a warning outside an interval.
+    pub const fn usual(self, usual: Interval) -> Key {
+        Key { usual: Some(usual), ..self }
+    }
+
+    /// Whether the key is used when the chooser says `chosen`; everything is when that is not known.
+    pub fn applies(&self, chosen: Option<&str>) -> bool {
+        self.only.is_empty() || chosen.is_none_or(|c| self.only.contains(&c))
+    }
+}
+
+impl Section {
+    /// All keys.
+    pub fn all(&self) -> impl Iterator<Item = &'static Key> {
+        self.keys.iter().copied().flatten()
+    }
+
+    /// The key of that name that is used when the chooser says `chosen`.
+    pub fn key(&self, name: &str, chosen: Option<&str>) -> Option<&'static Key> {
+        self.all().find(|k| k.name == name && k.applies(chosen))
+    }
+
+    /// Names of the keys that are used when the chooser says `chosen`.
+    pub fn names(&self, chosen: Option<&str>) -> Vec<&'static str> {
+        let mut names: Vec<_> = self.all().filter(|k| k.applies(chosen)).map(|k| k.name).collect();
+        names.dedup();
+        names
+    }
+}
+
+/// The candidate closest to a word, when it is close enough to be a slip of the pen.
+pub fn nearest<'a, S: AsRef<str>>(word: &str, candidates: &'a [S]) -> Option<&'a str> {
+    let best = candidates.iter().map(|c| (distance(word, c.as_ref()), c.as_ref())).min_by_key(|(d, _)| *d)?;
+    (best.0 <= (word.chars().count() / 2).max(2)).then_some(best.1)
+}
+
+/// Number of single-character edits, a swap of neighbours counting as one (optimal string alignment).
+fn distance(a: &str, b: &str) -> usize {
+    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
+    let mut rows: Vec<Vec<usize>> = vec![(0..=b.len()).collect()];
+    for i in 1..=a.len() {
+        let mut row = vec![i];
+        for j in 1..=b.len() {
+            let change = usize::from(a[i - 1] != b[j - 1]);
+            let mut best = (rows[i - 1][j] + 1).min(row[j - 1] + 1).min(rows[i - 1][j - 1] + change);
+            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                best = best.min(rows[i - 2][j - 2] + 1);
+            }
+            row.push(best);
+        }
+        rows.push(row);
+    }
+    rows[a.len()][b.len()]
+}
+
+/// How to mend a name that does not exist: the nearest one, or the list.
+pub fn suggestion<S: AsRef<str>>(word: &str, candidates: &[S]) -> String {
+    match nearest(word, candidates) {
+        Some(name) => format!("did you mean \"{name}\"?"),
+        None if candidates.is_empty() => "there is none to choose from".to_owned(),
+        None => format!("choose from {}", quoted(candidates)),
+    }
+}
