@@ -8,6 +8,8 @@ mod draft;
 mod layout;
 mod outline;
 mod regular;
+#[cfg(test)]
+mod tests;
 mod wall;
 mod wedge;
 
