@@ -1,1 +1,12 @@
-//! Which blocks touch and where: broad phase, face pairs, patches, sub-contacts. Takes shapes and poses only.
+//! Which blocks touch and where: broad phase, separating axes, patches, sub-contacts. Takes shapes and poses only;
+//! no solver, no random numbers.
+
+mod broad;
+mod cells;
+mod patch;
+mod separation;
+
+pub use broad::candidate_pairs;
+pub use cells::{Cell, corners, divide};
+pub use patch::{Feature, Patch, Settings, find_patch};
+pub use separation::{Axis, deepest_axis};

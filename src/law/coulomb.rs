@@ -43,3 +43,158 @@ pub enum Sampling {
     /// At the joint's corners only, as older block codes do: a tilting wall then loses its dependence on kn.
     Vertices,
 }
+
+/// What a sub-contact remembers.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SubContact {
+    /// Shear traction on the incident block (Pa), in the joint's in-plane axes.
+    pub tau: [f64; 2],
+    /// Whether it has been pulled harder than the tensile strength.
+    pub broken: bool,
+    /// Whether it has slipped.
+    pub slipped: bool,
+}
+
+/// What presses on a sub-contact at this moment.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pressed {
+    /// Centroid of the part in contact, in the joint's plane coordinates (m).
+    pub at: [f64; 2],
+    /// Area in contact (m^2), the A_c of the source paper.
+    pub area: f64,
+    /// Normal force on it (N), compression positive.
+    pub force: f64,
+}
+
+/// Shear displacement increments of the incident block against the reference block, affine over the joint:
+/// `base + s by_s + t by_t` (m), components along the in-plane axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Motion {
+    /// At the origin of the plane coordinates (m).
+    pub base: [f64; 2],
+    /// Per metre along s.
+    pub by_s: [f64; 2],
+    /// Per metre along t.
+    pub by_t: [f64; 2],
+}
+
+/// Shear forces on the incident block summed over a joint: the sum and its first moments in the plane.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ShearSum {
+    /// Sum of the forces (N).
+    pub force: [f64; 2],
+    /// Sum of s times force (N m).
+    pub by_s: [f64; 2],
+    /// Sum of t times force (N m).
+    pub by_t: [f64; 2],
+}
+
+impl Coulomb {
+    /// The loop over the sub-contacts of a joint: elastic shear increments limited by Coulomb's envelope.
+    ///
+    /// Per sub-contact, `dF_s = -ks dU_s A_c` (Eq. 2) with `|F_s| <= c A_c + F_n tan(phi)` (Eq. 3); beyond that the
+    /// traction slides back radially onto the envelope. A sub-contact without area in contact forgets its shear.
+    pub fn shear(&self, states: &mut [SubContact], pressed: &[Pressed], motion: &Motion) -> ShearSum {
+        let mut sum = ShearSum::default();
+        for (state, load) in states.iter_mut().zip(pressed) {
+            if load.area <= 0.0 {
+                state.tau = [0.0; 2];
+                continue;
+            }
+            let [s, t] = load.at;
+            let mut force = [0.0; 2];
+            for k in 0..2 {
+                let increment = motion.base[k] + s * motion.by_s[k] + t * motion.by_t[k];
+                state.tau[k] -= self.ks * increment;
+                force[k] = state.tau[k] * load.area;
+            }
+            if !self.bonded {
+                let cohesion = self.cohesion_of(state) * load.area;
+                let limit = (cohesion + load.force * self.tan_phi).max(0.0);
+                let size2 = force[0] * force[0] + force[1] * force[1];
+                if size2 > limit * limit {
+                    let back = limit / size2.sqrt();
+                    for k in 0..2 {
+                        force[k] *= back;
+                        state.tau[k] *= back;
+                    }
+                    state.slipped = true;
+                }
+            }
+            for k in 0..2 {
+                sum.force[k] += force[k];
+                sum.by_s[k] += s * force[k];
+                sum.by_t[k] += t * force[k];
+            }
+        }
+        sum
+    }
+
+    /// The cohesion (Pa) that a sub-contact still has.
+    fn cohesion_of(&self, state: &SubContact) -> f64 {
+        let lost = state.broken || (state.slipped && self.cohesion_after_slip == CohesionAfterSlip::Lost);
+        if lost { 0.0 } else { self.cohesion }
+    }
+
+    /// Whether a sub-contact still pulls: an attachment, or a joint with tensile strength that has not yet broken.
+    pub fn holds(&self, state: &SubContact) -> bool {
+        self.bonded || (self.tension > 0.0 && !state.broken)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    fn law() -> Coulomb {
+        Coulomb {
+            normal: NormalLaw::Linear { kn: 1e8 },
+            ks: 5e7,
+            tan_phi: 0.5,
+            cohesion: 1e3,
+            tension: 0.0,
+            cohesion_after_slip: CohesionAfterSlip::Kept,
+            sampling: Sampling::Area,
+            bonded: false,
+        }
+    }
+
+    fn push(law: &Coulomb, state: &mut SubContact, force: f64, du: [f64; 2]) -> [f64; 2] {
+        let pressed = Pressed { at: [0.0; 2], area: 0.1, force };
+        let motion = Motion { base: du, ..Motion::default() };
+        law.shear(std::slice::from_mut(state), &[pressed], &motion).force
+    }
+
+    #[test]
+    fn shear_is_elastic_up_to_the_envelope_and_constant_beyond() {
+        let mut state = SubContact::default();
+        // ks du A = 5e7 x 1e-5 x 0.1 = 50 N against a limit of 1e3 x 0.1 + 200 x 0.5 = 200 N.
+        assert_relative_eq!(push(&law(), &mut state, 200.0, [1e-5, 0.0])[0], -50.0, max_relative = 1e-12);
+        assert!(!state.slipped);
+        assert_relative_eq!(push(&law(), &mut state, 200.0, [1e-4, 0.0])[0], -200.0, max_relative = 1e-12);
+        assert!(state.slipped);
+        // Turned by a quarter while sliding: the traction swings round, its size stays on the envelope.
+        let f = push(&law(), &mut state, 200.0, [0.0, 1e-2]);
+        assert_relative_eq!((f[0] * f[0] + f[1] * f[1]).sqrt(), 200.0, max_relative = 1e-12);
+        assert!(f[1] < -199.0);
+    }
+
+    #[test]
+    fn cohesion_is_kept_or_lost_after_slip_as_asked() {
+        let brittle = Coulomb { cohesion_after_slip: CohesionAfterSlip::Lost, ..law() };
+        let mut state = SubContact::default();
+        push(&brittle, &mut state, 200.0, [1e-3, 0.0]);
+        assert_relative_eq!(push(&brittle, &mut state, 200.0, [1e-3, 0.0])[0], -100.0, max_relative = 1e-12);
+        let mut state = SubContact { broken: true, ..SubContact::default() };
+        assert_relative_eq!(push(&law(), &mut state, 200.0, [1e-3, 0.0])[0], -100.0, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn an_open_sub_contact_forgets_its_shear() {
+        let mut state = SubContact { tau: [7.0, 8.0], ..SubContact::default() };
+        let open = Pressed::default();
+        law().shear(std::slice::from_mut(&mut state), &[open], &Motion::default());
+        assert_eq!(state.tau, [0.0; 2]);
+    }
+}

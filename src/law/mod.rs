@@ -4,6 +4,6 @@ mod coulomb;
 mod damping;
 mod normal;
 
-pub use coulomb::{CohesionAfterSlip, Coulomb, Sampling};
+pub use coulomb::{CohesionAfterSlip, Coulomb, Motion, Pressed, Sampling, ShearSum, SubContact};
 pub use damping::local_damping;
 pub use normal::NormalLaw;

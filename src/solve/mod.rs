@@ -1,6 +1,8 @@
-//! Solvers: assembly into arrays, status, joints; `explicit` is the DEM.
+//! Solvers: assembly into arrays, joints, status; `explicit` is the DEM.
 
+pub mod bodies;
 pub mod explicit;
+pub mod joints;
 
 /// Which solver, with its settings.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,4 +1,9 @@
-//! The explicit solver (3DEC- and YADE-like).
+//! The explicit solver (3DEC- and YADE-like): central differences, local damping, automatic critical step.
+
+mod critical;
+mod step;
+
+pub use step::{Simulation, Status};
 
 /// Settings of the explicit solver.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -7,11 +12,13 @@ pub struct Settings {
     pub unbalanced_ratio: f64,
     /// Local damping coefficient, in [0, 1); default 0.8 (source paper Table 5).
     pub damping: f64,
-    /// Share of the critical step taken, in (0, 1]; default 0.5.
+    /// Share of the critical step taken, in (0, 1]; default 0.5. The bound on the critical step is safe for
+    /// linear joints; slip and opening only soften them.
     pub step_safety: f64,
     /// Time steps per load step before the run is called not converged; default 200 000.
     pub max_steps: u64,
-    /// Whether inertia is scaled per block so that all share one critical step (quasi-static runs); default true.
+    /// Whether inertia is scaled per block so that all share one critical step; default true. Right for a rest state,
+    /// wrong for anything that happens in time.
     pub scaled_inertia: bool,
 }
 

@@ -1,0 +1,107 @@
+//! Sub-contacts: a joint's polygon divided into cells, each with its own shear history.
+
+use crate::shape::{Moments, Polygon};
+
+/// One sub-contact of a joint, in the joint's plane coordinates.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cell {
+    /// Integrals over the cell.
+    pub moments: Moments,
+    /// Its outline; empty for a point sub-contact, which is open or closed as a whole.
+    pub outline: Polygon,
+}
+
+/// Divides a polygon by lines of equal spacing into `counts` parts along its longer and its shorter extent; parts
+/// outside the polygon vanish.
+///
+/// The cells fill the polygon exactly, so that the normal force does not depend on how many there are; only shear,
+/// whose traction is constant in a cell, does.
+pub fn divide(polygon: &Polygon, counts: [u32; 2]) -> Vec<Cell> {
+    let range = |k: usize| {
+        polygon
+            .vertices
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v[k]), high.max(v[k])))
+    };
+    let (s, t) = (range(0), range(1));
+    let s_is_longer = s.1 - s.0 >= t.1 - t.0;
+    let [along_s, along_t] = if s_is_longer { counts } else { [counts[1], counts[0]] };
+    let at = |(low, high): (f64, f64), i: u32, n: u32| low + (high - low) * f64::from(i) / f64::from(n);
+    let smallest = 1e-9 * polygon.area() / f64::from(along_s * along_t);
+    let mut cells = Vec::with_capacity((along_s * along_t) as usize);
+    for i in 0..along_s {
+        // The outermost strips are not cut from outside, so that no sliver is lost to rounding.
+        let mut strip = polygon.clone();
+        if i > 0 {
+            strip = strip.clip(at(s, i, along_s), -1.0, 0.0);
+        }
+        if i + 1 < along_s {
+            strip = strip.clip(-at(s, i + 1, along_s), 1.0, 0.0);
+        }
+        for j in 0..along_t {
+            let mut outline = strip.clone();
+            if j > 0 {
+                outline = outline.clip(at(t, j, along_t), 0.0, -1.0);
+            }
+            if j + 1 < along_t {
+                outline = outline.clip(-at(t, j + 1, along_t), 0.0, 1.0);
+            }
+            let moments = outline.moments();
+            if moments.area > smallest {
+                cells.push(Cell { moments, outline });
+            }
+        }
+    }
+    cells
+}
+
+/// Point sub-contacts at the polygon's corners, each with an equal share of the area, as older block codes place them.
+pub fn corners(polygon: &Polygon) -> Vec<Cell> {
+    let area = polygon.area() / polygon.vertices.len() as f64;
+    polygon
+        .vertices
+        .iter()
+        .map(|&[s, t]| Cell {
+            moments: Moments {
+                area,
+                s: area * s,
+                t: area * t,
+                ss: area * s * s,
+                st: area * s * t,
+                tt: area * t * t,
+            },
+            outline: Polygon::default(),
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    fn hexagon() -> Polygon {
+        Polygon { vertices: vec![[0.1, 0.0], [0.5, -0.05], [0.7, 0.2], [0.6, 0.4], [0.2, 0.45], [0.0, 0.2]] }
+    }
+
+    #[test]
+    fn the_cells_fill_the_polygon() {
+        let whole = hexagon().moments();
+        for counts in [[1, 1], [2, 2], [3, 5], [1, 8]] {
+            let cells = divide(&hexagon(), counts);
+            let sum = |f: fn(&Moments) -> f64| cells.iter().map(|c| f(&c.moments)).sum::<f64>();
+            // Round-off of a few dozen additions.
+            assert_relative_eq!(sum(|m| m.area), whole.area, max_relative = 1e-12);
+            assert_relative_eq!(sum(|m| m.st), whole.st, max_relative = 1e-12);
+            assert_relative_eq!(sum(|m| m.tt), whole.tt, max_relative = 1e-12);
+        }
+    }
+
+    #[test]
+    fn corner_sub_contacts_share_the_area() {
+        let cells = corners(&hexagon());
+        assert_eq!(cells.len(), 6);
+        let area: f64 = cells.iter().map(|c| c.moments.area).sum();
+        assert_relative_eq!(area, hexagon().area(), max_relative = 1e-14);
+    }
+}

@@ -1,0 +1,334 @@
+//! The patch where two blocks touch: a polygon on a face of one and a plane of the other.
+//!
+//! The block whose face carries the polygon is the incident one; the other, whose plane gives the direction of the
+//! pressure, is the reference. The gap between them is affine over the polygon, so the compressed zone is the
+//! polygon clipped by a straight line. Blocks that meet at a steep angle, edge to edge or corner to face touch in a
+//! patch of stated width instead: a strip along an edge, a square at a point.
+
+use crate::contact::{Axis, deepest_axis};
+use crate::math::Vec3;
+use crate::shape::{Frame, Plane, Polygon, Polyhedron};
+
+/// Settings of contact detection, all lengths in metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Pairs with a gap up to this are joints (open ones); blocks are looked at anew before they have moved by half.
+    pub reach: f64,
+    /// Width of the strip or square in which steep contacts touch: its area is width x edge length, or width^2.
+    pub steep_width: f64,
+    /// Cosine of the largest angle between two faces that touch as faces.
+    pub face_cosine: f64,
+    /// Sub-contacts along the longer and the shorter extent of a joint.
+    pub sub_contacts: [u32; 2],
+}
+
+impl Settings {
+    /// Settings for stones of a typical size (m): reach 0.5 % and steep width 2 % of it; faces up to 20 degrees apart
+    /// touch as faces.
+    pub fn for_size(size: f64, sub_contacts: [u32; 2]) -> Self {
+        Settings { reach: 5e-3 * size, steep_width: 2e-2 * size, face_cosine: 0.939_692_620_785_908_4, sub_contacts }
+    }
+
+    /// By how much an axis must be better (m) before it replaces the preferred one.
+    fn preference(&self) -> f64 {
+        0.1 * self.reach
+    }
+}
+
+/// Which features of the two blocks meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Feature {
+    /// Face of the incident block, face of the reference block.
+    Faces(u32, u32),
+    /// An edge or a corner of the incident block, face of the reference block.
+    Steep(u32, u32),
+    /// Two crossing edges.
+    Edges([u32; 2], [u32; 2]),
+}
+
+/// Where and how two blocks touch, in world coordinates at the time of detection.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Patch {
+    /// Whether the second block of the pair is the reference (and the first the incident one).
+    pub reference_is_second: bool,
+    /// Frame of the polygon: material to the incident block, normal pointing out of it.
+    pub frame: Frame,
+    /// The polygon, counter-clockwise in the frame's (s, t) coordinates.
+    pub polygon: Polygon,
+    /// Plane of the reference block, normal pointing out of it.
+    pub plane: Plane,
+    /// The features that meet.
+    pub feature: Feature,
+}
+
+/// Finds the patch between two blocks, or `None` when they are further apart than the reach or share no area.
+///
+/// `first` is the preferred reference block: it stays the reference unless the second's face separates clearly better.
+pub fn find_patch(first: &Polyhedron, second: &Polyhedron, settings: &Settings) -> Option<Patch> {
+    let (axis, _) = deepest_axis(first, second, settings.reach, settings.preference())?;
+    match axis {
+        Axis::FaceOfFirst(face) => face_patch(first, face, second, settings, false),
+        Axis::FaceOfSecond(face) => face_patch(second, face, first, settings, true),
+        Axis::Edges(ea, eb) => edge_patch(first, ea, second, eb, settings),
+    }
+}
+
+fn face_patch(
+    reference: &Polyhedron,
+    face: usize,
+    incident: &Polyhedron,
+    settings: &Settings,
+    reference_is_second: bool,
+) -> Option<Patch> {
+    let plane = reference.face_plane(face);
+    let (opposite, cosine) = (0..incident.faces.len())
+        .map(|f| (f, -incident.face_plane(f).normal.dot(&plane.normal)))
+        .fold((0, f64::NEG_INFINITY), |best, next| if next.1 > best.1 { next } else { best });
+    if cosine < settings.face_cosine {
+        return steep_patch(reference, face, incident, opposite, settings, reference_is_second);
+    }
+    let frame = face_frame(incident, opposite);
+    // Both outlines along the reference normal into the incident plane, in its coordinates.
+    let onto = |p: Vec3| {
+        let shift = frame.normal.dot(&(frame.origin - p)) / frame.normal.dot(&plane.normal);
+        frame.project(&(p + plane.normal * shift))
+    };
+    let own = Polygon { vertices: incident.face_vertices(opposite).map(|p| frame.project(&p)).collect() };
+    // Seen from the incident face the reference face runs clockwise.
+    let mut other: Vec<[f64; 2]> = reference.face_vertices(face).map(onto).collect();
+    other.reverse();
+    let polygon = own.intersection(&Polygon { vertices: other });
+    let least = settings.reach * settings.reach;
+    if polygon.vertices.len() < 3 || polygon.area() < least {
+        return None;
+    }
+    let feature = Feature::Faces(opposite as u32, face as u32);
+    Some(Patch { reference_is_second, frame, polygon, plane, feature })
+}
+
+/// The material frame of a face: origin at the mean of its vertices, s along its first edge.
+fn face_frame(solid: &Polyhedron, face: usize) -> Frame {
+    let plane = solid.face_plane(face);
+    let f = &solid.faces[face];
+    let origin = solid.face_vertices(face).sum::<Vec3>() / f.len() as f64;
+    let edge = solid.vertices[f[1] as usize] - solid.vertices[f[0] as usize];
+    let s = (edge - plane.normal * edge.dot(&plane.normal)).normalize();
+    Frame { origin, s, t: plane.normal.cross(&s), normal: plane.normal }
+}
+
+/// A corner or an edge of the incident block on a face of the reference block, too steep to touch as faces.
+fn steep_patch(
+    reference: &Polyhedron,
+    face: usize,
+    incident: &Polyhedron,
+    opposite: usize,
+    settings: &Settings,
+    reference_is_second: bool,
+) -> Option<Patch> {
+    let plane = reference.face_plane(face);
+    let depth = |v: &Vec3| plane.distance(v);
+    let lowest = incident
+        .vertices
+        .iter()
+        .enumerate()
+        .fold((0, f64::INFINITY), |best, (i, v)| if depth(v) < best.1 { (i, depth(v)) } else { best });
+    // The lowest vertex and, when it lies as low, a neighbour along an edge of the opposite face.
+    let start = incident.vertices[lowest.0];
+    let f = &incident.faces[opposite];
+    let end = f.iter().enumerate().find_map(|(i, &v)| {
+        let next = f[(i + 1) % f.len()];
+        let other = match lowest.0 as u32 {
+            x if x == v => next,
+            x if x == next => v,
+            _ => return None,
+        };
+        let p = incident.vertices[other as usize];
+        // Sine below 0.02: an edge that lies down within about a degree.
+        (depth(&p) - lowest.1 < 0.02 * (p - start).norm()).then_some(p)
+    });
+    let half = 0.5 * settings.steep_width;
+    let foot = |p: Vec3| p - plane.normal * (depth(&p) - lowest.1);
+    let (s, s_range, origin) = match end {
+        Some(end) => {
+            let along = foot(end) - start;
+            let length = along.norm();
+            let s = along / length;
+            let (low, high) = clip_line(reference, face, &plane, start, s, length)?;
+            (s, (low, high), start)
+        }
+        None => {
+            clip_line(reference, face, &plane, start, any_tangent(&plane.normal), 0.0)?;
+            (any_tangent(&plane.normal), (-half, half), start)
+        }
+    };
+    let normal = -plane.normal;
+    let frame = Frame { origin, s, t: normal.cross(&s), normal };
+    let polygon = Polygon {
+        vertices: vec![[s_range.0, -half], [s_range.1, -half], [s_range.1, half], [s_range.0, half]],
+    };
+    let feature = Feature::Steep(lowest.0 as u32, face as u32);
+    (polygon.area() > 0.0).then_some(Patch { reference_is_second, frame, polygon, plane, feature })
+}
+
+/// The part of the segment `start + [0, length] direction` above a face, as a range along it; `None` if it misses.
+fn clip_line(
+    solid: &Polyhedron,
+    face: usize,
+    plane: &Plane,
+    start: Vec3,
+    direction: Vec3,
+    length: f64,
+) -> Option<(f64, f64)> {
+    let (mut low, mut high) = (0.0f64, length);
+    let corners: Vec<Vec3> = solid.face_vertices(face).collect();
+    for (i, corner) in corners.iter().enumerate() {
+        let inward = plane.normal.cross(&(corners[(i + 1) % corners.len()] - corner));
+        let (at_start, slope) = (inward.dot(&(start - corner)), inward.dot(&direction));
+        if slope > 0.0 {
+            low = low.max(-at_start / slope);
+        } else if slope < 0.0 {
+            high = high.min(-at_start / slope);
+        } else if at_start < 0.0 {
+            return None;
+        }
+        if length == 0.0 && at_start < 0.0 {
+            return None;
+        }
+    }
+    (length == 0.0 || low < high).then_some((low, high.min(length)))
+}
+
+/// Two crossing edges: a square of the stated width at the middle of their shortest connection.
+fn edge_patch(
+    first: &Polyhedron,
+    ea: [u32; 2],
+    second: &Polyhedron,
+    eb: [u32; 2],
+    settings: &Settings,
+) -> Option<Patch> {
+    let at = |solid: &Polyhedron, v: u32| solid.vertices[v as usize];
+    let (p, u) = (at(first, ea[0]), at(first, ea[1]) - at(first, ea[0]));
+    let (q, v) = (at(second, eb[0]), at(second, eb[1]) - at(second, eb[0]));
+    let mut normal = u.cross(&v).normalize();
+    let towards = second.mass_properties().centroid - first.mass_properties().centroid;
+    if normal.dot(&towards) < 0.0 {
+        normal = -normal;
+    }
+    // Nearest points of the two lines.
+    let (uu, uv, vv, w) = (u.dot(&u), u.dot(&v), v.dot(&v), q - p);
+    let det = uu * vv - uv * uv;
+    let along_u = (w.dot(&u) * vv - w.dot(&v) * uv) / det;
+    let along_v = (w.dot(&u) * uv - w.dot(&v) * uu) / det;
+    if !(0.0..=1.0).contains(&along_u) || !(0.0..=1.0).contains(&along_v) {
+        return None;
+    }
+    let (on_first, on_second) = (p + u * along_u, q + v * along_v);
+    // The second block is incident: the polygon hangs on its edge, facing the first.
+    let out = -normal;
+    let s = v.normalize();
+    let frame = Frame { origin: on_second, s, t: out.cross(&s), normal: out };
+    let half = 0.5 * settings.steep_width;
+    let polygon = Polygon { vertices: vec![[-half, -half], [half, -half], [half, half], [-half, half]] };
+    let plane = Plane::through(on_first, normal);
+    Some(Patch { reference_is_second: false, frame, polygon, plane, feature: Feature::Edges(ea, eb) })
+}
+
+/// Some unit vector in the plane with this normal.
+fn any_tangent(normal: &Vec3) -> Vec3 {
+    Frame::on_plane(Vec3::zeros(), *normal).s
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::{Mat3, cos, radians, sin};
+    use approx::assert_relative_eq;
+
+    fn slab() -> Polyhedron {
+        Polyhedron::cuboid(Vec3::new(-1.0, -1.0, -0.1), Vec3::new(1.0, 1.0, 0.0))
+    }
+
+    fn about_x(degrees: f64) -> Mat3 {
+        let (c, s) = (cos(radians(degrees)), sin(radians(degrees)));
+        Mat3::new(1.0, 0.0, 0.0, 0.0, c, -s, 0.0, s, c)
+    }
+
+    fn settings() -> Settings {
+        Settings::for_size(0.2, [2, 2])
+    }
+
+    #[test]
+    fn a_block_half_over_the_edge_touches_with_half_its_face() {
+        let block = Polyhedron::cuboid(Vec3::new(0.9, -0.1, 0.0), Vec3::new(1.1, 0.2, 0.1));
+        let patch = find_patch(&slab(), &block, &settings()).unwrap();
+        assert_relative_eq!(patch.polygon.area(), 0.1 * 0.3, max_relative = 1e-12);
+        assert!(!patch.reference_is_second);
+        assert_relative_eq!(patch.plane.normal, Vec3::z(), epsilon = 1e-14);
+        assert_relative_eq!(patch.frame.normal, -Vec3::z(), epsilon = 1e-14);
+    }
+
+    #[test]
+    fn hexagonal_faces_keep_their_whole_area() {
+        let prism = |z: f64| {
+            let ring = |h: f64| (0..6).map(move |i| {
+                let a = radians(60.0 * f64::from(i));
+                Vec3::new(cos(a), sin(a), h)
+            });
+            Polyhedron {
+                vertices: ring(z).chain(ring(z + 1.0)).collect(),
+                faces: [vec![5, 4, 3, 2, 1, 0], vec![6, 7, 8, 9, 10, 11]]
+                    .into_iter()
+                    .chain((0..6).map(|i| vec![i, (i + 1) % 6, 6 + (i + 1) % 6, 6 + i]))
+                    .collect(),
+            }
+        };
+        let patch = find_patch(&prism(0.0), &prism(1.0), &settings()).unwrap();
+        assert_relative_eq!(patch.polygon.area(), 1.5 * 3f64.sqrt(), max_relative = 1e-12);
+    }
+
+    #[test]
+    fn a_block_on_its_edge_touches_in_a_strip_of_the_stated_width() {
+        let block = Polyhedron::cuboid(Vec3::repeat(-0.1), Vec3::repeat(0.1));
+        let lift = 0.1 * 2f64.sqrt() - 1e-5;
+        let block = block.moved(&about_x(45.0), &Vec3::new(0.0, 0.0, lift));
+        let patch = find_patch(&slab(), &block, &settings()).unwrap();
+        assert!(matches!(patch.feature, Feature::Steep(..)));
+        assert_relative_eq!(patch.polygon.area(), 0.2 * settings().steep_width, max_relative = 1e-9);
+        assert_relative_eq!(patch.plane.distance(&patch.frame.origin), -1e-5, epsilon = 1e-12);
+    }
+
+    #[test]
+    fn a_block_on_its_corner_touches_in_a_square_of_the_stated_width() {
+        let about_y = about_x(0.0) * {
+            let (c, s) = (cos(radians(35.0)), sin(radians(35.0)));
+            Mat3::new(c, 0.0, s, 0.0, 1.0, 0.0, -s, 0.0, c)
+        };
+        let block = Polyhedron::cuboid(Vec3::repeat(-0.1), Vec3::repeat(0.1));
+        let block = block.moved(&(about_x(45.0) * about_y), &Vec3::zeros());
+        let low = block.bounds().0.z;
+        let block = block.translated(&Vec3::new(0.0, 0.0, -low - 1e-5));
+        let patch = find_patch(&slab(), &block, &settings()).unwrap();
+        assert_relative_eq!(patch.polygon.area(), settings().steep_width.powi(2), max_relative = 1e-9);
+    }
+
+    #[test]
+    fn crossed_edges_touch_in_a_square_between_them() {
+        let block = Polyhedron::cuboid(Vec3::repeat(-0.1), Vec3::repeat(0.1));
+        let about_y = {
+            let (c, s) = (cos(radians(45.0)), sin(radians(45.0)));
+            Mat3::new(c, 0.0, s, 0.0, 1.0, 0.0, -s, 0.0, c)
+        };
+        let lower = block.moved(&about_x(45.0), &Vec3::zeros());
+        let upper = block.moved(&about_y, &Vec3::new(0.0, 0.0, 0.2 * 2f64.sqrt() - 1e-5));
+        let patch = find_patch(&lower, &upper, &settings()).unwrap();
+        assert!(matches!(patch.feature, Feature::Edges(..)));
+        assert_relative_eq!(patch.frame.normal, -Vec3::z(), epsilon = 1e-12);
+        assert_relative_eq!(patch.plane.distance(&patch.frame.origin), -1e-5, epsilon = 1e-12);
+    }
+
+    #[test]
+    fn far_blocks_share_no_patch() {
+        let block = Polyhedron::cuboid(Vec3::new(0.0, 0.0, 0.01), Vec3::new(0.2, 0.2, 0.2));
+        assert!(find_patch(&slab(), &block, &settings()).is_none());
+    }
+}

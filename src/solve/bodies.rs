@@ -1,0 +1,178 @@
+//! Assembly: blocks turned into bodies, the arrays that the solvers work on.
+
+use nalgebra::{Quaternion, Rotation3, UnitQuaternion};
+
+use crate::math::{Mat3, Vec3};
+use crate::model::{Support, Wall};
+use crate::shape::Polyhedron;
+
+/// A rigid body: state, accumulated loads, and constants in its principal axes.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// Centroid (m).
+    pub position: Vec3,
+    /// Attitude: principal axes to world axes.
+    pub attitude: UnitQuaternion<f64>,
+    /// The same as a matrix, kept beside it because every joint needs it.
+    pub rotation: Mat3,
+    /// Velocity of the centroid (m/s).
+    pub velocity: Vec3,
+    /// Angular momentum about the centroid in world axes (kg m^2/s), with the inertia that the solver uses.
+    pub angular_momentum: Vec3,
+    /// Angular velocity in world axes (rad/s).
+    pub spin: Vec3,
+    /// Sum of forces (N).
+    pub force: Vec3,
+    /// Sum of moments about the centroid (N m).
+    pub torque: Vec3,
+    /// Mass (kg).
+    pub mass: f64,
+    /// Principal moments of inertia (kg m^2).
+    pub inertia: Vec3,
+    /// Factor on mass and inertia that a quasi-static run may use; 1 otherwise.
+    pub inertia_scale: f64,
+    /// How it is held.
+    pub support: Support,
+    /// Largest distance of a vertex from the centroid (m).
+    pub radius: f64,
+}
+
+/// A body with its shape in principal axes, centroid at the origin.
+#[derive(Clone, Debug)]
+pub struct Bodies {
+    /// State of each body, by block id.
+    pub all: Vec<Body>,
+    /// Shape of each body in its own axes.
+    pub shapes: Vec<Polyhedron>,
+}
+
+impl Bodies {
+    /// Bodies at rest from the blocks of a wall.
+    pub fn from_wall(wall: &Wall) -> Self {
+        let mut all = Vec::with_capacity(wall.blocks.len());
+        let mut shapes = Vec::with_capacity(wall.blocks.len());
+        for block in &wall.blocks {
+            let properties = block.shape.mass_properties();
+            let (inertia, axes) = principal_axes(properties.inertia);
+            // The matrix is made from the quaternion, as every later one is.
+            let attitude = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
+            let rotation = attitude.to_rotation_matrix().into_inner();
+            let centred = block.shape.translated(&-properties.centroid);
+            let radius = centred.vertices.iter().map(|v| v.norm()).fold(0.0, f64::max);
+            shapes.push(centred.moved(&rotation.transpose(), &Vec3::zeros()));
+            all.push(Body {
+                position: properties.centroid,
+                attitude,
+                rotation,
+                velocity: Vec3::zeros(),
+                angular_momentum: Vec3::zeros(),
+                spin: Vec3::zeros(),
+                force: Vec3::zeros(),
+                torque: Vec3::zeros(),
+                mass: block.density * properties.volume,
+                inertia: inertia * block.density,
+                inertia_scale: 1.0,
+                support: block.support,
+                radius,
+            });
+        }
+        Bodies { all, shapes }
+    }
+
+    /// The shape of a body where it is now, in world coordinates.
+    pub fn world_shape(&self, body: usize) -> Polyhedron {
+        self.shapes[body].moved(&self.all[body].rotation, &self.all[body].position)
+    }
+
+    /// Kinetic energy of all bodies (J).
+    pub fn kinetic_energy(&self) -> f64 {
+        self.all
+            .iter()
+            .map(|b| {
+                0.5 * b.inertia_scale * b.mass * b.velocity.norm_squared()
+                    + 0.5 * b.spin.dot(&b.angular_momentum)
+            })
+            .sum()
+    }
+}
+
+impl Body {
+    /// Whether it can move at all.
+    pub fn moves(&self) -> bool {
+        self.support != Support::Fixed
+    }
+
+    /// Angular velocity (rad/s) of an attitude with this body's angular momentum.
+    fn spin_at(&self, rotation: &Mat3) -> Vec3 {
+        match self.support {
+            Support::Fixed => Vec3::zeros(),
+            Support::Free => {
+                let local = rotation.tr_mul(&self.angular_momentum);
+                rotation * (local.component_div(&self.inertia) / self.inertia_scale)
+            }
+            Support::OutOfPlane => {
+                // Turns about y only.
+                let y = rotation.row(1);
+                let about_y = (0..3).map(|k| y[k] * y[k] * self.inertia[k]).sum::<f64>() * self.inertia_scale;
+                Vec3::new(0.0, self.angular_momentum.y / about_y, 0.0)
+            }
+        }
+    }
+
+    /// Sets the angular velocity (rad/s, world axes), and the angular momentum that belongs to it.
+    pub fn set_spin(&mut self, spin: Vec3) {
+        let local = self.rotation.tr_mul(&spin).component_mul(&self.inertia) * self.inertia_scale;
+        self.angular_momentum = self.rotation * local;
+        self.spin = self.spin_at(&self.rotation);
+    }
+
+    /// Rescales inertia; velocity and spin stay.
+    pub fn rescale(&mut self, scale: f64) {
+        self.angular_momentum *= scale / self.inertia_scale;
+        self.inertia_scale = scale;
+    }
+
+    /// Central differences: velocity at the half step from the forces now, then position and attitude at the next
+    /// step. The attitude turns with the spin at the half step (midpoint rule, second order), so a free body keeps
+    /// its angular momentum to round-off.
+    pub fn advance(&mut self, dt: f64, damping: f64) {
+        if !self.moves() {
+            return;
+        }
+        if self.support == Support::OutOfPlane {
+            self.force.y = 0.0;
+            self.torque = Vec3::new(0.0, self.torque.y, 0.0);
+        }
+        let (mut force, mut torque) = (self.force, self.torque);
+        if damping > 0.0 {
+            force += crate::law::local_damping(damping, &force, &self.velocity);
+            torque += crate::law::local_damping(damping, &torque, &self.spin);
+        }
+        self.velocity += force * (dt / (self.mass * self.inertia_scale));
+        self.position += self.velocity * dt;
+        self.angular_momentum += torque * dt;
+        let half_way = turned(&self.attitude, &(self.spin_at(&self.rotation) * (0.5 * dt)));
+        self.spin = self.spin_at(&half_way.to_rotation_matrix().into_inner());
+        self.attitude = turned(&self.attitude, &(self.spin * dt));
+        self.rotation = self.attitude.to_rotation_matrix().into_inner();
+    }
+}
+
+/// The attitude after a small turn (rad, world axes), to second order (Cayley) and exactly orthogonal.
+fn turned(attitude: &UnitQuaternion<f64>, turn: &Vec3) -> UnitQuaternion<f64> {
+    let step = Quaternion::new(1.0, 0.5 * turn.x, 0.5 * turn.y, 0.5 * turn.z);
+    UnitQuaternion::new_normalize(step * attitude.into_inner())
+}
+
+/// Principal moments (ascending) and axes as the columns of a proper rotation.
+fn principal_axes(inertia: Mat3) -> (Vec3, Mat3) {
+    let eigen = inertia.symmetric_eigen();
+    let mut order = [0, 1, 2];
+    order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
+    let moments = Vec3::from_fn(|k, _| eigen.eigenvalues[order[k]]);
+    let mut axes = Mat3::from_fn(|r, c| eigen.eigenvectors[(r, order[c])]);
+    if axes.determinant() < 0.0 {
+        axes.set_column(2, &-axes.column(2));
+    }
+    (moments, axes)
+}
