@@ -1,3 +1,5 @@
 //! The `pirca` program: see [`pirca::cli`].
 
-fn main() {}
+fn main() -> std::process::ExitCode {
+    pirca::cli::main()
+}

@@ -1,1 +1,38 @@
-//! cli
+//! The command line: arguments, messages, exit codes. Nothing else in the library prints.
+
+mod arguments;
+mod check;
+mod failure;
+mod generate;
+mod locate;
+mod output;
+mod progress;
+mod run;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use crate::cli::arguments::{Arguments, Verb};
+
+/// Reads the arguments of the process, does what they ask, and gives the exit code: 0 done, 1 the run or its files
+/// failed, 2 the arguments make no sense, 3 the study is invalid.
+pub fn main() -> ExitCode {
+    output::report_full_files();
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => return output::usage(&error),
+    };
+    let done = match &arguments.verb {
+        Verb::Check(arguments) => check::check(arguments),
+        Verb::Generate(arguments) => generate::generate(arguments),
+        Verb::Run(arguments) => run::run(arguments),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            output::error(&failure.message());
+            failure.code()
+        }
+    }
+}

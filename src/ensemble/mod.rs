@@ -1,5 +1,23 @@
-//! From a study to a table of members: plan, run in parallel, record, resume.
+//! From a study to a table of members: plan, evaluate in parallel, record, resume.
 
+mod design;
+mod error;
+mod evaluate;
+mod files;
+mod journal;
+mod manifest;
+mod progress;
 mod record;
+mod run;
+mod table;
+#[cfg(test)]
+mod tests;
 
+pub use design::{Task, is_random, plan};
+pub use error::{MemberFault, RunError};
+pub use evaluate::{build, evaluate};
+pub use files::replace_file;
+pub use manifest::Manifest;
+pub use progress::{Progress, Silent};
 pub use record::{Row, StepRow};
+pub use run::{Settings, run, run_with};

@@ -61,10 +61,10 @@ pub struct Row {
 pub struct StepRow {
     /// Load factor: 0 under gravity alone, 1 at the full load.
     pub load_factor: f64,
-    /// Largest out-of-plane displacement at the top since the end of gravity (m).
-    pub top_displacement_m: f64,
-    /// Unbalanced force ratio reached.
-    pub unbalanced_ratio: f64,
+    /// Largest out-of-plane displacement at the top since the end of gravity (m); `None` when it is not finite.
+    pub top_displacement_m: Option<f64>,
+    /// Unbalanced force ratio reached; `None` when it is not finite.
+    pub unbalanced_ratio: Option<f64>,
     /// Time steps taken.
     pub solver_steps: u64,
 }

@@ -1,0 +1,72 @@
+//! `pirca check`: everything that is wrong with a study, without running it.
+
+use serde_json::json;
+
+use crate::cli::arguments::Check;
+use crate::cli::failure::Failure;
+use crate::cli::{locate, output};
+use crate::ensemble;
+use crate::study::{Loaded, Study};
+
+/// Reads the study and says what it found.
+pub(crate) fn check(arguments: &Check) -> Result<(), Failure> {
+    let which = &arguments.which;
+    if !which.json {
+        return output::print(&summary(&locate::study(which)?));
+    }
+    let folder = match locate::folder(&which.study) {
+        Ok(folder) => folder,
+        Err(failure) => {
+            output::print_json(
+                &json!({"valid": false, "error": failure.message(), "faults": [], "warnings": []}),
+            )?;
+            return Err(Failure::Said);
+        }
+    };
+    match Study::load(&folder, which.variant.as_deref()) {
+        Ok(Loaded { study, warnings, variants, used }) => output::print_json(&json!({
+            "valid": true,
+            "study": study.name,
+            "variant": study.variant,
+            "seed": study.seed,
+            "study_hash": study.hash,
+            "arms": study.arms.iter().map(|arm| json!({
+                "arm": arm.name,
+                "members": arm.members,
+                "random": ensemble::is_random(arm, &study.joint),
+            })).collect::<Vec<_>>(),
+            "kn_pa_per_m": study.kn_points,
+            "evaluations": ensemble::plan(&study).len(),
+            "variants": variants,
+            "distributions": used,
+            "faults": [],
+            "warnings": warnings,
+        })),
+        Err(faults) => {
+            output::print_json(&json!({"valid": false, "faults": faults.faults, "warnings": []}))?;
+            Err(Failure::Said)
+        }
+    }
+}
+
+fn summary(loaded: &Loaded) -> String {
+    let study = &loaded.study;
+    let variant = study.variant.as_ref().map(|name| format!(", variant {name}")).unwrap_or_default();
+    let arms: Vec<_> = study.arms.iter().map(|arm| format!("{} ({})", arm.name, arm.members)).collect();
+    let mut text = format!(
+        "{}{variant}: valid\n  question: {}\n  arms (walls): {}\n  kn points: {}\n  evaluations: {}\n  seed: {}\n",
+        study.name,
+        study.question,
+        arms.join(", "),
+        study.kn_points.len(),
+        ensemble::plan(study).len(),
+        study.seed
+    );
+    for variant in &loaded.variants {
+        text.push_str(&format!("  variant {}: {}\n", variant.name, variant.why));
+    }
+    for used in loaded.used.iter().filter(|used| used.status == "assumed") {
+        text.push_str(&format!("  assumed: {} = {} ({})\n", used.key, used.reference, used.source));
+    }
+    text
+}

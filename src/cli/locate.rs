@@ -1,0 +1,75 @@
+//! From what the user typed to a checked study.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::cli::arguments::Which;
+use crate::cli::failure::Failure;
+use crate::cli::output;
+use crate::study::{Loaded, Study};
+
+/// Loads the study that the arguments name, in the variant asked for, and passes its warnings on to standard error.
+pub(crate) fn study(which: &Which) -> Result<Loaded, Failure> {
+    let loaded = Study::load(&folder(&which.study)?, which.variant.as_deref())?;
+    for warning in &loaded.warnings {
+        output::note(&format!("warning: {warning}"));
+    }
+    Ok(loaded)
+}
+
+/// The folder of a study, from the folder itself or from the study.toml in it.
+pub(crate) fn folder(path: &Path) -> Result<PathBuf, Failure> {
+    let found = match fs::metadata(path) {
+        Err(error) => format!("{}: {error}", path.display()),
+        Ok(_) if path.join("study.toml").is_file() => return Ok(path.to_path_buf()),
+        Ok(m) if m.is_dir() => format!("{} is a folder without a study.toml", path.display()),
+        Ok(_) if path.file_name().is_some_and(|name| name == "study.toml") => {
+            let parent = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+            return Ok(parent.to_path_buf());
+        }
+        Ok(_) => format!("{} is a file, but not a study.toml", path.display()),
+    };
+    Err(Failure::Study(format!("no study at {found}\n{}", known(path))))
+}
+
+/// The studies in `studies/` and beside the path, nearest names first.
+fn known(path: &Path) -> String {
+    let wanted = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let beside = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut found: Vec<(usize, PathBuf)> = [Path::new("studies"), beside]
+        .into_iter()
+        .filter_map(|folder| fs::read_dir(folder).ok())
+        .flat_map(|entries| entries.flatten().map(|entry| entry.path()))
+        .filter(|study| study.join("study.toml").is_file())
+        .map(|study| {
+            let name = study.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+            (distance(&wanted, &name), study)
+        })
+        .collect();
+    found.sort();
+    found.dedup();
+    match found.first() {
+        None => "a study is a folder with a study.toml; there is none in studies/ nor beside that path"
+            .to_string(),
+        Some(_) => {
+            let names: Vec<_> =
+                found.iter().take(5).map(|(_, study)| format!("  {}", study.display())).collect();
+            format!("studies found, nearest name first:\n{}", names.join("\n"))
+        }
+    }
+}
+
+/// Number of single letters to insert, drop or replace that makes `a` into `b` (Levenshtein).
+fn distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, from) in a.chars().enumerate() {
+        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
+        for (j, to) in b.iter().enumerate() {
+            let replaced = diagonal + usize::from(from != *to);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row[b.len()]
+}

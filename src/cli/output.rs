@@ -1,0 +1,58 @@
+//! Standard output and standard error.
+
+use std::io::{ErrorKind, Write};
+use std::process::ExitCode;
+
+use crate::cli::failure::Failure;
+
+/// Writes text to standard output. A reader that has gone away (`pirca ... | head`) has read what it wanted.
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Failure::Run(format!("cannot write to standard output: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Writes a value to standard output as indented JSON.
+pub(crate) fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
+    let text =
+        serde_json::to_string_pretty(value).map_err(|e| Failure::Run(format!("cannot write JSON: {e}")))?;
+    print(&format!("{text}\n"))
+}
+
+/// Writes a line to standard error; where nobody reads it, there is nobody left to tell.
+pub(crate) fn note(text: &str) {
+    let _ = writeln!(std::io::stderr().lock(), "{text}");
+}
+
+/// Writes an error to standard error; nothing when there is nothing left to say.
+pub(crate) fn error(text: &str) {
+    if !text.is_empty() {
+        note(&format!("error: {text}"));
+    }
+}
+
+/// Answers arguments that make no sense, or a request for help or the version.
+pub(crate) fn usage(error: &clap::Error) -> ExitCode {
+    // As in `print`: whoever closed the pipe has read enough.
+    let _ = error.print();
+    ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
+}
+
+/// Lets a write beyond the file size limit (`ulimit -f`) fail with an error that says so, as a full disk does.
+/// By default the signal SIGXFSZ would end the process without a word.
+pub(crate) fn report_full_files() {
+    #[cfg(target_os = "linux")]
+    {
+        const SIGXFSZ: i32 = 25;
+        const SIG_IGN: usize = 1;
+        unsafe extern "C" {
+            fn signal(number: i32, handler: usize) -> usize;
+        }
+        // Safe: the C library's `signal` is called before any thread is started, with a handler that is no function.
+        unsafe { signal(SIGXFSZ, SIG_IGN) };
+    }
+}

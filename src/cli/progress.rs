@@ -1,0 +1,150 @@
+//! What is seen of a run while it goes on: a bar on a terminal, a line per tenth elsewhere.
+
+use std::collections::BTreeMap;
+use std::io::IsTerminal;
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use crate::cli::output;
+use crate::ensemble::{Progress, Row, Task};
+use crate::model::Outcome;
+use crate::study::Study;
+
+/// A progress on standard error, fit for what standard error is.
+pub(crate) fn on_stderr(study: &Study) -> Box<dyn Progress> {
+    let name = study.name.clone();
+    match std::io::stderr().is_terminal() {
+        true => Box::new(Bar { bar: ProgressBar::hidden(), tally: Mutex::default() }),
+        false => Box::new(Lines { name, state: Mutex::new(None) }),
+    }
+}
+
+/// Counts and the running mean of the wall population that the last member belongs to. Only shown: the statistics
+/// are computed from the finished table.
+#[derive(Default)]
+struct Tally {
+    failed: usize,
+    /// Walls in equilibrium and the sum of their top displacements (m), by arm and point.
+    sums: BTreeMap<(u32, u32), (u64, f64)>,
+    last: String,
+}
+
+impl Tally {
+    fn take(&mut self, row: &Row) {
+        if row.outcome != Outcome::Equilibrium {
+            self.failed += 1;
+        }
+        if let Some(top) = row.top_displacement_m {
+            let (n, sum) = self.sums.entry((row.arm_index, row.point)).or_default();
+            *n += 1;
+            *sum += top;
+            let mean = *sum / *n as f64 * 1e3;
+            self.last = format!("{} at kn {:.2e}: mean {mean:.4} mm of {n}", row.arm, row.kn_pa_per_m);
+        }
+    }
+}
+
+/// A bar with done, failed, running mean and the time that is left.
+struct Bar {
+    bar: ProgressBar,
+    tally: Mutex<Tally>,
+}
+
+impl Bar {
+    fn show(&self, tally: &Tally) {
+        self.bar.set_message(format!("{} failed, {}", tally.failed, tally.last));
+    }
+}
+
+impl Progress for Bar {
+    fn begin(&self, total: usize, recorded: &[&Row]) {
+        let style = ProgressStyle::with_template("{bar:30} {pos}/{len} done, {msg}, ETA {eta}");
+        self.bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        self.bar.set_length(total as u64);
+        self.bar.set_position(recorded.len() as u64);
+        self.bar.reset_eta();
+        let mut tally = lock(&self.tally);
+        recorded.iter().for_each(|row| tally.take(row));
+        self.show(&tally);
+        self.bar.set_draw_target(ProgressDrawTarget::stderr());
+        self.bar.enable_steady_tick(Duration::from_millis(500));
+    }
+
+    fn finished(&self, row: &Row) {
+        let mut tally = lock(&self.tally);
+        tally.take(row);
+        self.show(&tally);
+        self.bar.inc(1);
+    }
+
+    fn broken(&self, _task: Task) {
+        let mut tally = lock(&self.tally);
+        tally.failed += 1;
+        self.show(&tally);
+    }
+
+    fn end(&self) {
+        self.bar.abandon();
+    }
+}
+
+/// A line at the beginning and at every tenth.
+struct Lines {
+    name: String,
+    state: Mutex<Option<Count>>,
+}
+
+struct Count {
+    total: usize,
+    recorded: usize,
+    done: usize,
+    begun: Instant,
+    tally: Tally,
+}
+
+impl Count {
+    fn line(&self) -> String {
+        let here = (self.done - self.recorded) as f64;
+        let left = self.begun.elapsed().as_secs_f64() / here * (self.total - self.done) as f64;
+        let Count { total, done, tally, .. } = self;
+        format!("{done}/{total} done, {} failed, {}, {left:.0} s left", tally.failed, tally.last)
+    }
+}
+
+impl Progress for Lines {
+    fn begin(&self, total: usize, recorded: &[&Row]) {
+        let mut tally = Tally::default();
+        recorded.iter().for_each(|row| tally.take(row));
+        let done = recorded.len();
+        output::note(&format!("{}: {total} evaluations, {done} of them recorded before", self.name));
+        *lock(&self.state) = Some(Count { total, recorded: done, done, begun: Instant::now(), tally });
+    }
+
+    fn finished(&self, row: &Row) {
+        let mut state = lock(&self.state);
+        let Some(count) = state.as_mut() else { return };
+        count.tally.take(row);
+        let tenth = |done: usize| 10 * done / count.total;
+        let passed = tenth(count.done + 1) > tenth(count.done);
+        count.done += 1;
+        if passed {
+            output::note(&format!("{}: {}", self.name, count.line()));
+        }
+    }
+
+    fn broken(&self, task: Task) {
+        if let Some(count) = lock(&self.state).as_mut() {
+            count.tally.failed += 1;
+        }
+        output::note(&format!("{}: member {} broke an invariant", self.name, task.member));
+    }
+
+    fn end(&self) {}
+}
+
+/// A panic of one member while it was shown must not silence the others.
+fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
+}

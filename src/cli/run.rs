@@ -1,0 +1,45 @@
+//! `pirca run`: generate, solve, statistics, figures.
+
+use std::path::PathBuf;
+
+use crate::cli::arguments::{Run, SolverName};
+use crate::cli::failure::Failure;
+use crate::cli::{locate, output, progress};
+use crate::ensemble::{self, Settings};
+use crate::report;
+use crate::solve::Solver;
+use crate::study::Study;
+
+/// Runs a study, or what is still missing of it, and shows the results.
+pub(crate) fn run(arguments: &Run) -> Result<(), Failure> {
+    let study = asked(locate::study(&arguments.which)?.study, arguments);
+    let out = arguments.out.clone().unwrap_or_else(|| default_folder(&study));
+    let settings = Settings { out: out.clone(), threads: arguments.threads };
+    let rows = ensemble::run(&study, &settings, progress::on_stderr(&study).as_ref())?;
+    let summary = report::write_all(&study, &rows, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
+    if arguments.which.json {
+        return output::print_json(&summary);
+    }
+    output::print(&format!("{}\nwritten to {}\n", report::terminal_table(&summary).trim_end(), out.display()))
+}
+
+/// The study with what the arguments put in the place of its own values.
+fn asked(mut study: Study, arguments: &Run) -> Study {
+    if let Some(name) = arguments.solver {
+        study.solver = match (name, study.solver) {
+            (SolverName::Explicit, Solver::Explicit(settings)) => Solver::Explicit(settings),
+        };
+    }
+    if let Some(seed) = arguments.seed {
+        study = study.with_seed(seed);
+    }
+    if let Some(members) = arguments.members {
+        study = study.with_members(members);
+    }
+    study
+}
+
+fn default_folder(study: &Study) -> PathBuf {
+    let variant = study.variant.as_ref().map(|name| format!("-{name}")).unwrap_or_default();
+    PathBuf::from("runs").join(format!("{}{variant}", study.name))
+}

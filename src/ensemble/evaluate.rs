@@ -1,0 +1,122 @@
+//! One member: its wall, its joints, its protocol, its row. A pure function of study, seed and task.
+
+use crate::ensemble::{Row, StepRow, Task};
+use crate::generate::{Generated, InvalidGeometry, generate};
+use crate::math::degrees;
+use crate::model::{Outcome, Wall};
+use crate::protocol;
+use crate::random::Streams;
+use crate::stats;
+use crate::study::{DrawnJoints, Study};
+
+const GRAVITY: f64 = 9.81;
+
+/// The wall of a member, the same one at every kn: only the arm's layout, the seed and the member enter.
+///
+/// # Errors
+/// [`InvalidGeometry`] when the generator found no valid wall within its attempts.
+pub fn build(study: &Study, arm: u32, member: u64) -> Result<Generated, InvalidGeometry> {
+    generate(&study.arms[arm as usize].layout, &Streams::new(study.seed, member))
+}
+
+/// Evaluates one member at one kn: builds its wall, draws its joints, takes it through the study's protocol. A wall
+/// that cannot be built, falls or does not come to rest gives a row whose outcome says so.
+///
+/// Every point builds its wall anew: that costs little beside solving it, and no task waits for another.
+pub fn evaluate(study: &Study, task: Task) -> Row {
+    match build(study, task.arm, task.member) {
+        Ok(generated) => solved(study, task, &generated),
+        Err(fault) => Row {
+            attempts: fault.attempts,
+            redraws: fault.redraws,
+            ..unsolved(study, task, Outcome::InvalidGeometry { reason: fault.to_string() })
+        },
+    }
+}
+
+fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
+    let kn = study.kn_points[task.point as usize];
+    let laws = DrawnJoints::new(&study.joint, kn, Streams::new(study.seed, task.member));
+    let wall = &generated.wall;
+    let run = protocol::run(wall, &laws, &study.protocol, study.ends, study.sub_contacts, &study.solver);
+    let last = run.steps.last();
+    let at_rest = run.outcome == Outcome::Equilibrium;
+    let load_steps = run.steps.iter().map(|step| StepRow {
+        load_factor: step.load_factor,
+        top_displacement_m: finite(step.top_displacement),
+        unbalanced_ratio: finite(step.unbalanced_ratio),
+        solver_steps: step.solver_steps,
+    });
+    let realised = &generated.realised;
+    Row {
+        top_displacement_m: last.filter(|_| at_rest).map(|step| step.top_displacement),
+        stones: wall.stones().count() as u32,
+        joints: run.joints as u32,
+        wedges: realised.wedges,
+        headers: realised.headers,
+        attempts: generated.attempts,
+        redraws: generated.redraws,
+        merges: generated.merges,
+        dip_mean_deg: stats::mean(&realised.dips).map(degrees),
+        dip_sd_deg: stats::sigma(&realised.dips).map(degrees),
+        first_dip_sd_deg: stats::sigma(&realised.first_dips).map(degrees),
+        length_mean_m: stats::mean(&realised.lengths),
+        height_mean_m: stats::mean(&realised.heights),
+        weight_n: Some(weight(wall)),
+        solver_steps: run.steps.iter().map(|step| step.solver_steps).sum(),
+        unbalanced_ratio: last.and_then(|step| finite(step.unbalanced_ratio)),
+        load_steps: load_steps.collect(),
+        ..unsolved(study, task, recordable(run.outcome))
+    }
+}
+
+/// A row that says which member it is and how it ended, with nothing observed.
+fn unsolved(study: &Study, task: Task, outcome: Outcome) -> Row {
+    Row {
+        arm_index: task.arm,
+        arm: study.arms[task.arm as usize].name.clone(),
+        point: task.point,
+        kn_pa_per_m: study.kn_points[task.point as usize],
+        member: task.member,
+        outcome,
+        top_displacement_m: None,
+        stones: 0,
+        joints: 0,
+        wedges: 0,
+        headers: 0,
+        attempts: 0,
+        redraws: 0,
+        merges: 0,
+        dip_mean_deg: None,
+        dip_sd_deg: None,
+        first_dip_sd_deg: None,
+        length_mean_m: None,
+        height_mean_m: None,
+        weight_n: None,
+        solver_steps: 0,
+        unbalanced_ratio: None,
+        load_steps: Vec::new(),
+    }
+}
+
+/// Weight of the stones (N), added in the order of their ids.
+fn weight(wall: &Wall) -> f64 {
+    wall.stones().map(|(_, stone)| stone.density * stone.shape.volume()).fold(0.0, |sum, mass| sum + mass)
+        * GRAVITY
+}
+
+/// A value that a table can hold: NaN and infinity are "not observed".
+fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}
+
+/// An unbalanced force ratio is infinite where no joint carries a force; JSON has no infinity, so the largest number
+/// stands for it.
+fn recordable(outcome: Outcome) -> Outcome {
+    match outcome {
+        Outcome::NotConverged { load_factor, unbalanced_ratio } if !unbalanced_ratio.is_finite() => {
+            Outcome::NotConverged { load_factor, unbalanced_ratio: f64::MAX }
+        }
+        other => other,
+    }
+}

@@ -1,0 +1,166 @@
+//! The loop over realisations: evaluate what is missing in parallel, record each as it ends, gather in order.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::num::NonZero;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+use rayon::prelude::*;
+
+use crate::ensemble::journal::{Entry, Journal};
+use crate::ensemble::{Manifest, MemberFault, Progress, Row, RunError, Task, evaluate, files, plan, table};
+use crate::study::Study;
+
+/// Where a run writes and how many threads it uses; no result depends on either.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Settings {
+    /// Output folder; made if it is not there.
+    pub out: PathBuf,
+    /// Worker threads; `None` for one per processor.
+    pub threads: Option<NonZero<usize>>,
+}
+
+/// Evaluates every member of a study that the output folder does not hold yet, and writes `members.parquet`,
+/// `steps.parquet`, `manifest.json` and `timing.csv` there. Gives all rows in the order arm, point, member.
+///
+/// # Errors
+/// See [`RunError`]; whatever was evaluated until then is in the journal.
+pub fn run(study: &Study, settings: &Settings, progress: &dyn Progress) -> Result<Vec<Row>, RunError> {
+    run_with(study, settings, progress, &evaluate)
+}
+
+/// [`run`] with another way to evaluate a member, which must be a pure function of its arguments.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_with(
+    study: &Study,
+    settings: &Settings,
+    progress: &dyn Progress,
+    evaluate: &(dyn Fn(&Study, Task) -> Row + Sync),
+) -> Result<Vec<Row>, RunError> {
+    let manifest = Manifest::of(study);
+    let out = &settings.out;
+    fs::create_dir_all(out).map_err(|e| RunError::file("create the folder", out, e))?;
+    let (journal, mut entries) = Journal::open(out, &manifest)?;
+
+    let threads =
+        settings.threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+    let tasks = plan(study);
+    progress.begin(tasks.len(), &entries.values().map(|entry| &entry.row).collect::<Vec<_>>());
+    let missing: Vec<Task> = tasks.iter().copied().filter(|task| !entries.contains_key(task)).collect();
+    let realisation = Realisation {
+        study,
+        evaluate,
+        journal: &journal,
+        progress,
+        threads: threads as u32,
+        host: host(),
+        stop: AtomicBool::new(false),
+    };
+    let results: Vec<Result<Entry, Missed>> =
+        pool.install(|| missing.par_iter().with_max_len(1).map(|&task| realisation.of(task)).collect());
+    progress.end();
+    gather(&missing, results, &mut entries)?;
+
+    let entries: Vec<Entry> = entries.into_values().collect();
+    files::replace_file(&out.join("timing.csv"), table::timing(&entries).as_bytes())?;
+    let rows: Vec<Row> = entries.into_iter().map(|entry| entry.row).collect();
+    files::replace_file(&out.join("members.parquet"), &table::members(&rows)?)?;
+    files::replace_file(&out.join("steps.parquet"), &table::steps(&rows)?)?;
+    let json = serde_json::to_string_pretty(&manifest).expect("a manifest has string keys only");
+    files::replace_file(&out.join("manifest.json"), format!("{json}\n").as_bytes())?;
+    Ok(rows)
+}
+
+/// What every worker shares.
+struct Realisation<'a> {
+    study: &'a Study,
+    evaluate: &'a (dyn Fn(&Study, Task) -> Row + Sync),
+    journal: &'a Journal,
+    progress: &'a dyn Progress,
+    threads: u32,
+    host: String,
+    /// Set when the journal cannot be written: what is not recorded would be lost, so nothing more is begun.
+    stop: AtomicBool,
+}
+
+/// Why a task has no entry.
+enum Missed {
+    NotBegun,
+    Broken(MemberFault),
+    NotRecorded(RunError),
+}
+
+impl Realisation<'_> {
+    /// Evaluates and records one task.
+    fn of(&self, task: Task) -> Result<Entry, Missed> {
+        if self.stop.load(Ordering::Relaxed) {
+            return Err(Missed::NotBegun);
+        }
+        // A panic is a fault of ours in one member; the others are computed and recorded before it is reported.
+        let attempt = catch_unwind(AssertUnwindSafe(|| {
+            let begun = Instant::now();
+            let row = (self.evaluate)(self.study, task);
+            let seconds = begun.elapsed().as_secs_f64();
+            let entry = Entry { seconds, threads: self.threads, host: self.host.clone(), row };
+            let line = entry.line();
+            (entry, line)
+        }));
+        let (entry, line) = attempt.map_err(|cause| {
+            self.progress.broken(task);
+            Missed::Broken(self.fault(task, cause.as_ref()))
+        })?;
+        if let Err(error) = self.journal.append(&line) {
+            self.stop.store(true, Ordering::Relaxed);
+            return Err(Missed::NotRecorded(error));
+        }
+        self.progress.finished(&entry.row);
+        Ok(entry)
+    }
+
+    fn fault(&self, task: Task, cause: &(dyn std::any::Any + Send)) -> MemberFault {
+        let text = cause.downcast_ref::<String>().map(String::as_str);
+        let message =
+            text.or_else(|| cause.downcast_ref::<&str>().copied()).unwrap_or("a panic without words");
+        let arm = self.study.arms[task.arm as usize].name.clone();
+        let kn_pa_per_m = self.study.kn_points[task.point as usize];
+        MemberFault { task, arm, kn_pa_per_m, message: message.to_string() }
+    }
+}
+
+/// Puts the new entries to the old ones, or says why some are missing.
+fn gather(
+    missing: &[Task],
+    results: Vec<Result<Entry, Missed>>,
+    entries: &mut BTreeMap<Task, Entry>,
+) -> Result<(), RunError> {
+    let (mut faults, mut not_recorded) = (Vec::new(), None);
+    for (&task, result) in missing.iter().zip(results) {
+        match result {
+            Ok(entry) => drop(entries.insert(task, entry)),
+            Err(Missed::Broken(fault)) => faults.push(fault),
+            Err(Missed::NotRecorded(error)) => not_recorded = not_recorded.or(Some(error)),
+            Err(Missed::NotBegun) => {}
+        }
+    }
+    match not_recorded {
+        Some(error) => Err(error),
+        None if faults.is_empty() => Ok(()),
+        None => Err(RunError::Broken { faults }),
+    }
+}
+
+/// The machine's name, for the timing file only.
+fn host() -> String {
+    let named =
+        fs::read_to_string("/proc/sys/kernel/hostname").ok().or_else(|| std::env::var("HOSTNAME").ok());
+    named
+        .map(|name| name.trim().to_string())
+        .filter(|name| !name.is_empty())
+        .unwrap_or_else(|| "unknown".to_string())
+}

@@ -1,0 +1,100 @@
+//! Rows as tables: `members.parquet`, `steps.parquet` and `timing.csv`. The bytes depend on the rows alone.
+
+use polars::prelude::{Column, DataFrame, NamedFrom, Series};
+use polars_io::prelude::ParquetWriter;
+
+use crate::ensemble::journal::Entry;
+use crate::ensemble::{Row, RunError, StepRow};
+
+/// One row per member, in the order given; a value that a member does not have is null.
+pub(crate) fn members(rows: &[Row]) -> Result<Vec<u8>, RunError> {
+    let text = |name: &str, of: fn(&Row) -> String| {
+        Column::from(Series::new(name.into(), rows.iter().map(of).collect::<Vec<_>>()))
+    };
+    let count = |name: &str, of: fn(&Row) -> u64| {
+        Column::from(Series::new(name.into(), rows.iter().map(of).collect::<Vec<_>>()))
+    };
+    let real = |name: &str, of: fn(&Row) -> Option<f64>| {
+        Column::from(Series::new(name.into(), rows.iter().map(of).collect::<Vec<_>>()))
+    };
+    let columns = vec![
+        text("arm", |r| r.arm.clone()),
+        count("point", |r| r.point.into()),
+        real("kn_pa_per_m", |r| Some(r.kn_pa_per_m)),
+        count("member", |r| r.member),
+        text("outcome", |r| r.outcome.name().to_string()),
+        text("reason", |r| r.outcome.reason()),
+        real("top_displacement_m", |r| r.top_displacement_m),
+        count("stones", |r| r.stones.into()),
+        count("joints", |r| r.joints.into()),
+        count("wedges", |r| r.wedges.into()),
+        count("headers", |r| r.headers.into()),
+        count("attempts", |r| r.attempts.into()),
+        count("redraws", |r| r.redraws.into()),
+        count("merges", |r| r.merges.into()),
+        real("dip_mean_deg", |r| r.dip_mean_deg),
+        real("dip_sd_deg", |r| r.dip_sd_deg),
+        real("first_dip_sd_deg", |r| r.first_dip_sd_deg),
+        real("length_mean_m", |r| r.length_mean_m),
+        real("height_mean_m", |r| r.height_mean_m),
+        real("weight_n", |r| r.weight_n),
+        count("solver_steps", |r| r.solver_steps),
+        real("unbalanced_ratio", |r| r.unbalanced_ratio),
+    ];
+    parquet("members.parquet", rows.len(), columns)
+}
+
+/// One row per load step of every member, in the order given.
+pub(crate) fn steps(rows: &[Row]) -> Result<Vec<u8>, RunError> {
+    let flat: Vec<(&Row, u64, &StepRow)> = rows
+        .iter()
+        .flat_map(|row| row.load_steps.iter().zip(0u64..).map(move |(step, index)| (row, index, step)))
+        .collect();
+    let arms: Vec<&str> = flat.iter().map(|(row, ..)| row.arm.as_str()).collect();
+    let count = |name: &str, of: fn(&(&Row, u64, &StepRow)) -> u64| {
+        Column::from(Series::new(name.into(), flat.iter().map(of).collect::<Vec<_>>()))
+    };
+    let real = |name: &str, of: fn(&(&Row, u64, &StepRow)) -> Option<f64>| {
+        Column::from(Series::new(name.into(), flat.iter().map(of).collect::<Vec<_>>()))
+    };
+    let columns = vec![
+        Column::from(Series::new("arm".into(), arms)),
+        count("point", |(row, ..)| row.point.into()),
+        real("kn_pa_per_m", |(row, ..)| Some(row.kn_pa_per_m)),
+        count("member", |(row, ..)| row.member),
+        count("load_step", |(_, index, _)| *index),
+        real("load_factor", |(.., step)| Some(step.load_factor)),
+        real("top_displacement_m", |(.., step)| step.top_displacement_m),
+        real("unbalanced_ratio", |(.., step)| step.unbalanced_ratio),
+        count("solver_steps", |(.., step)| step.solver_steps),
+    ];
+    parquet("steps.parquet", flat.len(), columns)
+}
+
+/// Encodes sequentially, so that no thread count enters.
+fn parquet(table: &'static str, height: usize, columns: Vec<Column>) -> Result<Vec<u8>, RunError> {
+    let mut bytes = Vec::new();
+    DataFrame::new(height, columns)
+        .and_then(|mut frame| ParquetWriter::new(&mut bytes).set_parallel(false).finish(&mut frame))
+        .map_err(|error| RunError::Table { table, reason: error.to_string() })?;
+    Ok(bytes)
+}
+
+/// What each member took, on which machine: kept apart from the results, which must not depend on it.
+pub(crate) fn timing(entries: &[Entry]) -> String {
+    let mut text = String::from("arm,point,member,seconds,threads,host\n");
+    for Entry { seconds, threads, host, row } in entries {
+        let line =
+            format!("{},{},{},{seconds:.6},{threads},{host}\n", quoted(&row.arm), row.point, row.member);
+        text.push_str(&line);
+    }
+    text
+}
+
+/// A CSV field: quoted when it holds what would end it.
+fn quoted(field: &str) -> String {
+    match field.contains([',', '"', '\n']) {
+        true => format!("\"{}\"", field.replace('"', "\"\"")),
+        false => field.to_string(),
+    }
+}
