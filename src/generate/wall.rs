@@ -1,6 +1,5 @@
 //! A member's wall from its layout and its streams: attempt after attempt until one is valid.
 
-use crate::check;
 use crate::generate::coursed::{self, Coursed};
 use crate::generate::cut::{self, Cuts};
 use crate::generate::draft::{Draft, Fault, Stone, Tally};
@@ -113,8 +112,10 @@ fn lay(draft: &mut Draft) -> Result<Vec<Stone>, Fault> {
     Ok(wedge::insert(draft, stones))
 }
 
+/// The factor on all sizes of this wall. It is the same in every attempt: a mean size of which no wall can be built is
+/// an invalid geometry, not a reason to draw another one and so to narrow the population.
 fn size_factor(draft: &mut Draft, family: &Family) -> Result<f64, Fault> {
-    let mut stream = draft.stream("wall size", "factor");
+    let mut stream = draft.member_stream("wall size");
     let factor = draft.draw("wall size factor", family, 1.0, 0.0, &mut stream)?;
     draft.realised.size_factor = factor;
     Ok(factor)
@@ -140,7 +141,7 @@ fn finish(draft: Draft, stones: Vec<Stone>, attempts: u32) -> Generated {
     realised.volume = layout.outline.volume() - draft.gaps;
     let volume: f64 = blocks.iter().map(|b| b.shape.volume()).sum();
     // A cut may move a vertex by the cut tolerance, 1e-9 m of metres: far below this bound.
-    check!(
+    crate::check!(
         (volume - realised.volume).abs() <= 1e-6 * realised.volume,
         "the stones fill {volume} m^3 of {} m^3",
         realised.volume
