@@ -1,10 +1,24 @@
 //! Statistics on plain slices: moments, COV, intervals, bootstrap. Every statistic comes with its interval.
+//!
+//! A statistic that a sample does not define is `None`: never zero, never NaN. Values handed in must be finite and at
+//! most 1e150 in magnitude (so that squares stay finite); anything else is the caller's fault and stops the program.
+//! Sums run in index order, so a result depends on the order of the values only, never on threads. The quantiles of
+//! Student's t, chi-square and the binomial distribution come from `statrs`, which uses the platform's logarithm:
+//! the last digits of an interval may differ between platforms; values and bootstrap intervals may not.
 
-/// A statistic with its 95 % interval. `None` where it is not defined (a sigma of one wall), never zero and never NaN.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Estimate {
-    /// The value.
-    pub value: Option<f64>,
-    /// The 95 % interval.
-    pub interval: Option<[f64; 2]>,
-}
+mod bootstrap;
+mod estimate;
+mod kolmogorov;
+mod moments;
+mod order;
+mod ratio;
+mod reference;
+mod summary;
+
+pub use bootstrap::{bootstrap_bca, cov_bootstrap, sigma_bootstrap};
+pub use estimate::Estimate;
+pub use kolmogorov::{ks_p_value, ks_statistic};
+pub use moments::{cov, mean, sigma, sum};
+pub use order::{quantile, quantile_interval};
+pub use ratio::{paired_ratio_of_means, ratio_of_means};
+pub use summary::Summary;

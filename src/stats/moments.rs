@@ -1,0 +1,54 @@
+//! Mean, standard deviation and COV, summed in index order.
+
+/// Sum in index order with Neumaier's compensation (Neumaier 1974): the error is a few roundings of the result and of
+/// the sum of magnitudes times 1e-32 per term.
+pub fn sum(values: &[f64]) -> f64 {
+    total(values.iter().copied())
+}
+
+/// Arithmetic mean; `None` for an empty sample.
+///
+/// Taken relative to the first value, so that the mean of equal values is that value, to the last bit.
+pub fn mean(values: &[f64]) -> Option<f64> {
+    check_values(values);
+    let first = *values.first()?;
+    Some(first + total(values.iter().map(|v| v - first)) / values.len() as f64)
+}
+
+/// Standard deviation of the population that the sample was drawn from (divisor n - 1); `None` below two values.
+/// Equal values give exactly 0.
+pub fn sigma(values: &[f64]) -> Option<f64> {
+    let centre = mean(values)?;
+    (values.len() > 1).then(|| comoment(values, centre, values, centre).sqrt())
+}
+
+/// Coefficient of variation, sigma over the magnitude of the mean (a number, not per cent); `None` below two values and
+/// where the mean is 0.
+pub fn cov(values: &[f64]) -> Option<f64> {
+    let centre = mean(values)?;
+    let ratio = sigma(values)? / centre.abs();
+    ratio.is_finite().then_some(ratio)
+}
+
+/// Sample covariance (divisor n - 1) of two samples of the same length, at least 2, about their given means.
+pub(super) fn comoment(a: &[f64], mean_a: f64, b: &[f64], mean_b: f64) -> f64 {
+    let products = a.iter().zip(b).map(|(x, y)| (x - mean_a) * (y - mean_b));
+    total(products) / (a.len() - 1) as f64
+}
+
+/// Stops on values that no statistic of this module is defined for.
+pub(super) fn check_values(values: &[f64]) {
+    for (index, value) in values.iter().enumerate() {
+        crate::check!((-1e150..=1e150).contains(value), "value {index} of a sample is {value}");
+    }
+}
+
+fn total(values: impl Iterator<Item = f64>) -> f64 {
+    let (mut sum, mut lost) = (0.0_f64, 0.0_f64);
+    for value in values {
+        let next = sum + value;
+        lost += if sum.abs() >= value.abs() { (sum - next) + value } else { (value - next) + sum };
+        sum = next;
+    }
+    sum + lost
+}

@@ -1,0 +1,65 @@
+//! Quantiles of a sample and their distribution-free interval.
+
+use super::moments::check_values;
+use super::reference::TAIL;
+use statrs::distribution::{Binomial, DiscreteCDF};
+
+/// Quantile at `p` in [0, 1] of a sample in any order; `None` for an empty one.
+///
+/// Type 7 of Hyndman and Fan (1996), the default of R and NumPy: linear between the order statistics, with the
+/// smallest value at p = 0 and the largest at p = 1.
+pub fn quantile(values: &[f64], p: f64) -> Option<f64> {
+    quantile_of_sorted(&sorted(values), p)
+}
+
+/// 95 % interval of the population's quantile at `p` in [0, 1], between two order statistics (David and Nagaraja 2003,
+/// section 7.1). Holds for every continuous distribution, with a coverage of at least 95 %; the number of values below
+/// the quantile is binomial. `None` when the sample is too small to bound the quantile on both sides (for the median:
+/// below six values).
+pub fn quantile_interval(values: &[f64], p: f64) -> Option<[f64; 2]> {
+    check_probability(p);
+    let values = sorted(values);
+    let n = values.len();
+    let below = Binomial::new(p, n as u64).ok()?;
+    // The k-th smallest value (from 1) exceeds the quantile with probability P(at most k - 1 values below it).
+    let exceeds = |k: usize| below.cdf(k as u64 - 1);
+    let low = last_rank(n, |k| exceeds(k) <= TAIL)?;
+    let high = last_rank(n, |k| exceeds(k) < 1.0 - TAIL).unwrap_or(0) + 1;
+    (high <= n).then(|| [values[low - 1], values[high - 1]])
+}
+
+/// Type 7 quantile of values in ascending order.
+pub(super) fn quantile_of_sorted(values: &[f64], p: f64) -> Option<f64> {
+    check_probability(p);
+    let last = values.len().checked_sub(1)?;
+    let place = p * last as f64;
+    let below = place.floor();
+    let index = below as usize;
+    let (left, right) = (values[index], values[(index + 1).min(last)]);
+    Some((left + (place - below) * (right - left)).clamp(left, right))
+}
+
+/// Largest rank from 1 to `n` that passes, where passing is lost once and for all as ranks grow.
+fn last_rank(n: usize, passes: impl Fn(usize) -> bool) -> Option<usize> {
+    let (mut passed, mut failed) = (0, n + 1);
+    while failed - passed > 1 {
+        let middle = passed + (failed - passed) / 2;
+        if passes(middle) {
+            passed = middle;
+        } else {
+            failed = middle;
+        }
+    }
+    (passed > 0).then_some(passed)
+}
+
+fn sorted(values: &[f64]) -> Vec<f64> {
+    check_values(values);
+    let mut values = values.to_vec();
+    values.sort_by(f64::total_cmp);
+    values
+}
+
+fn check_probability(p: f64) {
+    crate::check!((0.0..=1.0).contains(&p), "a quantile was asked at {p}, outside [0, 1]");
+}

@@ -1,0 +1,20 @@
+//! Quantiles of the distributions that intervals are read from.
+
+use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
+
+/// Probability left out at each end of a 95 % interval.
+pub(super) const TAIL: f64 = 0.025;
+
+/// Upper 2.5 % point of Student's t with `freedom` degrees of freedom (any positive number).
+pub(super) fn student(freedom: f64) -> f64 {
+    let t = StudentsT::new(0.0, 1.0, freedom);
+    crate::check!(t.is_ok(), "Student's t has no {freedom} degrees of freedom");
+    t.map_or(f64::NAN, |t| t.inverse_cdf(1.0 - TAIL))
+}
+
+/// Lower and upper 2.5 % point of chi-square with `freedom` degrees of freedom (any positive number).
+pub(super) fn chi_square(freedom: f64) -> [f64; 2] {
+    let c = ChiSquared::new(freedom);
+    crate::check!(c.is_ok(), "chi-square has no {freedom} degrees of freedom");
+    c.map_or([f64::NAN; 2], |c| [c.inverse_cdf(TAIL), c.inverse_cdf(1.0 - TAIL)])
+}

@@ -1,0 +1,68 @@
+//! Mean, sigma and COV of one sample, each with its interval.
+
+use super::Estimate;
+use super::moments::{cov, mean, sigma};
+use super::reference::{chi_square, student};
+
+/// Mean, sigma and COV of a sample, with 95 % intervals that are exact (mean, sigma) or nearly so (COV) when the values
+/// are independent and normal.
+///
+/// ```
+/// use pirca::stats::Summary;
+/// let walls = Summary::of(&[13.5, 14.5, 15.0]);
+/// assert_eq!(walls.n, 3);
+/// assert!((walls.sigma.value.unwrap() - 0.76).abs() < 0.005);
+/// assert_eq!(Summary::of(&[14.5]).sigma.value, None);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Summary {
+    /// Number of values.
+    pub n: usize,
+    /// Arithmetic mean; undefined for an empty sample, without interval for one value. Student's interval.
+    pub mean: Estimate,
+    /// Standard deviation (divisor n - 1); undefined below two values. Chi-square interval.
+    pub sigma: Estimate,
+    /// Sigma over the magnitude of the mean; undefined below two values and for a mean of 0. Interval of Vangel
+    /// (1996): none where its upper end is infinite, which happens when few values scatter much (with three values at
+    /// a COV above 0.28). It is meant for a COV up to 1/3; beyond, it is rough.
+    pub cov: Estimate,
+}
+
+impl Summary {
+    /// The summary of a sample of finite values, summed in the order given.
+    pub fn of(values: &[f64]) -> Summary {
+        let n = values.len();
+        let (mean, sigma, cov) = (mean(values), sigma(values), cov(values));
+        Summary {
+            n,
+            mean: Estimate { value: mean, interval: mean.zip(sigma).map(|(m, s)| mean_interval(n, m, s)) },
+            sigma: Estimate { value: sigma, interval: sigma.map(|s| sigma_interval(n, s)) },
+            cov: Estimate { value: cov, interval: cov.and_then(|k| cov_interval(n, k)) },
+        }
+    }
+}
+
+/// mean -+ t sigma / sqrt(n) with n - 1 degrees of freedom (Student 1908).
+fn mean_interval(n: usize, mean: f64, sigma: f64) -> [f64; 2] {
+    let half = student((n - 1) as f64) * sigma / (n as f64).sqrt();
+    [mean - half, mean + half]
+}
+
+/// sigma sqrt((n - 1) / u) at the upper and the lower chi-square point u: (n - 1) s^2 / sigma^2 is chi-square with
+/// n - 1 degrees of freedom.
+fn sigma_interval(n: usize, sigma: f64) -> [f64; 2] {
+    let freedom = (n - 1) as f64;
+    let [lower, upper] = chi_square(freedom);
+    [sigma * (freedom / upper).sqrt(), sigma * (freedom / lower).sqrt()]
+}
+
+/// Modified McKay interval (Vangel 1996, Eq. 16): k / sqrt(((u + 2)/n - 1) k^2 + u/(n - 1)) at the upper and the lower
+/// chi-square point u with n - 1 degrees of freedom; k is the sample's COV. A radicand that is not positive means that
+/// no COV is too large to be compatible with the sample.
+fn cov_interval(n: usize, k: f64) -> Option<[f64; 2]> {
+    let count = n as f64;
+    let [lower, upper] = chi_square(count - 1.0);
+    let radicand = |u: f64| ((u + 2.0) / count - 1.0) * k * k + u / (count - 1.0);
+    let (low, high) = (radicand(upper), radicand(lower));
+    (low > 0.0 && high > 0.0).then(|| [k / low.sqrt(), k / high.sqrt()])
+}

@@ -1,0 +1,11 @@
+//! Statistics and distributions against certified values, closed forms, independent programs and simulation.
+
+mod bootstrap;
+mod certified;
+mod coverage;
+mod families;
+mod order;
+mod published_tables;
+mod ratios;
+mod support;
+mod truncated;
