@@ -1,7 +1,10 @@
 //! What Figure 10 shows, in the units of its axes, before anything is drawn.
 
-use crate::report::number::range;
+use crate::report::number::{range, shortened};
 use crate::report::summary::{ArmSummary, Summary};
+
+/// Names longer than this are cut in the figure.
+const LONGEST_NAME: usize = 24;
 
 /// One arm in the figure.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,19 +53,26 @@ impl Point {
 }
 
 impl Curve {
+    /// Name of the arm, cut where it would run out of the figure.
+    pub fn name(&self) -> String {
+        shortened(&self.arm, LONGEST_NAME)
+    }
+
     /// Text of the legend for the curve itself.
     pub fn label(&self) -> String {
-        let walls = range(self.points.iter().map(|point| point.in_mean as f64));
-        let walls = match walls {
+        let name = self.name();
+        if self.points.iter().all(|point| point.mean.is_none()) {
+            return format!("{name}: no wall");
+        }
+        let walls = match range(self.points.iter().map(|point| point.in_mean as f64)) {
             Some([low, high]) if low != high => format!("{low} to {high} walls"),
-            Some([1.0, _]) => "1 wall".to_string(),
-            Some([n, _]) => format!("{n} walls"),
-            None => "no wall".to_string(),
+            Some([n, _]) if n > 1.0 => format!("{n} walls"),
+            _ => "1 wall".to_string(),
         };
         match (self.random, self.points.iter().any(|point| point.mean_ci.is_some())) {
-            (true, true) => format!("{}: mean of {walls}, bars: 95 % interval of the mean", self.arm),
-            (true, false) => format!("{}: {walls}, no interval", self.arm),
-            (false, _) => format!("{}: {walls}, nothing random", self.arm),
+            (true, true) => format!("{name}: mean of {walls}, bars: 95 % interval of the mean"),
+            (true, false) => format!("{name}: {walls}, no interval"),
+            (false, _) => format!("{name}: {walls}, nothing random"),
         }
     }
 
@@ -73,23 +83,19 @@ impl Curve {
 
     /// What the curve leaves out, in one line; `None` when every wall is in.
     pub fn remark(&self) -> Option<String> {
+        let name = self.name();
+        let all = self.points.len();
         let empty = self.points.iter().filter(|point| point.mean.is_none()).count();
-        let lost: u64 =
-            self.points.iter().map(|point| point.members - point.in_mean.min(point.members)).sum();
+        let lost: u64 = self.points.iter().map(|point| point.members.saturating_sub(point.in_mean)).sum();
         let planned: u64 = self.points.iter().map(|point| point.members).sum();
+        let failed = format!("{name}: {lost} of {planned} analyses failed; they are not in the means");
         match (lost, empty) {
             (0, 0) => None,
-            (_, n) if n == self.points.len() => {
-                Some(format!("{}: no wall reached equilibrium, nothing to draw", self.arm))
+            (_, empty) if empty == all => {
+                Some(format!("{name}: no wall reached equilibrium at any stiffness"))
             }
-            (_, 0) => {
-                Some(format!("{}: {lost} of {planned} walls failed and are not in the means", self.arm))
-            }
-            (_, n) => Some(format!(
-                "{}: {lost} of {planned} walls failed and are not in the means; none is left at {n} of {} stiffnesses",
-                self.arm,
-                self.points.len()
-            )),
+            (_, 0) => Some(failed),
+            (_, empty) => Some(format!("{failed}; none is left at {empty} of {all} stiffnesses")),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Numbers as people read them: a stated number of significant digits, a dash where there is none.
+//! Numbers and names as people read them: a stated number of significant digits, a dash where there is none.
 
 /// `x` with `digits` significant digits, without exponent while it stays short (0.001 to 9,999,999).
 pub fn significant(x: f64, digits: usize) -> String {
@@ -46,4 +46,12 @@ pub fn range(values: impl IntoIterator<Item = f64>) -> Option<[f64; 2]> {
         None => Some([x, x]),
         Some([low, high]) => Some([f64::min(low, x), f64::max(high, x)]),
     })
+}
+
+/// A name of at most `longest` characters; a longer one is cut and ends in an ellipsis.
+pub fn shortened(name: &str, longest: usize) -> String {
+    match name.chars().count() > longest {
+        true => name.chars().take(longest - 1).chain(['\u{2026}']).collect(),
+        false => name.to_string(),
+    }
 }

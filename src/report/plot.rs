@@ -197,6 +197,8 @@ impl<'c> Plot<'c> {
 
     fn legend<DB: DrawingBackend>(&self, area: &DrawingArea<DB, Shift>) -> Drawn<DB> {
         let [from, to] = LEGEND_MARK.map(|x| self.px(x));
+        // Letters stand above the middle of their line box: this brings them level with the marks.
+        let nudge = self.px(2);
         let text = self.font(18).pos(left());
         let mut y = self.px(LINE as i32 / 2);
         let mut next = || {
@@ -209,19 +211,19 @@ impl<'c> Plot<'c> {
             let y = next();
             area.draw(&PathElement::new([(from, y), (to, y)], colour.stroke_width(2 * self.scale)))?;
             area.draw(&self.marker(((from + to) / 2, y), index))?;
-            area.draw(&Text::new(curve.label(), (self.px(LEGEND_TEXT), y), text.clone()))?;
+            area.draw(&Text::new(curve.label(), (self.px(LEGEND_TEXT), y + nudge), text.clone()))?;
             if curve.has_band() {
                 let (y, half) = (next(), self.px(8));
                 area.draw(&Rectangle::new(
                     [(from, y - half), (to, y + half)],
                     colour.mix(BAND_ALPHA).filled(),
                 ))?;
-                let label = format!("{}: mean \u{b1} one standard deviation of the walls", curve.arm);
-                area.draw(&Text::new(label, (self.px(LEGEND_TEXT), y), text.clone()))?;
+                let label = format!("{}: mean \u{b1} one standard deviation of the walls", curve.name());
+                area.draw(&Text::new(label, (self.px(LEGEND_TEXT), y + nudge), text.clone()))?;
             }
         }
         for remark in &self.remarks {
-            area.draw(&Text::new(format!("! {remark}"), (from, next()), text.clone()))?;
+            area.draw(&Text::new(format!("! {remark}"), (from, next() + nudge), text.clone()))?;
         }
         Ok(())
     }

@@ -121,14 +121,14 @@ fn weigh(standings: &[Standing]) -> (Verdict, String) {
     if let Some(first) = refuted.first() {
         (
             Verdict::NotReproduced,
-            format!("{first} (against the statement in {} of {total} places)", refuted.len()),
+            format!("{first} (against the statement in {} of {total} comparisons)", refuted.len()),
         )
     } else if let Some(first) = open.first() {
-        (Verdict::CannotJudge, format!("{first} (undecided in {} of {total} places)", open.len()))
+        (Verdict::CannotJudge, format!("{first} (undecided in {} of {total} comparisons)", open.len()))
     } else if total == 0 {
         (Verdict::CannotJudge, "there is nothing in this study to compare it with".to_string())
     } else {
-        (Verdict::Reproduced, format!("it holds in all of {total} places"))
+        (Verdict::Reproduced, format!("it holds in all of {total} comparisons"))
     }
 }
 
@@ -141,7 +141,7 @@ fn lost_walls(populations: &[Population], arms: &[String]) -> Option<String> {
             let lost: u64 = own.iter().map(|population| population.lost()).sum();
             let planned: u64 = own.iter().map(|population| population.planned).sum();
             (lost > 0).then(|| {
-                format!("{lost} of {planned} walls of arm {arm} failed and are not in these numbers")
+                format!("{lost} of {planned} analyses of arm {arm} failed and are not in these numbers")
             })
         })
         .collect();

@@ -106,6 +106,6 @@ pub fn spread(numbers: &[Number]) -> String {
     };
     match defined == numbers.len() {
         true => format!("{values} ({intervals})"),
-        false => format!("{values} ({intervals}; defined in {defined} of {} places)", numbers.len()),
+        false => format!("{values} ({intervals}; defined in {defined} of {} comparisons)", numbers.len()),
     }
 }

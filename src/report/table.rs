@@ -1,6 +1,6 @@
 //! The table that `run` prints: arms, ratios, published statements. At most 110 columns wide.
 
-use crate::report::number::{or_dash, with_interval};
+use crate::report::number::{or_dash, shortened, with_interval};
 use crate::report::summary::{ArmSummary, Summary};
 
 const WIDTH: usize = 110;
@@ -71,7 +71,11 @@ fn ratios(summary: &Summary) -> String {
         let pair = (comparison.arm.as_str(), comparison.over.as_str());
         let index = pairs.iter().position(|known| *known == pair).unwrap_or_else(|| {
             pairs.push(pair);
-            columns.push(vec![format!("{} / {}", shortened(pair.0), shortened(pair.1))]);
+            columns.push(vec![format!(
+                "{} / {}",
+                shortened(pair.0, LONGEST_NAME),
+                shortened(pair.1, LONGEST_NAME)
+            )]);
             columns.len() - 1
         });
         let exact = comparison.ratio_ci.is_some_and(|[low, high]| low == high);
@@ -141,17 +145,10 @@ fn published(summary: &Summary) -> String {
 /// Names longer than this are cut in tables.
 const LONGEST_NAME: usize = 18;
 
-fn shortened(name: &str) -> String {
-    match name.chars().count() > LONGEST_NAME {
-        true => name.chars().take(LONGEST_NAME - 1).chain(['\u{2026}']).collect(),
-        false => name.to_string(),
-    }
-}
-
 /// Rows as text: the first column to the left, numbers to the right, a rule below the first row.
 fn aligned(mut rows: Vec<Vec<String>>) -> String {
     for row in &mut rows {
-        row[0] = shortened(&row[0]);
+        row[0] = shortened(&row[0], LONGEST_NAME);
     }
     let columns = rows.first().map_or(0, Vec::len);
     let widths: Vec<usize> = (0..columns)

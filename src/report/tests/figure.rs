@@ -122,7 +122,7 @@ fn the_figure_names_its_arms_units_and_losses() {
         "continuous: 1 wall, nothing random",
         "irregular: mean of 7 to 8 walls, bars: 95 % interval of the mean",
         "irregular: mean \u{b1} one standard deviation of the walls",
-        "! irregular: 1 of 24 walls failed and are not in the means",
+        "! irregular: 1 of 24 analyses failed; they are not in the means",
     ] {
         assert!(text.contains(words), "{words} is missing");
     }
@@ -132,7 +132,8 @@ fn the_figure_names_its_arms_units_and_losses() {
 fn studies_of_other_shapes_are_drawn_too() {
     let empty = drawn(&nothing_stands());
     assert!(empty.contains("no wall reached equilibrium: there is nothing to draw"));
-    assert!(empty.contains("! irregular: no wall reached equilibrium, nothing to draw"));
+    assert!(empty.contains("! irregular: no wall reached equilibrium at any stiffness"));
+    assert!(empty.contains("irregular: no wall\n"), "the legend claims nothing");
     // One kn: a bar instead of a band, and an axis with room on both sides of it.
     let one = drawn(&[fixed_arm("regular", &[1e-3]), random_arm("rubble & rough", &[2e-3])].concat());
     assert!(one.contains("rubble &amp; rough: mean of 8 walls"), "names are escaped");
@@ -148,28 +149,11 @@ fn studies_of_other_shapes_are_drawn_too() {
     let cut = drawn(&gap);
     assert_eq!(lines(&cut), [1, 1, 2]);
     assert!(cut.contains(
-        "! regular: 1 of 3 walls failed and are not in the means; none is left at 1 of 3 stiffnesses"
+        "! regular: 1 of 3 analyses failed; they are not in the means; none is left at 1 of 3 stiffnesses"
     ));
     // No arm at all, and more arms than colours.
     svg("empty", &[]).unwrap();
     let many: Vec<Population> =
         (0..9).flat_map(|i| fixed_arm(&format!("arm {i}"), &[1e-3, 0.8e-3, 0.6e-3])).collect();
     assert!(drawn(&many).contains("arm 8: 1 wall"));
-}
-
-#[test]
-fn look() {
-    let claims = [
-        super::claim(crate::study::ClaimTest::RatioOfMeans { arm: "continuous".into(), over: "discontinuous".into(), stated: 0.6, low: 0.5, high: 0.7 }),
-        super::claim(crate::study::ClaimTest::Cov { arm: "irregular".into(), stated: "0.21 to 0.25".into(), low: 0.19, high: 0.27 }),
-        super::claim(crate::study::ClaimTest::Between { arm: "irregular".into(), of: ["continuous".into(), "discontinuous".into()] }),
-        super::claim(crate::study::ClaimTest::FallsWithKn),
-    ];
-    let s = summary_of(&three_arms(), &claims);
-    fs::create_dir_all("/tmp/h/repfont/a").unwrap();
-    write_summary(&s, std::path::Path::new("/tmp/h/repfont/a")).unwrap();
-    println!("{}", crate::report::terminal_table(&s));
-    png_into(std::path::Path::new("/tmp/h/repfont/empty.png"), "all failed", &curves(&summary_of(&nothing_stands(), &[]))).unwrap();
-    let one: Vec<Population> = [fixed_arm("regular", &[1e-3]), random_arm("rubble & rough", &[2e-3])].concat();
-    png_into(std::path::Path::new("/tmp/h/repfont/one.png"), "one point \u{2013} variant x", &curves(&summary_of(&one, &[]))).unwrap();
 }

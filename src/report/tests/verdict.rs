@@ -30,7 +30,7 @@ fn a_ratio() {
     assert_eq!(yes.theirs, "0.600 (accepted: 0.500 to 0.700)");
     assert_eq!(
         (yes.why.as_str(), yes.tolerance.as_str()),
-        ("it holds in all of 3 places", "reading error of a figure")
+        ("it holds in all of 3 comparisons", "reading error of a figure")
     );
 
     // One kn is enough against it.
@@ -38,7 +38,7 @@ fn a_ratio() {
     assert_eq!(no.verdict, Verdict::NotReproduced);
     assert_eq!(
         no.why,
-        "at kn = 1.25e8 Pa/m ours is 0.620 [0.620, 0.620], wholly outside 0.500 to 0.610 (against the statement in 1 of 3 places)"
+        "at kn = 1.25e8 Pa/m ours is 0.620 [0.620, 0.620], wholly outside 0.500 to 0.610 (against the statement in 1 of 3 comparisons)"
     );
 
     // 1 of 8 walls with COV 0.107: interval [0.91, 1.09] overlaps 0.5 to 0.95, the value does not lie in it.
@@ -100,7 +100,7 @@ fn a_mean_that_falls_with_kn() {
     let no = judged(test(), &[falling, fixed_arm("a", &[3.0, 2.0, 2.0])]);
     assert_eq!(no.verdict, Verdict::NotReproduced);
     assert!(no.why.starts_with("at kn = 1e8 Pa/m to 1.25e8 Pa/m in arm a ours is 1.00"), "{}", no.why);
-    assert!(no.why.ends_with("(against the statement in 1 of 4 places)"), "{}", no.why);
+    assert!(no.why.ends_with("(against the statement in 1 of 4 comparisons)"), "{}", no.why);
     // Wall by wall the change goes both ways: the mean rises from 1.00 to 1.01 within its error.
     let scatter =
         [population("a", false, KN[0], &[0.9, 1.1, 1.0]), population("a", false, KN[1], &[1.1, 0.9, 1.03])];
@@ -119,9 +119,9 @@ fn lost_walls_are_named_and_one_refutation_outweighs_a_gap() {
     let judged = judged(ratio(0.5, 0.7), &[arm, fixed_arm("b", &[1.0, 1.0])]);
     assert_eq!(judged.verdict, Verdict::NotReproduced);
     assert!(
-        judged.why.ends_with("; 1 of 2 walls of arm a failed and are not in these numbers"),
+        judged.why.ends_with("; 1 of 2 analyses of arm a failed and are not in these numbers"),
         "{}",
         judged.why
     );
-    assert_eq!(judged.ours, "0.900 (no sampling error; defined in 1 of 2 places)");
+    assert_eq!(judged.ours, "0.900 (no sampling error; defined in 1 of 2 comparisons)");
 }
