@@ -9,7 +9,7 @@ use crate::random::Streams;
 use crate::stats;
 use crate::study::{DrawnJoints, Study};
 
-const GRAVITY: f64 = 9.81;
+const GRAVITY: f64 = 9.80665;
 
 /// The wall of a member, the same one at every kn: only the arm's layout, the seed and the member enter.
 ///

@@ -57,7 +57,13 @@ fn study() -> Study {
             wythes: Wythes { count: 1, header_share: 0.0 },
             head_joint_gap: 0.0,
             wedges: None,
-            limits: Limits { min_size: 0.02, max_aspect: 40.0, min_volume: 1e-6, max_redraws: 10, max_attempts: 2 },
+            limits: Limits {
+                min_size: 0.02,
+                max_aspect: 40.0,
+                min_volume: 1e-6,
+                max_redraws: 10,
+                max_attempts: 2,
+            },
         },
     };
     let sure = |value| Family::Constant { value };
@@ -86,7 +92,12 @@ fn study() -> Study {
             sampling: Sampling::Area,
         },
         kn_points: vec![2.5e7, 1.75e8],
-        protocol: Protocol::Lateral(Lateral { mean_pressure: 1e3, base_over_top: 2.0, steps: 2, collapse_share: 0.5 }),
+        protocol: Protocol::Lateral(Lateral {
+            mean_pressure: 1e3,
+            base_over_top: 2.0,
+            steps: 2,
+            collapse_share: 0.5,
+        }),
         ends: Ends::Free,
         sub_contacts: [2, 2],
         solver: Solver::Explicit(explicit::Settings::default()),
@@ -188,7 +199,8 @@ fn a_journal_cut_at_any_byte_is_resumed_to_the_same_bytes() {
     let ends: Vec<usize> = (0..journal.len()).filter(|&i| journal[i] == b'\n').map(|i| i + 1).collect();
     assert_eq!(ends.len(), 1 + plan(&study()).len(), "a head and a line per member");
     let (head, first, last) = (ends[0], ends[1], ends[ends.len() - 1]);
-    let cuts = [0, 1, 9, 20, head - 1, head, head + 1, head + 30, first - 1, first, first + 500, last - 1, last];
+    let cuts =
+        [0, 1, 9, 20, head - 1, head, head + 1, head + 30, first - 1, first, first + 500, last - 1, last];
     for cut in cuts {
         let out = folder.0.join(format!("cut-{cut}"));
         fs::create_dir(&out).unwrap();
@@ -201,7 +213,11 @@ fn a_journal_cut_at_any_byte_is_resumed_to_the_same_bytes() {
         run_with(&study(), &settings(&out, 2), &Silent, &counted).unwrap();
         assert_eq!(bytes(&out), wanted, "journal cut at byte {cut}");
         let kept = ends.iter().filter(|&&end| end <= cut).count().saturating_sub(1);
-        assert_eq!(evaluated.into_inner(), 20 - kept, "members in whole lines are not evaluated again (cut {cut})");
+        assert_eq!(
+            evaluated.into_inner(),
+            20 - kept,
+            "members in whole lines are not evaluated again (cut {cut})"
+        );
     }
 }
 
@@ -210,22 +226,36 @@ fn a_journal_cut_at_any_byte_is_resumed_to_the_same_bytes() {
 fn the_tables_hold_the_rows() {
     let folder = Folder::new();
     let rows = run_in(&folder.0).unwrap();
-    let read = |name: &str| ParquetReader::new(fs::File::open(folder.0.join(name)).unwrap()).finish().unwrap();
+    let read =
+        |name: &str| ParquetReader::new(fs::File::open(folder.0.join(name)).unwrap()).finish().unwrap();
     let real = |table: &DataFrame, name: &str| -> Vec<Option<u64>> {
         table.column(name).unwrap().f64().unwrap().iter().map(|x| x.map(f64::to_bits)).collect()
     };
     let bits = |x: Option<f64>| x.map(f64::to_bits);
     let members = read("members.parquet");
-    assert_eq!(real(&members, "top_displacement_m"), rows.iter().map(|r| bits(r.top_displacement_m)).collect::<Vec<_>>());
+    assert_eq!(
+        real(&members, "top_displacement_m"),
+        rows.iter().map(|r| bits(r.top_displacement_m)).collect::<Vec<_>>()
+    );
     assert_eq!(real(&members, "weight_n"), rows.iter().map(|r| bits(r.weight_n)).collect::<Vec<_>>());
     let outcome = members.column("outcome").unwrap().str().unwrap();
     assert!(outcome.iter().eq(rows.iter().map(|r| Some(r.outcome.name()))));
-    assert_eq!(outcome.iter().filter(|name| *name == Some("collapsed")).count(), 2 * 2, "members 3 and 7 at two points");
+    assert_eq!(
+        outcome.iter().filter(|name| *name == Some("collapsed")).count(),
+        2 * 2,
+        "members 3 and 7 at two points"
+    );
     let steps = read("steps.parquet");
     let flat: Vec<&StepRow> = rows.iter().flat_map(|r| &r.load_steps).collect();
     assert_eq!(steps.height(), 2 * rows.len());
-    assert_eq!(real(&steps, "top_displacement_m"), flat.iter().map(|s| bits(s.top_displacement_m)).collect::<Vec<_>>());
-    assert_eq!(real(&steps, "unbalanced_ratio"), flat.iter().map(|s| bits(s.unbalanced_ratio)).collect::<Vec<_>>());
+    assert_eq!(
+        real(&steps, "top_displacement_m"),
+        flat.iter().map(|s| bits(s.top_displacement_m)).collect::<Vec<_>>()
+    );
+    assert_eq!(
+        real(&steps, "unbalanced_ratio"),
+        flat.iter().map(|s| bits(s.unbalanced_ratio)).collect::<Vec<_>>()
+    );
 }
 
 #[test]
@@ -271,7 +301,9 @@ fn another_study_in_the_same_folder_is_refused_and_changes_nothing() {
 #[test]
 fn files_that_are_not_ours_are_not_overwritten() {
     let folder = Folder::new();
-    for (name, text) in [("members.parquet", "somebody's table"), (JOURNAL, "somebody's diary\n"), (JOURNAL, "no end")] {
+    for (name, text) in
+        [("members.parquet", "somebody's table"), (JOURNAL, "somebody's diary\n"), (JOURNAL, "no end")]
+    {
         let out = folder.0.join(text);
         fs::create_dir(&out).unwrap();
         fs::write(out.join(name), text).unwrap();
