@@ -58,6 +58,11 @@ pub fn pow(x: f64, y: f64) -> f64 {
     libm::pow(x, y)
 }
 
+/// Cube root.
+pub fn cbrt(x: f64) -> f64 {
+    libm::cbrt(x)
+}
+
 /// Error function.
 pub fn erf(x: f64) -> f64 {
     libm::erf(x)

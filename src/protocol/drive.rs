@@ -1,9 +1,14 @@
 //! The loop over load steps: apply, solve, observe, stop.
 
-use crate::math::Vec3;
+use crate::contact;
+use crate::math::{Vec3, cbrt};
 use crate::model::{JointLaws, Outcome, Wall};
+use crate::protocol::observe::{displacements, out_of_plane, top_points};
+use crate::protocol::pressure::back_loads;
+use crate::protocol::restraint::{Surroundings, restrain};
 use crate::protocol::{Ends, Protocol};
 use crate::solve::Solver;
+use crate::solve::explicit::{Simulation, Status};
 
 /// What was observed at the end of one load step.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,20 +30,83 @@ pub struct Run {
     pub outcome: Outcome,
     /// One entry per load step begun, gravity first.
     pub steps: Vec<LoadStep>,
-    /// Displacement of every block's centroid (m) from its position as built, by block id.
+    /// Displacement of every stone's centroid (m) from its position as built, by block id.
     pub displacements: Vec<Vec3>,
     /// Number of joints found at rest.
     pub joints: usize,
 }
 
-/// Takes a wall through a protocol: gravity first, then the load in steps.
+/// Takes a wall of stones through a protocol: gravity first, then the load in equal steps.
+///
+/// `wall` holds the stones only; the base and the ends are added here as `ends` says. `sub_contacts` counts the
+/// sub-contacts of a joint along its longer and its shorter extent.
 pub fn run(
-    _wall: &Wall,
-    _laws: &dyn JointLaws,
-    _protocol: &Protocol,
-    _ends: Ends,
-    _sub_contacts: [u32; 2],
-    _solver: &Solver,
+    wall: &Wall,
+    laws: &dyn JointLaws,
+    protocol: &Protocol,
+    ends: Ends,
+    sub_contacts: [u32; 2],
+    solver: &Solver,
 ) -> Run {
-    unimplemented!()
+    let Protocol::Lateral(lateral) = protocol;
+    let Solver::Explicit(settings) = solver;
+    let surroundings = Surroundings { laws, ends, first_added: wall.blocks.len() as u32 };
+    let assembly = restrain(wall, ends);
+    let contact = contact::Settings::for_size(typical_size(wall), sub_contacts);
+    let mut simulation = Simulation::new(&assembly, &surroundings, *settings, contact);
+    let joints = simulation.joints.all.len();
+    let loads = back_loads(wall, lateral);
+    let top = top_points(wall);
+    let base_thickness = wall.bounds().1.y - wall.bounds().0.y;
+    let limit = lateral.collapse_share * base_thickness;
+
+    let mut at_rest = displacements(&assembly, &simulation.bodies, &top);
+    let mut steps = Vec::new();
+    let mut outcome = Outcome::Equilibrium;
+    for step in 0..=lateral.steps {
+        let load_factor = f64::from(step) / f64::from(lateral.steps);
+        simulation.clear_loads();
+        for load in &loads {
+            simulation.add_load(load.block, load.point, load.force * load_factor);
+        }
+        let before = simulation.steps;
+        let (status, unbalanced_ratio) = simulation.relax(|bodies| {
+            out_of_plane(&displacements(&assembly, bodies, &top), &at_rest).1 > limit
+        });
+        let now = displacements(&assembly, &simulation.bodies, &top);
+        if step == 0 {
+            at_rest.clone_from(&now);
+        }
+        steps.push(LoadStep {
+            load_factor,
+            top_displacement: out_of_plane(&now, &at_rest).0,
+            unbalanced_ratio,
+            solver_steps: simulation.steps - before,
+        });
+        outcome = match status {
+            Status::Equilibrium => Outcome::Equilibrium,
+            Status::Stopped => Outcome::Collapsed { load_factor },
+            Status::StepsSpent => Outcome::NotConverged { load_factor, unbalanced_ratio },
+            Status::NonFinite => Outcome::NonFinite { load_factor },
+        };
+        if outcome != Outcome::Equilibrium {
+            break;
+        }
+    }
+    let displacements = simulation
+        .bodies
+        .all
+        .iter()
+        .zip(&assembly.blocks)
+        .take(wall.blocks.len())
+        .map(|(body, block)| body.position - block.shape.mass_properties().centroid)
+        .collect();
+    Run { outcome, steps, displacements, joints }
+}
+
+/// Edge of the cube with a stone's mean volume (m): the length to which contact tolerances are scaled.
+fn typical_size(wall: &Wall) -> f64 {
+    let (count, volume) =
+        wall.stones().fold((0u32, 0.0), |(n, v), (_, block)| (n + 1, v + block.shape.volume()));
+    cbrt(volume / f64::from(count.max(1)))
 }

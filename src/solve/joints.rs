@@ -84,7 +84,7 @@ impl Joints {
     pub fn refresh(&mut self, bodies: &Bodies, laws: &dyn JointLaws, settings: &contact::Settings) {
         let shapes: Vec<_> = (0..bodies.all.len()).map(|i| bodies.world_shape(i)).collect();
         let mut old: BTreeMap<(u32, u32), Joint> =
-            self.all.drain(..).map(|j| ((j.incident.min(j.reference), j.incident.max(j.reference)), j)).collect();
+            self.all.drain(..).map(|j| (j.pair(), j)).collect();
         for (a, b) in candidate_pairs(&shapes, 2.0 * settings.reach) {
             if !bodies.all[a as usize].moves() && !bodies.all[b as usize].moves() {
                 continue;
@@ -101,6 +101,9 @@ impl Joints {
                 self.all.push(joint);
             }
         }
+        // An attachment does not end because its faces have come apart.
+        self.all.extend(old.into_values().filter(|j| j.law.bonded));
+        self.all.sort_by_key(Joint::pair);
     }
 
     /// Adds every joint's force to its two bodies; `dt` (s) is the length of the step that led here.
@@ -148,6 +151,11 @@ impl Joint {
             cells,
             force: 0.0,
         }
+    }
+
+    /// The two bodies, lower id first.
+    pub fn pair(&self) -> (u32, u32) {
+        (self.incident.min(self.reference), self.incident.max(self.reference))
     }
 
     /// Takes over the history of the same pair's former joint, by nearness of the sub-contacts.

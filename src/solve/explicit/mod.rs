@@ -20,6 +20,8 @@ pub struct Settings {
     /// Whether inertia is scaled per block so that all share one critical step; default true. Right for a rest state,
     /// wrong for anything that happens in time.
     pub scaled_inertia: bool,
+    /// Longest time step (s) with true inertia, for blocks in free flight, which have no critical step; default 1e-3.
+    pub longest_step: f64,
 }
 
 impl Default for Settings {
@@ -30,6 +32,7 @@ impl Default for Settings {
             step_safety: 0.5,
             max_steps: 200_000,
             scaled_inertia: true,
+            longest_step: 1e-3,
         }
     }
 }

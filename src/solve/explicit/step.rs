@@ -89,10 +89,10 @@ impl<'a> Simulation<'a> {
         for step in 1..=self.settings.max_steps {
             self.step();
             if step % STEPS_BETWEEN_LOOKS == 0 {
-                ratio = self.unbalanced_ratio();
-                if !ratio.is_finite() {
-                    return (Status::NonFinite, ratio);
+                if !self.is_finite() {
+                    return (Status::NonFinite, f64::NAN);
                 }
+                ratio = self.unbalanced_ratio();
                 if ratio < self.settings.unbalanced_ratio {
                     return (Status::Equilibrium, ratio);
                 }
@@ -129,6 +129,10 @@ impl<'a> Simulation<'a> {
         self.joints.apply(&mut self.bodies.all, self.dt);
     }
 
+    fn is_finite(&self) -> bool {
+        self.bodies.all.iter().all(|b| (b.position.sum() + b.force.sum() + b.torque.sum()).is_finite())
+    }
+
     /// Mean unbalanced force of the blocks that move over the mean force of the joints that carry, after the forces
     /// of the last step (YADE's definition); an unbalanced moment counts as a force at the radius of gyration. 1 when no joint
     /// carries.
@@ -145,8 +149,8 @@ impl<'a> Simulation<'a> {
             carrying += 1;
         }
         match (moving, carrying) {
-            (0, _) => unbalanced,
-            (_, 0) => 1.0 + unbalanced * 0.0,
+            (0, _) => 0.0,
+            (_, 0) => 1.0,
             _ => (unbalanced / f64::from(moving)) / (carried / f64::from(carrying)),
         }
     }
@@ -180,9 +184,7 @@ impl<'a> Simulation<'a> {
             self.dt = 1.0;
         } else {
             let largest = bounds.iter().fold(0.0, |a: f64, &b| a.max(b));
-            if largest > 0.0 {
-                self.dt = safety * 2.0 / (2.0 * largest).sqrt();
-            }
+            self.dt = self.settings.longest_step.min(safety * 2.0 / (2.0 * largest).sqrt());
         }
     }
 }
