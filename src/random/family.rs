@@ -115,6 +115,29 @@ impl Family {
         self.quantile(stream.uniform())
     }
 
+    /// The distribution of `factor` times the variable, for a change of unit; `factor` is above 0.
+    pub fn scaled(self, factor: f64) -> Family {
+        crate::check!(factor > 0.0, "a distribution was scaled by {factor}, which is not above 0");
+        match self {
+            Family::Constant { value } => Family::Constant { value: value * factor },
+            Family::Uniform { low, high } => Family::Uniform { low: low * factor, high: high * factor },
+            Family::Normal { mean, sd } => Family::Normal { mean: mean * factor, sd: sd * factor },
+            Family::TruncatedNormal { mean, sd, low, high } => Family::TruncatedNormal {
+                mean: mean * factor,
+                sd: sd * factor,
+                low: low * factor,
+                high: high * factor,
+            },
+            Family::Lognormal { mean, sd } => Family::Lognormal { mean: mean * factor, sd: sd * factor },
+            Family::Triangular { low, mode, high } => {
+                Family::Triangular { low: low * factor, mode: mode * factor, high: high * factor }
+            }
+            Family::Empirical { values } => {
+                Family::Empirical { values: values.into_iter().map(|value| value * factor).collect() }
+            }
+        }
+    }
+
     fn ask<R>(&self, question: impl FnOnce(&dyn Distribution) -> R) -> R {
         match *self {
             Family::Constant { value } => question(&Constant { value }),

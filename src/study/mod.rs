@@ -23,3 +23,6 @@ pub use fault::{Fault, Faults, Found};
 pub use joints::DrawnJoints;
 pub use load::{Loaded, VariantName};
 pub use reference::key_reference;
+
+#[cfg(test)]
+mod tests;

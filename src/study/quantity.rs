@@ -79,6 +79,7 @@ pub fn family(reader: &mut Reader<'_>) -> Option<Family> {
             for bad in bad {
                 let found = Found::Value(Short(bad.found).to_string());
                 let path = join(&reader.path, bad.parameter);
+                let allowed = format!("a value that {}", bad.allowed);
                 let fault = Fault::at(
                     reader.place_of(bad.parameter),
                     &path,

@@ -1,0 +1,209 @@
+//! The house: which module may import which. A forbidden import, a folder without a row and `super::super::` fail.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Module and what it may import besides itself, in reading order.
+const HOUSE: &[(&str, &[&str])] = &[
+    ("math", &[]),
+    ("shape", &["math"]),
+    ("random", &["math"]),
+    ("stats", &["math", "random"]),
+    ("law", &["math"]),
+    ("model", &["math", "shape", "law"]),
+    ("exchange", &["math", "shape", "model"]),
+    ("contact", &["math", "shape", "model"]),
+    ("generate", &["math", "shape", "random", "law", "model"]),
+    ("solve", &["math", "shape", "law", "model", "contact"]),
+    ("protocol", &["math", "law", "model", "contact", "solve"]),
+    ("study", &["math", "random", "law", "model", "generate", "solve", "protocol"]),
+    ("ensemble", &["math", "random", "stats", "model", "generate", "solve", "protocol", "study"]),
+    ("critic", &["math", "random", "stats", "model", "protocol", "study", "ensemble"]),
+    ("report", &["math", "shape", "stats", "model", "exchange", "study", "ensemble", "critic"]),
+    (
+        "cli",
+        &["law", "model", "exchange", "solve", "protocol", "stats", "study", "ensemble", "critic", "report"],
+    ),
+];
+
+/// The solvers check each other, so none may lean on another.
+const SOLVERS: [&str; 3] = ["explicit", "implicit", "limit"];
+
+/// What a file (path below `src`, with `/`) imports against the house's rules.
+fn violations(path: &str, text: &str) -> Vec<String> {
+    let code = without_comments(text);
+    let mut found = Vec::new();
+    if code.contains("super::super::") {
+        found.push(format!("{path} climbs with super::super::; write crate::"));
+    }
+    let Some((module, inner)) = path.split_once('/') else { return found };
+    let Some((_, allowed)) = HOUSE.iter().find(|(name, _)| *name == module) else {
+        found.push(format!("{path} lies in src/{module}, which has no row in the table of the house"));
+        return found;
+    };
+    // From the top of a module, `super` is the crate.
+    let mut imports = paths_after("crate::", &code);
+    if inner == "mod.rs" {
+        imports.extend(paths_after("super::", &code).into_iter().filter(|p| is_row(&p[0])));
+    }
+    for import in imports {
+        if is_row(&import[0]) && import[0] != module && !allowed.contains(&import[0].as_str()) {
+            found.push(format!("{path} imports {}; {module} may import only {allowed:?}", import[0]));
+        }
+        if let (Some(own), [root, other, ..]) =
+            (SOLVERS.iter().find(|s| inner.starts_with(&format!("{s}/"))), &import[..])
+            && module == "solve"
+            && root == "solve"
+            && other != own
+            && SOLVERS.contains(&other.as_str())
+        {
+            found.push(format!("{path}: the {own} solver imports the {other} solver"));
+        }
+    }
+    found.sort();
+    found.dedup();
+    found
+}
+
+fn is_row(name: &str) -> bool {
+    HOUSE.iter().any(|(row, _)| *row == name)
+}
+
+/// The code without line comments: what a docstring links to is no import.
+fn without_comments(text: &str) -> String {
+    text.lines().map(|line| line.split("//").next().unwrap_or("")).collect::<Vec<_>>().join("\n")
+}
+
+/// The paths that follow `root`, opened where braces group several; a macro of the crate's root is no import.
+fn paths_after(root: &str, code: &str) -> Vec<Vec<String>> {
+    let mut paths = Vec::new();
+    for (at, _) in code.match_indices(root) {
+        let joined =
+            code[..at].chars().next_back().is_some_and(|c| c.is_alphanumeric() || c == '_' || c == ':');
+        if !joined {
+            paths.extend(opened(&code[at + root.len()..]));
+        }
+    }
+    paths
+}
+
+/// The paths at the beginning of a text: `a::b`, or `{a::b, c::{d, e}}`.
+fn opened(text: &str) -> Vec<Vec<String>> {
+    let text = text.trim_start();
+    if let Some(group) = text.strip_prefix('{') {
+        return items(group).into_iter().flat_map(opened).collect();
+    }
+    let end = text.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(text.len());
+    let (name, rest) = text.split_at(end);
+    if name.is_empty() || rest.starts_with('!') {
+        return Vec::new();
+    }
+    let below = rest.strip_prefix("::").map(opened).unwrap_or_default();
+    if below.is_empty() {
+        return vec![vec![name.to_owned()]];
+    }
+    below.into_iter().map(|path| [vec![name.to_owned()], path].concat()).collect()
+}
+
+/// The items of a group whose opening brace has been read.
+fn items(group: &str) -> Vec<&str> {
+    let (mut depth, mut start, mut items) = (0, 0, Vec::new());
+    for (at, c) in group.char_indices() {
+        match c {
+            '{' => depth += 1,
+            ',' if depth == 0 => {
+                items.push(&group[start..at]);
+                start = at + 1;
+            }
+            '}' if depth == 0 => {
+                items.push(&group[start..at]);
+                break;
+            }
+            '}' => depth -= 1,
+            _ => {}
+        }
+    }
+    items
+}
+
+fn sources(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder).expect("src can be listed").flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            files.extend(sources(&path));
+        } else if path.extension().is_some_and(|e| e == "rs") {
+            files.push(path);
+        }
+    }
+    files.sort();
+    files
+}
+
+#[test]
+fn every_import_follows_the_house() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let files = sources(&src);
+    assert!(files.len() > 30, "only {} files were read", files.len());
+    let mut found = Vec::new();
+    for file in files {
+        let path = file.strip_prefix(&src).expect("it lies below src").to_string_lossy().replace('\\', "/");
+        found.extend(violations(&path, &fs::read_to_string(&file).expect("a source is text")));
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+/// The table itself must be one-way: nobody may import what stands below it.
+#[test]
+fn the_house_has_one_direction() {
+    for (i, (module, allowed)) in HOUSE.iter().enumerate() {
+        for name in *allowed {
+            assert!(
+                HOUSE[..i].iter().any(|(row, _)| row == name),
+                "{module} may import {name}, which is not above it"
+            );
+        }
+    }
+}
+
+#[test]
+fn bad_imports_are_found() {
+    let bad = [
+        ("law/coulomb.rs", "use crate::model::Wall;", "law/coulomb.rs imports model"),
+        ("law/coulomb.rs", "use crate::{math::Vec3, model::{Block, Wall}};", "imports model"),
+        ("law/coulomb.rs", "fn f() { let x = crate::solve::Solver::default(); }", "imports solve"),
+        ("law/mod.rs", "use super::model::Wall;", "imports model"),
+        ("contact/patch.rs", "use crate::random::Streams;", "imports random"),
+        ("solve/explicit/step.rs", "use crate::solve::implicit::Newton;", "imports the implicit solver"),
+        (
+            "solve/explicit/step.rs",
+            "use crate::solve::{Solver, limit::Multiplier};",
+            "imports the limit solver",
+        ),
+        ("helpers/mod.rs", "", "has no row"),
+        ("study/load.rs", "use super::super::law::Coulomb;", "climbs"),
+        ("lib.rs", "use super::super::x;", "climbs"),
+    ];
+    for (path, text, part) in bad {
+        let found = violations(path, text).join("\n");
+        assert!(found.contains(part), "{path}: `{text}` gave `{found}`");
+    }
+}
+
+#[test]
+fn good_imports_pass() {
+    let good = [
+        (
+            "law/coulomb.rs",
+            "use crate::math::{cos, sin};\nuse crate::law::NormalLaw;\ncrate::check!(true, \"x\");",
+        ),
+        ("law/coulomb.rs", "/// See [`crate::model::Wall`].\n// use crate::solve::Solver;"),
+        ("model/mod.rs", "#[cfg(test)]\nmod tests { use super::*; use super::block::Block; }"),
+        ("solve/explicit/step.rs", "use crate::solve::{assembly::Arrays, explicit::Settings};"),
+        ("report/table.rs", "use crate::{\n    ensemble::Row,\n    study::{Arm, Study},\n};"),
+        ("lib.rs", "pub mod law;"),
+    ];
+    for (path, text) in good {
+        assert_eq!(violations(path, text), Vec::<String>::new(), "{path}: {text}");
+    }
+}

@@ -1,0 +1,148 @@
+//! What the loader makes of a sound study: defaults, variants, units, the hash.
+
+use pirca::generate::{Arrangement, DipAbout};
+use pirca::law::Sampling;
+use pirca::solve::Solver;
+use pirca::solve::explicit::Settings;
+use pirca::study::key_reference;
+
+use crate::scratch::{PUBLISHED, SIZE, STUDY, Scratch};
+
+fn hash(scratch: &Scratch, variant: Option<&str>) -> String {
+    scratch.load(variant).unwrap_or_else(|faults| panic!("{faults}")).study.hash
+}
+
+#[test]
+fn a_variant_changes_what_it_names_and_nothing_else() {
+    let scratch = Scratch::new("variant-effect");
+    let base = scratch.load(None).expect("sound").study;
+    let corners = scratch.load(Some("corners")).expect("sound").study;
+    assert_eq!((base.joint.sampling, corners.joint.sampling), (Sampling::Area, Sampling::Vertices));
+    assert_eq!(base.arms, corners.arms);
+    let cut = scratch.load(Some("laid-cut")).expect("sound").study;
+    let Arrangement::Cut { dip_about, .. } = &cut.arms[2].layout.arrangement else {
+        panic!("the variant cuts")
+    };
+    assert_eq!(*dip_about, DipAbout::LongAxis);
+    assert_eq!(cut.arms[2].layout.limits, base.arms[2].layout.limits);
+}
+
+/// A path may be written in quotes, or as TOML's own dotted key or table: the same three keys are meant.
+#[test]
+fn a_path_may_be_quoted_or_nested() {
+    let quoted = Scratch::new("quoted");
+    let nested = Scratch::new("nested");
+    nested.replace(STUDY, "\"joint.sampling\" = \"vertices\"", "joint = { sampling = \"vertices\" }");
+    let dotted = Scratch::new("dotted");
+    dotted.replace(STUDY, "\"joint.sampling\" = \"vertices\"", "joint.sampling = \"vertices\"");
+    assert_eq!(hash(&quoted, Some("corners")), hash(&nested, Some("corners")));
+    assert_eq!(hash(&quoted, Some("corners")), hash(&dotted, Some("corners")));
+    let arms = Scratch::new("nested-arm");
+    arms.replace(
+        STUDY,
+        "\"joint.sampling\" = \"vertices\"",
+        "arm.stack = { members = 4 }\narm.laid.wythes = 3",
+    );
+    let study = arms.load(Some("corners")).unwrap_or_else(|faults| panic!("{faults}")).study;
+    assert_eq!((study.arms[0].members, study.arms[2].layout.wythes.count), (4, 3));
+}
+
+#[test]
+fn the_hash_follows_what_decides_results_and_nothing_else() {
+    let scratch = Scratch::new("hash");
+    let base = hash(&scratch, None);
+    for (file, from, to) in [
+        (STUDY, "seed = 7", "seed   =   0x7 # seven"),
+        (STUDY, "height_m = 1.0", "height_m = 1"),
+        (STUDY, "question = \"Does every key work?\"", "question = \"Does it?\""),
+        (STUDY, "normal_law = \"linear\"\n", ""),
+        (PUBLISHED, "stated = 0.6", "stated = 0.61"),
+        (SIZE, "note = \"an example\"", "note = \"another\""),
+        (SIZE, "values = [0.1, 0.2]", "values = [0.1, 0.3]"),
+    ] {
+        let same = Scratch::new("hash-same");
+        same.replace(file, from, to);
+        assert_eq!(hash(&same, None), base, "{to}");
+    }
+    for (file, from, to) in [
+        (STUDY, "seed = 7", "seed = 8"),
+        (STUDY, "steps = 4", "steps = 5"),
+        (STUDY, "[5e7, 7.5e7]", "[5e7, 7.6e7]"),
+        (STUDY, "name = \"hewn\"", "name = \"sawn\""),
+        (SIZE, "sd = 0.1", "sd = 0.11"),
+    ] {
+        let other = Scratch::new("hash-other");
+        other.replace(file, from, to);
+        assert_ne!(hash(&other, None), base, "{to}");
+    }
+    assert_ne!(hash(&scratch, Some("corners")), base);
+}
+
+/// What a key left out means is what the parts' own defaults say.
+#[test]
+fn a_solver_that_is_not_described_is_the_default_one() {
+    let scratch = Scratch::new("default-solver");
+    let text = scratch.read(STUDY);
+    let (before, rest) = text.split_once("[solver]").expect("the fixture has a solver");
+    let (_, after) = rest.split_once("\n\n").expect("something follows it");
+    scratch.write(STUDY, format!("{before}{after}").as_bytes());
+    let study = scratch.load(None).unwrap_or_else(|faults| panic!("{faults}")).study;
+    assert_eq!(study.solver, Solver::Explicit(Settings::default()));
+}
+
+#[test]
+fn another_seed_or_size_is_another_study() {
+    let scratch = Scratch::new("overrides");
+    let base = scratch.load(None).expect("sound").study;
+    scratch.replace(STUDY, "seed = 7", "seed = 18446744073709551615");
+    let seeded = scratch.load(None).expect("sound").study;
+    assert_eq!(base.clone().with_seed(u64::MAX).hash, seeded.hash);
+    let more = base.clone().with_members(12);
+    assert_eq!(more.arms.iter().map(|a| a.members).collect::<Vec<_>>(), [1, 1, 12, 12]);
+    assert_ne!(more.hash, base.hash);
+    assert_eq!(more.with_members(3).hash, base.hash);
+}
+
+/// Every key that decides a result is in the effective values: none is parsed and then forgotten.
+#[test]
+fn every_key_of_the_fixture_is_read() {
+    let scratch = Scratch::new("every-key");
+    let effective = scratch.load(None).expect("sound").study.effective;
+    let mut section = String::new();
+    let mut arm = String::new();
+    let mut checked = 0;
+    for line in scratch.read(STUDY).lines() {
+        if line.starts_with('[') {
+            section = line.trim_matches(['[', ']']).to_owned();
+        } else if let Some((key, value)) = line.split_once(" = ") {
+            if section == "arm" && key == "name" {
+                arm = value.trim_matches('"').to_owned();
+            }
+            if section.starts_with("variant") || key == "question" {
+                continue;
+            }
+            let path = format!("{section}.{key}").replacen(
+                "arm.",
+                &format!("arm.{arm}."),
+                usize::from(section.starts_with("arm")),
+            );
+            assert!(effective.contains_key(&path), "{path} is not among {:?}", effective.keys());
+            checked += 1;
+        }
+    }
+    assert_eq!(checked, 65);
+}
+
+#[test]
+fn the_reference_lists_every_key_of_the_fixture() {
+    let reference = key_reference();
+    let scratch = Scratch::new("reference");
+    for file in [STUDY, PUBLISHED, SIZE] {
+        for line in scratch.read(file).lines() {
+            if let Some((key, _)) = line.split_once(" = ").filter(|(key, _)| !key.contains(['"', '#'])) {
+                assert!(reference.contains(&format!("| `{key}` |")), "{key}");
+            }
+        }
+    }
+    assert!(reference.contains("a number within 0 to 1"));
+}
