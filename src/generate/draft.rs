@@ -118,6 +118,11 @@ impl<'a> Draft<'a> {
         }
     }
 
+    /// The stream of a quantity that belongs to the member as a whole: the same in every attempt.
+    pub(crate) fn member_stream(&self, quantity: &str) -> Stream {
+        self.streams.of(quantity)
+    }
+
     /// One draw that must be finite and at least `least`; others are redrawn and counted.
     pub(crate) fn draw(
         &mut self,

@@ -113,8 +113,10 @@ fn lay(draft: &mut Draft) -> Result<Vec<Stone>, Fault> {
     Ok(wedge::insert(draft, stones))
 }
 
+/// The factor on all sizes of this wall. It is the same in every attempt: a mean size of which no wall can be built is
+/// an invalid geometry, not a reason to draw another one and so to narrow the population.
 fn size_factor(draft: &mut Draft, family: &Family) -> Result<f64, Fault> {
-    let mut stream = draft.stream("wall size", "factor");
+    let mut stream = draft.member_stream("wall size");
     let factor = draft.draw("wall size factor", family, 1.0, 0.0, &mut stream)?;
     draft.realised.size_factor = factor;
     Ok(factor)

@@ -1,1 +1,5 @@
 //! report
+
+mod vtu;
+
+pub use vtu::write_vtu;

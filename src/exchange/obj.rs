@@ -1,0 +1,89 @@
+//! Wavefront OBJ, one object per block.
+
+use std::fmt::Write;
+
+use crate::model::{Tag, Wall};
+
+/// The wall as Wavefront OBJ: one object per block, named by tag and id (`stone_12`), in metres, z up.
+///
+/// Faces are polygons, counter-clockwise seen from outside; their indices count the vertices of the whole file from
+/// 1, as the format wants it. OBJ has no density: it stands in a comment above the block. Every number is the
+/// shortest one that reads back to the same bits.
+///
+/// ```
+/// let text = pirca::exchange::write_obj(&pirca::generate::canonical::wall_72());
+/// assert_eq!(text.lines().filter(|line| line.starts_with("o ")).count(), 72);
+/// ```
+pub fn write_obj(wall: &Wall) -> String {
+    let mut text = String::from("# unit m; x along the wall, y out of plane, z up\n");
+    let mut first = 1;
+    for (id, block) in wall.blocks.iter().enumerate() {
+        let mut line = |arguments: std::fmt::Arguments| {
+            writeln!(text, "{arguments}").expect("a string takes every text");
+        };
+        line(format_args!("# density {} kg/m^3", block.density));
+        line(format_args!("o {}_{id}", object_name(block.tag)));
+        for v in &block.shape.vertices {
+            line(format_args!("v {} {} {}", v.x, v.y, v.z));
+        }
+        for face in &block.shape.faces {
+            let indices: Vec<String> = face.iter().map(|v| (first + v).to_string()).collect();
+            line(format_args!("f {}", indices.join(" ")));
+        }
+        first += block.shape.vertices.len() as u32;
+    }
+    text
+}
+
+fn object_name(tag: Tag) -> &'static str {
+    match tag {
+        Tag::Stone => "stone",
+        Tag::Header => "header",
+        Tag::Wedge => "wedge",
+        Tag::Base => "base",
+        Tag::End => "end",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Vec3;
+    use crate::model::{Block, Support};
+    use crate::shape::Polyhedron;
+
+    #[test]
+    fn reading_the_objects_back_gives_the_same_solids() {
+        let solid = |x: f64| Block {
+            shape: Polyhedron::cuboid(Vec3::new(x, 0.0, 0.0), Vec3::new(x + 0.1, 0.2, 1.0 / 3.0)),
+            density: 2400.0,
+            support: Support::Free,
+            tag: Tag::Stone,
+        };
+        let wall = Wall { blocks: vec![solid(0.0), solid(0.1 + 0.2)] };
+        let (mut vertices, mut solids): (Vec<Vec3>, Vec<(String, Polyhedron)>) = (vec![], vec![]);
+        for line in write_obj(&wall).lines() {
+            let words: Vec<&str> = line.split_whitespace().collect();
+            match words[0] {
+                "o" => solids.push((words[1].to_owned(), Polyhedron::default())),
+                "v" => {
+                    let v = Vec3::from_iterator(words[1..].iter().map(|w| w.parse().unwrap()));
+                    vertices.push(v);
+                    solids.last_mut().unwrap().1.vertices.push(v);
+                }
+                "f" => {
+                    let (_, solid) = solids.last_mut().unwrap();
+                    let before = (vertices.len() - solid.vertices.len()) as u32;
+                    let face = words[1..].iter().map(|w| w.parse::<u32>().unwrap() - 1 - before).collect();
+                    solid.faces.push(face);
+                }
+                other => assert_eq!(other, "#"),
+            }
+        }
+        assert_eq!(solids.len(), 2);
+        assert_eq!(solids[1].0, "stone_1");
+        for ((_, read), block) in solids.iter().zip(&wall.blocks) {
+            assert_eq!(*read, block.shape);
+        }
+    }
+}
