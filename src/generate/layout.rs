@@ -21,6 +21,18 @@ pub struct Layout {
     pub limits: Limits,
 }
 
+impl Layout {
+    /// True when nothing is drawn, so that every wall of this layout is the same.
+    pub fn is_fixed(&self) -> bool {
+        let bond =
+            matches!(self.arrangement, Arrangement::Continuous { .. } | Arrangement::Discontinuous { .. });
+        let headers_drawn =
+            self.wythes.count > 1 && self.wythes.header_share > 0.0 && self.wythes.header_share < 1.0;
+        let wedges_drawn = self.wedges.as_ref().is_some_and(|wedges| wedges.share > 0.0);
+        bond && !headers_drawn && !wedges_drawn && self.density.sd() == 0.0
+    }
+}
+
 /// A wall with trapezoidal section, straight along x, its base in the plane z = 0, centred on y = 0 at the base.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outline {
@@ -48,21 +60,26 @@ pub enum BatteredFace {
     Both,
 }
 
-/// How the joints are arranged.
-#[derive(Clone, Debug, PartialEq)]
+/// How the joints are arranged. Serialised for reports only, with units in the keys.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Arrangement {
     /// Stack bond: head joints run through all courses.
     Continuous {
         /// Stone length (m); the last stone of a course takes what is left.
+        #[serde(rename = "length_m")]
         length: f64,
         /// Course height (m); the number of courses is rounded so that they fill the height.
+        #[serde(rename = "height_m")]
         height: f64,
     },
     /// Running bond: every other course is shifted by `overlap` times the stone length.
     Discontinuous {
         /// Stone length (m).
+        #[serde(rename = "length_m")]
         length: f64,
         /// Course height (m).
+        #[serde(rename = "height_m")]
         height: f64,
         /// Shift of every other course as a share of the stone length, in (0, 1); 0.5 is a half bond.
         overlap: f64,
@@ -70,12 +87,15 @@ pub enum Arrangement {
     /// Courses with random heights, stone lengths and one bed dip per bed about the wall's long axis.
     Coursed {
         /// Stone length (m), drawn per stone.
+        #[serde(rename = "length_m")]
         length: Family,
         /// Course height (m), drawn per course.
+        #[serde(rename = "height_m")]
         height: Family,
         /// Factor on all lengths and heights of one wall, drawn once per wall (mean size varies between walls).
         wall_size_factor: Family,
         /// Dip of a bed (rad), drawn once per bed.
+        #[serde(rename = "dip_rad")]
         dip: Family,
         /// Head joints of neighbouring courses closer than this share of the mean stone length are redrawn; in [0, 0.5).
         least_overlap: f64,
@@ -83,12 +103,15 @@ pub enum Arrangement {
     /// Recursive random joint planes, the analogue of 3DEC's random joint sets.
     Cut {
         /// Target stone length (m), drawn per cut.
+        #[serde(rename = "length_m")]
         length: Family,
         /// Target stone height (m), drawn per cut.
+        #[serde(rename = "height_m")]
         height: Family,
         /// Factor on all lengths and heights of one wall, drawn once per wall.
         wall_size_factor: Family,
         /// Dip of a joint plane (rad), drawn once per cut and axis.
+        #[serde(rename = "dip_rad")]
         dip: Family,
         /// About which axes bed planes dip.
         dip_about: DipAbout,

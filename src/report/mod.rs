@@ -1,5 +1,25 @@
-//! report
+//! What a reader gets: the summary, the comparison with published statements, the table on the terminal, the figure,
+//! the wall for ParaView. Reads rows and statistics; never computes physics.
 
+mod compare;
+mod csv;
+mod draw;
+mod figure;
+mod files;
+mod number;
+mod plot;
+mod population;
+mod published;
+mod standing;
+mod summary;
+mod table;
+#[cfg(test)]
+mod tests;
 mod vtu;
 
+pub use compare::{Basis, Comparison};
+pub use files::{FIGURE_CSV, FIGURE_PNG, FIGURE_SVG, SUMMARY_JSON, write_all};
+pub use published::{Published, Verdict};
+pub use summary::{ArmSummary, QuantileEntry, Summary, summarise};
+pub use table::terminal_table;
 pub use vtu::write_vtu;

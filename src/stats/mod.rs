@@ -13,6 +13,7 @@ mod moments;
 mod order;
 mod ratio;
 mod reference;
+mod seeded;
 mod summary;
 
 pub use bootstrap::{bootstrap_bca, cov_bootstrap, sigma_bootstrap};
@@ -21,4 +22,5 @@ pub use kolmogorov::{ks_p_value, ks_statistic};
 pub use moments::{cov, mean, sigma, sum};
 pub use order::{quantile, quantile_interval};
 pub use ratio::{paired_ratio_of_means, ratio_of_means};
+pub use seeded::spread_bootstrap;
 pub use summary::Summary;

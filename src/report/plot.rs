@@ -1,0 +1,311 @@
+//! How Figure 10 looks: displacement at the wall's top against joint stiffness, legend and remarks below.
+//!
+//! Colours are those of Okabe and Ito, told apart with the common colour vision deficiencies; every arm has its own
+//! marker as well, and bands are edged with dashes, so that the figure survives a print in grey.
+
+use plotters::coord::Shift;
+use plotters::coord::types::RangedCoordf64;
+use plotters::element::{DynElement, IntoDynElement};
+use plotters::prelude::*;
+
+use crate::report::figure::{Curve, Point};
+use crate::report::number::range;
+
+/// Name of the bundled font; also the `font-family` of the SVG, hence the alternatives.
+pub const FONT_NAME: &str = "DejaVu Sans, Verdana, sans-serif";
+
+/// Okabe and Ito's palette without yellow, which is hard to see on white.
+const COLOURS: [RGBColor; 7] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(86, 180, 233),
+    RGBColor(230, 159, 0),
+    RGBColor(0, 0, 0),
+];
+/// Corners of the markers (pixels); an empty one is a circle.
+const MARKERS: [&[(i32, i32)]; 4] = [
+    &[(-5, -5), (5, -5), (5, 5), (-5, 5)],
+    &[(0, -7), (7, 5), (-7, 5)],
+    &[],
+    &[(0, -7), (7, 0), (0, 7), (-7, 0)],
+];
+
+/// Width, and height without the legend (pixels at scale 1).
+const WIDTH: u32 = 960;
+const PLOT_HEIGHT: u32 = 560;
+/// Height of a line of the legend, and where its text begins.
+const LINE: u32 = 26;
+const LEGEND_TEXT: i32 = 150;
+const LEGEND_MARK: [i32; 2] = [98, 138];
+/// Transparency of a band.
+const BAND_ALPHA: f64 = 0.18;
+
+type Chart<'a, DB> = ChartContext<'a, DB, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+type Drawn<DB> = Result<(), DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
+
+/// What is drawn, at which scale.
+pub struct Plot<'c> {
+    title: &'c str,
+    curves: &'c [Curve],
+    remarks: Vec<String>,
+    scale: u32,
+    /// kn is shown in units of ten to this power.
+    exponent: i32,
+}
+
+impl<'c> Plot<'c> {
+    /// Prepares the curves for an area of [`Plot::size`] pixels.
+    pub fn new(title: &'c str, curves: &'c [Curve], scale: u32) -> Self {
+        let remarks = curves.iter().filter_map(Curve::remark).collect();
+        let kn = range(curves.iter().flat_map(|curve| &curve.points).map(|point| point.kn));
+        Plot { title, curves, remarks, scale, exponent: kn.map_or(0, |[low, _]| exponent(low)) }
+    }
+
+    /// Width and height (pixels): the plot, a line of legend per curve and per band, a line per remark.
+    pub fn size(&self) -> (u32, u32) {
+        let bands = self.curves.iter().filter(|curve| curve.has_band()).count();
+        let lines = (self.curves.len() + bands + self.remarks.len()) as u32;
+        (WIDTH * self.scale, (PLOT_HEIGHT + LINE * (lines + 1)) * self.scale)
+    }
+
+    /// Draws everything.
+    ///
+    /// # Errors
+    /// Those of the backend.
+    pub fn draw<DB: DrawingBackend>(&self, root: &DrawingArea<DB, Shift>) -> Drawn<DB> {
+        root.fill(&WHITE)?;
+        let (plot, legend) = root.split_vertically(self.px(PLOT_HEIGHT as i32));
+        self.chart(&plot)?;
+        self.legend(&legend)
+    }
+
+    fn chart<DB: DrawingBackend>(&self, area: &DrawingArea<DB, Shift>) -> Drawn<DB> {
+        let [x, y] = self.axes();
+        let mut chart = ChartBuilder::on(area)
+            .caption(self.title, self.font(26))
+            .margin(self.px(12))
+            .margin_right(self.px(28))
+            .x_label_area_size(self.px(62))
+            .y_label_area_size(self.px(82))
+            .build_cartesian_2d(x[0]..x[1], y[0]..y[1])?;
+        let (x_decimals, y_decimals) = (decimals(x[1] - x[0]), decimals(y[1] - y[0]));
+        chart
+            .configure_mesh()
+            .disable_x_mesh()
+            .light_line_style(TRANSPARENT)
+            .bold_line_style(RGBColor(215, 215, 215).stroke_width(self.scale))
+            .axis_style(BLACK.stroke_width(self.scale))
+            .set_all_tick_mark_size(self.px(6))
+            .x_labels(10)
+            .y_labels(8)
+            .label_style(self.font(18))
+            .axis_desc_style(self.font(19))
+            .x_label_formatter(&|value| format!("{value:.x_decimals$}"))
+            .y_label_formatter(&|value| format!("{value:.y_decimals$}"))
+            .x_desc(format!("normal stiffness of the joints kn (10{} Pa/m)", superscript(self.exponent)))
+            .y_desc("out-of-plane displacement at the top (mm)")
+            .draw()?;
+        for (index, curve) in self.curves.iter().enumerate() {
+            self.band(&mut chart, curve, index)?;
+        }
+        for (index, curve) in self.curves.iter().enumerate() {
+            self.curve(&mut chart, curve, index)?;
+        }
+        if self.curves.iter().flat_map(|curve| &curve.points).all(|point| point.mean.is_none()) {
+            let place = ((x[0] + x[1]) / 2.0, (y[0] + y[1]) / 2.0);
+            let style = self.font(22).pos(centred());
+            chart.draw_series([Text::new(
+                "no wall reached equilibrium: there is nothing to draw",
+                place,
+                style,
+            )])?;
+        }
+        Ok(())
+    }
+
+    /// Ends of the axes: kn with some room at both sides; displacement from zero (or below) to above the highest mark.
+    fn axes(&self) -> [[f64; 2]; 2] {
+        let points = || self.curves.iter().flat_map(|curve| &curve.points);
+        let [low, high] = range(points().map(|point| self.kn(point))).unwrap_or([0.0, 1.0]);
+        let room = if high > low { 0.06 * (high - low) } else { 0.1 * high.abs() };
+        let heights = points().flat_map(|point| {
+            point
+                .mean
+                .into_iter()
+                .chain(point.mean_ci.into_iter().flatten())
+                .chain(point.band.into_iter().flatten())
+        });
+        let [bottom, top] = range(heights.chain([0.0])).unwrap_or([0.0, 0.0]);
+        let height = if top > bottom { top - bottom } else { 1.0 };
+        let below = if bottom < 0.0 { 0.05 * height } else { 0.0 };
+        [[low - room, high + room], [bottom - below, bottom + 1.08 * height]]
+    }
+
+    /// Mean -+ sigma. A point without defined neighbours gets a short bar instead of a band.
+    fn band<DB: DrawingBackend>(&self, chart: &mut Chart<'_, DB>, curve: &Curve, index: usize) -> Drawn<DB> {
+        if !curve.has_band() {
+            return Ok(());
+        }
+        let colour = COLOURS[index % COLOURS.len()];
+        for run in runs(&curve.points, |point| point.band.map(|band| (self.kn(point), band))) {
+            if let [(x, [low, high])] = run[..] {
+                let (half, style) = (self.px(14), colour.mix(BAND_ALPHA).filled());
+                let pixels = chart.backend_coord(&(x, high)).1 - chart.backend_coord(&(x, low)).1;
+                let bar = EmptyElement::at((x, high)) + Rectangle::new([(-half, 0), (half, -pixels)], style);
+                chart.draw_series([bar])?;
+                continue;
+            }
+            let upper: Vec<(f64, f64)> = run.iter().map(|(x, band)| (*x, band[1])).collect();
+            let lower: Vec<(f64, f64)> = run.iter().map(|(x, band)| (*x, band[0])).collect();
+            let outline: Vec<(f64, f64)> = upper.iter().copied().chain(lower.iter().rev().copied()).collect();
+            chart.draw_series([Polygon::new(outline, colour.mix(BAND_ALPHA).filled())])?;
+            for edge in [upper, lower] {
+                let style = colour.stroke_width(self.scale);
+                chart.draw_series(DashedLineSeries::new(edge, self.px(8), self.px(5), style))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Lines between neighbouring means, error bars, markers.
+    fn curve<DB: DrawingBackend>(&self, chart: &mut Chart<'_, DB>, curve: &Curve, index: usize) -> Drawn<DB> {
+        let colour = COLOURS[index % COLOURS.len()];
+        let line = colour.stroke_width(2 * self.scale);
+        for run in runs(&curve.points, |point| point.mean.map(|mean| (self.kn(point), mean))) {
+            chart.draw_series(LineSeries::new(run, line))?;
+        }
+        let cap = self.px(5);
+        for point in curve.points.iter().filter(|_| curve.random) {
+            let Some([low, high]) = point.mean_ci else { continue };
+            let x = self.kn(point);
+            chart.draw_series([PathElement::new([(x, low), (x, high)], line)])?;
+            for end in [low, high] {
+                chart.draw_series([
+                    EmptyElement::at((x, end)) + PathElement::new([(-cap, 0), (cap, 0)], line)
+                ])?;
+            }
+        }
+        for point in &curve.points {
+            if let Some(mean) = point.mean {
+                chart.plotting_area().draw(&self.marker((self.kn(point), mean), index))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn legend<DB: DrawingBackend>(&self, area: &DrawingArea<DB, Shift>) -> Drawn<DB> {
+        let [from, to] = LEGEND_MARK.map(|x| self.px(x));
+        // Letters stand above the middle of their line box: this brings them level with the marks.
+        let nudge = self.px(2);
+        let text = self.font(18).pos(left());
+        let mut y = self.px(LINE as i32 / 2);
+        let mut next = || {
+            let line = y;
+            y += self.px(LINE as i32);
+            line
+        };
+        for (index, curve) in self.curves.iter().enumerate() {
+            let colour = COLOURS[index % COLOURS.len()];
+            let y = next();
+            area.draw(&PathElement::new([(from, y), (to, y)], colour.stroke_width(2 * self.scale)))?;
+            area.draw(&self.marker(((from + to) / 2, y), index))?;
+            area.draw(&Text::new(curve.label(), (self.px(LEGEND_TEXT), y + nudge), text.clone()))?;
+            if curve.has_band() {
+                let (y, half) = (next(), self.px(8));
+                area.draw(&Rectangle::new(
+                    [(from, y - half), (to, y + half)],
+                    colour.mix(BAND_ALPHA).filled(),
+                ))?;
+                let label = format!("{}: mean \u{b1} one standard deviation of the walls", curve.name());
+                area.draw(&Text::new(label, (self.px(LEGEND_TEXT), y + nudge), text.clone()))?;
+            }
+        }
+        for remark in &self.remarks {
+            area.draw(&Text::new(format!("! {remark}"), (from, next() + nudge), text.clone()))?;
+        }
+        Ok(())
+    }
+
+    fn marker<'m, DB: DrawingBackend + 'm, C: Clone + 'm>(
+        &self,
+        at: C,
+        index: usize,
+    ) -> DynElement<'m, DB, C> {
+        let style = COLOURS[index % COLOURS.len()].filled();
+        match MARKERS[index % MARKERS.len()] {
+            [] => (EmptyElement::at(at) + Circle::new((0, 0), self.px(6), style)).into_dyn(),
+            corners => {
+                let corners: Vec<(i32, i32)> =
+                    corners.iter().map(|(x, y)| (self.px(*x), self.px(*y))).collect();
+                (EmptyElement::at(at) + Polygon::new(corners, style)).into_dyn()
+            }
+        }
+    }
+
+    /// kn of a point in the units of the axis.
+    fn kn(&self, point: &Point) -> f64 {
+        point.kn / power_of_ten(self.exponent)
+    }
+
+    fn px(&self, length: i32) -> i32 {
+        length * self.scale as i32
+    }
+
+    fn font(&self, size: i32) -> TextStyle<'static> {
+        TextStyle::from((FONT_NAME, self.px(size))).color(&BLACK)
+    }
+}
+
+fn centred() -> plotters::style::text_anchor::Pos {
+    use plotters::style::text_anchor::{HPos, Pos, VPos};
+    Pos::new(HPos::Center, VPos::Center)
+}
+
+fn left() -> plotters::style::text_anchor::Pos {
+    use plotters::style::text_anchor::{HPos, Pos, VPos};
+    Pos::new(HPos::Left, VPos::Center)
+}
+
+/// Cuts points into runs of neighbours for which `value` is defined: no line is drawn across a gap.
+fn runs<T>(points: &[Point], value: impl Fn(&Point) -> Option<T>) -> Vec<Vec<T>> {
+    let mut runs = vec![Vec::new()];
+    for point in points {
+        match (value(point), runs.last_mut()) {
+            (Some(value), Some(run)) => run.push(value),
+            _ => runs.push(Vec::new()),
+        }
+    }
+    runs.retain(|run| !run.is_empty());
+    runs
+}
+
+/// The power of ten of a positive number, read off its decimal form (exact, unlike a logarithm).
+fn exponent(x: f64) -> i32 {
+    format!("{x:e}").split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0)
+}
+
+fn power_of_ten(exponent: i32) -> f64 {
+    format!("1e{exponent}").parse().unwrap_or(1.0)
+}
+
+/// Decimals that tell the ticks of an axis of this length apart.
+fn decimals(length: f64) -> usize {
+    (1 - exponent(length)).max(0) as usize
+}
+
+/// An integer in superscript digits.
+fn superscript(number: i32) -> String {
+    number
+        .to_string()
+        .chars()
+        .map(|c| match c {
+            '-' => '\u{207b}',
+            '1' => '\u{b9}',
+            '2' => '\u{b2}',
+            '3' => '\u{b3}',
+            digit => char::from_u32(0x2070 + digit.to_digit(10).unwrap_or(0)).unwrap_or(digit),
+        })
+        .collect()
+}

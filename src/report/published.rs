@@ -1,0 +1,232 @@
+//! Published statements judged one by one against our numbers.
+
+use crate::report::compare::{arm_names, at, of_arm, ratio};
+use crate::report::number::{significant, stiffness};
+use crate::report::population::Population;
+use crate::report::standing::{Number, Standing, spread};
+use crate::stats;
+use crate::study::{Claim, ClaimTest};
+
+/// What our numbers say about a statement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// It holds at every kn, and every number it rests on has an interval.
+    Reproduced,
+    /// At one kn at least our 95 % interval lies wholly against it.
+    NotReproduced,
+    /// Neither: a number or an interval is missing, or a value lies against it while its interval does not.
+    CannotJudge,
+}
+
+impl Verdict {
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Verdict::Reproduced => "reproduced",
+            Verdict::NotReproduced => "not reproduced",
+            Verdict::CannotJudge => "cannot be judged",
+        }
+    }
+}
+
+/// A published statement beside our numbers.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Published {
+    /// The statement.
+    pub claim: String,
+    /// Where it stands.
+    pub source: String,
+    /// What our numbers say about it.
+    pub verdict: Verdict,
+    /// Our numbers: their range over kn and what their intervals span.
+    pub ours: String,
+    /// The value stated and what counts as reproduced.
+    pub theirs: String,
+    /// Why this verdict.
+    pub why: String,
+    /// Why the tolerance is what it is.
+    pub tolerance: String,
+}
+
+/// Judges every claim, in the order of the file.
+pub fn judge_all(claims: &[Claim], populations: &[Population]) -> Vec<Published> {
+    claims.iter().map(|claim| judge(claim, populations)).collect()
+}
+
+/// Judges one claim.
+pub fn judge(claim: &Claim, populations: &[Population]) -> Published {
+    let evidence = match &claim.test {
+        ClaimTest::RatioOfMeans { arm, over, stated, low, high } => {
+            let numbers = ratios(populations, arm, over);
+            let theirs = format!("{} (accepted: {})", significant(*stated, 3), accepted(*low, *high));
+            Evidence::within(&numbers, *low, *high, theirs, &[arm, over])
+        }
+        ClaimTest::Cov { arm, stated, low, high } => {
+            let numbers = covs(populations, arm);
+            let theirs = format!("{stated} (accepted: {})", accepted(*low, *high));
+            Evidence::within(&numbers, *low, *high, theirs, &[arm])
+        }
+        ClaimTest::Between { arm, of } => between(populations, arm, of),
+        ClaimTest::FallsWithKn => falls_with_kn(populations),
+    };
+    let (verdict, mut why) = weigh(&evidence.standings);
+    if let Some(remark) = lost_walls(populations, &evidence.arms) {
+        why = format!("{why}; {remark}");
+    }
+    Published {
+        claim: claim.claim.clone(),
+        source: claim.source.clone(),
+        verdict,
+        ours: evidence.ours,
+        theirs: evidence.theirs,
+        why,
+        tolerance: claim.why.clone(),
+    }
+}
+
+/// What a verdict rests on.
+struct Evidence {
+    standings: Vec<Standing>,
+    ours: String,
+    theirs: String,
+    arms: Vec<String>,
+}
+
+impl Evidence {
+    fn within(numbers: &[Number], low: f64, high: f64, theirs: String, arms: &[&String]) -> Self {
+        Evidence {
+            standings: numbers.iter().map(|number| number.within(low, high)).collect(),
+            ours: spread(numbers),
+            theirs,
+            arms: arms.iter().map(|arm| arm.to_string()).collect(),
+        }
+    }
+}
+
+fn accepted(low: f64, high: f64) -> String {
+    format!("{} to {}", significant(low, 3), significant(high, 3))
+}
+
+/// The verdict that follows from how every number stands, with its reason: one refuted is enough against, one open
+/// is enough to leave it open, and a statement about nothing cannot be judged.
+fn weigh(standings: &[Standing]) -> (Verdict, String) {
+    let refuted: Vec<&String> = standings
+        .iter()
+        .filter_map(|s| if let Standing::Refuted(why) = s { Some(why) } else { None })
+        .collect();
+    let open: Vec<&String> =
+        standings.iter().filter_map(|s| if let Standing::Open(why) = s { Some(why) } else { None }).collect();
+    let total = standings.len();
+    if let Some(first) = refuted.first() {
+        (
+            Verdict::NotReproduced,
+            format!("{first} (against the statement in {} of {total} comparisons)", refuted.len()),
+        )
+    } else if let Some(first) = open.first() {
+        (Verdict::CannotJudge, format!("{first} (undecided in {} of {total} comparisons)", open.len()))
+    } else if total == 0 {
+        (Verdict::CannotJudge, "there is nothing in this study to compare it with".to_string())
+    } else {
+        (Verdict::Reproduced, format!("it holds in all of {total} comparisons"))
+    }
+}
+
+/// Names the arms whose means leave walls out.
+fn lost_walls(populations: &[Population], arms: &[String]) -> Option<String> {
+    let parts: Vec<String> = arms
+        .iter()
+        .filter_map(|arm| {
+            let own = of_arm(populations, arm);
+            let lost: u64 = own.iter().map(|population| population.lost()).sum();
+            let planned: u64 = own.iter().map(|population| population.planned).sum();
+            (lost > 0).then(|| {
+                format!("{lost} of {planned} analyses of arm {arm} failed and are not in these numbers")
+            })
+        })
+        .collect();
+    (!parts.is_empty()).then(|| parts.join("; "))
+}
+
+fn ratios(populations: &[Population], arm: &str, over: &str) -> Vec<Number> {
+    of_arm(populations, arm)
+        .into_iter()
+        .filter_map(|above| {
+            let ratio = ratio(above, at(populations, over, above.kn)?);
+            Some(Number::at(above.kn, ratio.value, ratio.interval))
+        })
+        .collect()
+}
+
+fn covs(populations: &[Population], arm: &str) -> Vec<Number> {
+    of_arm(populations, arm)
+        .into_iter()
+        .map(|population| {
+            let cov = stats::Summary::of(&population.ordered()).cov;
+            Number::at(population.kn, cov.value, cov.interval)
+        })
+        .collect()
+}
+
+/// The mean of an arm lies between two others where its ratio to the one is below one and to the other above.
+/// Refuted where the intervals of both ratios lie on the same side of one.
+fn between(populations: &[Population], arm: &str, of: &[String; 2]) -> Evidence {
+    let first = ratios(populations, arm, &of[0]);
+    let second = ratios(populations, arm, &of[1]);
+    let standings = first.iter().zip(&second).map(|(p, q)| between_at(p, q, of)).collect();
+    Evidence {
+        standings,
+        ours: format!(
+            "mean over that of {}: {}; over that of {}: {}",
+            of[0],
+            spread(&first),
+            of[1],
+            spread(&second)
+        ),
+        theirs: format!("mean between those of {} and {}", of[0], of[1]),
+        arms: vec![arm.to_string(), of[0].clone(), of[1].clone()],
+    }
+}
+
+fn between_at(p: &Number, q: &Number, of: &[String; 2]) -> Standing {
+    let (Some(x), Some(y)) = (p.value, q.value) else {
+        return Standing::Open(if p.value.is_none() { p.missing() } else { q.missing() });
+    };
+    let (Some([p_low, p_high]), Some([q_low, q_high])) = (p.interval, q.interval) else {
+        return Standing::Open(if p.interval.is_none() { p.missing() } else { q.missing() });
+    };
+    let words = format!(
+        "at {} ours is {} times that of {} and {} times that of {}",
+        p.place,
+        significant(x, 3),
+        of[0],
+        significant(y, 3),
+        of[1]
+    );
+    if (x < 1.0 && y > 1.0) || (x > 1.0 && y < 1.0) {
+        Standing::Holds
+    } else if (p_low >= 1.0 && q_low >= 1.0) || (p_high <= 1.0 && q_high <= 1.0) {
+        Standing::Refuted(format!("{words}, both on one side beyond their intervals"))
+    } else {
+        Standing::Open(format!("{words}, on one side, but an interval reaches over 1"))
+    }
+}
+
+/// The mean of every arm falls from each kn to the next: the ratio of neighbouring means, wall by wall, is below one.
+fn falls_with_kn(populations: &[Population]) -> Evidence {
+    let mut numbers = Vec::new();
+    let arms = arm_names(populations);
+    for arm in &arms {
+        for pair in of_arm(populations, arm).windows(2) {
+            let ratio = ratio(pair[1], pair[0]);
+            let place = format!("kn = {} to {} in arm {arm}", stiffness(pair[0].kn), stiffness(pair[1].kn));
+            numbers.push(Number { place, value: ratio.value, interval: ratio.interval });
+        }
+    }
+    Evidence {
+        standings: numbers.iter().map(Number::below_one).collect(),
+        ours: format!("mean over the mean at the next lower kn: {}", spread(&numbers)),
+        theirs: "the mean of every arm falls as kn grows (every ratio below 1)".to_string(),
+        arms,
+    }
+}

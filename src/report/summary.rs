@@ -1,0 +1,176 @@
+//! `summary.json`: the numbers of a study, every statistic with its interval.
+
+use std::collections::BTreeMap;
+
+use crate::ensemble::Row;
+use crate::report::compare::{Comparison, comparisons};
+use crate::report::population::{Population, populations};
+use crate::report::published::{Published, judge_all};
+use crate::stats;
+use crate::study::{Arm, Study};
+
+/// What came out of a study. Intervals are at 95 %; what is not defined is null, never zero.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Summary {
+    /// Name of the study.
+    pub study: String,
+    /// The question it answers.
+    pub question: String,
+    /// Named variant, null for the main reading.
+    pub variant: Option<String>,
+    /// Seed of all random streams.
+    pub seed: u64,
+    /// Hash over everything that decides the results.
+    pub study_hash: String,
+    /// One entry per arm and kn: arms in the order of the study, kn ascending.
+    pub arms: Vec<ArmSummary>,
+    /// Ratios of means between arms, kn by kn.
+    pub comparisons: Vec<Comparison>,
+    /// Published statements beside our numbers.
+    pub published: Vec<Published>,
+}
+
+/// One arm at one kn.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct ArmSummary {
+    /// Name of the arm.
+    pub arm: String,
+    /// What its walls and joints are, units in the keys.
+    pub parameters: BTreeMap<String, serde_json::Value>,
+    /// Normal stiffness of the joints (Pa/m).
+    pub kn_pa_per_m: f64,
+    /// False when nothing is drawn in this arm: its value has no sampling error.
+    pub random: bool,
+    /// Walls that the study asks for.
+    pub members: u64,
+    /// Walls by outcome; only `equilibrium` enters the statistics.
+    pub outcomes: BTreeMap<String, u64>,
+    /// Walls that enter the statistics.
+    pub in_mean: u64,
+    /// What is described: `top_displacement`, the largest out-of-plane displacement at the wall's top.
+    pub quantity: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
+    /// Mean.
+    pub mean: Option<f64>,
+    /// Its interval (Student's t).
+    pub mean_ci: Option<[f64; 2]>,
+    /// Standard deviation, n - 1 in the denominator; null for fewer than two walls.
+    pub sigma: Option<f64>,
+    /// Its interval (chi-square, exact for normal values).
+    pub sigma_ci: Option<[f64; 2]>,
+    /// Its interval by bootstrap (BCa).
+    pub sigma_bootstrap_ci: Option<[f64; 2]>,
+    /// Coefficient of variation, a fraction.
+    pub cov: Option<f64>,
+    /// Its interval (modified McKay, Vangel 1996).
+    pub cov_ci: Option<[f64; 2]>,
+    /// Its interval by bootstrap (BCa).
+    pub cov_bootstrap_ci: Option<[f64; 2]>,
+    /// Quantiles.
+    pub quantiles: Vec<QuantileEntry>,
+    /// Says which walls are not in the numbers; null when all are.
+    pub note: Option<String>,
+}
+
+/// A quantile of the walls in equilibrium.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct QuantileEntry {
+    /// Probability.
+    pub probability: f64,
+    /// The quantile (type 7 of Hyndman and Fan).
+    pub value: Option<f64>,
+    /// Its distribution-free interval; null when the walls are too few to bound it.
+    pub ci: Option<[f64; 2]>,
+}
+
+impl QuantileEntry {
+    fn of(values: &[f64], probability: f64) -> Self {
+        let value = stats::quantile(values, probability);
+        QuantileEntry { probability, value, ci: stats::quantile_interval(values, probability) }
+    }
+}
+
+/// Resamples of a bootstrap; 2000 keep the Monte Carlo error of an interval's ends small beside its width.
+const REPLICATES: usize = 2000;
+/// Probabilities of the quantiles given.
+const PROBABILITIES: [f64; 3] = [0.05, 0.5, 0.95];
+
+/// Sums up the rows of a study.
+pub fn summarise(study: &Study, rows: &[Row]) -> Summary {
+    let populations = populations(study, rows);
+    let arms = populations
+        .iter()
+        .map(|population| {
+            let arm = study.arms.iter().find(|arm| arm.name == population.arm);
+            describe(population, study.seed, arm.map_or_else(BTreeMap::new, |arm| parameters(study, arm)))
+        })
+        .collect();
+    Summary {
+        study: study.name.clone(),
+        question: study.question.clone(),
+        variant: study.variant.clone(),
+        seed: study.seed,
+        study_hash: study.hash.clone(),
+        arms,
+        comparisons: comparisons(&populations, &study.published),
+        published: judge_all(&study.published, &populations),
+    }
+}
+
+/// The statistics of one population.
+pub(crate) fn describe(
+    population: &Population,
+    seed: u64,
+    parameters: BTreeMap<String, serde_json::Value>,
+) -> ArmSummary {
+    let values = population.ordered();
+    let statistics = stats::Summary::of(&values);
+    let name = format!("{} {:e}", population.arm, population.kn);
+    let [sigma_bootstrap, cov_bootstrap] = stats::spread_bootstrap(&values, REPLICATES, seed, &name);
+    ArmSummary {
+        arm: population.arm.clone(),
+        parameters,
+        kn_pa_per_m: population.kn,
+        random: !population.fixed,
+        members: population.planned,
+        outcomes: population.outcomes.clone(),
+        in_mean: values.len() as u64,
+        quantity: "top_displacement",
+        unit: "m",
+        mean: statistics.mean.value,
+        mean_ci: statistics.mean.interval,
+        sigma: statistics.sigma.value,
+        sigma_ci: statistics.sigma.interval,
+        sigma_bootstrap_ci: sigma_bootstrap.interval,
+        cov: statistics.cov.value,
+        cov_ci: statistics.cov.interval,
+        cov_bootstrap_ci: cov_bootstrap.interval,
+        quantiles: PROBABILITIES.map(|p| QuantileEntry::of(&values, p)).to_vec(),
+        note: population.note(),
+    }
+}
+
+/// What sets an arm apart, and the joint properties that all arms share.
+fn parameters(study: &Study, arm: &Arm) -> BTreeMap<String, serde_json::Value> {
+    let (layout, outline, joint) = (&arm.layout, &arm.layout.outline, &study.joint);
+    let entries = [
+        ("arrangement", serde_json::json!(layout.arrangement)),
+        ("length_m", serde_json::json!(outline.length)),
+        ("height_m", serde_json::json!(outline.height)),
+        ("base_thickness_m", serde_json::json!(outline.base_thickness)),
+        ("top_thickness_m", serde_json::json!(outline.top_thickness)),
+        ("battered_face", serde_json::json!(outline.battered_face)),
+        ("density_kg_per_m3", serde_json::json!(layout.density)),
+        ("wythes", serde_json::json!(layout.wythes.count)),
+        ("header_share", serde_json::json!(layout.wythes.header_share)),
+        ("head_joint_gap_m", serde_json::json!(layout.head_joint_gap)),
+        ("wedge_share", serde_json::json!(layout.wedges.as_ref().map_or(0.0, |wedges| wedges.share))),
+        ("kn_factor", serde_json::json!(joint.kn_factor)),
+        ("kn_over_ks", serde_json::json!(joint.kn_over_ks)),
+        ("phi_deg", serde_json::json!(joint.phi_deg)),
+        ("cohesion_pa", serde_json::json!(joint.cohesion)),
+        ("tension_pa", serde_json::json!(joint.tension)),
+    ];
+    entries.into_iter().map(|(key, value)| (key.to_string(), value)).collect()
+}

@@ -1,0 +1,200 @@
+//! The table that `run` prints: arms, ratios, published statements. At most 110 columns wide.
+
+use crate::report::number::{or_dash, shortened, with_interval};
+use crate::report::summary::{ArmSummary, Summary};
+
+const WIDTH: usize = 110;
+const EXPLANATION: &str = "Each line is one arm of the study at one normal stiffness kn of the joints. The quantity is \
+    the largest out-of-plane displacement at the wall's top under the full load. Numbers in brackets are 95 % \
+    intervals; a dash means not defined (one wall has no sigma). Failed walls (collapsed, not converged, non-finite, \
+    invalid geometry) are counted and are not in the mean. sigma: standard deviation between walls; COV: sigma over \
+    mean.";
+
+/// The summary as text for a terminal, with a line at its head that explains it.
+pub fn terminal_table(summary: &Summary) -> String {
+    let mut text = wrapped("", &heading(summary));
+    if !summary.question.is_empty() {
+        text.push_str(&wrapped("", &summary.question));
+    }
+    text.push('\n');
+    text.push_str(&wrapped("", EXPLANATION));
+    text.push('\n');
+    text.push_str(&arms(&summary.arms));
+    text.push_str(&ratios(summary));
+    text.push_str(&published(summary));
+    text
+}
+
+fn heading(summary: &Summary) -> String {
+    let variant = summary.variant.as_ref().map_or_else(String::new, |variant| format!(", variant {variant}"));
+    format!("Study {}{variant}, seed {}", summary.study, summary.seed)
+}
+
+/// One line per arm and kn, and the notes below.
+fn arms(arms: &[ArmSummary]) -> String {
+    let header = ["arm", "kn Pa/m", "walls", "failed", "mean mm", "sigma mm", "COV %"].map(String::from);
+    let mut rows = vec![header.to_vec()];
+    for arm in arms {
+        let scaled = |ci: Option<[f64; 2]>, by: f64| ci.map(|ci| ci.map(|x| x * by));
+        let mean = match arm.random {
+            true => with_interval(arm.mean.map(|x| x * 1e3), scaled(arm.mean_ci, 1e3), 3),
+            false => or_dash(arm.mean.map(|x| x * 1e3), 3),
+        };
+        rows.push(vec![
+            arm.arm.clone(),
+            format!("{:e}", arm.kn_pa_per_m),
+            arm.members.to_string(),
+            (arm.members - arm.in_mean.min(arm.members)).to_string(),
+            mean,
+            with_interval(arm.sigma.map(|x| x * 1e3), scaled(arm.sigma_ci, 1e3), 3),
+            with_interval(arm.cov.map(|x| x * 1e2), scaled(arm.cov_ci, 1e2), 3),
+        ]);
+    }
+    let mut text = aligned(rows);
+    for arm in arms {
+        if let Some(note) = &arm.note {
+            text.push_str(&wrapped("! ", &format!("{} at kn {:e} Pa/m: {note}", arm.arm, arm.kn_pa_per_m)));
+        }
+    }
+    text
+}
+
+/// A line per kn and a column per pair of arms; as many tables as the width needs.
+fn ratios(summary: &Summary) -> String {
+    let mut columns: Vec<Vec<String>> = Vec::new();
+    let mut pairs: Vec<(&str, &str)> = Vec::new();
+    let mut kns: Vec<f64> = Vec::new();
+    for comparison in &summary.comparisons {
+        if !kns.contains(&comparison.kn_pa_per_m) {
+            kns.push(comparison.kn_pa_per_m);
+        }
+        let pair = (comparison.arm.as_str(), comparison.over.as_str());
+        let index = pairs.iter().position(|known| *known == pair).unwrap_or_else(|| {
+            pairs.push(pair);
+            columns.push(vec![format!(
+                "{} / {}",
+                shortened(pair.0, LONGEST_NAME),
+                shortened(pair.1, LONGEST_NAME)
+            )]);
+            columns.len() - 1
+        });
+        let exact = comparison.ratio_ci.is_some_and(|[low, high]| low == high);
+        columns[index].push(match exact {
+            true => or_dash(comparison.ratio, 3),
+            false => with_interval(comparison.ratio, comparison.ratio_ci, 3),
+        });
+    }
+    if columns.is_empty() {
+        return String::new();
+    }
+    let first: Vec<String> =
+        std::iter::once("kn Pa/m".to_string()).chain(kns.iter().map(|kn| format!("{kn:e}"))).collect();
+    let mut text = "\nRatios of mean displacements (without brackets: neither arm is random)\n".to_string();
+    for group in fitting(&first, &columns) {
+        let rows = (0..first.len())
+            .map(|row| {
+                std::iter::once(&first)
+                    .chain(group)
+                    .map(|column| column.get(row).cloned().unwrap_or_default())
+                    .collect()
+            })
+            .collect();
+        text.push_str(&aligned(rows));
+    }
+    text
+}
+
+/// Splits columns into groups that fit the width beside the first column.
+fn fitting<'a>(first: &[String], columns: &'a [Vec<String>]) -> Vec<&'a [Vec<String>]> {
+    let mut groups = Vec::new();
+    let (mut start, mut used) = (0, width(first));
+    for (index, column) in columns.iter().enumerate() {
+        let own = width(column) + 2;
+        if index > start && used + own > WIDTH {
+            groups.push(&columns[start..index]);
+            (start, used) = (index, width(first));
+        }
+        used += own;
+    }
+    groups.push(&columns[start..]);
+    groups
+}
+
+fn published(summary: &Summary) -> String {
+    if summary.published.is_empty() {
+        return String::new();
+    }
+    let mut text = "\nPublished statements beside these numbers\n".to_string();
+    for statement in &summary.published {
+        let head = format!(
+            "{}: {} ({})",
+            statement.verdict.words().to_uppercase(),
+            statement.claim,
+            statement.source
+        );
+        text.push_str(&wrapped("  ", &head));
+        for (name, words) in
+            [("theirs", &statement.theirs), ("ours  ", &statement.ours), ("why   ", &statement.why)]
+        {
+            text.push_str(&wrapped(&format!("      {name}  "), words));
+        }
+    }
+    text
+}
+
+/// Names longer than this are cut in tables.
+const LONGEST_NAME: usize = 18;
+
+/// Rows as text: the first column to the left, numbers to the right, a rule below the first row.
+fn aligned(mut rows: Vec<Vec<String>>) -> String {
+    for row in &mut rows {
+        row[0] = shortened(&row[0], LONGEST_NAME);
+    }
+    let columns = rows.first().map_or(0, Vec::len);
+    let widths: Vec<usize> = (0..columns)
+        .map(|column| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0))
+        .collect();
+    let mut text = String::new();
+    for (index, row) in rows.iter().enumerate() {
+        let cells: Vec<String> = row
+            .iter()
+            .zip(&widths)
+            .enumerate()
+            .map(
+                |(column, (cell, &width))| {
+                    if column == 0 { format!("{cell:<width$}") } else { format!("{cell:>width$}") }
+                },
+            )
+            .collect();
+        text.push_str(cells.join("  ").trim_end());
+        text.push('\n');
+        if index == 0 {
+            text.push_str(&"-".repeat(widths.iter().sum::<usize>() + 2 * (columns - 1)));
+            text.push('\n');
+        }
+    }
+    text
+}
+
+fn width(column: &[String]) -> usize {
+    column.iter().map(|cell| cell.chars().count()).max().unwrap_or(0)
+}
+
+/// Breaks a text at spaces; the first line begins with `lead`, the others with as many spaces.
+fn wrapped(lead: &str, text: &str) -> String {
+    let indent = " ".repeat(lead.chars().count());
+    let (mut lines, mut line, mut used) = (String::new(), lead.to_string(), 0);
+    for word in text.split_whitespace() {
+        if used > 0 && line.chars().count() + 1 + word.chars().count() > WIDTH {
+            lines.push_str(&line);
+            lines.push('\n');
+            (line, used) = (indent.clone(), 0);
+        }
+        if used > 0 {
+            line.push(' ');
+        }
+        line.push_str(word);
+        used += 1;
+    }
+    lines + line.trim_end() + "\n"
+}
