@@ -182,7 +182,7 @@ fn generate_says_why_there_is_no_wall_or_no_file() {
         stderr(&ends_with(&folder, 1, &["generate", "studies/tiny", "--out", "no/such/folder/wall.obj"]));
     assert!(error.contains("cannot write no/such/folder/wall.obj"), "{error}");
     let dip = "dip_deg = { family = \"uniform\", low = -3, high = 3 }";
-    folder.write_study(&changed(dip, &format!("{dip}\nlimits = {{ min_size_m = 0.14, max_attempts = 3 }}")));
+    folder.write_study(&changed(dip, &format!("{dip}\nlimits = {{ max_aspect = 1.5, max_attempts = 3 }}")));
     let error = stderr(&ends_with(&folder, 1, &["generate", "studies/tiny", "--out", "wall.obj"]));
     assert!(
         error.contains("arm random, member 0: invalid geometry") && error.contains("3 attempts"),

@@ -4,10 +4,10 @@ use polars_io::prelude::{ParquetReader, SerReader};
 
 use crate::fixture::{Folder, changed, stderr};
 
-/// A course is at most 0.11 m high and the smallest stone must be 0.14 m: every wall of the random arm is an invalid geometry.
+/// No stone may be longer than 1.5 times its width, corner to corner (a cube has 1.73): every wall of the random arm is an invalid geometry.
 fn impossible() -> String {
     let dip = "dip_deg = { family = \"uniform\", low = -3, high = 3 }";
-    changed(dip, &format!("{dip}\nlimits = {{ min_size_m = 0.14, max_attempts = 3, max_redraws = 5 }}"))
+    changed(dip, &format!("{dip}\nlimits = {{ max_aspect = 1.5, max_attempts = 3, max_redraws = 5 }}"))
 }
 
 #[test]

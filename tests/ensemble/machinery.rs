@@ -21,13 +21,13 @@ const JOURNAL: &str = "journal.jsonl";
 const EVALUATIONS: usize = 2 + 2 * 8;
 
 /// A folder to write into.
-fn folder() -> Folder {
+fn new_folder() -> Folder {
     Folder::with_study(STUDY)
 }
 
 /// The study of the fixture; its walls are never built here.
 fn study() -> Study {
-    let folder = folder();
+    let folder = new_folder();
     Study::load(&folder.path("studies/tiny"), None).unwrap().study
 }
 
@@ -94,7 +94,7 @@ fn the_plan_is_ordered_by_arm_point_and_member() {
 
 #[test]
 fn files_have_the_same_bytes_for_any_number_of_threads() {
-    let folder = folder();
+    let folder = new_folder();
     let of = |threads: usize| {
         let out = folder.path(format!("{threads}"));
         let rows = run_with(&study(), &settings(&out, threads), &Silent, &made_up).unwrap();
@@ -110,7 +110,7 @@ fn files_have_the_same_bytes_for_any_number_of_threads() {
 /// A kill leaves some beginning of the journal: whichever it is, the run ends with the same files.
 #[test]
 fn a_journal_cut_at_any_byte_is_resumed_to_the_same_bytes() {
-    let folder = folder();
+    let folder = new_folder();
     let whole = folder.path("whole");
     run_in(&whole).unwrap();
     let wanted = bytes(&whole);
@@ -143,7 +143,7 @@ fn a_journal_cut_at_any_byte_is_resumed_to_the_same_bytes() {
 /// What a reader of the tables gets is the rows, bit by bit; what a member does not have is null.
 #[test]
 fn the_tables_hold_the_rows() {
-    let folder = folder();
+    let folder = new_folder();
     let rows = run_in(&folder.path("out")).unwrap();
     let read = |name: &str| {
         ParquetReader::new(fs::File::open(folder.path("out").join(name)).unwrap()).finish().unwrap()
@@ -180,7 +180,7 @@ fn the_tables_hold_the_rows() {
 
 #[test]
 fn a_damaged_line_is_evaluated_again() {
-    let folder = folder();
+    let folder = new_folder();
     run_in(&folder.path("out")).unwrap();
     let wanted = bytes(&folder.path("out"));
     let path = folder.path("out").join(JOURNAL);
@@ -201,7 +201,7 @@ fn a_damaged_line_is_evaluated_again() {
 
 #[test]
 fn another_study_in_the_same_folder_is_refused_and_changes_nothing() {
-    let folder = folder();
+    let folder = new_folder();
     run_in(&folder.path("out")).unwrap();
     let before = (bytes(&folder.path("out")), fs::read(folder.path("out").join(JOURNAL)).unwrap());
     let other = study().with_seed(8);
@@ -218,7 +218,7 @@ fn another_study_in_the_same_folder_is_refused_and_changes_nothing() {
 
 #[test]
 fn files_that_are_not_ours_are_not_overwritten() {
-    let folder = folder();
+    let folder = new_folder();
     for (name, text) in
         [("members.parquet", "somebody's table"), (JOURNAL, "somebody's diary\n"), (JOURNAL, "no end")]
     {
@@ -233,7 +233,7 @@ fn files_that_are_not_ours_are_not_overwritten() {
 
 #[test]
 fn a_member_that_panics_is_named_and_the_others_are_recorded() {
-    let folder = folder();
+    let folder = new_folder();
     let broken = |study: &Study, task: Task| {
         assert!(task != (Task { arm: 1, point: 1, member: 4 }), "five stones are missing");
         made_up(study, task)
@@ -246,14 +246,14 @@ fn a_member_that_panics_is_named_and_the_others_are_recorded() {
     let lines = fs::read_to_string(folder.path("out").join(JOURNAL)).unwrap().lines().count();
     assert_eq!(lines, EVALUATIONS, "all other members are in the journal");
     run_in(&folder.path("out")).unwrap();
-    let whole = folder();
+    let whole = new_folder();
     run_in(&whole.path("out")).unwrap();
     assert_eq!(bytes(&folder.path("out")), bytes(&whole.path("out")));
 }
 
 #[test]
 fn a_row_that_json_cannot_hold_is_a_fault_of_its_member() {
-    let folder = folder();
+    let folder = new_folder();
     let not_a_number = |study: &Study, task: Task| Row { weight_n: Some(f64::NAN), ..made_up(study, task) };
     let error = run_with(&study(), &settings(&folder.path("out"), 1), &Silent, &not_a_number).unwrap_err();
     assert!(matches!(&error, RunError::Broken { faults } if faults.len() == EVALUATIONS), "{error}");
@@ -261,7 +261,7 @@ fn a_row_that_json_cannot_hold_is_a_fault_of_its_member() {
 
 #[test]
 fn a_full_disk_is_told_and_stops_the_run() {
-    let folder = folder();
+    let folder = new_folder();
     fs::create_dir(folder.path("out")).unwrap();
     std::os::unix::fs::symlink("/dev/full", folder.path("out").join(JOURNAL)).unwrap();
     let error = run_in(&folder.path("out")).unwrap_err();
@@ -273,7 +273,7 @@ fn a_full_disk_is_told_and_stops_the_run() {
 
 #[test]
 fn a_folder_that_cannot_be_made_is_told() {
-    let folder = folder();
+    let folder = new_folder();
     let file = folder.path("file");
     fs::write(&file, "a file").unwrap();
     let error = run_in(&file.join("below")).unwrap_err();
@@ -282,7 +282,7 @@ fn a_folder_that_cannot_be_made_is_told() {
 
 #[test]
 fn a_second_run_in_the_same_folder_is_refused_while_the_first_goes_on() {
-    let folder = folder();
+    let folder = new_folder();
     let second = |study: &Study, task: Task| {
         let refused = run_in(&folder.path("out")).unwrap_err();
         assert!(matches!(refused, RunError::Busy { .. }), "{refused}");
@@ -293,7 +293,7 @@ fn a_second_run_in_the_same_folder_is_refused_while_the_first_goes_on() {
 
 #[test]
 fn timing_stands_beside_the_results_with_a_line_per_member() {
-    let folder = folder();
+    let folder = new_folder();
     run_with(&study(), &settings(&folder.path("out"), 2), &Silent, &made_up).unwrap();
     let text = fs::read_to_string(folder.path("out/timing.csv")).unwrap();
     let lines: Vec<_> = text.lines().collect();
