@@ -4,7 +4,8 @@ use polars_io::prelude::{ParquetReader, SerReader};
 
 use crate::fixture::{Folder, changed, stderr};
 
-/// No stone may be longer than 1.5 times its width, corner to corner (a cube has 1.73): every wall of the random arm is an invalid geometry.
+/// No stone may be longer than 1.5 times its width, corner to corner (a cube has 1.73): every wall of the random arm is
+/// an invalid geometry.
 fn impossible() -> String {
     let dip = "dip_deg = { family = \"uniform\", low = -3, high = 3 }";
     changed(dip, &format!("{dip}\nlimits = {{ max_aspect = 1.5, max_attempts = 3, max_redraws = 5 }}"))
