@@ -23,10 +23,11 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// Settings for stones of a typical size (m): reach 0.5 % and steep width 2 % of it; faces up to 20 degrees apart
-    /// touch as faces.
+    /// Settings for stones of a typical size (m): reach 0.5 % and steep width 20 % of it; faces up to 20 degrees apart
+    /// touch as faces. A narrower strip would let a stone sink into its neighbour: at 1e8 Pa/m a square of 20 % carries
+    /// a stone of 0.2 m with 1 mm of closure.
     pub fn for_size(size: f64, sub_contacts: [u32; 2]) -> Self {
-        Settings { reach: 5e-3 * size, steep_width: 2e-2 * size, face_cosine: 0.939_692_620_785_908_4, sub_contacts }
+        Settings { reach: 5e-3 * size, steep_width: 0.2 * size, face_cosine: 0.939_692_620_785_908_4, sub_contacts }
     }
 
     /// By how much an axis must be better (m) before it replaces the preferred one.
@@ -308,7 +309,7 @@ mod tests {
         let low = block.bounds().0.z;
         let block = block.translated(&Vec3::new(0.0, 0.0, -low - 1e-5));
         let patch = find_patch(&slab(), &block, &settings()).unwrap();
-        assert_relative_eq!(patch.polygon.area(), settings().steep_width.powi(2), max_relative = 1e-9);
+        assert_relative_eq!(patch.polygon.area(), settings().steep_width * settings().steep_width, max_relative = 1e-9);
     }
 
     #[test]

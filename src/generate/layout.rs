@@ -13,7 +13,8 @@ pub struct Layout {
     pub density: Family,
     /// Stones spanning the thickness side by side (1 or more), and the headers that tie them.
     pub wythes: Wythes,
-    /// Width of the open gap in every head joint (m); 0 for closed head joints.
+    /// Width of the open slot in every head joint (m), cut out of both stones alike; 0 for closed head joints. The
+    /// ends of the wall have none, nor have the longitudinal joints between wythes.
     pub head_joint_gap: f64,
     /// Wedge stones, if any.
     pub wedges: Option<Wedges>,
@@ -66,14 +67,15 @@ pub enum BatteredFace {
 pub enum Arrangement {
     /// Stack bond: head joints run through all courses.
     Continuous {
-        /// Stone length (m); the last stone of a course takes what is left.
+        /// Stone length (m); the last stone of a course takes what is left, and is merged into its neighbour when that
+        /// is too short to be a stone.
         #[serde(rename = "length_m")]
         length: f64,
         /// Course height (m); the number of courses is rounded so that they fill the height.
         #[serde(rename = "height_m")]
         height: f64,
     },
-    /// Running bond: every other course is shifted by `overlap` times the stone length.
+    /// Running bond: every other course, from the second one, begins with a stone of `overlap` times the length.
     Discontinuous {
         /// Stone length (m).
         #[serde(rename = "length_m")]
@@ -85,6 +87,11 @@ pub enum Arrangement {
         overlap: f64,
     },
     /// Courses with random heights, stone lengths and one bed dip per bed about the wall's long axis.
+    ///
+    /// Heights are drawn until they pass the wall's height, the last one left out when the sum is nearer without it,
+    /// and scaled by one factor to fill it. Lengths are drawn until a course is full; the last stone takes what is
+    /// left, and is merged into its neighbour when that is too short to be a stone. A bed is redrawn when it crosses
+    /// the one below (or the top of the wall) inside the section, or comes closer to it than `min_size` at a face.
     Coursed {
         /// Stone length (m), drawn per stone.
         #[serde(rename = "length_m")]
@@ -92,7 +99,8 @@ pub enum Arrangement {
         /// Course height (m), drawn per course.
         #[serde(rename = "height_m")]
         height: Family,
-        /// Factor on all lengths and heights of one wall, drawn once per wall (mean size varies between walls).
+        /// Factor on all lengths and heights of one wall, drawn once per wall (mean size varies between walls) and kept
+        /// over its attempts.
         wall_size_factor: Family,
         /// Dip of a bed (rad), drawn once per bed.
         #[serde(rename = "dip_rad")]
@@ -101,6 +109,12 @@ pub enum Arrangement {
         least_overlap: f64,
     },
     /// Recursive random joint planes, the analogue of 3DEC's random joint sets.
+    ///
+    /// A piece is cut across the size that exceeds its target more, n / 2 (rounded down) targets from its lower end
+    /// when it holds n of them (rounded), until both sizes hold one. Bed planes dip, head planes are vertical and
+    /// across the wall. A cut is redrawn when a bed crosses another one of the piece or comes closer to one than
+    /// `min_size`, or when a part is no stone; after half the redraws it is tried across the other size, if that may
+    /// be cut as well.
     Cut {
         /// Target stone length (m), drawn per cut.
         #[serde(rename = "length_m")]
@@ -130,7 +144,8 @@ pub enum DipAbout {
     Both,
 }
 
-/// Stones through the thickness.
+/// Stones through the thickness: vertical longitudinal joints divide it evenly at the height of each stone's centroid,
+/// so that in a battered wall they step from course to course. Head joints run through all wythes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wythes {
     /// Number of wythes, at least 1.
@@ -143,24 +158,27 @@ pub struct Wythes {
 /// as that stone, a triangular prism with its thin edge inside the wall.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wedges {
-    /// Share of stones above the first course that get a wedge, in [0, 1]; drawn per stone.
+    /// Share of stones above the ground that get a wedge, in [0, 1]; drawn per stone, as is the face (front or back
+    /// alike where it shows on both).
     pub share: f64,
-    /// Height of the wedge at the face (m), drawn per wedge.
+    /// Height of the wedge at the face, measured upwards (m), drawn per wedge.
     pub height: Family,
-    /// Depth of the wedge into the wall (m), drawn per wedge.
+    /// Depth of the wedge into the wall, measured along y (m), drawn per wedge.
     pub depth: Family,
 }
 
 /// What a stone must at least be, and how often a member may try.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// Smallest width of a stone over its face normals (m).
+    /// Smallest width of a stone over its face normals (m); also the least distance of beds at a face, and what a wedge
+    /// must leave of its stone's bed and face. Wedge stones themselves, with their sharp edge, are exempt.
     pub min_size: f64,
-    /// Largest ratio of a stone's diameter to its smallest width.
+    /// Largest ratio of a stone's diameter to its smallest width; wedge stones are exempt.
     pub max_aspect: f64,
-    /// Smallest width of a wedge stone at its thick end (m) is its height; its volume must exceed this (m^3).
+    /// Smallest volume of a wedge stone (m^3).
     pub min_volume: f64,
-    /// Redraws of a bed, a length, a cut or a wedge before the whole wall starts again.
+    /// Redraws of a bed, of the lengths of a course, or of a cut before the whole wall starts again; redraws of a wedge
+    /// before its stone goes without.
     pub max_redraws: u32,
     /// Fresh starts of the whole wall before it is an invalid geometry.
     pub max_attempts: u32,

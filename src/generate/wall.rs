@@ -1,6 +1,5 @@
 //! A member's wall from its layout and its streams: attempt after attempt until one is valid.
 
-use crate::check;
 use crate::generate::coursed::{self, Coursed};
 use crate::generate::cut::{self, Cuts};
 use crate::generate::draft::{Draft, Fault, Stone, Tally};
@@ -142,7 +141,7 @@ fn finish(draft: Draft, stones: Vec<Stone>, attempts: u32) -> Generated {
     realised.volume = layout.outline.volume() - draft.gaps;
     let volume: f64 = blocks.iter().map(|b| b.shape.volume()).sum();
     // A cut may move a vertex by the cut tolerance, 1e-9 m of metres: far below this bound.
-    check!(
+    crate::check!(
         (volume - realised.volume).abs() <= 1e-6 * realised.volume,
         "the stones fill {volume} m^3 of {} m^3",
         realised.volume

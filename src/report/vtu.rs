@@ -2,7 +2,6 @@
 
 use std::fmt::{Display, Write};
 
-use crate::check;
 use crate::math::Vec3;
 use crate::model::{Tag, Wall};
 
@@ -40,7 +39,7 @@ pub fn write_vtu(wall: &Wall, displacement: Option<&[Vec3]>) -> String {
     array(&mut text, "Float64", "density", 1, blocks.iter().map(|b| b.density));
     array(&mut text, "Float64", "volume", 1, blocks.iter().map(|b| b.shape.volume()));
     if let Some(displacement) = displacement {
-        check!(
+        crate::check!(
             displacement.len() == blocks.len(),
             "{} displacements for {} blocks",
             displacement.len(),

@@ -11,6 +11,11 @@ import vtk
 
 # VTK sums volumes from its own triangulation in doubles; the expected volume comes as decimal text.
 RELATIVE_TOLERANCE = 1e-9
+# Points may lie this far off their face (m).
+LENGTH_TOLERANCE = 1e-7
+# A flag of vtkCellValidator's set. VTK 9.7 raises it for triangular prisms whose ends are not square to their edges,
+# which are convex; convexity is checked here instead.
+NONCONVEX = 0x10
 ARRAYS = {"block": 1, "tag": 1, "density": 1, "volume": 1}
 
 
@@ -34,20 +39,47 @@ def read(path):
     return reader.GetOutput()
 
 
+def minus(a, b):
+    return [a[k] - b[k] for k in range(3)]
+
+
+def dot(a, b):
+    return sum(a[k] * b[k] for k in range(3))
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def faces(cell):
+    """The corners of every face, in the file's order."""
+    for f in range(cell.GetNumberOfFaces()):
+        points = cell.GetFace(f).GetPoints()
+        yield [points.GetPoint(i) for i in range(points.GetNumberOfPoints())]
+
+
 def signed_volume(cell):
     """Volume from the faces' own order of points: negative when they are inside out."""
     total = 0.0
-    for f in range(cell.GetNumberOfFaces()):
-        points = cell.GetFace(f).GetPoints()
-        corners = [points.GetPoint(i) for i in range(points.GetNumberOfPoints())]
-        a = corners[0]
-        for b, c in zip(corners[1:], corners[2:]):
-            total += (
-                a[0] * (b[1] * c[2] - b[2] * c[1])
-                + a[1] * (b[2] * c[0] - b[0] * c[2])
-                + a[2] * (b[0] * c[1] - b[1] * c[0])
-            ) / 6.0
+    for a, *rest in faces(cell):
+        for b, c in zip(rest, rest[1:]):
+            total += dot(a, cross(b, c)) / 6.0
     return total
+
+
+def farthest_outside(cell):
+    """How far a point of the cell lies outside the plane of one of its faces (m); 0 or round-off when convex."""
+    everywhere = [corner for face in faces(cell) for corner in face]
+    farthest = 0.0
+    for a, *rest in faces(cell):
+        normal = [0.0, 0.0, 0.0]
+        for b, c in zip(rest, rest[1:]):
+            part = cross(minus(b, a), minus(c, a))
+            normal = [normal[k] + part[k] for k in range(3)]
+        length = dot(normal, normal) ** 0.5
+        for point in everywhere:
+            farthest = max(farthest, dot(normal, minus(point, a)) / length)
+    return farthest
 
 
 def vtk_volumes(grid):
@@ -83,9 +115,12 @@ def main():
         cell = grid.GetCell(i)
         if cell.GetCellType() != vtk.VTK_POLYHEDRON:
             fail(f"cell {i} has type {cell.GetCellType()}, expected {vtk.VTK_POLYHEDRON} (polyhedron)")
-        state = validator.Check(cell, 1e-7)
-        if state != vtk.vtkCellValidator.Valid:
-            fail(f"cell {i} is not valid: VTK's state {int(state)}")
+        state = int(validator.Check(cell, LENGTH_TOLERANCE)) & ~NONCONVEX
+        if state != 0:
+            fail(f"cell {i} is not valid: VTK's state {state:#x}")
+        outside = farthest_outside(cell)
+        if outside > LENGTH_TOLERANCE:
+            fail(f"cell {i} is not convex: a point lies {outside} m outside a face")
         own, stated = signed_volume(cell), data.GetArray("volume").GetValue(i)
         if not close(own, stated):
             fail(f"cell {i}: its faces enclose {own} m3, the file states {stated} m3")

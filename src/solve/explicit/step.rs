@@ -33,6 +33,7 @@ struct DeadLoad {
 }
 
 /// Blocks, joints and loads, stepped in time.
+#[derive(Clone)]
 pub struct Simulation<'a> {
     /// The bodies, by block id.
     pub bodies: Bodies,

@@ -1,0 +1,80 @@
+//! A floor, a block, a law, a simulation: each in one line.
+
+use pirca::contact;
+use pirca::law::{CohesionAfterSlip, Coulomb, NormalLaw, Sampling};
+use pirca::math::{Vec3, cos, radians, sin, tan};
+use pirca::model::{Block, Support, Tag, Wall};
+use pirca::shape::Polyhedron;
+use pirca::solve::explicit::{STANDARD_GRAVITY, Settings, Simulation, Status};
+
+/// Standard gravity (m/s^2).
+pub const G: f64 = STANDARD_GRAVITY;
+
+/// A dry joint: no cohesion, no tension, ks = kn / 2.
+pub fn dry(kn: f64, phi_deg: f64) -> Coulomb {
+    Coulomb {
+        normal: NormalLaw::Linear { kn },
+        ks: 0.5 * kn,
+        tan_phi: tan(radians(phi_deg)),
+        cohesion: 0.0,
+        tension: 0.0,
+        cohesion_after_slip: CohesionAfterSlip::Kept,
+        sampling: Sampling::Area,
+        bonded: false,
+    }
+}
+
+/// A free stone.
+pub fn stone(shape: Polyhedron, density: f64) -> Block {
+    Block { shape, density, support: Support::Free, tag: Tag::Stone }
+}
+
+/// A box of the given size resting on z = 0, centred on x = y = 0.
+pub fn resting(size: [f64; 3], density: f64) -> Block {
+    let [x, y, z] = size;
+    stone(Polyhedron::cuboid(Vec3::new(-x / 2.0, -y / 2.0, 0.0), Vec3::new(x / 2.0, y / 2.0, z)), density)
+}
+
+/// The blocks on a fixed floor.
+pub fn on_floor(blocks: Vec<Block>) -> Wall {
+    Wall { blocks }.with_base()
+}
+
+/// Gravity on a table tilted by `tilt_deg` towards +y: out-of-plane force W sin(alpha).
+pub fn tilted(tilt_deg: f64) -> Vec3 {
+    let a = radians(tilt_deg);
+    Vec3::new(0.0, G * sin(a), -G * cos(a))
+}
+
+/// A simulation with the contact tolerances of stones of the given size and 2 x 2 sub-contacts.
+pub fn simulation<'a>(wall: &Wall, law: &'a Coulomb, settings: Settings, size: f64) -> Simulation<'a> {
+    Simulation::new(wall, law, settings, contact::Settings::for_size(size, [2, 2]))
+}
+
+/// Undamped motion in true time, at a share of the critical step.
+pub fn in_time(step_safety: f64) -> Settings {
+    Settings { damping: 0.0, scaled_inertia: false, step_safety, ..Settings::default() }
+}
+
+/// Tilts slowly in steps until some block moves on by more than `limit` (m), then brackets the angle (deg) to
+/// `bracket` by going back to the last stable state with half the step. Gives the last stable and the first unstable angle.
+pub fn collapse_angle(mut stable: Simulation, from_deg: f64, step_deg: f64, bracket: f64, limit: f64) -> [f64; 2] {
+    let at_rest: Vec<Vec3> = stable.bodies.all.iter().map(|b| b.position).collect();
+    let (mut angle, mut step) = (from_deg, step_deg);
+    loop {
+        let mut next = stable.clone();
+        next.gravity = tilted(angle + step);
+        let (status, _) = next.relax(|bodies| {
+            bodies.all.iter().zip(&at_rest).any(|(b, rest)| (b.position - rest).norm() > limit)
+        });
+        if status == Status::Equilibrium {
+            stable = next;
+            angle += step;
+        } else if step <= bracket {
+            return [angle, angle + step];
+        } else {
+            step *= 0.5;
+        }
+        assert!(angle < 89.0, "nothing collapses");
+    }
+}

@@ -1,0 +1,9 @@
+//! Laws of physics and closed forms: every test holds its own answer.
+
+mod dynamics;
+mod elastic;
+mod fixture;
+mod objectivity;
+mod pressure;
+mod tilting;
+mod tumbling;
