@@ -53,9 +53,9 @@ pub(crate) fn generate(arguments: &Generate) -> Result<(), Failure> {
 
 fn encoded(format: Format, wall: &Wall) -> String {
     match format {
-        Format::Vtu => report::vtu(wall),
-        Format::Obj => exchange::to_obj(wall),
-        Format::Json => exchange::to_json(wall),
+        Format::Vtu => report::write_vtu(wall, None),
+        Format::Obj => exchange::write_obj(wall),
+        Format::Json => exchange::write_wall_json(wall),
     }
 }
 

@@ -16,7 +16,8 @@ pub(crate) fn run(arguments: &Run) -> Result<(), Failure> {
     let out = arguments.out.clone().unwrap_or_else(|| default_folder(&study));
     let settings = Settings { out: out.clone(), threads: arguments.threads };
     let rows = ensemble::run(&study, &settings, progress::on_stderr(&study).as_ref())?;
-    let summary = report::write_all(&study, &rows, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
+    let summary =
+        report::write_all(&study, &rows, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
     if arguments.which.json {
         return output::print_json(&summary);
     }

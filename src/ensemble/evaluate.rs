@@ -6,10 +6,9 @@ use crate::math::degrees;
 use crate::model::{Outcome, Wall};
 use crate::protocol;
 use crate::random::Streams;
+use crate::solve::explicit::STANDARD_GRAVITY;
 use crate::stats;
 use crate::study::{DrawnJoints, Study};
-
-const GRAVITY: f64 = 9.81;
 
 /// The wall of a member, the same one at every kn: only the arm's layout, the seed and the member enter.
 ///
@@ -102,7 +101,7 @@ fn unsolved(study: &Study, task: Task, outcome: Outcome) -> Row {
 /// Weight of the stones (N), added in the order of their ids.
 fn weight(wall: &Wall) -> f64 {
     wall.stones().map(|(_, stone)| stone.density * stone.shape.volume()).fold(0.0, |sum, mass| sum + mass)
-        * GRAVITY
+        * STANDARD_GRAVITY
 }
 
 /// A value that a table can hold: NaN and infinity are "not observed".

@@ -64,7 +64,9 @@ impl Manifest {
         found.extend(said("variant", &or_none(&self.variant), &or_none(&wanted.variant)));
         found.extend(said("solver", &self.solver, &wanted.solver));
         let keys: BTreeSet<&String> = self.values.keys().chain(wanted.values.keys()).collect();
-        let value = |values: &BTreeMap<String, String>, key| values.get(key).cloned().unwrap_or_else(|| "nothing".to_string());
+        let value = |values: &BTreeMap<String, String>, key| {
+            values.get(key).cloned().unwrap_or_else(|| "nothing".to_string())
+        };
         for key in keys {
             found.extend(said(key, &value(&self.values, key), &value(&wanted.values, key)));
         }

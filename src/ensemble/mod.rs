@@ -10,8 +10,6 @@ mod progress;
 mod record;
 mod run;
 mod table;
-#[cfg(test)]
-mod tests;
 
 pub use design::{Task, is_random, plan};
 pub use error::{MemberFault, RunError};

@@ -1,5 +1,5 @@
-//! What a reader gets: the summary, the comparison with published statements, the table on the terminal, the figure.
-//! Reads rows and statistics; never computes physics.
+//! What a reader gets: the summary, the comparison with published statements, the table on the terminal, the figure,
+//! the wall for ParaView. Reads rows and statistics; never computes physics.
 
 mod compare;
 mod csv;

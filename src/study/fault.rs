@@ -141,6 +141,7 @@ impl Fault {
             && self.file == other.file
             && self.key == other.key
             && self.found == other.found
+            && self.allowed == other.allowed
     }
 }
 

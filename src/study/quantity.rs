@@ -80,13 +80,8 @@ pub fn family(reader: &mut Reader<'_>) -> Option<Family> {
                 let found = Found::Value(Short(bad.found).to_string());
                 let path = join(&reader.path, bad.parameter);
                 let allowed = format!("a value that {}", bad.allowed);
-                let fault = Fault::at(
-                    reader.place_of(bad.parameter),
-                    &path,
-                    found,
-                    bad.allowed,
-                    "mend the parameters",
-                );
+                let fault =
+                    Fault::at(reader.place_of(bad.parameter), &path, found, allowed, "mend the parameters");
                 reader.notes.faults.push(fault);
             }
             None

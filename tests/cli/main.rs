@@ -1,6 +1,7 @@
-//! What a user meets before anything is computed: input files and their faults, and the house's own layering.
+//! What a user meets: input files and their faults, the verbs, and the house's own layering.
 
 mod catalogue;
+mod commands;
 mod layering;
 mod malformed;
 mod scratch;

@@ -2,12 +2,13 @@
 
 use polars_io::prelude::{ParquetReader, SerReader};
 
-use crate::fixture::{Folder, STUDY, changed, stderr};
+use crate::fixture::{Folder, changed, stderr};
 
-/// No course is as high as the smallest stone must be: every wall of the random arm is an invalid geometry.
+/// No stone may be longer than 1.5 times its width, corner to corner (a cube has 1.73): every wall of the random arm is
+/// an invalid geometry.
 fn impossible() -> String {
     let dip = "dip_deg = { family = \"uniform\", low = -3, high = 3 }";
-    changed(dip, &format!("{dip}\nlimits = {{ min_size_m = 0.5, max_attempts = 3, max_redraws = 5 }}"))
+    changed(dip, &format!("{dip}\nlimits = {{ max_aspect = 1.5, max_attempts = 3, max_redraws = 5 }}"))
 }
 
 #[test]
@@ -33,7 +34,8 @@ fn walls_that_cannot_be_built_are_rows_and_are_counted() {
     assert_eq!(top.null_count(), 2 * 8, "what was not observed is null, not zero");
 
     let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    let random: Vec<_> = summary["arms"].as_array().unwrap().iter().filter(|arm| arm["arm"] == "random").collect();
+    let random: Vec<_> =
+        summary["arms"].as_array().unwrap().iter().filter(|arm| arm["arm"] == "random").collect();
     assert_eq!(random.len(), 2, "one entry per kn");
     for arm in random {
         assert_eq!(arm["outcomes"]["invalid_geometry"], 8);

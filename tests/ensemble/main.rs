@@ -3,6 +3,7 @@
 mod failed_members;
 mod fixture;
 mod kill;
+mod machinery;
 mod refusal;
 mod same_walls;
 mod threads;

@@ -81,7 +81,11 @@ fn a_file_size_limit_is_a_clear_error_and_loses_nothing() {
         .output()
         .unwrap();
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-    assert!(stderr(&output).contains("cannot write out/journal.jsonl: File too large"), "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains("cannot write out/journal.jsonl: File too large"),
+        "{}",
+        stderr(&output)
+    );
     let whole = fs::read(folder.path("out/journal.jsonl")).unwrap().iter().filter(|&&b| b == b'\n').count();
     assert!(whole > 1, "the limit must let some members through");
     let again = folder.pirca(&["run", "studies/tiny", "--out", "out"]);

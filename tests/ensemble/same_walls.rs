@@ -4,11 +4,12 @@ use std::fs;
 
 use crate::fixture::{Folder, STUDY, changed, stderr};
 
-/// The random wall of member 5, as the program writes it.
+/// A wall of the random arm, as the program writes it: member 5 unless `more` says another.
 fn wall(text: &str, more: &[&str]) -> Vec<u8> {
     let folder = Folder::with_study(text);
-    let member = ["generate", "studies/tiny", "--arm", "random", "--member", "5", "--out", "wall.json"];
-    let output = folder.pirca(&[&member, more].concat());
+    let member = if more.contains(&"--member") { &[][..] } else { &["--member", "5"] };
+    let generate = ["generate", "studies/tiny", "--arm", "random", "--out", "wall.json"];
+    let output = folder.pirca(&[&generate, member, more].concat());
     assert!(output.status.success(), "{}", stderr(&output));
     fs::read(folder.path("wall.json")).unwrap()
 }
@@ -18,7 +19,13 @@ fn another_kn_solver_variant_or_comment_leaves_every_stone_as_it_was() {
     let stones = wall(STUDY, &[]);
     let others = [
         ("another kn", changed("[5e7, 1.75e8]", "[3e7]")),
-        ("scattered kn", changed("kn_over_ks = 2", "kn_over_ks = 2\nkn_factor = { family = \"uniform\", low = 0.8, high = 1.2 }")),
+        (
+            "scattered kn",
+            changed(
+                "kn_over_ks = 2",
+                "kn_over_ks = 2\nkn_factor = { family = \"uniform\", low = 0.8, high = 1.2 }",
+            ),
+        ),
         ("another solver setting", changed("unbalanced_ratio = 1e-4", "unbalanced_ratio = 1e-3")),
         ("another load", changed("mean_pressure_pa = 200", "mean_pressure_pa = 100")),
         ("a comment", format!("# a comment\n{STUDY}")),

@@ -5,8 +5,15 @@ use std::fs;
 use crate::fixture::{Folder, STUDY, stderr};
 
 /// The files of a run that must not depend on threads, kills or time.
-pub const RESULTS: [&str; 7] =
-    ["members.parquet", "steps.parquet", "summary.json", "manifest.json", "figure-10.svg", "figure-10.png", "figure-10.csv"];
+pub const RESULTS: [&str; 7] = [
+    "members.parquet",
+    "steps.parquet",
+    "summary.json",
+    "manifest.json",
+    "figure-10.svg",
+    "figure-10.png",
+    "figure-10.csv",
+];
 
 /// Their bytes.
 pub fn results(folder: &Folder, out: &str) -> Vec<Vec<u8>> {

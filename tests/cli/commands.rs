@@ -1,0 +1,258 @@
+//! Each verb as a user meets it: exit codes, messages, formats.
+
+#[path = "../ensemble/fixture.rs"]
+mod fixture;
+
+use std::fs::{self, File};
+use std::process::{Output, Stdio};
+
+use serde_json::Value;
+
+use fixture::{Folder, STUDY, changed, stderr};
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+fn json(output: &Output) -> Value {
+    serde_json::from_slice(&output.stdout).unwrap_or_else(|e| panic!("{e}: {}", stdout(output)))
+}
+
+/// Runs the program and checks its exit code.
+fn ends_with(folder: &Folder, code: i32, arguments: &[&str]) -> Output {
+    let output = folder.pirca(arguments);
+    assert_eq!(output.status.code(), Some(code), "pirca {}: {}", arguments.join(" "), stderr(&output));
+    output
+}
+
+#[test]
+fn every_verb_has_help_with_an_example_and_the_exit_codes() {
+    let folder = Folder::with_study(STUDY);
+    for verb in ["check", "generate", "run"] {
+        let help = stdout(&ends_with(&folder, 0, &[verb, "--help"]));
+        for said in ["Usage: pirca", "Example: pirca", "Exit codes: 0", "--json", "--variant"] {
+            assert!(help.contains(said), "{said} is missing in the help of {verb}: {help}");
+        }
+        assert!(stdout(&ends_with(&folder, 0, &["--help"])).contains(verb));
+    }
+    assert_eq!(
+        stdout(&ends_with(&folder, 0, &["--version"])),
+        format!("pirca {}\n", env!("CARGO_PKG_VERSION"))
+    );
+}
+
+#[test]
+fn arguments_that_make_no_sense_end_with_2() {
+    let folder = Folder::with_study(STUDY);
+    for (arguments, said) in [
+        (&["solve"][..], "solve"),
+        (&["check"], "STUDY"),
+        (&["run", "studies/tiny", "--members", "0"], "--members"),
+        (&["run", "studies/tiny", "--threads", "0"], "--threads"),
+        (&["run", "studies/tiny", "--solver", "quantum"], "explicit"),
+        (&["run", "studies/tiny", "--seed", "-1"], "-1"),
+        (&["generate", "studies/tiny"], "--out"),
+        (&["generate", "studies/tiny", "--out", "wall.stl"], ".vtu, .obj or .json"),
+        (&["generate", "studies/tiny", "--out", "wall"], ".vtu, .obj or .json"),
+        (&["generate", "studies/tiny", "--out", "wall.obj", "--arm", "randon"], "it has stack, random"),
+        (&["generate", "studies/tiny", "--out", "wall.obj", "--point", "2"], "points 0 to 1"),
+    ] {
+        let output = ends_with(&folder, 2, arguments);
+        assert!(stderr(&output).contains(said), "{said} in: {}", stderr(&output));
+        assert!(output.stdout.is_empty(), "an error goes to standard error");
+    }
+}
+
+#[test]
+fn a_path_without_a_study_is_told_with_the_studies_that_there_are() {
+    let folder = Folder::with_study(STUDY);
+    fs::create_dir(folder.path("studies/empty")).unwrap();
+    for (path, found) in [
+        ("studies/tinny", "studies/tinny: No such file or directory"),
+        ("tiny", "tiny: No such file or directory"),
+        ("studies/empty", "studies/empty is a folder without a study.toml"),
+        ("studies/tiny/study.toml/x", "Not a directory"),
+    ] {
+        for verb in [&["check", path][..], &["run", path], &["generate", path, "--out", "wall.obj"]] {
+            let error = stderr(&ends_with(&folder, 3, verb));
+            assert!(error.contains(found), "{found} in: {error}");
+            assert!(error.contains("nearest name first:\n  studies/tiny"), "{error}");
+        }
+    }
+    let output = ends_with(&folder, 3, &["check", "studies/tinny", "--json"]);
+    assert_eq!(json(&output)["valid"], false);
+    assert!(json(&output)["error"].as_str().unwrap().contains("studies/tiny"));
+}
+
+#[test]
+fn check_accepts_a_folder_or_its_file_and_says_what_it_found() {
+    let folder = Folder::with_study(STUDY);
+    for path in ["studies/tiny", "studies/tiny/", "studies/tiny/study.toml"] {
+        let output = ends_with(&folder, 0, &["check", path]);
+        for said in [
+            "tiny: valid",
+            "Does the machinery hold?",
+            "stack (1), random (8)",
+            "evaluations: 18",
+            "slippery: Wet",
+        ] {
+            assert!(stdout(&output).contains(said), "{said} in: {}", stdout(&output));
+        }
+        let told = json(&ends_with(&folder, 0, &["check", path, "--json", "--variant", "slippery"]));
+        assert_eq!(told["valid"], true);
+        assert_eq!(told["study"], "tiny");
+        assert_eq!(told["variant"], "slippery");
+        assert_eq!(told["evaluations"], 18);
+        assert_eq!(told["arms"][1]["random"], true);
+        assert_eq!(told["faults"], Value::Array(Vec::new()));
+    }
+    // From inside the folder, too, the study has the folder's name.
+    let inside = folder.command(&["check", "."]).current_dir(folder.path("studies/tiny")).output().unwrap();
+    assert!(stdout(&inside).starts_with("tiny: valid"), "{}", stdout(&inside));
+}
+
+#[test]
+fn an_invalid_study_ends_with_3_and_all_its_faults() {
+    let faulty = changed("height_m = 0.3", "height_m = -0.3").replace("phi_deg = 35", "phi_deg = 135");
+    let folder = Folder::with_study(&faulty);
+    for verb in [
+        &["check", "studies/tiny"][..],
+        &["run", "studies/tiny"],
+        &["generate", "studies/tiny", "--out", "w.obj"],
+    ] {
+        let error = stderr(&ends_with(&folder, 3, verb));
+        for said in ["study.toml:7", "wall.height_m = -0.3", "joint.phi_deg = 135"] {
+            assert!(error.contains(said), "{said} in: {error}");
+        }
+    }
+    let told = json(&ends_with(&folder, 3, &["check", "studies/tiny", "--json"]));
+    assert_eq!(told["valid"], false);
+    let keys: Vec<_> = told["faults"].as_array().unwrap().iter().map(|fault| fault["key"].clone()).collect();
+    assert_eq!(keys, ["wall.height_m", "joint.phi_deg"]);
+    assert!(!folder.path("runs").exists(), "nothing is run");
+
+    let folder = Folder::with_study(STUDY);
+    let error = stderr(&ends_with(&folder, 3, &["run", "studies/tiny", "--variant", "slipery"]));
+    assert!(error.contains("slippery"), "{error}");
+}
+
+#[test]
+fn a_warning_goes_to_standard_error_and_stops_nothing() {
+    let folder = Folder::with_study(&changed("[5e7, 1.75e8]", "[50, 100]"));
+    let output = ends_with(&folder, 0, &["check", "studies/tiny"]);
+    assert!(
+        stderr(&output).contains("warning: ") && stderr(&output).contains("kn_pa_per_m"),
+        "{}",
+        stderr(&output)
+    );
+    let output = ends_with(&folder, 0, &["check", "studies/tiny", "--json"]);
+    assert_ne!(json(&output)["warnings"], Value::Array(Vec::new()));
+}
+
+#[test]
+fn generate_writes_the_format_that_the_ending_says() {
+    let folder = Folder::with_study(STUDY);
+    for (name, holds) in [("wall.json", "\"blocks\""), ("wall.obj", "\nv "), ("wall.vtu", "<VTKFile")] {
+        ends_with(&folder, 0, &["generate", "studies/tiny", "--out", name]);
+        let text = fs::read_to_string(folder.path(name)).unwrap();
+        assert!(text.contains(holds), "{holds} in {name}");
+    }
+    let told = json(&ends_with(&folder, 0, &["generate", "studies/tiny", "--out", "wall.json", "--json"]));
+    assert_eq!(told["arm"], "random", "the first arm that is random");
+    assert_eq!((&told["point"], &told["member"]), (&Value::from(0), &Value::from(0)));
+    assert_eq!(told["kn_pa_per_m"], 5e7);
+    let wall: Value = serde_json::from_slice(&fs::read(folder.path("wall.json")).unwrap()).unwrap();
+    let stones = wall["blocks"].as_array().unwrap().iter().filter(|b| b["tag"] == "stone").count();
+    assert_eq!(told["stones"], stones);
+    let stack =
+        ["generate", "studies/tiny", "--arm", "stack", "--point", "1", "--out", "stack.json", "--json"];
+    let told = json(&ends_with(&folder, 0, &stack));
+    assert_eq!(
+        (&told["arm"], &told["stones"]),
+        (&Value::from("stack"), &Value::from(12)),
+        "3 courses of 4 stones"
+    );
+    assert_eq!(told["kn_pa_per_m"], 1.75e8);
+}
+
+#[test]
+fn generate_says_why_there_is_no_wall_or_no_file() {
+    let folder = Folder::with_study(STUDY);
+    let error =
+        stderr(&ends_with(&folder, 1, &["generate", "studies/tiny", "--out", "no/such/folder/wall.obj"]));
+    assert!(error.contains("cannot write no/such/folder/wall.obj"), "{error}");
+    let dip = "dip_deg = { family = \"uniform\", low = -3, high = 3 }";
+    folder.write_study(&changed(dip, &format!("{dip}\nlimits = {{ max_aspect = 1.5, max_attempts = 3 }}")));
+    let error = stderr(&ends_with(&folder, 1, &["generate", "studies/tiny", "--out", "wall.obj"]));
+    assert!(
+        error.contains("arm random, member 0: invalid geometry") && error.contains("3 attempts"),
+        "{error}"
+    );
+    assert!(!folder.path("wall.obj").exists());
+}
+
+#[test]
+fn run_shows_the_table_and_writes_the_files() {
+    let folder = Folder::with_study(STUDY);
+    let output = ends_with(&folder, 0, &["run", "studies/tiny", "--members", "2", "--solver", "explicit"]);
+    assert!(
+        stdout(&output).contains("random") && stdout(&output).contains("written to runs/tiny"),
+        "{}",
+        stdout(&output)
+    );
+    // Two random walls and the one of the stack bond, at two points.
+    assert!(
+        stderr(&output).contains("tiny: 6/6 done, 0 failed, random at kn 1.75e8: mean 0."),
+        "{}",
+        stderr(&output)
+    );
+    for name in [
+        "members.parquet",
+        "steps.parquet",
+        "summary.json",
+        "manifest.json",
+        "timing.csv",
+        "figure-10.svg",
+        "figure-10.png",
+        "figure-10.csv",
+    ] {
+        assert!(folder.path("runs/tiny").join(name).is_file(), "{name}");
+    }
+    let output = ends_with(&folder, 0, &["run", "studies/tiny", "--members", "2", "--json"]);
+    let file: Value =
+        serde_json::from_slice(&fs::read(folder.path("runs/tiny/summary.json")).unwrap()).unwrap();
+    assert_eq!(json(&output), file, "--json is the object of summary.json and nothing else");
+    ends_with(&folder, 0, &["run", "studies/tiny", "--members", "2", "--variant", "slippery", "--seed", "9"]);
+    let file: Value =
+        serde_json::from_slice(&fs::read(folder.path("runs/tiny-slippery/summary.json")).unwrap()).unwrap();
+    assert_eq!((&file["seed"], &file["variant"]), (&Value::from(9), &Value::from("slippery")));
+}
+
+/// `pirca ... | head` closes the pipe early: no error, no panic.
+#[test]
+fn a_closed_pipe_is_no_error() {
+    let folder = Folder::with_study(STUDY);
+    for arguments in
+        [&["check", "studies/tiny"][..], &["check", "studies/tiny", "--json"], &["run", "--help"]]
+    {
+        let mut child =
+            folder.command(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert_eq!(stderr(&output), "");
+    }
+}
+
+#[test]
+fn a_full_standard_output_is_an_error() {
+    let folder = Folder::with_study(STUDY);
+    let full = File::options().write(true).open("/dev/full").unwrap();
+    let output = folder.command(&["check", "studies/tiny"]).stdout(full).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(
+        stderr(&output).contains("cannot write to standard output: No space left"),
+        "{}",
+        stderr(&output)
+    );
+}
