@@ -49,6 +49,8 @@ pub enum Sampling {
 pub struct SubContact {
     /// Shear traction on the incident block (Pa), in the joint's in-plane axes.
     pub tau: [f64; 2],
+    /// Area in contact when it was last looked at (m^2).
+    pub area: f64,
     /// Whether it has been pulled harder than the tensile strength.
     pub broken: bool,
     /// Whether it has slipped.
@@ -89,6 +91,14 @@ pub struct ShearSum {
     pub by_t: [f64; 2],
 }
 
+impl SubContact {
+    /// An open sub-contact carries no shear, and starts from none when it closes again.
+    pub fn forget_shear(&mut self) {
+        self.tau = [0.0; 2];
+        self.area = 0.0;
+    }
+}
+
 impl Coulomb {
     /// The loop over the sub-contacts of a joint: elastic shear increments limited by Coulomb's envelope.
     ///
@@ -98,14 +108,17 @@ impl Coulomb {
         let mut sum = ShearSum::default();
         for (state, load) in states.iter_mut().zip(pressed) {
             if load.area <= 0.0 {
-                state.tau = [0.0; 2];
+                state.forget_shear();
                 continue;
             }
             let [s, t] = load.at;
+            // Area that comes into contact brings no shear with it, area that is lost takes its share away.
+            let kept = if load.area > state.area { state.area / load.area } else { 1.0 };
+            state.area = load.area;
             let mut force = [0.0; 2];
             for k in 0..2 {
                 let increment = motion.base[k] + s * motion.by_s[k] + t * motion.by_t[k];
-                state.tau[k] -= self.ks * increment;
+                state.tau[k] = state.tau[k] * kept - self.ks * increment;
                 force[k] = state.tau[k] * load.area;
             }
             if !self.bonded {
@@ -191,8 +204,23 @@ mod tests {
     }
 
     #[test]
+    fn area_that_comes_into_contact_brings_no_shear() {
+        // Else a sub-contact that flickers between half and whole would gain force, and so energy, each time.
+        let mut state = SubContact::default();
+        let mut shear = |area: f64, du: f64| {
+            let pressed = Pressed { at: [0.0; 2], area, force: 1e4 };
+            let motion = Motion { base: [du, 0.0], ..Motion::default() };
+            law().shear(std::slice::from_mut(&mut state), &[pressed], &motion).force[0]
+        };
+        let half = shear(0.05, 1e-5);
+        assert_relative_eq!(shear(0.1, 0.0), half, max_relative = 1e-14);
+        assert_relative_eq!(shear(0.05, 0.0), half / 2.0, max_relative = 1e-14);
+        assert_relative_eq!(shear(0.1, 0.0), half / 2.0, max_relative = 1e-14);
+    }
+
+    #[test]
     fn an_open_sub_contact_forgets_its_shear() {
-        let mut state = SubContact { tau: [7.0, 8.0], ..SubContact::default() };
+        let mut state = SubContact { tau: [7.0, 8.0], area: 0.1, ..SubContact::default() };
         let open = Pressed::default();
         law().shear(std::slice::from_mut(&mut state), &[open], &Motion::default());
         assert_eq!(state.tau, [0.0; 2]);

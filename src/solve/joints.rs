@@ -178,7 +178,8 @@ impl Joint {
                 .0;
             if let Some(from) = before.states.get(nearest) {
                 let traction = (then.e1 * from.tau[0] + then.e2 * from.tau[1]) * sign;
-                *state = SubContact { tau: [traction.dot(&now.e1), traction.dot(&now.e2)], ..*from };
+                let area = if from.area > 0.0 { cell.moments.area } else { 0.0 };
+                *state = SubContact { tau: [traction.dot(&now.e1), traction.dot(&now.e2)], area, ..*from };
             }
         }
     }
@@ -201,7 +202,7 @@ impl Joint {
         if lowest > 0.0 && !self.states.iter().any(|s| self.law.holds(s)) {
             // Wide open: forget the shear, no force.
             if self.force != 0.0 {
-                self.states.iter_mut().for_each(|s| s.tau = [0.0; 2]);
+                self.states.iter_mut().for_each(SubContact::forget_shear);
                 self.force = 0.0;
             }
             return;
