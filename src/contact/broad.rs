@@ -35,7 +35,8 @@ mod tests {
 
     #[test]
     fn every_near_pair_is_found_once_and_no_far_one() {
-        let cube = |x: f64, y: f64| Polyhedron::cuboid(Vec3::new(x, y, 0.0), Vec3::new(x + 1.0, y + 1.0, 1.0));
+        let cube =
+            |x: f64, y: f64| Polyhedron::cuboid(Vec3::new(x, y, 0.0), Vec3::new(x + 1.0, y + 1.0, 1.0));
         let mut shapes = Vec::new();
         for i in 0..7 {
             for j in 0..5 {

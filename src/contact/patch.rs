@@ -27,7 +27,12 @@ impl Settings {
     /// touch as faces. A narrower strip would let a stone sink into its neighbour: at 1e8 Pa/m a square of 20 % carries
     /// a stone of 0.2 m with 1 mm of closure.
     pub fn for_size(size: f64, sub_contacts: [u32; 2]) -> Self {
-        Settings { reach: 5e-3 * size, steep_width: 0.2 * size, face_cosine: 0.939_692_620_785_908_4, sub_contacts }
+        Settings {
+            reach: 5e-3 * size,
+            steep_width: 0.2 * size,
+            face_cosine: 0.939_692_620_785_908_4,
+            sub_contacts,
+        }
     }
 
     /// By how much an axis must be better (m) before it replaces the preferred one.
@@ -271,10 +276,12 @@ mod tests {
     #[test]
     fn hexagonal_faces_keep_their_whole_area() {
         let prism = |z: f64| {
-            let ring = |h: f64| (0..6).map(move |i| {
-                let a = radians(60.0 * f64::from(i));
-                Vec3::new(cos(a), sin(a), h)
-            });
+            let ring = |h: f64| {
+                (0..6).map(move |i| {
+                    let a = radians(60.0 * f64::from(i));
+                    Vec3::new(cos(a), sin(a), h)
+                })
+            };
             Polyhedron {
                 vertices: ring(z).chain(ring(z + 1.0)).collect(),
                 faces: [vec![5, 4, 3, 2, 1, 0], vec![6, 7, 8, 9, 10, 11]]
@@ -309,7 +316,11 @@ mod tests {
         let low = block.bounds().0.z;
         let block = block.translated(&Vec3::new(0.0, 0.0, -low - 1e-5));
         let patch = find_patch(&slab(), &block, &settings()).unwrap();
-        assert_relative_eq!(patch.polygon.area(), settings().steep_width * settings().steep_width, max_relative = 1e-9);
+        assert_relative_eq!(
+            patch.polygon.area(),
+            settings().steep_width * settings().steep_width,
+            max_relative = 1e-9
+        );
     }
 
     #[test]

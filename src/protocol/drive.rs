@@ -70,9 +70,8 @@ pub fn run(
             simulation.add_load(load.block, load.point, load.force * load_factor);
         }
         let before = simulation.steps;
-        let (status, unbalanced_ratio) = simulation.relax(|bodies| {
-            out_of_plane(&displacements(&assembly, bodies, &top), &at_rest).1 > limit
-        });
+        let (status, unbalanced_ratio) = simulation
+            .relax(|bodies| out_of_plane(&displacements(&assembly, bodies, &top), &at_rest).1 > limit);
         let now = displacements(&assembly, &simulation.bodies, &top);
         if step == 0 {
             at_rest.clone_from(&now);

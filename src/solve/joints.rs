@@ -83,8 +83,7 @@ impl Joints {
     /// history: each new sub-contact takes the state of the nearest old one of the same pair.
     pub fn refresh(&mut self, bodies: &Bodies, laws: &dyn JointLaws, settings: &contact::Settings) {
         let shapes: Vec<_> = (0..bodies.all.len()).map(|i| bodies.world_shape(i)).collect();
-        let mut old: BTreeMap<(u32, u32), Joint> =
-            self.all.drain(..).map(|j| (j.pair(), j)).collect();
+        let mut old: BTreeMap<(u32, u32), Joint> = self.all.drain(..).map(|j| (j.pair(), j)).collect();
         for (a, b) in candidate_pairs(&shapes, 2.0 * settings.reach) {
             if !bodies.all[a as usize].moves() && !bodies.all[b as usize].moves() {
                 continue;
@@ -213,7 +212,8 @@ impl Joint {
         let shear = self.law.shear(&mut self.states, scratch, &motion);
         let world = |n: f64, f: [f64; 2]| pose.push * n + pose.e1 * f[0] + pose.e2 * f[1];
         let force = world(pressure.force, shear.force);
-        let moment = pose.s.cross(&world(pressure.by_s, shear.by_s)) + pose.t.cross(&world(pressure.by_t, shear.by_t));
+        let moment =
+            pose.s.cross(&world(pressure.by_s, shear.by_s)) + pose.t.cross(&world(pressure.by_t, shear.by_t));
         self.force = force.norm();
         let i = &mut bodies[self.incident as usize];
         i.torque += moment + (pose.origin - i.position).cross(&force);

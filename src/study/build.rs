@@ -91,9 +91,9 @@ fn load(t: &mut Reader<'_>) -> Option<Protocol> {
 
 fn solver(t: &mut Reader<'_>) -> Option<Solver> {
     let name = t.choice_name("name");
-    let reals = t.reals(["unbalanced_ratio", "damping", "step_safety"]);
+    let reals = t.reals(["unbalanced_ratio", "damping", "step_safety", "longest_step_s"]);
     let (max_steps, scaled_inertia) = (t.whole("max_steps"), t.flag("scaled_inertia"));
-    let [unbalanced_ratio, damping, step_safety] = reals?;
+    let [unbalanced_ratio, damping, step_safety, longest_step] = reals?;
     name?;
     Some(Solver::Explicit(Settings {
         unbalanced_ratio,
@@ -101,6 +101,6 @@ fn solver(t: &mut Reader<'_>) -> Option<Solver> {
         step_safety,
         max_steps: max_steps?,
         scaled_inertia: scaled_inertia?,
-        ..Settings::default()
+        longest_step,
     }))
 }

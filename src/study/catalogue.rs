@@ -81,9 +81,9 @@ impl Catalogue {
         unit: &str,
         node: &Node,
         path: &str,
-    ) -> Result<Option<Family>, Fault> {
+    ) -> Result<Option<Family>, Box<Fault>> {
         let fault = |allowed: String, fix: String| {
-            Fault::at(&node.place, path, Found::Value(node.shown.clone()), allowed, fix)
+            Box::new(Fault::at(&node.place, path, Found::Value(node.shown.clone()), allowed, fix))
         };
         let form = "a reference file:entry to `distributions`, as \"block/size:name\"";
         let Some((file, entry)) = reference.split_once(':') else {
@@ -148,7 +148,7 @@ impl Catalogue {
         let root = match parsed {
             Ok(root) => root,
             Err(fault) => {
-                self.faults.push(fault);
+                self.faults.push(*fault);
                 return None;
             }
         };

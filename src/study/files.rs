@@ -25,8 +25,9 @@ pub fn sha256(bytes: &[u8]) -> String {
 ///
 /// # Errors
 /// A fault when it is missing, a folder, unreadable, not UTF-8 or empty.
-pub fn read(path: &Path, name: &str, rank: usize) -> Result<TextFile, Fault> {
-    let whole = |found: &str, fix: &str| Fault::of_file(name, rank, found, "a text file in TOML", fix);
+pub fn read(path: &Path, name: &str, rank: usize) -> Result<TextFile, Box<Fault>> {
+    let whole =
+        |found: &str, fix: &str| Box::new(Fault::of_file(name, rank, found, "a text file in TOML", fix));
     if path.is_dir() {
         return Err(whole("is a folder", "put a file there"));
     }
@@ -43,7 +44,13 @@ pub fn read(path: &Path, name: &str, rank: usize) -> Result<TextFile, Fault> {
         let text = String::from_utf8_lossy(&error.as_bytes()[..valid]).into_owned();
         let place =
             Place { source: Arc::new(Source { name: name.to_owned(), rank, text }), span: valid..valid };
-        Fault::at(&place, "", Found::Words("is not UTF-8".to_owned()), "UTF-8 text", "save it as UTF-8")
+        Box::new(Fault::at(
+            &place,
+            "",
+            Found::Words("is not UTF-8".to_owned()),
+            "UTF-8 text",
+            "save it as UTF-8",
+        ))
     })?;
     if text.trim().is_empty() {
         return Err(whole("is empty", "fill it, or take it away if it is not needed"));

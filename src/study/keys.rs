@@ -232,6 +232,12 @@ static SOLVER: Section = Section {
             Default("true"),
             "Inertia scaled per block so that all share one critical step; for quasi-static runs.",
         ),
+        Key::new(
+            "longest_step_s",
+            real("s", Interval::above(0.0, 1.0)),
+            Default("1e-3"),
+            "Longest time step with true inertia, for blocks in free flight.",
+        ),
     ]],
 };
 

@@ -51,7 +51,7 @@ impl Study {
     /// # Errors
     /// All faults of all files.
     pub fn load(folder: &Path, variant: Option<&str>) -> Result<Loaded, Faults> {
-        let folder = existing(folder).map_err(|fault| Faults::sorted(vec![fault]))?;
+        let folder = existing(folder).map_err(|fault| Faults::sorted(vec![*fault]))?;
         let mut faults = Vec::new();
         let mut inputs = Vec::new();
         let root = parsed(&folder, "study.toml", 0, &mut inputs, &mut faults);
@@ -131,10 +131,11 @@ fn hash_of(effective: &BTreeMap<String, String>) -> String {
 }
 
 /// The study's folder, which must exist.
-fn existing(folder: &Path) -> Result<PathBuf, Fault> {
+fn existing(folder: &Path) -> Result<PathBuf, Box<Fault>> {
     let shown = folder.display().to_string();
-    let fault =
-        |found: &str, fix: String| Err(Fault::of_file(&shown, 0, found, "the folder of a study", fix));
+    let fault = |found: &str, fix: String| {
+        Err(Box::new(Fault::of_file(&shown, 0, found, "the folder of a study", fix)))
+    };
     if folder.is_file() {
         return fault("is a file", "give the folder that holds it".to_owned());
     }
@@ -155,7 +156,7 @@ fn parsed(
         inputs.push(InputFile { path: PathBuf::from(name), sha256: file.sha256 });
         raw::parse(&file.source)
     });
-    read.map_err(|fault| faults.push(fault)).ok()
+    read.map_err(|fault| faults.push(*fault)).ok()
 }
 
 /// The variant asked for.

@@ -26,7 +26,7 @@ pub fn quantity(reader: &mut Reader<'_>, name: &str, catalogue: &mut Catalogue) 
             let family = match catalogue.family(reference, unit, &node, &path) {
                 Ok(family) => family?,
                 Err(fault) => {
-                    reader.notes.faults.push(fault);
+                    reader.notes.faults.push(*fault);
                     return None;
                 }
             };

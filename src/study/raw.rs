@@ -75,11 +75,11 @@ impl Node {
 ///
 /// # Errors
 /// The first fault of its syntax.
-pub fn parse(source: &Arc<Source>) -> Result<Node, Fault> {
+pub fn parse(source: &Arc<Source>) -> Result<Node, Box<Fault>> {
     let table = DeTable::parse(&source.text).map_err(|error| {
         let place = Place { source: source.clone(), span: error.span().unwrap_or(0..0) };
         let words = format!("cannot be read as TOML: {}", error.message().trim());
-        Fault::at(&place, "", Found::Words(words), "TOML 1.0", "mend the syntax at the mark")
+        Box::new(Fault::at(&place, "", Found::Words(words), "TOML 1.0", "mend the syntax at the mark"))
     })?;
     let place = Place { source: source.clone(), span: 0..0 };
     Ok(Node { value: Value::Table(table_from(table.get_ref(), source)), place, shown: String::new() })

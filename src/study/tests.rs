@@ -29,6 +29,7 @@ fn every_key_carries_its_unit() {
         ("m3", "_m3"),
         ("deg", "_deg"),
         ("m", "_m"),
+        ("s", "_s"),
     ];
     for key in all {
         let unit = match key.kind {

@@ -130,7 +130,7 @@ fn every_key_of_the_fixture_is_read() {
             checked += 1;
         }
     }
-    assert_eq!(checked, 71);
+    assert_eq!(checked, 72);
 }
 
 #[test]

@@ -58,7 +58,13 @@ pub fn in_time(step_safety: f64) -> Settings {
 
 /// Tilts slowly in steps until some block moves on by more than `limit` (m), then brackets the angle (deg) to
 /// `bracket` by going back to the last stable state with half the step. Gives the last stable and the first unstable angle.
-pub fn collapse_angle(mut stable: Simulation, from_deg: f64, step_deg: f64, bracket: f64, limit: f64) -> [f64; 2] {
+pub fn collapse_angle(
+    mut stable: Simulation,
+    from_deg: f64,
+    step_deg: f64,
+    bracket: f64,
+    limit: f64,
+) -> [f64; 2] {
     let at_rest: Vec<Vec3> = stable.bodies.all.iter().map(|b| b.position).collect();
     let (mut angle, mut step) = (from_deg, step_deg);
     loop {

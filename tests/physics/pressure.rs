@@ -1,7 +1,7 @@
 //! The trapezoidal pressure against its resultant.
 
-use pirca::generate::canonical;
 use approx::assert_relative_eq;
+use pirca::generate::canonical;
 use pirca::math::Vec3;
 use pirca::protocol::{Lateral, back_loads};
 

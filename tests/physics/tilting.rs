@@ -21,11 +21,8 @@ fn closed_form(kn: f64) -> f64 {
         let slope = kn * sin(t);
         // Full contact: N e = slope B^3 / 12; with uplift the pressed width is c = sqrt(2 N / slope).
         let c = (2.0 * n / slope).sqrt();
-        let (ne, middle) = if c >= B {
-            (slope * B * B * B / 12.0, 0.0)
-        } else {
-            (n * (B / 2.0 - c / 3.0), (B - c) / 2.0)
-        };
+        let (ne, middle) =
+            if c >= B { (slope * B * B * B / 12.0, 0.0) } else { (n * (B / 2.0 - c / 3.0), (B - c) / 2.0) };
         cos(t) * ne - sin(t) * W * sin(a) * middle - W * H * sin(a + t)
     };
     let mut largest: f64 = 0.0;
@@ -87,7 +84,10 @@ fn a_block_on_a_slope_slides_at_atan_mu() {
         let [low, high] = collapse_angle(start, phi - 3.0, 1.0, 0.02, 0.02);
         println!("phi {phi}: {low} to {high}");
         // The friction limit is exact on a closed joint: what is left is the bracket and the lean of the soft bed.
-        assert!((low - phi).abs() < 0.1 && (high - phi).abs() < 0.1, "phi {phi}: slides between {low} and {high}");
+        assert!(
+            (low - phi).abs() < 0.1 && (high - phi).abs() < 0.1,
+            "phi {phi}: slides between {low} and {high}"
+        );
     }
 }
 
@@ -97,7 +97,8 @@ fn a_stiff_block_topples_at_atan_b_over_h() {
     let wall = on_floor(vec![resting([1.0, B, 2.0 * H], 2000.0)]);
     // Little damping: at 0.8 a block on a narrow edge creeps, because the force that is damped is that of its fast
     // rattling and not that of its slow turning.
-    let settings = Settings { unbalanced_ratio: 1e-5, damping: 0.2, max_steps: 1_000_000, ..Settings::default() };
+    let settings =
+        Settings { unbalanced_ratio: 1e-5, damping: 0.2, max_steps: 1_000_000, ..Settings::default() };
     let start = simulation(&wall, &law, settings, 0.3);
     let [low, high] = collapse_angle(start, 20.0, 0.25, 0.02, 0.02);
     let rigid = degrees(atan(B / (2.0 * H)));

@@ -36,7 +36,8 @@ fn a_cube_dropped_on_its_corner_comes_to_rest_on_a_face() {
     let low = shape.bounds().0.z;
     let shape = shape.translated(&Vec3::new(0.0, 0.0, 0.01 - low));
     let wall = on_floor(vec![stone(shape, 2400.0)]);
-    let settings = Settings { scaled_inertia: false, longest_step: 1e-4, damping: 0.3, ..Settings::default() };
+    let settings =
+        Settings { scaled_inertia: false, longest_step: 1e-4, damping: 0.3, ..Settings::default() };
     let mut falling = simulation(&wall, &law, settings, 0.2);
     let deepest = settle(&mut falling);
     let body = &falling.bodies.all[0];

@@ -20,7 +20,10 @@ pub fn block_bounds(bodies: &Bodies, joints: &Joints) -> Vec<f64> {
             }
         }
     }
-    stiffness.iter().map(|k| k.iter().map(|row| row.iter().map(|x| x.abs()).sum()).fold(0.0, f64::max)).collect()
+    stiffness
+        .iter()
+        .map(|k| k.iter().map(|row| row.iter().map(|x| x.abs()).sum()).fold(0.0, f64::max))
+        .collect()
 }
 
 /// Adds a joint in full contact to the mass-normalised stiffness of one of its bodies, in the body's principal axes,
