@@ -42,7 +42,7 @@ impl Tally {
             *n += 1;
             *sum += top;
             let mean = *sum / *n as f64 * 1e3;
-            self.last = format!(", {} at kn {:.2e}: mean {mean:.4} mm over {n}", row.arm, row.kn_pa_per_m);
+            self.last = format!(", mean {mean:.4} mm ({n} {} at kn {:.2e})", row.arm, row.kn_pa_per_m);
         }
     }
 }
@@ -61,7 +61,7 @@ impl Bar {
 
 impl Progress for Bar {
     fn begin(&self, total: usize, recorded: &[&Row]) {
-        let style = ProgressStyle::with_template("{bar:30} {pos}/{len} done, ETA {eta}, {wide_msg}");
+        let style = ProgressStyle::with_template("{bar:12} {pos}/{len} done, ETA {eta}, {wide_msg}");
         self.bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         self.bar.set_length(total as u64);
         self.bar.set_position(recorded.len() as u64);
