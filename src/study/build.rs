@@ -101,5 +101,6 @@ fn solver(t: &mut Reader<'_>) -> Option<Solver> {
         step_safety,
         max_steps: max_steps?,
         scaled_inertia: scaled_inertia?,
+        ..Settings::default()
     }))
 }
