@@ -202,7 +202,11 @@ fn run_shows_the_table_and_writes_the_files() {
     );
     // Two random walls and the one of the stack bond, at two points; which of them ends last is not certain.
     let last = stderr(&output).lines().last().unwrap_or_default().to_string();
-    assert!(last.starts_with("tiny: 6/6 done, 0 failed, mean 0.") && last.contains(" at kn "), "{}", stderr(&output));
+    assert!(
+        last.starts_with("tiny: 6/6 done, 0 failed, mean 0.") && last.contains(" at kn "),
+        "{}",
+        stderr(&output)
+    );
     for name in [
         "members.parquet",
         "steps.parquet",
