@@ -28,6 +28,7 @@ struct Tally {
     failed: usize,
     /// Walls in equilibrium and the sum of their top displacements (m), by arm and point.
     sums: BTreeMap<(u32, u32), (u64, f64)>,
+    /// What is said of that population, from the comma on.
     last: String,
 }
 
@@ -41,7 +42,7 @@ impl Tally {
             *n += 1;
             *sum += top;
             let mean = *sum / *n as f64 * 1e3;
-            self.last = format!("{} at kn {:.2e}: mean {mean:.4} mm of {n}", row.arm, row.kn_pa_per_m);
+            self.last = format!(", mean {mean:.4} mm ({n} {} at kn {:.2e})", row.arm, row.kn_pa_per_m);
         }
     }
 }
@@ -54,13 +55,13 @@ struct Bar {
 
 impl Bar {
     fn show(&self, tally: &Tally) {
-        self.bar.set_message(format!("{} failed, {}", tally.failed, tally.last));
+        self.bar.set_message(format!("{} failed{}", tally.failed, tally.last));
     }
 }
 
 impl Progress for Bar {
     fn begin(&self, total: usize, recorded: &[&Row]) {
-        let style = ProgressStyle::with_template("{bar:30} {pos}/{len} done, {msg}, ETA {eta}");
+        let style = ProgressStyle::with_template("{bar:12} {pos}/{len} done, ETA {eta}, {wide_msg}");
         self.bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         self.bar.set_length(total as u64);
         self.bar.set_position(recorded.len() as u64);
@@ -109,7 +110,7 @@ impl Count {
         let here = (self.done - self.recorded) as f64;
         let left = self.begun.elapsed().as_secs_f64() / here * (self.total - self.done) as f64;
         let Count { total, done, tally, .. } = self;
-        format!("{done}/{total} done, {} failed, {}, {left:.0} s left", tally.failed, tally.last)
+        format!("{done}/{total} done, {} failed{}, {left:.0} s left", tally.failed, tally.last)
     }
 }
 

@@ -120,6 +120,7 @@ fn a_journal_cut_at_any_byte_is_resumed_to_the_same_bytes() {
     let (head, first, last) = (ends[0], ends[1], ends[ends.len() - 1]);
     let cuts =
         [0, 1, 9, 20, head - 1, head, head + 1, head + 30, first - 1, first, first + 500, last - 1, last];
+    let study = study();
     for cut in cuts {
         let out = folder.path(format!("cut-{cut}"));
         fs::create_dir(&out).unwrap();
@@ -129,7 +130,7 @@ fn a_journal_cut_at_any_byte_is_resumed_to_the_same_bytes() {
             evaluated.fetch_add(1, Ordering::Relaxed);
             made_up(study, task)
         };
-        run_with(&study(), &settings(&out, 2), &Silent, &counted).unwrap();
+        run_with(&study, &settings(&out, 2), &Silent, &counted).unwrap();
         assert_eq!(bytes(&out), wanted, "journal cut at byte {cut}");
         let kept = ends.iter().filter(|&&end| end <= cut).count().saturating_sub(1);
         assert_eq!(
@@ -137,6 +138,9 @@ fn a_journal_cut_at_any_byte_is_resumed_to_the_same_bytes() {
             EVALUATIONS - kept,
             "members in whole lines are not evaluated again (cut {cut})"
         );
+        let nothing = |_: &Study, task: Task| -> Row { panic!("{task:?} was recorded (cut {cut})") };
+        run_with(&study, &settings(&out, 1), &Silent, &nothing).unwrap();
+        assert_eq!(bytes(&out), wanted, "resumed once more after the cut at byte {cut}");
     }
 }
 
