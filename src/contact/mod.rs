@@ -9,4 +9,4 @@ mod separation;
 pub use broad::candidate_pairs;
 pub use cells::{Cell, corners, divide};
 pub use patch::{Feature, Patch, Settings, find_patch};
-pub use separation::{Axis, deepest_axis};
+pub use separation::{EdgeAxis, FaceAxis, best_edge_axis, best_face_axis};

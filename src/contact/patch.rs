@@ -5,7 +5,7 @@
 //! polygon clipped by a straight line. Blocks that meet at a steep angle, edge to edge or corner to face touch in a
 //! patch of stated width instead: a strip along an edge, a square at a point.
 
-use crate::contact::{Axis, deepest_axis};
+use crate::contact::{EdgeAxis, best_edge_axis, best_face_axis};
 use crate::math::Vec3;
 use crate::shape::{Frame, Plane, Polygon, Polyhedron};
 
@@ -71,11 +71,25 @@ pub struct Patch {
 ///
 /// `first` is the preferred reference block: it stays the reference unless the second's face separates clearly better.
 pub fn find_patch(first: &Polyhedron, second: &Polyhedron, settings: &Settings) -> Option<Patch> {
-    let (axis, _) = deepest_axis(first, second, settings.reach, settings.preference())?;
-    match axis {
-        Axis::FaceOfFirst(face) => face_patch(first, face, second, settings, false),
-        Axis::FaceOfSecond(face) => face_patch(second, face, first, settings, true),
-        Axis::Edges(ea, eb) => edge_patch(first, ea, second, eb, settings),
+    let axis = best_face_axis(first, second, settings.reach, settings.preference())?;
+    let (reference, incident) = if axis.of_second { (second, first) } else { (first, second) };
+    let plane = reference.face_plane(axis.face);
+    let (opposite, cosine) = (0..incident.faces.len())
+        .map(|f| (f, -incident.face_plane(f).normal.dot(&plane.normal)))
+        .fold((0, f64::NEG_INFINITY), |best, next| if next.1 > best.1 { next } else { best });
+    // Faces that lie on one another are a face contact whatever their edges do: a joint that leans open has crossing
+    // edges which separate better than either face.
+    let faces_meet = cosine >= settings.face_cosine;
+    if faces_meet
+        && let Some(patch) = face_patch(reference, axis.face, incident, opposite, settings, axis.of_second)
+    {
+        return Some(patch);
+    }
+    match best_edge_axis(first, second, axis.depth + settings.preference()) {
+        Some(edges) if edges.depth > settings.reach => None,
+        Some(edges) => edge_patch(first, second, edges, settings),
+        None if faces_meet => None,
+        None => steep_patch(reference, axis.face, incident, opposite, settings, axis.of_second),
     }
 }
 
@@ -83,16 +97,11 @@ fn face_patch(
     reference: &Polyhedron,
     face: usize,
     incident: &Polyhedron,
+    opposite: usize,
     settings: &Settings,
     reference_is_second: bool,
 ) -> Option<Patch> {
     let plane = reference.face_plane(face);
-    let (opposite, cosine) = (0..incident.faces.len())
-        .map(|f| (f, -incident.face_plane(f).normal.dot(&plane.normal)))
-        .fold((0, f64::NEG_INFINITY), |best, next| if next.1 > best.1 { next } else { best });
-    if cosine < settings.face_cosine {
-        return steep_patch(reference, face, incident, opposite, settings, reference_is_second);
-    }
     let frame = face_frame(incident, opposite);
     // Both outlines along the reference normal into the incident plane, in its coordinates.
     let onto = |p: Vec3| {
@@ -207,11 +216,11 @@ fn clip_line(
 /// Two crossing edges: a square of the stated width at the middle of their shortest connection.
 fn edge_patch(
     first: &Polyhedron,
-    ea: [u32; 2],
     second: &Polyhedron,
-    eb: [u32; 2],
+    edges: EdgeAxis,
     settings: &Settings,
 ) -> Option<Patch> {
+    let (ea, eb) = (edges.first, edges.second);
     let at = |solid: &Polyhedron, v: u32| solid.vertices[v as usize];
     let (p, u) = (at(first, ea[0]), at(first, ea[1]) - at(first, ea[0]));
     let (q, v) = (at(second, eb[0]), at(second, eb[1]) - at(second, eb[0]));

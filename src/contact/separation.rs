@@ -3,59 +3,69 @@
 use crate::math::Vec3;
 use crate::shape::Polyhedron;
 
-/// Where two polyhedra come nearest, as the separating axis of largest signed distance.
+/// A face that separates two polyhedra best.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Axis {
-    /// A face of the first polyhedron.
-    FaceOfFirst(usize),
-    /// A face of the second polyhedron.
-    FaceOfSecond(usize),
-    /// An edge of each, as vertex index pairs.
-    Edges([u32; 2], [u32; 2]),
+pub struct FaceAxis {
+    /// Whether the face belongs to the second polyhedron.
+    pub of_second: bool,
+    /// The face.
+    pub face: usize,
+    /// Separation along its normal (m; negative = overlap depth).
+    pub depth: f64,
 }
 
-/// The axis of largest separation and that separation (m; negative = overlap depth).
-///
-/// An edge pair wins only when it separates by more than `preference` (m) beyond the best face: resting faces are
-/// never mistaken for crossing edges by rounding. Ties between faces go to the first polyhedron in the same way.
-/// `None` when the separation exceeds `reach` (m).
-pub fn deepest_axis(a: &Polyhedron, b: &Polyhedron, reach: f64, preference: f64) -> Option<(Axis, f64)> {
-    let (face_a, mut best) = best_face(a, b, reach)?;
-    let mut axis = Axis::FaceOfFirst(face_a);
+/// Two edges whose common normal separates two polyhedra.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EdgeAxis {
+    /// Edge of the first polyhedron, as vertex indices.
+    pub first: [u32; 2],
+    /// Edge of the second polyhedron.
+    pub second: [u32; 2],
+    /// Separation along their common normal (m; negative = overlap depth).
+    pub depth: f64,
+}
+
+/// The face, of either polyhedron, with the largest separation; a face of the second one must be better by more than
+/// `preference` (m). `None` when some face separates them by more than `reach` (m).
+pub fn best_face_axis(a: &Polyhedron, b: &Polyhedron, reach: f64, preference: f64) -> Option<FaceAxis> {
+    let (face_a, depth_a) = best_face(a, b, reach)?;
     let (face_b, depth_b) = best_face(b, a, reach)?;
-    if depth_b > best + preference {
-        best = depth_b;
-        axis = Axis::FaceOfSecond(face_b);
-    }
-    let face_depth = best;
+    Some(if depth_b > depth_a + preference {
+        FaceAxis { of_second: true, face: face_b, depth: depth_b }
+    } else {
+        FaceAxis { of_second: false, face: face_a, depth: depth_a }
+    })
+}
+
+/// The pair of edges with the largest separation, if it is larger than `beyond` (m).
+pub fn best_edge_axis(a: &Polyhedron, b: &Polyhedron, beyond: f64) -> Option<EdgeAxis> {
     let (edges_a, edges_b) = (edges(a), edges(b));
-    let (centre_a, centre_b) = (mean(a), mean(b));
-    for &(ea, da) in &edges_a {
-        for &(eb, db) in &edges_b {
+    let between = mean(b) - mean(a);
+    let mut best: Option<EdgeAxis> = None;
+    for &(first, da) in &edges_a {
+        for &(second, db) in &edges_b {
             let cross = da.cross(&db);
             // Nearly parallel edges span no plane; a face axis covers them.
             if cross.norm_squared() < 1e-6 * da.norm_squared() * db.norm_squared() {
                 continue;
             }
             let mut normal = cross.normalize();
-            if normal.dot(&(centre_b - centre_a)) < 0.0 {
+            if normal.dot(&between) < 0.0 {
                 normal = -normal;
             }
-            let p = a.vertices[ea[0] as usize];
-            let q = b.vertices[eb[0] as usize];
-            // Only edges that support their solid along the axis can be the nearest features.
+            let (p, q) = (a.vertices[first[0] as usize], b.vertices[second[0] as usize]);
             let depth = normal.dot(&(q - p));
-            if depth <= best.max(face_depth + preference)
-                || support(a, &normal) > normal.dot(&p) + preference
-                || -support(b, &-normal) < normal.dot(&q) - preference
+            // Only edges that support their solids are its outermost parts; the tolerance is for rounding alone.
+            let rounding = 1e-12 * (da.norm() + db.norm());
+            if depth > best.map_or(beyond, |x| x.depth)
+                && support(a, &normal) <= normal.dot(&p) + rounding
+                && support(b, &-normal) <= -normal.dot(&q) + rounding
             {
-                continue;
+                best = Some(EdgeAxis { first, second, depth });
             }
-            best = depth;
-            axis = Axis::Edges(ea, eb);
         }
     }
-    (best <= reach).then_some((axis, best))
+    best
 }
 
 /// The face of `a` whose plane `b` stays furthest outside of; `None` as soon as one separates by more than `reach`.
@@ -119,9 +129,9 @@ mod tests {
     #[test]
     fn stacked_cubes_meet_at_faces() {
         let upper = cube().translated(&Vec3::new(0.3, 0.0, 0.999));
-        let (axis, depth) = deepest_axis(&cube(), &upper, 0.01, 1e-6).unwrap();
-        assert_eq!(axis, Axis::FaceOfFirst(1));
-        assert_relative_eq!(depth, -0.001, epsilon = 1e-12);
+        let axis = best_face_axis(&cube(), &upper, 0.01, 1e-6).unwrap();
+        assert!(!axis.of_second && axis.face == 1, "{axis:?}");
+        assert_relative_eq!(axis.depth, -0.001, epsilon = 1e-12);
     }
 
     #[test]
@@ -130,17 +140,20 @@ mod tests {
         let diagonal = 0.5f64.sqrt();
         let lower = cube().moved(&turned(0, 45.0), &Vec3::zeros());
         let upper = cube().moved(&turned(1, 45.0), &Vec3::new(0.0, 0.0, 2.0 * diagonal - 0.001));
-        let (axis, depth) = deepest_axis(&lower, &upper, 0.01, 1e-6).unwrap();
-        assert!(matches!(axis, Axis::Edges(..)), "{axis:?}");
-        assert_relative_eq!(depth, -0.001, epsilon = 1e-9);
+        let face = best_face_axis(&lower, &upper, 0.01, 1e-6).unwrap();
+        let axis = best_edge_axis(&lower, &upper, face.depth).unwrap();
+        assert_relative_eq!(axis.depth, -0.001, epsilon = 1e-9);
+        // Nothing beyond that.
+        assert!(best_edge_axis(&lower, &upper, -0.0009).is_none());
     }
 
     #[test]
     fn far_solids_have_no_axis() {
-        assert!(deepest_axis(&cube(), &cube().translated(&Vec3::new(1.2, 0.0, 0.0)), 0.1, 1e-6).is_none());
+        assert!(best_face_axis(&cube(), &cube().translated(&Vec3::new(1.2, 0.0, 0.0)), 0.1, 1e-6).is_none());
         // Apart by edges only: boxes overlap, faces overlap, the ridges do not.
         let lower = cube().moved(&turned(0, 45.0), &Vec3::zeros());
         let upper = cube().moved(&turned(1, 45.0), &Vec3::new(0.0, 0.0, 2.0 * 0.5f64.sqrt() + 0.01));
-        assert!(deepest_axis(&lower, &upper, 0.005, 1e-6).is_none());
+        let face = best_face_axis(&lower, &upper, 0.005, 1e-6).unwrap();
+        assert_relative_eq!(best_edge_axis(&lower, &upper, face.depth).unwrap().depth, 0.01, epsilon = 1e-9);
     }
 }
