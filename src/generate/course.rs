@@ -189,8 +189,7 @@ fn draw_stone(
     if first {
         draft.tally.first_lengths.push(drawn);
     }
-    // Written so that a NaN is refused too.
-    if !(drawn > 0.0) {
+    if drawn.is_nan() || drawn <= 0.0 {
         return Err(CourseFault::NotPositive);
     }
     let to = course.end() + drawn;

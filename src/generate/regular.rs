@@ -13,8 +13,8 @@ pub(crate) fn lay(draft: &mut Draft, length: f64, height: f64, overlap: f64) -> 
     let outline = &draft.layout.outline;
     let count = (outline.height / height).round().max(1.0);
     let per_course = outline.length / length;
-    // Written so that NaN and infinity are refused too.
-    if !(count * per_course <= MAX_STONES as f64) {
+    let stones = count * per_course;
+    if stones.is_nan() || stones > MAX_STONES as f64 {
         return Err(Fault::TooMany { limit: MAX_STONES });
     }
     let level = |i: f64| outline.height * (i / count);

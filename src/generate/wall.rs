@@ -141,11 +141,8 @@ fn finish(draft: Draft, stones: Vec<Stone>, attempts: u32) -> Generated {
     realised.volume = layout.outline.volume() - draft.gaps;
     let volume: f64 = blocks.iter().map(|b| b.shape.volume()).sum();
     // A cut may move a vertex by the cut tolerance, 1e-9 m of metres: far below this bound.
-    crate::check!(
-        (volume - realised.volume).abs() <= 1e-6 * realised.volume,
-        "the stones fill {volume} m^3 of {} m^3",
-        realised.volume
-    );
+    let fills = (volume - realised.volume).abs() <= 1e-6 * realised.volume;
+    crate::check!(fills, "the stones fill {volume} m^3 of {} m^3", realised.volume);
     let Tally { redraws, first_dips, first_lengths, first_heights } = std::mem::take(draft.tally);
     let realised = Realised { first_dips, first_lengths, first_heights, ..realised };
     Generated { wall: Wall { blocks }, attempts, merges: draft.merges, redraws, realised }

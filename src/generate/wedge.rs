@@ -57,8 +57,8 @@ fn split(
     depth: f64,
     limits: &Limits,
 ) -> Option<(Polyhedron, Polyhedron)> {
-    // Written so that NaN is refused too.
-    if !(height > 0.0 && depth > 0.0) {
+    let positive = height > 0.0 && depth > 0.0;
+    if !positive {
         return None;
     }
     let outwards = if front { Vec3::y() } else { -Vec3::y() };

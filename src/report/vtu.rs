@@ -150,11 +150,9 @@ mod tests {
         let mut at = 0;
         for (cell, block) in wall.blocks.iter().enumerate() {
             let first = if cell == 0 { 0 } else { ends[cell - 1] as u32 };
-            let mut solid = Polyhedron::default();
-            solid.vertices = points[3 * first as usize..3 * ends[cell] as usize]
-                .chunks(3)
-                .map(Vec3::from_column_slice)
-                .collect();
+            let corners = points[3 * first as usize..3 * ends[cell] as usize].chunks(3);
+            let vertices = corners.map(Vec3::from_column_slice).collect();
+            let mut solid = Polyhedron { vertices, faces: vec![] };
             let count = faces[at] as usize;
             at += 1;
             for _ in 0..count {

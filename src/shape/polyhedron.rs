@@ -314,8 +314,11 @@ impl Polyhedron {
         for face in 0..self.faces.len() {
             let plane = self.face_plane(face);
             let off = self.face_vertices(face).map(|v| plane.distance(&v).abs()).fold(0.0, f64::max);
-            // Written so that a NaN plane (a face without area) is a fault too.
-            if !(off <= tolerance) {
+            // A face without area has no plane: its normal is NaN, and so is every distance from it.
+            if !plane.offset.is_finite() {
+                return Err(ShapeFault::NotPlane { face, distance: f64::NAN });
+            }
+            if off > tolerance {
                 return Err(ShapeFault::NotPlane { face, distance: off });
             }
             for (vertex, v) in self.vertices.iter().enumerate() {
@@ -434,5 +437,12 @@ mod tests {
         let mut holed = good;
         holed.vertices[2].x = f64::NAN;
         assert_eq!(holed.validate(1e-9), Err(ShapeFault::NotFinite { vertex: 2 }));
+        // A face folded flat onto an edge closes the surface, but encloses nothing.
+        let mut flat = Polyhedron::cuboid(Vec3::zeros(), Vec3::new(1.0, 1.0, 1.0));
+        flat.vertices.push(Vec3::new(0.5, 0.0, 0.0));
+        let edge = flat.faces[2].iter().position(|v| *v == 1).unwrap();
+        flat.faces[2].insert(edge, 8);
+        flat.faces.push(vec![8, 0, 1]);
+        assert!(matches!(flat.validate(1e-9), Err(ShapeFault::NotPlane { face: 6, .. })));
     }
 }
