@@ -5,5 +5,6 @@ mod elastic;
 mod fixture;
 mod objectivity;
 mod pressure;
+mod shapes;
 mod tilting;
 mod tumbling;
