@@ -3,6 +3,7 @@
 mod dynamics;
 mod elastic;
 mod fixture;
+mod holding;
 mod objectivity;
 mod pressure;
 mod shapes;
