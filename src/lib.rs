@@ -1,4 +1,79 @@
 //! pirca: a stochastic masonry generator and analyser.
+//!
+//! How strong is a dry stone wall whose every stone is different, and how sure are we? Which arrangement of joints is
+//! better? A study draws many walls, solves each as an assembly of rigid blocks with deformable joints, and reports
+//! statistics with their intervals.
+//!
+//! # The equations
+//!
+//! **Balance of a rigid block** (central differences, step `dt`). Forces `F` and moments `T` about the centroid are sums
+//! over gravity, dead loads and joints; `L = R I R^T w` is the angular momentum; local damping takes `alpha |F|` against
+//! the motion:
+//!
+//! ```text
+//! m (v(n+1/2) - v(n-1/2)) / dt = F(n) - alpha |F(n)| v / |v|        x(n+1) = x(n) + dt v(n+1/2)
+//!   (L(n+1/2) - L(n-1/2)) / dt = T(n) - alpha |T(n)| w / |w|        R(n+1) = turn(dt w(n+1/2)) R(n)
+//! ```
+//!
+//! **Joint** (source paper Eq. 2, 3, Fig. 8). Two faces overlap in a polygon; the gap `g` between them is affine over it.
+//! Where `u = -g >= 0` the normal law presses, integrated exactly over the compressed part `A_c` of the polygon; shear
+//! grows with the relative displacement and slides on Coulomb's envelope, per sub-contact:
+//!
+//! ```text
+//! F_n = integral over A_c of kn u dA        dF_s = -ks A_c dU_s        |F_s| <= c A_c + F_n tan(phi)
+//! ```
+//!
+//! The pressure acts along the normal of one face (the reference) at the points of the other (the incident one), so
+//! that it is the gradient of the energy `integral 1/2 kn u^2 dA`. A tensile strength holds a sub-contact together
+//! until it is exceeded once.
+//!
+//! **Critical step.** `omega_max^2 <= 2 max_block lambda_max(M^-1 K_block)`, with `K_block` the 6 x 6 stiffness of a block
+//! against fixed neighbours, bounded by Gershgorin's row sums; `dt <= 2 / omega_max`. For a rest state inertia may be
+//! scaled per block so that all blocks share one critical step.
+//!
+//! **At rest** when the mean unbalanced force of the blocks is below a given share of the mean joint force.
+//!
+//! **Statistics asked for.** For walls `i = 1..n` with displacement `d_i`: mean, sigma (n - 1) and COV = sigma / mean, with
+//! 95 % intervals (Student t; chi-square and BCa bootstrap; Vangel's for the COV), quantiles, ratios of means between
+//! arms (Fieller), and the count of walls by how they ended.
+//!
+//! # Symbols and units
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | x, y, z | along the wall, out of plane (positive = downhill, away from the loaded back), up | m |
+//! | kn, ks | normal and shear stiffness of a joint per area | Pa/m |
+//! | phi, c | friction angle, cohesion | rad (deg in files), Pa |
+//! | u, g | closure and gap, u = -g | m |
+//! | sigma, tau | stress on a joint, compression positive | Pa |
+//! | alpha | local damping coefficient | - |
+//! | dip | lean of a joint plane against the horizontal | rad (deg in files) |
+//!
+//! SI units inside, f64 throughout; degrees only in files and arguments whose names end in `_deg`.
+//!
+//! # The modules, in reading order
+//!
+//! | module | what is in it |
+//! |---|---|
+//! | [`math`] | vectors, elementary functions on libm, the invariant check |
+//! | [`shape`] | convex polygons and polyhedra: cut, clip, inertia, overlap, validity |
+//! | [`random`] | seed streams keyed by (seed, member, quantity); distribution families |
+//! | [`stats`] | moments, COV, intervals, bootstrap, ratios, distances |
+//! | [`law`] | constitutive laws: normal law, Coulomb, damping |
+//! | [`model`] | the nouns: block, wall, outcome |
+//! | [`exchange`] | walls to other programs: wall.json, OBJ |
+//! | [`contact`] | broad phase, separating axes, patches, sub-contacts |
+//! | [`generate`] | layouts to walls; `canonical` holds walls with known answers |
+//! | [`solve`] | bodies, joints with history, the explicit solver |
+//! | [`protocol`] | load path, restraint, what is observed |
+//! | [`study`] | text to checked studies, every fault at once |
+//! | [`ensemble`] | plan, run in parallel, record, resume |
+//! | [`report`] | summary, comparison with published statements, table, figure, VTU |
+//! | [`cli`] | arguments, messages, exit codes |
+//!
+//! Imports go one way, down this list to what stands above; a test holds the table. Five loops, five files:
+//! realisations `ensemble/run.rs`, load steps `protocol/drive.rs`, time steps `solve/explicit/step.rs`, contacts
+//! `solve/joints.rs`, sub-contacts `law/coulomb.rs`. Papers are listed in `src/references.md`.
 
 pub mod cli;
 pub mod contact;

@@ -91,6 +91,25 @@ pub struct ShearSum {
     pub by_t: [f64; 2],
 }
 
+impl Motion {
+    /// The increment (m) at a point of the joint.
+    fn at(&self, [s, t]: [f64; 2]) -> [f64; 2] {
+        let component = |k: usize| self.base[k] + s * self.by_s[k] + t * self.by_t[k];
+        [component(0), component(1)]
+    }
+}
+
+impl ShearSum {
+    /// Adds a force (N) at a point of the joint.
+    fn add(&mut self, [s, t]: [f64; 2], force: [f64; 2]) {
+        for (k, f) in force.into_iter().enumerate() {
+            self.force[k] += f;
+            self.by_s[k] += s * f;
+            self.by_t[k] += t * f;
+        }
+    }
+}
+
 impl SubContact {
     /// An open sub-contact carries no shear, and starts from none when it closes again.
     pub fn forget_shear(&mut self) {
@@ -111,34 +130,23 @@ impl Coulomb {
                 state.forget_shear();
                 continue;
             }
-            let [s, t] = load.at;
             // Area that comes into contact brings no shear with it, area that is lost takes its share away.
             let kept = if load.area > state.area { state.area / load.area } else { 1.0 };
             state.area = load.area;
-            let mut force = [0.0; 2];
-            for k in 0..2 {
-                let increment = motion.base[k] + s * motion.by_s[k] + t * motion.by_t[k];
-                state.tau[k] = state.tau[k] * kept - self.ks * increment;
-                force[k] = state.tau[k] * load.area;
-            }
+            let increment = motion.at(load.at);
+            let elastic = |k: usize| state.tau[k] * kept - self.ks * increment[k];
+            state.tau = [elastic(0), elastic(1)];
             if !self.bonded {
-                let cohesion = self.cohesion_of(state) * load.area;
-                let limit = (cohesion + load.force * self.tan_phi).max(0.0);
-                let size2 = force[0] * force[0] + force[1] * force[1];
+                let cohesion = self.cohesion_of(state);
+                let limit = (cohesion + load.force / load.area * self.tan_phi).max(0.0);
+                let size2 = state.tau[0] * state.tau[0] + state.tau[1] * state.tau[1];
                 if size2 > limit * limit {
                     let back = limit / size2.sqrt();
-                    for k in 0..2 {
-                        force[k] *= back;
-                        state.tau[k] *= back;
-                    }
+                    state.tau = [state.tau[0] * back, state.tau[1] * back];
                     state.slipped = true;
                 }
             }
-            for k in 0..2 {
-                sum.force[k] += force[k];
-                sum.by_s[k] += s * force[k];
-                sum.by_t[k] += t * force[k];
-            }
+            sum.add(load.at, [state.tau[0] * load.area, state.tau[1] * load.area]);
         }
         sum
     }

@@ -7,7 +7,8 @@
 #[macro_export]
 macro_rules! check {
     ($condition:expr, $($message:tt)+) => {
-        if !$condition {
+        let holds: bool = $condition;
+        if !holds {
             panic!("invariant broken: {}", format_args!($($message)+));
         }
     };

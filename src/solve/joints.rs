@@ -25,6 +25,8 @@ pub struct Joint {
     /// A point of the reference plane and its outward normal in the reference body's axes.
     plane_point: Vec3,
     plane_normal: Vec3,
+    /// Gap (m) up to which the faces touch; see [`contact::Settings::touch`].
+    touch: f64,
     /// The polygon, and its integrals.
     polygon: Polygon,
     whole: Moments,
@@ -144,6 +146,7 @@ impl Joint {
             t: i.rotation.tr_mul(&patch.frame.t),
             plane_point: r.rotation.tr_mul(&(on_plane - r.position)),
             plane_normal: r.rotation.tr_mul(&patch.plane.normal),
+            touch: settings.touch,
             whole: patch.polygon.moments(),
             polygon: patch.polygon.clone(),
             states: vec![SubContact::default(); cells.len()],
@@ -198,7 +201,7 @@ impl Joint {
         let pose = self.pose(bodies);
         let highest = self.polygon.vertices.iter().map(|v| pose.gap.at(v)).fold(f64::NEG_INFINITY, f64::max);
         let lowest = self.polygon.vertices.iter().map(|v| pose.gap.at(v)).fold(f64::INFINITY, f64::min);
-        if lowest > 0.0 && !self.states.iter().any(|s| self.law.holds(s)) {
+        if lowest > self.touch && !self.states.iter().any(|s| self.law.holds(s)) {
             // Wide open: forget the shear, no force.
             if self.force != 0.0 {
                 self.states.iter_mut().for_each(SubContact::forget_shear);
@@ -206,7 +209,7 @@ impl Joint {
             }
             return;
         }
-        let pressure = self.press(&pose.gap, highest <= 0.0, scratch);
+        let pressure = self.press(&pose.gap, highest <= self.touch, scratch);
         let (i, r) = (&bodies[self.incident as usize], &bodies[self.reference as usize]);
         let motion = relative_motion(i, r, &pose, dt);
         let shear = self.law.shear(&mut self.states, scratch, &motion);
@@ -241,7 +244,7 @@ impl Joint {
             if self.law.holds(state) && !self.law.bonded && tears(&self.law, cell, gap) {
                 state.broken = true;
             }
-            let part = if self.law.holds(state) { cell.moments } else { compressed(cell, gap) };
+            let part = if self.law.holds(state) { cell.moments } else { compressed(cell, gap, self.touch) };
             let share = pressure(&self.law.normal, &part, gap);
             pressed.push(Pressed { at: part.centroid(), area: part.area, force: share.force });
             sum.force += share.force;
@@ -258,7 +261,7 @@ impl Joint {
             .iter()
             .zip(&self.states)
             .map(|(cell, state)| {
-                let m = if self.law.holds(state) { cell.moments } else { compressed(cell, &gap) };
+                let m = if self.law.holds(state) { cell.moments } else { compressed(cell, &gap, self.touch) };
                 let Gap { g0, gs, gt } = gap;
                 let square = g0 * g0 * m.area
                     + 2.0 * g0 * (gs * m.s + gt * m.t)
@@ -303,18 +306,19 @@ fn pressure(law: &NormalLaw, m: &Moments, gap: &Gap) -> PressureSum {
     }
 }
 
-/// The part of a sub-contact in compression, by clipping it at zero gap; a point is in or out as a whole.
-fn compressed(cell: &Cell, gap: &Gap) -> Moments {
+/// The part of a sub-contact in compression, by clipping it at zero gap (at `touch`, which is zero but for rounding);
+/// a point is in or out as a whole.
+fn compressed(cell: &Cell, gap: &Gap, touch: f64) -> Moments {
     if cell.outline.vertices.is_empty() {
-        return if gap.at(&cell.moments.centroid()) < 0.0 { cell.moments } else { Moments::default() };
+        return if gap.at(&cell.moments.centroid()) <= touch { cell.moments } else { Moments::default() };
     }
-    let open = cell.outline.vertices.iter().filter(|v| gap.at(v) > 0.0).count();
+    let open = cell.outline.vertices.iter().filter(|v| gap.at(v) > touch).count();
     if open == 0 {
         cell.moments
     } else if open == cell.outline.vertices.len() {
         Moments::default()
     } else {
-        cell.outline.clip(gap.g0, gap.gs, gap.gt).moments()
+        cell.outline.clip(gap.g0 - touch, gap.gs, gap.gt).moments()
     }
 }
 

@@ -15,7 +15,8 @@ const HOUSE: &[(&str, &[&str])] = &[
     ("contact", &["math", "shape", "model"]),
     ("generate", &["math", "shape", "random", "law", "model"]),
     ("solve", &["math", "shape", "law", "model", "contact"]),
-    ("protocol", &["math", "law", "model", "contact", "solve"]),
+    // `shape`, beyond the house's first plan: a pressure is integrated over faces, and end blocks are shapes.
+    ("protocol", &["math", "shape", "law", "model", "contact", "solve"]),
     ("study", &["math", "random", "law", "model", "generate", "solve", "protocol"]),
     ("ensemble", &["math", "random", "stats", "model", "generate", "solve", "protocol", "study"]),
     ("critic", &["math", "random", "stats", "model", "protocol", "study", "ensemble"]),

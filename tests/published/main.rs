@@ -1,0 +1,3 @@
+//! Published statements against our numbers: what the studies' READMEs say comes out, does.
+
+mod joint_arrangement;
