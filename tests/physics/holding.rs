@@ -124,3 +124,28 @@ fn ends_hold_a_wall_in_the_order_of_their_stiffness() {
     assert_eq!(in_plane.displacements[0].y, 0.0);
     assert!(in_plane.displacements[2].y > 0.0);
 }
+
+#[test]
+fn the_ways_a_wall_ends_are_told_apart() {
+    let wall = pirca::generate::canonical::running_bond(4, 3);
+    let law = dry(1e8, 30.0);
+    let ends_as = |mean_pressure: f64, max_steps: u64| {
+        let lateral = Lateral { mean_pressure, base_over_top: 2.0, steps: 4, collapse_share: 0.5 };
+        let solver = Solver::Explicit(Settings { max_steps, ..Settings::default() });
+        run(&wall, &law, &Protocol::Lateral(lateral), Ends::Free, [2, 2], &solver)
+    };
+    assert_eq!(ends_as(50.0, 100_000).outcome, Outcome::Equilibrium);
+    // Toppling of the whole: p H^2 4/9 = W t / 2 per length gives some 1900 Pa; ten times that cannot stand.
+    let fallen = ends_as(2e4, 100_000);
+    assert!(
+        matches!(fallen.outcome, Outcome::Collapsed { load_factor } if load_factor > 0.0),
+        "{:?}",
+        fallen.outcome
+    );
+    assert!(
+        matches!(ends_as(50.0, 20).outcome, Outcome::NotConverged { load_factor, .. } if load_factor == 0.0)
+    );
+    assert!(
+        matches!(ends_as(1e300, 100_000).outcome, Outcome::NonFinite { load_factor } if load_factor == 0.25)
+    );
+}
