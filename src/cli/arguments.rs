@@ -55,6 +55,9 @@ pub(crate) struct Which {
 pub(crate) struct Check {
     #[command(flatten)]
     pub which: Which,
+    /// List every key that a study, its published.toml and a distribution may hold: what is allowed, default, meaning.
+    #[arg(long, conflicts_with = "json")]
+    pub keys: bool,
 }
 
 /// Arguments of `generate`.

@@ -6,13 +6,14 @@ use crate::cli::arguments::Check;
 use crate::cli::failure::Failure;
 use crate::cli::{locate, output};
 use crate::ensemble;
-use crate::study::{Loaded, Study};
+use crate::study::{Loaded, Study, key_reference};
 
 /// Reads the study and says what it found.
 pub(crate) fn check(arguments: &Check) -> Result<(), Failure> {
     let which = &arguments.which;
     if !which.json {
-        return output::print(&summary(&locate::study(which)?));
+        let keys = if arguments.keys { format!("\n{}", key_reference()) } else { String::new() };
+        return output::print(&(summary(&locate::study(which)?) + &keys));
     }
     let folder = match locate::folder(&which.study) {
         Ok(folder) => folder,

@@ -80,48 +80,109 @@ pub fn find_patch(first: &Polyhedron, second: &Polyhedron, settings: &Settings) 
     let (opposite, cosine) = (0..incident.faces.len())
         .map(|f| (f, -incident.face_plane(f).normal.dot(&plane.normal)))
         .fold((0, f64::NEG_INFINITY), |best, next| if next.1 > best.1 { next } else { best });
+    let meeting = Meeting {
+        reference,
+        face: axis.face,
+        plane,
+        incident,
+        opposite,
+        reference_is_second: axis.of_second,
+        settings,
+    };
     // Faces that lie on one another are a face contact whatever their edges do: a joint that leans open has crossing
     // edges which separate better than either face.
     let faces_meet = cosine >= settings.face_cosine;
-    if faces_meet
-        && let Some(patch) = face_patch(reference, axis.face, incident, opposite, settings, axis.of_second)
-    {
+    if faces_meet && let Some(patch) = meeting.face_patch() {
         return Some(patch);
     }
     match best_edge_axis(first, second, axis.depth + settings.preference()) {
         Some(edges) if edges.depth > settings.reach => None,
         Some(edges) => edge_patch(first, second, edges, settings),
         None if faces_meet => None,
-        None => steep_patch(reference, axis.face, incident, opposite, settings, axis.of_second),
+        None => meeting.steep_patch(),
     }
 }
 
-fn face_patch(
-    reference: &Polyhedron,
+/// A face of the reference block and the face of the incident block that looks at it most squarely.
+struct Meeting<'a> {
+    reference: &'a Polyhedron,
     face: usize,
-    incident: &Polyhedron,
+    /// Plane of the reference face.
+    plane: Plane,
+    incident: &'a Polyhedron,
     opposite: usize,
-    settings: &Settings,
     reference_is_second: bool,
-) -> Option<Patch> {
-    let plane = reference.face_plane(face);
-    let frame = face_frame(incident, opposite);
-    // Both outlines along the reference normal into the incident plane, in its coordinates.
-    let onto = |p: Vec3| {
-        let shift = frame.normal.dot(&(frame.origin - p)) / frame.normal.dot(&plane.normal);
-        frame.project(&(p + plane.normal * shift))
-    };
-    let own = Polygon { vertices: incident.face_vertices(opposite).map(|p| frame.project(&p)).collect() };
-    // Seen from the incident face the reference face runs clockwise.
-    let mut other: Vec<[f64; 2]> = reference.face_vertices(face).map(onto).collect();
-    other.reverse();
-    let polygon = own.intersection(&Polygon { vertices: other });
-    let least = settings.reach * settings.reach;
-    if polygon.vertices.len() < 3 || polygon.area() < least {
-        return None;
+    settings: &'a Settings,
+}
+
+impl Meeting<'_> {
+    /// The overlap of the two faces.
+    fn face_patch(&self) -> Option<Patch> {
+        let frame = face_frame(self.incident, self.opposite);
+        // Both outlines along the reference normal into the incident plane, in its coordinates.
+        let onto = |p: Vec3| {
+            let shift = frame.normal.dot(&(frame.origin - p)) / frame.normal.dot(&self.plane.normal);
+            frame.project(&(p + self.plane.normal * shift))
+        };
+        let own = self.incident.face_vertices(self.opposite).map(|p| frame.project(&p)).collect();
+        // Seen from the incident face the reference face runs clockwise.
+        let mut other: Vec<[f64; 2]> = self.reference.face_vertices(self.face).map(onto).collect();
+        other.reverse();
+        let polygon = Polygon { vertices: own }.intersection(&Polygon { vertices: other });
+        let least = self.settings.reach * self.settings.reach;
+        if polygon.vertices.len() < 3 || polygon.area() < least {
+            return None;
+        }
+        Some(self.patch(frame, polygon, Feature::Faces(self.opposite as u32, self.face as u32)))
     }
-    let feature = Feature::Faces(opposite as u32, face as u32);
-    Some(Patch { reference_is_second, frame, polygon, plane, feature })
+
+    /// A corner or an edge of the incident block on the reference face, too steep to touch as faces.
+    fn steep_patch(&self) -> Option<Patch> {
+        let depth = |v: &Vec3| self.plane.distance(v);
+        let vertices = &self.incident.vertices;
+        let lowest = (0..vertices.len())
+            .fold(0, |best, i| if depth(&vertices[i]) < depth(&vertices[best]) { i } else { best });
+        let start = vertices[lowest];
+        let half = 0.5 * self.settings.steep_width;
+        let (s, range) = match self.lying_edge(lowest) {
+            Some(end) => {
+                let along = end - self.plane.normal * (depth(&end) - depth(&start)) - start;
+                let (s, length) = (along.normalize(), along.norm());
+                (s, clip_line(self.reference, self.face, &self.plane, start, s, length)?)
+            }
+            None => {
+                let s = any_tangent(&self.plane.normal);
+                clip_line(self.reference, self.face, &self.plane, start, s, 0.0)?;
+                (s, (-half, half))
+            }
+        };
+        let normal = -self.plane.normal;
+        let frame = Frame { origin: start, s, t: normal.cross(&s), normal };
+        let vertices = vec![[range.0, -half], [range.1, -half], [range.1, half], [range.0, half]];
+        Some(self.patch(frame, Polygon { vertices }, Feature::Steep(lowest as u32, self.face as u32)))
+    }
+
+    /// The other end of an edge of the opposite face that starts at this vertex and lies on the reference face within
+    /// about a degree (sine below 0.02).
+    fn lying_edge(&self, vertex: usize) -> Option<Vec3> {
+        let f = &self.incident.faces[self.opposite];
+        let start = self.incident.vertices[vertex];
+        f.iter().enumerate().find_map(|(i, &v)| {
+            let next = f[(i + 1) % f.len()];
+            let other = match vertex as u32 {
+                x if x == v => next,
+                x if x == next => v,
+                _ => return None,
+            };
+            let end = self.incident.vertices[other as usize];
+            let rise = self.plane.distance(&end) - self.plane.distance(&start);
+            (rise < 0.02 * (end - start).norm()).then_some(end)
+        })
+    }
+
+    fn patch(&self, frame: Frame, polygon: Polygon, feature: Feature) -> Patch {
+        Patch { reference_is_second: self.reference_is_second, frame, polygon, plane: self.plane, feature }
+    }
 }
 
 /// The material frame of a face: origin at the mean of its vertices, s along its first edge.
@@ -132,60 +193,6 @@ fn face_frame(solid: &Polyhedron, face: usize) -> Frame {
     let edge = solid.vertices[f[1] as usize] - solid.vertices[f[0] as usize];
     let s = (edge - plane.normal * edge.dot(&plane.normal)).normalize();
     Frame { origin, s, t: plane.normal.cross(&s), normal: plane.normal }
-}
-
-/// A corner or an edge of the incident block on a face of the reference block, too steep to touch as faces.
-fn steep_patch(
-    reference: &Polyhedron,
-    face: usize,
-    incident: &Polyhedron,
-    opposite: usize,
-    settings: &Settings,
-    reference_is_second: bool,
-) -> Option<Patch> {
-    let plane = reference.face_plane(face);
-    let depth = |v: &Vec3| plane.distance(v);
-    let lowest = incident
-        .vertices
-        .iter()
-        .enumerate()
-        .fold((0, f64::INFINITY), |best, (i, v)| if depth(v) < best.1 { (i, depth(v)) } else { best });
-    // The lowest vertex and, when it lies as low, a neighbour along an edge of the opposite face.
-    let start = incident.vertices[lowest.0];
-    let f = &incident.faces[opposite];
-    let end = f.iter().enumerate().find_map(|(i, &v)| {
-        let next = f[(i + 1) % f.len()];
-        let other = match lowest.0 as u32 {
-            x if x == v => next,
-            x if x == next => v,
-            _ => return None,
-        };
-        let p = incident.vertices[other as usize];
-        // Sine below 0.02: an edge that lies down within about a degree.
-        (depth(&p) - lowest.1 < 0.02 * (p - start).norm()).then_some(p)
-    });
-    let half = 0.5 * settings.steep_width;
-    let foot = |p: Vec3| p - plane.normal * (depth(&p) - lowest.1);
-    let (s, s_range, origin) = match end {
-        Some(end) => {
-            let along = foot(end) - start;
-            let length = along.norm();
-            let s = along / length;
-            let (low, high) = clip_line(reference, face, &plane, start, s, length)?;
-            (s, (low, high), start)
-        }
-        None => {
-            clip_line(reference, face, &plane, start, any_tangent(&plane.normal), 0.0)?;
-            (any_tangent(&plane.normal), (-half, half), start)
-        }
-    };
-    let normal = -plane.normal;
-    let frame = Frame { origin, s, t: normal.cross(&s), normal };
-    let polygon = Polygon {
-        vertices: vec![[s_range.0, -half], [s_range.1, -half], [s_range.1, half], [s_range.0, half]],
-    };
-    let feature = Feature::Steep(lowest.0 as u32, face as u32);
-    (polygon.area() > 0.0).then_some(Patch { reference_is_second, frame, polygon, plane, feature })
 }
 
 /// The part of the segment `start + [0, length] direction` above a face, as a range along it; `None` if it misses.

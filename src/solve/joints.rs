@@ -33,7 +33,7 @@ pub struct Joint {
     /// Sub-contacts, and what they remember.
     cells: Vec<Cell>,
     states: Vec<SubContact>,
-    /// Size of the force at the last evaluation (N), and elastic energy in closure (J).
+    /// Size of the force at the last evaluation (N).
     pub force: f64,
 }
 

@@ -176,6 +176,16 @@ fn generate_writes_the_format_that_the_ending_says() {
 }
 
 #[test]
+fn check_lists_the_keys_of_a_study() {
+    let folder = Folder::with_study(STUDY);
+    let text = stdout(&ends_with(&folder, 0, &["check", "studies/tiny", "--keys"])).to_string();
+    for key in ["| `kn_pa_per_m` |", "| `dip_deg` |", "## `[solver]`"] {
+        assert!(text.contains(key), "{key} in {text}");
+    }
+    ends_with(&folder, 2, &["check", "studies/tiny", "--keys", "--json"]);
+}
+
+#[test]
 fn a_solved_wall_carries_its_displacements() {
     let folder = Folder::with_study(STUDY);
     let solved = ["generate", "studies/tiny", "--solved", "--out", "wall.vtu", "--json"];
