@@ -74,6 +74,9 @@ pub(crate) struct Generate {
     /// Seed instead of the study's.
     #[arg(long, value_name = "S")]
     pub seed: Option<u64>,
+    /// Solve the wall as `run` does, and write the displacement of every stone's centroid (m) into the .vtu.
+    #[arg(long)]
+    pub solved: bool,
     /// File to write; its ending says the format: .vtu (ParaView), .obj or .json.
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,

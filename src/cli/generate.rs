@@ -7,13 +7,14 @@ use serde_json::json;
 use crate::cli::arguments::Generate;
 use crate::cli::failure::Failure;
 use crate::cli::{locate, output};
-use crate::ensemble::{self, replace_file};
+use crate::ensemble::{self, Task, replace_file};
 use crate::model::Wall;
+use crate::protocol::Run;
 use crate::study::Study;
 use crate::{exchange, report};
 
 /// The formats that a wall is written in, by the ending of the file.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 enum Format {
     Vtu,
     Obj,
@@ -23,6 +24,11 @@ enum Format {
 /// Builds the wall and writes it.
 pub(crate) fn generate(arguments: &Generate) -> Result<(), Failure> {
     let format = format_of(&arguments.out)?;
+    if arguments.solved && format != Format::Vtu {
+        return Err(Failure::Usage(
+            "--solved: only a .vtu file holds displacements; give --out FILE.vtu".to_owned(),
+        ));
+    }
     let mut study = locate::study(&arguments.which)?.study;
     if let Some(seed) = arguments.seed {
         study = study.with_seed(seed);
@@ -32,7 +38,10 @@ pub(crate) fn generate(arguments: &Generate) -> Result<(), Failure> {
     let kn = kn(&study, arguments.point)?;
     let generated = ensemble::build(&study, index as u32, member)
         .map_err(|e| Failure::Run(format!("arm {arm}, member {member}: invalid geometry: {e}")))?;
-    replace_file(&arguments.out, encoded(format, &generated.wall).as_bytes())?;
+    let solved = arguments.solved.then(|| {
+        ensemble::solve(&study, Task { arm: index as u32, point: arguments.point, member }, &generated.wall)
+    });
+    replace_file(&arguments.out, encoded(format, &generated.wall, solved.as_ref()).as_bytes())?;
 
     let (out, stones) = (arguments.out.display().to_string(), generated.wall.stones().count());
     let (wedges, headers) = (generated.realised.wedges, generated.realised.headers);
@@ -42,18 +51,19 @@ pub(crate) fn generate(arguments: &Generate) -> Result<(), Failure> {
             "arm": arm, "point": arguments.point, "kn_pa_per_m": kn, "member": member,
             "out": out, "stones": stones, "wedges": wedges, "headers": headers,
             "attempts": generated.attempts, "redraws": generated.redraws, "merges": generated.merges,
-            "volume_m3": generated.realised.volume,
+            "volume_m3": generated.realised.volume, "outcome": solved.map(|run| run.outcome.name()),
         }));
     }
+    let ending = solved.map_or(String::new(), |run| format!("; {}", run.outcome.name()));
     output::print(&format!(
-        "{out}: arm {arm}, member {member}, kn {kn:e} Pa/m: {stones} stones, of them {wedges} wedges and {headers} headers; {:.4} m3\n",
+        "{out}: arm {arm}, member {member}, kn {kn:e} Pa/m: {stones} stones, of them {wedges} wedges and {headers} headers; {:.4} m3{ending}\n",
         generated.realised.volume
     ))
 }
 
-fn encoded(format: Format, wall: &Wall) -> String {
+fn encoded(format: Format, wall: &Wall, solved: Option<&Run>) -> String {
     match format {
-        Format::Vtu => report::write_vtu(wall, None),
+        Format::Vtu => report::write_vtu(wall, solved.map(|run| run.displacements.as_slice())),
         Format::Obj => exchange::write_obj(wall),
         Format::Json => exchange::write_wall_json(wall),
     }

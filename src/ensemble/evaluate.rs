@@ -33,11 +33,16 @@ pub fn evaluate(study: &Study, task: Task) -> Row {
     }
 }
 
-fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
+/// Draws the joints of a member's wall and takes it through the study's protocol.
+pub fn solve(study: &Study, task: Task, wall: &Wall) -> protocol::Run {
     let kn = study.kn_points[task.point as usize];
     let laws = DrawnJoints::new(&study.joint, kn, Streams::new(study.seed, task.member));
+    protocol::run(wall, &laws, &study.protocol, study.ends, study.sub_contacts, &study.solver)
+}
+
+fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
     let wall = &generated.wall;
-    let run = protocol::run(wall, &laws, &study.protocol, study.ends, study.sub_contacts, &study.solver);
+    let run = solve(study, task, wall);
     let last = run.steps.last();
     let at_rest = run.outcome == Outcome::Equilibrium;
     let load_steps = run.steps.iter().map(|step| StepRow {

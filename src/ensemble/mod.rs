@@ -13,7 +13,7 @@ mod table;
 
 pub use design::{Task, is_random, plan};
 pub use error::{MemberFault, RunError};
-pub use evaluate::{build, evaluate};
+pub use evaluate::{build, evaluate, solve};
 pub use files::replace_file;
 pub use manifest::Manifest;
 pub use progress::{Progress, Silent};

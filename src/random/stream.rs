@@ -1,7 +1,7 @@
 //! Random streams: ChaCha with 12 rounds, keyed by seed and member, one numbered stream per name of a quantity.
 
+use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha12Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
 use sha2::{Digest, Sha256};
 
 /// First half of every key. It keeps our streams apart from other uses of the same generator; changing it changes

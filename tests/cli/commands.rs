@@ -176,6 +176,23 @@ fn generate_writes_the_format_that_the_ending_says() {
 }
 
 #[test]
+fn a_solved_wall_carries_its_displacements() {
+    let folder = Folder::with_study(STUDY);
+    let solved = ["generate", "studies/tiny", "--solved", "--out", "wall.vtu", "--json"];
+    let told = json(&ends_with(&folder, 0, &solved));
+    assert_eq!(told["outcome"], "equilibrium");
+    let text = fs::read_to_string(folder.path("wall.vtu")).unwrap();
+    let field = text.split("Name=\"displacement\"").nth(1).expect("a displacement field");
+    let values = field.split('>').nth(1).unwrap().split('<').next().unwrap();
+    let values: Vec<f64> = values.split_whitespace().map(|v| v.parse().unwrap()).collect();
+    assert_eq!(values.len() as u64, 3 * told["stones"].as_u64().unwrap());
+    assert!(values.iter().skip(1).step_by(3).all(|&y| y > 0.0), "the load presses every stone towards +y");
+    let error =
+        stderr(&ends_with(&folder, 2, &["generate", "studies/tiny", "--solved", "--out", "wall.obj"]));
+    assert!(error.contains("--solved") && error.contains(".vtu"), "{error}");
+}
+
+#[test]
 fn generate_says_why_there_is_no_wall_or_no_file() {
     let folder = Folder::with_study(STUDY);
     let error =

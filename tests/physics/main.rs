@@ -3,7 +3,9 @@
 mod dynamics;
 mod elastic;
 mod fixture;
+mod holding;
 mod objectivity;
 mod pressure;
+mod shapes;
 mod tilting;
 mod tumbling;

@@ -6,6 +6,7 @@ mod coverage;
 mod families;
 mod order;
 mod published_tables;
+mod rand_distr_agrees;
 mod ratios;
 mod support;
 mod truncated;
