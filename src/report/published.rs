@@ -168,8 +168,8 @@ fn covs(populations: &[Population], arm: &str) -> Vec<Number> {
         .collect()
 }
 
-/// The mean of an arm lies between two others where its ratio to the one is below one and to the other above.
-/// Refuted where the intervals of both ratios lie on the same side of one.
+/// The mean of an arm lies between two others where the interval of its ratio to the one lies below one and that to
+/// the other above. Refuted where both intervals lie on the same side of one; open where one of them reaches over it.
 fn between(populations: &[Population], arm: &str, of: &[String; 2]) -> Evidence {
     let first = ratios(populations, arm, &of[0]);
     let second = ratios(populations, arm, &of[1]);
@@ -203,12 +203,12 @@ fn between_at(p: &Number, q: &Number, of: &[String; 2]) -> Standing {
         significant(y, 3),
         of[1]
     );
-    if (x < 1.0 && y > 1.0) || (x > 1.0 && y < 1.0) {
+    if (p_high < 1.0 && q_low > 1.0) || (p_low > 1.0 && q_high < 1.0) {
         Standing::Holds
     } else if (p_low >= 1.0 && q_low >= 1.0) || (p_high <= 1.0 && q_high <= 1.0) {
         Standing::Refuted(format!("{words}, both on one side beyond their intervals"))
     } else {
-        Standing::Open(format!("{words}, on one side, but an interval reaches over 1"))
+        Standing::Open(format!("{words}, and an interval reaches over 1"))
     }
 }
 

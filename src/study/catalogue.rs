@@ -94,6 +94,11 @@ impl Catalogue {
         }
         if !self.files.contains_key(file) && !self.path_of(file).exists() {
             let known = names_below(&self.folder);
+            if known.is_empty() {
+                let wanted = format!("a file of {}, which holds none", self.folder.display());
+                let fix = "put the folder `distributions` beside `studies`, or write the numbers here";
+                return Err(fault(wanted, fix.to_owned()));
+            }
             return Err(fault(
                 format!("a file of `distributions`: {}", known.join(", ")),
                 suggestion(file, &known),

@@ -256,8 +256,8 @@ fn faults_of_whole_files() {
             "no-distributions",
             |s| fs::remove_dir_all(s.path("distributions")).expect("it was there"),
             &[
-                "arm.laid.length_m = \"block/size:length\": allowed is a file of `distributions`",
-                "there is none to choose from",
+                "arm.laid.length_m = \"block/size:length\": allowed is a file of ",
+                "which holds none; put the folder `distributions` beside `studies`",
             ],
         ),
         (

@@ -82,6 +82,9 @@ fn a_mean_between_two_others() {
         Verdict::NotReproduced,
         "not between"
     );
+    // 2.9 -+ 0.28: between them, but the interval reaches above 3.
+    assert_eq!(judged(between(), &with(random_arm("a", &[2.0, 2.9]))).verdict, Verdict::CannotJudge);
+    assert_eq!(judged(between(), &with(random_arm("a", &[2.0, 2.5]))).verdict, Verdict::Reproduced);
     // 3.1 -+ 0.28: above both, but the interval reaches below 3.
     assert_eq!(judged(between(), &with(random_arm("a", &[2.0, 3.1]))).verdict, Verdict::CannotJudge);
     assert_eq!(judged(between(), &with(random_arm("a", &[2.0, 4.0]))).verdict, Verdict::NotReproduced);
