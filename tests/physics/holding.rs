@@ -119,7 +119,8 @@ fn ends_hold_a_wall_in_the_order_of_their_stiffness() {
     let (plane, in_plane) = top(Ends::OutOfPlane);
     let (springs, _) = top(Ends::JointSprings);
     println!("free {free:e}, end blocks {blocks:e}, out of plane {plane:e}, springs {springs:e}");
-    assert!(springs < free && plane < free && blocks <= free);
+    // Springs hold what joints let go; joints hold a little by the cohesion of what still touches.
+    assert!(springs < 0.95 * blocks && blocks < 0.95 * free && plane < free);
     // Block 0 stands at the left end, block 2 in the middle of the lowest course.
     assert_eq!(in_plane.displacements[0].y, 0.0);
     assert!(in_plane.displacements[2].y > 0.0);
