@@ -234,11 +234,7 @@ fn edge_patch(
     let at = |solid: &Polyhedron, v: u32| solid.vertices[v as usize];
     let (p, u) = (at(first, ea[0]), at(first, ea[1]) - at(first, ea[0]));
     let (q, v) = (at(second, eb[0]), at(second, eb[1]) - at(second, eb[0]));
-    let mut normal = u.cross(&v).normalize();
-    let towards = second.mass_properties().centroid - first.mass_properties().centroid;
-    if normal.dot(&towards) < 0.0 {
-        normal = -normal;
-    }
+    let normal = edges.normal;
     // Nearest points of the two lines.
     let (uu, uv, vv, w) = (u.dot(&u), u.dot(&v), v.dot(&v), q - p);
     let det = uu * vv - uv * uv;

@@ -21,7 +21,9 @@ pub struct EdgeAxis {
     pub first: [u32; 2],
     /// Edge of the second polyhedron.
     pub second: [u32; 2],
-    /// Separation along their common normal (m; negative = overlap depth).
+    /// Their common unit normal, pointing from the first polyhedron to the second.
+    pub normal: Vec3,
+    /// Separation along it (m; negative = overlap depth).
     pub depth: f64,
 }
 
@@ -61,7 +63,7 @@ pub fn best_edge_axis(a: &Polyhedron, b: &Polyhedron, beyond: f64) -> Option<Edg
                 && support(a, &normal) <= normal.dot(&p) + rounding
                 && support(b, &-normal) <= -normal.dot(&q) + rounding
             {
-                best = Some(EdgeAxis { first, second, depth });
+                best = Some(EdgeAxis { first, second, normal, depth });
             }
         }
     }

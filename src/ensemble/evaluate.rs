@@ -70,7 +70,7 @@ fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
         solver_steps: run.steps.iter().map(|step| step.solver_steps).sum(),
         unbalanced_ratio: last.and_then(|step| finite(step.unbalanced_ratio)),
         load_steps: load_steps.collect(),
-        ..unsolved(study, task, recordable(run.outcome))
+        ..unsolved(study, task, run.outcome)
     }
 }
 
@@ -112,15 +112,4 @@ fn weight(wall: &Wall) -> f64 {
 /// A value that a table can hold: NaN and infinity are "not observed".
 fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
-}
-
-/// An unbalanced force ratio is infinite where no joint carries a force; JSON has no infinity, so the largest number
-/// stands for it.
-fn recordable(outcome: Outcome) -> Outcome {
-    match outcome {
-        Outcome::NotConverged { load_factor, unbalanced_ratio } if !unbalanced_ratio.is_finite() => {
-            Outcome::NotConverged { load_factor, unbalanced_ratio: f64::MAX }
-        }
-        other => other,
-    }
 }

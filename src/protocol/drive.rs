@@ -19,7 +19,7 @@ pub struct LoadStep {
     pub top_displacement: f64,
     /// Unbalanced force ratio reached.
     pub unbalanced_ratio: f64,
-    /// Time steps (explicit) or iterations (implicit) that the step took.
+    /// Time steps that the load step took.
     pub solver_steps: u64,
 }
 
@@ -55,7 +55,10 @@ pub fn run(
     let contact = contact::Settings::for_size(typical_size(wall), sub_contacts);
     let mut simulation = Simulation::new(&assembly, &surroundings, *settings, contact);
     let joints = simulation.joints.all.len();
-    let loads = back_loads(wall, lateral);
+    // Once, in the positions as built: from then on each load moves with its stone.
+    for load in back_loads(wall, lateral) {
+        simulation.add_load(load.block, load.point, load.force);
+    }
     let top = top_points(wall);
     let base_thickness = wall.bounds().1.y - wall.bounds().0.y;
     let limit = lateral.collapse_share * base_thickness;
@@ -64,11 +67,8 @@ pub fn run(
     let mut steps = Vec::new();
     let mut outcome = Outcome::Equilibrium;
     for step in 0..=lateral.steps {
-        let load_factor = f64::from(step) / f64::from(lateral.steps);
-        simulation.clear_loads();
-        for load in &loads {
-            simulation.add_load(load.block, load.point, load.force * load_factor);
-        }
+        let load_factor = f64::from(step) / f64::from(lateral.steps.max(1));
+        simulation.load_factor = load_factor;
         let before = simulation.steps;
         let (status, unbalanced_ratio) = simulation
             .relax(|bodies| out_of_plane(&displacements(&assembly, bodies, &top), &at_rest).1 > limit);

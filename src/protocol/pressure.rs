@@ -16,7 +16,7 @@ pub struct Load {
     pub force: Vec3,
 }
 
-/// The pressure on every face that looks backwards (-y) with nothing behind it, towards +y.
+/// The pressure on every face that looks backwards (-y) with no stone behind its middle, towards +y.
 ///
 /// The pressure varies linearly with height and acts per vertical projection of the face; its resultant on a face and
 /// its point of action come from the exact integrals over the face.
@@ -41,6 +41,9 @@ pub fn back_loads(wall: &Wall, lateral: &Lateral) -> Vec<Load> {
             let p0 = at_base + slope * (centre.z - low.z);
             let (ps, pt) = (slope * frame.s.z, slope * frame.t.z);
             let total = p0 * m.area + ps * m.s + pt * m.t;
+            if total == 0.0 {
+                continue;
+            }
             let by_s = p0 * m.s + ps * m.ss + pt * m.st;
             let by_t = p0 * m.t + ps * m.st + pt * m.tt;
             loads.push(Load {

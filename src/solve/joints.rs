@@ -77,6 +77,10 @@ struct Pose {
 pub struct Joints {
     /// Sorted by pair of bodies.
     pub all: Vec<Joint>,
+    /// Joints whose blocks have come apart beyond the reach: what they remember must not heal when they meet again.
+    parted: BTreeMap<(u32, u32), Joint>,
+    /// Whether contacts have been looked for before: only joints that were there at the start can hold.
+    begun: bool,
     scratch: Vec<Pressed>,
 }
 
@@ -92,18 +96,33 @@ impl Joints {
             }
             // What is fixed is the preferred reference: the pressure then acts along the normal of the ground.
             let (first, second) = if bodies.all[b as usize].moves() { (a, b) } else { (b, a) };
-            if let Some(patch) = find_patch(&shapes[first as usize], &shapes[second as usize], settings) {
-                let before = old.remove(&(a, b));
-                let law = before.as_ref().map_or_else(|| laws.of(a, b), |j| j.law);
-                let mut joint = Joint::new(&patch, first, second, law, bodies, settings);
-                if let Some(before) = before {
-                    joint.inherit(&before, bodies);
-                }
+            let Some(patch) = find_patch(&shapes[first as usize], &shapes[second as usize], settings) else {
+                continue;
+            };
+            let before = old.remove(&(a, b));
+            let apart = self.parted.remove(&(a, b));
+            let known = before.as_ref().or(apart.as_ref());
+            let law = known.map_or_else(|| laws.of(a, b), |j| j.law);
+            let mut joint = Joint::new(&patch, first, second, law, bodies, settings);
+            match known {
+                Some(known) => joint.inherit(known, bodies),
+                None if self.begun => joint.meet(),
+                None => {}
+            }
+            if before.is_none() {
+                joint.states.iter_mut().for_each(SubContact::forget_shear);
+            }
+            self.all.push(joint);
+        }
+        self.begun = true;
+        // What holds does not end because its faces have come apart; the rest is kept in mind.
+        for (pair, joint) in old {
+            if joint.states.iter().any(|state| joint.law.holds(state)) {
                 self.all.push(joint);
+            } else {
+                self.parted.insert(pair, joint);
             }
         }
-        // An attachment does not end because its faces have come apart.
-        self.all.extend(old.into_values().filter(|j| j.law.bonded));
         self.all.sort_by_key(Joint::pair);
     }
 
@@ -155,6 +174,14 @@ impl Joint {
         }
     }
 
+    /// A joint between blocks that met on the way: they touch, but nothing ever attached them.
+    fn meet(&mut self) {
+        self.law.bonded = false;
+        for state in &mut self.states {
+            state.broken = self.law.tension > 0.0;
+        }
+    }
+
     /// The two bodies, lower id first.
     pub fn pair(&self) -> (u32, u32) {
         (self.incident.min(self.reference), self.incident.max(self.reference))
@@ -162,6 +189,7 @@ impl Joint {
 
     /// Takes over the history of the same pair's former joint, by nearness of the sub-contacts.
     fn inherit(&mut self, before: &Joint, bodies: &Bodies) {
+        self.force = before.force;
         let (now, then) = (self.pose(&bodies.all), before.pose(&bodies.all));
         // Traction is kept for the incident body; when the roles have changed, its reaction acts there.
         let sign = if self.incident == before.incident { 1.0 } else { -1.0 };
@@ -285,13 +313,37 @@ impl Joint {
         (pose.origin + pose.s * s + pose.t * t, pose.push)
     }
 
-    /// Second moments of area about the polygon's centroid along its in-plane axes (m^4), with those axes in world
-    /// coordinates: what the rotational stiffness of the joint comes from.
-    pub fn second_moments(&self, bodies: &[Body]) -> [(Vec3, f64); 2] {
+    /// Two levers in the joint's plane (m), in world coordinates: an area lumped in quarters at plus and minus each sum
+    /// and difference of them has the second moments of the joint's sub-contacts about its centroid, which is where
+    /// its rotational stiffness comes from. With them the two in-plane axes.
+    pub fn levers(&self, bodies: &[Body]) -> [(Vec3, Vec3); 2] {
         let pose = self.pose(bodies);
-        let m = &self.whole;
-        [(pose.s, m.ss - m.s * m.s / m.area), (pose.t, m.tt - m.t * m.t / m.area)]
+        let m = match self.law.sampling {
+            Sampling::Area => self.whole,
+            Sampling::Vertices => total(&self.cells),
+        };
+        let (ss, st, tt) = (m.ss - m.s * m.s / m.area, m.st - m.s * m.t / m.area, m.tt - m.t * m.t / m.area);
+        // Columns of the Cholesky factor of the second moments per area.
+        let first = (ss / m.area).sqrt();
+        let across = if first > 0.0 { st / m.area / first } else { 0.0 };
+        let second = (tt / m.area - across * across).max(0.0).sqrt();
+        [(pose.s * first + pose.t * across, pose.e1), (pose.t * second, pose.e2)]
     }
+}
+
+/// Integrals over all sub-contacts.
+fn total(cells: &[Cell]) -> Moments {
+    cells.iter().fold(Moments::default(), |sum, cell| {
+        let m = &cell.moments;
+        Moments {
+            area: sum.area + m.area,
+            s: sum.s + m.s,
+            t: sum.t + m.t,
+            ss: sum.ss + m.ss,
+            st: sum.st + m.st,
+            tt: sum.tt + m.tt,
+        }
+    })
 }
 
 /// Integrates the normal law over an area with the given integrals; exact for the linear law.

@@ -30,13 +30,12 @@ pub fn block_bounds(bodies: &Bodies, joints: &Joints) -> Vec<f64> {
 /// so that the bound is the same in every frame.
 fn add_joint(k: &mut [[f64; 6]; 6], body: &Body, joint: &Joint, all: &[Body]) {
     let (centroid, normal) = joint.place(all);
-    let [(s, ss), (t, tt)] = joint.second_moments(all);
+    let [(along_s, s), (along_t, t)] = joint.levers(all);
     let area = joint.area();
-    let (along_s, along_t) = (s * (ss / area).sqrt(), t * (tt / area).sqrt());
     let local = |v: Vec3| body.rotation.tr_mul(&v);
     let kn = joint.law.normal.largest_stiffness() * area / 4.0;
     let ks = joint.law.ks * area / 4.0;
-    // Four points with a quarter of the area each have the polygon's second moments.
+    // Four points with a quarter of the area each have the second moments of the sub-contacts.
     for (i, j) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
         let lever = local(centroid + along_s * i + along_t * j - body.position);
         for (axis, stiffness) in [(normal, kn), (s, ks), (t, ks)] {

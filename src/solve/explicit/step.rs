@@ -43,12 +43,16 @@ pub struct Simulation<'a> {
     pub gravity: Vec3,
     /// Time step (s); with scaled inertia its length has no meaning and it is 1.
     pub dt: f64,
+    /// Factor on all dead loads; 1 unless it is changed.
+    pub load_factor: f64,
     /// Steps taken since the start.
     pub steps: u64,
     laws: &'a dyn JointLaws,
     settings: Settings,
     contact: contact::Settings,
     loads: Vec<DeadLoad>,
+    /// Length of the step that led to the positions now (s); 0 before the first one.
+    last_dt: f64,
     /// Where each body was when contacts were last looked for.
     seen: Vec<(Vec3, crate::math::Mat3)>,
 }
@@ -61,23 +65,20 @@ impl<'a> Simulation<'a> {
             joints: Joints::default(),
             gravity: Vec3::new(0.0, 0.0, -STANDARD_GRAVITY),
             dt: 1.0,
+            load_factor: 1.0,
             steps: 0,
             laws,
             settings,
             contact,
             loads: Vec::new(),
+            last_dt: 0.0,
             seen: Vec::new(),
         };
         simulation.refresh();
         simulation
     }
 
-    /// Removes all dead loads.
-    pub fn clear_loads(&mut self) {
-        self.loads.clear();
-    }
-
-    /// Adds a force (N) of fixed direction at a world point (m) that from now on moves with the block.
+    /// Adds a force (N), at load factor 1, of fixed direction at a world point (m) that from now on moves with the block.
     pub fn add_load(&mut self, body: usize, point: Vec3, force: Vec3) {
         let b = &self.bodies.all[body];
         let lever = b.rotation.tr_mul(&(point - b.position));
@@ -89,7 +90,7 @@ impl<'a> Simulation<'a> {
         let mut ratio = f64::INFINITY;
         for step in 1..=self.settings.max_steps {
             self.step();
-            if step % STEPS_BETWEEN_LOOKS == 0 {
+            if step % STEPS_BETWEEN_LOOKS == 0 || step == self.settings.max_steps {
                 if !self.is_finite() {
                     return (Status::NonFinite, f64::NAN);
                 }
@@ -111,6 +112,7 @@ impl<'a> Simulation<'a> {
         for body in &mut self.bodies.all {
             body.advance(self.dt, self.settings.damping);
         }
+        self.last_dt = self.dt;
         self.steps += 1;
         if self.has_moved() {
             self.refresh();
@@ -124,10 +126,11 @@ impl<'a> Simulation<'a> {
         }
         for load in &self.loads {
             let body = &mut self.bodies.all[load.body];
-            body.force += load.force;
-            body.torque += (body.rotation * load.lever).cross(&load.force);
+            let force = load.force * self.load_factor;
+            body.force += force;
+            body.torque += (body.rotation * load.lever).cross(&force);
         }
-        self.joints.apply(&mut self.bodies.all, self.dt);
+        self.joints.apply(&mut self.bodies.all, self.last_dt);
     }
 
     fn is_finite(&self) -> bool {
@@ -176,11 +179,15 @@ impl<'a> Simulation<'a> {
         let bounds = critical::block_bounds(&self.bodies, &self.joints);
         let safety = self.settings.step_safety;
         if self.settings.scaled_inertia {
-            // dt = 1 and dt^2 (2 bound / scale) = 4 safety^2 for every block; a loose one moves like the others.
-            let typical = bounds.iter().fold(0.0, |a: f64, &b| a.max(b));
+            // dt = 1 and dt^2 (2 bound / scale) = 4 safety^2 for every block. A block without joints keeps the scale it
+            // had; one that never had any falls by a hundredth of the reach in its first step.
+            let falling = self.gravity.norm() / (0.01 * self.contact.reach);
             for (body, &bound) in self.bodies.all.iter_mut().zip(&bounds).filter(|(b, _)| b.moves()) {
-                let bound = if bound > 0.0 { bound } else { typical.max(1.0) };
-                body.rescale(0.5 * bound / (safety * safety));
+                if bound > 0.0 {
+                    body.rescale(0.5 * bound / (safety * safety));
+                } else if body.inertia_scale == 1.0 {
+                    body.rescale(falling.max(1.0));
+                }
             }
             self.dt = 1.0;
         } else {
