@@ -1,15 +1,14 @@
 //! The files of a report, each written whole or not at all.
 
 use std::fs;
-use std::io::Write;
 use std::path::Path;
 
 use anyhow::{Context, Result};
 
-use crate::ensemble::Row;
+use crate::ensemble::{Row, replace_file};
 use crate::report::csv::csv;
 use crate::report::draw::{png_into, svg};
-use crate::report::figure::{curves, title};
+use crate::report::figure::{Curve, curves, title};
 use crate::report::summary::{Summary, summarise};
 use crate::study::Study;
 
@@ -40,22 +39,18 @@ pub(crate) fn write_summary(summary: &Summary, dir: &Path) -> Result<()> {
     let curves = curves(summary);
     let title = title(summary);
     let json = serde_json::to_string_pretty(summary).context("the summary cannot be written as JSON")? + "\n";
-    write(dir, SUMMARY_JSON, json.as_bytes())?;
-    write(dir, FIGURE_CSV, csv(&curves).as_bytes())?;
-    write(dir, FIGURE_SVG, svg(&title, &curves)?.as_bytes())?;
-    replace(dir, FIGURE_PNG, |temporary| png_into(temporary, &title, &curves))
+    replace_file(&dir.join(SUMMARY_JSON), json.as_bytes())?;
+    replace_file(&dir.join(FIGURE_CSV), csv(&curves).as_bytes())?;
+    replace_file(&dir.join(FIGURE_SVG), svg(&title, &curves)?.as_bytes())?;
+    write_png(dir, &title, &curves)
 }
 
-fn write(dir: &Path, name: &str, bytes: &[u8]) -> Result<()> {
-    replace(dir, name, |temporary| Ok(fs::File::create(temporary)?.write_all(bytes)?))
-}
-
-/// Lets `make` write a temporary file, flushes it to the disk and gives it its name.
-fn replace(dir: &Path, name: &str, make: impl FnOnce(&Path) -> Result<()>) -> Result<()> {
-    let path = dir.join(name);
+/// Lets the image writer, which wants a path, write a temporary file, flushes it to the disk and gives it its name.
+fn write_png(dir: &Path, title: &str, curves: &[Curve]) -> Result<()> {
+    let path = dir.join(FIGURE_PNG);
     // The ending is kept: the image writer chooses its format by it.
-    let temporary = dir.join(format!(".unfinished-{name}"));
-    let written = make(&temporary)
+    let temporary = dir.join(format!(".unfinished-{FIGURE_PNG}"));
+    let written = png_into(&temporary, title, curves)
         .and_then(|()| Ok(fs::File::open(&temporary)?.sync_all()?))
         .and_then(|()| Ok(fs::rename(&temporary, &path)?));
     if written.is_err() {
