@@ -9,7 +9,8 @@ use pirca::generate::canonical;
 use pirca::law::{CohesionAfterSlip, Coulomb, NormalLaw, Sampling};
 use pirca::math::{Vec3, cos, radians, sin, tan};
 use pirca::model::Wall;
-use pirca::solve::explicit::{STANDARD_GRAVITY, Settings, Simulation};
+use pirca::solve::STANDARD_GRAVITY;
+use pirca::solve::explicit::{Settings, Simulation};
 
 /// Dry joints: kn 1e9 Pa/m, ks half of it, 30 degrees.
 fn law() -> Coulomb {
@@ -31,7 +32,7 @@ fn tilted_at_rest<'a>(wall: Wall, tilt_deg: f64, law: &'a Coulomb) -> Simulation
     let settings = Settings { unbalanced_ratio: 1e-4, max_steps: 20_000, ..Settings::default() };
     let mut simulation = Simulation::new(&wall.with_base(), law, settings, contact);
     let tilt = radians(tilt_deg);
-    simulation.gravity = Vec3::new(0.0, STANDARD_GRAVITY * sin(tilt), -STANDARD_GRAVITY * cos(tilt));
+    simulation.assembly.gravity = Vec3::new(0.0, STANDARD_GRAVITY * sin(tilt), -STANDARD_GRAVITY * cos(tilt));
     simulation.relax(|_| false);
     simulation
 }

@@ -6,7 +6,7 @@ use crate::math::degrees;
 use crate::model::{Outcome, Wall};
 use crate::protocol;
 use crate::random::Streams;
-use crate::solve::explicit::STANDARD_GRAVITY;
+use crate::solve::STANDARD_GRAVITY;
 use crate::stats;
 use crate::study::{DrawnJoints, Study};
 

@@ -5,5 +5,5 @@ mod outcome;
 mod wall;
 
 pub use block::{Block, Support, Tag};
-pub use outcome::Outcome;
+pub use outcome::{Level, Outcome};
 pub use wall::{JointLaws, Wall};

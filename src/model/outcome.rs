@@ -1,28 +1,70 @@
 //! How a computation ended, as a value.
 
-/// How the evaluation of a wall ended. Four different things are never one: it stands, it fell, the solver did not
-/// get there, and the numbers went bad; and a wall that could not be built is none of these.
+use std::fmt;
+
+use crate::math::degrees;
+
+/// How far along its load path a wall was.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Level {
+    /// Share of the full load; 0 = under its own weight.
+    Factor(f64),
+    /// Tilt of the table (rad).
+    Tilt(f64),
+    /// Horizontal load over weight, the multiplier of limit analysis.
+    Multiplier(f64),
+}
+
+impl Level {
+    /// The number alone, in SI units.
+    pub fn value(&self) -> f64 {
+        match *self {
+            Level::Factor(x) | Level::Tilt(x) | Level::Multiplier(x) => x,
+        }
+    }
+}
+
+impl fmt::Display for Level {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Level::Factor(x) => write!(f, "load factor {x}"),
+            Level::Tilt(x) => write!(f, "a tilt of {:.4} deg", degrees(*x)),
+            Level::Multiplier(x) => write!(f, "a load multiplier of {x:.6}"),
+        }
+    }
+}
+
+/// How the evaluation of a wall ended. Different things are never one: it stands to the end, it fell, it never stood,
+/// nothing can bring it down, the solver did not get there, the numbers went bad; and a wall that could not be built
+/// is none of these.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(tag = "outcome", rename_all = "snake_case")]
 pub enum Outcome {
-    /// The unbalanced force ratio fell below its limit at every load step.
+    /// At rest at every load step, to the end of the load path.
     Equilibrium,
-    /// The wall moved past the collapse criterion.
+    /// The wall fell, and this is the load at which it did.
     Collapsed {
-        /// Load factor of the step in which it happened (1 = full load; 0 = under its own weight).
-        load_factor: f64,
+        /// The last load it is known to have borne, or for limit analysis the load it can bear.
+        at: Level,
     },
-    /// The step budget ran out with the wall neither at rest nor past the collapse criterion.
+    /// The wall does not even stand under its own weight.
+    UnstableAtRest,
+    /// No load of this kind, however large, brings the wall down (limit analysis).
+    Unbounded,
+    /// The solver found neither a rest state nor a collapse.
     NotConverged {
-        /// Load factor of the step in which it happened.
-        load_factor: f64,
+        /// The load at which it happened.
+        at: Level,
         /// Unbalanced force ratio reached.
         unbalanced_ratio: f64,
+        /// Where and why, in words.
+        why: String,
     },
     /// A position or force became NaN or infinite.
     NonFinite {
-        /// Load factor of the step in which it happened.
-        load_factor: f64,
+        /// The load at which it happened.
+        at: Level,
     },
     /// The generator could not build a valid wall within its attempts.
     InvalidGeometry {
@@ -37,6 +79,8 @@ impl Outcome {
         match self {
             Outcome::Equilibrium => "equilibrium",
             Outcome::Collapsed { .. } => "collapsed",
+            Outcome::UnstableAtRest => "unstable_at_rest",
+            Outcome::Unbounded => "unbounded",
             Outcome::NotConverged { .. } => "not_converged",
             Outcome::NonFinite { .. } => "non_finite",
             Outcome::InvalidGeometry { .. } => "invalid_geometry",
@@ -47,17 +91,13 @@ impl Outcome {
     pub fn reason(&self) -> String {
         match self {
             Outcome::Equilibrium => String::new(),
-            Outcome::Collapsed { load_factor } => {
-                format!("moved past the collapse criterion at load factor {load_factor}")
+            Outcome::Collapsed { at } => format!("fell at {at}"),
+            Outcome::UnstableAtRest => "does not stand under its own weight".to_string(),
+            Outcome::Unbounded => "no load of this kind brings it down".to_string(),
+            Outcome::NotConverged { at, unbalanced_ratio, why } => {
+                format!("unbalanced force ratio {unbalanced_ratio:.1e} at {at}: {why}")
             }
-            Outcome::NotConverged { load_factor, unbalanced_ratio } => {
-                format!(
-                    "unbalanced force ratio {unbalanced_ratio:.1e} when the steps ran out at load factor {load_factor}"
-                )
-            }
-            Outcome::NonFinite { load_factor } => {
-                format!("a position or force became non-finite at load factor {load_factor}")
-            }
+            Outcome::NonFinite { at } => format!("a position or force became non-finite at {at}"),
             Outcome::InvalidGeometry { reason } => reason.clone(),
         }
     }

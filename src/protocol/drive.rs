@@ -2,13 +2,13 @@
 
 use crate::contact;
 use crate::math::{Vec3, cbrt};
-use crate::model::{JointLaws, Outcome, Wall};
+use crate::model::{JointLaws, Level, Outcome, Wall};
 use crate::protocol::observe::{displacements, out_of_plane, top_points};
 use crate::protocol::pressure::back_loads;
 use crate::protocol::restraint::{Surroundings, restrain};
 use crate::protocol::{Ends, Protocol};
-use crate::solve::Solver;
-use crate::solve::explicit::{Simulation, Status};
+use crate::solve::explicit::Simulation;
+use crate::solve::{Solver, Status};
 
 /// What was observed at the end of one load step.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,25 +54,25 @@ pub fn run(
     let assembly = restrain(wall, ends);
     let contact = contact::Settings::for_size(typical_size(wall), sub_contacts);
     let mut simulation = Simulation::new(&assembly, &surroundings, *settings, contact);
-    let joints = simulation.joints.all.len();
+    let joints = simulation.assembly.joints.all.len();
     // Once, in the positions as built: from then on each load moves with its stone.
     for load in back_loads(wall, lateral) {
-        simulation.add_load(load.block, load.point, load.force);
+        simulation.assembly.add_load(load.block, load.point, load.force);
     }
     let top = top_points(wall);
     let base_thickness = wall.bounds().1.y - wall.bounds().0.y;
     let limit = lateral.collapse_share * base_thickness;
 
-    let mut at_rest = displacements(&assembly, &simulation.bodies, &top);
+    let mut at_rest = displacements(&assembly, &simulation.assembly.bodies, &top);
     let mut steps = Vec::new();
     let mut outcome = Outcome::Equilibrium;
     for step in 0..=lateral.steps {
         let load_factor = f64::from(step) / f64::from(lateral.steps.max(1));
-        simulation.load_factor = load_factor;
+        simulation.assembly.load_factor = load_factor;
         let before = simulation.steps;
         let (status, unbalanced_ratio) = simulation
             .relax(|bodies| out_of_plane(&displacements(&assembly, bodies, &top), &at_rest).1 > limit);
-        let now = displacements(&assembly, &simulation.bodies, &top);
+        let now = displacements(&assembly, &simulation.assembly.bodies, &top);
         if step == 0 {
             at_rest.clone_from(&now);
         }
@@ -82,17 +82,22 @@ pub fn run(
             unbalanced_ratio,
             solver_steps: simulation.steps - before,
         });
+        let at = Level::Factor(load_factor);
         outcome = match status {
             Status::Equilibrium => Outcome::Equilibrium,
-            Status::Stopped => Outcome::Collapsed { load_factor },
-            Status::StepsSpent => Outcome::NotConverged { load_factor, unbalanced_ratio },
-            Status::NonFinite => Outcome::NonFinite { load_factor },
+            Status::Stopped if step == 0 => Outcome::UnstableAtRest,
+            Status::Stopped => Outcome::Collapsed { at },
+            Status::StepsSpent | Status::NoEquilibrium => {
+                Outcome::NotConverged { at, unbalanced_ratio, why: "the steps ran out".to_string() }
+            }
+            Status::NonFinite => Outcome::NonFinite { at },
         };
         if outcome != Outcome::Equilibrium {
             break;
         }
     }
     let displacements = simulation
+        .assembly
         .bodies
         .all
         .iter()

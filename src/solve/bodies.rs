@@ -102,6 +102,11 @@ impl Body {
         self.support != Support::Fixed
     }
 
+    /// Radius of gyration (m), the mean over all axes.
+    pub fn gyration(&self) -> f64 {
+        (0.5 * self.inertia.sum() / self.mass).sqrt()
+    }
+
     /// Angular velocity (rad/s) of an attitude with this body's angular momentum.
     fn spin_at(&self, rotation: &Mat3) -> Vec3 {
         match self.support {

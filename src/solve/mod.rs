@@ -1,8 +1,13 @@
 //! Solvers: assembly into arrays, joints, status; `explicit` is the DEM.
 
+pub mod assembly;
 pub mod bodies;
 pub mod explicit;
 pub mod joints;
+mod status;
+
+pub use assembly::{Assembly, STANDARD_GRAVITY};
+pub use status::{Equilibrate, Settled, Status};
 
 /// Which solver, with its settings.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use pirca::ensemble::{
     MemberFault, Row, RunError, Settings, Silent, StepRow, Task, is_random, plan, run_with,
 };
-use pirca::model::Outcome;
+use pirca::model::{Level, Outcome};
 use pirca::random::{Family, Streams};
 use pirca::study::{Joint, Study};
 use polars::prelude::DataFrame;
@@ -50,7 +50,11 @@ fn made_up(study: &Study, task: Task) -> Row {
         point,
         kn_pa_per_m: kn,
         member,
-        outcome: if collapsed { Outcome::Collapsed { load_factor: 1.0 / 3.0 } } else { Outcome::Equilibrium },
+        outcome: if collapsed {
+            Outcome::Collapsed { at: Level::Factor(1.0 / 3.0) }
+        } else {
+            Outcome::Equilibrium
+        },
         top_displacement_m: (!collapsed).then_some(top),
         stones: 25,
         joints: 60,

@@ -4,7 +4,8 @@ use pirca::contact;
 use pirca::math::Vec3;
 use pirca::model::Wall;
 use pirca::shape::Polyhedron;
-use pirca::solve::explicit::{Settings, Simulation, Status};
+use pirca::solve::Status;
+use pirca::solve::explicit::{Settings, Simulation};
 
 use crate::fixture::{G, dry, on_floor, stone, tilted};
 
@@ -19,7 +20,7 @@ fn stack(blocks: u32) -> Wall {
 fn at_rest<'a>(wall: &Wall, law: &'a pirca::law::Coulomb, sub: [u32; 2], tilt_deg: f64) -> Simulation<'a> {
     let settings = Settings { unbalanced_ratio: 1e-9, ..Settings::default() };
     let mut simulation = Simulation::new(wall, law, settings, contact::Settings::for_size(0.2, sub));
-    simulation.gravity = tilted(tilt_deg);
+    simulation.assembly.gravity = tilted(tilt_deg);
     let (status, _) = simulation.relax(|_| false);
     assert_eq!(status, Status::Equilibrium);
     simulation
@@ -33,7 +34,7 @@ fn a_stack_settles_as_its_joints_are_pressed() {
     let (weight, area) = (2400.0 * 0.3 * 0.2 * 0.1 * G, 0.3 * 0.2);
     // Joint k carries the n - k blocks above it.
     let settlement: f64 = (0..n).map(|k| f64::from(n - k) * weight / (kn * area)).sum();
-    let top = simulation.bodies.all[n as usize - 1].position.z;
+    let top = simulation.assembly.bodies.all[n as usize - 1].position.z;
     let found = 0.1 * (f64::from(n) - 0.5) - top;
     println!("settlement {found:e} against {settlement:e}");
     assert!((found / settlement - 1.0).abs() < 1e-3);
@@ -57,7 +58,7 @@ fn a_tilted_stack_shears_as_its_joints_do() {
         turn += along * above * (0.05 * above) / (kn * second);
     }
     shift += turn * 0.05;
-    let found = simulation.bodies.all[n as usize - 1].position.y;
+    let found = simulation.assembly.bodies.all[n as usize - 1].position.y;
     println!("shift {found:e} against {shift:e}");
     // Turns of 1e-5 rad and the weight's P-delta are left out of the closed form.
     assert!((found / shift - 1.0).abs() < 2e-3);
@@ -66,7 +67,7 @@ fn a_tilted_stack_shears_as_its_joints_do() {
 #[test]
 fn a_few_sub_contacts_are_as_good_as_many() {
     let law = dry(1e8, 40.0);
-    let top = |sub| at_rest(&stack(4), &law, sub, 12.0).bodies.all[3].position;
+    let top = |sub| at_rest(&stack(4), &law, sub, 12.0).assembly.bodies.all[3].position;
     let (coarse, fine, finest) = (top([1, 1]), top([2, 2]), top([6, 6]));
     println!("{coarse:?} {fine:?} {finest:?}");
     // The pressure is integrated exactly whatever their number; uniform shear needs one.

@@ -5,7 +5,8 @@ use pirca::law::{CohesionAfterSlip, Coulomb, NormalLaw, Sampling};
 use pirca::math::{Vec3, cos, radians, sin, tan};
 use pirca::model::{Block, Support, Tag, Wall};
 use pirca::shape::Polyhedron;
-use pirca::solve::explicit::{STANDARD_GRAVITY, Settings, Simulation, Status};
+use pirca::solve::explicit::{Settings, Simulation};
+use pirca::solve::{STANDARD_GRAVITY, Status};
 
 /// Standard gravity (m/s^2).
 pub const G: f64 = STANDARD_GRAVITY;
@@ -65,11 +66,11 @@ pub fn collapse_angle(
     bracket: f64,
     limit: f64,
 ) -> [f64; 2] {
-    let at_rest: Vec<Vec3> = stable.bodies.all.iter().map(|b| b.position).collect();
+    let at_rest: Vec<Vec3> = stable.assembly.bodies.all.iter().map(|b| b.position).collect();
     let (mut angle, mut step) = (from_deg, step_deg);
     loop {
         let mut next = stable.clone();
-        next.gravity = tilted(angle + step);
+        next.assembly.gravity = tilted(angle + step);
         let (status, _) = next.relax(|bodies| {
             bodies.all.iter().zip(&at_rest).any(|(b, rest)| (b.position - rest).norm() > limit)
         });

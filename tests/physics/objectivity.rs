@@ -5,14 +5,15 @@ use pirca::generate::canonical;
 use pirca::law::Coulomb;
 use pirca::math::Vec3;
 use pirca::model::Wall;
-use pirca::solve::explicit::{Settings, Simulation, Status};
+use pirca::solve::Status;
+use pirca::solve::explicit::{Settings, Simulation};
 
 use crate::fixture::{dry, simulation, tilted};
 
 fn tilted_wall<'a>(wall: &Wall, law: &'a Coulomb, gravity: Vec3) -> Simulation<'a> {
     let settings = Settings { unbalanced_ratio: 1e-9, ..Settings::default() };
     let mut simulation = simulation(wall, law, settings, 0.1);
-    simulation.gravity = gravity;
+    simulation.assembly.gravity = gravity;
     assert_eq!(simulation.relax(|_| false).0, Status::Equilibrium);
     simulation
 }
@@ -29,7 +30,7 @@ fn compare(law: &Coulomb, tilt_deg: f64, turn: Rotation3<f64>) -> (f64, f64) {
     let here = tilted_wall(&wall, law, tilted(tilt_deg));
     let there = tilted_wall(&elsewhere, law, turn * tilted(tilt_deg));
     let (mut largest, mut difference) = (0.0f64, 0.0f64);
-    for (k, (a, b)) in here.bodies.all.iter().zip(&there.bodies.all).enumerate() {
+    for (k, (a, b)) in here.assembly.bodies.all.iter().zip(&there.assembly.bodies.all).enumerate() {
         let moved = a.position - wall.blocks[k].shape.mass_properties().centroid;
         let moved_there = b.position - elsewhere.blocks[k].shape.mass_properties().centroid;
         largest = largest.max(moved.norm());

@@ -4,7 +4,8 @@ use nalgebra::Rotation3;
 use pirca::math::Vec3;
 use pirca::model::{Support, Wall};
 use pirca::shape::Polyhedron;
-use pirca::solve::explicit::{Settings, Simulation, Status};
+use pirca::solve::Status;
+use pirca::solve::explicit::{Settings, Simulation};
 
 use crate::fixture::{dry, on_floor, simulation, stone};
 
@@ -18,10 +19,11 @@ fn settle(simulation: &mut Simulation) -> f64 {
     for _ in 0..40 {
         for _ in 0..500 {
             simulation.step();
-            let low = simulation.bodies.world_shape(0).bounds().0.z;
+            let low = simulation.assembly.bodies.world_shape(0).bounds().0.z;
             deepest = deepest.min(low);
         }
-        if simulation.unbalanced_ratio() < 1e-3 && simulation.bodies.kinetic_energy() < 1e-6 {
+        if simulation.assembly.unbalanced_ratio() < 1e-3 && simulation.assembly.bodies.kinetic_energy() < 1e-6
+        {
             break;
         }
     }
@@ -40,7 +42,7 @@ fn a_cube_dropped_on_its_corner_comes_to_rest_on_a_face() {
         Settings { scaled_inertia: false, longest_step: 1e-4, damping: 0.3, ..Settings::default() };
     let mut falling = simulation(&wall, &law, settings, 0.2);
     let deepest = settle(&mut falling);
-    let body = &falling.bodies.all[0];
+    let body = &falling.assembly.bodies.all[0];
     println!("rests at {:?}, deepest {deepest:e}, steps {}", body.position, falling.steps);
     // On a face: its centre is half an edge above the floor, less the closure of the joint (2e-5 m).
     assert!((body.position.z - 0.1).abs() < 1e-3, "{:?}", body.position);
@@ -66,11 +68,11 @@ fn crossed_ridges_push_each_other_apart_along_their_common_normal() {
         ..Settings::default()
     };
     let mut meeting = simulation(&wall, &law, settings, 0.2);
-    let start = meeting.bodies.all[0].position.z;
+    let start = meeting.assembly.bodies.all[0].position.z;
     let mut highest_after = f64::NEG_INFINITY;
     for _ in 0..60_000 {
         meeting.step();
-        let body = &meeting.bodies.all[0];
+        let body = &meeting.assembly.bodies.all[0];
         if body.velocity.z > 0.0 {
             highest_after = highest_after.max(body.position.z);
         }
@@ -78,7 +80,7 @@ fn crossed_ridges_push_each_other_apart_along_their_common_normal() {
             break;
         }
     }
-    let body = &meeting.bodies.all[0];
+    let body = &meeting.assembly.bodies.all[0];
     println!("from {start} back to {highest_after}; {:?}", body.position);
     // Straight up again to where it came from: no energy lost in a linear contact, nothing sideways by symmetry.
     assert!((highest_after - start).abs() < 2e-5, "{highest_after} {start}");
@@ -102,9 +104,9 @@ fn a_cube_balanced_on_an_edge_by_two_supports_stands() {
     let wall = Wall { blocks: vec![stone(resting, 2400.0), slab(1.0), slab(-1.0)] };
     let mut groove = simulation(&wall, &law, Settings::default(), 0.2);
     assert_eq!(groove.relax(|_| false).0, Status::Equilibrium);
-    let sunk = half_diagonal - groove.bodies.all[0].position.z;
+    let sunk = half_diagonal - groove.assembly.bodies.all[0].position.z;
     // Each face carries W / sqrt 2 less what friction takes off: between no friction and full stick of ks = kn / 2.
-    let weight = groove.bodies.all[0].mass * crate::fixture::G;
+    let weight = groove.assembly.bodies.all[0].mass * crate::fixture::G;
     let area = 0.04;
     let frictionless = weight / (1e8 * area);
     println!("sunk {sunk:e}, frictionless {frictionless:e}");

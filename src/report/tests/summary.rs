@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{KN, failed, fixed_arm, population, random_arm, standing, summary_of, three_arms};
 use crate::ensemble::Row;
-use crate::model::Outcome;
+use crate::model::{Level, Outcome};
 use crate::report::compare::{Basis, comparisons, ratio};
 use crate::report::number::{significant, with_interval};
 use crate::report::population::Population;
@@ -50,9 +50,9 @@ fn failed_walls_are_counted_and_enter_no_mean() {
         failed(4, Outcome::InvalidGeometry { reason: "beds cross".into() }),
         standing(2, 3e-3),
         // Its last displacement is no answer, should a row ever carry it.
-        Row { top_displacement_m: Some(90e-3), ..failed(1, Outcome::Collapsed { load_factor: 0.5 }) },
+        Row { top_displacement_m: Some(90e-3), ..failed(1, Outcome::Collapsed { at: Level::Factor(0.5) }) },
         standing(0, 1e-3),
-        failed(3, Outcome::NonFinite { load_factor: 1.0 }),
+        failed(3, Outcome::NonFinite { at: Level::Factor(1.0) }),
     ];
     let entry = describe(&Population::collect("irregular", false, KN[0], 6, rows.iter()), 1, BTreeMap::new());
     close(entry.mean.unwrap(), 2e-3);
@@ -81,7 +81,7 @@ fn one_wall_and_no_wall_give_null_never_zero_or_nan() {
     {
         assert!(json[key].is_null(), "{key} is {}", json[key]);
     }
-    let rows = [failed(0, Outcome::Collapsed { load_factor: 1.0 })];
+    let rows = [failed(0, Outcome::Collapsed { at: Level::Factor(1.0) })];
     let none = Population::collect("irregular", false, KN[0], 1, rows.iter());
     let json = serde_json::to_value(describe(&none, 1, BTreeMap::new())).unwrap();
     assert!(json["mean"].is_null() && json["quantiles"][1]["value"].is_null());

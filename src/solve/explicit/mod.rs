@@ -3,7 +3,7 @@
 mod critical;
 mod step;
 
-pub use step::{STANDARD_GRAVITY, Simulation, Status};
+pub use step::Simulation;
 
 /// Settings of the explicit solver.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]

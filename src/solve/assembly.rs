@@ -1,0 +1,122 @@
+//! What every solver works on: bodies, their joints, and the loads that act on them.
+
+use crate::contact;
+use crate::math::{Mat3, Vec3};
+use crate::model::{JointLaws, Wall};
+use crate::solve::bodies::{Bodies, Body};
+use crate::solve::joints::Joints;
+
+/// Standard gravity (m/s^2).
+pub const STANDARD_GRAVITY: f64 = 9.806_65;
+
+/// A dead load: a force of fixed direction at a point that moves with a body.
+#[derive(Clone, Copy, Debug)]
+struct DeadLoad {
+    body: usize,
+    /// In the body's axes, from its centroid (m).
+    lever: Vec3,
+    force: Vec3,
+}
+
+/// Blocks, joints and loads. Solvers hand an assembly to one another, with all that its joints remember.
+#[derive(Clone)]
+pub struct Assembly<'a> {
+    /// The bodies, by block id.
+    pub bodies: Bodies,
+    /// The joints.
+    pub joints: Joints,
+    /// Gravity (m/s^2).
+    pub gravity: Vec3,
+    /// Factor on all dead loads; 1 unless it is changed.
+    pub load_factor: f64,
+    /// Tolerances of contact detection.
+    pub contact: contact::Settings,
+    laws: &'a dyn JointLaws,
+    loads: Vec<DeadLoad>,
+    /// Where each body was when contacts were last looked for.
+    seen: Vec<(Vec3, Mat3)>,
+}
+
+impl<'a> Assembly<'a> {
+    /// Blocks at rest in the positions of the wall, their joints found, under gravity along -z.
+    pub fn new(wall: &Wall, laws: &'a dyn JointLaws, contact: contact::Settings) -> Self {
+        let mut assembly = Assembly {
+            bodies: Bodies::from_wall(wall),
+            joints: Joints::default(),
+            gravity: Vec3::new(0.0, 0.0, -STANDARD_GRAVITY),
+            load_factor: 1.0,
+            contact,
+            laws,
+            loads: Vec::new(),
+            seen: Vec::new(),
+        };
+        assembly.refresh();
+        assembly
+    }
+
+    /// Adds a force (N), at load factor 1, of fixed direction at a world point (m) that from now on moves with the block.
+    pub fn add_load(&mut self, body: usize, point: Vec3, force: Vec3) {
+        let b = &self.bodies.all[body];
+        let lever = b.rotation.tr_mul(&(point - b.position));
+        self.loads.push(DeadLoad { body, lever, force });
+    }
+
+    /// Sets force and moment of every body to those of gravity and the dead loads.
+    pub fn apply_loads(&mut self) {
+        for body in &mut self.bodies.all {
+            body.force = self.gravity * body.mass;
+            body.torque = Vec3::zeros();
+        }
+        for load in &self.loads {
+            let body = &mut self.bodies.all[load.body];
+            let force = load.force * self.load_factor;
+            body.force += force;
+            body.torque += (body.rotation * load.lever).cross(&force);
+        }
+    }
+
+    /// Whether a block has moved so far that a new joint might exist: half the reach of the contact search.
+    pub fn has_moved(&self) -> bool {
+        let allowed = 0.5 * self.contact.reach;
+        let moved = |body: &Body, (position, rotation): &(Vec3, Mat3)| {
+            let shift = (body.position - position).norm_squared();
+            // The Frobenius norm of the change of rotation bounds the path of a vertex at unit distance.
+            let turn = (body.rotation - rotation).norm_squared() * body.radius * body.radius;
+            // (x + y)^2 <= 2 (x^2 + y^2)
+            2.0 * (shift + turn) > allowed * allowed
+        };
+        self.bodies.all.iter().zip(&self.seen).any(|(body, seen)| body.moves() && moved(body, seen))
+    }
+
+    /// Looks for contacts anew; joints that stay keep their history.
+    pub fn refresh(&mut self) {
+        self.joints.refresh(&self.bodies, self.laws, &self.contact);
+        self.seen = self.bodies.all.iter().map(|b| (b.position, b.rotation)).collect();
+    }
+
+    /// Whether all positions and forces are finite.
+    pub fn is_finite(&self) -> bool {
+        self.bodies.all.iter().all(|b| (b.position.sum() + b.force.sum() + b.torque.sum()).is_finite())
+    }
+
+    /// Mean unbalanced force of the blocks that move over the mean force of the joints that carry, after the forces
+    /// were last summed up (YADE's definition); an unbalanced moment counts as a force at the radius of gyration. 1
+    /// when no joint carries.
+    pub fn unbalanced_ratio(&self) -> f64 {
+        let (mut unbalanced, mut moving) = (0.0, 0u32);
+        for body in self.bodies.all.iter().filter(|b| b.moves()) {
+            unbalanced += body.force.norm() + body.torque.norm() / body.gyration();
+            moving += 1;
+        }
+        let (mut carried, mut carrying) = (0.0, 0u32);
+        for joint in self.joints.all.iter().filter(|j| j.force > 0.0) {
+            carried += joint.force;
+            carrying += 1;
+        }
+        match (moving, carrying) {
+            (0, _) => 0.0,
+            (_, 0) => 1.0,
+            _ => (unbalanced / f64::from(moving)) / (carried / f64::from(carrying)),
+        }
+    }
+}
