@@ -4,6 +4,8 @@ mod dynamics;
 mod elastic;
 mod fixture;
 mod holding;
+mod limit_column;
+mod limit_flow;
 mod limit_known;
 mod objectivity;
 mod pressure;
