@@ -371,7 +371,11 @@ mod tests {
         // The apothem shrinks by the inset; the area goes with its square.
         let patch = find_patch(&prism(0.0), &prism(1.0), &worn(0.1)).unwrap();
         let apothem = 0.75f64.sqrt() - 0.1;
-        assert_relative_eq!(patch.polygon.area(), 2.0 * 3f64.sqrt() * apothem * apothem, max_relative = 1e-12);
+        assert_relative_eq!(
+            patch.polygon.area(),
+            2.0 * 3f64.sqrt() * apothem * apothem,
+            max_relative = 1e-12
+        );
     }
 
     #[test]

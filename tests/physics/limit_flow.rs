@@ -18,7 +18,14 @@ fn explore() {
             let t = std::time::Instant::now();
             let n = analysis(&wall, &law, Settings { flow: Flow::NonAssociative, ..with(cone) })
                 .multiplier(&Loads::lateral(Vec3::x()));
-            println!("{courses} {mu} {cone:?}: assoc {:.6} non {:.6} {:?} {:?} {:?}", a.multiplier, n.multiplier, n.outcome.reason(), n.fixed_point, t.elapsed());
+            println!(
+                "{courses} {mu} {cone:?}: assoc {:.6} non {:.6} {:?} {:?} {:?}",
+                a.multiplier,
+                n.multiplier,
+                n.outcome.reason(),
+                n.fixed_point,
+                t.elapsed()
+            );
         }
     }
     for mu in [0.65, 0.4, 0.3, 0.25] {
@@ -27,8 +34,16 @@ fn explore() {
         for d in [Vec3::x(), Vec3::y()] {
             let a = analysis(&wall, &law, Settings::default()).tilt(d, &[]);
             let t = std::time::Instant::now();
-            let n = analysis(&wall, &law, Settings { flow: Flow::NonAssociative, ..Settings::default() }).tilt(d, &[]);
-            println!("72 {mu} {d:?}: assoc {:.6} non {:.6} {:?} {:?} {:?}", a.multiplier, n.multiplier, n.outcome.reason(), n.fixed_point, t.elapsed());
+            let n = analysis(&wall, &law, Settings { flow: Flow::NonAssociative, ..Settings::default() })
+                .tilt(d, &[]);
+            println!(
+                "72 {mu} {d:?}: assoc {:.6} non {:.6} {:?} {:?} {:?}",
+                a.multiplier,
+                n.multiplier,
+                n.outcome.reason(),
+                n.fixed_point,
+                t.elapsed()
+            );
         }
     }
 }

@@ -7,7 +7,8 @@
 //! |t_i| <= s_i,  n_i >= -T A_i        s_i <- s_i + w (c A_i + n_i tan(phi) - s_i)
 //! ```
 //!
-//! until the multiplier and the strengths come to rest. We depart from the paper in the under-relaxation `w` and in
+//! until the multiplier and the strengths come to rest, or the multiplier alone has long been at rest while the forces of a
+//! statically indeterminate wall still wander among states with the same multiplier. We depart from the paper in the under-relaxation `w` and in
 //! starting from the associative solution. A state at rest obeys Coulomb's law, so its multiplier is not above the
 //! associative one; but there are many such states, and which one is found depends on the start.
 
@@ -22,8 +23,10 @@ const RELAXATION: f64 = 0.5;
 const SAME_MULTIPLIER: f64 = 1e-5;
 /// Excess of a contact's shear over Coulomb's law at rest, over the blocks' mean weight.
 const SAME_STRENGTH: f64 = 1e-4;
+/// Change of the multiplier (relative), number of programs in a row, and excess, for the multiplier alone to be at rest.
+const CALM: (f64, u32, f64) = (1e-6, 10, 0.05);
 /// Programs that are solved at most.
-const PATIENCE: u32 = 200;
+const PATIENCE: u32 = 100;
 /// Shear strength (over the blocks' mean weight) of a contact without pressure: the cylinder needs an inside.
 const FLOOR: f64 = 1e-6;
 
@@ -46,6 +49,7 @@ impl Analysis {
         let (mut answer, mut spent) = (associative, before);
         let mut search =
             FixedPoint { iterations: 0, converged: false, change: f64::INFINITY, excess: f64::INFINITY };
+        let mut calm = 0;
         while !search.converged && search.iterations < PATIENCE {
             let next = self.largest(applied, &strengths, cap);
             spent += answer.solved.iterations;
@@ -57,8 +61,9 @@ impl Analysis {
                 break;
             }
             let size = answer.solved.multiplier.abs().max(1e-3);
-            search.converged =
-                search.change.abs() <= SAME_MULTIPLIER * size && search.excess <= SAME_STRENGTH;
+            calm = if search.change.abs() <= CALM.0 * size { calm + 1 } else { 0 };
+            let at_rest = search.change.abs() <= SAME_MULTIPLIER * size && search.excess <= SAME_STRENGTH;
+            search.converged = at_rest || (calm >= CALM.1 && search.excess <= CALM.2);
             strengths = self
                 .strengths
                 .iter()
