@@ -301,6 +301,18 @@ impl Joint {
             .sum()
     }
 
+    /// Largest gap over the joint (m); negative where all of it is pressed together.
+    pub fn largest_gap(&self, bodies: &[Body]) -> f64 {
+        let gap = self.pose(bodies).gap;
+        self.polygon.vertices.iter().map(|v| gap.at(v)).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Share of the sub-contacts that have slipped at any time.
+    pub fn slipped_share(&self) -> f64 {
+        let slipped = self.states.iter().filter(|state| state.slipped).count();
+        slipped as f64 / self.states.len().max(1) as f64
+    }
+
     /// The area of the joint's polygon (m^2).
     pub fn area(&self) -> f64 {
         self.whole.area

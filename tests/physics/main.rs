@@ -7,5 +7,6 @@ mod holding;
 mod objectivity;
 mod pressure;
 mod shapes;
+mod table;
 mod tilting;
 mod tumbling;
