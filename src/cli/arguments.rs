@@ -112,4 +112,6 @@ pub(crate) struct Run {
 pub(crate) enum SolverName {
     /// Central differences with local damping (DEM).
     Explicit,
+    /// Newton's method from equilibrium to equilibrium.
+    Implicit,
 }

@@ -12,6 +12,7 @@ use crate::protocol::route::Route;
 use crate::protocol::watch::{Criterion, LoadStep, Watch};
 use crate::solve::bodies::Body;
 use crate::solve::explicit::Simulation;
+use crate::solve::implicit::Equilibrium;
 use crate::solve::{Assembly, Equilibrate, Solver, Status};
 
 /// A wall with all that surrounds it, its loads, and how far it is to be taken.
@@ -56,6 +57,7 @@ pub struct Run {
 pub fn drive(task: &Task<'_>, solver: &Solver) -> Run {
     match solver {
         Solver::Explicit(settings) => climb(task, &|assembly| Simulation::of(assembly, *settings)),
+        Solver::Implicit(settings) => climb(task, &|assembly| Equilibrium::of(assembly, *settings)),
     }
 }
 
@@ -250,8 +252,7 @@ impl<'a, S: Equilibrate> Climber<'_, 'a, S> {
     fn fell(&mut self, from: &S, simulation: Simulation<'_>, level: f64, ratio: f64) -> End {
         let mut end = self.ended(Why::Fell, &simulation.assembly, level, ratio);
         let towards = self.task.path.direction();
-        end.failure =
-            Some(watch_fall(self.task.wall, from.assembly(), simulation, &self.watch, towards));
+        end.failure = Some(watch_fall(self.task.wall, from.assembly(), simulation, &self.watch, towards));
         end
     }
 
