@@ -132,8 +132,8 @@ fn the_figure_names_its_arms_units_and_losses() {
 #[test]
 fn studies_of_other_shapes_are_drawn_too() {
     let empty = drawn(&nothing_stands());
-    assert!(empty.contains("no wall reached equilibrium: there is nothing to draw"));
-    assert!(empty.contains("! irregular: no wall reached equilibrium at any stiffness"));
+    assert!(empty.contains("no wall brings a value: there is nothing to draw"));
+    assert!(empty.contains("! irregular: no wall brings a value at any stiffness"));
     assert!(empty.contains("irregular: no wall\n"), "the legend claims nothing");
     // One kn: a bar instead of a band, and an axis with room on both sides of it.
     let one = drawn(&[fixed_arm("regular", &[1e-3]), random_arm("rubble & rough", &[2e-3])].concat());
