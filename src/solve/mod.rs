@@ -1,9 +1,10 @@
-//! Solvers: assembly into arrays, joints, status; `explicit` is the DEM.
+//! Solvers: assembly into arrays, joints, status; `explicit` is the DEM, `limit` rigid limit analysis.
 
 pub mod assembly;
 pub mod bodies;
 pub mod explicit;
 pub mod joints;
+pub mod limit;
 mod status;
 
 pub use assembly::{Assembly, STANDARD_GRAVITY};

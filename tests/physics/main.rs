@@ -4,6 +4,7 @@ mod dynamics;
 mod elastic;
 mod fixture;
 mod holding;
+mod limit_known;
 mod objectivity;
 mod pressure;
 mod shapes;
