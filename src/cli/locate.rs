@@ -30,7 +30,7 @@ pub(crate) fn folder(path: &Path) -> Result<PathBuf, Failure> {
         }
         Ok(_) => format!("{} is a file, but not a study.toml", path.display()),
     };
-    Err(Failure::Study(format!("no study at {found}\n{}", known(path))))
+    Err(Failure::Input(format!("no study at {found}\n{}", known(path))))
 }
 
 /// The studies in `studies/` and beside the path, nearest names first.

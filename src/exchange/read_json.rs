@@ -22,7 +22,7 @@ const LARGEST_WHOLE: f64 = 9_007_199_254_740_991.0;
 /// A wall from the text of a `wall.json` (see [`crate::exchange::write_wall_json`]).
 ///
 /// `unit` is `m` (default), `cm` or `mm`. Every block has `id` (whole, unique), `vertices` and `faces`; `density`
-/// (kg/m^3) unless it is fixed; `fixed` (default false) and `tag` (default `stone`). Other keys are refused. Repeated
+/// (kg/m^3) unless it is fixed; `fixed` (default false) and `tag` (default `stone`, or `base` where fixed). Other keys are refused. Repeated
 /// vertices are welded and coplanar faces merged.
 ///
 /// # Errors
@@ -308,6 +308,8 @@ fn draft(reading: &Reading, place: usize, node: Node) -> Draft {
         Some(node) => {
             wrong("tag", node, "stone, header, wedge, base or end", "write one of them, or leave it out")
         }
+        // What is fixed and not named otherwise is the ground.
+        None if block.fixed => block.tag = Tag::Base,
         None => {}
     }
     block.readable = reading.faults.borrow().count() == before;

@@ -219,6 +219,7 @@ impl Reader {
                 used.dedup();
                 used.into_iter().enumerate().map(|(i, v)| (v, i as i64)).collect()
             };
+            let fixed_by_name = words(&object.name).any(|word| FIXED_WORDS.contains(&word.as_str()));
             let draft = Draft {
                 name: title(place, &object.name),
                 id: Some(place as u64),
@@ -226,8 +227,8 @@ impl Reader {
                 vertices: own.keys().map(|&v| vertices[v]).collect(),
                 faces: object.faces.iter().map(|face| face.iter().map(|v| own[v]).collect()).collect(),
                 density: object.density.or(options.density).or(Some(USUAL_DENSITY)),
-                fixed: words(&object.name).any(|word| FIXED_WORDS.contains(&word.as_str())),
-                tag: tag(&object.name),
+                fixed: fixed_by_name,
+                tag: tag(&object.name).unwrap_or(if fixed_by_name { Tag::Base } else { Tag::Stone }),
                 readable: object.readable,
             };
             if draft.fixed {
@@ -269,13 +270,15 @@ fn words(name: &str) -> impl Iterator<Item = String> + '_ {
     name.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty()).map(str::to_lowercase)
 }
 
-fn tag(name: &str) -> Tag {
-    match words(name).next().as_deref() {
-        Some("header") => Tag::Header,
-        Some("wedge") => Tag::Wedge,
-        Some("base" | "ground") => Tag::Base,
-        Some("end") => Tag::End,
-        _ => Tag::Stone,
+/// What an object is, by the first word of its name.
+fn tag(name: &str) -> Option<Tag> {
+    match words(name).next()?.as_str() {
+        "stone" => Some(Tag::Stone),
+        "header" => Some(Tag::Header),
+        "wedge" => Some(Tag::Wedge),
+        "base" => Some(Tag::Base),
+        "end" => Some(Tag::End),
+        _ => None,
     }
 }
 
