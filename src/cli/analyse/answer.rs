@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 
+use crate::cli::analyse::meetings::Fit;
 use crate::cli::arguments::{Analyse, LoadName};
 use crate::exchange::WallFile;
 use crate::math::degrees;
@@ -17,8 +18,6 @@ pub(crate) struct Answer {
     pub moving: Vec<usize>,
     /// Blocks that carry nothing and were held.
     pub loose: Vec<usize>,
-    /// Joints that the solver worked with.
-    pub joints: usize,
     /// What the solver has to add.
     pub warnings: Vec<String>,
 }
@@ -39,7 +38,14 @@ impl Answer {
     }
 
     /// The one JSON object.
-    pub fn object(&self, asked: &Analyse, file: &WallFile, warnings: &[String], seconds: f64) -> Value {
+    pub fn object(
+        &self,
+        asked: &Analyse,
+        file: &WallFile,
+        fit: &Fit,
+        warnings: &[String],
+        seconds: f64,
+    ) -> Value {
         let (angle, multiplier) = self.collapse();
         let ids = |blocks: &[usize]| blocks.iter().map(|&i| file.ids[i]).collect::<Vec<_>>();
         json!({
@@ -52,7 +58,7 @@ impl Answer {
             "load": asked.load.name(),
             "direction": asked.direction.name(),
             "blocks": file.wall.blocks.len(),
-            "joints": self.joints,
+            "joints": fit.joints,
             "mechanism": ids(&self.moving),
             "loose": ids(&self.loose),
             "seconds": seconds,
@@ -61,7 +67,14 @@ impl Answer {
     }
 
     /// The same for people.
-    pub fn text(&self, asked: &Analyse, file: &WallFile, warnings: &[String], seconds: f64) -> String {
+    pub fn text(
+        &self,
+        asked: &Analyse,
+        file: &WallFile,
+        fit: &Fit,
+        warnings: &[String],
+        seconds: f64,
+    ) -> String {
         let mut text: String = warnings.iter().map(|warning| format!("warning: {warning}\n")).collect();
         let to = asked.direction.name();
         let said = match (&self.outcome, asked.load, self.collapse()) {
@@ -78,7 +91,7 @@ impl Answer {
         text.push_str(&format!(
             "{} blocks, {} joints: {said}\n  {} solver: {}\n",
             file.wall.blocks.len(),
-            self.joints,
+            fit.joints,
             asked.solver.name(),
             self.meaning
         ));

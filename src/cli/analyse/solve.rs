@@ -56,7 +56,6 @@ fn by_limit_analysis(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit)
         moving: (0..found.mechanism.len()).filter(|&i| speed(i) > MOVES * fastest).collect(),
         loose: Vec::new(),
         meaning: format!("{}: {}", arguments.flow.unwrap_or(FlowName::Associative).name(), flow.meaning()),
-        joints: analysis.joints(),
         warnings: Vec::new(),
         outcome: found.outcome,
     }

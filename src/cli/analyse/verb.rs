@@ -42,9 +42,9 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
     warnings.extend(answer.warnings.iter().cloned());
     let seconds = begun.elapsed().as_secs_f64();
     if arguments.json {
-        return output::print_json(&answer.object(arguments, &file, &warnings, seconds));
+        return output::print_json(&answer.object(arguments, &file, &fit, &warnings, seconds));
     }
-    output::print(&answer.text(arguments, &file, &warnings, seconds))
+    output::print(&answer.text(arguments, &file, &fit, &warnings, seconds))
 }
 
 /// The file, fit to be solved.
