@@ -53,7 +53,7 @@ impl Fault {
 pub struct WallFaults {
     /// The file, as the user named it.
     pub file: String,
-    /// The faults, in the order of the file; at most a hundred of them.
+    /// The faults, in the order of the file; about a hundred of them at most.
     pub faults: Vec<Fault>,
     /// How many more there are.
     pub more: usize,
@@ -73,6 +73,11 @@ impl WallFaults {
         } else {
             self.faults.push(fault);
         }
+    }
+
+    /// Adds the fault that ended the reading, which is always listed.
+    pub fn push_last(&mut self, fault: Fault) {
+        self.faults.push(fault);
     }
 
     /// How many there are.

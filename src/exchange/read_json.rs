@@ -50,7 +50,7 @@ pub fn read_wall_json(text: &str) -> Result<WallFile, WallFaults> {
     match read {
         Ok((unit, drafts)) => build(drafts, unit, faults, Vec::new()),
         Err(error) => {
-            faults.push(syntax_fault(text, &error));
+            faults.push_last(syntax_fault(text, &error));
             Err(faults)
         }
     }

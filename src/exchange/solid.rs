@@ -134,7 +134,17 @@ fn unpaired_edges(block: &str, vertices: &[Vec3], faces: &[Face]) -> Vec<Fault> 
     }
     let allowed = "a closed solid: every edge shared by two faces that run it in opposite ways";
     let mut faults = Vec::new();
-    if let Some((from, to, own)) = turned.first() {
+    let severalfold = turned
+        .iter()
+        .find(|(from, to, own)| users.get(&(*to, *from)).is_some_and(|other| other.len() == own.len()));
+    if let Some((from, to, own)) = severalfold {
+        faults.push(Fault::of(
+            block,
+            format!("{} faces meet at the edge {from}-{to}", 2 * own.len()),
+            allowed,
+            "several solids in one block? Write one block (in OBJ: one object) per solid",
+        ));
+    } else if let Some((from, to, own)) = turned.first() {
         faults.push(Fault::of(
             block,
             format!("faces {} and {} run the edge {from}-{to} the same way", own[0], own[1]),
@@ -304,6 +314,13 @@ fn told(
         ShapeFault::NoVolume { volume } => Fault::of(
             block,
             format!("the solid has no volume ({volume:.3e} m^3)"),
+            faces,
+            "give it a thickness",
+        ),
+        // Merging has left too little of a solid that was large enough in the file.
+        ShapeFault::TooFew => Fault::of(
+            block,
+            format!("the solid has no volume: its faces lie in one plane, to {flat:.1e} m"),
             faces,
             "give it a thickness",
         ),
