@@ -122,12 +122,9 @@ fn a_corner_bears_more_than_a_straight_wall() {
         let found = angle("corner.json", &["--phi-deg", "40", "--direction", direction]);
         assert!(found > 1.2 * degrees(atan(1.0 / 6.0)) && found < 40.0, "{direction}: {found}");
     }
-    // It is its own mirror image about the plane x = y.
-    close(
-        angle("corner.json", &["--phi-deg", "40", "--direction", "x+"]),
-        angle("corner.json", &["--phi-deg", "40"]),
-        EXACT,
-    );
+    // Mirrored at the plane x = y the courses change places: hardly another wall (0.003 deg found).
+    let [x, y] = ["x+", "y+"].map(|to| angle("corner.json", &["--phi-deg", "40", "--direction", to]));
+    close(x, y, 0.05);
 }
 
 /// A column of drums topples about the side of its base, apothem 0.25 m, or parts of it above; a cone frustum of radii R
