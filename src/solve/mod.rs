@@ -3,6 +3,7 @@
 pub mod assembly;
 pub mod bodies;
 pub mod explicit;
+pub mod implicit;
 pub mod joints;
 pub mod limit;
 mod status;

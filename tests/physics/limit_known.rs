@@ -3,12 +3,12 @@
 use pirca::contact;
 use pirca::generate::canonical;
 use pirca::law::Coulomb;
-use pirca::math::{Mat3, Vec3, asin, atan, cos, degrees, radians, sin, tan};
-use pirca::model::{Block, Level, Outcome, Support, Tag, Wall};
+use pirca::math::{Vec3, asin, atan, cos, degrees, radians, tan};
+use pirca::model::{Level, Outcome, Support, Wall};
 use pirca::shape::Polyhedron;
-use pirca::solve::limit::{Analysis, Cone, Flow, Limit, Loads, Settings};
+use pirca::solve::limit::{Analysis, Cone, Limit, Loads, Settings};
 
-use crate::fixture::{dry, on_floor, resting, stone};
+use crate::fixture::{G, dry, on_floor, resting, stone};
 
 /// Both representations of the friction cone.
 pub const CONES: [Cone; 2] = [Cone::SecondOrder, Cone::Linearised { sides: 8 }];
@@ -39,7 +39,7 @@ pub fn collapse(limit: &Limit) -> f64 {
 
 /// The dry-joint walls of Ferris and Tin-Loi on a fixed base: stones of 0.4 x 0.175 m, odd courses with half stones at
 /// both ends; thickness 0.2 m.
-fn ferris_tin_loi(courses: usize) -> Wall {
+pub fn ferris_tin_loi(courses: usize) -> Wall {
     let mut blocks = Vec::new();
     for course in 0..courses {
         let lengths: &[f64] =
@@ -103,5 +103,117 @@ fn wall_72_topples_out_of_plane_as_one() {
         let angle = degrees(atan(collapse(&limit)));
         println!("{cone:?}: {angle} {:?}", limit.accuracy);
         assert!((angle - degrees(atan(0.114 / 0.375))).abs() < 1e-6, "{angle}");
+    }
+}
+
+#[test]
+fn cohesion_holds_a_block_beyond_its_friction_angle() {
+    // Slides when W sin a = c A + W cos a tan phi; with r = c A / W: a = phi + asin(r cos phi). Flat enough not to topple,
+    // and its cohesion needs no tension.
+    let (phi, area, weight) = (20.0, 0.16, 2400.0 * 0.016 * G);
+    let wall = on_floor(vec![resting([0.4, 0.4, 0.1], 2400.0)]);
+    for r in [0.2, 0.6, 0.0] {
+        let law = Coulomb { cohesion: r * weight / area, ..dry(1e9, phi) };
+        let exact = phi + degrees(asin(r * cos(radians(phi))));
+        for cone in CONES {
+            let limit = analysis(&wall, &law, with(cone)).tilt(Vec3::y(), &[]);
+            let angle = degrees(atan(collapse(&limit)));
+            println!("r {r} {cone:?}: {:e} off, {} iterations", angle - exact, limit.iterations);
+            assert!((angle - exact).abs() < 1e-6, "r {r} {cone:?}: {angle} against {exact}");
+        }
+    }
+}
+
+#[test]
+fn tension_holds_a_block_beyond_its_toppling_angle() {
+    // Tension T on four corner shares of the base b x b: about the toe W (sin a h / 2 - cos a b / 2) = T A b / 2, so with
+    // r = T A / W: h sin a - b cos a = r b. The envelope's apex lies beyond T, and friction is ample.
+    let (b, h, r) = (0.2, 0.5, 0.3);
+    let weight = 2400.0 * b * b * h * G;
+    let law = Coulomb { tension: r * weight / (b * b), cohesion: 100.0 * weight / (b * b), ..dry(1e9, 30.0) };
+    let wall = on_floor(vec![resting([b, b, h], 2400.0)]);
+    let exact = degrees(atan(b / h) + asin(r * b / (b * b + h * h).sqrt()));
+    for cone in CONES {
+        let angle = degrees(atan(collapse(&analysis(&wall, &law, with(cone)).tilt(Vec3::y(), &[]))));
+        assert!((angle - exact).abs() < 1e-6, "{cone:?}: {angle} against {exact}");
+    }
+}
+
+/// Blocks of length 1 on a fixed one, each reaching beyond the one below: the k-th from the top by `share` / (2 k).
+fn overhang(blocks: usize, share: f64) -> Wall {
+    let mut x = 0.0;
+    let mut stack = vec![stone(Polyhedron::cuboid(Vec3::zeros(), Vec3::new(1.0, 0.3, 0.2)), 2000.0)];
+    stack[0].support = Support::Fixed;
+    for level in 1..=blocks {
+        x += share / (2.0 * (blocks + 1 - level) as f64);
+        let z = 0.2 * level as f64;
+        let shape = Polyhedron::cuboid(Vec3::new(x, 0.0, z), Vec3::new(x + 1.0, 0.3, z + 0.2));
+        stack.push(stone(shape, 2000.0));
+    }
+    Wall { blocks: stack }
+}
+
+#[test]
+fn a_stack_overhangs_by_half_the_harmonic_series() {
+    for cone in CONES {
+        for blocks in [1, 2, 5, 12] {
+            let stands = |share: f64| {
+                let wall = overhang(blocks, share);
+                analysis(&wall, &dry(1e9, 30.0), with(cone)).stands(&Loads::weight()).stands
+            };
+            // The whole overhang (1/2)(1 + 1/2 + 1/3 + ...), a hundred-thousandth less and more.
+            assert_eq!(stands(1.0 - 1e-5), Some(true), "{blocks} blocks, {cone:?}");
+            assert_eq!(stands(1.0 + 1e-5), Some(false), "{blocks} blocks, {cone:?}");
+        }
+    }
+}
+
+/// A wedge with its edge down between two fixed blocks whose faces lean outwards by `half_deg`.
+fn wedge(half_deg: f64) -> Wall {
+    let (depth, width) = (0.3, 0.3 * tan(radians(half_deg)));
+    let at = |x: f64, y: f64, z: f64| Vec3::new(x, y, z);
+    let prism = |lower: [f64; 2], upper: [f64; 2]| {
+        let [a, b] = lower;
+        let [c, d] = upper;
+        Polyhedron::hexahedron([
+            at(a, 0.0, 0.0),
+            at(b, 0.0, 0.0),
+            at(b, 0.2, 0.0),
+            at(a, 0.2, 0.0),
+            at(c, 0.0, depth),
+            at(d, 0.0, depth),
+            at(d, 0.2, depth),
+            at(c, 0.2, depth),
+        ])
+    };
+    let tip = 0.02;
+    let mut blocks = vec![
+        stone(prism([-tip, tip], [-tip - width, tip + width]), 2000.0),
+        stone(prism([-tip - 0.5, -tip], [-tip - 0.5 - width, -tip - width]), 2000.0),
+        stone(prism([tip, tip + 0.5], [tip + width, tip + 0.5 + width]), 2000.0),
+    ];
+    blocks[1].support = Support::Fixed;
+    blocks[2].support = Support::Fixed;
+    Wall { blocks }
+}
+
+#[test]
+fn a_wedge_stays_while_its_half_angle_is_at_most_the_friction_angle() {
+    for cone in CONES {
+        for (half_deg, locked) in [(10.0, true), (19.99, true), (20.01, false), (30.0, false)] {
+            let analysis = analysis(&wedge(half_deg), &dry(1e9, 20.0), with(cone));
+            // Head down: its weight pulls it out of the wedge's mouth.
+            let out = Loads { dead: Vec3::new(0.0, 0.0, G), ..Loads::default() };
+            let standing = analysis.stands(&out);
+            assert_eq!(standing.stands, Some(locked), "{half_deg} {cone:?}: {standing:?}");
+            // Head up, and pulled: a locked wedge bears any pull, a free one its weight.
+            let pulled = Loads { live: Vec3::new(0.0, 0.0, G), ..Loads::weight() };
+            let limit = analysis.multiplier(&pulled);
+            if locked {
+                assert_eq!(limit.outcome, Outcome::Unbounded, "{half_deg} {cone:?}");
+            } else {
+                assert!((collapse(&limit) - 1.0).abs() < 1e-7);
+            }
+        }
     }
 }

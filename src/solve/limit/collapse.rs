@@ -69,7 +69,7 @@ pub struct Accuracy {
 pub struct FixedPoint {
     /// Programs solved.
     pub iterations: u32,
-    /// Whether the multiplier and the shear strengths came to rest.
+    /// Whether the multiplier came to rest, and the shear strengths with it or nearly so: see `excess`.
     pub converged: bool,
     /// Change of the multiplier in the last iteration.
     pub change: f64,

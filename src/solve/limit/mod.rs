@@ -11,7 +11,7 @@
 //!                                |t_i| <= c A_i + n_i tan(phi),   n_i >= -T A_i
 //! ```
 //!
-//! (Livesley 1978; Baggio and Trovalusci 2000). `A_i` is the vertex's share of the joint's area: half of the two triangles
+//! (Livesley 1978). `A_i` is the vertex's share of the joint's area: half of the two triangles
 //! that it spans with its neighbours and the centroid, so that a uniform traction keeps its resultant. Tension is
 //! limited by the tensile strength `T` and by the envelope's apex `c / tan(phi)`, whichever is less. A bonded joint
 //! carries anything.
@@ -32,7 +32,7 @@
 //!
 //! It is recomputed here from the velocities, as the equilibrium residual is from the forces: gap and residual do not rest
 //! on the solver's word. Real joints dilate less, so **the associative multiplier is an upper bound on what a wall
-//! with Coulomb joints can bear** under any flow rule (Radenkovic's theorem), and so is `atan(lambda)` on the angle.
+//! with Coulomb joints can bear** under any flow rule (Radenkovic 1961), and so is `atan(lambda)` on the angle.
 //! [`Flow::NonAssociative`] looks for a state with zero dilatancy, see `flow`; its multiplier is **neither a bound nor
 //! unique**, but never above the associative one.
 //!

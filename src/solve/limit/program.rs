@@ -1,4 +1,5 @@
-//! The conic program: sparse equilibrium, strength of every contact point, a cap on the multiplier; solved by clarabel.
+//! The conic program: sparse equilibrium, strength of every contact point, a cap on the multiplier; solved by clarabel
+//! (Goulart and Chen 2024) on one thread: the same bits on the same machine.
 //!
 //! Unknowns are the multiplier and the contact forces over the unit of force (the blocks' mean weight); moments are divided
 //! by the block's radius, so that all rows and columns are of the size of one.

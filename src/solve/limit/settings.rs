@@ -41,7 +41,7 @@ pub struct Settings {
     pub flow: Flow,
     /// Gap (m) up to which two faces touch and can press on one another (default 1e-6); a joint that leans open keeps the
     /// part that is closer than this. Larger values hide cracks, smaller ones lose joints of walls that were measured or
-    /// rounded. Never less than `touch` of the contact settings.
+    /// rounded. Never less than `touch` nor more than `reach` of the contact settings.
     pub closed_gap: f64,
     /// A wall that bears this multiplier is said to stand to the end (default 10).
     pub largest_multiplier: f64,

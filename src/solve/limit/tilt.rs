@@ -3,7 +3,11 @@
 //! Gravity turns from straight down towards a direction `d`; on the wall, `g (cos a down + sin a d)`. With gravity and live load at
 //! the angle `a` both scaled by `cos a` the wall bears the multiplier `lambda(a)`, and it falls where `lambda(a) = tan a`. Without
 //! cohesion, tensile strength and dead forces the scale does not count and `a = atan(lambda(0))`. Else the angle is bracketed
-//! between one at which the wall stands and one at which it falls, by false position (Illinois) safeguarded by bisection.
+//! between one at which the wall stands and one at which it falls, by false position (Illinois method, Dowell and Jarratt 1971) safeguarded by bisection.
+
+use std::f64::consts::FRAC_PI_2;
+
+use clarabel::solver::SolverStatus;
 
 use crate::math::{Vec3, atan, cos, tan};
 use crate::model::{Level, Outcome};
@@ -16,10 +20,11 @@ const BRACKET: f64 = 1e-7 * std::f64::consts::PI / 180.0;
 /// Angles that are looked at most.
 const PATIENCE: u32 = 100;
 
-/// What an angle was found to be.
+/// A look at one angle.
 struct Tried {
+    /// The angle (rad).
     angle: f64,
-    /// `atan(lambda(a)) - a`: positive where the wall stands.
+    /// `atan(lambda(a)) - a`: positive where the wall stands; a right angle below where it bears no load at all.
     margin: f64,
     answer: Answer,
     applied: Applied,
@@ -46,7 +51,7 @@ impl Analysis {
         let spent = rest.solved.iterations;
         let tried = self.try_angle(0.0, &loads);
         if self.strengths.iter().all(Strength::is_cone) && dead.is_empty() {
-            return self.finish(tried, spent);
+            return self.finish(tried, spent, FRAC_PI_2);
         }
         self.bracket(tried, &loads, spent)
     }
@@ -58,7 +63,9 @@ impl Analysis {
             Loads { dead: loads.dead * scale, live: loads.live * scale, points: loads.points.clone() };
         let applied = self.applied(&scaled);
         let answer = self.largest(&applied, &self.strengths, tan(self.settings.largest_tilt));
-        Tried { angle, margin: atan(answer.solved.multiplier) - angle, answer, applied }
+        let nothing = answer.solved.status == SolverStatus::PrimalInfeasible;
+        let margin = if nothing { -FRAC_PI_2 } else { atan(answer.solved.multiplier) - angle };
+        Tried { angle, margin, answer, applied }
     }
 
     /// Closes in on the angle at which the margin vanishes, from a first try at rest.
@@ -67,7 +74,7 @@ impl Analysis {
         let end = self.try_angle(self.settings.largest_tilt, loads);
         spent += first.answer.solved.iterations;
         if end.answer.is_good() && end.answer.capped {
-            return self.finish(end, spent);
+            return self.finish(end, spent, FRAC_PI_2);
         }
         let (mut low, mut high) = ((first.angle, first.margin), (end.angle, end.margin.min(-BRACKET)));
         let mut last = end;
@@ -78,9 +85,6 @@ impl Analysis {
             let angle = if usable { between } else { 0.5 * (low.0 + high.0) };
             spent += last.answer.solved.iterations;
             last = self.try_angle(angle, loads);
-            if !last.answer.accuracy.accepts_state() && last.margin > 0.0 {
-                break;
-            }
             if last.margin.abs() <= 0.5 * BRACKET || high.0 - low.0 <= BRACKET {
                 break;
             }
@@ -95,14 +99,20 @@ impl Analysis {
                 kept_high = 0;
             }
         }
-        self.finish(last, spent)
+        if !last.answer.is_good() {
+            spent += last.answer.solved.iterations;
+            last = self.try_angle(low.0, loads);
+        }
+        let angle = last.angle;
+        self.finish(last, spent, angle)
     }
 
-    /// The result from the try at the angle of collapse, or from any angle where the scale does not count.
-    fn finish(&self, tried: Tried, spent: u32) -> Limit {
+    /// The result from the look at the angle of collapse, or at any angle where the scale does not count; `most` is an angle
+    /// beyond which the wall is known not to stand.
+    fn finish(&self, tried: Tried, spent: u32, most: f64) -> Limit {
         let Tried { answer, applied, .. } = tried;
         let flow = self.settings.flow;
-        let found = answer.solved.multiplier;
+        let found = answer.solved.multiplier.min(tan(most));
         let level: fn(f64) -> Level = |lambda| Level::Tilt(atan(lambda));
         if !answer.is_good() {
             let outcome = answer.not_converged(level(found));
