@@ -3,6 +3,7 @@
 mod draft;
 mod fault;
 mod json;
+mod json_node;
 mod json_place;
 mod obj;
 mod read;

@@ -8,16 +8,13 @@ use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess, Visi
 use crate::exchange::Unit;
 use crate::exchange::draft::{Draft, MOST_BLOCKS, WallFile, build};
 use crate::exchange::fault::{Fault, WallFaults};
+use crate::exchange::json_node::{MOST_VALUES, Node, NodeSeed};
 use crate::exchange::json_place::syntax_fault;
 use crate::math::{Vec3, edit_distance};
 use crate::model::Tag;
 
 const KEYS: [&str; 2] = ["unit", "blocks"];
 const BLOCK_KEYS: [&str; 6] = ["id", "vertices", "faces", "density", "fixed", "tag"];
-/// Most values in one block, so that a block that goes wrong cannot fill the memory.
-const MOST_VALUES: usize = 50_000;
-/// Ids and vertex numbers are whole numbers that a double holds exactly.
-const LARGEST_WHOLE: f64 = 9_007_199_254_740_991.0;
 
 /// A wall from the text of a `wall.json` (see [`crate::exchange::write_wall_json`]).
 ///
@@ -56,38 +53,6 @@ pub fn read_wall_json(text: &str) -> Result<WallFile, WallFaults> {
     }
 }
 
-/// A JSON value as it stands in the file; keys may be repeated.
-#[derive(Debug)]
-enum Node {
-    Null,
-    Bool(bool),
-    Number(f64),
-    Text(String),
-    List(Vec<Node>),
-    Object(Vec<(String, Node)>),
-}
-
-impl Node {
-    /// What it is, for messages.
-    fn told(&self) -> String {
-        match self {
-            Node::Null => "null".to_owned(),
-            Node::Bool(b) => b.to_string(),
-            Node::Number(x) => x.to_string(),
-            Node::Text(text) => format!("{:?}", text.chars().take(40).collect::<String>()),
-            Node::List(list) => format!("a list of {}", list.len()),
-            Node::Object(_) => "an object".to_owned(),
-        }
-    }
-
-    fn whole(&self) -> Option<i64> {
-        match *self {
-            Node::Number(x) if x.abs() <= LARGEST_WHOLE && x.floor() == x => Some(x as i64),
-            _ => None,
-        }
-    }
-}
-
 /// What the seeds share while the text is read.
 struct Reading {
     faults: RefCell<WallFaults>,
@@ -106,70 +71,6 @@ impl Reading {
         let fix = nearest.map_or("remove it".to_owned(), |k| format!("did you mean \"{k}\"?"));
         let key: String = key.chars().take(40).collect();
         self.fault(block, format!("\"{key}\" is not a known key"), known.join(", "), fix);
-    }
-}
-
-#[derive(Clone, Copy)]
-struct NodeSeed<'a>(&'a Reading);
-
-impl<'de> DeserializeSeed<'de> for NodeSeed<'_> {
-    type Value = Node;
-
-    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Node, D::Error> {
-        let left = self.0.left.get();
-        if left == 0 {
-            return Err(D::Error::custom(format!("more than {MOST_VALUES} values in one block")));
-        }
-        self.0.left.set(left - 1);
-        deserializer.deserialize_any(self)
-    }
-}
-
-impl<'de> Visitor<'de> for NodeSeed<'_> {
-    type Value = Node;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a JSON value")
-    }
-
-    fn visit_unit<E>(self) -> Result<Node, E> {
-        Ok(Node::Null)
-    }
-
-    fn visit_bool<E>(self, value: bool) -> Result<Node, E> {
-        Ok(Node::Bool(value))
-    }
-
-    fn visit_i64<E>(self, value: i64) -> Result<Node, E> {
-        Ok(Node::Number(value as f64))
-    }
-
-    fn visit_u64<E>(self, value: u64) -> Result<Node, E> {
-        Ok(Node::Number(value as f64))
-    }
-
-    fn visit_f64<E>(self, value: f64) -> Result<Node, E> {
-        Ok(Node::Number(value))
-    }
-
-    fn visit_str<E>(self, value: &str) -> Result<Node, E> {
-        Ok(Node::Text(value.to_owned()))
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Node, A::Error> {
-        let mut list = Vec::new();
-        while let Some(item) = items.next_element_seed(self)? {
-            list.push(item);
-        }
-        Ok(Node::List(list))
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<Node, A::Error> {
-        let mut object = Vec::new();
-        while let Some(key) = entries.next_key::<String>()? {
-            object.push((key, entries.next_value_seed(self)?));
-        }
-        Ok(Node::Object(object))
     }
 }
 
@@ -196,12 +97,12 @@ impl<'de> Visitor<'de> for WholeSeed<'_> {
         while let Some(key) = entries.next_key::<String>()? {
             self.0.left.set(MOST_VALUES);
             let known = match key.as_str() {
-                "unit" => {
-                    unit.replace(the_unit(self.0, &entries.next_value_seed(NodeSeed(self.0))?)).is_some()
-                }
+                "unit" => unit
+                    .replace(the_unit(self.0, &entries.next_value_seed(NodeSeed(&self.0.left))?))
+                    .is_some(),
                 "blocks" => blocks.replace(entries.next_value_seed(BlocksSeed(self.0))?).is_some(),
                 other => {
-                    entries.next_value_seed(NodeSeed(self.0))?;
+                    entries.next_value_seed(NodeSeed(&self.0.left))?;
                     self.0.unknown_key("", other, &KEYS);
                     false
                 }
@@ -247,7 +148,7 @@ impl<'de> Visitor<'de> for BlocksSeed<'_> {
         let mut drafts = Vec::new();
         loop {
             self.0.left.set(MOST_VALUES);
-            let Some(node) = items.next_element_seed(NodeSeed(self.0))? else { return Ok(drafts) };
+            let Some(node) = items.next_element_seed(NodeSeed(&self.0.left))? else { return Ok(drafts) };
             if drafts.len() == MOST_BLOCKS {
                 return Err(A::Error::custom(format!("more than {MOST_BLOCKS} blocks")));
             }

@@ -241,7 +241,7 @@ impl Reader {
         let mut warnings = Vec::new();
         if assumed > 0 {
             warnings.push(format!(
-                "the file gives {assumed} objects no density: {USUAL_DENSITY} kg/m^3 is taken; --density-kg-per-m3 sets another"
+                "density of {assumed} object(s) not stated: {USUAL_DENSITY} kg/m^3 is taken; --density-kg-per-m3 sets another"
             ));
         }
         if !fixed.is_empty() {

@@ -33,10 +33,8 @@ pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
 }
 
 fn within(text: &str, range: RangeInclusive<f64>, unit: &str) -> Result<f64, String> {
-    let (low, high) = (range.start(), range.end());
-    let exponents = *high >= 1e6 || (*low > 0.0 && *low < 1e-3);
-    let allowed =
-        if exponents { format!("{low:e} to {high:e} {unit}") } else { format!("{low} to {high} {unit}") };
+    let told = |x: f64| if x == 0.0 || (1e-3..1e6).contains(&x) { x.to_string() } else { format!("{x:e}") };
+    let allowed = format!("{} to {} {unit}", told(*range.start()), told(*range.end()));
     match text.parse::<f64>() {
         Ok(x) if range.contains(&x) => Ok(x),
         Ok(_) => Err(format!("allowed is a number from {allowed}")),
@@ -55,7 +53,7 @@ mod tests {
             assert!(friction_angle(text).unwrap_err().contains("0 to 89 degrees"), "{text}");
         }
         assert_eq!(stiffness("1e9"), Ok(1e9));
-        assert!(stiffness("0").unwrap_err().contains("1e3 to 1e16 Pa/m"));
-        assert!(tolerance("0.1").unwrap_err().contains("1e-12 to 1e-3"));
+        assert!(stiffness("0").unwrap_err().contains("1000 to 1e16 Pa/m"));
+        assert!(tolerance("0.1").unwrap_err().contains("1e-12 to 0.001"));
     }
 }
