@@ -37,7 +37,7 @@ pub fn evaluate(study: &Study, task: Task) -> Row {
 pub fn solve(study: &Study, task: Task, wall: &Wall) -> protocol::Run {
     let kn = study.kn_points[task.point as usize];
     let laws = DrawnJoints::new(&study.joint, kn, Streams::new(study.seed, task.member));
-    protocol::run(wall, &laws, &study.protocol, study.ends, study.sub_contacts, &study.solver)
+    protocol::run(wall, &laws, &study.protocol, &study.restraint, study.sub_contacts, &study.solver)
 }
 
 fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
@@ -46,7 +46,7 @@ fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
     let last = run.steps.last();
     let at_rest = run.outcome == Outcome::Equilibrium;
     let load_steps = run.steps.iter().map(|step| StepRow {
-        load_factor: step.load_factor,
+        load_factor: step.level.value(),
         top_displacement_m: finite(step.top_displacement),
         unbalanced_ratio: finite(step.unbalanced_ratio),
         solver_steps: step.solver_steps,

@@ -1,11 +1,23 @@
 //! What is done to a wall and what is observed: load path, stop rule, restraint.
 
+mod confirm;
 mod drive;
+mod mechanism;
 mod observe;
+mod path;
 mod pressure;
 mod restraint;
+mod route;
+mod run;
 mod settings;
+mod tilting;
+mod watch;
 
-pub use drive::{LoadStep, Run, run};
+pub use confirm::Confirmation;
+pub use drive::{Run, Task, climb, drive};
+pub use mechanism::{Failure, FailureMode, JointState};
+pub use path::{Growing, LoadPath};
 pub use pressure::{Load, back_loads};
-pub use settings::{Ends, Lateral, Protocol};
+pub use run::{run, typical_size};
+pub use settings::{Base, Direction, Ends, Lateral, Protocol, Rate, Restraint, Tilting, Turning};
+pub use watch::{Criterion, LoadStep};

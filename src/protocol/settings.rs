@@ -1,5 +1,7 @@
 //! The protocols and their settings, as a study states them.
 
+use crate::math::Vec3;
+
 /// How the ends of the wall (x = 0 and x = length) are held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -12,6 +14,62 @@ pub enum Ends {
     OutOfPlane,
     /// Joint springs (kn, ks) to fixed end blocks, which neither open nor slip.
     JointSprings,
+}
+
+/// What the wall stands on: a fixed platform with an ordinary joint, and what stops the wall's foot on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Base {
+    /// tan of the friction angle between the wall and what is fixed under it (platform and strip); `None` = as in the
+    /// wall's own joints.
+    pub tan_phi: Option<f64>,
+    /// Height (m) of a fixed strip along the wall's foot on its downhill side, which stops it from sliding and lifts its
+    /// hinge; `None` = no strip. (A second one uphill, if it fits tightly, would clamp the foot.)
+    pub strip_height: Option<f64>,
+}
+
+/// What holds a wall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Restraint {
+    /// Under it.
+    pub base: Base,
+    /// At its ends.
+    pub ends: Ends,
+}
+
+impl Restraint {
+    /// On a platform with the wall's own friction and without strips.
+    pub fn at_ends(ends: Ends) -> Restraint {
+        Restraint { base: Base::default(), ends }
+    }
+}
+
+/// A horizontal direction of the platform.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub enum Direction {
+    /// Along the wall.
+    #[serde(rename = "x+")]
+    XPlus,
+    /// Along the wall, backwards.
+    #[serde(rename = "x-")]
+    XMinus,
+    /// Out of plane, towards the wall's front.
+    #[serde(rename = "y+")]
+    YPlus,
+    /// Out of plane, towards the wall's back.
+    #[serde(rename = "y-")]
+    YMinus,
+}
+
+impl Direction {
+    /// The unit vector.
+    pub fn unit(&self) -> Vec3 {
+        match self {
+            Direction::XPlus => Vec3::x(),
+            Direction::XMinus => -Vec3::x(),
+            Direction::YPlus => Vec3::y(),
+            Direction::YMinus => -Vec3::y(),
+        }
+    }
 }
 
 /// Gravity, then a trapezoidal pressure on the back face (-y) towards +y, in equal steps.
@@ -27,9 +85,66 @@ pub struct Lateral {
     pub collapse_share: f64,
 }
 
+/// A tilting table: gravity on the level platform, then the platform tilts about its edge towards one side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tilting {
+    /// The side that goes down.
+    pub towards: Direction,
+    /// Tilt from step to step (rad); default 0.5 deg.
+    pub step: f64,
+    /// Largest tilt (rad), at most 89 deg; a wall that stands there stands to the end.
+    pub end: f64,
+    /// The collapse angle is bracketed to this (rad); default 0.01 deg.
+    pub bracket: f64,
+    /// The wall counts as running away when the centroid of any block has moved by this share of the wall's base thickness
+    /// since the last state at rest; default 0.1. It must be large against what one step of tilt moves a wall that
+    /// stands (some thousandths of its thickness near collapse), and small against the wall.
+    pub collapse_share: f64,
+    /// Whether the platform stops for the wall to come to rest.
+    pub rate: Rate,
+}
+
+/// Whether the platform stops for the wall to come to rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Rate {
+    /// It does, at every step.
+    Static,
+    /// It turns steadily while the wall moves in true time.
+    Dynamic(Turning),
+}
+
+/// A platform that turns steadily. The wall then moves in true time, by the explicit solver with true inertia, whatever
+/// the study's own solver is; that one brings it to rest on the level platform if it is explicit itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turning {
+    /// Tilt rate (rad/s).
+    pub rate: f64,
+    /// Local damping coefficient, in [0, 1); default 0.05: blocks that rattle come to rest, a wall that falls is slowed by
+    /// as much.
+    pub damping: f64,
+    /// Share of the critical time step taken, in (0, 1]; default 0.5.
+    pub step_safety: f64,
+}
+
+impl Default for Tilting {
+    fn default() -> Self {
+        use crate::math::radians;
+        Tilting {
+            towards: Direction::YPlus,
+            step: radians(0.5),
+            end: radians(89.0),
+            bracket: radians(0.01),
+            collapse_share: 0.1,
+            rate: Rate::Static,
+        }
+    }
+}
+
 /// What is done to each wall of a study.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Protocol {
     /// Service load on the back face: the source paper's section 4.1.
     Lateral(Lateral),
+    /// Tilting table: the source paper's sections 2.2 and 3.4.
+    Tilting(Tilting),
 }

@@ -1,6 +1,6 @@
 //! From the raw tree of study.toml to checked parts.
 
-use crate::protocol::{Ends, Lateral, Protocol};
+use crate::protocol::{Ends, Lateral, Protocol, Restraint};
 use crate::solve::Solver;
 use crate::solve::explicit::Settings;
 use crate::study::arm;
@@ -19,7 +19,7 @@ pub struct Parts {
     pub joint: Joint,
     pub kn_points: Vec<f64>,
     pub protocol: Protocol,
-    pub ends: Ends,
+    pub restraint: Restraint,
     pub sub_contacts: [u32; 2],
     pub solver: Solver,
 }
@@ -37,7 +37,7 @@ pub fn parts(root: &Node, notes: &mut Notes, catalogue: &mut Catalogue) -> Optio
     let protocol = top.table("load").and_then(|mut t| load(&mut t));
     let ends = top.table("restraint").and_then(|mut t| {
         let (base, ends) = (t.choice_name("base"), t.choice("ends"));
-        base.and(ends)
+        base.and::<Ends>(ends)
     });
     let solver = top.table("solver").and_then(|mut t| solver(&mut t));
     let arms = arm::arms(&mut top, &wall.unwrap_or_default(), density.as_ref(), catalogue);
@@ -50,7 +50,7 @@ pub fn parts(root: &Node, notes: &mut Notes, catalogue: &mut Catalogue) -> Optio
         joint,
         kn_points,
         protocol: protocol?,
-        ends: ends?,
+        restraint: Restraint::at_ends(ends?),
         sub_contacts,
         solver: solver?,
     })

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use crate::generate::Layout;
 use crate::law::{CohesionAfterSlip, Sampling};
-use crate::protocol::{Ends, Protocol};
+use crate::protocol::{Protocol, Restraint};
 use crate::random::Family;
 use crate::solve::Solver;
 
@@ -28,8 +28,8 @@ pub struct Study {
     pub kn_points: Vec<f64>,
     /// What is done to each wall.
     pub protocol: Protocol,
-    /// How the ends are held.
-    pub ends: Ends,
+    /// What holds each wall.
+    pub restraint: Restraint,
     /// Sub-contacts of a joint along its two in-plane axes.
     pub sub_contacts: [u32; 2],
     /// Which solver, with its settings.

@@ -86,7 +86,7 @@ impl Study {
                     joint: parts.joint,
                     kn_points: parts.kn_points,
                     protocol: parts.protocol,
-                    ends: parts.ends,
+                    restraint: parts.restraint,
                     sub_contacts: parts.sub_contacts,
                     solver: parts.solver,
                     published: claims,

@@ -3,7 +3,7 @@
 use pirca::law::{Coulomb, Sampling};
 use pirca::math::{Vec3, cos, radians, sin};
 use pirca::model::{Level, Outcome, Support, Wall};
-use pirca::protocol::{Ends, Lateral, Protocol, run};
+use pirca::protocol::{Ends, Lateral, Protocol, Restraint, run};
 use pirca::shape::Polyhedron;
 use pirca::solve::explicit::Settings;
 use pirca::solve::{Solver, Status};
@@ -147,7 +147,7 @@ fn ends_hold_a_wall_in_the_order_of_their_stiffness() {
     let lateral = Lateral { mean_pressure: 100.0, base_over_top: 2.0, steps: 3, collapse_share: 0.5 };
     let solver = Solver::Explicit(Settings::default());
     let top = |ends: Ends| {
-        let run = run(&wall, &law, &Protocol::Lateral(lateral), ends, [2, 2], &solver);
+        let run = run(&wall, &law, &Protocol::Lateral(lateral), &Restraint::at_ends(ends), [2, 2], &solver);
         assert_eq!(run.outcome, Outcome::Equilibrium, "{ends:?}");
         (run.steps.last().expect("steps were taken").top_displacement, run)
     };
@@ -170,12 +170,13 @@ fn the_ways_a_wall_ends_are_told_apart() {
     let ends_as = |mean_pressure: f64, max_steps: u64| {
         let lateral = Lateral { mean_pressure, base_over_top: 2.0, steps: 4, collapse_share: 0.5 };
         let solver = Solver::Explicit(Settings { max_steps, ..Settings::default() });
-        run(&wall, &law, &Protocol::Lateral(lateral), Ends::Free, [2, 2], &solver)
+        run(&wall, &law, &Protocol::Lateral(lateral), &Restraint::at_ends(Ends::Free), [2, 2], &solver)
     };
     assert_eq!(ends_as(50.0, 100_000).outcome, Outcome::Equilibrium);
     // Toppling of the whole: p H^2 4/9 = W t / 2 per length gives some 1900 Pa; ten times that cannot stand.
     let fallen = ends_as(2e4, 100_000);
-    assert!(matches!(fallen.outcome, Outcome::Collapsed { at } if at.value() > 0.0), "{:?}", fallen.outcome);
+    assert_eq!(fallen.outcome, Outcome::Collapsed { at: Level::Factor(0.0) });
+    assert_eq!(fallen.bracket, Some([0.0, 0.25]));
     assert!(
         matches!(ends_as(50.0, 20).outcome, Outcome::NotConverged { at, .. } if at == Level::Factor(0.0))
     );

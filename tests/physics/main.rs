@@ -12,5 +12,6 @@ mod limit_random;
 mod objectivity;
 mod pressure;
 mod shapes;
+mod table;
 mod tilting;
 mod tumbling;

@@ -1,0 +1,84 @@
+//! Load paths: from the place on a path to gravity and the factor on the dead loads.
+
+use crate::math::{Vec3, cos, sin};
+use crate::model::Level;
+use crate::protocol::Direction;
+use crate::solve::STANDARD_GRAVITY;
+
+/// What grows along a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Growing {
+    /// The factor on the dead loads.
+    Factor,
+    /// The tilt of the platform, whose axes the wall's are: gravity turns towards a side.
+    Tilt(Direction),
+    /// A body force of so many times the weight towards a side.
+    Multiplier(Direction),
+}
+
+/// A load path: a level that grows from 0 to its end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoadPath {
+    /// What grows.
+    pub growing: Growing,
+    /// The level at the end (1 for a factor, rad for a tilt).
+    pub end: f64,
+    /// Number of full steps to the end; need not be whole, the last step is then shorter.
+    pub steps: f64,
+    /// The level of collapse is bracketed to this; infinite where a failed step is the end of it.
+    pub bracket: f64,
+}
+
+impl LoadPath {
+    /// The dead loads in `steps` equal steps.
+    pub fn factor(steps: u32) -> LoadPath {
+        LoadPath {
+            growing: Growing::Factor,
+            end: 1.0,
+            steps: f64::from(steps.max(1)),
+            bracket: f64::INFINITY,
+        }
+    }
+
+    /// A platform that tilts; angles in radians.
+    pub fn tilt(towards: Direction, step: f64, end: f64, bracket: f64) -> LoadPath {
+        LoadPath { growing: Growing::Tilt(towards), end, steps: end / step, bracket }
+    }
+
+    /// A horizontal force of so many times the weight.
+    pub fn multiplier(towards: Direction, step: f64, end: f64, bracket: f64) -> LoadPath {
+        LoadPath { growing: Growing::Multiplier(towards), end, steps: end / step, bracket }
+    }
+
+    /// The number of the level after so many full steps (a fraction of a step counts as that).
+    pub fn after(&self, steps: f64) -> f64 {
+        (steps / self.steps * self.end).min(self.end)
+    }
+
+    /// A level as a value.
+    pub fn level(&self, x: f64) -> Level {
+        match self.growing {
+            Growing::Factor => Level::Factor(x),
+            Growing::Tilt(_) => Level::Tilt(x),
+            Growing::Multiplier(_) => Level::Multiplier(x),
+        }
+    }
+
+    /// Gravity (m/s^2) and the factor on the dead loads.
+    pub fn loads(&self, x: f64) -> (Vec3, f64) {
+        let g = STANDARD_GRAVITY;
+        match self.growing {
+            Growing::Factor => (Vec3::new(0.0, 0.0, -g), x),
+            Growing::Tilt(towards) => (towards.unit() * (g * sin(x)) - Vec3::z() * (g * cos(x)), 1.0),
+            Growing::Multiplier(towards) => (towards.unit() * (g * x) - Vec3::z() * g, 1.0),
+        }
+    }
+
+    /// Where the load pushes.
+    pub fn direction(&self) -> Direction {
+        match self.growing {
+            Growing::Factor => Direction::YPlus,
+            Growing::Tilt(towards) | Growing::Multiplier(towards) => towards,
+        }
+    }
+}

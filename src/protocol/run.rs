@@ -1,0 +1,74 @@
+//! A wall of a study through the study's protocol.
+
+use crate::contact;
+use crate::math::cbrt;
+use crate::model::{JointLaws, Wall};
+use crate::protocol::drive::{Run, Task, drive};
+use crate::protocol::path::LoadPath;
+use crate::protocol::pressure::back_loads;
+use crate::protocol::restraint::{Surroundings, restrain};
+use crate::protocol::tilting::turn;
+use crate::protocol::{Confirmation, Criterion, Direction, Protocol, Rate, Restraint};
+use crate::solve::Solver;
+
+/// Takes a wall of stones through a protocol: gravity first, then the load.
+///
+/// `wall` holds the stones only; base, strip and ends are added here as `restraint` says, with ids behind the stones'.
+/// `sub_contacts` counts the sub-contacts of a joint along its longer and its shorter extent.
+pub fn run(
+    wall: &Wall,
+    laws: &dyn JointLaws,
+    protocol: &Protocol,
+    restraint: &Restraint,
+    sub_contacts: [u32; 2],
+    solver: &Solver,
+) -> Run {
+    let surroundings = Surroundings::of(wall, laws, restraint);
+    let towards = match protocol {
+        Protocol::Lateral(_) => Direction::YPlus,
+        Protocol::Tilting(tilting) => tilting.towards,
+    };
+    let assembly = restrain(wall, restraint, towards);
+    let contact = contact::Settings::for_size(typical_size(wall), sub_contacts);
+    let (low, high) = wall.bounds();
+    let thickness = high.y - low.y;
+    let task = |path, criterion, confirmation| Task {
+        wall: &assembly,
+        laws: &surroundings,
+        contact,
+        loads: Vec::new(),
+        path,
+        criterion,
+        confirmation,
+    };
+    let confirmation = Confirmation::for_thickness(thickness);
+    let mut run = match protocol {
+        Protocol::Lateral(lateral) => {
+            let criterion = Criterion::Top(lateral.collapse_share * thickness);
+            // The explicit solver's own end of steps is as good as a second relaxation's.
+            let confirmation = (!matches!(solver, Solver::Explicit(_))).then_some(confirmation);
+            let task = task(LoadPath::factor(lateral.steps), criterion, confirmation);
+            drive(&Task { loads: back_loads(wall, lateral), ..task }, solver)
+        }
+        Protocol::Tilting(tilting) => {
+            let criterion = Criterion::AnyBlock(tilting.collapse_share * thickness);
+            let task = task(tilting.path(), criterion, Some(confirmation));
+            match tilting.rate {
+                Rate::Static => drive(&task, solver),
+                Rate::Dynamic(turning) => {
+                    let Solver::Explicit(at_rest) = solver;
+                    turn(&task, &turning, *at_rest)
+                }
+            }
+        }
+    };
+    run.displacements.truncate(wall.blocks.len());
+    run
+}
+
+/// Edge of the cube with a stone's mean volume (m): the length to which contact tolerances are scaled.
+pub fn typical_size(wall: &Wall) -> f64 {
+    let (count, volume) =
+        wall.stones().fold((0u32, 0.0), |(n, v), (_, block)| (n + 1, v + block.shape.volume()));
+    cbrt(volume / f64::from(count.max(1)))
+}

@@ -1,0 +1,168 @@
+//! The tilting table: the platform turns about its edge towards a side, in steps or steadily.
+
+use crate::math::Vec3;
+use crate::model::Outcome;
+use crate::protocol::drive::{Run, Task, displacements};
+use crate::protocol::mechanism::joint_states;
+use crate::protocol::path::LoadPath;
+use crate::protocol::watch::{Criterion, LoadStep, Watch};
+use crate::protocol::{Tilting, Turning, confirm};
+use crate::solve::explicit::{Settings, Simulation};
+use crate::solve::{Assembly, Equilibrate, Status};
+
+/// Time steps between two looks at a wall on a turning platform.
+const STEPS_BETWEEN_LOOKS: u64 = 10;
+/// A wall begins to fall when it has moved by this share of what counts as running away.
+const BEGINS: f64 = 0.1;
+
+impl Tilting {
+    /// The load path of the static test.
+    pub fn path(&self) -> LoadPath {
+        LoadPath::tilt(self.towards, self.step, self.end, self.bracket)
+    }
+}
+
+/// Turns the platform steadily, with `at_rest` as the settings that bring the wall to rest on the level platform.
+///
+/// A reading is taken at every step of the path. The wall has collapsed when some block has moved past the criterion since
+/// the last reading; the collapse angle is the tilt at which it had gone a tenth of that way, and the bracket runs from
+/// there to the tilt at which it had passed. A wall that takes its time to fall has been tilted further meanwhile: the
+/// angle of a dynamic test lags behind the static one, the more so the faster the platform turns.
+pub fn turn(task: &Task<'_>, turning: &Turning, at_rest: Settings) -> Run {
+    let built = task.assembled();
+    let joints = built.joints.all.len();
+    let towards = task.path.direction();
+    let mut watch = Watch::new(task.wall, &built.bodies, towards, task.criterion);
+    let mut level = Simulation::of(built.clone(), at_rest);
+    let settled = level.settle(&mut |bodies| watch.runs_away(bodies));
+    let run = |outcome, steps, assembly: &Assembly<'_>| Run {
+        outcome,
+        bracket: None,
+        steps,
+        displacements: displacements(&assembly.bodies.all, &built.bodies.all),
+        joints,
+        failure: None,
+        joint_states: Vec::new(),
+    };
+    let at = task.path.level(0.0);
+    let unbalanced_ratio = settled.unbalanced_ratio;
+    let outcome = match settled.status {
+        Status::Equilibrium => Outcome::Equilibrium,
+        Status::Stopped => Outcome::UnstableAtRest,
+        Status::StepsSpent | Status::NoEquilibrium => {
+            Outcome::NotConverged { at, unbalanced_ratio, why: "the steps ran out".to_string() }
+        }
+        Status::NonFinite => Outcome::NonFinite { at },
+    };
+    let stands = outcome == Outcome::Equilibrium;
+    if stands {
+        watch.begins(&level.assembly.bodies);
+    }
+    let first = watch.read(&level.assembly.bodies, at, unbalanced_ratio, settled.steps);
+    if !stands {
+        return run(outcome, vec![first], &level.assembly);
+    }
+    let turned = Turned::new(task, turning, watch, &level.assembly).to_the_end(vec![first]);
+    let mut ended = run(turned.outcome, turned.steps, &turned.last);
+    ended.joint_states = joint_states(&turned.last, &level.assembly.bodies.all);
+    ended.bracket = turned.bracket;
+    if let Some(falling) = turned.falling {
+        let simulation = Simulation::of(falling, turned.settings);
+        let failure = confirm::watch_fall(task.wall, &turned.last, simulation, &turned.watch, towards);
+        ended.failure = Some(failure);
+    }
+    ended
+}
+
+/// A platform that turns.
+struct Turned<'t, 'a> {
+    task: &'t Task<'a>,
+    rate: f64,
+    settings: Settings,
+    watch: Watch,
+    /// How far (m) a wall has moved that begins to fall.
+    begins: f64,
+    simulation: Simulation<'a>,
+    outcome: Outcome,
+    bracket: Option<[f64; 2]>,
+    steps: Vec<LoadStep>,
+    /// The wall at the last reading.
+    last: Assembly<'a>,
+    /// The wall when it ran away.
+    falling: Option<Assembly<'a>>,
+}
+
+impl<'t, 'a> Turned<'t, 'a> {
+    fn new(task: &'t Task<'a>, turning: &Turning, watch: Watch, at_rest: &Assembly<'a>) -> Self {
+        let mut assembly = at_rest.clone();
+        for body in &mut assembly.bodies.all {
+            body.velocity = Vec3::zeros();
+            body.rescale(1.0);
+            body.set_spin(Vec3::zeros());
+        }
+        let settings = Settings {
+            damping: turning.damping,
+            step_safety: turning.step_safety,
+            scaled_inertia: false,
+            ..Settings::default()
+        };
+        let (Criterion::AnyBlock(limit) | Criterion::Top(limit)) = task.criterion;
+        Turned {
+            task,
+            rate: turning.rate,
+            settings,
+            watch,
+            begins: BEGINS * limit,
+            simulation: Simulation::of(assembly, settings),
+            outcome: Outcome::Equilibrium,
+            bracket: None,
+            steps: Vec::new(),
+            last: at_rest.clone(),
+            falling: None,
+        }
+    }
+
+    fn to_the_end(mut self, steps: Vec<LoadStep>) -> Self {
+        self.steps = steps;
+        self.watch.rests(&self.simulation.assembly.bodies);
+        let path = self.task.path;
+        let (mut time, mut readings, mut since, mut begun) = (0.0, 1.0, 0, None);
+        loop {
+            let tilt = (self.rate * time).min(path.end);
+            let (gravity, factor) = path.loads(tilt);
+            self.simulation.set_loads(gravity, factor);
+            self.simulation.step();
+            time += self.simulation.dt;
+            since += 1;
+            if !self.simulation.steps.is_multiple_of(STEPS_BETWEEN_LOOKS) {
+                continue;
+            }
+            let bodies = &self.simulation.assembly.bodies;
+            let level = path.level(tilt);
+            if !self.simulation.assembly.is_finite() {
+                self.outcome = Outcome::NonFinite { at: level };
+                return self;
+            }
+            begun = (self.watch.moved(bodies) > self.begins).then(|| begun.unwrap_or(tilt));
+            let away = self.watch.runs_away(bodies);
+            if away || tilt >= path.after(readings) {
+                let ratio = self.simulation.assembly.unbalanced_ratio();
+                self.steps.push(self.watch.read(bodies, level, ratio, std::mem::take(&mut since)));
+                if away {
+                    let from = begun.unwrap_or(tilt);
+                    self.outcome = Outcome::Collapsed { at: path.level(from) };
+                    self.bracket = Some([from, tilt]);
+                    self.falling = Some(self.simulation.assembly.clone());
+                    return self;
+                }
+                if tilt >= path.end {
+                    return self;
+                }
+                readings += 1.0;
+                begun = None;
+                self.last = self.simulation.assembly.clone();
+                self.watch.rests(&self.last.bodies);
+            }
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! The eye on a wall while it is loaded: what is read at rest, and when it has moved past the criterion.
+
+use crate::math::Vec3;
+use crate::model::{Level, Wall};
+use crate::protocol::Direction;
+use crate::protocol::observe::{Point, displacements, furthest, movable, three_points, top_points};
+use crate::solve::bodies::Bodies;
+
+/// When a wall counts as running away.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Criterion {
+    /// Its top has moved by so much (m) along the load since gravity alone.
+    Top(f64),
+    /// The centroid of some block has moved by so much (m) since the last state at rest.
+    AnyBlock(f64),
+}
+
+/// What was observed at the end of one load step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadStep {
+    /// How far along the load path; 0 under gravity alone.
+    pub level: Level,
+    /// Largest displacement at the wall's top in the direction of the load, since the wall came to rest under gravity (m).
+    pub top_displacement: f64,
+    /// Displacement of the left, centre and right point of the top along +y, since the wall came to rest under gravity (m);
+    /// `None` where the wall has no stones.
+    pub points: Option<[f64; 3]>,
+    /// Unbalanced force ratio reached.
+    pub unbalanced_ratio: f64,
+    /// Time steps or iterations that it took, failed attempts on the way included.
+    pub solver_steps: u64,
+}
+
+/// The eye on one wall.
+pub struct Watch {
+    top: Vec<Point>,
+    three: Option<[Point; 3]>,
+    towards: Direction,
+    criterion: Criterion,
+    /// Blocks that can move.
+    movable: Vec<usize>,
+    /// Displacements of the top points and the three points at rest under gravity alone.
+    top_at_rest: Vec<Vec3>,
+    three_at_rest: [f64; 3],
+    /// Centroids at the last state at rest.
+    last: Vec<Vec3>,
+}
+
+impl Watch {
+    /// On a wall whose blocks have not moved yet.
+    pub fn new(wall: &Wall, bodies: &Bodies, towards: Direction, criterion: Criterion) -> Watch {
+        let top = top_points(wall, bodies);
+        Watch {
+            three: three_points(wall, &top, bodies),
+            top_at_rest: displacements(&top, bodies),
+            top,
+            towards,
+            criterion,
+            movable: movable(wall).map(|(id, _)| id).collect(),
+            three_at_rest: [0.0; 3],
+            last: bodies.all.iter().map(|b| b.position).collect(),
+        }
+    }
+
+    /// From now on displacements count from here: the wall stands under gravity alone.
+    pub fn begins(&mut self, bodies: &Bodies) {
+        self.top_at_rest = displacements(&self.top, bodies);
+        self.three_at_rest = self.three_now(bodies).unwrap_or_default();
+    }
+
+    /// The wall has come to rest.
+    pub fn rests(&mut self, bodies: &Bodies) {
+        self.last = bodies.all.iter().map(|b| b.position).collect();
+    }
+
+    /// Whether the wall has moved past the criterion.
+    pub fn runs_away(&self, bodies: &Bodies) -> bool {
+        match self.criterion {
+            Criterion::Top(limit) => {
+                furthest(&displacements(&self.top, bodies), &self.top_at_rest, self.towards).1 > limit
+            }
+            Criterion::AnyBlock(limit) => self.moved(bodies) > limit,
+        }
+    }
+
+    /// Largest movement of a block's centroid since the last state at rest (m).
+    pub fn moved(&self, bodies: &Bodies) -> f64 {
+        self.movable
+            .iter()
+            .map(|&id| (bodies.all[id].position - self.last[id]).norm_squared())
+            .fold(0.0, f64::max)
+            .sqrt()
+    }
+
+    /// What is read off the wall now.
+    pub fn read(
+        &self,
+        bodies: &Bodies,
+        level: Level,
+        unbalanced_ratio: f64,
+        solver_steps: u64,
+    ) -> LoadStep {
+        let points = self.three_now(bodies).map(|now| {
+            let [l, c, r] = self.three_at_rest;
+            [now[0] - l, now[1] - c, now[2] - r]
+        });
+        let (top_displacement, _) = furthest(&displacements(&self.top, bodies), &self.top_at_rest, self.towards);
+        LoadStep { level, top_displacement, points, unbalanced_ratio, solver_steps }
+    }
+
+    fn three_now(&self, bodies: &Bodies) -> Option<[f64; 3]> {
+        self.three.map(|points| points.map(|p| p.displacement(bodies).y))
+    }
+}
