@@ -203,6 +203,10 @@ names! {
     MethodName {
         /// Limit analysis of rigid blocks.
         Limit = "limit",
+        /// Elastic joints, equilibrium by Newton's method.
+        Implicit = "implicit",
+        /// Elastic joints, steps in time with damping (DEM).
+        Explicit = "explicit",
     }
 }
 

@@ -250,8 +250,7 @@ impl<'a, S: Equilibrate> Climber<'_, 'a, S> {
     fn fell(&mut self, from: &S, simulation: Simulation<'_>, level: f64, ratio: f64) -> End {
         let mut end = self.ended(Why::Fell, &simulation.assembly, level, ratio);
         let towards = self.task.path.direction();
-        end.failure =
-            Some(watch_fall(self.task.wall, from.assembly(), simulation, &self.watch, towards));
+        end.failure = Some(watch_fall(self.task.wall, from.assembly(), simulation, &self.watch, towards));
         end
     }
 

@@ -2,7 +2,7 @@
 
 use crate::contact::{self, Pair, Survey, survey};
 use crate::exchange::{Fault, WallFaults, WallFile};
-use crate::math::cbrt;
+use crate::math::{Vec3, cbrt};
 use crate::model::{Support, Wall};
 use crate::shape::Polyhedron;
 
@@ -17,6 +17,10 @@ const SUB_CONTACTS: [u32; 2] = [2, 2];
 pub(crate) struct Fit {
     /// Tolerances of contact detection; gaps up to `touch` are joints for the survey and for limit analysis.
     pub contact: contact::Settings,
+    /// Gap (m) that is rounding for springs.
+    pub rounding: f64,
+    /// Smaller horizontal extent of the part that moves (m).
+    pub thickness: f64,
     /// Number of joints.
     pub joints: usize,
     /// Deepest overlap of a joint (m).
@@ -29,7 +33,8 @@ pub(crate) struct Fit {
 pub(crate) fn look(file: &WallFile, tolerance: f64, path: &str) -> Result<Fit, WallFaults> {
     let mut faults = WallFaults::new(path);
     let standard = contact::Settings::for_size(stone_size(&file.wall), SUB_CONTACTS);
-    let touch = tolerance * size(&file.wall);
+    let (low, high) = bounds(&file.wall);
+    let touch = tolerance * (high - low).norm();
     let contact = contact::Settings { touch, reach: standard.reach.max(10.0 * touch), ..standard };
     let Some(found) = survey(&file.wall, &contact) else {
         faults.push(Fault::of(
@@ -59,6 +64,8 @@ pub(crate) fn look(file: &WallFile, tolerance: f64, path: &str) -> Result<Fit, W
     }
     Ok(Fit {
         contact,
+        rounding: standard.touch,
+        thickness: (high.x - low.x).min(high.y - low.y),
         joints: found.joints.len(),
         deepest: found.deepest,
         warnings: told(file, &found, touch),
@@ -128,11 +135,10 @@ fn free(wall: &Wall) -> impl Iterator<Item = &Polyhedron> {
     wall.blocks.iter().filter(|b| b.support != Support::Fixed).map(|b| &b.shape)
 }
 
-/// Diagonal of the box around the blocks that move (m): a large ground does not loosen the tolerance.
-fn size(wall: &Wall) -> f64 {
+/// Box around the blocks that move (m): a large ground does not loosen the tolerance.
+pub(crate) fn bounds(wall: &Wall) -> (Vec3, Vec3) {
     let corners = free(wall).flat_map(|shape| shape.vertices.iter().copied()).collect();
-    let (low, high) = Polyhedron { vertices: corners, faces: Vec::new() }.bounds();
-    (high - low).norm()
+    Polyhedron { vertices: corners, faces: Vec::new() }.bounds()
 }
 
 /// Edge of the cube with the mean volume of the blocks that move (m).

@@ -3,15 +3,28 @@
 use crate::cli::analyse::answer::Answer;
 use crate::cli::analyse::meetings::Fit;
 use crate::cli::arguments::{Analyse, DirectionName, FlowName, LoadName, MethodName};
+use crate::contact;
 use crate::law::{CohesionAfterSlip, Coulomb, NormalLaw, Sampling};
-use crate::math::{Vec3, radians, tan};
+use crate::math::{radians, tan};
 use crate::model::Wall;
-use crate::solve::limit;
+use crate::protocol::{Confirmation, Criterion, Direction, LoadPath, Run, Task, climb};
+use crate::solve::explicit::{self, Simulation};
+use crate::solve::implicit::{self, Equilibrium};
+use crate::solve::{Equilibrate, limit};
 
 /// Limit analysis needs no stiffness, but a law has one.
 const ANY_STIFFNESS: f64 = 1e9;
 /// A block is part of a mechanism when it moves at this share of the fastest corner.
 const MOVES: f64 = 0.01;
+/// Step of the tilt (deg) where none is asked for, and the largest tilt and multiplier.
+const STEP_DEG: f64 = 0.5;
+const LARGEST_TILT_DEG: f64 = 89.0;
+const LARGEST_MULTIPLIER: f64 = 10.0;
+/// Width of the bracket around the collapse: angle (deg) and multiplier.
+const BRACKET_DEG: f64 = 0.01;
+const BRACKET: f64 = 1e-4;
+/// A wall runs away when a block has moved by this share of its thickness in a step.
+const RUNS_AWAY: f64 = 0.1;
 
 /// The law of all joints: no tension, cohesion kept after slip, ks = kn / 2 unless it is given.
 pub(crate) fn law(arguments: &Analyse) -> Coulomb {
@@ -32,6 +45,53 @@ pub(crate) fn law(arguments: &Analyse) -> Coulomb {
 pub(crate) fn solve(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit) -> Answer {
     match arguments.solver {
         MethodName::Limit => by_limit_analysis(arguments, wall, law, fit),
+        MethodName::Implicit => {
+            let settings = implicit::Settings::default();
+            let task = task(arguments, wall, law, fit);
+            let run = climb(&task, &|assembly| Equilibrium::of(assembly, settings));
+            let mut at_rest = Equilibrium::new(wall, law, settings, task.contact);
+            at_rest.settle(&mut |_| false);
+            let loose = at_rest.loose().iter().map(|&i| i as usize).collect();
+            Answer { loose, ..by_steps(run) }
+        }
+        MethodName::Explicit => {
+            let task = task(arguments, wall, law, fit);
+            by_steps(climb(&task, &|assembly| Simulation::of(assembly, explicit::Settings::default())))
+        }
+    }
+}
+
+/// The load path of the elastic solvers.
+fn task<'t>(arguments: &Analyse, wall: &'t Wall, law: &'t Coulomb, fit: &Fit) -> Task<'t> {
+    let (towards, step) = (direction(arguments.direction), radians(arguments.step_deg.unwrap_or(STEP_DEG)));
+    let path = match arguments.load {
+        LoadName::Tilt => LoadPath::tilt(towards, step, radians(LARGEST_TILT_DEG), radians(BRACKET_DEG)),
+        LoadName::Lateral => LoadPath::multiplier(towards, tan(step), LARGEST_MULTIPLIER, BRACKET),
+    };
+    Task {
+        wall,
+        laws: law,
+        // Gaps are rounding for rigid blocks only: springs close them.
+        contact: contact::Settings { touch: fit.rounding, ..fit.contact },
+        loads: Vec::new(),
+        path,
+        criterion: Criterion::AnyBlock(RUNS_AWAY * fit.thickness),
+        confirmation: Some(Confirmation::for_thickness(fit.thickness)),
+    }
+}
+
+fn by_steps(run: Run) -> Answer {
+    let bracket = run.bracket.map(|[low, high]| format!("; bracketed to {:.1e}", high - low));
+    Answer {
+        moving: run.failure.map_or_else(Vec::new, |f| f.moving.iter().map(|&i| i as usize).collect()),
+        loose: Vec::new(),
+        meaning: format!(
+            "the largest load borne on the way, {} load steps{}",
+            run.steps.len(),
+            bracket.unwrap_or_default()
+        ),
+        warnings: Vec::new(),
+        outcome: run.outcome,
     }
 }
 
@@ -42,7 +102,7 @@ fn by_limit_analysis(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit)
     };
     let settings = limit::Settings { flow, closed_gap: fit.contact.touch, ..limit::Settings::default() };
     let analysis = limit::Analysis::new(wall, law, fit.contact, settings);
-    let direction = unit(arguments.direction);
+    let direction = direction(arguments.direction).unit();
     let found = match arguments.load {
         LoadName::Tilt => analysis.tilt(direction, &[]),
         LoadName::Lateral => analysis.multiplier(&limit::Loads::lateral(direction)),
@@ -61,11 +121,11 @@ fn by_limit_analysis(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit)
     }
 }
 
-fn unit(direction: DirectionName) -> Vec3 {
-    match direction {
-        DirectionName::XPlus => Vec3::x(),
-        DirectionName::XMinus => -Vec3::x(),
-        DirectionName::YPlus => Vec3::y(),
-        DirectionName::YMinus => -Vec3::y(),
+fn direction(name: DirectionName) -> Direction {
+    match name {
+        DirectionName::XPlus => Direction::XPlus,
+        DirectionName::XMinus => Direction::XMinus,
+        DirectionName::YPlus => Direction::YPlus,
+        DirectionName::YMinus => Direction::YMinus,
     }
 }

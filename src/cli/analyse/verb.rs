@@ -4,13 +4,12 @@ use std::time::Instant;
 
 use serde_json::json;
 
-use crate::cli::analyse::meetings::{Fit, look};
+use crate::cli::analyse::meetings::{Fit, bounds, look};
 use crate::cli::analyse::solve::{law, solve};
 use crate::cli::arguments::{Analyse, FlowName, LoadName, MethodName};
 use crate::cli::failure::Failure;
 use crate::cli::output;
 use crate::exchange::{ObjOptions, Unit, WallFaults, WallFile, read_wall};
-use crate::math::Vec3;
 use crate::model::{Support, Wall};
 use crate::solve::STANDARD_GRAVITY;
 
@@ -92,12 +91,10 @@ fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
 /// Blocks that overlap as built press on each other from the start: how hard, for the solvers that are elastic.
 fn prestress(arguments: &Analyse, wall: &Wall, fit: &Fit) -> Option<String> {
     let kn = arguments.kn.filter(|_| arguments.solver != MethodName::Limit)?;
-    let moving = || wall.blocks.iter().filter(|b| b.support != Support::Fixed);
-    let corners = moving().flat_map(|b| b.shape.vertices.iter());
-    let (low, high) =
-        corners.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v: &Vec3| (l.min(v.z), h.max(v.z)));
-    let heaviest = moving().map(|b| b.density).fold(0.0, f64::max);
-    let (pressure, weight) = (kn * fit.deepest, heaviest * STANDARD_GRAVITY * (high - low));
+    let (low, high) = bounds(wall);
+    let moving = wall.blocks.iter().filter(|b| b.support != Support::Fixed);
+    let heaviest = moving.map(|b| b.density).fold(0.0, f64::max);
+    let (pressure, weight) = (kn * fit.deepest, heaviest * STANDARD_GRAVITY * (high.z - low.z));
     (pressure > PRESTRESS * weight).then(|| {
         format!(
             "the deepest overlap as built, {:.1e} m, starts with a pressure of {:.3} kPa at kn = {kn:e} Pa/m; the weight of the wall's height makes {:.3} kPa: trim the blocks, or ask --solver limit, which takes shapes only",
