@@ -132,6 +132,8 @@ pub(crate) struct Run {
 pub(crate) enum SolverName {
     /// Central differences with local damping (DEM).
     Explicit,
+    /// Newton's method from equilibrium to equilibrium.
+    Implicit,
 }
 
 /// Arguments of `analyse`.

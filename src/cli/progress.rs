@@ -8,41 +8,46 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::cli::output;
-use crate::ensemble::{Progress, Row, Task};
-use crate::model::Outcome;
+use crate::ensemble::{Observed, Progress, Quantity, Row, Task};
 use crate::study::Study;
 
 /// A progress on standard error, fit for what standard error is.
 pub(crate) fn on_stderr(study: &Study) -> Box<dyn Progress> {
     let name = study.name.clone();
+    let quantity = Quantity::of(&study.protocol);
     match std::io::stderr().is_terminal() {
-        true => Box::new(Bar { bar: ProgressBar::hidden(), tally: Mutex::default() }),
-        false => Box::new(Lines { name, state: Mutex::new(None) }),
+        true => Box::new(Bar { bar: ProgressBar::hidden(), tally: Mutex::new(Tally::new(quantity)) }),
+        false => Box::new(Lines { name, quantity, state: Mutex::new(None) }),
     }
 }
 
 /// Counts and the running mean of the wall population that the last member belongs to. Only shown: the statistics
 /// are computed from the finished table.
-#[derive(Default)]
 struct Tally {
+    quantity: Quantity,
     failed: usize,
-    /// Walls in equilibrium and the sum of their top displacements (m), by arm and point.
+    /// Walls that bring a value and the sum of these, by arm and point.
     sums: BTreeMap<(u32, u32), (u64, f64)>,
     /// What is said of that population, from the comma on.
     last: String,
 }
 
 impl Tally {
+    fn new(quantity: Quantity) -> Tally {
+        Tally { quantity, failed: 0, sums: BTreeMap::new(), last: String::new() }
+    }
+
     fn take(&mut self, row: &Row) {
-        if row.outcome != Outcome::Equilibrium {
+        let observed = self.quantity.observed(row);
+        if observed == Observed::Nothing {
             self.failed += 1;
         }
-        if let Some(top) = row.top_displacement_m {
+        if let Observed::Value(value) = observed {
             let (n, sum) = self.sums.entry((row.arm_index, row.point)).or_default();
             *n += 1;
-            *sum += top;
-            let mean = *sum / *n as f64 * 1e3;
-            self.last = format!(", mean {mean:.4} mm ({n} {} at kn {:.2e})", row.arm, row.kn_pa_per_m);
+            *sum += value;
+            let (mean, unit) = (self.quantity.shown(*sum / *n as f64), self.quantity.shown_unit());
+            self.last = format!(", mean {mean:.4} {unit} ({n} {} at kn {:.2e})", row.arm, row.kn_pa_per_m);
         }
     }
 }
@@ -94,6 +99,7 @@ impl Progress for Bar {
 /// A line at the beginning and at every tenth.
 struct Lines {
     name: String,
+    quantity: Quantity,
     state: Mutex<Option<Count>>,
 }
 
@@ -116,7 +122,7 @@ impl Count {
 
 impl Progress for Lines {
     fn begin(&self, total: usize, recorded: &[&Row]) {
-        let mut tally = Tally::default();
+        let mut tally = Tally::new(self.quantity);
         recorded.iter().for_each(|row| tally.take(row));
         let done = recorded.len();
         output::note(&format!("{}: {total} evaluations, {done} of them recorded before", self.name));

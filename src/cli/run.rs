@@ -7,7 +7,7 @@ use crate::cli::failure::Failure;
 use crate::cli::{locate, output, progress};
 use crate::ensemble::{self, Settings};
 use crate::report;
-use crate::solve::Solver;
+use crate::solve::{Solver, explicit, implicit};
 use crate::study::Study;
 
 /// Runs a study, or what is still missing of it, and shows the results.
@@ -29,6 +29,9 @@ fn asked(mut study: Study, arguments: &Run) -> Study {
     if let Some(name) = arguments.solver {
         study.solver = match (name, study.solver) {
             (SolverName::Explicit, Solver::Explicit(settings)) => Solver::Explicit(settings),
+            (SolverName::Implicit, Solver::Implicit(settings)) => Solver::Implicit(settings),
+            (SolverName::Explicit, _) => Solver::Explicit(explicit::Settings::default()),
+            (SolverName::Implicit, _) => Solver::Implicit(implicit::Settings::default()),
         };
     }
     if let Some(seed) = arguments.seed {

@@ -1,9 +1,9 @@
 //! One member: its wall, its joints, its protocol, its row. A pure function of study, seed and task.
 
-use crate::ensemble::{Row, StepRow, Task};
+use crate::ensemble::{Mechanism, Row, StepRow, Task};
 use crate::generate::{Generated, InvalidGeometry, generate};
 use crate::math::degrees;
-use crate::model::{Outcome, Wall};
+use crate::model::{Level, Outcome, Wall};
 use crate::protocol;
 use crate::random::Streams;
 use crate::solve::STANDARD_GRAVITY;
@@ -46,14 +46,34 @@ fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
     let last = run.steps.last();
     let at_rest = run.outcome == Outcome::Equilibrium;
     let load_steps = run.steps.iter().map(|step| StepRow {
-        load_factor: step.level.value(),
+        load_factor: matches!(step.level, Level::Factor(_)).then(|| step.level.value()),
+        tilt_deg: tilt(step.level),
         top_displacement_m: finite(step.top_displacement),
+        left_m: step.points.and_then(|[left, ..]| finite(left)),
+        centre_m: step.points.and_then(|[_, centre, _]| finite(centre)),
+        right_m: step.points.and_then(|[.., right]| finite(right)),
         unbalanced_ratio: finite(step.unbalanced_ratio),
         solver_steps: step.solver_steps,
     });
     let realised = &generated.realised;
     Row {
         top_displacement_m: last.filter(|_| at_rest).map(|step| step.top_displacement),
+        collapse_angle_deg: match run.outcome {
+            Outcome::Collapsed { at } => tilt(at),
+            _ => None,
+        },
+        fails_at_deg: run.bracket.filter(|_| last.is_some_and(|s| tilt(s.level).is_some())).map(|[_, at]| degrees(at)),
+        largest_tilt_deg: match run.outcome {
+            Outcome::Equilibrium => last.and_then(|step| tilt(step.level)),
+            _ => run.steps.iter().rev().nth(1).and_then(|step| tilt(step.level)),
+        },
+        mechanism: run.failure.as_ref().map(|failure| Mechanism {
+            mode: failure.mode,
+            moving: failure.moving.len() as u32,
+            weight_share: failure.weight_share,
+            hinge_height_m: failure.hinge_height,
+            turning_share: failure.turning_share,
+        }),
         stones: wall.stones().count() as u32,
         joints: run.joints as u32,
         wedges: realised.wedges,
@@ -84,6 +104,10 @@ fn unsolved(study: &Study, task: Task, outcome: Outcome) -> Row {
         member: task.member,
         outcome,
         top_displacement_m: None,
+        collapse_angle_deg: None,
+        fails_at_deg: None,
+        largest_tilt_deg: None,
+        mechanism: None,
         stones: 0,
         joints: 0,
         wedges: 0,
@@ -107,6 +131,11 @@ fn unsolved(study: &Study, task: Task, outcome: Outcome) -> Row {
 fn weight(wall: &Wall) -> f64 {
     wall.stones().map(|(_, stone)| stone.density * stone.shape.volume()).fold(0.0, |sum, mass| sum + mass)
         * STANDARD_GRAVITY
+}
+
+/// A tilt (deg), if the level is one.
+fn tilt(level: Level) -> Option<f64> {
+    if let Level::Tilt(tilt) = level { Some(degrees(tilt)) } else { None }
 }
 
 /// A value that a table can hold: NaN and infinity are "not observed".

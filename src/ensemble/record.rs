@@ -1,6 +1,7 @@
 //! What is recorded of a member: one row, and one row per load step.
 
 use crate::model::Outcome;
+use crate::protocol::FailureMode;
 
 /// One member of one arm at one kn: what was drawn, how it ended, what was observed.
 ///
@@ -22,6 +23,14 @@ pub struct Row {
     pub outcome: Outcome,
     /// Largest out-of-plane displacement at the wall's top under the full load since gravity (m); `None` unless in equilibrium.
     pub top_displacement_m: Option<f64>,
+    /// Tilt at which the wall fell: the last one borne (deg); `None` unless it collapsed on a tilting table.
+    pub collapse_angle_deg: Option<f64>,
+    /// The lowest tilt at which it is known to fall (deg).
+    pub fails_at_deg: Option<f64>,
+    /// The largest tilt at which it came to rest (deg); `None` where nothing tilts, and for a wall that never stood.
+    pub largest_tilt_deg: Option<f64>,
+    /// The mechanism of a collapse; `None` unless one was watched.
+    pub mechanism: Option<Mechanism>,
     /// Number of stones (headers and wedges counted).
     pub stones: u32,
     /// Number of joints at rest.
@@ -56,13 +65,36 @@ pub struct Row {
     pub load_steps: Vec<StepRow>,
 }
 
+/// The first mechanism of a collapse; see [`crate::protocol::Failure`].
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Mechanism {
+    /// How the moving part moves.
+    pub mode: FailureMode,
+    /// Number of stones that take part.
+    pub moving: u32,
+    /// Their share of the weight.
+    pub weight_share: f64,
+    /// Height of the hinge or the plane of sliding above the wall's foot (m).
+    pub hinge_height_m: f64,
+    /// Turning over turning and slipping in the joints.
+    pub turning_share: f64,
+}
+
 /// One load step of a member.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct StepRow {
-    /// Load factor: 0 under gravity alone, 1 at the full load.
-    pub load_factor: f64,
-    /// Largest out-of-plane displacement at the top since the end of gravity (m); `None` when it is not finite.
+    /// Load factor: 0 under gravity alone, 1 at the full load; `None` on a tilting table.
+    pub load_factor: Option<f64>,
+    /// Tilt of the platform (deg); `None` unless on a tilting table.
+    pub tilt_deg: Option<f64>,
+    /// Largest displacement at the top in the direction of the load since the end of gravity (m); `None` when it is not finite.
     pub top_displacement_m: Option<f64>,
+    /// Displacement of the left point of the top along +y since the end of gravity (m); `None` when it is not finite.
+    pub left_m: Option<f64>,
+    /// The same at the centre (m).
+    pub centre_m: Option<f64>,
+    /// The same at the right end (m).
+    pub right_m: Option<f64>,
     /// Unbalanced force ratio reached; `None` when it is not finite.
     pub unbalanced_ratio: Option<f64>,
     /// Time steps taken.

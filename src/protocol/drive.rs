@@ -12,6 +12,7 @@ use crate::protocol::route::Route;
 use crate::protocol::watch::{Criterion, LoadStep, Watch};
 use crate::solve::bodies::Body;
 use crate::solve::explicit::Simulation;
+use crate::solve::implicit::Equilibrium;
 use crate::solve::{Assembly, Equilibrate, Solver, Status};
 
 /// A wall with all that surrounds it, its loads, and how far it is to be taken.
@@ -56,6 +57,7 @@ pub struct Run {
 pub fn drive(task: &Task<'_>, solver: &Solver) -> Run {
     match solver {
         Solver::Explicit(settings) => climb(task, &|assembly| Simulation::of(assembly, *settings)),
+        Solver::Implicit(settings) => climb(task, &|assembly| Equilibrium::of(assembly, *settings)),
     }
 }
 

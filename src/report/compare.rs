@@ -57,7 +57,7 @@ pub struct Comparison {
 /// Two random populations of equally many members share their random numbers (streams are keyed by member), so
 /// they are compared pairwise over the members that stand in both.
 pub fn ratio(above: &Population, below: &Population) -> Ratio {
-    let (a, b) = (above.ordered(), below.ordered());
+    let (a, b) = (above.complete(), below.complete());
     let walls = a.len() as u64;
     let (Some(mean_a), Some(mean_b)) = (stats::mean(&a), stats::mean(&b)) else {
         return Ratio { value: None, interval: None, basis: Basis::Undefined, walls };

@@ -1,4 +1,4 @@
-//! Figure 10 as SVG text and as a PNG file. The same curves give the same bytes; text is set in the bundled font.
+//! Figures as SVG text and as PNG files. The same numbers give the same bytes; text is set in the bundled font.
 
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
@@ -6,20 +6,31 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use anyhow::{Result, anyhow, ensure};
+use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use crate::report::figure::Curve;
-use crate::report::plot::{FONT_NAME, Plot};
+use crate::report::plot::{Drawn, FONT_NAME};
 
 /// Bundled font: a subset of DejaVu Sans, licence beside it.
 static FONT: &[u8] = include_bytes!("font/dejavu-sans-subset.ttf");
 /// The image is drawn at this scale and then halved, which smooths its edges.
-const IMAGE_SCALE: u32 = 4;
+pub const IMAGE_SCALE: u32 = 4;
 
-/// The figure as SVG text.
-pub fn svg(title: &str, curves: &[Curve]) -> Result<String> {
+/// Something that can be drawn with any backend.
+pub trait Figure {
+    /// Width and height (pixels).
+    fn size(&self) -> (u32, u32);
+
+    /// Draws everything.
+    ///
+    /// # Errors
+    /// Those of the backend.
+    fn draw<DB: DrawingBackend>(&self, root: &DrawingArea<DB, Shift>) -> Drawn<DB>;
+}
+
+/// A figure at scale 1 as SVG text.
+pub fn svg(plot: &impl Figure) -> Result<String> {
     register_font();
-    let plot = Plot::new(title, curves, 1);
     let mut text = String::new();
     {
         let root = SVGBackend::with_string(&mut text, plot.size()).into_drawing_area();
@@ -29,13 +40,12 @@ pub fn svg(title: &str, curves: &[Curve]) -> Result<String> {
     Ok(text)
 }
 
-/// Writes the figure as PNG; the name must end in `.png`.
+/// Writes a figure at [`IMAGE_SCALE`] as PNG; the name must end in `.png`.
 ///
 /// # Errors
 /// Where the file cannot be written, or not whole.
-pub fn png_into(path: &Path, title: &str, curves: &[Curve]) -> Result<()> {
+pub fn png_into(path: &Path, plot: &impl Figure) -> Result<()> {
     register_font();
-    let plot = Plot::new(title, curves, IMAGE_SCALE);
     let (width, height) = plot.size();
     let mut pixels = vec![255; 3 * width as usize * height as usize];
     {

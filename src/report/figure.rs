@@ -1,7 +1,9 @@
-//! What Figure 10 shows, in the units of its axes, before anything is drawn.
+//! What the figure over kn shows, in the units of its axes, before anything is drawn.
 
+use crate::ensemble::Quantity;
 use crate::report::number::{range, shortened};
 use crate::report::summary::{ArmSummary, Summary};
+use crate::stats::EmpiricalStep;
 
 /// Names longer than this are cut in the figure.
 const LONGEST_NAME: usize = 24;
@@ -9,6 +11,8 @@ const LONGEST_NAME: usize = 24;
 /// One arm in the figure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
+    /// What is shown.
+    pub quantity: Quantity,
     /// Name of the arm.
     pub arm: String,
     /// True for an arm of random walls, drawn with band and error bars.
@@ -26,26 +30,27 @@ pub struct Point {
     pub members: u64,
     /// Walls in the mean.
     pub in_mean: u64,
-    /// Mean displacement (mm); `None` when no wall stands.
+    /// Mean, in the unit shown; `None` when no wall brings a value.
     pub mean: Option<f64>,
-    /// 95 % interval of the mean (mm).
+    /// Its 95 % interval.
     pub mean_ci: Option<[f64; 2]>,
-    /// Standard deviation (mm).
+    /// Standard deviation.
     pub sigma: Option<f64>,
-    /// Mean less and plus one standard deviation (mm).
+    /// Mean less and plus one standard deviation.
     pub band: Option<[f64; 2]>,
 }
 
 impl Point {
     fn of(entry: &ArmSummary) -> Self {
-        let mean = entry.mean.map(millimetres);
-        let sigma = entry.sigma.map(millimetres);
+        let shown = |x: f64| entry.shown.shown(x);
+        let mean = entry.mean.map(shown);
+        let sigma = entry.sigma.map(shown);
         Point {
             kn: entry.kn_pa_per_m,
             members: entry.members,
             in_mean: entry.in_mean,
             mean,
-            mean_ci: entry.mean_ci.map(|ci| ci.map(millimetres)),
+            mean_ci: entry.mean_ci.map(|ci| ci.map(shown)),
             sigma,
             band: mean.zip(sigma).map(|(mean, sigma)| [mean - sigma, mean + sigma]),
         }
@@ -92,7 +97,7 @@ impl Curve {
         match (lost, empty) {
             (0, 0) => None,
             (_, empty) if empty == all => {
-                Some(format!("{name}: no wall reached equilibrium at any stiffness"))
+                Some(format!("{name}: no wall brings a value at any stiffness"))
             }
             (_, 0) => Some(failed),
             (_, empty) => Some(format!("{failed}; none is left at {empty} of {all} stiffnesses")),
@@ -107,10 +112,58 @@ pub fn curves(summary: &Summary) -> Vec<Curve> {
         let point = Point::of(entry);
         match curves.iter_mut().find(|curve| curve.arm == entry.arm) {
             Some(curve) => curve.points.push(point),
-            None => curves.push(Curve { arm: entry.arm.clone(), random: entry.random, points: vec![point] }),
+            None => curves.push(Curve {
+                quantity: entry.shown,
+                arm: entry.arm.clone(),
+                random: entry.random,
+                points: vec![point],
+            }),
         }
     }
     curves
+}
+
+/// The fragility curve of one arm.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ladder {
+    /// Name of the arm.
+    pub arm: String,
+    /// True for an arm of random walls, drawn with a band.
+    pub random: bool,
+    /// Normal stiffness of the joints (Pa/m).
+    pub kn: f64,
+    /// Walls that it rests on.
+    pub walls: u64,
+    /// Walls that say nothing about the capacity.
+    pub lost: u64,
+    /// Its steps, ascending.
+    pub steps: Vec<EmpiricalStep>,
+}
+
+/// The fragility curves at the middle kn (the lower of two), in the order of the arms; none where the quantity is no capacity.
+pub fn ladders(summary: &Summary) -> Vec<Ladder> {
+    let mut kns: Vec<f64> = Vec::new();
+    for arm in &summary.arms {
+        if !kns.contains(&arm.kn_pa_per_m) {
+            kns.push(arm.kn_pa_per_m);
+        }
+    }
+    let Some(&kn) = kns.get(kns.len().saturating_sub(1) / 2) else { return Vec::new() };
+    let capacity = summary.arms.iter().filter(|arm| arm.shown == Quantity::CollapseAngle);
+    capacity
+        .filter(|arm| arm.kn_pa_per_m == kn)
+        .map(|arm| {
+            let walls = arm.outcomes.get("collapsed").copied().unwrap_or(0) + arm.stood_to_the_end;
+            Ladder {
+                arm: arm.arm.clone(),
+                random: arm.random,
+                kn,
+                walls,
+                lost: arm.members.saturating_sub(walls),
+                steps: arm.fragility.clone(),
+            }
+        })
+        .collect()
 }
 
 /// Title of the figure: the study and its variant.
@@ -119,9 +172,4 @@ pub fn title(summary: &Summary) -> String {
         Some(variant) => format!("{} \u{2013} variant {variant}", summary.study),
         None => summary.study.clone(),
     }
-}
-
-/// A displacement in mm from one in m.
-pub fn millimetres(metres: f64) -> f64 {
-    metres * 1e3
 }

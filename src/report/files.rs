@@ -6,22 +6,21 @@ use std::path::Path;
 use anyhow::{Context, Result};
 
 use crate::ensemble::{Row, replace_file};
-use crate::report::csv::csv;
-use crate::report::draw::{png_into, svg};
-use crate::report::figure::{Curve, curves, title};
+use crate::report::csv::{csv, fragility_csv};
+use crate::report::draw::{Figure, IMAGE_SCALE, png_into, svg};
+use crate::report::figure::{curves, ladders, title};
+use crate::report::fragility::FragilityPlot;
+use crate::report::plot::Plot;
 use crate::report::summary::{Summary, summarise};
 use crate::study::Study;
 
 /// File name of the summary.
 pub const SUMMARY_JSON: &str = "summary.json";
-/// File name of the figure as vector graphics.
-pub const FIGURE_SVG: &str = "figure-10.svg";
-/// File name of the figure as an image.
-pub const FIGURE_PNG: &str = "figure-10.png";
-/// File name of the numbers behind the figure.
-pub const FIGURE_CSV: &str = "figure-10.csv";
+/// File name, without ending, of the fragility curves and the figure of them.
+pub const FRAGILITY: &str = "fragility";
 
-/// Sums up the rows and writes `summary.json` and Figure 10 (SVG, PNG, CSV) into an existing folder.
+/// Sums up the rows and writes `summary.json` and the figures (SVG, PNG, CSV) into an existing folder: the quantity
+/// over kn, and for a capacity its fragility curves.
 ///
 /// The same study and rows give the same bytes. Each file is written under a temporary name and renamed, so that a
 /// reader never sees half of one.
@@ -40,17 +39,25 @@ pub(crate) fn write_summary(summary: &Summary, dir: &Path) -> Result<()> {
     let title = title(summary);
     let json = serde_json::to_string_pretty(summary).context("the summary cannot be written as JSON")? + "\n";
     replace_file(&dir.join(SUMMARY_JSON), json.as_bytes())?;
-    replace_file(&dir.join(FIGURE_CSV), csv(&curves).as_bytes())?;
-    replace_file(&dir.join(FIGURE_SVG), svg(&title, &curves)?.as_bytes())?;
-    write_png(dir, &title, &curves)
+    let name = curves.first().map_or("figure", |curve| curve.quantity.figure());
+    replace_file(&dir.join(format!("{name}.csv")), csv(&curves).as_bytes())?;
+    write_figure(dir, name, &Plot::new(&title, &curves, 1), &Plot::new(&title, &curves, IMAGE_SCALE))?;
+    let ladders = ladders(summary);
+    if ladders.is_empty() {
+        return Ok(());
+    }
+    replace_file(&dir.join(format!("{FRAGILITY}.csv")), fragility_csv(&summary.arms).as_bytes())?;
+    let figure = |scale| FragilityPlot::new(&title, &ladders, scale);
+    write_figure(dir, FRAGILITY, &figure(1), &figure(IMAGE_SCALE))
 }
 
-/// Lets the image writer, which wants a path, write a temporary file, flushes it to the disk and gives it its name.
-fn write_png(dir: &Path, title: &str, curves: &[Curve]) -> Result<()> {
-    let path = dir.join(FIGURE_PNG);
-    // The ending is kept: the image writer chooses its format by it.
-    let temporary = dir.join(format!(".unfinished-{FIGURE_PNG}"));
-    let written = png_into(&temporary, title, curves)
+/// Writes a figure as SVG and PNG; `large` is the same one at [`IMAGE_SCALE`].
+fn write_figure(dir: &Path, name: &str, figure: &impl Figure, large: &impl Figure) -> Result<()> {
+    replace_file(&dir.join(format!("{name}.svg")), svg(figure)?.as_bytes())?;
+    // Lets the image writer, which wants a path and chooses its format by the ending, write a temporary file, flushes it to
+    // the disk and gives it its name.
+    let (path, temporary) = (dir.join(format!("{name}.png")), dir.join(format!(".unfinished-{name}.png")));
+    let written = png_into(&temporary, large)
         .and_then(|()| Ok(fs::File::open(&temporary)?.sync_all()?))
         .and_then(|()| Ok(fs::rename(&temporary, &path)?));
     if written.is_err() {

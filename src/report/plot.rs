@@ -1,4 +1,4 @@
-//! How Figure 10 looks: displacement at the wall's top against joint stiffness, legend and remarks below.
+//! How the figure over kn looks: the quantity against joint stiffness, legend and remarks below.
 //!
 //! Colours are those of Okabe and Ito, told apart with the common colour vision deficiencies; every arm has its own
 //! marker as well, and bands are edged with dashes, so that the figure survives a print in grey.
@@ -8,6 +8,7 @@ use plotters::coord::types::RangedCoordf64;
 use plotters::element::{DynElement, IntoDynElement};
 use plotters::prelude::*;
 
+use crate::report::draw::Figure;
 use crate::report::figure::{Curve, Point};
 use crate::report::number::range;
 
@@ -15,7 +16,7 @@ use crate::report::number::range;
 pub const FONT_NAME: &str = "DejaVu Sans, Verdana, sans-serif";
 
 /// Okabe and Ito's palette without yellow, which is hard to see on white.
-const COLOURS: [RGBColor; 7] = [
+pub(super) const COLOURS: [RGBColor; 7] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -33,17 +34,18 @@ const MARKERS: [&[(i32, i32)]; 4] = [
 ];
 
 /// Width, and height without the legend (pixels at scale 1).
-const WIDTH: u32 = 960;
-const PLOT_HEIGHT: u32 = 560;
+pub(super) const WIDTH: u32 = 960;
+pub(super) const PLOT_HEIGHT: u32 = 560;
 /// Height of a line of the legend, and where its text begins.
-const LINE: u32 = 26;
-const LEGEND_TEXT: i32 = 150;
-const LEGEND_MARK: [i32; 2] = [98, 138];
+pub(super) const LINE: u32 = 26;
+pub(super) const LEGEND_TEXT: i32 = 150;
+pub(super) const LEGEND_MARK: [i32; 2] = [98, 138];
 /// Transparency of a band.
-const BAND_ALPHA: f64 = 0.18;
+pub(super) const BAND_ALPHA: f64 = 0.18;
 
 type Chart<'a, DB> = ChartContext<'a, DB, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
-type Drawn<DB> = Result<(), DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
+/// What drawing gives.
+pub type Drawn<DB> = Result<(), DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
 
 /// What is drawn, at which scale.
 pub struct Plot<'c> {
@@ -56,29 +58,11 @@ pub struct Plot<'c> {
 }
 
 impl<'c> Plot<'c> {
-    /// Prepares the curves for an area of [`Plot::size`] pixels.
+    /// Prepares the curves.
     pub fn new(title: &'c str, curves: &'c [Curve], scale: u32) -> Self {
         let remarks = curves.iter().filter_map(Curve::remark).collect();
         let kn = range(curves.iter().flat_map(|curve| &curve.points).map(|point| point.kn));
         Plot { title, curves, remarks, scale, exponent: kn.map_or(0, |[low, _]| exponent(low)) }
-    }
-
-    /// Width and height (pixels): the plot, a line of legend per curve and per band, a line per remark.
-    pub fn size(&self) -> (u32, u32) {
-        let bands = self.curves.iter().filter(|curve| curve.has_band()).count();
-        let lines = (self.curves.len() + bands + self.remarks.len()) as u32;
-        (WIDTH * self.scale, (PLOT_HEIGHT + LINE * (lines + 1)) * self.scale)
-    }
-
-    /// Draws everything.
-    ///
-    /// # Errors
-    /// Those of the backend.
-    pub fn draw<DB: DrawingBackend>(&self, root: &DrawingArea<DB, Shift>) -> Drawn<DB> {
-        root.fill(&WHITE)?;
-        let (plot, legend) = root.split_vertically(self.px(PLOT_HEIGHT as i32));
-        self.chart(&plot)?;
-        self.legend(&legend)
     }
 
     fn chart<DB: DrawingBackend>(&self, area: &DrawingArea<DB, Shift>) -> Drawn<DB> {
@@ -105,7 +89,7 @@ impl<'c> Plot<'c> {
             .x_label_formatter(&|value| format!("{value:.x_decimals$}"))
             .y_label_formatter(&|value| format!("{value:.y_decimals$}"))
             .x_desc(format!("normal stiffness of the joints kn (10{} Pa/m)", superscript(self.exponent)))
-            .y_desc("out-of-plane displacement at the top (mm)")
+            .y_desc(self.curves.first().map_or("", |curve| curve.quantity.axis()))
             .draw()?;
         for (index, curve) in self.curves.iter().enumerate() {
             self.band(&mut chart, curve, index)?;
@@ -117,7 +101,7 @@ impl<'c> Plot<'c> {
             let place = ((x[0] + x[1]) / 2.0, (y[0] + y[1]) / 2.0);
             let style = self.font(22).pos(centred());
             chart.draw_series([Text::new(
-                "no wall reached equilibrium: there is nothing to draw",
+                "no wall brings a value: there is nothing to draw",
                 place,
                 style,
             )])?;
@@ -258,12 +242,28 @@ impl<'c> Plot<'c> {
     }
 }
 
+impl Figure for Plot<'_> {
+    /// The plot, a line of legend per curve and per band, a line per remark.
+    fn size(&self) -> (u32, u32) {
+        let bands = self.curves.iter().filter(|curve| curve.has_band()).count();
+        let lines = (self.curves.len() + bands + self.remarks.len()) as u32;
+        (WIDTH * self.scale, (PLOT_HEIGHT + LINE * (lines + 1)) * self.scale)
+    }
+
+    fn draw<DB: DrawingBackend>(&self, root: &DrawingArea<DB, Shift>) -> Drawn<DB> {
+        root.fill(&WHITE)?;
+        let (plot, legend) = root.split_vertically(self.px(PLOT_HEIGHT as i32));
+        self.chart(&plot)?;
+        self.legend(&legend)
+    }
+}
+
 fn centred() -> plotters::style::text_anchor::Pos {
     use plotters::style::text_anchor::{HPos, Pos, VPos};
     Pos::new(HPos::Center, VPos::Center)
 }
 
-fn left() -> plotters::style::text_anchor::Pos {
+pub(super) fn left() -> plotters::style::text_anchor::Pos {
     use plotters::style::text_anchor::{HPos, Pos, VPos};
     Pos::new(HPos::Left, VPos::Center)
 }
@@ -291,7 +291,7 @@ fn power_of_ten(exponent: i32) -> f64 {
 }
 
 /// Decimals that tell the ticks of an axis of this length apart.
-fn decimals(length: f64) -> usize {
+pub(super) fn decimals(length: f64) -> usize {
     (1 - exponent(length)).max(0) as usize
 }
 

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::ensemble::Row;
-use crate::model::Outcome;
+use crate::ensemble::{Observed, Quantity, Row};
+use crate::report::number::significant;
 use crate::study::{Arm, Study};
 
 /// One arm at one kn: what was planned, how it ended, and the values of the walls that stand.
@@ -19,19 +19,26 @@ pub struct Population {
     pub planned: u64,
     /// Number of walls by the name of their outcome.
     pub outcomes: BTreeMap<String, u64>,
-    /// Displacement at the wall's top (m) by member, of the walls in equilibrium.
+    /// What is observed.
+    pub quantity: Quantity,
+    /// Its value by member, of the walls that bring one.
     pub values: BTreeMap<u64, f64>,
+    /// By member, what the value is known to exceed, of walls that stood to the end of the load path.
+    pub above: BTreeMap<u64, f64>,
+    /// Number of walls by the name of the mechanism by which they fell.
+    pub modes: BTreeMap<String, u64>,
 }
 
 impl Population {
     /// Collects the rows of one arm at one kn, whatever their order.
     ///
-    /// A row that is not in equilibrium is counted by its outcome and brings no value.
+    /// A row that did not end as the quantity needs it is counted by its outcome and brings no value.
     pub fn collect<'a>(
         arm: &str,
         fixed: bool,
         kn: f64,
         planned: u64,
+        quantity: Quantity,
         rows: impl Iterator<Item = &'a Row>,
     ) -> Self {
         let mut population = Population {
@@ -40,21 +47,22 @@ impl Population {
             kn,
             planned,
             outcomes: BTreeMap::new(),
+            quantity,
             values: BTreeMap::new(),
+            above: BTreeMap::new(),
+            modes: BTreeMap::new(),
         };
         for row in rows {
             *population.outcomes.entry(row.outcome.name().to_string()).or_insert(0) += 1;
-            if row.outcome != Outcome::Equilibrium {
-                continue;
+            if let Some(mechanism) = &row.mechanism {
+                *population.modes.entry(mechanism.mode.name().to_string()).or_insert(0) += 1;
             }
-            if let Some(value) = row.top_displacement_m.filter(|value| value.is_finite()) {
-                let earlier = population.values.insert(row.member, value);
-                crate::check!(
-                    earlier.is_none(),
-                    "member {} of arm {arm} has two rows at kn {kn}",
-                    row.member
-                );
-            }
+            let earlier = match quantity.observed(row) {
+                Observed::Value(value) => population.values.insert(row.member, value),
+                Observed::Above(limit) => population.above.insert(row.member, limit),
+                Observed::Nothing => None,
+            };
+            crate::check!(earlier.is_none(), "member {} of arm {arm} has two rows at kn {kn}", row.member);
         }
         population
     }
@@ -64,47 +72,74 @@ impl Population {
         self.values.values().copied().collect()
     }
 
-    /// Walls that were planned and bring no value: failed or missing.
-    pub fn lost(&self) -> u64 {
-        self.planned.saturating_sub(self.values.len() as u64)
+    /// The values of which moments can be taken: none where some wall stood to the end, as its value is not known.
+    pub fn complete(&self) -> Vec<f64> {
+        if self.above.is_empty() { self.ordered() } else { Vec::new() }
     }
 
-    /// Says which walls are not in the mean; `None` when all are.
+    /// What the values of walls that stood to the end are known to exceed, in the order of the members.
+    pub fn limits(&self) -> Vec<f64> {
+        self.above.values().copied().collect()
+    }
+
+    /// Walls that were planned and say nothing: failed or missing.
+    pub fn lost(&self) -> u64 {
+        self.planned.saturating_sub((self.values.len() + self.above.len()) as u64)
+    }
+
+    /// Says which walls are not in the numbers; `None` when all are.
     pub fn note(&self) -> Option<String> {
-        if self.lost() == 0 {
-            return None;
+        let mut parts = Vec::new();
+        if !self.above.is_empty() {
+            let least = self.limits().into_iter().fold(f64::INFINITY, f64::min);
+            parts.push(format!(
+                "{} of {} walls stood to the end of the load path ({} {}): mean, sigma and COV are not defined",
+                self.above.len(),
+                self.planned,
+                significant(self.quantity.shown(least), 3),
+                self.quantity.shown_unit()
+            ));
         }
+        if self.lost() > 0 {
+            let used = self.values.len() + self.above.len();
+            let reasons = self.reasons().join(", ");
+            parts.push(format!("over {used} of {} walls; not in the numbers: {reasons}", self.planned));
+        }
+        (!parts.is_empty()).then(|| parts.join("; "))
+    }
+
+    /// Why walls are not in the numbers, with their counts.
+    fn reasons(&self) -> Vec<String> {
+        let wanted = self.quantity.wanted_outcome();
+        let stood = if self.above.is_empty() { "" } else { "equilibrium" };
         let mut reasons: Vec<String> = self
             .outcomes
             .iter()
-            .filter(|(name, _)| *name != Outcome::Equilibrium.name())
+            .filter(|(name, _)| *name != wanted && *name != stood)
             .map(|(name, count)| format!("{count} {}", name.replace('_', " ")))
             .collect();
         let rows: u64 = self.outcomes.values().sum();
         if rows < self.planned {
             reasons.push(format!("{} without a result", self.planned - rows));
         }
-        let standing = self.outcomes.get(Outcome::Equilibrium.name()).copied().unwrap_or(0);
-        if standing > self.values.len() as u64 {
-            reasons.push(format!("{} without a finite displacement", standing - self.values.len() as u64));
+        let ended = self.outcomes.get(wanted).copied().unwrap_or(0);
+        if ended > self.values.len() as u64 {
+            reasons.push(format!("{} without a finite value", ended - self.values.len() as u64));
         }
-        Some(format!(
-            "over {} of {} walls; not in the numbers: {}",
-            self.values.len(),
-            self.planned,
-            reasons.join(", ")
-        ))
+        reasons
     }
 }
 
 /// Every population of a study, arm by arm in the order of the study, kn ascending.
 pub fn populations(study: &Study, rows: &[Row]) -> Vec<Population> {
+    let quantity = Quantity::of(&study.protocol);
     let mut all = Vec::with_capacity(study.arms.len() * study.kn_points.len());
     for (arm_index, arm) in study.arms.iter().enumerate() {
         for (point, &kn) in study.kn_points.iter().enumerate() {
             let own =
                 rows.iter().filter(|row| row.arm_index as usize == arm_index && row.point as usize == point);
-            all.push(Population::collect(&arm.name, nothing_drawn(study, arm), kn, arm.members, own));
+            let fixed = nothing_drawn(study, arm);
+            all.push(Population::collect(&arm.name, fixed, kn, arm.members, quantity, own));
         }
     }
     all

@@ -68,7 +68,8 @@ pub fn judge(claim: &Claim, populations: &[Population]) -> Published {
             Evidence::within(&numbers, *low, *high, theirs, &[arm])
         }
         ClaimTest::Between { arm, of } => between(populations, arm, of),
-        ClaimTest::FallsWithKn => falls_with_kn(populations),
+        ClaimTest::FallsWithKn => along_kn(populations, Trend::Falls),
+        ClaimTest::RisesWithKn => along_kn(populations, Trend::Rises),
     };
     let (verdict, mut why) = weigh(&evidence.standings);
     if let Some(remark) = lost_walls(populations, &evidence.arms) {
@@ -162,7 +163,7 @@ fn covs(populations: &[Population], arm: &str) -> Vec<Number> {
     of_arm(populations, arm)
         .into_iter()
         .map(|population| {
-            let cov = stats::Summary::of(&population.ordered()).cov;
+            let cov = stats::Summary::of(&population.complete()).cov;
             Number::at(population.kn, cov.value, cov.interval)
         })
         .collect()
@@ -212,21 +213,36 @@ fn between_at(p: &Number, q: &Number, of: &[String; 2]) -> Standing {
     }
 }
 
-/// The mean of every arm falls from each kn to the next: the ratio of neighbouring means, wall by wall, is below one.
-fn falls_with_kn(populations: &[Population]) -> Evidence {
+/// Where a mean goes as kn grows.
+#[derive(Clone, Copy)]
+enum Trend {
+    Falls,
+    Rises,
+}
+
+/// The mean of every arm falls (rises) from each kn to the next: the ratio of neighbouring means, wall by wall and smaller
+/// over larger as stated, is below one.
+fn along_kn(populations: &[Population], trend: Trend) -> Evidence {
     let mut numbers = Vec::new();
     let arms = arm_names(populations);
     for arm in &arms {
         for pair in of_arm(populations, arm).windows(2) {
-            let ratio = ratio(pair[1], pair[0]);
+            let ratio = match trend {
+                Trend::Falls => ratio(pair[1], pair[0]),
+                Trend::Rises => ratio(pair[0], pair[1]),
+            };
             let place = format!("kn = {} to {} in arm {arm}", stiffness(pair[0].kn), stiffness(pair[1].kn));
             numbers.push(Number { place, value: ratio.value, interval: ratio.interval });
         }
     }
+    let (ours, theirs) = match trend {
+        Trend::Falls => ("lower", "falls"),
+        Trend::Rises => ("higher", "rises"),
+    };
     Evidence {
         standings: numbers.iter().map(Number::below_one).collect(),
-        ours: format!("mean over the mean at the next lower kn: {}", spread(&numbers)),
-        theirs: "the mean of every arm falls as kn grows (every ratio below 1)".to_string(),
+        ours: format!("mean over the mean at the next {ours} kn: {}", spread(&numbers)),
+        theirs: format!("the mean of every arm {theirs} as kn grows (every ratio below 1)"),
         arms,
     }
 }

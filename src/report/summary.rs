@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use crate::ensemble::Row;
+use crate::ensemble::{Quantity, Row};
 use crate::report::compare::{Comparison, comparisons};
 use crate::report::population::{Population, populations};
 use crate::report::published::{Published, judge_all};
-use crate::stats;
+use crate::stats::{self, EmpiricalStep};
 use crate::study::{Arm, Study};
 
 /// What came out of a study. Intervals are at 95 %; what is not defined is null, never zero.
@@ -43,11 +43,18 @@ pub struct ArmSummary {
     pub random: bool,
     /// Walls that the study asks for.
     pub members: u64,
-    /// Walls by outcome; only `equilibrium` enters the statistics.
+    /// Walls by outcome; only `equilibrium` (of a collapse angle, `collapsed`) enters the statistics.
     pub outcomes: BTreeMap<String, u64>,
     /// Walls that enter the statistics.
     pub in_mean: u64,
-    /// What is described: `top_displacement`, the largest out-of-plane displacement at the wall's top.
+    /// Walls that stood to the end of a path that is meant to bring them down; their value is not known.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub stood_to_the_end: u64,
+    /// Walls by mechanism, of those that fell and were watched.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub failure_modes: BTreeMap<String, u64>,
+    /// What is described: `top_displacement`, the largest out-of-plane displacement at the wall's top, or `collapse_angle`,
+    /// the tilt at which the wall falls.
     pub quantity: &'static str,
     /// Its unit.
     pub unit: &'static str,
@@ -69,11 +76,22 @@ pub struct ArmSummary {
     pub cov_bootstrap_ci: Option<[f64; 2]>,
     /// Quantiles.
     pub quantiles: Vec<QuantileEntry>,
+    /// The empirical distribution of the capacity, P(collapse | load), in the quantity's unit, with its 95 % bands.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub fragility: Vec<EmpiricalStep>,
     /// Says which walls are not in the numbers; null when all are.
     pub note: Option<String>,
+    /// How the quantity is shown.
+    #[serde(skip)]
+    pub shown: Quantity,
 }
 
-/// A quantile of the walls in equilibrium.
+/// For serde: a count that says nothing is left out.
+fn is_zero(count: &u64) -> bool {
+    *count == 0
+}
+
+/// A quantile of the walls that bring a value.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct QuantileEntry {
     /// Probability.
@@ -124,7 +142,7 @@ pub(crate) fn describe(
     seed: u64,
     parameters: BTreeMap<String, serde_json::Value>,
 ) -> ArmSummary {
-    let values = population.ordered();
+    let values = population.complete();
     let statistics = stats::Summary::of(&values);
     let name = format!("{} {:e}", population.arm, population.kn);
     let [sigma_bootstrap, cov_bootstrap] = stats::spread_bootstrap(&values, REPLICATES, seed, &name);
@@ -136,8 +154,10 @@ pub(crate) fn describe(
         members: population.planned,
         outcomes: population.outcomes.clone(),
         in_mean: values.len() as u64,
-        quantity: "top_displacement",
-        unit: "m",
+        stood_to_the_end: population.above.len() as u64,
+        failure_modes: population.modes.clone(),
+        quantity: population.quantity.name(),
+        unit: population.quantity.unit(),
         mean: statistics.mean.value,
         mean_ci: statistics.mean.interval,
         sigma: statistics.sigma.value,
@@ -147,7 +167,12 @@ pub(crate) fn describe(
         cov_ci: statistics.cov.interval,
         cov_bootstrap_ci: cov_bootstrap.interval,
         quantiles: PROBABILITIES.map(|p| QuantileEntry::of(&values, p)).to_vec(),
+        fragility: match population.quantity {
+            Quantity::TopDisplacement => Vec::new(),
+            Quantity::CollapseAngle => stats::empirical(&population.ordered(), &population.limits()),
+        },
         note: population.note(),
+        shown: population.quantity,
     }
 }
 

@@ -1,14 +1,21 @@
 //! The table that `run` prints: arms, ratios, published statements. At most 110 columns wide.
 
+use crate::ensemble::Quantity;
 use crate::report::number::{or_dash, shortened, with_interval};
 use crate::report::summary::{ArmSummary, Summary};
 
 const WIDTH: usize = 110;
-const EXPLANATION: &str = "Each line is one arm of the study at one normal stiffness kn of the joints. The quantity is \
-    the largest out-of-plane displacement at the wall's top under the full load. Numbers in brackets are 95 % \
-    intervals; a dash means not defined (one wall has no sigma). Failed walls (collapsed, not converged, non-finite, \
-    invalid geometry) are counted and are not in the mean. sigma: standard deviation between walls; COV: sigma over \
-    mean.";
+
+/// What the table shows, in words.
+fn explanation(quantity: Quantity) -> String {
+    format!(
+        "Each line is one arm of the study at one normal stiffness kn of the joints. The quantity is {}. Numbers in \
+         brackets are 95 % intervals; a dash means not defined (one wall has no sigma). Failed walls ({}) are counted \
+         and are not in the mean. sigma: standard deviation between walls; COV: sigma over mean.",
+        quantity.words(),
+        quantity.failed_words()
+    )
+}
 
 /// The summary as text for a terminal, with a line at its head that explains it.
 pub fn terminal_table(summary: &Summary) -> String {
@@ -17,7 +24,9 @@ pub fn terminal_table(summary: &Summary) -> String {
         text.push_str(&wrapped("", &summary.question));
     }
     text.push('\n');
-    text.push_str(&wrapped("", EXPLANATION));
+    if let Some(arm) = summary.arms.first() {
+        text.push_str(&wrapped("", &explanation(arm.shown)));
+    }
     text.push('\n');
     text.push_str(&arms(&summary.arms));
     text.push_str(&ratios(summary));
@@ -32,22 +41,25 @@ fn heading(summary: &Summary) -> String {
 
 /// One line per arm and kn, and the notes below.
 fn arms(arms: &[ArmSummary]) -> String {
-    let header = ["arm", "kn Pa/m", "walls", "failed", "mean mm", "sigma mm", "COV %"].map(String::from);
-    let mut rows = vec![header.to_vec()];
+    let unit = arms.first().map_or("", |arm| arm.shown.shown_unit());
+    let in_unit = |name: &str| format!("{name} {unit}");
+    let counts = ["arm", "kn Pa/m", "walls", "failed"].map(String::from);
+    let header = counts.into_iter().chain([in_unit("mean"), in_unit("sigma"), "COV %".to_string()]);
+    let mut rows = vec![header.collect()];
     for arm in arms {
-        let scaled = |ci: Option<[f64; 2]>, by: f64| ci.map(|ci| ci.map(|x| x * by));
+        let shown = |x: f64| arm.shown.shown(x);
         let mean = match arm.random {
-            true => with_interval(arm.mean.map(|x| x * 1e3), scaled(arm.mean_ci, 1e3), 3),
-            false => or_dash(arm.mean.map(|x| x * 1e3), 3),
+            true => with_interval(arm.mean.map(shown), arm.mean_ci.map(|ci| ci.map(shown)), 3),
+            false => or_dash(arm.mean.map(shown), 3),
         };
         rows.push(vec![
             arm.arm.clone(),
             format!("{:e}", arm.kn_pa_per_m),
             arm.members.to_string(),
-            (arm.members - arm.in_mean.min(arm.members)).to_string(),
+            (arm.members - (arm.in_mean + arm.stood_to_the_end).min(arm.members)).to_string(),
             mean,
-            with_interval(arm.sigma.map(|x| x * 1e3), scaled(arm.sigma_ci, 1e3), 3),
-            with_interval(arm.cov.map(|x| x * 1e2), scaled(arm.cov_ci, 1e2), 3),
+            with_interval(arm.sigma.map(shown), arm.sigma_ci.map(|ci| ci.map(shown)), 3),
+            with_interval(arm.cov.map(|x| x * 1e2), arm.cov_ci.map(|ci| ci.map(|x| x * 1e2)), 3),
         ]);
     }
     let mut text = aligned(rows);
@@ -89,7 +101,7 @@ fn ratios(summary: &Summary) -> String {
     }
     let first: Vec<String> =
         std::iter::once("kn Pa/m".to_string()).chain(kns.iter().map(|kn| format!("{kn:e}"))).collect();
-    let mut text = "\nRatios of mean displacements (without brackets: neither arm is random)\n".to_string();
+    let mut text = "\nRatios of means (without brackets: neither arm is random)\n".to_string();
     for group in fitting(&first, &columns) {
         let rows = (0..first.len())
             .map(|row| {

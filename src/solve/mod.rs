@@ -16,4 +16,6 @@ pub use status::{Equilibrate, Settled, Status};
 pub enum Solver {
     /// Central differences with local damping: 3DEC- and YADE-like.
     Explicit(explicit::Settings),
+    /// Newton's method from equilibrium to equilibrium; what it cannot find is confirmed by the explicit solver.
+    Implicit(implicit::Settings),
 }

@@ -1,6 +1,7 @@
 //! From the raw tree of study.toml to checked parts.
 
-use crate::protocol::{Ends, Lateral, Protocol, Restraint};
+use crate::math::{radians, tan};
+use crate::protocol::{Base, Lateral, Protocol, Rate, Restraint, Tilting, Turning};
 use crate::solve::Solver;
 use crate::solve::explicit::Settings;
 use crate::study::arm;
@@ -35,10 +36,7 @@ pub fn parts(root: &Node, notes: &mut Notes, catalogue: &mut Catalogue) -> Optio
     let density = top.table("block").and_then(|mut t| quantity(&mut t, "density_kg_per_m3", catalogue));
     let joints = top.table("joint").and_then(|mut t| joint(&mut t, catalogue));
     let protocol = top.table("load").and_then(|mut t| load(&mut t));
-    let ends = top.table("restraint").and_then(|mut t| {
-        let (base, ends) = (t.choice_name("base"), t.choice("ends"));
-        base.and::<Ends>(ends)
-    });
+    let restraint = top.table("restraint").and_then(|mut t| restraint(&mut t));
     let solver = top.table("solver").and_then(|mut t| solver(&mut t));
     let arms = arm::arms(&mut top, &wall.unwrap_or_default(), density.as_ref(), catalogue);
     let (question, seed) = study?;
@@ -50,7 +48,7 @@ pub fn parts(root: &Node, notes: &mut Notes, catalogue: &mut Catalogue) -> Optio
         joint,
         kn_points,
         protocol: protocol?,
-        restraint: Restraint::at_ends(ends?),
+        restraint: restraint?,
         sub_contacts,
         solver: solver?,
     })
@@ -81,12 +79,46 @@ fn joint(t: &mut Reader<'_>, catalogue: &mut Catalogue) -> Option<(Joint, Vec<f6
 }
 
 fn load(t: &mut Reader<'_>) -> Option<Protocol> {
-    let protocol = t.choice_name("protocol");
+    match t.chosen()? {
+        "lateral" => lateral(t).map(Protocol::Lateral),
+        _ => tilting(t).map(Protocol::Tilting),
+    }
+}
+
+fn lateral(t: &mut Reader<'_>) -> Option<Lateral> {
     let reals = t.reals(["mean_pressure_pa", "base_over_top", "collapse_share"]);
     let steps = t.whole32("steps");
     let [mean_pressure, base_over_top, collapse_share] = reals?;
-    protocol?;
-    Some(Protocol::Lateral(Lateral { mean_pressure, base_over_top, steps: steps?, collapse_share }))
+    Some(Lateral { mean_pressure, base_over_top, steps: steps?, collapse_share })
+}
+
+fn tilting(t: &mut Reader<'_>) -> Option<Tilting> {
+    let towards = t.choice("towards");
+    let reals = t.reals(["step_deg", "end_deg", "bracket_deg", "runaway_share"]);
+    let turns = t.has("turning");
+    let turning = t.table("turning").and_then(|mut t| {
+        let [rate, damping, step_safety] = t.reals(["rate_deg_per_s", "damping", "step_safety"])?;
+        Some(Turning { rate: radians(rate), damping, step_safety })
+    });
+    let [step, end, bracket, collapse_share] = reals?;
+    let rate = if turns { Rate::Dynamic(turning?) } else { Rate::Static };
+    let (step, end, bracket) = (radians(step), radians(end), radians(bracket));
+    Some(Tilting { towards: towards?, step, end, bracket, collapse_share, rate })
+}
+
+fn restraint(t: &mut Reader<'_>) -> Option<Restraint> {
+    let ends = t.choice("ends");
+    let phi_deg = t.has("platform_phi_deg").then(|| t.real("platform_phi_deg"));
+    let strip = (t.chosen()? == "strip").then(|| t.real("strip_height_m"));
+    let tan_phi = match phi_deg {
+        Some(phi_deg) => Some(tan(radians(phi_deg?))),
+        None => None,
+    };
+    let strip_height = match strip {
+        Some(height) => Some(height?),
+        None => None,
+    };
+    Some(Restraint { base: Base { tan_phi, strip_height }, ends: ends? })
 }
 
 fn solver(t: &mut Reader<'_>) -> Option<Solver> {

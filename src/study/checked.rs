@@ -135,6 +135,8 @@ pub enum ClaimTest {
     },
     /// The mean of every arm falls as kn grows.
     FallsWithKn,
+    /// The mean of every arm rises as kn grows.
+    RisesWithKn,
 }
 
 /// An input file of a study and its hash.

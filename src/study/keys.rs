@@ -8,6 +8,8 @@ const CUT: &[&str] = &["cut"];
 const REGULAR: &[&str] = &["continuous", "discontinuous"];
 const RUNNING: &[&str] = &["discontinuous"];
 const RANDOM: &[&str] = &["coursed", "cut"];
+const LATERAL: &[&str] = &["lateral"];
+const TILTING: &[&str] = &["tilting"];
 
 /// A length above 0 (m); a kilometre is a slip of the unit.
 const SIZE: Interval = Interval::above(0.0, 1000.0);
@@ -145,33 +147,84 @@ static JOINT: Section = Section {
 
 static LOAD: Section = Section {
     title: "[load]",
-    doc: "Gravity, then a trapezoidal pressure on the back face in equal steps.",
-    chooser: None,
+    doc: "Gravity, then a trapezoidal pressure on the back face in equal steps, or a platform that tilts.",
+    chooser: Some("protocol"),
     keys: &[&[
-        Key::new("protocol", Kind::Choice(&["lateral"]), Required, "What is done to each wall."),
         Key::new(
-            "mean_pressure_pa",
-            real("Pa", Interval::above(0.0, 1e7)),
+            "protocol",
+            Kind::Choice(&["lateral", "tilting"]),
             Required,
-            "Mean horizontal pressure.",
+            "What is done to each wall: pressure on its back, or a tilting table.",
         ),
+        Key::new("mean_pressure_pa", real("Pa", Interval::above(0.0, 1e7)), Required, "Mean horizontal pressure.")
+            .only(LATERAL),
         Key::new(
             "base_over_top",
             real("1", Interval::closed(0.01, 100.0)),
             Required,
             "Pressure at the base over pressure at the top.",
-        ),
+        )
+        .only(LATERAL),
         Key::new(
             "steps",
             Kind::Whole { low: 1, high: 10_000 },
             Default("1"),
             "Equal load steps after gravity.",
-        ),
+        )
+        .only(LATERAL),
         Key::new(
             "collapse_share",
             real("1", Interval::above(0.0, 10.0)),
             Default("0.5"),
             "The wall counts as collapsed when its top has moved by this share of its base thickness.",
+        )
+        .only(LATERAL),
+        Key::new(
+            "towards",
+            Kind::Choice(&["x+", "x-", "y+", "y-"]),
+            Default("\"y+\""),
+            "The side of the platform that goes down; y+ is the wall's front.",
+        )
+        .only(TILTING),
+        Key::new("step_deg", real("deg", Interval::above(0.0, 10.0)), Default("0.5"), "Tilt from step to step.")
+            .only(TILTING),
+        Key::new("end_deg", real("deg", Interval::above(0.0, 89.0)), Default("89"), "Largest tilt.").only(TILTING),
+        Key::new(
+            "bracket_deg",
+            real("deg", Interval::above(1e-4, 10.0)),
+            Default("0.01"),
+            "The collapse angle is bracketed to this, by going back and halving the step.",
+        )
+        .only(TILTING),
+        Key::new(
+            "runaway_share",
+            real("1", Interval::above(0.0, 1.0)),
+            Default("0.1"),
+            "A wall falls when any block has moved by this share of the base thickness since the last rest.",
+        )
+        .only(TILTING),
+        Key::new(
+            "turning",
+            Kind::Table(&TURNING),
+            Optional,
+            "The platform turns steadily instead of stopping at every step.",
+        )
+        .only(TILTING),
+    ]],
+};
+
+static TURNING: Section = Section {
+    title: "[load.turning]",
+    doc: "A platform that turns steadily; the wall moves in true time by the explicit solver.",
+    chooser: None,
+    keys: &[&[
+        Key::new("rate_deg_per_s", real("deg/s", Interval::closed(1e-3, 1e3)), Required, "Tilt rate."),
+        Key::new("damping", real("1", Interval::below(0.0, 1.0)), Default("0.05"), "Local damping coefficient."),
+        Key::new(
+            "step_safety",
+            real("1", Interval::above(0.0, 1.0)),
+            Default("0.5"),
+            "Share of the critical step taken.",
         ),
     ]],
 };
@@ -179,9 +232,27 @@ static LOAD: Section = Section {
 static RESTRAINT: Section = Section {
     title: "[restraint]",
     doc: "How base and ends are held.",
-    chooser: None,
+    chooser: Some("base"),
     keys: &[&[
-        Key::new("base", Kind::Choice(&["fixed"]), Required, "The ground under the wall."),
+        Key::new(
+            "base",
+            Kind::Choice(&["fixed", "strip"]),
+            Required,
+            "A fixed platform under the wall, with an ordinary joint; with a fixed strip at the foot's downhill side.",
+        ),
+        Key::new(
+            "strip_height_m",
+            real("m", Interval::above(0.0, 1.0)),
+            Required,
+            "Height of the strip; the wall's hinge is at its edge.",
+        )
+        .only(&["strip"]),
+        Key::new(
+            "platform_phi_deg",
+            real("deg", Interval::closed(0.0, 85.0)),
+            Optional,
+            "Friction angle of the joint with platform and strip; without it that of the wall's joints.",
+        ),
         Key::new(
             "ends",
             Kind::Choice(&["free", "fixed_end_blocks", "out_of_plane", "joint_springs"]),
@@ -494,7 +565,7 @@ pub static CLAIM: Section =
             Key::new("why", Kind::Text, Required, "Why the tolerance is what it is."),
             Key::new(
                 "test",
-                Kind::Choice(&["ratio_of_means", "cov", "between", "falls_with_kn"]),
+                Kind::Choice(&["ratio_of_means", "cov", "between", "falls_with_kn", "rises_with_kn"]),
                 Required,
                 "How it is judged.",
             ),

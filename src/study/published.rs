@@ -25,8 +25,10 @@ fn claim(t: &mut Reader<'_>, arms: Option<&[String]>) -> Option<Claim> {
 
 fn test(t: &mut Reader<'_>, arms: Option<&[String]>) -> Option<ClaimTest> {
     let chosen = t.chosen()?;
-    if chosen == "falls_with_kn" {
-        return Some(ClaimTest::FallsWithKn);
+    match chosen {
+        "falls_with_kn" => return Some(ClaimTest::FallsWithKn),
+        "rises_with_kn" => return Some(ClaimTest::RisesWithKn),
+        _ => {}
     }
     let arm = arm_name(t, "arm", arms);
     match chosen {

@@ -27,6 +27,7 @@ fn every_key_carries_its_unit() {
         ("kg/m3", "_kg_per_m3"),
         ("Pa", "_pa"),
         ("m3", "_m3"),
+        ("deg/s", "_deg_per_s"),
         ("deg", "_deg"),
         ("m", "_m"),
         ("s", "_s"),

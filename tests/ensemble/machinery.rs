@@ -39,7 +39,11 @@ fn made_up(study: &Study, task: Task) -> Row {
     let top = stream.uniform() / 3.0 / kn;
     let collapsed = arm == 1 && member % 4 == 3;
     let step = |load_factor, share| StepRow {
-        load_factor,
+        load_factor: Some(load_factor),
+        tilt_deg: None,
+        left_m: Some(0.0),
+        centre_m: None,
+        right_m: Some(top),
         top_displacement_m: Some(top * share),
         unbalanced_ratio: (!collapsed).then_some(1e-5 / (3.0 + member as f64)),
         solver_steps: 100 + member,
@@ -56,6 +60,10 @@ fn made_up(study: &Study, task: Task) -> Row {
             Outcome::Equilibrium
         },
         top_displacement_m: (!collapsed).then_some(top),
+        collapse_angle_deg: None,
+        fails_at_deg: None,
+        largest_tilt_deg: None,
+        mechanism: None,
         stones: 25,
         joints: 60,
         wedges: 0,

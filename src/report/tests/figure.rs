@@ -5,9 +5,10 @@ use std::path::PathBuf;
 
 use super::{fixed_arm, random_arm, summary_of, three_arms};
 use crate::report::csv::csv;
-use crate::report::draw::{is_whole, png_into, svg};
+use crate::report::draw::{IMAGE_SCALE, is_whole, png_into, svg};
 use crate::report::figure::curves;
-use crate::report::files::{FIGURE_CSV, FIGURE_PNG, FIGURE_SVG, SUMMARY_JSON, write_summary};
+use crate::report::files::{SUMMARY_JSON, write_summary};
+use crate::report::plot::Plot;
 use crate::report::population::Population;
 
 /// An empty folder of this test's own.
@@ -19,7 +20,7 @@ fn folder(name: &str) -> PathBuf {
 }
 
 fn drawn(populations: &[Population]) -> String {
-    svg("hand-made", &curves(&summary_of(populations, &[]))).unwrap()
+    svg(&Plot::new("hand-made", &curves(&summary_of(populations, &[])), 1)).unwrap()
 }
 
 /// All arms with every wall failed.
@@ -44,7 +45,7 @@ fn the_same_numbers_give_the_same_files_whole_and_nothing_else() {
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
         .collect();
     names.sort();
-    assert_eq!(names, [FIGURE_CSV, FIGURE_PNG, FIGURE_SVG, SUMMARY_JSON]);
+    assert_eq!(names, ["figure-10.csv", "figure-10.png", "figure-10.svg", SUMMARY_JSON]);
     for name in &names {
         assert!(
             fs::read(first.join(name)).unwrap() == fs::read(second.join(name)).unwrap(),
@@ -72,11 +73,11 @@ fn a_file_that_cannot_be_written_is_named() {
     // A full device: the image must not pass for whole.
     let place = folder("full").join("figure.png");
     std::os::unix::fs::symlink("/dev/full", &place).unwrap();
-    let full = png_into(&place, "hand-made", &curves(&summary_of(&three_arms(), &[])));
+    let full = png_into(&place, &Plot::new("hand-made", &curves(&summary_of(&three_arms(), &[])), IMAGE_SCALE));
     assert!(full.is_err());
     // An image without its last byte, as a disk that fills up at the end leaves it.
     let cut = folder("cut").join("figure.png");
-    png_into(&cut, "hand-made", &curves(&summary_of(&three_arms(), &[]))).unwrap();
+    png_into(&cut, &Plot::new("hand-made", &curves(&summary_of(&three_arms(), &[])), IMAGE_SCALE)).unwrap();
     assert!(is_whole(&cut).unwrap());
     let bytes = fs::read(&cut).unwrap();
     fs::write(&cut, &bytes[..bytes.len() - 1]).unwrap();
@@ -131,8 +132,8 @@ fn the_figure_names_its_arms_units_and_losses() {
 #[test]
 fn studies_of_other_shapes_are_drawn_too() {
     let empty = drawn(&nothing_stands());
-    assert!(empty.contains("no wall reached equilibrium: there is nothing to draw"));
-    assert!(empty.contains("! irregular: no wall reached equilibrium at any stiffness"));
+    assert!(empty.contains("no wall brings a value: there is nothing to draw"));
+    assert!(empty.contains("! irregular: no wall brings a value at any stiffness"));
     assert!(empty.contains("irregular: no wall\n"), "the legend claims nothing");
     // One kn: a bar instead of a band, and an axis with room on both sides of it.
     let one = drawn(&[fixed_arm("regular", &[1e-3]), random_arm("rubble & rough", &[2e-3])].concat());
@@ -152,7 +153,7 @@ fn studies_of_other_shapes_are_drawn_too() {
         "! regular: 1 of 3 analyses failed; they are not in the means; none is left at 1 of 3 stiffnesses"
     ));
     // No arm at all, and more arms than colours.
-    svg("empty", &[]).unwrap();
+    svg(&Plot::new("empty", &[], 1)).unwrap();
     let many: Vec<Population> =
         (0..9).flat_map(|i| fixed_arm(&format!("arm {i}"), &[1e-3, 0.8e-3, 0.6e-3])).collect();
     assert!(drawn(&many).contains("arm 8: 1 wall"));

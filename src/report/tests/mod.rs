@@ -6,7 +6,7 @@ mod verdict;
 
 use std::collections::BTreeMap;
 
-use crate::ensemble::Row;
+use crate::ensemble::{Quantity, Row};
 use crate::model::Outcome;
 use crate::report::compare::comparisons;
 use crate::report::population::Population;
@@ -32,6 +32,10 @@ fn failed(member: u64, outcome: Outcome) -> Row {
         member,
         outcome,
         top_displacement_m: None,
+        collapse_angle_deg: None,
+        fails_at_deg: None,
+        largest_tilt_deg: None,
+        mechanism: None,
         stones: 50,
         joints: 120,
         wedges: 0,
@@ -55,7 +59,7 @@ fn failed(member: u64, outcome: Outcome) -> Row {
 fn population(arm: &str, fixed: bool, kn: f64, values: &[f64]) -> Population {
     let rows: Vec<Row> =
         values.iter().enumerate().map(|(member, value)| standing(member as u64, *value)).collect();
-    Population::collect(arm, fixed, kn, values.len() as u64, rows.iter())
+    Population::collect(arm, fixed, kn, values.len() as u64, Quantity::TopDisplacement, rows.iter())
 }
 
 /// An arm in which nothing is drawn: one wall per kn with these displacements (m).

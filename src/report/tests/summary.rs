@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{KN, failed, fixed_arm, population, random_arm, standing, summary_of, three_arms};
-use crate::ensemble::Row;
+use crate::ensemble::{Quantity, Row};
 use crate::model::{Level, Outcome};
 use crate::report::compare::{Basis, comparisons, ratio};
 use crate::report::number::{significant, with_interval};
@@ -54,7 +54,7 @@ fn failed_walls_are_counted_and_enter_no_mean() {
         standing(0, 1e-3),
         failed(3, Outcome::NonFinite { at: Level::Factor(1.0) }),
     ];
-    let entry = describe(&Population::collect("irregular", false, KN[0], 6, rows.iter()), 1, BTreeMap::new());
+    let entry = describe(&Population::collect("irregular", false, KN[0], 6, Quantity::TopDisplacement, rows.iter()), 1, BTreeMap::new());
     close(entry.mean.unwrap(), 2e-3);
     let outcomes = [("collapsed", 1), ("equilibrium", 2), ("invalid_geometry", 1), ("non_finite", 1)];
     assert_eq!(entry.outcomes, outcomes.map(|(name, count)| (name.to_string(), count)).into());
@@ -68,7 +68,7 @@ fn failed_walls_are_counted_and_enter_no_mean() {
 #[test]
 #[should_panic(expected = "has two rows")]
 fn a_member_that_appears_twice_is_our_own_fault() {
-    Population::collect("irregular", false, KN[0], 2, [standing(0, 1e-3), standing(0, 2e-3)].iter());
+    Population::collect("irregular", false, KN[0], 2, Quantity::TopDisplacement, [standing(0, 1e-3), standing(0, 2e-3)].iter());
 }
 
 #[test]
@@ -82,7 +82,7 @@ fn one_wall_and_no_wall_give_null_never_zero_or_nan() {
         assert!(json[key].is_null(), "{key} is {}", json[key]);
     }
     let rows = [failed(0, Outcome::Collapsed { at: Level::Factor(1.0) })];
-    let none = Population::collect("irregular", false, KN[0], 1, rows.iter());
+    let none = Population::collect("irregular", false, KN[0], 1, Quantity::TopDisplacement, rows.iter());
     let json = serde_json::to_value(describe(&none, 1, BTreeMap::new())).unwrap();
     assert!(json["mean"].is_null() && json["quantiles"][1]["value"].is_null());
     assert_eq!(json["note"], "over 0 of 1 walls; not in the numbers: 1 collapsed");

@@ -1,0 +1,50 @@
+//! What a study's protocol measures of each wall.
+
+use crate::ensemble::Row;
+use crate::model::Outcome;
+use crate::protocol::Protocol;
+
+/// The quantity that a study is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// The largest out-of-plane displacement at the wall's top under the full load (m), of walls in equilibrium.
+    TopDisplacement,
+    /// The tilt at which the wall falls, the last one borne (deg), of walls that collapse.
+    CollapseAngle,
+}
+
+/// What a wall says about the quantity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Observed {
+    /// Its value.
+    Value(f64),
+    /// It is above this: the wall stood to the end of the load path.
+    Above(f64),
+    /// Nothing: it failed in another way.
+    Nothing,
+}
+
+impl Quantity {
+    /// That of a protocol.
+    pub fn of(protocol: &Protocol) -> Quantity {
+        match protocol {
+            Protocol::Lateral(_) => Quantity::TopDisplacement,
+            Protocol::Tilting(_) => Quantity::CollapseAngle,
+        }
+    }
+
+    /// What a row says about it.
+    pub fn observed(self, row: &Row) -> Observed {
+        let value = |x: Option<f64>| {
+            x.filter(|x| x.is_finite()).map_or(Observed::Nothing, Observed::Value)
+        };
+        match (self, &row.outcome) {
+            (Quantity::TopDisplacement, Outcome::Equilibrium) => value(row.top_displacement_m),
+            (Quantity::CollapseAngle, Outcome::Collapsed { .. }) => value(row.collapse_angle_deg),
+            (Quantity::CollapseAngle, Outcome::Equilibrium) => {
+                row.largest_tilt_deg.map_or(Observed::Nothing, Observed::Above)
+            }
+            _ => Observed::Nothing,
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! How the quantity of a study is called, scaled and shown.
+
+use crate::ensemble::Quantity;
+
+impl Quantity {
+    /// The outcome of a wall that brings a value.
+    pub fn wanted_outcome(self) -> &'static str {
+        match self {
+            Quantity::TopDisplacement => "equilibrium",
+            Quantity::CollapseAngle => "collapsed",
+        }
+    }
+
+    /// Name in `summary.json`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Quantity::TopDisplacement => "top_displacement",
+            Quantity::CollapseAngle => "collapse_angle",
+        }
+    }
+
+    /// Unit in `summary.json`.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Quantity::TopDisplacement => "m",
+            Quantity::CollapseAngle => "deg",
+        }
+    }
+
+    /// Unit in tables and figures.
+    pub fn shown_unit(self) -> &'static str {
+        match self {
+            Quantity::TopDisplacement => "mm",
+            Quantity::CollapseAngle => "deg",
+        }
+    }
+
+    /// A number in the unit of tables and figures.
+    pub fn shown(self, x: f64) -> f64 {
+        match self {
+            Quantity::TopDisplacement => x * 1e3,
+            Quantity::CollapseAngle => x,
+        }
+    }
+
+    /// The vertical axis of the figure.
+    pub fn axis(self) -> &'static str {
+        match self {
+            Quantity::TopDisplacement => "out-of-plane displacement at the top (mm)",
+            Quantity::CollapseAngle => "collapse angle (deg)",
+        }
+    }
+
+    /// File name, without ending, of the figure over kn.
+    pub fn figure(self) -> &'static str {
+        match self {
+            Quantity::TopDisplacement => "figure-10",
+            Quantity::CollapseAngle => "capacity",
+        }
+    }
+
+    /// In a sentence.
+    pub fn words(self) -> &'static str {
+        match self {
+            Quantity::TopDisplacement => {
+                "the largest out-of-plane displacement at the wall's top under the full load"
+            }
+            Quantity::CollapseAngle => "the tilt at which the wall falls: the last one at which it came to rest",
+        }
+    }
+
+    /// Which walls bring no value.
+    pub fn failed_words(self) -> &'static str {
+        match self {
+            Quantity::TopDisplacement => "collapsed, not converged, non-finite, invalid geometry",
+            Quantity::CollapseAngle => "not standing at rest, not converged, non-finite, invalid geometry",
+        }
+    }
+}

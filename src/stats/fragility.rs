@@ -1,0 +1,127 @@
+//! The empirical distribution of a capacity, P(collapse | load), with pointwise and simultaneous bands.
+
+use super::moments::check_values;
+use super::reference::TAIL;
+use crate::math::ln;
+use statrs::distribution::{Beta, ContinuousCDF};
+
+/// One step of an empirical distribution: at this value the probability jumps to what is stated.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct EmpiricalStep {
+    /// The value (a capacity, in the sample's unit).
+    pub value: f64,
+    /// Number of values up to and including this one.
+    pub count: u64,
+    /// Share of the sample up to and including this one.
+    pub probability: f64,
+    /// Its 95 % interval by Clopper and Pearson (1934): holds at this value alone.
+    pub pointwise: [f64; 2],
+    /// The 95 % band of Dvoretzky, Kiefer and Wolfowitz (1956) with Massart's constant (1990): holds everywhere at once.
+    pub simultaneous: [f64; 2],
+}
+
+/// The empirical distribution of a sample, one step per different value, ascending; empty for an empty sample.
+///
+/// `censored` gives for each member that was still standing how far it was loaded (its capacity lies above). The steps end
+/// at the lowest of these: up to there every member counts, beyond it nothing is known of some.
+pub fn empirical(values: &[f64], censored: &[f64]) -> Vec<EmpiricalStep> {
+    check_values(values);
+    check_values(censored);
+    let n = values.len() + censored.len();
+    let end = censored.iter().fold(f64::INFINITY, |low, c| low.min(*c));
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let half = if n > 0 { dkw_half_width(n) } else { 0.0 };
+    let mut steps: Vec<EmpiricalStep> = Vec::new();
+    for (index, &value) in sorted.iter().enumerate().take_while(|(_, value)| **value <= end) {
+        let count = index + 1;
+        let probability = count as f64 / n as f64;
+        let step = EmpiricalStep {
+            value,
+            count: count as u64,
+            probability,
+            pointwise: clopper_pearson(count, n),
+            simultaneous: [(probability - half).max(0.0), (probability + half).min(1.0)],
+        };
+        match steps.last_mut() {
+            Some(last) if last.value == value => *last = step,
+            _ => steps.push(step),
+        }
+    }
+    steps
+}
+
+/// 95 % interval of a probability from `k` hits in `n` trials (Clopper and Pearson 1934): exact, coverage at least 95 %.
+pub fn clopper_pearson(k: usize, n: usize) -> [f64; 2] {
+    crate::check!(k <= n && n > 0, "{k} hits in {n} trials");
+    let quantile = |a: usize, b: usize, p: f64| {
+        let beta = Beta::new(a as f64, b as f64);
+        crate::check!(beta.is_ok(), "there is no beta distribution of {a} and {b}");
+        beta.map_or(f64::NAN, |beta| beta.inverse_cdf(p))
+    };
+    let low = if k == 0 { 0.0 } else { quantile(k, n - k + 1, TAIL) };
+    let high = if k == n { 1.0 } else { quantile(k + 1, n - k, 1.0 - TAIL) };
+    [low, high]
+}
+
+/// Half width of the simultaneous 95 % band around the empirical distribution of `n` values: sqrt(ln(2/0.05) / (2 n))
+/// (Massart 1990).
+pub fn dkw_half_width(n: usize) -> f64 {
+    (ln(1.0 / TAIL) / (2.0 * n as f64)).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::pow;
+    use crate::random::{Family, Streams};
+
+    #[test]
+    fn clopper_and_pearson_have_their_closed_forms_and_known_values() {
+        // No hit, and all: 1 - (alpha/2)^(1/n), and its mirror image.
+        for n in [1, 5, 10, 30, 300] {
+            let edge = 1.0 - pow(0.025, 1.0 / n as f64);
+            let [low, high] = clopper_pearson(0, n);
+            // The quantile is found by iteration, to some 1e-10.
+            assert!(low == 0.0 && (high - edge).abs() < 1e-8, "{n}: {high} against {edge}");
+            let [low, high] = clopper_pearson(n, n);
+            assert!(high == 1.0 && (low - (1.0 - edge)).abs() < 1e-8);
+        }
+        // R: binom.test(7, 20), binom.test(5, 10), printed to seven digits.
+        for (k, n, known) in [(7, 20, [0.153_909_2, 0.592_188_5]), (5, 10, [0.187_086_0, 0.812_914_0])] {
+            let found = clopper_pearson(k, n);
+            assert!((found[0] - known[0]).abs() < 1e-7 && (found[1] - known[1]).abs() < 1e-7, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn the_simultaneous_band_covers_the_whole_distribution_in_95_of_100_samples() {
+        let uniform = Family::Uniform { low: 0.0, high: 1.0 };
+        let mut stream = Streams::new(7, 0).of("coverage of the band");
+        let (samples, n) = (2000, 20);
+        let mut covered = 0;
+        for _ in 0..samples {
+            let values: Vec<f64> = (0..n).map(|_| uniform.sample(&mut stream)).collect();
+            let half = dkw_half_width(n);
+            let mut sorted = values;
+            sorted.sort_by(f64::total_cmp);
+            covered += usize::from(crate::stats::ks_statistic(&sorted, |x| x) <= half);
+        }
+        // The band is conservative for small n; 0.95 less three standard errors of 2000 samples.
+        assert!(covered as f64 / samples as f64 > 0.95 - 0.015, "{covered} of {samples}");
+        assert!((dkw_half_width(100) - 0.135_810).abs() < 1e-6);
+    }
+
+    #[test]
+    fn ties_are_one_step_and_members_that_stand_count_below_their_end() {
+        let steps = empirical(&[3.0, 1.0, 3.0, 2.0], &[]);
+        let seen: Vec<(f64, u64, f64)> = steps.iter().map(|s| (s.value, s.count, s.probability)).collect();
+        assert_eq!(seen, [(1.0, 1, 0.25), (2.0, 2, 0.5), (3.0, 4, 1.0)]);
+        assert_eq!(steps[1].pointwise, clopper_pearson(2, 4));
+        // One that stood to 2.5 counts below; what fell later is beyond what is known of it.
+        let steps = empirical(&[3.0, 1.0, 3.0, 2.0], &[2.5]);
+        let seen: Vec<(f64, f64)> = steps.iter().map(|s| (s.value, s.probability)).collect();
+        assert_eq!(seen, [(1.0, 0.2), (2.0, 0.4)]);
+        assert!(empirical(&[], &[]).is_empty() && empirical(&[], &[5.0]).is_empty());
+    }
+}
