@@ -298,6 +298,71 @@ fn small_gaps_and_overlaps_are_told_with_their_size() {
     );
 }
 
+/// A block 0.15 m wide and 0.375 m high of 889 N per metre on an elastic bed of 5e7 Pa/m: 17.088 deg by the closed form
+/// (pressure and its line of action on the block's face), between brackets of 0.01 deg.
+#[test]
+fn an_elastic_bed_costs_as_many_degrees_as_the_closed_form_says() {
+    let folder = Folder::new();
+    let cuboid = |y: [f64; 2], z: [f64; 2]| {
+        let [[a, b], [c, d]] = [y, z];
+        format!(
+            "[[0,{a},{c}],[1,{a},{c}],[1,{b},{c}],[0,{b},{c}],[0,{a},{d}],[1,{a},{d}],[1,{b},{d}],[0,{b},{d}]]"
+        )
+    };
+    let faces = "[[3,2,1,0],[4,5,6,7],[0,1,5,4],[1,2,6,5],[2,3,7,6],[3,0,4,7]]";
+    let density = 889.0 / (0.15 * 0.375 * 9.806_65);
+    let wall = format!(
+        "{{\"blocks\":[{{\"id\":1,\"vertices\":{},\"faces\":{faces},\"density\":{density}}},{{\"id\":2,\"vertices\":{},\"faces\":{faces},\"fixed\":true}}]}}",
+        cuboid([0.0, 0.15], [0.0, 0.375]),
+        cuboid([-0.5, 0.65], [-0.1, 0.0])
+    );
+    fs::write(folder.path("block.json"), wall).unwrap();
+    for solver in ["implicit", "explicit"] {
+        let asked = ["analyse", "block.json", "--phi-deg", "60", "--kn", "5e7", "--solver", solver, "--json"];
+        let output = folder.pirca(&asked);
+        let answer: Value =
+            serde_json::from_slice(&output.stdout).unwrap_or_else(|e| panic!("{e}: {}", text(&output)));
+        assert_eq!((&answer["outcome"], &answer["joints"]), (&"collapsed".into(), &1.into()), "{answer}");
+        close(answer["collapse_angle_deg"].as_f64().unwrap(), 17.088, 0.02);
+        assert_eq!(answer["mechanism"], serde_json::json!([1]), "{answer}");
+    }
+}
+
+/// Two solvers of the same joints find the same angle, below that of rigid blocks.
+#[test]
+fn the_elastic_solvers_agree_below_the_limit_of_rigid_blocks() {
+    for (name, to) in
+        [("leaning-tower.json", "x+"), ("arch.json", "x+"), ("drums.obj", "y+"), ("opening.json", "y+")]
+    {
+        let asked = ["--phi-deg", "40", "--direction", to];
+        let elastic = |solver| angle(name, &[&asked[..], &["--kn", "1e9", "--solver", solver]].concat());
+        let (implicit, explicit, rigid) = (elastic("implicit"), elastic("explicit"), angle(name, &asked));
+        close(implicit, explicit, 0.05);
+        assert!(implicit < rigid, "{name}: {implicit} against {rigid}");
+    }
+    let lateral = |solver: &str| {
+        let asked =
+            ["--phi-deg", "40", "--load", "lateral", "--kn", "1e9", "--step-deg", "2", "--solver", solver];
+        analysed("leaning-tower.json", &asked)["multiplier"].as_f64().unwrap()
+    };
+    close(lateral("implicit"), lateral("explicit"), 1e-3);
+}
+
+/// 0.2 mm of overlap at 1e10 Pa/m is 2000 kPa; 0.3998 m of 2400 kg/m^3 weigh 9.410 kPa. Rigid blocks take no notice.
+#[test]
+fn the_prestress_of_an_overlap_is_told_to_those_whom_it_concerns() {
+    let folder = Folder::new();
+    fs::write(folder.path("wall.json"), lifted(-2e-4)).unwrap();
+    let said =
+        |more: &[&str]| text(&folder.pirca(&[&["analyse", "wall.json", "--phi-deg", "30"], more].concat()));
+    let elastic = said(&["--solver", "implicit", "--kn", "1e10"]);
+    assert!(
+        elastic.contains("2000.000 kPa at kn = 1e10 Pa/m") && elastic.contains("makes 9.410 kPa"),
+        "{elastic}"
+    );
+    assert!(!said(&[]).contains("kPa"));
+}
+
 #[test]
 fn the_json_object_holds_what_is_promised() {
     let answer = analysed("leaning-tower.json", &["--phi-deg", "30"]);
@@ -361,6 +426,8 @@ fn arguments_that_make_no_sense_are_refused_with_what_is_allowed() {
         (&["--phi-deg", "30", "--direction", "z+"], "x+"),
         (&["--phi-deg", "30", "--solver", "magic"], "limit"),
         (&["--phi-deg", "30", "--load", "seismic"], "lateral"),
+        (&["--phi-deg", "30", "--solver", "implicit"], "--kn PA_PER_M is required for the implicit solver"),
+        (&["--phi-deg", "30", "--solver", "explicit"], "--kn PA_PER_M is required for the explicit solver"),
         (&["--phi-deg", "30", "--unit", "mm"], "a wall.json states both itself"),
     ] {
         let output = folder.pirca(&[&["analyse", "wall.json"], more].concat());

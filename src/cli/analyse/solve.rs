@@ -7,10 +7,10 @@ use crate::contact;
 use crate::law::{CohesionAfterSlip, Coulomb, NormalLaw, Sampling};
 use crate::math::{radians, tan};
 use crate::model::Wall;
-use crate::protocol::{Confirmation, Criterion, Direction, LoadPath, Run, Task, climb};
-use crate::solve::explicit::{self, Simulation};
+use crate::protocol::{Confirmation, Criterion, Direction, LoadPath, Run, Task, drive};
+use crate::solve::explicit;
 use crate::solve::implicit::{self, Equilibrium};
-use crate::solve::{Equilibrate, limit};
+use crate::solve::{Equilibrate, Solver, limit};
 
 /// Limit analysis needs no stiffness, but a law has one.
 const ANY_STIFFNESS: f64 = 1e9;
@@ -48,15 +48,14 @@ pub(crate) fn solve(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit) 
         MethodName::Implicit => {
             let settings = implicit::Settings::default();
             let task = task(arguments, wall, law, fit);
-            let run = climb(&task, &|assembly| Equilibrium::of(assembly, settings));
             let mut at_rest = Equilibrium::new(wall, law, settings, task.contact);
             at_rest.settle(&mut |_| false);
             let loose = at_rest.loose().iter().map(|&i| i as usize).collect();
-            Answer { loose, ..by_steps(run) }
+            Answer { loose, ..by_steps(drive(&task, &Solver::Implicit(settings))) }
         }
         MethodName::Explicit => {
-            let task = task(arguments, wall, law, fit);
-            by_steps(climb(&task, &|assembly| Simulation::of(assembly, explicit::Settings::default())))
+            let solver = Solver::Explicit(explicit::Settings::default());
+            by_steps(drive(&task(arguments, wall, law, fit), &solver))
         }
     }
 }
