@@ -7,6 +7,8 @@ use crate::shape::{Plane, Polyhedron, overlap_depth};
 
 /// Near pairs per block beyond which a wall is no wall but a tangle, whose search would fill the memory.
 const MOST_NEAR: usize = 300;
+/// Most work on overlaps, as a sum of (corners)^3 over the pairs; a second or so per 2e8. Two million pairs of boxes.
+const MOST_WORK: usize = 2_000_000_000;
 
 /// Two blocks (lower index first) and a length (m).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,12 +38,13 @@ pub struct Survey {
 /// Looks at every pair of blocks that may meet. `settings.touch` (m) is the tolerance: up to it, a gap is a joint and
 /// an overlap is rounding; gaps are listed up to `settings.reach`. Pairs of fixed blocks do not matter.
 ///
-/// `None` when the blocks are so entangled that there are more than 300 near pairs per block.
+/// `None` when the blocks are so entangled that looking on would take all memory or all day: more than 300 near pairs
+/// per block, or solids of many corners that overlap by the hundred.
 pub fn survey(wall: &Wall, settings: &Settings) -> Option<Survey> {
     let shapes: Vec<Polyhedron> = wall.blocks.iter().map(|block| block.shape.clone()).collect();
     let most = MOST_NEAR * shapes.len();
     let fixed = |i: usize| wall.blocks[i].support == Support::Fixed;
-    let mut survey = Survey::default();
+    let (mut survey, mut work) = (Survey::default(), 0usize);
     for (a, b) in candidate_pairs_up_to(&shapes, 2.0 * settings.reach, most)? {
         let (a, b) = (a as usize, b as usize);
         if fixed(a) && fixed(b) {
@@ -49,6 +52,11 @@ pub fn survey(wall: &Wall, settings: &Settings) -> Option<Survey> {
         }
         match meet(&shapes[a], &shapes[b], settings) {
             Meeting::Overlap(length) => {
+                let corners = [shapes[a].vertices.len(), shapes[b].vertices.len()];
+                work += corners[0] * corners[1] * (corners[0] + corners[1]) / 2;
+                if work > MOST_WORK {
+                    return None;
+                }
                 survey.joints.push((a, b));
                 survey.overlaps.push(Pair { blocks: (a, b), length });
                 survey.deepest = survey.deepest.max(length);

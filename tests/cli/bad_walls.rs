@@ -1,8 +1,10 @@
 //! Every bad wall is named with the block and the fault, and what is allowed; never a panic.
 
 use std::fs;
+use std::time::Instant;
 
 use pirca::exchange::{ObjOptions, read_obj, read_wall, read_wall_json};
+use pirca::math::{cos, radians, sin};
 
 use crate::walls::{Folder, GOOD_JSON, GOOD_OBJ};
 
@@ -264,6 +266,44 @@ fn files_out_of_all_proportion_are_refused_in_time() {
     );
     let objects = "o a\nf\n".repeat(60_000);
     assert!(read_obj(&objects, &ObjOptions::default()).unwrap_err().to_string().contains("too many objects"));
+}
+
+/// Drums of 150 corners in one place, each pair of which takes its time to compare, are given up in time.
+#[test]
+fn a_heap_of_round_blocks_in_one_place_is_refused_in_time() {
+    let folder = Folder::new();
+    let mut text =
+        String::from("o base\nv 9 9 -1\nv 10 9 -1\nv 9 10 -1\nv 9 9 0\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    for _ in 0..500 {
+        text.push_str("o drum\n");
+        let sides = 75;
+        for z in [0.0, 0.5] {
+            for k in 0..sides {
+                let a = radians(360.0 * f64::from(k) / f64::from(sides));
+                text += &format!("v {} {} {z}\n", cos(a), sin(a));
+            }
+        }
+        let ring: Vec<i32> = (0..sides).collect();
+        let face =
+            |numbers: Vec<i32>| numbers.iter().map(|k| format!(" {}", k - 2 * sides)).collect::<String>();
+        text += &format!("f{}\n", face(ring.iter().rev().copied().collect()));
+        text += &format!("f{}\n", face(ring.iter().map(|k| k + sides).collect()));
+        for k in 0..sides {
+            let next = (k + 1) % sides;
+            text += &format!("f{}\n", face(vec![k, next, next + sides, k + sides]));
+        }
+    }
+    fs::write(folder.path("heap.obj"), text).unwrap();
+    let begun = Instant::now();
+    let output = folder.pirca(&["analyse", "heap.obj", "--phi-deg", "30"]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(
+        output.status.code() == Some(3) && said.contains("entangled"),
+        "{}",
+        &said[..said.len().min(500)]
+    );
+    // It takes seconds; without a bound it would be an hour.
+    assert!(begun.elapsed().as_secs() < 120);
 }
 
 #[test]

@@ -39,7 +39,7 @@ pub(crate) fn look(file: &WallFile, tolerance: f64, path: &str) -> Result<Fit, W
     let Some(found) = survey(&file.wall, &contact) else {
         faults.push(Fault::of(
             "",
-            "the blocks are entangled: there are more than 300 near pairs per block",
+            "the blocks are entangled: far too many of them overlap or nearly touch",
             "blocks that touch their neighbours only",
             "check the unit and whether blocks are there several times",
         ));
