@@ -6,6 +6,8 @@ mod cells;
 mod patch;
 mod separation;
 mod survey;
+#[cfg(test)]
+mod tests;
 
 pub use broad::{candidate_pairs, candidate_pairs_up_to};
 pub use cells::{Cell, corners, divide};
