@@ -75,7 +75,7 @@ fn task<'t>(arguments: &Analyse, wall: &'t Wall, law: &'t Coulomb, fit: &Fit) ->
         loads: Vec::new(),
         path,
         criterion: Criterion::AnyBlock(RUNS_AWAY * fit.thickness),
-        confirmation: Some(Confirmation::for_thickness(fit.thickness)),
+        confirmation: Confirmation::for_thickness(fit.thickness),
     }
 }
 
