@@ -22,6 +22,9 @@ pub struct Settings {
     pub face_cosine: f64,
     /// Sub-contacts along the longer and the shorter extent of a joint.
     pub sub_contacts: [u32; 2],
+    /// Width (m, default 0) of the rounded or chipped arris: faces touch only where they are further than this from their
+    /// own edges. A joint that is nowhere so wide is none. Strips and squares of steep contacts are not narrowed.
+    pub inset: f64,
 }
 
 impl Settings {
@@ -35,6 +38,7 @@ impl Settings {
             steep_width: 0.2 * size,
             face_cosine: 0.939_692_620_785_908_4,
             sub_contacts,
+            inset: 0.0,
         }
     }
 
@@ -92,8 +96,12 @@ pub fn find_patch(first: &Polyhedron, second: &Polyhedron, settings: &Settings) 
     // Faces that lie on one another are a face contact whatever their edges do: a joint that leans open has crossing
     // edges which separate better than either face.
     let faces_meet = cosine >= settings.face_cosine;
-    if faces_meet && let Some(patch) = meeting.face_patch() {
-        return Some(patch);
+    if faces_meet {
+        match meeting.face_patch() {
+            Overlap::Patch(patch) => return Some(patch),
+            Overlap::Worn => return None,
+            Overlap::None => {}
+        }
     }
     match best_edge_axis(first, second, axis.depth + settings.preference()) {
         Some(edges) if edges.depth > settings.reach => None,
@@ -101,6 +109,16 @@ pub fn find_patch(first: &Polyhedron, second: &Polyhedron, settings: &Settings) 
         None if faces_meet => None,
         None => meeting.steep_patch(),
     }
+}
+
+/// What two faces share.
+enum Overlap {
+    /// An area to press on.
+    Patch(Patch),
+    /// An area that lies within the inset of an edge: no joint at all, not one of edges either.
+    Worn,
+    /// No area.
+    None,
 }
 
 /// A face of the reference block and the face of the incident block that looks at it most squarely.
@@ -116,24 +134,34 @@ struct Meeting<'a> {
 }
 
 impl Meeting<'_> {
-    /// The overlap of the two faces.
-    fn face_patch(&self) -> Option<Patch> {
+    /// The overlap of the two faces, each without its arrises.
+    fn face_patch(&self) -> Overlap {
         let frame = face_frame(self.incident, self.opposite);
         // Both outlines along the reference normal into the incident plane, in its coordinates.
         let onto = |p: Vec3| {
             let shift = frame.normal.dot(&(frame.origin - p)) / frame.normal.dot(&self.plane.normal);
             frame.project(&(p + self.plane.normal * shift))
         };
-        let own = self.incident.face_vertices(self.opposite).map(|p| frame.project(&p)).collect();
+        let own: Vec<[f64; 2]> =
+            self.incident.face_vertices(self.opposite).map(|p| frame.project(&p)).collect();
         // Seen from the incident face the reference face runs clockwise.
         let mut other: Vec<[f64; 2]> = self.reference.face_vertices(self.face).map(onto).collect();
         other.reverse();
-        let polygon = Polygon { vertices: own }.intersection(&Polygon { vertices: other });
+        let (own, other) = (Polygon { vertices: own }, Polygon { vertices: other });
         let least = self.settings.reach * self.settings.reach;
-        if polygon.vertices.len() < 3 || polygon.area() < least {
-            return None;
+        let counts = |polygon: &Polygon| polygon.vertices.len() >= 3 && polygon.area() >= least;
+        let whole = own.intersection(&other);
+        if !counts(&whole) {
+            return Overlap::None;
         }
-        Some(self.patch(frame, polygon, Feature::Faces(self.opposite as u32, self.face as u32)))
+        let polygon = match self.settings.inset {
+            0.0 => whole,
+            inset => shared(&inner(&own, inset), &inner(&other, inset)),
+        };
+        if !counts(&polygon) {
+            return Overlap::Worn;
+        }
+        Overlap::Patch(self.patch(frame, polygon, Feature::Faces(self.opposite as u32, self.face as u32)))
     }
 
     /// A corner or an edge of the incident block on the reference face, too steep to touch as faces.
@@ -183,6 +211,25 @@ impl Meeting<'_> {
     fn patch(&self, frame: Frame, polygon: Polygon, feature: Feature) -> Patch {
         Patch { reference_is_second: self.reference_is_second, frame, polygon, plane: self.plane, feature }
     }
+}
+
+/// The part shared by two polygons that may be empty.
+fn shared(a: &Polygon, b: &Polygon) -> Polygon {
+    if b.vertices.len() < 3 { Polygon::default() } else { a.intersection(b) }
+}
+
+/// The part of a counter-clockwise convex polygon that is at least `inset` (m) away from all its edges.
+fn inner(polygon: &Polygon, inset: f64) -> Polygon {
+    let n = polygon.vertices.len();
+    let mut part = polygon.clone();
+    for (i, a) in polygon.vertices.iter().enumerate() {
+        let b = polygon.vertices[(i + 1) % n];
+        let (ex, ey) = (b[0] - a[0], b[1] - a[1]);
+        // Distance from the edge, positive on its left, is cross(b - a, v - a) / |b - a|.
+        let length = (ex * ex + ey * ey).sqrt();
+        part = part.clip(ex * a[1] - ey * a[0] + inset * length, ey, -ex);
+    }
+    part
 }
 
 /// The material frame of a face: origin at the mean of its vertices, s along its first edge.
@@ -288,23 +335,66 @@ mod tests {
         assert_relative_eq!(patch.frame.normal, -Vec3::z(), epsilon = 1e-14);
     }
 
+    /// A six-sided prism of height 1 and circumradius 1 on the plane z.
+    fn prism(z: f64) -> Polyhedron {
+        let ring = |h: f64| {
+            (0..6).map(move |i| {
+                let a = radians(60.0 * f64::from(i));
+                Vec3::new(cos(a), sin(a), h)
+            })
+        };
+        Polyhedron {
+            vertices: ring(z).chain(ring(z + 1.0)).collect(),
+            faces: [vec![5, 4, 3, 2, 1, 0], vec![6, 7, 8, 9, 10, 11]]
+                .into_iter()
+                .chain((0..6).map(|i| vec![i, (i + 1) % 6, 6 + (i + 1) % 6, 6 + i]))
+                .collect(),
+        }
+    }
+
+    fn worn(inset: f64) -> Settings {
+        Settings { inset, ..settings() }
+    }
+
+    #[test]
+    fn a_joint_ends_short_of_the_arrises_of_both_blocks() {
+        // Half over the edge: the strip next to the slab's edge is lost on one side, those along the block's on three.
+        let block = Polyhedron::cuboid(Vec3::new(0.9, -0.1, 0.0), Vec3::new(1.1, 0.2, 0.1));
+        let patch = find_patch(&slab(), &block, &worn(0.01)).unwrap();
+        assert_relative_eq!(patch.polygon.area(), (0.1 - 0.02) * (0.3 - 0.02), max_relative = 1e-12);
+        let reached = patch.polygon.vertices.iter().map(|v| patch.frame.lift(*v).x).fold(0.0, f64::max);
+        assert_relative_eq!(reached, 0.99, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn an_inset_hexagon_is_a_smaller_hexagon() {
+        // The apothem shrinks by the inset; the area goes with its square.
+        let patch = find_patch(&prism(0.0), &prism(1.0), &worn(0.1)).unwrap();
+        let apothem = 0.75f64.sqrt() - 0.1;
+        assert_relative_eq!(
+            patch.polygon.area(),
+            2.0 * 3f64.sqrt() * apothem * apothem,
+            max_relative = 1e-12
+        );
+    }
+
+    #[test]
+    fn a_joint_no_wider_than_the_arrises_is_none() {
+        // 15 mm of overlap: an inset of 7 mm from either edge leaves 1 mm, one of 8 mm nothing.
+        let block = Polyhedron::cuboid(Vec3::new(0.985, -0.1, 0.0), Vec3::new(1.185, 0.2, 0.1));
+        assert!(find_patch(&slab(), &block, &worn(0.007)).is_some());
+        assert!(find_patch(&slab(), &block, &worn(0.008)).is_none());
+        // A slat thinner than its two arrises has no bearing face, whichever block it belongs to.
+        let slat = Polyhedron::cuboid(Vec3::new(0.0, -0.1, 0.0), Vec3::new(0.015, 0.2, 0.1));
+        assert!(find_patch(&slab(), &slat, &worn(0.008)).is_none());
+        assert!(find_patch(&slat, &slab(), &worn(0.008)).is_none());
+        // Leaning open, so that crossing edges part it better than any face: a strip would carry it all the same.
+        let leaning = block.moved(&about_x(1.0), &Vec3::new(0.0, 0.0, 1e-4));
+        assert!(find_patch(&slab(), &leaning, &worn(0.008)).is_none());
+    }
+
     #[test]
     fn hexagonal_faces_keep_their_whole_area() {
-        let prism = |z: f64| {
-            let ring = |h: f64| {
-                (0..6).map(move |i| {
-                    let a = radians(60.0 * f64::from(i));
-                    Vec3::new(cos(a), sin(a), h)
-                })
-            };
-            Polyhedron {
-                vertices: ring(z).chain(ring(z + 1.0)).collect(),
-                faces: [vec![5, 4, 3, 2, 1, 0], vec![6, 7, 8, 9, 10, 11]]
-                    .into_iter()
-                    .chain((0..6).map(|i| vec![i, (i + 1) % 6, 6 + (i + 1) % 6, 6 + i]))
-                    .collect(),
-            }
-        };
         let patch = find_patch(&prism(0.0), &prism(1.0), &settings()).unwrap();
         assert_relative_eq!(patch.polygon.area(), 1.5 * 3f64.sqrt(), max_relative = 1e-12);
     }

@@ -86,5 +86,6 @@ impl Manifest {
 fn solver_name(solver: &Solver) -> &'static str {
     match solver {
         Solver::Explicit(_) => "explicit",
+        Solver::Implicit(_) => "implicit",
     }
 }

@@ -152,7 +152,7 @@ impl Coulomb {
     }
 
     /// The cohesion (Pa) that a sub-contact still has.
-    fn cohesion_of(&self, state: &SubContact) -> f64 {
+    pub(super) fn cohesion_of(&self, state: &SubContact) -> f64 {
         let lost = state.broken || (state.slipped && self.cohesion_after_slip == CohesionAfterSlip::Lost);
         if lost { 0.0 } else { self.cohesion }
     }

@@ -3,7 +3,9 @@
 mod coulomb;
 mod damping;
 mod normal;
+mod slopes;
 
 pub use coulomb::{CohesionAfterSlip, Coulomb, Motion, Pressed, Sampling, ShearSum, SubContact};
 pub use damping::local_damping;
 pub use normal::NormalLaw;
+pub use slopes::{PressedSlopes, ShearSlopes};

@@ -12,6 +12,7 @@ use crate::protocol::route::Route;
 use crate::protocol::watch::{Criterion, LoadStep, Watch};
 use crate::solve::bodies::Body;
 use crate::solve::explicit::Simulation;
+use crate::solve::implicit::Equilibrium;
 use crate::solve::{Assembly, Equilibrate, Solver, Status};
 
 /// A wall with all that surrounds it, its loads, and how far it is to be taken.
@@ -55,21 +56,35 @@ pub struct Run {
 /// Takes an assembly along a load path with the solver asked for.
 pub fn drive(task: &Task<'_>, solver: &Solver) -> Run {
     match solver {
-        Solver::Explicit(settings) => climb(task, &|assembly| Simulation::of(assembly, *settings)),
+        Solver::Explicit(settings) => {
+            climb(task, Stops::Falling, &|assembly| Simulation::of(assembly, *settings))
+        }
+        Solver::Implicit(settings) => {
+            climb(task, Stops::Jumping, &|assembly| Equilibrium::of(assembly, *settings))
+        }
     }
+}
+
+/// What it means when a wall is stopped for having moved past the criterion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stops {
+    /// The solver follows the wall's motion: it was seen falling.
+    Falling,
+    /// The solver went to an equilibrium far away, which nobody has seen the wall reach.
+    Jumping,
 }
 
 /// Takes an assembly along a load path. `of` makes a solver of an assembly as it stands.
 ///
 /// Goes up by full steps. Where no equilibrium is found, or the wall moves past the criterion, it goes back to the last state
-/// at rest and halves the step until the capacity is bracketed. A wall that moved past the criterion at the last, shortest
-/// step has collapsed; one for which the solver found no equilibrium is suspected of it, and is relaxed explicitly from the
-/// last state at rest: it runs away (collapsed), comes to rest (the solver goes on from there) or does neither (not converged).
-pub fn climb<'a, S: Equilibrate>(task: &Task<'a>, of: &dyn Fn(Assembly<'a>) -> S) -> Run {
+/// at rest and halves the step until the capacity is bracketed. A wall that was seen falling at the last, shortest step has
+/// collapsed; one for which the solver found no equilibrium nearby is suspected of it, and is relaxed explicitly from the last
+/// state at rest: it runs away (collapsed), comes to rest (the solver goes on from there) or does neither (not converged).
+pub fn climb<'a, S: Equilibrate>(task: &Task<'a>, stops: Stops, of: &dyn Fn(Assembly<'a>) -> S) -> Run {
     let built = task.assembled();
     let joints = built.joints.all.len();
     let watch = Watch::new(task.wall, &built.bodies, task.path.direction(), task.criterion);
-    let mut climber = Climber { task, of, watch, built, steps: Vec::new(), spent: 0, wrong: 0 };
+    let mut climber = Climber { task, stops, of, watch, built, steps: Vec::new(), spent: 0, wrong: 0 };
     let start = of(climber.built.clone());
     let tried = climber.try_level(&start, 0.0);
     let mut rest = match climber.settled(&start, 0.0, tried) {
@@ -126,6 +141,7 @@ impl<'t> Task<'t> {
 
 struct Climber<'c, 'a, S> {
     task: &'c Task<'a>,
+    stops: Stops,
     of: &'c dyn Fn(Assembly<'a>) -> S,
     watch: Watch,
     /// The assembly as built, with its loads.
@@ -183,8 +199,8 @@ impl<'a, S: Equilibrate> Climber<'_, 'a, S> {
         let ratio = settled.unbalanced_ratio;
         match settled.status {
             Status::Equilibrium => Tried::Rest(next, ratio),
-            Status::Stopped => Tried::Away(next, ratio),
-            Status::StepsSpent | Status::NoEquilibrium => Tried::Lost(next, ratio, settled.status),
+            Status::Stopped if self.stops == Stops::Falling => Tried::Away(next, ratio),
+            Status::Stopped | Status::StepsSpent | Status::NoEquilibrium => Tried::Lost(next, ratio, settled.status),
             Status::NonFinite => Tried::NonFinite(next),
         }
     }

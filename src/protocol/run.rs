@@ -9,7 +9,7 @@ use crate::protocol::pressure::back_loads;
 use crate::protocol::restraint::{Surroundings, restrain};
 use crate::protocol::tilting::turn;
 use crate::protocol::{Confirmation, Criterion, Direction, Protocol, Rate, Restraint};
-use crate::solve::Solver;
+use crate::solve::{Solver, explicit};
 
 /// Takes a wall of stones through a protocol: gravity first, then the load.
 ///
@@ -56,8 +56,11 @@ pub fn run(
             match tilting.rate {
                 Rate::Static => drive(&task, solver),
                 Rate::Dynamic(turning) => {
-                    let Solver::Explicit(at_rest) = solver;
-                    turn(&task, &turning, *at_rest)
+                    let at_rest = match solver {
+                        Solver::Explicit(settings) => *settings,
+                        Solver::Implicit(_) => explicit::Settings::default(),
+                    };
+                    turn(&task, &turning, at_rest)
                 }
             }
         }

@@ -105,7 +105,7 @@ impl<'a> Assembly<'a> {
     pub fn unbalanced_ratio(&self) -> f64 {
         let (mut unbalanced, mut moving) = (0.0, 0u32);
         for body in self.bodies.all.iter().filter(|b| b.moves()) {
-            unbalanced += body.force.norm() + body.torque.norm() / body.gyration();
+            unbalanced += body.unbalanced();
             moving += 1;
         }
         let (mut carried, mut carrying) = (0.0, 0u32);
@@ -118,5 +118,12 @@ impl<'a> Assembly<'a> {
             (_, 0) => 1.0,
             _ => (unbalanced / f64::from(moving)) / (carried / f64::from(carrying)),
         }
+    }
+
+    /// The block with the largest unbalanced force (N) after the forces were last summed up, and that force; an
+    /// unbalanced moment counts as a force at the radius of gyration. `None` without blocks that move.
+    pub fn most_unbalanced(&self) -> Option<(usize, f64)> {
+        let moving = self.bodies.all.iter().enumerate().filter(|(_, b)| b.moves());
+        moving.map(|(id, b)| (id, b.unbalanced())).max_by(|a, b| a.1.total_cmp(&b.1))
     }
 }

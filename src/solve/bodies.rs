@@ -107,6 +107,11 @@ impl Body {
         (0.5 * self.inertia.sum() / self.mass).sqrt()
     }
 
+    /// Size of the force that is left on it (N); a moment counts as a force at the radius of gyration.
+    pub fn unbalanced(&self) -> f64 {
+        self.force.norm() + self.torque.norm() / self.gyration()
+    }
+
     /// Angular velocity (rad/s) of an attitude with this body's angular momentum.
     fn spin_at(&self, rotation: &Mat3) -> Vec3 {
         match self.support {
@@ -135,6 +140,13 @@ impl Body {
     pub fn rescale(&mut self, scale: f64) {
         self.angular_momentum *= scale / self.inertia_scale;
         self.inertia_scale = scale;
+    }
+
+    /// Puts the body where a shift (m) and a turn (rad, world axes about its centroid) take it from a state of its own.
+    pub fn place(&mut self, from: &Body, shift: &Vec3, turn: &Vec3) {
+        self.position = from.position + shift;
+        self.attitude = turned(&from.attitude, turn);
+        self.rotation = self.attitude.to_rotation_matrix().into_inner();
     }
 
     /// Central differences: velocity at the half step from the forces now, then position and attitude at the next

@@ -1,17 +1,21 @@
-//! Solvers: assembly into arrays, joints, status; `explicit` is the DEM.
+//! Solvers: assembly into arrays, joints, status; `explicit` is the DEM, `limit` rigid limit analysis.
 
 pub mod assembly;
 pub mod bodies;
 pub mod explicit;
+pub mod implicit;
 pub mod joints;
+pub mod limit;
 mod status;
 
 pub use assembly::{Assembly, STANDARD_GRAVITY};
 pub use status::{Equilibrate, Settled, Status};
 
-/// Which solver, with its settings.
+/// Which solver of the load path, with its settings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Solver {
     /// Central differences with local damping: 3DEC- and YADE-like.
     Explicit(explicit::Settings),
+    /// Newton's method from equilibrium to equilibrium.
+    Implicit(implicit::Settings),
 }

@@ -1,0 +1,213 @@
+//! Newton's method with line search at fixed loads.
+
+use crate::math::Vec3;
+use crate::solve::Assembly;
+use crate::solve::bodies::Body;
+use crate::solve::implicit::loose::is_singular;
+use crate::solve::implicit::system::{DOF, System, held};
+use crate::solve::implicit::{Kind, Settings};
+use crate::solve::joints::Anchor;
+
+/// A residual that falls to less than this share in a step needs no new matrix.
+const GOOD_CONTRACTION: f64 = 0.3;
+/// A residual that does not even fall to this share with a matrix of its own counts as stuck.
+const POOR_CONTRACTION: f64 = 0.9;
+/// Steps in a row that may be stuck.
+const MOST_STUCK: u32 = 3;
+/// Trial steps of a line search.
+const TRIALS: u32 = 8;
+/// Longest displacement of a corner of a block in one step, in reaches of the contact search.
+const LONGEST_STEP: f64 = 10.0;
+
+/// What a solve did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Effort {
+    /// Steps taken.
+    pub steps: u64,
+    /// Matrices assembled and factorised.
+    pub factorisations: u64,
+    /// Of these, by Cholesky's method.
+    pub symmetric: u64,
+    /// Evaluations of the forces.
+    pub evaluations: u64,
+}
+
+/// Newton's method on an assembly.
+pub(super) struct Newton<'s, 'a> {
+    pub assembly: &'s mut Assembly<'a>,
+    pub system: &'s mut System,
+    pub anchors: &'s [Anchor],
+    pub settings: &'s Settings,
+    pub effort: &'s mut Effort,
+    /// Blocks that some motion was left free for when the matrix was last assembled.
+    pub loose: &'s mut Vec<u32>,
+}
+
+/// Position and attitude of every body.
+type Place = Vec<Body>;
+
+impl Newton<'_, '_> {
+    /// Steps until the residual is below its limit. Says whether it got there, and the unbalanced force ratio.
+    pub fn solve(&mut self, mut fresh: bool) -> (bool, f64) {
+        let mut residual = self.residual();
+        let mut ratio = self.assembly.unbalanced_ratio();
+        let (mut spent, mut stuck) = (0, 0);
+        while !(ratio < self.settings.unbalanced_ratio) {
+            let own = !fresh;
+            if own {
+                let lost = spent == self.settings.max_factorisations || stuck > MOST_STUCK;
+                if lost || self.factorise().is_none() {
+                    return (false, ratio);
+                }
+                spent += 1;
+            }
+            let before = norm(&residual, &self.assembly.bodies.all);
+            let step = self.direction(&residual);
+            if !step.iter().all(|x| x.is_finite()) {
+                return (false, f64::NAN);
+            }
+            residual = self.search(&step, &residual);
+            let after = norm(&residual, &self.assembly.bodies.all);
+            ratio = self.assembly.unbalanced_ratio();
+            self.effort.steps += 1;
+            fresh = after < GOOD_CONTRACTION * before;
+            stuck = if own && after > POOR_CONTRACTION * before { stuck + 1 } else { 0 };
+        }
+        // A matrix from before the last step may be that of another state; its sign is asked for first, as it costs less.
+        let stable = self.system.is_positive() || (self.factorise().is_some() && self.system.is_positive());
+        (stable, ratio)
+    }
+
+    /// Assembles and factorises the matrix at the positions now.
+    fn factorise(&mut self) -> Option<Kind> {
+        let Assembly { bodies, joints, gravity, contact, .. } = &mut *self.assembly;
+        let bodies = &bodies.all;
+        self.system.clear();
+        let (mut slips, mut opens) = (false, false);
+        joints.each_slope(bodies, self.anchors, |joint, slopes| {
+            slips |= slopes.slips;
+            opens |= slopes.opens;
+            self.system.add_joint(joint, bodies, slopes);
+        });
+        self.loose.clear();
+        for (index, body) in bodies.iter().enumerate().filter(|(_, body)| body.moves()) {
+            let block = self.system.own_block(index);
+            if is_singular(&block, |unknown| !held(body).contains(&unknown)) {
+                self.loose.push(index as u32);
+            }
+            let largest = (0..3).fold(0.0, |m: f64, k| m.max(block[k][k]));
+            // A block that has lost all its joints moves by half the reach under its weight.
+            let fall = body.mass * gravity.norm() / (0.5 * contact.reach);
+            let k = if largest > 0.0 { self.settings.stabilisation * largest } else { fall.max(1.0) };
+            let turning = k * body.gyration() * body.gyration();
+            self.system.add_diagonal(index, [k, k, k, turning, turning, turning]);
+        }
+        for (index, body) in bodies.iter().enumerate() {
+            for &unknown in held(body) {
+                self.system.hold(index, unknown, 1.0);
+            }
+        }
+        let kind = self.system.factorise(!slips && !opens)?;
+        self.effort.factorisations += 1;
+        self.effort.symmetric += u64::from(kind == Kind::Symmetric);
+        Some(kind)
+    }
+
+    /// Unbalanced force and moment of every body.
+    fn residual(&mut self) -> Vec<f64> {
+        self.effort.evaluations += 1;
+        self.assembly.apply_loads();
+        let Assembly { bodies, joints, .. } = &mut *self.assembly;
+        joints.apply_since(&mut bodies.all, self.anchors);
+        let mut residual = Vec::with_capacity(DOF * bodies.all.len());
+        for body in &mut bodies.all {
+            let start = residual.len();
+            residual.extend(body.force.iter().chain(body.torque.iter()));
+            for &unknown in held(body) {
+                residual[start + unknown] = 0.0;
+                match unknown {
+                    0..3 => body.force[unknown] = 0.0,
+                    _ => body.torque[unknown - 3] = 0.0,
+                }
+            }
+        }
+        residual
+    }
+
+    /// The Newton step, shortened where a block would move too far.
+    fn direction(&self, residual: &[f64]) -> Vec<f64> {
+        let mut step = self.system.solve(residual);
+        let longest = step.chunks_exact(DOF).zip(&self.assembly.bodies.all).fold(0.0, |m: f64, (u, body)| {
+            m.max(
+                Vec3::from_column_slice(&u[..3]).norm()
+                    + Vec3::from_column_slice(&u[3..]).norm() * body.radius,
+            )
+        });
+        let allowed = LONGEST_STEP * self.assembly.contact.reach;
+        if longest > allowed {
+            step.iter_mut().for_each(|x| *x *= allowed / longest);
+        }
+        step
+    }
+
+    /// Goes along a step as far as the residual still points along it; the residual there.
+    fn search(&mut self, step: &[f64], residual: &[f64]) -> Vec<f64> {
+        let start: Place = self.assembly.bodies.all.clone();
+        let at_start = dot(step, residual);
+        let (mut low, mut high) = ((0.0, at_start), None::<(f64, f64)>);
+        let mut share = 1.0;
+        let mut found = Vec::new();
+        for _ in 0..TRIALS {
+            self.place(&start, step, share);
+            found = self.residual();
+            let slope = dot(step, &found);
+            // NaN goes on searching.
+            if slope.abs() <= 0.5 * at_start.abs() {
+                break;
+            }
+            if slope > 0.0 && at_start > 0.0 {
+                if high.is_none() {
+                    // Still downhill at the full step.
+                    break;
+                }
+                low = (share, slope);
+            } else {
+                high = Some((share, slope));
+            }
+            let (to, at_high) = high.unwrap_or((share, 0.0));
+            let guess = low.0 + (to - low.0) * low.1 / (low.1 - at_high);
+            let (from, width) = (low.0, to - low.0);
+            share = if guess.is_finite() {
+                guess.clamp(from + 0.1 * width, to - 0.1 * width)
+            } else {
+                0.5 * (from + to)
+            };
+        }
+        found
+    }
+
+    /// Puts every body where a share of a step takes it.
+    fn place(&mut self, start: &Place, step: &[f64], share: f64) {
+        for ((body, from), u) in self.assembly.bodies.all.iter_mut().zip(start).zip(step.chunks_exact(DOF)) {
+            if from.moves() {
+                let shift = Vec3::from_column_slice(&u[..3]) * share;
+                let turn = Vec3::from_column_slice(&u[3..]) * share;
+                body.place(from, &shift, &turn);
+            }
+        }
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).fold(0.0, |sum, (x, y)| sum + x * y)
+}
+
+/// Size of a residual: moments count as forces at the radius of gyration.
+fn norm(residual: &[f64], bodies: &[Body]) -> f64 {
+    let square = residual.chunks_exact(DOF).zip(bodies).fold(0.0, |sum, (r, body)| {
+        let gyration = body.gyration();
+        let (force, moment) = (Vec3::from_column_slice(&r[..3]), Vec3::from_column_slice(&r[3..]));
+        sum + force.norm_squared() + moment.norm_squared() / (gyration * gyration)
+    });
+    square.sqrt()
+}

@@ -1,0 +1,221 @@
+//! The forces of a joint: pressure integrated over the compressed part, shear by the law, both on the two bodies.
+
+use crate::contact::Cell;
+use crate::law::{Coulomb, Motion, NormalLaw, Pressed, Sampling, ShearSum, SubContact};
+use crate::math::Vec3;
+use crate::shape::Moments;
+use crate::solve::bodies::Body;
+use crate::solve::joints::joint::{Gap, Pose};
+use crate::solve::joints::{Anchor, Joint};
+
+/// Pressure and shear summed over a joint: forces and their first moments in the plane.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Sums {
+    pub pressure: PressureSum,
+    pub shear: ShearSum,
+}
+
+/// Pressure integrated over a joint: the force and its first moments in the plane.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct PressureSum {
+    pub force: f64,
+    pub by_s: f64,
+    pub by_t: f64,
+}
+
+impl Joint {
+    /// Adds the joint's force to its two bodies; `dt` (s) is the length of the step that led here.
+    pub(super) fn apply(&mut self, bodies: &mut [Body], dt: f64, scratch: &mut Vec<Pressed>) {
+        let pose = self.pose(bodies);
+        if self.is_wide_open(&pose.gap) {
+            if self.force != 0.0 {
+                self.let_go();
+            }
+            return;
+        }
+        let (i, r) = (&bodies[self.incident as usize], &bodies[self.reference as usize]);
+        let motion = relative_motion(i, r, &pose, dt);
+        let sums = self.sums(&pose.gap, &motion, scratch);
+        self.add(bodies, &pose, &sums);
+    }
+
+    /// Adds the joint's force to its two bodies for a step that started at the anchor.
+    pub(super) fn apply_since(&mut self, bodies: &mut [Body], anchor: &Anchor, scratch: &mut Vec<Pressed>) {
+        self.states.clone_from(&anchor.states);
+        let pose = self.pose(bodies);
+        if self.is_wide_open(&pose.gap) {
+            self.let_go();
+            return;
+        }
+        let motion = pose.motion_since(anchor, &bodies[self.reference as usize]);
+        let sums = self.sums(&pose.gap, &motion, scratch);
+        self.add(bodies, &pose, &sums);
+    }
+
+    /// What the next step starts from.
+    pub(super) fn anchor(&self, bodies: &[Body]) -> Anchor {
+        let pose = self.pose(bodies);
+        let r = &bodies[self.reference as usize];
+        Anchor {
+            origin: r.rotation.tr_mul(&(pose.origin - r.position)),
+            s: r.rotation.tr_mul(&pose.s),
+            t: r.rotation.tr_mul(&pose.t),
+            states: self.states.clone(),
+        }
+    }
+
+    /// Whether no part of the joint touches or holds.
+    pub(super) fn is_wide_open(&self, gap: &Gap) -> bool {
+        let lowest = self.polygon.vertices.iter().map(|v| gap.at(v)).fold(f64::INFINITY, f64::min);
+        lowest > self.touch && !self.states.iter().any(|s| self.law.holds(s))
+    }
+
+    /// An open joint forgets its shear and has no force.
+    fn let_go(&mut self) {
+        self.states.iter_mut().for_each(SubContact::forget_shear);
+        self.force = 0.0;
+    }
+
+    /// Pressure and shear over the joint; its sub-contacts remember the shear from now on.
+    fn sums(&mut self, gap: &Gap, motion: &Motion, scratch: &mut Vec<Pressed>) -> Sums {
+        let pressure = self.press(gap, scratch);
+        let shear = self.law.shear(&mut self.states, scratch, motion);
+        Sums { pressure, shear }
+    }
+
+    /// Adds the force to both bodies.
+    fn add(&mut self, bodies: &mut [Body], pose: &Pose, sums: &Sums) {
+        let force = pose.world(sums.pressure.force, sums.shear.force);
+        let moment = pose.moment(sums);
+        self.force = force.norm();
+        let i = &mut bodies[self.incident as usize];
+        i.torque += moment + (pose.origin - i.position).cross(&force);
+        i.force += force;
+        let r = &mut bodies[self.reference as usize];
+        r.torque -= moment + (pose.origin - r.position).cross(&force);
+        r.force -= force;
+    }
+
+    /// Integrates the pressure, and lists what presses on each sub-contact.
+    pub(super) fn press(&mut self, gap: &Gap, pressed: &mut Vec<Pressed>) -> PressureSum {
+        pressed.clear();
+        let highest = self.polygon.vertices.iter().map(|v| gap.at(v)).fold(f64::NEG_INFINITY, f64::max);
+        let closed = highest <= self.touch;
+        let mut sum = PressureSum::default();
+        if closed && self.law.sampling == Sampling::Area {
+            // All in compression: the whole polygon at once, and each cell's share.
+            sum = pressure(&self.law.normal, &self.whole, gap);
+            for cell in &self.cells {
+                let at = cell.moments.centroid();
+                let force = self.law.normal.stress(-gap.at(&at)) * cell.moments.area;
+                pressed.push(Pressed { at, area: cell.moments.area, force });
+            }
+            return sum;
+        }
+        for (cell, state) in self.cells.iter().zip(&mut self.states) {
+            if self.law.holds(state) && !self.law.bonded && tears(&self.law, cell, gap) {
+                state.broken = true;
+            }
+            let part = if self.law.holds(state) { cell.moments } else { compressed(cell, gap, self.touch) };
+            let share = pressure(&self.law.normal, &part, gap);
+            pressed.push(Pressed { at: part.centroid(), area: part.area, force: share.force });
+            sum.force += share.force;
+            sum.by_s += share.by_s;
+            sum.by_t += share.by_t;
+        }
+        sum
+    }
+
+    pub(super) fn closure_energy(&self, bodies: &[Body]) -> f64 {
+        let gap = self.pose(bodies).gap;
+        let NormalLaw::Linear { kn } = self.law.normal;
+        self.cells
+            .iter()
+            .zip(&self.states)
+            .map(|(cell, state)| {
+                let m = if self.law.holds(state) { cell.moments } else { compressed(cell, &gap, self.touch) };
+                let Gap { g0, gs, gt } = gap;
+                let square = g0 * g0 * m.area
+                    + 2.0 * g0 * (gs * m.s + gt * m.t)
+                    + gs * gs * m.ss
+                    + 2.0 * gs * gt * m.st
+                    + gt * gt * m.tt;
+                0.5 * kn * square
+            })
+            .sum()
+    }
+}
+
+/// Integrates the normal law over an area with the given integrals; exact for the linear law.
+pub(super) fn pressure(law: &NormalLaw, m: &Moments, gap: &Gap) -> PressureSum {
+    let Gap { g0, gs, gt } = *gap;
+    match law {
+        NormalLaw::Linear { kn } => PressureSum {
+            force: -kn * (g0 * m.area + gs * m.s + gt * m.t),
+            by_s: -kn * (g0 * m.s + gs * m.ss + gt * m.st),
+            by_t: -kn * (g0 * m.t + gs * m.st + gt * m.tt),
+        },
+    }
+}
+
+/// The part of a sub-contact in compression, by clipping it at zero gap (at `touch`, which is zero but for rounding);
+/// a point is in or out as a whole.
+pub(super) fn compressed(cell: &Cell, gap: &Gap, touch: f64) -> Moments {
+    if cell.outline.vertices.is_empty() {
+        return if gap.at(&cell.moments.centroid()) <= touch { cell.moments } else { Moments::default() };
+    }
+    let open = cell.outline.vertices.iter().filter(|v| gap.at(v) > touch).count();
+    if open == 0 {
+        cell.moments
+    } else if open == cell.outline.vertices.len() {
+        Moments::default()
+    } else {
+        cell.outline.clip(gap.g0 - touch, gap.gs, gap.gt).moments()
+    }
+}
+
+/// Whether the largest tension on a sub-contact exceeds the tensile strength.
+fn tears(law: &Coulomb, cell: &Cell, gap: &Gap) -> bool {
+    let widest = if cell.outline.vertices.is_empty() {
+        gap.at(&cell.moments.centroid())
+    } else {
+        cell.outline.vertices.iter().map(|v| gap.at(v)).fold(f64::NEG_INFINITY, f64::max)
+    };
+    -law.normal.stress(-widest) > law.tension
+}
+
+impl Pose {
+    /// A force in world coordinates from its components along the pressure and the two axes of shear.
+    pub(super) fn world(&self, normal: f64, shear: [f64; 2]) -> Vec3 {
+        self.push * normal + self.e1 * shear[0] + self.e2 * shear[1]
+    }
+
+    /// Moment of the joint's forces on the incident body about the origin of the polygon.
+    pub(super) fn moment(&self, sums: &Sums) -> Vec3 {
+        let Sums { pressure, shear } = sums;
+        self.s.cross(&self.world(pressure.by_s, shear.by_s))
+            + self.t.cross(&self.world(pressure.by_t, shear.by_t))
+    }
+
+    /// How the polygon has moved against the reference body since the anchor: points that lay on one another there
+    /// are compared, so a pair that turns as a whole does not shear.
+    pub(super) fn motion_since(&self, anchor: &Anchor, reference: &Body) -> Motion {
+        let in_plane = |v: Vec3| [v.dot(&self.e1), v.dot(&self.e2)];
+        let origin = reference.position + reference.rotation * anchor.origin;
+        Motion {
+            base: in_plane(self.origin - origin),
+            by_s: in_plane(self.s - reference.rotation * anchor.s),
+            by_t: in_plane(self.t - reference.rotation * anchor.t),
+        }
+    }
+}
+
+/// Shear displacement increments of the incident against the reference body over a step.
+fn relative_motion(i: &Body, r: &Body, pose: &Pose, dt: f64) -> Motion {
+    let slip = i.velocity + i.spin.cross(&(pose.origin - i.position))
+        - r.velocity
+        - r.spin.cross(&(pose.origin - r.position));
+    let turn = i.spin - r.spin;
+    let in_plane = |v: Vec3| [v.dot(&pose.e1) * dt, v.dot(&pose.e2) * dt];
+    Motion { base: in_plane(slip), by_s: in_plane(turn.cross(&pose.s)), by_t: in_plane(turn.cross(&pose.t)) }
+}

@@ -1,0 +1,209 @@
+//! One joint: its geometry in its bodies' own axes, where it is now, and what it takes over from its past.
+
+use crate::contact::{self, Cell, Patch, corners, divide};
+use crate::law::{Coulomb, Sampling, SubContact};
+use crate::math::Vec3;
+use crate::shape::{Moments, Polygon};
+use crate::solve::bodies::{Bodies, Body};
+
+/// A joint between two bodies, its geometry stored in the bodies' own axes.
+#[derive(Clone, Debug)]
+pub struct Joint {
+    /// Body whose face carries the polygon.
+    pub incident: u32,
+    /// Body whose plane gives the direction of the pressure.
+    pub reference: u32,
+    /// The law.
+    pub law: Coulomb,
+    /// Origin and in-plane axes of the polygon in the incident body's axes.
+    pub(super) origin: Vec3,
+    pub(super) s: Vec3,
+    pub(super) t: Vec3,
+    /// A point of the reference plane and its outward normal in the reference body's axes.
+    plane_point: Vec3,
+    plane_normal: Vec3,
+    /// Gap (m) up to which the faces touch; see [`contact::Settings::touch`].
+    pub(super) touch: f64,
+    /// The polygon, and its integrals.
+    pub(super) polygon: Polygon,
+    pub(super) whole: Moments,
+    /// Sub-contacts, and what they remember.
+    pub(super) cells: Vec<Cell>,
+    pub(super) states: Vec<SubContact>,
+    /// Size of the force at the last evaluation (N).
+    pub force: f64,
+}
+
+/// The gap between incident face and reference plane at plane coordinates (s, t): `g0 + gs s + gt t` (m).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Gap {
+    pub g0: f64,
+    pub gs: f64,
+    pub gt: f64,
+}
+
+impl Gap {
+    pub fn at(&self, v: &[f64; 2]) -> f64 {
+        self.g0 + self.gs * v[0] + self.gt * v[1]
+    }
+}
+
+/// Where the joint is in the world, at this step.
+pub(super) struct Pose {
+    pub origin: Vec3,
+    pub s: Vec3,
+    pub t: Vec3,
+    /// Outward normal of the reference plane: the direction in which it pushes the incident body.
+    pub push: Vec3,
+    /// In-plane axes of the shear traction: s projected onto the reference plane, and the one across.
+    pub e1: Vec3,
+    pub e2: Vec3,
+    pub gap: Gap,
+}
+
+impl Joint {
+    pub(super) fn new(
+        patch: &Patch,
+        first: u32,
+        second: u32,
+        law: Coulomb,
+        bodies: &Bodies,
+        settings: &contact::Settings,
+    ) -> Self {
+        let (incident, reference) = if patch.reference_is_second { (first, second) } else { (second, first) };
+        let (i, r) = (&bodies.all[incident as usize], &bodies.all[reference as usize]);
+        let cells = match law.sampling {
+            Sampling::Area => divide(&patch.polygon, settings.sub_contacts),
+            Sampling::Vertices => corners(&patch.polygon),
+        };
+        let on_plane = patch.frame.origin - patch.plane.normal * patch.plane.distance(&patch.frame.origin);
+        Joint {
+            incident,
+            reference,
+            law,
+            origin: i.rotation.tr_mul(&(patch.frame.origin - i.position)),
+            s: i.rotation.tr_mul(&patch.frame.s),
+            t: i.rotation.tr_mul(&patch.frame.t),
+            plane_point: r.rotation.tr_mul(&(on_plane - r.position)),
+            plane_normal: r.rotation.tr_mul(&patch.plane.normal),
+            touch: settings.touch,
+            whole: patch.polygon.moments(),
+            polygon: patch.polygon.clone(),
+            states: vec![SubContact::default(); cells.len()],
+            cells,
+            force: 0.0,
+        }
+    }
+
+    /// A joint between blocks that met on the way: they touch, but nothing ever attached them.
+    pub(super) fn meet(&mut self) {
+        self.law.bonded = false;
+        for state in &mut self.states {
+            state.broken = self.law.tension > 0.0;
+        }
+    }
+
+    /// The two bodies, lower id first.
+    pub fn pair(&self) -> (u32, u32) {
+        (self.incident.min(self.reference), self.incident.max(self.reference))
+    }
+
+    /// Takes over the history of the same pair's former joint, by nearness of the sub-contacts.
+    pub(super) fn inherit(&mut self, before: &Joint, bodies: &Bodies) {
+        self.force = before.force;
+        let (now, then) = (self.pose(&bodies.all), before.pose(&bodies.all));
+        // Traction is kept for the incident body; when the roles have changed, its reaction acts there.
+        let sign = if self.incident == before.incident { 1.0 } else { -1.0 };
+        let place = |pose: &Pose, cell: &Cell| {
+            let [s, t] = cell.moments.centroid();
+            pose.origin + pose.s * s + pose.t * t
+        };
+        let old: Vec<Vec3> = before.cells.iter().map(|c| place(&then, c)).collect();
+        for (cell, state) in self.cells.iter().zip(&mut self.states) {
+            let here = place(&now, cell);
+            let nearest = old
+                .iter()
+                .enumerate()
+                .map(|(k, p)| (k, (p - here).norm_squared()))
+                .fold((0, f64::INFINITY), |best, next| if next.1 < best.1 { next } else { best })
+                .0;
+            if let Some(from) = before.states.get(nearest) {
+                let traction = (then.e1 * from.tau[0] + then.e2 * from.tau[1]) * sign;
+                let area = if from.area > 0.0 { cell.moments.area } else { 0.0 };
+                *state = SubContact { tau: [traction.dot(&now.e1), traction.dot(&now.e2)], area, ..*from };
+            }
+        }
+    }
+
+    pub(super) fn pose(&self, bodies: &[Body]) -> Pose {
+        let (i, r) = (&bodies[self.incident as usize], &bodies[self.reference as usize]);
+        let origin = i.position + i.rotation * self.origin;
+        let (s, t) = (i.rotation * self.s, i.rotation * self.t);
+        let push = r.rotation * self.plane_normal;
+        let plane_point = r.position + r.rotation * self.plane_point;
+        let e1 = (s - push * push.dot(&s)).normalize();
+        let gap = Gap { g0: (origin - plane_point).dot(&push), gs: s.dot(&push), gt: t.dot(&push) };
+        Pose { origin, s, t, push, e1, e2: e1.cross(&push), gap }
+    }
+
+    /// Largest gap over the joint (m); negative where all of it is pressed together.
+    pub fn largest_gap(&self, bodies: &[Body]) -> f64 {
+        let gap = self.pose(bodies).gap;
+        self.polygon.vertices.iter().map(|v| gap.at(v)).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Share of the sub-contacts that have slipped at any time.
+    pub fn slipped_share(&self) -> f64 {
+        let slipped = self.states.iter().filter(|state| state.slipped).count();
+        slipped as f64 / self.states.len().max(1) as f64
+    }
+
+    /// Whether some part of the joint touches, or holds.
+    pub fn touches(&self, bodies: &[Body]) -> bool {
+        !self.is_wide_open(&self.pose(bodies).gap)
+    }
+
+    /// The area of the joint's polygon (m^2).
+    pub fn area(&self) -> f64 {
+        self.whole.area
+    }
+
+    /// Centroid of the polygon in world coordinates (m), and the direction of the pressure on the incident body.
+    pub fn place(&self, bodies: &[Body]) -> (Vec3, Vec3) {
+        let pose = self.pose(bodies);
+        let [s, t] = self.whole.centroid();
+        (pose.origin + pose.s * s + pose.t * t, pose.push)
+    }
+
+    /// Two levers in the joint's plane (m), in world coordinates: an area lumped in quarters at plus and minus each sum
+    /// and difference of them has the second moments of the joint's sub-contacts about its centroid, which is where
+    /// its rotational stiffness comes from. With them the two in-plane axes.
+    pub fn levers(&self, bodies: &[Body]) -> [(Vec3, Vec3); 2] {
+        let pose = self.pose(bodies);
+        let m = match self.law.sampling {
+            Sampling::Area => self.whole,
+            Sampling::Vertices => total(&self.cells),
+        };
+        let (ss, st, tt) = (m.ss - m.s * m.s / m.area, m.st - m.s * m.t / m.area, m.tt - m.t * m.t / m.area);
+        // Columns of the Cholesky factor of the second moments per area.
+        let first = (ss / m.area).sqrt();
+        let across = if first > 0.0 { st / m.area / first } else { 0.0 };
+        let second = (tt / m.area - across * across).max(0.0).sqrt();
+        [(pose.s * first + pose.t * across, pose.e1), (pose.t * second, pose.e2)]
+    }
+}
+
+/// Integrals over all sub-contacts.
+fn total(cells: &[Cell]) -> Moments {
+    cells.iter().fold(Moments::default(), |sum, cell| {
+        let m = &cell.moments;
+        Moments {
+            area: sum.area + m.area,
+            s: sum.s + m.s,
+            t: sum.t + m.t,
+            ss: sum.ss + m.ss,
+            st: sum.st + m.st,
+            tt: sum.tt + m.tt,
+        }
+    })
+}

@@ -1,0 +1,119 @@
+//! Joints: the one place where `contact` meets `law`. Persistent, with the shear history of every sub-contact.
+
+mod force;
+mod joint;
+mod slopes;
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeMap;
+
+use crate::contact::{self, candidate_pairs, find_patch};
+use crate::law::{Pressed, SubContact};
+use crate::math::Vec3;
+use crate::model::JointLaws;
+use crate::solve::bodies::{Bodies, Body};
+
+pub use joint::Joint;
+pub use slopes::Slopes;
+
+/// What a joint starts a step from: what its sub-contacts remembered, and where its polygon lay on the reference body.
+#[derive(Clone, Debug)]
+pub struct Anchor {
+    /// Origin and in-plane axes of the polygon in the reference body's axes.
+    origin: Vec3,
+    s: Vec3,
+    t: Vec3,
+    states: Vec<SubContact>,
+}
+
+/// All joints of an assembly.
+#[derive(Clone, Debug, Default)]
+pub struct Joints {
+    /// Sorted by pair of bodies.
+    pub all: Vec<Joint>,
+    /// Joints whose blocks have come apart beyond the reach: what they remember must not heal when they meet again.
+    parted: BTreeMap<(u32, u32), Joint>,
+    /// Whether contacts have been looked for before: only joints that were there at the start can hold.
+    begun: bool,
+    scratch: Vec<Pressed>,
+}
+
+impl Joints {
+    /// Finds all joints of the bodies where they are now. Joints that were there before keep their law and their
+    /// history: each new sub-contact takes the state of the nearest old one of the same pair.
+    pub fn refresh(&mut self, bodies: &Bodies, laws: &dyn JointLaws, settings: &contact::Settings) {
+        let shapes: Vec<_> = (0..bodies.all.len()).map(|i| bodies.world_shape(i)).collect();
+        let mut old: BTreeMap<(u32, u32), Joint> = self.all.drain(..).map(|j| (j.pair(), j)).collect();
+        for (a, b) in candidate_pairs(&shapes, 2.0 * settings.reach) {
+            if !bodies.all[a as usize].moves() && !bodies.all[b as usize].moves() {
+                continue;
+            }
+            // What is fixed is the preferred reference: the pressure then acts along the normal of the ground.
+            let (first, second) = if bodies.all[b as usize].moves() { (a, b) } else { (b, a) };
+            let Some(patch) = find_patch(&shapes[first as usize], &shapes[second as usize], settings) else {
+                continue;
+            };
+            let before = old.remove(&(a, b));
+            let apart = self.parted.remove(&(a, b));
+            let known = before.as_ref().or(apart.as_ref());
+            let law = known.map_or_else(|| laws.of(a, b), |j| j.law);
+            let mut joint = Joint::new(&patch, first, second, law, bodies, settings);
+            match known {
+                Some(known) => joint.inherit(known, bodies),
+                None if self.begun => joint.meet(),
+                None => {}
+            }
+            if before.is_none() {
+                joint.states.iter_mut().for_each(SubContact::forget_shear);
+            }
+            self.all.push(joint);
+        }
+        self.begun = true;
+        // What holds does not end because its faces have come apart; the rest is kept in mind.
+        for (pair, joint) in old {
+            if joint.states.iter().any(|state| joint.law.holds(state)) {
+                self.all.push(joint);
+            } else {
+                self.parted.insert(pair, joint);
+            }
+        }
+        self.all.sort_by_key(Joint::pair);
+    }
+
+    /// Adds every joint's force to its two bodies; `dt` (s) is the length of the step that led here.
+    pub fn apply(&mut self, bodies: &mut [Body], dt: f64) {
+        for joint in &mut self.all {
+            joint.apply(bodies, dt, &mut self.scratch);
+        }
+    }
+
+    /// What every joint starts its next step from.
+    pub fn anchors(&self, bodies: &[Body]) -> Vec<Anchor> {
+        self.all.iter().map(|joint| joint.anchor(bodies)).collect()
+    }
+
+    /// Adds every joint's force to its two bodies for a step of any length that started at the anchors, one per joint:
+    /// each joint goes back to what it remembered there first, so that a step can be tried again and again.
+    pub fn apply_since(&mut self, bodies: &mut [Body], anchors: &[Anchor]) {
+        for (joint, anchor) in self.all.iter_mut().zip(anchors) {
+            joint.apply_since(bodies, anchor, &mut self.scratch);
+        }
+    }
+
+    /// Hands out every joint's [`Slopes`] for a step that started at the anchors, by index; a joint without force has
+    /// none. What the joints remember stays as it is.
+    pub fn each_slope(&mut self, bodies: &[Body], anchors: &[Anchor], mut take: impl FnMut(usize, &Slopes)) {
+        for (index, (joint, anchor)) in self.all.iter().zip(anchors).enumerate() {
+            if let Some(slopes) = joint.slopes(bodies, anchor, &mut self.scratch) {
+                take(index, &slopes);
+            }
+        }
+    }
+
+    /// Elastic energy stored in the closure of all joints (J), for linear joints that are in contact or not as they
+    /// stand now.
+    pub fn closure_energy(&self, bodies: &[Body]) -> f64 {
+        self.all.iter().map(|j| j.closure_energy(bodies)).sum()
+    }
+}

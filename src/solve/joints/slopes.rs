@@ -1,0 +1,237 @@
+//! The tangent of a joint: how its forces on the two bodies change as they move.
+//!
+//! The forces depend on the bodies through nine numbers, the gap `g0, gs, gt` and the motion since the anchor
+//! (`base, by_s, by_t`), and through the pose that turns them into vectors. Both are differentiated exactly, in the
+//! direction of each of the twelve velocities of the two bodies. Pressure over the compressed part of a cell: its
+//! boundary moves with the gap, but no pressure acts there, so `d(N, Ns, Nt) = -kn M d(g0, gs, gt)` with the second
+//! moments `M` of the part; the area in contact itself changes by the moments of the cut.
+
+use crate::contact::Cell;
+use crate::law::{Motion, NormalLaw, Pressed, PressedSlopes, ShearSlopes, SubContact};
+use crate::math::Vec3;
+use crate::solve::bodies::Body;
+use crate::solve::joints::force::{Sums, compressed, pressure};
+use crate::solve::joints::joint::{Gap, Pose};
+use crate::solve::joints::{Anchor, Joint};
+
+/// The negative derivatives of force and moment on the incident body and on the reference body (rows) with respect
+/// to the displacement and the turn (rad, world axes) of the incident body and of the reference body (columns): a
+/// stiffness, in N/m, N and N m.
+#[derive(Clone, Debug)]
+pub struct Slopes {
+    /// By row and column.
+    pub stiffness: [[f64; 12]; 12],
+    /// Whether a sub-contact slips, which makes the stiffness unsymmetric.
+    pub slips: bool,
+    /// Whether a sub-contact is open in part, which with shear on it makes the stiffness unsymmetric.
+    pub opens: bool,
+}
+
+/// The derivatives of pressure (rows force, by_s, by_t) and shear (rows force, by_s, by_t, two components each).
+#[derive(Default)]
+struct SumSlopes {
+    pressure: [[f64; 3]; 3],
+    shear: ShearSlopes,
+    slips: bool,
+    opens: bool,
+}
+
+/// A twist of one body.
+#[derive(Clone, Copy)]
+struct Twist {
+    shift: Vec3,
+    turn: Vec3,
+}
+
+impl Twist {
+    const NONE: Twist = Twist { shift: Vec3::new(0.0, 0.0, 0.0), turn: Vec3::new(0.0, 0.0, 0.0) };
+
+    /// The velocity of a point of the body.
+    fn at(&self, point: &Vec3, body: &Body) -> Vec3 {
+        self.shift + self.turn.cross(&(point - body.position))
+    }
+}
+
+impl Joint {
+    /// The tangent at the bodies' positions for a step that started at the anchor, after the forces have been
+    /// applied there; `None` where the joint has no force.
+    pub(super) fn slopes(
+        &self,
+        bodies: &[Body],
+        anchor: &Anchor,
+        pressed: &mut Vec<Pressed>,
+    ) -> Option<Slopes> {
+        let pose = self.pose(bodies);
+        if self.is_wide_open(&pose.gap) {
+            return None;
+        }
+        let (i, r) = (&bodies[self.incident as usize], &bodies[self.reference as usize]);
+        let motion = pose.motion_since(anchor, r);
+        let (sums, slopes) = self.sum_slopes(&pose.gap, &motion, anchor, pressed);
+        let carried = [anchor.origin, anchor.s, anchor.t].map(|v| r.rotation * v);
+        let geometry = Geometry { pose: &pose, incident: i, reference: r, carried, sums: &sums };
+        let mut stiffness = [[0.0; 12]; 12];
+        for column in 0..12 {
+            let unit = Vec3::ith(column % 3, 1.0);
+            let twist = match (column / 3) % 2 {
+                0 => Twist { shift: unit, ..Twist::NONE },
+                _ => Twist { turn: unit, ..Twist::NONE },
+            };
+            let wrench = match column < 6 {
+                true => geometry.change(&twist, &Twist::NONE, &slopes),
+                false => geometry.change(&Twist::NONE, &twist, &slopes),
+            };
+            for (row, vector) in wrench.iter().enumerate() {
+                for axis in 0..3 {
+                    stiffness[3 * row + axis][column] = -vector[axis];
+                }
+            }
+        }
+        Some(Slopes { stiffness, slips: slopes.slips, opens: slopes.opens })
+    }
+
+    /// Pressure and shear with their derivatives.
+    fn sum_slopes(
+        &self,
+        gap: &Gap,
+        motion: &Motion,
+        anchor: &Anchor,
+        pressed: &mut Vec<Pressed>,
+    ) -> (Sums, SumSlopes) {
+        let (mut sums, mut slopes) = (Sums::default(), SumSlopes::default());
+        pressed.clear();
+        let mut before = Vec::with_capacity(self.cells.len());
+        for ((cell, state), earlier) in self.cells.iter().zip(&self.states).zip(&anchor.states) {
+            let holds = self.law.holds(state);
+            let part = if holds { cell.moments } else { compressed(cell, gap, self.touch) };
+            let share = pressure(&self.law.normal, &part, gap);
+            sums.pressure.force += share.force;
+            sums.pressure.by_s += share.by_s;
+            sums.pressure.by_t += share.by_t;
+            let kn = stiffness(&self.law.normal);
+            let rows = [[part.area, part.s, part.t], [part.s, part.ss, part.st], [part.t, part.st, part.tt]];
+            for (total, row) in slopes.pressure.iter_mut().zip(rows) {
+                for (sum, moment) in total.iter_mut().zip(row) {
+                    *sum -= kn * moment;
+                }
+            }
+            let load = Pressed { at: part.centroid(), area: part.area, force: share.force };
+            let cut = part.area < cell.moments.area && part.area > 0.0;
+            let area = if cut { cut_moments(cell, gap, self.touch) } else { [[0.0; 3]; 3] };
+            let by_gap = PressedSlopes { area, force: [-kn * part.area, -kn * part.s, -kn * part.t] };
+            let was = SubContact { broken: state.broken, ..*earlier };
+            slopes.slips |=
+                self.law.add_shear_slopes(&was, &load, &by_gap, motion, kn * self.touch, &mut slopes.shear);
+            slopes.opens |= cut;
+            pressed.push(load);
+            before.push(was);
+        }
+        sums.shear = self.law.shear(&mut before, pressed, motion);
+        (sums, slopes)
+    }
+}
+
+/// A joint as it stands, to be differentiated.
+struct Geometry<'a> {
+    pose: &'a Pose,
+    incident: &'a Body,
+    reference: &'a Body,
+    /// The anchor's origin (from the reference body's centroid) and axes in world axes.
+    carried: [Vec3; 3],
+    sums: &'a Sums,
+}
+
+impl Geometry<'_> {
+    /// The change of force and moment on the incident and on the reference body as the two move.
+    fn change(&self, by_incident: &Twist, by_reference: &Twist, slopes: &SumSlopes) -> [Vec3; 4] {
+        let (pose, sums) = (self.pose, self.sums);
+        let Pose { origin, s, t, push, e1, e2, gap } = pose;
+        let d_origin = by_incident.at(origin, self.incident);
+        let (d_s, d_t) = (by_incident.turn.cross(s), by_incident.turn.cross(t));
+        let d_push = by_reference.turn.cross(push);
+        // The gap is measured from a point of the reference plane below the origin, which is as good as any other.
+        let foot = origin - push * gap.g0;
+        let d_gap = Gap {
+            g0: (d_origin - by_reference.at(&foot, self.reference)).dot(push),
+            gs: d_s.dot(push) + s.dot(&d_push),
+            gt: d_t.dot(push) + t.dot(&d_push),
+        };
+        let q = s - push * gap.gs;
+        let d_q = d_s - d_push * gap.gs - push * d_gap.gs;
+        let d_e1 = (d_q - e1 * e1.dot(&d_q)) / q.norm();
+        let d_e2 = d_e1.cross(push) + e1.cross(&d_push);
+        let [lever, carried_s, carried_t] = &self.carried;
+        let since = |now: Vec3, d_now: Vec3, d_then: Vec3| {
+            let d = d_now - d_then;
+            [d.dot(e1) + now.dot(&d_e1), d.dot(e2) + now.dot(&d_e2)]
+        };
+        let turn = &by_reference.turn;
+        let base =
+            since(origin - self.reference.position - lever, d_origin, by_reference.shift + turn.cross(lever));
+        let by_s = since(s - carried_s, d_s, turn.cross(carried_s));
+        let by_t = since(t - carried_t, d_t, turn.cross(carried_t));
+        let inputs = [d_gap.g0, d_gap.gs, d_gap.gt, base[0], base[1], by_s[0], by_s[1], by_t[0], by_t[1]];
+        let normal = |row: usize| dot(&slopes.pressure[row], &inputs[..3]);
+        let shear = |row: usize| [dot(&slopes.shear[row], &inputs), dot(&slopes.shear[row + 1], &inputs)];
+        let turned = |n: f64, f: [f64; 2]| d_push * n + d_e1 * f[0] + d_e2 * f[1];
+        let Sums { pressure, shear: forces } = sums;
+        let force = pose.world(pressure.force, forces.force);
+        let d_force = turned(pressure.force, forces.force) + pose.world(normal(0), shear(0));
+        let (along_s, along_t) =
+            (pose.world(pressure.by_s, forces.by_s), pose.world(pressure.by_t, forces.by_t));
+        let d_along_s = turned(pressure.by_s, forces.by_s) + pose.world(normal(1), shear(2));
+        let d_along_t = turned(pressure.by_t, forces.by_t) + pose.world(normal(2), shear(4));
+        let d_moment = d_s.cross(&along_s) + s.cross(&d_along_s) + d_t.cross(&along_t) + t.cross(&d_along_t);
+        let about = |body: &Body, d_body: &Vec3| {
+            d_moment + (d_origin - d_body).cross(&force) + (origin - body.position).cross(&d_force)
+        };
+        [
+            d_force,
+            about(self.incident, &by_incident.shift),
+            -d_force,
+            -about(self.reference, &by_reference.shift),
+        ]
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).fold(0.0, |sum, (x, y)| sum + x * y)
+}
+
+/// Slope of a linear normal law (Pa/m).
+fn stiffness(law: &NormalLaw) -> f64 {
+    let NormalLaw::Linear { kn } = law;
+    *kn
+}
+
+/// How the area in contact of a cell and its first moments (rows) change with the gap `g0, gs, gt` (columns): minus
+/// the integral of (1, s, t) times (1, s, t) along the cut, over the size of the gap's gradient.
+fn cut_moments(cell: &Cell, gap: &Gap, touch: f64) -> [[f64; 3]; 3] {
+    let mut ends = [[0.0; 2]; 2];
+    let mut found = 0;
+    let corners = &cell.outline.vertices;
+    for (k, to) in corners.iter().enumerate() {
+        let from = &corners[(k + corners.len() - 1) % corners.len()];
+        let (a, b) = (gap.at(from) - touch, gap.at(to) - touch);
+        if (a <= 0.0) != (b <= 0.0) && found < 2 {
+            let w = a / (a - b);
+            ends[found] = [from[0] + w * (to[0] - from[0]), from[1] + w * (to[1] - from[1])];
+            found += 1;
+        }
+    }
+    if found < 2 {
+        return [[0.0; 3]; 3];
+    }
+    let [p, q] = ends;
+    let length = ((q[0] - p[0]) * (q[0] - p[0]) + (q[1] - p[1]) * (q[1] - p[1])).sqrt();
+    let weight = -length / (6.0 * (gap.gs * gap.gs + gap.gt * gap.gt).sqrt());
+    let of = |[s, t]: [f64; 2]| [1.0, s, t];
+    let middle = of([0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])]);
+    let (p, q) = (of(p), of(q));
+    // Simpson's rule is exact for products of two affine functions.
+    std::array::from_fn(|row| {
+        std::array::from_fn(|column| {
+            weight * (p[row] * p[column] + 4.0 * middle[row] * middle[column] + q[row] * q[column])
+        })
+    })
+}

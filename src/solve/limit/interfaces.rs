@@ -1,0 +1,206 @@
+//! Blocks and the points at which they touch: the joint polygons' vertices.
+
+use crate::contact::{self, Feature, Patch, candidate_pairs, find_patch};
+use crate::law::Coulomb;
+use crate::math::Vec3;
+use crate::model::{JointLaws, Support, Wall};
+use crate::shape::{Polygon, Polyhedron};
+use crate::solve::limit::loads::{Loads, When, Wrench};
+
+/// A block as limit analysis sees it.
+#[derive(Clone, Debug)]
+pub(crate) struct Rigid {
+    pub centroid: Vec3,
+    /// Mass (kg).
+    pub mass: f64,
+    /// Largest distance of a vertex from the centroid (m): the lever that makes moments comparable with forces.
+    pub radius: f64,
+    pub support: Support,
+}
+
+/// A joint: who presses on whom, and where.
+#[derive(Clone, Debug)]
+pub(crate) struct Interface {
+    /// Block whose face carries the polygon.
+    pub incident: usize,
+    /// Block whose plane gives the direction of the pressure.
+    pub reference: usize,
+    /// Unit normal in which the reference block pushes the incident one.
+    pub normal: Vec3,
+    pub law: Coulomb,
+    pub points: Vec<ContactPoint>,
+}
+
+/// A point of a joint at which forces act.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ContactPoint {
+    pub at: Vec3,
+    /// Share of the joint's area (m^2).
+    pub area: f64,
+}
+
+/// The blocks of a wall and their joints.
+#[derive(Clone, Debug)]
+pub(crate) struct Blocks {
+    pub rigid: Vec<Rigid>,
+    pub interfaces: Vec<Interface>,
+    /// Mean weight of the blocks that move under standard gravity (N): the unit of force.
+    pub unit: f64,
+}
+
+impl Rigid {
+    pub fn moves(&self) -> bool {
+        self.support != Support::Fixed
+    }
+}
+
+impl Blocks {
+    /// The blocks where the wall has them, and the joints between those that touch within `closed_gap` (m).
+    pub fn of(wall: &Wall, laws: &dyn JointLaws, contact: &contact::Settings, closed_gap: f64) -> Self {
+        let rigid: Vec<Rigid> = wall
+            .blocks
+            .iter()
+            .map(|block| {
+                let mass = block.shape.mass_properties();
+                let radius =
+                    block.shape.vertices.iter().map(|v| (v - mass.centroid).norm()).fold(0.0, f64::max);
+                Rigid {
+                    centroid: mass.centroid,
+                    mass: block.density * mass.volume,
+                    radius,
+                    support: block.support,
+                }
+            })
+            .collect();
+        let shapes: Vec<Polyhedron> = wall.blocks.iter().map(|b| b.shape.clone()).collect();
+        let closed = closed_gap.max(contact.touch);
+        let mut interfaces = Vec::new();
+        for (a, b) in candidate_pairs(&shapes, 2.0 * contact.reach) {
+            let (a, b) = (a as usize, b as usize);
+            if !rigid[a].moves() && !rigid[b].moves() {
+                continue;
+            }
+            // As in the other solvers, what is fixed is the preferred reference.
+            let (first, second) = if rigid[b].moves() { (a, b) } else { (b, a) };
+            let Some(patch) = find_patch(&shapes[first], &shapes[second], contact) else { continue };
+            let points = contact_points(&patch, closed);
+            if points.is_empty() {
+                continue;
+            }
+            let (incident, reference) =
+                if patch.reference_is_second { (first, second) } else { (second, first) };
+            let law = laws.of(a as u32, b as u32);
+            interfaces.push(Interface { incident, reference, normal: patch.plane.normal, law, points });
+        }
+        let moving: Vec<f64> = rigid.iter().filter(|r| r.moves()).map(|r| r.mass).collect();
+        let mean = moving.iter().sum::<f64>() / moving.len().max(1) as f64;
+        let unit = if mean > 0.0 { mean * crate::solve::STANDARD_GRAVITY } else { 1.0 };
+        Blocks { rigid, interfaces, unit }
+    }
+
+    /// The dead or the live loads on every block.
+    pub fn wrenches(&self, loads: &Loads, when: When) -> Vec<Wrench> {
+        let acceleration = if when == When::Dead { loads.dead } else { loads.live };
+        let mut wrenches: Vec<Wrench> = self
+            .rigid
+            .iter()
+            .map(|r| Wrench { force: acceleration * r.mass, moment: Vec3::zeros() })
+            .collect();
+        for load in loads.points.iter().filter(|p| p.when == when) {
+            wrenches[load.block].add(load.point - self.rigid[load.block].centroid, load.force);
+        }
+        wrenches
+    }
+
+    /// Every contact point with its joint, in the order in which all per-point numbers are kept.
+    pub fn points(&self) -> impl Iterator<Item = (&Interface, &ContactPoint)> {
+        self.interfaces.iter().flat_map(|joint| joint.points.iter().map(move |point| (joint, point)))
+    }
+}
+
+/// The vertices of the part of a patch where the gap is at most `closed`, with their shares of its area.
+///
+/// The strip or square that stands for a contact of edges and corners has a width for the springs of the other solvers;
+/// rigid blocks touch along its middle line or in its middle.
+fn contact_points(patch: &Patch, closed: f64) -> Vec<ContactPoint> {
+    let (frame, normal) = (&patch.frame, &patch.plane.normal);
+    let outline = match patch.feature {
+        Feature::Faces(..) => patch.polygon.clone(),
+        Feature::Steep(..) | Feature::Edges(..) => middle(&patch.polygon),
+    };
+    let gap = patch.plane.distance(&frame.origin);
+    let part = outline.clip(gap - closed, normal.dot(&frame.s), normal.dot(&frame.t));
+    let vertices = distinct(part.vertices);
+    let shares = match patch.feature {
+        Feature::Faces(..) => area_shares(&vertices),
+        Feature::Steep(..) | Feature::Edges(..) => {
+            vec![patch.polygon.area() / vertices.len() as f64; vertices.len()]
+        }
+    };
+    vertices.iter().zip(shares).map(|(&v, area)| ContactPoint { at: patch.frame.lift(v), area }).collect()
+}
+
+/// The middle line of the strip along an edge, which begins at the frame's origin; or the origin, about which the
+/// square of a point contact is centred.
+fn middle(polygon: &Polygon) -> Polygon {
+    let low = polygon.vertices.iter().map(|v| v[0]).fold(f64::INFINITY, f64::min);
+    let high = polygon.vertices.iter().map(|v| v[0]).fold(f64::NEG_INFINITY, f64::max);
+    Polygon { vertices: if low < 0.0 { vec![[0.0, 0.0]] } else { vec![[low, 0.0], [high, 0.0]] } }
+}
+
+/// Neighbouring vertices that are the same point but for rounding, once.
+fn distinct(vertices: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    let extent = vertices.iter().flatten().fold(0.0, |e: f64, x| e.max(x.abs()));
+    let same = |p: &[f64; 2], q: &[f64; 2]| (p[0] - q[0]).abs().max((p[1] - q[1]).abs()) <= 1e-12 * extent;
+    let mut kept: Vec<[f64; 2]> = Vec::with_capacity(vertices.len());
+    for v in vertices {
+        if kept.last().is_none_or(|last| !same(last, &v)) {
+            kept.push(v);
+        }
+    }
+    while kept.len() > 1 && same(&kept[0], &kept[kept.len() - 1]) {
+        kept.pop();
+    }
+    kept
+}
+
+/// Half of the two triangles that each vertex spans with its neighbours and the centroid: the shares sum up to the area,
+/// and their first moment is that of the area.
+fn area_shares(vertices: &[[f64; 2]]) -> Vec<f64> {
+    let n = vertices.len();
+    let c = Polygon { vertices: vertices.to_vec() }.moments().centroid();
+    let triangle = |i: usize| {
+        let (p, q) = (vertices[i], vertices[(i + 1) % n]);
+        0.5 * ((p[0] - c[0]) * (q[1] - c[1]) - (p[1] - c[1]) * (q[0] - c[0]))
+    };
+    (0..n).map(|i| if n < 3 { 0.0 } else { 0.5 * (triangle(i) + triangle((i + n - 1) % n)) }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn shares_of_the_area_keep_its_sum_and_its_centroid() {
+        let polygon = [[0.1, 0.0], [0.9, 0.1], [1.0, 0.5], [0.3, 1.1], [-0.2, 0.6]];
+        let (shares, whole) = (area_shares(&polygon), Polygon { vertices: polygon.to_vec() }.moments());
+        let moment = |k: usize| shares.iter().zip(&polygon).map(|(a, v)| a * v[k]).sum::<f64>();
+        // Sums of five products: rounding alone.
+        assert_relative_eq!(shares.iter().sum::<f64>(), whole.area, max_relative = 1e-14);
+        assert_relative_eq!(moment(0), whole.s, max_relative = 1e-14);
+        assert_relative_eq!(moment(1), whole.t, max_relative = 1e-14);
+    }
+
+    #[test]
+    fn a_rectangle_is_shared_equally() {
+        let shares = area_shares(&[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]);
+        assert!(shares.iter().all(|a| (a - 0.5).abs() < 1e-15), "{shares:?}");
+    }
+
+    #[test]
+    fn points_that_differ_by_rounding_are_one() {
+        let polygon = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1e-17], [1.0, 1.0], [0.0, 1.0], [1e-17, 0.0]];
+        assert_eq!(distinct(polygon), vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
+    }
+}
