@@ -62,7 +62,10 @@ fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
             Outcome::Collapsed { at } => tilt(at),
             _ => None,
         },
-        fails_at_deg: run.bracket.filter(|_| last.is_some_and(|s| tilt(s.level).is_some())).map(|[_, at]| degrees(at)),
+        fails_at_deg: run
+            .bracket
+            .filter(|_| last.is_some_and(|s| tilt(s.level).is_some()))
+            .map(|[_, at]| degrees(at)),
         largest_tilt_deg: match run.outcome {
             Outcome::Equilibrium => last.and_then(|step| tilt(step.level)),
             _ => run.steps.iter().rev().nth(1).and_then(|step| tilt(step.level)),

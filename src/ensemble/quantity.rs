@@ -35,9 +35,7 @@ impl Quantity {
 
     /// What a row says about it.
     pub fn observed(self, row: &Row) -> Observed {
-        let value = |x: Option<f64>| {
-            x.filter(|x| x.is_finite()).map_or(Observed::Nothing, Observed::Value)
-        };
+        let value = |x: Option<f64>| x.filter(|x| x.is_finite()).map_or(Observed::Nothing, Observed::Value);
         match (self, &row.outcome) {
             (Quantity::TopDisplacement, Outcome::Equilibrium) => value(row.top_displacement_m),
             (Quantity::CollapseAngle, Outcome::Collapsed { .. }) => value(row.collapse_angle_deg),

@@ -200,7 +200,9 @@ impl<'a, S: Equilibrate> Climber<'_, 'a, S> {
         match settled.status {
             Status::Equilibrium => Tried::Rest(next, ratio),
             Status::Stopped if self.stops == Stops::Falling => Tried::Away(next, ratio),
-            Status::Stopped | Status::StepsSpent | Status::NoEquilibrium => Tried::Lost(next, ratio, settled.status),
+            Status::Stopped | Status::StepsSpent | Status::NoEquilibrium => {
+                Tried::Lost(next, ratio, settled.status)
+            }
             Status::NonFinite => Tried::NonFinite(next),
         }
     }
@@ -266,8 +268,7 @@ impl<'a, S: Equilibrate> Climber<'_, 'a, S> {
     fn fell(&mut self, from: &S, simulation: Simulation<'_>, level: f64, ratio: f64) -> End {
         let mut end = self.ended(Why::Fell, &simulation.assembly, level, ratio);
         let towards = self.task.path.direction();
-        end.failure =
-            Some(watch_fall(self.task.wall, from.assembly(), simulation, &self.watch, towards));
+        end.failure = Some(watch_fall(self.task.wall, from.assembly(), simulation, &self.watch, towards));
         end
     }
 

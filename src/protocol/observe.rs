@@ -12,10 +12,13 @@ pub fn movable(wall: &Wall) -> impl Iterator<Item = (usize, &Block)> {
 
 /// Lowest and highest corner of the box around the stones that can move (m).
 pub fn extent(wall: &Wall) -> (Vec3, Vec3) {
-    movable(wall).fold((Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY)), |(low, high), (_, b)| {
-        let (from, to) = b.shape.bounds();
-        (low.inf(&from), high.sup(&to))
-    })
+    movable(wall).fold(
+        (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY)),
+        |(low, high), (_, b)| {
+            let (from, to) = b.shape.bounds();
+            (low.inf(&from), high.sup(&to))
+        },
+    )
 }
 
 /// A point fixed to a block.

@@ -64,7 +64,8 @@ fn strip(wall: &Wall, height: f64, towards: Direction) -> (Vec3, Vec3) {
     let (near, far) = (unit * foot, unit * (foot + STRIP_WIDTH));
     let beyond = |k: usize, wall: f64, at: f64| if unit[k] == 0.0 { wall } else { at };
     let from = Vec3::new(beyond(0, low.x, near.x.min(far.x)), beyond(1, low.y, near.y.min(far.y)), low.z);
-    let to = Vec3::new(beyond(0, high.x, near.x.max(far.x)), beyond(1, high.y, near.y.max(far.y)), low.z + height);
+    let to =
+        Vec3::new(beyond(0, high.x, near.x.max(far.x)), beyond(1, high.y, near.y.max(far.y)), low.z + height);
     (from, to)
 }
 

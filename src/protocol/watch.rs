@@ -93,18 +93,13 @@ impl Watch {
     }
 
     /// What is read off the wall now.
-    pub fn read(
-        &self,
-        bodies: &Bodies,
-        level: Level,
-        unbalanced_ratio: f64,
-        solver_steps: u64,
-    ) -> LoadStep {
+    pub fn read(&self, bodies: &Bodies, level: Level, unbalanced_ratio: f64, solver_steps: u64) -> LoadStep {
         let points = self.three_now(bodies).map(|now| {
             let [l, c, r] = self.three_at_rest;
             [now[0] - l, now[1] - c, now[2] - r]
         });
-        let (top_displacement, _) = furthest(&displacements(&self.top, bodies), &self.top_at_rest, self.towards);
+        let (top_displacement, _) =
+            furthest(&displacements(&self.top, bodies), &self.top_at_rest, self.towards);
         LoadStep { level, top_displacement, points, unbalanced_ratio, solver_steps }
     }
 

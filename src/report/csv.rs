@@ -37,9 +37,10 @@ pub fn csv(curves: &[Curve]) -> String {
 
 /// `fragility.csv`: one line per arm, kn and step of the empirical distribution.
 pub fn fragility_csv(arms: &[ArmSummary]) -> String {
-    let mut text = "arm,kn_pa_per_m,walls,collapse_angle_deg,collapsed,probability,pointwise_low,pointwise_high,\
+    let mut text =
+        "arm,kn_pa_per_m,walls,collapse_angle_deg,collapsed,probability,pointwise_low,pointwise_high,\
          simultaneous_low,simultaneous_high\n"
-        .to_string();
+            .to_string();
     for arm in arms {
         let walls = arm.outcomes.get("collapsed").copied().unwrap_or(0) + arm.stood_to_the_end;
         for step in &arm.fragility {

@@ -96,9 +96,7 @@ impl Curve {
         let failed = format!("{name}: {lost} of {planned} analyses failed; they are not in the means");
         match (lost, empty) {
             (0, 0) => None,
-            (_, empty) if empty == all => {
-                Some(format!("{name}: no wall brings a value at any stiffness"))
-            }
+            (_, empty) if empty == all => Some(format!("{name}: no wall brings a value at any stiffness")),
             (_, 0) => Some(failed),
             (_, empty) => Some(format!("{failed}; none is left at {empty} of {all} stiffnesses")),
         }

@@ -65,7 +65,9 @@ impl Quantity {
             Quantity::TopDisplacement => {
                 "the largest out-of-plane displacement at the wall's top under the full load"
             }
-            Quantity::CollapseAngle => "the tilt at which the wall falls: the last one at which it came to rest",
+            Quantity::CollapseAngle => {
+                "the tilt at which the wall falls: the last one at which it came to rest"
+            }
         }
     }
 

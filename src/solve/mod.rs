@@ -11,11 +11,11 @@ mod status;
 pub use assembly::{Assembly, STANDARD_GRAVITY};
 pub use status::{Equilibrate, Settled, Status};
 
-/// Which solver of the load path, with its settings.
+/// Which solver, with its settings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Solver {
     /// Central differences with local damping: 3DEC- and YADE-like.
     Explicit(explicit::Settings),
-    /// Newton's method from equilibrium to equilibrium.
+    /// Newton's method from equilibrium to equilibrium; what it cannot find is confirmed by the explicit solver.
     Implicit(implicit::Settings),
 }

@@ -160,8 +160,13 @@ static LOAD: Section = Section {
             Required,
             "What is done to each wall: pressure on its back, or a tilting table.",
         ),
-        Key::new("mean_pressure_pa", real("Pa", Interval::above(0.0, 1e7)), Required, "Mean horizontal pressure.")
-            .only(LATERAL),
+        Key::new(
+            "mean_pressure_pa",
+            real("Pa", Interval::above(0.0, 1e7)),
+            Required,
+            "Mean horizontal pressure.",
+        )
+        .only(LATERAL),
         Key::new(
             "base_over_top",
             real("1", Interval::closed(0.01, 100.0)),
@@ -190,9 +195,15 @@ static LOAD: Section = Section {
             "The side of the platform that goes down; y+ is the wall's front.",
         )
         .only(TILTING),
-        Key::new("step_deg", real("deg", Interval::above(0.0, 10.0)), Default("0.5"), "Tilt from step to step.")
+        Key::new(
+            "step_deg",
+            real("deg", Interval::above(0.0, 10.0)),
+            Default("0.5"),
+            "Tilt from step to step.",
+        )
+        .only(TILTING),
+        Key::new("end_deg", real("deg", Interval::above(0.0, 89.0)), Default("89"), "Largest tilt.")
             .only(TILTING),
-        Key::new("end_deg", real("deg", Interval::above(0.0, 89.0)), Default("89"), "Largest tilt.").only(TILTING),
         Key::new(
             "bracket_deg",
             real("deg", Interval::above(1e-4, 10.0)),
@@ -223,7 +234,12 @@ static TURNING: Section = Section {
     chooser: None,
     keys: &[&[
         Key::new("rate_deg_per_s", real("deg/s", Interval::closed(1e-3, 1e3)), Required, "Tilt rate."),
-        Key::new("damping", real("1", Interval::below(0.0, 1.0)), Default("0.05"), "Local damping coefficient."),
+        Key::new(
+            "damping",
+            real("1", Interval::below(0.0, 1.0)),
+            Default("0.05"),
+            "Local damping coefficient.",
+        ),
         Key::new(
             "step_safety",
             real("1", Interval::above(0.0, 1.0)),

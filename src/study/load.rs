@@ -127,7 +127,8 @@ impl Study {
         let text = format!("name = \"{name}\"");
         let source = Arc::new(Source { name: "solver asked for".to_owned(), rank: 0, text });
         let node = raw::parse(&source).map_err(|fault| Faults::sorted(vec![*fault]))?;
-        let solver = Reader::open(&node, "solver", &keys::SOLVER, &mut notes).and_then(|mut t| build::solver(&mut t));
+        let solver =
+            Reader::open(&node, "solver", &keys::SOLVER, &mut notes).and_then(|mut t| build::solver(&mut t));
         let Some(solver) = solver else { return Err(Faults::sorted(notes.faults)) };
         self.solver = solver;
         self.effective.retain(|key, _| !key.starts_with("solver."));

@@ -129,7 +129,8 @@ fn a_single_stone_that_slides_out_is_found_and_named() {
     assert!((failure.weight_share - 0.29 / 1.18).abs() < 1e-9, "{}", failure.weight_share);
     assert!((failure.hinge_height - 0.1).abs() < 1e-12);
     // The joint below it is the one that has slipped.
-    let slipped: Vec<[u32; 2]> = run.joint_states.iter().filter(|j| j.slipped > 0.0).map(|j| j.blocks).collect();
+    let slipped: Vec<[u32; 2]> =
+        run.joint_states.iter().filter(|j| j.slipped > 0.0).map(|j| j.blocks).collect();
     assert!(slipped.is_empty() || slipped == [[0, 2]], "{slipped:?}");
 }
 
@@ -193,7 +194,8 @@ fn a_wall_that_does_not_stand_is_unstable_at_rest() {
     // One that reaches out by four tenths does, and on a table that is hardly tilted it stands to the end.
     let mut stands = wall.clone();
     stands.blocks[1].shape = stands.blocks[1].shape.translated(&Vec3::new(0.0, -0.08, 0.0));
-    let run = table(&stands, &dry(1e9, 40.0), Tilting { end: radians(1.25), ..tilting(0.5, 0.1) }, Base::default());
+    let run =
+        table(&stands, &dry(1e9, 40.0), Tilting { end: radians(1.25), ..tilting(0.5, 0.1) }, Base::default());
     assert_eq!((run.outcome, run.bracket), (Outcome::Equilibrium, None));
     // The last step is shorter: 0, 0.5, 1, 1.25.
     let levels: Vec<f64> = run.steps.iter().map(|s| s.level.value()).collect();
@@ -242,7 +244,8 @@ fn a_slow_table_topples_a_block_at_the_static_angle_and_a_lag() {
     let law = dry(1e9, 60.0);
     let [low, high] = bracket(&table(&wall, &law, tilting(2.0, 0.02), Base::default()));
     let turning = Turning { rate: radians(1.0), damping: 0.05, step_safety: 0.5 };
-    let moving = table(&wall, &law, Tilting { rate: Rate::Dynamic(turning), ..tilting(2.0, 0.02) }, Base::default());
+    let moving =
+        table(&wall, &law, Tilting { rate: Rate::Dynamic(turning), ..tilting(2.0, 0.02) }, Base::default());
     let [begins, passed] = bracket(&moving);
     println!("static {low} to {high}; dynamic begins at {begins}, has passed at {passed}");
     // Half the lag on either side: the elastic block does not turn about a fixed edge.
@@ -266,7 +269,9 @@ fn a_horizontal_force_slides_a_block_at_mu() {
         confirmation: Some(Confirmation::for_thickness(0.4)),
     };
     let run = drive(&task, &explicit());
-    let Outcome::Collapsed { at: Level::Multiplier(lambda) } = run.outcome else { panic!("{:?}", run.outcome) };
+    let Outcome::Collapsed { at: Level::Multiplier(lambda) } = run.outcome else {
+        panic!("{:?}", run.outcome)
+    };
     // The bracket, and the lean of the bed.
     assert!((lambda - law.tan_phi).abs() < 2e-3, "{lambda} against {}", law.tan_phi);
     assert!(run.failure.expect("it was watched").motion[0].x < 0.0);

@@ -73,7 +73,8 @@ fn a_file_that_cannot_be_written_is_named() {
     // A full device: the image must not pass for whole.
     let place = folder("full").join("figure.png");
     std::os::unix::fs::symlink("/dev/full", &place).unwrap();
-    let full = png_into(&place, &Plot::new("hand-made", &curves(&summary_of(&three_arms(), &[])), IMAGE_SCALE));
+    let full =
+        png_into(&place, &Plot::new("hand-made", &curves(&summary_of(&three_arms(), &[])), IMAGE_SCALE));
     assert!(full.is_err());
     // An image without its last byte, as a disk that fills up at the end leaves it.
     let cut = folder("cut").join("figure.png");

@@ -54,7 +54,11 @@ fn failed_walls_are_counted_and_enter_no_mean() {
         standing(0, 1e-3),
         failed(3, Outcome::NonFinite { at: Level::Factor(1.0) }),
     ];
-    let entry = describe(&Population::collect("irregular", false, KN[0], 6, Quantity::TopDisplacement, rows.iter()), 1, BTreeMap::new());
+    let entry = describe(
+        &Population::collect("irregular", false, KN[0], 6, Quantity::TopDisplacement, rows.iter()),
+        1,
+        BTreeMap::new(),
+    );
     close(entry.mean.unwrap(), 2e-3);
     let outcomes = [("collapsed", 1), ("equilibrium", 2), ("invalid_geometry", 1), ("non_finite", 1)];
     assert_eq!(entry.outcomes, outcomes.map(|(name, count)| (name.to_string(), count)).into());
@@ -68,7 +72,14 @@ fn failed_walls_are_counted_and_enter_no_mean() {
 #[test]
 #[should_panic(expected = "has two rows")]
 fn a_member_that_appears_twice_is_our_own_fault() {
-    Population::collect("irregular", false, KN[0], 2, Quantity::TopDisplacement, [standing(0, 1e-3), standing(0, 2e-3)].iter());
+    Population::collect(
+        "irregular",
+        false,
+        KN[0],
+        2,
+        Quantity::TopDisplacement,
+        [standing(0, 1e-3), standing(0, 2e-3)].iter(),
+    );
 }
 
 #[test]
