@@ -13,7 +13,7 @@ use crate::protocol::watch::{Criterion, LoadStep, Watch};
 use crate::solve::bodies::Body;
 use crate::solve::explicit::Simulation;
 use crate::solve::implicit::Equilibrium;
-use crate::solve::{Assembly, Equilibrate, Solver, Status};
+use crate::solve::{Assembly, Equilibrate, Solver, Status, explicit};
 
 /// A wall with all that surrounds it, its loads, and how far it is to be taken.
 pub struct Task<'t> {
@@ -215,7 +215,7 @@ impl<'a, S: Equilibrate> Climber<'_, 'a, S> {
                 Ok(next)
             }
             Tried::Away(next, ratio) => {
-                let settings = self.task.confirmation.map(|c| c.explicit).unwrap_or_default();
+                let settings = explicit::Settings { damping: 0.0, ..explicit::Settings::default() };
                 let simulation = Simulation::of(next.assembly().clone(), settings);
                 Err(self.fell(from, simulation, level, ratio))
             }
