@@ -109,7 +109,12 @@ fn a_solver_that_is_named_and_not_described_has_its_own_defaults() {
     assert_eq!(written.clone().with_solver("implicit").unwrap().hash, written.hash);
     // The study's own settings come with its own solver, and no other name is known.
     assert_eq!(own.clone().with_solver("explicit").unwrap().solver, own.solver);
-    assert!(own.with_solver("magic").unwrap_err().to_string().contains("did you mean"));
+    assert!(
+        own.with_solver("magic")
+            .unwrap_err()
+            .to_string()
+            .contains("allowed is one of \"explicit\", \"implicit\"")
+    );
 }
 
 #[test]
