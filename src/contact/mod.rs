@@ -5,6 +5,8 @@ mod broad;
 mod cells;
 mod patch;
 mod separation;
+#[cfg(test)]
+mod tests;
 
 pub use broad::candidate_pairs;
 pub use cells::{Cell, corners, divide};

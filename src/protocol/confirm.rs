@@ -1,114 +1,203 @@
-//! Is it a collapse? The explicit solver lets a wall go from its last state at rest, and watches it fall.
+//! Is it a collapse? Limit analysis says whether the wall can stand at all; the explicit solver relaxes it from its last
+//! state at rest, and watches it fall.
+
+use std::cell::OnceCell;
 
 use crate::math::Vec3;
-use crate::model::Wall;
-use crate::protocol::Direction;
+use crate::protocol::drive::Task;
 use crate::protocol::mechanism::{Failure, failure};
-use crate::protocol::watch::Watch;
+use crate::protocol::watch::{LoadStep, Watch};
+use crate::solve::bodies::Body;
 use crate::solve::explicit::{self, Simulation};
+use crate::solve::limit::{self, Analysis, Loads, PointLoad, When};
 use crate::solve::{Assembly, Equilibrate, Status};
 
 /// A wall that has come back to this share of how far it had gone swings about an equilibrium.
 const SWINGS_BACK: f64 = 0.5;
 
-/// How a suspected collapse is confirmed: by the explicit solver from the last state at rest.
-///
-/// First without damping: local damping takes its force from the rattling of single blocks and so makes a wall near its
-/// limit creep (on the canonical wall of 72 stones at 1e9 Pa/m, 0.008 deg above the limit, 2 % of the thickness take 6,000
-/// steps without damping, 33,000 at 0.1 and over 60,000 at 0.3). An undamped wall that starts a bracket's width below the
-/// level in question overshoots by at most as much again. If it swings back instead of running away, it is relaxed with
-/// damping from the same state.
+/// How a suspected collapse is confirmed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Confirmation {
-    /// Settings of the damped relaxation.
+    /// The explicit solver's settings. Damping is low (0.3): at 0.8 a wall near its limit creeps so slowly that it seems
+    /// to rest.
     pub explicit: explicit::Settings,
-    /// A wall one of whose blocks moves by so much (m) runs away; on stiff joints by twice of what the wall has moved since
-    /// gravity alone, but not below a tenth of this; on its way to rest under gravity alone, by five times this.
+    /// A wall one of whose blocks moves by so much (m) runs away. The relaxation begins a bracket's width below the level
+    /// in question, so a wall that stands there hardly moves.
     pub limit: f64,
-    /// Number of times that a suspicion may prove wrong before the solver is called lost.
-    pub at_most: u32,
 }
 
 impl Confirmation {
     /// For a wall of this thickness (m): a wall that moves by a fiftieth of it runs away. Near its limit an elastic block
-    /// moves by some 0.3 % of its width from one bracket of 0.01 deg to the next at 2.5e7 Pa/m, and less on stiffer joints.
-    /// Damping 0.3, nine tenths of the critical step.
+    /// moves by some 0.4 % of its width from one bracket of 0.01 deg to the next at 2.5e7 Pa/m, and less on stiffer joints.
     pub fn for_thickness(thickness: f64) -> Confirmation {
-        let explicit = explicit::Settings { damping: 0.3, step_safety: 0.9, ..explicit::Settings::default() };
-        Confirmation { explicit, limit: 0.02 * thickness, at_most: 20 }
+        let explicit = explicit::Settings {
+            damping: 0.3,
+            step_safety: 0.9,
+            max_steps: 20_000,
+            ..explicit::Settings::default()
+        };
+        Confirmation { explicit, limit: 0.02 * thickness }
     }
 }
 
-/// What came of a relaxation, with the unbalanced force ratio reached.
-pub enum Relaxed<'a> {
-    /// It came to rest.
-    Rest(Simulation<'a>, f64),
-    /// It ran away.
-    Away(Simulation<'a>, f64),
-    /// The steps ran out.
-    Neither(Simulation<'a>, f64),
+/// A wall that falls at a level, and how.
+pub struct Fall {
+    /// The level (SI units).
+    pub level: f64,
+    /// What was read while it fell.
+    pub step: LoadStep,
+    /// The mechanism.
+    pub failure: Failure,
+    /// Where the bodies were left.
+    pub bodies: Vec<Body>,
+}
+
+/// What could be told of a level.
+pub enum Told<'a> {
+    /// The wall falls.
+    Falls(Box<Fall>),
+    /// It comes to rest, with the unbalanced force ratio reached.
+    Rests(Box<Assembly<'a>>, f64),
     /// The numbers went bad.
-    NonFinite(Simulation<'a>),
+    NonFinite(Box<Assembly<'a>>),
+    /// Neither.
+    Nothing,
 }
 
-/// Finds out what becomes of an assembly, from rest, under gravity and a factor on the dead loads; with the steps that it
-/// took.
-pub fn relax<'a>(
-    from: &Assembly<'a>,
-    (gravity, factor): (Vec3, f64),
-    confirmation: &Confirmation,
-    watch: &Watch,
-) -> (Relaxed<'a>, u64) {
-    let mut assembly = from.clone();
-    for body in &mut assembly.bodies.all {
-        body.velocity = Vec3::zeros();
-        body.set_spin(Vec3::zeros());
+/// Tells walls that fall from solvers that have lost their way.
+pub struct Judge<'t, 'a> {
+    task: &'t Task<'a>,
+    /// Limit analysis of the wall as built; `None` where it says nothing, as it does not stand as built.
+    rigid: OnceCell<Option<Analysis>>,
+}
+
+impl<'t, 'a> Judge<'t, 'a> {
+    /// Of a wall's task.
+    pub fn new(task: &'t Task<'a>) -> Self {
+        Judge { task, rigid: OnceCell::new() }
     }
-    let released = |damping| {
-        let settings = explicit::Settings { damping, ..confirmation.explicit };
-        let mut simulation = Simulation::of(assembly.clone(), settings);
-        simulation.set_loads(gravity, factor);
-        simulation
-    };
-    let limit = match watch.moved_since_gravity() {
-        Some(moved) => (2.0 * moved).clamp(0.1 * confirmation.limit, confirmation.limit),
-        None => 5.0 * confirmation.limit,
-    };
-    let mut free = released(0.0);
-    let mut furthest: f64 = 0.0;
-    let swung = free.settle(&mut |bodies| {
-        let moved = watch.moved(bodies);
-        furthest = furthest.max(moved);
-        moved > limit || moved < SWINGS_BACK * furthest
-    });
-    if swung.status == Status::Stopped && watch.moved(&free.assembly.bodies) > limit {
-        return (Relaxed::Away(free, swung.unbalanced_ratio), swung.steps);
+
+    /// Whether the wall stands at a level, coming from a state at rest. Limit analysis of the wall as built can say no: an
+    /// upper bound on what it bears, so that no arrangement of forces keeps it up. Else the explicit solver lets it go: first
+    /// without damping, and if it swings back instead of running away, with damping from the same state.
+    ///
+    /// Local damping takes its force from the rattling of single blocks, and so makes a wall near its limit creep: on the
+    /// canonical wall of 72 stones at 1e9 Pa/m, 0.008 deg above the limit, 2 % of the thickness take 6,000 steps without
+    /// damping, 33,000 at 0.1 and over 60,000 at 0.3. An undamped wall overshoots by at most the step that led there.
+    pub fn told(&self, from: &Assembly<'a>, level: f64, watch: &Watch, spent: &mut u64) -> Told<'a> {
+        if let Some(fall) = self.cannot_stand(from, level, watch) {
+            return Told::Falls(Box::new(fall));
+        }
+        let Confirmation { explicit, limit } = self.task.confirmation;
+        let mut assembly = from.clone();
+        for body in &mut assembly.bodies.all {
+            body.velocity = Vec3::zeros();
+            body.set_spin(Vec3::zeros());
+        }
+        let released = |damping| {
+            let mut simulation = Simulation::of(assembly.clone(), explicit::Settings { damping, ..explicit });
+            let (gravity, factor) = self.task.path.loads(level);
+            simulation.set_loads(gravity, factor);
+            simulation
+        };
+        // Under gravity alone a soft wall sinks by as much as counts as running away, and without damping by twice that.
+        if level > 0.0 {
+            let mut free = released(0.0);
+            let mut furthest: f64 = 0.0;
+            let swung = free.settle(&mut |bodies| {
+                let moved = watch.moved(bodies);
+                furthest = furthest.max(moved);
+                moved > limit || moved < SWINGS_BACK * furthest
+            });
+            *spent += swung.steps;
+            if swung.status == Status::Stopped && watch.moved(&free.assembly.bodies) > limit {
+                let ratio = swung.unbalanced_ratio;
+                return Told::Falls(Box::new(self.watch_fall(from, &free.assembly, watch, level, ratio)));
+            }
+        }
+        let mut simulation = released(explicit.damping);
+        let settled = simulation.settle(&mut |bodies| watch.moved(bodies) > limit);
+        *spent += settled.steps;
+        let ratio = settled.unbalanced_ratio;
+        match settled.status {
+            Status::Equilibrium => Told::Rests(Box::new(simulation.assembly), ratio),
+            Status::Stopped => {
+                Told::Falls(Box::new(self.watch_fall(from, &simulation.assembly, watch, level, ratio)))
+            }
+            Status::StepsSpent | Status::NoEquilibrium => Told::Nothing,
+            Status::NonFinite => Told::NonFinite(Box::new(simulation.assembly)),
+        }
     }
-    let mut damped = released(confirmation.explicit.damping);
-    let settled = damped.settle(&mut |bodies| watch.moved(bodies) > limit);
-    let ratio = settled.unbalanced_ratio;
-    let relaxed = match settled.status {
-        Status::Equilibrium => Relaxed::Rest(damped, ratio),
-        Status::Stopped => Relaxed::Away(damped, ratio),
-        Status::StepsSpent | Status::NoEquilibrium => Relaxed::Neither(damped, ratio),
-        Status::NonFinite => Relaxed::NonFinite(damped),
-    };
-    (relaxed, swung.steps + settled.steps)
+
+    /// How the wall falls at a level where limit analysis finds that it cannot stand.
+    fn cannot_stand(&self, from: &Assembly<'_>, level: f64, watch: &Watch) -> Option<Fall> {
+        let stands = |analysis: &Analysis, level: f64| analysis.stands(&self.loads(level));
+        let rigid = self.rigid.get_or_init(|| {
+            let Task { wall, laws, contact, .. } = *self.task;
+            let analysis = Analysis::new(wall, laws, contact, limit::Settings::default());
+            (stands(&analysis, 0.0).stands == Some(true)).then_some(analysis)
+        });
+        let standing = stands(rigid.as_ref()?, level);
+        if standing.stands != Some(false) {
+            return None;
+        }
+        let mut bodies = from.bodies.clone();
+        for (body, motion) in bodies.all.iter_mut().zip(&standing.mechanism) {
+            // The mechanism comes as velocities, the fastest 1 m/s: as far as a wall that runs away.
+            let limit = self.task.confirmation.limit;
+            let here = body.clone();
+            body.place(&here, &(motion.velocity * limit), &(motion.spin * limit));
+        }
+        let towards = self.task.path.direction();
+        Some(Fall {
+            level,
+            step: watch.read(&bodies, self.task.path.level(level), f64::NAN, 0),
+            failure: failure(self.task.wall, from, &from.bodies.all, &bodies, towards),
+            bodies: bodies.all,
+        })
+    }
+
+    /// The loads of a level for limit analysis.
+    fn loads(&self, level: f64) -> Loads {
+        let (gravity, factor) = self.task.path.loads(level);
+        let points = self.task.loads.iter().map(|load| PointLoad {
+            block: load.block,
+            point: load.point,
+            force: load.force * factor,
+            when: When::Dead,
+        });
+        Loads { dead: gravity, live: Vec3::zeros(), points: points.collect() }
+    }
+
+    /// How a wall falls that runs away: [`watch_fall`].
+    pub fn watch_fall(
+        &self,
+        at_rest: &Assembly<'_>,
+        away: &Assembly<'_>,
+        watch: &Watch,
+        level: f64,
+        ratio: f64,
+    ) -> Fall {
+        let step = watch.read(&away.bodies, self.task.path.level(level), ratio, 0);
+        let bodies = away.bodies.all.clone();
+        let simulation = Simulation::of(away.clone(), self.task.confirmation.explicit);
+        let failure = watch_fall(self.task, at_rest, simulation, watch);
+        Fall { level, step, failure, bodies }
+    }
 }
 
 /// Lets a wall that runs away go as far again, and reads the mechanism off that motion: by then the elastic rebound of what
 /// stays has died away. If it is caught on the way, the whole motion since the last state at rest counts.
 pub fn watch_fall(
-    wall: &Wall,
+    task: &Task<'_>,
     at_rest: &Assembly<'_>,
     mut falling: Simulation<'_>,
     watch: &Watch,
-    towards: Direction,
 ) -> Failure {
     let before = falling.assembly.bodies.all.clone();
     let far = 2.0 * watch.moved(&falling.assembly.bodies);
     let settled = falling.settle(&mut |bodies| watch.moved(bodies) > far);
     let after = &falling.assembly.bodies;
     let from = if settled.status == Status::Stopped { &before } else { &at_rest.bodies.all };
-    failure(wall, at_rest, from, after, towards)
+    failure(task.wall, at_rest, from, after, task.path.direction())
 }

@@ -4,7 +4,7 @@
 use crate::contact;
 use crate::math::Vec3;
 use crate::model::{JointLaws, Level, Outcome, Wall};
-use crate::protocol::confirm::{Confirmation, Relaxed, relax, watch_fall};
+use crate::protocol::confirm::{Confirmation, Fall, Judge, Told};
 use crate::protocol::mechanism::{Failure, JointState, joint_states};
 use crate::protocol::path::LoadPath;
 use crate::protocol::pressure::Load;
@@ -13,7 +13,7 @@ use crate::protocol::watch::{Criterion, LoadStep, Watch};
 use crate::solve::bodies::Body;
 use crate::solve::explicit::Simulation;
 use crate::solve::implicit::Equilibrium;
-use crate::solve::{Assembly, Equilibrate, Solver, Status, explicit};
+use crate::solve::{Assembly, Equilibrate, Solver, Status};
 
 /// A wall with all that surrounds it, its loads, and how far it is to be taken.
 pub struct Task<'t> {
@@ -29,8 +29,8 @@ pub struct Task<'t> {
     pub path: LoadPath,
     /// When a wall counts as running away.
     pub criterion: Criterion,
-    /// How a suspected collapse is confirmed; without it the wall is then not converged.
-    pub confirmation: Option<Confirmation>,
+    /// How a suspected collapse is confirmed.
+    pub confirmation: Confirmation,
 }
 
 /// How the evaluation of one wall went.
@@ -56,40 +56,45 @@ pub struct Run {
 /// Takes an assembly along a load path with the solver asked for.
 pub fn drive(task: &Task<'_>, solver: &Solver) -> Run {
     match solver {
-        Solver::Explicit(settings) => {
-            climb(task, Stops::Falling, &|assembly| Simulation::of(assembly, *settings))
-        }
-        Solver::Implicit(settings) => {
-            climb(task, Stops::Jumping, &|assembly| Equilibrium::of(assembly, *settings))
-        }
+        Solver::Explicit(settings) => climb(task, &|assembly| Simulation::of(assembly, *settings)),
+        Solver::Implicit(settings) => climb(task, &|assembly| Equilibrium::of(assembly, *settings)),
     }
-}
-
-/// What it means when a wall is stopped for having moved past the criterion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stops {
-    /// The solver follows the wall's motion: it was seen falling.
-    Falling,
-    /// The solver went to an equilibrium far away, which nobody has seen the wall reach.
-    Jumping,
 }
 
 /// Takes an assembly along a load path. `of` makes a solver of an assembly as it stands.
 ///
 /// Goes up by full steps. Where no equilibrium is found, or the wall moves past the criterion, it goes back to the last state
-/// at rest and halves the step until the capacity is bracketed. A wall that was seen falling at the last, shortest step has
-/// collapsed; one for which the solver found no equilibrium nearby is suspected of it, and is relaxed explicitly from the last
-/// state at rest: it runs away (collapsed), comes to rest (the solver goes on from there) or does neither (not converged).
-pub fn climb<'a, S: Equilibrate>(task: &Task<'a>, stops: Stops, of: &dyn Fn(Assembly<'a>) -> S) -> Run {
+/// at rest and halves the step until the capacity is bracketed. A wall that moves past the criterion falls. A solver that
+/// finds no equilibrium only suspects a fall: at the first suspicion it is confirmed there, by limit analysis or by explicit
+/// relaxation ([`Judge`]), before the step is halved; a wall that comes to rest after all goes on from there. At the shortest
+/// step the wall has fallen if it has become so soft on the way that this is the limit point of its path, or else as
+/// relaxation there says; a doubt that stays widens the bracket up to the level where the fall is certain.
+pub fn climb<'a, S: Equilibrate>(task: &Task<'a>, of: &dyn Fn(Assembly<'a>) -> S) -> Run {
     let built = task.assembled();
     let joints = built.joints.all.len();
     let watch = Watch::new(task.wall, &built.bodies, task.path.direction(), task.criterion);
-    let mut climber = Climber { task, stops, of, watch, built, steps: Vec::new(), spent: 0, wrong: 0 };
+    let judge = Judge::new(task);
+    let steps = Vec::new();
+    let mut climber = Climber {
+        task,
+        of,
+        watch,
+        judge,
+        built,
+        steps,
+        spent: 0,
+        wrong: 0,
+        certain: None,
+        pace: Pace::default(),
+    };
     let start = of(climber.built.clone());
-    let tried = climber.try_level(&start, 0.0);
-    let mut rest = match climber.settled(&start, 0.0, tried) {
-        Ok(rest) => rest,
-        Err(end) => return climber.never_at_rest(end, joints),
+    let mut rest = match climber.try_level(&start, 0.0) {
+        Tried::Rest(next, ratio) => climber.read(next, 0.0, ratio),
+        tried => match climber.judged(&start, 0.0, tried, true) {
+            Verdict::Rest(next, _) => next,
+            Verdict::GoBack => return climber.never_at_rest(None, joints),
+            Verdict::End(end) => return climber.never_at_rest(Some(*end), joints),
+        },
     };
     let at_rest = rest.assembly().bodies.all.clone();
     let mut route = Route::new(task.path);
@@ -97,19 +102,23 @@ pub fn climb<'a, S: Equilibrate>(task: &Task<'a>, stops: Stops, of: &dyn Fn(Asse
     while let Some(place) = route.next() {
         let level = task.path.after(place);
         let tried = climber.try_level(&rest, level);
-        let is_final = !matches!(tried, Tried::Rest(..)) && route.failed(place);
-        if !is_final && !matches!(tried, Tried::Rest(..) | Tried::NonFinite(..)) {
+        if let Tried::Rest(next, ratio) = tried {
+            rest = climber.read(next, level, ratio);
+            route.borne(place);
             continue;
         }
-        match climber.settled(&rest, level, tried) {
-            Ok(next) => {
+        let is_final = route.failed(place);
+        match climber.judged(&rest, level, tried, is_final) {
+            Verdict::GoBack => {}
+            Verdict::Rest(next, steps_further) => {
                 rest = next;
-                route.borne(place);
+                route.borne(place + steps_further);
             }
-            Err(end) => {
+            Verdict::End(end) => {
                 let last = climber.last_borne();
-                outcome = end.outcome(task.path.level(last), task.path.level(level));
-                bracket = matches!(outcome, Outcome::Collapsed { .. }).then_some([last, level]);
+                let failed = end.step.level;
+                outcome = end.outcome(task.path.level(last), failed);
+                bracket = matches!(outcome, Outcome::Collapsed { .. }).then_some([last, failed.value()]);
                 climber.steps.push(end.step);
                 failure = end.failure;
                 break;
@@ -141,9 +150,9 @@ impl<'t> Task<'t> {
 
 struct Climber<'c, 'a, S> {
     task: &'c Task<'a>,
-    stops: Stops,
     of: &'c dyn Fn(Assembly<'a>) -> S,
     watch: Watch,
+    judge: Judge<'c, 'a>,
     /// The assembly as built, with its loads.
     built: Assembly<'a>,
     steps: Vec<LoadStep>,
@@ -151,6 +160,9 @@ struct Climber<'c, 'a, S> {
     spent: u64,
     /// Suspicions that proved wrong.
     wrong: u32,
+    /// The lowest level at which the wall is certain to fall.
+    certain: Option<Fall>,
+    pace: Pace,
 }
 
 /// What came of trying a level.
@@ -160,6 +172,49 @@ enum Tried<S> {
     Lost(S, f64, Status),
     NonFinite(S),
 }
+
+/// What a trial that did not end at rest means.
+enum Verdict<S> {
+    /// Try nearer to the last state at rest.
+    GoBack,
+    /// The wall is at rest after all, so many full steps further up.
+    Rest(S, f64),
+    /// The climb ends here.
+    End(Box<End>),
+}
+
+/// How fast the wall moves along its path, from rest to rest.
+#[derive(Default)]
+struct Pace {
+    level: f64,
+    /// Largest movement of a block per level (m) over the first interval, and over the last.
+    first: Option<f64>,
+    last: f64,
+}
+
+impl Pace {
+    fn note(&mut self, level: f64, moved: f64) {
+        if level > self.level {
+            self.last = moved / (level - self.level);
+            self.first.get_or_insert(self.last);
+            self.level = level;
+        }
+    }
+
+    /// Whether the wall has become so much softer that the path is at its limit point, where its pace grows beyond all
+    /// bounds.
+    fn is_at_limit(&self) -> bool {
+        self.first.is_some_and(|first| self.last > SOFTENED * first)
+    }
+}
+
+/// A wall that moves so many times faster along its path than at the start has come to its limit point: near a quadratic
+/// limit the pace grows as one over the root of the distance, 10 at a hundredth of the way.
+const SOFTENED: f64 = 10.0;
+/// Suspicions that may prove wrong before the solver is called lost.
+const MOST_WRONG: u32 = 20;
+/// So many full steps above a suspicion a fall is looked for, when it cannot be told there.
+const STEPS_ABOVE: u32 = 6;
 
 /// Why the climb ends below the end of the path.
 struct End {
@@ -199,94 +254,137 @@ impl<'a, S: Equilibrate> Climber<'_, 'a, S> {
         let ratio = settled.unbalanced_ratio;
         match settled.status {
             Status::Equilibrium => Tried::Rest(next, ratio),
-            Status::Stopped if self.stops == Stops::Falling => Tried::Away(next, ratio),
-            Status::Stopped | Status::StepsSpent | Status::NoEquilibrium => {
-                Tried::Lost(next, ratio, settled.status)
-            }
+            Status::Stopped => Tried::Away(next, ratio),
+            Status::StepsSpent | Status::NoEquilibrium => Tried::Lost(next, ratio, settled.status),
             Status::NonFinite => Tried::NonFinite(next),
         }
     }
 
-    /// What a trial means when its step cannot be shortened: a state at rest, or the end.
-    fn settled(&mut self, from: &S, level: f64, tried: Tried<S>) -> Result<S, End> {
+    /// What a trial means that did not end at rest; `is_final` when its step cannot be shortened.
+    fn judged(&mut self, from: &S, level: f64, tried: Tried<S>, is_final: bool) -> Verdict<S> {
         match tried {
-            Tried::Rest(next, ratio) => {
-                self.read(next.assembly(), level, ratio);
-                Ok(next)
+            Tried::Rest(next, ratio) => Verdict::Rest(self.read(next, level, ratio), 0.0),
+            Tried::Away(next, ratio) if is_final => {
+                let fall = self.judge.watch_fall(from.assembly(), next.assembly(), &self.watch, level, ratio);
+                self.ended(Why::Fell, next.assembly(), level, ratio, Some(fall.failure))
             }
-            Tried::Away(next, ratio) => {
-                let settings = explicit::Settings { damping: 0.0, ..explicit::Settings::default() };
-                let simulation = Simulation::of(next.assembly().clone(), settings);
-                Err(self.fell(from, simulation, level, ratio))
-            }
-            Tried::Lost(next, ratio, status) => self.confirm(from, next, level, ratio, status),
-            Tried::NonFinite(next) => Err(self.ended(Why::NonFinite, next.assembly(), level, f64::NAN)),
+            Tried::Away(..) => Verdict::GoBack,
+            Tried::Lost(next, ratio, status) => self.suspected(from, next, level, (ratio, status), is_final),
+            Tried::NonFinite(next) => self.ended(Why::NonFinite, next.assembly(), level, f64::NAN, None),
         }
     }
 
-    /// Finds out by explicit relaxation what a solver that found no equilibrium means.
-    fn confirm(&mut self, from: &S, next: S, level: f64, ratio: f64, status: Status) -> Result<S, End> {
-        let lost = |why: &str, unbalanced_ratio| Why::Lost { unbalanced_ratio, why: why.to_string() };
+    /// What it means that the solver found no equilibrium.
+    fn suspected(
+        &mut self,
+        from: &S,
+        next: S,
+        level: f64,
+        (ratio, status): (f64, Status),
+        is_final: bool,
+    ) -> Verdict<S> {
         let words = match status {
             Status::StepsSpent => "the steps ran out",
-            _ => "no equilibrium was found, and no collapse confirmed",
+            _ => "no equilibrium was found",
         };
-        let Some(confirmation) = self.task.confirmation else {
-            return Err(self.ended(lost(words, ratio), next.assembly(), level, ratio));
+        let lost = |climber: &mut Self, why: &str| {
+            let block = next.assembly().most_unbalanced();
+            let place =
+                block.map_or(String::new(), |(id, force)| format!(", worst at block {id} ({force:.1e} N)"));
+            let why = Why::Lost { unbalanced_ratio: ratio, why: format!("{words}{place}: {why}") };
+            climber.ended(why, next.assembly(), level, ratio, None)
         };
-        if self.wrong >= confirmation.at_most {
-            let why = format!("{words}: the wall kept coming to rest where the solver found no equilibrium");
-            return Err(self.ended(lost(&why, ratio), next.assembly(), level, ratio));
+        if status == Status::StepsSpent && self.task.path.bracket.is_infinite() {
+            return lost(self, "a service load is no question of collapse");
         }
-        let loads = self.task.path.loads(level);
-        let (relaxed, steps) = relax(from.assembly(), loads, &confirmation, &self.watch);
-        self.spent += steps;
-        match relaxed {
-            Relaxed::Rest(simulation, ratio) => {
-                self.wrong += 1;
-                let mut assembly = self.built.clone();
-                assembly.gravity = simulation.assembly.gravity;
-                assembly.load_factor = simulation.assembly.load_factor;
-                assembly.bodies = simulation.assembly.bodies;
-                assembly.joints = simulation.assembly.joints;
-                assembly.refresh();
-                self.read(&assembly, level, ratio);
-                Ok((self.of)(assembly))
+        if self.wrong >= MOST_WRONG {
+            return lost(self, "the wall kept coming to rest where the solver had lost it");
+        }
+        let first = self.certain.is_none();
+        if !first && !is_final {
+            return Verdict::GoBack;
+        }
+        if !first && self.pace.is_at_limit() {
+            return self.fell(level, ratio);
+        }
+        let above = if first { STEPS_ABOVE } else { 0 };
+        for further in 0..=above {
+            let at = self.task.path.higher(level, further);
+            match self.judge.told(from.assembly(), at, &self.watch, &mut self.spent) {
+                Told::Falls(fall) => {
+                    self.certain = Some(*fall);
+                    return match is_final {
+                        true => self.fell(at, ratio),
+                        false => Verdict::GoBack,
+                    };
+                }
+                Told::Rests(assembly, ratio) => {
+                    self.wrong += 1;
+                    let next = (self.of)(self.taken_over(&assembly));
+                    return Verdict::Rest(self.read(next, at, ratio), f64::from(further));
+                }
+                Told::NonFinite(assembly) => {
+                    return self.ended(Why::NonFinite, &assembly, at, f64::NAN, None);
+                }
+                Told::Nothing => {}
             }
-            Relaxed::Away(simulation, ratio) => Err(self.fell(from, simulation, level, ratio)),
-            Relaxed::Neither(simulation, ratio) => {
-                let why = format!("{words}: relaxation neither came to rest nor ran away");
-                Err(self.ended(lost(&why, ratio), &simulation.assembly, level, ratio))
-            }
-            Relaxed::NonFinite(simulation) => {
-                Err(self.ended(Why::NonFinite, &simulation.assembly, level, f64::NAN))
-            }
+        }
+        match &self.certain {
+            // In doubt here, certain further up.
+            Some(fall) => self.fell(fall.level, ratio),
+            None => lost(self, "neither limit analysis nor relaxation told whether it stands"),
         }
     }
 
-    /// The end of a wall that runs away, with its mechanism.
-    fn fell(&mut self, from: &S, simulation: Simulation<'_>, level: f64, ratio: f64) -> End {
-        let mut end = self.ended(Why::Fell, &simulation.assembly, level, ratio);
-        let towards = self.task.path.direction();
-        end.failure = Some(watch_fall(self.task.wall, from.assembly(), simulation, &self.watch, towards));
-        end
+    /// The state that another solver came to rest in, with this climb's own joint laws.
+    fn taken_over(&self, state: &Assembly<'_>) -> Assembly<'a> {
+        let mut assembly = self.built.clone();
+        assembly.gravity = state.gravity;
+        assembly.load_factor = state.load_factor;
+        assembly.bodies = state.bodies.clone();
+        assembly.joints = state.joints.clone();
+        assembly.refresh();
+        assembly
     }
 
-    fn ended(&mut self, why: Why, assembly: &Assembly<'_>, level: f64, ratio: f64) -> End {
+    /// The end of a wall that falls at a level, as it was seen to fall.
+    fn fell(&mut self, level: f64, ratio: f64) -> Verdict<S> {
+        let Some(fall) = self.certain.take() else { return Verdict::GoBack };
+        let spent = std::mem::take(&mut self.spent);
+        let step = LoadStep {
+            level: self.task.path.level(level),
+            unbalanced_ratio: ratio,
+            solver_steps: spent,
+            ..fall.step
+        };
+        Verdict::End(Box::new(End { why: Why::Fell, step, failure: Some(fall.failure), bodies: fall.bodies }))
+    }
+
+    fn ended(
+        &mut self,
+        why: Why,
+        assembly: &Assembly<'_>,
+        level: f64,
+        ratio: f64,
+        failure: Option<Failure>,
+    ) -> Verdict<S> {
         let level = self.task.path.level(level);
         let step = self.watch.read(&assembly.bodies, level, ratio, std::mem::take(&mut self.spent));
-        End { why, step, failure: None, bodies: assembly.bodies.all.clone() }
+        Verdict::End(Box::new(End { why, step, failure, bodies: assembly.bodies.all.clone() }))
     }
 
     /// Notes what is read at a state at rest. Displacements of the first one are taken from there on.
-    fn read(&mut self, assembly: &Assembly<'_>, level: f64, ratio: f64) {
+    fn read(&mut self, state: S, level: f64, ratio: f64) -> S {
+        let bodies = &state.assembly().bodies;
         if self.steps.is_empty() {
-            self.watch.begins(&assembly.bodies);
+            self.watch.begins(bodies);
         }
-        let level = self.task.path.level(level);
-        let step = self.watch.read(&assembly.bodies, level, ratio, std::mem::take(&mut self.spent));
+        self.pace.note(level, self.watch.moved(bodies));
+        let step =
+            self.watch.read(bodies, self.task.path.level(level), ratio, std::mem::take(&mut self.spent));
         self.steps.push(step);
-        self.watch.rests(&assembly.bodies);
+        self.watch.rests(bodies);
+        state
     }
 
     /// The last level at which the wall came to rest.
@@ -295,20 +393,27 @@ impl<'a, S: Equilibrate> Climber<'_, 'a, S> {
     }
 
     /// The run of a wall that never came to rest.
-    fn never_at_rest(mut self, end: End, joints: usize) -> Run {
+    fn never_at_rest(mut self, end: Option<End>, joints: usize) -> Run {
         let zero = self.task.path.level(0.0);
-        let outcome = match end.why {
-            Why::Fell => Outcome::UnstableAtRest,
-            _ => end.outcome(zero, zero),
+        let (outcome, bodies, failure) = match end {
+            Some(End { why: Why::Fell, bodies, step, failure }) => {
+                self.steps.push(step);
+                (Outcome::UnstableAtRest, bodies, failure)
+            }
+            Some(end) => {
+                let outcome = end.outcome(zero, zero);
+                self.steps.push(end.step);
+                (outcome, end.bodies, end.failure)
+            }
+            None => (Outcome::UnstableAtRest, self.built.bodies.all.clone(), None),
         };
-        self.steps.push(end.step);
         Run {
             outcome,
             bracket: None,
             steps: self.steps,
-            displacements: displacements(&end.bodies, &self.built.bodies.all),
+            displacements: displacements(&bodies, &self.built.bodies.all),
             joints,
-            failure: end.failure,
+            failure,
             joint_states: Vec::new(),
         }
     }

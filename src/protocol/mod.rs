@@ -14,7 +14,7 @@ mod tilting;
 mod watch;
 
 pub use confirm::Confirmation;
-pub use drive::{Run, Stops, Task, climb, drive};
+pub use drive::{Run, Task, climb, drive};
 pub use mechanism::{Failure, FailureMode, JointState};
 pub use path::{Growing, LoadPath};
 pub use pressure::{Load, back_loads};

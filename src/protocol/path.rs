@@ -55,6 +55,11 @@ impl LoadPath {
         (steps / self.steps * self.end).min(self.end)
     }
 
+    /// The level so many full steps above another one, at most the end.
+    pub fn higher(&self, level: f64, steps: u32) -> f64 {
+        (level + f64::from(steps) / self.steps * self.end).min(self.end)
+    }
+
     /// A level as a value.
     pub fn level(&self, x: f64) -> Level {
         match self.growing {

@@ -32,7 +32,8 @@ pub fn run(
     let contact = contact::Settings::for_size(typical_size(wall), sub_contacts);
     let (low, high) = wall.bounds();
     let thickness = high.y - low.y;
-    let task = |path, criterion, confirmation| Task {
+    let confirmation = Confirmation::for_thickness(thickness);
+    let task = |path, criterion| Task {
         wall: &assembly,
         laws: &surroundings,
         contact,
@@ -41,18 +42,15 @@ pub fn run(
         criterion,
         confirmation,
     };
-    let confirmation = Confirmation::for_thickness(thickness);
     let mut run = match protocol {
         Protocol::Lateral(lateral) => {
             let criterion = Criterion::Top(lateral.collapse_share * thickness);
-            // The explicit solver's own end of steps is as good as a second relaxation's.
-            let confirmation = (!matches!(solver, Solver::Explicit(_))).then_some(confirmation);
-            let task = task(LoadPath::factor(lateral.steps), criterion, confirmation);
+            let task = task(LoadPath::factor(lateral.steps), criterion);
             drive(&Task { loads: back_loads(wall, lateral), ..task }, solver)
         }
         Protocol::Tilting(tilting) => {
             let criterion = Criterion::AnyBlock(tilting.collapse_share * thickness);
-            let task = task(tilting.path(), criterion, Some(confirmation));
+            let task = task(tilting.path(), criterion);
             match tilting.rate {
                 Rate::Static => drive(&task, solver),
                 Rate::Dynamic(turning) => {

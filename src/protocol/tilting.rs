@@ -68,7 +68,7 @@ pub fn turn(task: &Task<'_>, turning: &Turning, at_rest: Settings) -> Run {
     ended.bracket = turned.bracket;
     if let Some(falling) = turned.falling {
         let simulation = Simulation::of(falling, turned.settings);
-        let failure = confirm::watch_fall(task.wall, &turned.last, simulation, &turned.watch, towards);
+        let failure = confirm::watch_fall(task, &turned.last, simulation, &turned.watch);
         ended.failure = Some(failure);
     }
     ended

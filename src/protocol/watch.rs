@@ -42,8 +42,6 @@ pub struct Watch {
     /// Displacements of the top points and the three points at rest under gravity alone.
     top_at_rest: Vec<Vec3>,
     three_at_rest: [f64; 3],
-    /// Centroids at rest under gravity alone, once the wall has come to rest.
-    first: Option<Vec<Vec3>>,
     /// Centroids at the last state at rest.
     last: Vec<Vec3>,
 }
@@ -60,7 +58,6 @@ impl Watch {
             criterion,
             movable: movable(wall).map(|(id, _)| id).collect(),
             three_at_rest: [0.0; 3],
-            first: None,
             last: bodies.all.iter().map(|b| b.position).collect(),
         }
     }
@@ -69,7 +66,6 @@ impl Watch {
     pub fn begins(&mut self, bodies: &Bodies) {
         self.top_at_rest = displacements(&self.top, bodies);
         self.three_at_rest = self.three_now(bodies).unwrap_or_default();
-        self.first = Some(bodies.all.iter().map(|b| b.position).collect());
     }
 
     /// The wall has come to rest.
@@ -89,17 +85,11 @@ impl Watch {
 
     /// Largest movement of a block's centroid since the last state at rest (m).
     pub fn moved(&self, bodies: &Bodies) -> f64 {
-        self.largest(|id| bodies.all[id].position - self.last[id])
-    }
-
-    /// Largest movement of a block's centroid between rest under gravity alone and the last state at rest (m); `None`
-    /// before the first.
-    pub fn moved_since_gravity(&self) -> Option<f64> {
-        self.first.as_ref().map(|first| self.largest(|id| self.last[id] - first[id]))
-    }
-
-    fn largest(&self, movement: impl Fn(usize) -> Vec3) -> f64 {
-        self.movable.iter().map(|&id| movement(id).norm_squared()).fold(0.0, f64::max).sqrt()
+        self.movable
+            .iter()
+            .map(|&id| (bodies.all[id].position - self.last[id]).norm_squared())
+            .fold(0.0, f64::max)
+            .sqrt()
     }
 
     /// What is read off the wall now.

@@ -190,6 +190,25 @@ fn a_dead_force_on_a_tilted_table_keeps_its_direction_on_the_wall() {
 }
 
 #[test]
+fn a_block_on_its_ridge_or_its_corner_has_no_width_to_stand_on() {
+    // For the springs of the other solvers an edge is a strip and a corner a square, on which a block could stand.
+    let stands = |about_x: f64, about_y: f64| {
+        let turn = Rotation3::from_euler_angles(radians(about_x), radians(about_y), 0.0).into_inner();
+        let cube = Polyhedron::cuboid(Vec3::repeat(-0.1), Vec3::repeat(0.1)).moved(&turn, &Vec3::zeros());
+        let low = cube.bounds().0.z;
+        let wall = on_floor(vec![stone(cube.translated(&Vec3::new(0.0, 0.0, -low)), 2000.0)]);
+        // The floor reaches 0.1 m beyond the block.
+        analysis(&wall, &dry(1e9, 60.0), Settings::default()).stands(&Loads::weight())
+    };
+    // Balanced on the ridge within 1e-8 of a right angle's half; a degree off is a fall.
+    assert_eq!(stands(45.0, 0.0).stands, Some(true));
+    let off = stands(44.0, 0.0);
+    assert_eq!((off.stands, off.thrust.len()), (Some(false), 1), "it touches, and falls");
+    let corner = stands(45.0, 34.0);
+    assert_eq!((corner.stands, corner.thrust.len()), (Some(false), 1), "it touches, and falls");
+}
+
+#[test]
 fn nothing_that_moves_is_nothing_that_falls() {
     let mut wall = tower();
     wall.blocks[0].support = Support::Fixed;

@@ -266,7 +266,7 @@ fn a_horizontal_force_slides_a_block_at_mu() {
         loads: Vec::new(),
         path: LoadPath::multiplier(Direction::XMinus, 0.1, 10.0, 1e-3),
         criterion: Criterion::AnyBlock(0.04),
-        confirmation: Some(Confirmation::for_thickness(0.4)),
+        confirmation: Confirmation::for_thickness(0.4),
     };
     let run = drive(&task, &explicit());
     let Outcome::Collapsed { at: Level::Multiplier(lambda) } = run.outcome else {
