@@ -122,7 +122,7 @@ pub(crate) struct Run {
     /// Worker threads [default: one per processor]. No result depends on their number.
     #[arg(long, value_name = "T")]
     pub threads: Option<NonZero<usize>>,
-    /// Solver instead of the study's; its settings stay the study's.
+    /// Solver instead of the study's, with its defaults; the study's own settings if it is the study's own solver.
     #[arg(long, value_name = "NAME")]
     pub solver: Option<SolverName>,
 }

@@ -7,12 +7,11 @@ use crate::cli::failure::Failure;
 use crate::cli::{locate, output, progress};
 use crate::ensemble::{self, Settings};
 use crate::report;
-use crate::solve::{Solver, explicit, implicit};
 use crate::study::Study;
 
 /// Runs a study, or what is still missing of it, and shows the results.
 pub(crate) fn run(arguments: &Run) -> Result<(), Failure> {
-    let study = asked(locate::study(&arguments.which)?.study, arguments);
+    let study = asked(locate::study(&arguments.which)?.study, arguments)?;
     let out = arguments.out.clone().unwrap_or_else(|| default_folder(&study));
     let settings = Settings { out: out.clone(), threads: arguments.threads };
     let rows = ensemble::run(&study, &settings, progress::on_stderr(&study).as_ref())?;
@@ -25,14 +24,13 @@ pub(crate) fn run(arguments: &Run) -> Result<(), Failure> {
 }
 
 /// The study with what the arguments put in the place of its own values.
-fn asked(mut study: Study, arguments: &Run) -> Study {
+fn asked(mut study: Study, arguments: &Run) -> Result<Study, Failure> {
     if let Some(name) = arguments.solver {
-        study.solver = match (name, study.solver) {
-            (SolverName::Explicit, Solver::Explicit(settings)) => Solver::Explicit(settings),
-            (SolverName::Implicit, Solver::Implicit(settings)) => Solver::Implicit(settings),
-            (SolverName::Explicit, _) => Solver::Explicit(explicit::Settings::default()),
-            (SolverName::Implicit, _) => Solver::Implicit(implicit::Settings::default()),
+        let name = match name {
+            SolverName::Explicit => "explicit",
+            SolverName::Implicit => "implicit",
         };
+        study = study.with_solver(name).map_err(|faults| Failure::Usage(faults.to_string()))?;
     }
     if let Some(seed) = arguments.seed {
         study = study.with_seed(seed);
@@ -40,7 +38,7 @@ fn asked(mut study: Study, arguments: &Run) -> Study {
     if let Some(members) = arguments.members {
         study = study.with_members(members);
     }
-    study
+    Ok(study)
 }
 
 fn default_folder(study: &Study) -> PathBuf {

@@ -2,8 +2,7 @@
 
 use crate::math::{radians, tan};
 use crate::protocol::{Base, Lateral, Protocol, Rate, Restraint, Tilting, Turning};
-use crate::solve::Solver;
-use crate::solve::explicit::Settings;
+use crate::solve::{Solver, explicit, implicit};
 use crate::study::arm;
 use crate::study::catalogue::Catalogue;
 use crate::study::checked::{Arm, Joint};
@@ -121,18 +120,36 @@ fn restraint(t: &mut Reader<'_>) -> Option<Restraint> {
     Some(Restraint { base: Base { tan_phi, strip_height }, ends: ends? })
 }
 
-fn solver(t: &mut Reader<'_>) -> Option<Solver> {
-    let name = t.choice_name("name");
+/// Reads the solver and its settings.
+pub fn solver(t: &mut Reader<'_>) -> Option<Solver> {
+    match t.chosen()? {
+        "explicit" => explicit(t).map(Solver::Explicit),
+        _ => implicit(t).map(Solver::Implicit),
+    }
+}
+
+fn explicit(t: &mut Reader<'_>) -> Option<explicit::Settings> {
     let reals = t.reals(["unbalanced_ratio", "damping", "step_safety", "longest_step_s"]);
     let (max_steps, scaled_inertia) = (t.whole("max_steps"), t.flag("scaled_inertia"));
     let [unbalanced_ratio, damping, step_safety, longest_step] = reals?;
-    name?;
-    Some(Solver::Explicit(Settings {
+    Some(explicit::Settings {
         unbalanced_ratio,
         damping,
         step_safety,
         max_steps: max_steps?,
         scaled_inertia: scaled_inertia?,
         longest_step,
-    }))
+    })
+}
+
+fn implicit(t: &mut Reader<'_>) -> Option<implicit::Settings> {
+    let reals = t.reals(["unbalanced_ratio", "stabilisation"]);
+    let (max_factorisations, max_halvings) = (t.whole32("max_factorisations"), t.whole32("max_halvings"));
+    let [unbalanced_ratio, stabilisation] = reals?;
+    Some(implicit::Settings {
+        unbalanced_ratio,
+        max_factorisations: max_factorisations?,
+        max_halvings: max_halvings?,
+        stabilisation,
+    })
 }

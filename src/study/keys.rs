@@ -13,6 +13,10 @@ const TILTING: &[&str] = &["tilting"];
 
 /// A length above 0 (m); a kilometre is a slip of the unit.
 const SIZE: Interval = Interval::above(0.0, 1000.0);
+const EXPLICIT: &[&str] = &["explicit"];
+const IMPLICIT: &[&str] = &["implicit"];
+const RATIO_OF_FORCES: Kind = Kind::Real { unit: "1", within: Interval::open(0.0, 1.0) };
+const AT_REST: &str = "At rest when the unbalanced force ratio falls below this.";
 const SHARE: Interval = Interval::closed(0.0, 1.0);
 const POSITIVE: Interval = Interval::open(0.0, f64::INFINITY);
 
@@ -278,53 +282,76 @@ static RESTRAINT: Section = Section {
     ]],
 };
 
-static SOLVER: Section = Section {
+/// The solver, whose name decides which other keys there are.
+pub static SOLVER: Section = Section {
     title: "[solver]",
     doc: "Which solver, with its settings.",
-    chooser: None,
+    chooser: Some("name"),
     keys: &[&[
         Key::new(
             "name",
-            Kind::Choice(&["explicit"]),
+            Kind::Choice(&["explicit", "implicit"]),
             Default("\"explicit\""),
-            "Central differences with local damping.",
+            "Central differences with local damping; or Newton's method from equilibrium to equilibrium.",
         ),
-        Key::new(
-            "unbalanced_ratio",
-            real("1", Interval::open(0.0, 1.0)),
-            Default("1e-5"),
-            "At rest when the unbalanced force ratio falls below this.",
-        ),
+        Key::new("unbalanced_ratio", RATIO_OF_FORCES, Default("1e-5"), AT_REST).only(EXPLICIT),
+        Key::new("unbalanced_ratio", RATIO_OF_FORCES, Default("1e-7"), AT_REST).only(IMPLICIT),
         Key::new(
             "damping",
             real("1", Interval::below(0.0, 1.0)),
             Default("0.8"),
             "Local damping coefficient.",
-        ),
+        )
+        .only(EXPLICIT),
         Key::new(
             "step_safety",
             real("1", Interval::above(0.0, 1.0)),
             Default("0.5"),
             "Share of the critical step taken.",
-        ),
+        )
+        .only(EXPLICIT),
         Key::new(
             "max_steps",
             Kind::Whole { low: 1, high: 1_000_000_000 },
             Default("200000"),
             "Time steps per load step before a wall is called not converged.",
-        ),
+        )
+        .only(EXPLICIT),
         Key::new(
             "scaled_inertia",
             Kind::Flag,
             Default("true"),
             "Inertia scaled per block so that all share one critical step; for quasi-static runs.",
-        ),
+        )
+        .only(EXPLICIT),
         Key::new(
             "longest_step_s",
             real("s", Interval::above(0.0, 1.0)),
             Default("1e-3"),
             "Longest time step with true inertia, for blocks in free flight.",
-        ),
+        )
+        .only(EXPLICIT),
+        Key::new(
+            "max_factorisations",
+            Kind::Whole { low: 1, high: 10_000 },
+            Default("12"),
+            "Factorisations per load increment before it counts as failed.",
+        )
+        .only(IMPLICIT),
+        Key::new(
+            "max_halvings",
+            Kind::Whole { low: 0, high: 30 },
+            Default("1"),
+            "Times that a load increment that fails is halved within a load step.",
+        )
+        .only(IMPLICIT),
+        Key::new(
+            "stabilisation",
+            real("1", Interval::closed(0.0, 1e-3)),
+            Default("1e-8"),
+            "Stiffness added to the diagonal, as a share of the largest there; in the matrix only, not in the balance.",
+        )
+        .only(IMPLICIT),
     ]],
 };
 

@@ -2,16 +2,17 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use crate::study::build::{self, Parts};
 use crate::study::catalogue::{Catalogue, Used};
 use crate::study::checked::{InputFile, Study};
-use crate::study::fault::{Fault, Faults};
+use crate::study::fault::{Fault, Faults, Source};
 use crate::study::raw::{self, Node};
-use crate::study::reader::{Notes, table_name};
+use crate::study::reader::{Notes, Reader, table_name};
 use crate::study::schema::suggestion;
 use crate::study::variant::{self, Variant};
-use crate::study::{files, published};
+use crate::study::{files, keys, published};
 
 /// A study and what is to be said about it.
 #[derive(Clone, Debug, PartialEq)]
@@ -111,6 +112,29 @@ impl Study {
         self.effective.insert("study.seed".to_owned(), seed.to_string());
         self.hash = hash_of(&self.effective);
         self
+    }
+
+    /// The same study with the solver of that name, `explicit` or `implicit`: with the study's own settings if it is the
+    /// study's own solver, else with that solver's defaults.
+    ///
+    /// # Errors
+    /// The fault, where no solver has that name.
+    pub fn with_solver(mut self, name: &str) -> Result<Study, Faults> {
+        if self.effective.get("solver.name").is_some_and(|own| own == name) {
+            return Ok(self);
+        }
+        let mut notes = Notes::default();
+        let text = format!("name = \"{name}\"");
+        let source = Arc::new(Source { name: "solver asked for".to_owned(), rank: 0, text });
+        let node = raw::parse(&source).map_err(|fault| Faults::sorted(vec![*fault]))?;
+        let solver =
+            Reader::open(&node, "solver", &keys::SOLVER, &mut notes).and_then(|mut t| build::solver(&mut t));
+        let Some(solver) = solver else { return Err(Faults::sorted(notes.faults)) };
+        self.solver = solver;
+        self.effective.retain(|key, _| !key.starts_with("solver."));
+        self.effective.append(&mut notes.effective);
+        self.hash = hash_of(&self.effective);
+        Ok(self)
     }
 
     /// The same study with another number of walls in every arm that has more than one; at least one.

@@ -8,6 +8,12 @@ use crate::scratch::{DIP, PUBLISHED, SIZE, STUDY, Scratch};
 /// is the place `file:line:` of the replaced text; `#` heads the number of faults expected (1 when there is none).
 type Case = (&'static str, &'static str, &'static str, &'static [&'static str]);
 
+/// The fixture's load, to be replaced by a tilting table.
+const LOAD: &str =
+    "protocol = \"lateral\"\nmean_pressure_pa = 1000\nbase_over_top = 2\nsteps = 4\ncollapse_share = 0.5\n";
+/// The head of the fixture's solver, to be replaced by another one.
+const SOLVER: &str = "name = \"explicit\"\nunbalanced_ratio = 1e-5\ndamping = 0.8\nstep_safety = 0.5\nmax_steps = 200000\nscaled_inertia = true\nlongest_step_s = 1e-3\n";
+
 // One case per line: a table.
 #[rustfmt::skip]
 const CASES: &[Case] = &[
@@ -54,6 +60,24 @@ const CASES: &[Case] = &[
     (STUDY, "dip_deg = 5", "dip_deg = 60", &["@ arm.hewn.dip_deg = 60: allowed is a number or a distribution within -45 to 45 (deg); reduce it"]),
     (STUDY, "phi_deg = 30", "phi_deg = 95", &["@ joint.phi_deg = 95: allowed is a number or a distribution within 0 to 85 (deg)"]),
     (STUDY, "wythes = 1\n", "wythes = 11\n", &["@ wall.wythes = 11: allowed is a whole number within 1 to 10"]),
+    // the tilting table, the platform, the implicit solver
+    (STUDY, "protocol = \"lateral\"", "protocol = \"tilting\"", &["#4", "load.mean_pressure_pa means nothing where protocol = \"tilting\"", "it belongs to lateral"]),
+    (STUDY, "protocol = \"lateral\"", "protocol = \"tilted\"", &["@ load.protocol = \"tilted\": allowed is one of \"lateral\", \"tilting\"", "did you mean \"tilting\"?"]),
+    (STUDY, "collapse_share = 0.5", "collapse_share = 0.5\nstep_deg = 0.5", &["load.step_deg means nothing where protocol = \"lateral\"", "it belongs to tilting"]),
+    (STUDY, LOAD, "protocol = \"tilting\"\nend_deg = 90\n", &["load.end_deg = 90: allowed is a number above 0 and at most 89 (deg); reduce it"]),
+    (STUDY, LOAD, "protocol = \"tilting\"\nstep_deg = 0\n", &["load.step_deg = 0: allowed is a number above 0 and at most 10 (deg)"]),
+    (STUDY, LOAD, "protocol = \"tilting\"\nbracket_deg = 0\n", &["load.bracket_deg = 0: allowed is a number above 1e-4"]),
+    (STUDY, LOAD, "protocol = \"tilting\"\ntowards = \"z+\"\n", &["load.towards = \"z+\": allowed is one of \"x+\", \"x-\", \"y+\", \"y-\""]),
+    (STUDY, LOAD, "protocol = \"tilting\"\nrunaway_share = 2\n", &["load.runaway_share = 2: allowed is a number above 0 and at most 1"]),
+    (STUDY, LOAD, "protocol = \"tilting\"\n[load.turning]\n", &["load.turning.rate_deg_per_s is missing: allowed is a number within 0.001 to 1000 (deg/s)"]),
+    (STUDY, LOAD, "protocol = \"tilting\"\n[load.turning]\nrate_deg_per_s = 1\ndampling = 0\n", &["load.turning.dampling is not a known key", "did you mean \"damping\"?"]),
+    (STUDY, "base = \"fixed\"", "base = \"strip\"", &["restraint.strip_height_m is missing: allowed is a number above 0 and at most 1 (m)"]),
+    (STUDY, "base = \"fixed\"", "base = \"fixed\"\nstrip_height_m = 0.02", &["restraint.strip_height_m means nothing where base = \"fixed\"", "it belongs to strip"]),
+    (STUDY, "base = \"fixed\"", "base = \"fixed\"\nplatform_phi_deg = 90", &["restraint.platform_phi_deg = 90: allowed is a number within 0 to 85 (deg)"]),
+    (STUDY, "name = \"explicit\"", "name = \"implicit\"", &["#5", "solver.damping means nothing where name = \"implicit\"", "it belongs to explicit"]),
+    (STUDY, SOLVER, "name = \"implicit\"\nmax_factorisations = 0\n", &["solver.max_factorisations = 0", "at least 1 is needed"]),
+    (STUDY, SOLVER, "name = \"implicit\"\nstabilisation = 1\n", &["solver.stabilisation = 1: allowed is a number within 0 to 0.001"]),
+    (STUDY, SOLVER, "name = \"implicit\"\nunbalanced_ratio = 0\n", &["solver.unbalanced_ratio = 0: allowed is a number above 0 and below 1"]),
     // sizes against each other
     (STUDY, "block_length_m = 0.4\n", "block_length_m = 4.5\n", &["@ arm.stack.block_length_m = 4.5: allowed is at most wall.length_m = 4", "the block is larger than the wall"]),
     (STUDY, "course_height_m = 0.2\n", "course_height_m = 1.5\n", &["@ arm.stack.course_height_m = 1.5: allowed is at most wall.height_m = 1"]),

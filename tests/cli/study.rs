@@ -91,6 +91,64 @@ fn a_solver_that_is_not_described_is_the_default_one() {
 }
 
 #[test]
+fn a_solver_that_is_named_and_not_described_has_its_own_defaults() {
+    let scratch = Scratch::new("implicit-defaults");
+    let own = scratch.load(None).expect("sound").study;
+    let implicit = own.clone().with_solver("implicit").unwrap_or_else(|faults| panic!("{faults}"));
+    assert_eq!(implicit.solver, Solver::Implicit(pirca::solve::implicit::Settings::default()));
+    assert_ne!(implicit.hash, own.hash);
+    assert_eq!(implicit.effective["solver.name"], "implicit");
+    assert!(!implicit.effective.contains_key("solver.damping"));
+    // Written into the study it is the same study; asked for twice it stays the same.
+    let text = scratch.read(STUDY);
+    let (before, rest) = text.split_once("[solver]").expect("the fixture has a solver");
+    let (_, after) = rest.split_once("\n\n").expect("something follows it");
+    scratch.write(STUDY, format!("{before}[solver]\nname = \"implicit\"\n\n{after}").as_bytes());
+    let written = scratch.load(None).unwrap_or_else(|faults| panic!("{faults}")).study;
+    assert_eq!(written.hash, implicit.hash);
+    assert_eq!(written.clone().with_solver("implicit").unwrap().hash, written.hash);
+    // The study's own settings come with its own solver, and no other name is known.
+    assert_eq!(own.clone().with_solver("explicit").unwrap().solver, own.solver);
+    assert!(
+        own.with_solver("magic")
+            .unwrap_err()
+            .to_string()
+            .contains("allowed is one of \"explicit\", \"implicit\"")
+    );
+}
+
+#[test]
+fn a_tilting_study_has_the_defaults_of_its_protocol() {
+    use pirca::math::{radians, tan};
+    use pirca::protocol::{Base, Protocol, Rate, Tilting, Turning};
+    let scratch = Scratch::new("tilting");
+    let text = scratch.read(STUDY);
+    let (before, rest) = text.split_once("[load]").expect("the fixture has a load");
+    let (_, after) = rest.split_once("\n\n").expect("something follows it");
+    let with = |load: &str| {
+        scratch.write(STUDY, format!("{before}[load]\nprotocol = \"tilting\"\n{load}\n{after}").as_bytes());
+        scratch.load(None).unwrap_or_else(|faults| panic!("{faults}")).study
+    };
+    let study = with("");
+    assert_eq!(study.protocol, Protocol::Tilting(Tilting::default()));
+    assert_eq!(study.restraint.base, Base::default());
+    let turning = with("[load.turning]\nrate_deg_per_s = 2\n");
+    let expected = Turning { rate: radians(2.0), damping: 0.05, step_safety: 0.5 };
+    assert_eq!(
+        turning.protocol,
+        Protocol::Tilting(Tilting { rate: Rate::Dynamic(expected), ..Tilting::default() })
+    );
+    assert_ne!(turning.hash, study.hash);
+    scratch.replace(
+        STUDY,
+        "base = \"fixed\"",
+        "base = \"strip\"\nstrip_height_m = 0.02\nplatform_phi_deg = 20",
+    );
+    let strip = scratch.load(None).unwrap_or_else(|faults| panic!("{faults}")).study;
+    assert_eq!(strip.restraint.base, Base { tan_phi: Some(tan(radians(20.0))), strip_height: Some(0.02) });
+}
+
+#[test]
 fn another_seed_or_size_is_another_study() {
     let scratch = Scratch::new("overrides");
     let base = scratch.load(None).expect("sound").study;

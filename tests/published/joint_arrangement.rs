@@ -57,7 +57,7 @@ fn every_variant_builds_and_stands() {
 fn halving_the_unbalanced_ratio_changes_no_displacement_by_half_a_per_cent() {
     let coarse = study(None, 4);
     let mut fine = coarse.clone();
-    let Solver::Explicit(settings) = &mut fine.solver else { panic!("the study is solved explicitly") };
+    let Solver::Explicit(settings) = &mut fine.solver else { panic!("the study's solver is explicit") };
     assert_eq!(settings.unbalanced_ratio, 1e-5, "the study's own stop rule");
     settings.unbalanced_ratio *= 0.5;
     let mut largest: f64 = 0.0;
