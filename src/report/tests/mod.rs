@@ -35,6 +35,7 @@ fn failed(member: u64, outcome: Outcome) -> Row {
         collapse_angle_deg: None,
         fails_at_deg: None,
         largest_tilt_deg: None,
+        limit: None,
         mechanism: None,
         stones: 50,
         joints: 120,
