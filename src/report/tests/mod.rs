@@ -1,5 +1,6 @@
 //! Hand-made rows and populations, and the tests on them.
 
+mod capacity;
 mod figure;
 mod summary;
 mod verdict;
