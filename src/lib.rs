@@ -61,7 +61,7 @@
 //! | [`stats`] | moments, COV, intervals, bootstrap, ratios, distances |
 //! | [`law`] | constitutive laws: normal law, Coulomb, damping |
 //! | [`model`] | the nouns: block, wall, outcome |
-//! | [`exchange`] | walls to other programs: wall.json, OBJ |
+//! | [`exchange`] | walls from and to other programs: wall.json, OBJ; names their faults |
 //! | [`contact`] | broad phase, separating axes, patches, sub-contacts |
 //! | [`generate`] | layouts to walls; `canonical` holds walls with known answers |
 //! | [`solve`] | bodies, joints with history, the explicit solver |

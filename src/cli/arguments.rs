@@ -5,7 +5,24 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-const CODES: &str = "Exit codes: 0 done; 1 the run or a file failed; 2 wrong arguments; 3 invalid study.";
+use crate::cli::analyse;
+
+const CODES: &str =
+    "Exit codes: 0 done; 1 the run or a file failed; 2 wrong arguments; 3 invalid study or wall.";
+
+const WALLS: &str = "\
+Example: pirca analyse wall.json --phi-deg 30
+         pirca analyse arch.obj --unit mm --density-kg-per-m3 2300 --phi-deg 35 --solver explicit --kn 1e9 --json
+
+wall.json: {\"unit\": \"m\", \"blocks\": [{\"id\": 0, \"vertices\": [[x, y, z], ...], \"faces\": [[i, j, k, ...], ...],
+\"density\": 2400, \"fixed\": false, \"tag\": \"stone\"}, ...]}. Convex blocks; faces count their block's vertices from 0,
+counter-clockwise seen from outside; z up. unit: m (default), cm, mm. density in kg/m^3, not needed where fixed is true.
+fixed (default false): a support. tag: stone, header, wedge, base, end; may be left out.
+OBJ: one object (o, or g without any o) per block, z up. A block is fixed when a word of its name is base, end, fixed,
+ground or support (base_0, Left_support.001). A comment \"# density 2400 kg/m^3\" holds for the next object.
+In both, triangles of one plane are merged into faces, and repeated vertices welded.
+Joints have no tensile strength. Limits: 64 MiB, 50000 blocks, 2000 vertices and faces of a block in the file, 200 corners
+after merging; stones of 1 mm to 25 m; faces plane and convex to 1e-4 of the block; overlaps up to 1 % of the smaller block.";
 
 /// Stochastic dry stone walls: generates them, solves them, and says how strong they are and how sure that is.
 #[derive(Debug, Parser)]
@@ -35,6 +52,9 @@ pub(crate) enum Verb {
          A wall that falls or cannot be built is counted in the results; it is no error.\n\n{CODES}"
     ))]
     Run(Run),
+    /// Solve a wall that somebody else made, from a wall.json or an OBJ file: at which tilt or load does it fall?
+    #[command(after_help = format!("{WALLS}\n\n{CODES}\nEvery way a wall can end (stable, collapsed, unstable at rest, not converged) ends with 0."))]
+    Analyse(Analyse),
 }
 
 /// Which study, in which reading.
@@ -114,4 +134,126 @@ pub(crate) enum SolverName {
     Explicit,
     /// Newton's method from equilibrium to equilibrium.
     Implicit,
+}
+
+/// Arguments of `analyse`.
+#[derive(Args, Debug)]
+pub(crate) struct Analyse {
+    /// The wall: a .json or .obj file.
+    pub wall: PathBuf,
+    /// Solver. Limit analysis takes rigid blocks and needs no stiffness.
+    #[arg(long, value_name = "NAME", default_value = "limit")]
+    pub solver: MethodName,
+    /// Load: gravity turns towards the direction (to at most 89 deg), or a multiple of the weight pushes there (to at most 10).
+    #[arg(long, value_name = "NAME", default_value = "tilt")]
+    pub load: LoadName,
+    /// Direction of the load.
+    #[arg(long, value_name = "NAME", default_value = "y+")]
+    pub direction: DirectionName,
+    /// Friction angle of the joints (deg), 0 to 89.
+    #[arg(long, value_name = "F", value_parser = analyse::friction_angle, allow_negative_numbers = true)]
+    pub phi_deg: f64,
+    /// Normal stiffness of the joints per area (Pa/m); required for implicit and explicit.
+    #[arg(long, value_name = "PA_PER_M", value_parser = analyse::stiffness, allow_negative_numbers = true)]
+    pub kn: Option<f64>,
+    /// Shear stiffness of the joints per area (Pa/m) [default: kn / 2].
+    #[arg(long, value_name = "PA_PER_M", value_parser = analyse::stiffness, allow_negative_numbers = true)]
+    pub ks: Option<f64>,
+    /// Cohesion of the joints (Pa).
+    #[arg(long, value_name = "PA", default_value = "0", value_parser = analyse::cohesion, allow_negative_numbers = true)]
+    pub cohesion: f64,
+    /// Whether joints dilate when they slide, for limit analysis [default: associative, an upper bound].
+    #[arg(long, value_name = "NAME")]
+    pub flow: Option<FlowName>,
+    /// Step of the tilt (deg) for implicit and explicit [default: 0.5]; with --load lateral its tangent is the step.
+    #[arg(long, value_name = "F", value_parser = analyse::step, allow_negative_numbers = true)]
+    pub step_deg: Option<f64>,
+    /// Blocks closer than this share of the wall's size touch; deeper overlaps and wider gaps are told.
+    #[arg(long, value_name = "F", default_value = "1e-6", value_parser = analyse::tolerance, allow_negative_numbers = true)]
+    pub touch_tolerance: f64,
+    /// Unit of the coordinates of an OBJ file [default: m].
+    #[arg(long, value_name = "NAME")]
+    pub unit: Option<UnitName>,
+    /// Density (kg/m^3) of the objects of an OBJ file that have no density comment [default: 2400, with a warning].
+    #[arg(long, value_name = "F", value_parser = analyse::density, allow_negative_numbers = true)]
+    pub density_kg_per_m3: Option<f64>,
+    /// Print one JSON object on standard output instead of text.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Declares a closed set of names for an argument: the value, its name, what it is.
+macro_rules! names {
+    ($(#[$about:meta])* $set:ident { $($(#[$what:meta])* $value:ident = $name:literal,)+ }) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+        pub(crate) enum $set {
+            $($(#[$what])* #[value(name = $name)] $value,)+
+        }
+
+        impl $set {
+            /// The name as the user writes it.
+            pub fn name(&self) -> &'static str {
+                match self { $($set::$value => $name,)+ }
+            }
+        }
+    };
+}
+
+names! {
+    /// How a wall from elsewhere is solved.
+    MethodName {
+        /// Limit analysis of rigid blocks.
+        Limit = "limit",
+        /// Elastic joints, equilibrium by Newton's method.
+        Implicit = "implicit",
+        /// Elastic joints, steps in time with damping (DEM).
+        Explicit = "explicit",
+    }
+}
+
+names! {
+    /// What grows until the wall falls.
+    LoadName {
+        /// Gravity turns towards the direction.
+        Tilt = "tilt",
+        /// A multiple of the weight pushes in the direction.
+        Lateral = "lateral",
+    }
+}
+
+names! {
+    /// Horizontal directions.
+    DirectionName {
+        /// Along the wall.
+        XPlus = "x+",
+        /// Along the wall, backwards.
+        XMinus = "x-",
+        /// Out of plane, to the front.
+        YPlus = "y+",
+        /// Out of plane, to the back.
+        YMinus = "y-",
+    }
+}
+
+names! {
+    /// Flow rules of limit analysis.
+    FlowName {
+        /// Sliding dilates by the friction angle: an upper bound.
+        Associative = "associative",
+        /// Sliding does not dilate: neither a bound nor unique.
+        NonAssociative = "non-associative",
+    }
+}
+
+names! {
+    /// Units of length.
+    UnitName {
+        /// Metres.
+        Metre = "m",
+        /// Centimetres.
+        Centimetre = "cm",
+        /// Millimetres.
+        Millimetre = "mm",
+    }
 }

@@ -12,9 +12,9 @@ pub(crate) enum Failure {
     Run(String),
     /// The arguments: exit code 2.
     Usage(String),
-    /// The study: exit code 3.
-    Study(String),
-    /// The study, and all that is to be said has been printed: exit code 3.
+    /// The study or the wall file: exit code 3.
+    Input(String),
+    /// The study or the wall file, and all that is to be said has been printed: exit code 3.
     Said,
 }
 
@@ -22,7 +22,7 @@ impl Failure {
     /// What the user is told; empty when it has been said.
     pub fn message(&self) -> String {
         match self {
-            Failure::Run(text) | Failure::Usage(text) | Failure::Study(text) => text.trim_end().to_string(),
+            Failure::Run(text) | Failure::Usage(text) | Failure::Input(text) => text.trim_end().to_string(),
             Failure::Said => String::new(),
         }
     }
@@ -32,7 +32,7 @@ impl Failure {
         match self {
             Failure::Run(_) => ExitCode::from(1),
             Failure::Usage(_) => ExitCode::from(2),
-            Failure::Study(_) | Failure::Said => ExitCode::from(3),
+            Failure::Input(_) | Failure::Said => ExitCode::from(3),
         }
     }
 }
@@ -45,6 +45,6 @@ impl From<RunError> for Failure {
 
 impl From<Faults> for Failure {
     fn from(faults: Faults) -> Self {
-        Failure::Study(faults.to_string())
+        Failure::Input(faults.to_string())
     }
 }

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::cli::arguments::Which;
 use crate::cli::failure::Failure;
 use crate::cli::output;
+use crate::math::edit_distance;
 use crate::study::{Loaded, Study};
 
 /// Loads the study that the arguments name, in the variant asked for, and passes its warnings on to standard error.
@@ -29,7 +30,7 @@ pub(crate) fn folder(path: &Path) -> Result<PathBuf, Failure> {
         }
         Ok(_) => format!("{} is a file, but not a study.toml", path.display()),
     };
-    Err(Failure::Study(format!("no study at {found}\n{}", known(path))))
+    Err(Failure::Input(format!("no study at {found}\n{}", known(path))))
 }
 
 /// The studies in `studies/` and beside the path, nearest names first.
@@ -43,7 +44,7 @@ fn known(path: &Path) -> String {
         .filter(|study| study.join("study.toml").is_file())
         .map(|study| {
             let name = study.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-            (distance(&wanted, &name), study)
+            (edit_distance(&wanted, &name), study)
         })
         .collect();
     found.sort();
@@ -57,19 +58,4 @@ fn known(path: &Path) -> String {
             format!("studies found, nearest name first:\n{}", names.join("\n"))
         }
     }
-}
-
-/// Number of single letters to insert, drop or replace that makes `a` into `b` (Levenshtein).
-fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, from) in a.chars().enumerate() {
-        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
-        for (j, to) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(from != *to);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
-        }
-    }
-    row[b.len()]
 }

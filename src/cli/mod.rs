@@ -1,5 +1,6 @@
 //! The command line: arguments, messages, exit codes. Nothing else in the library prints.
 
+mod analyse;
 mod arguments;
 mod check;
 mod failure;
@@ -16,7 +17,7 @@ use clap::Parser;
 use crate::cli::arguments::{Arguments, Verb};
 
 /// Reads the arguments of the process, does what they ask, and gives the exit code: 0 done, 1 the run or its files
-/// failed, 2 the arguments make no sense, 3 the study is invalid.
+/// failed, 2 the arguments make no sense, 3 the study or the wall is invalid.
 pub fn main() -> ExitCode {
     output::report_full_files();
     let arguments = match Arguments::try_parse() {
@@ -24,6 +25,7 @@ pub fn main() -> ExitCode {
         Err(error) => return output::usage(&error),
     };
     let done = match &arguments.verb {
+        Verb::Analyse(arguments) => analyse::analyse(arguments),
         Verb::Check(arguments) => check::check(arguments),
         Verb::Generate(arguments) => generate::generate(arguments),
         Verb::Run(arguments) => run::run(arguments),

@@ -8,6 +8,11 @@ use crate::shape::Polyhedron;
 
 /// Pairs (lower id, higher id) whose bounding boxes, grown by half of `margin` (m) on all sides, overlap; sorted.
 pub fn candidate_pairs(shapes: &[Polyhedron], margin: f64) -> Vec<(u32, u32)> {
+    candidate_pairs_up_to(shapes, margin, usize::MAX).unwrap_or_default()
+}
+
+/// The same, but `None` as soon as there are more than `most` of them.
+pub fn candidate_pairs_up_to(shapes: &[Polyhedron], margin: f64, most: usize) -> Option<Vec<(u32, u32)>> {
     let boxes: Vec<Aabb> = shapes
         .iter()
         .map(|shape| {
@@ -22,10 +27,16 @@ pub fn candidate_pairs(shapes: &[Polyhedron], margin: f64) -> Vec<(u32, u32)> {
     let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
     let mut pairs = Vec::new();
     for (a, bounds) in boxes.iter().enumerate() {
-        pairs.extend(tree.intersect_aabb(bounds).filter(|&b| b > a as u32).map(|b| (a as u32, b)));
+        let left = most - pairs.len();
+        let above = tree.intersect_aabb(bounds).filter(|&b| b > a as u32).map(|b| (a as u32, b));
+        // One more than allowed tells that there are too many.
+        pairs.extend(above.take(left.saturating_add(1)));
+        if pairs.len() > most {
+            return None;
+        }
     }
     pairs.sort_unstable();
-    pairs
+    Some(pairs)
 }
 
 #[cfg(test)]

@@ -1,7 +1,20 @@
-//! Walls from and to other programs: `wall.json` and OBJ.
+//! Walls from and to other programs: `wall.json` and OBJ. What is wrong with a file is named block by block.
 
+mod draft;
+mod fault;
 mod json;
+mod json_node;
+mod json_place;
 mod obj;
+mod read;
+mod read_json;
+mod read_obj;
+mod solid;
 
+pub use draft::WallFile;
+pub use fault::{Fault, WallFaults};
 pub use json::write_wall_json;
 pub use obj::write_obj;
+pub use read::{ObjOptions, Unit, read_wall};
+pub use read_json::read_wall_json;
+pub use read_obj::read_obj;

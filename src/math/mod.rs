@@ -1,9 +1,12 @@
-//! Vectors, elementary functions on libm, angles at the border, and the invariant check that stays on in release.
+//! Vectors, elementary functions on libm, angles at the border, and the invariant check that stays on in release;
+//! and how far words are apart.
 
 mod elementary;
 mod invariant;
+mod words;
 
 pub use elementary::*;
+pub use words::edit_distance;
 
 /// A vector or a position in metres (or whatever unit the user of it states); x along the wall, y out of plane
 /// (positive downhill), z up.

@@ -1,8 +1,12 @@
 //! What a user meets: input files and their faults, the verbs, and the house's own layering.
 
+mod analyse;
+mod bad_walls;
 mod catalogue;
 mod commands;
 mod layering;
 mod malformed;
+mod mutated_walls;
 mod scratch;
 mod study;
+mod walls;

@@ -1,9 +1,13 @@
 //! A floor, a block, a law, a simulation: each in one line.
 
 use pirca::contact;
+use pirca::generate::{
+    Arrangement, BatteredFace, DipAbout, Layout, Limits, Outline, Wedges, Wythes, generate,
+};
 use pirca::law::{CohesionAfterSlip, Coulomb, NormalLaw, Sampling};
 use pirca::math::{Vec3, cos, radians, sin, tan};
 use pirca::model::{Block, Support, Tag, Wall};
+use pirca::random::{Family, Streams};
 use pirca::shape::Polyhedron;
 use pirca::solve::explicit::{Settings, Simulation};
 use pirca::solve::{STANDARD_GRAVITY, Status};
@@ -84,4 +88,40 @@ pub fn collapse_angle(
         }
         assert!(angle < 89.0, "nothing collapses");
     }
+}
+
+/// An irregular wall on its base, beds leaning both ways, with wedges in it; 2 x 1 m are some thirty stones.
+pub fn irregular(member: u64, length: f64, height: f64) -> Wall {
+    let layout = Layout {
+        outline: Outline {
+            length,
+            height,
+            base_thickness: 0.45,
+            top_thickness: 0.25,
+            battered_face: BatteredFace::Front,
+        },
+        arrangement: Arrangement::Cut {
+            length: Family::TruncatedNormal { mean: 0.4, sd: 0.08, low: 0.2, high: 0.6 },
+            height: Family::TruncatedNormal { mean: 0.2, sd: 0.03, low: 0.1, high: 0.3 },
+            wall_size_factor: Family::Lognormal { mean: 1.0, sd: 0.1 },
+            dip: Family::Uniform { low: radians(-10.0), high: radians(10.0) },
+            dip_about: DipAbout::Both,
+        },
+        density: Family::Normal { mean: 2400.0, sd: 50.0 },
+        wythes: Wythes { count: 1, header_share: 0.0 },
+        head_joint_gap: 0.0,
+        wedges: Some(Wedges {
+            share: 0.2,
+            height: Family::Uniform { low: 0.02, high: 0.05 },
+            depth: Family::Uniform { low: 0.05, high: 0.12 },
+        }),
+        limits: Limits {
+            min_size: 0.03,
+            max_aspect: 8.0,
+            min_volume: 1e-6,
+            max_redraws: 100,
+            max_attempts: 20,
+        },
+    };
+    generate(&layout, &Streams::new(7, member)).expect("a wall comes out").wall.with_base()
 }

@@ -1,54 +1,14 @@
 //! Limit analysis on random walls: the two cones, a change of axes, gap and residual, the same bits twice.
 
 use nalgebra::Rotation3;
-use pirca::generate::{
-    Arrangement, BatteredFace, DipAbout, Layout, Limits, Outline, Wedges, Wythes, generate,
-};
 use pirca::law::Coulomb;
 use pirca::math::{Vec3, cos, radians, sin};
 use pirca::model::{Block, Outcome, Support, Wall};
-use pirca::random::{Family, Streams};
 use pirca::shape::Plane;
 use pirca::solve::limit::{Cone, Flow, Limit, Loads, Settings};
 
-use crate::fixture::{dry, resting};
+use crate::fixture::{dry, irregular, resting};
 use crate::limit_known::{analysis, collapse, with};
-
-/// An irregular wall of some thirty stones, beds leaning both ways, with wedges in it.
-fn irregular(member: u64) -> Wall {
-    let layout = Layout {
-        outline: Outline {
-            length: 2.0,
-            height: 1.0,
-            base_thickness: 0.45,
-            top_thickness: 0.25,
-            battered_face: BatteredFace::Front,
-        },
-        arrangement: Arrangement::Cut {
-            length: Family::TruncatedNormal { mean: 0.4, sd: 0.08, low: 0.2, high: 0.6 },
-            height: Family::TruncatedNormal { mean: 0.2, sd: 0.03, low: 0.1, high: 0.3 },
-            wall_size_factor: Family::Lognormal { mean: 1.0, sd: 0.1 },
-            dip: Family::Uniform { low: radians(-10.0), high: radians(10.0) },
-            dip_about: DipAbout::Both,
-        },
-        density: Family::Normal { mean: 2400.0, sd: 50.0 },
-        wythes: Wythes { count: 1, header_share: 0.0 },
-        head_joint_gap: 0.0,
-        wedges: Some(Wedges {
-            share: 0.2,
-            height: Family::Uniform { low: 0.02, high: 0.05 },
-            depth: Family::Uniform { low: 0.05, high: 0.12 },
-        }),
-        limits: Limits {
-            min_size: 0.03,
-            max_aspect: 8.0,
-            min_volume: 1e-6,
-            max_redraws: 100,
-            max_attempts: 20,
-        },
-    };
-    generate(&layout, &Streams::new(7, member)).expect("a wall comes out").wall.with_base()
-}
 
 fn lateral(wall: &Wall, settings: Settings) -> Limit {
     analysis(wall, &dry(1e9, 30.0), settings).multiplier(&Loads::lateral(Vec3::y()))
@@ -57,7 +17,7 @@ fn lateral(wall: &Wall, settings: Settings) -> Limit {
 #[test]
 fn the_inscribed_pyramid_never_bears_more_than_the_cone() {
     for member in 0..8 {
-        let wall = irregular(member);
+        let wall = irregular(member, 2.0, 1.0);
         let cone = collapse(&lateral(&wall, with(Cone::SecondOrder)));
         let mut last = 0.0;
         for sides in [4, 8, 16] {
@@ -78,7 +38,7 @@ fn the_inscribed_pyramid_never_bears_more_than_the_cone() {
 #[test]
 fn without_dilatancy_no_irregular_wall_bears_more() {
     for member in 0..4 {
-        let wall = irregular(member);
+        let wall = irregular(member, 2.0, 1.0);
         let most = collapse(&lateral(&wall, Settings::default()));
         let limit = lateral(&wall, Settings { flow: Flow::NonAssociative, ..Settings::default() });
         println!(
@@ -119,7 +79,7 @@ fn a_bed_that_leans_sideways_needs_the_round_cone() {
 #[test]
 fn a_turned_and_moved_problem_has_the_same_multiplier() {
     for member in 0..3 {
-        let wall = irregular(member);
+        let wall = irregular(member, 2.0, 1.0);
         let here = collapse(&lateral(&wall, Settings::default()));
         for (k, angles) in [[0.0; 3], [0.7, -0.4, 1.9], [-2.0, 0.3, 0.1]].iter().enumerate() {
             let turn = Rotation3::from_euler_angles(angles[0], angles[1], angles[2]).into_inner();
@@ -142,7 +102,7 @@ fn a_turned_and_moved_problem_has_the_same_multiplier() {
 
 #[test]
 fn the_same_wall_has_the_same_bits_twice() {
-    let wall = irregular(3);
+    let wall = irregular(3, 2.0, 1.0);
     let law = Coulomb { cohesion: 200.0, ..dry(1e9, 30.0) };
     let once = || analysis(&wall, &law, Settings::default()).tilt(Vec3::y(), &[]);
     let (one, other) = (once(), once());

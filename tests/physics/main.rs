@@ -1,9 +1,11 @@
 //! Laws of physics and closed forms: every test holds its own answer.
 
+mod agreement;
 mod dynamics;
 mod elastic;
 mod fixture;
 mod holding;
+mod implicit;
 mod limit_answers;
 mod limit_column;
 mod limit_flow;

@@ -14,6 +14,8 @@ const GOOD_CONTRACTION: f64 = 0.3;
 const POOR_CONTRACTION: f64 = 0.9;
 /// Steps in a row that may be stuck.
 const MOST_STUCK: u32 = 3;
+/// Largest unbalanced force ratio that passes for rounding: the explicit solver's own limit.
+const MOST_ROUNDING: f64 = 1e-5;
 /// Trial steps of a line search.
 const TRIALS: u32 = 8;
 /// Longest displacement of a corner of a block in one step, in reaches of the contact search.
@@ -52,7 +54,7 @@ impl Newton<'_, '_> {
         let mut residual = self.residual();
         let mut ratio = self.assembly.unbalanced_ratio();
         let (mut spent, mut stuck) = (0, 0);
-        while !(ratio < self.settings.unbalanced_ratio) {
+        while !(ratio < self.settings.unbalanced_ratio.max(self.rounding())) {
             let own = !fresh;
             if own {
                 let lost = spent == self.settings.max_factorisations || stuck > MOST_STUCK;
@@ -76,6 +78,19 @@ impl Newton<'_, '_> {
         // A matrix from before the last step may be that of another state; its sign is asked for first, as it costs less.
         let stable = self.system.is_positive() || (self.factorise().is_some() && self.system.is_positive());
         (stable, ratio)
+    }
+
+    /// The unbalanced force ratio that rounding alone may leave: positions are known to a unit in their last place, and
+    /// stiff joints make forces of that.
+    fn rounding(&self) -> f64 {
+        let Assembly { bodies, joints, .. } = &*self.assembly;
+        let furthest = bodies.all.iter().fold(0.0, |m: f64, b| m.max(b.position.amax() + b.radius));
+        let (mut noise, mut carried) = (0.0, 0.0);
+        for joint in joints.all.iter().filter(|joint| joint.force > 0.0) {
+            noise += joint.law.normal.largest_stiffness() * joint.area() * f64::EPSILON * furthest;
+            carried += joint.force;
+        }
+        if carried > 0.0 { (noise / carried).min(MOST_ROUNDING) } else { 0.0 }
     }
 
     /// Assembles and factorises the matrix at the positions now.

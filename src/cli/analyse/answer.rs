@@ -1,0 +1,108 @@
+//! What a solver answers, the same for all of them, and how it is told.
+
+use serde_json::{Value, json};
+
+use crate::cli::analyse::meetings::Fit;
+use crate::cli::arguments::{Analyse, LoadName};
+use crate::exchange::WallFile;
+use crate::math::degrees;
+use crate::model::{Level, Outcome};
+
+/// What came of a wall.
+pub(crate) struct Answer {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// What the number is: a bound, or the result of a solver.
+    pub meaning: String,
+    /// The blocks of the collapse mechanism.
+    pub moving: Vec<usize>,
+    /// Blocks that carry nothing and were held.
+    pub loose: Vec<usize>,
+    /// What the solver has to add.
+    pub warnings: Vec<String>,
+}
+
+impl Answer {
+    /// The name of the outcome; a wall that bears all that was asked is stable.
+    fn name(&self) -> &'static str {
+        if self.outcome == Outcome::Equilibrium { "stable" } else { self.outcome.name() }
+    }
+
+    /// The load at collapse, as the JSON object names it: the angle in degrees or the multiplier.
+    fn collapse(&self) -> (Option<f64>, Option<f64>) {
+        match self.outcome {
+            Outcome::Collapsed { at: Level::Tilt(angle) } => (Some(degrees(angle)), None),
+            Outcome::Collapsed { at: Level::Multiplier(multiplier) } => (None, Some(multiplier)),
+            _ => (None, None),
+        }
+    }
+
+    /// The one JSON object.
+    pub fn object(
+        &self,
+        asked: &Analyse,
+        file: &WallFile,
+        fit: &Fit,
+        warnings: &[String],
+        seconds: f64,
+    ) -> Value {
+        let (angle, multiplier) = self.collapse();
+        let ids = |blocks: &[usize]| blocks.iter().map(|&i| file.ids[i]).collect::<Vec<_>>();
+        json!({
+            "outcome": self.name(),
+            "reason": self.outcome.reason(),
+            "collapse_angle_deg": angle,
+            "multiplier": multiplier,
+            "meaning": self.meaning,
+            "solver": asked.solver.name(),
+            "load": asked.load.name(),
+            "direction": asked.direction.name(),
+            "blocks": file.wall.blocks.len(),
+            "joints": fit.joints,
+            "mechanism": ids(&self.moving),
+            "loose": ids(&self.loose),
+            "seconds": seconds,
+            "warnings": warnings,
+        })
+    }
+
+    /// The same for people.
+    pub fn text(
+        &self,
+        asked: &Analyse,
+        file: &WallFile,
+        fit: &Fit,
+        warnings: &[String],
+        seconds: f64,
+    ) -> String {
+        let mut text: String = warnings.iter().map(|warning| format!("warning: {warning}\n")).collect();
+        let to = asked.direction.name();
+        let said = match (&self.outcome, asked.load, self.collapse()) {
+            (_, _, (Some(angle), _)) => format!("collapses at a tilt of {angle:.3} deg towards {to}"),
+            (_, _, (_, Some(multiplier))) => {
+                format!("collapses at {multiplier:.5} of its weight towards {to}")
+            }
+            (Outcome::Equilibrium, LoadName::Tilt, _) => format!("stands to the largest tilt towards {to}"),
+            (Outcome::Equilibrium, LoadName::Lateral, _) => {
+                format!("stands to the largest horizontal load towards {to}")
+            }
+            (other, ..) => format!("{}: {}", self.name().replace('_', " "), other.reason()),
+        };
+        text.push_str(&format!(
+            "{} blocks, {} joints: {said}\n  {} solver: {}\n",
+            file.wall.blocks.len(),
+            fit.joints,
+            asked.solver.name(),
+            self.meaning
+        ));
+        for (blocks, what) in [(&self.moving, "moves at collapse"), (&self.loose, "loose, held lightly")] {
+            if !blocks.is_empty() {
+                let names: Vec<&str> = blocks.iter().take(30).map(|&i| file.names[i].as_str()).collect();
+                let dots = if blocks.len() > 30 { ", ..." } else { "" };
+                text.push_str(&format!("  {what}: {}{dots}\n", names.join(", ")));
+            }
+        }
+        text.push_str(&format!("  {seconds:.3} s\n"));
+        text
+    }
+}

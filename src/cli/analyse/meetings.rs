@@ -1,0 +1,148 @@
+//! Where the blocks of a wall from elsewhere meet: what makes the wall unfit, and what its user should know.
+
+use crate::contact::{self, Pair, Survey, survey};
+use crate::exchange::{Fault, WallFaults, WallFile};
+use crate::math::{Vec3, cbrt};
+use crate::model::{Support, Wall};
+use crate::shape::Polyhedron;
+
+/// An overlap deeper than this share of the smaller block's size (edge of the cube of its volume) is no modelling gap.
+const DEEPEST: f64 = 0.01;
+/// Overlaps and gaps listed one by one.
+const LISTED: usize = 20;
+/// Sub-contacts along the longer and the shorter side of a joint.
+const SUB_CONTACTS: [u32; 2] = [2, 2];
+
+/// A wall that is fit to be solved.
+pub(crate) struct Fit {
+    /// Tolerances of contact detection; gaps up to `touch` are joints for the survey and for limit analysis.
+    pub contact: contact::Settings,
+    /// Gap (m) that is rounding for springs.
+    pub rounding: f64,
+    /// Smaller horizontal extent of the part that moves (m).
+    pub thickness: f64,
+    /// Number of joints.
+    pub joints: usize,
+    /// Deepest overlap of a joint (m).
+    pub deepest: f64,
+    /// Overlaps and gaps with their size.
+    pub warnings: Vec<String>,
+}
+
+/// Looks where the blocks meet; `tolerance` is a share of the size of the part that can move.
+pub(crate) fn look(file: &WallFile, tolerance: f64, path: &str) -> Result<Fit, WallFaults> {
+    let mut faults = WallFaults::new(path);
+    let standard = contact::Settings::for_size(stone_size(&file.wall), SUB_CONTACTS);
+    let (low, high) = bounds(&file.wall);
+    let touch = tolerance * (high - low).norm();
+    let contact = contact::Settings { touch, reach: standard.reach.max(10.0 * touch), ..standard };
+    let Some(found) = survey(&file.wall, &contact) else {
+        faults.push(Fault::of(
+            "",
+            "the blocks are entangled: far too many of them overlap or nearly touch",
+            "blocks that touch their neighbours only",
+            "check the unit and whether blocks are there several times",
+        ));
+        return Err(faults);
+    };
+    for pair in &found.overlaps {
+        let depth_allowed = deepest_allowed(&file.wall, pair);
+        if pair.length > depth_allowed {
+            faults.push(Fault::of(
+                &file.names[pair.blocks.0],
+                format!("it overlaps {} by {}", file.names[pair.blocks.1], length(pair.length)),
+                format!("at most {} ({DEEPEST} of the smaller block)", length(depth_allowed)),
+                "move or trim one of them; or remove the one that is there twice",
+            ));
+        }
+    }
+    for group in &found.floating {
+        faults.push(floating(file, group, &found));
+    }
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    Ok(Fit {
+        contact,
+        rounding: standard.touch,
+        thickness: (high.x - low.x).min(high.y - low.y),
+        joints: found.joints.len(),
+        deepest: found.deepest,
+        warnings: told(file, &found, touch),
+    })
+}
+
+fn floating(file: &WallFile, group: &[usize], found: &Survey) -> Fault {
+    let outside = |pair: &&Pair| group.contains(&pair.blocks.0) != group.contains(&pair.blocks.1);
+    let nearest = found.gaps.iter().filter(outside).min_by(|a, b| a.length.total_cmp(&b.length));
+    let fix = match nearest {
+        Some(pair) => format!(
+            "the nearest, {} and {}, are {} apart: close the gap, or raise --touch-tolerance",
+            file.names[pair.blocks.0],
+            file.names[pair.blocks.1],
+            length(pair.length)
+        ),
+        None => "put something under it, or set \"fixed\": true".to_owned(),
+    };
+    let (whom, what) = match group {
+        [_] => (file.names[group[0]].clone(), "it floats free".to_owned()),
+        _ => {
+            let names: Vec<&str> = group.iter().take(8).map(|&i| file.names[i].as_str()).collect();
+            let dots = if group.len() > 8 { ", ..." } else { "" };
+            let all = format!("{} blocks float free together: {}{dots}", group.len(), names.join(", "));
+            (file.names[group[0]].clone(), all)
+        }
+    };
+    Fault::of(&whom, what, "a chain of touching blocks from every block to a fixed one", fix)
+}
+
+/// Overlaps and gaps, the largest first.
+fn told(file: &WallFile, found: &Survey, touch: f64) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let mut list = |pairs: &[Pair], said: &dyn Fn(&str, &str, String) -> String, what: &str| {
+        let mut pairs = pairs.to_vec();
+        pairs.sort_by(|a, b| b.length.total_cmp(&a.length));
+        for pair in pairs.iter().take(LISTED) {
+            let (a, b) = (&file.names[pair.blocks.0], &file.names[pair.blocks.1]);
+            warnings.push(said(a, b, length(pair.length)));
+        }
+        if pairs.len() > LISTED {
+            warnings.push(format!("... and {} more {what}", pairs.len() - LISTED));
+        }
+    };
+    list(&found.overlaps, &|a, b, depth| format!("{a} and {b} overlap by {depth}"), "overlaps");
+    let tolerance = length(touch);
+    list(
+        &found.gaps,
+        &|a, b, gap| format!("a gap of {gap} between {a} and {b}: they do not touch (tolerance {tolerance})"),
+        "gaps",
+    );
+    warnings
+}
+
+/// A length in millimetres.
+fn length(metres: f64) -> String {
+    let mm = 1000.0 * metres;
+    if mm >= 0.001 { format!("{} mm", (mm * 1e4).round() / 1e4) } else { format!("{mm:.1e} mm") }
+}
+
+fn deepest_allowed(wall: &Wall, pair: &Pair) -> f64 {
+    let edge = |i: usize| cbrt(wall.blocks[i].shape.volume());
+    DEEPEST * edge(pair.blocks.0).min(edge(pair.blocks.1))
+}
+
+fn free(wall: &Wall) -> impl Iterator<Item = &Polyhedron> {
+    wall.blocks.iter().filter(|b| b.support != Support::Fixed).map(|b| &b.shape)
+}
+
+/// Box around the blocks that move (m): a large ground does not loosen the tolerance.
+pub(crate) fn bounds(wall: &Wall) -> (Vec3, Vec3) {
+    let corners = free(wall).flat_map(|shape| shape.vertices.iter().copied()).collect();
+    Polyhedron { vertices: corners, faces: Vec::new() }.bounds()
+}
+
+/// Edge of the cube with the mean volume of the blocks that move (m).
+fn stone_size(wall: &Wall) -> f64 {
+    let (count, volume) = free(wall).fold((0u32, 0.0), |(n, v), shape| (n + 1, v + shape.volume()));
+    cbrt(volume / f64::from(count.max(1)))
+}

@@ -1,0 +1,59 @@
+//! The numbers among the arguments, each within its range.
+
+use std::ops::RangeInclusive;
+
+/// Friction angle (deg): at 90 degrees friction would be infinite.
+pub(crate) fn friction_angle(text: &str) -> Result<f64, String> {
+    within(text, 0.0..=89.0, "degrees")
+}
+
+/// Stiffness per joint area (Pa/m).
+pub(crate) fn stiffness(text: &str) -> Result<f64, String> {
+    within(text, 1e3..=1e16, "Pa/m")
+}
+
+/// Cohesion (Pa).
+pub(crate) fn cohesion(text: &str) -> Result<f64, String> {
+    within(text, 0.0..=1e9, "Pa")
+}
+
+/// Step of the tilt (deg).
+pub(crate) fn step(text: &str) -> Result<f64, String> {
+    within(text, 0.01..=45.0, "degrees")
+}
+
+/// Density (kg/m^3).
+pub(crate) fn density(text: &str) -> Result<f64, String> {
+    within(text, 10.0..=23_000.0, "kg/m^3")
+}
+
+/// Share of the wall's size.
+pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
+    within(text, 1e-12..=1e-3, "of the wall's size")
+}
+
+fn within(text: &str, range: RangeInclusive<f64>, unit: &str) -> Result<f64, String> {
+    let told = |x: f64| if x == 0.0 || (1e-3..1e6).contains(&x) { x.to_string() } else { format!("{x:e}") };
+    let allowed = format!("{} to {} {unit}", told(*range.start()), told(*range.end()));
+    match text.parse::<f64>() {
+        Ok(x) if range.contains(&x) => Ok(x),
+        Ok(_) => Err(format!("allowed is a number from {allowed}")),
+        Err(_) => Err(format!("no number; allowed is a number from {allowed}")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_outside_their_range_and_no_numbers_are_refused_with_what_is_allowed() {
+        assert_eq!(friction_angle("30"), Ok(30.0));
+        for text in ["-5", "90", "nan", "inf", "1e999", "", "thirty"] {
+            assert!(friction_angle(text).unwrap_err().contains("0 to 89 degrees"), "{text}");
+        }
+        assert_eq!(stiffness("1e9"), Ok(1e9));
+        assert!(stiffness("0").unwrap_err().contains("1000 to 1e16 Pa/m"));
+        assert!(tolerance("0.1").unwrap_err().contains("1e-12 to 0.001"));
+    }
+}

@@ -1,0 +1,130 @@
+//! From the arguments to a solver and its answer.
+
+use crate::cli::analyse::answer::Answer;
+use crate::cli::analyse::meetings::Fit;
+use crate::cli::arguments::{Analyse, DirectionName, FlowName, LoadName, MethodName};
+use crate::contact;
+use crate::law::{CohesionAfterSlip, Coulomb, NormalLaw, Sampling};
+use crate::math::{radians, tan};
+use crate::model::Wall;
+use crate::protocol::{Confirmation, Criterion, Direction, LoadPath, Run, Task, drive};
+use crate::solve::explicit;
+use crate::solve::implicit::{self, Equilibrium};
+use crate::solve::{Equilibrate, Solver, limit};
+
+/// Limit analysis needs no stiffness, but a law has one.
+const ANY_STIFFNESS: f64 = 1e9;
+/// A block is part of a mechanism when it moves at this share of the fastest corner.
+const MOVES: f64 = 0.01;
+/// Step of the tilt (deg) where none is asked for, and the largest tilt and multiplier.
+const STEP_DEG: f64 = 0.5;
+const LARGEST_TILT_DEG: f64 = 89.0;
+const LARGEST_MULTIPLIER: f64 = 10.0;
+/// Width of the bracket around the collapse: angle (deg) and multiplier.
+const BRACKET_DEG: f64 = 0.01;
+const BRACKET: f64 = 1e-4;
+/// A wall runs away when a block has moved by this share of its thickness in a step.
+const RUNS_AWAY: f64 = 0.1;
+
+/// The law of all joints: no tension, cohesion kept after slip, ks = kn / 2 unless it is given.
+pub(crate) fn law(arguments: &Analyse) -> Coulomb {
+    let kn = arguments.kn.unwrap_or(ANY_STIFFNESS);
+    Coulomb {
+        normal: NormalLaw::Linear { kn },
+        ks: arguments.ks.unwrap_or(0.5 * kn),
+        tan_phi: tan(radians(arguments.phi_deg)),
+        cohesion: arguments.cohesion,
+        tension: 0.0,
+        cohesion_after_slip: CohesionAfterSlip::Kept,
+        sampling: Sampling::Area,
+        bonded: false,
+    }
+}
+
+/// Solves the wall as asked.
+pub(crate) fn solve(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit) -> Answer {
+    match arguments.solver {
+        MethodName::Limit => by_limit_analysis(arguments, wall, law, fit),
+        MethodName::Implicit => {
+            let settings = implicit::Settings::default();
+            let task = task(arguments, wall, law, fit);
+            let mut at_rest = Equilibrium::new(wall, law, settings, task.contact);
+            at_rest.settle(&mut |_| false);
+            let loose = at_rest.loose().iter().map(|&i| i as usize).collect();
+            Answer { loose, ..by_steps(drive(&task, &Solver::Implicit(settings))) }
+        }
+        MethodName::Explicit => {
+            let solver = Solver::Explicit(explicit::Settings::default());
+            by_steps(drive(&task(arguments, wall, law, fit), &solver))
+        }
+    }
+}
+
+/// The load path of the elastic solvers.
+fn task<'t>(arguments: &Analyse, wall: &'t Wall, law: &'t Coulomb, fit: &Fit) -> Task<'t> {
+    let (towards, step) = (direction(arguments.direction), radians(arguments.step_deg.unwrap_or(STEP_DEG)));
+    let path = match arguments.load {
+        LoadName::Tilt => LoadPath::tilt(towards, step, radians(LARGEST_TILT_DEG), radians(BRACKET_DEG)),
+        LoadName::Lateral => LoadPath::multiplier(towards, tan(step), LARGEST_MULTIPLIER, BRACKET),
+    };
+    Task {
+        wall,
+        laws: law,
+        // Gaps are rounding for rigid blocks only: springs close them.
+        contact: contact::Settings { touch: fit.rounding, ..fit.contact },
+        loads: Vec::new(),
+        path,
+        criterion: Criterion::AnyBlock(RUNS_AWAY * fit.thickness),
+        confirmation: Confirmation::for_thickness(fit.thickness),
+    }
+}
+
+fn by_steps(run: Run) -> Answer {
+    let bracket = run.bracket.map(|[low, high]| format!("; bracketed to {:.1e}", high - low));
+    Answer {
+        moving: run.failure.map_or_else(Vec::new, |f| f.moving.iter().map(|&i| i as usize).collect()),
+        loose: Vec::new(),
+        meaning: format!(
+            "the largest load borne on the way, {} load steps{}",
+            run.steps.len(),
+            bracket.unwrap_or_default()
+        ),
+        warnings: Vec::new(),
+        outcome: run.outcome,
+    }
+}
+
+fn by_limit_analysis(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit) -> Answer {
+    let flow = match arguments.flow.unwrap_or(FlowName::Associative) {
+        FlowName::Associative => limit::Flow::Associative,
+        FlowName::NonAssociative => limit::Flow::NonAssociative,
+    };
+    let settings = limit::Settings { flow, closed_gap: fit.contact.touch, ..limit::Settings::default() };
+    let analysis = limit::Analysis::new(wall, law, fit.contact, settings);
+    let direction = direction(arguments.direction).unit();
+    let found = match arguments.load {
+        LoadName::Tilt => analysis.tilt(direction, &[]),
+        LoadName::Lateral => analysis.multiplier(&limit::Loads::lateral(direction)),
+    };
+    let speed = |i: usize| {
+        let (motion, block) = (&found.mechanism[i], &wall.blocks[i]);
+        motion.velocity.norm() + motion.spin.norm() * 0.5 * block.shape.diameter()
+    };
+    let fastest = (0..found.mechanism.len()).map(speed).fold(0.0, f64::max);
+    Answer {
+        moving: (0..found.mechanism.len()).filter(|&i| speed(i) > MOVES * fastest).collect(),
+        loose: Vec::new(),
+        meaning: format!("{}: {}", arguments.flow.unwrap_or(FlowName::Associative).name(), flow.meaning()),
+        warnings: Vec::new(),
+        outcome: found.outcome,
+    }
+}
+
+fn direction(name: DirectionName) -> Direction {
+    match name {
+        DirectionName::XPlus => Direction::XPlus,
+        DirectionName::XMinus => Direction::XMinus,
+        DirectionName::YPlus => Direction::YPlus,
+        DirectionName::YMinus => Direction::YMinus,
+    }
+}

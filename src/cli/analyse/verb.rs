@@ -1,0 +1,106 @@
+//! The verb: read, look where blocks meet, solve, tell.
+
+use std::time::Instant;
+
+use serde_json::json;
+
+use crate::cli::analyse::meetings::{Fit, bounds, look};
+use crate::cli::analyse::solve::{law, solve};
+use crate::cli::arguments::{Analyse, FlowName, LoadName, MethodName};
+use crate::cli::failure::Failure;
+use crate::cli::output;
+use crate::exchange::{ObjOptions, Unit, WallFaults, WallFile, read_wall};
+use crate::model::{Support, Wall};
+use crate::solve::STANDARD_GRAVITY;
+
+/// A prestress above this share of the pressure under the wall's own weight is worth a warning.
+const PRESTRESS: f64 = 0.1;
+
+/// Solves a wall from a file.
+pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
+    let begun = Instant::now();
+    let mut warnings = asked_in_vain(arguments)?;
+    let (file, fit) = match read(arguments) {
+        Ok(read) => read,
+        Err(faults) if arguments.json => {
+            output::print_json(&json!({
+                "outcome": "invalid_geometry",
+                "faults": faults.faults,
+                "more": faults.more,
+                "warnings": warnings,
+            }))?;
+            return Err(Failure::Said);
+        }
+        Err(faults) => return Err(Failure::Input(faults.to_string())),
+    };
+    warnings.extend(file.warnings.iter().cloned());
+    warnings.extend(fit.warnings.iter().cloned());
+    warnings.extend(prestress(arguments, &file.wall, &fit));
+    let law = law(arguments);
+    let answer = solve(arguments, &file.wall, &law, &fit);
+    warnings.extend(answer.warnings.iter().cloned());
+    let seconds = begun.elapsed().as_secs_f64();
+    if arguments.json {
+        return output::print_json(&answer.object(arguments, &file, &fit, &warnings, seconds));
+    }
+    output::print(&answer.text(arguments, &file, &fit, &warnings, seconds))
+}
+
+/// The file, fit to be solved.
+fn read(arguments: &Analyse) -> Result<(WallFile, Fit), WallFaults> {
+    let unit = arguments.unit.map(|unit| Unit::named(unit.name()).unwrap_or_default());
+    let options = ObjOptions { unit, density: arguments.density_kg_per_m3 };
+    let file = read_wall(&arguments.wall, &options)?;
+    let fit = look(&file, arguments.touch_tolerance, &arguments.wall.display().to_string())?;
+    Ok((file, fit))
+}
+
+/// Arguments that are missing, and warnings of those that mean nothing for what is asked.
+fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
+    let solver = arguments.solver.name();
+    let mut warnings = Vec::new();
+    let is_obj = arguments.wall.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj"));
+    if !is_obj && (arguments.unit.is_some() || arguments.density_kg_per_m3.is_some()) {
+        return Err(Failure::Usage(
+            "--unit and --density-kg-per-m3 are for .obj files; a wall.json states both itself".to_owned(),
+        ));
+    }
+    if arguments.solver == MethodName::Limit {
+        if arguments.kn.is_some() || arguments.ks.is_some() {
+            warnings.push("limit analysis is of rigid blocks: --kn and --ks do not matter".to_owned());
+        }
+        if arguments.step_deg.is_some() {
+            warnings.push("limit analysis takes no steps: --step-deg does not matter".to_owned());
+        }
+        return Ok(warnings);
+    }
+    if arguments.kn.is_none() {
+        return Err(Failure::Usage(format!(
+            "--kn PA_PER_M is required for the {solver} solver: the normal stiffness of the joints per area, for example --kn 1e9; --solver limit needs none"
+        )));
+    }
+    if arguments.flow == Some(FlowName::Associative) {
+        warnings.push(format!("--flow is for limit analysis; joints of the {solver} solver do not dilate"));
+    }
+    if arguments.load == LoadName::Lateral && arguments.step_deg.is_some() {
+        warnings.push("the steps of the multiplier are the tangent of --step-deg".to_owned());
+    }
+    Ok(warnings)
+}
+
+/// Blocks that overlap as built press on each other from the start: how hard, for the solvers that are elastic.
+fn prestress(arguments: &Analyse, wall: &Wall, fit: &Fit) -> Option<String> {
+    let kn = arguments.kn.filter(|_| arguments.solver != MethodName::Limit)?;
+    let (low, high) = bounds(wall);
+    let moving = wall.blocks.iter().filter(|b| b.support != Support::Fixed);
+    let heaviest = moving.map(|b| b.density).fold(0.0, f64::max);
+    let (pressure, weight) = (kn * fit.deepest, heaviest * STANDARD_GRAVITY * (high.z - low.z));
+    (pressure > PRESTRESS * weight).then(|| {
+        format!(
+            "the deepest overlap as built, {:.1e} m, starts with a pressure of {:.3} kPa at kn = {kn:e} Pa/m; the weight of the wall's height makes {:.3} kPa: trim the blocks, or ask --solver limit, which takes shapes only",
+            fit.deepest,
+            1e-3 * pressure,
+            1e-3 * weight
+        )
+    })
+}

@@ -1,0 +1,273 @@
+//! A block as a file states it, before anything about it is believed; and the wall made of the blocks that hold.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::exchange::Unit;
+use crate::exchange::fault::{Fault, WallFaults};
+use crate::exchange::solid::{diagonal, solid};
+use crate::math::Vec3;
+use crate::model::{Block, Support, Tag, Wall};
+
+/// Most blocks of a file.
+pub const MOST_BLOCKS: usize = 50_000;
+/// Most vertices, and most faces, of one block as the file gives them.
+pub const MOST_VERTICES: usize = 2_000;
+/// Largest coordinate (m): beyond it a position keeps fewer than 9 digits after the point.
+const FARTHEST: f64 = 1e7;
+/// Sizes of a block (m), corner to corner, that a wall can have: smaller or larger ones are a wrong unit.
+const SMALLEST: f64 = 1e-3;
+const LARGEST_STONE: f64 = 25.0;
+const LARGEST_FIXED: f64 = 250.0;
+/// Densities (kg/m^3) from cork to osmium.
+const LIGHTEST: f64 = 10.0;
+const HEAVIEST: f64 = 23_000.0;
+/// What a fixed block without a density gets (kg/m^3); its weight acts on nothing.
+const FIXED_DENSITY: f64 = 2400.0;
+
+/// One block of a file.
+#[derive(Debug)]
+pub struct Draft {
+    /// Its name for messages: `block 7`.
+    pub name: String,
+    /// Its id in the file; `None` where the file's is no id.
+    pub id: Option<u64>,
+    /// Line where it begins, 0 where lines do not matter.
+    pub line: usize,
+    /// Vertices in the file's unit.
+    pub vertices: Vec<Vec3>,
+    /// Faces as vertex numbers from 0, as found.
+    pub faces: Vec<Vec<i64>>,
+    /// Density (kg/m^3) if there is one.
+    pub density: Option<f64>,
+    /// Whether it is a support.
+    pub fixed: bool,
+    /// What it is.
+    pub tag: Tag,
+    /// Whether the file's text about it could be read; if not, its faults have been told.
+    pub readable: bool,
+}
+
+/// A wall from a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WallFile {
+    /// The wall (m); a block's id is its place in the file, from 0.
+    pub wall: Wall,
+    /// The ids in the file, by block.
+    pub ids: Vec<u64>,
+    /// The names for messages, by block: `block 7`, `block 12 (stone_12)`.
+    pub names: Vec<String>,
+    /// What a careful reader would like to know.
+    pub warnings: Vec<String>,
+}
+
+/// Checks every block and puts the wall together; `faults` holds what the reading has found already.
+pub fn build(
+    drafts: Vec<Draft>,
+    unit: Unit,
+    mut faults: WallFaults,
+    mut warnings: Vec<String>,
+) -> Result<WallFile, WallFaults> {
+    if drafts.is_empty() && faults.is_empty() {
+        faults.push(Fault::of(
+            "",
+            "there are no blocks",
+            "at least one fixed block and one that moves",
+            "add blocks",
+        ));
+    }
+    same_ids(&drafts, &mut faults);
+    supports(&drafts, &mut faults);
+    let mut file =
+        WallFile { wall: Wall::default(), ids: Vec::new(), names: Vec::new(), warnings: Vec::new() };
+    for draft in drafts.into_iter().filter(|draft| draft.readable) {
+        let line = draft.line;
+        let found = match checked(&draft, unit, &mut warnings) {
+            Ok(block) => {
+                file.wall.blocks.push(block);
+                file.ids.push(draft.id.unwrap_or(0));
+                file.names.push(draft.name);
+                continue;
+            }
+            Err(found) => found,
+        };
+        for fault in found {
+            let line = if fault.line > 0 { fault.line } else { line };
+            faults.push(fault.at(line, 0));
+        }
+    }
+    file.warnings = warnings;
+    if faults.is_empty() { Ok(file) } else { Err(faults) }
+}
+
+fn same_ids(drafts: &[Draft], faults: &mut WallFaults) {
+    let mut seen = BTreeMap::new();
+    for (place, draft) in drafts.iter().enumerate() {
+        let Some(id) = draft.id else { continue };
+        if let Some(first) = seen.insert(id, place) {
+            faults.push(Fault::of(
+                &draft.name,
+                format!("the id {id} is there twice: entries {first} and {place} of the list"),
+                "every id once",
+                "give one of them another id",
+            ));
+        }
+    }
+}
+
+fn supports(drafts: &[Draft], faults: &mut WallFaults) {
+    let readable = drafts.iter().all(|draft| draft.readable);
+    if !drafts.is_empty() && readable && drafts.iter().all(|draft| !draft.fixed) {
+        faults.push(Fault::of(
+            "",
+            "there is no support: no block is fixed",
+            "at least one fixed block, for example the ground",
+            "set \"fixed\": true on the ground's block (in OBJ: name its object base or fixed)",
+        ));
+    }
+    if !drafts.is_empty() && readable && drafts.iter().all(|draft| draft.fixed) {
+        faults.push(Fault::of(
+            "",
+            "every block is fixed",
+            "at least one block that moves",
+            "leave the stones free",
+        ));
+    }
+}
+
+/// The block, or all its faults.
+fn checked(draft: &Draft, unit: Unit, warnings: &mut Vec<String>) -> Result<Block, Vec<Fault>> {
+    let vertices: Vec<Vec3> = draft.vertices.iter().map(|v| v / unit.per_metre()).collect();
+    let mut faults = density(draft);
+    let mut numbers = counts(draft);
+    numbers.extend(coordinates(draft, &vertices));
+    let (faces, outside) = indices(draft);
+    numbers.extend(outside);
+    // A shape is looked at only where its numbers make sense.
+    if !numbers.is_empty() {
+        faults.extend(numbers);
+        return Err(faults);
+    }
+    faults.extend(size(draft, &vertices, unit));
+    let shape = solid(&draft.name, &vertices, &faces);
+    let (Ok(shape), true) = (&shape, faults.is_empty()) else {
+        faults.extend(shape.err().unwrap_or_default());
+        return Err(faults);
+    };
+    let used: BTreeSet<&u32> = faces.iter().flatten().collect();
+    if used.len() < vertices.len() {
+        let idle = vertices.len() - used.len();
+        warnings.push(format!("{}: {idle} vertices belong to no face and are dropped", draft.name));
+    }
+    Ok(Block {
+        shape: shape.clone(),
+        density: draft.density.unwrap_or(FIXED_DENSITY),
+        support: if draft.fixed { Support::Fixed } else { Support::Free },
+        tag: draft.tag,
+    })
+}
+
+fn density(draft: &Draft) -> Vec<Fault> {
+    let fault = |found: String, fix: &str| {
+        let allowed = format!("a density from {LIGHTEST} to {HEAVIEST} kg/m^3");
+        vec![Fault::of(&draft.name, found, allowed, fix)]
+    };
+    match draft.density {
+        Some(d) if (LIGHTEST..=HEAVIEST).contains(&d) => Vec::new(),
+        None if draft.fixed => Vec::new(),
+        None => fault("density is missing".to_owned(), "add \"density\": 2400, in kg/m^3"),
+        Some(d) if (LIGHTEST..=HEAVIEST).contains(&(1000.0 * d)) => {
+            fault(format!("density is {d}"), "t/m^3 or g/cm^3 by mistake? Multiply it by 1000")
+        }
+        Some(d) => fault(format!("density is {d}"), "give the stone's density in kg/m^3"),
+    }
+}
+
+fn counts(draft: &Draft) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    for (n, what) in [(draft.vertices.len(), "vertices"), (draft.faces.len(), "faces")] {
+        if !(4..=MOST_VERTICES).contains(&n) {
+            let fix = if n < 4 { "a solid needs at least 4" } else { "simplify the block's surface" };
+            faults.push(Fault::of(
+                &draft.name,
+                format!("{n} {what}"),
+                format!("4 to {MOST_VERTICES} {what}"),
+                fix,
+            ));
+        }
+    }
+    faults
+}
+
+fn coordinates(draft: &Draft, vertices: &[Vec3]) -> Vec<Fault> {
+    let far = |v: &Vec3| !v.iter().all(|c| c.abs() <= FARTHEST);
+    vertices
+        .iter()
+        .enumerate()
+        .filter(|(_, v)| far(v))
+        .map(|(i, v)| {
+            let found = format!("vertex {i} is at ({:e}, {:e}, {:e}) m", v.x, v.y, v.z);
+            let allowed = format!("finite coordinates up to {FARTHEST:e} m");
+            Fault::of(&draft.name, found, allowed, "correct it, or move the wall's origin near the wall")
+        })
+        .collect()
+}
+
+/// The faces with numbers of vertices that exist, each once per face; and what is wrong with the others.
+fn indices(draft: &Draft) -> (Vec<Vec<u32>>, Vec<Fault>) {
+    let count = draft.vertices.len();
+    let (mut faces, mut faults) = (Vec::with_capacity(draft.faces.len()), Vec::new());
+    for (number, face) in draft.faces.iter().enumerate() {
+        let mut fault = |found: String, allowed: String, fix: &str| {
+            faults.push(Fault::of(&draft.name, found, allowed, fix));
+        };
+        if face.len() < 3 {
+            fault(
+                format!("face {number} has {} vertices", face.len()),
+                "at least 3 vertices of a face".to_owned(),
+                "complete or remove the face",
+            );
+        } else if let Some(bad) = face.iter().find(|&&v| v < 0 || v >= count as i64) {
+            fault(
+                format!("face {number} names vertex {bad}, which is out of range"),
+                format!("0 to {} (the block has {count} vertices, counted from 0)", count.saturating_sub(1)),
+                "correct the number",
+            );
+        } else if let Some(twice) = repeated(face) {
+            fault(
+                format!("face {number} names vertex {twice} twice"),
+                "every vertex once in a face".to_owned(),
+                "remove the repetition",
+            );
+        } else {
+            faces.push(face.iter().map(|&v| v as u32).collect());
+        }
+    }
+    (faces, faults)
+}
+
+fn repeated(face: &[i64]) -> Option<i64> {
+    let mut seen = BTreeSet::new();
+    face.iter().copied().find(|v| !seen.insert(*v))
+}
+
+/// A block of a size that no wall has: the unit is wrong.
+fn size(draft: &Draft, vertices: &[Vec3], unit: Unit) -> Option<Fault> {
+    let size = diagonal(vertices);
+    let largest = if draft.fixed { LARGEST_FIXED } else { LARGEST_STONE };
+    if (SMALLEST..=largest).contains(&size) {
+        return None;
+    }
+    // A usual stone measures some decimetres.
+    let usual = |other: Unit| (0.02..=5.0).contains(&(size * unit.per_metre() / other.per_metre()));
+    let fix = match [Unit::Metre, Unit::Centimetre, Unit::Millimetre].into_iter().find(|&other| usual(other))
+    {
+        Some(other) => format!("coordinates in {0} by mistake? Set the unit to {0}", other.name()),
+        None => "check the coordinates and the unit".to_owned(),
+    };
+    Some(Fault::of(
+        &draft.name,
+        format!("it measures {size:.4} m from corner to corner (unit {})", unit.name()),
+        format!("{SMALLEST} to {largest} m for a {}", if draft.fixed { "fixed block" } else { "stone" }),
+        fix,
+    ))
+}

@@ -1,0 +1,132 @@
+//! The three solvers on the same random walls: displacement, collapse angle, outcome; each is the others' alarm.
+
+use pirca::contact;
+use pirca::law::Coulomb;
+use pirca::math::{Vec3, degrees, radians};
+use pirca::model::{Level, Outcome, Wall};
+use pirca::protocol::{Confirmation, Criterion, Direction, LoadPath, Run, Task, drive};
+use pirca::solve::limit::{Analysis, Flow, Limit, Settings};
+use pirca::solve::{Equilibrate, Solver, Status, explicit, implicit};
+use rayon::prelude::*;
+
+use crate::fixture::{dry, irregular, tilted};
+
+/// Walls of some ten stones.
+fn walls() -> Vec<Wall> {
+    (0..20).map(|member| irregular(member, 1.0, 0.7)).collect()
+}
+
+fn tilt(wall: &Wall, law: &Coulomb, solver: &Solver, step_deg: f64, bracket_deg: f64) -> Run {
+    let task = Task {
+        wall,
+        laws: law,
+        contact: contact::Settings::for_size(0.25, [2, 2]),
+        loads: Vec::new(),
+        path: LoadPath::tilt(Direction::YPlus, radians(step_deg), radians(89.0), radians(bracket_deg)),
+        criterion: Criterion::AnyBlock(0.04),
+        confirmation: Confirmation::for_thickness(0.45),
+    };
+    drive(&task, solver)
+}
+
+/// The collapse angle in degrees, if it collapsed under tilt.
+fn angle(outcome: &Outcome) -> Option<f64> {
+    match outcome {
+        Outcome::Collapsed { at: Level::Tilt(x) } => Some(degrees(*x)),
+        _ => None,
+    }
+}
+
+#[test]
+fn implicit_and_explicit_agree_on_random_walls() {
+    let law = dry(2e8, 32.0);
+    let explicit = Solver::Explicit(explicit::Settings {
+        damping: 0.3,
+        unbalanced_ratio: 1e-6,
+        ..explicit::Settings::default()
+    });
+    let implicit = Solver::Implicit(implicit::Settings::default());
+    let ends: Vec<_> = walls()
+        .par_iter()
+        .map(|wall| (tilt(wall, &law, &implicit, 2.0, 0.05), tilt(wall, &law, &explicit, 2.0, 0.05)))
+        .collect();
+    for (member, (a, b)) in ends.iter().enumerate() {
+        let top = |run: &Run| run.steps[2].top_displacement;
+        println!(
+            "wall {member}: {:?} {:?}, at 4 deg {:e} {:e}",
+            angle(&a.outcome),
+            angle(&b.outcome),
+            top(a),
+            top(b)
+        );
+        assert_eq!(a.outcome.name(), b.outcome.name(), "wall {member}");
+        let (x, y) = (angle(&a.outcome).expect("it falls"), angle(&b.outcome).expect("it falls"));
+        assert!((x - y).abs() < 0.25, "wall {member}: {x} against {y} deg");
+        assert!((top(a) / top(b) - 1.0).abs() < 0.01, "wall {member}: {:e} against {:e}", top(a), top(b));
+    }
+}
+
+fn bound(wall: &Wall, law: &Coulomb, flow: Flow) -> Limit {
+    let contact = contact::Settings::for_size(0.25, [2, 2]);
+    Analysis::new(wall, law, contact, Settings { flow, ..Settings::default() }).tilt(Vec3::y(), &[])
+}
+
+#[test]
+fn with_stiff_joints_the_implicit_angle_stays_below_the_bound_and_meets_it_where_nothing_slips() {
+    // phi 75 so that nothing slips, and phi 32 where joints do.
+    let implicit = Solver::Implicit(implicit::Settings::default());
+    for (phi, meets) in [(75.0, true), (32.0, false)] {
+        let law = dry(1e12, phi);
+        let ends: Vec<_> = walls()
+            .par_iter()
+            .map(|wall| {
+                let associative = angle(&bound(wall, &law, Flow::Associative).outcome);
+                let without = bound(wall, &law, Flow::NonAssociative);
+                (tilt(wall, &law, &implicit, 1.0, 0.02), associative, angle(&without.outcome))
+            })
+            .collect();
+        for (member, (run, associative, without)) in ends.iter().enumerate() {
+            let slipped = run.joint_states.iter().any(|joint| joint.slipped > 0.0);
+            let found = angle(&run.outcome).unwrap_or_else(|| panic!("wall {member}: {:?}", run.outcome));
+            let bound = associative.expect("limit analysis finds it");
+            println!(
+                "phi {phi}, wall {member}: {found:.3} of {bound:.3}, without dilatancy {without:?}, slipped {slipped}"
+            );
+            assert!(found <= bound + 0.02, "wall {member}: {found} above the bound {bound}");
+            if meets && !slipped {
+                assert!(found > bound - 0.25, "wall {member}: {found} of {bound}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_implicit_solver_gives_the_same_bits_for_any_number_of_threads() {
+    let law = dry(1e8, 32.0);
+    let walls: Vec<Wall> = walls().into_iter().take(6).collect();
+    let solve = |threads: usize| -> Vec<u64> {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        pool.install(|| {
+            walls
+                .par_iter()
+                .flat_map_iter(|wall| {
+                    let contact = contact::Settings::for_size(0.25, [2, 2]);
+                    let mut equilibrium =
+                        implicit::Equilibrium::new(wall, &law, implicit::Settings::default(), contact);
+                    for degrees in [0.0, 5.0, 10.0] {
+                        equilibrium.set_loads(tilted(degrees), 1.0);
+                        assert_eq!(equilibrium.settle(&mut |_| false).status, Status::Equilibrium);
+                    }
+                    let bodies = &equilibrium.assembly().bodies.all;
+                    bodies
+                        .iter()
+                        .flat_map(|b| b.position.iter().map(|x| x.to_bits()).collect::<Vec<_>>())
+                        .collect::<Vec<_>>()
+                })
+                .collect()
+        })
+    };
+    let one = solve(1);
+    assert_eq!(one, solve(2));
+    assert_eq!(one, solve(5));
+}
