@@ -25,8 +25,8 @@ const MARKERS: [&[(i32, i32)]; 4] = [
 ];
 /// Radius of the round marker (pixels).
 const RADIUS: i32 = 6;
-/// A hollow marker is this much larger, so that it shows around a filled one in the same place.
-const HOLLOW: i32 = 2;
+/// A hollow marker is larger by half, so that it shows around a filled one in the same place.
+const HOLLOW: [i32; 2] = [3, 2];
 
 /// The colour of the arm with this number.
 pub fn colour(index: usize) -> RGBColor {
@@ -46,20 +46,22 @@ pub fn filled<'m, DB: DrawingBackend + 'm, C: Clone + 'm>(
     }
 }
 
-/// The outline of that marker, larger.
+/// The outline of that marker, larger; an edge each, as a bent line of this width would be drawn with spikes.
 pub fn hollow<'m, DB: DrawingBackend + 'm, C: Clone + 'm>(
     at: C,
     index: usize,
     scale: u32,
-) -> DynElement<'m, DB, C> {
-    let (style, px) = (colour(index).stroke_width(2 * scale), HOLLOW * scale as i32);
-    match corners(index, px) {
-        None => (EmptyElement::at(at) + Circle::new((0, 0), RADIUS * px, style)).into_dyn(),
-        Some(corners) => {
-            let around = corners.iter().chain(&corners[..2]).copied().collect::<Vec<_>>();
-            (EmptyElement::at(at) + PathElement::new(around, style)).into_dyn()
-        }
-    }
+) -> Vec<DynElement<'m, DB, C>> {
+    let (style, px) =
+        (colour(index).stroke_width(2 * scale), |length: i32| length * HOLLOW[0] * scale as i32 / HOLLOW[1]);
+    let Some(corners) = corners(index, 1) else {
+        return vec![(EmptyElement::at(at) + Circle::new((0, 0), px(RADIUS), style)).into_dyn()];
+    };
+    let corners: Vec<(i32, i32)> = corners.into_iter().map(|(x, y)| (px(x), px(y))).collect();
+    let edges = corners.iter().zip(corners.iter().cycle().skip(1));
+    edges
+        .map(|(&a, &b)| (EmptyElement::at(at.clone()) + PathElement::new([a, b], style)).into_dyn())
+        .collect()
 }
 
 /// The corners of a marker; `None` for the round one.

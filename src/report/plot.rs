@@ -104,7 +104,9 @@ impl<'c> Plot<'c> {
         for earlier in self.earlier() {
             for mean in earlier.means {
                 let place = (self.kn(mean.kn), mean.shown);
-                chart.plotting_area().draw(&hollow(place, earlier.index, self.scale))?;
+                for edge in hollow(place, earlier.index, self.scale) {
+                    chart.plotting_area().draw(&edge)?;
+                }
             }
         }
         if self.curves.iter().flat_map(|curve| &curve.points).all(|point| point.mean.is_none()) {
@@ -221,7 +223,9 @@ impl<'c> Plot<'c> {
         }
         for earlier in self.earlier() {
             let y = next();
-            area.draw(&hollow(((from + to) / 2, y), earlier.index, self.scale))?;
+            for edge in hollow(((from + to) / 2, y), earlier.index, self.scale) {
+                area.draw(&edge)?;
+            }
             area.draw(&Text::new(earlier.label(), (self.px(LEGEND_TEXT), y + nudge), text.clone()))?;
         }
         for remark in &self.remarks {
