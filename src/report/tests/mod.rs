@@ -1,6 +1,7 @@
 //! Hand-made rows and populations, and the tests on them.
 
 mod beside;
+mod capacity;
 mod figure;
 mod summary;
 mod verdict;
@@ -36,6 +37,7 @@ fn failed(member: u64, outcome: Outcome) -> Row {
         collapse_angle_deg: None,
         fails_at_deg: None,
         largest_tilt_deg: None,
+        limit: None,
         mechanism: None,
         stones: 50,
         joints: 120,
