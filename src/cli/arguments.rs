@@ -100,6 +100,9 @@ pub(crate) struct Generate {
     /// Solve the wall as `run` does, and write the displacement of every stone's centroid (m) into the .vtu.
     #[arg(long)]
     pub solved: bool,
+    /// Add the ground: a fixed block under the wall, as `run` puts one there and `analyse` needs one.
+    #[arg(long, conflicts_with = "solved")]
+    pub with_base: bool,
     /// File to write; its ending says the format: .vtu (ParaView), .obj or .json.
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
@@ -125,6 +128,9 @@ pub(crate) struct Run {
     /// Solver instead of the study's, with its defaults; the study's own settings if it is the study's own solver.
     #[arg(long, value_name = "NAME")]
     pub solver: Option<SolverName>,
+    /// Output folder of an earlier run of the same study, whose means are drawn into the figure as hollow markers.
+    #[arg(long, value_name = "DIR")]
+    pub beside: Option<PathBuf>,
 }
 
 /// The solvers by name.

@@ -41,9 +41,10 @@ pub(crate) fn generate(arguments: &Generate) -> Result<(), Failure> {
     let solved = arguments.solved.then(|| {
         ensemble::solve(&study, Task { arm: index as u32, point: arguments.point, member }, &generated.wall)
     });
-    replace_file(&arguments.out, encoded(format, &generated.wall, solved.as_ref()).as_bytes())?;
+    let wall = if arguments.with_base { generated.wall.with_base() } else { generated.wall };
+    replace_file(&arguments.out, encoded(format, &wall, solved.as_ref()).as_bytes())?;
 
-    let (out, stones) = (arguments.out.display().to_string(), generated.wall.stones().count());
+    let (out, stones) = (arguments.out.display().to_string(), wall.stones().count());
     let (wedges, headers) = (generated.realised.wedges, generated.realised.headers);
     if arguments.which.json {
         return output::print_json(&json!({

@@ -5,18 +5,21 @@ use std::path::PathBuf;
 use crate::cli::arguments::{Run, SolverName};
 use crate::cli::failure::Failure;
 use crate::cli::{locate, output, progress};
-use crate::ensemble::{self, Settings};
-use crate::report;
+use crate::ensemble::{self, Quantity, Settings};
+use crate::report::{self, Earlier};
 use crate::study::Study;
 
 /// Runs a study, or what is still missing of it, and shows the results.
 pub(crate) fn run(arguments: &Run) -> Result<(), Failure> {
     let study = asked(locate::study(&arguments.which)?.study, arguments)?;
     let out = arguments.out.clone().unwrap_or_else(|| default_folder(&study));
+    let quantity = Quantity::of(&study.protocol);
+    let beside = arguments.beside.as_ref().map(|dir| Earlier::read(dir, &study.name, quantity));
+    let beside = beside.transpose().map_err(|error| Failure::Usage(format!("--beside: {error:#}")))?;
     let settings = Settings { out: out.clone(), threads: arguments.threads };
     let rows = ensemble::run(&study, &settings, progress::on_stderr(&study).as_ref())?;
-    let summary =
-        report::write_all(&study, &rows, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
+    let summary = report::write_all(&study, &rows, &out, beside.as_ref())
+        .map_err(|error| Failure::Run(format!("{error:#}")))?;
     if arguments.which.json {
         return output::print_json(&summary);
     }

@@ -4,7 +4,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
-use crate::solve::Solver;
 use crate::study::Study;
 
 /// How many changed values an error names.
@@ -42,7 +41,7 @@ impl Manifest {
             variant: study.variant.clone(),
             seed: study.seed,
             members: study.arms.iter().map(|arm| (arm.name.clone(), arm.members)).collect(),
-            solver: solver_name(&study.solver).to_string(),
+            solver: study.solver.name().to_string(),
             study_hash: study.hash.clone(),
             values: study.effective.clone(),
             inputs: study.inputs.iter().map(|f| (f.path.display().to_string(), f.sha256.clone())).collect(),
@@ -79,13 +78,5 @@ impl Manifest {
             found.push(format!("and {others} more"));
         }
         found
-    }
-}
-
-/// The name of a solver as the command line knows it.
-fn solver_name(solver: &Solver) -> &'static str {
-    match solver {
-        Solver::Explicit(_) => "explicit",
-        Solver::Implicit(_) => "implicit",
     }
 }

@@ -6,7 +6,7 @@ use crate::report::summary::{ArmSummary, Summary};
 use crate::stats::EmpiricalStep;
 
 /// Names longer than this are cut in the figure.
-const LONGEST_NAME: usize = 24;
+pub const LONGEST_NAME: usize = 24;
 
 /// One arm in the figure.
 #[derive(Clone, Debug, PartialEq)]

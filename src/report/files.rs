@@ -6,6 +6,7 @@ use std::path::Path;
 use anyhow::{Context, Result};
 
 use crate::ensemble::{Row, replace_file};
+use crate::report::beside::Earlier;
 use crate::report::csv::{csv, fragility_csv};
 use crate::report::draw::{Figure, IMAGE_SCALE, png_into, svg};
 use crate::report::figure::{curves, ladders, title};
@@ -20,28 +21,29 @@ pub const SUMMARY_JSON: &str = "summary.json";
 pub const FRAGILITY: &str = "fragility";
 
 /// Sums up the rows and writes `summary.json` and the figures (SVG, PNG, CSV) into an existing folder: the quantity
-/// over kn, and for a capacity its fragility curves.
+/// over kn, with the means of an earlier run if one is given, and for a capacity its fragility curves.
 ///
 /// The same study and rows give the same bytes. Each file is written under a temporary name and renamed, so that a
 /// reader never sees half of one.
 ///
 /// # Errors
 /// The file that could not be written, and why.
-pub fn write_all(study: &Study, rows: &[Row], dir: &Path) -> Result<Summary> {
+pub fn write_all(study: &Study, rows: &[Row], dir: &Path, beside: Option<&Earlier>) -> Result<Summary> {
     let summary = summarise(study, rows);
-    write_summary(&summary, dir)?;
+    write_summary(&summary, dir, beside)?;
     Ok(summary)
 }
 
 /// Writes the files of a summary.
-pub(crate) fn write_summary(summary: &Summary, dir: &Path) -> Result<()> {
+pub(crate) fn write_summary(summary: &Summary, dir: &Path, beside: Option<&Earlier>) -> Result<()> {
     let curves = curves(summary);
     let title = title(summary);
     let json = serde_json::to_string_pretty(summary).context("the summary cannot be written as JSON")? + "\n";
     replace_file(&dir.join(SUMMARY_JSON), json.as_bytes())?;
     let name = curves.first().map_or("figure", |curve| curve.quantity.figure());
     replace_file(&dir.join(format!("{name}.csv")), csv(&curves).as_bytes())?;
-    write_figure(dir, name, &Plot::new(&title, &curves, 1), &Plot::new(&title, &curves, IMAGE_SCALE))?;
+    let plot = |scale| Plot::new(&title, &curves, scale).beside(beside);
+    write_figure(dir, name, &plot(1), &plot(IMAGE_SCALE))?;
     let ladders = ladders(summary);
     if ladders.is_empty() {
         return Ok(());

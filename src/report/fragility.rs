@@ -5,9 +5,10 @@ use plotters::prelude::*;
 
 use crate::report::draw::Figure;
 use crate::report::figure::Ladder;
+use crate::report::marker::colour;
 use crate::report::number::{range, shortened, stiffness};
 use crate::report::plot::{
-    BAND_ALPHA, COLOURS, Drawn, FONT_NAME, LEGEND_MARK, LEGEND_TEXT, LINE, PLOT_HEIGHT, WIDTH, decimals, left,
+    BAND_ALPHA, Drawn, FONT_NAME, LEGEND_MARK, LEGEND_TEXT, LINE, PLOT_HEIGHT, WIDTH, decimals, left,
 };
 
 /// Names longer than this are cut in the figure.
@@ -57,7 +58,7 @@ impl<'c> FragilityPlot<'c> {
             .y_desc("share of walls that have collapsed")
             .draw()?;
         for (index, ladder) in self.ladders.iter().enumerate() {
-            let colour = COLOURS[index % COLOURS.len()];
+            let colour = colour(index);
             if ladder.random {
                 // Between two steps the probability does not change, and nor does its interval; before the first it is
                 // that of no collapse, which the first step's lower end does not exceed.
@@ -77,7 +78,7 @@ impl<'c> FragilityPlot<'c> {
         let text = self.font(18).pos(left());
         for (index, ladder) in self.ladders.iter().enumerate() {
             let y = self.px(LINE as i32) * index as i32 + self.px(LINE as i32 / 2);
-            let colour = COLOURS[index % COLOURS.len()];
+            let colour = colour(index);
             area.draw(&PathElement::new([(from, y), (to, y)], colour.stroke_width(2 * self.scale)))?;
             area.draw(&Text::new(ladder.label(), (self.px(LEGEND_TEXT), y + self.px(2)), text.clone()))?;
         }

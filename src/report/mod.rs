@@ -1,12 +1,14 @@
 //! What a reader gets: the summary, the comparison with published statements, the table on the terminal, the figure,
 //! the wall for ParaView. Reads rows and statistics; never computes physics.
 
+mod beside;
 mod compare;
 mod csv;
 mod draw;
 mod figure;
 mod files;
 mod fragility;
+mod marker;
 mod number;
 mod plot;
 mod population;
@@ -19,6 +21,7 @@ mod table;
 mod tests;
 mod vtu;
 
+pub use beside::{Earlier, Mean};
 pub use compare::{Basis, Comparison};
 pub use files::{FRAGILITY, SUMMARY_JSON, write_all};
 pub use published::{Published, Verdict};

@@ -1,37 +1,19 @@
 //! How the figure over kn looks: the quantity against joint stiffness, legend and remarks below.
 //!
-//! Colours are those of Okabe and Ito, told apart with the common colour vision deficiencies; every arm has its own
-//! marker as well, and bands are edged with dashes, so that the figure survives a print in grey.
+//! Bands are edged with dashes, so that the figure survives a print in grey.
 
 use plotters::coord::Shift;
 use plotters::coord::types::RangedCoordf64;
-use plotters::element::{DynElement, IntoDynElement};
 use plotters::prelude::*;
 
+use crate::report::beside::{Earlier, Mean};
 use crate::report::draw::Figure;
-use crate::report::figure::{Curve, Point};
-use crate::report::number::range;
+use crate::report::figure::{Curve, LONGEST_NAME, Point};
+use crate::report::marker::{colour, filled, hollow};
+use crate::report::number::{range, shortened};
 
 /// Name of the bundled font; also the `font-family` of the SVG, hence the alternatives.
 pub const FONT_NAME: &str = "DejaVu Sans, Verdana, sans-serif";
-
-/// Okabe and Ito's palette without yellow, which is hard to see on white.
-pub(super) const COLOURS: [RGBColor; 7] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(86, 180, 233),
-    RGBColor(230, 159, 0),
-    RGBColor(0, 0, 0),
-];
-/// Corners of the markers (pixels); an empty one is a circle.
-const MARKERS: [&[(i32, i32)]; 4] = [
-    &[(-5, -5), (5, -5), (5, 5), (-5, 5)],
-    &[(0, -7), (7, 5), (-7, 5)],
-    &[],
-    &[(0, -7), (7, 0), (0, 7), (-7, 0)],
-];
 
 /// Width, and height without the legend (pixels at scale 1).
 pub(super) const WIDTH: u32 = 960;
@@ -51,10 +33,26 @@ pub type Drawn<DB> = Result<(), DrawingAreaErrorKind<<DB as DrawingBackend>::Err
 pub struct Plot<'c> {
     title: &'c str,
     curves: &'c [Curve],
+    beside: Option<&'c Earlier>,
     remarks: Vec<String>,
     scale: u32,
     /// kn is shown in units of ten to this power.
     exponent: i32,
+}
+
+/// An arm of the earlier run.
+struct EarlierArm<'c> {
+    /// Number of its colour and marker.
+    index: usize,
+    arm: &'c str,
+    means: &'c [Mean],
+    run: &'c str,
+}
+
+impl EarlierArm<'_> {
+    fn label(&self) -> String {
+        format!("{}: mean of an earlier run ({})", shortened(self.arm, LONGEST_NAME), self.run)
+    }
 }
 
 impl<'c> Plot<'c> {
@@ -62,7 +60,13 @@ impl<'c> Plot<'c> {
     pub fn new(title: &'c str, curves: &'c [Curve], scale: u32) -> Self {
         let remarks = curves.iter().filter_map(Curve::remark).collect();
         let kn = range(curves.iter().flat_map(|curve| &curve.points).map(|point| point.kn));
-        Plot { title, curves, remarks, scale, exponent: kn.map_or(0, |[low, _]| exponent(low)) }
+        Plot { title, curves, beside: None, remarks, scale, exponent: kn.map_or(0, |[low, _]| exponent(low)) }
+    }
+
+    /// Shows the means of an earlier run as well.
+    pub fn beside(mut self, earlier: Option<&'c Earlier>) -> Self {
+        self.beside = earlier;
+        self
     }
 
     fn chart<DB: DrawingBackend>(&self, area: &DrawingArea<DB, Shift>) -> Drawn<DB> {
@@ -97,6 +101,14 @@ impl<'c> Plot<'c> {
         for (index, curve) in self.curves.iter().enumerate() {
             self.curve(&mut chart, curve, index)?;
         }
+        for earlier in self.earlier() {
+            for mean in earlier.means {
+                let place = (self.kn(mean.kn), mean.shown);
+                for edge in hollow(place, earlier.index, self.scale) {
+                    chart.plotting_area().draw(&edge)?;
+                }
+            }
+        }
         if self.curves.iter().flat_map(|curve| &curve.points).all(|point| point.mean.is_none()) {
             let place = ((x[0] + x[1]) / 2.0, (y[0] + y[1]) / 2.0);
             let style = self.font(22).pos(centred());
@@ -112,7 +124,9 @@ impl<'c> Plot<'c> {
     /// Ends of the axes: kn with some room at both sides; displacement from zero (or below) to above the highest mark.
     fn axes(&self) -> [[f64; 2]; 2] {
         let points = || self.curves.iter().flat_map(|curve| &curve.points);
-        let [low, high] = range(points().map(|point| self.kn(point))).unwrap_or([0.0, 1.0]);
+        let earlier = || self.earlier().into_iter().flat_map(|arm| arm.means);
+        let kn = points().map(|point| point.kn).chain(earlier().map(|mean| mean.kn));
+        let [low, high] = range(kn.map(|kn| self.kn(kn))).unwrap_or([0.0, 1.0]);
         let room = if high > low { 0.06 * (high - low) } else { 0.1 * high.abs() };
         let heights = points().flat_map(|point| {
             point
@@ -121,7 +135,8 @@ impl<'c> Plot<'c> {
                 .chain(point.mean_ci.into_iter().flatten())
                 .chain(point.band.into_iter().flatten())
         });
-        let [bottom, top] = range(heights.chain([0.0])).unwrap_or([0.0, 0.0]);
+        let [bottom, top] =
+            range(heights.chain(earlier().map(|mean| mean.shown)).chain([0.0])).unwrap_or([0.0, 0.0]);
         let height = if top > bottom { top - bottom } else { 1.0 };
         let below = if bottom < 0.0 { 0.05 * height } else { 0.0 };
         [[low - room, high + room], [bottom - below, bottom + 1.08 * height]]
@@ -132,8 +147,8 @@ impl<'c> Plot<'c> {
         if !curve.has_band() {
             return Ok(());
         }
-        let colour = COLOURS[index % COLOURS.len()];
-        for run in runs(&curve.points, |point| point.band.map(|band| (self.kn(point), band))) {
+        let colour = colour(index);
+        for run in runs(&curve.points, |point| point.band.map(|band| (self.kn(point.kn), band))) {
             if let [(x, [low, high])] = run[..] {
                 let (half, style) = (self.px(14), colour.mix(BAND_ALPHA).filled());
                 let pixels = chart.backend_coord(&(x, high)).1 - chart.backend_coord(&(x, low)).1;
@@ -155,15 +170,15 @@ impl<'c> Plot<'c> {
 
     /// Lines between neighbouring means, error bars, markers.
     fn curve<DB: DrawingBackend>(&self, chart: &mut Chart<'_, DB>, curve: &Curve, index: usize) -> Drawn<DB> {
-        let colour = COLOURS[index % COLOURS.len()];
+        let colour = colour(index);
         let line = colour.stroke_width(2 * self.scale);
-        for run in runs(&curve.points, |point| point.mean.map(|mean| (self.kn(point), mean))) {
+        for run in runs(&curve.points, |point| point.mean.map(|mean| (self.kn(point.kn), mean))) {
             chart.draw_series(LineSeries::new(run, line))?;
         }
         let cap = self.px(5);
         for point in curve.points.iter().filter(|_| curve.random) {
             let Some([low, high]) = point.mean_ci else { continue };
-            let x = self.kn(point);
+            let x = self.kn(point.kn);
             chart.draw_series([PathElement::new([(x, low), (x, high)], line)])?;
             for end in [low, high] {
                 chart.draw_series([
@@ -173,7 +188,7 @@ impl<'c> Plot<'c> {
         }
         for point in &curve.points {
             if let Some(mean) = point.mean {
-                chart.plotting_area().draw(&self.marker((self.kn(point), mean), index))?;
+                chart.plotting_area().draw(&filled((self.kn(point.kn), mean), index, self.scale))?;
             }
         }
         Ok(())
@@ -191,10 +206,10 @@ impl<'c> Plot<'c> {
             line
         };
         for (index, curve) in self.curves.iter().enumerate() {
-            let colour = COLOURS[index % COLOURS.len()];
+            let colour = colour(index);
             let y = next();
             area.draw(&PathElement::new([(from, y), (to, y)], colour.stroke_width(2 * self.scale)))?;
-            area.draw(&self.marker(((from + to) / 2, y), index))?;
+            area.draw(&filled(((from + to) / 2, y), index, self.scale))?;
             area.draw(&Text::new(curve.label(), (self.px(LEGEND_TEXT), y + nudge), text.clone()))?;
             if curve.has_band() {
                 let (y, half) = (next(), self.px(8));
@@ -206,31 +221,34 @@ impl<'c> Plot<'c> {
                 area.draw(&Text::new(label, (self.px(LEGEND_TEXT), y + nudge), text.clone()))?;
             }
         }
+        for earlier in self.earlier() {
+            let y = next();
+            for edge in hollow(((from + to) / 2, y), earlier.index, self.scale) {
+                area.draw(&edge)?;
+            }
+            area.draw(&Text::new(earlier.label(), (self.px(LEGEND_TEXT), y + nudge), text.clone()))?;
+        }
         for remark in &self.remarks {
             area.draw(&Text::new(format!("! {remark}"), (from, next() + nudge), text.clone()))?;
         }
         Ok(())
     }
 
-    fn marker<'m, DB: DrawingBackend + 'm, C: Clone + 'm>(
-        &self,
-        at: C,
-        index: usize,
-    ) -> DynElement<'m, DB, C> {
-        let style = COLOURS[index % COLOURS.len()].filled();
-        match MARKERS[index % MARKERS.len()] {
-            [] => (EmptyElement::at(at) + Circle::new((0, 0), self.px(6), style)).into_dyn(),
-            corners => {
-                let corners: Vec<(i32, i32)> =
-                    corners.iter().map(|(x, y)| (self.px(*x), self.px(*y))).collect();
-                (EmptyElement::at(at) + Polygon::new(corners, style)).into_dyn()
-            }
-        }
+    /// The arms of the earlier run. One that is not in this figure has a colour of its own.
+    fn earlier(&self) -> Vec<EarlierArm<'c>> {
+        let Some(beside) = self.beside else { return Vec::new() };
+        let mut more = self.curves.len()..;
+        let arms = beside.arms.iter().filter_map(|(arm, means)| {
+            let place = self.curves.iter().position(|curve| curve.arm == *arm);
+            let index = place.or_else(|| more.next())?;
+            Some(EarlierArm { index, arm, means, run: &beside.label })
+        });
+        arms.collect()
     }
 
-    /// kn of a point in the units of the axis.
-    fn kn(&self, point: &Point) -> f64 {
-        point.kn / power_of_ten(self.exponent)
+    /// kn in the units of the axis.
+    fn kn(&self, kn: f64) -> f64 {
+        kn / power_of_ten(self.exponent)
     }
 
     fn px(&self, length: i32) -> i32 {
@@ -243,10 +261,11 @@ impl<'c> Plot<'c> {
 }
 
 impl Figure for Plot<'_> {
-    /// The plot, a line of legend per curve and per band, a line per remark.
+    /// The plot, a line of legend per curve, per band and per arm of the earlier run, a line per remark.
     fn size(&self) -> (u32, u32) {
         let bands = self.curves.iter().filter(|curve| curve.has_band()).count();
-        let lines = (self.curves.len() + bands + self.remarks.len()) as u32;
+        let earlier = self.earlier().len();
+        let lines = (self.curves.len() + bands + earlier + self.remarks.len()) as u32;
         (WIDTH * self.scale, (PLOT_HEIGHT + LINE * (lines + 1)) * self.scale)
     }
 

@@ -18,6 +18,8 @@ pub struct Summary {
     pub question: String,
     /// Named variant, null for the main reading.
     pub variant: Option<String>,
+    /// Name of the solver.
+    pub solver: &'static str,
     /// Seed of all random streams.
     pub seed: u64,
     /// Hash over everything that decides the results.
@@ -128,6 +130,7 @@ pub fn summarise(study: &Study, rows: &[Row]) -> Summary {
         study: study.name.clone(),
         question: study.question.clone(),
         variant: study.variant.clone(),
+        solver: study.solver.name(),
         seed: study.seed,
         study_hash: study.hash.clone(),
         arms,

@@ -19,3 +19,13 @@ pub enum Solver {
     /// Newton's method from equilibrium to equilibrium; what it cannot find is confirmed by the explicit solver.
     Implicit(implicit::Settings),
 }
+
+impl Solver {
+    /// Its name in files.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Solver::Explicit(_) => "explicit",
+            Solver::Implicit(_) => "implicit",
+        }
+    }
+}

@@ -284,3 +284,35 @@ fn a_full_standard_output_is_an_error() {
         stderr(&output)
     );
 }
+
+#[test]
+fn a_run_shows_an_earlier_one_of_the_same_study_beside_it() {
+    let folder = Folder::with_study(STUDY);
+    let run = |out: &str, more: &[&str], code: i32| {
+        ends_with(&folder, code, &[&["run", "studies/tiny", "--members", "2", "--out", out], more].concat())
+    };
+    run("first", &["--solver", "implicit"], 0);
+    run("second", &["--solver", "explicit", "--beside", "first"], 0);
+    let figure = fs::read_to_string(folder.path("second/figure-10.svg")).unwrap();
+    assert!(figure.contains("stack: mean of an earlier run (main reading, implicit solver)"), "{figure}");
+    // Refused before anything is run.
+    let error = stderr(&run("third", &["--beside", "nowhere"], 2));
+    assert!(error.contains("--beside: cannot read nowhere/summary.json"), "{error}");
+    assert!(!folder.path("third").exists());
+}
+
+#[test]
+fn a_generated_wall_is_analysed_once_it_has_the_ground() {
+    let folder = Folder::with_study(STUDY);
+    ends_with(&folder, 0, &["generate", "studies/tiny", "--out", "loose.json"]);
+    let error = stderr(&ends_with(&folder, 3, &["analyse", "loose.json", "--phi-deg", "35"]));
+    assert!(error.contains("no support") && error.contains("pirca generate --with-base"), "{error}");
+    for file in ["wall.json", "wall.obj"] {
+        let told =
+            ends_with(&folder, 0, &["generate", "studies/tiny", "--with-base", "--out", file, "--json"]);
+        let answer = json(&ends_with(&folder, 0, &["analyse", file, "--phi-deg", "35", "--json"]));
+        assert_eq!(answer["outcome"], "collapsed", "{answer}");
+        let blocks = json(&told)["stones"].as_u64().expect("a count") + 1;
+        assert_eq!(answer["blocks"], blocks, "the ground is no stone");
+    }
+}

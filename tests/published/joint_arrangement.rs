@@ -54,17 +54,39 @@ fn every_variant_builds_and_stands() {
 }
 
 #[test]
-fn halving_the_unbalanced_ratio_changes_no_displacement_by_half_a_per_cent() {
-    let coarse = study(None, 4);
-    let mut fine = coarse.clone();
-    let Solver::Explicit(settings) = &mut fine.solver else { panic!("the study's solver is explicit") };
-    assert_eq!(settings.unbalanced_ratio, 1e-5, "the study's own stop rule");
-    settings.unbalanced_ratio *= 0.5;
-    let mut largest: f64 = 0.0;
-    for task in plan(&coarse).into_iter().filter(|task| task.point % 5 == 0) {
+fn the_two_solvers_agree_within_a_per_cent() {
+    // 1 % is what the study's README states of every wall. The explicit solver switches gravity on at once and keeps what
+    // joints slip meanwhile; that is the difference, so it is of one sign and does not vanish.
+    let implicit = study(None, 4);
+    assert!(matches!(implicit.solver, Solver::Implicit(_)), "the study's own solver");
+    let explicit = study(Some("explicit"), 4);
+    for task in plan(&implicit).into_iter().filter(|task| task.point % 5 == 0) {
         let displacement = |study: &Study| evaluate(study, task).top_displacement_m.expect("it stands");
-        largest = largest.max((displacement(&fine) / displacement(&coarse) - 1.0).abs());
+        let difference = displacement(&implicit) / displacement(&explicit) - 1.0;
+        println!("arm {}, point {}, member {}: {difference:e}", task.arm, task.point, task.member);
+        assert!((-0.01..0.0).contains(&difference), "{difference}");
     }
-    println!("largest change {largest:e}");
-    assert!(largest < 5e-3, "{largest}");
+}
+
+#[test]
+fn halving_the_unbalanced_ratio_changes_no_displacement() {
+    // Of the explicit solver's by half a per cent, as its rest is approached by waves; of the implicit one's by a
+    // millionth, as Newton's last step squares the residual.
+    for (variant, ratio, allowed) in [(Some("explicit"), 1e-5, 5e-3), (None, 1e-7, 1e-6)] {
+        let coarse = study(variant, 4);
+        let mut fine = coarse.clone();
+        let own = match &mut fine.solver {
+            Solver::Explicit(settings) => &mut settings.unbalanced_ratio,
+            Solver::Implicit(settings) => &mut settings.unbalanced_ratio,
+        };
+        assert_eq!(*own, ratio, "the study's own stop rule");
+        *own *= 0.5;
+        let mut largest: f64 = 0.0;
+        for task in plan(&coarse).into_iter().filter(|task| task.point % 5 == 0) {
+            let displacement = |study: &Study| evaluate(study, task).top_displacement_m.expect("it stands");
+            largest = largest.max((displacement(&fine) / displacement(&coarse) - 1.0).abs());
+        }
+        println!("{variant:?}: largest change {largest:e}");
+        assert!(largest < allowed, "{variant:?}: {largest}");
+    }
 }

@@ -12,7 +12,7 @@ use crate::report::plot::Plot;
 use crate::report::population::Population;
 
 /// An empty folder of this test's own.
-fn folder(name: &str) -> PathBuf {
+pub fn folder(name: &str) -> PathBuf {
     let path = std::env::temp_dir().join(format!("pirca-report-{}-{name}", std::process::id()));
     let _ = fs::remove_dir_all(&path);
     fs::create_dir_all(&path).unwrap();
@@ -37,9 +37,9 @@ fn nothing_stands() -> Vec<Population> {
 fn the_same_numbers_give_the_same_files_whole_and_nothing_else() {
     let summary = summary_of(&three_arms(), &[]);
     let (first, second) = (folder("first"), folder("second"));
-    write_summary(&summary, &first).unwrap();
-    write_summary(&summary, &second).unwrap();
-    write_summary(&summary, &second).unwrap();
+    write_summary(&summary, &first, None).unwrap();
+    write_summary(&summary, &second, None).unwrap();
+    write_summary(&summary, &second, None).unwrap();
     let mut names: Vec<String> = fs::read_dir(&second)
         .unwrap()
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
@@ -68,7 +68,8 @@ fn the_same_numbers_give_the_same_files_whole_and_nothing_else() {
 
 #[test]
 fn a_file_that_cannot_be_written_is_named() {
-    let fault = write_summary(&summary_of(&three_arms(), &[]), &folder("gone").join("missing")).unwrap_err();
+    let fault =
+        write_summary(&summary_of(&three_arms(), &[]), &folder("gone").join("missing"), None).unwrap_err();
     assert!(format!("{fault:#}").contains(SUMMARY_JSON), "{fault:#}");
     // A full device: the image must not pass for whole.
     let place = folder("full").join("figure.png");

@@ -1,5 +1,6 @@
 //! Hand-made rows and populations, and the tests on them.
 
+mod beside;
 mod capacity;
 mod figure;
 mod summary;
@@ -93,6 +94,7 @@ fn summary_of(populations: &[Population], claims: &[Claim]) -> Summary {
         study: "hand-made".into(),
         question: "Does the report say what the rows say?".into(),
         variant: Some("two-wythes".into()),
+        solver: "implicit",
         seed: 1,
         study_hash: "00ff".into(),
         arms: populations.iter().map(|population| describe(population, 1, BTreeMap::new())).collect(),
