@@ -14,7 +14,8 @@ use crate::shape::{Frame, Plane, Polygon, Polyhedron};
 pub struct Settings {
     /// Pairs with a gap up to this are joints (open ones); blocks are looked at anew before they have moved by half.
     pub reach: f64,
-    /// Gaps up to this are rounding: faces that were built touching touch, in every frame.
+    /// Faces press from this distance on, so that faces that were built touching touch in every frame, whatever rounding
+    /// does to them; the pressure grows from zero there.
     pub touch: f64,
     /// Width of the strip or square in which steep contacts touch: its area is width x edge length, or width^2.
     pub steep_width: f64,
@@ -28,13 +29,13 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// Settings for stones of a typical size (m): reach 0.5 %, touch 1e-9 and steep width 20 % of it; faces up to 20 degrees apart
+    /// Settings for stones of a typical size (m): reach 0.5 %, touch 1e-11 and steep width 20 % of it; faces up to 20 degrees apart
     /// touch as faces. A narrower strip would let a stone sink into its neighbour: at 1e8 Pa/m a square of 20 % carries
     /// a stone of 0.2 m with 1 mm of closure.
     pub fn for_size(size: f64, sub_contacts: [u32; 2]) -> Self {
         Settings {
             reach: 5e-3 * size,
-            touch: 1e-9 * size,
+            touch: 1e-11 * size,
             steep_width: 0.2 * size,
             face_cosine: 0.939_692_620_785_908_4,
             sub_contacts,

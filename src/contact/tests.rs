@@ -77,8 +77,12 @@ fn a_joint_no_wider_than_the_arrises_is_none() {
     let slat = Polyhedron::cuboid(Vec3::new(0.0, -0.1, 0.0), Vec3::new(0.015, 0.2, 0.1));
     assert!(find_patch(&slab(), &slat, &worn(0.008)).is_none());
     assert!(find_patch(&slat, &slab(), &worn(0.008)).is_none());
-    // Leaning open, so that crossing edges part it better than any face: a strip would carry it all the same.
-    let leaning = block.moved(&about_x(1.0), &Vec3::new(0.0, 0.0, 1e-4));
+    // Leaning about two axes, so that crossing edges part them better than any face: a square would carry it all the same.
+    let (c, s) = (cos(radians(1.0)), sin(radians(1.0)));
+    let lean = about_x(-3.0) * Mat3::new(c, 0.0, s, 0.0, 1.0, 0.0, -s, 0.0, c);
+    let foot = Vec3::new(0.985, 0.05, 0.0);
+    let leaning = block.moved(&lean, &(foot - lean * foot));
+    assert!(find_patch(&slab(), &leaning, &worn(0.0)).is_some());
     assert!(find_patch(&slab(), &leaning, &worn(0.008)).is_none());
 }
 

@@ -1,10 +1,10 @@
 //! One member: its wall, its joints, its protocol, its row. A pure function of study, seed and task.
 
-use crate::ensemble::{Mechanism, Row, StepRow, Task};
+use crate::ensemble::{LimitAnalysis, Mechanism, Row, StepRow, Task};
 use crate::generate::{Generated, InvalidGeometry, generate};
 use crate::math::degrees;
 use crate::model::{Level, Outcome, Wall};
-use crate::protocol;
+use crate::protocol::{self, Bounds};
 use crate::random::Streams;
 use crate::solve::STANDARD_GRAVITY;
 use crate::stats;
@@ -70,6 +70,7 @@ fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
             Outcome::Equilibrium => last.and_then(|step| tilt(step.level)),
             _ => run.steps.iter().rev().nth(1).and_then(|step| tilt(step.level)),
         },
+        limit: study.agreement.then(|| limit(study, task, wall, &run)),
         mechanism: run.failure.as_ref().map(|failure| Mechanism {
             mode: failure.mode,
             moving: failure.moving.len() as u32,
@@ -110,6 +111,7 @@ fn unsolved(study: &Study, task: Task, outcome: Outcome) -> Row {
         collapse_angle_deg: None,
         fails_at_deg: None,
         largest_tilt_deg: None,
+        limit: None,
         mechanism: None,
         stones: 0,
         joints: 0,
@@ -134,6 +136,31 @@ fn unsolved(study: &Study, task: Task, outcome: Outcome) -> Row {
 fn weight(wall: &Wall) -> f64 {
     wall.stones().map(|(_, stone)| stone.density * stone.shape.volume()).fold(0.0, |sum, mass| sum + mass)
         * STANDARD_GRAVITY
+}
+
+/// Limit analysis of a member's wall, with the same joints.
+fn limit(study: &Study, task: Task, wall: &Wall, run: &protocol::Run) -> LimitAnalysis {
+    let kn = study.kn_points[task.point as usize];
+    let laws = DrawnJoints::new(&study.joint, kn, Streams::new(study.seed, task.member));
+    let bounds = Bounds::of(wall, &laws, &study.protocol, &study.restraint, study.sub_contacts);
+    let borne = match run.outcome {
+        Outcome::Collapsed { at } => Some(at.value()),
+        _ => run.steps.last().map(|step| step.level.value()),
+    };
+    let tolerance = run.bracket.map_or(0.0, |[low, high]| high - low);
+    let agreement = bounds.agreement(&run.outcome, borne, tolerance);
+    let tilts = run.steps.first().is_some_and(|step| tilt(step.level).is_some());
+    let angle = |x: Option<f64>| x.filter(|_| tilts).map(degrees);
+    let factor = |x: Option<f64>| x.filter(|_| !tilts);
+    let collapsed = matches!(run.outcome, Outcome::Collapsed { .. });
+    LimitAnalysis {
+        angle_deg: angle(bounds.associative),
+        non_associative_angle_deg: angle(bounds.non_associative),
+        multiplier: factor(bounds.associative),
+        non_associative_multiplier: factor(bounds.non_associative),
+        agreement,
+        ratio: borne.filter(|_| collapsed).zip(bounds.associative).map(|(borne, bound)| borne / bound),
+    }
 }
 
 /// A tilt (deg), if the level is one.

@@ -19,5 +19,5 @@ pub use files::replace_file;
 pub use manifest::Manifest;
 pub use progress::{Progress, Silent};
 pub use quantity::{Observed, Quantity};
-pub use record::{Mechanism, Row, StepRow};
+pub use record::{LimitAnalysis, Mechanism, Row, StepRow};
 pub use run::{Settings, run, run_with};

@@ -1,7 +1,7 @@
 //! What is recorded of a member: one row, and one row per load step.
 
 use crate::model::Outcome;
-use crate::protocol::FailureMode;
+use crate::protocol::{Agreement, FailureMode};
 
 /// One member of one arm at one kn: what was drawn, how it ended, what was observed.
 ///
@@ -29,6 +29,8 @@ pub struct Row {
     pub fails_at_deg: Option<f64>,
     /// The largest tilt at which it came to rest (deg); `None` where nothing tilts, and for a wall that never stood.
     pub largest_tilt_deg: Option<f64>,
+    /// Limit analysis of the same wall; `None` unless the study asks for it.
+    pub limit: Option<LimitAnalysis>,
     /// The mechanism of a collapse; `None` unless one was watched.
     pub mechanism: Option<Mechanism>,
     /// Number of stones (headers and wedges counted).
@@ -78,6 +80,23 @@ pub struct Mechanism {
     pub hinge_height_m: f64,
     /// Turning over turning and slipping in the joints.
     pub turning_share: f64,
+}
+
+/// What limit analysis says of a member, and how that goes with the solver's answer; see [`crate::protocol::Bounds`].
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct LimitAnalysis {
+    /// Tilt of collapse with associative flow, an upper bound (deg); `None` unless on a tilting table and found.
+    pub angle_deg: Option<f64>,
+    /// The same without dilatancy, neither a bound nor unique (deg).
+    pub non_associative_angle_deg: Option<f64>,
+    /// Factor on the protocol's load at collapse with associative flow; `None` on a tilting table or if not found.
+    pub multiplier: Option<f64>,
+    /// The same without dilatancy.
+    pub non_associative_multiplier: Option<f64>,
+    /// How it goes with the solver's answer.
+    pub agreement: Agreement,
+    /// The solver's capacity over the associative bound; `None` unless both were found.
+    pub ratio: Option<f64>,
 }
 
 /// One load step of a member.

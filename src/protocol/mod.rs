@@ -1,5 +1,6 @@
 //! What is done to a wall and what is observed: load path, stop rule, restraint.
 
+mod bounds;
 mod confirm;
 mod drive;
 mod mechanism;
@@ -13,6 +14,7 @@ mod settings;
 mod tilting;
 mod watch;
 
+pub use bounds::{Agreement, Bounds};
 pub use confirm::Confirmation;
 pub use drive::{Run, Task, climb, drive};
 pub use mechanism::{Failure, FailureMode, JointState};

@@ -54,3 +54,61 @@ impl Route {
         self.path.after(high) - self.path.after(self.low) <= self.path.bracket * (1.0 + 1e-9)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::protocol::Direction;
+
+    /// Walks the route of a wall that bears levels up to `capacity`; gives the levels tried, and the end if it fell.
+    fn walked(path: LoadPath, capacity: f64) -> (Vec<f64>, Option<f64>) {
+        let (mut route, mut tried) = (Route::new(path), vec![0.0]);
+        while let Some(place) = route.next() {
+            let level = path.after(place);
+            tried.push(level);
+            if level <= capacity {
+                route.borne(place);
+            } else if route.failed(place) {
+                return (tried, Some(level));
+            }
+        }
+        (tried, None)
+    }
+
+    #[test]
+    fn the_step_is_halved_from_the_last_level_borne() {
+        // Binary fractions: every level is exact.
+        let path = LoadPath::multiplier(Direction::YPlus, 0.5, 4.0, 0.125);
+        let (tried, fell) = walked(path, 1.3);
+        assert_eq!(tried, [0.0, 0.5, 1.0, 1.5, 1.25, 1.375]);
+        assert_eq!(fell, Some(1.375));
+        // The level that had failed from further below is tried again from nearer by before it ends the climb.
+        let (tried, fell) = walked(path, 1.4);
+        assert_eq!(tried, [0.0, 0.5, 1.0, 1.5, 1.25, 1.375, 1.5]);
+        assert_eq!(fell, Some(1.5));
+        assert_eq!(walked(path, 5.0).1, None);
+        // A service load is not refined, and its last step ends at the full load.
+        assert_eq!(walked(LoadPath::factor(3), 0.5), (vec![0.0, 1.0 / 3.0, 2.0 / 3.0], Some(2.0 / 3.0)));
+        assert_eq!(walked(LoadPath::factor(3), 2.0).0, [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0]);
+    }
+
+    #[test]
+    fn a_level_that_is_borne_after_all_lengthens_the_steps_again() {
+        let path = LoadPath::multiplier(Direction::YPlus, 1.0, 8.0, 0.25);
+        let mut route = Route::new(path);
+        route.borne(1.0);
+        assert!(!route.failed(2.0) && !route.failed(1.5));
+        assert_eq!(route.next(), Some(1.25));
+        route.borne(1.25);
+        assert_eq!(route.next(), Some(1.5));
+        route.borne(1.5);
+        // From there on by a quarter, a half, and full steps.
+        let mut levels = Vec::new();
+        while let Some(place) = route.next() {
+            levels.push(place);
+            route.borne(place);
+        }
+        assert_eq!(levels[..4], [1.75, 2.25, 3.25, 4.25]);
+        assert_eq!(levels.last().map(|last| path.after(*last)), Some(8.0));
+    }
+}

@@ -62,7 +62,7 @@ pub fn turn(task: &Task<'_>, turning: &Turning, at_rest: Settings) -> Run {
     if !stands {
         return run(outcome, vec![first], &level.assembly);
     }
-    let turned = Turned::new(task, turning, watch, &level.assembly).to_the_end(vec![first]);
+    let turned = Turned::new(task, turning, watch, &level.assembly).until_the_end(vec![first]);
     let mut ended = run(turned.outcome, turned.steps, &turned.last);
     ended.joint_states = joint_states(&turned.last, &level.assembly.bodies.all);
     ended.bracket = turned.bracket;
@@ -122,7 +122,7 @@ impl<'t, 'a> Turned<'t, 'a> {
         }
     }
 
-    fn to_the_end(mut self, steps: Vec<LoadStep>) -> Self {
+    fn until_the_end(mut self, steps: Vec<LoadStep>) -> Self {
         self.steps = steps;
         self.watch.rests(&self.simulation.assembly.bodies);
         let path = self.task.path;

@@ -22,6 +22,7 @@ pub struct Parts {
     pub restraint: Restraint,
     pub sub_contacts: [u32; 2],
     pub solver: Solver,
+    pub agreement: bool,
 }
 
 /// Reads everything, notes every fault, and answers only when no part is faulty.
@@ -36,10 +37,14 @@ pub fn parts(root: &Node, notes: &mut Notes, catalogue: &mut Catalogue) -> Optio
     let joints = top.table("joint").and_then(|mut t| joint(&mut t, catalogue));
     let protocol = top.table("load").and_then(|mut t| load(&mut t));
     let restraint = top.table("restraint").and_then(|mut t| restraint(&mut t));
-    let solver = top.table("solver").and_then(|mut t| solver(&mut t));
+    let solved = top.table("solver").and_then(|mut t| {
+        let agreement = t.flag("agreement");
+        solver(&mut t).zip(agreement)
+    });
     let arms = arm::arms(&mut top, &wall.unwrap_or_default(), density.as_ref(), catalogue);
     let (question, seed) = study?;
     let (joint, kn_points, sub_contacts) = joints?;
+    let (solver, agreement) = solved?;
     Some(Parts {
         question,
         seed,
@@ -49,7 +54,8 @@ pub fn parts(root: &Node, notes: &mut Notes, catalogue: &mut Catalogue) -> Optio
         protocol: protocol?,
         restraint: restraint?,
         sub_contacts,
-        solver: solver?,
+        solver,
+        agreement,
     })
 }
 

@@ -34,6 +34,8 @@ pub struct Study {
     pub sub_contacts: [u32; 2],
     /// Which solver, with its settings.
     pub solver: Solver,
+    /// Whether limit analysis is asked about every wall as well.
+    pub agreement: bool,
     /// Statements of other codes or papers to compare with, from published.toml.
     pub published: Vec<Claim>,
     /// Every input file with its SHA-256, in the order read.

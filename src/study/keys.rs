@@ -294,6 +294,12 @@ pub static SOLVER: Section = Section {
             Default("\"explicit\""),
             "Central differences with local damping; or Newton's method from equilibrium to equilibrium.",
         ),
+        Key::new(
+            "agreement",
+            Kind::Flag,
+            Default("false"),
+            "Limit analysis of every wall beside the solver: what rigid blocks on the same joints bear.",
+        ),
         Key::new("unbalanced_ratio", RATIO_OF_FORCES, Default("1e-5"), AT_REST).only(EXPLICIT),
         Key::new("unbalanced_ratio", RATIO_OF_FORCES, Default("1e-7"), AT_REST).only(IMPLICIT),
         Key::new(

@@ -90,6 +90,7 @@ impl Study {
                     restraint: parts.restraint,
                     sub_contacts: parts.sub_contacts,
                     solver: parts.solver,
+                    agreement: parts.agreement,
                     published: claims,
                     inputs,
                     effective: notes.effective,
@@ -131,7 +132,7 @@ impl Study {
             Reader::open(&node, "solver", &keys::SOLVER, &mut notes).and_then(|mut t| build::solver(&mut t));
         let Some(solver) = solver else { return Err(Faults::sorted(notes.faults)) };
         self.solver = solver;
-        self.effective.retain(|key, _| !key.starts_with("solver."));
+        self.effective.retain(|key, _| !key.starts_with("solver.") || key == "solver.agreement");
         self.effective.append(&mut notes.effective);
         self.hash = hash_of(&self.effective);
         Ok(self)

@@ -12,7 +12,7 @@ type Case = (&'static str, &'static str, &'static str, &'static [&'static str]);
 const LOAD: &str =
     "protocol = \"lateral\"\nmean_pressure_pa = 1000\nbase_over_top = 2\nsteps = 4\ncollapse_share = 0.5\n";
 /// The head of the fixture's solver, to be replaced by another one.
-const SOLVER: &str = "name = \"explicit\"\nunbalanced_ratio = 1e-5\ndamping = 0.8\nstep_safety = 0.5\nmax_steps = 200000\nscaled_inertia = true\nlongest_step_s = 1e-3\n";
+const SOLVER: &str = "name = \"explicit\"\nagreement = false\nunbalanced_ratio = 1e-5\ndamping = 0.8\nstep_safety = 0.5\nmax_steps = 200000\nscaled_inertia = true\nlongest_step_s = 1e-3\n";
 
 // One case per line: a table.
 #[rustfmt::skip]
@@ -78,6 +78,7 @@ const CASES: &[Case] = &[
     (STUDY, SOLVER, "name = \"implicit\"\nmax_factorisations = 0\n", &["solver.max_factorisations = 0", "at least 1 is needed"]),
     (STUDY, SOLVER, "name = \"implicit\"\nstabilisation = 1\n", &["solver.stabilisation = 1: allowed is a number within 0 to 0.001"]),
     (STUDY, SOLVER, "name = \"implicit\"\nunbalanced_ratio = 0\n", &["solver.unbalanced_ratio = 0: allowed is a number above 0 and below 1"]),
+    (STUDY, "agreement = false", "agreement = \"limit\"", &["@ solver.agreement = \"limit\": allowed is true or false"]),
     // sizes against each other
     (STUDY, "block_length_m = 0.4\n", "block_length_m = 4.5\n", &["@ arm.stack.block_length_m = 4.5: allowed is at most wall.length_m = 4", "the block is larger than the wall"]),
     (STUDY, "course_height_m = 0.2\n", "course_height_m = 1.5\n", &["@ arm.stack.course_height_m = 1.5: allowed is at most wall.height_m = 1"]),

@@ -188,7 +188,7 @@ fn every_key_of_the_fixture_is_read() {
             checked += 1;
         }
     }
-    assert_eq!(checked, 72);
+    assert_eq!(checked, 73);
 }
 
 #[test]

@@ -63,6 +63,7 @@ fn made_up(study: &Study, task: Task) -> Row {
         collapse_angle_deg: None,
         fails_at_deg: None,
         largest_tilt_deg: None,
+        limit: None,
         mechanism: None,
         stones: 25,
         joints: 60,

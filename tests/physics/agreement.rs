@@ -2,9 +2,11 @@
 
 use pirca::contact;
 use pirca::law::Coulomb;
-use pirca::math::{Vec3, degrees, radians};
+use pirca::math::{Vec3, degrees, pow, radians};
 use pirca::model::{Level, Outcome, Wall};
 use pirca::protocol::{Confirmation, Criterion, Direction, LoadPath, Run, Task, drive};
+use pirca::solve::explicit::Simulation;
+use pirca::solve::implicit::Equilibrium;
 use pirca::solve::limit::{Analysis, Flow, Limit, Settings};
 use pirca::solve::{Equilibrate, Solver, Status, explicit, implicit};
 use rayon::prelude::*;
@@ -37,32 +39,63 @@ fn angle(outcome: &Outcome) -> Option<f64> {
     }
 }
 
+fn explicit_settings(damping: f64) -> explicit::Settings {
+    explicit::Settings { damping, unbalanced_ratio: 1e-6, ..explicit::Settings::default() }
+}
+
+/// Where a solver brings a wall to rest at a tilt of 4 deg, gravity brought on so that the wall does not bounce: in 200
+/// steps, each a few per cent of what is there.
+fn brought_on_slowly(mut solver: impl Equilibrate) -> Vec<Vec3> {
+    let mut rest = |gravity: Vec3| {
+        solver.set_loads(gravity, 1.0);
+        assert_eq!(solver.settle(&mut |_| false).status, Status::Equilibrium);
+    };
+    for k in 1..=200 {
+        rest(tilted(0.0) * pow(1e-3, 1.0 - f64::from(k) / 200.0));
+    }
+    for k in 1..=8 {
+        rest(tilted(0.5 * f64::from(k)));
+    }
+    solver.assembly().bodies.all.iter().map(|b| b.position).collect()
+}
+
 #[test]
-fn implicit_and_explicit_agree_on_random_walls() {
+fn implicit_and_explicit_move_random_walls_alike() {
+    // Gravity that is switched on at once makes a wall bounce; its joints slip on the way and keep that slip, by up to 40 %
+    // of what the wall settles. Where a rest state depends on the way to it, the way must be the same.
     let law = dry(2e8, 32.0);
-    let explicit = Solver::Explicit(explicit::Settings {
-        damping: 0.3,
-        unbalanced_ratio: 1e-6,
-        ..explicit::Settings::default()
-    });
-    let implicit = Solver::Implicit(implicit::Settings::default());
+    let contact = contact::Settings::for_size(0.25, [2, 2]);
+    let differences: Vec<f64> = walls()
+        .par_iter()
+        .map(|wall| {
+            let implicit = Equilibrium::new(wall, &law, implicit::Settings::default(), contact);
+            let explicit = Simulation::new(wall, &law, explicit_settings(0.8), contact);
+            let (a, b) = (brought_on_slowly(implicit), brought_on_slowly(explicit));
+            let start = wall.blocks.iter().map(|block| block.shape.mass_properties().centroid);
+            let largest = a.iter().zip(start).map(|(x, o)| (x - o).norm()).fold(0.0, f64::max);
+            a.iter().zip(&b).map(|(x, y)| (x - y).norm()).fold(0.0, f64::max) / largest
+        })
+        .collect();
+    for (member, difference) in differences.iter().enumerate() {
+        println!("wall {member}: largest difference {:.2} % of the largest displacement", 100.0 * difference);
+    }
+    assert!(differences.iter().all(|d| *d < 0.01), "{differences:?}");
+}
+
+#[test]
+fn implicit_and_explicit_see_random_walls_fall_at_the_same_angle() {
+    let law = dry(2e8, 32.0);
+    let (implicit, explicit) =
+        (Solver::Implicit(implicit::Settings::default()), Solver::Explicit(explicit_settings(0.3)));
     let ends: Vec<_> = walls()
         .par_iter()
         .map(|wall| (tilt(wall, &law, &implicit, 2.0, 0.05), tilt(wall, &law, &explicit, 2.0, 0.05)))
         .collect();
     for (member, (a, b)) in ends.iter().enumerate() {
-        let top = |run: &Run| run.steps[2].top_displacement;
-        println!(
-            "wall {member}: {:?} {:?}, at 4 deg {:e} {:e}",
-            angle(&a.outcome),
-            angle(&b.outcome),
-            top(a),
-            top(b)
-        );
+        println!("wall {member}: {:?} {:?}", angle(&a.outcome), angle(&b.outcome));
         assert_eq!(a.outcome.name(), b.outcome.name(), "wall {member}");
         let (x, y) = (angle(&a.outcome).expect("it falls"), angle(&b.outcome).expect("it falls"));
         assert!((x - y).abs() < 0.25, "wall {member}: {x} against {y} deg");
-        assert!((top(a) / top(b) - 1.0).abs() < 0.01, "wall {member}: {:e} against {:e}", top(a), top(b));
     }
 }
 
@@ -112,7 +145,7 @@ fn the_implicit_solver_gives_the_same_bits_for_any_number_of_threads() {
                 .flat_map_iter(|wall| {
                     let contact = contact::Settings::for_size(0.25, [2, 2]);
                     let mut equilibrium =
-                        implicit::Equilibrium::new(wall, &law, implicit::Settings::default(), contact);
+                        Equilibrium::new(wall, &law, implicit::Settings::default(), contact);
                     for degrees in [0.0, 5.0, 10.0] {
                         equilibrium.set_loads(tilted(degrees), 1.0);
                         assert_eq!(equilibrium.settle(&mut |_| false).status, Status::Equilibrium);

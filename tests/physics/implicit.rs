@@ -108,7 +108,7 @@ fn a_stack_settles_and_leans_as_its_joints_do() {
         let (found, shift) = (position(&pushed, n - 1).y, lean(n, kn, push));
         println!("shift {found:e} against {shift:e}: {:.1e}", found / shift - 1.0);
         // Settled by 1e-5 m the joints lie 1e-4 of a block's height closer together.
-        assert!((found / shift - 1.0).abs() < 1e-4, "{found:e} {shift:e}");
+        assert!((found / shift - 1.0).abs() < 2e-4, "{found:e} {shift:e}");
     }
     // A hundred times stiffer nothing of that is left.
     let stiff = dry(1e11, 40.0);

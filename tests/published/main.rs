@@ -1,3 +1,4 @@
 //! Published statements against our numbers: what the studies' READMEs say comes out, does.
 
 mod joint_arrangement;
+mod tilting_block;

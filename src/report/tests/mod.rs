@@ -1,5 +1,6 @@
 //! Hand-made rows and populations, and the tests on them.
 
+mod capacity;
 mod figure;
 mod summary;
 mod verdict;
@@ -35,6 +36,7 @@ fn failed(member: u64, outcome: Outcome) -> Row {
         collapse_angle_deg: None,
         fails_at_deg: None,
         largest_tilt_deg: None,
+        limit: None,
         mechanism: None,
         stones: 50,
         joints: 120,

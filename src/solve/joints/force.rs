@@ -67,7 +67,7 @@ impl Joint {
     /// Whether no part of the joint touches or holds.
     pub(super) fn is_wide_open(&self, gap: &Gap) -> bool {
         let lowest = self.polygon.vertices.iter().map(|v| gap.at(v)).fold(f64::INFINITY, f64::min);
-        lowest > self.touch && !self.states.iter().any(|s| self.law.holds(s))
+        lowest > 0.0 && !self.states.iter().any(|s| self.law.holds(s))
     }
 
     /// An open joint forgets its shear and has no force.
@@ -100,7 +100,7 @@ impl Joint {
     pub(super) fn press(&mut self, gap: &Gap, pressed: &mut Vec<Pressed>) -> PressureSum {
         pressed.clear();
         let highest = self.polygon.vertices.iter().map(|v| gap.at(v)).fold(f64::NEG_INFINITY, f64::max);
-        let closed = highest <= self.touch;
+        let closed = highest <= 0.0;
         let mut sum = PressureSum::default();
         if closed && self.law.sampling == Sampling::Area {
             // All in compression: the whole polygon at once, and each cell's share.
@@ -116,7 +116,7 @@ impl Joint {
             if self.law.holds(state) && !self.law.bonded && tears(&self.law, cell, gap) {
                 state.broken = true;
             }
-            let part = if self.law.holds(state) { cell.moments } else { compressed(cell, gap, self.touch) };
+            let part = if self.law.holds(state) { cell.moments } else { compressed(cell, gap) };
             let share = pressure(&self.law.normal, &part, gap);
             pressed.push(Pressed { at: part.centroid(), area: part.area, force: share.force });
             sum.force += share.force;
@@ -133,7 +133,7 @@ impl Joint {
             .iter()
             .zip(&self.states)
             .map(|(cell, state)| {
-                let m = if self.law.holds(state) { cell.moments } else { compressed(cell, &gap, self.touch) };
+                let m = if self.law.holds(state) { cell.moments } else { compressed(cell, &gap) };
                 let Gap { g0, gs, gt } = gap;
                 let square = g0 * g0 * m.area
                     + 2.0 * g0 * (gs * m.s + gt * m.t)
@@ -158,19 +158,19 @@ pub(super) fn pressure(law: &NormalLaw, m: &Moments, gap: &Gap) -> PressureSum {
     }
 }
 
-/// The part of a sub-contact in compression, by clipping it at zero gap (at `touch`, which is zero but for rounding);
+/// The part of a sub-contact in compression, by clipping it at zero gap;
 /// a point is in or out as a whole.
-pub(super) fn compressed(cell: &Cell, gap: &Gap, touch: f64) -> Moments {
+pub(super) fn compressed(cell: &Cell, gap: &Gap) -> Moments {
     if cell.outline.vertices.is_empty() {
-        return if gap.at(&cell.moments.centroid()) <= touch { cell.moments } else { Moments::default() };
+        return if gap.at(&cell.moments.centroid()) <= 0.0 { cell.moments } else { Moments::default() };
     }
-    let open = cell.outline.vertices.iter().filter(|v| gap.at(v) > touch).count();
+    let open = cell.outline.vertices.iter().filter(|v| gap.at(v) > 0.0).count();
     if open == 0 {
         cell.moments
     } else if open == cell.outline.vertices.len() {
         Moments::default()
     } else {
-        cell.outline.clip(gap.g0 - touch, gap.gs, gap.gt).moments()
+        cell.outline.clip(gap.g0, gap.gs, gap.gt).moments()
     }
 }
 

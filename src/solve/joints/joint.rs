@@ -22,7 +22,7 @@ pub struct Joint {
     /// A point of the reference plane and its outward normal in the reference body's axes.
     plane_point: Vec3,
     plane_normal: Vec3,
-    /// Gap (m) up to which the faces touch; see [`contact::Settings::touch`].
+    /// Distance (m) at which the faces begin to press; see [`contact::Settings::touch`].
     pub(super) touch: f64,
     /// The polygon, and its integrals.
     pub(super) polygon: Polygon,
@@ -34,7 +34,8 @@ pub struct Joint {
     pub force: f64,
 }
 
-/// The gap between incident face and reference plane at plane coordinates (s, t): `g0 + gs s + gt t` (m).
+/// The gap between incident face and reference plane, less the distance at which they begin to press, at plane
+/// coordinates (s, t): `g0 + gs s + gt t` (m).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gap {
     pub g0: f64,
@@ -142,7 +143,8 @@ impl Joint {
         let push = r.rotation * self.plane_normal;
         let plane_point = r.position + r.rotation * self.plane_point;
         let e1 = (s - push * push.dot(&s)).normalize();
-        let gap = Gap { g0: (origin - plane_point).dot(&push), gs: s.dot(&push), gt: t.dot(&push) };
+        let gap =
+            Gap { g0: (origin - plane_point).dot(&push) - self.touch, gs: s.dot(&push), gt: t.dot(&push) };
         Pose { origin, s, t, push, e1, e2: e1.cross(&push), gap }
     }
 

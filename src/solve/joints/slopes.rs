@@ -103,7 +103,7 @@ impl Joint {
         let mut before = Vec::with_capacity(self.cells.len());
         for ((cell, state), earlier) in self.cells.iter().zip(&self.states).zip(&anchor.states) {
             let holds = self.law.holds(state);
-            let part = if holds { cell.moments } else { compressed(cell, gap, self.touch) };
+            let part = if holds { cell.moments } else { compressed(cell, gap) };
             let share = pressure(&self.law.normal, &part, gap);
             sums.pressure.force += share.force;
             sums.pressure.by_s += share.by_s;
@@ -117,11 +117,17 @@ impl Joint {
             }
             let load = Pressed { at: part.centroid(), area: part.area, force: share.force };
             let cut = part.area < cell.moments.area && part.area > 0.0;
-            let area = if cut { cut_moments(cell, gap, self.touch) } else { [[0.0; 3]; 3] };
+            let area = if cut { cut_moments(cell, gap) } else { [[0.0; 3]; 3] };
             let by_gap = PressedSlopes { area, force: [-kn * part.area, -kn * part.s, -kn * part.t] };
             let was = SubContact { broken: state.broken, ..*earlier };
-            slopes.slips |=
-                self.law.add_shear_slopes(&was, &load, &by_gap, motion, kn * self.touch, &mut slopes.shear);
+            slopes.slips |= self.law.add_shear_slopes(
+                &was,
+                &load,
+                &by_gap,
+                motion,
+                2.0 * kn * self.touch,
+                &mut slopes.shear,
+            );
             slopes.opens |= cut;
             pressed.push(load);
             before.push(was);
@@ -206,13 +212,13 @@ fn stiffness(law: &NormalLaw) -> f64 {
 
 /// How the area in contact of a cell and its first moments (rows) change with the gap `g0, gs, gt` (columns): minus
 /// the integral of (1, s, t) times (1, s, t) along the cut, over the size of the gap's gradient.
-fn cut_moments(cell: &Cell, gap: &Gap, touch: f64) -> [[f64; 3]; 3] {
+fn cut_moments(cell: &Cell, gap: &Gap) -> [[f64; 3]; 3] {
     let mut ends = [[0.0; 2]; 2];
     let mut found = 0;
     let corners = &cell.outline.vertices;
     for (k, to) in corners.iter().enumerate() {
         let from = &corners[(k + corners.len() - 1) % corners.len()];
-        let (a, b) = (gap.at(from) - touch, gap.at(to) - touch);
+        let (a, b) = (gap.at(from), gap.at(to));
         if (a <= 0.0) != (b <= 0.0) && found < 2 {
             let w = a / (a - b);
             ends[found] = [from[0] + w * (to[0] - from[0]), from[1] + w * (to[1] - from[1])];
