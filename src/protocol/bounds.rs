@@ -1,13 +1,11 @@
 //! Limit analysis beside a load path: what rigid blocks on the same joints can bear, and whether a solver's answer is
 //! compatible with that.
 
-use crate::contact;
 use crate::math::Vec3;
 use crate::model::{JointLaws, Level, Outcome, Wall};
 use crate::protocol::pressure::back_loads;
-use crate::protocol::restraint::{Surroundings, restrain};
-use crate::protocol::run::typical_size;
-use crate::protocol::{Direction, Protocol, Restraint};
+use crate::protocol::stage::Stage;
+use crate::protocol::{Protocol, Restraint};
 use crate::solve::limit::{Analysis, Flow, Limit, Loads, PointLoad, Settings, When};
 
 /// What limit analysis says of a wall under a protocol's loads: a tilt (rad), or a factor on the protocol's load.
@@ -58,18 +56,12 @@ impl Bounds {
         restraint: &Restraint,
         sub_contacts: [u32; 2],
     ) -> Bounds {
-        let surroundings = Surroundings::of(wall, laws, restraint);
-        let towards = match protocol {
-            Protocol::Lateral(_) => Direction::YPlus,
-            Protocol::Tilting(tilting) => tilting.towards,
-        };
-        let assembly = restrain(wall, restraint, towards);
-        let contact = contact::Settings::for_size(typical_size(wall), sub_contacts);
+        let stage = Stage::new(wall, laws, protocol, restraint, sub_contacts);
         let asked = |flow| {
             let settings = Settings { flow, ..Settings::default() };
-            let analysis = Analysis::new(&assembly, &surroundings, contact, settings);
+            let analysis = Analysis::new(&stage.assembly, &stage.laws, stage.contact, settings);
             match protocol {
-                Protocol::Tilting(_) => analysis.tilt(towards.unit(), &[]),
+                Protocol::Tilting(_) => analysis.tilt(stage.towards.unit(), &[]),
                 Protocol::Lateral(lateral) => {
                     let points = back_loads(wall, lateral).into_iter().map(|load| PointLoad {
                         block: load.block,

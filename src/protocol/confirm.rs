@@ -4,7 +4,7 @@
 use std::cell::OnceCell;
 
 use crate::math::Vec3;
-use crate::protocol::drive::Task;
+use crate::protocol::Task;
 use crate::protocol::mechanism::{Failure, failure};
 use crate::protocol::watch::{LoadStep, Watch};
 use crate::solve::bodies::Body;

@@ -1,57 +1,18 @@
 //! The loop over load steps, the same for every solver: apply, solve, observe; back and halve where no equilibrium is
 //! found; confirm before a wall is called collapsed.
 
-use crate::contact;
-use crate::math::Vec3;
-use crate::model::{JointLaws, Level, Outcome, Wall};
-use crate::protocol::confirm::{Confirmation, Fall, Judge, Told};
-use crate::protocol::mechanism::{Failure, JointState, joint_states};
-use crate::protocol::path::LoadPath;
-use crate::protocol::pressure::Load;
+use crate::model::{Level, Outcome};
+use crate::protocol::confirm::{Fall, Judge, Told};
+use crate::protocol::mechanism::{Failure, joint_states};
+use crate::protocol::pace::Pace;
 use crate::protocol::route::Route;
-use crate::protocol::watch::{Criterion, LoadStep, Watch};
+use crate::protocol::task::displacements;
+use crate::protocol::watch::{LoadStep, Watch};
+use crate::protocol::{Run, Task};
 use crate::solve::bodies::Body;
 use crate::solve::explicit::Simulation;
 use crate::solve::implicit::Equilibrium;
 use crate::solve::{Assembly, Equilibrate, Solver, Status};
-
-/// A wall with all that surrounds it, its loads, and how far it is to be taken.
-pub struct Task<'t> {
-    /// The blocks, supports included.
-    pub wall: &'t Wall,
-    /// Laws of all joints.
-    pub laws: &'t dyn JointLaws,
-    /// Tolerances of contact detection.
-    pub contact: contact::Settings,
-    /// Dead loads, on the wall as built; from then on each moves with its block.
-    pub loads: Vec<Load>,
-    /// The load path.
-    pub path: LoadPath,
-    /// When a wall counts as running away.
-    pub criterion: Criterion,
-    /// How a suspected collapse is confirmed.
-    pub confirmation: Confirmation,
-}
-
-/// How the evaluation of one wall went.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Run {
-    /// How it ended; a collapse is stated at the last level borne.
-    pub outcome: Outcome,
-    /// For a collapse after the first level: the last level borne and the lowest one at which the wall falls (SI units).
-    pub bracket: Option<[f64; 2]>,
-    /// One entry per level at which the wall came to rest, gravity alone first, and one for the level at which it did not.
-    pub steps: Vec<LoadStep>,
-    /// Displacement of every block's centroid (m) from its position as built, by block id: at the last state at rest, or
-    /// where it was left if it never came to rest.
-    pub displacements: Vec<Vec3>,
-    /// Number of joints found as built.
-    pub joints: usize,
-    /// The mechanism of a collapse.
-    pub failure: Option<Failure>,
-    /// The joints at the last state at rest; empty if there was none.
-    pub joint_states: Vec<JointState>,
-}
 
 /// Takes an assembly along a load path with the solver asked for.
 pub fn drive(task: &Task<'_>, solver: &Solver) -> Run {
@@ -69,7 +30,7 @@ pub fn drive(task: &Task<'_>, solver: &Solver) -> Run {
 /// relaxation ([`Judge`]), before the step is halved; a wall that comes to rest after all goes on from there. At the shortest
 /// step the wall has fallen if it has become so soft on the way that this is the limit point of its path, or else as
 /// relaxation there says; a doubt that stays widens the bracket up to the level where the fall is certain.
-pub fn climb<'a, S: Equilibrate>(task: &Task<'a>, of: &dyn Fn(Assembly<'a>) -> S) -> Run {
+pub fn climb<'a, S: Equilibrate<'a>>(task: &Task<'a>, of: &dyn Fn(Assembly<'a>) -> S) -> Run {
     let built = task.assembled();
     let joints = built.joints.all.len();
     let watch = Watch::new(task.wall, &built.bodies, task.path.direction(), task.criterion);
@@ -137,17 +98,6 @@ pub fn climb<'a, S: Equilibrate>(task: &Task<'a>, of: &dyn Fn(Assembly<'a>) -> S
     }
 }
 
-impl<'t> Task<'t> {
-    /// The assembly as built, with its loads.
-    pub(crate) fn assembled(&self) -> Assembly<'t> {
-        let mut built = Assembly::new(self.wall, self.laws, self.contact);
-        for load in &self.loads {
-            built.add_load(load.block, load.point, load.force);
-        }
-        built
-    }
-}
-
 struct Climber<'c, 'a, S> {
     task: &'c Task<'a>,
     of: &'c dyn Fn(Assembly<'a>) -> S,
@@ -183,34 +133,6 @@ enum Verdict<S> {
     End(Box<End>),
 }
 
-/// How fast the wall moves along its path, from rest to rest.
-#[derive(Default)]
-struct Pace {
-    level: f64,
-    /// Largest movement of a block per level (m) over the first interval, and over the last.
-    first: Option<f64>,
-    last: f64,
-}
-
-impl Pace {
-    fn note(&mut self, level: f64, moved: f64) {
-        if level > self.level {
-            self.last = moved / (level - self.level);
-            self.first.get_or_insert(self.last);
-            self.level = level;
-        }
-    }
-
-    /// Whether the wall has become so much softer that the path is at its limit point, where its pace grows beyond all
-    /// bounds.
-    fn is_at_limit(&self) -> bool {
-        self.first.is_some_and(|first| self.last > SOFTENED * first)
-    }
-}
-
-/// A wall that moves so many times faster along its path than at the start has come to its limit point: near a quadratic
-/// limit the pace grows as one over the root of the distance, 10 at a hundredth of the way.
-const SOFTENED: f64 = 10.0;
 /// Suspicions that may prove wrong before the solver is called lost.
 const MOST_WRONG: u32 = 20;
 /// So many full steps above a suspicion a fall is looked for, when it cannot be told there.
@@ -243,7 +165,7 @@ impl End {
     }
 }
 
-impl<'a, S: Equilibrate> Climber<'_, 'a, S> {
+impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
     /// Tries a level from a state, which stays as it is.
     fn try_level(&mut self, from: &S, level: f64) -> Tried<S> {
         let mut next = from.clone();
@@ -320,7 +242,7 @@ impl<'a, S: Equilibrate> Climber<'_, 'a, S> {
                 }
                 Told::Rests(assembly, ratio) => {
                     self.wrong += 1;
-                    let next = (self.of)(self.taken_over(&assembly));
+                    let next = (self.of)(*assembly);
                     return Verdict::Rest(self.read(next, at, ratio), f64::from(further));
                 }
                 Told::NonFinite(assembly) => {
@@ -334,17 +256,6 @@ impl<'a, S: Equilibrate> Climber<'_, 'a, S> {
             Some(fall) => self.fell(fall.level, ratio),
             None => lost(self, "neither limit analysis nor relaxation told whether it stands"),
         }
-    }
-
-    /// The state that another solver came to rest in, with this climb's own joint laws.
-    fn taken_over(&self, state: &Assembly<'_>) -> Assembly<'a> {
-        let mut assembly = self.built.clone();
-        assembly.gravity = state.gravity;
-        assembly.load_factor = state.load_factor;
-        assembly.bodies = state.bodies.clone();
-        assembly.joints = state.joints.clone();
-        assembly.refresh();
-        assembly
     }
 
     /// The end of a wall that falls at a level, as it was seen to fall.
@@ -417,9 +328,4 @@ impl<'a, S: Equilibrate> Climber<'_, 'a, S> {
             joint_states: Vec::new(),
         }
     }
-}
-
-/// Displacement of every body's centroid (m).
-pub(crate) fn displacements(now: &[Body], built: &[Body]) -> Vec<Vec3> {
-    now.iter().zip(built).map(|(now, built)| now.position - built.position).collect()
 }

@@ -1,14 +1,12 @@
 //! A wall of a study through the study's protocol.
 
-use crate::contact;
-use crate::math::cbrt;
 use crate::model::{JointLaws, Wall};
-use crate::protocol::drive::{Run, Task, drive};
+use crate::protocol::drive::drive;
 use crate::protocol::path::LoadPath;
 use crate::protocol::pressure::back_loads;
-use crate::protocol::restraint::{Surroundings, restrain};
+use crate::protocol::stage::Stage;
 use crate::protocol::tilting::turn;
-use crate::protocol::{Confirmation, Criterion, Direction, Protocol, Rate, Restraint};
+use crate::protocol::{Confirmation, Criterion, Protocol, Rate, Restraint, Run, Task};
 use crate::solve::{Solver, explicit};
 
 /// Takes a wall of stones through a protocol: gravity first, then the load.
@@ -23,20 +21,14 @@ pub fn run(
     sub_contacts: [u32; 2],
     solver: &Solver,
 ) -> Run {
-    let surroundings = Surroundings::of(wall, laws, restraint);
-    let towards = match protocol {
-        Protocol::Lateral(_) => Direction::YPlus,
-        Protocol::Tilting(tilting) => tilting.towards,
-    };
-    let assembly = restrain(wall, restraint, towards);
-    let contact = contact::Settings::for_size(typical_size(wall), sub_contacts);
+    let stage = Stage::new(wall, laws, protocol, restraint, sub_contacts);
     let (low, high) = wall.bounds();
     let thickness = high.y - low.y;
     let confirmation = Confirmation::for_thickness(thickness);
     let task = |path, criterion| Task {
-        wall: &assembly,
-        laws: &surroundings,
-        contact,
+        wall: &stage.assembly,
+        laws: &stage.laws,
+        contact: stage.contact,
         loads: Vec::new(),
         path,
         criterion,
@@ -65,11 +57,4 @@ pub fn run(
     };
     run.displacements.truncate(wall.blocks.len());
     run
-}
-
-/// Edge of the cube with a stone's mean volume (m): the length to which contact tolerances are scaled.
-pub fn typical_size(wall: &Wall) -> f64 {
-    let (count, volume) =
-        wall.stones().fold((0u32, 0.0), |(n, v), (_, block)| (n + 1, v + block.shape.volume()));
-    cbrt(volume / f64::from(count.max(1)))
 }

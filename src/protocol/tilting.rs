@@ -2,11 +2,11 @@
 
 use crate::math::Vec3;
 use crate::model::Outcome;
-use crate::protocol::drive::{Run, Task, displacements};
 use crate::protocol::mechanism::joint_states;
 use crate::protocol::path::LoadPath;
+use crate::protocol::task::displacements;
 use crate::protocol::watch::{Criterion, LoadStep, Watch};
-use crate::protocol::{Tilting, Turning, confirm};
+use crate::protocol::{Run, Task, Tilting, Turning, confirm};
 use crate::solve::explicit::{Settings, Simulation};
 use crate::solve::{Assembly, Equilibrate, Status};
 

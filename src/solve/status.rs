@@ -33,12 +33,19 @@ pub struct Settled {
 
 /// A solver that brings an assembly to rest under its loads. Loads are changed on the assembly between two calls; a
 /// clone is a state to come back to.
-pub trait Equilibrate: Clone {
+pub trait Equilibrate<'a>: Clone {
     /// Bodies, joints and loads as they stand.
-    fn assembly(&self) -> &Assembly<'_>;
+    fn assembly(&self) -> &Assembly<'a>;
+
+    /// The same, to change loads or positions by hand.
+    fn assembly_mut(&mut self) -> &mut Assembly<'a>;
 
     /// The gravity (m/s^2) and the factor on the dead loads from now on.
-    fn set_loads(&mut self, gravity: Vec3, load_factor: f64);
+    fn set_loads(&mut self, gravity: Vec3, load_factor: f64) {
+        let assembly = self.assembly_mut();
+        assembly.gravity = gravity;
+        assembly.load_factor = load_factor;
+    }
 
     /// Goes on until the assembly is at rest, `stop` says so, or it cannot be brought to rest.
     fn settle(&mut self, stop: &mut dyn FnMut(&Bodies) -> bool) -> Settled;

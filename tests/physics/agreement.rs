@@ -45,7 +45,7 @@ fn explicit_settings(damping: f64) -> explicit::Settings {
 
 /// Where a solver brings a wall to rest at a tilt of 4 deg, gravity brought on so that the wall does not bounce: in 200
 /// steps, each a few per cent of what is there.
-fn brought_on_slowly(mut solver: impl Equilibrate) -> Vec<Vec3> {
+fn brought_on_slowly<'a>(mut solver: impl Equilibrate<'a>) -> Vec<Vec3> {
     let mut rest = |gravity: Vec3| {
         solver.set_loads(gravity, 1.0);
         assert_eq!(solver.settle(&mut |_| false).status, Status::Equilibrium);

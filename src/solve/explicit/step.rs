@@ -1,7 +1,6 @@
 //! The time loop.
 
 use crate::contact;
-use crate::math::Vec3;
 use crate::model::{JointLaws, Wall};
 use crate::solve::bodies::Bodies;
 use crate::solve::explicit::{Settings, critical};
@@ -88,14 +87,13 @@ impl<'a> Simulation<'a> {
     }
 }
 
-impl Equilibrate for Simulation<'_> {
-    fn assembly(&self) -> &Assembly<'_> {
+impl<'a> Equilibrate<'a> for Simulation<'a> {
+    fn assembly(&self) -> &Assembly<'a> {
         &self.assembly
     }
 
-    fn set_loads(&mut self, gravity: Vec3, load_factor: f64) {
-        self.assembly.gravity = gravity;
-        self.assembly.load_factor = load_factor;
+    fn assembly_mut(&mut self) -> &mut Assembly<'a> {
+        &mut self.assembly
     }
 
     fn settle(&mut self, stop: &mut dyn FnMut(&Bodies) -> bool) -> Settled {

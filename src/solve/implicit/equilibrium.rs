@@ -86,14 +86,13 @@ impl<'a> Equilibrium<'a> {
     }
 }
 
-impl Equilibrate for Equilibrium<'_> {
-    fn assembly(&self) -> &Assembly<'_> {
+impl<'a> Equilibrate<'a> for Equilibrium<'a> {
+    fn assembly(&self) -> &Assembly<'a> {
         &self.assembly
     }
 
-    fn set_loads(&mut self, gravity: Vec3, load_factor: f64) {
-        self.assembly.gravity = gravity;
-        self.assembly.load_factor = load_factor;
+    fn assembly_mut(&mut self) -> &mut Assembly<'a> {
+        &mut self.assembly
     }
 
     fn settle(&mut self, stop: &mut dyn FnMut(&Bodies) -> bool) -> Settled {

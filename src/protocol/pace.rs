@@ -1,0 +1,30 @@
+//! How fast a wall moves along its load path: the sign of a limit point.
+
+/// A wall that moves so many times faster along its path than at the start has come to its limit point: near a quadratic
+/// limit the pace grows as one over the root of the distance, 10 at a hundredth of the way.
+const SOFTENED: f64 = 10.0;
+
+/// How fast the wall moves along its path, from rest to rest.
+#[derive(Default)]
+pub(super) struct Pace {
+    level: f64,
+    /// Largest movement of a block per level (m) over the first interval, and over the last.
+    first: Option<f64>,
+    last: f64,
+}
+
+impl Pace {
+    pub(super) fn note(&mut self, level: f64, moved: f64) {
+        if level > self.level {
+            self.last = moved / (level - self.level);
+            self.first.get_or_insert(self.last);
+            self.level = level;
+        }
+    }
+
+    /// Whether the wall has become so much softer that the path is at its limit point, where its pace grows beyond all
+    /// bounds.
+    pub(super) fn is_at_limit(&self) -> bool {
+        self.first.is_some_and(|first| self.last > SOFTENED * first)
+    }
+}

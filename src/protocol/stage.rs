@@ -1,0 +1,48 @@
+//! A wall of a study with all that its protocol puts around it.
+
+use crate::contact;
+use crate::math::cbrt;
+use crate::model::{JointLaws, Wall};
+use crate::protocol::restraint::{Surroundings, restrain};
+use crate::protocol::{Direction, Protocol, Restraint};
+
+/// The wall on its base and between its ends, ready for a solver or for limit analysis.
+pub struct Stage<'a> {
+    /// The blocks; base, strip and ends have ids behind the stones'.
+    pub assembly: Wall,
+    /// The laws of all joints.
+    pub laws: Surroundings<'a>,
+    /// Tolerances of contact detection.
+    pub contact: contact::Settings,
+    /// Where the load pushes.
+    pub towards: Direction,
+}
+
+impl<'a> Stage<'a> {
+    /// Around a wall of stones.
+    pub fn new(
+        wall: &Wall,
+        laws: &'a dyn JointLaws,
+        protocol: &Protocol,
+        restraint: &Restraint,
+        sub_contacts: [u32; 2],
+    ) -> Self {
+        let towards = match protocol {
+            Protocol::Lateral(_) => Direction::YPlus,
+            Protocol::Tilting(tilting) => tilting.towards,
+        };
+        Stage {
+            assembly: restrain(wall, restraint, towards),
+            laws: Surroundings::of(wall, laws, restraint),
+            contact: contact::Settings::for_size(typical_size(wall), sub_contacts),
+            towards,
+        }
+    }
+}
+
+/// Edge of the cube with a stone's mean volume (m): the length to which contact tolerances are scaled.
+pub fn typical_size(wall: &Wall) -> f64 {
+    let (count, volume) =
+        wall.stones().fold((0u32, 0.0), |(n, v), (_, block)| (n + 1, v + block.shape.volume()));
+    cbrt(volume / f64::from(count.max(1)))
+}

@@ -1,0 +1,66 @@
+//! What is asked about one wall, and what comes of it.
+
+use crate::contact;
+use crate::math::Vec3;
+use crate::model::{JointLaws, Outcome, Wall};
+use crate::protocol::confirm::Confirmation;
+use crate::protocol::mechanism::{Failure, JointState};
+use crate::protocol::path::LoadPath;
+use crate::protocol::pressure::Load;
+use crate::protocol::watch::{Criterion, LoadStep};
+use crate::solve::Assembly;
+use crate::solve::bodies::Body;
+
+/// A wall with all that surrounds it, its loads, and how far it is to be taken.
+pub struct Task<'t> {
+    /// The blocks, supports included.
+    pub wall: &'t Wall,
+    /// Laws of all joints.
+    pub laws: &'t dyn JointLaws,
+    /// Tolerances of contact detection.
+    pub contact: contact::Settings,
+    /// Dead loads, on the wall as built; from then on each moves with its block.
+    pub loads: Vec<Load>,
+    /// The load path.
+    pub path: LoadPath,
+    /// When a wall counts as running away.
+    pub criterion: Criterion,
+    /// How a suspected collapse is confirmed.
+    pub confirmation: Confirmation,
+}
+
+/// How the evaluation of one wall went.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// How it ended; a collapse is stated at the last level borne.
+    pub outcome: Outcome,
+    /// For a collapse after the first level: the last level borne and the lowest one at which the wall falls (SI units).
+    pub bracket: Option<[f64; 2]>,
+    /// One entry per level at which the wall came to rest, gravity alone first, and one for the level at which it did not.
+    pub steps: Vec<LoadStep>,
+    /// Displacement of every block's centroid (m) from its position as built, by block id: at the last state at rest, or
+    /// where it was left if it never came to rest.
+    pub displacements: Vec<Vec3>,
+    /// Number of joints found as built.
+    pub joints: usize,
+    /// The mechanism of a collapse.
+    pub failure: Option<Failure>,
+    /// The joints at the last state at rest; empty if there was none.
+    pub joint_states: Vec<JointState>,
+}
+
+impl<'t> Task<'t> {
+    /// The assembly as built, with its loads.
+    pub(crate) fn assembled(&self) -> Assembly<'t> {
+        let mut built = Assembly::new(self.wall, self.laws, self.contact);
+        for load in &self.loads {
+            built.add_load(load.block, load.point, load.force);
+        }
+        built
+    }
+}
+
+/// Displacement of every body's centroid (m).
+pub(crate) fn displacements(now: &[Body], built: &[Body]) -> Vec<Vec3> {
+    now.iter().zip(built).map(|(now, built)| now.position - built.position).collect()
+}
