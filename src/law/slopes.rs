@@ -122,8 +122,8 @@ impl Coulomb {
             }
             slips
         };
-        for k in 0..2 {
-            let force = tau[k].times(&area);
+        for (k, tau) in tau.iter().enumerate() {
+            let force = tau.times(&area);
             for (row, moment) in [(k, force), (2 + k, force.times(&at[0])), (4 + k, force.times(&at[1]))] {
                 for (total, slope) in sum[row].iter_mut().zip(moment.slope) {
                     *total += slope;

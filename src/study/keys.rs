@@ -347,7 +347,7 @@ pub static SOLVER: Section = Section {
         Key::new(
             "max_halvings",
             Kind::Whole { low: 0, high: 30 },
-            Default("1"),
+            Default("0"),
             "Times that a load increment that fails is halved within a load step.",
         )
         .only(IMPLICIT),

@@ -59,7 +59,7 @@ impl Newton<'_, '_> {
         let mut residual = self.residual();
         let mut ratio = self.assembly.unbalanced_ratio();
         let (mut spent, mut stuck) = (0, 0);
-        while !(ratio < self.settings.unbalanced_ratio.max(self.rounding())) {
+        while ratio.is_nan() || ratio >= self.settings.unbalanced_ratio.max(self.rounding()) {
             let own = !fresh;
             if own {
                 let lost = spent == self.settings.max_factorisations || stuck > MOST_STUCK;

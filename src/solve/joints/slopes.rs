@@ -70,23 +70,19 @@ impl Joint {
         let (sums, slopes) = self.sum_slopes(&pose.gap, &motion, anchor, pressed);
         let carried = [anchor.origin, anchor.s, anchor.t].map(|v| r.rotation * v);
         let geometry = Geometry { pose: &pose, incident: i, reference: r, carried, sums: &sums };
-        let mut stiffness = [[0.0; 12]; 12];
-        for column in 0..12 {
+        let columns: [[Vec3; 4]; 12] = std::array::from_fn(|column| {
             let unit = Vec3::ith(column % 3, 1.0);
             let twist = match (column / 3) % 2 {
                 0 => Twist { shift: unit, ..Twist::NONE },
                 _ => Twist { turn: unit, ..Twist::NONE },
             };
-            let wrench = match column < 6 {
+            match column < 6 {
                 true => geometry.change(&twist, &Twist::NONE, &slopes),
                 false => geometry.change(&Twist::NONE, &twist, &slopes),
-            };
-            for (row, vector) in wrench.iter().enumerate() {
-                for axis in 0..3 {
-                    stiffness[3 * row + axis][column] = -vector[axis];
-                }
             }
-        }
+        });
+        let entry = |row: usize, column: usize| -columns[column][row / 3][row % 3];
+        let stiffness = std::array::from_fn(|row| std::array::from_fn(|column| entry(row, column)));
         Some(Slopes { stiffness, slips: slopes.slips, opens: slopes.opens })
     }
 
