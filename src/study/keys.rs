@@ -340,7 +340,7 @@ pub static SOLVER: Section = Section {
         Key::new(
             "max_factorisations",
             Kind::Whole { low: 1, high: 10_000 },
-            Default("12"),
+            Default("30"),
             "Factorisations per load increment before it counts as failed.",
         )
         .only(IMPLICIT),

@@ -217,8 +217,8 @@ fn faults_of_all_files_are_listed_together_in_order() {
         [
             ("study.toml", 8, "wall.height_m"),
             ("study.toml", 24, "joint.phi_deg"),
-            ("study.toml", 48, "solver.max_stepps"),
-            ("study.toml", 65, "arm.running.overlap"),
+            ("study.toml", 49, "solver.max_stepps"),
+            ("study.toml", 66, "arm.running.overlap"),
             ("published.toml", 18, "claim[2].low"),
             ("distributions/block/size.toml", 8, "length.sd"),
             ("distributions/block/size.toml", 13, "length.n"),
@@ -236,7 +236,7 @@ fn a_fault_shows_its_line_with_a_caret() {
     let scratch = Scratch::new("caret");
     scratch.replace(STUDY, "dip_deg = 5", "dip_deg = 60");
     let listing = scratch.load(None).expect_err("60 deg").to_string();
-    assert!(listing.contains("\n  97 | dip_deg = 60\n     |           ^^\n"), "{listing}");
+    assert!(listing.contains("\n  98 | dip_deg = 60\n     |           ^^\n"), "{listing}");
 }
 
 #[test]

@@ -69,7 +69,7 @@ fn the_files_of_a_capacity_are_whole_and_hold_the_numbers() {
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).unwrap();
     let rows = [fell(0, 12.0), fell(1, 11.0), fell(2, 13.0)];
-    write_summary(&summary_of(&[capacity(&rows)], &[]), &folder).unwrap();
+    write_summary(&summary_of(&[capacity(&rows)], &[]), &folder, None).unwrap();
     let mut names: Vec<String> =
         fs::read_dir(&folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
     names.sort();

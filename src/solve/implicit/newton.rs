@@ -50,7 +50,12 @@ type Place = Vec<Body>;
 
 impl Newton<'_, '_> {
     /// Steps until the residual is below its limit. Says whether it got there, and the unbalanced force ratio.
+    ///
+    /// A stable state is asked for. Steps with an old matrix that bring the residual down well show that the matrix has
+    /// changed little, and so has its sign; where there was none to begin with, or more than one was needed, it is made
+    /// again at the end.
     pub fn solve(&mut self, mut fresh: bool) -> (bool, f64) {
+        let from_scratch = !fresh;
         let mut residual = self.residual();
         let mut ratio = self.assembly.unbalanced_ratio();
         let (mut spent, mut stuck) = (0, 0);
@@ -77,9 +82,8 @@ impl Newton<'_, '_> {
             fresh = after < GOOD_CONTRACTION * before;
             stuck = if own && after > POOR_CONTRACTION * before { stuck + 1 } else { 0 };
         }
-        // A matrix from before the last step may be that of another state; its sign is asked for first, as it costs less.
-        let stable = self.system.is_positive() || (self.factorise().is_some() && self.system.is_positive());
-        (stable, ratio)
+        let in_doubt = from_scratch || spent > 1 || !self.system.is_stable();
+        (!in_doubt || (self.factorise().is_some() && self.system.is_stable()), ratio)
     }
 
     /// The unbalanced force ratio that rounding alone may leave: positions are known to a unit in their last place, and

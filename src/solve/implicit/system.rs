@@ -37,6 +37,8 @@ pub struct System {
     order: Option<Order>,
     general: Option<SymbolicLu<usize>>,
     factor: Factor,
+    /// Whether the matrix was said to be symmetric and proved to have a negative eigenvalue.
+    indefinite: bool,
 }
 
 #[derive(Clone, Default)]
@@ -106,6 +108,7 @@ impl System {
             order: None,
             general: None,
             factor: Factor::None,
+            indefinite: false,
         }
     }
 
@@ -177,6 +180,7 @@ impl System {
     /// `None` where it is singular.
     pub fn factorise(&mut self, symmetric: bool) -> Option<Kind> {
         let matrix = SparseColMatRef::new(self.pattern.as_ref(), &self.values);
+        self.indefinite = false;
         if symmetric {
             if self.symmetric.is_none() {
                 self.symmetric = SymbolicLlt::try_new(self.pattern.as_ref(), Side::Lower).ok();
@@ -187,7 +191,7 @@ impl System {
                     self.factor = Factor::Symmetric(factor);
                     return Some(Kind::Symmetric);
                 }
-                Err(LltError::Numeric(_)) => {}
+                Err(LltError::Numeric(_)) => self.indefinite = true,
                 Err(LltError::Generic(_)) => return None,
             }
         }
@@ -203,10 +207,11 @@ impl System {
         Some(Kind::General)
     }
 
-    /// Whether the determinant of the matrix as it was factorised last is positive, as it is from an unloaded stable state
-    /// up to the first limit point.
-    pub fn is_positive(&mut self) -> bool {
+    /// Whether the matrix as it was factorised last is that of a stable state: a symmetric one is positive definite, a
+    /// general one has a positive determinant, as it has from an unloaded stable state up to the first limit point.
+    pub fn is_stable(&mut self) -> bool {
         match &self.factor {
+            _ if self.indefinite => false,
             Factor::None => false,
             Factor::Symmetric(_) => true,
             Factor::Sparse(elimination) => elimination.is_positive(),

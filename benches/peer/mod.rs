@@ -1,0 +1,3 @@
+//! Other programs on the same scenes.
+
+pub mod rapier;

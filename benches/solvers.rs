@@ -1,0 +1,181 @@
+//! The implicit solver: full tilting tests beside Rapier, single Newton iterations, a study's walls.
+//!
+//! `cargo bench --bench solvers` prints criterion's medians; with `--features rapier` the same tests run in Rapier as
+//! well. Limit analysis has its own bench, `limit`. Records go to `benches/history/`.
+
+#[cfg(feature = "rapier")]
+mod peer;
+
+use std::path::Path;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use pirca::contact;
+use pirca::ensemble::{evaluate, plan};
+use pirca::generate::canonical;
+use pirca::law::{CohesionAfterSlip, Coulomb, NormalLaw, Sampling};
+use pirca::math::{Vec3, atan, cos, degrees, radians, sin, tan};
+use pirca::model::{Outcome, Wall};
+use pirca::protocol::{self, Ends, Protocol, Restraint, Tilting};
+use pirca::solve::implicit::{self, DOF, Equilibrium, System, held};
+use pirca::solve::joints::Anchor;
+use pirca::solve::{Assembly, Equilibrate, STANDARD_GRAVITY, Solver, Status};
+use pirca::study::Study;
+use rayon::prelude::*;
+
+/// Friction angle of the tilting tests (deg): the wall topples long before it slides.
+const PHI_DEG: f64 = 35.0;
+
+/// Dry joints of a stiffness (Pa/m).
+fn law(kn: f64) -> Coulomb {
+    Coulomb {
+        normal: NormalLaw::Linear { kn },
+        ks: 0.5 * kn,
+        tan_phi: tan(radians(PHI_DEG)),
+        cohesion: 0.0,
+        tension: 0.0,
+        cohesion_after_slip: CohesionAfterSlip::Kept,
+        sampling: Sampling::Area,
+        bonded: false,
+    }
+}
+
+/// A tilting test of `wall_72` by half degrees.
+struct Test {
+    name: &'static str,
+    kn: f64,
+    /// To this (deg) the collapse angle is bracketed.
+    bracket_deg: f64,
+    /// How often the solver halves a load step on its own.
+    max_halvings: u32,
+    /// The collapse angle may be so far (deg) from the limit angle.
+    allowed: f64,
+}
+
+/// The elastic loss is 0.19 deg at 1e12 Pa/m: to answer within 0.25 deg of the limit angle takes a bracket of a sixteenth.
+/// At 1e9 Pa/m the loss alone is 1.9 deg. The protocol halves steps too, so that the solver need not.
+const TESTS: [Test; 3] = [
+    Test { name: "implicit_1e12", kn: 1e12, bracket_deg: 0.0625, max_halvings: 1, allowed: 0.25 },
+    Test { name: "implicit_1e12_no_halvings", kn: 1e12, bracket_deg: 0.0625, max_halvings: 0, allowed: 0.25 },
+    Test { name: "implicit_1e9", kn: 1e9, bracket_deg: 0.25, max_halvings: 1, allowed: 2.15 },
+];
+
+/// Tilts until the wall collapses; the last tilt borne (deg).
+fn tilt(test: &Test) -> f64 {
+    let bracket = radians(test.bracket_deg);
+    let protocol = Protocol::Tilting(Tilting { step: radians(0.5), bracket, ..Tilting::default() });
+    let settings = implicit::Settings { max_halvings: test.max_halvings, ..implicit::Settings::default() };
+    let restraint = Restraint::at_ends(Ends::Free);
+    let (wall, law) = (canonical::wall_72(), law(test.kn));
+    let run = protocol::run(&wall, &law, &protocol, &restraint, [2, 2], &Solver::Implicit(settings));
+    let Outcome::Collapsed { at } = run.outcome else { panic!("{}: {:?}", test.name, run.outcome) };
+    degrees(at.value())
+}
+
+fn tilting(c: &mut Criterion) {
+    let limit = degrees(atan(canonical::THICKNESS / (9.0 * canonical::COURSE_HEIGHT)));
+    let mut group = c.benchmark_group("tilting_test");
+    group.sample_size(20);
+    for test in &TESTS {
+        let angle = tilt(test);
+        println!("{}: borne {angle:.3} deg, limit {limit:.4} deg", test.name);
+        assert!((angle - limit).abs() < test.allowed, "{}: {angle} against {limit}", test.name);
+        group.bench_function(test.name, |b| b.iter(|| tilt(test)));
+    }
+    #[cfg(feature = "rapier")]
+    for (name, setup) in peer::rapier::SETUPS {
+        let wall = canonical::wall_72().with_base();
+        let tilt = || peer::rapier::tilt(&wall, tan(radians(PHI_DEG)), 0.5, &setup);
+        println!("rapier {name}, {setup:?}: {:?}", tilt());
+        group.sample_size(10);
+        group.bench_function(format!("rapier_{name}"), |b| b.iter(tilt));
+    }
+    group.finish();
+}
+
+/// A wall at rest on a table tilted by a share of its limit angle, with the anchors of its last load step.
+fn loaded(wall: &Wall, law: &Coulomb, share: f64) -> (Assembly<'static>, Vec<Anchor>) {
+    let law: &'static Coulomb = Box::leak(Box::new(*law));
+    let contact = contact::Settings::for_size(0.1, [2, 2]);
+    let (low, high) = wall.bounds();
+    let tilt = share * atan((high.y - low.y) / (high.z - low.z));
+    let mut solver = Equilibrium::new(&wall.clone().with_base(), law, implicit::Settings::default(), contact);
+    let mut anchors = Vec::new();
+    for tilt in [0.0, tilt] {
+        let assembly = solver.assembly();
+        anchors = assembly.joints.anchors(&assembly.bodies.all);
+        let gravity = Vec3::new(0.0, sin(tilt), -cos(tilt)) * STANDARD_GRAVITY;
+        solver.set_loads(gravity, 1.0);
+        let settled = solver.settle(&mut |_| false);
+        assert_eq!(settled.status, Status::Equilibrium, "tilt {tilt}: {settled:?}");
+        assert_eq!(solver.assembly().joints.all.len(), anchors.len(), "the joints have changed");
+    }
+    (solver.into_assembly(), anchors)
+}
+
+/// Puts the tangent of all joints into the system; whether it is symmetric.
+fn assemble(system: &mut System, assembly: &mut Assembly<'_>, anchors: &[Anchor]) -> bool {
+    let Assembly { bodies, joints, .. } = assembly;
+    let bodies = &bodies.all;
+    let mut symmetric = true;
+    system.clear();
+    joints.each_slope(bodies, anchors, |joint, slopes| {
+        symmetric &= !slopes.slips && !slopes.opens;
+        system.add_joint(joint, bodies, slopes);
+    });
+    for (index, body) in bodies.iter().enumerate() {
+        for &unknown in held(body) {
+            system.hold(index, unknown, 1.0);
+        }
+    }
+    symmetric
+}
+
+fn newton_iteration(c: &mut Criterion) {
+    let law = law(1e11);
+    let mut group = c.benchmark_group("newton_iteration");
+    group.sample_size(10);
+    for (blocks, wall) in
+        [(1000, canonical::running_bond(25, 39)), (10_000, canonical::running_bond(100, 99))]
+    {
+        assert_eq!(wall.blocks.len(), blocks);
+        for (name, share, symmetric) in [("symmetric", 0.0, true), ("general", 0.7, false)] {
+            let (mut assembly, anchors) = loaded(&wall, &law, share);
+            let mut system = System::new(&assembly.bodies.all, &assembly.joints);
+            assert_eq!(assemble(&mut system, &mut assembly, &anchors), symmetric, "{blocks} {name}");
+            assert!(system.factorise(symmetric).is_some());
+            let right: Vec<f64> = (0..DOF * (blocks + 1)).map(|k| (k % 7) as f64 - 3.0).collect();
+            let label = |part: &str| format!("{blocks}/{name}/{part}");
+            group.bench_function(label("assembly"), |b| {
+                b.iter(|| assemble(&mut system, &mut assembly, &anchors));
+            });
+            group.bench_function(label("factorisation"), |b| b.iter(|| system.factorise(symmetric)));
+            group.bench_function(label("back-substitution"), |b| b.iter(|| system.solve(&right)));
+        }
+    }
+    group.finish();
+}
+
+/// All walls of the joint-arrangement study by the implicit solver on two threads.
+fn study(c: &mut Criterion) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/joint-arrangement");
+    let loaded = Study::load(&folder, None).expect("the study is sound");
+    let study = loaded.study.with_solver("implicit").expect("there is an implicit solver");
+    let tasks = plan(&study);
+    assert_eq!(tasks.len(), 192);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("two threads");
+    let mut group = c.benchmark_group("study");
+    group.sample_size(10);
+    group.bench_function("joint-arrangement_192_implicit", |b| {
+        b.iter(|| {
+            let standing = pool.install(|| {
+                let rows = tasks.par_iter().with_max_len(1).map(|&task| evaluate(&study, task));
+                rows.filter(|row| row.outcome == Outcome::Equilibrium).count()
+            });
+            assert_eq!(standing, tasks.len());
+        });
+    });
+    group.finish();
+}
+
+criterion_group!(benches, tilting, newton_iteration, study);
+criterion_main!(benches);
