@@ -2,11 +2,11 @@
 //!
 //! How strong is a dry stone wall whose every stone is different, and how sure are we? Which arrangement of joints is
 //! better? A study draws many walls, solves each as an assembly of rigid blocks with deformable joints, and reports
-//! statistics with their intervals.
+//! statistics with their intervals. Walls that others made are solved as well.
 //!
 //! # The equations
 //!
-//! **Balance of a rigid block** (central differences, step `dt`). Forces `F` and moments `T` about the centroid are sums
+//! **Balance of a rigid block** (`solve::explicit`: central differences, step `dt`). Forces `F` and moments `T` about the centroid are sums
 //! over gravity, dead loads and joints; `L = R I R^T w` is the angular momentum; local damping takes `alpha |F|` against
 //! the motion:
 //!
@@ -31,6 +31,28 @@
 //! against fixed neighbours, bounded by Gershgorin's row sums; `dt <= 2 / omega_max`. For a rest state inertia may be
 //! scaled per block so that all blocks share one critical step.
 //!
+//! **Equilibrium** (`solve::implicit`). At rest the residual `r`, the forces and moments of every block under the loads on the
+//! displaced blocks, vanishes; Newton's method finds it, with the consistent tangent `K` of the joints, the turned contact
+//! forces and the loads, unsymmetric where joints slip, and `s` from a line search:
+//!
+//! ```text
+//! r(x) = loads(x) + joints(x, what they remember) = 0        K = -dr/dx        K dx = r        x <- x + s dx
+//! ```
+//!
+//! A wall falls at a limit point of the path `r(x, load) = 0`: no equilibrium is found at the shortest step, and limit analysis
+//! or explicit relaxation confirms it. The load is bracketed by halving.
+//!
+//! **Limit analysis** (`solve::limit`). Rigid blocks with forces `(n, t)` at the vertices of their joints, each with a share
+//! `A` of the joint's area; `E` collects forces and moments, `d` the dead loads, `l` the live loads. The largest multiplier in
+//! balance is an upper bound on the capacity with any Coulomb joints (Radenkovic 1961); its dual is the mechanism:
+//!
+//! ```text
+//! max lambda    such that    E (n, t) + d + lambda l = 0        n >= 0        |t| <= c A + n tan(phi)
+//! ```
+//!
+//! The state without dilatancy is the fixed point of such problems with `|t| <= s`, each `s` the strength `c A + n tan(phi)` under
+//! the forces last found (Gilbert et al. 2006): neither a bound nor unique. Under tilt `tan(angle) = lambda` where `c = 0`.
+//!
 //! **At rest** when the mean unbalanced force of the blocks is below a given share of the mean joint force.
 //!
 //! **Statistics asked for.** For walls `i = 1..n` with displacement `d_i`: mean, sigma (n - 1) and COV = sigma / mean, with
@@ -46,6 +68,7 @@
 //! | phi, c | friction angle, cohesion | rad (deg in files), Pa |
 //! | u, g | closure and gap, u = -g | m |
 //! | sigma, tau | stress on a joint, compression positive | Pa |
+//! | lambda | load multiplier; live load over weight | - |
 //! | alpha | local damping coefficient | - |
 //! | dip | lean of a joint plane against the horizontal | rad (deg in files) |
 //!
@@ -64,16 +87,16 @@
 //! | [`exchange`] | walls from and to other programs: wall.json, OBJ; names their faults |
 //! | [`contact`] | broad phase, separating axes, patches, sub-contacts |
 //! | [`generate`] | layouts to walls; `canonical` holds walls with known answers |
-//! | [`solve`] | bodies, joints with history, the explicit solver |
-//! | [`protocol`] | load path, restraint, what is observed |
+//! | [`solve`] | bodies, joints with history; the solvers `explicit`, `implicit`, `limit` |
+//! | [`protocol`] | load paths (lateral, tilting), restraint, what is observed, when a collapse is confirmed |
 //! | [`study`] | text to checked studies, every fault at once |
 //! | [`ensemble`] | plan, run in parallel, record, resume |
 //! | [`report`] | summary, comparison with published statements, table, figure, VTU |
-//! | [`cli`] | arguments, messages, exit codes |
+//! | [`cli`] | arguments, messages, exit codes; `analyse` solves walls from files |
 //!
-//! Imports go one way, down this list to what stands above; a test holds the table. Five loops, five files:
-//! realisations `ensemble/run.rs`, load steps `protocol/drive.rs`, time steps `solve/explicit/step.rs`, contacts
-//! `solve/joints.rs`, sub-contacts `law/coulomb.rs`. Papers are listed in `src/references.md`.
+//! Imports go one way, down this list to what stands above; a test holds the table. Six loops, six files:
+//! realisations `ensemble/run.rs`, load steps `protocol/drive.rs`, time steps `solve/explicit/step.rs`, Newton's iterations
+//! `solve/implicit/newton.rs`, contacts `solve/joints/mod.rs`, sub-contacts `law/coulomb.rs`. Papers are listed in `src/references.md`.
 
 pub mod cli;
 pub mod contact;

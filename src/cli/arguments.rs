@@ -41,13 +41,15 @@ pub(crate) enum Verb {
     Check(Check),
     /// Write the wall of one member to a file.
     #[command(after_help = format!(
-        "Example: pirca generate studies/joint-arrangement --arm irregular --member 17 --out wall.vtu\n\n{CODES}\n\
+        "Example: pirca generate studies/joint-arrangement --arm irregular --member 17 --out wall.vtu\n\
+         \x20        pirca generate studies/tilting-block --with-base --out wall.json   (for pirca analyse)\n\n{CODES}\n\
          A member whose wall is an invalid geometry ends with 1 and the reason."
     ))]
     Generate(Generate),
     /// Generate and solve every wall of a study; write tables, statistics and figures. Resumes by itself.
     #[command(after_help = format!(
-        "Example: pirca run studies/joint-arrangement --members 5 --out runs/first-try\n\n\
+        "Example: pirca run studies/joint-arrangement --members 5 --out runs/first-try\n\
+         \x20        pirca run studies/joint-arrangement --beside runs/joint-arrangement-explicit --out runs/both\n\n\
          Killed and started again with the same arguments, it goes on where it stood and ends with the same files.\n\
          A wall that falls or cannot be built is counted in the results; it is no error.\n\n{CODES}"
     ))]
