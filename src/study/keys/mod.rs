@@ -1,5 +1,11 @@
 //! Every key of study.toml, published.toml and the files below `distributions`: name, kind, unit, range, default, meaning.
+//! What is done to a wall, and by which solver, is in `run`.
 
+mod run;
+
+pub use run::SOLVER;
+
+use crate::study::keys::run::{LOAD, RESTRAINT};
 use crate::study::schema::Presence::{Default, Optional, Required};
 use crate::study::schema::{Interval, Key, Kind, Section};
 
@@ -8,15 +14,9 @@ const CUT: &[&str] = &["cut"];
 const REGULAR: &[&str] = &["continuous", "discontinuous"];
 const RUNNING: &[&str] = &["discontinuous"];
 const RANDOM: &[&str] = &["coursed", "cut"];
-const LATERAL: &[&str] = &["lateral"];
-const TILTING: &[&str] = &["tilting"];
 
 /// A length above 0 (m); a kilometre is a slip of the unit.
 const SIZE: Interval = Interval::above(0.0, 1000.0);
-const EXPLICIT: &[&str] = &["explicit"];
-const IMPLICIT: &[&str] = &["implicit"];
-const RATIO_OF_FORCES: Kind = Kind::Real { unit: "1", within: Interval::open(0.0, 1.0) };
-const AT_REST: &str = "At rest when the unbalanced force ratio falls below this.";
 const SHARE: Interval = Interval::closed(0.0, 1.0);
 const POSITIVE: Interval = Interval::open(0.0, f64::INFINITY);
 
@@ -146,218 +146,6 @@ static JOINT: Section = Section {
             Default("[2, 2]"),
             "Sub-contacts of a joint along its two in-plane axes.",
         ),
-    ]],
-};
-
-static LOAD: Section = Section {
-    title: "[load]",
-    doc: "Gravity, then a trapezoidal pressure on the back face in equal steps, or a platform that tilts.",
-    chooser: Some("protocol"),
-    keys: &[&[
-        Key::new(
-            "protocol",
-            Kind::Choice(&["lateral", "tilting"]),
-            Required,
-            "What is done to each wall: pressure on its back, or a tilting table.",
-        ),
-        Key::new(
-            "mean_pressure_pa",
-            real("Pa", Interval::above(0.0, 1e7)),
-            Required,
-            "Mean horizontal pressure.",
-        )
-        .only(LATERAL),
-        Key::new(
-            "base_over_top",
-            real("1", Interval::closed(0.01, 100.0)),
-            Required,
-            "Pressure at the base over pressure at the top.",
-        )
-        .only(LATERAL),
-        Key::new(
-            "steps",
-            Kind::Whole { low: 1, high: 10_000 },
-            Default("1"),
-            "Equal load steps after gravity.",
-        )
-        .only(LATERAL),
-        Key::new(
-            "collapse_share",
-            real("1", Interval::above(0.0, 10.0)),
-            Default("0.5"),
-            "The wall counts as collapsed when its top has moved by this share of its base thickness.",
-        )
-        .only(LATERAL),
-        Key::new(
-            "towards",
-            Kind::Choice(&["x+", "x-", "y+", "y-"]),
-            Default("\"y+\""),
-            "The side of the platform that goes down; y+ is the wall's front.",
-        )
-        .only(TILTING),
-        Key::new(
-            "step_deg",
-            real("deg", Interval::above(0.0, 10.0)),
-            Default("0.5"),
-            "Tilt from step to step.",
-        )
-        .only(TILTING),
-        Key::new("end_deg", real("deg", Interval::above(0.0, 89.0)), Default("89"), "Largest tilt.")
-            .only(TILTING),
-        Key::new(
-            "bracket_deg",
-            real("deg", Interval::above(1e-4, 10.0)),
-            Default("0.01"),
-            "The collapse angle is bracketed to this, by going back and halving the step.",
-        )
-        .only(TILTING),
-        Key::new(
-            "runaway_share",
-            real("1", Interval::above(0.0, 1.0)),
-            Default("0.1"),
-            "A wall falls when any block has moved by this share of the base thickness since the last rest.",
-        )
-        .only(TILTING),
-        Key::new(
-            "turning",
-            Kind::Table(&TURNING),
-            Optional,
-            "The platform turns steadily instead of stopping at every step.",
-        )
-        .only(TILTING),
-    ]],
-};
-
-static TURNING: Section = Section {
-    title: "[load.turning]",
-    doc: "A platform that turns steadily; the wall moves in true time by the explicit solver.",
-    chooser: None,
-    keys: &[&[
-        Key::new("rate_deg_per_s", real("deg/s", Interval::closed(1e-3, 1e3)), Required, "Tilt rate."),
-        Key::new(
-            "damping",
-            real("1", Interval::below(0.0, 1.0)),
-            Default("0.05"),
-            "Local damping coefficient.",
-        ),
-        Key::new(
-            "step_safety",
-            real("1", Interval::above(0.0, 1.0)),
-            Default("0.5"),
-            "Share of the critical step taken.",
-        ),
-    ]],
-};
-
-static RESTRAINT: Section = Section {
-    title: "[restraint]",
-    doc: "How base and ends are held.",
-    chooser: Some("base"),
-    keys: &[&[
-        Key::new(
-            "base",
-            Kind::Choice(&["fixed", "strip"]),
-            Required,
-            "A fixed platform under the wall, with an ordinary joint; with a fixed strip at the foot's downhill side.",
-        ),
-        Key::new(
-            "strip_height_m",
-            real("m", Interval::above(0.0, 1.0)),
-            Required,
-            "Height of the strip; the wall's hinge is at its edge.",
-        )
-        .only(&["strip"]),
-        Key::new(
-            "platform_phi_deg",
-            real("deg", Interval::closed(0.0, 85.0)),
-            Optional,
-            "Friction angle of the joint with platform and strip; without it that of the wall's joints.",
-        ),
-        Key::new(
-            "ends",
-            Kind::Choice(&["free", "fixed_end_blocks", "out_of_plane", "joint_springs"]),
-            Required,
-            "The ends: free; against fixed blocks by ordinary joints; held out of plane; by springs that do not open.",
-        ),
-    ]],
-};
-
-/// The solver, whose name decides which other keys there are.
-pub static SOLVER: Section = Section {
-    title: "[solver]",
-    doc: "Which solver, with its settings.",
-    chooser: Some("name"),
-    keys: &[&[
-        Key::new(
-            "name",
-            Kind::Choice(&["explicit", "implicit"]),
-            Default("\"explicit\""),
-            "Central differences with local damping; or Newton's method from equilibrium to equilibrium.",
-        ),
-        Key::new(
-            "agreement",
-            Kind::Flag,
-            Default("false"),
-            "Limit analysis of every wall beside the solver: what rigid blocks on the same joints bear.",
-        ),
-        Key::new("unbalanced_ratio", RATIO_OF_FORCES, Default("1e-5"), AT_REST).only(EXPLICIT),
-        Key::new("unbalanced_ratio", RATIO_OF_FORCES, Default("1e-7"), AT_REST).only(IMPLICIT),
-        Key::new(
-            "damping",
-            real("1", Interval::below(0.0, 1.0)),
-            Default("0.8"),
-            "Local damping coefficient.",
-        )
-        .only(EXPLICIT),
-        Key::new(
-            "step_safety",
-            real("1", Interval::above(0.0, 1.0)),
-            Default("0.5"),
-            "Share of the critical step taken.",
-        )
-        .only(EXPLICIT),
-        Key::new(
-            "max_steps",
-            Kind::Whole { low: 1, high: 1_000_000_000 },
-            Default("200000"),
-            "Time steps per load step before a wall is called not converged.",
-        )
-        .only(EXPLICIT),
-        Key::new(
-            "scaled_inertia",
-            Kind::Flag,
-            Default("true"),
-            "Inertia scaled per block so that all share one critical step; for quasi-static runs.",
-        )
-        .only(EXPLICIT),
-        Key::new(
-            "longest_step_s",
-            real("s", Interval::above(0.0, 1.0)),
-            Default("1e-3"),
-            "Longest time step with true inertia, for blocks in free flight.",
-        )
-        .only(EXPLICIT),
-        Key::new(
-            "max_factorisations",
-            Kind::Whole { low: 1, high: 10_000 },
-            Default("30"),
-            "Factorisations per load increment before it counts as failed.",
-        )
-        .only(IMPLICIT),
-        Key::new(
-            "max_halvings",
-            Kind::Whole { low: 0, high: 30 },
-            Default("0"),
-            "Times that a load increment that fails is halved within a load step.",
-        )
-        .only(IMPLICIT),
-        Key::new(
-            "stabilisation",
-            real("1", Interval::closed(0.0, 1e-3)),
-            Default("1e-8"),
-            "Stiffness added to the diagonal, as a share of the largest there; in the matrix only, not in the balance.",
-        )
-        .only(IMPLICIT),
     ]],
 };
 
