@@ -11,14 +11,21 @@ use crate::protocol::watch::{LoadStep, Watch};
 use crate::protocol::{Run, Task};
 use crate::solve::bodies::Body;
 use crate::solve::explicit::Simulation;
-use crate::solve::implicit::Equilibrium;
+use crate::solve::implicit::{self, Equilibrium};
 use crate::solve::{Assembly, Equilibrate, Solver, Status};
 
 /// Takes an assembly along a load path with the solver asked for.
 pub fn drive(task: &Task<'_>, solver: &Solver) -> Run {
     match solver {
         Solver::Explicit(settings) => climb(task, &|assembly| Simulation::of(assembly, *settings)),
-        Solver::Implicit(settings) => climb(task, &|assembly| Equilibrium::of(assembly, *settings)),
+        Solver::Implicit(settings) => {
+            // A path that brackets a collapse halves its steps itself; twice costs half as much again and gains nothing.
+            let brackets = task.path.bracket.is_finite();
+            let max_halvings = if brackets { 0 } else { settings.max_halvings };
+            climb(task, &|assembly| {
+                Equilibrium::of(assembly, implicit::Settings { max_halvings, ..*settings })
+            })
+        }
     }
 }
 
@@ -27,9 +34,9 @@ pub fn drive(task: &Task<'_>, solver: &Solver) -> Run {
 /// Goes up by full steps. Where no equilibrium is found, or the wall moves past the criterion, it goes back to the last state
 /// at rest and halves the step until the capacity is bracketed. A wall that moves past the criterion falls. A solver that
 /// finds no equilibrium only suspects a fall: at the first suspicion it is confirmed there, by limit analysis or by explicit
-/// relaxation ([`Judge`]), before the step is halved; a wall that comes to rest after all goes on from there. At the shortest
-/// step the wall has fallen if it has become so soft on the way that this is the limit point of its path, or else as
-/// relaxation there says; a doubt that stays widens the bracket up to the level where the fall is certain.
+/// relaxation, before the step is halved; a wall that comes to rest after all goes on from there. At the shortest step
+/// relaxation is asked again, unless limit analysis has shown that the fall is near and the wall has become so soft that
+/// this is the limit point of its path; a doubt that stays widens the bracket up to where the fall is certain.
 pub fn climb<'a, S: Equilibrate<'a>>(task: &Task<'a>, of: &dyn Fn(Assembly<'a>) -> S) -> Run {
     let built = task.assembled();
     let joints = built.joints.all.len();
@@ -226,13 +233,15 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
         if !first && !is_final {
             return Verdict::GoBack;
         }
-        if !first && self.pace.is_at_limit() {
+        // The pace speaks for a limit point only where one is certain to be near; what fell after a whole step may have been
+        // thrown off its balance by it.
+        if self.pace.is_at_limit() && self.certain.as_ref().is_some_and(|fall| fall.by_bound) {
             return self.fell(level, ratio);
         }
         let above = if first { STEPS_ABOVE } else { 0 };
         for further in 0..=above {
             let at = self.task.path.higher(level, further);
-            match self.judge.told(from.assembly(), at, &self.watch, &mut self.spent) {
+            match self.judge.told(from.assembly(), at, &self.watch, is_final, &mut self.spent) {
                 Told::Falls(fall) => {
                     self.certain = Some(*fall);
                     return match is_final {
@@ -290,11 +299,15 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
         if self.steps.is_empty() {
             self.watch.begins(bodies);
         }
-        self.pace.note(level, self.watch.moved(bodies));
+        let full_step = self.task.path.higher(0.0, 1);
+        self.pace.note(level, self.watch.moved(bodies), full_step);
         let step =
             self.watch.read(bodies, self.task.path.level(level), ratio, std::mem::take(&mut self.spent));
         self.steps.push(step);
         self.watch.rests(bodies);
+        if self.certain.as_ref().is_some_and(|fall| fall.level <= level) {
+            self.certain = None;
+        }
         state
     }
 

@@ -4,7 +4,7 @@ use pirca::contact;
 use pirca::law::Coulomb;
 use pirca::math::{Vec3, degrees, pow, radians};
 use pirca::model::{Level, Outcome, Wall};
-use pirca::protocol::{Confirmation, Criterion, Direction, LoadPath, Run, Task, drive};
+use pirca::protocol::{Confirmation, Criterion, Direction, LoadPath, Run, Task, climb, drive};
 use pirca::solve::explicit::Simulation;
 use pirca::solve::implicit::Equilibrium;
 use pirca::solve::limit::{Analysis, Flow, Limit, Settings};
@@ -162,4 +162,26 @@ fn the_implicit_solver_gives_the_same_bits_for_any_number_of_threads() {
     let one = solve(1);
     assert_eq!(one, solve(2));
     assert_eq!(one, solve(5));
+}
+
+#[test]
+fn the_angle_does_not_depend_on_how_hard_the_solver_tries() {
+    // A wall in its own plane, with joints that open on the way: a solver that gives up early must be told that it was wrong.
+    let wall = pirca::generate::canonical::running_bond(5, 5).with_base();
+    let law = dry(1e9, 60.0);
+    let angles = [0, 1, 3].map(|max_halvings| {
+        let settings = implicit::Settings { max_halvings, ..implicit::Settings::default() };
+        let task = Task {
+            wall: &wall,
+            laws: &law,
+            contact: contact::Settings::for_size(0.1, [2, 2]),
+            loads: Vec::new(),
+            path: LoadPath::tilt(Direction::XPlus, radians(0.5), radians(89.0), radians(0.01)),
+            criterion: Criterion::AnyBlock(0.0114),
+            confirmation: Confirmation::for_thickness(0.114),
+        };
+        angle(&climb(&task, &|assembly| Equilibrium::of(assembly, settings)).outcome).expect("it falls")
+    });
+    println!("{angles:?}");
+    assert!(angles.iter().all(|a| (a - angles[2]).abs() < 0.05), "{angles:?}");
 }

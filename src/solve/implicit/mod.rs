@@ -27,7 +27,8 @@ pub struct Settings {
     pub unbalanced_ratio: f64,
     /// Factorisations per load increment before it counts as failed; default 30. One that does not come closer fails earlier.
     pub max_factorisations: u32,
-    /// A load increment that fails is halved at most this many times; default 0, as the load paths of a protocol halve their steps themselves.
+    /// A load increment that fails is halved at most this many times; default 1. Load paths that bracket a collapse halve
+    /// their steps themselves and do without.
     pub max_halvings: u32,
     /// Stiffness added to each block's diagonal, as a share of the largest there; default 1e-8. It makes the matrix of a
     /// block that rattles regular. It is in the matrix only, never in the balance: what has converged is free of it.
@@ -36,6 +37,6 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Settings { unbalanced_ratio: 1e-7, max_factorisations: 30, max_halvings: 0, stabilisation: 1e-8 }
+        Settings { unbalanced_ratio: 1e-7, max_factorisations: 30, max_halvings: 1, stabilisation: 1e-8 }
     }
 }

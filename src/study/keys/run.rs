@@ -209,8 +209,8 @@ pub static SOLVER: Section = Section {
         Key::new(
             "max_halvings",
             Kind::Whole { low: 0, high: 30 },
-            Default("0"),
-            "Times that a load increment that fails is halved within a load step.",
+            Default("1"),
+            "Times that a load step of a service load that fails is halved; a tilting table halves its own steps.",
         )
         .only(IMPLICIT),
         Key::new(
