@@ -27,7 +27,7 @@ pub fn drive(task: &Task<'_>, solver: &Solver) -> Run {
 /// Goes up by full steps. Where no equilibrium is found, or the wall moves past the criterion, it goes back to the last state
 /// at rest and halves the step until the capacity is bracketed. A wall that moves past the criterion falls. A solver that
 /// finds no equilibrium only suspects a fall: at the first suspicion it is confirmed there, by limit analysis or by explicit
-/// relaxation ([`Judge`]), before the step is halved; a wall that comes to rest after all goes on from there. At the shortest
+/// relaxation (`Judge`), before the step is halved; a wall that comes to rest after all goes on from there. At the shortest
 /// step the wall has fallen if it has become so soft on the way that this is the limit point of its path, or else as
 /// relaxation there says; a doubt that stays widens the bracket up to the level where the fall is certain.
 pub fn climb<'a, S: Equilibrate<'a>>(task: &Task<'a>, of: &dyn Fn(Assembly<'a>) -> S) -> Run {
