@@ -328,6 +328,36 @@ fn an_elastic_bed_costs_as_many_degrees_as_the_closed_form_says() {
     }
 }
 
+/// A stone on a three-cornered face slides at its friction angle wherever its weight acts on that face; 0.25 deg for friction
+/// at the middle of sub-contacts.
+#[test]
+fn a_stone_slides_at_its_friction_angle_whatever_its_shape() {
+    let folder = Folder::new();
+    let wall = "{\"blocks\":[{\"id\":0,\"vertices\":[[-2,-2,-0.2],[2,-2,-0.2],[2,2,-0.2],[-2,2,-0.2],[-2,-2,0],[2,-2,0],[2,2,0],[-2,2,0]],\"faces\":[[3,2,1,0],[4,5,6,7],[0,1,5,4],[1,2,6,5],[2,3,7,6],[3,0,4,7]],\"fixed\":true},{\"id\":1,\"vertices\":[[0,0,0],[0.4,0,0],[0,0.4,0],[0.13,0.13,0.5]],\"faces\":[[0,2,1],[0,1,3],[1,2,3],[2,0,3]],\"density\":2400}]}";
+    fs::write(folder.path("stone.json"), wall).unwrap();
+    for (solver, kn, direction) in
+        [("implicit", "1e9", "x-"), ("implicit", "1e12", "y-"), ("explicit", "1e12", "x-")]
+    {
+        let asked = [
+            "analyse",
+            "stone.json",
+            "--phi-deg",
+            "40",
+            "--kn",
+            kn,
+            "--solver",
+            solver,
+            "--direction",
+            direction,
+            "--json",
+        ];
+        let output = folder.pirca(&asked);
+        let answer: Value =
+            serde_json::from_slice(&output.stdout).unwrap_or_else(|e| panic!("{e}: {}", text(&output)));
+        close(answer["collapse_angle_deg"].as_f64().unwrap(), 40.0, 0.25);
+    }
+}
+
 /// Two solvers of the same joints find the same angle, below that of rigid blocks.
 #[test]
 fn the_elastic_solvers_agree_below_the_limit_of_rigid_blocks() {

@@ -18,8 +18,6 @@ pub(crate) struct Answer {
     pub moving: Vec<usize>,
     /// Blocks that carry nothing and were held.
     pub loose: Vec<usize>,
-    /// What the solver has to add.
-    pub warnings: Vec<String>,
 }
 
 impl Answer {

@@ -10,8 +10,9 @@ use crate::shape::Polyhedron;
 const DEEPEST: f64 = 0.01;
 /// Overlaps and gaps listed one by one.
 const LISTED: usize = 20;
-/// Sub-contacts along the longer and the shorter side of a joint.
-const SUB_CONTACTS: [u32; 2] = [2, 2];
+/// Sub-contacts along the longer and the shorter side of a joint. Friction acts at the middle of a sub-contact and not where
+/// the pressure is, which turns a block that slides under an eccentric load: on a joint of any shape 2 x 2 cost up to 1.2 deg.
+const SUB_CONTACTS: [u32; 2] = [4, 4];
 
 /// A wall that is fit to be solved.
 pub(crate) struct Fit {

@@ -89,7 +89,6 @@ fn by_steps(run: Run) -> Answer {
             run.steps.len(),
             bracket.unwrap_or_default()
         ),
-        warnings: Vec::new(),
         outcome: run.outcome,
     }
 }
@@ -115,7 +114,6 @@ fn by_limit_analysis(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit)
         moving: (0..found.mechanism.len()).filter(|&i| speed(i) > MOVES * fastest).collect(),
         loose: Vec::new(),
         meaning: format!("{}: {}", arguments.flow.unwrap_or(FlowName::Associative).name(), flow.meaning()),
-        warnings: Vec::new(),
         outcome: found.outcome,
     }
 }

@@ -38,7 +38,6 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
     warnings.extend(prestress(arguments, &file.wall, &fit));
     let law = law(arguments);
     let answer = solve(arguments, &file.wall, &law, &fit);
-    warnings.extend(answer.warnings.iter().cloned());
     let seconds = begun.elapsed().as_secs_f64();
     if arguments.json {
         return output::print_json(&answer.object(arguments, &file, &fit, &warnings, seconds));

@@ -1,7 +1,9 @@
 //! Blocks that nothing carries yet, and blocks that nothing holds.
 
 use crate::math::Vec3;
+use crate::model::Support;
 use crate::solve::Assembly;
+use crate::solve::bodies::Body;
 use crate::solve::implicit::DOF;
 
 /// A pivot below this share of the diagonal counts as none.
@@ -14,26 +16,22 @@ const LONGEST_FALL: u32 = 800;
 /// all have landed.
 pub fn land(assembly: &mut Assembly<'_>) -> bool {
     for _ in 0..2 * LONGEST_FALL {
+        assembly.apply_loads();
         let falling = in_the_air(assembly);
         if falling.is_empty() {
             return true;
         }
-        assembly.apply_loads();
         let step = 0.5 * assembly.contact.reach;
         for block in falling {
             let body = &mut assembly.bodies.all[block];
-            let size = body.force.norm();
-            if size == 0.0 {
-                return true;
-            }
-            body.position += body.force * (step / size);
+            body.position += pull(body).normalize() * step;
         }
         assembly.refresh();
     }
     false
 }
 
-/// The blocks that move and touch nothing.
+/// The blocks that move, touch nothing and are pulled somewhere.
 fn in_the_air(assembly: &Assembly<'_>) -> Vec<usize> {
     let bodies = &assembly.bodies.all;
     let mut touches = vec![false; bodies.len()];
@@ -41,12 +39,17 @@ fn in_the_air(assembly: &Assembly<'_>) -> Vec<usize> {
         touches[joint.incident as usize] = true;
         touches[joint.reference as usize] = true;
     }
-    (0..bodies.len()).filter(|&b| bodies[b].moves() && !touches[b] && !has_no_load(assembly, b)).collect()
+    (0..bodies.len())
+        .filter(|&b| bodies[b].moves() && !touches[b] && pull(&bodies[b]) != Vec3::zeros())
+        .collect()
 }
 
-/// Whether no load could make a block fall.
-fn has_no_load(assembly: &Assembly<'_>, block: usize) -> bool {
-    assembly.gravity * assembly.bodies.all[block].mass == Vec3::zeros()
+/// The load on a body in the directions in which it can move.
+fn pull(body: &Body) -> Vec3 {
+    match body.support {
+        Support::OutOfPlane => Vec3::new(body.force.x, 0.0, body.force.z),
+        Support::Free | Support::Fixed => body.force,
+    }
 }
 
 /// Whether a stiffness (force and moment by shift and turn) leaves some motion free: elimination in the given order

@@ -45,9 +45,6 @@ pub(super) struct Newton<'s, 'a> {
     pub loose: &'s mut Vec<u32>,
 }
 
-/// Position and attitude of every body.
-type Place = Vec<Body>;
-
 impl Newton<'_, '_> {
     /// Steps until the residual is below its limit. Says whether it got there, and the unbalanced force ratio.
     ///
@@ -173,7 +170,7 @@ impl Newton<'_, '_> {
 
     /// Goes along a step as far as the residual still points along it; the residual there.
     fn search(&mut self, step: &[f64], residual: &[f64]) -> Vec<f64> {
-        let start: Place = self.assembly.bodies.all.clone();
+        let start = self.assembly.bodies.all.clone();
         let at_start = dot(step, residual);
         let (mut low, mut high) = ((0.0, at_start), None::<(f64, f64)>);
         let mut share = 1.0;
@@ -209,13 +206,13 @@ impl Newton<'_, '_> {
 
     /// Takes the whole step; the residual there.
     fn leap(&mut self, step: &[f64]) -> Vec<f64> {
-        let start: Place = self.assembly.bodies.all.clone();
+        let start = self.assembly.bodies.all.clone();
         self.place(&start, step, 1.0);
         self.residual()
     }
 
     /// Puts every body where a share of a step takes it.
-    fn place(&mut self, start: &Place, step: &[f64], share: f64) {
+    fn place(&mut self, start: &[Body], step: &[f64], share: f64) {
         for ((body, from), u) in self.assembly.bodies.all.iter_mut().zip(start).zip(step.chunks_exact(DOF)) {
             if from.moves() {
                 let shift = Vec3::from_column_slice(&u[..3]) * share;
