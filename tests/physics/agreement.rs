@@ -5,13 +5,14 @@ use pirca::law::Coulomb;
 use pirca::math::{Vec3, degrees, pow, radians};
 use pirca::model::{Level, Outcome, Wall};
 use pirca::protocol::{Confirmation, Criterion, Direction, LoadPath, Run, Task, climb, drive};
+use pirca::shape::Polyhedron;
 use pirca::solve::explicit::Simulation;
 use pirca::solve::implicit::Equilibrium;
 use pirca::solve::limit::{Analysis, Flow, Limit, Settings};
 use pirca::solve::{Equilibrate, Solver, Status, explicit, implicit};
 use rayon::prelude::*;
 
-use crate::fixture::{dry, irregular, tilted};
+use crate::fixture::{dry, irregular, on_floor, stone, tilted};
 
 /// Walls of some ten stones.
 fn walls() -> Vec<Wall> {
@@ -164,24 +165,40 @@ fn the_implicit_solver_gives_the_same_bits_for_any_number_of_threads() {
     assert_eq!(one, solve(5));
 }
 
+/// Six courses of five stones of 0.4 x 0.2 x 0.2 m in running bond, head joints closed.
+fn closed_bond() -> Wall {
+    let mut blocks = Vec::new();
+    for course in 0..6 {
+        let inner = if course % 2 == 0 { vec![0.2, 0.6, 1.0, 1.4, 1.8] } else { vec![0.4, 0.8, 1.2, 1.6] };
+        let joints: Vec<f64> = [0.0].into_iter().chain(inner).chain([2.0]).collect();
+        let (bottom, top) = (f64::from(course) * 0.2, f64::from(course + 1) * 0.2);
+        for ends in joints.windows(2) {
+            let (low, high) = (Vec3::new(ends[0], 0.0, bottom), Vec3::new(ends[1], 0.2, top));
+            blocks.push(stone(Polyhedron::cuboid(low, high), 2400.0));
+        }
+    }
+    on_floor(blocks)
+}
+
 #[test]
 fn the_angle_does_not_depend_on_how_hard_the_solver_tries() {
     // A wall in its own plane, with joints that open on the way: a solver that gives up early must be told that it was wrong.
-    let wall = pirca::generate::canonical::running_bond(5, 5).with_base();
+    let wall = closed_bond();
     let law = dry(1e9, 60.0);
-    let angles = [0, 1, 3].map(|max_halvings| {
+    let angles = [0, 1].map(|max_halvings| {
         let settings = implicit::Settings { max_halvings, ..implicit::Settings::default() };
         let task = Task {
             wall: &wall,
             laws: &law,
-            contact: contact::Settings::for_size(0.1, [2, 2]),
+            contact: contact::Settings::for_size(0.25, [4, 4]),
             loads: Vec::new(),
             path: LoadPath::tilt(Direction::XPlus, radians(0.5), radians(89.0), radians(0.01)),
-            criterion: Criterion::AnyBlock(0.0114),
-            confirmation: Confirmation::for_thickness(0.114),
+            criterion: Criterion::AnyBlock(0.02),
+            confirmation: Confirmation::for_thickness(0.2),
         };
         angle(&climb(&task, &|assembly| Equilibrium::of(assembly, settings)).outcome).expect("it falls")
     });
     println!("{angles:?}");
-    assert!(angles.iter().all(|a| (a - angles[2]).abs() < 0.05), "{angles:?}");
+    // The explicit solver bears 30.414 deg.
+    assert!(angles.iter().all(|a| (a - 30.414).abs() < 0.05), "{angles:?}");
 }
