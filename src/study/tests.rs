@@ -24,6 +24,8 @@ fn every_key_carries_its_unit() {
     assert!(all.len() > 50);
     let suffixes = [
         ("Pa/m", "_pa_per_m"),
+        ("N/m", "_n_per_m"),
+        ("N", "_n"),
         ("kg/m3", "_kg_per_m3"),
         ("Pa", "_pa"),
         ("m3", "_m3"),

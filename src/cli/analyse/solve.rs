@@ -73,6 +73,7 @@ fn task<'t>(arguments: &Analyse, wall: &'t Wall, law: &'t Coulomb, fit: &Fit) ->
         // Gaps are rounding for rigid blocks only: springs close them.
         contact: contact::Settings { touch: fit.rounding, ..fit.contact },
         loads: Vec::new(),
+        ties: Vec::new(),
         path,
         criterion: Criterion::AnyBlock(RUNS_AWAY * fit.thickness),
         confirmation: Confirmation::for_thickness(fit.thickness),
