@@ -163,12 +163,12 @@ mod tests {
             [moved.force.x, moved.force.y, moved.force.z, moved.torque.x, moved.torque.y, moved.torque.z]
         };
         let stiffness = held.stiffness(&body);
-        for column in 0..6 {
-            let (plus, minus) = (at(column, 1e-5), at(column, -1e-5));
-            for row in 0..6 {
+        let differences: Vec<_> = (0..6).map(|column| (at(column, 1e-5), at(column, -1e-5))).collect();
+        for (row, entries) in stiffness.iter().enumerate() {
+            for (column, (entry, (plus, minus))) in entries.iter().zip(&differences).enumerate() {
                 let exact = -(plus[row] - minus[row]) / 2e-5;
                 // Third differences of the turn, 1e-10, and the rounding of 5e4 N over 1e-5.
-                assert!((stiffness[row][column] - exact).abs() < 1e-2, "{row} {column}: {exact}");
+                assert!((entry - exact).abs() < 1e-2, "{row} {column}: {exact}");
             }
         }
         // Beyond the pull's own stiffness the arm's share is there to be seen: F . r = 5e4 x 0.15.

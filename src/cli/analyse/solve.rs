@@ -36,6 +36,7 @@ pub(crate) fn law(arguments: &Analyse) -> Coulomb {
         cohesion: arguments.cohesion,
         tension: 0.0,
         cohesion_after_slip: CohesionAfterSlip::Kept,
+        weakening: None,
         sampling: Sampling::Area,
         bonded: false,
     }

@@ -31,6 +31,7 @@ const ALL: f64 = 1.0 - 1e-6;
 ///     cohesion: 0.0,
 ///     tension: 0.0,
 ///     cohesion_after_slip: CohesionAfterSlip::Kept,
+///     weakening: None,
 ///     sampling: Sampling::Area,
 ///     bonded: false,
 /// };
