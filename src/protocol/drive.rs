@@ -176,6 +176,7 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
     /// Tries a level from a state, which stays as it is.
     fn try_level(&mut self, from: &S, level: f64) -> Tried<S> {
         let mut next = from.clone();
+        self.task.changes.apply(next.assembly_mut(), self.last_borne(), level);
         let (gravity, factor) = self.task.path.loads(level);
         next.set_loads(gravity, factor);
         let settled = next.settle(&mut |bodies| self.watch.runs_away(bodies));
@@ -241,7 +242,8 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
         let above = if first { STEPS_ABOVE } else { 0 };
         for further in 0..=above {
             let at = self.task.path.higher(level, further);
-            match self.judge.told(from.assembly(), at, &self.watch, is_final, &mut self.spent) {
+            let way = (self.last_borne(), at);
+            match self.judge.told(from.assembly(), way, &self.watch, is_final, &mut self.spent) {
                 Told::Falls(fall) => {
                     self.certain = Some(*fall);
                     return match is_final {

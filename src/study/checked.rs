@@ -8,6 +8,7 @@ use crate::law::{CohesionAfterSlip, Sampling};
 use crate::protocol::{Protocol, Restraint};
 use crate::random::Family;
 use crate::solve::Solver;
+use crate::study::mechanism::Mechanisms;
 
 /// A study whose every value has been checked.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,6 +58,8 @@ pub struct Arm {
     pub restraint: Restraint,
     /// Sub-contacts of a joint along its two in-plane axes.
     pub sub_contacts: [u32; 2],
+    /// Mechanisms beyond the base model; those that change layout, joints' families or restraint are in these already.
+    pub mechanisms: Mechanisms,
 }
 
 /// Joint properties; those that are families are drawn once per joint from a stream keyed by the pair of blocks.
