@@ -9,7 +9,7 @@ pub mod limit;
 mod status;
 
 pub use assembly::{Assembly, STANDARD_GRAVITY};
-pub use status::{Equilibrate, Settled, Status};
+pub use status::{Ahead, Equilibrate, Followed, Settled, Status, Way};
 
 /// Which solver, with its settings.
 #[derive(Clone, Copy, Debug, PartialEq)]
