@@ -296,6 +296,7 @@ fn path<'t>(wall: &'t Wall, law: &'t Coulomb, path: LoadPath) -> Task<'t> {
         laws: law,
         contact: contact::Settings::for_size(0.2, [2, 2]),
         loads: Vec::new(),
+        ties: Vec::new(),
         path,
         criterion: Criterion::AnyBlock(0.04),
         confirmation: Confirmation::for_thickness(0.4),

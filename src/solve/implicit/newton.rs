@@ -98,9 +98,13 @@ impl Newton<'_, '_> {
 
     /// Assembles and factorises the matrix at the positions now.
     pub(super) fn factorise(&mut self) -> Option<Kind> {
+        self.system.clear();
+        for tie in self.assembly.ties() {
+            let body = &self.assembly.bodies.all[tie.tie.body];
+            self.system.add_own(tie.tie.body, &tie.stiffness(body));
+        }
         let Assembly { bodies, joints, gravity, contact, .. } = &mut *self.assembly;
         let bodies = &bodies.all;
-        self.system.clear();
         let (mut slips, mut opens) = (false, false);
         joints.each_slope(bodies, self.anchors, |joint, slopes| {
             slips |= slopes.slips;
