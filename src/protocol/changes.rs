@@ -36,6 +36,11 @@ pub struct Loss {
 }
 
 impl Changes {
+    /// Whether blocks are lost between two tilts (rad).
+    pub(super) fn loses(&self, from: f64, to: f64) -> bool {
+        self.loss.as_ref().is_some_and(|loss| from <= loss.beyond && to > loss.beyond)
+    }
+
     /// Changes a wall that leaves a state at rest at one tilt (rad) for another one.
     pub(super) fn apply(&self, assembly: &mut Assembly<'_>, from: f64, to: f64) {
         if let Some(creep) = &self.creep
@@ -43,10 +48,7 @@ impl Changes {
         {
             assembly.joints.relax(creep.kept(from, to));
         }
-        if let Some(loss) = &self.loss
-            && from <= loss.beyond
-            && to > loss.beyond
-        {
+        if let Some(loss) = self.loss.as_ref().filter(|_| self.loses(from, to)) {
             loss.blocks.iter().for_each(|block| assembly.remove(*block));
         }
     }

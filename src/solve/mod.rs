@@ -12,7 +12,7 @@ mod ties;
 
 pub use assembly::{Assembly, STANDARD_GRAVITY};
 pub use mount::{Mount, Mounted};
-pub use status::{Equilibrate, Settled, Status};
+pub use status::{Ahead, Equilibrate, Followed, Settled, Status, Way};
 pub use ties::{Held, Tie};
 
 /// Which solver, with its settings.
