@@ -203,7 +203,7 @@ fn what_does_not_go_together_is_refused_by_name() {
         ("[mechanism.creeep]\nrate_per_deg = 0.1\n", "seed = 7", "seed = 8", "mechanism.creeep is not a known key"),
         ("[mechanism.creep]\nrate = 0.1\n", "seed = 7", "seed = 8", "mechanism.creep.rate is not a known key"),
         ("[mechanism.contact_area]\nshare = 0\n", "seed = 7", "seed = 8", "mechanism.contact_area.share = 0: allowed is a number above 0 and at most 1"),
-        ("[mechanism.contact_area]\nshare = 0.5\n", "seed = 7", "seed = 8", "mechanism.contact_area does not go with joint.sampling = \"vertices\""),
+        ("[mechanism.contact_area]\nshare = 0.5\n", "sampling = \"area\"", "sampling = \"vertices\"", "mechanism.contact_area does not go with joint.sampling = \"vertices\""),
     ]
     .into_iter()
     .enumerate()

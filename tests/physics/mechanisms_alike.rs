@@ -51,7 +51,7 @@ fn joint() -> Joint {
     Joint {
         kn_factor: Family::Constant { value: 1.0 },
         kn_over_ks: 2.0,
-        phi_deg: Family::Constant { value: 35.0 },
+        phi_deg: Family::Constant { value: 16.0 },
         cohesion: Family::Constant { value: 0.0 },
         tension: 0.0,
         cohesion_after_slip: CohesionAfterSlip::Kept,
@@ -60,13 +60,13 @@ fn joint() -> Joint {
     }
 }
 
-/// Displacements (m) of left, centre and right of the top from 0 to 8 deg, a degree at a time.
+/// Displacements (m) of left, centre and right of the top from 0 to 6 deg, a degree at a time.
 fn moved(mechanisms: &Mechanisms, solver: &Solver) -> Vec<[f64; 3]> {
     let streams = Streams::new(5, 2);
     let tilting = Tilting {
         towards: Direction::YPlus,
         step: radians(1.0),
-        end: radians(8.0),
+        end: radians(6.0),
         bracket: radians(0.1),
         ..Tilting::default()
     };
@@ -86,9 +86,9 @@ fn moved(mechanisms: &Mechanisms, solver: &Solver) -> Vec<[f64; 3]> {
 fn cases() -> Vec<(&'static str, Mechanisms)> {
     let none = Mechanisms::default;
     let closure = Some(JointClosure { initial: 2e7, closure: 1e-4 });
-    let friction = Some(FrictionChange { factor: 0.7, residual: 0.8, distance: 1e-3 });
+    let friction = Some(FrictionChange { factor: 0.8, residual: 0.8, distance: 1e-3 });
     let compliance = Some(Compliance { settlement: 5e6, rotation: 5e4 });
-    let loss = Some(WedgeLoss { share: 0.6, beyond: radians(4.0) });
+    let loss = Some(WedgeLoss { share: 0.6, beyond: radians(3.0) });
     let creep = Some(Creep { rate: 1.0, hold_share: 0.1, hold_every: radians(5.0) });
     let scatter = Some(SpecimenScatter { kn: 0.3, friction: 0.1 });
     let release = Some(EndRelease { within: 0.2, friction: 0.5, stiffness: 0.3 });
