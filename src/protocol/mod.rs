@@ -31,6 +31,6 @@ pub use run::{run, run_changing};
 pub use settings::{
     Base, Compliance, Contacts, Direction, Ends, Lateral, Protocol, Rate, Restraint, Rope, Tilting, Turning,
 };
-pub use stage::typical_size;
+pub use stage::{Stage, typical_size};
 pub use task::{Platform, Run, Task};
 pub use watch::{Criterion, LoadStep};

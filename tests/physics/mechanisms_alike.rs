@@ -2,10 +2,15 @@
 
 use pirca::generate::{Arrangement, BatteredFace, Layout, Limits, Outline, Wedges, Wythes, generate};
 use pirca::law::{CohesionAfterSlip, Sampling};
-use pirca::math::radians;
-use pirca::protocol::{Compliance, Creep, Direction, Ends, Protocol, Restraint, Rope, Tilting, run_changing};
+use pirca::math::{Vec3, pow, radians};
+use pirca::protocol::{
+    Compliance, Confirmation, Creep, Criterion, Direction, Ends, Protocol, Restraint, Rope, Stage, Task,
+    Tilting, climb,
+};
 use pirca::random::{Family, Streams};
-use pirca::solve::{Solver, explicit, implicit};
+use pirca::solve::explicit::{self, Simulation};
+use pirca::solve::implicit::{self, Equilibrium};
+use pirca::solve::{Equilibrate, STANDARD_GRAVITY, Status};
 use pirca::study::{
     DrawnJoints, EndRelease, FrictionChange, INVENTORY, Joint, JointClosure, Mechanisms, NormalLawName,
     SpecimenScatter, WedgeLoss,
@@ -51,7 +56,7 @@ fn joint() -> Joint {
     Joint {
         kn_factor: Family::Constant { value: 1.0 },
         kn_over_ks: 2.0,
-        phi_deg: Family::Constant { value: 16.0 },
+        phi_deg: Family::Constant { value: 35.0 },
         cohesion: Family::Constant { value: 0.0 },
         tension: 0.0,
         cohesion_after_slip: CohesionAfterSlip::Kept,
@@ -60,8 +65,19 @@ fn joint() -> Joint {
     }
 }
 
-/// Displacements (m) of left, centre and right of the top from 0 to 6 deg, a degree at a time.
-fn moved(mechanisms: &Mechanisms, solver: &Solver) -> Vec<[f64; 3]> {
+/// Gravity brought on so slowly that the wall does not bounce: joints that open for a moment forget their shear.
+fn rested<'a, S: Equilibrate<'a>>(mut solver: S) -> S {
+    for k in 1..=100 {
+        let share = pow(1e-3, 1.0 - f64::from(k) / 100.0);
+        solver.set_loads(Vec3::new(0.0, 0.0, -STANDARD_GRAVITY * share), 1.0);
+        assert_eq!(solver.settle(&mut |_| false).status, Status::Equilibrium);
+    }
+    solver
+}
+
+/// Displacements (m) of left, centre and right of the top from 0 to 6 deg, a degree at a time, by the implicit and by the
+/// explicit solver.
+fn moved(mechanisms: &Mechanisms) -> [Vec<[f64; 3]>; 2] {
     let streams = Streams::new(5, 2);
     let tilting = Tilting {
         towards: Direction::YPlus,
@@ -76,17 +92,35 @@ fn moved(mechanisms: &Mechanisms, solver: &Solver) -> Vec<[f64; 3]> {
     let joint = joint();
     let laws = DrawnJoints::new(&joint, 1e8, streams).altered(mechanisms, &wall);
     let restraint = mechanisms.restraint(Restraint::at_ends(Ends::Ropes(Rope::default())));
-    let (contacts, changes) = (mechanisms.contacts([2, 2]), mechanisms.changes(&wall, &streams));
-    let run = run_changing(&wall, &laws, &protocol, &restraint, contacts, &changes, solver);
-    assert_eq!(run.outcome.name(), "equilibrium", "{mechanisms:?}: {}", run.outcome.reason());
-    run.steps.iter().map(|step| step.points.expect("it has a top")).collect()
+    let stage = Stage::new(&wall, &laws, &protocol, &restraint, mechanisms.contacts([2, 2]));
+    let task = Task {
+        wall: &stage.assembly,
+        laws: &stage.laws,
+        contact: stage.contact,
+        loads: Vec::new(),
+        ties: stage.ties,
+        platform: stage.platform,
+        changes: mechanisms.changes(&wall, &streams),
+        path: tilting.path(),
+        criterion: Criterion::AnyBlock(0.01),
+        confirmation: Confirmation::for_thickness(0.12),
+    };
+    let slow = explicit::Settings { unbalanced_ratio: 1e-6, ..explicit::Settings::default() };
+    [
+        climb(&task, &|assembly| rested(Equilibrium::of(assembly, implicit::Settings::default()))),
+        climb(&task, &|assembly| rested(Simulation::of(assembly, slow))),
+    ]
+    .map(|run| {
+        assert_eq!(run.outcome.name(), "equilibrium", "{mechanisms:?}: {}", run.outcome.reason());
+        run.steps.iter().map(|step| step.points.expect("it has a top")).collect()
+    })
 }
 
 /// Every mechanism in turn, by its name, and some together.
 fn cases() -> Vec<(&'static str, Mechanisms)> {
     let none = Mechanisms::default;
     let closure = Some(JointClosure { initial: 2e7, closure: 1e-4 });
-    let friction = Some(FrictionChange { factor: 0.8, residual: 0.8, distance: 1e-3 });
+    let friction = Some(FrictionChange { factor: 0.4, residual: 0.8, distance: 1e-3 });
     let compliance = Some(Compliance { settlement: 5e6, rotation: 5e4 });
     let loss = Some(WedgeLoss { share: 0.6, beyond: radians(3.0) });
     let creep = Some(Creep { rate: 1.0, hold_share: 0.1, hold_every: radians(5.0) });
@@ -113,7 +147,7 @@ fn cases() -> Vec<(&'static str, Mechanisms)> {
                 contact_inset: Some(3e-3),
                 joint_closure: closure,
                 contact_area: Some(0.7),
-                friction,
+                friction: Some(FrictionChange { factor: 0.9, residual: 0.8, distance: 1e-3 }),
                 lean: Some(radians(0.5)),
                 base_compliance: compliance,
                 creep,
@@ -126,19 +160,13 @@ fn cases() -> Vec<(&'static str, Mechanisms)> {
 
 #[test]
 fn both_solvers_move_a_wall_alike_with_every_mechanism() {
-    let implicit = Solver::Implicit(implicit::Settings::default());
-    let explicit =
-        Solver::Explicit(explicit::Settings { unbalanced_ratio: 1e-6, ..explicit::Settings::default() });
     let cases = cases();
     // Gauges act on readings alone, see `mechanisms` among the tests of ensembles.
     let acting = INVENTORY.iter().map(|entry| entry.name).filter(|name| !name.starts_with("gauge"));
     assert!(acting.eq(cases.iter().map(|(name, _)| *name).filter(|name| *name != "many")));
-    let base = moved(&Mechanisms::default(), &implicit);
-    let compared: Vec<_> = cases
-        .par_iter()
-        .map(|(name, mechanisms)| (*name, moved(mechanisms, &implicit), moved(mechanisms, &explicit)))
-        .collect();
-    for (name, a, b) in compared {
+    let [base, _] = moved(&Mechanisms::default());
+    let compared: Vec<_> = cases.par_iter().map(|(name, mechanisms)| (*name, moved(mechanisms))).collect();
+    for (name, [a, b]) in compared {
         assert_eq!(a.len(), b.len());
         let size = |x: &[[f64; 3]]| x.iter().flatten().fold(0.0, |m: f64, d| m.max(d.abs()));
         let apart = |x: &[[f64; 3]], y: &[[f64; 3]]| {
@@ -151,8 +179,9 @@ fn both_solvers_move_a_wall_alike_with_every_mechanism() {
             100.0 * differ,
             100.0 * changed
         );
-        // The first rest under gravity is reached by bouncing or not, with another slip: per cents of what follows.
-        assert!(differ < 0.05, "{name}: {a:?} {b:?}");
-        assert!(changed > 0.01, "{name} changes nothing: {a:?}");
+        // What is lost or slips at once does so in time with another overshoot: tenths of a per cent.
+        assert!(differ < 0.01, "{name}: {a:?} {b:?}");
+        // Far above what the implicit solver leaves, 1e-7; without slip cohesion acts in a few sub-contacts alone.
+        assert!(changed > 1e-5, "{name} changes nothing: {a:?}");
     }
 }
