@@ -26,7 +26,7 @@ pub use path::{Growing, LoadPath};
 pub use pressure::{Load, back_loads};
 pub use ropes::ropes;
 pub use run::run;
-pub use settings::{Base, Direction, Ends, Lateral, Protocol, Rate, Restraint, Rope, Tilting, Turning};
+pub use settings::{Base, Direction, Ends, Lateral, Observes, Protocol, Rate, Restraint, Rope, Tilting, Turning};
 pub use stage::typical_size;
 pub use task::{Run, Task};
 pub use watch::{Criterion, LoadStep};
