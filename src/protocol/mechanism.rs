@@ -166,7 +166,7 @@ fn mode(
 fn turning_share(assembly: &Assembly<'_>, before: &[Body], after: &[Body], moving: &[u32]) -> f64 {
     let (mut turning, mut slipping) = (0.0, 0.0);
     for joint in &assembly.joints.all {
-        let (a, b) = joint.pair();
+        let (a, b) = (joint.incident, joint.reference);
         if !moving.contains(&a) && !moving.contains(&b) {
             continue;
         }
@@ -198,13 +198,13 @@ pub fn joint_states(assembly: &Assembly<'_>, at_rest: &[Body]) -> Vec<JointState
         .all
         .iter()
         .map(|joint| {
-            let (a, b) = joint.pair();
+            let ((lower, upper), a, b) = (joint.pair(), joint.incident, joint.reference);
             let (place, normal) = joint.place(now);
             // Back to where the joint's middle was on either block.
             let came = |id: u32| place - carried(&now[id as usize], &at_rest[id as usize], place);
             let relative = came(a) - came(b);
             JointState {
-                blocks: [a, b],
+                blocks: [lower, upper],
                 place,
                 area: joint.area(),
                 opening: joint.largest_gap(now).max(0.0),

@@ -49,6 +49,34 @@ pub struct Base {
     /// Height (m) of a fixed strip along the wall's foot on its downhill side, which stops it from sliding and lifts its
     /// hinge; `None` = no strip. (A second one uphill, if it fits tightly, would clamp the foot.)
     pub strip_height: Option<f64>,
+    /// What gives way under platform, strip and end blocks, which then settle and turn as one; `None` = nothing. Ropes hold on
+    /// to the frame of the table.
+    pub compliance: Option<Compliance>,
+}
+
+/// Springs under a platform, about its centre line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Compliance {
+    /// Stiffness against settling (N/m).
+    pub settlement: f64,
+    /// Stiffness against turning out of plane (N m/rad).
+    pub rotation: f64,
+}
+
+/// How joints are found and divided.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contacts {
+    /// Sub-contacts of a joint along its longer and its shorter extent.
+    pub sub_contacts: [u32; 2],
+    /// Width (m) of the rounded arris along the stones' edges, where joints do not touch.
+    pub inset: f64,
+}
+
+impl From<[u32; 2]> for Contacts {
+    /// Sharp arrises.
+    fn from(sub_contacts: [u32; 2]) -> Contacts {
+        Contacts { sub_contacts, inset: 0.0 }
+    }
 }
 
 /// What holds a wall.

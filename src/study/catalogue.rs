@@ -19,7 +19,7 @@ pub struct DistributionFile {
     pub quantity: String,
     /// Its symbol.
     pub symbol: String,
-    /// Its unit: "1", m, deg, Pa, Pa/m or kg/m3.
+    /// Its unit, as the key table names units: "1", m, deg, Pa, ...
     pub unit: String,
     /// The entries by name.
     pub entries: BTreeMap<String, Distribution>,

@@ -8,6 +8,7 @@ use crate::law::{CohesionAfterSlip, Sampling};
 use crate::protocol::{FailureMode, Protocol, Restraint};
 use crate::random::Family;
 use crate::solve::Solver;
+use crate::study::mechanism::Mechanisms;
 
 /// A study whose every value has been checked.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,6 +58,8 @@ pub struct Arm {
     pub restraint: Restraint,
     /// Sub-contacts of a joint along its two in-plane axes.
     pub sub_contacts: [u32; 2],
+    /// Mechanisms beyond the base model; those that change layout, joints' families or restraint are in these already.
+    pub mechanisms: Mechanisms,
 }
 
 /// Joint properties; those that are families are drawn once per joint from a stream keyed by the pair of blocks.
@@ -163,8 +166,8 @@ pub enum ClaimTest {
         arm: String,
         /// How it is said to fail, in words.
         stated: String,
-        /// How the moving part moves.
-        mode: FailureMode,
+        /// How the moving part moves; `None` where that is not said.
+        mode: Option<FailureMode>,
         /// Smallest and largest share of the weight that moves.
         weight_share: [f64; 2],
         /// Smallest and largest share of the wall's length that moves by half of the largest movement or more.

@@ -1,14 +1,17 @@
 //! Studies: raw text to checked types, with every fault of a file reported at once.
 
+mod altered;
 mod arm;
 mod build;
 mod catalogue;
 mod checked;
 mod fault;
 mod files;
+mod inventory;
 mod joints;
 mod keys;
 mod load;
+mod mechanism;
 mod published;
 mod quantity;
 mod raw;
@@ -21,8 +24,12 @@ mod variant;
 pub use catalogue::{Distribution, DistributionFile, Used, load_distributions};
 pub use checked::{Arm, Claim, ClaimTest, InputFile, Joint, NormalLawName, Study};
 pub use fault::{Fault, Faults, Found};
+pub use inventory::{Acts, Entry as InventoryEntry, INVENTORY, InLimitAnalysis, Unloading};
 pub use joints::DrawnJoints;
 pub use load::{Loaded, VariantName};
+pub use mechanism::{
+    EndRelease, FrictionChange, JointClosure, Mechanisms, SpecimenScatter, Unfit, WedgeLoss,
+};
 pub use reference::key_reference;
 
 #[cfg(test)]

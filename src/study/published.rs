@@ -91,7 +91,8 @@ fn at_kn(t: &mut Reader<'_>) -> Option<Option<f64>> {
 }
 
 fn mechanism(t: &mut Reader<'_>, arm: Option<String>) -> Option<ClaimTest> {
-    let (stated, mode, least_share) = (t.text("stated"), t.choice("mode"), t.real("least_share"));
+    let (stated, least_share) = (t.text("stated"), t.real("least_share"));
+    let mode = if t.has("mode") { t.choice("mode").map(Some) } else { Some(None) };
     let mut range = |name: &str| {
         let list = t.list(name)?;
         match list[..] {

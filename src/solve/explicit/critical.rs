@@ -6,12 +6,14 @@
 //! and Gershgorin's row sums bound lambda_max. Central differences are stable for `dt <= 2 / omega`.
 
 use crate::math::Vec3;
-use crate::solve::Held;
-use crate::solve::bodies::{Bodies, Body};
-use crate::solve::joints::{Joint, Joints};
+use crate::solve::Assembly;
+use crate::solve::bodies::Body;
+use crate::solve::joints::Joint;
 
-/// Bounds of `lambda_max(M^-1 K)` (1/s^2) per body, with its true mass and inertia; 0 for a body without joints and ties.
-pub fn block_bounds(bodies: &Bodies, joints: &Joints, ties: &[Held]) -> Vec<f64> {
+/// Bounds of `lambda_max(M^-1 K)` (1/s^2) per body, with its true mass and inertia; 0 for a body without joints and springs
+/// of its own.
+pub fn block_bounds(assembly: &Assembly<'_>) -> Vec<f64> {
+    let Assembly { bodies, joints, .. } = assembly;
     let mut stiffness = vec![[[0.0f64; 6]; 6]; bodies.all.len()];
     for joint in &joints.all {
         for index in [joint.incident as usize, joint.reference as usize] {
@@ -21,12 +23,19 @@ pub fn block_bounds(bodies: &Bodies, joints: &Joints, ties: &[Held]) -> Vec<f64>
             }
         }
     }
-    for tie in ties {
+    for tie in assembly.ties() {
         let body = &bodies.all[tie.tie.body];
         if body.moves() {
             let (lever, axis) = tie.own(body);
             add_spring(&mut stiffness[tie.tie.body], body, lever, axis, tie.tie.stiffness);
         }
+    }
+    if let Some(mounted) = assembly.mounted() {
+        let (index, [.., settlement, rotation, _, _]) = (mounted.mount.body, mounted.stiffness());
+        let body = &bodies.all[index];
+        let (up, along) = (body.rotation.tr_mul(&Vec3::z()), body.rotation.tr_mul(&Vec3::x()));
+        add_row(&mut stiffness[index], body, [up.x, up.y, up.z, 0.0, 0.0, 0.0], settlement);
+        add_row(&mut stiffness[index], body, [0.0, 0.0, 0.0, along.x, along.y, along.z], rotation);
     }
     stiffness
         .iter()
@@ -55,7 +64,11 @@ fn add_joint(k: &mut [[f64; 6]; 6], body: &Body, joint: &Joint, all: &[Body]) {
 /// Adds a spring (N/m) along an axis at a lever, both in the body's axes.
 fn add_spring(k: &mut [[f64; 6]; 6], body: &Body, lever: Vec3, axis: Vec3, stiffness: f64) {
     let moment = lever.cross(&axis);
-    let row = [axis.x, axis.y, axis.z, moment.x, moment.y, moment.z];
+    add_row(k, body, [axis.x, axis.y, axis.z, moment.x, moment.y, moment.z], stiffness);
+}
+
+/// Adds a spring that is stretched by a row times displacement and turn, both in the body's axes.
+fn add_row(k: &mut [[f64; 6]; 6], body: &Body, row: [f64; 6], stiffness: f64) {
     let root = |n: usize| if n < 3 { body.mass.sqrt() } else { body.inertia[n - 3].sqrt() };
     for (a, ka) in k.iter_mut().enumerate() {
         for (b, kab) in ka.iter_mut().enumerate() {

@@ -1,8 +1,10 @@
 //! Every key of study.toml, published.toml and the files below `distributions`: name, kind, unit, range, default, meaning.
 //! What is done to a wall, and by which solver, is in `run`.
 
+mod mechanism;
 mod run;
 
+pub use mechanism::MECHANISM;
 pub use run::SOLVER;
 
 use crate::study::keys::run::{LOAD, RESTRAINT};
@@ -45,6 +47,12 @@ pub static STUDY: Section = Section {
         Key::new("joint", Kind::Table(&JOINT), Required, "The joints' properties."),
         Key::new("load", Kind::Table(&LOAD), Required, "What is done to each wall."),
         Key::new("restraint", Kind::Table(&RESTRAINT), Required, "How base and ends are held."),
+        Key::new(
+            "mechanism",
+            Kind::Table(&MECHANISM),
+            Optional,
+            "Mechanisms that the base model leaves out.",
+        ),
         Key::new("solver", Kind::Table(&SOLVER), Default("{}"), "Which solver, with its settings."),
         Key::new("arm", Kind::Tables(&ARM), Required, "The populations of walls that are compared."),
         Key::new("variant", Kind::Tables(&VARIANT), Optional, "Other readings of the study, chosen by name."),
@@ -217,6 +225,12 @@ pub static ARM: Section = Section {
             Optional,
             "What this arm says otherwise than [restraint].",
         ),
+        Key::new(
+            "mechanism",
+            Kind::Table(&MECHANISM),
+            Optional,
+            "What this arm says otherwise than [mechanism].",
+        ),
         Key::new("wedges", Kind::Table(&WEDGES), Optional, "Wedge stones cut into bed joints."),
         Key::new("limits", Kind::Table(&LIMITS), Default("{}"), "What a stone must at least be."),
     ]],
@@ -365,7 +379,12 @@ pub static HEAD: Section = Section {
     keys: &[&[
         Key::new("quantity", Kind::Text, Required, "The quantity, in words."),
         Key::new("symbol", Kind::Text, Required, "Its symbol."),
-        Key::new("unit", Kind::Choice(&["1", "m", "deg", "Pa", "Pa/m", "kg/m3"]), Required, "Its unit."),
+        Key::new(
+            "unit",
+            Kind::Choice(&["1", "m", "deg", "1/deg", "Pa", "Pa/m", "N/m", "N m/rad", "kg/m3"]),
+            Required,
+            "Its unit.",
+        ),
     ]],
 };
 
