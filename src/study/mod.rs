@@ -9,6 +9,7 @@ mod files;
 mod joints;
 mod keys;
 mod load;
+pub mod measured;
 mod published;
 mod quantity;
 mod raw;
@@ -23,6 +24,7 @@ pub use checked::{Arm, Claim, ClaimTest, InputFile, Joint, NormalLawName, Study}
 pub use fault::{Fault, Faults, Found};
 pub use joints::DrawnJoints;
 pub use load::{Loaded, VariantName};
+pub use measured::{MeasuredKind, MeasuredQuantity, Measurement};
 pub use reference::key_reference;
 
 #[cfg(test)]
