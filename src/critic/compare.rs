@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::critic::simulated::{Simulated, simulated};
 use crate::ensemble::Row;
+use crate::protocol::Protocol;
 use crate::random::standard_normal::cdf;
 use crate::stats::{self, Summary};
 use crate::study::{Arm, MeasuredKind, MeasuredQuantity, Measurement, Study};
@@ -100,6 +101,7 @@ type Group<'m> = Vec<&'m Measurement>;
 
 /// Compares all that was measured with the rows: families in the order of the arms, quantities, tilts and kn ascending.
 pub fn compare(study: &Study, rows: &[Row]) -> Vec<Beside> {
+    let tilts = matches!(study.protocol, Protocol::Tilting(_));
     let mut all = Vec::new();
     for ((arm, quantity, _, rising), group) in groups(study) {
         let Some(first) = group.first() else { continue };
@@ -113,6 +115,9 @@ pub fn compare(study: &Study, rows: &[Row]) -> Vec<Beside> {
         };
         match (study.arms.get(arm), rising) {
             (None, _) => all.push(beside(Ours::None("the arm is not evaluated here"))),
+            _ if !tilts && quantity != MeasuredQuantity::SpecimenWeight => {
+                all.push(beside(Ours::None("the walls are not tilted here")));
+            }
             (_, false) => all.push(beside(Ours::None("read after the load had been larger"))),
             (Some(own), true) => match walls(own, arm, &group, &measured, rows) {
                 Some(walls) => all.extend(walls.into_iter().map(|walls| beside(Ours::Walls(walls)))),

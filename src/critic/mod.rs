@@ -9,7 +9,7 @@ mod points;
 mod profile;
 mod simulated;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use calibrate::{Calibration, CurvePoint, End, LEAST_POINTS, calibrate, calibrate_family};
 pub use compare::{Beside, Difference, Measured, Ours, Walls, compare};

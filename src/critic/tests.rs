@@ -11,7 +11,7 @@ use crate::stats::sigma_factors;
 use crate::study::{MeasuredKind, MeasuredQuantity, Measurement, Study};
 
 /// A shipped study on the tilting table, with one random arm alone and this many points in kn.
-fn study(points: &[f64], members: u64) -> Study {
+pub fn study(points: &[f64], members: u64) -> Study {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/tilting-block");
     let mut study = Study::load(&folder, None).unwrap_or_else(|faults| panic!("{faults}")).study;
     study.arms.retain(|arm| arm.name == "irregular");
@@ -20,7 +20,12 @@ fn study(points: &[f64], members: u64) -> Study {
     study
 }
 
-fn measurement(specimen: &str, quantity: MeasuredQuantity, tilt_deg: Option<f64>, value: f64) -> Measurement {
+pub fn measurement(
+    specimen: &str,
+    quantity: MeasuredQuantity,
+    tilt_deg: Option<f64>,
+    value: f64,
+) -> Measurement {
     Measurement {
         specimen: specimen.into(),
         family: "irregular".into(),
@@ -38,7 +43,7 @@ fn measurement(specimen: &str, quantity: MeasuredQuantity, tilt_deg: Option<f64>
 }
 
 /// A wall that fell at this tilt (deg), its points moved by 1, 2 and 6 mm per degree, read every 5 deg and at the last.
-fn fallen(member: u64, point: u32, angle: f64) -> Row {
+pub fn fallen(member: u64, point: u32, angle: f64) -> Row {
     let step = |tilt: f64| StepRow {
         load_factor: None,
         tilt_deg: Some(tilt),
