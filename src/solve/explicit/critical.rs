@@ -6,11 +6,12 @@
 //! and Gershgorin's row sums bound lambda_max. Central differences are stable for `dt <= 2 / omega`.
 
 use crate::math::Vec3;
+use crate::solve::Held;
 use crate::solve::bodies::{Bodies, Body};
 use crate::solve::joints::{Joint, Joints};
 
-/// Bounds of `lambda_max(M^-1 K)` (1/s^2) per body, with its true mass and inertia; 0 for a body without joints.
-pub fn block_bounds(bodies: &Bodies, joints: &Joints) -> Vec<f64> {
+/// Bounds of `lambda_max(M^-1 K)` (1/s^2) per body, with its true mass and inertia; 0 for a body without joints and ties.
+pub fn block_bounds(bodies: &Bodies, joints: &Joints, ties: &[Held]) -> Vec<f64> {
     let mut stiffness = vec![[[0.0f64; 6]; 6]; bodies.all.len()];
     for joint in &joints.all {
         for index in [joint.incident as usize, joint.reference as usize] {
@@ -18,6 +19,13 @@ pub fn block_bounds(bodies: &Bodies, joints: &Joints) -> Vec<f64> {
             if body.moves() {
                 add_joint(&mut stiffness[index], body, joint, &bodies.all);
             }
+        }
+    }
+    for tie in ties {
+        let body = &bodies.all[tie.tie.body];
+        if body.moves() {
+            let (lever, axis) = tie.own(body);
+            add_spring(&mut stiffness[tie.tie.body], body, lever, axis, tie.tie.stiffness);
         }
     }
     stiffness
@@ -39,15 +47,19 @@ fn add_joint(k: &mut [[f64; 6]; 6], body: &Body, joint: &Joint, all: &[Body]) {
     for (i, j) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
         let lever = local(centroid + along_s * i + along_t * j - body.position);
         for (axis, stiffness) in [(normal, kn), (s, ks), (t, ks)] {
-            let axis = local(axis);
-            let moment = lever.cross(&axis);
-            let row = [axis.x, axis.y, axis.z, moment.x, moment.y, moment.z];
-            let root = |n: usize| if n < 3 { body.mass.sqrt() } else { body.inertia[n - 3].sqrt() };
-            for (a, ka) in k.iter_mut().enumerate() {
-                for (b, kab) in ka.iter_mut().enumerate() {
-                    *kab += stiffness * row[a] * row[b] / (root(a) * root(b));
-                }
-            }
+            add_spring(k, body, lever, local(axis), stiffness);
+        }
+    }
+}
+
+/// Adds a spring (N/m) along an axis at a lever, both in the body's axes.
+fn add_spring(k: &mut [[f64; 6]; 6], body: &Body, lever: Vec3, axis: Vec3, stiffness: f64) {
+    let moment = lever.cross(&axis);
+    let row = [axis.x, axis.y, axis.z, moment.x, moment.y, moment.z];
+    let root = |n: usize| if n < 3 { body.mass.sqrt() } else { body.inertia[n - 3].sqrt() };
+    for (a, ka) in k.iter_mut().enumerate() {
+        for (b, kab) in ka.iter_mut().enumerate() {
+            *kab += stiffness * row[a] * row[b] / (root(a) * root(b));
         }
     }
 }

@@ -65,8 +65,9 @@ impl<'a> Simulation<'a> {
 
     /// Adapts the step to the joints there are now.
     fn adapt_step(&mut self) {
-        let Assembly { bodies, joints, gravity, contact, .. } = &mut self.assembly;
-        let bounds = critical::block_bounds(bodies, joints);
+        let bounds =
+            critical::block_bounds(&self.assembly.bodies, &self.assembly.joints, self.assembly.ties());
+        let Assembly { bodies, gravity, contact, .. } = &mut self.assembly;
         let safety = self.settings.step_safety;
         if self.settings.scaled_inertia {
             // dt = 1 and dt^2 (2 bound / scale) = 4 safety^2 for every block. A block without joints keeps the scale it
