@@ -54,6 +54,11 @@ pub(crate) fn check(arguments: &Check) -> Result<(), Failure> {
     }
 }
 
+/// A number of things, in words.
+fn counted(n: usize, name: &str) -> String {
+    if n == 1 { format!("1 {name}") } else { format!("{n} {name}s") }
+}
+
 /// Names of the specimens measured.
 fn specimens(study: &Study) -> BTreeSet<&str> {
     study.measured.iter().map(|measurement| measurement.specimen.as_str()).collect()
@@ -74,7 +79,11 @@ fn summary(loaded: &Loaded) -> String {
     );
     if !study.measured.is_empty() {
         let (values, specimens) = (study.measured.len(), specimens(study).len());
-        text.push_str(&format!("  measured: {values} values on {specimens} specimens\n"));
+        text.push_str(&format!(
+            "  measured: {} on {}\n",
+            counted(values, "value"),
+            counted(specimens, "specimen")
+        ));
     }
     for variant in &loaded.variants {
         text.push_str(&format!("  variant {}: {}\n", variant.name, variant.why));

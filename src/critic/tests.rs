@@ -168,6 +168,13 @@ fn the_difference_has_its_three_parts() {
         assert!((found - expected).abs() < 1e-9, "{in_degrees:?}");
     }
     assert!((parts.in_sd() - 2.0 / (0.0525_f64 + 2.0 / 3.0).sqrt()).abs() < 1e-9);
+    // Walls that do not scatter leave the specimens' own scatter, less the random error in it.
+    let rows = [fallen(0, 0, 16.0), fallen(1, 0, 16.0), fallen(2, 0, 16.0)];
+    let parts = walls_of(&study, &rows)[0].difference.expect("both have a mean");
+    assert!(
+        (degrees(parts.scatter) - (0.91_f64 / 3.0).sqrt()).abs() < 1e-9 && parts.ensemble == 0.0,
+        "{parts:?}"
+    );
 }
 
 /// Bounds are compared by the share of walls that agree, and are in no mean.

@@ -107,9 +107,10 @@ fn bounds(entries: &[ComparisonEntry]) -> String {
             continue;
         };
         let head = format!(
-            "{}, {}: only bounds are known of {known} specimens; walls that agree",
+            "{}, {}: only bounds are known of {known} specimen{}; walls that agree",
             entry.family,
-            what(entry)
+            what(entry),
+            if known == 1 { "" } else { "s" }
         );
         let part = format!("{:.0} % at kn {kn:e}", 100.0 * share);
         match lines.last_mut() {
