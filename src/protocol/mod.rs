@@ -27,9 +27,10 @@ pub use mechanism::{Failure, FailureMode, JointState};
 pub use path::{Growing, LoadPath};
 pub use pressure::{Load, back_loads};
 pub use ropes::ropes;
+pub use run::{run, run_changing};
 pub use settings::{
-    Base, Direction, Ends, Lateral, Observes, Protocol, Rate, Restraint, Rope, Tilting, Turning, run,
-    run_changing,
+    Base, Compliance, Contacts, Direction, Ends, Lateral, Observes, Protocol, Rate, Restraint, Rope, Tilting,
+    Turning,
 };
 pub use stage::typical_size;
 pub use task::{Platform, Run, Task};

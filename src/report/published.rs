@@ -217,7 +217,7 @@ fn failing_so(populations: &[Population], test: &ClaimTest) -> Vec<Number> {
         .map(|population| {
             let fallen = population.mechanisms.len();
             let so = population.mechanisms.iter().filter(|m| {
-                m.mode == *mode
+                mode.is_none_or(|mode| m.mode == mode)
                     && holds(m.weight_share, weight_share)
                     && holds(m.length_share, length_share)
                     && holds(m.place, place)

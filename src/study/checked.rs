@@ -8,6 +8,7 @@ use crate::law::{CohesionAfterSlip, Sampling};
 use crate::protocol::{FailureMode, Protocol, Restraint};
 use crate::random::Family;
 use crate::solve::Solver;
+use crate::study::measured::Measurement;
 use crate::study::mechanism::Mechanisms;
 
 /// A study whose every value has been checked.
@@ -31,6 +32,8 @@ pub struct Study {
     pub agreement: bool,
     /// Statements of other codes or papers to compare with, from published.toml.
     pub published: Vec<Claim>,
+    /// What was measured on specimens of the arms, from measured.csv; decides no simulated result.
+    pub measured: Vec<Measurement>,
     /// Every input file with its SHA-256, in the order read.
     pub inputs: Vec<InputFile>,
     /// Every value that decides a result, after the variant has been applied and with defaults and referenced

@@ -11,6 +11,7 @@ mod inventory;
 mod joints;
 mod keys;
 mod load;
+pub mod measured;
 mod mechanism;
 mod published;
 mod quantity;
@@ -27,6 +28,7 @@ pub use fault::{Fault, Faults, Found};
 pub use inventory::{Acts, Entry as InventoryEntry, INVENTORY, InLimitAnalysis, Unloading};
 pub use joints::DrawnJoints;
 pub use load::{Loaded, VariantName};
+pub use measured::{MeasuredKind, MeasuredQuantity, Measurement};
 pub use mechanism::{
     EndRelease, FrictionChange, JointClosure, Mechanisms, SpecimenScatter, Unfit, WedgeLoss,
 };

@@ -122,7 +122,7 @@ fn a_mean_a_ratio_of_forces_and_a_mechanism_are_judged() {
     let mechanism = |mode, weight: [f64; 2], least_share| ClaimTest::Mechanism {
         arm: name("strong"),
         stated: name("the upper part topples"),
-        mode,
+        mode: Some(mode),
         weight_share: weight,
         length_share: [0.8, 1.0],
         place: [0.4, 0.6],

@@ -423,7 +423,7 @@ const AT_ONE_KN: &[&str] = &["ratio_of_sines", "mean"];
 const WORDS: &[&str] = &["cov", "mechanism"];
 const BAND: &[&str] = &["ratio_of_means", "ratio_of_sines", "mean", "cov"];
 const OF_AN_ARM: &[&str] = &["ratio_of_means", "ratio_of_sines", "mean", "cov", "between", "mechanism"];
-const MECHANISM: &[&str] = &["mechanism"];
+const FAILING: &[&str] = &["mechanism"];
 const ANY_SHARE: Kind =
     Kind::Reals { unit: "1", within: Interval::closed(0.0, 1.0), at_most: 2, ascending: true };
 
@@ -476,28 +476,28 @@ pub static CLAIM: Section = Section {
         Key::new(
             "mode",
             Kind::Choice(&["sliding", "rocking", "bulging"]),
-            Required,
+            Optional,
             "How the moving part moves.",
         )
-        .only(MECHANISM),
+        .only(FAILING),
         Key::new(
             "weight_share",
             ANY_SHARE,
             Default("[0, 1]"),
             "Smallest and largest share of the weight that moves.",
         )
-        .only(MECHANISM),
+        .only(FAILING),
         Key::new(
             "length_share",
             ANY_SHARE,
             Default("[0, 1]"),
             "Smallest and largest share of the length that moves by half of the largest movement or more.",
         )
-        .only(MECHANISM),
+        .only(FAILING),
         Key::new("place", ANY_SHARE, Default("[0, 1]"), "Where along the length it moves most, from and to.")
-            .only(MECHANISM),
+            .only(FAILING),
         Key::new("least_share", real("1", SHARE), Default("0.5"), "Share of the walls that must fail so.")
-            .only(MECHANISM),
+            .only(FAILING),
         Key::new("of", Kind::NamePair, Required, "The two arms on either side.").only(&["between"]),
     ]],
 };
