@@ -93,6 +93,8 @@ fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
             weight_share: failure.weight_share,
             hinge_height_m: failure.hinge_height,
             turning_share: failure.turning_share,
+            length_share: failure.length_share,
+            place: failure.place,
         }),
         stones: wall.stones().count() as u32,
         joints: run.joints as u32,

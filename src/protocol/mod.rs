@@ -29,7 +29,8 @@ pub use pressure::{Load, back_loads};
 pub use ropes::ropes;
 pub use run::{run, run_changing};
 pub use settings::{
-    Base, Compliance, Contacts, Direction, Ends, Lateral, Protocol, Rate, Restraint, Rope, Tilting, Turning,
+    Base, Compliance, Contacts, Direction, Ends, Lateral, Observes, Protocol, Rate, Restraint, Rope, Tilting,
+    Turning,
 };
 pub use stage::{Stage, typical_size};
 pub use task::{Platform, Run, Task};

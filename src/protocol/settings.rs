@@ -154,6 +154,18 @@ pub struct Tilting {
     pub collapse_share: f64,
     /// Whether the platform stops for the wall to come to rest.
     pub rate: Rate,
+    /// What the test is about; default the collapse angle.
+    pub observes: Observes,
+}
+
+/// What a test on a tilting table is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Observes {
+    /// The tilt at which the wall falls.
+    CollapseAngle,
+    /// How far the wall's top has moved at the largest tilt asked for.
+    Displacement,
 }
 
 /// Whether the platform stops for the wall to come to rest.
@@ -188,6 +200,7 @@ impl Default for Tilting {
             bracket: radians(0.01),
             collapse_share: 0.1,
             rate: Rate::Static,
+            observes: Observes::CollapseAngle,
         }
     }
 }

@@ -135,6 +135,7 @@ fn lateral(t: &mut Reader<'_>) -> Option<Lateral> {
 fn tilting(t: &mut Reader<'_>) -> Option<Tilting> {
     let towards = t.choice("towards");
     let reals = t.reals(["step_deg", "end_deg", "bracket_deg", "runaway_share"]);
+    let observes = t.choice("observes");
     let turns = t.has("turning");
     let turning = t.table("turning").and_then(|mut t| {
         let [rate, damping, step_safety] = t.reals(["rate_deg_per_s", "damping", "step_safety"])?;
@@ -143,7 +144,8 @@ fn tilting(t: &mut Reader<'_>) -> Option<Tilting> {
     let [step, end, bracket, collapse_share] = reals?;
     let rate = if turns { Rate::Dynamic(turning?) } else { Rate::Static };
     let (step, end, bracket) = (radians(step), radians(end), radians(bracket));
-    Some(Tilting { towards: towards?, step, end, bracket, collapse_share, rate })
+    let observes = observes?;
+    Some(Tilting { towards: towards?, step, end, bracket, collapse_share, rate, observes })
 }
 
 /// Reads the solver and its settings.

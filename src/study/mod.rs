@@ -11,6 +11,7 @@ mod inventory;
 mod joints;
 mod keys;
 mod load;
+pub mod measured;
 mod mechanism;
 mod published;
 mod quantity;
@@ -29,6 +30,7 @@ pub use inventory::{
 };
 pub use joints::DrawnJoints;
 pub use load::{Loaded, VariantName};
+pub use measured::{MeasuredKind, MeasuredQuantity, Measurement};
 pub use mechanism::{
     EndRelease, FrictionChange, JointClosure, Mechanisms, SpecimenScatter, Unfit, WedgeLoss,
 };
