@@ -5,6 +5,7 @@ mod beside;
 mod compare;
 mod csv;
 mod draw;
+mod drift;
 mod figure;
 mod files;
 mod fragility;
