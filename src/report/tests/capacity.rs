@@ -6,7 +6,6 @@ use std::fs;
 use super::{KN, claim, failed, summary_of};
 use crate::ensemble::{Mechanism, Quantity, Row};
 use crate::model::{Level, Outcome};
-use crate::protocol::FailureMode;
 use crate::report::files::write_summary;
 use crate::report::population::Population;
 use crate::report::published::{Verdict, judge_all};
@@ -122,16 +121,16 @@ fn a_mean_a_ratio_of_forces_and_a_mechanism_are_judged() {
     let mechanism = |mode, weight: [f64; 2], least_share| ClaimTest::Mechanism {
         arm: name("strong"),
         stated: name("the upper part topples"),
-        mode: Some(mode),
+        mode: Some(serde_json::from_value(serde_json::json!(mode)).unwrap()),
         weight_share: weight,
         length_share: [0.8, 1.0],
         place: [0.4, 0.6],
         least_share,
     };
     // Member 0 slides and three rock; all move half the weight.
-    assert_eq!(told(mechanism(FailureMode::Rocking, [0.4, 0.6], 0.5)).verdict, Verdict::Reproduced);
-    assert_eq!(told(mechanism(FailureMode::Rocking, [0.7, 1.0], 0.7)).verdict, Verdict::NotReproduced);
-    assert_eq!(told(mechanism(FailureMode::Bulging, [0.0, 1.0], 0.5)).verdict, Verdict::CannotJudge);
+    assert_eq!(told(mechanism("rocking", [0.4, 0.6], 0.5)).verdict, Verdict::Reproduced);
+    assert_eq!(told(mechanism("rocking", [0.7, 1.0], 0.7)).verdict, Verdict::NotReproduced);
+    assert_eq!(told(mechanism("bulging", [0.0, 1.0], 0.5)).verdict, Verdict::CannotJudge);
 }
 
 #[test]
