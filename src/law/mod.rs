@@ -4,8 +4,10 @@ mod coulomb;
 mod damping;
 mod normal;
 mod slopes;
+mod spheres;
 
 pub use coulomb::{CohesionAfterSlip, Coulomb, Motion, Pressed, Sampling, ShearSum, SubContact};
 pub use damping::local_damping;
 pub use normal::NormalLaw;
 pub use slopes::{PressedSlopes, ShearSlopes};
+pub use spheres::{Frictional, SphereSpring};

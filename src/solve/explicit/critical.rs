@@ -5,13 +5,13 @@
 //! `omega^2 <= 2 max_block lambda_max(M^-1 K_block)`, with the 6 x 6 stiffness of a block against fixed neighbours,
 //! and Gershgorin's row sums bound lambda_max. Central differences are stable for `dt <= 2 / omega`.
 
-use crate::math::Vec3;
 use crate::solve::bodies::{Bodies, Body};
+use crate::solve::gershgorin::RowSums;
 use crate::solve::joints::{Joint, Joints};
 
 /// Bounds of `lambda_max(M^-1 K)` (1/s^2) per body, with its true mass and inertia; 0 for a body without joints.
 pub fn block_bounds(bodies: &Bodies, joints: &Joints) -> Vec<f64> {
-    let mut stiffness = vec![[[0.0f64; 6]; 6]; bodies.all.len()];
+    let mut stiffness = vec![RowSums::default(); bodies.all.len()];
     for joint in &joints.all {
         for index in [joint.incident as usize, joint.reference as usize] {
             let body = &bodies.all[index];
@@ -20,34 +20,21 @@ pub fn block_bounds(bodies: &Bodies, joints: &Joints) -> Vec<f64> {
             }
         }
     }
-    stiffness
-        .iter()
-        .map(|k| k.iter().map(|row| row.iter().map(|x| x.abs()).sum()).fold(0.0, f64::max))
-        .collect()
+    stiffness.iter().map(RowSums::bound).collect()
 }
 
-/// Adds a joint in full contact to the mass-normalised stiffness of one of its bodies, in the body's principal axes,
-/// so that the bound is the same in every frame.
-fn add_joint(k: &mut [[f64; 6]; 6], body: &Body, joint: &Joint, all: &[Body]) {
+/// Adds a joint in full contact to the stiffness of one of its bodies.
+fn add_joint(k: &mut RowSums, body: &Body, joint: &Joint, all: &[Body]) {
     let (centroid, normal) = joint.place(all);
     let [(along_s, s), (along_t, t)] = joint.levers(all);
     let area = joint.area();
-    let local = |v: Vec3| body.rotation.tr_mul(&v);
     let kn = joint.law.normal.largest_stiffness() * area / 4.0;
     let ks = joint.law.ks * area / 4.0;
     // Four points with a quarter of the area each have the second moments of the sub-contacts.
     for (i, j) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
-        let lever = local(centroid + along_s * i + along_t * j - body.position);
+        let lever = centroid + along_s * i + along_t * j - body.position;
         for (axis, stiffness) in [(normal, kn), (s, ks), (t, ks)] {
-            let axis = local(axis);
-            let moment = lever.cross(&axis);
-            let row = [axis.x, axis.y, axis.z, moment.x, moment.y, moment.z];
-            let root = |n: usize| if n < 3 { body.mass.sqrt() } else { body.inertia[n - 3].sqrt() };
-            for (a, ka) in k.iter_mut().enumerate() {
-                for (b, kab) in ka.iter_mut().enumerate() {
-                    *kab += stiffness * row[a] * row[b] / (root(a) * root(b));
-                }
-            }
+            k.add_spring(body, &lever, &axis, stiffness);
         }
     }
 }
