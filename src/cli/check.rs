@@ -6,7 +6,7 @@ use crate::cli::arguments::Check;
 use crate::cli::failure::Failure;
 use crate::cli::{locate, output};
 use crate::ensemble;
-use crate::study::{Loaded, Study, key_reference};
+use crate::study::{Arm, Loaded, Study, key_reference};
 
 /// Reads the study and says what it found.
 pub(crate) fn check(arguments: &Check) -> Result<(), Failure> {
@@ -34,9 +34,9 @@ pub(crate) fn check(arguments: &Check) -> Result<(), Failure> {
             "arms": study.arms.iter().map(|arm| json!({
                 "arm": arm.name,
                 "members": arm.members,
-                "random": ensemble::is_random(arm, &study.joint),
+                "random": ensemble::is_random(arm),
+                "kn_pa_per_m": arm.kn_points,
             })).collect::<Vec<_>>(),
-            "kn_pa_per_m": study.kn_points,
             "evaluations": ensemble::plan(&study).len(),
             "variants": variants,
             "distributions": used,
@@ -53,13 +53,13 @@ pub(crate) fn check(arguments: &Check) -> Result<(), Failure> {
 fn summary(loaded: &Loaded) -> String {
     let study = &loaded.study;
     let variant = study.variant.as_ref().map(|name| format!(", variant {name}")).unwrap_or_default();
-    let arms: Vec<_> = study.arms.iter().map(|arm| format!("{} ({})", arm.name, arm.members)).collect();
+    let arm = |arm: &Arm| format!("{} ({} x {} kn)", arm.name, arm.members, arm.kn_points.len());
+    let arms: Vec<_> = study.arms.iter().map(arm).collect();
     let mut text = format!(
-        "{}{variant}: valid\n  question: {}\n  arms (walls): {}\n  kn points: {}\n  evaluations: {}\n  seed: {}\n",
+        "{}{variant}: valid\n  question: {}\n  arms (walls x points): {}\n  evaluations: {}\n  seed: {}\n",
         study.name,
         study.question,
         arms.join(", "),
-        study.kn_points.len(),
         ensemble::plan(study).len(),
         study.seed
     );

@@ -10,7 +10,7 @@ use crate::cli::{locate, output};
 use crate::ensemble::{self, Task, replace_file};
 use crate::model::Wall;
 use crate::protocol::Run;
-use crate::study::Study;
+use crate::study::{Arm, Study};
 use crate::{exchange, report};
 
 /// The formats that a wall is written in, by the ending of the file.
@@ -35,7 +35,7 @@ pub(crate) fn generate(arguments: &Generate) -> Result<(), Failure> {
     }
     let index = arm_index(&study, arguments.arm.as_deref())?;
     let (arm, member) = (study.arms[index].name.as_str(), arguments.member);
-    let kn = kn(&study, arguments.point)?;
+    let kn = kn(&study.arms[index], arguments.point)?;
     let generated = ensemble::build(&study, index as u32, member)
         .map_err(|e| Failure::Run(format!("arm {arm}, member {member}: invalid geometry: {e}")))?;
     let solved = arguments.solved.then(|| {
@@ -85,7 +85,7 @@ fn format_of(path: &Path) -> Result<Format, Failure> {
 /// The arm of that name, or the first one that is random, or else the first one.
 fn arm_index(study: &Study, name: Option<&str>) -> Result<usize, Failure> {
     let Some(name) = name else {
-        let random = study.arms.iter().position(|arm| ensemble::is_random(arm, &study.joint));
+        let random = study.arms.iter().position(ensemble::is_random);
         return Ok(random.unwrap_or(0));
     };
     study.arms.iter().position(|arm| arm.name == name).ok_or_else(|| {
@@ -94,9 +94,9 @@ fn arm_index(study: &Study, name: Option<&str>) -> Result<usize, Failure> {
     })
 }
 
-fn kn(study: &Study, point: u32) -> Result<f64, Failure> {
-    study.kn_points.get(point as usize).copied().ok_or_else(|| {
-        let last = study.kn_points.len() - 1;
-        Failure::Usage(format!("--point {point}: the study has points 0 to {last}"))
+fn kn(arm: &Arm, point: u32) -> Result<f64, Failure> {
+    arm.kn_points.get(point as usize).copied().ok_or_else(|| {
+        let last = arm.kn_points.len() - 1;
+        Failure::Usage(format!("--point {point}: arm {} has points 0 to {last}", arm.name))
     })
 }

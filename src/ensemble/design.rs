@@ -1,7 +1,7 @@
 //! The design of an ensemble: which walls are evaluated at which stiffness, in the order of the results.
 
 use crate::random::Family;
-use crate::study::{Arm, Joint, Study};
+use crate::study::{Arm, Study};
 
 /// One evaluation: a wall of an arm at one joint stiffness. The order of tasks is that of the result files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -16,10 +16,9 @@ pub struct Task {
 
 /// Every evaluation that a study asks for: arm by arm, point by point, member by member.
 pub fn plan(study: &Study) -> Vec<Task> {
-    let points = study.kn_points.len() as u32;
     let mut tasks = Vec::new();
     for (arm, index) in study.arms.iter().zip(0u32..) {
-        for point in 0..points {
+        for point in 0..arm.kn_points.len() as u32 {
             tasks.extend((0..arm.members).map(|member| Task { arm: index, point, member }));
         }
     }
@@ -27,7 +26,8 @@ pub fn plan(study: &Study) -> Vec<Task> {
 }
 
 /// Whether the walls of an arm differ from member to member, in their stones or in their joints.
-pub fn is_random(arm: &Arm, joint: &Joint) -> bool {
+pub fn is_random(arm: &Arm) -> bool {
     let drawn = |family: &Family| !matches!(family, Family::Constant { .. });
+    let joint = &arm.joint;
     !arm.layout.is_fixed() || [&joint.kn_factor, &joint.phi_deg, &joint.cohesion].into_iter().any(drawn)
 }

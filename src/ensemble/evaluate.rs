@@ -8,7 +8,7 @@ use crate::protocol::{self, Bounds};
 use crate::random::Streams;
 use crate::solve::STANDARD_GRAVITY;
 use crate::stats;
-use crate::study::{DrawnJoints, Study};
+use crate::study::{Arm, DrawnJoints, Study};
 
 /// The wall of a member, the same one at every kn: only the arm's layout, the seed and the member enter.
 ///
@@ -35,9 +35,15 @@ pub fn evaluate(study: &Study, task: Task) -> Row {
 
 /// Draws the joints of a member's wall and takes it through the study's protocol.
 pub fn solve(study: &Study, task: Task, wall: &Wall) -> protocol::Run {
-    let kn = study.kn_points[task.point as usize];
-    let laws = DrawnJoints::new(&study.joint, kn, Streams::new(study.seed, task.member));
-    protocol::run(wall, &laws, &study.protocol, &study.restraint, study.sub_contacts, &study.solver)
+    let (arm, laws) = drawn(study, task);
+    protocol::run(wall, &laws, &study.protocol, &arm.restraint, arm.sub_contacts, &study.solver)
+}
+
+/// The arm of a task and the laws of its member's joints.
+fn drawn(study: &Study, task: Task) -> (&Arm, DrawnJoints<'_>) {
+    let arm = &study.arms[task.arm as usize];
+    let kn = arm.kn_points[task.point as usize];
+    (arm, DrawnJoints::new(&arm.joint, kn, Streams::new(study.seed, task.member)))
 }
 
 fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
@@ -100,11 +106,12 @@ fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
 
 /// A row that says which member it is and how it ended, with nothing observed.
 fn unsolved(study: &Study, task: Task, outcome: Outcome) -> Row {
+    let arm = &study.arms[task.arm as usize];
     Row {
         arm_index: task.arm,
-        arm: study.arms[task.arm as usize].name.clone(),
+        arm: arm.name.clone(),
         point: task.point,
-        kn_pa_per_m: study.kn_points[task.point as usize],
+        kn_pa_per_m: arm.kn_points[task.point as usize],
         member: task.member,
         outcome,
         top_displacement_m: None,
@@ -140,9 +147,8 @@ fn weight(wall: &Wall) -> f64 {
 
 /// Limit analysis of a member's wall, with the same joints.
 fn limit(study: &Study, task: Task, wall: &Wall, run: &protocol::Run) -> LimitAnalysis {
-    let kn = study.kn_points[task.point as usize];
-    let laws = DrawnJoints::new(&study.joint, kn, Streams::new(study.seed, task.member));
-    let bounds = Bounds::of(wall, &laws, &study.protocol, &study.restraint, study.sub_contacts);
+    let (arm, laws) = drawn(study, task);
+    let bounds = Bounds::of(wall, &laws, &study.protocol, &arm.restraint, arm.sub_contacts);
     let borne = match run.outcome {
         Outcome::Collapsed { at } => Some(at.value()),
         _ => run.steps.last().map(|step| step.level.value()),

@@ -127,9 +127,9 @@ impl Realisation<'_> {
         let text = cause.downcast_ref::<String>().map(String::as_str);
         let message =
             text.or_else(|| cause.downcast_ref::<&str>().copied()).unwrap_or("a panic without words");
-        let arm = self.study.arms[task.arm as usize].name.clone();
-        let kn_pa_per_m = self.study.kn_points[task.point as usize];
-        MemberFault { task, arm, kn_pa_per_m, message: message.to_string() }
+        let arm = &self.study.arms[task.arm as usize];
+        let kn_pa_per_m = arm.kn_points[task.point as usize];
+        MemberFault { task, arm: arm.name.clone(), kn_pa_per_m, message: message.to_string() }
     }
 }
 

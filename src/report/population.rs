@@ -133,12 +133,12 @@ impl Population {
 /// Every population of a study, arm by arm in the order of the study, kn ascending.
 pub fn populations(study: &Study, rows: &[Row]) -> Vec<Population> {
     let quantity = Quantity::of(&study.protocol);
-    let mut all = Vec::with_capacity(study.arms.len() * study.kn_points.len());
+    let mut all = Vec::new();
     for (arm_index, arm) in study.arms.iter().enumerate() {
-        for (point, &kn) in study.kn_points.iter().enumerate() {
+        for (point, &kn) in arm.kn_points.iter().enumerate() {
             let own =
                 rows.iter().filter(|row| row.arm_index as usize == arm_index && row.point as usize == point);
-            let fixed = nothing_drawn(study, arm);
+            let fixed = nothing_drawn(arm);
             all.push(Population::collect(&arm.name, fixed, kn, arm.members, quantity, own));
         }
     }
@@ -146,8 +146,8 @@ pub fn populations(study: &Study, rows: &[Row]) -> Vec<Population> {
 }
 
 /// True when neither the stones nor the joints of an arm are random.
-fn nothing_drawn(study: &Study, arm: &Arm) -> bool {
-    let joint = &study.joint;
+fn nothing_drawn(arm: &Arm) -> bool {
+    let joint = &arm.joint;
     arm.layout.is_fixed()
         && [&joint.kn_factor, &joint.phi_deg, &joint.cohesion].iter().all(|family| family.sd() == 0.0)
 }

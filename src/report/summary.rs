@@ -123,7 +123,7 @@ pub fn summarise(study: &Study, rows: &[Row]) -> Summary {
         .iter()
         .map(|population| {
             let arm = study.arms.iter().find(|arm| arm.name == population.arm);
-            describe(population, study.seed, arm.map_or_else(BTreeMap::new, |arm| parameters(study, arm)))
+            describe(population, study.seed, arm.map_or_else(BTreeMap::new, parameters))
         })
         .collect();
     Summary {
@@ -179,9 +179,9 @@ pub(crate) fn describe(
     }
 }
 
-/// What sets an arm apart, and the joint properties that all arms share.
-fn parameters(study: &Study, arm: &Arm) -> BTreeMap<String, serde_json::Value> {
-    let (layout, outline, joint) = (&arm.layout, &arm.layout.outline, &study.joint);
+/// What sets an arm apart: its walls, its joints and what holds it.
+fn parameters(arm: &Arm) -> BTreeMap<String, serde_json::Value> {
+    let (layout, outline, joint) = (&arm.layout, &arm.layout.outline, &arm.joint);
     let entries = [
         ("arrangement", serde_json::json!(layout.arrangement)),
         ("length_m", serde_json::json!(outline.length)),

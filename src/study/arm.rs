@@ -10,9 +10,10 @@ use crate::study::keys;
 use crate::study::quantity::quantity;
 use crate::study::reader::Reader;
 use crate::study::schema::Short;
+use crate::study::setting::{Joints, Setting};
 
 /// What `[wall]` says, as far as it is not faulty.
-#[derive(Default)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct WallKeys {
     height: Option<f64>,
     length: Option<f64>,
@@ -22,8 +23,8 @@ pub struct WallKeys {
     bond: BondKeys,
 }
 
-/// What an arm may say otherwise than `[wall]`.
-#[derive(Clone, Copy, Default)]
+/// How stones span the thickness and meet at head joints.
+#[derive(Clone, Copy, Debug, Default)]
 struct BondKeys {
     wythes: Option<u32>,
     header_share: Option<f64>,
@@ -78,12 +79,7 @@ impl WallKeys {
 }
 
 /// Reads all `[[arm]]` tables.
-pub fn arms(
-    top: &mut Reader<'_>,
-    wall: &WallKeys,
-    density: Option<&Family>,
-    catalogue: &mut Catalogue,
-) -> Option<Vec<Arm>> {
+pub fn arms(top: &mut Reader<'_>, shared: &Setting, catalogue: &mut Catalogue) -> Option<Vec<Arm>> {
     let mut arms: Vec<Option<Arm>> = Vec::new();
     let mut names: Vec<String> = Vec::new();
     for (node, path) in top.tables("arm") {
@@ -98,23 +94,18 @@ pub fn arms(
             }
             names.push(name.clone());
         }
-        arms.push(arm(&mut t, name, wall, density, catalogue));
+        arms.push(arm(&mut t, name, shared, catalogue));
     }
     top.record("arm", names.join(", "));
     let arms: Vec<Arm> = arms.into_iter().collect::<Option<_>>()?;
     (!arms.is_empty()).then_some(arms)
 }
 
-fn arm(
-    t: &mut Reader<'_>,
-    name: Option<String>,
-    wall: &WallKeys,
-    density: Option<&Family>,
-    catalogue: &mut Catalogue,
-) -> Option<Arm> {
+fn arm(t: &mut Reader<'_>, name: Option<String>, shared: &Setting, catalogue: &mut Catalogue) -> Option<Arm> {
+    let setting = shared.of_arm(t, catalogue);
+    let (wall, bond) = (&setting.wall, setting.wall.bond);
     let members = t.whole("members");
     let (arrangement, stone) = arrangement(t, catalogue);
-    let bond = bond(t, wall.bond);
     let has_wedges = t.has("wedges");
     let wedges = t.table("wedges").and_then(|mut w| wedges(&mut w, wall, &stone, catalogue));
     let limits = t.table("limits").and_then(|mut l| limits(&mut l, wall, &stone, bond));
@@ -125,13 +116,15 @@ fn arm(
     let layout = Layout {
         outline: wall.outline()?,
         arrangement: arrangement?,
-        density: density?.clone(),
+        density: setting.density?,
         wythes: Wythes { count: bond.wythes?, header_share: bond.header_share? },
         head_joint_gap: bond.head_joint_gap?,
         wedges,
         limits: limits?,
     };
-    Some(Arm { name: name?, members: members?, layout })
+    let Joints { joint, kn_points, sub_contacts } = setting.joints?;
+    let restraint = setting.restraint?;
+    Some(Arm { name: name?, members: members?, layout, joint, kn_points, restraint, sub_contacts })
 }
 
 fn arrangement(t: &mut Reader<'_>, catalogue: &mut Catalogue) -> (Option<Arrangement>, Stone) {
@@ -187,23 +180,6 @@ fn irregular(t: &mut Reader<'_>, chosen: &str, catalogue: &mut Catalogue) -> (Op
         })
     };
     (build(), stone)
-}
-
-/// What the arm says, or else the wall.
-fn bond(t: &mut Reader<'_>, wall: BondKeys) -> BondKeys {
-    let bond = BondKeys {
-        wythes: if t.has("wythes") { t.whole32("wythes") } else { wall.wythes },
-        header_share: if t.has("header_share") { t.real("header_share") } else { wall.header_share },
-        head_joint_gap: if t.has("head_joint_gap_m") {
-            t.real("head_joint_gap_m")
-        } else {
-            wall.head_joint_gap
-        },
-    };
-    if t.has("header_share") || t.has("wythes") {
-        check_headers(t, bond);
-    }
-    bond
 }
 
 fn check_headers(t: &mut Reader<'_>, bond: BondKeys) {

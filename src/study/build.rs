@@ -1,26 +1,23 @@
 //! From the raw tree of study.toml to checked parts.
 
-use crate::math::{radians, tan};
-use crate::protocol::{Base, Lateral, Protocol, Rate, Restraint, Tilting, Turning};
+use crate::math::radians;
+use crate::protocol::{Lateral, Protocol, Rate, Tilting, Turning};
 use crate::solve::{Solver, explicit, implicit};
 use crate::study::arm;
 use crate::study::catalogue::Catalogue;
-use crate::study::checked::{Arm, Joint};
+use crate::study::checked::Arm;
 use crate::study::keys;
-use crate::study::quantity::quantity;
 use crate::study::raw::Node;
 use crate::study::reader::{Notes, Reader};
+use crate::study::schema::suggestion;
+use crate::study::setting::Setting;
 
 /// The checked parts of study.toml.
 pub struct Parts {
     pub question: String,
     pub seed: u64,
     pub arms: Vec<Arm>,
-    pub joint: Joint,
-    pub kn_points: Vec<f64>,
     pub protocol: Protocol,
-    pub restraint: Restraint,
-    pub sub_contacts: [u32; 2],
     pub solver: Solver,
     pub agreement: bool,
 }
@@ -30,57 +27,38 @@ pub fn parts(root: &Node, notes: &mut Notes, catalogue: &mut Catalogue) -> Optio
     let mut top = Reader::open(root, "", &keys::STUDY, notes)?;
     let study = top.table("study").and_then(|mut t| {
         let (question, seed) = (t.text("question"), t.whole("seed"));
-        Some((question?, seed?))
+        let only = t.has("arms").then(|| t.names("arms"));
+        Some((question?, seed?, only))
     });
-    let wall = top.table("wall").map(|mut t| arm::wall(&mut t));
-    let density = top.table("block").and_then(|mut t| quantity(&mut t, "density_kg_per_m3", catalogue));
-    let joints = top.table("joint").and_then(|mut t| joint(&mut t, catalogue));
+    let shared = Setting::of_study(&mut top, catalogue);
     let protocol = top.table("load").and_then(|mut t| load(&mut t));
-    let restraint = top.table("restraint").and_then(|mut t| restraint(&mut t));
     let solved = top.table("solver").and_then(|mut t| {
         let agreement = t.flag("agreement");
         solver(&mut t).zip(agreement)
     });
-    let arms = arm::arms(&mut top, &wall.unwrap_or_default(), density.as_ref(), catalogue);
-    let (question, seed) = study?;
-    let (joint, kn_points, sub_contacts) = joints?;
+    let arms = arm::arms(&mut top, &shared, catalogue);
+    let (question, seed, only) = study?;
     let (solver, agreement) = solved?;
-    Some(Parts {
-        question,
-        seed,
-        arms: arms?,
-        joint,
-        kn_points,
-        protocol: protocol?,
-        restraint: restraint?,
-        sub_contacts,
-        solver,
-        agreement,
-    })
+    let arms = match only {
+        Some(only) => chosen(&mut top, arms?, &only?)?,
+        None => arms?,
+    };
+    Some(Parts { question, seed, arms, protocol: protocol?, solver, agreement })
 }
 
-fn joint(t: &mut Reader<'_>, catalogue: &mut Catalogue) -> Option<(Joint, Vec<f64>, [u32; 2])> {
-    let kn_points = t.list("kn_pa_per_m");
-    let kn_factor = quantity(t, "kn_factor", catalogue);
-    let phi_deg = quantity(t, "phi_deg", catalogue);
-    let cohesion = quantity(t, "cohesion_pa", catalogue);
-    let reals = t.reals(["kn_over_ks", "tension_pa"]);
-    let cohesion_after_slip = t.choice("cohesion_after_slip");
-    let normal_law = t.choice("normal_law");
-    let sampling = t.choice("sampling");
-    let sub_contacts = t.pair("sub_contacts");
-    let [kn_over_ks, tension] = reals?;
-    let joint = Joint {
-        kn_factor: kn_factor?,
-        kn_over_ks,
-        phi_deg: phi_deg?,
-        cohesion: cohesion?,
-        tension,
-        cohesion_after_slip: cohesion_after_slip?,
-        normal_law: normal_law?,
-        sampling: sampling?,
-    };
-    Some((joint, kn_points?, sub_contacts?))
+/// The arms of these names, in the order of the names. What the others say decides nothing.
+fn chosen(top: &mut Reader<'_>, arms: Vec<Arm>, only: &[String]) -> Option<Vec<Arm>> {
+    let names: Vec<String> = arms.iter().map(|arm| arm.name.clone()).collect();
+    let mut study = top.table("study")?;
+    for name in only.iter().filter(|name| !names.contains(name)) {
+        study.fault("arms", format!("names of arms: {}", names.join(", ")), suggestion(name, &names));
+    }
+    for name in names.iter().filter(|name| !only.contains(name)) {
+        let own = format!("arm.{name}.");
+        top.notes.effective.retain(|path, _| !path.starts_with(&own));
+    }
+    top.record("arm", only.join(", "));
+    only.iter().map(|name| arms.iter().find(|arm| arm.name == *name).cloned()).collect()
 }
 
 fn load(t: &mut Reader<'_>) -> Option<Protocol> {
@@ -109,21 +87,6 @@ fn tilting(t: &mut Reader<'_>) -> Option<Tilting> {
     let rate = if turns { Rate::Dynamic(turning?) } else { Rate::Static };
     let (step, end, bracket) = (radians(step), radians(end), radians(bracket));
     Some(Tilting { towards: towards?, step, end, bracket, collapse_share, rate })
-}
-
-fn restraint(t: &mut Reader<'_>) -> Option<Restraint> {
-    let ends = t.choice("ends");
-    let phi_deg = t.has("platform_phi_deg").then(|| t.real("platform_phi_deg"));
-    let strip = (t.chosen()? == "strip").then(|| t.real("strip_height_m"));
-    let tan_phi = match phi_deg {
-        Some(phi_deg) => Some(tan(radians(phi_deg?))),
-        None => None,
-    };
-    let strip_height = match strip {
-        Some(height) => Some(height?),
-        None => None,
-    };
-    Some(Restraint { base: Base { tan_phi, strip_height }, ends: ends? })
 }
 
 /// Reads the solver and its settings.

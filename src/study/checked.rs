@@ -22,16 +22,8 @@ pub struct Study {
     pub variant: Option<String>,
     /// The arms, in the order of the file.
     pub arms: Vec<Arm>,
-    /// Joint properties other than kn.
-    pub joint: Joint,
-    /// Normal stiffnesses of the joints (Pa/m), ascending: the points at which every arm is evaluated.
-    pub kn_points: Vec<f64>,
     /// What is done to each wall.
     pub protocol: Protocol,
-    /// What holds each wall.
-    pub restraint: Restraint,
-    /// Sub-contacts of a joint along its two in-plane axes.
-    pub sub_contacts: [u32; 2],
     /// Which solver, with its settings.
     pub solver: Solver,
     /// Whether limit analysis is asked about every wall as well.
@@ -57,6 +49,14 @@ pub struct Arm {
     pub members: u64,
     /// What each wall is asked to be.
     pub layout: Layout,
+    /// Joint properties other than kn.
+    pub joint: Joint,
+    /// Normal stiffnesses of the joints (Pa/m), ascending: the points at which the arm is evaluated.
+    pub kn_points: Vec<f64>,
+    /// What holds each wall.
+    pub restraint: Restraint,
+    /// Sub-contacts of a joint along its two in-plane axes.
+    pub sub_contacts: [u32; 2],
 }
 
 /// Joint properties; those that are families are drawn once per joint from a stream keyed by the pair of blocks.

@@ -135,10 +135,21 @@ impl Fault {
         self
     }
 
+    /// Whether both speak of the same place in the same file.
+    pub(super) fn is_at_the_place_of(&self, other: &Fault) -> bool {
+        self.order == other.order && self.file == other.file
+    }
+
+    /// Whether a fault found where an arm's keys are laid over the table `name` is this one of that table itself.
+    pub(super) fn is_of_the_shared_table(&self, laid: &Fault, name: &str) -> bool {
+        let both_missing = self.found == Found::Missing && laid.found == Found::Missing;
+        let key = laid.key.rsplit('.').next().unwrap_or_default();
+        self.is_at_the_place_of(laid) || (both_missing && self.key == format!("{name}.{key}"))
+    }
+
     /// Whether both say the same about the same place.
     pub(super) fn repeats(&self, other: &Fault) -> bool {
-        self.order == other.order
-            && self.file == other.file
+        self.is_at_the_place_of(other)
             && self.key == other.key
             && self.found == other.found
             && self.allowed == other.allowed

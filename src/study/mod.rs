@@ -15,6 +15,7 @@ mod raw;
 mod reader;
 mod reference;
 mod schema;
+mod setting;
 mod variant;
 
 pub use catalogue::{Distribution, DistributionFile, Used, load_distributions};

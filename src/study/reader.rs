@@ -204,6 +204,24 @@ impl<'n> Reader<'n> {
         }
     }
 
+    /// One or more names.
+    pub fn names(&mut self, name: &str) -> Option<Vec<String>> {
+        let (node, key) = self.given(name)?;
+        let Value::List(list) = &node.value else {
+            self.refuse_kind(&node, key);
+            return None;
+        };
+        let names: Vec<Option<String>> = list.iter().map(|n| self.one_name(n, key)).collect();
+        let names: Vec<String> = names.into_iter().collect::<Option<_>>()?;
+        let repeated = names.iter().enumerate().any(|(i, name)| names[..i].contains(name));
+        if names.is_empty() || repeated {
+            self.refuse(&node, key, if repeated { "drop repeated names" } else { "give at least one" });
+            return None;
+        }
+        self.record(name, names.join(", "));
+        Some(names)
+    }
+
     /// One of the names of a choice, as an enum whose serde names are those of the key table.
     pub fn choice<T: serde::de::DeserializeOwned>(&mut self, name: &str) -> Option<T> {
         let chosen = self.choice_name(name)?;

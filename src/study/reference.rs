@@ -9,12 +9,14 @@ use crate::study::schema::{Key, Kind, Presence, Section};
 pub fn key_reference() -> String {
     let mut text = String::new();
     for section in [&keys::STUDY, &keys::PUBLISHED, &keys::HEAD, &keys::ENTRY, &keys::FAMILY] {
-        describe(section, &mut text);
+        describe(section, &mut text, &mut Vec::new());
     }
     text
 }
 
-fn describe(section: &'static Section, text: &mut String) {
+/// Describes a section and those below it, each once.
+fn describe(section: &'static Section, text: &mut String, done: &mut Vec<&'static str>) {
+    done.push(section.title);
     let _ = writeln!(text, "## `{}`\n\n{}\n", section.title, section.doc);
     let _ = writeln!(text, "| key | allowed | default | meaning |\n|---|---|---|---|");
     for key in section.all() {
@@ -29,8 +31,10 @@ fn describe(section: &'static Section, text: &mut String) {
     }
     text.push('\n');
     for key in section.all() {
-        if let Kind::Table(below) | Kind::Tables(below) = key.kind {
-            describe(below, text);
+        if let Kind::Table(below) | Kind::Tables(below) = key.kind
+            && !done.contains(&below.title)
+        {
+            describe(below, text, done);
         }
     }
 }

@@ -96,6 +96,8 @@ pub enum Kind {
     },
     /// Two names.
     NamePair,
+    /// A list of names, each once.
+    Names,
     /// A table.
     Table(&'static Section),
     /// A list of tables, each with a `name` or a number.
@@ -200,6 +202,7 @@ impl Kind {
             }
             Kind::Pair { low, high } => format!("a list of two whole numbers within {low} to {high}"),
             Kind::NamePair => "a list of two different names".to_owned(),
+            Kind::Names => "a list of names, each once".to_owned(),
             Kind::Table(section) => format!("a table {}", section.title),
             Kind::Tables(section) => format!("one or more tables {}", section.title),
             Kind::Settings => {

@@ -92,7 +92,7 @@ fn check_accepts_a_folder_or_its_file_and_says_what_it_found() {
         for said in [
             "tiny: valid",
             "Does the machinery hold?",
-            "stack (1), random (8)",
+            "stack (1 x 2 kn), random (8 x 2 kn)",
             "evaluations: 18",
             "slippery: Wet",
         ] {

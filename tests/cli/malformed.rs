@@ -236,7 +236,7 @@ fn a_fault_shows_its_line_with_a_caret() {
     let scratch = Scratch::new("caret");
     scratch.replace(STUDY, "dip_deg = 5", "dip_deg = 60");
     let listing = scratch.load(None).expect_err("60 deg").to_string();
-    assert!(listing.contains("\n  98 | dip_deg = 60\n     |           ^^\n"), "{listing}");
+    assert!(listing.contains("\n  99 | dip_deg = 60\n     |           ^^\n"), "{listing}");
 }
 
 #[test]

@@ -2,9 +2,10 @@
 
 use pirca::generate::{Arrangement, DipAbout};
 use pirca::law::Sampling;
+use pirca::protocol::Ends;
 use pirca::solve::Solver;
 use pirca::solve::explicit::Settings;
-use pirca::study::key_reference;
+use pirca::study::{Study, key_reference};
 
 use crate::scratch::{PUBLISHED, SIZE, STUDY, Scratch};
 
@@ -17,8 +18,12 @@ fn a_variant_changes_what_it_names_and_nothing_else() {
     let scratch = Scratch::new("variant-effect");
     let base = scratch.load(None).expect("sound").study;
     let corners = scratch.load(Some("corners")).expect("sound").study;
-    assert_eq!((base.joint.sampling, corners.joint.sampling), (Sampling::Area, Sampling::Vertices));
-    assert_eq!(base.arms, corners.arms);
+    assert_eq!(
+        (base.arms[0].joint.sampling, corners.arms[0].joint.sampling),
+        (Sampling::Area, Sampling::Vertices)
+    );
+    let walls = |study: &Study| study.arms.iter().map(|arm| arm.layout.clone()).collect::<Vec<_>>();
+    assert_eq!(walls(&base), walls(&corners), "the walls stay the same");
     let cut = scratch.load(Some("laid-cut")).expect("sound").study;
     let Arrangement::Cut { dip_about, .. } = &cut.arms[2].layout.arrangement else {
         panic!("the variant cuts")
@@ -41,7 +46,7 @@ fn a_path_may_be_quoted_or_nested() {
     arms.replace(
         STUDY,
         "\"joint.sampling\" = \"vertices\"",
-        "arm.stack = { members = 4 }\narm.laid.wythes = 3",
+        "arm.stack = { members = 4 }\narm.laid.wall.wythes = 3",
     );
     let study = arms.load(Some("corners")).unwrap_or_else(|faults| panic!("{faults}")).study;
     assert_eq!((study.arms[0].members, study.arms[2].layout.wythes.count), (4, 3));
@@ -131,7 +136,7 @@ fn a_tilting_study_has_the_defaults_of_its_protocol() {
     };
     let study = with("");
     assert_eq!(study.protocol, Protocol::Tilting(Tilting::default()));
-    assert_eq!(study.restraint.base, Base::default());
+    assert_eq!(study.arms[0].restraint.base, Base::default());
     let turning = with("[load.turning]\nrate_deg_per_s = 2\n");
     let expected = Turning { rate: radians(2.0), damping: 0.05, step_safety: 0.5 };
     assert_eq!(
@@ -145,7 +150,10 @@ fn a_tilting_study_has_the_defaults_of_its_protocol() {
         "base = \"strip\"\nstrip_height_m = 0.02\nplatform_phi_deg = 20",
     );
     let strip = scratch.load(None).unwrap_or_else(|faults| panic!("{faults}")).study;
-    assert_eq!(strip.restraint.base, Base { tan_phi: Some(tan(radians(20.0))), strip_height: Some(0.02) });
+    assert_eq!(
+        strip.arms[0].restraint.base,
+        Base { tan_phi: Some(tan(radians(20.0))), strip_height: Some(0.02) }
+    );
 }
 
 #[test]
@@ -203,4 +211,54 @@ fn the_reference_lists_every_key_of_the_fixture() {
         }
     }
     assert!(reference.contains("a number within 0 to 1"));
+}
+
+/// An arm's own tables are laid over the study's key by key, and a choice made there takes the keys of the other choice away.
+#[test]
+fn an_arm_may_have_its_own_wall_stones_joints_and_restraint() {
+    let scratch = Scratch::new("own-tables");
+    scratch.replace(STUDY, "base = \"fixed\"\nends", "base = \"strip\"\nstrip_height_m = 0.02\nends");
+    scratch.replace(
+        STUDY,
+        "block_length_m = 0.4\ncourse_height_m = 0.2\n\n",
+        "block_length_m = 0.4\ncourse_height_m = 0.2\nwall = { length_m = 2.0 }\nblock.density_kg_per_m3 = 2500\n\
+         joint = { kn_pa_per_m = [1e8], phi_deg = 35 }\nrestraint = { base = \"fixed\", ends = \"free\" }\n\n",
+    );
+    let study = scratch.load(None).unwrap_or_else(|faults| panic!("{faults}")).study;
+    let (own, shared) = (&study.arms[0], &study.arms[1]);
+    assert_eq!((own.layout.outline.length, shared.layout.outline.length), (2.0, 4.0));
+    assert_eq!((own.layout.outline.height, own.layout.density.mean()), (1.0, 2500.0));
+    assert_eq!((own.kn_points.len(), shared.kn_points.len()), (1, 2));
+    assert_eq!((own.joint.phi_deg.mean(), own.joint.cohesion.mean()), (35.0, 1e5));
+    assert_eq!((own.restraint.ends, shared.restraint.ends), (Ends::Free, Ends::JointSprings));
+    assert_eq!((own.restraint.base.strip_height, shared.restraint.base.strip_height), (None, Some(0.02)));
+}
+
+/// A fault of the shared table is said once, not once per arm that lays keys over it; one of the arm's own is said there.
+#[test]
+fn faults_of_an_arms_own_tables_are_named_where_they_stand() {
+    let scratch = Scratch::new("own-tables-faulty");
+    let own = "course_height_m = 0.2\njoint = { phi_deg = 95 }\n\n";
+    scratch.replace(STUDY, "course_height_m = 0.2\n\n", own);
+    scratch.replace(STUDY, "cohesion_pa = 1e5", "cohesion_pa = -1");
+    let faults = scratch.load(None).expect_err("two values are out of range").to_string();
+    assert_eq!(faults.matches("cohesion_pa = -1: allowed").count(), 1, "{faults}");
+    assert!(
+        faults.contains("joint.phi_deg = 95: allowed is a number or a distribution within 0 to 85"),
+        "{faults}"
+    );
+}
+
+#[test]
+fn only_the_arms_asked_for_are_evaluated_and_decide_the_hash() {
+    let scratch = Scratch::new("only-some-arms");
+    scratch.replace(STUDY, "seed = 7", "seed = 7\narms = [\"laid\", \"stack\"]");
+    let loaded = scratch.load(None).unwrap_or_else(|faults| panic!("{faults}")).study;
+    let names: Vec<&str> = loaded.arms.iter().map(|arm| arm.name.as_str()).collect();
+    assert_eq!(names, ["laid", "stack"]);
+    scratch.replace(STUDY, "overlap = 0.5", "overlap = 0.4");
+    assert_eq!(hash(&scratch, None), loaded.hash, "an arm that is left out decides nothing");
+    scratch.replace(STUDY, "\"laid\", \"stack\"", "\"laid\", \"stuck\"");
+    let faults = scratch.load(None).expect_err("no arm has that name").to_string();
+    assert!(faults.contains("did you mean \"stack\"?"), "{faults}");
 }

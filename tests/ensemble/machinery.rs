@@ -9,7 +9,7 @@ use pirca::ensemble::{
 };
 use pirca::model::{Level, Outcome};
 use pirca::random::{Family, Streams};
-use pirca::study::{Joint, Study};
+use pirca::study::Study;
 use polars::prelude::DataFrame;
 use polars_io::prelude::{ParquetReader, SerReader};
 
@@ -34,7 +34,7 @@ fn study() -> Study {
 /// Numbers that are a pure function of the task, with awkward bits; every fourth member of the random arm collapses.
 fn made_up(study: &Study, task: Task) -> Row {
     let Task { arm, point, member } = task;
-    let kn = study.kn_points[point as usize];
+    let kn = study.arms[arm as usize].kn_points[point as usize];
     let mut stream = Streams::new(study.seed, member).of("made up");
     let top = stream.uniform() / 3.0 / kn;
     let collapsed = arm == 1 && member % 4 == 3;
@@ -323,8 +323,9 @@ fn timing_stands_beside_the_results_with_a_line_per_member() {
 #[test]
 fn an_arm_is_random_when_stones_or_joints_are_drawn() {
     let study = study();
-    let random = |arm| is_random(&study.arms[arm], &study.joint);
+    let random = |arm| is_random(&study.arms[arm]);
     assert!(!random(0) && random(1));
-    let joint = Joint { phi_deg: Family::Uniform { low: 25.0, high: 35.0 }, ..study.joint.clone() };
-    assert!(is_random(&study.arms[0], &joint));
+    let mut arm = study.arms[0].clone();
+    arm.joint.phi_deg = Family::Uniform { low: 25.0, high: 35.0 };
+    assert!(is_random(&arm));
 }

@@ -35,7 +35,12 @@ pub static STUDY: Section = Section {
     chooser: None,
     keys: &[&[
         Key::new("study", Kind::Table(&QUESTION), Required, "The question and the seed."),
-        Key::new("wall", Kind::Table(&WALL), Required, "The outer shape, shared by all arms."),
+        Key::new(
+            "wall",
+            Kind::Table(&WALL),
+            Required,
+            "The outer shape of every arm that has no [arm.wall].",
+        ),
         Key::new("block", Kind::Table(&BLOCK), Required, "The stones' material."),
         Key::new("joint", Kind::Table(&JOINT), Required, "The joints' properties."),
         Key::new("load", Kind::Table(&LOAD), Required, "What is done to each wall."),
@@ -53,6 +58,7 @@ static QUESTION: Section = Section {
     keys: &[&[
         Key::new("question", Kind::Text, Required, "What the study asks, in words."),
         Key::new("seed", Kind::Whole { low: 0, high: u64::MAX }, Required, "Seed of all random streams."),
+        Key::new("arms", Kind::Names, Optional, "The arms that are evaluated; without it all of them."),
     ]],
 };
 
@@ -202,9 +208,15 @@ pub static ARM: Section = Section {
             "About which axis the bed planes dip.",
         )
         .only(CUT),
-        Key::new("wythes", Kind::Whole { low: 1, high: 10 }, Optional, "As in [wall], for this arm."),
-        Key::new("header_share", real("1", SHARE), Optional, "As in [wall], for this arm."),
-        Key::new("head_joint_gap_m", real("m", Interval::closed(0.0, 0.1)), Optional, "As in [wall], for this arm."),
+        Key::new("wall", Kind::Table(&WALL), Optional, "What this arm says otherwise than [wall]."),
+        Key::new("block", Kind::Table(&BLOCK), Optional, "What this arm says otherwise than [block]."),
+        Key::new("joint", Kind::Table(&JOINT), Optional, "What this arm says otherwise than [joint]."),
+        Key::new(
+            "restraint",
+            Kind::Table(&RESTRAINT),
+            Optional,
+            "What this arm says otherwise than [restraint].",
+        ),
         Key::new("wedges", Kind::Table(&WEDGES), Optional, "Wedge stones cut into bed joints."),
         Key::new("limits", Kind::Table(&LIMITS), Default("{}"), "What a stone must at least be."),
     ]],

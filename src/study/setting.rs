@@ -1,0 +1,160 @@
+//! What walls are made of and how they are held: the tables that all arms share, and what an arm says otherwise.
+
+use std::collections::BTreeMap;
+
+use crate::math::{radians, tan};
+use crate::protocol::{Base, Restraint};
+use crate::random::Family;
+use crate::study::arm::{WallKeys, wall};
+use crate::study::catalogue::Catalogue;
+use crate::study::checked::Joint;
+use crate::study::quantity::quantity;
+use crate::study::raw::{Node, Value};
+use crate::study::reader::{Notes, Reader, join};
+use crate::study::schema::{Kind, Section};
+
+/// The tables of a study that an arm may lay its own keys over.
+const TABLES: [&str; 4] = ["wall", "block", "joint", "restraint"];
+
+/// The checked tables, as far as they are not faulty.
+#[derive(Clone, Debug, Default)]
+pub struct Setting {
+    /// The outer shape.
+    pub wall: WallKeys,
+    /// Density of a stone (kg/m^3).
+    pub density: Option<Family>,
+    /// The joints' properties.
+    pub joints: Option<Joints>,
+    /// What holds a wall.
+    pub restraint: Option<Restraint>,
+    /// The tables as they stand in the file.
+    raw: BTreeMap<&'static str, Node>,
+}
+
+/// What `[joint]` says.
+#[derive(Clone, Debug)]
+pub struct Joints {
+    /// Properties other than kn.
+    pub joint: Joint,
+    /// Normal stiffnesses (Pa/m).
+    pub kn_points: Vec<f64>,
+    /// Sub-contacts of a joint along its two in-plane axes.
+    pub sub_contacts: [u32; 2],
+}
+
+impl Setting {
+    /// The tables of the study itself.
+    pub fn of_study(top: &mut Reader<'_>, catalogue: &mut Catalogue) -> Setting {
+        let mut setting = Setting::default();
+        for name in TABLES {
+            if let Some((node, _)) = top.given(name) {
+                setting.raw.insert(name, node);
+            }
+            if let Some(mut t) = top.table(name) {
+                setting.read(name, &mut t, catalogue);
+            }
+        }
+        setting
+    }
+
+    /// The same with what an arm says otherwise. A fault that the study's own table has is not said again.
+    pub fn of_arm(&self, arm: &mut Reader<'_>, catalogue: &mut Catalogue) -> Setting {
+        let mut setting = self.clone();
+        for name in TABLES {
+            if !arm.has(name) {
+                continue;
+            }
+            let Some((own, key)) = arm.given(name) else { continue };
+            let Kind::Table(section) = key.kind else { continue };
+            let path = join(&arm.path, name);
+            let laid = self.raw.get(name).map_or(own.clone(), |shared| laid_over(shared, &own, section));
+            let mut notes = Notes::default();
+            setting.forget(name);
+            if let Some(mut t) = Reader::open(&laid, &path, section, &mut notes) {
+                setting.read(name, &mut t, catalogue);
+            }
+            let known = &mut arm.notes.faults;
+            notes.faults.retain(|fault| !known.iter().any(|k| k.is_of_the_shared_table(fault, name)));
+            known.append(&mut notes.faults);
+            let warned = &mut arm.notes.warnings;
+            notes.warnings.retain(|fault| !warned.iter().any(|k| k.is_at_the_place_of(fault)));
+            warned.append(&mut notes.warnings);
+            arm.notes.effective.append(&mut notes.effective);
+        }
+        setting
+    }
+
+    fn forget(&mut self, name: &str) {
+        match name {
+            "wall" => self.wall = WallKeys::default(),
+            "block" => self.density = None,
+            "joint" => self.joints = None,
+            _ => self.restraint = None,
+        }
+    }
+
+    fn read(&mut self, name: &str, t: &mut Reader<'_>, catalogue: &mut Catalogue) {
+        match name {
+            "wall" => self.wall = wall(t),
+            "block" => self.density = quantity(t, "density_kg_per_m3", catalogue),
+            "joint" => self.joints = joints(t, catalogue),
+            _ => self.restraint = restraint(t),
+        }
+    }
+}
+
+/// A table with an arm's keys in the place of its own. Where the arm chooses otherwise, keys that mean nothing for its choice
+/// are left out.
+fn laid_over(shared: &Node, own: &Node, section: &Section) -> Node {
+    let (Value::Table(shared_keys), Value::Table(own_keys)) = (&shared.value, &own.value) else {
+        return own.clone();
+    };
+    let chosen =
+        section.chooser.and_then(|chooser| match own_keys.get(chooser).map(|entry| &entry.node.value) {
+            Some(Value::Text(text)) => Some(text.as_str()),
+            _ => None,
+        });
+    let mut keys = shared_keys.clone();
+    keys.retain(|name, _| chosen.is_none() || section.key(name, chosen).is_some());
+    keys.extend(own_keys.iter().map(|(name, entry)| (name.clone(), entry.clone())));
+    Node { value: Value::Table(keys), ..own.clone() }
+}
+
+fn joints(t: &mut Reader<'_>, catalogue: &mut Catalogue) -> Option<Joints> {
+    let kn_points = t.list("kn_pa_per_m");
+    let kn_factor = quantity(t, "kn_factor", catalogue);
+    let phi_deg = quantity(t, "phi_deg", catalogue);
+    let cohesion = quantity(t, "cohesion_pa", catalogue);
+    let reals = t.reals(["kn_over_ks", "tension_pa"]);
+    let cohesion_after_slip = t.choice("cohesion_after_slip");
+    let normal_law = t.choice("normal_law");
+    let sampling = t.choice("sampling");
+    let sub_contacts = t.pair("sub_contacts");
+    let [kn_over_ks, tension] = reals?;
+    let joint = Joint {
+        kn_factor: kn_factor?,
+        kn_over_ks,
+        phi_deg: phi_deg?,
+        cohesion: cohesion?,
+        tension,
+        cohesion_after_slip: cohesion_after_slip?,
+        normal_law: normal_law?,
+        sampling: sampling?,
+    };
+    Some(Joints { joint, kn_points: kn_points?, sub_contacts: sub_contacts? })
+}
+
+fn restraint(t: &mut Reader<'_>) -> Option<Restraint> {
+    let ends = t.choice("ends");
+    let phi_deg = t.has("platform_phi_deg").then(|| t.real("platform_phi_deg"));
+    let strip = (t.chosen()? == "strip").then(|| t.real("strip_height_m"));
+    let tan_phi = match phi_deg {
+        Some(phi_deg) => Some(tan(radians(phi_deg?))),
+        None => None,
+    };
+    let strip_height = match strip {
+        Some(height) => Some(height?),
+        None => None,
+    };
+    Some(Restraint { base: Base { tan_phi, strip_height }, ends: ends? })
+}
