@@ -34,6 +34,7 @@ fn law(kn: f64) -> Coulomb {
         cohesion: 0.0,
         tension: 0.0,
         cohesion_after_slip: CohesionAfterSlip::Kept,
+        weakening: None,
         sampling: Sampling::Area,
         bonded: false,
     }

@@ -17,6 +17,27 @@ pub struct Cell {
 /// The cells fill the polygon exactly, so that the normal force does not depend on how many there are; only shear,
 /// whose traction is constant in a cell, does.
 pub fn divide(polygon: &Polygon, counts: [u32; 2]) -> Vec<Cell> {
+    grid(polygon, counts).into_iter().map(|(_, cell)| cell).collect()
+}
+
+/// Those of the 4 x 4 cells of a polygon whose bit is set, `4 i + j` for the cell `i` along its first and `j` along its
+/// second axis; the largest cell where the polygon has none of them.
+pub fn patches(polygon: &Polygon, mask: u16) -> Vec<Cell> {
+    let all = grid(polygon, [4, 4]);
+    let kept: Vec<Cell> =
+        all.iter().filter(|([i, j], _)| mask >> (4 * i + j) & 1 == 1).map(|(_, cell)| cell.clone()).collect();
+    if !kept.is_empty() {
+        return kept;
+    }
+    let largest = all
+        .into_iter()
+        .map(|(_, cell)| cell)
+        .reduce(|a, b| if b.moments.area > a.moments.area { b } else { a });
+    largest.into_iter().collect()
+}
+
+/// The cells with their places along the first and the second axis.
+fn grid(polygon: &Polygon, counts: [u32; 2]) -> Vec<([u32; 2], Cell)> {
     let range = |k: usize| {
         polygon
             .vertices
@@ -48,7 +69,7 @@ pub fn divide(polygon: &Polygon, counts: [u32; 2]) -> Vec<Cell> {
             }
             let moments = outline.moments();
             if moments.area > smallest {
-                cells.push(Cell { moments, outline });
+                cells.push(([i, j], Cell { moments, outline }));
             }
         }
     }
@@ -95,6 +116,21 @@ mod tests {
             assert_relative_eq!(sum(|m| m.st), whole.st, max_relative = 1e-12);
             assert_relative_eq!(sum(|m| m.tt), whole.tt, max_relative = 1e-12);
         }
+    }
+
+    #[test]
+    fn patches_are_the_cells_of_their_bits() {
+        let square = Polygon { vertices: vec![[0.0, 0.0], [0.8, 0.0], [0.8, 0.4], [0.0, 0.4]] };
+        assert_eq!(patches(&square, u16::MAX), divide(&square, [4, 4]));
+        let two = patches(&square, 1 << 1 | 1 << 14);
+        let places: Vec<_> = two.iter().map(|cell| cell.moments.centroid()).collect();
+        for (found, [s, t]) in places.iter().zip([[0.1, 0.15], [0.7, 0.25]]) {
+            assert_relative_eq!(found[0], s, max_relative = 1e-12);
+            assert_relative_eq!(found[1], t, max_relative = 1e-12);
+        }
+        // A corner of the grid where a triangle is not.
+        let triangle = Polygon { vertices: vec![[0.0, 0.0], [0.8, 0.0], [0.0, 0.4]] };
+        assert_eq!(patches(&triangle, 1 << 15).len(), 1);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Coulomb's law with cohesion and a tension cut-off, per sub-contact (source paper Eq. 2 and 3, Fig. 8).
 
-use crate::law::NormalLaw;
+use crate::law::weakening::Slipping;
+use crate::law::{NormalLaw, Weakening};
 
 /// The law of one joint. Stresses are per joint area; compression positive.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -18,6 +19,8 @@ pub struct Coulomb {
     pub tension: f64,
     /// What happens to the cohesion of a sub-contact once it has slipped.
     pub cohesion_after_slip: CohesionAfterSlip,
+    /// How friction weakens with slip; `None` where it does not.
+    pub weakening: Option<Weakening>,
     /// Where the joint's stress is sampled.
     pub sampling: Sampling,
     /// Linear springs that neither open nor slip (an idealised attachment), instead of a joint.
@@ -42,6 +45,9 @@ pub enum Sampling {
     Area,
     /// At the joint's corners only, as older block codes do: a tilting wall then loses its dependence on kn.
     Vertices,
+    /// Integrated over the compressed area of some of the 4 x 4 patches into which the joint is divided: bit `4 i + j` stands
+    /// for the patch `i` along its first and `j` along its second axis. The other patches never touch.
+    Patches(u16),
 }
 
 /// What a sub-contact remembers.
@@ -55,6 +61,8 @@ pub struct SubContact {
     pub broken: bool,
     /// Whether it has slipped.
     pub slipped: bool,
+    /// How far it has slipped in all (m), where friction weakens with slip.
+    pub slip: f64,
 }
 
 /// What presses on a sub-contact at this moment.
@@ -137,11 +145,21 @@ impl Coulomb {
             let elastic = |k: usize| state.tau[k] * kept - self.ks * increment[k];
             state.tau = [elastic(0), elastic(1)];
             if !self.bonded {
-                let cohesion = self.cohesion_of(state);
-                let limit = (cohesion + load.force / load.area * self.tan_phi).max(0.0);
+                let (cohesion, stress) = (self.cohesion_of(state), load.force / load.area);
+                let limit = (cohesion + stress * self.tan_phi_after(state.slip)).max(0.0);
                 let size2 = state.tau[0] * state.tau[0] + state.tau[1] * state.tau[1];
                 if size2 > limit * limit {
-                    let back = limit / size2.sqrt();
+                    let size = size2.sqrt();
+                    let limit = match &self.weakening {
+                        Some(weakening) => {
+                            let at = Slipping { cohesion, stress, slip: state.slip };
+                            let [limit, slip] = self.weakened(weakening, &at, size);
+                            state.slip += slip;
+                            limit
+                        }
+                        None => limit,
+                    };
+                    let back = limit / size;
                     state.tau = [state.tau[0] * back, state.tau[1] * back];
                     state.slipped = true;
                 }
@@ -176,6 +194,7 @@ mod tests {
             cohesion: 1e3,
             tension: 0.0,
             cohesion_after_slip: CohesionAfterSlip::Kept,
+            weakening: None,
             sampling: Sampling::Area,
             bonded: false,
         }
@@ -232,5 +251,36 @@ mod tests {
         let open = Pressed::default();
         law().shear(std::slice::from_mut(&mut state), &[open], &Motion::default());
         assert_eq!(state.tau, [0.0; 2]);
+    }
+
+    #[test]
+    fn friction_weakens_in_a_straight_line_with_slip() {
+        let weak =
+            Coulomb { cohesion: 0.0, weakening: Some(Weakening { residual: 0.4, distance: 1e-3 }), ..law() };
+        // Peak 1000 N x 0.5; ks A = 5e6 N/m, so that the peak is reached after 0.1 mm.
+        let strength = |slip: f64| 500.0 * (0.4 + 0.6 * (1.0 - slip / 1e-3).max(0.0));
+        for steps in [1, 7, 100] {
+            for way in [0.5e-4, 3e-4, 8e-4, 3e-3] {
+                let mut state = SubContact::default();
+                let mut force = 0.0;
+                for _ in 0..steps {
+                    force = -push(&weak, &mut state, 1000.0, [way / f64::from(steps), 0.0])[0];
+                }
+                // What is not elastic is slip: way = F / (ks A) + slip, whatever the steps.
+                let slip = (way - force / 5e6).max(0.0);
+                assert_relative_eq!(state.slip, if slip > 1e-12 { slip } else { 0.0 }, max_relative = 1e-9);
+                if way > 1e-4 {
+                    assert_relative_eq!(force, strength(slip), max_relative = 1e-9);
+                }
+            }
+        }
+        // Over a distance so short that the joint itself unloads slower, all is lost at once.
+        let brittle = Coulomb { weakening: Some(Weakening { residual: 0.4, distance: 1e-5 }), ..weak };
+        let mut state = SubContact::default();
+        assert_relative_eq!(
+            -push(&brittle, &mut state, 1000.0, [1.01e-4, 0.0])[0],
+            200.0,
+            max_relative = 1e-12
+        );
     }
 }

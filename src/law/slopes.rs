@@ -1,6 +1,7 @@
 //! Derivatives of Coulomb's law at a sub-contact, for solvers that need a tangent.
 
 use crate::law::coulomb::{Coulomb, Motion, Pressed, SubContact};
+use crate::law::weakening::Slipping;
 
 /// Number of quantities that a joint's forces depend on: the gap `g0, gs, gt` and the [`Motion`]'s
 /// `base, by_s, by_t`, two components each.
@@ -106,9 +107,10 @@ impl Coulomb {
         let mut tau = [elastic(0), elastic(1)];
         let slips = !self.bonded && pressed.force > least * pressed.area && {
             let stress = Dual::of_gap(pressed.force, slopes.force).over(&area);
-            let strength = self.cohesion_of(state) + stress.value * self.tan_phi;
+            let tan_phi = self.tan_phi_after(state.slip);
+            let strength = self.cohesion_of(state) + stress.value * tan_phi;
             let limit = if strength > 0.0 {
-                stress.combined(self.tan_phi, &stress, 0.0, strength)
+                stress.combined(tan_phi, &stress, 0.0, strength)
             } else {
                 Dual::constant(0.0)
             };
@@ -117,6 +119,7 @@ impl Coulomb {
             if slips {
                 let size = size2.sqrt();
                 let size = tau[0].combined(tau[0].value / size, &tau[1], tau[1].value / size, size);
+                let limit = self.limit_after_slip(state, &stress, &limit, &size);
                 let back = limit.over(&size);
                 tau = [tau[0].times(&back), tau[1].times(&back)];
             }
@@ -131,5 +134,28 @@ impl Coulomb {
             }
         }
         slips
+    }
+
+    /// The strength onto which an elastic traction goes back, from that before: see [`Coulomb::weakened`].
+    fn limit_after_slip(&self, state: &SubContact, stress: &Dual, before: &Dual, size: &Dual) -> Dual {
+        let Some(weakening) = &self.weakening else { return *before };
+        let at = Slipping { cohesion: self.cohesion_of(state), stress: stress.value, slip: state.slip };
+        let [limit, _] = self.weakened(weakening, &at, size.value);
+        if limit == 0.0 {
+            return Dual::constant(0.0);
+        }
+        match self.softening(weakening, &at, size.value) {
+            Some(h) => {
+                let rate = self.tan_phi * (1.0 - weakening.residual) / weakening.distance;
+                let h = stress.combined(rate, stress, 0.0, h);
+                let unloads = h.combined(-1.0, &h, 0.0, self.ks - h.value);
+                let slip = size.plus(&before.scaled(-1.0)).over(&unloads);
+                before.plus(&h.times(&slip).scaled(-1.0))
+            }
+            None => {
+                let residual = self.tan_phi * weakening.residual;
+                stress.combined(residual, stress, 0.0, limit)
+            }
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! Rigid bodies made of spheres, and a heap of them within fixed planes.
 
 use crate::law::Frictional;
+use crate::math::Vec3;
 use crate::shape::{Ball, Plane};
 
 /// A rigid body made of spheres: one sphere, or several that may overlap.
@@ -25,9 +26,13 @@ pub struct Heap {
     pub plane_material: Frictional,
 }
 
-impl Clump {
-    /// A single sphere.
-    pub fn sphere(ball: Ball, density: f64, material: Frictional) -> Clump {
-        Clump { spheres: vec![ball], density, material }
+impl Heap {
+    /// Clumps of one density and one material on ground of the same material, the plane z = 0.
+    pub fn on_ground(clumps: Vec<Vec<Ball>>, density: f64, material: Frictional) -> Heap {
+        Heap {
+            clumps: clumps.into_iter().map(|spheres| Clump { spheres, density, material }).collect(),
+            planes: vec![Plane { normal: Vec3::z(), offset: 0.0 }],
+            plane_material: material,
+        }
     }
 }

@@ -59,7 +59,8 @@ impl Bounds {
         let stage = Stage::new(wall, laws, protocol, restraint, sub_contacts);
         let asked = |flow| {
             let settings = Settings { flow, ..Settings::default() };
-            let analysis = Analysis::new(&stage.assembly, &stage.laws, stage.contact, settings);
+            let analysis =
+                Analysis::new(&stage.assembly, &stage.laws, stage.contact, settings).with_ties(&stage.ties);
             match protocol {
                 Protocol::Tilting(_) => analysis.tilt(stage.towards.unit(), &[]),
                 Protocol::Lateral(lateral) => {

@@ -151,6 +151,7 @@ impl<'t, 'a> Judge<'t, 'a> {
         let rigid = self.rigid.get_or_init(|| {
             let Task { wall, laws, contact, .. } = *self.task;
             let analysis = Analysis::new(wall, laws, contact, limit::Settings::default());
+            let analysis = analysis.with_ties(&self.task.ties);
             (stands(&analysis, 0.0).stands == Some(true)).then_some(analysis)
         });
         let standing = stands(rigid.as_ref()?, level);

@@ -3,16 +3,16 @@
 
 use crate::model::{Level, Outcome};
 use crate::protocol::confirm::{Fall, Judge, Told};
-use crate::protocol::mechanism::{Failure, joint_states};
+use crate::protocol::mechanism::{Failure, failure, joint_states};
 use crate::protocol::pace::Pace;
 use crate::protocol::route::Route;
 use crate::protocol::task::displacements;
-use crate::protocol::watch::{LoadStep, Watch};
+use crate::protocol::watch::{Criterion, LoadStep, Watch};
 use crate::protocol::{Run, Task};
 use crate::solve::bodies::Body;
 use crate::solve::explicit::Simulation;
 use crate::solve::implicit::{self, Equilibrium};
-use crate::solve::{Assembly, Equilibrate, Solver, Status};
+use crate::solve::{Ahead, Assembly, Equilibrate, Followed, Solver, Status, Way};
 
 /// Takes an assembly along a load path with the solver asked for.
 pub fn drive(task: &Task<'_>, solver: &Solver) -> Run {
@@ -52,6 +52,7 @@ pub fn climb<'a, S: Equilibrate<'a>>(task: &Task<'a>, of: &dyn Fn(Assembly<'a>) 
         steps,
         spent: 0,
         wrong: 0,
+        followed: 0,
         certain: None,
         pace: Pace::default(),
     };
@@ -61,7 +62,7 @@ pub fn climb<'a, S: Equilibrate<'a>>(task: &Task<'a>, of: &dyn Fn(Assembly<'a>) 
         tried => match climber.judged(&start, 0.0, tried, true) {
             Verdict::Rest(next, _) => next,
             Verdict::GoBack => return climber.never_at_rest(None, joints),
-            Verdict::End(end) => return climber.never_at_rest(Some(*end), joints),
+            Verdict::Turns(_, end) | Verdict::End(end) => return climber.never_at_rest(Some(*end), joints),
         },
     };
     let at_rest = rest.assembly().bodies.all.clone();
@@ -81,6 +82,15 @@ pub fn climb<'a, S: Equilibrate<'a>>(task: &Task<'a>, of: &dyn Fn(Assembly<'a>) 
             Verdict::Rest(next, steps_further) => {
                 rest = next;
                 route.borne(place + steps_further);
+            }
+            Verdict::Turns(next, end) => {
+                let last = climber.last_borne();
+                (outcome, bracket) =
+                    (Outcome::Collapsed { at: task.path.level(last) }, Some([last, end.step.level.value()]));
+                rest = next;
+                climber.steps.push(end.step);
+                failure = end.failure;
+                break;
             }
             Verdict::End(end) => {
                 let last = climber.last_borne();
@@ -117,6 +127,8 @@ struct Climber<'c, 'a, S> {
     spent: u64,
     /// Suspicions that proved wrong.
     wrong: u32,
+    /// How often the path has been followed.
+    followed: u32,
     /// The lowest level at which the wall is certain to fall.
     certain: Option<Fall>,
     pace: Pace,
@@ -136,12 +148,16 @@ enum Verdict<S> {
     GoBack,
     /// The wall is at rest after all, so many full steps further up.
     Rest(S, f64),
+    /// The climb ends at a limit point, and this is the last state at rest.
+    Turns(S, Box<End>),
     /// The climb ends here.
     End(Box<End>),
 }
 
 /// Suspicions that may prove wrong before the solver is called lost.
 const MOST_WRONG: u32 = 20;
+/// The path of equilibria is followed so often: where it is lost, it is so again from nearby.
+const MOST_FOLLOWED: u32 = 3;
 /// So many full steps above a suspicion a fall is looked for, when it cannot be told there.
 const STEPS_ABOVE: u32 = 6;
 
@@ -229,6 +245,12 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
         if self.wrong >= MOST_WRONG {
             return lost(self, "the wall kept coming to rest where the solver had lost it");
         }
+        if self.task.path.bracket.is_finite()
+            && self.followed < MOST_FOLLOWED
+            && let Some(verdict) = self.follow(from, level)
+        {
+            return verdict;
+        }
         let first = self.certain.is_none();
         if !first && !is_final {
             return Verdict::GoBack;
@@ -264,6 +286,33 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
             // In doubt here, certain further up.
             Some(fall) => self.fell(fall.level, ratio),
             None => lost(self, "neither limit analysis nor relaxation told whether it stands"),
+        }
+    }
+
+    /// What following the path of equilibria from the last state at rest tells of a level where none was found: it may reach
+    /// that level after all, or turn below it.
+    fn follow(&mut self, from: &S, level: f64) -> Option<Verdict<S>> {
+        self.followed += 1;
+        let path = self.task.path;
+        let (Criterion::AnyBlock(far) | Criterion::Top(far)) = self.task.criterion;
+        let loads = |level| path.loads(level);
+        let last = self.last_borne();
+        let ahead = Ahead { loads: &loads, from: last, to: level, far, bracket: path.bracket };
+        let Followed { rest, level: highest, ratio, way } = from.follow(&ahead)?;
+        match way {
+            Way::Stands => {
+                let further = (highest - level) / path.higher(0.0, 1);
+                Some(Verdict::Rest(self.read(rest, highest, ratio), further))
+            }
+            Way::Falls { above, bodies, ratio: left, .. } => {
+                let at_rest = rest.assembly();
+                let before = &at_rest.bodies.all;
+                let failure = failure(self.task.wall, at_rest, before, &bodies, path.direction());
+                let step = self.watch.read(&bodies, path.level(above), left, 0);
+                let rest = if highest > last { self.read(rest, highest, ratio) } else { rest };
+                let end = End { why: Why::Fell, step, failure: Some(failure), bodies: bodies.all };
+                Some(Verdict::Turns(rest, Box::new(end)))
+            }
         }
     }
 

@@ -31,7 +31,7 @@ pub fn back_loads(wall: &Wall, lateral: &Lateral) -> Vec<Load> {
             let plane = stone.shape.face_plane(face);
             let centre = stone.shape.face_vertices(face).sum::<Vec3>() / stone.shape.faces[face].len() as f64;
             // Steeper than 45 degrees: a bed that leans is no back.
-            if plane.normal.y > -0.5f64.sqrt() || is_covered(wall, block, centre) {
+            if plane.normal.y > -0.5f64.sqrt() || is_covered(wall, block, centre, -Vec3::y()) {
                 continue;
             }
             let frame = Frame::on_plane(centre, plane.normal);
@@ -56,13 +56,13 @@ pub fn back_loads(wall: &Wall, lateral: &Lateral) -> Vec<Load> {
     loads
 }
 
-/// Whether a stone lies behind a point: a ray towards -y meets it.
-fn is_covered(wall: &Wall, own: usize, point: Vec3) -> bool {
+/// Whether a stone lies before a point, seen along a direction: a ray meets it.
+pub(super) fn is_covered(wall: &Wall, own: usize, point: Vec3, direction: Vec3) -> bool {
     wall.stones().filter(|(id, _)| *id != own).any(|(_, other)| {
         let (mut from, mut to) = (0.0f64, f64::INFINITY);
         for face in 0..other.shape.faces.len() {
             let plane = other.shape.face_plane(face);
-            let (distance, rate) = (plane.distance(&point), -plane.normal.y);
+            let (distance, rate) = (plane.distance(&point), plane.normal.dot(&direction));
             if rate > 0.0 {
                 to = to.min(-distance / rate);
             } else if rate < 0.0 {

@@ -29,7 +29,7 @@ pub fn restrain(wall: &Wall, restraint: &Restraint, towards: Direction) -> Wall 
         assembly.blocks.push(fixed(from, to, Tag::Base));
     }
     match restraint.ends {
-        Ends::Free => {}
+        Ends::Free | Ends::Ropes(_) => {}
         Ends::OutOfPlane => {
             let near = 1e-6 * (high.x - low.x);
             for block in assembly.blocks.iter_mut().take(wall.blocks.len()) {

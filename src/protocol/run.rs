@@ -30,6 +30,7 @@ pub fn run(
         laws: &stage.laws,
         contact: stage.contact,
         loads: Vec::new(),
+        ties: stage.ties.clone(),
         path,
         criterion,
         confirmation,

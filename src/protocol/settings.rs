@@ -3,8 +3,7 @@
 use crate::math::Vec3;
 
 /// How the ends of the wall (x = 0 and x = length) are held.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ends {
     /// Free.
     Free,
@@ -14,6 +13,31 @@ pub enum Ends {
     OutOfPlane,
     /// Joint springs (kn, ks) to fixed end blocks, which neither open nor slip.
     JointSprings,
+    /// Ropes across the downhill face near both ends.
+    Ropes(Rope),
+}
+
+/// Two ropes down the downhill face, one near each end. Each stone that a rope crosses on the face is held there, at the
+/// middle of its height, by a tie of its own; wedges are not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rope {
+    /// Stiffness (N/m) per course and end.
+    pub stiffness: f64,
+    /// Force (N) per course and end with which the rope presses on the wall as built.
+    pub pretension: f64,
+    /// Displacement (m) of a stone before the rope resists.
+    pub slack: f64,
+    /// Distance (m) of the ropes from the wall's ends.
+    pub from_end: f64,
+    /// Whether it pushes as well as pulls: a strut instead of a rope.
+    pub two_sided: bool,
+}
+
+impl Default for Rope {
+    /// Taut without force, 1e6 N/m, 50 mm from the ends.
+    fn default() -> Self {
+        Rope { stiffness: 1e6, pretension: 0.0, slack: 0.0, from_end: 0.05, two_sided: false }
+    }
 }
 
 /// What the wall stands on: a fixed platform with an ordinary joint, and what stops the wall's foot on it.

@@ -4,7 +4,8 @@ use crate::contact;
 use crate::math::cbrt;
 use crate::model::{JointLaws, Wall};
 use crate::protocol::restraint::{Surroundings, restrain};
-use crate::protocol::{Direction, Protocol, Restraint};
+use crate::protocol::{Direction, Ends, Protocol, Restraint, ropes};
+use crate::solve::Tie;
 
 /// The wall on its base and between its ends, ready for a solver or for limit analysis.
 pub struct Stage<'a> {
@@ -14,6 +15,8 @@ pub struct Stage<'a> {
     pub laws: Surroundings<'a>,
     /// Tolerances of contact detection.
     pub contact: contact::Settings,
+    /// Ropes at its ends.
+    pub ties: Vec<Tie>,
     /// Where the load pushes.
     pub towards: Direction,
 }
@@ -35,6 +38,10 @@ impl<'a> Stage<'a> {
             assembly: restrain(wall, restraint, towards),
             laws: Surroundings::of(wall, laws, restraint),
             contact: contact::Settings::for_size(typical_size(wall), sub_contacts),
+            ties: match restraint.ends {
+                Ends::Ropes(rope) => ropes(wall, &rope, towards),
+                _ => Vec::new(),
+            },
             towards,
         }
     }

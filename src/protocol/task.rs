@@ -8,8 +8,8 @@ use crate::protocol::mechanism::{Failure, JointState};
 use crate::protocol::path::LoadPath;
 use crate::protocol::pressure::Load;
 use crate::protocol::watch::{Criterion, LoadStep};
-use crate::solve::Assembly;
 use crate::solve::bodies::Body;
+use crate::solve::{Assembly, Tie};
 
 /// A wall with all that surrounds it, its loads, and how far it is to be taken.
 pub struct Task<'t> {
@@ -21,6 +21,8 @@ pub struct Task<'t> {
     pub contact: contact::Settings,
     /// Dead loads, on the wall as built; from then on each moves with its block.
     pub loads: Vec<Load>,
+    /// Ties of blocks to the surroundings, on the wall as built.
+    pub ties: Vec<Tie>,
     /// The load path.
     pub path: LoadPath,
     /// When a wall counts as running away.
@@ -56,6 +58,7 @@ impl<'t> Task<'t> {
         for load in &self.loads {
             built.add_load(load.block, load.point, load.force);
         }
+        self.ties.iter().for_each(|tie| built.add_tie(*tie));
         built
     }
 }

@@ -5,6 +5,7 @@ mod beside;
 mod compare;
 mod csv;
 mod draw;
+mod elements;
 mod figure;
 mod files;
 mod fragility;
@@ -23,6 +24,7 @@ mod vtu;
 
 pub use beside::{Earlier, Mean};
 pub use compare::{Basis, Comparison};
+pub use elements::{element_table, write_elements};
 pub use files::{FRAGILITY, SUMMARY_JSON, write_all};
 pub use published::{Published, Verdict};
 pub use summary::{ArmSummary, QuantileEntry, Summary, summarise};

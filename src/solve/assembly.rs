@@ -1,10 +1,11 @@
-//! What every solver works on: bodies, their joints, and the loads that act on them.
+//! What every solver works on: bodies, their joints and ties, and the loads that act on them.
 
 use crate::contact;
 use crate::math::{Mat3, Vec3};
 use crate::model::{JointLaws, Wall};
 use crate::solve::bodies::{Bodies, Body};
 use crate::solve::joints::Joints;
+use crate::solve::ties::{Held, Tie};
 
 /// Standard gravity (m/s^2).
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
@@ -33,6 +34,7 @@ pub struct Assembly<'a> {
     pub contact: contact::Settings,
     laws: &'a dyn JointLaws,
     loads: Vec<DeadLoad>,
+    ties: Vec<Held>,
     /// Where each body was when contacts were last looked for.
     seen: Vec<(Vec3, Mat3)>,
 }
@@ -48,6 +50,7 @@ impl<'a> Assembly<'a> {
             contact,
             laws,
             loads: Vec::new(),
+            ties: Vec::new(),
             seen: Vec::new(),
         };
         assembly.refresh();
@@ -61,7 +64,17 @@ impl<'a> Assembly<'a> {
         self.loads.push(DeadLoad { body, lever, force });
     }
 
-    /// Sets force and moment of every body to those of gravity and the dead loads.
+    /// Ties a body to its surroundings. Its point is where the body is now: bodies must not have moved yet.
+    pub fn add_tie(&mut self, tie: Tie) {
+        self.ties.push(Held::new(tie, &self.bodies.all[tie.body]));
+    }
+
+    /// The ties.
+    pub fn ties(&self) -> &[Held] {
+        &self.ties
+    }
+
+    /// Sets force and moment of every body to those of gravity, the dead loads and the ties.
     pub fn apply_loads(&mut self) {
         for body in &mut self.bodies.all {
             body.force = self.gravity * body.mass;
@@ -72,6 +85,9 @@ impl<'a> Assembly<'a> {
             let force = load.force * self.load_factor;
             body.force += force;
             body.torque += (body.rotation * load.lever).cross(&force);
+        }
+        for tie in &self.ties {
+            tie.apply(&mut self.bodies.all[tie.tie.body]);
         }
     }
 

@@ -9,11 +9,10 @@ use crate::solve::bodies::Body;
 pub struct RowSums([[f64; 6]; 6]);
 
 impl RowSums {
-    /// Adds a spring of a stiffness (N/m) along a unit `axis`, `lever` from the body's centroid; both in world axes.
+    /// Adds a spring of a stiffness (N/m) along a unit `axis`, `lever` from the body's centroid; both in the body's axes.
     pub fn add_spring(&mut self, body: &Body, lever: &Vec3, axis: &Vec3, stiffness: f64) {
-        let axis_in = body.rotation.tr_mul(axis);
-        let moment = body.rotation.tr_mul(lever).cross(&axis_in);
-        let row = [axis_in.x, axis_in.y, axis_in.z, moment.x, moment.y, moment.z];
+        let moment = lever.cross(axis);
+        let row = [axis.x, axis.y, axis.z, moment.x, moment.y, moment.z];
         let root = |n: usize| if n < 3 { body.mass.sqrt() } else { body.inertia[n - 3].sqrt() };
         for (a, ka) in self.0.iter_mut().enumerate() {
             for (b, kab) in ka.iter_mut().enumerate() {

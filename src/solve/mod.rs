@@ -9,9 +9,11 @@ pub mod implicit;
 pub mod joints;
 pub mod limit;
 mod status;
+mod ties;
 
 pub use assembly::{Assembly, STANDARD_GRAVITY};
-pub use status::{Equilibrate, Settled, Status};
+pub use status::{Ahead, Equilibrate, Followed, Settled, Status, Way};
+pub use ties::{Held, Tie};
 
 /// Which solver, with its settings.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -31,6 +31,49 @@ pub struct Settled {
     pub steps: u64,
 }
 
+/// The path of equilibria ahead of a state at rest, for a solver that can follow it through a limit point.
+pub struct Ahead<'l> {
+    /// Gravity (m/s^2) and the factor on the dead loads at a level.
+    pub loads: &'l dyn Fn(f64) -> (Vec3, f64),
+    /// The level of the state at rest.
+    pub from: f64,
+    /// The level above it at which no equilibrium was found.
+    pub to: f64,
+    /// A wall falls when, past the limit point, a block has gone so far (m) without the path rising again above it.
+    pub far: f64,
+    /// The limit point is bracketed to this.
+    pub bracket: f64,
+}
+
+/// What was found along a path of equilibria.
+pub struct Followed<S> {
+    /// The highest state at rest.
+    pub rest: S,
+    /// Its level.
+    pub level: f64,
+    /// Its unbalanced force ratio.
+    pub ratio: f64,
+    /// How the path goes on from there.
+    pub way: Way,
+}
+
+/// How a path goes on from its highest state.
+pub enum Way {
+    /// It has reached the level that was asked for.
+    Stands,
+    /// It turns there and leads down.
+    Falls {
+        /// Upper bound of the level of the limit point, where the path turns once.
+        above: f64,
+        /// The level of a state far down the path, which stands there and nowhere above.
+        at: f64,
+        /// That state.
+        bodies: Box<Bodies>,
+        /// Its unbalanced force ratio.
+        ratio: f64,
+    },
+}
+
 /// A solver that brings an assembly to rest under its loads. Loads are changed on the assembly between two calls; a
 /// clone is a state to come back to.
 pub trait Equilibrate<'a>: Clone {
@@ -45,6 +88,11 @@ pub trait Equilibrate<'a>: Clone {
         let assembly = self.assembly_mut();
         assembly.gravity = gravity;
         assembly.load_factor = load_factor;
+    }
+
+    /// Follows the path of equilibria from this state, which is at rest; `None` where the solver cannot, or loses it.
+    fn follow(&self, _ahead: &Ahead<'_>) -> Option<Followed<Self>> {
+        None
     }
 
     /// Goes on until the assembly is at rest, `stop` says so, or it cannot be brought to rest.

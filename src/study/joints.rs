@@ -49,6 +49,7 @@ impl Joint {
             cohesion: draw(&self.cohesion, "cohesion"),
             tension: self.tension,
             cohesion_after_slip: self.cohesion_after_slip,
+            weakening: None,
             sampling: self.sampling,
             bonded: false,
         }

@@ -4,6 +4,7 @@ mod arm;
 mod build;
 mod catalogue;
 mod checked;
+mod elements;
 mod fault;
 mod files;
 mod joints;
@@ -20,6 +21,7 @@ mod variant;
 
 pub use catalogue::{Distribution, DistributionFile, Used, load_distributions};
 pub use checked::{Arm, Claim, ClaimTest, InputFile, Joint, NormalLawName, Study};
+pub use elements::{ElementArm, ElementStudy, Reported};
 pub use fault::{Fault, Faults, Found};
 pub use joints::DrawnJoints;
 pub use load::{Loaded, VariantName};

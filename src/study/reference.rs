@@ -8,7 +8,15 @@ use crate::study::schema::{Key, Kind, Presence, Section};
 /// Every key of every input file with what is allowed, its default and its meaning, as Markdown.
 pub fn key_reference() -> String {
     let mut text = String::new();
-    for section in [&keys::STUDY, &keys::PUBLISHED, &keys::HEAD, &keys::ENTRY, &keys::FAMILY] {
+    for section in [
+        &keys::STUDY,
+        &keys::PUBLISHED,
+        &keys::ELEMENT_STUDY,
+        &keys::ELEMENTS_PUBLISHED,
+        &keys::HEAD,
+        &keys::ENTRY,
+        &keys::FAMILY,
+    ] {
         describe(section, &mut text, &mut Vec::new());
     }
     text

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::math::{radians, tan};
-use crate::protocol::{Base, Restraint};
+use crate::protocol::{Base, Ends, Restraint, Rope};
 use crate::random::Family;
 use crate::study::arm::{WallKeys, wall};
 use crate::study::catalogue::Catalogue;
@@ -145,7 +145,7 @@ fn joints(t: &mut Reader<'_>, catalogue: &mut Catalogue) -> Option<Joints> {
 }
 
 fn restraint(t: &mut Reader<'_>) -> Option<Restraint> {
-    let ends = t.choice("ends");
+    let ends = ends(t);
     let phi_deg = t.has("platform_phi_deg").then(|| t.real("platform_phi_deg"));
     let strip = (t.chosen()? == "strip").then(|| t.real("strip_height_m"));
     let tan_phi = match phi_deg {
@@ -157,4 +157,34 @@ fn restraint(t: &mut Reader<'_>) -> Option<Restraint> {
         None => None,
     };
     Some(Restraint { base: Base { tan_phi, strip_height }, ends: ends? })
+}
+
+fn ends(t: &mut Reader<'_>) -> Option<Ends> {
+    let name = t.choice_name("ends");
+    let roped = t.has("rope");
+    let rope = t.table("rope").and_then(|mut t| rope(&mut t));
+    let ends = match name? {
+        "ropes" if roped => return rope.map(Ends::Ropes),
+        "ropes" => {
+            let allowed = "this with a table [restraint.rope]";
+            t.fault("ends", allowed, "add [restraint.rope] with stiffness_n_per_m");
+            return None;
+        }
+        "fixed_end_blocks" => Ends::FixedEndBlocks,
+        "out_of_plane" => Ends::OutOfPlane,
+        "joint_springs" => Ends::JointSprings,
+        _ => Ends::Free,
+    };
+    if roped {
+        t.fault("rope", "only where ends = \"ropes\"", "remove it, or set ends = \"ropes\"");
+        return None;
+    }
+    Some(ends)
+}
+
+fn rope(t: &mut Reader<'_>) -> Option<Rope> {
+    let reals = t.reals(["stiffness_n_per_m", "pretension_n", "slack_m", "from_end_m"]);
+    let sides = t.choice_name("sides");
+    let [stiffness, pretension, slack, from_end] = reals?;
+    Some(Rope { stiffness, pretension, slack, from_end, two_sided: sides? == "both" })
 }

@@ -1,6 +1,6 @@
 //! Tests of the key table and of the drawn joints; files and faults are tested from outside, in `tests/cli`.
 
-use crate::law::{CohesionAfterSlip, NormalLaw, Sampling};
+use crate::law::{CohesionAfterSlip, Sampling};
 use crate::model::JointLaws;
 use crate::random::{Family, Streams};
 use crate::study::keys;
@@ -24,6 +24,8 @@ fn every_key_carries_its_unit() {
     assert!(all.len() > 50);
     let suffixes = [
         ("Pa/m", "_pa_per_m"),
+        ("N/m", "_n_per_m"),
+        ("N", "_n"),
         ("kg/m3", "_kg_per_m3"),
         ("Pa", "_pa"),
         ("m3", "_m3"),
@@ -82,8 +84,7 @@ fn joint() -> Joint {
 }
 
 fn kn_of(law: crate::law::Coulomb) -> f64 {
-    let NormalLaw::Linear { kn } = law.normal;
-    kn
+    law.normal.largest_stiffness()
 }
 
 #[test]

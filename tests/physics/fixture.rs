@@ -24,6 +24,7 @@ pub fn dry(kn: f64, phi_deg: f64) -> Coulomb {
         cohesion: 0.0,
         tension: 0.0,
         cohesion_after_slip: CohesionAfterSlip::Kept,
+        weakening: None,
         sampling: Sampling::Area,
         bonded: false,
     }

@@ -3,7 +3,7 @@
 use nalgebra::Rotation3;
 use pirca::law::Frictional;
 use pirca::math::{Vec3, cos, radians, sin, tan};
-use pirca::model::{Clump, Heap};
+use pirca::model::Heap;
 use pirca::random::Streams;
 use pirca::shape::{Ball, Plane};
 use pirca::solve::grains::{Settings, Simulation};
@@ -21,11 +21,7 @@ fn ball(x: f64, y: f64, z: f64, radius: f64) -> Ball {
 
 /// Clumps of one material on the floor z = 0.
 fn on_floor(clumps: Vec<Vec<Ball>>, material: Frictional) -> Heap {
-    Heap {
-        clumps: clumps.into_iter().map(|spheres| Clump { spheres, density: DENSITY, material }).collect(),
-        planes: vec![Plane::through(Vec3::zeros(), Vec3::z())],
-        plane_material: material,
-    }
+    Heap::on_ground(clumps, DENSITY, material)
 }
 
 fn without_planes(clumps: Vec<Vec<Ball>>, material: Frictional) -> Heap {

@@ -4,7 +4,7 @@ use nalgebra::Rotation3;
 use pirca::contact;
 use pirca::generate::canonical;
 use pirca::law::Coulomb;
-use pirca::math::{Vec3, degrees, radians, tan};
+use pirca::math::{Vec3, asin, atan, cos, degrees, radians, tan};
 use pirca::model::{Block, JointLaws, Level, Outcome, Support, Wall};
 use pirca::protocol::{
     Base, Confirmation, Criterion, Direction, Ends, LoadPath, Protocol, Restraint, Run, Task, Tilting, drive,
@@ -13,7 +13,7 @@ use pirca::protocol::{
 use pirca::shape::Polyhedron;
 use pirca::solve::explicit::{self, Simulation};
 use pirca::solve::implicit::{Equilibrium, Settings};
-use pirca::solve::{Equilibrate, Solver, Status};
+use pirca::solve::{Ahead, Equilibrate, Followed, Solver, Status, Way};
 
 use crate::fixture::{G, dry, on_floor, resting, stone, tilted};
 
@@ -57,6 +57,45 @@ fn the_block_on_an_elastic_bed_collapses_at_the_row_of_its_convention() {
         assert!(high - low < 0.0021);
         assert!(low > row - 0.02 && high < row + 0.02, "kn {kn:e}: {low} to {high} against {row}");
     }
+}
+
+/// Tilt (rad) at which a block on an elastic bed is in equilibrium with its base turned by `t`: the closed form of the row
+/// above, and beyond its maximum the branch on which it leans out further and bears less.
+fn tilt_at([b, h, w]: [f64; 3], kn: f64, t: f64) -> f64 {
+    // N depends on the tilt, so this is a fixed point; the load is that of a metre of wall.
+    (0..200).fold(0.2, |a, _| {
+        let n = w * cos(a + t);
+        let compressed = (2.0 * n / (kn * t)).sqrt();
+        let e = if compressed >= b { kn * t * b * b * b / (12.0 * n) } else { 0.5 * b - compressed / 3.0 };
+        atan(e / h) - t
+    })
+}
+
+#[test]
+fn the_path_is_followed_through_its_limit_point_and_down_beyond() {
+    let (b, h, w, kn) = (0.15, 0.1875, 889.0, 5e7);
+    let wall = on_floor(vec![resting([1.0, b, 2.0 * h], w / (G * b * 2.0 * h))]);
+    let law = dry(kn, 80.0);
+    let from = radians(10.0);
+    let start = at_rest(&wall, &law, [2, 2], tilted(10.0));
+    let loads = |level: f64| (tilted(degrees(level)), 1.0);
+    let bracket = radians(0.002);
+    let ahead = Ahead { loads: &loads, from, to: radians(40.0), far: 0.03, bracket };
+    let Some(Followed { level, way: Way::Falls { above, at, bodies, .. }, .. }) = start.follow(&ahead) else {
+        panic!("the path turns")
+    };
+    let limit = (1..4000).map(|k| tilt_at([b, h, w], kn, 1e-5 * f64::from(k))).fold(0.0, f64::max);
+    println!("{:.4} to {:.4} against {:.4} deg", degrees(level), degrees(above), degrees(limit));
+    // The closed form lets the pressure act across the base, the block's own lies in the turned face: second order in t.
+    let second_order = radians(0.02);
+    assert!(above - level <= bracket && level < limit + second_order && above > limit - second_order);
+    // Down the path the block leans by t and stands at the tilt of the closed form.
+    let built = Equilibrium::new(&wall, &law, exact(), contact::Settings::for_size(0.2, [2, 2]));
+    let turned = bodies.all[0].rotation * built.assembly().bodies.all[0].rotation.transpose();
+    let t = asin(turned[(1, 2)]);
+    let closed_form = tilt_at([b, h, w], kn, t);
+    println!("{:.4} against {:.4} deg at t = {:.3} deg", degrees(at), degrees(closed_form), degrees(t));
+    assert!(at < level - radians(1.0) && (at - closed_form).abs() < second_order);
 }
 
 fn stack(blocks: u32) -> Wall {
@@ -257,6 +296,7 @@ fn path<'t>(wall: &'t Wall, law: &'t Coulomb, path: LoadPath) -> Task<'t> {
         laws: law,
         contact: contact::Settings::for_size(0.2, [2, 2]),
         loads: Vec::new(),
+        ties: Vec::new(),
         path,
         criterion: Criterion::AnyBlock(0.04),
         confirmation: Confirmation::for_thickness(0.4),

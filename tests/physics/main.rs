@@ -14,6 +14,7 @@ mod limit_known;
 mod limit_random;
 mod objectivity;
 mod pressure;
+mod ropes;
 mod shapes;
 mod table;
 mod tilting;

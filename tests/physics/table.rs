@@ -264,6 +264,7 @@ fn a_horizontal_force_slides_a_block_at_mu() {
         laws: &law,
         contact: contact::Settings::for_size(0.25, [2, 2]),
         loads: Vec::new(),
+        ties: Vec::new(),
         path: LoadPath::multiplier(Direction::XMinus, 0.1, 10.0, 1e-3),
         criterion: Criterion::AnyBlock(0.04),
         confirmation: Confirmation::for_thickness(0.4),

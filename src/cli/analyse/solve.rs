@@ -36,6 +36,7 @@ pub(crate) fn law(arguments: &Analyse) -> Coulomb {
         cohesion: arguments.cohesion,
         tension: 0.0,
         cohesion_after_slip: CohesionAfterSlip::Kept,
+        weakening: None,
         sampling: Sampling::Area,
         bonded: false,
     }
@@ -73,6 +74,7 @@ fn task<'t>(arguments: &Analyse, wall: &'t Wall, law: &'t Coulomb, fit: &Fit) ->
         // Gaps are rounding for rigid blocks only: springs close them.
         contact: contact::Settings { touch: fit.rounding, ..fit.contact },
         loads: Vec::new(),
+        ties: Vec::new(),
         path,
         criterion: Criterion::AnyBlock(RUNS_AWAY * fit.thickness),
         confirmation: Confirmation::for_thickness(fit.thickness),

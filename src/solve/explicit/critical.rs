@@ -5,12 +5,14 @@
 //! `omega^2 <= 2 max_block lambda_max(M^-1 K_block)`, with the 6 x 6 stiffness of a block against fixed neighbours,
 //! and Gershgorin's row sums bound lambda_max. Central differences are stable for `dt <= 2 / omega`.
 
+use crate::math::Vec3;
+use crate::solve::Held;
 use crate::solve::bodies::{Bodies, Body};
 use crate::solve::gershgorin::RowSums;
 use crate::solve::joints::{Joint, Joints};
 
-/// Bounds of `lambda_max(M^-1 K)` (1/s^2) per body, with its true mass and inertia; 0 for a body without joints.
-pub fn block_bounds(bodies: &Bodies, joints: &Joints) -> Vec<f64> {
+/// Bounds of `lambda_max(M^-1 K)` (1/s^2) per body, with its true mass and inertia; 0 for a body without joints and ties.
+pub fn block_bounds(bodies: &Bodies, joints: &Joints, ties: &[Held]) -> Vec<f64> {
     let mut stiffness = vec![RowSums::default(); bodies.all.len()];
     for joint in &joints.all {
         for index in [joint.incident as usize, joint.reference as usize] {
@@ -18,6 +20,13 @@ pub fn block_bounds(bodies: &Bodies, joints: &Joints) -> Vec<f64> {
             if body.moves() {
                 add_joint(&mut stiffness[index], body, joint, &bodies.all);
             }
+        }
+    }
+    for tie in ties {
+        let body = &bodies.all[tie.tie.body];
+        if body.moves() {
+            let (lever, axis) = tie.own(body);
+            stiffness[tie.tie.body].add_spring(body, &lever, &axis, tie.tie.stiffness);
         }
     }
     stiffness.iter().map(RowSums::bound).collect()
@@ -28,13 +37,14 @@ fn add_joint(k: &mut RowSums, body: &Body, joint: &Joint, all: &[Body]) {
     let (centroid, normal) = joint.place(all);
     let [(along_s, s), (along_t, t)] = joint.levers(all);
     let area = joint.area();
+    let local = |v: Vec3| body.rotation.tr_mul(&v);
     let kn = joint.law.normal.largest_stiffness() * area / 4.0;
     let ks = joint.law.ks * area / 4.0;
     // Four points with a quarter of the area each have the second moments of the sub-contacts.
     for (i, j) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
-        let lever = centroid + along_s * i + along_t * j - body.position;
+        let lever = local(centroid + along_s * i + along_t * j - body.position);
         for (axis, stiffness) in [(normal, kn), (s, ks), (t, ks)] {
-            k.add_spring(body, &lever, &axis, stiffness);
+            k.add_spring(body, &lever, &local(axis), stiffness);
         }
     }
 }

@@ -15,9 +15,10 @@ pub fn step(grains: &Grains) -> f64 {
         let id = spheres.body[sphere as usize] as usize;
         let body = &grains.bodies[id];
         let frame = Frame::on_plane(*at, *normal);
-        let lever = at - body.position;
+        let local = |v: Vec3| body.rotation.tr_mul(&v);
+        let lever = local(at - body.position);
         for (axis, k) in [(frame.normal, kn), (frame.s, ks), (frame.t, ks)] {
-            stiffness[id].add_spring(body, &lever, &axis, k);
+            stiffness[id].add_spring(body, &lever, &local(axis), k);
         }
     };
     for contact in &grains.contacts.pairs {

@@ -7,7 +7,7 @@ use crate::solve::bodies::Bodies;
 use crate::solve::implicit::loose::land;
 use crate::solve::implicit::newton::{Effort, Newton};
 use crate::solve::implicit::{Settings, System};
-use crate::solve::{Assembly, Equilibrate, Settled, Status};
+use crate::solve::{Ahead, Assembly, Equilibrate, Followed, Settled, Status};
 
 /// Rounds of looking for contacts anew and solving again at the same loads.
 const ROUNDS: u32 = 20;
@@ -52,8 +52,15 @@ impl<'a> Equilibrium<'a> {
         &self.loose
     }
 
+    /// The assembly and what it takes to solve for it.
+    pub(super) fn parts(
+        &mut self,
+    ) -> (&mut Assembly<'a>, &mut System, &Settings, &mut Effort, &mut Vec<u32>) {
+        (&mut self.assembly, &mut self.system, &self.settings, &mut self.effort, &mut self.loose)
+    }
+
     /// Equilibrium at the loads as they are: solves, looks for contacts anew, and solves again until none moves on.
-    fn solve(&mut self) -> (bool, f64) {
+    pub(super) fn solve(&mut self) -> (bool, f64) {
         let mut ratio = f64::INFINITY;
         for _ in 0..ROUNDS {
             if !land(&mut self.assembly) {
@@ -93,6 +100,10 @@ impl<'a> Equilibrate<'a> for Equilibrium<'a> {
 
     fn assembly_mut(&mut self) -> &mut Assembly<'a> {
         &mut self.assembly
+    }
+
+    fn follow(&self, ahead: &Ahead<'_>) -> Option<Followed<Self>> {
+        self.followed(ahead)
     }
 
     fn settle(&mut self, stop: &mut dyn FnMut(&Bodies) -> bool) -> Settled {

@@ -10,8 +10,10 @@
 //! `s` comes from a line search on `r . dx`. Elimination costs a hundred times what the forces cost, so a factorised
 //! K serves for as many steps as bring the residual down well.
 
+mod arc;
 mod elimination;
 mod equilibrium;
+mod follow;
 mod loose;
 mod newton;
 mod system;

@@ -9,7 +9,7 @@ use crate::solve::implicit::{Kind, Settings};
 use crate::solve::joints::Anchor;
 
 /// A residual that falls to less than this share in a step needs no new matrix.
-const GOOD_CONTRACTION: f64 = 0.3;
+pub(super) const GOOD_CONTRACTION: f64 = 0.3;
 /// A residual that does not even fall to this share with a matrix of its own counts as stuck.
 const POOR_CONTRACTION: f64 = 0.9;
 /// Steps in a row that may be stuck.
@@ -85,7 +85,7 @@ impl Newton<'_, '_> {
 
     /// The unbalanced force ratio that rounding alone may leave: positions are known to a unit in their last place, and
     /// stiff joints make forces of that.
-    fn rounding(&self) -> f64 {
+    pub(super) fn rounding(&self) -> f64 {
         let Assembly { bodies, joints, .. } = &*self.assembly;
         let furthest = bodies.all.iter().fold(0.0, |m: f64, b| m.max(b.position.amax() + b.radius));
         let (mut noise, mut carried) = (0.0, 0.0);
@@ -97,10 +97,14 @@ impl Newton<'_, '_> {
     }
 
     /// Assembles and factorises the matrix at the positions now.
-    fn factorise(&mut self) -> Option<Kind> {
+    pub(super) fn factorise(&mut self) -> Option<Kind> {
+        self.system.clear();
+        for tie in self.assembly.ties() {
+            let body = &self.assembly.bodies.all[tie.tie.body];
+            self.system.add_own(tie.tie.body, &tie.stiffness(body));
+        }
         let Assembly { bodies, joints, gravity, contact, .. } = &mut *self.assembly;
         let bodies = &bodies.all;
-        self.system.clear();
         let (mut slips, mut opens) = (false, false);
         joints.each_slope(bodies, self.anchors, |joint, slopes| {
             slips |= slopes.slips;
@@ -132,7 +136,7 @@ impl Newton<'_, '_> {
     }
 
     /// Unbalanced force and moment of every body.
-    fn residual(&mut self) -> Vec<f64> {
+    pub(super) fn residual(&mut self) -> Vec<f64> {
         self.effort.evaluations += 1;
         self.assembly.apply_loads();
         let Assembly { bodies, joints, .. } = &mut *self.assembly;
@@ -155,6 +159,15 @@ impl Newton<'_, '_> {
     /// The Newton step, shortened where a block would move too far.
     fn direction(&self, residual: &[f64]) -> Vec<f64> {
         let mut step = self.system.solve(residual);
+        let allowed = self.allowed(&step);
+        if allowed < 1.0 {
+            step.iter_mut().for_each(|x| *x *= allowed);
+        }
+        step
+    }
+
+    /// The share of a step that moves no block too far.
+    pub(super) fn allowed(&self, step: &[f64]) -> f64 {
         let longest = step.chunks_exact(DOF).zip(&self.assembly.bodies.all).fold(0.0, |m: f64, (u, body)| {
             m.max(
                 Vec3::from_column_slice(&u[..3]).norm()
@@ -162,10 +175,7 @@ impl Newton<'_, '_> {
             )
         });
         let allowed = LONGEST_STEP * self.assembly.contact.reach;
-        if longest > allowed {
-            step.iter_mut().for_each(|x| *x *= allowed / longest);
-        }
-        step
+        if longest > allowed { allowed / longest } else { 1.0 }
     }
 
     /// Goes along a step as far as the residual still points along it; the residual there.
@@ -212,7 +222,7 @@ impl Newton<'_, '_> {
     }
 
     /// Puts every body where a share of a step takes it.
-    fn place(&mut self, start: &[Body], step: &[f64], share: f64) {
+    pub(super) fn place(&mut self, start: &[Body], step: &[f64], share: f64) {
         for ((body, from), u) in self.assembly.bodies.all.iter_mut().zip(start).zip(step.chunks_exact(DOF)) {
             if from.moves() {
                 let shift = Vec3::from_column_slice(&u[..3]) * share;
@@ -223,12 +233,12 @@ impl Newton<'_, '_> {
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).fold(0.0, |sum, (x, y)| sum + x * y)
 }
 
 /// Size of a residual: moments count as forces at the radius of gyration.
-fn norm(residual: &[f64], bodies: &[Body]) -> f64 {
+pub(super) fn norm(residual: &[f64], bodies: &[Body]) -> f64 {
     let square = residual.chunks_exact(DOF).zip(bodies).fold(0.0, |sum, (r, body)| {
         let gyration = body.gyration();
         let (force, moment) = (Vec3::from_column_slice(&r[..3]), Vec3::from_column_slice(&r[3..]));

@@ -153,6 +153,15 @@ impl System {
         })
     }
 
+    /// Adds to the 6 x 6 block of a body with itself, by row and column.
+    pub fn add_own(&mut self, body: usize, what: &[[f64; DOF]; DOF]) {
+        for (row, entries) in what.iter().enumerate() {
+            for (column, value) in entries.iter().enumerate() {
+                self.values[self.own[body] + column * self.heights[body] + row] += value;
+            }
+        }
+    }
+
     /// Adds to the diagonal of a body.
     pub fn add_diagonal(&mut self, body: usize, what: [f64; DOF]) {
         for (k, value) in what.into_iter().enumerate() {

@@ -3,9 +3,9 @@
 use crate::contact::Cell;
 use crate::law::{Coulomb, Motion, NormalLaw, Pressed, Sampling, ShearSum, SubContact};
 use crate::math::Vec3;
-use crate::shape::Moments;
 use crate::solve::bodies::Body;
 use crate::solve::joints::joint::{Gap, Pose};
+use crate::solve::joints::pressure::{PressureSum, closure_energy, compressed, linear, pressure};
 use crate::solve::joints::{Anchor, Joint};
 
 /// Pressure and shear summed over a joint: forces and their first moments in the plane.
@@ -13,14 +13,6 @@ use crate::solve::joints::{Anchor, Joint};
 pub(super) struct Sums {
     pub pressure: PressureSum,
     pub shear: ShearSum,
-}
-
-/// Pressure integrated over a joint: the force and its first moments in the plane.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct PressureSum {
-    pub force: f64,
-    pub by_s: f64,
-    pub by_t: f64,
 }
 
 impl Joint {
@@ -102,12 +94,14 @@ impl Joint {
         let highest = self.polygon.vertices.iter().map(|v| gap.at(v)).fold(f64::NEG_INFINITY, f64::max);
         let closed = highest <= 0.0;
         let mut sum = PressureSum::default();
-        if closed && self.law.sampling == Sampling::Area {
+        if let (true, NormalLaw::Linear { kn }) =
+            (closed && self.law.sampling != Sampling::Vertices, self.law.normal)
+        {
             // All in compression: the whole polygon at once, and each cell's share.
-            sum = pressure(&self.law.normal, &self.whole, gap);
+            sum = linear(kn, &self.whole, gap);
             for cell in &self.cells {
                 let at = cell.moments.centroid();
-                let force = self.law.normal.stress(-gap.at(&at)) * cell.moments.area;
+                let force = kn * -gap.at(&at) * cell.moments.area;
                 pressed.push(Pressed { at, area: cell.moments.area, force });
             }
             return sum;
@@ -116,61 +110,23 @@ impl Joint {
             if self.law.holds(state) && !self.law.bonded && tears(&self.law, cell, gap) {
                 state.broken = true;
             }
-            let part = if self.law.holds(state) { cell.moments } else { compressed(cell, gap) };
-            let share = pressure(&self.law.normal, &part, gap);
+            let holds = self.law.holds(state);
+            let part = if holds { cell.moments } else { compressed(cell, gap) };
+            let share = pressure(&self.law.normal, cell, &part, gap, holds);
             pressed.push(Pressed { at: part.centroid(), area: part.area, force: share.force });
-            sum.force += share.force;
-            sum.by_s += share.by_s;
-            sum.by_t += share.by_t;
+            sum.add(&share);
         }
         sum
     }
 
     pub(super) fn closure_energy(&self, bodies: &[Body]) -> f64 {
         let gap = self.pose(bodies).gap;
-        let NormalLaw::Linear { kn } = self.law.normal;
-        self.cells
-            .iter()
-            .zip(&self.states)
-            .map(|(cell, state)| {
-                let m = if self.law.holds(state) { cell.moments } else { compressed(cell, &gap) };
-                let Gap { g0, gs, gt } = gap;
-                let square = g0 * g0 * m.area
-                    + 2.0 * g0 * (gs * m.s + gt * m.t)
-                    + gs * gs * m.ss
-                    + 2.0 * gs * gt * m.st
-                    + gt * gt * m.tt;
-                0.5 * kn * square
-            })
-            .sum()
-    }
-}
-
-/// Integrates the normal law over an area with the given integrals; exact for the linear law.
-pub(super) fn pressure(law: &NormalLaw, m: &Moments, gap: &Gap) -> PressureSum {
-    let Gap { g0, gs, gt } = *gap;
-    match law {
-        NormalLaw::Linear { kn } => PressureSum {
-            force: -kn * (g0 * m.area + gs * m.s + gt * m.t),
-            by_s: -kn * (g0 * m.s + gs * m.ss + gt * m.st),
-            by_t: -kn * (g0 * m.t + gs * m.st + gt * m.tt),
-        },
-    }
-}
-
-/// The part of a sub-contact in compression, by clipping it at zero gap;
-/// a point is in or out as a whole.
-pub(super) fn compressed(cell: &Cell, gap: &Gap) -> Moments {
-    if cell.outline.vertices.is_empty() {
-        return if gap.at(&cell.moments.centroid()) <= 0.0 { cell.moments } else { Moments::default() };
-    }
-    let open = cell.outline.vertices.iter().filter(|v| gap.at(v) > 0.0).count();
-    if open == 0 {
-        cell.moments
-    } else if open == cell.outline.vertices.len() {
-        Moments::default()
-    } else {
-        cell.outline.clip(gap.g0, gap.gs, gap.gt).moments()
+        let of = |(cell, state): (&Cell, &SubContact)| {
+            let holds = self.law.holds(state);
+            let part = if holds { cell.moments } else { compressed(cell, &gap) };
+            closure_energy(&self.law.normal, cell, &part, &gap, holds)
+        };
+        self.cells.iter().zip(&self.states).map(of).sum()
     }
 }
 

@@ -1,6 +1,6 @@
 //! One joint: its geometry in its bodies' own axes, where it is now, and what it takes over from its past.
 
-use crate::contact::{self, Cell, Patch, corners, divide};
+use crate::contact::{self, Cell, Patch, corners, divide, patches};
 use crate::law::{Coulomb, Sampling, SubContact};
 use crate::math::Vec3;
 use crate::shape::{Moments, Polygon};
@@ -24,7 +24,7 @@ pub struct Joint {
     plane_normal: Vec3,
     /// Distance (m) at which the faces begin to press; see [`contact::Settings::touch`].
     pub(super) touch: f64,
-    /// The polygon, and its integrals.
+    /// The polygon, and the integrals over it or over the patches of it that can touch.
     pub(super) polygon: Polygon,
     pub(super) whole: Moments,
     /// Sub-contacts, and what they remember.
@@ -76,6 +76,11 @@ impl Joint {
         let cells = match law.sampling {
             Sampling::Area => divide(&patch.polygon, settings.sub_contacts),
             Sampling::Vertices => corners(&patch.polygon),
+            Sampling::Patches(mask) => patches(&patch.polygon, mask),
+        };
+        let whole = match law.sampling {
+            Sampling::Area | Sampling::Vertices => patch.polygon.moments(),
+            Sampling::Patches(_) => total(&cells),
         };
         let on_plane = patch.frame.origin - patch.plane.normal * patch.plane.distance(&patch.frame.origin);
         Joint {
@@ -88,7 +93,7 @@ impl Joint {
             plane_point: r.rotation.tr_mul(&(on_plane - r.position)),
             plane_normal: r.rotation.tr_mul(&patch.plane.normal),
             touch: settings.touch,
-            whole: patch.polygon.moments(),
+            whole,
             polygon: patch.polygon.clone(),
             states: vec![SubContact::default(); cells.len()],
             cells,
@@ -165,12 +170,12 @@ impl Joint {
         !self.is_wide_open(&self.pose(bodies).gap)
     }
 
-    /// The area of the joint's polygon (m^2).
+    /// The area of the joint (m^2): of its polygon, or of the patches that can touch.
     pub fn area(&self) -> f64 {
         self.whole.area
     }
 
-    /// Centroid of the polygon in world coordinates (m), and the direction of the pressure on the incident body.
+    /// Centroid of its area in world coordinates (m), and the direction of the pressure on the incident body.
     pub fn place(&self, bodies: &[Body]) -> (Vec3, Vec3) {
         let pose = self.pose(bodies);
         let [s, t] = self.whole.centroid();
@@ -183,7 +188,7 @@ impl Joint {
     pub fn levers(&self, bodies: &[Body]) -> [(Vec3, Vec3); 2] {
         let pose = self.pose(bodies);
         let m = match self.law.sampling {
-            Sampling::Area => self.whole,
+            Sampling::Area | Sampling::Patches(_) => self.whole,
             Sampling::Vertices => total(&self.cells),
         };
         let (ss, st, tt) = (m.ss - m.s * m.s / m.area, m.st - m.s * m.t / m.area, m.tt - m.t * m.t / m.area);

@@ -2,6 +2,7 @@
 
 mod force;
 mod joint;
+mod pressure;
 mod slopes;
 #[cfg(test)]
 mod tests;

@@ -4,14 +4,16 @@
 //! (`base, by_s, by_t`), and through the pose that turns them into vectors. Both are differentiated exactly, in the
 //! direction of each of the twelve velocities of the two bodies. Pressure over the compressed part of a cell: its
 //! boundary moves with the gap, but no pressure acts there, so `d(N, Ns, Nt) = -kn M d(g0, gs, gt)` with the second
-//! moments `M` of the part; the area in contact itself changes by the moments of the cut.
+//! moments `M` of the part, weighted by the law's slope where that varies; the area in contact itself changes by the
+//! moments of the cut.
 
 use crate::contact::Cell;
-use crate::law::{Motion, NormalLaw, Pressed, PressedSlopes, ShearSlopes, SubContact};
+use crate::law::{Motion, Pressed, PressedSlopes, ShearSlopes, SubContact};
 use crate::math::Vec3;
 use crate::solve::bodies::Body;
-use crate::solve::joints::force::{Sums, compressed, pressure};
+use crate::solve::joints::force::Sums;
 use crate::solve::joints::joint::{Gap, Pose};
+use crate::solve::joints::pressure::{compressed, pressure, pressure_slopes};
 use crate::solve::joints::{Anchor, Joint};
 
 /// The negative derivatives of force and moment on the incident body and on the reference body (rows) with respect
@@ -100,28 +102,23 @@ impl Joint {
         for ((cell, state), earlier) in self.cells.iter().zip(&self.states).zip(&anchor.states) {
             let holds = self.law.holds(state);
             let part = if holds { cell.moments } else { compressed(cell, gap) };
-            let share = pressure(&self.law.normal, &part, gap);
-            sums.pressure.force += share.force;
-            sums.pressure.by_s += share.by_s;
-            sums.pressure.by_t += share.by_t;
-            let kn = stiffness(&self.law.normal);
-            let rows = [[part.area, part.s, part.t], [part.s, part.ss, part.st], [part.t, part.st, part.tt]];
+            let share = pressure(&self.law.normal, cell, &part, gap, holds);
+            sums.pressure.add(&share);
+            let rows = pressure_slopes(&self.law.normal, cell, &part, gap, holds);
             for (total, row) in slopes.pressure.iter_mut().zip(rows) {
-                for (sum, moment) in total.iter_mut().zip(row) {
-                    *sum -= kn * moment;
-                }
+                total.iter_mut().zip(row).for_each(|(sum, slope)| *sum -= slope);
             }
             let load = Pressed { at: part.centroid(), area: part.area, force: share.force };
             let cut = part.area < cell.moments.area && part.area > 0.0;
             let area = if cut { cut_moments(cell, gap) } else { [[0.0; 3]; 3] };
-            let by_gap = PressedSlopes { area, force: [-kn * part.area, -kn * part.s, -kn * part.t] };
+            let by_gap = PressedSlopes { area, force: rows[0].map(|slope| -slope) };
             let was = SubContact { broken: state.broken, ..*earlier };
             slopes.slips |= self.law.add_shear_slopes(
                 &was,
                 &load,
                 &by_gap,
                 motion,
-                2.0 * kn * self.touch,
+                2.0 * self.law.normal.first_stiffness() * self.touch,
                 &mut slopes.shear,
             );
             slopes.opens |= cut;
@@ -198,12 +195,6 @@ impl Geometry<'_> {
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).fold(0.0, |sum, (x, y)| sum + x * y)
-}
-
-/// Slope of a linear normal law (Pa/m).
-fn stiffness(law: &NormalLaw) -> f64 {
-    let NormalLaw::Linear { kn } = law;
-    *kn
 }
 
 /// How the area in contact of a cell and its first moments (rows) change with the gap `g0, gs, gt` (columns): minus

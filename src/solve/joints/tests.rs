@@ -1,7 +1,7 @@
 //! The tangent of a joint against finite differences of its forces.
 
 use crate::contact;
-use crate::law::{CohesionAfterSlip, Coulomb, NormalLaw, Sampling};
+use crate::law::{CohesionAfterSlip, Coulomb, NormalLaw, Sampling, Weakening};
 use crate::math::Vec3;
 use crate::model::{Block, Support, Tag, Wall};
 use crate::shape::Polyhedron;
@@ -15,6 +15,7 @@ const DRY: Coulomb = Coulomb {
     cohesion: 0.0,
     tension: 0.0,
     cohesion_after_slip: CohesionAfterSlip::Kept,
+    weakening: None,
     sampling: Sampling::Area,
     bonded: false,
 };
@@ -106,12 +107,23 @@ fn the_tangent_is_that_of_finite_differences() {
     let rough = Coulomb { tan_phi: 50.0, ..DRY };
     let cohesive = Coulomb { cohesion: 3e3, tension: 2e3, ..DRY };
     let vertices = Coulomb { sampling: Sampling::Vertices, ..DRY };
+    let patches = Coulomb { sampling: Sampling::Patches(0b0110_1001_1011_0101), ..rough };
+    let weak = |distance| Coulomb { weakening: Some(Weakening { residual: 0.4, distance }), ..DRY };
     let cases = [
         ("closed", DRY, press(2e-5, [3e-6, 5e-6], [2e-5, 1e-5, 3e-5]), [false, false]),
         ("partly open", rough, press(-5e-5, [3e-6, 5e-6], [9e-4, 4e-4, 3e-5]), [false, true]),
         ("slipping", DRY, press(2e-5, [3e-3, 5e-3], [2e-5, 1e-5, 3e-3]), [true, false]),
         ("slipping and partly open", DRY, press(-5e-5, [3e-3, 5e-3], [9e-4, 4e-4, 3e-3]), [true, true]),
         ("cohesive, slipping", cohesive, press(2e-5, [3e-3, -5e-3], [2e-5, 1e-5, 3e-3]), [true, false]),
+        ("weakening", weak(2e-2), press(2e-5, [3e-3, 5e-3], [2e-5, 1e-5, 3e-3]), [true, false]),
+        ("weakened", weak(1e-3), press(2e-5, [3e-3, 5e-3], [2e-5, 1e-5, 3e-3]), [true, false]),
+        (
+            "weakening and partly open",
+            weak(2e-2),
+            press(-5e-5, [3e-3, 5e-3], [9e-4, 4e-4, 3e-3]),
+            [true, true],
+        ),
+        ("patches partly open", patches, press(-5e-5, [3e-6, 5e-6], [9e-4, 4e-4, 3e-5]), [false, true]),
         ("at vertices", vertices, press(-5e-5, [3e-6, 5e-6], [9e-4, 4e-4, 3e-5]), [false, false]),
         (
             "bonded",
@@ -126,5 +138,22 @@ fn the_tangent_is_that_of_finite_differences() {
         // Third differences: the cut moves by the step over the size of the lean, 1e-8 over some 1e-5 of the joint.
         assert!(error < 5e-6, "{name}: {error:.1e}");
         assert_eq!((found_slips, found_opens), (slips, opens), "{name}");
+    }
+}
+
+#[test]
+fn the_tangent_of_a_hyperbola_is_that_of_its_law() {
+    let settled = press(1e-4, [1e-5, -2e-5], [1e-4, -2e-4, 5e-5]);
+    let soft = NormalLaw::Hyperbolic { kn: 1e8, initial: 2e7, closure: 1e-4 };
+    let rough = Coulomb { normal: soft, tan_phi: 50.0, ..DRY };
+    for (name, law, way) in [
+        ("closed", Coulomb { normal: soft, ..DRY }, press(2e-5, [3e-6, 5e-6], [2e-5, 1e-5, 3e-5])),
+        ("partly open", rough, press(-5e-5, [3e-6, 5e-6], [9e-4, 4e-4, 3e-5])),
+        ("slipping", Coulomb { normal: soft, ..DRY }, press(2e-5, [3e-3, 5e-3], [2e-5, 1e-5, 3e-3])),
+    ] {
+        let (error, ..) = error(&law, &settled, &way);
+        println!("{name}: {error:.1e}");
+        // The slope of the law by quadrature is not the slope of the quadrature: they differ by its error.
+        assert!(error < 1e-3, "{name}: {error:.1e}");
     }
 }

@@ -3,9 +3,10 @@
 use crate::contact;
 use crate::math::Vec3;
 use crate::model::{JointLaws, Level, Outcome, Wall};
+use crate::solve::Tie;
 use crate::solve::limit::audit::audit;
 use crate::solve::limit::collapse::{mechanism, thrust};
-use crate::solve::limit::interfaces::Blocks;
+use crate::solve::limit::interfaces::{Blocks, Rope};
 use crate::solve::limit::loads::{When, Wrench};
 use crate::solve::limit::program::{Program, Solved, axes};
 use crate::solve::limit::strength::Strength;
@@ -30,6 +31,7 @@ const ALL: f64 = 1.0 - 1e-6;
 ///     cohesion: 0.0,
 ///     tension: 0.0,
 ///     cohesion_after_slip: CohesionAfterSlip::Kept,
+///     weakening: None,
 ///     sampling: Sampling::Area,
 ///     bonded: false,
 /// };
@@ -132,6 +134,15 @@ impl Analysis {
         let blocks = Blocks::of(wall, laws, &contact, settings.closed_gap);
         let strengths = blocks.points().map(|(joint, point)| Strength::of(&joint.law, point.area)).collect();
         Analysis { blocks, strengths, settings }
+    }
+
+    /// The same blocks with ties, which are ropes that do not stretch: each bears any pull. Stiffness, pretension and slack
+    /// play no part; a rope that is slack at first holds as if it were taut, so that the multiplier stays an upper bound.
+    pub fn with_ties(mut self, ties: &[Tie]) -> Self {
+        let rope =
+            |t: &Tie| Rope { block: t.body, at: t.point, direction: t.direction, two_sided: t.two_sided };
+        self.blocks.ties = ties.iter().map(rope).collect();
+        self
     }
 
     /// Number of joints between blocks that touch.

@@ -60,6 +60,9 @@ fn residual(program: &Program, solved: &Solved) -> f64 {
         sums[i].add(at - blocks.rigid[i].centroid, force);
         sums[r].add(at - blocks.rigid[r].centroid, -force);
     }
+    for (rope, pull) in blocks.ties.iter().zip(&solved.pulls) {
+        sums[rope.block].add(rope.at - blocks.rigid[rope.block].centroid, rope.direction * -pull);
+    }
     let left = |(block, sum): (&crate::solve::limit::interfaces::Rigid, &Wrench)| {
         let (f, m) = (sum.force, sum.moment / block.radius);
         match block.support {
@@ -85,10 +88,11 @@ pub(crate) fn world_forces<'a>(
         })
 }
 
-/// Largest excess of a contact force over the given strengths, over the unit of force.
+/// Largest excess of a contact force over the given strengths, or push of a rope that cannot push, over the unit of force.
 pub(crate) fn excess(strengths: &[Strength], program: &Program, solved: &Solved) -> f64 {
     let over = strengths.iter().zip(&solved.forces).map(|(s, f)| s.excess(*f, program.cone));
-    largest(over) / program.blocks.unit
+    let ropes = program.blocks.ties.iter().zip(&solved.pulls).filter(|(rope, _)| !rope.two_sided);
+    largest(over.chain(ropes.map(|(_, pull)| (-pull).max(0.0)))) / program.blocks.unit
 }
 
 /// Power dissipated at the joints (W), and the largest breach of the flow rule over the mechanism's largest velocity.
@@ -108,6 +112,10 @@ fn flow_rule(program: &Program, solved: &Solved) -> (f64, f64) {
             incompatible = incompatible.max(cost.incompatibility);
             fastest = fastest.max(at(joint.incident, point.at).norm());
         }
+    }
+    for rope in &blocks.ties {
+        let along = at(rope.block, rope.at).dot(&rope.direction);
+        incompatible = incompatible.max(if rope.two_sided { along.abs() } else { along });
     }
     (power, if fastest > 0.0 { incompatible / fastest } else { 0.0 })
 }

@@ -39,11 +39,23 @@ pub(crate) struct ContactPoint {
     pub area: f64,
 }
 
-/// The blocks of a wall and their joints.
+/// A tie as rigid blocks see it: its point cannot go along the direction, nor against it if it is two-sided. What it pulls
+/// with as built, its stiffness and its slack play no part.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rope {
+    pub block: usize,
+    pub at: Vec3,
+    pub direction: Vec3,
+    pub two_sided: bool,
+}
+
+/// The blocks of a wall, their joints and their ropes.
 #[derive(Clone, Debug)]
 pub(crate) struct Blocks {
     pub rigid: Vec<Rigid>,
     pub interfaces: Vec<Interface>,
+    /// Ropes: a pull of any size.
+    pub ties: Vec<Rope>,
     /// Mean weight of the blocks that move under standard gravity (N): the unit of force.
     pub unit: f64,
 }
@@ -95,7 +107,7 @@ impl Blocks {
         let moving: Vec<f64> = rigid.iter().filter(|r| r.moves()).map(|r| r.mass).collect();
         let mean = moving.iter().sum::<f64>() / moving.len().max(1) as f64;
         let unit = if mean > 0.0 { mean * crate::solve::STANDARD_GRAVITY } else { 1.0 };
-        Blocks { rigid, interfaces, unit }
+        Blocks { rigid, interfaces, ties: Vec::new(), unit }
     }
 
     /// The dead or the live loads on every block.

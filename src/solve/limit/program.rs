@@ -1,4 +1,4 @@
-//! The conic program: sparse equilibrium, strength of every contact point, a cap on the multiplier; solved by clarabel
+//! The conic program: sparse equilibrium, strength of every contact point, pulls of the ropes, a cap on the multiplier; solved by clarabel
 //! (Goulart and Chen 2024) on one thread: the same bits on the same machine.
 //!
 //! Unknowns are the multiplier and the contact forces over the unit of force (the blocks' mean weight); moments are divided
@@ -36,6 +36,8 @@ pub(crate) struct Solved {
     pub multiplier: f64,
     /// Force (N) on the incident block at every contact point: along the normal and the two in-plane axes.
     pub forces: Vec<[f64; 3]>,
+    /// Pull (N) of every rope.
+    pub pulls: Vec<f64>,
     /// Velocity and spin of every block; scaled so that the live loads have the power 1 W, unless the cap holds.
     pub velocities: Vec<Wrench>,
     pub iterations: u32,
@@ -126,9 +128,11 @@ impl Program<'_> {
     pub fn solve(&self) -> Solved {
         let (first, equations) = first_rows(self.blocks);
         let columns = self.columns();
-        let unknowns = 1 + columns.iter().map(|c| c.1).sum::<usize>();
+        let ropes = 1 + columns.iter().map(|c| c.1).sum::<usize>();
+        let unknowns = ropes + self.blocks.ties.len();
         let mut matrix = self.equilibrium(&first, equations, &columns);
-        let cones = self.strength(&mut matrix, &columns, equations);
+        self.pull(&mut matrix, &first, ropes);
+        let cones = self.strength(&mut matrix, &columns, equations, ropes);
         let mut objective = vec![0.0; unknowns];
         objective[0] = -1.0;
         let Matrix { rows, columns: at, values, right } = matrix;
@@ -142,6 +146,7 @@ impl Program<'_> {
         Solved {
             multiplier: x[0],
             forces: self.forces(x, &columns),
+            pulls: x[ropes..].iter().map(|pull| pull * self.blocks.unit).collect(),
             velocities: self.velocities(z, &first),
             iterations: solver.solution.iterations,
             status: solver.solution.status,
@@ -212,18 +217,34 @@ impl Program<'_> {
         matrix
     }
 
-    /// Rows of the cap and of the strengths; returns all cones.
+    /// Adds the ropes' pulls, whose columns begin at `ropes`, to the equilibrium.
+    fn pull(&self, matrix: &mut Matrix, first: &[Option<usize>], ropes: usize) {
+        for (k, rope) in self.blocks.ties.iter().enumerate() {
+            let Some(row) = first[rope.block] else { continue };
+            let block = &self.blocks.rigid[rope.block];
+            let mut wrench = Wrench::default();
+            wrench.add(rope.at - block.centroid, -rope.direction);
+            let (values, n) = components(block.support, &wrench, block.radius);
+            (0..n).for_each(|r| matrix.add(row + r, ropes + k, values[r]));
+        }
+    }
+
+    /// Rows of the cap, of the strengths and of the ropes; returns all cones.
     fn strength(
         &self,
         matrix: &mut Matrix,
         columns: &[(usize, usize)],
         equations: usize,
+        ropes: usize,
     ) -> Vec<SupportedConeT<f64>> {
         matrix.row(&[(0, 1.0)], self.cap);
         let points = || self.strengths.iter().zip(columns.iter()).filter(|(s, _)| !s.bonded);
         let unit = self.blocks.unit;
         for (s, &(n, _)) in points().filter(|(s, _)| s.needs_least()) {
             matrix.row(&[(n, -1.0)], -s.least / unit);
+        }
+        for (k, _) in self.blocks.ties.iter().enumerate().filter(|(_, rope)| !rope.two_sided) {
+            matrix.row(&[(ropes + k, -1.0)], 0.0);
         }
         let mut cones = vec![ZeroConeT(equations)];
         match self.cone {

@@ -1,8 +1,10 @@
 //! Every key of study.toml, published.toml and the files below `distributions`: name, kind, unit, range, default, meaning.
 //! What is done to a wall, and by which solver, is in `run`.
 
+mod elements;
 mod run;
 
+pub use elements::{ELEMENT, ELEMENT_STUDY, ELEMENTS_PUBLISHED, REPORTED};
 pub use run::SOLVER;
 
 use crate::study::keys::run::{LOAD, RESTRAINT};

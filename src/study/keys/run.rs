@@ -1,6 +1,6 @@
 //! Keys of what is done to a wall: load, restraint, solver.
 
-use crate::study::keys::real;
+use crate::study::keys::{SIZE, real};
 use crate::study::schema::Presence::{Default, Optional, Required};
 use crate::study::schema::{Interval, Key, Kind, Section};
 
@@ -137,9 +137,45 @@ pub static RESTRAINT: Section = Section {
         ),
         Key::new(
             "ends",
-            Kind::Choice(&["free", "fixed_end_blocks", "out_of_plane", "joint_springs"]),
+            Kind::Choice(&["free", "fixed_end_blocks", "out_of_plane", "joint_springs", "ropes"]),
             Required,
-            "The ends: free; against fixed blocks by ordinary joints; held out of plane; by springs that do not open.",
+            "The ends: free; against fixed blocks by ordinary joints; held out of plane; by springs that do not open; \
+             by ropes across the downhill face.",
+        ),
+        Key::new("rope", Kind::Table(&ROPE), Optional, "The ropes, where ends = \"ropes\"."),
+    ]],
+};
+
+static ROPE: Section = Section {
+    title: "[restraint.rope]",
+    doc: "Ropes down the downhill face near both ends: each stone that one crosses is held by a tie of its own. Limit \
+          analysis takes them as rigid.",
+    chooser: None,
+    keys: &[&[
+        Key::new(
+            "stiffness_n_per_m",
+            real("N/m", Interval::above(0.0, 1e12)),
+            Required,
+            "Stiffness per course and end.",
+        ),
+        Key::new(
+            "pretension_n",
+            real("N", Interval::closed(0.0, 1e6)),
+            Default("0"),
+            "Force per course and end as built.",
+        ),
+        Key::new(
+            "slack_m",
+            real("m", Interval::closed(0.0, 1.0)),
+            Default("0"),
+            "Displacement of a stone before the rope resists.",
+        ),
+        Key::new("from_end_m", real("m", SIZE), Default("0.05"), "Distance from the wall's ends."),
+        Key::new(
+            "sides",
+            Kind::Choice(&["pull", "both"]),
+            Default("\"pull\""),
+            "Whether they only pull, or push as well.",
         ),
     ]],
 };

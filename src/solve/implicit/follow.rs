@@ -1,0 +1,203 @@
+//! The path of equilibria followed through its limit point, by arc length (E. Riks, 1979; M. A. Crisfield, 1981).
+//!
+//! Where the load can grow no further the path turns: further along it the wall leans out more and bears less. Unknown are
+//! the positions and the level of the load, and one more equation says how far a step goes along a direction `t`:
+//!
+//! ```text
+//! r(x, l) = 0,   t . W (x - x0) = s        K dx = r + q dl,   q = dr/dl        W: shares of the mass, so s is a mean displacement
+//! ```
+
+use crate::solve::bodies::Body;
+use crate::solve::implicit::arc::Arc;
+use crate::solve::implicit::newton::Newton;
+use crate::solve::implicit::{Equilibrium, System};
+use crate::solve::{Ahead, Equilibrate, Followed, Way};
+
+/// Steps along the path before the search is given up.
+const MOST_STEPS: u32 = 80;
+/// A step that does not converge is halved this often before the search is given up.
+const MOST_HALVINGS: u32 = 6;
+/// Growth of a step after one that converged within so many iterations.
+const GROWTH: f64 = 1.6;
+const GOOD: u32 = 12;
+/// First step as a share of the way to the level asked for, and longest one as a share of how far a fall is followed.
+const FIRST: f64 = 0.5;
+const LONGEST: f64 = 0.25;
+/// A path that is lost on the way down has been seen for this share of how far a fall is followed, or tells nothing: walls
+/// that slide chatter from joint to joint.
+const ENOUGH: f64 = 0.2;
+/// Unbalanced force ratio on the way down, which only tells a fall from a jump.
+const ROUGH: f64 = 1e-5;
+/// After a peak that is not bracketed yet, steps are shortened to this share of the one that passed it.
+const SHORTER: f64 = 0.4;
+
+/// A state on the path.
+#[derive(Clone)]
+struct State<'a> {
+    at: Equilibrium<'a>,
+    level: f64,
+    ratio: f64,
+    /// Direction in which the path goes on, of unit length.
+    along: Vec<f64>,
+    /// Growth of the level per length that way.
+    slope: f64,
+    stable: bool,
+    /// Length of the step that led here, and its iterations.
+    length: f64,
+    iterations: u32,
+}
+
+impl<'a> Equilibrium<'a> {
+    /// Follows the path from this state at rest: up to the level that is asked for, or through a limit point below it as far
+    /// down as tells a fall from a jump. `None` where the path is lost, or loses its stability without a limit point.
+    pub(super) fn followed(&self, ahead: &Ahead<'_>) -> Option<Followed<Self>> {
+        let mut highest = State::at_rest(self, ahead)?;
+        let longest = LONGEST * ahead.far;
+        let mut length = (FIRST * (ahead.to - ahead.from) / highest.slope).min(longest);
+        let mut state = highest.clone();
+        // The peak's upper bound, once the path has passed it.
+        let mut above = None;
+        for _ in 0..MOST_STEPS {
+            let Some(next) = state.next(ahead, length, above.is_some()) else {
+                return above.and_then(|above| state.fallen(highest, above, ENOUGH * ahead.far));
+            };
+            if next.level > highest.level && next.slope > 0.0 {
+                // One sign alone may come from a sub-contact at the corner of its law.
+                if !next.stable && !state.stable {
+                    return None;
+                }
+                if above.take().is_some() {
+                    // Found roughly on the way down, and exactly from before on.
+                    state = highest.clone();
+                    length = next.at.moved_since(&highest.at).min(longest);
+                    continue;
+                }
+                highest = next.clone();
+                if highest.level >= ahead.to {
+                    return Some(state.at_level(ahead).unwrap_or_else(|| highest.ended(Way::Stands)));
+                }
+            }
+            let is_past = next.slope <= 0.0 || next.level < state.level;
+            if is_past && above.is_none() {
+                let peak = state.peak(&next);
+                if peak - highest.level > ahead.bracket {
+                    // Once more from before the peak, in shorter steps.
+                    length = SHORTER * next.length;
+                    state = highest.clone();
+                    continue;
+                }
+                above = Some(peak);
+            }
+            if let Some(above) = above
+                && next.at.moved_since(&highest.at) > ahead.far
+            {
+                return next.fallen(highest, above, ahead.far);
+            }
+            let growth = if next.iterations <= GOOD { GROWTH } else { 1.0 };
+            length = (growth * next.length).min(longest);
+            state = next;
+        }
+        None
+    }
+
+    /// Largest displacement of a block's centroid since another state (m).
+    fn moved_since(&self, other: &Self) -> f64 {
+        let (now, then) = (&self.assembly().bodies.all, &other.assembly().bodies.all);
+        let square = |(a, b): (&Body, &Body)| (a.position - b.position).norm_squared();
+        now.iter().zip(then).map(square).fold(0.0, f64::max).sqrt()
+    }
+
+    /// Goes a length along a direction; the step and what it took.
+    fn step_along(
+        &mut self,
+        ahead: &Ahead<'_>,
+        from: f64,
+        along: &[f64],
+        length: f64,
+        rough: bool,
+    ) -> Option<Arc> {
+        let (assembly, system, settings, effort, loose) = self.parts();
+        if !system.fits(&assembly.joints) {
+            *system = System::new(&assembly.bodies.all, &assembly.joints);
+        }
+        let anchors = assembly.joints.anchors(&assembly.bodies.all);
+        let ratio = if rough { ROUGH.max(settings.unbalanced_ratio) } else { settings.unbalanced_ratio };
+        Newton { assembly, system, anchors: &anchors, settings, effort, loose }.along(
+            ahead.loads,
+            from,
+            along,
+            length,
+            ratio,
+        )
+    }
+}
+
+impl<'a> State<'a> {
+    /// At rest where the path begins.
+    fn at_rest(at: &Equilibrium<'a>, ahead: &Ahead<'_>) -> Option<Self> {
+        let mut at = at.clone();
+        let here = at.step_along(ahead, ahead.from, &[], 0.0, true)?;
+        Some(State::of(at, here))
+    }
+
+    fn of(at: Equilibrium<'a>, arc: Arc) -> Self {
+        let Arc { level, ratio, along, slope, stable, length, iterations } = arc;
+        State { at, level, ratio, along, slope, stable, length, iterations }
+    }
+
+    /// At rest at the very level that was asked for, from a state not far below it.
+    fn at_level(&self, ahead: &Ahead<'_>) -> Option<Followed<Equilibrium<'a>>> {
+        let mut at = self.at.clone();
+        let (gravity, factor) = (ahead.loads)(ahead.to);
+        at.set_loads(gravity, factor);
+        let (solved, ratio) = at.solve();
+        solved.then(|| Followed { rest: at, level: ahead.to, ratio, way: Way::Stands })
+    }
+
+    /// The fall that began at the highest state, seen as far as here; `None` where that is not far enough (m).
+    fn fallen(self, highest: State<'a>, above: f64, enough: f64) -> Option<Followed<Equilibrium<'a>>> {
+        if self.level >= highest.level || self.at.moved_since(&highest.at) <= enough {
+            return None;
+        }
+        let bodies = Box::new(self.at.into_assembly().bodies);
+        Some(highest.ended(Way::Falls { above, at: self.level, ratio: self.ratio, bodies }))
+    }
+
+    fn ended(self, way: Way) -> Followed<Equilibrium<'a>> {
+        Followed { rest: self.at, level: self.level, ratio: self.ratio, way }
+    }
+
+    /// The level at which the tangents of the path here and at a later state, past the peak, meet: an upper bound of a peak
+    /// that is rounded like a hill.
+    fn peak(&self, after: &State<'_>) -> f64 {
+        let (rise, gone) = (self.slope.max(0.0), after.length);
+        let highest = self.level.max(after.level);
+        // At a corner of the path the slope behind it says nothing of the way to it.
+        let fall = if after.slope < 0.0 { -after.slope } else { f64::INFINITY };
+        if fall.is_infinite() || rise + fall <= 0.0 {
+            return highest.max(self.level + rise * gone);
+        }
+        let meet = ((after.level - self.level + fall * gone) / (rise + fall)).clamp(0.0, gone);
+        (self.level + rise * meet).max(highest)
+    }
+
+    /// The next state along the path; a step that does not converge is halved.
+    fn next(&self, ahead: &Ahead<'_>, mut length: f64, rough: bool) -> Option<Self> {
+        for _ in 0..=MOST_HALVINGS {
+            let mut at = self.at.clone();
+            if let Some(arc) = at.step_along(ahead, self.level, &self.along, length, rough) {
+                if !at.assembly().has_moved() {
+                    return Some(State::of(at, arc));
+                }
+                // Contacts are found anew, and the state found again beside them.
+                at.assembly_mut().refresh();
+                if let Some(again) = at.step_along(ahead, arc.level, &arc.along, 0.0, rough) {
+                    let iterations = arc.iterations + again.iterations;
+                    return Some(State::of(at, Arc { length: arc.length, iterations, ..again }));
+                }
+            }
+            length *= 0.5;
+        }
+        None
+    }
+}
