@@ -91,6 +91,7 @@
 //! | [`protocol`] | load paths (lateral, tilting), restraint, what is observed, when a collapse is confirmed |
 //! | [`study`] | text to checked studies, every fault at once |
 //! | [`ensemble`] | plan, run in parallel, record, resume |
+//! | [`critic`] | measured beside simulated; the joint stiffness that measured collapse angles speak for |
 //! | [`report`] | summary, comparison with published statements, table, figure, VTU |
 //! | [`cli`] | arguments, messages, exit codes; `analyse` solves walls from files |
 //!
@@ -100,6 +101,7 @@
 
 pub mod cli;
 pub mod contact;
+pub mod critic;
 pub mod ensemble;
 pub mod exchange;
 pub mod generate;

@@ -1,5 +1,7 @@
 //! `pirca check`: everything that is wrong with a study, without running it.
 
+use std::collections::BTreeSet;
+
 use serde_json::json;
 
 use crate::cli::arguments::Check;
@@ -43,6 +45,8 @@ pub(crate) fn check(arguments: &Check) -> Result<(), Failure> {
                 "kn_pa_per_m": arm.kn_points,
             })).collect::<Vec<_>>(),
             "evaluations": ensemble::plan(&study).len(),
+            "measured": study.measured.len(),
+            "specimens": specimens(&study).len(),
             "variants": variants,
             "distributions": used,
             "faults": [],
@@ -53,6 +57,16 @@ pub(crate) fn check(arguments: &Check) -> Result<(), Failure> {
             Err(Failure::Said)
         }
     }
+}
+
+/// A number of things, in words.
+fn counted(n: usize, name: &str) -> String {
+    if n == 1 { format!("1 {name}") } else { format!("{n} {name}s") }
+}
+
+/// Names of the specimens measured.
+fn specimens(study: &Study) -> BTreeSet<&str> {
+    study.measured.iter().map(|measurement| measurement.specimen.as_str()).collect()
 }
 
 fn summary(loaded: &Loaded) -> String {
@@ -68,6 +82,14 @@ fn summary(loaded: &Loaded) -> String {
         ensemble::plan(study).len(),
         study.seed
     );
+    if !study.measured.is_empty() {
+        let (values, specimens) = (study.measured.len(), specimens(study).len());
+        text.push_str(&format!(
+            "  measured: {} on {}\n",
+            counted(values, "value"),
+            counted(specimens, "specimen")
+        ));
+    }
     for variant in &loaded.variants {
         text.push_str(&format!("  variant {}: {}\n", variant.name, variant.why));
     }

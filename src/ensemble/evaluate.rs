@@ -15,7 +15,9 @@ use crate::study::{Arm, DrawnJoints, Study};
 /// # Errors
 /// [`InvalidGeometry`] when the generator found no valid wall within its attempts.
 pub fn build(study: &Study, arm: u32, member: u64) -> Result<Generated, InvalidGeometry> {
-    generate(&study.arms[arm as usize].layout, &Streams::new(study.seed, member))
+    let arm = &study.arms[arm as usize];
+    let generated = generate(&arm.layout, &Streams::new(study.seed, member))?;
+    Ok(Generated { wall: arm.mechanisms.built(generated.wall, &study.protocol), ..generated })
 }
 
 /// Evaluates one member at one kn: builds its wall, draws its joints, takes it through the study's protocol. A wall
@@ -35,35 +37,43 @@ pub fn evaluate(study: &Study, task: Task) -> Row {
 
 /// Draws the joints of a member's wall and takes it through the study's protocol.
 pub fn solve(study: &Study, task: Task, wall: &Wall) -> protocol::Run {
-    let (arm, laws) = drawn(study, task);
-    protocol::run(wall, &laws, &study.protocol, &arm.restraint, arm.sub_contacts, &study.solver)
+    let (arm, laws) = drawn(study, task, wall);
+    let contacts = arm.mechanisms.contacts(arm.sub_contacts);
+    let changes = arm.mechanisms.changes(wall, &Streams::new(study.seed, task.member));
+    protocol::run_changing(wall, &laws, &study.protocol, &arm.restraint, contacts, &changes, &study.solver)
 }
 
 /// The arm of a task and the laws of its member's joints.
-fn drawn(study: &Study, task: Task) -> (&Arm, DrawnJoints<'_>) {
+fn drawn<'s>(study: &'s Study, task: Task, wall: &Wall) -> (&'s Arm, DrawnJoints<'s>) {
     let arm = &study.arms[task.arm as usize];
     let kn = arm.kn_points[task.point as usize];
-    (arm, DrawnJoints::new(&arm.joint, kn, Streams::new(study.seed, task.member)))
+    let laws = DrawnJoints::new(&arm.joint, kn, Streams::new(study.seed, task.member));
+    (arm, laws.altered(&arm.mechanisms, wall))
 }
 
 fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
     let wall = &generated.wall;
     let run = solve(study, task, wall);
     let last = run.steps.last();
+    let gauge = &study.arms[task.arm as usize].mechanisms;
+    // The first reading is the zero reading.
+    let read = |step: usize, x: f64| if step == 0 { finite(x) } else { finite(gauge.reading(x)) };
     let at_rest = run.outcome == Outcome::Equilibrium;
-    let load_steps = run.steps.iter().map(|step| StepRow {
+    let load_steps = run.steps.iter().enumerate().map(|(number, step)| StepRow {
         load_factor: matches!(step.level, Level::Factor(_)).then(|| step.level.value()),
         tilt_deg: tilt(step.level),
-        top_displacement_m: finite(step.top_displacement),
-        left_m: step.points.and_then(|[left, ..]| finite(left)),
-        centre_m: step.points.and_then(|[_, centre, _]| finite(centre)),
-        right_m: step.points.and_then(|[.., right]| finite(right)),
+        top_displacement_m: read(number, step.top_displacement),
+        left_m: step.points.and_then(|[left, ..]| read(number, left)),
+        centre_m: step.points.and_then(|[_, centre, _]| read(number, centre)),
+        right_m: step.points.and_then(|[.., right]| read(number, right)),
         unbalanced_ratio: finite(step.unbalanced_ratio),
         solver_steps: step.solver_steps,
     });
     let realised = &generated.realised;
     Row {
-        top_displacement_m: last.filter(|_| at_rest).map(|step| step.top_displacement),
+        top_displacement_m: last
+            .filter(|_| at_rest)
+            .and_then(|step| read(run.steps.len() - 1, step.top_displacement)),
         collapse_angle_deg: match run.outcome {
             Outcome::Collapsed { at } => tilt(at),
             _ => None,
@@ -83,6 +93,8 @@ fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
             weight_share: failure.weight_share,
             hinge_height_m: failure.hinge_height,
             turning_share: failure.turning_share,
+            length_share: failure.length_share,
+            place: failure.place,
         }),
         stones: wall.stones().count() as u32,
         joints: run.joints as u32,
@@ -147,8 +159,9 @@ fn weight(wall: &Wall) -> f64 {
 
 /// Limit analysis of a member's wall, with the same joints.
 fn limit(study: &Study, task: Task, wall: &Wall, run: &protocol::Run) -> LimitAnalysis {
-    let (arm, laws) = drawn(study, task);
-    let bounds = Bounds::of(wall, &laws, &study.protocol, &arm.restraint, arm.sub_contacts);
+    let (arm, laws) = drawn(study, task, wall);
+    let contacts = arm.mechanisms.contacts(arm.sub_contacts);
+    let bounds = Bounds::of(wall, &laws, &study.protocol, &arm.restraint, contacts);
     let borne = match run.outcome {
         Outcome::Collapsed { at } => Some(at.value()),
         _ => run.steps.last().map(|step| step.level.value()),

@@ -2,12 +2,12 @@
 
 use crate::ensemble::Row;
 use crate::model::Outcome;
-use crate::protocol::Protocol;
+use crate::protocol::{Observes, Protocol};
 
 /// The quantity that a study is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
-    /// The largest out-of-plane displacement at the wall's top under the full load (m), of walls in equilibrium.
+    /// The largest out-of-plane displacement at the wall's top under the full load or tilt (m), of walls in equilibrium.
     TopDisplacement,
     /// The tilt at which the wall falls, the last one borne (deg), of walls that collapse.
     CollapseAngle,
@@ -29,7 +29,10 @@ impl Quantity {
     pub fn of(protocol: &Protocol) -> Quantity {
         match protocol {
             Protocol::Lateral(_) => Quantity::TopDisplacement,
-            Protocol::Tilting(_) => Quantity::CollapseAngle,
+            Protocol::Tilting(tilting) => match tilting.observes {
+                Observes::CollapseAngle => Quantity::CollapseAngle,
+                Observes::Displacement => Quantity::TopDisplacement,
+            },
         }
     }
 

@@ -80,6 +80,10 @@ pub struct Mechanism {
     pub hinge_height_m: f64,
     /// Turning over turning and slipping in the joints.
     pub turning_share: f64,
+    /// Share of the wall's length that moves by half of the largest movement or more.
+    pub length_share: f64,
+    /// Middle of the movement along the wall, as a share of its length.
+    pub place: f64,
 }
 
 /// What limit analysis says of a member, and how that goes with the solver's answer; see [`crate::protocol::Bounds`].

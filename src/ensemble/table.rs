@@ -37,6 +37,8 @@ pub(crate) fn members(rows: &[Row]) -> Result<Vec<u8>, RunError> {
         text("failure_mode", |r| r.mechanism.map_or("", |m| m.mode.name()).to_string()),
         real("moving_stones", |r| r.mechanism.map(|m| m.moving.into())),
         real("moving_weight_share", |r| r.mechanism.map(|m| m.weight_share)),
+        real("moving_length_share", |r| r.mechanism.map(|m| m.length_share)),
+        real("moving_place", |r| r.mechanism.map(|m| m.place)),
         real("hinge_height_m", |r| r.mechanism.map(|m| m.hinge_height_m)),
         real("turning_share", |r| r.mechanism.map(|m| m.turning_share)),
         count("stones", |r| r.stones.into()),

@@ -23,6 +23,22 @@ pub struct Layout {
 }
 
 impl Layout {
+    /// The same with stone lengths and heights that deviate `factor` times as far from their means.
+    pub fn widened(mut self, factor: f64) -> Layout {
+        if let Arrangement::Coursed { length, height, .. } | Arrangement::Cut { length, height, .. } =
+            &mut self.arrangement
+        {
+            *length = length.clone().widened(factor);
+            *height = height.clone().widened(factor);
+        }
+        self
+    }
+
+    /// Whether stone sizes are drawn.
+    pub fn draws_sizes(&self) -> bool {
+        matches!(self.arrangement, Arrangement::Coursed { .. } | Arrangement::Cut { .. })
+    }
+
     /// True when nothing is drawn, so that every wall of this layout is the same.
     pub fn is_fixed(&self) -> bool {
         let bond =

@@ -31,6 +31,15 @@ impl Wall {
         box_around
     }
 
+    /// The same wall out of plumb: everything moved along y by `slope` times its height above z = 0, so that level beds stay
+    /// level.
+    pub fn leaning(mut self, slope: f64) -> Wall {
+        for vertex in self.blocks.iter_mut().flat_map(|block| &mut block.shape.vertices) {
+            vertex.y += slope * vertex.z;
+        }
+        self
+    }
+
     /// The wall on the ground: adds one fixed block as the last one, so that the stones keep their ids. Its top is
     /// the plane z = 0; it is 0.1 m thick and reaches 0.1 m beyond the wall on all sides. Its density is that of the
     /// first stone; being fixed, its weight acts on nothing.

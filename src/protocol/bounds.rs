@@ -5,7 +5,7 @@ use crate::math::Vec3;
 use crate::model::{JointLaws, Level, Outcome, Wall};
 use crate::protocol::pressure::back_loads;
 use crate::protocol::stage::Stage;
-use crate::protocol::{Protocol, Restraint};
+use crate::protocol::{Contacts, Protocol, Restraint};
 use crate::solve::limit::{Analysis, Flow, Limit, Loads, PointLoad, Settings, When};
 
 /// What limit analysis says of a wall under a protocol's loads: a tilt (rad), or a factor on the protocol's load.
@@ -48,15 +48,15 @@ impl Agreement {
 
 impl Bounds {
     /// Asks limit analysis about a wall of stones as [`crate::protocol::run`] would load it. Joints are those of the wall as
-    /// built; stiffnesses play no part.
+    /// built; stiffnesses play no part, and ropes do not stretch.
     pub fn of(
         wall: &Wall,
         laws: &dyn JointLaws,
         protocol: &Protocol,
         restraint: &Restraint,
-        sub_contacts: [u32; 2],
+        contacts: impl Into<Contacts>,
     ) -> Bounds {
-        let stage = Stage::new(wall, laws, protocol, restraint, sub_contacts);
+        let stage = Stage::new(wall, laws, protocol, restraint, contacts.into());
         let asked = |flow| {
             let settings = Settings { flow, ..Settings::default() };
             let analysis =

@@ -78,7 +78,7 @@ impl<'t, 'a> Judge<'t, 'a> {
         Judge { task, rigid: OnceCell::new() }
     }
 
-    /// Whether the wall stands at a level, coming from a state at rest. Limit analysis of the wall as built can say no: an
+    /// Whether the wall stands at a level, coming from a state at rest at another one, `since`. Limit analysis of the wall as built can say no: an
     /// upper bound on what it bears, so that no arrangement of forces keeps it up. Else the explicit solver lets it go: first
     /// without damping, and if it swings back instead of running away, with damping from the same state.
     ///
@@ -91,7 +91,7 @@ impl<'t, 'a> Judge<'t, 'a> {
     pub fn told(
         &self,
         from: &Assembly<'a>,
-        level: f64,
+        (since, level): (f64, f64),
         watch: &Watch,
         is_final: bool,
         spent: &mut u64,
@@ -105,6 +105,7 @@ impl<'t, 'a> Judge<'t, 'a> {
             body.velocity = Vec3::zeros();
             body.set_spin(Vec3::zeros());
         }
+        self.task.changes.apply(&mut assembly, since, level);
         let released = |damping| {
             let mut simulation = Simulation::of(assembly.clone(), explicit::Settings { damping, ..explicit });
             let (gravity, factor) = self.task.path.loads(level);
@@ -150,6 +151,10 @@ impl<'t, 'a> Judge<'t, 'a> {
         let stands = |analysis: &Analysis, level: f64| analysis.stands(&self.loads(level));
         let rigid = self.rigid.get_or_init(|| {
             let Task { wall, laws, contact, .. } = *self.task;
+            // The bound is that of the wall with all its blocks.
+            if self.task.changes.loss.is_some() {
+                return None;
+            }
             let analysis = Analysis::new(wall, laws, contact, limit::Settings::default());
             let analysis = analysis.with_ties(&self.task.ties);
             (stands(&analysis, 0.0).stands == Some(true)).then_some(analysis)

@@ -158,6 +158,8 @@ enum Verdict<S> {
 const MOST_WRONG: u32 = 20;
 /// The path of equilibria is followed so often: where it is lost, it is so again from nearby.
 const MOST_FOLLOWED: u32 = 3;
+/// A fall is followed for this share of how far a wall goes that runs away.
+const FOLLOWED: f64 = 0.5;
 /// So many full steps above a suspicion a fall is looked for, when it cannot be told there.
 const STEPS_ABOVE: u32 = 6;
 
@@ -192,6 +194,7 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
     /// Tries a level from a state, which stays as it is.
     fn try_level(&mut self, from: &S, level: f64) -> Tried<S> {
         let mut next = from.clone();
+        self.task.changes.apply(next.assembly_mut(), self.last_borne(), level);
         let (gravity, factor) = self.task.path.loads(level);
         next.set_loads(gravity, factor);
         let settled = next.settle(&mut |bodies| self.watch.runs_away(bodies));
@@ -263,7 +266,8 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
         let above = if first { STEPS_ABOVE } else { 0 };
         for further in 0..=above {
             let at = self.task.path.higher(level, further);
-            match self.judge.told(from.assembly(), at, &self.watch, is_final, &mut self.spent) {
+            let way = (self.last_borne(), at);
+            match self.judge.told(from.assembly(), way, &self.watch, is_final, &mut self.spent) {
                 Told::Falls(fall) => {
                     self.certain = Some(*fall);
                     return match is_final {
@@ -297,7 +301,24 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
         let (Criterion::AnyBlock(far) | Criterion::Top(far)) = self.task.criterion;
         let loads = |level| path.loads(level);
         let last = self.last_borne();
+        let far = FOLLOWED * far;
         let ahead = Ahead { loads: &loads, from: last, to: level, far, bracket: path.bracket };
+        let changes = &self.task.changes;
+        if changes.loses(last, level) {
+            // What is lost on the way is there below and gone above.
+            return None;
+        }
+        let crept = changes.creep.is_some().then(|| {
+            let mut crept = from.clone();
+            changes.apply(crept.assembly_mut(), last, level);
+            let settled = crept.settle(&mut |_| false);
+            self.spent += settled.steps;
+            (settled.status == Status::Equilibrium).then_some(crept)
+        });
+        let from = match &crept {
+            Some(crept) => crept.as_ref()?,
+            None => from,
+        };
         let Followed { rest, level: highest, ratio, way } = from.follow(&ahead)?;
         match way {
             Way::Stands => {

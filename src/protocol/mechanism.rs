@@ -49,6 +49,11 @@ pub struct Failure {
     pub hinge_height: f64,
     /// Turning over turning and slipping, summed over the joints of the moving part: 1 = pure rocking, 0 = pure sliding.
     pub turning_share: f64,
+    /// Share of the wall's length over which a stone moves by half of the largest movement or more: near 1 for a wall that
+    /// moves as one all along.
+    pub length_share: f64,
+    /// Where along the wall it moves, as a share of its length from x = 0: the mean, weighted by the movement.
+    pub place: f64,
     /// How far each block's centroid went (m) while it was watched, by block id: the mechanism, in no particular scale.
     pub motion: Vec<Vec3>,
 }
@@ -93,7 +98,10 @@ pub fn failure(
     let weight = |ids: &mut dyn Iterator<Item = usize>| ids.map(|id| before[id].mass).fold(0.0, |a, m| a + m);
     let all = weight(&mut movable(wall).map(|(id, _)| id));
     let turning_share = turning_share(assembly, before, &after.all, &moving);
+    let [length_share, place] = along_the_wall(wall, &motion);
     Failure {
+        length_share,
+        place,
         mode: mode(wall, assembly, &moving, &motion, turning_share, towards),
         weight_share: weight(&mut moving.iter().map(|&id| id as usize)) / all,
         hinge_height: moving
@@ -105,6 +113,32 @@ pub fn failure(
         moving,
         motion,
     }
+}
+
+/// Strips into which the wall's length is divided to see where it moves.
+const STRIPS: usize = 60;
+
+/// Share of the length that moves by half of the largest movement or more, and the middle of the movement along the length.
+/// In each strip of the length the stone that moves most speaks.
+fn along_the_wall(wall: &Wall, motion: &[Vec3]) -> [f64; 2] {
+    let (low, high) = extent(wall);
+    let length = high.x - low.x;
+    let share = |strip: usize| (strip as f64 + 0.5) / STRIPS as f64;
+    let moves: Vec<f64> = (0..STRIPS)
+        .map(|strip| {
+            let x = low.x + share(strip) * length;
+            let across = movable(wall).filter(|(_, block)| {
+                let (from, to) = block.shape.bounds();
+                from.x <= x && x <= to.x
+            });
+            across.map(|(id, _)| motion[id].norm()).fold(0.0, f64::max)
+        })
+        .collect();
+    let largest = moves.iter().copied().fold(0.0, f64::max);
+    let total = moves.iter().fold(0.0, |sum, m| sum + m);
+    let wide = moves.iter().filter(|m| **m >= 0.5 * largest).count() as f64 / STRIPS as f64;
+    let middle = moves.iter().enumerate().fold(0.0, |sum, (strip, m)| sum + share(strip) * m);
+    [wide, if total > 0.0 { middle / total } else { 0.5 }]
 }
 
 fn mode(
@@ -132,7 +166,7 @@ fn mode(
 fn turning_share(assembly: &Assembly<'_>, before: &[Body], after: &[Body], moving: &[u32]) -> f64 {
     let (mut turning, mut slipping) = (0.0, 0.0);
     for joint in &assembly.joints.all {
-        let (a, b) = joint.pair();
+        let (a, b) = (joint.incident, joint.reference);
         if !moving.contains(&a) && !moving.contains(&b) {
             continue;
         }
@@ -164,13 +198,13 @@ pub fn joint_states(assembly: &Assembly<'_>, at_rest: &[Body]) -> Vec<JointState
         .all
         .iter()
         .map(|joint| {
-            let (a, b) = joint.pair();
+            let ((lower, upper), a, b) = (joint.pair(), joint.incident, joint.reference);
             let (place, normal) = joint.place(now);
             // Back to where the joint's middle was on either block.
             let came = |id: u32| place - carried(&now[id as usize], &at_rest[id as usize], place);
             let relative = came(a) - came(b);
             JointState {
-                blocks: [a, b],
+                blocks: [lower, upper],
                 place,
                 area: joint.area(),
                 opening: joint.largest_gap(now).max(0.0),

@@ -1,6 +1,7 @@
 //! What is done to a wall and what is observed: load path, stop rule, restraint.
 
 mod bounds;
+mod changes;
 mod confirm;
 mod drive;
 mod mechanism;
@@ -20,15 +21,19 @@ mod tilting;
 mod watch;
 
 pub use bounds::{Agreement, Bounds};
+pub use changes::{Changes, Creep, Loss};
 pub use confirm::Confirmation;
 pub use drive::{climb, drive};
 pub use mechanism::{Failure, FailureMode, JointState};
 pub use path::{Growing, LoadPath};
 pub use pressure::{Load, back_loads};
 pub use ropes::ropes;
-pub use run::run;
-pub use settings::{Base, Direction, Ends, Lateral, Protocol, Rate, Restraint, Rope, Tilting, Turning};
+pub use run::{run, run_changing};
+pub use settings::{
+    Base, Compliance, Contacts, Direction, Ends, Lateral, Observes, Protocol, Rate, Restraint, Rope, Tilting,
+    Turning,
+};
 pub use shove::{Phase, Shove, Shoved, Stand, shove_heap, shove_wall};
 pub use stage::typical_size;
-pub use task::{Run, Task};
+pub use task::{Platform, Run, Task};
 pub use watch::{Criterion, LoadStep};

@@ -6,22 +6,35 @@ use crate::protocol::path::LoadPath;
 use crate::protocol::pressure::back_loads;
 use crate::protocol::stage::Stage;
 use crate::protocol::tilting::turn;
-use crate::protocol::{Confirmation, Criterion, Protocol, Rate, Restraint, Run, Task};
+use crate::protocol::{Changes, Confirmation, Contacts, Criterion, Protocol, Rate, Restraint, Run, Task};
 use crate::solve::{Solver, explicit};
 
 /// Takes a wall of stones through a protocol: gravity first, then the load.
 ///
 /// `wall` holds the stones only; base, strip and ends are added here as `restraint` says, with ids behind the stones'.
-/// `sub_contacts` counts the sub-contacts of a joint along its longer and its shorter extent.
+/// `contacts` may be the numbers of sub-contacts of a joint along its longer and its shorter extent alone.
 pub fn run(
     wall: &Wall,
     laws: &dyn JointLaws,
     protocol: &Protocol,
     restraint: &Restraint,
-    sub_contacts: [u32; 2],
+    contacts: impl Into<Contacts>,
     solver: &Solver,
 ) -> Run {
-    let stage = Stage::new(wall, laws, protocol, restraint, sub_contacts);
+    run_changing(wall, laws, protocol, restraint, contacts, &Changes::default(), solver)
+}
+
+/// [`run`] with a wall that changes on its way. Changes go by tilt: under a service load they must be none.
+pub fn run_changing(
+    wall: &Wall,
+    laws: &dyn JointLaws,
+    protocol: &Protocol,
+    restraint: &Restraint,
+    contacts: impl Into<Contacts>,
+    changes: &Changes,
+    solver: &Solver,
+) -> Run {
+    let stage = Stage::new(wall, laws, protocol, restraint, contacts.into());
     let (low, high) = wall.bounds();
     let thickness = high.y - low.y;
     let confirmation = Confirmation::for_thickness(thickness);
@@ -31,6 +44,8 @@ pub fn run(
         contact: stage.contact,
         loads: Vec::new(),
         ties: stage.ties.clone(),
+        platform: stage.platform.clone(),
+        changes: changes.clone(),
         path,
         criterion,
         confirmation,

@@ -49,6 +49,34 @@ pub struct Base {
     /// Height (m) of a fixed strip along the wall's foot on its downhill side, which stops it from sliding and lifts its
     /// hinge; `None` = no strip. (A second one uphill, if it fits tightly, would clamp the foot.)
     pub strip_height: Option<f64>,
+    /// What gives way under platform, strip and end blocks, which then settle and turn as one; `None` = nothing. Ropes hold on
+    /// to the frame of the table.
+    pub compliance: Option<Compliance>,
+}
+
+/// Springs under a platform, about its centre line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Compliance {
+    /// Stiffness against settling (N/m).
+    pub settlement: f64,
+    /// Stiffness against turning out of plane (N m/rad).
+    pub rotation: f64,
+}
+
+/// How joints are found and divided.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contacts {
+    /// Sub-contacts of a joint along its longer and its shorter extent.
+    pub sub_contacts: [u32; 2],
+    /// Width (m) of the rounded arris along the stones' edges, where joints do not touch.
+    pub inset: f64,
+}
+
+impl From<[u32; 2]> for Contacts {
+    /// Sharp arrises.
+    fn from(sub_contacts: [u32; 2]) -> Contacts {
+        Contacts { sub_contacts, inset: 0.0 }
+    }
 }
 
 /// What holds a wall.
@@ -126,6 +154,18 @@ pub struct Tilting {
     pub collapse_share: f64,
     /// Whether the platform stops for the wall to come to rest.
     pub rate: Rate,
+    /// What the test is about; default the collapse angle.
+    pub observes: Observes,
+}
+
+/// What a test on a tilting table is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Observes {
+    /// The tilt at which the wall falls.
+    CollapseAngle,
+    /// How far the wall's top has moved at the largest tilt asked for.
+    Displacement,
 }
 
 /// Whether the platform stops for the wall to come to rest.
@@ -160,6 +200,7 @@ impl Default for Tilting {
             bracket: radians(0.01),
             collapse_share: 0.1,
             rate: Rate::Static,
+            observes: Observes::CollapseAngle,
         }
     }
 }

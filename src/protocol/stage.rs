@@ -4,7 +4,8 @@ use crate::contact;
 use crate::math::cbrt;
 use crate::model::{JointLaws, Wall};
 use crate::protocol::restraint::{Surroundings, restrain};
-use crate::protocol::{Direction, Ends, Protocol, Restraint, ropes};
+use crate::protocol::task::Platform;
+use crate::protocol::{Contacts, Direction, Ends, Protocol, Restraint, ropes};
 use crate::solve::Tie;
 
 /// The wall on its base and between its ends, ready for a solver or for limit analysis.
@@ -15,6 +16,8 @@ pub struct Stage<'a> {
     pub laws: Surroundings<'a>,
     /// Tolerances of contact detection.
     pub contact: contact::Settings,
+    /// Springs under its platform.
+    pub platform: Option<Platform>,
     /// Ropes at its ends.
     pub ties: Vec<Tie>,
     /// Where the load pushes.
@@ -28,16 +31,22 @@ impl<'a> Stage<'a> {
         laws: &'a dyn JointLaws,
         protocol: &Protocol,
         restraint: &Restraint,
-        sub_contacts: [u32; 2],
+        contacts: Contacts,
     ) -> Self {
         let towards = match protocol {
             Protocol::Lateral(_) => Direction::YPlus,
             Protocol::Tilting(tilting) => tilting.towards,
         };
+        let assembly = restrain(wall, restraint, towards);
+        let platform = restraint.base.compliance.map(|springs| Platform::under(wall, &assembly, springs));
         Stage {
-            assembly: restrain(wall, restraint, towards),
+            assembly,
+            platform,
             laws: Surroundings::of(wall, laws, restraint),
-            contact: contact::Settings::for_size(typical_size(wall), sub_contacts),
+            contact: contact::Settings {
+                inset: contacts.inset,
+                ..contact::Settings::for_size(typical_size(wall), contacts.sub_contacts)
+            },
             ties: match restraint.ends {
                 Ends::Ropes(rope) => ropes(wall, &rope, towards),
                 _ => Vec::new(),

@@ -2,14 +2,16 @@
 
 use crate::contact;
 use crate::math::Vec3;
-use crate::model::{JointLaws, Outcome, Wall};
+use crate::model::{JointLaws, Outcome, Support, Tag, Wall};
+use crate::protocol::Compliance;
+use crate::protocol::changes::Changes;
 use crate::protocol::confirm::Confirmation;
 use crate::protocol::mechanism::{Failure, JointState};
 use crate::protocol::path::LoadPath;
 use crate::protocol::pressure::Load;
 use crate::protocol::watch::{Criterion, LoadStep};
 use crate::solve::bodies::Body;
-use crate::solve::{Assembly, Tie};
+use crate::solve::{Assembly, Mount, Tie};
 
 /// A wall with all that surrounds it, its loads, and how far it is to be taken.
 pub struct Task<'t> {
@@ -23,12 +25,37 @@ pub struct Task<'t> {
     pub loads: Vec<Load>,
     /// Ties of blocks to the surroundings, on the wall as built.
     pub ties: Vec<Tie>,
+    /// Springs under the platform.
+    pub platform: Option<Platform>,
+    /// What changes on the way.
+    pub changes: Changes,
     /// The load path.
     pub path: LoadPath,
     /// When a wall counts as running away.
     pub criterion: Criterion,
     /// How a suspected collapse is confirmed.
     pub confirmation: Confirmation,
+}
+
+/// A platform on springs with what is fixed to it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Platform {
+    /// The springs.
+    pub mount: Mount,
+    /// Blocks that go with it: strip and end blocks.
+    pub carries: Vec<usize>,
+}
+
+impl Platform {
+    /// Under the stones of a wall in its surroundings, whose first block that is not the wall's is the platform.
+    pub(super) fn under(stones: &Wall, surroundings: &Wall, springs: Compliance) -> Platform {
+        let body = stones.blocks.len();
+        let others = surroundings.blocks.iter().enumerate().skip(body + 1);
+        let fixed =
+            others.filter(|(_, b)| b.support == Support::Fixed && matches!(b.tag, Tag::Base | Tag::End));
+        let Compliance { settlement, rotation } = springs;
+        Platform { mount: Mount { body, settlement, rotation }, carries: fixed.map(|(id, _)| id).collect() }
+    }
 }
 
 /// How the evaluation of one wall went.
@@ -57,6 +84,9 @@ impl<'t> Task<'t> {
         let mut built = Assembly::new(self.wall, self.laws, self.contact);
         for load in &self.loads {
             built.add_load(load.block, load.point, load.force);
+        }
+        if let Some(platform) = &self.platform {
+            built.mount(platform.mount, &platform.carries);
         }
         self.ties.iter().for_each(|tie| built.add_tie(*tie));
         built

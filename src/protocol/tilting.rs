@@ -127,6 +127,7 @@ impl<'t, 'a> Turned<'t, 'a> {
         self.watch.rests(&self.simulation.assembly.bodies);
         let path = self.task.path;
         let (mut time, mut readings, mut since, mut begun) = (0.0, 1.0, 0, None);
+        let mut seen = 0.0;
         loop {
             let tilt = (self.rate * time).min(path.end);
             let (gravity, factor) = path.loads(tilt);
@@ -137,6 +138,8 @@ impl<'t, 'a> Turned<'t, 'a> {
             if !self.simulation.steps.is_multiple_of(STEPS_BETWEEN_LOOKS) {
                 continue;
             }
+            self.task.changes.apply(&mut self.simulation.assembly, seen, tilt);
+            seen = tilt;
             let bodies = &self.simulation.assembly.bodies;
             let level = path.level(tilt);
             if !self.simulation.assembly.is_finite() {

@@ -138,6 +138,29 @@ impl Family {
         }
     }
 
+    /// The distribution with deviations from the mean that are `factor` times as large, for the same uniforms; `factor` is
+    /// above 0. A lognormal keeps its mean and its family, and has a standard deviation so many times as large.
+    pub fn widened(self, factor: f64) -> Family {
+        crate::check!(factor > 0.0, "a distribution was widened by {factor}, which is not above 0");
+        let centre = self.mean();
+        let out = |x: f64| centre + factor * (x - centre);
+        match self {
+            Family::Constant { value } => Family::Constant { value },
+            Family::Uniform { low, high } => Family::Uniform { low: out(low), high: out(high) },
+            Family::Normal { mean, sd } => Family::Normal { mean, sd: sd * factor },
+            Family::TruncatedNormal { mean, sd, low, high } => {
+                Family::TruncatedNormal { mean: out(mean), sd: sd * factor, low: out(low), high: out(high) }
+            }
+            Family::Lognormal { mean, sd } => Family::Lognormal { mean, sd: sd * factor },
+            Family::Triangular { low, mode, high } => {
+                Family::Triangular { low: out(low), mode: out(mode), high: out(high) }
+            }
+            Family::Empirical { values } => {
+                Family::Empirical { values: values.into_iter().map(out).collect() }
+            }
+        }
+    }
+
     fn ask<R>(&self, question: impl FnOnce(&dyn Distribution) -> R) -> R {
         match *self {
             Family::Constant { value } => question(&Constant { value }),

@@ -59,16 +59,18 @@ pub fn fragility_csv(arms: &[ArmSummary]) -> String {
     text
 }
 
-fn cell(value: Option<f64>) -> String {
+/// A number, or nothing.
+pub(super) fn cell(value: Option<f64>) -> String {
     value.map_or_else(String::new, |value| value.to_string())
 }
 
-fn ends(interval: Option<[f64; 2]>) -> [String; 2] {
+/// The ends of an interval, or nothing twice.
+pub(super) fn ends(interval: Option<[f64; 2]>) -> [String; 2] {
     interval.map_or_else(Default::default, |ends| ends.map(|end| end.to_string()))
 }
 
 /// A name as a CSV field (RFC 4180).
-fn quoted(name: &str) -> String {
+pub(super) fn quoted(name: &str) -> String {
     match name.contains([',', '"', '\n', '\r']) {
         true => format!("\"{}\"", name.replace('"', "\"\"")),
         false => name.to_string(),

@@ -11,6 +11,7 @@ use crate::report::csv::{csv, fragility_csv};
 use crate::report::draw::{Figure, IMAGE_SCALE, png_into, svg};
 use crate::report::figure::{curves, ladders, title};
 use crate::report::fragility::FragilityPlot;
+use crate::report::measured::{CalibrationPlot, calibration_csv, comparison_csv};
 use crate::report::plot::Plot;
 use crate::report::summary::{Summary, summarise};
 use crate::study::Study;
@@ -19,9 +20,14 @@ use crate::study::Study;
 pub const SUMMARY_JSON: &str = "summary.json";
 /// File name, without ending, of the fragility curves and the figure of them.
 pub const FRAGILITY: &str = "fragility";
+/// File name of the comparison with what was measured.
+pub const COMPARISON_CSV: &str = "comparison.csv";
+/// File name, without ending, of the calibration's curves and the figure of them.
+pub const CALIBRATION: &str = "calibration";
 
 /// Sums up the rows and writes `summary.json` and the figures (SVG, PNG, CSV) into an existing folder: the quantity
-/// over kn, with the means of an earlier run if one is given, and for a capacity its fragility curves.
+/// over kn, with the means of an earlier run if one is given, and for a capacity its fragility curves; and where something
+/// was measured the comparison with it and the calibration of kn.
 ///
 /// The same study and rows give the same bytes. Each file is written under a temporary name and renamed, so that a
 /// reader never sees half of one.
@@ -44,6 +50,7 @@ pub(crate) fn write_summary(summary: &Summary, dir: &Path, beside: Option<&Earli
     replace_file(&dir.join(format!("{name}.csv")), csv(&curves).as_bytes())?;
     let plot = |scale| Plot::new(&title, &curves, scale).beside(beside);
     write_figure(dir, name, &plot(1), &plot(IMAGE_SCALE))?;
+    write_measured(summary, &title, dir)?;
     let ladders = ladders(summary);
     if ladders.is_empty() {
         return Ok(());
@@ -51,6 +58,19 @@ pub(crate) fn write_summary(summary: &Summary, dir: &Path, beside: Option<&Earli
     replace_file(&dir.join(format!("{FRAGILITY}.csv")), fragility_csv(&summary.arms).as_bytes())?;
     let figure = |scale| FragilityPlot::new(&title, &ladders, scale);
     write_figure(dir, FRAGILITY, &figure(1), &figure(IMAGE_SCALE))
+}
+
+/// Writes what was measured beside what was simulated, if anything was.
+fn write_measured(summary: &Summary, title: &str, dir: &Path) -> Result<()> {
+    let Some(measured) = &summary.measured else { return Ok(()) };
+    replace_file(&dir.join(COMPARISON_CSV), comparison_csv(&measured.comparison).as_bytes())?;
+    if measured.calibration.is_empty() {
+        return Ok(());
+    }
+    replace_file(&dir.join(format!("{CALIBRATION}.csv")), calibration_csv(&measured.calibration).as_bytes())?;
+    let panels = || measured.calibration.iter().map(|entry| &entry.panel).collect();
+    let figure = |scale| CalibrationPlot::new(title, panels(), scale);
+    write_figure(dir, CALIBRATION, &figure(1), &figure(IMAGE_SCALE))
 }
 
 /// Writes a figure as SVG and PNG; `large` is the same one at [`IMAGE_SCALE`].

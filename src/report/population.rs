@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::ensemble::{Observed, Quantity, Row};
+use crate::ensemble::{Mechanism, Observed, Quantity, Row};
 use crate::report::number::significant;
 use crate::study::{Arm, Study};
 
@@ -27,6 +27,8 @@ pub struct Population {
     pub above: BTreeMap<u64, f64>,
     /// Number of walls by the name of the mechanism by which they fell.
     pub modes: BTreeMap<String, u64>,
+    /// The mechanisms of the walls that fell.
+    pub mechanisms: Vec<Mechanism>,
 }
 
 impl Population {
@@ -51,11 +53,13 @@ impl Population {
             values: BTreeMap::new(),
             above: BTreeMap::new(),
             modes: BTreeMap::new(),
+            mechanisms: Vec::new(),
         };
         for row in rows {
             *population.outcomes.entry(row.outcome.name().to_string()).or_insert(0) += 1;
             if let Some(mechanism) = &row.mechanism {
                 *population.modes.entry(mechanism.mode.name().to_string()).or_insert(0) += 1;
+                population.mechanisms.push(*mechanism);
             }
             let earlier = match quantity.observed(row) {
                 Observed::Value(value) => population.values.insert(row.member, value),

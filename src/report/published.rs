@@ -1,5 +1,6 @@
 //! Published statements judged one by one against our numbers.
 
+use crate::math::{radians, sin};
 use crate::report::compare::{arm_names, at, of_arm, ratio};
 use crate::report::number::{significant, stiffness};
 use crate::report::population::Population;
@@ -49,9 +50,11 @@ pub struct Published {
     pub tolerance: String,
 }
 
-/// Judges every claim, in the order of the file.
+/// Judges every claim about arms of this reading, in the order of the file.
 pub fn judge_all(claims: &[Claim], populations: &[Population]) -> Vec<Published> {
-    claims.iter().map(|claim| judge(claim, populations)).collect()
+    let arms = arm_names(populations);
+    let here = |claim: &&Claim| claim.test.arms().into_iter().all(|arm| arms.iter().any(|a| a == arm));
+    claims.iter().filter(here).map(|claim| judge(claim, populations)).collect()
 }
 
 /// Judges one claim.
@@ -66,6 +69,21 @@ pub fn judge(claim: &Claim, populations: &[Population]) -> Published {
             let numbers = covs(populations, arm);
             let theirs = format!("{stated} (accepted: {})", accepted(*low, *high));
             Evidence::within(&numbers, *low, *high, theirs, &[arm])
+        }
+        ClaimTest::RatioOfSines { arm, over, at_kn, stated, low, high } => {
+            let numbers = ratios_of_sines(populations, arm, over, *at_kn);
+            let theirs = format!("{} (accepted: {})", significant(*stated, 3), accepted(*low, *high));
+            Evidence::within(&numbers, *low, *high, theirs, &[arm, over])
+        }
+        ClaimTest::Mean { arm, at_kn, stated, low, high } => {
+            let numbers = means(populations, arm, *at_kn);
+            let theirs = format!("{} (accepted: {})", significant(*stated, 3), accepted(*low, *high));
+            Evidence::within(&numbers, *low, *high, theirs, &[arm])
+        }
+        ClaimTest::Mechanism { arm, stated, least_share, .. } => {
+            let numbers = failing_so(populations, &claim.test);
+            let theirs = format!("{stated} (accepted: a share of the walls of {least_share} or more)");
+            Evidence::within(&numbers, *least_share, 1.0, theirs, &[arm])
         }
         ClaimTest::Between { arm, of } => between(populations, arm, of),
         ClaimTest::FallsWithKn => along_kn(populations, Trend::Falls),
@@ -155,6 +173,62 @@ fn ratios(populations: &[Population], arm: &str, over: &str) -> Vec<Number> {
         .filter_map(|above| {
             let ratio = ratio(above, at(populations, over, above.kn)?);
             Some(Number::at(above.kn, ratio.value, ratio.interval))
+        })
+        .collect()
+}
+
+/// The means of an arm with their intervals; the value itself where nothing is random.
+fn means(populations: &[Population], arm: &str, at_kn: Option<f64>) -> Vec<Number> {
+    let meant = of_arm(populations, arm).into_iter().filter(|p| at_kn.is_none_or(|kn| p.kn == kn));
+    meant
+        .map(|population| {
+            let mean = stats::Summary::of(&population.complete()).mean;
+            let exact = mean.value.filter(|_| population.fixed).map(|value| [value, value]);
+            Number::at(population.kn, mean.value, exact.or(mean.interval))
+        })
+        .collect()
+}
+
+/// Sine of the one mean angle over sine of the other; its interval spans the ends of both means' intervals, which errs on the
+/// wide side.
+fn ratios_of_sines(populations: &[Population], arm: &str, over: &str, at_kn: Option<f64>) -> Vec<Number> {
+    let sine = |angle_deg: f64| sin(radians(angle_deg));
+    let below = means(populations, over, at_kn);
+    means(populations, arm, at_kn)
+        .into_iter()
+        .filter_map(|above| {
+            let below = below.iter().find(|number| number.place == above.place)?;
+            let value = above.value.zip(below.value).map(|(a, b)| sine(a) / sine(b));
+            let interval = above.interval.zip(below.interval);
+            let interval = interval.map(|([a, b], [c, d])| [sine(a) / sine(d), sine(b) / sine(c)]);
+            Some(Number { place: above.place, value, interval })
+        })
+        .collect()
+}
+
+/// The share of an arm's fallen walls whose mechanism is as stated, with the interval of Clopper and Pearson.
+fn failing_so(populations: &[Population], test: &ClaimTest) -> Vec<Number> {
+    let ClaimTest::Mechanism { arm, mode, weight_share, length_share, place, .. } = test else {
+        return Vec::new();
+    };
+    let holds = |x: f64, [low, high]: &[f64; 2]| *low <= x && x <= *high;
+    of_arm(populations, arm)
+        .into_iter()
+        .map(|population| {
+            let fallen = population.mechanisms.len();
+            let so = population.mechanisms.iter().filter(|m| {
+                mode.is_none_or(|mode| m.mode == mode)
+                    && holds(m.weight_share, weight_share)
+                    && holds(m.length_share, length_share)
+                    && holds(m.place, place)
+            });
+            let so = so.count();
+            let value = (fallen > 0).then(|| so as f64 / fallen as f64);
+            let interval = match (value, population.fixed) {
+                (Some(value), true) => Some([value, value]),
+                (value, _) => value.map(|_| stats::clopper_pearson(so, fallen)),
+            };
+            Number::at(population.kn, value, interval)
         })
         .collect()
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::ensemble::{Quantity, Row};
 use crate::report::compare::{Comparison, comparisons};
+use crate::report::measured::{MeasuredSummary, measured};
 use crate::report::population::{Population, populations};
 use crate::report::published::{Published, judge_all};
 use crate::stats::{self, EmpiricalStep};
@@ -30,6 +31,9 @@ pub struct Summary {
     pub comparisons: Vec<Comparison>,
     /// Published statements beside our numbers.
     pub published: Vec<Published>,
+    /// What was measured beside our numbers; left out where nothing was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub measured: Option<MeasuredSummary>,
 }
 
 /// One arm at one kn.
@@ -136,6 +140,7 @@ pub fn summarise(study: &Study, rows: &[Row]) -> Summary {
         arms,
         comparisons: comparisons(&populations, &study.published),
         published: judge_all(&study.published, &populations),
+        measured: measured(study, rows),
     }
 }
 

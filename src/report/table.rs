@@ -1,6 +1,7 @@
 //! The table that `run` prints: arms, ratios, published statements. At most 110 columns wide.
 
 use crate::ensemble::Quantity;
+use crate::report::measured;
 use crate::report::number::{or_dash, shortened, with_interval};
 use crate::report::summary::{ArmSummary, Summary};
 
@@ -30,6 +31,7 @@ pub fn terminal_table(summary: &Summary) -> String {
     text.push('\n');
     text.push_str(&arms(&summary.arms));
     text.push_str(&ratios(summary));
+    text.push_str(&measured::text(summary.measured.as_ref()));
     text.push_str(&published(summary));
     text
 }
@@ -158,7 +160,7 @@ fn published(summary: &Summary) -> String {
 const LONGEST_NAME: usize = 18;
 
 /// Rows as text: the first column to the left, numbers to the right, a rule below the first row.
-fn aligned(mut rows: Vec<Vec<String>>) -> String {
+pub(super) fn aligned(mut rows: Vec<Vec<String>>) -> String {
     for row in &mut rows {
         row[0] = shortened(&row[0], LONGEST_NAME);
     }
@@ -193,7 +195,7 @@ fn width(column: &[String]) -> usize {
 }
 
 /// Breaks a text at spaces; the first line begins with `lead`, the others with as many spaces.
-fn wrapped(lead: &str, text: &str) -> String {
+pub(super) fn wrapped(lead: &str, text: &str) -> String {
     let indent = " ".repeat(lead.chars().count());
     let (mut lines, mut line, mut used) = (String::new(), lead.to_string(), 0);
     for word in text.split_whitespace() {

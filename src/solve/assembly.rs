@@ -3,8 +3,9 @@
 use crate::contact;
 use crate::math::{Mat3, Vec3};
 use crate::model::{JointLaws, Wall};
-use crate::solve::bodies::{Bodies, Body};
+use crate::solve::bodies::{Bodies, Body, Freedom};
 use crate::solve::joints::Joints;
+use crate::solve::mount::{Mount, Mounted};
 use crate::solve::ties::{Held, Tie};
 
 /// Standard gravity (m/s^2).
@@ -35,6 +36,7 @@ pub struct Assembly<'a> {
     laws: &'a dyn JointLaws,
     loads: Vec<DeadLoad>,
     ties: Vec<Held>,
+    mounted: Option<Mounted>,
     /// Where each body was when contacts were last looked for.
     seen: Vec<(Vec3, Mat3)>,
 }
@@ -51,6 +53,7 @@ impl<'a> Assembly<'a> {
             laws,
             loads: Vec::new(),
             ties: Vec::new(),
+            mounted: None,
             seen: Vec::new(),
         };
         assembly.refresh();
@@ -74,10 +77,39 @@ impl<'a> Assembly<'a> {
         &self.ties
     }
 
-    /// Sets force and moment of every body to those of gravity, the dead loads and the ties.
+    /// Puts a fixed body, which has not moved yet, on springs, and fixes others to it.
+    pub fn mount(&mut self, mount: Mount, fixed_to_it: &[usize]) {
+        self.mounted = Some(Mounted::new(mount, &self.bodies.all[mount.body]));
+        self.bodies.all[mount.body].freedom = Freedom::Mounted;
+        for body in fixed_to_it {
+            self.bodies.fix_to(*body, mount.body);
+        }
+        self.refresh();
+    }
+
+    /// The platform on springs, if there is one.
+    pub fn mounted(&self) -> Option<&Mounted> {
+        self.mounted.as_ref()
+    }
+
+    /// Takes a body out: it stays where it is, without joints, loads and motion.
+    pub fn remove(&mut self, body: usize) {
+        self.joints.remove(body as u32);
+        self.loads.retain(|load| load.body != body);
+        self.ties.retain(|tie| tie.tie.body != body);
+        let gone = &mut self.bodies.all[body];
+        gone.freedom = Freedom::Fixed;
+        gone.velocity = Vec3::zeros();
+        gone.set_spin(Vec3::zeros());
+    }
+
+    /// Sets force and moment of every body to those of gravity, the dead loads, the ties and the springs of a platform.
     pub fn apply_loads(&mut self) {
         for body in &mut self.bodies.all {
-            body.force = self.gravity * body.mass;
+            body.force = match body.freedom {
+                Freedom::Mounted => Vec3::zeros(),
+                Freedom::Free | Freedom::Fixed | Freedom::InPlane => self.gravity * body.mass,
+            };
             body.torque = Vec3::zeros();
         }
         for load in &self.loads {
@@ -88,6 +120,9 @@ impl<'a> Assembly<'a> {
         }
         for tie in &self.ties {
             tie.apply(&mut self.bodies.all[tie.tie.body]);
+        }
+        if let Some(mounted) = &self.mounted {
+            mounted.apply(&mut self.bodies.all[mounted.mount.body]);
         }
     }
 

@@ -6,6 +6,19 @@ use crate::math::{Mat3, Vec3};
 use crate::model::{Support, Wall};
 use crate::shape::{MassProperties, Polyhedron};
 
+/// What a body can do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Freedom {
+    /// Everything.
+    Free,
+    /// Nothing.
+    Fixed,
+    /// It cannot move out of plane (y) nor turn about x or z.
+    InPlane,
+    /// It moves up and down and turns about x, on springs; its own weight does not act.
+    Mounted,
+}
+
 /// A rigid body: state, accumulated loads, and constants in its principal axes.
 #[derive(Clone, Debug)]
 pub struct Body {
@@ -31,8 +44,8 @@ pub struct Body {
     pub inertia: Vec3,
     /// Factor on mass and inertia that a quasi-static run may use; 1 otherwise.
     pub inertia_scale: f64,
-    /// How it is held.
-    pub support: Support,
+    /// What it can do.
+    pub freedom: Freedom,
     /// Largest distance of a vertex from the centroid (m).
     pub radius: f64,
 }
@@ -42,8 +55,10 @@ pub struct Body {
 pub struct Bodies {
     /// State of each body, by block id.
     pub all: Vec<Body>,
-    /// Shape of each body in its own axes.
+    /// The shapes in the axes of what carries them.
     pub shapes: Vec<Polyhedron>,
+    /// The body that carries each shape: itself, or a platform that it is fixed to.
+    pub carriers: Vec<usize>,
 }
 
 impl Bodies {
@@ -59,12 +74,22 @@ impl Bodies {
             shapes.push(centred.moved(&body.rotation.transpose(), &Vec3::zeros()));
             all.push(body);
         }
-        Bodies { all, shapes }
+        let carriers = (0..all.len()).collect();
+        Bodies { all, shapes, carriers }
     }
 
     /// The shape of a body where it is now, in world coordinates.
     pub fn world_shape(&self, body: usize) -> Polyhedron {
-        self.shapes[body].moved(&self.all[body].rotation, &self.all[body].position)
+        let carrier = &self.all[self.carriers[body]];
+        self.shapes[body].moved(&carrier.rotation, &carrier.position)
+    }
+
+    /// Fixes a body to another one, which carries its shape from now on.
+    pub fn fix_to(&mut self, body: usize, carrier: usize) {
+        let by = &self.all[carrier];
+        let shape = self.world_shape(body).translated(&-by.position);
+        self.shapes[body] = shape.moved(&by.rotation.transpose(), &Vec3::zeros());
+        self.carriers[body] = carrier;
     }
 
     /// Kinetic energy of all bodies (J).
@@ -76,6 +101,16 @@ impl Bodies {
                     + 0.5 * b.spin.dot(&b.angular_momentum)
             })
             .sum()
+    }
+}
+
+impl Freedom {
+    fn of(support: Support) -> Freedom {
+        match support {
+            Support::Free => Freedom::Free,
+            Support::Fixed => Freedom::Fixed,
+            Support::OutOfPlane => Freedom::InPlane,
+        }
     }
 }
 
@@ -98,14 +133,14 @@ impl Body {
             mass: density * properties.volume,
             inertia: inertia * density,
             inertia_scale: 1.0,
-            support,
+            freedom: Freedom::of(support),
             radius,
         }
     }
 
     /// Whether it can move at all.
     pub fn moves(&self) -> bool {
-        self.support != Support::Fixed
+        self.freedom != Freedom::Fixed
     }
 
     /// Radius of gyration (m), the mean over all axes.
@@ -120,19 +155,26 @@ impl Body {
 
     /// Angular velocity (rad/s) of an attitude with this body's angular momentum.
     fn spin_at(&self, rotation: &Mat3) -> Vec3 {
-        match self.support {
-            Support::Fixed => Vec3::zeros(),
-            Support::Free => {
+        match self.freedom {
+            Freedom::Fixed => Vec3::zeros(),
+            Freedom::Free => {
                 let local = rotation.tr_mul(&self.angular_momentum);
                 rotation * (local.component_div(&self.inertia) / self.inertia_scale)
             }
-            Support::OutOfPlane => {
-                // Turns about y only.
-                let y = rotation.row(1);
-                let about_y = (0..3).map(|k| y[k] * y[k] * self.inertia[k]).sum::<f64>() * self.inertia_scale;
-                Vec3::new(0.0, self.angular_momentum.y / about_y, 0.0)
+            // Turns about y or x only.
+            Freedom::InPlane => {
+                Vec3::new(0.0, self.angular_momentum.y / self.inertia_about(rotation, 1), 0.0)
+            }
+            Freedom::Mounted => {
+                Vec3::new(self.angular_momentum.x / self.inertia_about(rotation, 0), 0.0, 0.0)
             }
         }
+    }
+
+    /// Moment of inertia (kg m^2) about a world axis.
+    fn inertia_about(&self, rotation: &Mat3, axis: usize) -> f64 {
+        let unit = rotation.row(axis);
+        (0..3).map(|k| unit[k] * unit[k] * self.inertia[k]).sum::<f64>() * self.inertia_scale
     }
 
     /// Sets the angular velocity (rad/s, world axes), and the angular momentum that belongs to it.
@@ -162,9 +204,16 @@ impl Body {
         if !self.moves() {
             return;
         }
-        if self.support == Support::OutOfPlane {
-            self.force.y = 0.0;
-            self.torque = Vec3::new(0.0, self.torque.y, 0.0);
+        match self.freedom {
+            Freedom::Free | Freedom::Fixed => {}
+            Freedom::InPlane => {
+                self.force.y = 0.0;
+                self.torque = Vec3::new(0.0, self.torque.y, 0.0);
+            }
+            Freedom::Mounted => {
+                self.force = Vec3::new(0.0, 0.0, self.force.z);
+                self.torque = Vec3::new(self.torque.x, 0.0, 0.0);
+            }
         }
         let (mut force, mut torque) = (self.force, self.torque);
         if damping > 0.0 {

@@ -12,7 +12,11 @@ impl RowSums {
     /// Adds a spring of a stiffness (N/m) along a unit `axis`, `lever` from the body's centroid; both in the body's axes.
     pub fn add_spring(&mut self, body: &Body, lever: &Vec3, axis: &Vec3, stiffness: f64) {
         let moment = lever.cross(axis);
-        let row = [axis.x, axis.y, axis.z, moment.x, moment.y, moment.z];
+        self.add_row(body, [axis.x, axis.y, axis.z, moment.x, moment.y, moment.z], stiffness);
+    }
+
+    /// Adds a spring that is stretched by `row` times displacement and turn, both in the body's axes.
+    pub fn add_row(&mut self, body: &Body, row: [f64; 6], stiffness: f64) {
         let root = |n: usize| if n < 3 { body.mass.sqrt() } else { body.inertia[n - 3].sqrt() };
         for (a, ka) in self.0.iter_mut().enumerate() {
             for (b, kab) in ka.iter_mut().enumerate() {

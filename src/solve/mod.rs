@@ -8,10 +8,12 @@ pub mod grains;
 pub mod implicit;
 pub mod joints;
 pub mod limit;
+mod mount;
 mod status;
 mod ties;
 
 pub use assembly::{Assembly, STANDARD_GRAVITY};
+pub use mount::{Mount, Mounted};
 pub use status::{Ahead, Equilibrate, Followed, Settled, Status, Way};
 pub use ties::{Held, Tie};
 

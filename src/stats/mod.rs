@@ -24,5 +24,6 @@ pub use kolmogorov::{ks_p_value, ks_statistic};
 pub use moments::{cov, mean, sigma, sum};
 pub use order::{quantile, quantile_interval};
 pub use ratio::{paired_ratio_of_means, ratio_of_means};
+pub use reference::student_quantile;
 pub use seeded::spread_bootstrap;
-pub use summary::Summary;
+pub use summary::{Summary, sigma_factors};

@@ -7,9 +7,14 @@ pub(super) const TAIL: f64 = 0.025;
 
 /// Upper 2.5 % point of Student's t with `freedom` degrees of freedom (any positive number).
 pub(super) fn student(freedom: f64) -> f64 {
+    student_quantile(1.0 - TAIL, freedom)
+}
+
+/// Quantile at `probability` in (0, 1) of Student's t with `freedom` degrees of freedom (any positive number).
+pub fn student_quantile(probability: f64, freedom: f64) -> f64 {
     let t = StudentsT::new(0.0, 1.0, freedom);
     crate::check!(t.is_ok(), "Student's t has no {freedom} degrees of freedom");
-    t.map_or(f64::NAN, |t| t.inverse_cdf(1.0 - TAIL))
+    t.map_or(f64::NAN, |t| t.inverse_cdf(probability))
 }
 
 /// Lower and upper 2.5 % point of chi-square with `freedom` degrees of freedom (any positive number).

@@ -51,9 +51,20 @@ fn mean_interval(n: usize, mean: f64, sigma: f64) -> [f64; 2] {
 /// sigma sqrt((n - 1) / u) at the upper and the lower chi-square point u: (n - 1) s^2 / sigma^2 is chi-square with
 /// n - 1 degrees of freedom.
 fn sigma_interval(n: usize, sigma: f64) -> [f64; 2] {
+    sigma_factors(n).map(|factor| sigma * factor)
+}
+
+/// The ends of the 95 % interval of a sigma over the sigma found in `n` normal values, at least two.
+///
+/// ```
+/// let [low, high] = pirca::stats::sigma_factors(3);
+/// assert!((low - 0.52).abs() < 0.005 && (high - 6.28).abs() < 0.005);
+/// ```
+pub fn sigma_factors(n: usize) -> [f64; 2] {
+    crate::check!(n > 1, "{n} values have no sigma");
     let freedom = (n - 1) as f64;
     let [lower, upper] = chi_square(freedom);
-    [sigma * (freedom / upper).sqrt(), sigma * (freedom / lower).sqrt()]
+    [(freedom / upper).sqrt(), (freedom / lower).sqrt()]
 }
 
 /// Modified McKay interval (Vangel 1996, Eq. 16): k / sqrt(((u + 2)/n - 1) k^2 + u/(n - 1)) at the upper and the lower

@@ -1,12 +1,14 @@
 //! From the raw tables `[wall]` and `[[arm]]` to layouts, with the checks that need more than one key.
 
 use crate::generate::{Arrangement, BatteredFace, Layout, Limits, Outline, Wedges, Wythes};
+use crate::law::Sampling;
 use crate::math::radians;
 use crate::random::Family;
 use crate::study::catalogue::Catalogue;
-use crate::study::checked::Arm;
+use crate::study::checked::{Arm, Joint};
 use crate::study::fault::{Fault, Found};
 use crate::study::keys;
+use crate::study::mechanism::Mechanisms;
 use crate::study::quantity::quantity;
 use crate::study::reader::Reader;
 use crate::study::schema::Short;
@@ -123,8 +125,18 @@ fn arm(t: &mut Reader<'_>, name: Option<String>, shared: &Setting, catalogue: &m
         limits: limits?,
     };
     let Joints { joint, kn_points, sub_contacts } = setting.joints?;
-    let restraint = setting.restraint?;
-    Some(Arm { name: name?, members: members?, layout, joint, kn_points, restraint, sub_contacts })
+    let mechanisms = setting.mechanisms?;
+    check_mechanisms(t, &mechanisms, &joint, &layout)?;
+    Some(Arm {
+        name: name?,
+        members: members?,
+        layout: mechanisms.layout(layout),
+        joint,
+        kn_points,
+        restraint: mechanisms.restraint(setting.restraint?),
+        sub_contacts,
+        mechanisms,
+    })
 }
 
 fn arrangement(t: &mut Reader<'_>, catalogue: &mut Catalogue) -> (Option<Arrangement>, Stone) {
@@ -260,4 +272,36 @@ fn check_stone(t: &mut Reader<'_>, stone: &Stone, wall: &WallKeys, bond: BondKey
         let fault = Fault::at(t.place_of("head_joint_gap_m"), &key, found, allowed, "reduce the gap");
         t.notes.faults.push(fault);
     }
+}
+
+/// What a mechanism needs of the other tables.
+fn check_mechanisms(
+    t: &mut Reader<'_>,
+    mechanisms: &Mechanisms,
+    joint: &Joint,
+    layout: &Layout,
+) -> Option<()> {
+    let before = t.notes.faults.len();
+    let mut refuse = |name: &str, found: String, allowed: &str, fix: &str| {
+        let key = crate::study::reader::join(&t.path, &format!("mechanism.{name}"));
+        let fault = Fault::at(t.place_of("mechanism"), &key, Found::Words(found), allowed, fix);
+        t.notes.faults.push(fault);
+    };
+    if mechanisms.contact_area.is_some() && joint.sampling == Sampling::Vertices {
+        let found = "does not go with joint.sampling = \"vertices\"".to_owned();
+        refuse("contact_area", found, "joints that are sampled over their area", "remove one of the two");
+    }
+    if let Some(factor) = mechanisms.size_scatter
+        && let Arrangement::Coursed { length, height, .. } | Arrangement::Cut { length, height, .. } =
+            &layout.clone().widened(factor).arrangement
+    {
+        for (size, what) in [(length, "lengths"), (height, "heights")] {
+            let least = size.support().0;
+            if least < 0.0 {
+                let found = format!("widens {what} to {}", Short(least));
+                refuse("size_scatter", found, "sizes above 0", "reduce the factor");
+            }
+        }
+    }
+    (t.notes.faults.len() == before).then_some(())
 }

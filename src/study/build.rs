@@ -1,12 +1,14 @@
 //! From the raw tree of study.toml to checked parts.
 
 use crate::math::radians;
-use crate::protocol::{Lateral, Protocol, Rate, Tilting, Turning};
+use crate::protocol::{Ends, Lateral, Protocol, Rate, Tilting, Turning};
 use crate::solve::{Solver, explicit, implicit};
 use crate::study::arm;
 use crate::study::catalogue::Catalogue;
 use crate::study::checked::Arm;
+use crate::study::fault::{Fault, Found};
 use crate::study::keys;
+use crate::study::mechanism::Mechanisms;
 use crate::study::raw::Node;
 use crate::study::reader::{Notes, Reader};
 use crate::study::schema::suggestion;
@@ -43,7 +45,9 @@ pub fn parts(root: &Node, notes: &mut Notes, catalogue: &mut Catalogue) -> Optio
         Some(only) => chosen(&mut top, arms?, &only?)?,
         None => arms?,
     };
-    Some(Parts { question, seed, arms, protocol: protocol?, solver, agreement })
+    let protocol = protocol?;
+    check_mechanisms(&mut top, &arms, &protocol, agreement)?;
+    Some(Parts { question, seed, arms, protocol, solver, agreement })
 }
 
 /// The arms of these names, in the order of the names. What the others say decides nothing.
@@ -59,6 +63,59 @@ fn chosen(top: &mut Reader<'_>, arms: Vec<Arm>, only: &[String]) -> Option<Vec<A
     }
     top.record("arm", only.join(", "));
     only.iter().map(|name| arms.iter().find(|arm| arm.name == *name).cloned()).collect()
+}
+
+/// What mechanisms need of the study as a whole: something in some arm to act on, a load that they go with, and no limit
+/// analysis that knows nothing of them.
+fn check_mechanisms(top: &mut Reader<'_>, arms: &[Arm], protocol: &Protocol, agreement: bool) -> Option<()> {
+    let before = top.notes.faults.len();
+    let asked = |of: fn(&Mechanisms) -> bool| arms.iter().any(|arm| of(&arm.mechanisms));
+    let used = |of: fn(&Mechanisms) -> bool, by: fn(&Arm) -> bool| {
+        arms.iter().any(|arm| of(&arm.mechanisms) && by(arm))
+    };
+    let mut needs = |name: &str, asked: bool, used: bool, what: &str| {
+        if asked && !used {
+            let key = format!("mechanism.{name}");
+            let found = Found::Words("has nothing to act on".to_owned());
+            let fault = Fault::at(top.place_of("mechanism"), &key, found, what, "remove it, or add that");
+            top.notes.faults.push(fault);
+        }
+    };
+    let tilts = matches!(protocol, Protocol::Tilting(_));
+    let ropes = |arm: &Arm| matches!(arm.restraint.ends, Ends::Ropes(_));
+    let of = |m: &Mechanisms| m.rope_slack.is_some();
+    needs("rope_slack", asked(of), used(of, ropes), "an arm whose ends are ropes");
+    let of = |m: &Mechanisms| m.size_scatter.is_some();
+    needs(
+        "size_scatter",
+        asked(of),
+        used(of, |arm| arm.layout.draws_sizes()),
+        "an arm that draws its stones' sizes",
+    );
+    let of = |m: &Mechanisms| m.wedge_loss.is_some();
+    let has_wedges = |arm: &Arm| arm.layout.wedges.is_some();
+    needs(
+        "wedge_loss",
+        asked(of),
+        used(of, has_wedges) && tilts,
+        "an arm with wedges, and a platform that tilts",
+    );
+    needs("creep", asked(|m| m.creep.is_some()), tilts, "a platform that tilts");
+    let mut unfit: Vec<String> = arms
+        .iter()
+        .flat_map(|arm| arm.mechanisms.unfit_for_limit_analysis())
+        .map(|u| u.to_string())
+        .collect();
+    unfit.sort();
+    unfit.dedup();
+    if agreement && !unfit.is_empty() {
+        let key = "solver.agreement";
+        let found = Found::Words(format!("asks limit analysis about {}", unfit.join("; ")));
+        let fix = "set it to false, or remove the mechanism";
+        let place = top.place_of("solver").clone();
+        top.notes.faults.push(Fault::at(&place, key, found, "mechanisms that rigid blocks can have", fix));
+    }
+    (top.notes.faults.len() == before).then_some(())
 }
 
 fn load(t: &mut Reader<'_>) -> Option<Protocol> {
@@ -78,6 +135,7 @@ fn lateral(t: &mut Reader<'_>) -> Option<Lateral> {
 fn tilting(t: &mut Reader<'_>) -> Option<Tilting> {
     let towards = t.choice("towards");
     let reals = t.reals(["step_deg", "end_deg", "bracket_deg", "runaway_share"]);
+    let observes = t.choice("observes");
     let turns = t.has("turning");
     let turning = t.table("turning").and_then(|mut t| {
         let [rate, damping, step_safety] = t.reals(["rate_deg_per_s", "damping", "step_safety"])?;
@@ -86,7 +144,8 @@ fn tilting(t: &mut Reader<'_>) -> Option<Tilting> {
     let [step, end, bracket, collapse_share] = reals?;
     let rate = if turns { Rate::Dynamic(turning?) } else { Rate::Static };
     let (step, end, bracket) = (radians(step), radians(end), radians(bracket));
-    Some(Tilting { towards: towards?, step, end, bracket, collapse_share, rate })
+    let observes = observes?;
+    Some(Tilting { towards: towards?, step, end, bracket, collapse_share, rate, observes })
 }
 
 /// Reads the solver and its settings.

@@ -19,7 +19,7 @@ pub struct DistributionFile {
     pub quantity: String,
     /// Its symbol.
     pub symbol: String,
-    /// Its unit: "1", m, deg, Pa, Pa/m or kg/m3.
+    /// Its unit, as the key table names units: "1", m, deg, Pa, ...
     pub unit: String,
     /// The entries by name.
     pub entries: BTreeMap<String, Distribution>,
@@ -146,10 +146,11 @@ impl Catalogue {
 
     fn read(&mut self, file: &str) -> Option<(DistributionFile, Vec<String>)> {
         let name = format!("distributions/{file}.toml");
-        let parsed = files::read(&self.path_of(file), &name, 2 + self.files.len()).and_then(|text| {
-            self.inputs.push(InputFile { path: PathBuf::from(&name), sha256: text.sha256.clone() });
-            raw::parse(&text.source)
-        });
+        let parsed =
+            files::read(&self.path_of(file), &name, 3 + self.files.len(), raw::FORMAT).and_then(|text| {
+                self.inputs.push(InputFile { path: PathBuf::from(&name), sha256: text.sha256.clone() });
+                raw::parse(&text.source)
+            });
         let root = match parsed {
             Ok(root) => root,
             Err(fault) => {

@@ -5,9 +5,11 @@ use std::path::PathBuf;
 
 use crate::generate::Layout;
 use crate::law::{CohesionAfterSlip, Sampling};
-use crate::protocol::{Protocol, Restraint};
+use crate::protocol::{FailureMode, Protocol, Restraint};
 use crate::random::Family;
 use crate::solve::Solver;
+use crate::study::measured::Measurement;
+use crate::study::mechanism::Mechanisms;
 
 /// A study whose every value has been checked.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +32,8 @@ pub struct Study {
     pub agreement: bool,
     /// Statements of other codes or papers to compare with, from published.toml.
     pub published: Vec<Claim>,
+    /// What was measured on specimens of the arms, from measured.csv; decides no simulated result.
+    pub measured: Vec<Measurement>,
     /// Every input file with its SHA-256, in the order read.
     pub inputs: Vec<InputFile>,
     /// Every value that decides a result, after the variant has been applied and with defaults and referenced
@@ -57,6 +61,8 @@ pub struct Arm {
     pub restraint: Restraint,
     /// Sub-contacts of a joint along its two in-plane axes.
     pub sub_contacts: [u32; 2],
+    /// Mechanisms beyond the base model; those that change layout, joints' families or restraint are in these already.
+    pub mechanisms: Mechanisms,
 }
 
 /// Joint properties; those that are families are drawn once per joint from a stream keyed by the pair of blocks.
@@ -128,6 +134,52 @@ pub enum ClaimTest {
         /// Highest COV that counts as reproduced.
         high: f64,
     },
+    /// Mean of an arm lies within [low, high].
+    Mean {
+        /// The arm.
+        arm: String,
+        /// The joint stiffness of which it is said (Pa/m); `None` for every one.
+        at_kn: Option<f64>,
+        /// The value stated, in the unit of the quantity.
+        stated: f64,
+        /// Lowest mean that counts as reproduced.
+        low: f64,
+        /// Highest mean that counts as reproduced.
+        high: f64,
+    },
+    /// Sine of the mean angle of one arm over that of another lies within [low, high]: on a tilting table the ratio of the
+    /// out-of-plane forces at collapse over the weight.
+    RatioOfSines {
+        /// The arm above the line.
+        arm: String,
+        /// The arm below the line.
+        over: String,
+        /// The joint stiffness of which it is said (Pa/m); `None` for every one.
+        at_kn: Option<f64>,
+        /// The value stated.
+        stated: f64,
+        /// Lowest ratio that counts as reproduced.
+        low: f64,
+        /// Highest ratio that counts as reproduced.
+        high: f64,
+    },
+    /// At least a share of an arm's walls fails as stated.
+    Mechanism {
+        /// The arm.
+        arm: String,
+        /// How it is said to fail, in words.
+        stated: String,
+        /// How the moving part moves; `None` where that is not said.
+        mode: Option<FailureMode>,
+        /// Smallest and largest share of the weight that moves.
+        weight_share: [f64; 2],
+        /// Smallest and largest share of the wall's length that moves by half of the largest movement or more.
+        length_share: [f64; 2],
+        /// Where along the wall it moves most, as shares of the length.
+        place: [f64; 2],
+        /// Share of the walls that must do so.
+        least_share: f64,
+    },
     /// The mean of an arm lies between the means of two others at every kn.
     Between {
         /// The arm in the middle.
@@ -148,4 +200,20 @@ pub struct InputFile {
     pub path: PathBuf,
     /// SHA-256 in hex.
     pub sha256: String,
+}
+
+impl ClaimTest {
+    /// The arms that it speaks of; none where it speaks of all.
+    pub fn arms(&self) -> Vec<&str> {
+        match self {
+            ClaimTest::RatioOfMeans { arm, over, .. } | ClaimTest::RatioOfSines { arm, over, .. } => {
+                vec![arm, over]
+            }
+            ClaimTest::Mean { arm, .. } | ClaimTest::Cov { arm, .. } | ClaimTest::Mechanism { arm, .. } => {
+                vec![arm]
+            }
+            ClaimTest::Between { arm, of } => vec![arm, &of[0], &of[1]],
+            ClaimTest::FallsWithKn | ClaimTest::RisesWithKn => Vec::new(),
+        }
+    }
 }

@@ -92,7 +92,7 @@ pub struct Reported {
 impl ElementStudy {
     /// Whether the study in a folder is one of element types: its study.toml has a table `[[element]]`.
     pub fn is_in(folder: &Path) -> bool {
-        let read = files::read(&folder.join("study.toml"), "study.toml", 0);
+        let read = files::read(&folder.join("study.toml"), "study.toml", 0, raw::FORMAT);
         let root = read.ok().and_then(|file| raw::parse(&file.source).ok());
         matches!(root.map(|r| r.value), Some(Value::Table(table)) if table.contains_key("element"))
     }
@@ -309,7 +309,7 @@ fn along(t: &mut Reader<'_>) -> Option<[u32; 3]> {
 fn published(root: &Node, names: Option<&[&str]>, notes: &mut Notes) -> Vec<Reported> {
     let Some(mut top) = Reader::open(root, "", &keys::ELEMENTS_PUBLISHED, notes) else { return Vec::new() };
     let rows = top.tables("element");
-    let mut read = |(node, path): &(Node, String)| {
+    let read = |(node, path): &(Node, String)| {
         let mut t = Reader::open(node, path, &keys::REPORTED, top.notes)?;
         let (name, source, note) = (t.name("name"), t.text("source"), t.text("note"));
         if let Some((name, names)) = name.as_ref().zip(names)
@@ -332,5 +332,5 @@ fn published(root: &Node, names: Option<&[&str]>, notes: &mut Notes) -> Vec<Repo
             note: note?,
         })
     };
-    rows.iter().filter_map(|row| read(row)).collect()
+    rows.iter().filter_map(read).collect()
 }

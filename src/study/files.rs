@@ -21,13 +21,12 @@ pub fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Reads a file that is shown as `name`.
+/// Reads a file that is shown as `name` and is meant to be `wanted` ("a text file in TOML").
 ///
 /// # Errors
 /// A fault when it is missing, a folder, unreadable, not UTF-8 or empty.
-pub fn read(path: &Path, name: &str, rank: usize) -> Result<TextFile, Box<Fault>> {
-    let whole =
-        |found: &str, fix: &str| Box::new(Fault::of_file(name, rank, found, "a text file in TOML", fix));
+pub fn read(path: &Path, name: &str, rank: usize, wanted: &str) -> Result<TextFile, Box<Fault>> {
+    let whole = |found: &str, fix: &str| Box::new(Fault::of_file(name, rank, found, wanted, fix));
     if path.is_dir() {
         return Err(whole("is a folder", "put a file there"));
     }

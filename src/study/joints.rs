@@ -2,31 +2,40 @@
 
 use crate::law::{Coulomb, NormalLaw};
 use crate::math::{radians, tan};
-use crate::model::JointLaws;
+use crate::model::{JointLaws, Wall};
 use crate::random::{Family, Streams};
+use crate::study::altered::AlteredJoints;
 use crate::study::checked::{Joint, NormalLawName};
+use crate::study::mechanism::Mechanisms;
 
 /// Gives the joints of one member at one kn their laws.
 ///
 /// A random property is one uniform per joint, from a stream keyed by the quantity and the pair of blocks; so another
 /// kn, or another property made random, leaves all other draws as they were.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct DrawnJoints<'s> {
     joint: &'s Joint,
     kn: f64,
     streams: Streams,
+    altered: AlteredJoints,
 }
 
 impl<'s> DrawnJoints<'s> {
     /// The joints of the member whose streams are given, at a normal stiffness `kn` (Pa/m).
     pub fn new(joint: &'s Joint, kn: f64, streams: Streams) -> DrawnJoints<'s> {
-        DrawnJoints { joint, kn, streams }
+        DrawnJoints { joint, kn, streams, altered: AlteredJoints::default() }
+    }
+
+    /// The same with what mechanisms make of the joints of a wall, as it stands before it is loaded.
+    pub fn altered(self, mechanisms: &Mechanisms, wall: &Wall) -> DrawnJoints<'s> {
+        DrawnJoints { altered: AlteredJoints::new(mechanisms, wall, &self.streams), ..self }
     }
 }
 
 impl JointLaws for DrawnJoints<'_> {
     fn of(&self, a: u32, b: u32) -> Coulomb {
-        self.joint.law(self.kn, &self.streams, a, b)
+        let (a, b) = (a.min(b), a.max(b));
+        self.altered.law(self.joint.law(self.kn, &self.streams, a, b), &self.streams, a, b)
     }
 }
 

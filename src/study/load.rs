@@ -8,11 +8,12 @@ use crate::study::build::{self, Parts};
 use crate::study::catalogue::{Catalogue, Used};
 use crate::study::checked::{InputFile, Study};
 use crate::study::fault::{Fault, Faults, Source};
+use crate::study::measured::Measurement;
 use crate::study::raw::{self, Node};
 use crate::study::reader::{Notes, Reader, table_name};
 use crate::study::schema::suggestion;
 use crate::study::variant::{self, Variant};
-use crate::study::{files, keys, published};
+use crate::study::{files, keys, measured, published};
 
 /// A study and what is to be said about it.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,7 +45,7 @@ struct Reading {
 }
 
 impl Study {
-    /// Loads and checks the study in `folder` (study.toml, published.toml if there is one, and the files that it refers
+    /// Loads and checks the study in `folder` (study.toml, published.toml and measured.csv if there are any, and the files that it refers
     /// to below `../../distributions`), as the variant of that name reads it.
     ///
     /// All variants are checked, whichever is asked for.
@@ -71,6 +72,7 @@ impl Study {
         let claims = published_root
             .map(|root| published::read(&root, arms.as_deref(), &mut notes))
             .unwrap_or_default();
+        let measured = measurements(&folder, arms.as_deref(), &mut inputs, &mut faults);
         faults.append(&mut notes.faults);
         faults.append(&mut catalogue.faults);
         inputs.append(&mut catalogue.inputs);
@@ -88,6 +90,7 @@ impl Study {
                     solver: parts.solver,
                     agreement: parts.agreement,
                     published: claims,
+                    measured,
                     inputs,
                     effective: notes.effective,
                     hash,
@@ -173,11 +176,30 @@ pub(super) fn parsed(
     inputs: &mut Vec<InputFile>,
     faults: &mut Vec<Fault>,
 ) -> Option<Node> {
-    let read = files::read(&folder.join(name), name, rank).and_then(|file| {
+    let read = files::read(&folder.join(name), name, rank, raw::FORMAT).and_then(|file| {
         inputs.push(InputFile { path: PathBuf::from(name), sha256: file.sha256 });
         raw::parse(&file.source)
     });
     read.map_err(|fault| faults.push(*fault)).ok()
+}
+
+/// What measured.csv holds; nothing where there is none.
+fn measurements(
+    folder: &Path,
+    arms: Option<&[String]>,
+    inputs: &mut Vec<InputFile>,
+    faults: &mut Vec<Fault>,
+) -> Vec<Measurement> {
+    let path = folder.join(measured::FILE);
+    if !path.exists() {
+        return Vec::new();
+    }
+    let file = files::read(&path, measured::FILE, 2, measured::FORMAT).map_err(|fault| vec![*fault]);
+    let read = file.and_then(|file| {
+        inputs.push(InputFile { path: PathBuf::from(measured::FILE), sha256: file.sha256 });
+        measured::read(&file.source, arms)
+    });
+    read.map_err(|mut found| faults.append(&mut found)).unwrap_or_default()
 }
 
 /// The variant asked for.

@@ -1,5 +1,6 @@
 //! Studies: raw text to checked types, with every fault of a file reported at once.
 
+mod altered;
 mod arm;
 mod build;
 mod catalogue;
@@ -7,9 +8,12 @@ mod checked;
 mod elements;
 mod fault;
 mod files;
+mod inventory;
 mod joints;
 mod keys;
 mod load;
+pub mod measured;
+mod mechanism;
 mod published;
 mod quantity;
 mod raw;
@@ -23,8 +27,13 @@ pub use catalogue::{Distribution, DistributionFile, Used, load_distributions};
 pub use checked::{Arm, Claim, ClaimTest, InputFile, Joint, NormalLawName, Study};
 pub use elements::{ElementArm, ElementStudy, Reported};
 pub use fault::{Fault, Faults, Found};
+pub use inventory::{Acts, Entry as InventoryEntry, INVENTORY, InLimitAnalysis, Unloading};
 pub use joints::DrawnJoints;
 pub use load::{Loaded, VariantName};
+pub use measured::{MeasuredKind, MeasuredQuantity, Measurement};
+pub use mechanism::{
+    EndRelease, FrictionChange, JointClosure, Mechanisms, SpecimenScatter, Unfit, WedgeLoss,
+};
 pub use reference::key_reference;
 
 #[cfg(test)]

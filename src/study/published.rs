@@ -37,17 +37,21 @@ fn test(t: &mut Reader<'_>, arms: Option<&[String]>) -> Option<ClaimTest> {
             if arm.is_some() && arm == over {
                 t.fault("over", "another arm than above the line", "name the arm to compare with");
             }
-            let (stated, band) = (t.real("stated"), band(t));
-            let (stated, [low, high]) = (stated?, band?);
-            if stated < low || stated > high {
-                t.fault(
-                    "stated",
-                    format!("within low to high, {low} to {high}"),
-                    "the band must hold the value stated",
-                );
-            }
+            let (stated, [low, high]) = number(t)?;
             Some(ClaimTest::RatioOfMeans { arm: arm?, over: over?, stated, low, high })
         }
+        "ratio_of_sines" => {
+            let over = arm_name(t, "over", arms);
+            let (at_kn, number) = (at_kn(t), number(t));
+            let (stated, [low, high]) = number?;
+            Some(ClaimTest::RatioOfSines { arm: arm?, over: over?, at_kn: at_kn?, stated, low, high })
+        }
+        "mean" => {
+            let (at_kn, number) = (at_kn(t), number(t));
+            let (stated, [low, high]) = number?;
+            Some(ClaimTest::Mean { arm: arm?, at_kn: at_kn?, stated, low, high })
+        }
+        "mechanism" => mechanism(t, arm),
         "cov" => {
             let (stated, band) = (t.text("stated"), band(t));
             let [low, high] = band?;
@@ -65,6 +69,50 @@ fn test(t: &mut Reader<'_>, arms: Option<&[String]>) -> Option<ClaimTest> {
             None
         }
     }
+}
+
+/// A value stated and the band that counts as reproduced, which must hold it.
+fn number(t: &mut Reader<'_>) -> Option<(f64, [f64; 2])> {
+    let (stated, band) = (t.real("stated"), band(t));
+    let (stated, [low, high]) = (stated?, band?);
+    if stated < low || stated > high {
+        t.fault(
+            "stated",
+            format!("within low to high, {low} to {high}"),
+            "the band must hold the value stated",
+        );
+    }
+    Some((stated, [low, high]))
+}
+
+/// The kn that is meant, if it is one; `None` where it is faulty.
+fn at_kn(t: &mut Reader<'_>) -> Option<Option<f64>> {
+    if t.has("at_kn_pa_per_m") { t.real("at_kn_pa_per_m").map(Some) } else { Some(None) }
+}
+
+fn mechanism(t: &mut Reader<'_>, arm: Option<String>) -> Option<ClaimTest> {
+    let (stated, least_share) = (t.text("stated"), t.real("least_share"));
+    let mode = if t.has("mode") { t.choice("mode").map(Some) } else { Some(None) };
+    let mut range = |name: &str| {
+        let list = t.list(name)?;
+        match list[..] {
+            [low, high] => Some([low, high]),
+            _ => {
+                t.fault(name, "two shares, the smaller first", "give exactly two");
+                None
+            }
+        }
+    };
+    let (weight_share, length_share, place) = (range("weight_share"), range("length_share"), range("place"));
+    Some(ClaimTest::Mechanism {
+        arm: arm?,
+        stated: stated?,
+        mode: mode?,
+        weight_share: weight_share?,
+        length_share: length_share?,
+        place: place?,
+        least_share: least_share?,
+    })
 }
 
 fn arm_name(t: &mut Reader<'_>, key: &str, arms: Option<&[String]>) -> Option<String> {

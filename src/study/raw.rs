@@ -7,6 +7,9 @@ use toml::de::{DeTable, DeValue};
 
 use crate::study::fault::{Fault, Found, Place, Source};
 
+/// What a file is meant to be.
+pub const FORMAT: &str = "a text file in TOML";
+
 /// A value and where it stands.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {

@@ -3,7 +3,8 @@
 use std::fmt::Write;
 
 use crate::study::keys;
-use crate::study::schema::{Key, Kind, Presence, Section};
+use crate::study::measured::{COLUMNS, MeasuredKind, MeasuredQuantity};
+use crate::study::schema::{Key, Kind, Presence, Section, quoted};
 
 /// Every key of every input file with what is allowed, its default and its meaning, as Markdown.
 pub fn key_reference() -> String {
@@ -19,7 +20,26 @@ pub fn key_reference() -> String {
     ] {
         describe(section, &mut text, &mut Vec::new());
     }
+    describe_measured(&mut text);
     text
+}
+
+/// The columns of measured.csv, and what may stand in them.
+fn describe_measured(text: &mut String) {
+    let _ = writeln!(
+        text,
+        "## `measured.csv`\n\nWhat was measured on specimens of the arms: a row per value, `#` for comments.\n"
+    );
+    let _ = writeln!(text, "| column | must be there | in its cells |\n|---|---|---|");
+    for column in COLUMNS {
+        let must = if column.required { "yes" } else { "no" };
+        let _ = writeln!(text, "| `{}` | {must} | {} |", column.name, column.doc);
+    }
+    let _ =
+        writeln!(text, "\nkind: one of {}.\n\n| quantity | units |\n|---|---|", quoted(&MeasuredKind::NAMES));
+    for quantity in MeasuredQuantity::ALL {
+        let _ = writeln!(text, "| `{}` | {} |", quantity.name(), quantity.dimension().units().join(", "));
+    }
 }
 
 /// Describes a section and those below it, each once.

@@ -8,13 +8,14 @@ use crate::random::Family;
 use crate::study::arm::{WallKeys, wall};
 use crate::study::catalogue::Catalogue;
 use crate::study::checked::Joint;
+use crate::study::mechanism::Mechanisms;
 use crate::study::quantity::quantity;
 use crate::study::raw::{Node, Value};
 use crate::study::reader::{Notes, Reader, join};
 use crate::study::schema::{Kind, Section};
 
 /// The tables of a study that an arm may lay its own keys over.
-const TABLES: [&str; 4] = ["wall", "block", "joint", "restraint"];
+const TABLES: [&str; 5] = ["wall", "block", "joint", "restraint", "mechanism"];
 
 /// The checked tables, as far as they are not faulty.
 #[derive(Clone, Debug, Default)]
@@ -27,6 +28,8 @@ pub struct Setting {
     pub joints: Option<Joints>,
     /// What holds a wall.
     pub restraint: Option<Restraint>,
+    /// Mechanisms beyond the base model.
+    pub mechanisms: Option<Mechanisms>,
     /// The tables as they stand in the file.
     raw: BTreeMap<&'static str, Node>,
 }
@@ -45,7 +48,7 @@ pub struct Joints {
 impl Setting {
     /// The tables of the study itself.
     pub fn of_study(top: &mut Reader<'_>, catalogue: &mut Catalogue) -> Setting {
-        let mut setting = Setting::default();
+        let mut setting = Setting { mechanisms: Some(Mechanisms::default()), ..Setting::default() };
         for name in TABLES {
             if let Some((node, _)) = top.given(name) {
                 setting.raw.insert(name, node);
@@ -89,6 +92,7 @@ impl Setting {
             "wall" => self.wall = WallKeys::default(),
             "block" => self.density = None,
             "joint" => self.joints = None,
+            "mechanism" => self.mechanisms = None,
             _ => self.restraint = None,
         }
     }
@@ -98,6 +102,7 @@ impl Setting {
             "wall" => self.wall = wall(t),
             "block" => self.density = quantity(t, "density_kg_per_m3", catalogue),
             "joint" => self.joints = joints(t, catalogue),
+            "mechanism" => self.mechanisms = Mechanisms::read(t),
             _ => self.restraint = restraint(t),
         }
     }
@@ -156,7 +161,7 @@ fn restraint(t: &mut Reader<'_>) -> Option<Restraint> {
         Some(height) => Some(height?),
         None => None,
     };
-    Some(Restraint { base: Base { tan_phi, strip_height }, ends: ends? })
+    Some(Restraint { base: Base { tan_phi, strip_height, compliance: None }, ends: ends? })
 }
 
 fn ends(t: &mut Reader<'_>) -> Option<Ends> {

@@ -30,7 +30,9 @@ fn every_key_carries_its_unit() {
         ("Pa", "_pa"),
         ("m3", "_m3"),
         ("deg/s", "_deg_per_s"),
+        ("1/deg", "_per_deg"),
         ("deg", "_deg"),
+        ("N m/rad", "_n_m_per_rad"),
         ("m", "_m"),
         ("s", "_s"),
     ];

@@ -316,3 +316,34 @@ fn a_generated_wall_is_analysed_once_it_has_the_ground() {
         assert_eq!(answer["blocks"], blocks, "the ground is no stone");
     }
 }
+
+/// What was measured is counted by `check` and set beside the results by `run`; a study that does not tilt says so.
+#[test]
+fn measurements_are_counted_and_compared() {
+    let folder = Folder::with_study(STUDY);
+    let rows = "a,random,,specimen_weight,1000,N,10,exact\na,random,,collapse_angle,15,deg,0.5,exact\n";
+    let text = format!("specimen,family,tilt_deg,quantity,value,unit,error,kind\n{rows}");
+    fs::write(folder.path("studies/tiny/measured.csv"), &text).unwrap();
+    let said = stdout(&ends_with(&folder, 0, &["check", "studies/tiny"]));
+    assert!(said.contains("measured: 2 values on 1 specimen\n"), "{said}");
+    let checked = json(&ends_with(&folder, 0, &["check", "studies/tiny", "--json"]));
+    assert_eq!((checked["measured"].as_u64(), checked["specimens"].as_u64()), (Some(2), Some(1)));
+    let keys = stdout(&ends_with(&folder, 0, &["check", "studies/tiny", "--keys"]));
+    assert!(keys.contains("## `measured.csv`") && keys.contains("| `common_error` | no |"), "{keys}");
+    let run = ["run", "studies/tiny", "--members", "2", "--out", "out"];
+    let ran = stdout(&ends_with(&folder, 0, &run));
+    assert!(ran.contains("random, collapse angle: not compared: the walls are not tilted here"), "{ran}");
+    let table = fs::read_to_string(folder.path("out/comparison.csv")).unwrap();
+    // Two points of the weight, and the angle. A file that changed is another input, not another run.
+    assert_eq!(table.lines().count(), 4, "{table}");
+    let of_weight = table.lines().find(|line| line.contains("specimen_weight")).unwrap();
+    let weight: f64 = of_weight.split(',').nth(19).unwrap().parse().unwrap();
+    // 0.8 x 0.3 x 0.18 m3 at 2400 kg/m3 and 9.80665 m/s2, the standard gravity; head joints have no gap in this study.
+    assert!((weight - 1016.753_472).abs() < 1e-6, "{weight}");
+    fs::write(folder.path("studies/tiny/measured.csv"), text.replace("1000", "1010")).unwrap();
+    let again = ends_with(&folder, 0, &run);
+    assert!(stderr(&again).contains("6 evaluations, 6 of them recorded before"), "{}", stderr(&again));
+    fs::write(folder.path("studies/tiny/measured.csv"), text.replace("1000,N", "1000,kg")).unwrap();
+    let refused = ends_with(&folder, 3, &["check", "studies/tiny"]);
+    assert!(stderr(&refused).contains("measured.csv:2: unit = kg"), "{}", stderr(&refused));
+}

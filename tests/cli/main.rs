@@ -6,6 +6,7 @@ mod catalogue;
 mod commands;
 mod layering;
 mod malformed;
+mod measured;
 mod mutated_walls;
 mod scratch;
 mod study;

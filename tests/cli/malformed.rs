@@ -138,6 +138,8 @@ const CASES: &[Case] = &[
     (PUBLISHED, "stated = \"0.2 to 0.3\"", "stated = 0.25", &["@ claim[2].stated = 0.25: allowed is a text in quotes"]),
     (PUBLISHED, "of = [\"stack\", \"running\"]", "of = [\"stack\", \"stack\"]", &["@ claim[3].of = [\"stack\", \"stack\"]: allowed is a list of two different names"]),
     (PUBLISHED, "test = \"falls_with_kn\"", "test = \"falls_with_kn\"\nlow = 1", &["published.toml:34: claim[4].low means nothing where test = \"falls_with_kn\""]),
+    (PUBLISHED, "test = \"falls_with_kn\"", "test = \"mechanism\"\narm = \"laid\"\nstated = \"topples\"\nmode = \"rocking\"\nplace = [0.5]", &["claim[4].place = [0.5]: allowed is two shares, the smaller first"]),
+    (PUBLISHED, "test = \"falls_with_kn\"", "test = \"mean\"\narm = \"laid\"\nstated = 3\nlow = 1\nhigh = 2", &["claim[4].stated = 3: allowed is within low to high, 1 to 2"]),
     (PUBLISHED, "over = \"running\"", "over = \"stack\"", &["@ claim[1].over = \"stack\": allowed is another arm than above the line"]),
     // distributions
     (SIZE, "status = \"assumed\"\n", "", &["distributions/block/size.toml:5: length.status is missing: allowed is one of \"measured\", \"literature\", \"calibrated\", \"assumed\""]),

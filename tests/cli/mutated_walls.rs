@@ -15,7 +15,7 @@ use crate::walls::{GOOD_JSON, GOOD_OBJ};
 const SEED: u64 = 20_261_121;
 
 /// A generator of 64-bit numbers (splitmix64): enough for spoiling texts, and the same everywhere.
-struct Draws(u64);
+pub struct Draws(pub u64);
 
 impl Draws {
     fn next(&mut self) -> u64 {
@@ -26,7 +26,7 @@ impl Draws {
         z ^ (z >> 31)
     }
 
-    fn below(&mut self, n: usize) -> usize {
+    pub fn below(&mut self, n: usize) -> usize {
         (self.next() % n.max(1) as u64) as usize
     }
 
@@ -76,7 +76,7 @@ const TOKENS: [&str; 36] = [
 ];
 
 /// The text with one to four accidents.
-fn spoilt(text: &str, draws: &mut Draws) -> String {
+pub fn spoilt(text: &str, draws: &mut Draws) -> String {
     let mut bytes = text.as_bytes().to_vec();
     for _ in 0..=draws.below(4) {
         let at = draws.below(bytes.len());

@@ -152,7 +152,7 @@ fn a_tilting_study_has_the_defaults_of_its_protocol() {
     let strip = scratch.load(None).unwrap_or_else(|faults| panic!("{faults}")).study;
     assert_eq!(
         strip.arms[0].restraint.base,
-        Base { tan_phi: Some(tan(radians(20.0))), strip_height: Some(0.02) }
+        Base { tan_phi: Some(tan(radians(20.0))), strip_height: Some(0.02), compliance: None }
     );
 }
 

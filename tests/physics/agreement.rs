@@ -4,7 +4,7 @@ use pirca::contact;
 use pirca::law::Coulomb;
 use pirca::math::{Vec3, degrees, pow, radians};
 use pirca::model::{Level, Outcome, Wall};
-use pirca::protocol::{Confirmation, Criterion, Direction, LoadPath, Run, Task, climb, drive};
+use pirca::protocol::{Changes, Confirmation, Criterion, Direction, LoadPath, Run, Task, climb, drive};
 use pirca::shape::Polyhedron;
 use pirca::solve::explicit::Simulation;
 use pirca::solve::implicit::Equilibrium;
@@ -26,6 +26,8 @@ fn tilt(wall: &Wall, law: &Coulomb, solver: &Solver, step_deg: f64, bracket_deg:
         contact: contact::Settings::for_size(0.25, [2, 2]),
         loads: Vec::new(),
         ties: Vec::new(),
+        platform: None,
+        changes: Changes::default(),
         path: LoadPath::tilt(Direction::YPlus, radians(step_deg), radians(89.0), radians(bracket_deg)),
         criterion: Criterion::AnyBlock(0.04),
         confirmation: Confirmation::for_thickness(0.45),
@@ -194,6 +196,8 @@ fn the_angle_does_not_depend_on_how_hard_the_solver_tries() {
             contact: contact::Settings::for_size(0.25, [4, 4]),
             loads: Vec::new(),
             ties: Vec::new(),
+            platform: None,
+            changes: Changes::default(),
             path: LoadPath::tilt(Direction::XPlus, radians(0.5), radians(89.0), radians(0.01)),
             criterion: Criterion::AnyBlock(0.02),
             confirmation: Confirmation::for_thickness(0.2),

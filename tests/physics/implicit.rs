@@ -7,8 +7,8 @@ use pirca::law::Coulomb;
 use pirca::math::{Vec3, asin, atan, cos, degrees, radians, tan};
 use pirca::model::{Block, JointLaws, Level, Outcome, Support, Wall};
 use pirca::protocol::{
-    Base, Confirmation, Criterion, Direction, Ends, LoadPath, Protocol, Restraint, Run, Task, Tilting, drive,
-    run,
+    Base, Changes, Confirmation, Criterion, Direction, Ends, LoadPath, Protocol, Restraint, Run, Task,
+    Tilting, drive, run,
 };
 use pirca::shape::Polyhedron;
 use pirca::solve::explicit::{self, Simulation};
@@ -297,6 +297,8 @@ fn path<'t>(wall: &'t Wall, law: &'t Coulomb, path: LoadPath) -> Task<'t> {
         contact: contact::Settings::for_size(0.2, [2, 2]),
         loads: Vec::new(),
         ties: Vec::new(),
+        platform: None,
+        changes: Changes::default(),
         path,
         criterion: Criterion::AnyBlock(0.04),
         confirmation: Confirmation::for_thickness(0.4),

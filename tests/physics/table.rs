@@ -5,8 +5,8 @@ use pirca::law::Coulomb;
 use pirca::math::{Vec3, atan, degrees, radians};
 use pirca::model::{Block, Level, Outcome, Support, Wall};
 use pirca::protocol::{
-    Base, Confirmation, Criterion, Direction, Ends, FailureMode, LoadPath, Protocol, Rate, Restraint, Run,
-    Task, Tilting, Turning, drive, run,
+    Base, Changes, Confirmation, Criterion, Direction, Ends, FailureMode, LoadPath, Protocol, Rate,
+    Restraint, Run, Task, Tilting, Turning, drive, run,
 };
 use pirca::shape::Polyhedron;
 use pirca::solve::Solver;
@@ -84,7 +84,7 @@ fn a_strip_stops_a_block_that_would_slide_and_lifts_its_hinge() {
     // by friction: 0.075 <= (0.1875 - 0.05) tan a <= 0.075 + 0.05 mu, 28.61 to 31.37 deg.
     let wall = Wall { blocks: vec![resting([0.5, 0.15, 0.375], 2000.0)] };
     let law = dry(1e10, 60.0);
-    let slippery = Base { tan_phi: Some(0.176_326_980_708_465), strip_height: None };
+    let slippery = Base { tan_phi: Some(0.176_326_980_708_465), strip_height: None, compliance: None };
     let [low, high] = bracket(&table(&wall, &law, tilting(2.0, 0.05), slippery));
     assert!(low < 10.03 && high > 9.97, "{low} to {high}");
     for towards in [Direction::YPlus, Direction::YMinus] {
@@ -265,6 +265,8 @@ fn a_horizontal_force_slides_a_block_at_mu() {
         contact: contact::Settings::for_size(0.25, [2, 2]),
         loads: Vec::new(),
         ties: Vec::new(),
+        platform: None,
+        changes: Changes::default(),
         path: LoadPath::multiplier(Direction::XMinus, 0.1, 10.0, 1e-3),
         criterion: Criterion::AnyBlock(0.04),
         confirmation: Confirmation::for_thickness(0.4),

@@ -1,6 +1,7 @@
 //! Statistics and distributions against certified values, closed forms, independent programs and simulation.
 
 mod bootstrap;
+mod calibration;
 mod certified;
 mod coverage;
 mod families;

@@ -7,7 +7,7 @@ use crate::contact;
 use crate::law::{CohesionAfterSlip, Coulomb, NormalLaw, Sampling};
 use crate::math::{radians, tan};
 use crate::model::Wall;
-use crate::protocol::{Confirmation, Criterion, Direction, LoadPath, Run, Task, drive};
+use crate::protocol::{Changes, Confirmation, Criterion, Direction, LoadPath, Run, Task, drive};
 use crate::solve::explicit;
 use crate::solve::implicit::{self, Equilibrium};
 use crate::solve::{Equilibrate, Solver, limit};
@@ -75,6 +75,8 @@ fn task<'t>(arguments: &Analyse, wall: &'t Wall, law: &'t Coulomb, fit: &Fit) ->
         contact: contact::Settings { touch: fit.rounding, ..fit.contact },
         loads: Vec::new(),
         ties: Vec::new(),
+        platform: None,
+        changes: Changes::default(),
         path,
         criterion: Criterion::AnyBlock(RUNS_AWAY * fit.thickness),
         confirmation: Confirmation::for_thickness(fit.thickness),

@@ -3,18 +3,21 @@
 use std::collections::BTreeMap;
 use std::fs;
 
-use super::{KN, failed, summary_of};
+use super::{KN, claim, failed, summary_of};
 use crate::ensemble::{Mechanism, Quantity, Row};
 use crate::model::{Level, Outcome};
 use crate::report::files::write_summary;
 use crate::report::population::Population;
+use crate::report::published::{Verdict, judge_all};
 use crate::report::table::terminal_table;
 use crate::stats::{clopper_pearson, dkw_half_width};
+use crate::study::ClaimTest;
 
 fn fell(member: u64, angle: f64) -> Row {
     let mode = if member == 0 { "sliding" } else { "rocking" };
     let mechanism: Mechanism = serde_json::from_value(serde_json::json!({
-        "mode": mode, "moving": 3, "weight_share": 0.5, "hinge_height_m": 0.1, "turning_share": 0.7
+        "mode": mode, "moving": 3, "weight_share": 0.5, "hinge_height_m": 0.1, "turning_share": 0.7,
+        "length_share": 0.9, "place": 0.5
     }))
     .unwrap();
     Row {
@@ -87,4 +90,54 @@ fn the_files_of_a_capacity_are_whole_and_hold_the_numbers() {
     let svg = fs::read_to_string(folder.join("fragility.svg")).unwrap();
     assert!(svg.contains("3 walls, band: 95 % pointwise (Clopper and Pearson)"), "{svg}");
     fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn a_mean_a_ratio_of_forces_and_a_mechanism_are_judged() {
+    let arm = |name: &str, angles: &[f64]| {
+        let rows: Vec<Row> = angles.iter().zip(0u64..).map(|(angle, member)| fell(member, *angle)).collect();
+        Population::collect(name, false, KN[0], angles.len() as u64, Quantity::CollapseAngle, rows.iter())
+    };
+    let populations = [arm("strong", &[29.9, 30.0, 30.1, 30.0]), arm("weak", &[14.4, 14.5, 14.5, 14.6])];
+    let told = |test: ClaimTest| judge_all(&[claim(test)], &populations).remove(0);
+    let name = |name: &str| name.to_string();
+    let mean = |low, high| ClaimTest::Mean { arm: name("strong"), at_kn: None, stated: 30.0, low, high };
+    assert_eq!(told(mean(29.5, 30.5)).verdict, Verdict::Reproduced);
+    assert_eq!(told(mean(30.5, 31.0)).verdict, Verdict::NotReproduced);
+    let elsewhere =
+        ClaimTest::Mean { arm: name("strong"), at_kn: Some(1.0), stated: 30.0, low: 29.0, high: 31.0 };
+    assert_eq!(told(elsewhere).verdict, Verdict::CannotJudge, "no wall has that stiffness");
+    // sin 30 deg over sin 14.5 deg is 1.997.
+    let ratio = |low, high| ClaimTest::RatioOfSines {
+        arm: name("strong"),
+        over: name("weak"),
+        at_kn: None,
+        stated: 2.0,
+        low,
+        high,
+    };
+    assert_eq!(told(ratio(1.95, 2.05)).verdict, Verdict::Reproduced);
+    assert_eq!(told(ratio(1.0, 1.9)).verdict, Verdict::NotReproduced);
+    let mechanism = |mode, weight: [f64; 2], least_share| ClaimTest::Mechanism {
+        arm: name("strong"),
+        stated: name("the upper part topples"),
+        mode: Some(serde_json::from_value(serde_json::json!(mode)).unwrap()),
+        weight_share: weight,
+        length_share: [0.8, 1.0],
+        place: [0.4, 0.6],
+        least_share,
+    };
+    // Member 0 slides and three rock; all move half the weight.
+    assert_eq!(told(mechanism("rocking", [0.4, 0.6], 0.5)).verdict, Verdict::Reproduced);
+    assert_eq!(told(mechanism("rocking", [0.7, 1.0], 0.7)).verdict, Verdict::NotReproduced);
+    assert_eq!(told(mechanism("bulging", [0.0, 1.0], 0.5)).verdict, Verdict::CannotJudge);
+}
+
+#[test]
+fn a_statement_about_an_arm_that_is_left_out_is_not_judged() {
+    let rows = [fell(0, 10.0), fell(1, 11.0)];
+    let here = Population::collect("here", false, KN[0], 2, Quantity::CollapseAngle, rows.iter());
+    let of =
+        |arm: &str| claim(ClaimTest::Cov { arm: arm.into(), stated: "0.05".into(), low: 0.0, high: 1.0 });
+    assert_eq!(judge_all(&[of("here"), of("elsewhere")], &[here]).len(), 1);
 }

@@ -3,6 +3,7 @@
 mod beside;
 mod capacity;
 mod figure;
+mod measured;
 mod summary;
 mod verdict;
 
@@ -100,6 +101,7 @@ fn summary_of(populations: &[Population], claims: &[Claim]) -> Summary {
         arms: populations.iter().map(|population| describe(population, 1, BTreeMap::new())).collect(),
         comparisons: comparisons(populations, claims),
         published: judge_all(claims, populations),
+        measured: None,
     }
 }
 

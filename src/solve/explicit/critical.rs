@@ -6,13 +6,15 @@
 //! and Gershgorin's row sums bound lambda_max. Central differences are stable for `dt <= 2 / omega`.
 
 use crate::math::Vec3;
-use crate::solve::Held;
-use crate::solve::bodies::{Bodies, Body};
+use crate::solve::Assembly;
+use crate::solve::bodies::Body;
 use crate::solve::gershgorin::RowSums;
-use crate::solve::joints::{Joint, Joints};
+use crate::solve::joints::Joint;
 
-/// Bounds of `lambda_max(M^-1 K)` (1/s^2) per body, with its true mass and inertia; 0 for a body without joints and ties.
-pub fn block_bounds(bodies: &Bodies, joints: &Joints, ties: &[Held]) -> Vec<f64> {
+/// Bounds of `lambda_max(M^-1 K)` (1/s^2) per body, with its true mass and inertia; 0 for a body without joints and springs
+/// of its own.
+pub fn block_bounds(assembly: &Assembly<'_>) -> Vec<f64> {
+    let Assembly { bodies, joints, .. } = assembly;
     let mut stiffness = vec![RowSums::default(); bodies.all.len()];
     for joint in &joints.all {
         for index in [joint.incident as usize, joint.reference as usize] {
@@ -22,12 +24,19 @@ pub fn block_bounds(bodies: &Bodies, joints: &Joints, ties: &[Held]) -> Vec<f64>
             }
         }
     }
-    for tie in ties {
+    for tie in assembly.ties() {
         let body = &bodies.all[tie.tie.body];
         if body.moves() {
             let (lever, axis) = tie.own(body);
             stiffness[tie.tie.body].add_spring(body, &lever, &axis, tie.tie.stiffness);
         }
+    }
+    if let Some(mounted) = assembly.mounted() {
+        let (index, [.., settlement, rotation, _, _]) = (mounted.mount.body, mounted.stiffness());
+        let body = &bodies.all[index];
+        let (up, along) = (body.rotation.tr_mul(&Vec3::z()), body.rotation.tr_mul(&Vec3::x()));
+        stiffness[index].add_row(body, [up.x, up.y, up.z, 0.0, 0.0, 0.0], settlement);
+        stiffness[index].add_row(body, [0.0, 0.0, 0.0, along.x, along.y, along.z], rotation);
     }
     stiffness.iter().map(RowSums::bound).collect()
 }

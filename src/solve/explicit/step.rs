@@ -87,8 +87,7 @@ impl<'a> Simulation<'a> {
 
     /// Adapts the step to the joints there are now.
     fn adapt_step(&mut self) {
-        let bounds =
-            critical::block_bounds(&self.assembly.bodies, &self.assembly.joints, self.assembly.ties());
+        let bounds = critical::block_bounds(&self.assembly);
         let Assembly { bodies, gravity, contact, .. } = &mut self.assembly;
         let safety = self.settings.step_safety;
         if self.settings.scaled_inertia {

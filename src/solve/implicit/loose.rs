@@ -1,9 +1,8 @@
 //! Blocks that nothing carries yet, and blocks that nothing holds.
 
 use crate::math::Vec3;
-use crate::model::Support;
 use crate::solve::Assembly;
-use crate::solve::bodies::Body;
+use crate::solve::bodies::{Body, Freedom};
 use crate::solve::implicit::DOF;
 
 /// A pivot below this share of the diagonal counts as none.
@@ -46,9 +45,11 @@ fn in_the_air(assembly: &Assembly<'_>) -> Vec<usize> {
 
 /// The load on a body in the directions in which it can move.
 fn pull(body: &Body) -> Vec3 {
-    match body.support {
-        Support::OutOfPlane => Vec3::new(body.force.x, 0.0, body.force.z),
-        Support::Free | Support::Fixed => body.force,
+    match body.freedom {
+        Freedom::InPlane => Vec3::new(body.force.x, 0.0, body.force.z),
+        // Its springs hold it.
+        Freedom::Mounted => Vec3::zeros(),
+        Freedom::Free | Freedom::Fixed => body.force,
     }
 }
 

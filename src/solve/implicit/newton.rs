@@ -93,6 +93,10 @@ impl Newton<'_, '_> {
             noise += joint.law.normal.largest_stiffness() * joint.area() * f64::EPSILON * furthest;
             carried += joint.force;
         }
+        let springs = self.assembly.ties().iter().map(|tie| tie.tie.stiffness);
+        let platform =
+            self.assembly.mounted().map_or(0.0, |m| m.mount.settlement + m.mount.rotation / furthest);
+        noise += (springs.fold(0.0, |sum, k| sum + k) + platform) * f64::EPSILON * furthest;
         if carried > 0.0 { (noise / carried).min(MOST_ROUNDING) } else { 0.0 }
     }
 
@@ -102,6 +106,9 @@ impl Newton<'_, '_> {
         for tie in self.assembly.ties() {
             let body = &self.assembly.bodies.all[tie.tie.body];
             self.system.add_own(tie.tie.body, &tie.stiffness(body));
+        }
+        if let Some(mounted) = self.assembly.mounted() {
+            self.system.add_diagonal(mounted.mount.body, mounted.stiffness());
         }
         let Assembly { bodies, joints, gravity, contact, .. } = &mut *self.assembly;
         let bodies = &bodies.all;

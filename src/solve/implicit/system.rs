@@ -9,8 +9,7 @@ use faer::sparse::linalg::solvers::{Llt, Lu, SymbolicLlt, SymbolicLu};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Col, Side};
 
-use crate::model::Support;
-use crate::solve::bodies::Body;
+use crate::solve::bodies::{Body, Freedom};
 use crate::solve::implicit::elimination::{Elimination, Order};
 use crate::solve::joints::{Joints, Slopes};
 
@@ -259,10 +258,11 @@ fn pairs(joints: &Joints) -> Vec<(u32, u32)> {
 
 /// Which of a body's six unknowns it does not have.
 pub fn held(body: &Body) -> &'static [usize] {
-    match body.support {
-        Support::Free => &[],
-        Support::Fixed => &[0, 1, 2, 3, 4, 5],
+    match body.freedom {
+        Freedom::Free => &[],
+        Freedom::Fixed => &[0, 1, 2, 3, 4, 5],
         // Neither out of plane nor about x and z.
-        Support::OutOfPlane => &[1, 3, 5],
+        Freedom::InPlane => &[1, 3, 5],
+        Freedom::Mounted => &[0, 1, 4, 5],
     }
 }

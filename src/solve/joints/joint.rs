@@ -9,9 +9,11 @@ use crate::solve::bodies::{Bodies, Body};
 /// A joint between two bodies, its geometry stored in the bodies' own axes.
 #[derive(Clone, Debug)]
 pub struct Joint {
-    /// Body whose face carries the polygon.
+    /// The two blocks, lower id first.
+    blocks: (u32, u32),
+    /// Body of the block whose face carries the polygon.
     pub incident: u32,
-    /// Body whose plane gives the direction of the pressure.
+    /// Body of the block whose plane gives the direction of the pressure.
     pub reference: u32,
     /// The law.
     pub law: Coulomb,
@@ -71,7 +73,11 @@ impl Joint {
         bodies: &Bodies,
         settings: &contact::Settings,
     ) -> Self {
-        let (incident, reference) = if patch.reference_is_second { (first, second) } else { (second, first) };
+        let carrier = |block: u32| bodies.carriers[block as usize] as u32;
+        let (incident, reference) = match patch.reference_is_second {
+            true => (carrier(first), carrier(second)),
+            false => (carrier(second), carrier(first)),
+        };
         let (i, r) = (&bodies.all[incident as usize], &bodies.all[reference as usize]);
         let cells = match law.sampling {
             Sampling::Area => divide(&patch.polygon, settings.sub_contacts),
@@ -84,6 +90,7 @@ impl Joint {
         };
         let on_plane = patch.frame.origin - patch.plane.normal * patch.plane.distance(&patch.frame.origin);
         Joint {
+            blocks: (first.min(second), first.max(second)),
             incident,
             reference,
             law,
@@ -109,9 +116,9 @@ impl Joint {
         }
     }
 
-    /// The two bodies, lower id first.
+    /// The two blocks, lower id first.
     pub fn pair(&self) -> (u32, u32) {
-        (self.incident.min(self.reference), self.incident.max(self.reference))
+        self.blocks
     }
 
     /// Takes over the history of the same pair's former joint, by nearness of the sub-contacts.

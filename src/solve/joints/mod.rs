@@ -7,13 +7,13 @@ mod slopes;
 #[cfg(test)]
 mod tests;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::contact::{self, candidate_pairs, find_patch};
 use crate::law::{Pressed, SubContact};
 use crate::math::Vec3;
 use crate::model::JointLaws;
-use crate::solve::bodies::{Bodies, Body};
+use crate::solve::bodies::{Bodies, Body, Freedom};
 
 pub use joint::Joint;
 pub use slopes::Slopes;
@@ -35,6 +35,8 @@ pub struct Joints {
     pub all: Vec<Joint>,
     /// Joints whose blocks have come apart beyond the reach: what they remember must not heal when they meet again.
     parted: BTreeMap<(u32, u32), Joint>,
+    /// Blocks that are gone.
+    removed: BTreeSet<u32>,
     /// Whether contacts have been looked for before: only joints that were there at the start can hold.
     begun: bool,
     scratch: Vec<Pressed>,
@@ -47,11 +49,14 @@ impl Joints {
         let shapes: Vec<_> = (0..bodies.all.len()).map(|i| bodies.world_shape(i)).collect();
         let mut old: BTreeMap<(u32, u32), Joint> = self.all.drain(..).map(|j| (j.pair(), j)).collect();
         for (a, b) in candidate_pairs(&shapes, 2.0 * settings.reach) {
-            if !bodies.all[a as usize].moves() && !bodies.all[b as usize].moves() {
+            let carrier = |block: u32| bodies.carriers[block as usize];
+            let moves = |block: u32| bodies.all[carrier(block)].moves();
+            let gone = self.removed.contains(&a) || self.removed.contains(&b);
+            if gone || carrier(a) == carrier(b) || !(moves(a) || moves(b)) {
                 continue;
             }
-            // What is fixed is the preferred reference: the pressure then acts along the normal of the ground.
-            let (first, second) = if bodies.all[b as usize].moves() { (a, b) } else { (b, a) };
+            // The ground is the preferred reference: the pressure then acts along its normal.
+            let (first, second) = if is_ground(b, bodies) { (b, a) } else { (a, b) };
             let Some(patch) = find_patch(&shapes[first as usize], &shapes[second as usize], settings) else {
                 continue;
             };
@@ -80,6 +85,23 @@ impl Joints {
             }
         }
         self.all.sort_by_key(Joint::pair);
+    }
+
+    /// Takes a block's joints away, and finds none for it from now on.
+    pub fn remove(&mut self, block: u32) {
+        let apart = |(a, b): (u32, u32)| a != block && b != block;
+        self.all.retain(|joint| apart(joint.pair()));
+        self.parted.retain(|pair, _| apart(*pair));
+        self.removed.insert(block);
+    }
+
+    /// Leaves a share of the shear traction that sub-contacts remember; attachments by springs keep all.
+    pub fn relax(&mut self, kept: f64) {
+        for joint in self.all.iter_mut().filter(|joint| !joint.law.bonded) {
+            for state in &mut joint.states {
+                state.tau = state.tau.map(|tau| tau * kept);
+            }
+        }
     }
 
     /// Adds every joint's force to its two bodies; `dt` (s) is the length of the step that led here.
@@ -117,4 +139,9 @@ impl Joints {
     pub fn closure_energy(&self, bodies: &[Body]) -> f64 {
         self.all.iter().map(|j| j.closure_energy(bodies)).sum()
     }
+}
+
+/// Whether a block is fixed, or fixed to a platform on springs.
+fn is_ground(block: u32, bodies: &Bodies) -> bool {
+    matches!(bodies.all[bodies.carriers[block as usize]].freedom, Freedom::Fixed | Freedom::Mounted)
 }

@@ -1,7 +1,7 @@
 //! Blocks and the points at which they touch: the joint polygons' vertices.
 
-use crate::contact::{self, Feature, Patch, candidate_pairs, find_patch};
-use crate::law::Coulomb;
+use crate::contact::{self, Feature, Patch, candidate_pairs, find_patch, patches};
+use crate::law::{Coulomb, Sampling};
 use crate::math::Vec3;
 use crate::model::{JointLaws, Support, Wall};
 use crate::shape::{Polygon, Polyhedron};
@@ -95,13 +95,13 @@ impl Blocks {
             // As in the other solvers, what is fixed is the preferred reference.
             let (first, second) = if rigid[b].moves() { (a, b) } else { (b, a) };
             let Some(patch) = find_patch(&shapes[first], &shapes[second], contact) else { continue };
-            let points = contact_points(&patch, closed);
+            let law = laws.of(a as u32, b as u32);
+            let points = contact_points(&patch, closed, law.sampling);
             if points.is_empty() {
                 continue;
             }
             let (incident, reference) =
                 if patch.reference_is_second { (first, second) } else { (second, first) };
-            let law = laws.of(a as u32, b as u32);
             interfaces.push(Interface { incident, reference, normal: patch.plane.normal, law, points });
         }
         let moving: Vec<f64> = rigid.iter().filter(|r| r.moves()).map(|r| r.mass).collect();
@@ -130,26 +130,38 @@ impl Blocks {
     }
 }
 
-/// The vertices of the part of a patch where the gap is at most `closed`, with their shares of its area.
+/// The vertices of the part of a patch where the gap is at most `closed`, with their shares of its area; of each piece of it
+/// where it touches in pieces.
 ///
 /// The strip or square that stands for a contact of edges and corners has a width for the springs of the other solvers;
 /// rigid blocks touch along its middle line or in its middle.
-fn contact_points(patch: &Patch, closed: f64) -> Vec<ContactPoint> {
+fn contact_points(patch: &Patch, closed: f64, sampling: Sampling) -> Vec<ContactPoint> {
+    match (patch.feature, sampling) {
+        (Feature::Faces(..), Sampling::Patches(mask)) => {
+            let cells = patches(&patch.polygon, mask);
+            cells.iter().flat_map(|cell| points_of(patch, &cell.outline, None, closed)).collect()
+        }
+        (Feature::Faces(..), Sampling::Area | Sampling::Vertices) => {
+            points_of(patch, &patch.polygon, None, closed)
+        }
+        (Feature::Steep(..) | Feature::Edges(..), _) => {
+            points_of(patch, &middle(&patch.polygon), Some(patch.polygon.area()), closed)
+        }
+    }
+}
+
+/// The vertices of the part of an outline on a patch where the gap is at most `closed`, with their shares of its area, or
+/// equal ones of the area given.
+fn points_of(patch: &Patch, outline: &Polygon, area: Option<f64>, closed: f64) -> Vec<ContactPoint> {
     let (frame, normal) = (&patch.frame, &patch.plane.normal);
-    let outline = match patch.feature {
-        Feature::Faces(..) => patch.polygon.clone(),
-        Feature::Steep(..) | Feature::Edges(..) => middle(&patch.polygon),
-    };
     let gap = patch.plane.distance(&frame.origin);
     let part = outline.clip(gap - closed, normal.dot(&frame.s), normal.dot(&frame.t));
     let vertices = distinct(part.vertices);
-    let shares = match patch.feature {
-        Feature::Faces(..) => area_shares(&vertices),
-        Feature::Steep(..) | Feature::Edges(..) => {
-            vec![patch.polygon.area() / vertices.len() as f64; vertices.len()]
-        }
+    let shares = match area {
+        None => area_shares(&vertices),
+        Some(area) => vec![area / vertices.len() as f64; vertices.len()],
     };
-    vertices.iter().zip(shares).map(|(&v, area)| ContactPoint { at: patch.frame.lift(v), area }).collect()
+    vertices.iter().zip(shares).map(|(&v, area)| ContactPoint { at: frame.lift(v), area }).collect()
 }
 
 /// The middle line of the strip along an edge, which begins at the frame's origin; or the origin, about which the

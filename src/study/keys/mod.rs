@@ -2,9 +2,11 @@
 //! What is done to a wall, and by which solver, is in `run`.
 
 mod elements;
+mod mechanism;
 mod run;
 
 pub use elements::{ELEMENT, ELEMENT_STUDY, ELEMENTS_PUBLISHED, REPORTED};
+pub use mechanism::MECHANISM;
 pub use run::SOLVER;
 
 use crate::study::keys::run::{LOAD, RESTRAINT};
@@ -47,6 +49,12 @@ pub static STUDY: Section = Section {
         Key::new("joint", Kind::Table(&JOINT), Required, "The joints' properties."),
         Key::new("load", Kind::Table(&LOAD), Required, "What is done to each wall."),
         Key::new("restraint", Kind::Table(&RESTRAINT), Required, "How base and ends are held."),
+        Key::new(
+            "mechanism",
+            Kind::Table(&MECHANISM),
+            Optional,
+            "Mechanisms that the base model leaves out.",
+        ),
         Key::new("solver", Kind::Table(&SOLVER), Default("{}"), "Which solver, with its settings."),
         Key::new("arm", Kind::Tables(&ARM), Required, "The populations of walls that are compared."),
         Key::new("variant", Kind::Tables(&VARIANT), Optional, "Other readings of the study, chosen by name."),
@@ -219,6 +227,12 @@ pub static ARM: Section = Section {
             Optional,
             "What this arm says otherwise than [restraint].",
         ),
+        Key::new(
+            "mechanism",
+            Kind::Table(&MECHANISM),
+            Optional,
+            "What this arm says otherwise than [mechanism].",
+        ),
         Key::new("wedges", Kind::Table(&WEDGES), Optional, "Wedge stones cut into bed joints."),
         Key::new("limits", Kind::Table(&LIMITS), Default("{}"), "What a stone must at least be."),
     ]],
@@ -367,7 +381,12 @@ pub static HEAD: Section = Section {
     keys: &[&[
         Key::new("quantity", Kind::Text, Required, "The quantity, in words."),
         Key::new("symbol", Kind::Text, Required, "Its symbol."),
-        Key::new("unit", Kind::Choice(&["1", "m", "deg", "Pa", "Pa/m", "kg/m3"]), Required, "Its unit."),
+        Key::new(
+            "unit",
+            Kind::Choice(&["1", "m", "deg", "1/deg", "Pa", "Pa/m", "N/m", "N m/rad", "kg/m3"]),
+            Required,
+            "Its unit.",
+        ),
     ]],
 };
 
@@ -400,40 +419,87 @@ pub static PUBLISHED: Section = Section {
     keys: &[&[Key::new("claim", Kind::Tables(&CLAIM), Required, "The statements.")]],
 };
 
-const RATIO: &[&str] = &["ratio_of_means"];
-const COV: &[&str] = &["cov"];
-const BAND: &[&str] = &["ratio_of_means", "cov"];
+const RATIO: &[&str] = &["ratio_of_means", "ratio_of_sines"];
+const NUMBER: &[&str] = &["ratio_of_means", "ratio_of_sines", "mean"];
+const AT_ONE_KN: &[&str] = &["ratio_of_sines", "mean"];
+const WORDS: &[&str] = &["cov", "mechanism"];
+const BAND: &[&str] = &["ratio_of_means", "ratio_of_sines", "mean", "cov"];
+const OF_AN_ARM: &[&str] = &["ratio_of_means", "ratio_of_sines", "mean", "cov", "between", "mechanism"];
+const FAILING: &[&str] = &["mechanism"];
+const ANY_SHARE: Kind =
+    Kind::Reals { unit: "1", within: Interval::closed(0.0, 1.0), at_most: 2, ascending: true };
 
 /// A statement.
-pub static CLAIM: Section =
-    Section {
-        title: "[[claim]]",
-        doc: "One statement and how it is judged, at every kn.",
-        chooser: Some("test"),
-        keys: &[&[
-            Key::new("claim", Kind::Text, Required, "The statement, in our words."),
-            Key::new("source", Kind::Text, Required, "Where it stands."),
-            Key::new("why", Kind::Text, Required, "Why the tolerance is what it is."),
-            Key::new(
-                "test",
-                Kind::Choice(&["ratio_of_means", "cov", "between", "falls_with_kn", "rises_with_kn"]),
-                Required,
-                "How it is judged.",
-            ),
-            Key::new("arm", Kind::Name, Required, "The arm it speaks of; above the line in a ratio.")
-                .only(&["ratio_of_means", "cov", "between"]),
-            Key::new("over", Kind::Name, Required, "The arm below the line.").only(RATIO),
-            Key::new("stated", real("1", POSITIVE), Required, "The value stated.").only(RATIO),
-            Key::new("stated", Kind::Text, Required, "The value stated, in words.").only(COV),
-            Key::new(
-                "low",
-                real("1", Interval::below(0.0, f64::INFINITY)),
-                Required,
-                "Lowest value that counts as reproduced.",
-            )
+pub static CLAIM: Section = Section {
+    title: "[[claim]]",
+    doc: "One statement and how it is judged, at every kn. A reading that leaves one of its arms out says nothing of it.",
+    chooser: Some("test"),
+    keys: &[&[
+        Key::new("claim", Kind::Text, Required, "The statement, in our words."),
+        Key::new("source", Kind::Text, Required, "Where it stands."),
+        Key::new("why", Kind::Text, Required, "Why the tolerance is what it is."),
+        Key::new(
+            "test",
+            Kind::Choice(&[
+                "ratio_of_means",
+                "ratio_of_sines",
+                "mean",
+                "cov",
+                "between",
+                "falls_with_kn",
+                "rises_with_kn",
+                "mechanism",
+            ]),
+            Required,
+            "How it is judged.",
+        ),
+        Key::new("arm", Kind::Name, Required, "The arm it speaks of; above the line in a ratio.")
+            .only(OF_AN_ARM),
+        Key::new("over", Kind::Name, Required, "The arm below the line.").only(RATIO),
+        Key::new("at_kn_pa_per_m", real("Pa/m", POSITIVE), Optional, "The kn that is meant, if it is one.")
+            .only(AT_ONE_KN),
+        Key::new(
+            "stated",
+            real("1", POSITIVE),
+            Required,
+            "The value stated, an angle in deg, a length in m.",
+        )
+        .only(NUMBER),
+        Key::new("stated", Kind::Text, Required, "What is stated, in words.").only(WORDS),
+        Key::new(
+            "low",
+            real("1", Interval::below(0.0, f64::INFINITY)),
+            Required,
+            "Lowest value that counts as reproduced.",
+        )
+        .only(BAND),
+        Key::new("high", real("1", POSITIVE), Required, "Highest value that counts as reproduced.")
             .only(BAND),
-            Key::new("high", real("1", POSITIVE), Required, "Highest value that counts as reproduced.")
-                .only(BAND),
-            Key::new("of", Kind::NamePair, Required, "The two arms on either side.").only(&["between"]),
-        ]],
-    };
+        Key::new(
+            "mode",
+            Kind::Choice(&["sliding", "rocking", "bulging"]),
+            Optional,
+            "How the moving part moves.",
+        )
+        .only(FAILING),
+        Key::new(
+            "weight_share",
+            ANY_SHARE,
+            Default("[0, 1]"),
+            "Smallest and largest share of the weight that moves.",
+        )
+        .only(FAILING),
+        Key::new(
+            "length_share",
+            ANY_SHARE,
+            Default("[0, 1]"),
+            "Smallest and largest share of the length that moves by half of the largest movement or more.",
+        )
+        .only(FAILING),
+        Key::new("place", ANY_SHARE, Default("[0, 1]"), "Where along the length it moves most, from and to.")
+            .only(FAILING),
+        Key::new("least_share", real("1", SHARE), Default("0.5"), "Share of the walls that must fail so.")
+            .only(FAILING),
+        Key::new("of", Kind::NamePair, Required, "The two arms on either side.").only(&["between"]),
+    ]],
+};

@@ -81,6 +81,13 @@ pub static LOAD: Section = Section {
         )
         .only(TILTING),
         Key::new(
+            "observes",
+            Kind::Choice(&["collapse_angle", "displacement"]),
+            Default("\"collapse_angle\""),
+            "The tilt at which the wall falls; or how far its top has moved at end_deg.",
+        )
+        .only(TILTING),
+        Key::new(
             "turning",
             Kind::Table(&TURNING),
             Optional,

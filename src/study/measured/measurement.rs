@@ -1,0 +1,144 @@
+//! One measured value.
+
+use crate::study::measured::unit::Dimension;
+
+/// A value measured on a specimen, or a bound of one. SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measurement {
+    /// Name of the specimen.
+    pub specimen: String,
+    /// Name of the arm that it is a specimen of.
+    pub family: String,
+    /// Tilt of the platform at the reading (rad); `None` where the quantity has none of its own.
+    pub tilt: Option<f64>,
+    /// What was measured.
+    pub quantity: MeasuredQuantity,
+    /// The value, or the bound of a censored reading.
+    pub value: f64,
+    /// How the value is to be read.
+    pub kind: MeasuredKind,
+    /// Random error of the value, one standard deviation.
+    pub error: f64,
+    /// Error that all readings of the quantity share, one standard deviation.
+    pub common_error: f64,
+    /// Distance of neighbouring values of a rounded reading; 0 of any other.
+    pub resolution: f64,
+    /// Place of the specimen in the order of the tests, from 1.
+    pub order: Option<u32>,
+    /// Place of the reading in the sequence on its specimen.
+    pub stage: u32,
+    /// Line of the file.
+    pub line: usize,
+}
+
+/// How a value is to be read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MeasuredKind {
+    /// The reading.
+    Exact,
+    /// The reading is smaller than this: left-censored.
+    Below,
+    /// The reading is larger than this: right-censored.
+    Above,
+    /// The reading, rounded to the nearest multiple of the resolution.
+    Rounded,
+}
+
+impl MeasuredKind {
+    /// Names in the file.
+    pub const NAMES: [&str; 4] = ["exact", "below", "above", "rounded"];
+
+    /// The kind of that name.
+    pub fn named(name: &str) -> Option<MeasuredKind> {
+        use MeasuredKind::{Above, Below, Exact, Rounded};
+        [Exact, Below, Above, Rounded]
+            .into_iter()
+            .zip(Self::NAMES)
+            .find(|(_, n)| *n == name)
+            .map(|(kind, _)| kind)
+    }
+
+    /// Whether only a bound is known.
+    pub fn is_censored(self) -> bool {
+        matches!(self, MeasuredKind::Below | MeasuredKind::Above)
+    }
+}
+
+/// What was measured. Displacements are along the platform's +y at the wall's top, relative to the reading at rest at
+/// 0 deg.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum MeasuredQuantity {
+    /// Tilt at which the wall fell (rad).
+    CollapseAngle,
+    /// Displacement at the left end (m).
+    DisplacementLeft,
+    /// Displacement at the centre (m).
+    DisplacementCentre,
+    /// Displacement at the right end (m).
+    DisplacementRight,
+    /// Mean of the displacements at the left, the centre and the right (m).
+    DisplacementMean,
+    /// Displacement at the centre less the mean of those at the two ends (m).
+    DisplacementCentreMinusEnds,
+    /// Normal stiffness of a joint in a two-stone test (Pa/m).
+    JointKn,
+    /// Friction angle of a joint in a two-stone test (rad).
+    JointPhi,
+    /// Weight of a specimen (N).
+    SpecimenWeight,
+    /// Weight of one block (N).
+    BlockWeight,
+}
+
+impl MeasuredQuantity {
+    /// All of them.
+    pub const ALL: [MeasuredQuantity; 10] = [
+        MeasuredQuantity::CollapseAngle,
+        MeasuredQuantity::DisplacementLeft,
+        MeasuredQuantity::DisplacementCentre,
+        MeasuredQuantity::DisplacementRight,
+        MeasuredQuantity::DisplacementMean,
+        MeasuredQuantity::DisplacementCentreMinusEnds,
+        MeasuredQuantity::JointKn,
+        MeasuredQuantity::JointPhi,
+        MeasuredQuantity::SpecimenWeight,
+        MeasuredQuantity::BlockWeight,
+    ];
+
+    /// Name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            MeasuredQuantity::CollapseAngle => "collapse_angle",
+            MeasuredQuantity::DisplacementLeft => "displacement_left",
+            MeasuredQuantity::DisplacementCentre => "displacement_centre",
+            MeasuredQuantity::DisplacementRight => "displacement_right",
+            MeasuredQuantity::DisplacementMean => "displacement_mean",
+            MeasuredQuantity::DisplacementCentreMinusEnds => "displacement_centre_minus_ends",
+            MeasuredQuantity::JointKn => "joint_kn",
+            MeasuredQuantity::JointPhi => "joint_phi",
+            MeasuredQuantity::SpecimenWeight => "specimen_weight",
+            MeasuredQuantity::BlockWeight => "block_weight",
+        }
+    }
+
+    /// The quantity of that name.
+    pub fn named(name: &str) -> Option<MeasuredQuantity> {
+        Self::ALL.into_iter().find(|quantity| quantity.name() == name)
+    }
+
+    /// What it is, as far as its units go.
+    pub fn dimension(self) -> Dimension {
+        match self {
+            MeasuredQuantity::CollapseAngle | MeasuredQuantity::JointPhi => Dimension::Angle,
+            MeasuredQuantity::JointKn => Dimension::Stiffness,
+            MeasuredQuantity::SpecimenWeight | MeasuredQuantity::BlockWeight => Dimension::Force,
+            _ => Dimension::Length,
+        }
+    }
+
+    /// Whether it is read at a tilt of the platform.
+    pub fn has_tilt(self) -> bool {
+        self.dimension() == Dimension::Length
+    }
+}

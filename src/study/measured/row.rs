@@ -1,0 +1,281 @@
+//! One row of measured.csv to one measurement.
+
+use crate::math::{degrees, radians};
+use crate::study::fault::{Fault, Found, Place};
+use crate::study::measured::cells::{Cell, Line};
+use crate::study::measured::columns::Header;
+use crate::study::measured::measurement::{MeasuredKind, MeasuredQuantity, Measurement};
+use crate::study::measured::unit::Dimension;
+use crate::study::schema::{Interval, Short, quoted, suggestion};
+
+/// Longest name of a specimen (characters).
+const LONGEST_NAME: usize = 64;
+/// How far a rounded value may be from a multiple of its resolution, as a share of it: decimals are not exact in binary.
+const OFF_GRID: f64 = 1e-6;
+
+/// Reads a row; `None` when it is faulty, and the faults then say why. The place is that of the row.
+pub fn read(
+    header: &Header,
+    line: &Line,
+    arms: Option<&[String]>,
+    faults: &mut Vec<Fault>,
+) -> Option<(Measurement, Place)> {
+    if line.cells.len() != header.width() {
+        let fix = if line.cells.len() > header.width() {
+            "write decimals with a point, and quotes around a cell that holds a comma"
+        } else {
+            "add the missing ones; an empty cell has its comma as well"
+        };
+        let found = Found::Words(format!("has {} cells", line.cells.len()));
+        let allowed = format!("{}, as in the header", header.width());
+        faults.push(Fault::at(&line.place, "", found, allowed, fix));
+        return None;
+    }
+    Row { header, line, faults }.measurement(arms).map(|measurement| (measurement, line.place.clone()))
+}
+
+/// Where the values of a quantity must lie, in the first of its units.
+fn limits(quantity: MeasuredQuantity) -> Interval {
+    match quantity {
+        MeasuredQuantity::CollapseAngle => Interval::above(0.0, 90.0),
+        MeasuredQuantity::JointPhi => Interval::closed(0.0, 85.0),
+        MeasuredQuantity::JointKn => Interval::above(0.0, 1e15),
+        MeasuredQuantity::SpecimenWeight | MeasuredQuantity::BlockWeight => Interval::above(0.0, 1e9),
+        _ => Interval::closed(-100.0, 100.0),
+    }
+}
+
+/// A row of the right width.
+struct Row<'r> {
+    header: &'r Header,
+    line: &'r Line,
+    faults: &'r mut Vec<Fault>,
+}
+
+impl Row<'_> {
+    fn measurement(&mut self, arms: Option<&[String]>) -> Option<Measurement> {
+        let specimen = self.specimen();
+        let family = self.family(arms);
+        let quantity = self.quantity();
+        let kind = self.kind();
+        let (order, stage) = (self.whole("order", 1), self.whole("stage", 0));
+        let tilt = quantity.and_then(|quantity| self.tilt(quantity));
+        let numbers = quantity.and_then(|quantity| {
+            let unit = self.unit(quantity.dimension())?;
+            self.numbers(quantity, &unit, kind)
+        });
+        let [value, error, common_error, resolution] = numbers?;
+        Some(Measurement {
+            specimen: specimen?,
+            family: family?,
+            tilt: tilt?,
+            quantity: quantity?,
+            value,
+            kind: kind?,
+            error,
+            common_error,
+            resolution,
+            order: order?,
+            stage: stage?.unwrap_or(0),
+            line: self.line.place.line_and_column().0,
+        })
+    }
+
+    /// The cell of a column, if the file has it and it is not empty.
+    fn given(&self, column: &str) -> Option<Cell> {
+        self.header.cell(self.line, column).filter(|cell| !cell.text.is_empty()).cloned()
+    }
+
+    /// The cell of a column that must not be empty.
+    fn needed(&mut self, column: &str, allowed: impl Into<String>, fix: &str) -> Option<Cell> {
+        let cell = self.given(column);
+        if cell.is_none() {
+            let place = self.header.cell(self.line, column).map_or(&self.line.place, |cell| &cell.place);
+            self.faults.push(Fault::at(place, column, Found::Missing, allowed, fix));
+        }
+        cell
+    }
+
+    fn refuse(&mut self, cell: &Cell, column: &str, allowed: impl Into<String>, fix: impl Into<String>) {
+        let found = Found::Value(cell.text.clone());
+        self.faults.push(Fault::at(&cell.place, column, found, allowed, fix));
+    }
+
+    fn specimen(&mut self) -> Option<String> {
+        let allowed = format!("a name of at most {LONGEST_NAME} characters");
+        let cell = self.needed("specimen", allowed.as_str(), "name the specimen")?;
+        if cell.text.chars().count() > LONGEST_NAME || cell.text.chars().any(char::is_control) {
+            self.refuse(&cell, "specimen", allowed, "shorten it, and write letters");
+            return None;
+        }
+        Some(cell.text)
+    }
+
+    /// The arm, whose own name has lower-case letters only.
+    fn family(&mut self, arms: Option<&[String]>) -> Option<String> {
+        let allowed = arms.map_or_else(
+            || "an arm of study.toml".to_owned(),
+            |arms| format!("an arm of study.toml: {}", arms.join(", ")),
+        );
+        let cell = self.needed("family", allowed.as_str(), "name the arm that the specimen belongs to")?;
+        let name = cell.text.to_ascii_lowercase();
+        match arms {
+            Some(arms) if !arms.contains(&name) => {
+                self.refuse(&cell, "family", allowed, suggestion(&name, arms));
+                None
+            }
+            _ => Some(name),
+        }
+    }
+
+    fn quantity(&mut self) -> Option<MeasuredQuantity> {
+        let names = MeasuredQuantity::ALL.map(MeasuredQuantity::name);
+        MeasuredQuantity::named(&self.one_of("quantity", &names)?)
+    }
+
+    fn kind(&mut self) -> Option<MeasuredKind> {
+        MeasuredKind::named(&self.one_of("kind", &MeasuredKind::NAMES)?)
+    }
+
+    fn unit(&mut self, dimension: Dimension) -> Option<String> {
+        self.one_of("unit", dimension.units())
+    }
+
+    fn one_of(&mut self, column: &str, names: &[&str]) -> Option<String> {
+        let allowed = format!("one of {}", quoted(names));
+        let cell = self.needed(column, allowed.as_str(), "choose one")?;
+        if names.contains(&cell.text.as_str()) {
+            return Some(cell.text);
+        }
+        let fix = match names.iter().find(|name| name.eq_ignore_ascii_case(&cell.text)) {
+            Some(name) => format!("did you mean \"{name}\"?"),
+            // A unit near in letters is far in meaning: kg and kN, km and m.
+            None if column == "unit" && ["g", "kg", "t"].contains(&cell.text.as_str()) => {
+                "that is a mass: multiply by 9.81 m/s2 and state the weight".to_owned()
+            }
+            None if column == "unit" => {
+                "convert the value, the errors and the resolution to one of these".to_owned()
+            }
+            None => suggestion(&cell.text, names),
+        };
+        self.refuse(&cell, column, allowed, fix);
+        None
+    }
+
+    /// The tilt (rad), or none where the quantity has none; the outer `None` is a fault.
+    fn tilt(&mut self, quantity: MeasuredQuantity) -> Option<Option<f64>> {
+        let name = quantity.name();
+        if !quantity.has_tilt() {
+            return match self.given("tilt_deg") {
+                None => Some(None),
+                Some(cell) => {
+                    let fix = "empty the cell; a collapse angle stands in the column value";
+                    self.refuse(&cell, "tilt_deg", format!("nothing where quantity = {name}"), fix);
+                    None
+                }
+            };
+        }
+        let within = Interval::closed(0.0, 90.0);
+        let allowed = format!("a number {within} (deg)");
+        let fix = format!("state the tilt at which the {name} was read");
+        let cell = self.needed("tilt_deg", allowed.as_str(), &fix)?;
+        let tilt = self.number(&cell, "tilt_deg", within, &allowed)?;
+        Some(Some(radians(tilt)))
+    }
+
+    /// Value, error, common error and resolution in SI units; `kind` is `None` where it is faulty itself.
+    fn numbers(
+        &mut self,
+        quantity: MeasuredQuantity,
+        unit: &str,
+        kind: Option<MeasuredKind>,
+    ) -> Option<[f64; 4]> {
+        let value = self.value(quantity, unit);
+        let any = Interval::closed(0.0, 1e15);
+        let error_allowed = format!("a number at least 0 ({unit})");
+        let fix = "state one standard deviation of the instrument's random error; 0 for none";
+        let error = self
+            .needed("error", error_allowed.as_str(), fix)
+            .and_then(|cell| self.number(&cell, "error", any, &error_allowed));
+        let common = match self.given("common_error") {
+            None => Some(0.0),
+            Some(cell) => self.number(&cell, "common_error", any, &error_allowed),
+        };
+        let resolution = self.resolution(unit, kind, value);
+        let numbers = [value?, error?, common?, resolution?];
+        Some(numbers.map(|number| quantity.dimension().si(number, unit)))
+    }
+
+    /// The value as written, after it was found to be possible.
+    fn value(&mut self, quantity: MeasuredQuantity, unit: &str) -> Option<f64> {
+        let (within, first) = (limits(quantity), quantity.dimension().units()[0]);
+        let allowed = format!("a number {within} ({first})");
+        let cell = self.needed("value", allowed.as_str(), "write the value, or remove the row")?;
+        let number = self.number(&cell, "value", Interval::any(), &allowed)?;
+        let in_first = match (first, unit) {
+            ("deg", "deg") => number,
+            ("deg", _) => degrees(number),
+            _ => quantity.dimension().si(number, unit),
+        };
+        if !within.contains(in_first) {
+            let fix = format!("it is {} {first}: mend the value or its unit", Short(in_first));
+            self.refuse(&cell, "value", allowed, fix);
+            return None;
+        }
+        Some(number)
+    }
+
+    /// The resolution as written; 0 where the reading is not rounded.
+    fn resolution(&mut self, unit: &str, kind: Option<MeasuredKind>, value: Option<f64>) -> Option<f64> {
+        let within = Interval::above(0.0, 1e15);
+        let allowed = format!("a number above 0 ({unit})");
+        if kind != Some(MeasuredKind::Rounded) {
+            let cell = self.given("resolution");
+            if let (Some(cell), Some(_)) = (&cell, kind) {
+                let fix = "empty the cell, or say that the kind is rounded";
+                self.refuse(cell, "resolution", "nothing unless kind = rounded", fix);
+            }
+            return cell.is_none().then_some(0.0);
+        }
+        let fix = "state the distance of neighbouring values, in a column of that name";
+        let cell = self.needed("resolution", allowed.as_str(), fix)?;
+        let resolution = self.number(&cell, "resolution", within, &allowed)?;
+        if let Some(value) = value {
+            let steps = value / resolution;
+            if (steps - steps.round()).abs() > OFF_GRID * steps.abs().max(1.0) {
+                let allowed = format!("a step of which the value {} is a multiple", Short(value));
+                self.refuse(&cell, "resolution", allowed, "mend the value or the resolution");
+                return None;
+            }
+        }
+        Some(resolution)
+    }
+
+    fn number(&mut self, cell: &Cell, column: &str, within: Interval, allowed: &str) -> Option<f64> {
+        let fix = match cell.text.parse::<f64>() {
+            Ok(number) if within.contains(number) => return Some(number),
+            Ok(number) if !number.is_finite() => "a finite number is needed",
+            Ok(number) if number < within.low || (within.open_low && number == within.low) => "raise it",
+            Ok(_) => "reduce it",
+            Err(_) if cell.text.replace(',', ".").parse::<f64>().is_ok() => {
+                "write a point for the decimal comma"
+            }
+            Err(_) => "write the number alone",
+        };
+        self.refuse(cell, column, allowed, fix);
+        None
+    }
+
+    /// A whole number of at least `least` in an optional column; the outer `None` is a fault.
+    fn whole(&mut self, column: &str, least: u32) -> Option<Option<u32>> {
+        let Some(cell) = self.given(column) else { return Some(None) };
+        match cell.text.parse::<u32>() {
+            Ok(number) if number >= least => Some(Some(number)),
+            _ => {
+                let allowed = format!("a whole number, at least {least}, or nothing");
+                self.refuse(&cell, column, allowed, "count in whole numbers, or empty the cell");
+                None
+            }
+        }
+    }
+}
