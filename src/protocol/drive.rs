@@ -158,6 +158,8 @@ enum Verdict<S> {
 const MOST_WRONG: u32 = 20;
 /// The path of equilibria is followed so often: where it is lost, it is so again from nearby.
 const MOST_FOLLOWED: u32 = 3;
+/// A fall is followed for this share of how far a wall goes that runs away.
+const FOLLOWED: f64 = 0.5;
 /// So many full steps above a suspicion a fall is looked for, when it cannot be told there.
 const STEPS_ABOVE: u32 = 6;
 
@@ -299,6 +301,7 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
         let (Criterion::AnyBlock(far) | Criterion::Top(far)) = self.task.criterion;
         let loads = |level| path.loads(level);
         let last = self.last_borne();
+        let far = FOLLOWED * far;
         let ahead = Ahead { loads: &loads, from: last, to: level, far, bracket: path.bracket };
         let changes = &self.task.changes;
         if changes.loses(last, level) {

@@ -1,4 +1,5 @@
 //! Published statements against our numbers: what the studies' READMEs say comes out, does.
 
+mod element_types;
 mod joint_arrangement;
 mod tilting_block;

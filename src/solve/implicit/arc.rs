@@ -29,6 +29,20 @@ pub(super) struct Arc {
     pub iterations: u32,
 }
 
+/// A state that has been reached, before the path is looked at from there.
+pub(super) struct Reached {
+    /// The level of the load.
+    pub level: f64,
+    /// Unbalanced force ratio.
+    pub ratio: f64,
+    /// Direction in which it was reached, of unit length; empty where it did not move.
+    pub along: Vec<f64>,
+    /// Length of the step that led here.
+    pub length: f64,
+    /// Iterations that it took.
+    pub iterations: u32,
+}
+
 impl Newton<'_, '_> {
     /// Goes a length along a direction from a state at rest at `level`, the level of the load being as unknown as the
     /// positions, to an unbalanced force ratio; without a direction it stays where it is. `None` where it does not converge.
@@ -39,7 +53,7 @@ impl Newton<'_, '_> {
         along: &[f64],
         length: f64,
         unbalanced_ratio: f64,
-    ) -> Option<Arc> {
+    ) -> Option<Reached> {
         let tolerance = unbalanced_ratio.max(self.rounding());
         let mut moved = vec![0.0; DOF * self.assembly.bodies.all.len()];
         let (mut gone, mut before, mut fresh) = (0.0, f64::INFINITY, self.system.is_factorised());
@@ -77,19 +91,28 @@ impl Newton<'_, '_> {
             self.effort.steps += 1;
             iterations += 1;
         };
-        self.factorise()?;
-        let loading = self.per_level(loads, level);
-        let onward = self.system.solve(&loading);
-        let size = |v: &[f64]| self.product(v, v).sqrt();
-        let unit = |v: &[f64]| v.iter().map(|x| x / size(v)).collect::<Vec<f64>>();
-        let along = match (along.is_empty(), length > 0.0) {
-            (true, _) => unit(&onward),
-            (false, true) => unit(&moved),
-            (false, false) => along.to_vec(),
+        let size = self.product(&moved, &moved).sqrt();
+        let along = match length > 0.0 {
+            true => moved.iter().map(|x| x / size).collect(),
+            false => along.to_vec(),
         };
+        Some(Reached { level, ratio, along, length, iterations })
+    }
+
+    /// How the path goes on from a state that has been reached; where no direction is known, the way of the growing load.
+    pub fn onward(&mut self, loads: &dyn Fn(f64) -> (Vec3, f64), reached: Reached) -> Option<Arc> {
+        self.factorise()?;
+        let loading = self.per_level(loads, reached.level);
+        let onward = self.system.solve(&loading);
+        let mut along = reached.along;
+        if along.is_empty() {
+            let size = self.product(&onward, &onward).sqrt();
+            along = onward.iter().map(|x| x / size).collect();
+        }
         let slope = 1.0 / self.product(&along, &onward);
         let stable = self.system.is_stable();
-        (slope.is_finite()).then_some(Arc { level, ratio, along, slope, stable, length, iterations })
+        let Reached { level, ratio, length, iterations, .. } = reached;
+        slope.is_finite().then_some(Arc { level, ratio, along, slope, stable, length, iterations })
     }
 
     /// Growth of the loads per level.

@@ -8,9 +8,10 @@
 //! ```
 
 use crate::solve::bodies::Body;
-use crate::solve::implicit::arc::Arc;
+use crate::solve::implicit::arc::{Arc, Reached};
 use crate::solve::implicit::newton::Newton;
 use crate::solve::implicit::{Equilibrium, System};
+use crate::solve::joints::Anchor;
 use crate::solve::{Ahead, Equilibrate, Followed, Way};
 
 /// Steps along the path before the search is given up.
@@ -107,7 +108,7 @@ impl<'a> Equilibrium<'a> {
         now.iter().zip(then).map(square).fold(0.0, f64::max).sqrt()
     }
 
-    /// Goes a length along a direction; the step and what it took.
+    /// Goes a length along a direction, finds contacts anew where it led far enough, and the state again beside them.
     fn step_along(
         &mut self,
         ahead: &Ahead<'_>,
@@ -116,19 +117,42 @@ impl<'a> Equilibrium<'a> {
         length: f64,
         rough: bool,
     ) -> Option<Arc> {
+        let (mut reached, mut anchors) = self.on_path(ahead, from, along, length, rough)?;
+        if self.assembly().has_moved() {
+            self.assembly_mut().refresh();
+            let (again, since) = self.on_path(ahead, reached.level, &reached.along, 0.0, rough)?;
+            anchors = since;
+            let iterations = reached.iterations + again.iterations;
+            reached = Reached { length: reached.length, iterations, ..again };
+        }
+        self.newton(&anchors).onward(ahead.loads, reached)
+    }
+
+    /// The state so far along the path, and what its joints started from.
+
+    fn on_path(
+        &mut self,
+        ahead: &Ahead<'_>,
+        from: f64,
+        along: &[f64],
+        length: f64,
+        rough: bool,
+    ) -> Option<(Reached, Vec<Anchor>)> {
+        let anchors = self.assembly().joints.anchors(&self.assembly().bodies.all);
+        let mut newton = self.newton(&anchors);
+        let own = newton.settings.unbalanced_ratio;
+        let ratio = if rough { ROUGH.max(own) } else { own };
+        let reached = newton.along(ahead.loads, from, along, length, ratio)?;
+        Some((reached, anchors))
+    }
+
+    /// Newton's method on the assembly as it stands.
+    fn newton<'s>(&'s mut self, anchors: &'s [Anchor]) -> Newton<'s, 'a> {
         let (assembly, system, settings, effort, loose) = self.parts();
         if !system.fits(&assembly.joints) {
             *system = System::new(&assembly.bodies.all, &assembly.joints);
         }
-        let anchors = assembly.joints.anchors(&assembly.bodies.all);
-        let ratio = if rough { ROUGH.max(settings.unbalanced_ratio) } else { settings.unbalanced_ratio };
-        Newton { assembly, system, anchors: &anchors, settings, effort, loose }.along(
-            ahead.loads,
-            from,
-            along,
-            length,
-            ratio,
-        )
+        Newton { assembly, system, anchors, settings, effort, loose }
     }
 }
 
@@ -186,15 +210,7 @@ impl<'a> State<'a> {
         for _ in 0..=MOST_HALVINGS {
             let mut at = self.at.clone();
             if let Some(arc) = at.step_along(ahead, self.level, &self.along, length, rough) {
-                if !at.assembly().has_moved() {
-                    return Some(State::of(at, arc));
-                }
-                // Contacts are found anew, and the state found again beside them.
-                at.assembly_mut().refresh();
-                if let Some(again) = at.step_along(ahead, arc.level, &arc.along, 0.0, rough) {
-                    let iterations = arc.iterations + again.iterations;
-                    return Some(State::of(at, Arc { length: arc.length, iterations, ..again }));
-                }
+                return Some(State::of(at, arc));
             }
             length *= 0.5;
         }

@@ -1,9 +1,11 @@
 //! Every key of study.toml, published.toml and the files below `distributions`: name, kind, unit, range, default, meaning.
 //! What is done to a wall, and by which solver, is in `run`.
 
+mod elements;
 mod mechanism;
 mod run;
 
+pub use elements::{ELEMENT, ELEMENT_STUDY, ELEMENTS_PUBLISHED, REPORTED};
 pub use mechanism::MECHANISM;
 pub use run::SOLVER;
 
@@ -171,6 +173,12 @@ pub static ARM: Section = Section {
     keys: &[&[
         Key::new("name", Kind::Name, Required, "Name of the arm."),
         Key::new("members", Kind::Whole { low: 1, high: 1_000_000 }, Required, "Number of walls."),
+        Key::new(
+            "curve",
+            Kind::Name,
+            Optional,
+            "Arms with the same one are drawn as a curve: drift against length over height.",
+        ),
         Key::new(
             "arrangement",
             Kind::Choice(&["continuous", "discontinuous", "coursed", "cut"]),
