@@ -9,6 +9,7 @@ use crate::ensemble::{Row, replace_file};
 use crate::report::beside::Earlier;
 use crate::report::csv::{csv, fragility_csv};
 use crate::report::draw::{Figure, IMAGE_SCALE, png_into, svg};
+use crate::report::drift::{DriftPlot, drift_csv, drift_curves};
 use crate::report::figure::{curves, ladders, title};
 use crate::report::fragility::FragilityPlot;
 use crate::report::measured::{CalibrationPlot, calibration_csv, comparison_csv};
@@ -20,6 +21,8 @@ use crate::study::Study;
 pub const SUMMARY_JSON: &str = "summary.json";
 /// File name, without ending, of the fragility curves and the figure of them.
 pub const FRAGILITY: &str = "fragility";
+/// File name, without ending, of the drift against the walls' length.
+const DRIFT: &str = "drift";
 /// File name of the comparison with what was measured.
 pub const COMPARISON_CSV: &str = "comparison.csv";
 /// File name, without ending, of the calibration's curves and the figure of them.
@@ -51,6 +54,7 @@ pub(crate) fn write_summary(summary: &Summary, dir: &Path, beside: Option<&Earli
     let plot = |scale| Plot::new(&title, &curves, scale).beside(beside);
     write_figure(dir, name, &plot(1), &plot(IMAGE_SCALE))?;
     write_measured(summary, &title, dir)?;
+    write_drift(summary, &title, dir)?;
     let ladders = ladders(summary);
     if ladders.is_empty() {
         return Ok(());
@@ -58,6 +62,17 @@ pub(crate) fn write_summary(summary: &Summary, dir: &Path, beside: Option<&Earli
     replace_file(&dir.join(format!("{FRAGILITY}.csv")), fragility_csv(&summary.arms).as_bytes())?;
     let figure = |scale| FragilityPlot::new(&title, &ladders, scale);
     write_figure(dir, FRAGILITY, &figure(1), &figure(IMAGE_SCALE))
+}
+
+/// Writes the drift against the walls' length, if arms are points of such a curve.
+fn write_drift(summary: &Summary, title: &str, dir: &Path) -> Result<()> {
+    let curves = drift_curves(summary);
+    if curves.is_empty() {
+        return Ok(());
+    }
+    replace_file(&dir.join(format!("{DRIFT}.csv")), drift_csv(&curves).as_bytes())?;
+    let figure = |scale| DriftPlot::new(title, &curves, scale);
+    write_figure(dir, DRIFT, &figure(1), &figure(IMAGE_SCALE))
 }
 
 /// Writes what was measured beside what was simulated, if anything was.

@@ -5,6 +5,7 @@ mod beside;
 mod compare;
 mod csv;
 mod draw;
+mod drift;
 mod elements;
 mod figure;
 mod files;

@@ -205,5 +205,6 @@ fn parameters(arm: &Arm) -> BTreeMap<String, serde_json::Value> {
         ("cohesion_pa", serde_json::json!(joint.cohesion)),
         ("tension_pa", serde_json::json!(joint.tension)),
     ];
-    entries.into_iter().map(|(key, value)| (key.to_string(), value)).collect()
+    let curve = arm.curve.iter().map(|curve| ("curve", serde_json::json!(curve)));
+    entries.into_iter().chain(curve).map(|(key, value)| (key.to_string(), value)).collect()
 }

@@ -107,6 +107,7 @@ fn arm(t: &mut Reader<'_>, name: Option<String>, shared: &Setting, catalogue: &m
     let setting = shared.of_arm(t, catalogue);
     let (wall, bond) = (&setting.wall, setting.wall.bond);
     let members = t.whole("members");
+    let curve = if t.has("curve") { t.name("curve") } else { None };
     let (arrangement, stone) = arrangement(t, catalogue);
     let has_wedges = t.has("wedges");
     let wedges = t.table("wedges").and_then(|mut w| wedges(&mut w, wall, &stone, catalogue));
@@ -130,6 +131,7 @@ fn arm(t: &mut Reader<'_>, name: Option<String>, shared: &Setting, catalogue: &m
     Some(Arm {
         name: name?,
         members: members?,
+        curve,
         layout: mechanisms.layout(layout),
         joint,
         kn_points,

@@ -51,6 +51,8 @@ pub struct Arm {
     pub name: String,
     /// Number of walls, at least 1.
     pub members: u64,
+    /// The curve over the walls' length that the arm is a point of, if any.
+    pub curve: Option<String>,
     /// What each wall is asked to be.
     pub layout: Layout,
     /// Joint properties other than kn.

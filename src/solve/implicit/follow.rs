@@ -175,7 +175,7 @@ impl<'a> State<'a> {
         let (gravity, factor) = (ahead.loads)(ahead.to);
         at.set_loads(gravity, factor);
         let (solved, ratio) = at.solve();
-        solved.then(|| Followed { rest: at, level: ahead.to, ratio, way: Way::Stands })
+        solved.then_some(Followed { rest: at, level: ahead.to, ratio, way: Way::Stands })
     }
 
     /// The fall that began at the highest state, seen as far as here; `None` where that is not far enough (m).

@@ -174,6 +174,12 @@ pub static ARM: Section = Section {
         Key::new("name", Kind::Name, Required, "Name of the arm."),
         Key::new("members", Kind::Whole { low: 1, high: 1_000_000 }, Required, "Number of walls."),
         Key::new(
+            "curve",
+            Kind::Name,
+            Optional,
+            "Arms with the same one are drawn as a curve: drift against length over height.",
+        ),
+        Key::new(
             "arrangement",
             Kind::Choice(&["continuous", "discontinuous", "coursed", "cut"]),
             Required,

@@ -116,7 +116,7 @@ pub fn header(line: &Line, faults: &mut Vec<Fault>) -> Option<Header> {
             ));
         }
     }
-    (faults.len() == before).then(|| Header { columns })
+    (faults.len() == before).then_some(Header { columns })
 }
 
 /// The fault of a file of comments and blanks.
