@@ -7,6 +7,7 @@ mod elements;
 mod failure;
 mod generate;
 mod locate;
+mod mechanisms;
 mod output;
 mod progress;
 mod run;
@@ -29,6 +30,7 @@ pub fn main() -> ExitCode {
         Verb::Analyse(arguments) => analyse::analyse(arguments),
         Verb::Check(arguments) => check::check(arguments),
         Verb::Generate(arguments) => generate::generate(arguments),
+        Verb::Mechanisms(arguments) => mechanisms::mechanisms(arguments),
         Verb::Run(arguments) => run::run(arguments),
     };
     match done {

@@ -34,6 +34,6 @@ pub use settings::{
     Turning,
 };
 pub use shove::{Phase, Shove, Shoved, Stand, shove_heap, shove_wall};
-pub use stage::typical_size;
+pub use stage::{Stage, typical_size};
 pub use task::{Platform, Run, Task};
 pub use watch::{Criterion, LoadStep};
