@@ -129,7 +129,6 @@ impl<'a> Equilibrium<'a> {
     }
 
     /// The state so far along the path, and what its joints started from.
-
     fn on_path(
         &mut self,
         ahead: &Ahead<'_>,
