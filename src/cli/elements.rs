@@ -21,7 +21,7 @@ pub(super) fn run(folder: &Path, arguments: &Run) -> Result<(), Failure> {
     if let Some((_, why)) = refused.iter().find(|(given, _)| *given) {
         return Err(Failure::Usage(format!("{} compares types of elements; {why}", folder.display())));
     }
-    let mut study = ElementStudy::load(folder)?;
+    let mut study = load(folder)?;
     if let Some(seed) = arguments.seed {
         study = study.with_seed(seed);
     }
@@ -39,6 +39,19 @@ pub(super) fn run(folder: &Path, arguments: &Run) -> Result<(), Failure> {
     output::print(&format!("{}written to {}\n", report::element_table(&study, &rows), out.display()))
 }
 
+fn load(folder: &Path) -> Result<ElementStudy, Failure> {
+    let study = ElementStudy::load(folder)?;
+    warn(&study);
+    Ok(study)
+}
+
+/// Passes the study's warnings on to standard error.
+fn warn(study: &ElementStudy) {
+    for warning in &study.warnings {
+        output::note(&format!("warning: {warning}"));
+    }
+}
+
 /// Says whether the study is valid and what it would run.
 pub(super) fn check(folder: &Path, arguments: &Check) -> Result<(), Failure> {
     let loaded = ElementStudy::load(folder);
@@ -53,14 +66,16 @@ pub(super) fn check(folder: &Path, arguments: &Check) -> Result<(), Failure> {
                     .map(|arm| json!({"element": arm.name, "members": arm.members, "random": !arm.elements.is_fixed()}))
                     .collect::<Vec<_>>(),
                 "faults": [],
+                "warnings": study.warnings,
             })),
             Err(faults) => {
-                output::print_json(&json!({"valid": false, "faults": faults.faults}))?;
+                output::print_json(&json!({"valid": false, "faults": faults.faults, "warnings": []}))?;
                 Err(Failure::Said)
             }
         };
     }
     let study = loaded?;
+    warn(&study);
     let names: Vec<String> = study.arms.iter().map(|arm| format!("{} ({})", arm.name, arm.members)).collect();
     let keys = if arguments.keys { format!("\n{}", key_reference()) } else { String::new() };
     output::print(&format!(

@@ -10,7 +10,7 @@ use crate::protocol::Shove;
 use crate::solve::{explicit, grains};
 use crate::study::catalogue::Catalogue;
 use crate::study::checked::InputFile;
-use crate::study::fault::Faults;
+use crate::study::fault::{Fault, Faults};
 use crate::study::load::{existing, hash_of, parsed};
 use crate::study::quantity::quantity;
 use crate::study::raw::{Node, Value};
@@ -49,6 +49,8 @@ pub struct ElementStudy {
     pub arms: Vec<ElementArm>,
     /// What others report, from published.toml.
     pub published: Vec<Reported>,
+    /// What is allowed and yet looks wrong.
+    pub warnings: Vec<Fault>,
     /// Every input file with its SHA-256, in the order read.
     pub inputs: Vec<InputFile>,
     /// SHA-256 (hex) over every value that decides a result.
@@ -123,7 +125,8 @@ impl ElementStudy {
         match study {
             Some(study) if faults.is_empty() => {
                 let name = folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-                Ok(ElementStudy { name, published, inputs, hash: hash_of(&effective), ..study })
+                let warnings = Faults::sorted(notes.warnings).faults;
+                Ok(ElementStudy { name, published, warnings, inputs, hash: hash_of(&effective), ..study })
             }
             _ => {
                 crate::check!(!faults.is_empty(), "the study was refused without a fault");
@@ -184,6 +187,7 @@ fn study(root: &Node, notes: &mut Notes, catalogue: &mut Catalogue) -> Option<El
         explicit,
         arms: arms?,
         published: Vec::new(),
+        warnings: Vec::new(),
         inputs: Vec::new(),
         hash: String::new(),
     })

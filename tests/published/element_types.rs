@@ -68,5 +68,9 @@ fn faults_are_named_and_none_is_passed_over() {
         let faults = ElementStudy::load(&folder).expect_err(to).to_string();
         assert!(faults.contains(named), "{to}: {faults}");
     }
+    let unusual = text.replacen("young_pa = 3.07e10", "young_pa = 30.7", 1);
+    fs::write(folder.join("study.toml"), unusual).expect("it can be written");
+    let warned = ElementStudy::load(&folder).expect("it is valid").warnings;
+    assert_eq!(warned.len(), 1, "{warned:?}");
     fs::remove_dir_all(&folder).expect("the folder is ours");
 }
