@@ -7,6 +7,7 @@ mod failure;
 mod generate;
 mod locate;
 mod output;
+mod picture;
 mod progress;
 mod run;
 
@@ -28,6 +29,7 @@ pub fn main() -> ExitCode {
         Verb::Analyse(arguments) => analyse::analyse(arguments),
         Verb::Check(arguments) => check::check(arguments),
         Verb::Generate(arguments) => generate::generate(arguments),
+        Verb::Picture(arguments) => picture::picture(arguments),
         Verb::Run(arguments) => run::run(arguments),
     };
     match done {
