@@ -46,6 +46,14 @@ pub(crate) enum Verb {
          A member whose wall is an invalid geometry ends with 1 and the reason."
     ))]
     Generate(Generate),
+    /// Solve the wall of one member and draw how it falls, with its joints coloured by opening or slip.
+    #[command(after_help = format!(
+        "Example: pirca picture studies/tilting-table --arm sbl --member 0 --out wall.svg\n\n\
+         The last state at rest is drawn in true size, the movement of the fall magnified; a wall that does not fall is drawn\n\
+         at rest, with its displacements magnified. Every way a wall can end is drawn, and ends with 0.\n\n{CODES}\n\
+         A member whose wall is an invalid geometry ends with 1 and the reason."
+    ))]
+    Picture(Picture),
     /// Generate and solve every wall of a study; write tables, statistics and figures. Resumes by itself.
     #[command(after_help = format!(
         "Example: pirca run studies/joint-arrangement --members 5 --out runs/first-try\n\
@@ -126,6 +134,51 @@ pub(crate) struct Generate {
     /// File to write; its ending says the format: .vtu (ParaView), .obj or .json.
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
+}
+
+/// Arguments of `picture`.
+#[derive(Args, Debug)]
+pub(crate) struct Picture {
+    #[command(flatten)]
+    pub which: Which,
+    /// Name of the arm; without it the first whose walls are random.
+    #[arg(long, value_name = "ARM")]
+    pub arm: Option<String>,
+    /// Number of the kn point, from 0.
+    #[arg(long, value_name = "K", default_value_t = 0)]
+    pub point: u32,
+    /// Number of the member, from 0.
+    #[arg(long, value_name = "M", default_value_t = 0)]
+    pub member: u64,
+    /// Seed instead of the study's.
+    #[arg(long, value_name = "S")]
+    pub seed: Option<u64>,
+    /// What joints are coloured by.
+    #[arg(long, value_name = "NAME", default_value = "opening")]
+    pub colour: Measure,
+    /// Magnification of the movement, above 0 [default: so that the largest one is a tenth of the wall's height].
+    #[arg(long, value_name = "X", value_parser = magnification, allow_negative_numbers = true)]
+    pub magnify: Option<f64>,
+    /// File to write, an .svg.
+    #[arg(long, value_name = "FILE")]
+    pub out: PathBuf,
+}
+
+/// What joints are coloured by.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Measure {
+    /// How far they gape at their widest.
+    Opening,
+    /// How far they have slipped.
+    Slip,
+}
+
+/// A magnification: above 0, and no more than anything could need.
+fn magnification(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x <= 1e6 => Ok(x),
+        _ => Err("allowed is a number above 0, up to 1000000".to_string()),
+    }
 }
 
 /// Arguments of `run`.

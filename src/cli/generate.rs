@@ -83,7 +83,7 @@ fn format_of(path: &Path) -> Result<Format, Failure> {
 }
 
 /// The arm of that name, or the first one that is random, or else the first one.
-fn arm_index(study: &Study, name: Option<&str>) -> Result<usize, Failure> {
+pub(super) fn arm_index(study: &Study, name: Option<&str>) -> Result<usize, Failure> {
     let Some(name) = name else {
         let random = study.arms.iter().position(ensemble::is_random);
         return Ok(random.unwrap_or(0));
@@ -94,7 +94,8 @@ fn arm_index(study: &Study, name: Option<&str>) -> Result<usize, Failure> {
     })
 }
 
-fn kn(arm: &Arm, point: u32) -> Result<f64, Failure> {
+/// The joint stiffness (Pa/m) of an arm's point.
+pub(super) fn kn(arm: &Arm, point: u32) -> Result<f64, Failure> {
     arm.kn_points.get(point as usize).copied().ok_or_else(|| {
         let last = arm.kn_points.len() - 1;
         Failure::Usage(format!("--point {point}: arm {} has points 0 to {last}", arm.name))

@@ -9,6 +9,7 @@ mod generate;
 mod locate;
 mod mechanisms;
 mod output;
+mod picture;
 mod progress;
 mod run;
 
@@ -31,6 +32,7 @@ pub fn main() -> ExitCode {
         Verb::Check(arguments) => check::check(arguments),
         Verb::Generate(arguments) => generate::generate(arguments),
         Verb::Mechanisms(arguments) => mechanisms::mechanisms(arguments),
+        Verb::Picture(arguments) => picture::picture(arguments),
         Verb::Run(arguments) => run::run(arguments),
     };
     match done {

@@ -6,7 +6,7 @@ use crate::protocol::confirm::{Fall, Judge, Told};
 use crate::protocol::mechanism::{Failure, failure, joint_states};
 use crate::protocol::pace::Pace;
 use crate::protocol::route::Route;
-use crate::protocol::task::displacements;
+use crate::protocol::task::{displacements, turns};
 use crate::protocol::watch::{Criterion, LoadStep, Watch};
 use crate::protocol::{Run, Task};
 use crate::solve::bodies::Body;
@@ -109,6 +109,7 @@ pub fn climb<'a, S: Equilibrate<'a>>(task: &Task<'a>, of: &dyn Fn(Assembly<'a>) 
         bracket,
         steps: climber.steps,
         displacements: displacements(&assembly.bodies.all, &climber.built.bodies.all),
+        turns: turns(&assembly.bodies.all, &climber.built.bodies.all),
         joints,
         failure,
         joint_states: joint_states(assembly, &at_rest),
@@ -407,6 +408,7 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
             bracket: None,
             steps: self.steps,
             displacements: displacements(&bodies, &self.built.bodies.all),
+            turns: turns(&bodies, &self.built.bodies.all),
             joints,
             failure,
             joint_states: Vec::new(),

@@ -4,6 +4,7 @@ use crate::math::Vec3;
 use crate::model::Wall;
 use crate::protocol::Direction;
 use crate::protocol::observe::{extent, movable, top_points};
+use crate::protocol::task::{displacements, turns};
 use crate::solve::Assembly;
 use crate::solve::bodies::{Bodies, Body};
 
@@ -56,6 +57,8 @@ pub struct Failure {
     pub place: f64,
     /// How far each block's centroid went (m) while it was watched, by block id: the mechanism, in no particular scale.
     pub motion: Vec<Vec3>,
+    /// How far each block turned meanwhile: rotation vectors (rad, world axes), by block id.
+    pub turns: Vec<Vec3>,
 }
 
 /// A joint at the last state at rest.
@@ -94,7 +97,7 @@ pub fn failure(
     let reach: Vec<(u32, f64)> = movable(wall).map(|(id, _)| (id as u32, furthest_corner(id))).collect();
     let largest = reach.iter().fold(0.0, |a: f64, (_, r)| a.max(*r));
     let moving: Vec<u32> = reach.iter().filter(|(_, r)| *r > MOVES * largest).map(|(id, _)| *id).collect();
-    let motion: Vec<Vec3> = after.all.iter().zip(before).map(|(a, b)| a.position - b.position).collect();
+    let motion = displacements(&after.all, before);
     let weight = |ids: &mut dyn Iterator<Item = usize>| ids.map(|id| before[id].mass).fold(0.0, |a, m| a + m);
     let all = weight(&mut movable(wall).map(|(id, _)| id));
     let turning_share = turning_share(assembly, before, &after.all, &moving);
@@ -110,6 +113,7 @@ pub fn failure(
             .fold(f64::INFINITY, f64::min)
             - extent(wall).0.z,
         turning_share,
+        turns: turns(&after.all, before),
         moving,
         motion,
     }

@@ -72,5 +72,6 @@ pub fn run_changing(
         }
     };
     run.displacements.truncate(wall.blocks.len());
+    run.turns.truncate(wall.blocks.len());
     run
 }

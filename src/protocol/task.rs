@@ -70,6 +70,8 @@ pub struct Run {
     /// Displacement of every block's centroid (m) from its position as built, by block id: at the last state at rest, or
     /// where it was left if it never came to rest.
     pub displacements: Vec<Vec3>,
+    /// How far every block has turned since it was built: rotation vectors (rad, world axes), in the same state.
+    pub turns: Vec<Vec3>,
     /// Number of joints found as built.
     pub joints: usize,
     /// The mechanism of a collapse.
@@ -96,4 +98,9 @@ impl<'t> Task<'t> {
 /// Displacement of every body's centroid (m).
 pub(crate) fn displacements(now: &[Body], built: &[Body]) -> Vec<Vec3> {
     now.iter().zip(built).map(|(now, built)| now.position - built.position).collect()
+}
+
+/// Rotation vector of every body (rad, world axes).
+pub(crate) fn turns(now: &[Body], built: &[Body]) -> Vec<Vec3> {
+    now.iter().zip(built).map(|(now, built)| now.turn_since(built)).collect()
 }

@@ -4,7 +4,7 @@ use crate::math::Vec3;
 use crate::model::Outcome;
 use crate::protocol::mechanism::joint_states;
 use crate::protocol::path::LoadPath;
-use crate::protocol::task::displacements;
+use crate::protocol::task::{displacements, turns};
 use crate::protocol::watch::{Criterion, LoadStep, Watch};
 use crate::protocol::{Run, Task, Tilting, Turning, confirm};
 use crate::solve::explicit::{Settings, Simulation};
@@ -40,6 +40,7 @@ pub fn turn(task: &Task<'_>, turning: &Turning, at_rest: Settings) -> Run {
         bracket: None,
         steps,
         displacements: displacements(&assembly.bodies.all, &built.bodies.all),
+        turns: turns(&assembly.bodies.all, &built.bodies.all),
         joints,
         failure: None,
         joint_states: Vec::new(),

@@ -1,5 +1,5 @@
 //! What a reader gets: the summary, the comparison with published statements, the table on the terminal, the figure,
-//! the wall for ParaView. Reads rows and statistics; never computes physics.
+//! the wall for ParaView, the picture of a wall that falls. Reads rows and statistics; never computes physics.
 
 mod beside;
 mod compare;
@@ -13,6 +13,7 @@ mod fragility;
 mod marker;
 mod measured;
 mod number;
+mod picture;
 mod plot;
 mod population;
 mod published;
@@ -29,6 +30,7 @@ pub use compare::{Basis, Comparison};
 pub use elements::{element_table, write_elements};
 pub use files::{FRAGILITY, SUMMARY_JSON, write_all};
 pub use measured::{CalibrationEntry, ComparisonEntry, MeasuredSummary};
+pub use picture::{Movement, Picture, Seam, Stone};
 pub use published::{Published, Verdict};
 pub use summary::{ArmSummary, QuantileEntry, Summary, summarise};
 pub use table::terminal_table;

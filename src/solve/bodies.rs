@@ -2,7 +2,7 @@
 
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion};
 
-use crate::math::{Mat3, Vec3};
+use crate::math::{Mat3, Vec3, atan2};
 use crate::model::{Support, Wall};
 use crate::shape::{MassProperties, Polyhedron};
 
@@ -188,6 +188,15 @@ impl Body {
     pub fn rescale(&mut self, scale: f64) {
         self.angular_momentum *= scale / self.inertia_scale;
         self.inertia_scale = scale;
+    }
+
+    /// How it has turned since an earlier state of its own: the rotation vector (rad, world axes), of at most half a turn.
+    pub fn turn_since(&self, from: &Body) -> Vec3 {
+        let turn = (self.attitude * from.attitude.inverse()).into_inner();
+        // A quaternion and its negative are the same turn; the one with the positive real part is the shorter way.
+        let (axis, real) = if turn.w < 0.0 { (-turn.imag(), -turn.w) } else { (turn.imag(), turn.w) };
+        let sine = axis.norm();
+        if sine > 0.0 { axis * (2.0 * atan2(sine, real) / sine) } else { Vec3::zeros() }
     }
 
     /// Puts the body where a shift (m) and a turn (rad, world axes about its centroid) take it from a state of its own.

@@ -1,0 +1,9 @@
+//! A picture of a wall and how it moves: an axonometric view as SVG text, with the joints coloured by what they did.
+
+mod colour;
+mod order;
+mod scene;
+mod svg;
+mod view;
+
+pub use scene::{Movement, Picture, Seam, Stone};

@@ -1,0 +1,123 @@
+//! What is drawn: blocks where a magnified movement takes them, and what their joints did.
+
+use crate::math::{Mat3, Vec3, cos, sin};
+use crate::shape::Polyhedron;
+
+/// Without a stated magnification the largest movement is drawn as this share of the wall's height.
+const SHARE_OF_HEIGHT: f64 = 0.1;
+
+/// A movement of a rigid block.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Movement {
+    /// Displacement of the centroid (m).
+    pub shift: Vec3,
+    /// Rotation vector about the centroid (rad, world axes).
+    pub turn: Vec3,
+}
+
+/// A block and how it moves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stone {
+    /// Its shape as built (m).
+    pub shape: Polyhedron,
+    /// How it came to where it was at rest, drawn in its true size.
+    pub before: Movement,
+    /// How it moves from there; this is magnified.
+    pub movement: Movement,
+}
+
+/// A joint and what it did.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Seam {
+    /// Its blocks, by index; one that is not among the stones is the ground.
+    pub blocks: [usize; 2],
+    /// Its polygon as built (m, world axes), in order around.
+    pub polygon: Vec<Vec3>,
+    /// What it is coloured by (m).
+    pub value: f64,
+}
+
+/// A picture of a wall.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// The blocks.
+    pub stones: Vec<Stone>,
+    /// The joints that may be coloured.
+    pub seams: Vec<Seam>,
+    /// What their values are, for the colour bar: "largest opening of a joint".
+    pub measure: String,
+    /// Whether the wall is seen from its front (+y).
+    pub from_front: bool,
+    /// Magnification of the movement.
+    pub magnification: f64,
+    /// Headline.
+    pub title: String,
+    /// Lines below the wall.
+    pub remarks: Vec<String>,
+}
+
+impl Movement {
+    /// None.
+    pub const NONE: Movement = Movement { shift: Vec3::new(0.0, 0.0, 0.0), turn: Vec3::new(0.0, 0.0, 0.0) };
+
+    /// The same movement `factor` times as large.
+    fn times(&self, factor: f64) -> Movement {
+        Movement { shift: self.shift * factor, turn: self.turn * factor }
+    }
+
+    /// Where it takes points of a block with a centroid.
+    fn taking(&self, centroid: Vec3, points: &[Vec3]) -> Vec<Vec3> {
+        let turn = rotation(&self.turn);
+        points.iter().map(|point| centroid + self.shift + turn * (point - centroid)).collect()
+    }
+}
+
+impl Stone {
+    /// Points of the block as built, taken to where they are drawn.
+    pub(super) fn taking(&self, points: &[Vec3], magnification: f64) -> Vec<Vec3> {
+        let built = self.shape.mass_properties().centroid;
+        let at_rest = self.before.taking(built, points);
+        self.movement.times(magnification).taking(built + self.before.shift, &at_rest)
+    }
+
+    /// The block where it is drawn.
+    pub(super) fn drawn(&self, magnification: f64) -> Polyhedron {
+        Polyhedron {
+            vertices: self.taking(&self.shape.vertices, magnification),
+            faces: self.shape.faces.clone(),
+        }
+    }
+}
+
+impl Picture {
+    /// The magnification that makes the largest movement of a block's centroid a tenth of the height of the wall; 1 where
+    /// nothing moves.
+    pub fn fitting(stones: &[Stone]) -> f64 {
+        let furthest = stones.iter().map(|stone| stone.movement.shift.norm()).fold(0.0, f64::max);
+        let (low, high) = height(stones);
+        if furthest > 0.0 { SHARE_OF_HEIGHT * (high - low) / furthest } else { 1.0 }
+    }
+
+    /// The blocks where they are drawn.
+    pub(super) fn drawn(&self) -> Vec<Polyhedron> {
+        self.stones.iter().map(|stone| stone.drawn(self.magnification)).collect()
+    }
+}
+
+/// Lowest and highest point as built (m).
+pub(super) fn height(stones: &[Stone]) -> (f64, f64) {
+    stones
+        .iter()
+        .map(|stone| stone.shape.bounds())
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (from, to)| (low.min(from.z), high.max(to.z)))
+}
+
+/// The rotation by a rotation vector (rad): Rodrigues' formula.
+fn rotation(turn: &Vec3) -> Mat3 {
+    let angle = turn.norm();
+    if angle == 0.0 {
+        return Mat3::identity();
+    }
+    let cross = (turn / angle).cross_matrix();
+    Mat3::identity() + cross * sin(angle) + cross * cross * (1.0 - cos(angle))
+}

@@ -1,0 +1,194 @@
+//! The picture as SVG text, from the furthest block to the nearest.
+
+use crate::math::Vec3;
+use crate::report::number::{range, significant};
+use crate::report::picture::colour;
+use crate::report::picture::order::back_to_front;
+use crate::report::picture::scene::{Picture, Seam, height};
+use crate::report::picture::view::View;
+use crate::report::plot::FONT_NAME;
+use crate::shape::{Plane, Polyhedron};
+
+/// Width of the picture and of its margins (pixels).
+const WIDTH: f64 = 960.0;
+const MARGIN: f64 = 24.0;
+/// Height of a line of text, and room for the headline (pixels).
+const LINE: f64 = 22.0;
+const HEADLINE: f64 = 50.0;
+/// The wall is drawn at most so high (pixels).
+const TALLEST: f64 = 620.0;
+/// The ground reaches so far beyond the wall, as a share of its height.
+const GROUND: f64 = 0.25;
+/// A joint is coloured from this share of the largest value on.
+const LEAST: f64 = 0.02;
+/// Two directions or points are the same to this (cosine; share of the wall's height).
+const PARALLEL: f64 = 0.99;
+const ON_FACE: f64 = 1e-3;
+/// Steps of the colour bar.
+const STEPS: usize = 40;
+
+impl Picture {
+    /// The picture as SVG; the same picture gives the same bytes.
+    pub fn svg(&self) -> String {
+        let view = View::on(self.from_front);
+        let shapes = self.drawn();
+        let ground = self.ground();
+        let places = || shapes.iter().flat_map(|s| &s.vertices).chain(&ground).map(|v| view.place(v));
+        let [[left, right], [bottom, top]] =
+            [0, 1].map(|k| range(places().map(|place| place[k])).unwrap_or([0.0, 1.0]));
+        let scale = ((WIDTH - 2.0 * MARGIN) / (right - left)).min(TALLEST / (top - bottom));
+        let aside = 0.5 * (WIDTH - scale * (right - left));
+        let canvas = Canvas { view, scale, left: left - aside / scale, top: top + HEADLINE / scale };
+        let below = HEADLINE + scale * (top - bottom) + LINE;
+        let largest = self.seams.iter().map(|seam| seam.value).fold(0.0, f64::max);
+        let coloured = largest > 0.0;
+        let bar = if coloured { 3.0 * LINE } else { 0.0 };
+        let tall = (below + bar + LINE * (self.remarks.len() as f64 + 1.0)).ceil();
+        let mut text = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{tall}\" viewBox=\"0 0 {WIDTH} {tall}\" \
+             font-family=\"{FONT_NAME}\" stroke-linejoin=\"round\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n"
+        );
+        text += &label(MARGIN, 32.0, 20, &self.title);
+        text += &polygon(&canvas.path(&ground), "#f1ede4", "#c9c2b2", 1.0);
+        for seam in self.seams.iter().filter(|seam| seam.blocks.iter().any(|b| *b >= shapes.len())) {
+            text += &self.patch(seam, largest, &canvas, &seam.polygon);
+        }
+        for block in back_to_front(&shapes, &view) {
+            text += &self.block(block, &shapes[block], largest, &canvas);
+        }
+        if coloured {
+            text += &self.bar(below, largest);
+        }
+        for (line, remark) in self.remarks.iter().enumerate() {
+            text += &label(MARGIN, below + bar + LINE * (line as f64 + 0.5), 15, remark);
+        }
+        text + "</svg>\n"
+    }
+
+    /// Corners of the ground around the wall.
+    fn ground(&self) -> Vec<Vec3> {
+        let (low, high) = height(&self.stones);
+        let beyond = GROUND * (high - low);
+        let across = |k: usize| {
+            let built = self.stones.iter().map(|stone| stone.shape.bounds());
+            range(built.flat_map(|(from, to)| [from[k], to[k]])).unwrap_or([0.0, 1.0])
+        };
+        let [[x0, x1], [y0, y1]] = [across(0), across(1)].map(|[from, to]| [from - beyond, to + beyond]);
+        [[x0, y0], [x1, y0], [x1, y1], [x0, y1]].map(|[x, y]| Vec3::new(x, y, low)).to_vec()
+    }
+
+    /// The faces of a block that are seen, with what its joints did: a joint's polygon as a patch where it lies on a face that is
+    /// seen, and as lines where its edges do.
+    fn block(&self, block: usize, shape: &Polyhedron, largest: f64, canvas: &Canvas) -> String {
+        let view = &canvas.view;
+        let planes: Vec<Plane> = (0..shape.faces.len()).map(|face| shape.face_plane(face)).collect();
+        let seen: Vec<usize> = (0..planes.len()).filter(|&face| view.sees(&planes[face].normal)).collect();
+        let mut text = String::new();
+        for &face in &seen {
+            let corners: Vec<Vec3> = shape.face_vertices(face).collect();
+            let fill = colour::stone(view.brightness(&planes[face].normal));
+            text += &polygon(&canvas.path(&corners), &fill, "#5f6468", 0.7);
+        }
+        let (low, high) = height(&self.stones);
+        let tolerance = ON_FACE * (high - low);
+        let own = self.seams.iter().filter(|s| s.blocks.contains(&block) && s.value >= LEAST * largest);
+        for seam in own.filter(|seam| seam.value > 0.0) {
+            let points = self.stones[block].taking(&seam.polygon, self.magnification);
+            let Some(normal) = normal(&points) else { continue };
+            let (flat, across): (Vec<usize>, Vec<usize>) =
+                seen.iter().partition(|&&face| planes[face].normal.dot(&normal).abs() > PARALLEL);
+            let on = |face: usize, point: &Vec3| planes[face].distance(point).abs() < tolerance;
+            if flat.iter().any(|&face| points.iter().all(|point| on(face, point))) {
+                text += &self.patch(seam, largest, canvas, &points);
+            }
+            for (k, from) in points.iter().enumerate() {
+                let to = &points[(k + 1) % points.len()];
+                if across.iter().any(|&face| on(face, from) && on(face, to)) {
+                    let stroke = colour::of_share(seam.value / largest);
+                    let path = canvas.path(&[*from, *to]);
+                    text += &format!(
+                        "<path d=\"M{path}\" stroke=\"{stroke}\" stroke-width=\"3.2\" stroke-linecap=\"round\"/>\n"
+                    );
+                }
+            }
+        }
+        text
+    }
+
+    /// A joint's polygon in its colour, if it did enough to be coloured.
+    fn patch(&self, seam: &Seam, largest: f64, canvas: &Canvas, points: &[Vec3]) -> String {
+        if seam.value <= 0.0 || seam.value < LEAST * largest {
+            return String::new();
+        }
+        let fill = colour::of_share(seam.value / largest);
+        polygon(&canvas.path(points), &fill, &fill, 0.7)
+    }
+
+    /// The colour bar with its ends (mm).
+    fn bar(&self, top: f64, largest: f64) -> String {
+        let (width, tall) = (360.0, 14.0);
+        let step = width / STEPS as f64;
+        let mut text = String::new();
+        for k in 0..STEPS {
+            let fill = colour::of_share((k as f64 + 0.5) / STEPS as f64);
+            let x = MARGIN + step * k as f64;
+            // A little wider than a step, so that no gap shows between two.
+            text += &format!(
+                "<rect x=\"{x:.1}\" y=\"{top:.1}\" width=\"{:.1}\" height=\"{tall}\" fill=\"{fill}\"/>\n",
+                step + 0.5
+            );
+        }
+        for share in [0.0, 0.5, 1.0] {
+            let value = significant(1e3 * share * largest, 2);
+            let value = if share == 0.0 { "0".to_string() } else { value };
+            text += &label(MARGIN + share * width, top + tall + 17.0, 14, &value);
+        }
+        let least = 100.0 * LEAST;
+        let what = format!("{} (mm); joints below {least} % of the largest are not coloured", self.measure);
+        text + &label(MARGIN + width + 50.0, top + tall - 1.0, 14, &what)
+    }
+}
+
+/// Where the view lies on the paper.
+struct Canvas {
+    view: View,
+    /// Pixels per metre.
+    scale: f64,
+    /// What lies at the left and the upper edge of the paper (m).
+    left: f64,
+    top: f64,
+}
+
+impl Canvas {
+    /// Points as SVG writes them.
+    fn path(&self, points: &[Vec3]) -> String {
+        let words: Vec<String> = points
+            .iter()
+            .map(|point| {
+                let [x, y] = self.view.place(point);
+                // Adding zero turns a rounded -0.0 into 0.0.
+                let pixel = |length: f64| (10.0 * self.scale * length).round() / 10.0 + 0.0;
+                format!("{},{}", pixel(x - self.left), pixel(self.top - y))
+            })
+            .collect();
+        words.join(" ")
+    }
+}
+
+fn polygon(points: &str, fill: &str, stroke: &str, width: f64) -> String {
+    format!("<polygon points=\"{points}\" fill=\"{fill}\" stroke=\"{stroke}\" stroke-width=\"{width}\"/>\n")
+}
+
+fn label(x: f64, y: f64, size: u32, text: &str) -> String {
+    let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+    format!("<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{size}\" fill=\"#000000\">{text}</text>\n")
+}
+
+/// Unit normal of a polygon; `None` where it has no area.
+fn normal(points: &[Vec3]) -> Option<Vec3> {
+    let first = *points.first()?;
+    let area = points[1..]
+        .windows(2)
+        .fold(Vec3::zeros(), |sum, pair| sum + (pair[0] - first).cross(&(pair[1] - first)));
+    area.try_normalize(0.0)
+}
