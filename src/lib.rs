@@ -82,7 +82,7 @@
 //! | [`shape`] | convex polygons and polyhedra: cut, clip, inertia, overlap, validity |
 //! | [`random`] | seed streams keyed by (seed, member, quantity); distribution families |
 //! | [`stats`] | moments, COV, intervals, bootstrap, ratios, distances |
-//! | [`law`] | constitutive laws: normal law, Coulomb, damping |
+//! | [`law`] | constitutive laws: normal laws, Coulomb, weakening, damping |
 //! | [`model`] | the nouns: block, wall, outcome |
 //! | [`exchange`] | walls from and to other programs: wall.json, OBJ; names their faults |
 //! | [`contact`] | broad phase, separating axes, patches, sub-contacts |

@@ -54,6 +54,13 @@ pub(crate) enum Verb {
          A wall that falls or cannot be built is counted in the results; it is no error.\n\n{CODES}"
     ))]
     Run(Run),
+    /// List the mechanisms that a study may switch on: what each is, where it acts, its parameters with their priors, whether its
+    /// effect goes when the wall is unloaded, what it is confounded with, and whether limit analysis honours it.
+    #[command(after_help = format!(
+        "Example: pirca mechanisms --json\n\n\
+         A table [mechanism.creep] in a study, with its keys, switches creep on; [arm.mechanism.creep] does for one arm.\n\n{CODES}"
+    ))]
+    Mechanisms(Mechanisms),
     /// Solve a wall that somebody else made, from a wall.json or an OBJ file: at which tilt or load does it fall?
     #[command(after_help = format!("{WALLS}\n\n{CODES}\nEvery way a wall can end (stable, collapsed, unstable at rest, not converged) ends with 0."))]
     Analyse(Analyse),
@@ -67,6 +74,17 @@ pub(crate) struct Which {
     /// A named variant of the study.
     #[arg(long, value_name = "NAME")]
     pub variant: Option<String>,
+    /// Print one JSON object on standard output instead of text.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `mechanisms`.
+#[derive(Args, Debug)]
+pub(crate) struct Mechanisms {
+    /// Folder of the distributions, which holds the priors below `mechanism`.
+    #[arg(long, value_name = "DIR", default_value = "distributions")]
+    pub distributions: PathBuf,
     /// Print one JSON object on standard output instead of text.
     #[arg(long)]
     pub json: bool,

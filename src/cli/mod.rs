@@ -6,6 +6,7 @@ mod check;
 mod failure;
 mod generate;
 mod locate;
+mod mechanisms;
 mod output;
 mod progress;
 mod run;
@@ -28,6 +29,7 @@ pub fn main() -> ExitCode {
         Verb::Analyse(arguments) => analyse::analyse(arguments),
         Verb::Check(arguments) => check::check(arguments),
         Verb::Generate(arguments) => generate::generate(arguments),
+        Verb::Mechanisms(arguments) => mechanisms::mechanisms(arguments),
         Verb::Run(arguments) => run::run(arguments),
     };
     match done {

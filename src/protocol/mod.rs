@@ -32,6 +32,6 @@ pub use settings::{
     Base, Compliance, Contacts, Direction, Ends, Lateral, Observes, Protocol, Rate, Restraint, Rope, Tilting,
     Turning,
 };
-pub use stage::typical_size;
+pub use stage::{Stage, typical_size};
 pub use task::{Platform, Run, Task};
 pub use watch::{Criterion, LoadStep};

@@ -25,7 +25,9 @@ mod variant;
 pub use catalogue::{Distribution, DistributionFile, Used, load_distributions};
 pub use checked::{Arm, Claim, ClaimTest, InputFile, Joint, NormalLawName, Study};
 pub use fault::{Fault, Faults, Found};
-pub use inventory::{Acts, Entry as InventoryEntry, INVENTORY, InLimitAnalysis, Unloading};
+pub use inventory::{
+    Acts, Described, Entry as InventoryEntry, INVENTORY, InLimitAnalysis, Parameter, Unloading, described,
+};
 pub use joints::DrawnJoints;
 pub use load::{Loaded, VariantName};
 pub use measured::{MeasuredKind, MeasuredQuantity, Measurement};

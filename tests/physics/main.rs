@@ -11,6 +11,7 @@ mod limit_column;
 mod limit_flow;
 mod limit_known;
 mod limit_random;
+mod mechanisms_alike;
 mod mechanisms_joints;
 mod mechanisms_loading;
 mod objectivity;
