@@ -10,6 +10,7 @@ mod mechanisms;
 mod output;
 mod progress;
 mod run;
+mod sensitivity;
 
 use std::process::ExitCode;
 
@@ -31,6 +32,7 @@ pub fn main() -> ExitCode {
         Verb::Generate(arguments) => generate::generate(arguments),
         Verb::Mechanisms(arguments) => mechanisms::mechanisms(arguments),
         Verb::Run(arguments) => run::run(arguments),
+        Verb::Sensitivity(arguments) => sensitivity::sensitivity(arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

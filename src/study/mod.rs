@@ -20,6 +20,7 @@ mod reader;
 mod reference;
 mod schema;
 mod setting;
+mod strength;
 mod variant;
 
 pub use catalogue::{Distribution, DistributionFile, Used, load_distributions};
@@ -35,6 +36,7 @@ pub use mechanism::{
     EndRelease, FrictionChange, JointClosure, Mechanisms, SpecimenScatter, Unfit, WedgeLoss,
 };
 pub use reference::key_reference;
+pub use strength::Switched;
 
 #[cfg(test)]
 mod tests;
