@@ -108,8 +108,10 @@ fn each_mechanism_changes_what_it_can_change() {
 
 #[test]
 fn threads_change_no_bit() {
-    let names = ["contact_area", "specimen_scatter"];
-    assert_eq!(map(&stiff(), &names, 1), map(&stiff(), &names, 2));
+    let mut study = stiff();
+    study.arms[0].kn_points = vec![1e8];
+    let names = ["specimen_scatter"];
+    assert_eq!(map(&study, &names, 1), map(&study, &names, 2));
 }
 
 #[test]

@@ -253,7 +253,7 @@ impl MechanismEntry {
     pub fn strength(&self) -> String {
         let one = |p: &ParameterEntry| {
             let unit = if p.unit == "1" { String::new() } else { format!(" {}", p.unit) };
-            format!("{} {}{unit}", p.key, crate::report::number::significant(p.value, 2))
+            format!("{} {}{unit}", p.key, crate::report::number::significant(p.value, 3))
         };
         self.parameters.iter().map(one).collect::<Vec<_>>().join(", ")
     }
