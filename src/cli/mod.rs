@@ -3,6 +3,7 @@
 mod analyse;
 mod arguments;
 mod check;
+mod elements;
 mod failure;
 mod generate;
 mod locate;

@@ -6,6 +6,7 @@ mod compare;
 mod csv;
 mod draw;
 mod drift;
+mod elements;
 mod figure;
 mod files;
 mod fragility;
@@ -26,6 +27,7 @@ mod vtu;
 
 pub use beside::{Earlier, Mean};
 pub use compare::{Basis, Comparison};
+pub use elements::{element_table, write_elements};
 pub use files::{FRAGILITY, SUMMARY_JSON, write_all};
 pub use measured::{CalibrationEntry, ComparisonEntry, MeasuredSummary};
 pub use published::{Published, Verdict};

@@ -155,13 +155,13 @@ impl Study {
 }
 
 /// SHA-256 (hex) over the effective values in the order of their keys, one line each.
-fn hash_of(effective: &BTreeMap<String, String>) -> String {
+pub(super) fn hash_of(effective: &BTreeMap<String, String>) -> String {
     let lines: String = effective.iter().map(|(key, value)| format!("{key} = {value}\n")).collect();
     files::sha256(lines.as_bytes())
 }
 
 /// The study's folder, which must exist.
-fn existing(folder: &Path) -> Result<PathBuf, Box<Fault>> {
+pub(super) fn existing(folder: &Path) -> Result<PathBuf, Box<Fault>> {
     let shown = folder.display().to_string();
     let fault = |found: &str, fix: String| {
         Err(Box::new(Fault::of_file(&shown, 0, found, "the folder of a study", fix)))
@@ -175,7 +175,7 @@ fn existing(folder: &Path) -> Result<PathBuf, Box<Fault>> {
     }
 }
 
-fn parsed(
+pub(super) fn parsed(
     folder: &Path,
     name: &str,
     rank: usize,

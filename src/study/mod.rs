@@ -5,6 +5,7 @@ mod arm;
 mod build;
 mod catalogue;
 mod checked;
+mod elements;
 mod fault;
 mod files;
 mod inventory;
@@ -25,6 +26,7 @@ mod variant;
 
 pub use catalogue::{Distribution, DistributionFile, Used, load_distributions};
 pub use checked::{Arm, Claim, ClaimTest, InputFile, Joint, NormalLawName, Study};
+pub use elements::{ElementArm, ElementStudy, Reported};
 pub use fault::{Fault, Faults, Found};
 pub use inventory::{
     Acts, Described, Entry as InventoryEntry, INVENTORY, InLimitAnalysis, Parameter, Unloading, described,

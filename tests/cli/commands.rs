@@ -343,7 +343,7 @@ fn measurements_are_counted_and_compared() {
     let of_weight = table.lines().find(|line| line.contains("specimen_weight")).unwrap();
     let weight: f64 = of_weight.split(',').nth(19).unwrap().parse().unwrap();
     // 0.8 x 0.3 x 0.18 m3 at 2400 kg/m3 and 9.80665 m/s2, the standard gravity; head joints have no gap in this study.
-    assert!((weight - 1016.753_472).abs() < 1e-6, "{weight}");
+    assert!((weight - 1_016.753_472).abs() < 1e-6, "{weight}");
     fs::write(folder.path("studies/tiny/measured.csv"), text.replace("1000", "1010")).unwrap();
     let again = ends_with(&folder, 0, &run);
     assert!(stderr(&again).contains("6 evaluations, 6 of them recorded before"), "{}", stderr(&again));

@@ -4,6 +4,7 @@ mod agreement;
 mod dynamics;
 mod elastic;
 mod fixture;
+mod grains;
 mod holding;
 mod implicit;
 mod limit_answers;

@@ -56,7 +56,7 @@ fn joint() -> Joint {
     Joint {
         kn_factor: Family::Constant { value: 1.0 },
         kn_over_ks: 2.0,
-        phi_deg: Family::Constant { value: 35.0 },
+        phi_deg: Family::Constant { value: 22.0 },
         cohesion: Family::Constant { value: 0.0 },
         tension: 0.0,
         cohesion_after_slip: CohesionAfterSlip::Kept,
@@ -120,7 +120,7 @@ fn moved(mechanisms: &Mechanisms) -> [Vec<[f64; 3]>; 2] {
 fn cases() -> Vec<(&'static str, Mechanisms)> {
     let none = Mechanisms::default;
     let closure = Some(JointClosure { initial: 2e7, closure: 1e-4 });
-    let friction = Some(FrictionChange { factor: 0.4, residual: 0.8, distance: 1e-3 });
+    let friction = Some(FrictionChange { factor: 0.7, residual: 0.8, distance: 1e-3 });
     let compliance = Some(Compliance { settlement: 5e6, rotation: 5e4 });
     let loss = Some(WedgeLoss { share: 0.6, beyond: radians(3.0) });
     let creep = Some(Creep { rate: 1.0, hold_share: 0.1, hold_every: radians(5.0) });
@@ -179,8 +179,8 @@ fn both_solvers_move_a_wall_alike_with_every_mechanism() {
             100.0 * differ,
             100.0 * changed
         );
-        // What is lost or slips at once does so in time with another overshoot: tenths of a per cent.
-        assert!(differ < 0.01, "{name}: {a:?} {b:?}");
+        // What is lost at once is lost with an overshoot in time, a per cent; the rest agrees to some thousandths.
+        assert!(differ < if name == "wedge_loss" { 0.02 } else { 0.005 }, "{name}: {a:?} {b:?}");
         // Far above what the implicit solver leaves, 1e-7; without slip cohesion acts in a few sub-contacts alone.
         assert!(changed > 1e-5, "{name} changes nothing: {a:?}");
     }
