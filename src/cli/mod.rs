@@ -12,6 +12,7 @@ mod output;
 mod picture;
 mod progress;
 mod run;
+mod sensitivity;
 
 use std::process::ExitCode;
 
@@ -34,6 +35,7 @@ pub fn main() -> ExitCode {
         Verb::Mechanisms(arguments) => mechanisms::mechanisms(arguments),
         Verb::Picture(arguments) => picture::picture(arguments),
         Verb::Run(arguments) => run::run(arguments),
+        Verb::Sensitivity(arguments) => sensitivity::sensitivity(arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -137,6 +137,12 @@ impl Study {
         Ok(self)
     }
 
+    /// The same study, its hash that of its values.
+    pub(super) fn rehashed(mut self) -> Study {
+        self.hash = hash_of(&self.effective);
+        self
+    }
+
     /// The same study with another number of walls in every arm that has more than one; at least one.
     pub fn with_members(mut self, members: u64) -> Study {
         for arm in self.arms.iter_mut().filter(|arm| arm.members > 1) {

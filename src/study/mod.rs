@@ -21,6 +21,7 @@ mod reader;
 mod reference;
 mod schema;
 mod setting;
+mod strength;
 mod variant;
 
 pub use catalogue::{Distribution, DistributionFile, Used, load_distributions};
@@ -37,6 +38,7 @@ pub use mechanism::{
     EndRelease, FrictionChange, JointClosure, Mechanisms, SpecimenScatter, Unfit, WedgeLoss,
 };
 pub use reference::key_reference;
+pub use strength::Switched;
 
 #[cfg(test)]
 mod tests;
