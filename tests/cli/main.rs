@@ -8,6 +8,7 @@ mod layering;
 mod malformed;
 mod measured;
 mod mutated_walls;
+mod picture;
 mod scratch;
 mod study;
 mod walls;
