@@ -153,7 +153,7 @@ fn ending(run: &Run) -> String {
     };
     run.failure.as_ref().map_or(format!("{fell}."), |failure| {
         format!(
-            "{fell}: {}; {:.0} % of the weight moves, above {:.0} mm over the foot.",
+            "{fell}: {}; {:.0} % of the weight moves, hinge {:.0} mm above the foot.",
             failure.mode.name(),
             100.0 * failure.weight_share,
             1e3 * failure.hinge_height
@@ -163,11 +163,9 @@ fn ending(run: &Run) -> String {
 
 /// What is drawn, how large, and seen from where.
 fn drawing(run: &Run, magnification: f64, from_front: bool) -> String {
-    let factor = format!("{magnification:.3}");
-    let factor = factor.trim_end_matches('0').trim_end_matches('.');
     let what = match &run.failure {
-        Some(_) => format!("Movement of the fall as far as it was watched, times {factor}"),
-        None => format!("Drawn at rest, with displacements since it was built times {factor}"),
+        Some(_) => format!("The movement of the fall, as far as it was watched, times {magnification}"),
+        None => format!("Drawn at rest, with displacements since it was built times {magnification}"),
     };
     let (side, end) = if from_front { ("front (+y)", "right") } else { ("back (-y)", "left") };
     format!("{what}; seen from the {side}, x = 0 on the {end}.")

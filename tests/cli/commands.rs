@@ -28,7 +28,7 @@ fn ends_with(folder: &Folder, code: i32, arguments: &[&str]) -> Output {
 #[test]
 fn every_verb_has_help_with_an_example_and_the_exit_codes() {
     let folder = Folder::with_study(STUDY);
-    for verb in ["check", "generate", "run", "sensitivity"] {
+    for verb in ["check", "generate", "picture", "run", "sensitivity"] {
         let help = stdout(&ends_with(&folder, 0, &[verb, "--help"]));
         for said in ["Usage: pirca", "Example: pirca", "Exit codes: 0", "--json", "--variant"] {
             assert!(help.contains(said), "{said} is missing in the help of {verb}: {help}");
@@ -59,6 +59,13 @@ fn arguments_that_make_no_sense_end_with_2() {
         (&["generate", "studies/tiny", "--out", "wall"], ".vtu, .obj or .json"),
         (&["generate", "studies/tiny", "--out", "wall.obj", "--arm", "randon"], "it has stack, random"),
         (&["generate", "studies/tiny", "--out", "wall.obj", "--point", "2"], "points 0 to 1"),
+        (&["picture", "studies/tiny"], "--out"),
+        (&["picture", "studies/tiny", "--out", "wall.png"], "must end in .svg"),
+        (&["picture", "studies/tiny", "--out", "wall.svg", "--arm", "randon"], "it has stack, random"),
+        (&["picture", "studies/tiny", "--out", "wall.svg", "--point", "2"], "points 0 to 1"),
+        (&["picture", "studies/tiny", "--out", "wall.svg", "--member", "-1"], "-1"),
+        (&["picture", "studies/tiny", "--out", "wall.svg", "--magnify", "0"], "a number above 0"),
+        (&["picture", "studies/tiny", "--out", "wall.svg", "--colour", "red"], "opening"),
     ] {
         let output = ends_with(&folder, 2, arguments);
         assert!(stderr(&output).contains(said), "{said} in: {}", stderr(&output));

@@ -9,6 +9,7 @@ mod malformed;
 mod measured;
 mod mechanisms;
 mod mutated_walls;
+mod picture;
 mod scratch;
 mod study;
 mod walls;

@@ -73,6 +73,15 @@ fn a_stiff_block_topples_at_atan_b_over_h_towards_either_side() {
         let failure = run.failure.expect("it was watched");
         assert_eq!(failure.mode, FailureMode::Rocking, "{failure:?}");
         assert!(failure.motion[0].dot(&towards.unit()) > 0.0);
+        // Over its toe it turns towards the fall, and its centroid goes along the arc of that turn: to the last 5 %, as the
+        // motion is the chord, and the elastic bed lets the toe roll inwards.
+        let (turn, motion) = (failure.turns[0], failure.motion[0]);
+        let axis = Vec3::z().cross(&towards.unit());
+        assert!((turn - axis * turn.dot(&axis)).norm() < 1e-6 && turn.dot(&axis) > 0.01, "{turn:?}");
+        let lever = (0.075f64 * 0.075 + 0.1875 * 0.1875).sqrt();
+        let arc = turn.norm() * lever;
+        assert!((motion.norm() / arc - 1.0).abs() < 0.05, "{} against {arc}", motion.norm());
+        assert!(run.turns[0].dot(&axis) > 0.0, "it leans before it falls: {:?}", run.turns[0]);
         assert!(run.steps.last().unwrap().top_displacement > 0.0);
     }
 }

@@ -4,6 +4,8 @@ mod colour;
 mod order;
 mod scene;
 mod svg;
+#[cfg(test)]
+mod tests;
 mod view;
 
 pub use scene::{Movement, Picture, Seam, Stone};

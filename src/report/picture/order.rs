@@ -11,18 +11,18 @@ const EDGE_ON: f64 = 1e-9;
 
 /// The blocks from the furthest to the nearest.
 ///
-/// Of two blocks whose outlines overlap in the picture, the one on the viewer's side of a plane between them comes later;
+/// Of two blocks whose outlines overlap in the picture by more than `depth` (m), the one on the viewer's side of a plane between them comes later;
 /// the plane is a face of either, the one that separates them best. Where that leaves a choice, or goes round in a ring, the
 /// block whose centroid is further away comes first. Two limits: blocks that only a plane along two crossing edges separates,
 /// or that the enlarged movement pushes into each other, may be painted in the wrong order; and a ring of blocks, each before
 /// the next, is drawn with one of them wrong.
-pub fn back_to_front(shapes: &[Polyhedron], view: &View) -> Vec<usize> {
-    let outlines: Vec<[f64; 4]> = shapes.iter().map(|shape| outline(shape, view)).collect();
+pub fn back_to_front(shapes: &[Polyhedron], view: &View, depth: f64) -> Vec<usize> {
+    let outlines: Vec<Outline> = shapes.iter().map(|shape| Outline::of(shape, view)).collect();
     let mut hides: Vec<Vec<usize>> = vec![Vec::new(); shapes.len()];
     let mut hidden_by = vec![0; shapes.len()];
     for a in 0..shapes.len() {
         for b in a + 1..shapes.len() {
-            if !overlap(&outlines[a], &outlines[b]) {
+            if !outlines[a].overlaps(&outlines[b], depth) {
                 continue;
             }
             if let Some(second_is_nearer) = nearer(&shapes[a], &shapes[b], view) {
@@ -68,16 +68,36 @@ fn nearer(first: &Polyhedron, second: &Polyhedron, view: &View) -> Option<bool> 
     (towards.abs() > EDGE_ON).then_some(towards > 0.0)
 }
 
-/// Left, right, bottom and top of a block in the picture (m).
-fn outline(shape: &Polyhedron, view: &View) -> [f64; 4] {
-    let start = [f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY];
-    shape
-        .vertices
-        .iter()
-        .map(|v| view.place(v))
-        .fold(start, |[l, r, b, t], [x, y]| [l.min(x), r.max(x), b.min(y), t.max(y)])
+/// The corners of a block in the picture (m), and the directions across its edges there.
+struct Outline {
+    corners: Vec<[f64; 2]>,
+    across: Vec<[f64; 2]>,
 }
 
-fn overlap(a: &[f64; 4], b: &[f64; 4]) -> bool {
-    a[0] < b[1] && b[0] < a[1] && a[2] < b[3] && b[2] < a[3]
+impl Outline {
+    fn of(shape: &Polyhedron, view: &View) -> Outline {
+        let corners: Vec<[f64; 2]> = shape.vertices.iter().map(|v| view.place(v)).collect();
+        let edges = shape.faces.iter().flat_map(|face| face.iter().zip(face.iter().cycle().skip(1)));
+        // Each edge belongs to two faces; one of them is enough.
+        let across = edges.filter(|(a, b)| a < b).filter_map(|(&a, &b)| {
+            let ([x0, y0], [x1, y1]) = (corners[a as usize], corners[b as usize]);
+            let length = ((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0)).sqrt();
+            (length > 0.0).then(|| [(y0 - y1) / length, (x1 - x0) / length])
+        });
+        Outline { across: across.collect(), corners }
+    }
+
+    /// From where to where it reaches along a direction.
+    fn reach(&self, along: &[f64; 2]) -> [f64; 2] {
+        let at = self.corners.iter().map(|c| c[0] * along[0] + c[1] * along[1]);
+        at.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+    }
+
+    /// Whether two outlines overlap by more than a depth (m); both are convex, so a direction across an edge of either tells.
+    fn overlaps(&self, other: &Outline, depth: f64) -> bool {
+        self.across.iter().chain(&other.across).all(|along| {
+            let ([a0, a1], [b0, b1]) = (self.reach(along), other.reach(along));
+            (a1 - b0).min(b1 - a0) > depth
+        })
+    }
 }

@@ -91,11 +91,15 @@ impl Stone {
 
 impl Picture {
     /// The magnification that makes the largest movement of a block's centroid a tenth of the height of the wall; 1 where
-    /// nothing moves.
+    /// nothing moves. To two significant digits, so that it can be said in words.
     pub fn fitting(stones: &[Stone]) -> f64 {
         let furthest = stones.iter().map(|stone| stone.movement.shift.norm()).fold(0.0, f64::max);
         let (low, high) = height(stones);
-        if furthest > 0.0 { SHARE_OF_HEIGHT * (high - low) / furthest } else { 1.0 }
+        if furthest == 0.0 {
+            return 1.0;
+        }
+        let exact = SHARE_OF_HEIGHT * (high - low) / furthest;
+        format!("{exact:.1e}").parse().unwrap_or(exact)
     }
 
     /// The blocks where they are drawn.

@@ -24,6 +24,8 @@ const LEAST: f64 = 0.02;
 /// Two directions or points are the same to this (cosine; share of the wall's height).
 const PARALLEL: f64 = 0.99;
 const ON_FACE: f64 = 1e-3;
+/// Outlines that overlap by less than this share of the wall's height do not hide each other.
+const GRAZES: f64 = 5e-3;
 /// Steps of the colour bar.
 const STEPS: usize = 40;
 
@@ -53,7 +55,8 @@ impl Picture {
         for seam in self.seams.iter().filter(|seam| seam.blocks.iter().any(|b| *b >= shapes.len())) {
             text += &self.patch(seam, largest, &canvas, &seam.polygon);
         }
-        for block in back_to_front(&shapes, &view) {
+        let (low, high) = height(&self.stones);
+        for block in back_to_front(&shapes, &view, GRAZES * (high - low)) {
             text += &self.block(block, &shapes[block], largest, &canvas);
         }
         if coloured {
@@ -143,9 +146,10 @@ impl Picture {
             let value = if share == 0.0 { "0".to_string() } else { value };
             text += &label(MARGIN + share * width, top + tall + 17.0, 14, &value);
         }
-        let least = 100.0 * LEAST;
-        let what = format!("{} (mm); joints below {least} % of the largest are not coloured", self.measure);
-        text + &label(MARGIN + width + 50.0, top + tall - 1.0, 14, &what)
+        let beside = MARGIN + width + 40.0;
+        text += &label(beside, top + tall - 2.0, 14, &format!("mm: {}", self.measure));
+        let least = format!("below {} % of the largest not coloured", 100.0 * LEAST);
+        text + &label(beside, top + tall + 17.0, 14, &least)
     }
 }
 

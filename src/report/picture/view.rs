@@ -3,8 +3,8 @@
 use crate::math::{Vec3, cos, radians, sin};
 
 /// The viewer stands so far to the side of the wall's face (deg) and so far above the ground (deg).
-const ASIDE_DEG: f64 = 38.0;
-const ABOVE_DEG: f64 = 22.0;
+const ASIDE_DEG: f64 = 32.0;
+const ABOVE_DEG: f64 = 20.0;
 
 /// A view from far away: parallel lines stay parallel, and lengths across the line of sight stay true.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,9 +49,9 @@ impl View {
         normal.dot(&self.viewer) > 0.0
     }
 
-    /// Brightness, 0 to 1, of a face with this outward unit normal: light from above and from the viewer's left.
+    /// Brightness, 0 to 1, of a face with this outward unit normal: light from the viewer's side and from above.
     pub fn brightness(&self, normal: &Vec3) -> f64 {
-        let light = (0.45 * self.viewer - 0.35 * self.right + 0.8 * Vec3::z()).normalize();
-        0.45 + 0.55 * normal.dot(&light).max(0.0)
+        let light = (0.7 * self.viewer + 0.3 * self.right + 0.6 * Vec3::z()).normalize();
+        0.5 + 0.5 * normal.dot(&light).max(0.0)
     }
 }
