@@ -106,7 +106,7 @@ impl Arm {
     fn acted_on_by(&self, own: &Mechanisms) -> Arm {
         Arm {
             layout: own.layout(self.layout.clone()),
-            restraint: own.restraint(self.restraint.clone()),
+            restraint: own.restraint(self.restraint),
             mechanisms: own.beside(&self.mechanisms),
             ..self.clone()
         }
