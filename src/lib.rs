@@ -79,15 +79,15 @@
 //! | module | what is in it |
 //! |---|---|
 //! | [`math`] | vectors, elementary functions on libm, the invariant check |
-//! | [`shape`] | convex polygons and polyhedra: cut, clip, inertia, overlap, validity |
+//! | [`shape`] | convex polygons and polyhedra: cut, clip, inertia, overlap, validity; unions of balls |
 //! | [`random`] | seed streams keyed by (seed, member, quantity); distribution families |
 //! | [`stats`] | moments, COV, intervals, bootstrap, ratios, distances |
-//! | [`law`] | constitutive laws: normal law, Coulomb, damping |
-//! | [`model`] | the nouns: block, wall, outcome |
+//! | [`law`] | constitutive laws: normal laws, Coulomb, weakening, contact of spheres, damping |
+//! | [`model`] | the nouns: block, wall, clump of spheres, outcome |
 //! | [`exchange`] | walls from and to other programs: wall.json, OBJ; names their faults |
 //! | [`contact`] | broad phase, separating axes, patches, sub-contacts |
 //! | [`generate`] | layouts to walls; `canonical` holds walls with known answers |
-//! | [`solve`] | bodies, joints with history; the solvers `explicit`, `implicit`, `limit` |
+//! | [`solve`] | bodies, joints with history; the solvers `explicit`, `implicit`, `limit`; `grains` for bodies made of spheres |
 //! | [`protocol`] | load paths (lateral, tilting), restraint, what is observed, when a collapse is confirmed |
 //! | [`study`] | text to checked studies, every fault at once |
 //! | [`ensemble`] | plan, run in parallel, record, resume |

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-use crate::cli::analyse;
+use crate::cli::{analyse, sensitivity};
 
 const CODES: &str =
     "Exit codes: 0 done; 1 the run or a file failed; 2 wrong arguments; 3 invalid study or wall.";
@@ -62,6 +62,21 @@ pub(crate) enum Verb {
          A wall that falls or cannot be built is counted in the results; it is no error.\n\n{CODES}"
     ))]
     Run(Run),
+    /// Which mechanisms could the measured data see? What each of them changes in every quantity of measured.csv, in units of
+    /// the quantity's error, for a study on the tilting table.
+    #[command(after_help = format!(
+        "Example: pirca sensitivity studies/tilting-table --members 3 --out runs/sensitivity\n\n\
+         Writes sensitivity.csv, sensitivity.json, sensitivity.svg and sensitivity.png. The strength of each mechanism comes from\n\
+         the priors in distributions/mechanism beside the folder of the studies.\n\n{CODES}"
+    ))]
+    Sensitivity(Sensitivity),
+    /// List the mechanisms that a study may switch on: what each is, where it acts, its parameters with their priors, whether its
+    /// effect goes when the wall is unloaded, what it is confounded with, and whether limit analysis honours it.
+    #[command(after_help = format!(
+        "Example: pirca mechanisms --json\n\n\
+         A table [mechanism.creep] in a study, with its keys, switches creep on; [arm.mechanism.creep] does for one arm.\n\n{CODES}"
+    ))]
+    Mechanisms(Mechanisms),
     /// Solve a wall that somebody else made, from a wall.json or an OBJ file: at which tilt or load does it fall?
     #[command(after_help = format!("{WALLS}\n\n{CODES}\nEvery way a wall can end (stable, collapsed, unstable at rest, not converged) ends with 0."))]
     Analyse(Analyse),
@@ -75,6 +90,17 @@ pub(crate) struct Which {
     /// A named variant of the study.
     #[arg(long, value_name = "NAME")]
     pub variant: Option<String>,
+    /// Print one JSON object on standard output instead of text.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `mechanisms`.
+#[derive(Args, Debug)]
+pub(crate) struct Mechanisms {
+    /// Folder of the distributions, which holds the priors below `mechanism`.
+    #[arg(long, value_name = "DIR", default_value = "distributions")]
+    pub distributions: PathBuf,
     /// Print one JSON object on standard output instead of text.
     #[arg(long)]
     pub json: bool,
@@ -186,6 +212,25 @@ pub(crate) struct Run {
     /// Output folder of an earlier run of the same study, whose means are drawn into the figure as hollow markers.
     #[arg(long, value_name = "DIR")]
     pub beside: Option<PathBuf>,
+}
+
+/// Arguments of `sensitivity`.
+#[derive(Args, Debug)]
+pub(crate) struct Sensitivity {
+    #[command(flatten)]
+    pub which: Which,
+    /// Output folder [default: runs/<study>-sensitivity, with -<variant> in it if one is named].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Number of walls in every arm that was measured.
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u64).range(1..=10_000))]
+    pub members: u64,
+    /// Quantile of the priors, counted from the end at which a mechanism is weak; 0.5 is the median.
+    #[arg(long, value_name = "Q", default_value = "0.84", value_parser = sensitivity::quantile, allow_negative_numbers = true)]
+    pub quantile: f64,
+    /// Worker threads [default: one per processor]. No result depends on their number.
+    #[arg(long, value_name = "T")]
+    pub threads: Option<NonZero<usize>>,
 }
 
 /// The solvers by name.

@@ -6,13 +6,18 @@ use serde_json::json;
 
 use crate::cli::arguments::Check;
 use crate::cli::failure::Failure;
-use crate::cli::{locate, output};
+use crate::cli::{elements, locate, output};
 use crate::ensemble;
-use crate::study::{Arm, Loaded, Study, key_reference};
+use crate::study::{Arm, ElementStudy, Loaded, Study, key_reference};
 
 /// Reads the study and says what it found.
 pub(crate) fn check(arguments: &Check) -> Result<(), Failure> {
     let which = &arguments.which;
+    if let Ok(folder) = locate::folder(&which.study)
+        && ElementStudy::is_in(&folder)
+    {
+        return elements::check(&folder, arguments);
+    }
     if !which.json {
         let keys = if arguments.keys { format!("\n{}", key_reference()) } else { String::new() };
         return output::print(&(summary(&locate::study(which)?) + &keys));

@@ -7,11 +7,17 @@ use crate::cli::arguments::Which;
 use crate::cli::failure::Failure;
 use crate::cli::output;
 use crate::math::edit_distance;
-use crate::study::{Loaded, Study};
+use crate::study::{ElementStudy, Loaded, Study};
 
 /// Loads the study that the arguments name, in the variant asked for, and passes its warnings on to standard error.
 pub(crate) fn study(which: &Which) -> Result<Loaded, Failure> {
-    let loaded = Study::load(&folder(&which.study)?, which.variant.as_deref())?;
+    let folder = folder(&which.study)?;
+    if ElementStudy::is_in(&folder) {
+        let text =
+            format!("{} compares types of elements, not walls: only run and check take it", folder.display());
+        return Err(Failure::Input(text));
+    }
+    let loaded = Study::load(&folder, which.variant.as_deref())?;
     for warning in &loaded.warnings {
         output::note(&format!("warning: {warning}"));
     }

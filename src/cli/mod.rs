@@ -3,13 +3,16 @@
 mod analyse;
 mod arguments;
 mod check;
+mod elements;
 mod failure;
 mod generate;
 mod locate;
+mod mechanisms;
 mod output;
 mod picture;
 mod progress;
 mod run;
+mod sensitivity;
 
 use std::process::ExitCode;
 
@@ -29,8 +32,10 @@ pub fn main() -> ExitCode {
         Verb::Analyse(arguments) => analyse::analyse(arguments),
         Verb::Check(arguments) => check::check(arguments),
         Verb::Generate(arguments) => generate::generate(arguments),
+        Verb::Mechanisms(arguments) => mechanisms::mechanisms(arguments),
         Verb::Picture(arguments) => picture::picture(arguments),
         Verb::Run(arguments) => run::run(arguments),
+        Verb::Sensitivity(arguments) => sensitivity::sensitivity(arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -4,13 +4,17 @@ use std::path::PathBuf;
 
 use crate::cli::arguments::{Run, SolverName};
 use crate::cli::failure::Failure;
-use crate::cli::{locate, output, progress};
+use crate::cli::{elements, locate, output, progress};
 use crate::ensemble::{self, Quantity, Settings};
 use crate::report::{self, Earlier};
-use crate::study::Study;
+use crate::study::{ElementStudy, Study};
 
 /// Runs a study, or what is still missing of it, and shows the results.
 pub(crate) fn run(arguments: &Run) -> Result<(), Failure> {
+    let folder = locate::folder(&arguments.which.study)?;
+    if ElementStudy::is_in(&folder) {
+        return elements::run(&folder, arguments);
+    }
     let study = asked(locate::study(&arguments.which)?.study, arguments)?;
     let out = arguments.out.clone().unwrap_or_else(|| default_folder(&study));
     let quantity = Quantity::of(&study.protocol);

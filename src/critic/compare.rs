@@ -97,7 +97,7 @@ impl Difference {
 }
 
 /// A family's readings of one quantity at one tilt, on the way up or after it.
-type Group<'m> = Vec<&'m Measurement>;
+pub(super) type Group<'m> = Vec<&'m Measurement>;
 
 /// Compares all that was measured with the rows: families in the order of the arms, quantities, tilts and kn ascending.
 pub fn compare(study: &Study, rows: &[Row]) -> Vec<Beside> {
@@ -129,7 +129,7 @@ pub fn compare(study: &Study, rows: &[Row]) -> Vec<Beside> {
 }
 
 /// Readings by arm, quantity, tilt (bits of a number that is not negative, which are in its order) and whether on the way up.
-fn groups(study: &Study) -> BTreeMap<(usize, MeasuredQuantity, u64, bool), Group<'_>> {
+pub(super) fn groups(study: &Study) -> BTreeMap<(usize, MeasuredQuantity, u64, bool), Group<'_>> {
     let mut groups: BTreeMap<_, Group<'_>> = BTreeMap::new();
     for m in &study.measured {
         let arm = study.arms.iter().position(|arm| arm.name == m.family).unwrap_or(study.arms.len());
@@ -146,16 +146,16 @@ fn is_rising(m: &Measurement, all: &[Measurement]) -> bool {
     all.iter().filter(earlier).all(|other| other.tilt.is_none_or(|before| before < tilt))
 }
 
-fn known<'m>(group: &'m [&Measurement]) -> impl Iterator<Item = &'m Measurement> {
+pub(super) fn known<'m>(group: &'m [&Measurement]) -> impl Iterator<Item = &'m Measurement> {
     group.iter().copied().filter(|m| !m.kind.is_censored())
 }
 
 /// Variance of a reading by its random error and its rounding (evenly likely within the resolution).
-fn reading_variance(m: &Measurement) -> f64 {
+pub(super) fn reading_variance(m: &Measurement) -> f64 {
     m.error * m.error + m.resolution * m.resolution / 12.0
 }
 
-fn measured(group: &[&Measurement]) -> Measured {
+pub(super) fn measured(group: &[&Measurement]) -> Measured {
     let values: Vec<f64> = known(group).map(|m| m.value).collect();
     let n = values.len() as f64;
     let random: Vec<f64> = known(group).map(reading_variance).collect();
@@ -204,14 +204,22 @@ fn walls(
 
 fn difference(ours: &Summary, group: &[&Measurement], measured: &Measured) -> Option<Difference> {
     let value = ours.mean.value? - measured.values.mean.value?;
-    let specimens = measured.values.n as f64;
     let sigma = ours.sigma.value.unwrap_or(0.0);
+    let scatter = scatter(sigma, group, measured);
+    let ensemble = sigma / (ours.n as f64).sqrt();
+    let difference = Difference { value, measurement: measured.error?, scatter, ensemble };
+    (difference.sd() > 0.0).then_some(difference)
+}
+
+/// See [`Difference::scatter`]; `sigma` is that of the simulated walls. Bounds alone show no scatter of their own.
+pub(super) fn scatter(sigma: f64, group: &[&Measurement], measured: &Measured) -> f64 {
+    let specimens = measured.values.n as f64;
+    if measured.values.n == 0 {
+        return sigma / (group.len() as f64).sqrt();
+    }
     let random: Vec<f64> = known(group).map(reading_variance).collect();
     let seen = measured.values.sigma.value.map_or(0.0, |s| s * s - stats::sum(&random) / specimens);
-    let scatter = (sigma * sigma).max(seen) / specimens;
-    let ensemble = sigma / (ours.n as f64).sqrt();
-    let difference = Difference { value, measurement: measured.error?, scatter: scatter.sqrt(), ensemble };
-    (difference.sd() > 0.0).then_some(difference)
+    ((sigma * sigma).max(seen) / specimens).sqrt()
 }
 
 /// See [`Walls::agreeing`].

@@ -1,12 +1,15 @@
-//! Measured beside simulated: how far apart they are, and which joint stiffness the measurements speak for.
+//! Measured beside simulated: how far apart they are, which joint stiffness the measurements speak for, and which mechanisms
+//! they could see.
 
 mod calibrate;
 mod compare;
 mod likelihood;
 mod monotone;
 mod neighbours;
+mod observable;
 mod points;
 mod profile;
+mod sensitivity;
 mod simulated;
 #[cfg(test)]
 pub(crate) mod tests;
@@ -16,5 +19,9 @@ pub use compare::{Beside, Difference, Measured, Ours, Walls, compare};
 pub use likelihood::log_likelihood;
 pub use monotone::Monotone;
 pub use neighbours::{OtherPhi, other_friction};
+pub use observable::Observable;
 pub use points::{AnglePoint, LeftOut, angles_of, points_of};
+pub use sensitivity::{
+    Cell, Change, Effect, NoSensitivity, SEEN, Sensitivity, SensitivitySettings, Sight, sensitivity,
+};
 pub use simulated::{Simulated, simulated};

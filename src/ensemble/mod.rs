@@ -1,6 +1,7 @@
 //! From a study to a table of members: plan, evaluate in parallel, record, resume.
 
 mod design;
+mod elements;
 mod error;
 mod evaluate;
 mod files;
@@ -13,6 +14,7 @@ mod run;
 mod table;
 
 pub use design::{Task, is_random, plan};
+pub use elements::{ElementRow, Timed, evaluate_element, run_elements};
 pub use error::{MemberFault, RunError};
 pub use evaluate::{build, evaluate, solve};
 pub use files::replace_file;

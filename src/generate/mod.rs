@@ -1,10 +1,12 @@
-//! From a layout to a wall: bond, sizes, dip, wedge stones. `canonical` holds walls with known answers.
+//! From a layout to a wall: bond, sizes, dip, wedge stones. `canonical` holds walls with known answers, `elements`
+//! assemblies of other elements than stones.
 
 pub mod canonical;
 mod course;
 mod coursed;
 mod cut;
 mod draft;
+pub mod elements;
 mod layout;
 mod outline;
 mod regular;

@@ -4,10 +4,12 @@ mod coulomb;
 mod damping;
 mod normal;
 mod slopes;
+mod spheres;
 mod weakening;
 
 pub use coulomb::{CohesionAfterSlip, Coulomb, Motion, Pressed, Sampling, ShearSum, SubContact};
 pub use damping::local_damping;
 pub use normal::NormalLaw;
 pub use slopes::{PressedSlopes, ShearSlopes};
+pub use spheres::{Frictional, SphereSpring};
 pub use weakening::Weakening;

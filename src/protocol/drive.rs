@@ -320,7 +320,8 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
             Some(crept) => crept.as_ref()?,
             None => from,
         };
-        let Followed { rest, level: highest, ratio, way } = from.follow(&ahead)?;
+        let Followed { rest, level: highest, ratio, steps, way } = from.follow(&ahead)?;
+        self.spent += steps;
         match way {
             Way::Stands => {
                 let further = (highest - level) / path.higher(0.0, 1);

@@ -14,6 +14,7 @@ mod ropes;
 mod route;
 mod run;
 mod settings;
+mod shove;
 mod stage;
 mod task;
 mod tilting;
@@ -32,6 +33,7 @@ pub use settings::{
     Base, Compliance, Contacts, Direction, Ends, Lateral, Observes, Protocol, Rate, Restraint, Rope, Tilting,
     Turning,
 };
-pub use stage::typical_size;
+pub use shove::{Phase, Shove, Shoved, Stand, shove_heap, shove_wall};
+pub use stage::{Stage, typical_size};
 pub use task::{Platform, Run, Task};
 pub use watch::{Criterion, LoadStep};

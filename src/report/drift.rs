@@ -122,7 +122,7 @@ impl<'c> DriftPlot<'c> {
             .y_labels(8)
             .label_style(self.font(18))
             .axis_desc_style(self.font(19))
-            .x_label_formatter(&|value| format!("{value:.0}"))
+            .x_label_formatter(&|value| format!("{value:.1}"))
             .y_label_formatter(&|value| format!("{value:.y_decimals$}"))
             .x_desc("length over height")
             .y_desc("drift: displacement of the top over height (mm/m)")
@@ -147,7 +147,9 @@ impl<'c> DriftPlot<'c> {
             let style = colour(index).stroke_width(2 * self.scale);
             area.draw(&PathElement::new([(from, y), (to, y)], style))?;
             let name = shortened(&curve.curve, LONGEST_NAME);
-            let label = format!("{name}, kn = {}; bars: 95 % interval of the mean", stiffness(curve.kn));
+            let random = curve.points.iter().any(|point| point.interval.is_some());
+            let bars = if random { "; bars: 95 % interval of the mean" } else { "; nothing random" };
+            let label = format!("{name}, kn = {}{bars}", stiffness(curve.kn));
             area.draw(&Text::new(label, (self.px(LEGEND_TEXT), y + self.px(2)), text.clone()))?;
         }
         Ok(())
@@ -173,5 +175,34 @@ impl Figure for DriftPlot<'_> {
         let (plot, legend) = root.split_vertically(self.px(PLOT_HEIGHT as i32));
         self.chart(&plot)?;
         self.legend(&legend)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::tests::{fixed_arm, summary_of};
+
+    #[test]
+    fn arms_of_a_curve_are_its_points_by_growing_length() {
+        let populations =
+            [fixed_arm("long", &[1e-3]), fixed_arm("short", &[4e-4]), fixed_arm("lone", &[9.0])];
+        let mut summary = summary_of(&populations.concat(), &[]);
+        for (arm, length) in summary.arms.iter_mut().zip([6.0, 2.0]) {
+            for (key, value) in [("length_m", length), ("height_m", 2.0)] {
+                arm.parameters.insert(key.to_string(), serde_json::json!(value));
+            }
+            arm.parameters.insert("curve".to_string(), serde_json::json!("bond"));
+        }
+        let curves = drift_curves(&summary);
+        assert_eq!((curves.len(), curves[0].curve.as_str()), (1, "bond"));
+        let points: Vec<_> = curves[0].points.iter().map(|p| (p.slenderness, p.drift)).collect();
+        // 0.4 mm and 1 mm on a wall of 2 m.
+        assert_eq!(points, [(1.0, Some(0.2)), (3.0, Some(0.5))]);
+        let text = drift_csv(&curves);
+        assert!(
+            text.lines().nth(1).is_some_and(|line| line.starts_with("bond,7.5e7,short,1,0.2,")),
+            "{text}"
+        );
     }
 }

@@ -89,7 +89,7 @@ fn write_measured(summary: &Summary, title: &str, dir: &Path) -> Result<()> {
 }
 
 /// Writes a figure as SVG and PNG; `large` is the same one at [`IMAGE_SCALE`].
-fn write_figure(dir: &Path, name: &str, figure: &impl Figure, large: &impl Figure) -> Result<()> {
+pub(super) fn write_figure(dir: &Path, name: &str, figure: &impl Figure, large: &impl Figure) -> Result<()> {
     replace_file(&dir.join(format!("{name}.svg")), svg(figure)?.as_bytes())?;
     // Lets the image writer, which wants a path and chooses its format by the ending, write a temporary file, flushes it to
     // the disk and gives it its name.

@@ -1,5 +1,6 @@
-//! Convex polygons and polyhedra: cut, clip, inertia, overlap, validity. Knows shapes, never the world.
+//! Convex polygons and polyhedra: cut, clip, inertia, overlap, validity; unions of balls. Knows shapes, never the world.
 
+mod balls;
 mod overlap;
 mod plane;
 mod polygon;
@@ -7,6 +8,7 @@ mod polyhedron;
 #[cfg(test)]
 mod tests;
 
+pub use balls::{Ball, union_of_balls};
 pub use overlap::overlap_depth;
 pub use plane::{Frame, Plane};
 pub use polygon::{Moments, Polygon};

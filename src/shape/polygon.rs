@@ -39,6 +39,30 @@ impl Polygon {
         moments(&self.vertices)
     }
 
+    /// The convex polygon around some points, without points on its edges (Andrew's monotone chain).
+    pub fn around(mut points: Vec<[f64; 2]>) -> Polygon {
+        points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+        let turns_left = |a: &[f64; 2], b: &[f64; 2], c: &[f64; 2]| {
+            (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0.0
+        };
+        let half = |points: &mut dyn Iterator<Item = [f64; 2]>| {
+            let mut chain: Vec<[f64; 2]> = Vec::new();
+            for point in points {
+                while let [.., a, b] = chain[..]
+                    && !turns_left(&a, &b, &point)
+                {
+                    chain.pop();
+                }
+                chain.push(point);
+            }
+            chain.pop();
+            chain
+        };
+        let mut vertices = half(&mut points.iter().copied());
+        vertices.extend(half(&mut points.iter().rev().copied()));
+        Polygon { vertices }
+    }
+
     /// Area (m^2).
     pub fn area(&self) -> f64 {
         self.moments().area

@@ -176,3 +176,14 @@ fn the_parts_of_random_cuts_touch_and_do_not_overlap() {
         }
     }
 }
+
+#[test]
+fn the_polygon_around_points_has_their_outer_corners_only() {
+    let square = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]];
+    let inside = [[1.0, 0.5], [0.5, 0.0], [2.0, 0.25], [0.0, 0.0], [1.5, 1.0]];
+    let around = Polygon::around(square.into_iter().chain(inside).collect());
+    assert_eq!(around.vertices, square);
+    assert_eq!(around.area(), 2.0);
+    assert!(Polygon::around(vec![[1.0, 1.0]; 3]).vertices.len() < 3);
+    assert!(Polygon::around(Vec::new()).vertices.is_empty());
+}

@@ -4,7 +4,7 @@ use nalgebra::{Quaternion, Rotation3, UnitQuaternion};
 
 use crate::math::{Mat3, Vec3, atan2};
 use crate::model::{Support, Wall};
-use crate::shape::Polyhedron;
+use crate::shape::{MassProperties, Polyhedron};
 
 /// What a body can do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,28 +68,11 @@ impl Bodies {
         let mut shapes = Vec::with_capacity(wall.blocks.len());
         for block in &wall.blocks {
             let properties = block.shape.mass_properties();
-            let (inertia, axes) = principal_axes(properties.inertia);
-            // The matrix is made from the quaternion, as every later one is.
-            let attitude = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
-            let rotation = attitude.to_rotation_matrix().into_inner();
             let centred = block.shape.translated(&-properties.centroid);
             let radius = centred.vertices.iter().map(|v| v.norm()).fold(0.0, f64::max);
-            shapes.push(centred.moved(&rotation.transpose(), &Vec3::zeros()));
-            all.push(Body {
-                position: properties.centroid,
-                attitude,
-                rotation,
-                velocity: Vec3::zeros(),
-                angular_momentum: Vec3::zeros(),
-                spin: Vec3::zeros(),
-                force: Vec3::zeros(),
-                torque: Vec3::zeros(),
-                mass: block.density * properties.volume,
-                inertia: inertia * block.density,
-                inertia_scale: 1.0,
-                freedom: Freedom::of(block.support),
-                radius,
-            });
+            let body = Body::at_rest(&properties, block.density, block.support, radius);
+            shapes.push(centred.moved(&body.rotation.transpose(), &Vec3::zeros()));
+            all.push(body);
         }
         let carriers = (0..all.len()).collect();
         Bodies { all, shapes, carriers }
@@ -132,6 +115,29 @@ impl Freedom {
 }
 
 impl Body {
+    /// A body at rest from its mass properties at unit density; `radius` is the largest distance (m) of a point of it
+    /// from the centroid.
+    pub fn at_rest(properties: &MassProperties, density: f64, support: Support, radius: f64) -> Body {
+        let (inertia, axes) = principal_axes(properties.inertia);
+        // The matrix is made from the quaternion, as every later one is.
+        let attitude = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
+        Body {
+            position: properties.centroid,
+            attitude,
+            rotation: attitude.to_rotation_matrix().into_inner(),
+            velocity: Vec3::zeros(),
+            angular_momentum: Vec3::zeros(),
+            spin: Vec3::zeros(),
+            force: Vec3::zeros(),
+            torque: Vec3::zeros(),
+            mass: density * properties.volume,
+            inertia: inertia * density,
+            inertia_scale: 1.0,
+            freedom: Freedom::of(support),
+            radius,
+        }
+    }
+
     /// Whether it can move at all.
     pub fn moves(&self) -> bool {
         self.freedom != Freedom::Fixed

@@ -1,8 +1,10 @@
-//! Solvers: assembly into arrays, joints, status; `explicit` is the DEM, `limit` rigid limit analysis.
+//! Solvers: assembly into arrays, joints, status; `explicit` is the DEM of blocks, `grains` that of bodies made of spheres, `limit` rigid limit analysis.
 
 pub mod assembly;
 pub mod bodies;
 pub mod explicit;
+mod gershgorin;
+pub mod grains;
 pub mod implicit;
 pub mod joints;
 pub mod limit;

@@ -53,6 +53,8 @@ pub struct Followed<S> {
     pub level: f64,
     /// Its unbalanced force ratio.
     pub ratio: f64,
+    /// Steps of the solver that led to the end of what was seen.
+    pub steps: u64,
     /// How the path goes on from there.
     pub way: Way,
 }

@@ -29,7 +29,7 @@ impl Mechanisms {
         if let (Some(added), Ends::Ropes(rope)) = (self.rope_slack, &mut restraint.ends) {
             rope.slack += added;
         }
-        restraint.base.compliance = self.base_compliance;
+        restraint.base.compliance = self.base_compliance.or(restraint.base.compliance);
         restraint
     }
 

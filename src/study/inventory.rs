@@ -1,8 +1,13 @@
 //! What is known of each mechanism that the base model leaves out: where it acts, what it is confounded with, whether its
 //! effect goes when the wall is unloaded, and how limit analysis takes it.
 
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use crate::random::Family;
+use crate::study::catalogue::{DistributionFile, load_distributions};
 use crate::study::keys::MECHANISM;
-use crate::study::schema::{Kind, Section};
+use crate::study::schema::{Key, Kind, Presence, Section};
 
 /// What is known of a mechanism besides its keys.
 #[derive(Clone, Copy, Debug)]
@@ -76,24 +81,59 @@ pub static INVENTORY: [Entry; 16] = {
     use InLimitAnalysis::{Honoured, NoBearing, Refused};
     use Unloading::{AsWithout, Irreversible, Reversible};
     [
-        entry("contact_inset", Joints, AsWithout, Honoured, &["joint.kn_pa_per_m", "lean", "contact_area", "restraint.strip_height_m"]),
-        entry("joint_closure", Joints, Reversible, Refused, &["joint.kn_pa_per_m", "contact_area", "base_compliance", "gauge_scale"]),
-        entry("contact_area", Joints, AsWithout, Honoured, &["joint.kn_pa_per_m", "contact_inset", "joint_closure", "size_scatter"]),
-        entry("friction", Joints, Irreversible, Honoured, &["joint.phi_deg", "cohesion", "end_release"]),
+        entry("contact_inset", Joints, AsWithout, Honoured, &["joint.kn_pa_per_m", "restraint.strip_height_m", "lean", "contact_area"]),
+        entry("joint_closure", Joints, Reversible, Refused, &["joint.kn_pa_per_m", "contact_area", "base_compliance", "gauge_scale", "gauge_offset"]),
+        entry("contact_area", Joints, AsWithout, Honoured, &["joint.kn_pa_per_m", "contact_inset", "joint_closure", "size_scatter", "specimen_scatter", "wedge_loss"]),
+        entry("friction", Joints, Irreversible, Honoured, &["joint.phi_deg", "cohesion", "end_release", "creep"]),
         entry("cohesion", Joints, AsWithout, Honoured, &["friction", "density"]),
-        entry("lean", Wall, AsWithout, Honoured, &["contact_inset", "base_compliance", "wall.battered_face"]),
-        entry("base_compliance", Restraint, Reversible, Refused, &["joint.kn_pa_per_m", "joint_closure", "gauge_scale"]),
+        entry("lean", Wall, AsWithout, Honoured, &["wall.battered_face", "contact_inset", "base_compliance"]),
+        entry("base_compliance", Restraint, Reversible, Refused, &["joint.kn_pa_per_m", "joint_closure", "lean", "gauge_scale"]),
         entry("wedge_loss", Loading, Irreversible, Refused, &["creep", "contact_area", "size_scatter"]),
         entry("rope_slack", Restraint, Reversible, NoBearing, &["restraint.rope.stiffness_n_per_m", "end_release"]),
         entry("size_scatter", Wall, AsWithout, Honoured, &["specimen_scatter", "wedge_loss", "contact_area"]),
         entry("density", Wall, AsWithout, Honoured, &["joint.kn_pa_per_m", "cohesion"]),
         entry("gauge_offset", Readings, Irreversible, NoBearing, &["creep", "joint_closure"]),
         entry("gauge_scale", Readings, Reversible, NoBearing, &["joint.kn_pa_per_m", "joint_closure", "base_compliance"]),
-        entry("creep", Loading, Irreversible, Refused, &["gauge_offset", "friction", "joint.kn_over_ks"]),
+        entry("creep", Loading, Irreversible, Refused, &["joint.kn_over_ks", "gauge_offset", "friction", "wedge_loss"]),
         entry("specimen_scatter", Joints, AsWithout, Honoured, &["size_scatter", "contact_area"]),
         entry("end_release", Joints, Irreversible, Honoured, &["rope_slack", "friction"]),
     ]
 };
+
+impl Acts {
+    /// In words.
+    pub fn words(&self) -> &'static str {
+        match self {
+            Acts::Wall => "the wall as it is built",
+            Acts::Joints => "the joints",
+            Acts::Restraint => "what holds the wall",
+            Acts::Loading => "the wall while it is loaded",
+            Acts::Readings => "the readings alone",
+        }
+    }
+}
+
+impl Unloading {
+    /// In words.
+    pub fn words(&self) -> &'static str {
+        match self {
+            Unloading::Reversible => "its effect goes",
+            Unloading::Irreversible => "its effect stays",
+            Unloading::AsWithout => "as without it",
+        }
+    }
+}
+
+impl InLimitAnalysis {
+    /// In words.
+    pub fn words(&self) -> &'static str {
+        match self {
+            InLimitAnalysis::Honoured => "honoured",
+            InLimitAnalysis::NoBearing => "has no bearing on it",
+            InLimitAnalysis::Refused => "refused",
+        }
+    }
+}
 
 impl Entry {
     /// Its table of keys.
@@ -103,4 +143,101 @@ impl Entry {
             _ => None,
         }
     }
+}
+
+/// A mechanism with all that is known of it.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct Described {
+    /// Its name: `[mechanism.<name>]` switches it on.
+    pub name: &'static str,
+    /// What it is.
+    pub what: &'static str,
+    /// Where it acts.
+    pub acts: Acts,
+    /// What becomes of its effect when the wall is unloaded.
+    pub unloading: Unloading,
+    /// How limit analysis takes it.
+    pub limit_analysis: InLimitAnalysis,
+    /// What looks alike on a tilting table.
+    pub confounded_with: &'static [&'static str],
+    /// Its parameters.
+    pub parameters: Vec<Parameter>,
+}
+
+/// A parameter of a mechanism.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct Parameter {
+    /// Its key.
+    pub key: &'static str,
+    /// Its unit; "1" for a plain number.
+    pub unit: &'static str,
+    /// What it means.
+    pub meaning: &'static str,
+    /// What it has where it is left out, written in TOML.
+    pub default: Option<&'static str>,
+    /// What it may be, before anything has been measured.
+    pub prior: Family,
+    /// measured, literature, calibrated or assumed.
+    pub status: String,
+    /// Paper and table, or who assumed it and why.
+    pub source: String,
+    /// What a user should know.
+    pub note: Option<String>,
+}
+
+/// All mechanisms with their priors, the entry `prior` of `mechanism/<name>/<key>.toml` below a `distributions` folder.
+///
+/// # Errors
+/// The faults of the folder's files; or the priors that are not there or in another unit, in words.
+pub fn described(distributions: &Path) -> Result<Vec<Described>, String> {
+    let files = load_distributions(distributions).map_err(|faults| faults.to_string())?;
+    let mut missing = Vec::new();
+    let described = INVENTORY
+        .iter()
+        .map(|entry| {
+            let section = entry.section();
+            let keys = section.into_iter().flat_map(Section::all);
+            let parameters = keys.filter_map(|key| {
+                let found = parameter(entry.name, key, &files);
+                if found.is_none() {
+                    missing.push(format!("mechanism/{}/{}.toml: [prior]", entry.name, key.name));
+                }
+                found
+            });
+            Described {
+                parameters: parameters.collect(),
+                name: entry.name,
+                what: section.map_or("", |section| section.doc),
+                acts: entry.acts,
+                unloading: entry.unloading,
+                limit_analysis: entry.limit,
+                confounded_with: entry.confounded,
+            }
+        })
+        .collect();
+    if missing.is_empty() {
+        return Ok(described);
+    }
+    Err(format!("{} lacks, in the unit of its key:\n  {}", distributions.display(), missing.join("\n  ")))
+}
+
+fn parameter(
+    mechanism: &str,
+    key: &'static Key,
+    files: &BTreeMap<String, DistributionFile>,
+) -> Option<Parameter> {
+    let Kind::Real { unit, .. } = key.kind else { return None };
+    let file = files.get(&format!("mechanism/{mechanism}/{}", key.name)).filter(|file| file.unit == unit)?;
+    let prior = file.entries.get("prior")?.clone();
+    let default = if let Presence::Default(text) = key.presence { Some(text) } else { None };
+    Some(Parameter {
+        key: key.name,
+        unit,
+        meaning: key.doc,
+        default,
+        prior: prior.family,
+        status: prior.status,
+        source: prior.source,
+        note: prior.note,
+    })
 }

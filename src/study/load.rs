@@ -137,6 +137,12 @@ impl Study {
         Ok(self)
     }
 
+    /// The same study, its hash that of its values.
+    pub(super) fn rehashed(mut self) -> Study {
+        self.hash = hash_of(&self.effective);
+        self
+    }
+
     /// The same study with another number of walls in every arm that has more than one; at least one.
     pub fn with_members(mut self, members: u64) -> Study {
         for arm in self.arms.iter_mut().filter(|arm| arm.members > 1) {
@@ -149,13 +155,13 @@ impl Study {
 }
 
 /// SHA-256 (hex) over the effective values in the order of their keys, one line each.
-fn hash_of(effective: &BTreeMap<String, String>) -> String {
+pub(super) fn hash_of(effective: &BTreeMap<String, String>) -> String {
     let lines: String = effective.iter().map(|(key, value)| format!("{key} = {value}\n")).collect();
     files::sha256(lines.as_bytes())
 }
 
 /// The study's folder, which must exist.
-fn existing(folder: &Path) -> Result<PathBuf, Box<Fault>> {
+pub(super) fn existing(folder: &Path) -> Result<PathBuf, Box<Fault>> {
     let shown = folder.display().to_string();
     let fault = |found: &str, fix: String| {
         Err(Box::new(Fault::of_file(&shown, 0, found, "the folder of a study", fix)))
@@ -169,7 +175,7 @@ fn existing(folder: &Path) -> Result<PathBuf, Box<Fault>> {
     }
 }
 
-fn parsed(
+pub(super) fn parsed(
     folder: &Path,
     name: &str,
     rank: usize,

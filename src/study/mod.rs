@@ -5,6 +5,7 @@ mod arm;
 mod build;
 mod catalogue;
 mod checked;
+mod elements;
 mod fault;
 mod files;
 mod inventory;
@@ -20,12 +21,16 @@ mod reader;
 mod reference;
 mod schema;
 mod setting;
+mod strength;
 mod variant;
 
 pub use catalogue::{Distribution, DistributionFile, Used, load_distributions};
 pub use checked::{Arm, Claim, ClaimTest, InputFile, Joint, NormalLawName, Study};
+pub use elements::{ElementArm, ElementStudy, Reported};
 pub use fault::{Fault, Faults, Found};
-pub use inventory::{Acts, Entry as InventoryEntry, INVENTORY, InLimitAnalysis, Unloading};
+pub use inventory::{
+    Acts, Described, Entry as InventoryEntry, INVENTORY, InLimitAnalysis, Parameter, Unloading, described,
+};
 pub use joints::DrawnJoints;
 pub use load::{Loaded, VariantName};
 pub use measured::{MeasuredKind, MeasuredQuantity, Measurement};
@@ -33,6 +38,7 @@ pub use mechanism::{
     EndRelease, FrictionChange, JointClosure, Mechanisms, SpecimenScatter, Unfit, WedgeLoss,
 };
 pub use reference::key_reference;
+pub use strength::Switched;
 
 #[cfg(test)]
 mod tests;

@@ -9,7 +9,15 @@ use crate::study::schema::{Key, Kind, Presence, Section, quoted};
 /// Every key of every input file with what is allowed, its default and its meaning, as Markdown.
 pub fn key_reference() -> String {
     let mut text = String::new();
-    for section in [&keys::STUDY, &keys::PUBLISHED, &keys::HEAD, &keys::ENTRY, &keys::FAMILY] {
+    for section in [
+        &keys::STUDY,
+        &keys::PUBLISHED,
+        &keys::ELEMENT_STUDY,
+        &keys::ELEMENTS_PUBLISHED,
+        &keys::HEAD,
+        &keys::ENTRY,
+        &keys::FAMILY,
+    ] {
         describe(section, &mut text, &mut Vec::new());
     }
     describe_measured(&mut text);

@@ -1,11 +1,14 @@
 //! Tests of the key table and of the drawn joints; files and faults are tested from outside, in `tests/cli`.
 
-use crate::law::{CohesionAfterSlip, Sampling};
+use crate::generate::canonical::running_bond;
+use crate::law::{CohesionAfterSlip, Coulomb, NormalLaw, Sampling, Weakening};
 use crate::model::JointLaws;
 use crate::random::{Family, Streams};
 use crate::study::keys;
 use crate::study::schema::{Interval, Key, Kind, Section, nearest};
-use crate::study::{DrawnJoints, Joint, NormalLawName};
+use crate::study::{
+    DrawnJoints, EndRelease, FrictionChange, Joint, JointClosure, Mechanisms, NormalLawName, SpecimenScatter,
+};
 
 fn keys_below(section: &'static Section, found: &mut Vec<&'static Key>) {
     for key in section.all() {
@@ -117,4 +120,84 @@ fn another_random_property_changes_no_other_draw() {
     let (one, two) = (joint().law(1e8, &streams, 5, 2), other.law(1e8, &streams, 5, 2));
     assert_eq!((kn_of(one), one.cohesion), (kn_of(two), two.cohesion));
     assert_ne!(one.tan_phi, two.tan_phi);
+}
+
+#[test]
+fn joints_near_the_ends_are_released_and_no_others() {
+    let (joint, wall, streams) = (joint(), running_bond(2, 7), Streams::new(2, 0));
+    let end_release = Some(EndRelease { within: 0.2, friction: 0.5, stiffness: 0.25 });
+    let mechanisms = Mechanisms { end_release, ..Mechanisms::default() };
+    let plain = DrawnJoints::new(&joint, 1e8, streams);
+    let released = plain.clone().altered(&mechanisms, &wall);
+    // Two courses, 1.5 m long, stones 0 to 7 below and 8 to 15 above. Middles of what is shared: 0.05, 0.15, 0.25, 1.25, 1.35,
+    // 0.1 and 0.7 m; the ground is as long as the wall.
+    for (a, b, is_near) in [
+        (0, 8, true),
+        (1, 8, true),
+        (1, 9, false),
+        (6, 14, false),
+        (7, 14, true),
+        (0, 1, true),
+        (3, 4, false),
+        (3, 16, false),
+        (0, 16, true),
+    ] {
+        let (before, after) = (plain.of(a, b), released.of(a, b));
+        let expected = Coulomb { tan_phi: 0.5 * before.tan_phi, ks: 0.25 * before.ks, ..before };
+        assert_eq!(after, if is_near { expected } else { before }, "{a}-{b}");
+        assert_eq!(after, released.of(b, a));
+    }
+}
+
+#[test]
+fn a_specimen_has_factors_of_its_own_on_all_its_joints() {
+    let (joint, wall) = (joint(), running_bond(2, 7));
+    let of = |specimen_scatter, member| {
+        let mechanisms = Mechanisms { specimen_scatter, ..Mechanisms::default() };
+        let plain = DrawnJoints::new(&joint, 1e8, Streams::new(2, member));
+        let law = plain.clone().altered(&mechanisms, &wall);
+        [(0, 8), (1, 9)].map(|(a, b)| {
+            let (before, after) = (plain.of(a, b), law.of(a, b));
+            let stiffness = kn_of(after) / kn_of(before);
+            assert!((after.ks / before.ks / stiffness - 1.0).abs() < 1e-14);
+            [stiffness, after.tan_phi / before.tan_phi]
+        })
+    };
+    let both = Some(SpecimenScatter { kn: 0.3, friction: 0.1 });
+    let [first, second] = of(both, 0);
+    // Rounding of two products.
+    assert!((first[0] / second[0] - 1.0).abs() < 1e-14 && (first[1] / second[1] - 1.0).abs() < 1e-14);
+    assert_ne!(first, of(both, 1)[0]);
+    // Each from a stream of its own.
+    let stiff = of(Some(SpecimenScatter { kn: 0.3, friction: 0.0 }), 0)[0];
+    assert_eq!((stiff[0], stiff[1]), (first[0], 1.0));
+    // Mean 1 and the COV asked for: 2000 walls know them to 0.3 / sqrt(2000) and 1.6 % of it, five times over.
+    let factors: Vec<f64> = (0..2000).map(|member| of(both, member)[0][0]).collect();
+    let mean = factors.iter().sum::<f64>() / 2000.0;
+    let variance = factors.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / 1999.0;
+    assert!((mean - 1.0).abs() < 0.034 && (variance.sqrt() / 0.3 - 1.0).abs() < 0.1, "{mean} {variance}");
+}
+
+#[test]
+fn mechanisms_of_the_joints_are_in_their_laws() {
+    let (wall, streams) = (running_bond(2, 7), Streams::new(2, 0));
+    let joint = Joint { sampling: Sampling::Area, ..joint() };
+    let plain = DrawnJoints::new(&joint, 1e8, streams);
+    let before = plain.of(0, 8);
+    let of = |mechanisms: Mechanisms| plain.clone().altered(&mechanisms, &wall).of(0, 8);
+    let none = Mechanisms::default;
+    assert_eq!(of(none()), before);
+    let friction = Some(FrictionChange { factor: 0.8, residual: 0.7, distance: 1e-3 });
+    let weakening = Some(Weakening { residual: 0.7, distance: 1e-3 });
+    let expected = Coulomb { tan_phi: 0.8 * before.tan_phi, weakening, ..before };
+    assert_eq!(of(Mechanisms { friction, ..none() }), expected);
+    let expected = Coulomb { cohesion: before.cohesion + 50.0, ..before };
+    assert_eq!(of(Mechanisms { cohesion: Some(50.0), ..none() }), expected);
+    let joint_closure = Some(JointClosure { initial: 1e7, closure: 1e-4 });
+    let normal = NormalLaw::Hyperbolic { kn: kn_of(before), initial: 1e7, closure: 1e-4 };
+    assert_eq!(of(Mechanisms { joint_closure, ..none() }), Coulomb { normal, ..before });
+    let Sampling::Patches(mask) = of(Mechanisms { contact_area: Some(0.3), ..none() }).sampling else {
+        panic!("it touches in patches")
+    };
+    assert_eq!(mask.count_ones(), 5);
 }

@@ -28,7 +28,7 @@ fn ends_with(folder: &Folder, code: i32, arguments: &[&str]) -> Output {
 #[test]
 fn every_verb_has_help_with_an_example_and_the_exit_codes() {
     let folder = Folder::with_study(STUDY);
-    for verb in ["check", "generate", "picture", "run"] {
+    for verb in ["check", "generate", "picture", "run", "sensitivity"] {
         let help = stdout(&ends_with(&folder, 0, &[verb, "--help"]));
         for said in ["Usage: pirca", "Example: pirca", "Exit codes: 0", "--json", "--variant"] {
             assert!(help.contains(said), "{said} is missing in the help of {verb}: {help}");
@@ -51,6 +51,9 @@ fn arguments_that_make_no_sense_end_with_2() {
         (&["run", "studies/tiny", "--threads", "0"], "--threads"),
         (&["run", "studies/tiny", "--solver", "quantum"], "explicit"),
         (&["run", "studies/tiny", "--seed", "-1"], "-1"),
+        (&["sensitivity", "studies/tiny", "--members", "0"], "--members"),
+        (&["sensitivity", "studies/tiny", "--quantile", "1"], "--quantile"),
+        (&["sensitivity", "studies/tiny", "--quantile", "-0.5"], "--quantile"),
         (&["generate", "studies/tiny"], "--out"),
         (&["generate", "studies/tiny", "--out", "wall.stl"], ".vtu, .obj or .json"),
         (&["generate", "studies/tiny", "--out", "wall"], ".vtu, .obj or .json"),
@@ -80,7 +83,8 @@ fn a_path_without_a_study_is_told_with_the_studies_that_there_are() {
         ("studies/empty", "studies/empty is a folder without a study.toml"),
         ("studies/tiny/study.toml/x", "Not a directory"),
     ] {
-        for verb in [&["check", path][..], &["run", path], &["generate", path, "--out", "wall.obj"]] {
+        let generate = ["generate", path, "--out", "wall.obj"];
+        for verb in [&["check", path][..], &["run", path], &generate, &["sensitivity", path]] {
             let error = stderr(&ends_with(&folder, 3, verb));
             assert!(error.contains(found), "{found} in: {error}");
             assert!(error.contains("nearest name first:\n  studies/tiny"), "{error}");
@@ -346,11 +350,72 @@ fn measurements_are_counted_and_compared() {
     let of_weight = table.lines().find(|line| line.contains("specimen_weight")).unwrap();
     let weight: f64 = of_weight.split(',').nth(19).unwrap().parse().unwrap();
     // 0.8 x 0.3 x 0.18 m3 at 2400 kg/m3 and 9.80665 m/s2, the standard gravity; head joints have no gap in this study.
-    assert!((weight - 1016.753_472).abs() < 1e-6, "{weight}");
+    assert!((weight - 1_016.753_472).abs() < 1e-6, "{weight}");
     fs::write(folder.path("studies/tiny/measured.csv"), text.replace("1000", "1010")).unwrap();
     let again = ends_with(&folder, 0, &run);
     assert!(stderr(&again).contains("6 evaluations, 6 of them recorded before"), "{}", stderr(&again));
     fs::write(folder.path("studies/tiny/measured.csv"), text.replace("1000,N", "1000,kg")).unwrap();
     let refused = ends_with(&folder, 3, &["check", "studies/tiny"]);
     assert!(stderr(&refused).contains("measured.csv:2: unit = kg"), "{}", stderr(&refused));
+}
+
+/// The small study on a tilting table, stiff walls, with what was measured on them.
+fn measured_on_a_table() -> Folder {
+    let load = STUDY.split_once("[load]").and_then(|(_, rest)| rest.split_once("\n\n")).map(|(keys, _)| keys);
+    let load = load.expect("the study has a load");
+    let text = STUDY.replace(load, "\nprotocol = \"tilting\"\nstep_deg = 5\nbracket_deg = 0.2\n");
+    let text =
+        text.replace("ends = \"joint_springs\"", "ends = \"free\"").replace("unbalanced_ratio = 1e-4", "");
+    let folder = Folder::with_study(&text.replace("[solver]", "[solver]\nname = \"implicit\""));
+    let distributions = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("distributions/mechanism");
+    for mechanism in fs::read_dir(&distributions).unwrap().flatten() {
+        let to = folder.path("distributions/mechanism").join(mechanism.file_name());
+        fs::create_dir_all(&to).unwrap();
+        for file in fs::read_dir(mechanism.path()).unwrap().flatten() {
+            fs::copy(file.path(), to.join(file.file_name())).unwrap();
+        }
+    }
+    folder
+}
+
+#[test]
+fn sensitivity_writes_the_map_and_names_what_has_no_number() {
+    let folder = measured_on_a_table();
+    let without = stderr(&ends_with(&folder, 3, &["sensitivity", "studies/tiny"]));
+    assert!(without.contains("measured.csv"), "{without}");
+    fs::write(
+        folder.path("studies/tiny/measured.csv"),
+        "specimen,family,tilt_deg,quantity,value,unit,error,kind,resolution\n\
+         A,stack,,collapse_angle,20,deg,0,rounded,0.5\n\
+         A,stack,5,displacement_mean,1,mm,0.5,exact,\n\
+         B,stack,80,displacement_mean,1,mm,0.5,exact,\n",
+    )
+    .unwrap();
+    let arguments = ["sensitivity", "studies/tiny", "--members", "1", "--json", "--out"];
+    let told = json(&ends_with(&folder, 0, &[&arguments[..], &["a", "--threads", "1"]].concat()));
+    ends_with(&folder, 0, &[&arguments[..], &["b", "--threads", "2"]].concat());
+    for name in ["sensitivity.csv", "sensitivity.json", "sensitivity.svg", "sensitivity.png"] {
+        let read =
+            |out: &str| fs::read(folder.path(out).join(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!(read("a"), read("b"), "{name}");
+    }
+    let rows = told["mechanisms"].as_array().unwrap();
+    assert_eq!(rows.len(), 16);
+    let cells = |name: &str| rows.iter().find(|row| row["mechanism"] == name).unwrap()["cells"].clone();
+    assert_eq!(cells("rope_slack")[0]["outcome"], "not applicable");
+    assert_eq!(cells("wedge_loss")[1]["note"], "there are no wedges");
+    assert_eq!(cells("density")[2]["outcome"], "collapsed before the reading without it as well");
+    // The offset of the prior's 84 % quantile, 5 mm times the normal quantile 0.99446, over the error of 0.5 mm.
+    let errors = cells("gauge_offset")[1]["in_measurement_errors"].as_f64().unwrap();
+    assert!((errors - 9.9446).abs() < 1e-3, "{errors}");
+    let text = fs::read_to_string(folder.path("a/sensitivity.csv")).unwrap();
+    assert_eq!(text.lines().count(), 1 + 16 * 3);
+    let columns = text.lines().next().unwrap().split(',').count();
+    assert!(text.lines().filter(|line| !line.contains('"')).all(|line| line.split(',').count() == columns));
+    assert!(!text.contains("NaN") && !text.contains("inf"));
+    // Two walls, which are the same: one alone gives no interval.
+    let table = stdout(&ends_with(&folder, 0, &["sensitivity", "studies/tiny", "--members", "2"]));
+    for said in ["the data could see it in stack mean at 5 deg", "n/a", "runs/tiny-sensitivity"] {
+        assert!(table.contains(said), "{said} in: {table}");
+    }
 }

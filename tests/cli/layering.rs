@@ -33,7 +33,7 @@ const HOUSE: &[(&str, &[&str])] = &[
 ];
 
 /// The solvers check each other, so none may lean on another.
-const SOLVERS: [&str; 3] = ["explicit", "implicit", "limit"];
+const SOLVERS: [&str; 4] = ["explicit", "grains", "implicit", "limit"];
 
 /// What a file (path below `src`, with `/`) imports against the house's rules.
 fn violations(path: &str, text: &str) -> Vec<String> {

@@ -7,6 +7,7 @@ mod commands;
 mod layering;
 mod malformed;
 mod measured;
+mod mechanisms;
 mod mutated_walls;
 mod picture;
 mod scratch;

@@ -4,6 +4,7 @@ mod failed_members;
 mod fixture;
 mod kill;
 mod machinery;
+mod mechanisms;
 mod refusal;
 mod same_walls;
 mod threads;

@@ -1,4 +1,7 @@
 //! Published statements against our numbers: what the studies' READMEs say comes out, does.
 
+mod edge_restraint;
+mod element_types;
 mod joint_arrangement;
 mod tilting_block;
+mod tilting_table;

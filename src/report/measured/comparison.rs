@@ -128,7 +128,7 @@ impl MomentsEntry {
 }
 
 /// Unit of a quantity in files.
-fn unit(quantity: MeasuredQuantity) -> &'static str {
+pub fn unit(quantity: MeasuredQuantity) -> &'static str {
     match quantity.dimension() {
         Dimension::Length => "m",
         Dimension::Angle => "deg",
@@ -138,7 +138,7 @@ fn unit(quantity: MeasuredQuantity) -> &'static str {
 }
 
 /// An SI number in that unit.
-fn in_unit(quantity: MeasuredQuantity, x: f64) -> f64 {
+pub fn in_unit(quantity: MeasuredQuantity, x: f64) -> f64 {
     if quantity.dimension() == Dimension::Angle { tidy_degrees(x) } else { x }
 }
 

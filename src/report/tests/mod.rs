@@ -67,7 +67,7 @@ fn population(arm: &str, fixed: bool, kn: f64, values: &[f64]) -> Population {
 }
 
 /// An arm in which nothing is drawn: one wall per kn with these displacements (m).
-fn fixed_arm(arm: &str, displacements: &[f64]) -> Vec<Population> {
+pub(super) fn fixed_arm(arm: &str, displacements: &[f64]) -> Vec<Population> {
     KN.iter().zip(displacements).map(|(kn, value)| population(arm, true, *kn, &[*value])).collect()
 }
 
@@ -90,7 +90,7 @@ fn claim(test: ClaimTest) -> Claim {
 }
 
 /// A summary of populations, as `summarise` makes it of a study.
-fn summary_of(populations: &[Population], claims: &[Claim]) -> Summary {
+pub(super) fn summary_of(populations: &[Population], claims: &[Claim]) -> Summary {
     Summary {
         study: "hand-made".into(),
         question: "Does the report say what the rows say?".into(),

@@ -8,13 +8,14 @@
 use crate::math::Vec3;
 use crate::solve::Assembly;
 use crate::solve::bodies::Body;
+use crate::solve::gershgorin::RowSums;
 use crate::solve::joints::Joint;
 
 /// Bounds of `lambda_max(M^-1 K)` (1/s^2) per body, with its true mass and inertia; 0 for a body without joints and springs
 /// of its own.
 pub fn block_bounds(assembly: &Assembly<'_>) -> Vec<f64> {
     let Assembly { bodies, joints, .. } = assembly;
-    let mut stiffness = vec![[[0.0f64; 6]; 6]; bodies.all.len()];
+    let mut stiffness = vec![RowSums::default(); bodies.all.len()];
     for joint in &joints.all {
         for index in [joint.incident as usize, joint.reference as usize] {
             let body = &bodies.all[index];
@@ -27,25 +28,21 @@ pub fn block_bounds(assembly: &Assembly<'_>) -> Vec<f64> {
         let body = &bodies.all[tie.tie.body];
         if body.moves() {
             let (lever, axis) = tie.own(body);
-            add_spring(&mut stiffness[tie.tie.body], body, lever, axis, tie.tie.stiffness);
+            stiffness[tie.tie.body].add_spring(body, &lever, &axis, tie.tie.stiffness);
         }
     }
     if let Some(mounted) = assembly.mounted() {
         let (index, [.., settlement, rotation, _, _]) = (mounted.mount.body, mounted.stiffness());
         let body = &bodies.all[index];
         let (up, along) = (body.rotation.tr_mul(&Vec3::z()), body.rotation.tr_mul(&Vec3::x()));
-        add_row(&mut stiffness[index], body, [up.x, up.y, up.z, 0.0, 0.0, 0.0], settlement);
-        add_row(&mut stiffness[index], body, [0.0, 0.0, 0.0, along.x, along.y, along.z], rotation);
+        stiffness[index].add_row(body, [up.x, up.y, up.z, 0.0, 0.0, 0.0], settlement);
+        stiffness[index].add_row(body, [0.0, 0.0, 0.0, along.x, along.y, along.z], rotation);
     }
-    stiffness
-        .iter()
-        .map(|k| k.iter().map(|row| row.iter().map(|x| x.abs()).sum()).fold(0.0, f64::max))
-        .collect()
+    stiffness.iter().map(RowSums::bound).collect()
 }
 
-/// Adds a joint in full contact to the mass-normalised stiffness of one of its bodies, in the body's principal axes,
-/// so that the bound is the same in every frame.
-fn add_joint(k: &mut [[f64; 6]; 6], body: &Body, joint: &Joint, all: &[Body]) {
+/// Adds a joint in full contact to the stiffness of one of its bodies.
+fn add_joint(k: &mut RowSums, body: &Body, joint: &Joint, all: &[Body]) {
     let (centroid, normal) = joint.place(all);
     let [(along_s, s), (along_t, t)] = joint.levers(all);
     let area = joint.area();
@@ -56,23 +53,7 @@ fn add_joint(k: &mut [[f64; 6]; 6], body: &Body, joint: &Joint, all: &[Body]) {
     for (i, j) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
         let lever = local(centroid + along_s * i + along_t * j - body.position);
         for (axis, stiffness) in [(normal, kn), (s, ks), (t, ks)] {
-            add_spring(k, body, lever, local(axis), stiffness);
-        }
-    }
-}
-
-/// Adds a spring (N/m) along an axis at a lever, both in the body's axes.
-fn add_spring(k: &mut [[f64; 6]; 6], body: &Body, lever: Vec3, axis: Vec3, stiffness: f64) {
-    let moment = lever.cross(&axis);
-    add_row(k, body, [axis.x, axis.y, axis.z, moment.x, moment.y, moment.z], stiffness);
-}
-
-/// Adds a spring that is stretched by a row times displacement and turn, both in the body's axes.
-fn add_row(k: &mut [[f64; 6]; 6], body: &Body, row: [f64; 6], stiffness: f64) {
-    let root = |n: usize| if n < 3 { body.mass.sqrt() } else { body.inertia[n - 3].sqrt() };
-    for (a, ka) in k.iter_mut().enumerate() {
-        for (b, kab) in ka.iter_mut().enumerate() {
-            *kab += stiffness * row[a] * row[b] / (root(a) * root(b));
+            k.add_spring(body, &lever, &local(axis), stiffness);
         }
     }
 }

@@ -42,6 +42,28 @@ impl<'a> Simulation<'a> {
         (settled.status, settled.unbalanced_ratio)
     }
 
+    /// [`Equilibrate::settle`] with another limit of the unbalanced force ratio than the settings'.
+    pub fn settle_below(&mut self, limit: f64, stop: &mut dyn FnMut(&Bodies) -> bool) -> Settled {
+        let mut unbalanced_ratio = f64::INFINITY;
+        for step in 1..=self.settings.max_steps {
+            self.step();
+            if step % STEPS_BETWEEN_LOOKS == 0 || step == self.settings.max_steps {
+                let ended = |status, unbalanced_ratio| Settled { status, unbalanced_ratio, steps: step };
+                if !self.assembly.is_finite() {
+                    return ended(Status::NonFinite, f64::NAN);
+                }
+                unbalanced_ratio = self.assembly.unbalanced_ratio();
+                if unbalanced_ratio < limit {
+                    return ended(Status::Equilibrium, unbalanced_ratio);
+                }
+                if stop(&self.assembly.bodies) {
+                    return ended(Status::Stopped, unbalanced_ratio);
+                }
+            }
+        }
+        Settled { status: Status::StepsSpent, unbalanced_ratio, steps: self.settings.max_steps }
+    }
+
     /// One time step: forces at the positions now, then velocities at the half step, then new positions.
     pub fn step(&mut self) {
         self.assembly.apply_loads();
@@ -97,23 +119,6 @@ impl<'a> Equilibrate<'a> for Simulation<'a> {
     }
 
     fn settle(&mut self, stop: &mut dyn FnMut(&Bodies) -> bool) -> Settled {
-        let mut unbalanced_ratio = f64::INFINITY;
-        for step in 1..=self.settings.max_steps {
-            self.step();
-            if step % STEPS_BETWEEN_LOOKS == 0 || step == self.settings.max_steps {
-                let ended = |status, unbalanced_ratio| Settled { status, unbalanced_ratio, steps: step };
-                if !self.assembly.is_finite() {
-                    return ended(Status::NonFinite, f64::NAN);
-                }
-                unbalanced_ratio = self.assembly.unbalanced_ratio();
-                if unbalanced_ratio < self.settings.unbalanced_ratio {
-                    return ended(Status::Equilibrium, unbalanced_ratio);
-                }
-                if stop(&self.assembly.bodies) {
-                    return ended(Status::Stopped, unbalanced_ratio);
-                }
-            }
-        }
-        Settled { status: Status::StepsSpent, unbalanced_ratio, steps: self.settings.max_steps }
+        self.settle_below(self.settings.unbalanced_ratio, stop)
     }
 }

@@ -60,7 +60,7 @@ impl<'a> Equilibrium<'a> {
         let mut above = None;
         for _ in 0..MOST_STEPS {
             let Some(next) = state.next(ahead, length, above.is_some()) else {
-                return above.and_then(|above| state.fallen(highest, above, ENOUGH * ahead.far));
+                return Some(state.fallen(highest, above?, ENOUGH * ahead.far)?.since(self));
             };
             if next.level > highest.level && next.slope > 0.0 {
                 // One sign alone may come from a sub-contact at the corner of its law.
@@ -75,7 +75,8 @@ impl<'a> Equilibrium<'a> {
                 }
                 highest = next.clone();
                 if highest.level >= ahead.to {
-                    return Some(state.at_level(ahead).unwrap_or_else(|| highest.ended(Way::Stands)));
+                    let there = state.at_level(ahead).unwrap_or_else(|| highest.ended(Way::Stands));
+                    return Some(there.since(self));
                 }
             }
             let is_past = next.slope <= 0.0 || next.level < state.level;
@@ -92,7 +93,7 @@ impl<'a> Equilibrium<'a> {
             if let Some(above) = above
                 && next.at.moved_since(&highest.at) > ahead.far
             {
-                return next.fallen(highest, above, ahead.far);
+                return Some(next.fallen(highest, above, ahead.far)?.since(self));
             }
             let growth = if next.iterations <= GOOD { GROWTH } else { 1.0 };
             length = (growth * next.length).min(longest);
@@ -129,7 +130,6 @@ impl<'a> Equilibrium<'a> {
     }
 
     /// The state so far along the path, and what its joints started from.
-
     fn on_path(
         &mut self,
         ahead: &Ahead<'_>,
@@ -156,6 +156,13 @@ impl<'a> Equilibrium<'a> {
     }
 }
 
+impl<'a> Followed<Equilibrium<'a>> {
+    /// With the steps counted from a state on.
+    fn since(self, start: &Equilibrium<'a>) -> Self {
+        Followed { steps: self.steps - start.effort().steps, ..self }
+    }
+}
+
 impl<'a> State<'a> {
     /// At rest where the path begins.
     fn at_rest(at: &Equilibrium<'a>, ahead: &Ahead<'_>) -> Option<Self> {
@@ -175,7 +182,8 @@ impl<'a> State<'a> {
         let (gravity, factor) = (ahead.loads)(ahead.to);
         at.set_loads(gravity, factor);
         let (solved, ratio) = at.solve();
-        solved.then_some(Followed { rest: at, level: ahead.to, ratio, way: Way::Stands })
+        let steps = at.effort().steps;
+        solved.then_some(Followed { rest: at, level: ahead.to, ratio, steps, way: Way::Stands })
     }
 
     /// The fall that began at the highest state, seen as far as here; `None` where that is not far enough (m).
@@ -183,12 +191,14 @@ impl<'a> State<'a> {
         if self.level >= highest.level || self.at.moved_since(&highest.at) <= enough {
             return None;
         }
+        let steps = self.at.effort().steps;
         let bodies = Box::new(self.at.into_assembly().bodies);
-        Some(highest.ended(Way::Falls { above, at: self.level, ratio: self.ratio, bodies }))
+        let way = Way::Falls { above, at: self.level, ratio: self.ratio, bodies };
+        Some(Followed { steps, ..highest.ended(way) })
     }
 
     fn ended(self, way: Way) -> Followed<Equilibrium<'a>> {
-        Followed { rest: self.at, level: self.level, ratio: self.ratio, way }
+        Followed { level: self.level, ratio: self.ratio, steps: self.at.effort().steps, rest: self.at, way }
     }
 
     /// The level at which the tangents of the path here and at a later state, past the peak, meet: an upper bound of a peak

@@ -130,38 +130,37 @@ impl Blocks {
     }
 }
 
-/// The vertices of the part of a patch where the gap is at most `closed`, with their shares of its area; of each piece of it
-/// where it touches in pieces.
+/// The vertices of the part of a patch where the gap is at most `closed`, with their shares of its area.
 ///
-/// The strip or square that stands for a contact of edges and corners has a width for the springs of the other solvers;
-/// rigid blocks touch along its middle line or in its middle.
+/// What touches in pieces touches at the corners of the polygon around them: a force between is one of the cone there. The
+/// strip or square that stands for a contact of edges and corners has a width for the springs of the other solvers; rigid
+/// blocks touch along its middle line or in its middle.
 fn contact_points(patch: &Patch, closed: f64, sampling: Sampling) -> Vec<ContactPoint> {
-    match (patch.feature, sampling) {
-        (Feature::Faces(..), Sampling::Patches(mask)) => {
-            let cells = patches(&patch.polygon, mask);
-            cells.iter().flat_map(|cell| points_of(patch, &cell.outline, None, closed)).collect()
-        }
-        (Feature::Faces(..), Sampling::Area | Sampling::Vertices) => {
-            points_of(patch, &patch.polygon, None, closed)
-        }
-        (Feature::Steep(..) | Feature::Edges(..), _) => {
-            points_of(patch, &middle(&patch.polygon), Some(patch.polygon.area()), closed)
-        }
-    }
-}
-
-/// The vertices of the part of an outline on a patch where the gap is at most `closed`, with their shares of its area, or
-/// equal ones of the area given.
-fn points_of(patch: &Patch, outline: &Polygon, area: Option<f64>, closed: f64) -> Vec<ContactPoint> {
     let (frame, normal) = (&patch.frame, &patch.plane.normal);
     let gap = patch.plane.distance(&frame.origin);
-    let part = outline.clip(gap - closed, normal.dot(&frame.s), normal.dot(&frame.t));
-    let vertices = distinct(part.vertices);
-    let shares = match area {
-        None => area_shares(&vertices),
-        Some(area) => vec![area / vertices.len() as f64; vertices.len()],
+    let touching = |outline: &Polygon| outline.clip(gap - closed, normal.dot(&frame.s), normal.dot(&frame.t));
+    let (vertices, area) = match (patch.feature, sampling) {
+        (Feature::Faces(..), Sampling::Patches(mask)) => {
+            let pieces: Vec<Polygon> =
+                patches(&patch.polygon, mask).iter().map(|cell| touching(&cell.outline)).collect();
+            let corners = pieces.iter().flat_map(|piece| &piece.vertices).copied().collect();
+            let area = pieces.iter().map(Polygon::area).sum();
+            (distinct(Polygon::around(corners).vertices), Some(area))
+        }
+        (Feature::Faces(..), Sampling::Area | Sampling::Vertices) => {
+            (distinct(touching(&patch.polygon).vertices), None)
+        }
+        (Feature::Steep(..) | Feature::Edges(..), _) => {
+            let vertices = distinct(touching(&middle(&patch.polygon)).vertices);
+            let share = patch.polygon.area() / vertices.len() as f64;
+            return vertices.iter().map(|&v| ContactPoint { at: frame.lift(v), area: share }).collect();
+        }
     };
-    vertices.iter().zip(shares).map(|(&v, area)| ContactPoint { at: frame.lift(v), area }).collect()
+    let shares = area_shares(&vertices);
+    let whole: f64 = shares.iter().sum();
+    let scale = area.map_or(1.0, |area: f64| if whole > 0.0 { area / whole } else { 0.0 });
+    let point = |(&v, share): (&[f64; 2], f64)| ContactPoint { at: frame.lift(v), area: scale * share };
+    vertices.iter().zip(shares).map(point).collect()
 }
 
 /// The middle line of the strip along an edge, which begins at the frame's origin; or the origin, about which the

@@ -1,9 +1,11 @@
 //! Every key of study.toml, published.toml and the files below `distributions`: name, kind, unit, range, default, meaning.
 //! What is done to a wall, and by which solver, is in `run`.
 
+mod elements;
 mod mechanism;
 mod run;
 
+pub use elements::{ELEMENT, ELEMENT_STUDY, ELEMENTS_PUBLISHED, REPORTED};
 pub use mechanism::MECHANISM;
 pub use run::SOLVER;
 

@@ -1,0 +1,88 @@
+//! `pirca run` and `pirca check` of a study of element types.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::json;
+
+use crate::cli::arguments::{Check, Run};
+use crate::cli::failure::Failure;
+use crate::cli::output;
+use crate::ensemble::{self, Settings};
+use crate::report;
+use crate::study::{ElementStudy, key_reference};
+
+/// Runs the study and shows its table.
+pub(super) fn run(folder: &Path, arguments: &Run) -> Result<(), Failure> {
+    let refused = [
+        (arguments.which.variant.is_some(), "--variant: it has no variants"),
+        (arguments.solver.is_some(), "--solver: spheres and polyhedra each have their own explicit one"),
+        (arguments.beside.is_some(), "--beside: it draws no figure"),
+    ];
+    if let Some((_, why)) = refused.iter().find(|(given, _)| *given) {
+        return Err(Failure::Usage(format!("{} compares types of elements; {why}", folder.display())));
+    }
+    let mut study = load(folder)?;
+    if let Some(seed) = arguments.seed {
+        study = study.with_seed(seed);
+    }
+    if let Some(members) = arguments.members {
+        study = study.with_members(members);
+    }
+    let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("runs").join(&study.name));
+    let settings = Settings { out: out.clone(), threads: arguments.threads };
+    let rows = ensemble::run_elements(&study, &settings)?;
+    let summary =
+        report::write_elements(&study, &rows, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
+    if arguments.which.json {
+        return output::print_json(&summary);
+    }
+    output::print(&format!("{}written to {}\n", report::element_table(&study, &rows), out.display()))
+}
+
+fn load(folder: &Path) -> Result<ElementStudy, Failure> {
+    let study = ElementStudy::load(folder)?;
+    warn(&study);
+    Ok(study)
+}
+
+/// Passes the study's warnings on to standard error.
+fn warn(study: &ElementStudy) {
+    for warning in &study.warnings {
+        output::note(&format!("warning: {warning}"));
+    }
+}
+
+/// Says whether the study is valid and what it would run.
+pub(super) fn check(folder: &Path, arguments: &Check) -> Result<(), Failure> {
+    let loaded = ElementStudy::load(folder);
+    if arguments.which.json {
+        return match loaded {
+            Ok(study) => output::print_json(&json!({
+                "valid": true,
+                "study": study.name,
+                "seed": study.seed,
+                "study_hash": study.hash,
+                "elements": study.arms.iter()
+                    .map(|arm| json!({"element": arm.name, "members": arm.members, "random": !arm.elements.is_fixed()}))
+                    .collect::<Vec<_>>(),
+                "faults": [],
+                "warnings": study.warnings,
+            })),
+            Err(faults) => {
+                output::print_json(&json!({"valid": false, "faults": faults.faults, "warnings": []}))?;
+                Err(Failure::Said)
+            }
+        };
+    }
+    let study = loaded?;
+    warn(&study);
+    let names: Vec<String> = study.arms.iter().map(|arm| format!("{} ({})", arm.name, arm.members)).collect();
+    let keys = if arguments.keys { format!("\n{}", key_reference()) } else { String::new() };
+    output::print(&format!(
+        "{}: valid\n  question: {}\n  elements (assemblies): {}\n  seed: {}\n{keys}",
+        study.name,
+        study.question,
+        names.join(", "),
+        study.seed
+    ))
+}

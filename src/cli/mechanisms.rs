@@ -1,0 +1,42 @@
+//! `pirca mechanisms`: the catalogue of what the base model leaves out.
+
+use std::fmt::Write;
+
+use crate::cli::arguments::Mechanisms;
+use crate::cli::failure::Failure;
+use crate::cli::output;
+use crate::study::{Described, described};
+
+/// Prints the catalogue.
+pub(crate) fn mechanisms(arguments: &Mechanisms) -> Result<(), Failure> {
+    let all = described(&arguments.distributions).map_err(Failure::Input)?;
+    if arguments.json {
+        return output::print_json(&serde_json::json!({ "mechanisms": all }));
+    }
+    let mut text = String::new();
+    for mechanism in &all {
+        describe(mechanism, &mut text);
+    }
+    output::print(&text)
+}
+
+fn describe(mechanism: &Described, text: &mut String) {
+    let _ = writeln!(text, "{}: {}", mechanism.name, mechanism.what);
+    let _ = writeln!(
+        text,
+        "  acts on: {}; when unloaded: {}; limit analysis: {}",
+        mechanism.acts.words(),
+        mechanism.unloading.words(),
+        mechanism.limit_analysis.words()
+    );
+    let _ = writeln!(text, "  confounded with: {}", mechanism.confounded_with.join(", "));
+    for p in &mechanism.parameters {
+        let unit = if p.unit == "1" { String::new() } else { format!(" ({})", p.unit) };
+        let default = p.default.map(|d| format!("; default {d}")).unwrap_or_default();
+        let _ = writeln!(text, "  {}{unit}: {}{default}", p.key, p.meaning);
+        let prior = serde_json::to_string(&p.prior).unwrap_or_default();
+        let note = p.note.as_ref().map(|note| format!(" {note}")).unwrap_or_default();
+        let _ = writeln!(text, "    prior ({}): {prior}; {}{note}", p.status, p.source);
+    }
+    text.push('\n');
+}

@@ -1,0 +1,78 @@
+//! `pirca sensitivity`: which mechanisms could the measured data see?
+
+use std::fs;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use crate::cli::arguments::Sensitivity;
+use crate::cli::failure::Failure;
+use crate::cli::{locate, output};
+use crate::critic::{NoSensitivity, SensitivitySettings, sensitivity as map_of};
+use crate::ensemble::{Progress, Row, Task};
+use crate::report::{self, SensitivitySummary};
+use crate::study::described;
+
+/// Computes the map, writes it and prints it.
+pub(crate) fn sensitivity(arguments: &Sensitivity) -> Result<(), Failure> {
+    let study = locate::study(&arguments.which)?.study;
+    let distributions = locate::folder(&arguments.which.study)?.join("../../distributions");
+    let mechanisms = described(&distributions).map_err(Failure::Input)?;
+    let settings = SensitivitySettings {
+        members: arguments.members,
+        quantile: arguments.quantile,
+        threads: arguments.threads,
+    };
+    let progress = Tenths { total: AtomicUsize::new(0), done: AtomicUsize::new(0) };
+    let map = map_of(&study, &mechanisms, &settings, &progress).map_err(failure)?;
+    let summary = SensitivitySummary::of(&study, &mechanisms, &settings, &map);
+    let out = arguments.out.clone().unwrap_or_else(|| {
+        let variant = study.variant.as_ref().map(|name| format!("-{name}")).unwrap_or_default();
+        PathBuf::from("runs").join(format!("{}{variant}-sensitivity", study.name))
+    });
+    fs::create_dir_all(&out)
+        .map_err(|error| Failure::Run(format!("cannot create the folder {}: {error}", out.display())))?;
+    report::write_sensitivity(&summary, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
+    if arguments.which.json {
+        return output::print_json(&summary);
+    }
+    output::print(&format!("{}\nwritten to {}\n", report::sensitivity_text(&summary), out.display()))
+}
+
+fn failure(error: NoSensitivity) -> Failure {
+    match error {
+        NoSensitivity::Threads(_) => Failure::Run(error.to_string()),
+        _ => Failure::Input(error.to_string()),
+    }
+}
+
+/// A quantile, above 0 and below 1.
+pub(crate) fn quantile(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(u) if u > 0.0 && u < 1.0 => Ok(u),
+        _ => Err("a number above 0 and below 1 is needed".to_string()),
+    }
+}
+
+/// A line on standard error at every tenth; walls of different mechanisms have no mean to show.
+struct Tenths {
+    total: AtomicUsize,
+    done: AtomicUsize,
+}
+
+impl Progress for Tenths {
+    fn begin(&self, total: usize, _recorded: &[&Row]) {
+        self.total.store(total, Ordering::Relaxed);
+        output::note(&format!("sensitivity: {total} walls"));
+    }
+
+    fn finished(&self, _row: &Row) {
+        let (total, done) = (self.total.load(Ordering::Relaxed), self.done.fetch_add(1, Ordering::Relaxed));
+        if 10 * (done + 1) / total > 10 * done / total {
+            output::note(&format!("sensitivity: {}/{total} walls done", done + 1));
+        }
+    }
+
+    fn broken(&self, _task: Task) {}
+
+    fn end(&self) {}
+}
