@@ -1,14 +1,11 @@
 //! Each verb as a user meets it: exit codes, messages, formats.
 
-#[path = "../ensemble/fixture.rs"]
-mod fixture;
-
 use std::fs::{self, File};
 use std::process::{Output, Stdio};
 
 use serde_json::Value;
 
-use fixture::{Folder, STUDY, changed, stderr};
+use crate::fixture::{Folder, STUDY, changed, stderr};
 
 fn stdout(output: &Output) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned()

@@ -4,6 +4,8 @@ mod analyse;
 mod bad_walls;
 mod catalogue;
 mod commands;
+#[path = "../ensemble/fixture.rs"]
+mod fixture;
 mod layering;
 mod malformed;
 mod measured;

@@ -1,13 +1,10 @@
 //! `pirca picture` as a user meets it.
 
-#[path = "../ensemble/fixture.rs"]
-mod fixture;
-
 use std::fs;
 
 use serde_json::Value;
 
-use fixture::{Folder, STUDY, changed, stderr};
+use crate::fixture::{Folder, STUDY, changed, stderr};
 
 /// The tiny study on a tilting table, between free ends.
 fn tilting(end: &str) -> String {
