@@ -40,8 +40,7 @@ pub fn points_of(arm: &Arm, index: usize, rows: &[Row]) -> (Vec<AnglePoint>, Vec
         let angles: Vec<f64> =
             shown.iter().filter_map(|s| if let Simulated::Value(x) = s { Some(*x) } else { None }).collect();
         let stood = shown.iter().filter(|s| matches!(s, Simulated::Above(_))).count();
-        // A mechanism may make walls of regular stones scatter.
-        let random = is_random(arm) || stats::sigma(&angles).is_some_and(|sigma| sigma > 0.0);
+        let random = is_random(arm);
         let why = if stood > 0 {
             Some(format!("{stood} of {} walls stood to the end of the load path", arm.members))
         } else if angles.is_empty() || (arm.members as f64 - angles.len() as f64) > LOST * arm.members as f64

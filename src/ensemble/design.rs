@@ -25,9 +25,10 @@ pub fn plan(study: &Study) -> Vec<Task> {
     tasks
 }
 
-/// Whether the walls of an arm differ from member to member, in their stones or in their joints.
+/// Whether the walls of an arm differ from member to member: in their stones, in their joints, or by a mechanism that draws.
 pub fn is_random(arm: &Arm) -> bool {
     let drawn = |family: &Family| !matches!(family, Family::Constant { .. });
     let joint = &arm.joint;
-    !arm.layout.is_fixed() || [&joint.kn_factor, &joint.phi_deg, &joint.cohesion].into_iter().any(drawn)
+    let drawn_joints = [&joint.kn_factor, &joint.phi_deg, &joint.cohesion].into_iter().any(drawn);
+    !arm.layout.is_fixed() || drawn_joints || arm.mechanisms.draws()
 }

@@ -9,7 +9,7 @@ use anyhow::{Result, anyhow, ensure};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use crate::report::plot::{Drawn, FONT_NAME};
+use crate::report::pen::{Drawn, FONT_NAME};
 
 /// Bundled font: a subset of DejaVu Sans, licence beside it.
 static FONT: &[u8] = include_bytes!("font/dejavu-sans-subset.ttf");

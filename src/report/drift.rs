@@ -7,9 +7,8 @@ use crate::ensemble::Quantity;
 use crate::report::draw::Figure;
 use crate::report::marker::colour;
 use crate::report::number::{range, shortened, stiffness};
-use crate::report::plot::{
-    Drawn, FONT_NAME, LEGEND_MARK, LEGEND_TEXT, LINE, PLOT_HEIGHT, WIDTH, decimals, left,
-};
+use crate::report::pen::{Drawn, LINE, Pen};
+use crate::report::plot::{PLOT_HEIGHT, WIDTH, decimals};
 use crate::report::summary::{ArmSummary, Summary};
 
 /// Names longer than this are cut in the figure.
@@ -88,13 +87,13 @@ pub fn drift_csv(curves: &[DriftCurve]) -> String {
 pub struct DriftPlot<'c> {
     title: &'c str,
     curves: &'c [DriftCurve],
-    scale: u32,
+    pen: Pen,
 }
 
 impl<'c> DriftPlot<'c> {
     /// Prepares the curves.
     pub fn new(title: &'c str, curves: &'c [DriftCurve], scale: u32) -> Self {
-        DriftPlot { title, curves, scale }
+        DriftPlot { title, curves, pen: Pen { scale } }
     }
 
     fn chart<DB: DrawingBackend>(&self, area: &DrawingArea<DB, Shift>) -> Drawn<DB> {
@@ -103,35 +102,26 @@ impl<'c> DriftPlot<'c> {
         let tops = points().filter_map(|p| p.interval.map(|ci| ci[1]).or(p.drift));
         let top = range(tops).map_or(1.0, |[_, top]| 1.1 * top);
         let room = 0.05 * (to - from).max(1.0);
-        let mut chart = ChartBuilder::on(area)
-            .caption(self.title, self.font(26))
-            .margin(self.px(12))
-            .margin_right(self.px(28))
-            .x_label_area_size(self.px(62))
-            .y_label_area_size(self.px(92))
+        let mut chart = self
+            .pen
+            .frame(area, (self.title, 26), 92)
             .build_cartesian_2d(from - room..to + room, 0.0..top)?;
         let y_decimals = decimals(top);
-        chart
-            .configure_mesh()
-            .disable_x_mesh()
-            .light_line_style(TRANSPARENT)
-            .bold_line_style(RGBColor(215, 215, 215).stroke_width(self.scale))
-            .axis_style(BLACK.stroke_width(self.scale))
-            .set_all_tick_mark_size(self.px(6))
+        let mut mesh = chart.configure_mesh();
+        self.pen
+            .grid(&mut mesh)
             .x_labels(12)
             .y_labels(8)
-            .label_style(self.font(18))
-            .axis_desc_style(self.font(19))
             .x_label_formatter(&|value| format!("{value:.1}"))
             .y_label_formatter(&|value| format!("{value:.y_decimals$}"))
             .x_desc("length over height")
             .y_desc("drift: displacement of the top over height (mm/m)")
             .draw()?;
         for (index, curve) in self.curves.iter().enumerate() {
-            let style = colour(index).stroke_width(2 * self.scale);
+            let style = colour(index).stroke_width(2 * self.pen.scale);
             let line = curve.points.iter().filter_map(|p| p.drift.map(|drift| (p.slenderness, drift)));
             chart.draw_series(LineSeries::new(line.clone(), style))?;
-            chart.draw_series(line.map(|at| Circle::new(at, self.px(4), colour(index).filled())))?;
+            chart.draw_series(line.map(|at| Circle::new(at, self.pen.px(4), colour(index).filled())))?;
             let bars =
                 curve.points.iter().filter_map(|p| p.interval.map(|[low, high]| (p.slenderness, low, high)));
             chart.draw_series(bars.map(|(x, low, high)| PathElement::new([(x, low), (x, high)], style)))?;
@@ -140,39 +130,29 @@ impl<'c> DriftPlot<'c> {
     }
 
     fn legend<DB: DrawingBackend>(&self, area: &DrawingArea<DB, Shift>) -> Drawn<DB> {
-        let [from, to] = LEGEND_MARK.map(|x| self.px(x));
-        let text = self.font(18).pos(left());
         for (index, curve) in self.curves.iter().enumerate() {
-            let y = self.px(LINE as i32) * index as i32 + self.px(LINE as i32 / 2);
-            let style = colour(index).stroke_width(2 * self.scale);
+            let ([from, to], y) = self.pen.mark(index);
+            let style = colour(index).stroke_width(2 * self.pen.scale);
             area.draw(&PathElement::new([(from, y), (to, y)], style))?;
             let name = shortened(&curve.curve, LONGEST_NAME);
             let random = curve.points.iter().any(|point| point.interval.is_some());
             let bars = if random { "; bars: 95 % interval of the mean" } else { "; nothing random" };
             let label = format!("{name}, kn = {}{bars}", stiffness(curve.kn));
-            area.draw(&Text::new(label, (self.px(LEGEND_TEXT), y + self.px(2)), text.clone()))?;
+            self.pen.words(area, index, &label)?;
         }
         Ok(())
-    }
-
-    fn px(&self, length: i32) -> i32 {
-        length * self.scale as i32
-    }
-
-    fn font(&self, size: i32) -> TextStyle<'static> {
-        TextStyle::from((FONT_NAME, self.px(size))).color(&BLACK)
     }
 }
 
 impl Figure for DriftPlot<'_> {
     /// The plot, and a line of legend per curve.
     fn size(&self) -> (u32, u32) {
-        (WIDTH * self.scale, (PLOT_HEIGHT + LINE * (self.curves.len() as u32 + 1)) * self.scale)
+        (WIDTH * self.pen.scale, (PLOT_HEIGHT + LINE * (self.curves.len() as u32 + 1)) * self.pen.scale)
     }
 
     fn draw<DB: DrawingBackend>(&self, root: &DrawingArea<DB, Shift>) -> Drawn<DB> {
         root.fill(&WHITE)?;
-        let (plot, legend) = root.split_vertically(self.px(PLOT_HEIGHT as i32));
+        let (plot, legend) = root.split_vertically(self.pen.px(PLOT_HEIGHT as i32));
         self.chart(&plot)?;
         self.legend(&legend)
     }

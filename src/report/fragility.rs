@@ -7,9 +7,8 @@ use crate::report::draw::Figure;
 use crate::report::figure::Ladder;
 use crate::report::marker::colour;
 use crate::report::number::{range, shortened, stiffness};
-use crate::report::plot::{
-    BAND_ALPHA, Drawn, FONT_NAME, LEGEND_MARK, LEGEND_TEXT, LINE, PLOT_HEIGHT, WIDTH, decimals, left,
-};
+use crate::report::pen::{Drawn, LINE, Pen};
+use crate::report::plot::{BAND_ALPHA, PLOT_HEIGHT, WIDTH, decimals};
 
 /// Names longer than this are cut in the figure.
 const LONGEST_NAME: usize = 24;
@@ -18,13 +17,13 @@ const LONGEST_NAME: usize = 24;
 pub struct FragilityPlot<'c> {
     title: &'c str,
     ladders: &'c [Ladder],
-    scale: u32,
+    pen: Pen,
 }
 
 impl<'c> FragilityPlot<'c> {
     /// Prepares the curves.
     pub fn new(title: &'c str, ladders: &'c [Ladder], scale: u32) -> Self {
-        FragilityPlot { title, ladders, scale }
+        FragilityPlot { title, ladders, pen: Pen { scale } }
     }
 
     fn chart<DB: DrawingBackend>(&self, area: &DrawingArea<DB, Shift>) -> Drawn<DB> {
@@ -33,25 +32,16 @@ impl<'c> FragilityPlot<'c> {
         let room = if high > low { 0.1 * (high - low) } else { 0.1 * high.abs().max(1.0) };
         let ends = [low - room, high + room];
         let kn = self.ladders.first().map_or(String::new(), |ladder| stiffness(ladder.kn));
-        let mut chart = ChartBuilder::on(area)
-            .caption(format!("{}, kn = {kn}", self.title), self.font(26))
-            .margin(self.px(12))
-            .margin_right(self.px(28))
-            .x_label_area_size(self.px(62))
-            .y_label_area_size(self.px(82))
+        let mut chart = self
+            .pen
+            .frame(area, (&format!("{}, kn = {kn}", self.title), 26), 82)
             .build_cartesian_2d(ends[0]..ends[1], 0.0..1.02)?;
         let x_decimals = decimals(ends[1] - ends[0]);
-        chart
-            .configure_mesh()
-            .disable_x_mesh()
-            .light_line_style(TRANSPARENT)
-            .bold_line_style(RGBColor(215, 215, 215).stroke_width(self.scale))
-            .axis_style(BLACK.stroke_width(self.scale))
-            .set_all_tick_mark_size(self.px(6))
+        let mut mesh = chart.configure_mesh();
+        self.pen
+            .grid(&mut mesh)
             .x_labels(10)
             .y_labels(6)
-            .label_style(self.font(18))
-            .axis_desc_style(self.font(19))
             .x_label_formatter(&|value| format!("{value:.x_decimals$}"))
             .y_label_formatter(&|value| format!("{value:.1}"))
             .x_desc("tilt (deg)")
@@ -68,41 +58,31 @@ impl<'c> FragilityPlot<'c> {
                     chart.draw_series([Rectangle::new([(from, low), (to, high)], style)])?;
                 }
             }
-            chart.draw_series(LineSeries::new(ladder.line(ends), colour.stroke_width(2 * self.scale)))?;
+            chart.draw_series(LineSeries::new(ladder.line(ends), colour.stroke_width(2 * self.pen.scale)))?;
         }
         Ok(())
     }
 
     fn legend<DB: DrawingBackend>(&self, area: &DrawingArea<DB, Shift>) -> Drawn<DB> {
-        let [from, to] = LEGEND_MARK.map(|x| self.px(x));
-        let text = self.font(18).pos(left());
         for (index, ladder) in self.ladders.iter().enumerate() {
-            let y = self.px(LINE as i32) * index as i32 + self.px(LINE as i32 / 2);
+            let ([from, to], y) = self.pen.mark(index);
             let colour = colour(index);
-            area.draw(&PathElement::new([(from, y), (to, y)], colour.stroke_width(2 * self.scale)))?;
-            area.draw(&Text::new(ladder.label(), (self.px(LEGEND_TEXT), y + self.px(2)), text.clone()))?;
+            area.draw(&PathElement::new([(from, y), (to, y)], colour.stroke_width(2 * self.pen.scale)))?;
+            self.pen.words(area, index, &ladder.label())?;
         }
         Ok(())
-    }
-
-    fn px(&self, length: i32) -> i32 {
-        length * self.scale as i32
-    }
-
-    fn font(&self, size: i32) -> TextStyle<'static> {
-        TextStyle::from((FONT_NAME, self.px(size))).color(&BLACK)
     }
 }
 
 impl Figure for FragilityPlot<'_> {
     /// The plot, and a line of legend per curve.
     fn size(&self) -> (u32, u32) {
-        (WIDTH * self.scale, (PLOT_HEIGHT + LINE * (self.ladders.len() as u32 + 1)) * self.scale)
+        (WIDTH * self.pen.scale, (PLOT_HEIGHT + LINE * (self.ladders.len() as u32 + 1)) * self.pen.scale)
     }
 
     fn draw<DB: DrawingBackend>(&self, root: &DrawingArea<DB, Shift>) -> Drawn<DB> {
         root.fill(&WHITE)?;
-        let (plot, legend) = root.split_vertically(self.px(PLOT_HEIGHT as i32));
+        let (plot, legend) = root.split_vertically(self.pen.px(PLOT_HEIGHT as i32));
         self.chart(&plot)?;
         self.legend(&legend)
     }

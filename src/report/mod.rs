@@ -13,6 +13,7 @@ mod fragility;
 mod marker;
 mod measured;
 mod number;
+mod pen;
 mod picture;
 mod plot;
 mod population;

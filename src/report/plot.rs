@@ -11,23 +11,15 @@ use crate::report::draw::Figure;
 use crate::report::figure::{Curve, LONGEST_NAME, Point};
 use crate::report::marker::{colour, filled, hollow};
 use crate::report::number::{range, shortened};
-
-/// Name of the bundled font; also the `font-family` of the SVG, hence the alternatives.
-pub const FONT_NAME: &str = "DejaVu Sans, Verdana, sans-serif";
+use crate::report::pen::{Drawn, LINE, Pen, centred};
 
 /// Width, and height without the legend (pixels at scale 1).
 pub(super) const WIDTH: u32 = 960;
 pub(super) const PLOT_HEIGHT: u32 = 560;
-/// Height of a line of the legend, and where its text begins.
-pub(super) const LINE: u32 = 26;
-pub(super) const LEGEND_TEXT: i32 = 150;
-pub(super) const LEGEND_MARK: [i32; 2] = [98, 138];
 /// Transparency of a band.
 pub(super) const BAND_ALPHA: f64 = 0.18;
 
 type Chart<'a, DB> = ChartContext<'a, DB, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
-/// What drawing gives.
-pub type Drawn<DB> = Result<(), DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
 
 /// What is drawn, at which scale.
 pub struct Plot<'c> {
@@ -35,7 +27,7 @@ pub struct Plot<'c> {
     curves: &'c [Curve],
     beside: Option<&'c Earlier>,
     remarks: Vec<String>,
-    scale: u32,
+    pen: Pen,
     /// kn is shown in units of ten to this power.
     exponent: i32,
 }
@@ -60,7 +52,14 @@ impl<'c> Plot<'c> {
     pub fn new(title: &'c str, curves: &'c [Curve], scale: u32) -> Self {
         let remarks = curves.iter().filter_map(Curve::remark).collect();
         let kn = range(curves.iter().flat_map(|curve| &curve.points).map(|point| point.kn));
-        Plot { title, curves, beside: None, remarks, scale, exponent: kn.map_or(0, |[low, _]| exponent(low)) }
+        Plot {
+            title,
+            curves,
+            beside: None,
+            remarks,
+            pen: Pen { scale },
+            exponent: kn.map_or(0, |[low, _]| exponent(low)),
+        }
     }
 
     /// Shows the means of an earlier run as well.
@@ -71,25 +70,14 @@ impl<'c> Plot<'c> {
 
     fn chart<DB: DrawingBackend>(&self, area: &DrawingArea<DB, Shift>) -> Drawn<DB> {
         let [x, y] = self.axes();
-        let mut chart = ChartBuilder::on(area)
-            .caption(self.title, self.font(26))
-            .margin(self.px(12))
-            .margin_right(self.px(28))
-            .x_label_area_size(self.px(62))
-            .y_label_area_size(self.px(82))
-            .build_cartesian_2d(x[0]..x[1], y[0]..y[1])?;
+        let mut chart =
+            self.pen.frame(area, (self.title, 26), 82).build_cartesian_2d(x[0]..x[1], y[0]..y[1])?;
         let (x_decimals, y_decimals) = (decimals(x[1] - x[0]), decimals(y[1] - y[0]));
-        chart
-            .configure_mesh()
-            .disable_x_mesh()
-            .light_line_style(TRANSPARENT)
-            .bold_line_style(RGBColor(215, 215, 215).stroke_width(self.scale))
-            .axis_style(BLACK.stroke_width(self.scale))
-            .set_all_tick_mark_size(self.px(6))
+        let mut mesh = chart.configure_mesh();
+        self.pen
+            .grid(&mut mesh)
             .x_labels(10)
             .y_labels(8)
-            .label_style(self.font(18))
-            .axis_desc_style(self.font(19))
             .x_label_formatter(&|value| format!("{value:.x_decimals$}"))
             .y_label_formatter(&|value| format!("{value:.y_decimals$}"))
             .x_desc(format!("normal stiffness of the joints kn (10{} Pa/m)", superscript(self.exponent)))
@@ -104,14 +92,14 @@ impl<'c> Plot<'c> {
         for earlier in self.earlier() {
             for mean in earlier.means {
                 let place = (self.kn(mean.kn), mean.shown);
-                for edge in hollow(place, earlier.index, self.scale) {
+                for edge in hollow(place, earlier.index, self.pen.scale) {
                     chart.plotting_area().draw(&edge)?;
                 }
             }
         }
         if self.curves.iter().flat_map(|curve| &curve.points).all(|point| point.mean.is_none()) {
             let place = ((x[0] + x[1]) / 2.0, (y[0] + y[1]) / 2.0);
-            let style = self.font(22).pos(centred());
+            let style = self.pen.font(22).pos(centred());
             chart.draw_series([Text::new(
                 "no wall brings a value: there is nothing to draw",
                 place,
@@ -150,7 +138,7 @@ impl<'c> Plot<'c> {
         let colour = colour(index);
         for run in runs(&curve.points, |point| point.band.map(|band| (self.kn(point.kn), band))) {
             if let [(x, [low, high])] = run[..] {
-                let (half, style) = (self.px(14), colour.mix(BAND_ALPHA).filled());
+                let (half, style) = (self.pen.px(14), colour.mix(BAND_ALPHA).filled());
                 let pixels = chart.backend_coord(&(x, high)).1 - chart.backend_coord(&(x, low)).1;
                 let bar = EmptyElement::at((x, high)) + Rectangle::new([(-half, 0), (half, -pixels)], style);
                 chart.draw_series([bar])?;
@@ -161,8 +149,8 @@ impl<'c> Plot<'c> {
             let outline: Vec<(f64, f64)> = upper.iter().copied().chain(lower.iter().rev().copied()).collect();
             chart.draw_series([Polygon::new(outline, colour.mix(BAND_ALPHA).filled())])?;
             for edge in [upper, lower] {
-                let style = colour.stroke_width(self.scale);
-                chart.draw_series(DashedLineSeries::new(edge, self.px(8), self.px(5), style))?;
+                let style = colour.stroke_width(self.pen.scale);
+                chart.draw_series(DashedLineSeries::new(edge, self.pen.px(8), self.pen.px(5), style))?;
             }
         }
         Ok(())
@@ -171,11 +159,11 @@ impl<'c> Plot<'c> {
     /// Lines between neighbouring means, error bars, markers.
     fn curve<DB: DrawingBackend>(&self, chart: &mut Chart<'_, DB>, curve: &Curve, index: usize) -> Drawn<DB> {
         let colour = colour(index);
-        let line = colour.stroke_width(2 * self.scale);
+        let line = colour.stroke_width(2 * self.pen.scale);
         for run in runs(&curve.points, |point| point.mean.map(|mean| (self.kn(point.kn), mean))) {
             chart.draw_series(LineSeries::new(run, line))?;
         }
-        let cap = self.px(5);
+        let cap = self.pen.px(5);
         for point in curve.points.iter().filter(|_| curve.random) {
             let Some([low, high]) = point.mean_ci else { continue };
             let x = self.kn(point.kn);
@@ -188,48 +176,43 @@ impl<'c> Plot<'c> {
         }
         for point in &curve.points {
             if let Some(mean) = point.mean {
-                chart.plotting_area().draw(&filled((self.kn(point.kn), mean), index, self.scale))?;
+                chart.plotting_area().draw(&filled((self.kn(point.kn), mean), index, self.pen.scale))?;
             }
         }
         Ok(())
     }
 
     fn legend<DB: DrawingBackend>(&self, area: &DrawingArea<DB, Shift>) -> Drawn<DB> {
-        let [from, to] = LEGEND_MARK.map(|x| self.px(x));
-        // Letters stand above the middle of their line box: this brings them level with the marks.
-        let nudge = self.px(2);
-        let text = self.font(18).pos(left());
-        let mut y = self.px(LINE as i32 / 2);
-        let mut next = || {
-            let line = y;
-            y += self.px(LINE as i32);
-            line
-        };
+        let mut lines = 0..;
+        let mut next = || lines.next().unwrap_or_default();
         for (index, curve) in self.curves.iter().enumerate() {
             let colour = colour(index);
-            let y = next();
-            area.draw(&PathElement::new([(from, y), (to, y)], colour.stroke_width(2 * self.scale)))?;
-            area.draw(&filled(((from + to) / 2, y), index, self.scale))?;
-            area.draw(&Text::new(curve.label(), (self.px(LEGEND_TEXT), y + nudge), text.clone()))?;
+            let line = next();
+            let ([from, to], y) = self.pen.mark(line);
+            area.draw(&PathElement::new([(from, y), (to, y)], colour.stroke_width(2 * self.pen.scale)))?;
+            area.draw(&filled(((from + to) / 2, y), index, self.pen.scale))?;
+            self.pen.words(area, line, &curve.label())?;
             if curve.has_band() {
-                let (y, half) = (next(), self.px(8));
+                let (line, half) = (next(), self.pen.px(8));
+                let (_, y) = self.pen.mark(line);
                 area.draw(&Rectangle::new(
                     [(from, y - half), (to, y + half)],
                     colour.mix(BAND_ALPHA).filled(),
                 ))?;
                 let label = format!("{}: mean \u{b1} one standard deviation of the walls", curve.name());
-                area.draw(&Text::new(label, (self.px(LEGEND_TEXT), y + nudge), text.clone()))?;
+                self.pen.words(area, line, &label)?;
             }
         }
         for earlier in self.earlier() {
-            let y = next();
-            for edge in hollow(((from + to) / 2, y), earlier.index, self.scale) {
+            let line = next();
+            let ([from, to], y) = self.pen.mark(line);
+            for edge in hollow(((from + to) / 2, y), earlier.index, self.pen.scale) {
                 area.draw(&edge)?;
             }
-            area.draw(&Text::new(earlier.label(), (self.px(LEGEND_TEXT), y + nudge), text.clone()))?;
+            self.pen.words(area, line, &earlier.label())?;
         }
         for remark in &self.remarks {
-            area.draw(&Text::new(format!("! {remark}"), (from, next() + nudge), text.clone()))?;
+            self.pen.remark(area, next(), &format!("! {remark}"))?;
         }
         Ok(())
     }
@@ -250,14 +233,6 @@ impl<'c> Plot<'c> {
     fn kn(&self, kn: f64) -> f64 {
         kn / power_of_ten(self.exponent)
     }
-
-    fn px(&self, length: i32) -> i32 {
-        length * self.scale as i32
-    }
-
-    fn font(&self, size: i32) -> TextStyle<'static> {
-        TextStyle::from((FONT_NAME, self.px(size))).color(&BLACK)
-    }
 }
 
 impl Figure for Plot<'_> {
@@ -266,25 +241,15 @@ impl Figure for Plot<'_> {
         let bands = self.curves.iter().filter(|curve| curve.has_band()).count();
         let earlier = self.earlier().len();
         let lines = (self.curves.len() + bands + earlier + self.remarks.len()) as u32;
-        (WIDTH * self.scale, (PLOT_HEIGHT + LINE * (lines + 1)) * self.scale)
+        (WIDTH * self.pen.scale, (PLOT_HEIGHT + LINE * (lines + 1)) * self.pen.scale)
     }
 
     fn draw<DB: DrawingBackend>(&self, root: &DrawingArea<DB, Shift>) -> Drawn<DB> {
         root.fill(&WHITE)?;
-        let (plot, legend) = root.split_vertically(self.px(PLOT_HEIGHT as i32));
+        let (plot, legend) = root.split_vertically(self.pen.px(PLOT_HEIGHT as i32));
         self.chart(&plot)?;
         self.legend(&legend)
     }
-}
-
-fn centred() -> plotters::style::text_anchor::Pos {
-    use plotters::style::text_anchor::{HPos, Pos, VPos};
-    Pos::new(HPos::Center, VPos::Center)
-}
-
-pub(super) fn left() -> plotters::style::text_anchor::Pos {
-    use plotters::style::text_anchor::{HPos, Pos, VPos};
-    Pos::new(HPos::Left, VPos::Center)
 }
 
 /// Cuts points into runs of neighbours for which `value` is defined: no line is drawn across a gap.

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::ensemble::{Mechanism, Observed, Quantity, Row};
+use crate::ensemble::{Mechanism, Observed, Quantity, Row, is_random};
 use crate::report::number::significant;
-use crate::study::{Arm, Study};
+use crate::study::Study;
 
 /// One arm at one kn: what was planned, how it ended, and the values of the walls that stand.
 #[derive(Clone, Debug, PartialEq)]
@@ -142,16 +142,9 @@ pub fn populations(study: &Study, rows: &[Row]) -> Vec<Population> {
         for (point, &kn) in arm.kn_points.iter().enumerate() {
             let own =
                 rows.iter().filter(|row| row.arm_index as usize == arm_index && row.point as usize == point);
-            let fixed = nothing_drawn(arm);
+            let fixed = !is_random(arm);
             all.push(Population::collect(&arm.name, fixed, kn, arm.members, quantity, own));
         }
     }
     all
-}
-
-/// True when neither the stones nor the joints of an arm are random.
-fn nothing_drawn(arm: &Arm) -> bool {
-    let joint = &arm.joint;
-    arm.layout.is_fixed()
-        && [&joint.kn_factor, &joint.phi_deg, &joint.cohesion].iter().all(|family| family.sd() == 0.0)
 }

@@ -109,6 +109,12 @@ pub enum Unfit {
 }
 
 impl Mechanisms {
+    /// Whether one of them draws random numbers, so that walls of fixed stones and joints differ from member to member.
+    pub fn draws(&self) -> bool {
+        let Mechanisms { contact_area, wedge_loss, specimen_scatter, .. } = self;
+        contact_area.is_some() || wedge_loss.is_some() || specimen_scatter.is_some()
+    }
+
     /// Reads `[mechanism]`.
     pub(super) fn read(t: &mut Reader<'_>) -> Option<Mechanisms> {
         let (mut read, mut sound) = (Mechanisms::default(), true);

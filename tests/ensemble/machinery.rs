@@ -9,7 +9,7 @@ use pirca::ensemble::{
 };
 use pirca::model::{Level, Outcome};
 use pirca::random::{Family, Streams};
-use pirca::study::Study;
+use pirca::study::{SpecimenScatter, Study};
 use polars::prelude::DataFrame;
 use polars_io::prelude::{ParquetReader, SerReader};
 
@@ -321,11 +321,17 @@ fn timing_stands_beside_the_results_with_a_line_per_member() {
 }
 
 #[test]
-fn an_arm_is_random_when_stones_or_joints_are_drawn() {
+fn an_arm_is_random_when_stones_or_joints_are_drawn_or_a_mechanism_draws() {
     let study = study();
     let random = |arm| is_random(&study.arms[arm]);
     assert!(!random(0) && random(1));
     let mut arm = study.arms[0].clone();
     arm.joint.phi_deg = Family::Uniform { low: 25.0, high: 35.0 };
+    assert!(is_random(&arm));
+    // A mechanism that draws makes regular stones differ from wall to wall; one that does not leaves them alike.
+    let mut arm = study.arms[0].clone();
+    arm.mechanisms.density = Some(1.1);
+    assert!(!is_random(&arm));
+    arm.mechanisms.specimen_scatter = Some(SpecimenScatter { kn: 0.2, friction: 0.0 });
     assert!(is_random(&arm));
 }

@@ -2,11 +2,11 @@
 
 use crate::math::Vec3;
 use crate::report::number::{range, significant};
+use crate::report::pen::FONT_NAME;
 use crate::report::picture::colour;
 use crate::report::picture::order::back_to_front;
 use crate::report::picture::scene::{Picture, Seam, height};
 use crate::report::picture::view::View;
-use crate::report::plot::FONT_NAME;
 use crate::shape::{Plane, Polyhedron};
 
 /// Width of the picture and of its margins (pixels).

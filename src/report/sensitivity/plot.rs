@@ -8,7 +8,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use crate::report::draw::Figure;
-use crate::report::plot::{Drawn, FONT_NAME, LINE, left};
+use crate::report::pen::{Drawn, LINE, Pen, centred, left};
 use crate::report::sensitivity::SensitivitySummary;
 use crate::report::sensitivity::text::heading;
 
@@ -28,25 +28,25 @@ const NOTES: i32 = 5;
 /// What is drawn, at which scale.
 pub struct HeatMap<'s> {
     summary: &'s SensitivitySummary,
-    scale: u32,
+    pen: Pen,
 }
 
 impl<'s> HeatMap<'s> {
     /// Prepares the map.
     pub fn new(summary: &'s SensitivitySummary, scale: u32) -> Self {
-        HeatMap { summary, scale }
+        HeatMap { summary, pen: Pen { scale } }
     }
 
     fn heads<DB: DrawingBackend>(&self, root: &DrawingArea<DB, Shift>) -> Drawn<DB> {
         let variant = self.summary.variant.as_ref().map(|v| format!(", variant {v}")).unwrap_or_default();
         let title = format!("{}{variant}: change per mechanism in errors of the data", self.summary.study);
-        root.draw(&Text::new(title, self.at(16, 14), self.font(22)))?;
-        let middle = self.font(15).pos(Pos::new(HPos::Center, VPos::Center));
+        root.draw(&Text::new(title, self.at(16, 14), self.pen.font(22)))?;
+        let middle = self.pen.font(15).pos(centred());
         let mut last: Option<&str> = None;
         for (column, observable) in self.summary.observables.iter().enumerate() {
             let x = LEFT + CELL[0] * column as i32 + CELL[0] / 2;
             if last != Some(observable.family.as_str()) {
-                let family = self.font(17).pos(Pos::new(HPos::Left, VPos::Center));
+                let family = self.pen.font(17).pos(left());
                 let name = observable.family.clone();
                 root.draw(&Text::new(name, self.at(x - CELL[0] / 2 + 4, 60), family))?;
                 last = Some(&observable.family);
@@ -59,8 +59,8 @@ impl<'s> HeatMap<'s> {
     }
 
     fn cells<DB: DrawingBackend>(&self, root: &DrawingArea<DB, Shift>) -> Drawn<DB> {
-        let name = self.font(16).pos(Pos::new(HPos::Right, VPos::Center));
-        let middle = Pos::new(HPos::Center, VPos::Center);
+        let name = self.pen.font(16).pos(Pos::new(HPos::Right, VPos::Center));
+        let middle = centred();
         for (line, row) in self.summary.mechanisms.iter().enumerate() {
             let y = HEAD + CELL[1] * line as i32;
             root.draw(&Text::new(row.mechanism, self.at(LEFT - 8, y + CELL[1] / 2), name.clone()))?;
@@ -71,7 +71,7 @@ impl<'s> HeatMap<'s> {
                 root.draw(&Rectangle::new(corners, colour.filled()))?;
                 let strong = cell.in_errors.is_some_and(|errors| errors.abs() > 0.7 * FULL);
                 let ink = if strong { &WHITE } else { &BLACK };
-                let style = self.font(15).color(ink).pos(middle);
+                let style = self.pen.font(15).color(ink).pos(middle);
                 root.draw(&Text::new(cell.shown(), self.at(x + CELL[0] / 2, y + CELL[1] / 2), style))?;
             }
         }
@@ -81,7 +81,7 @@ impl<'s> HeatMap<'s> {
     /// The colours with their numbers, and what the numbers are.
     fn legend<DB: DrawingBackend>(&self, root: &DrawingArea<DB, Shift>) -> Drawn<DB> {
         let top = HEAD + CELL[1] * self.summary.mechanisms.len() as i32 + 18;
-        let middle = self.font(14).pos(Pos::new(HPos::Center, VPos::Center));
+        let middle = self.pen.font(14).pos(centred());
         for step in -6..=6 {
             let x = LEFT + 36 * (step + 6);
             let corners = [self.at(x, top), self.at(x + 36, top + 18)];
@@ -92,10 +92,10 @@ impl<'s> HeatMap<'s> {
             }
         }
         let beside = format!("errors; full colour from {FULL} on; the data can see 2 and more");
-        root.draw(&Text::new(beside, self.at(LEFT + 36 * 13 + 12, top + 9), self.font(15).pos(left())))?;
+        root.draw(&Text::new(beside, self.at(LEFT + 36 * 13 + 12, top + 9), self.pen.font(15).pos(left())))?;
         for (line, text) in self.notes().into_iter().enumerate() {
             let y = top + 52 + (LINE as i32 - 4) * line as i32;
-            root.draw(&Text::new(text, self.at(16, y), self.font(14).pos(left())))?;
+            root.draw(&Text::new(text, self.at(16, y), self.pen.font(14).pos(left())))?;
         }
         Ok(())
     }
@@ -112,11 +112,7 @@ impl<'s> HeatMap<'s> {
     }
 
     fn at(&self, x: i32, y: i32) -> (i32, i32) {
-        (x * self.scale as i32, y * self.scale as i32)
-    }
-
-    fn font(&self, size: i32) -> TextStyle<'static> {
-        TextStyle::from((FONT_NAME, size * self.scale as i32)).color(&BLACK)
+        (self.pen.px(x), self.pen.px(y))
     }
 }
 
@@ -126,7 +122,7 @@ impl Figure for HeatMap<'_> {
         let width = LEFT + CELL[0] * columns + RIGHT;
         let rows = self.summary.mechanisms.len() as i32;
         let height = HEAD + CELL[1] * rows + 18 + 46 + (LINE as i32 - 4) * NOTES + 8;
-        (width as u32 * self.scale, height as u32 * self.scale)
+        (width as u32 * self.pen.scale, height as u32 * self.pen.scale)
     }
 
     fn draw<DB: DrawingBackend>(&self, root: &DrawingArea<DB, Shift>) -> Drawn<DB> {
