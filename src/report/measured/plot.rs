@@ -46,7 +46,7 @@ impl<'c> CalibrationPlot<'c> {
             .grid(&mut mesh)
             .x_labels(20)
             .y_labels(8)
-            .x_label_formatter(&|value| format!("{value:e}"))
+            .x_label_formatter(&stiffness_label)
             .y_label_formatter(&|value| format!("{value:.y_decimals$}"))
             .x_desc("normal stiffness of the joints kn (Pa/m)")
             .y_desc("collapse angle (deg)")
@@ -161,4 +161,21 @@ fn heights(panel: &Panel) -> [f64; 2] {
     let [low, high] = range(curve.chain(angles)).unwrap_or([0.0, 1.0]);
     let height = (high - low).max(0.1);
     [low - 0.15 * height, high + 0.08 * height]
+}
+
+/// The label of a tick on the logarithmic axis: 1, 2 and 5 of every decade; all nine would run into one another.
+fn stiffness_label(kn: &f64) -> String {
+    let text = format!("{kn:e}");
+    if ["1e", "2e", "5e"].iter().any(|start| text.starts_with(start)) { text } else { String::new() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::stiffness_label;
+
+    #[test]
+    fn a_decade_has_three_labels() {
+        let labels: Vec<String> = (1..=10).map(|k| stiffness_label(&(f64::from(k) * 1e7))).collect();
+        assert_eq!(labels, ["1e7", "2e7", "", "", "5e7", "", "", "", "", "1e8"]);
+    }
 }
