@@ -1,20 +1,19 @@
-//! The linear system of a Newton step: its pattern, its matrix, its factorisation by faer.
+//! The linear system of a Newton step: its pattern, its matrix, its factorisation.
 //!
 //! Every body has six columns, displacement then turn (rad, world axes about the centroid). What a body cannot do, or
 //! a fixed one, has a diagonal entry alone.
 
+use std::sync::Arc;
+
 use faer::prelude::Solve;
 use faer::sparse::linalg::LltError;
-use faer::sparse::linalg::solvers::{Llt, Lu, SymbolicLlt, SymbolicLu};
+use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Col, Side};
 
 use crate::solve::bodies::{Body, Freedom};
 use crate::solve::implicit::elimination::{Elimination, Order};
 use crate::solve::joints::{Joints, Slopes};
-
-/// Entries of the largest matrix that plain elimination factorises faster than the supernodal method: some 300 blocks.
-const LARGEST_SPARSE: usize = 50_000;
 
 /// Unknowns per body.
 pub const DOF: usize = 6;
@@ -24,6 +23,8 @@ pub const DOF: usize = 6;
 pub struct System {
     /// The two bodies of each joint that the pattern was made for.
     pairs: Vec<(u32, u32)>,
+    /// The bodies coupled to each body, itself among them, in order.
+    neighbours: Arc<Vec<Vec<usize>>>,
     pattern: SymbolicSparseColMat<usize>,
     values: Vec<f64>,
     /// For each joint, where its four blocks (incident and reference by incident and reference) start in the first of
@@ -33,8 +34,7 @@ pub struct System {
     /// Start of each body's own block in its first column.
     own: Vec<usize>,
     symmetric: Option<SymbolicLlt<usize>>,
-    order: Option<Order>,
-    general: Option<SymbolicLu<usize>>,
+    order: Option<Arc<Order>>,
     factor: Factor,
     /// Whether the matrix was said to be symmetric and proved to have a negative eigenvalue.
     indefinite: bool,
@@ -45,8 +45,7 @@ enum Factor {
     #[default]
     None,
     Symmetric(Llt<usize, f64>),
-    Sparse(Elimination),
-    Supernodal(Lu<usize, f64>),
+    General(Arc<Elimination>),
 }
 
 /// How a matrix was factorised.
@@ -54,7 +53,7 @@ enum Factor {
 pub enum Kind {
     /// By Cholesky's method: symmetric and positive definite.
     Symmetric,
-    /// By elimination with pivots.
+    /// By elimination.
     General,
 }
 
@@ -98,6 +97,7 @@ impl System {
         let pattern = SymbolicSparseColMat::new_checked(DOF * n, DOF * n, col_ptr, None, row_idx);
         System {
             pairs,
+            neighbours: Arc::new(neighbours),
             pattern,
             values,
             places,
@@ -105,7 +105,6 @@ impl System {
             own,
             symmetric: None,
             order: None,
-            general: None,
             factor: Factor::None,
             indefinite: false,
         }
@@ -203,35 +202,23 @@ impl System {
                 Err(LltError::Generic(_)) => return None,
             }
         }
-        if self.values.len() <= LARGEST_SPARSE {
-            self.factor = Factor::Sparse(self.eliminated()?);
-        } else {
-            if self.general.is_none() {
-                self.general = SymbolicLu::try_new(self.pattern.as_ref()).ok();
-            }
-            let matrix = SparseColMatRef::new(self.pattern.as_ref(), &self.values);
-            self.factor = Factor::Supernodal(Lu::try_new_with_symbolic(self.general.clone()?, matrix).ok()?);
+        if self.order.is_none() {
+            self.order = Order::new(&self.neighbours).map(Arc::new);
         }
+        let eliminated = Elimination::new(self.order.clone()?, &self.neighbours, &self.values)?;
+        self.factor = Factor::General(Arc::new(eliminated));
         Some(Kind::General)
     }
 
     /// Whether the matrix as it was factorised last is that of a stable state: a symmetric one is positive definite, a
     /// general one has a positive determinant, as it has from an unloaded stable state up to the first limit point.
-    pub fn is_stable(&mut self) -> bool {
+    pub fn is_stable(&self) -> bool {
         match &self.factor {
             _ if self.indefinite => false,
             Factor::None => false,
             Factor::Symmetric(_) => true,
-            Factor::Sparse(elimination) => elimination.is_positive(),
-            Factor::Supernodal(_) => self.eliminated().is_some_and(|elimination| elimination.is_positive()),
+            Factor::General(elimination) => elimination.is_positive(),
         }
-    }
-
-    fn eliminated(&mut self) -> Option<Elimination> {
-        if self.order.is_none() {
-            self.order = Order::new(self.pattern.as_ref());
-        }
-        Elimination::new(self.order.clone()?, self.pattern.as_ref(), &self.values)
     }
 
     /// Solves with the factorised matrix; NaN where there is none.
@@ -240,8 +227,7 @@ impl System {
         match &self.factor {
             Factor::None => x.fill(f64::NAN),
             Factor::Symmetric(factor) => factor.solve_in_place(x.as_mut()),
-            Factor::Supernodal(factor) => factor.solve_in_place(x.as_mut()),
-            Factor::Sparse(elimination) => {
+            Factor::General(elimination) => {
                 let mut x = right.to_vec();
                 elimination.solve(&mut x);
                 return x;

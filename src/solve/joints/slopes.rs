@@ -2,7 +2,8 @@
 //!
 //! The forces depend on the bodies through nine numbers, the gap `g0, gs, gt` and the motion since the anchor
 //! (`base, by_s, by_t`), and through the pose that turns them into vectors. Both are differentiated exactly, in the
-//! direction of each of the twelve velocities of the two bodies. Pressure over the compressed part of a cell: its
+//! direction of each of the six velocities of the incident body; where both bodies move as one, forces and moments turn
+//! with them, which gives those of the reference body. Pressure over the compressed part of a cell: its
 //! boundary moves with the gap, but no pressure acts there, so `d(N, Ns, Nt) = -kn M d(g0, gs, gt)` with the second
 //! moments `M` of the part, weighted by the law's slope where that varies; the area in contact itself changes by the
 //! moments of the cut.
@@ -38,6 +39,9 @@ struct SumSlopes {
     opens: bool,
 }
 
+/// The axes of the world.
+const AXES: [Vec3; 3] = [Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0), Vec3::new(0.0, 0.0, 1.0)];
+
 /// A twist of one body.
 #[derive(Clone, Copy)]
 struct Twist {
@@ -72,15 +76,28 @@ impl Joint {
         let (sums, slopes) = self.sum_slopes(&pose.gap, &motion, anchor, pressed);
         let carried = [anchor.origin, anchor.s, anchor.t].map(|v| r.rotation * v);
         let geometry = Geometry { pose: &pose, incident: i, reference: r, carried, sums: &sums };
+        let shifts = AXES.map(|shift| geometry.change(&Twist { shift, ..Twist::NONE }, &slopes));
+        let turns = AXES.map(|turn| geometry.change(&Twist { turn, ..Twist::NONE }, &slopes));
+        // Both bodies may move as one: then the forces turn with them, and the reference body's part is what the incident
+        // body's lacks of that.
+        let [force, on_incident, on_reference] = geometry.loads();
+        let apart = i.position - r.position;
         let columns: [[Vec3; 4]; 12] = std::array::from_fn(|column| {
-            let unit = Vec3::ith(column % 3, 1.0);
-            let twist = match (column / 3) % 2 {
-                0 => Twist { shift: unit, ..Twist::NONE },
-                _ => Twist { turn: unit, ..Twist::NONE },
-            };
-            match column < 6 {
-                true => geometry.change(&twist, &Twist::NONE, &slopes),
-                false => geometry.change(&Twist::NONE, &twist, &slopes),
+            let k = column % 3;
+            match column / 3 {
+                0 => shifts[k],
+                1 => turns[k],
+                2 => shifts[k].map(|change| -change),
+                _ => {
+                    let turn = AXES[k];
+                    let swept = turn.cross(&apart);
+                    let turned = [force, on_incident, -force, on_reference].map(|load| turn.cross(&load));
+                    std::array::from_fn(|row| {
+                        let by_sweep =
+                            shifts[0][row] * swept.x + shifts[1][row] * swept.y + shifts[2][row] * swept.z;
+                        turned[row] - turns[k][row] - by_sweep
+                    })
+                }
             }
         });
         let entry = |row: usize, column: usize| -columns[column][row / 3][row % 3];
@@ -141,55 +158,48 @@ struct Geometry<'a> {
 }
 
 impl Geometry<'_> {
-    /// The change of force and moment on the incident and on the reference body as the two move.
-    fn change(&self, by_incident: &Twist, by_reference: &Twist, slopes: &SumSlopes) -> [Vec3; 4] {
+    /// The force on the incident body, and the moments on the incident and on the reference body.
+    fn loads(&self) -> [Vec3; 3] {
+        let Sums { pressure, shear } = self.sums;
+        let force = self.pose.world(pressure.force, shear.force);
+        let moment = self.pose.moment(self.sums);
+        let about = |body: &Body| moment + (self.pose.origin - body.position).cross(&force);
+        [force, about(self.incident), -about(self.reference)]
+    }
+
+    /// The change of force and moment on the incident and on the reference body as the incident body moves.
+    fn change(&self, twist: &Twist, slopes: &SumSlopes) -> [Vec3; 4] {
         let (pose, sums) = (self.pose, self.sums);
         let Pose { origin, s, t, push, e1, e2, gap } = pose;
-        let d_origin = by_incident.at(origin, self.incident);
-        let (d_s, d_t) = (by_incident.turn.cross(s), by_incident.turn.cross(t));
-        let d_push = by_reference.turn.cross(push);
-        // The gap is measured from a point of the reference plane below the origin, which is as good as any other.
-        let foot = origin - push * gap.g0;
-        let d_gap = Gap {
-            g0: (d_origin - by_reference.at(&foot, self.reference)).dot(push),
-            gs: d_s.dot(push) + s.dot(&d_push),
-            gt: d_t.dot(push) + t.dot(&d_push),
-        };
+        let d_origin = twist.at(origin, self.incident);
+        let (d_s, d_t) = (twist.turn.cross(s), twist.turn.cross(t));
+        let d_gap = Gap { g0: d_origin.dot(push), gs: d_s.dot(push), gt: d_t.dot(push) };
         let q = s - push * gap.gs;
-        let d_q = d_s - d_push * gap.gs - push * d_gap.gs;
+        let d_q = d_s - push * d_gap.gs;
         let d_e1 = (d_q - e1 * e1.dot(&d_q)) / q.norm();
-        let d_e2 = d_e1.cross(push) + e1.cross(&d_push);
-        let [lever, carried_s, carried_t] = &self.carried;
-        let since = |now: Vec3, d_now: Vec3, d_then: Vec3| {
-            let d = d_now - d_then;
-            [d.dot(e1) + now.dot(&d_e1), d.dot(e2) + now.dot(&d_e2)]
-        };
-        let turn = &by_reference.turn;
-        let base =
-            since(origin - self.reference.position - lever, d_origin, by_reference.shift + turn.cross(lever));
-        let by_s = since(s - carried_s, d_s, turn.cross(carried_s));
-        let by_t = since(t - carried_t, d_t, turn.cross(carried_t));
+        let d_e2 = d_e1.cross(push);
+        let [carried_origin, carried_s, carried_t] = &self.carried;
+        let since =
+            |moved: Vec3, d_now: Vec3| [d_now.dot(e1) + moved.dot(&d_e1), d_now.dot(e2) + moved.dot(&d_e2)];
+        let base = since(origin - self.reference.position - carried_origin, d_origin);
+        let by_s = since(s - carried_s, d_s);
+        let by_t = since(t - carried_t, d_t);
         let inputs = [d_gap.g0, d_gap.gs, d_gap.gt, base[0], base[1], by_s[0], by_s[1], by_t[0], by_t[1]];
         let normal = |row: usize| dot(&slopes.pressure[row], &inputs[..3]);
         let shear = |row: usize| [dot(&slopes.shear[row], &inputs), dot(&slopes.shear[row + 1], &inputs)];
-        let turned = |n: f64, f: [f64; 2]| d_push * n + d_e1 * f[0] + d_e2 * f[1];
+        let turned = |f: [f64; 2]| d_e1 * f[0] + d_e2 * f[1];
         let Sums { pressure, shear: forces } = sums;
         let force = pose.world(pressure.force, forces.force);
-        let d_force = turned(pressure.force, forces.force) + pose.world(normal(0), shear(0));
+        let d_force = turned(forces.force) + pose.world(normal(0), shear(0));
         let (along_s, along_t) =
             (pose.world(pressure.by_s, forces.by_s), pose.world(pressure.by_t, forces.by_t));
-        let d_along_s = turned(pressure.by_s, forces.by_s) + pose.world(normal(1), shear(2));
-        let d_along_t = turned(pressure.by_t, forces.by_t) + pose.world(normal(2), shear(4));
+        let d_along_s = turned(forces.by_s) + pose.world(normal(1), shear(2));
+        let d_along_t = turned(forces.by_t) + pose.world(normal(2), shear(4));
         let d_moment = d_s.cross(&along_s) + s.cross(&d_along_s) + d_t.cross(&along_t) + t.cross(&d_along_t);
         let about = |body: &Body, d_body: &Vec3| {
             d_moment + (d_origin - d_body).cross(&force) + (origin - body.position).cross(&d_force)
         };
-        [
-            d_force,
-            about(self.incident, &by_incident.shift),
-            -d_force,
-            -about(self.reference, &by_reference.shift),
-        ]
+        [d_force, about(self.incident, &twist.shift), -d_force, -about(self.reference, &Vec3::zeros())]
     }
 }
 
