@@ -17,27 +17,24 @@ pub struct Cell {
 /// The cells fill the polygon exactly, so that the normal force does not depend on how many there are; only shear,
 /// whose traction is constant in a cell, does.
 pub fn divide(polygon: &Polygon, counts: [u32; 2]) -> Vec<Cell> {
-    grid(polygon, counts).into_iter().map(|(_, cell)| cell).collect()
+    grid(polygon, counts, |_| true)
 }
 
-/// Those of the 4 x 4 cells of a polygon whose bit is set, `4 i + j` for the cell `i` along its first and `j` along its
-/// second axis; the largest cell where the polygon has none of them.
-pub fn patches(polygon: &Polygon, mask: u16) -> Vec<Cell> {
-    let all = grid(polygon, [4, 4]);
-    let kept: Vec<Cell> =
-        all.iter().filter(|([i, j], _)| mask >> (4 * i + j) & 1 == 1).map(|(_, cell)| cell.clone()).collect();
+/// Those of a polygon's `along` by `along` cells, eight at most, whose bit is set: `along i + j` for the cell `i` along its
+/// first and `j` along its second axis; the largest cell where the polygon has none of them.
+pub fn patches(polygon: &Polygon, along: u32, mask: u64) -> Vec<Cell> {
+    let counts = [along; 2];
+    let kept = grid(polygon, counts, |[i, j]| mask >> (along * i + j) & 1 == 1);
     if !kept.is_empty() {
         return kept;
     }
-    let largest = all
-        .into_iter()
-        .map(|(_, cell)| cell)
-        .reduce(|a, b| if b.moments.area > a.moments.area { b } else { a });
+    let all = grid(polygon, counts, |_| true);
+    let largest = all.into_iter().reduce(|a, b| if b.moments.area > a.moments.area { b } else { a });
     largest.into_iter().collect()
 }
 
-/// The cells with their places along the first and the second axis.
-fn grid(polygon: &Polygon, counts: [u32; 2]) -> Vec<([u32; 2], Cell)> {
+/// The cells that are wanted, by their places along the first and the second axis.
+fn grid(polygon: &Polygon, counts: [u32; 2], wanted: impl Fn([u32; 2]) -> bool) -> Vec<Cell> {
     let range = |k: usize| {
         polygon
             .vertices
@@ -51,29 +48,38 @@ fn grid(polygon: &Polygon, counts: [u32; 2]) -> Vec<([u32; 2], Cell)> {
     let smallest = 1e-9 * polygon.area() / f64::from(along_s * along_t);
     let mut cells = Vec::with_capacity((along_s * along_t) as usize);
     for i in 0..along_s {
-        // The outermost strips are not cut from outside, so that no sliver is lost to rounding.
-        let mut strip = polygon.clone();
-        if i > 0 {
-            strip = strip.clip(at(s, i, along_s), -1.0, 0.0);
-        }
-        if i + 1 < along_s {
-            strip = strip.clip(-at(s, i + 1, along_s), 1.0, 0.0);
-        }
-        for j in 0..along_t {
-            let mut outline = strip.clone();
-            if j > 0 {
-                outline = outline.clip(at(t, j, along_t), 0.0, -1.0);
-            }
-            if j + 1 < along_t {
-                outline = outline.clip(-at(t, j + 1, along_t), 0.0, 1.0);
-            }
+        let (left, right) = (at(s, i, along_s), at(s, i + 1, along_s));
+        let mut strip = None;
+        for j in (0..along_t).filter(|&j| wanted([i, j])) {
+            let (low, high) = (at(t, j, along_t), at(t, j + 1, along_t));
+            let whole = [[left, low], [right, low], [right, high], [left, high]];
+            let outline = if whole.iter().all(|corner| contains(polygon, corner)) {
+                Polygon { vertices: whole.to_vec() }
+            } else {
+                // The outermost cells are not cut from outside, so that no sliver is lost to rounding.
+                let strip: &Polygon = strip.get_or_insert_with(|| {
+                    let strip = if i > 0 { polygon.clip(left, -1.0, 0.0) } else { polygon.clone() };
+                    if i + 1 < along_s { strip.clip(-right, 1.0, 0.0) } else { strip }
+                });
+                let cell = if j > 0 { strip.clip(low, 0.0, -1.0) } else { strip.clone() };
+                if j + 1 < along_t { cell.clip(-high, 0.0, 1.0) } else { cell }
+            };
             let moments = outline.moments();
             if moments.area > smallest {
-                cells.push(([i, j], Cell { moments, outline }));
+                cells.push(Cell { moments, outline });
             }
         }
     }
     cells
+}
+
+/// Whether a point lies in a counter-clockwise polygon.
+fn contains(polygon: &Polygon, point: &[f64; 2]) -> bool {
+    let corners = &polygon.vertices;
+    (0..corners.len()).all(|k| {
+        let (a, b) = (corners[k], corners[(k + 1) % corners.len()]);
+        (b[0] - a[0]) * (point[1] - a[1]) >= (b[1] - a[1]) * (point[0] - a[0])
+    })
 }
 
 /// Point sub-contacts at the polygon's corners, each with an equal share of the area, as older block codes place them.
@@ -121,16 +127,16 @@ mod tests {
     #[test]
     fn patches_are_the_cells_of_their_bits() {
         let square = Polygon { vertices: vec![[0.0, 0.0], [0.8, 0.0], [0.8, 0.4], [0.0, 0.4]] };
-        assert_eq!(patches(&square, u16::MAX), divide(&square, [4, 4]));
-        let two = patches(&square, 1 << 1 | 1 << 14);
+        assert_eq!(patches(&square, 8, u64::MAX), divide(&square, [8, 8]));
+        let two = patches(&square, 8, 1 << 1 | 1 << 58);
         let places: Vec<_> = two.iter().map(|cell| cell.moments.centroid()).collect();
-        for (found, [s, t]) in places.iter().zip([[0.1, 0.15], [0.7, 0.25]]) {
+        for (found, [s, t]) in places.iter().zip([[0.05, 0.075], [0.75, 0.125]]) {
             assert_relative_eq!(found[0], s, max_relative = 1e-12);
             assert_relative_eq!(found[1], t, max_relative = 1e-12);
         }
         // A corner of the grid where a triangle is not.
         let triangle = Polygon { vertices: vec![[0.0, 0.0], [0.8, 0.0], [0.0, 0.4]] };
-        assert_eq!(patches(&triangle, 1 << 15).len(), 1);
+        assert_eq!(patches(&triangle, 8, 1 << 63).len(), 1);
     }
 
     #[test]

@@ -37,6 +37,9 @@ pub enum CohesionAfterSlip {
     Lost,
 }
 
+/// Patches along each axis of a joint, see [`Sampling::Patches`].
+pub const PATCHES_ALONG: u32 = 8;
+
 /// Where the joint's stress is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -45,9 +48,9 @@ pub enum Sampling {
     Area,
     /// At the joint's corners only, as older block codes do: a tilting wall then loses its dependence on kn.
     Vertices,
-    /// Integrated over the compressed area of some of the 4 x 4 patches into which the joint is divided: bit `4 i + j` stands
+    /// Integrated over the compressed area of some of the 8 x 8 ([`PATCHES_ALONG`]) patches into which the joint is divided: bit `8 i + j` stands
     /// for the patch `i` along its first and `j` along its second axis. The other patches never touch.
-    Patches(u16),
+    Patches(u64),
 }
 
 /// What a sub-contact remembers.

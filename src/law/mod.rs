@@ -7,7 +7,9 @@ mod slopes;
 mod spheres;
 mod weakening;
 
-pub use coulomb::{CohesionAfterSlip, Coulomb, Motion, Pressed, Sampling, ShearSum, SubContact};
+pub use coulomb::{
+    CohesionAfterSlip, Coulomb, Motion, PATCHES_ALONG, Pressed, Sampling, ShearSum, SubContact,
+};
 pub use damping::local_damping;
 pub use normal::NormalLaw;
 pub use slopes::{PressedSlopes, ShearSlopes};

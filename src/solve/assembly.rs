@@ -11,6 +11,10 @@ use crate::solve::ties::{Held, Tie};
 /// Standard gravity (m/s^2).
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
 
+/// A body that has moved by less than this share of what makes contacts be looked for keeps those it has, where the other
+/// has not moved either.
+const SETTLED: f64 = 0.25;
+
 /// A dead load: a force of fixed direction at a point that moves with a body.
 #[derive(Clone, Copy, Debug)]
 struct DeadLoad {
@@ -37,7 +41,7 @@ pub struct Assembly<'a> {
     loads: Vec<DeadLoad>,
     ties: Vec<Held>,
     mounted: Option<Mounted>,
-    /// Where each body was when contacts were last looked for.
+    /// Where each body was when its contacts were last looked for; none before the first time.
     seen: Vec<(Vec3, Mat3)>,
 }
 
@@ -84,6 +88,7 @@ impl<'a> Assembly<'a> {
         for body in fixed_to_it {
             self.bodies.fix_to(*body, mount.body);
         }
+        self.seen.clear();
         self.refresh();
     }
 
@@ -129,20 +134,37 @@ impl<'a> Assembly<'a> {
     /// Whether a block has moved so far that a new joint might exist: half the reach of the contact search.
     pub fn has_moved(&self) -> bool {
         let allowed = 0.5 * self.contact.reach;
-        let moved = |body: &Body, (position, rotation): &(Vec3, Mat3)| {
-            let shift = (body.position - position).norm_squared();
-            // The Frobenius norm of the change of rotation bounds the path of a vertex at unit distance.
-            let turn = (body.rotation - rotation).norm_squared() * body.radius * body.radius;
-            // (x + y)^2 <= 2 (x^2 + y^2)
-            2.0 * (shift + turn) > allowed * allowed
-        };
-        self.bodies.all.iter().zip(&self.seen).any(|(body, seen)| body.moves() && moved(body, seen))
+        (0..self.bodies.all.len()).any(|body| self.moved_further(body, allowed))
     }
 
-    /// Looks for contacts anew; joints that stay keep their history.
+    /// Whether a body has moved further (m) since its contacts were last looked for.
+    fn moved_further(&self, index: usize, allowed: f64) -> bool {
+        let (body, (position, rotation)) = (&self.bodies.all[index], &self.seen[index]);
+        let shift = (body.position - position).norm_squared();
+        // The Frobenius norm of the change of rotation bounds the path of a vertex at unit distance.
+        let turn = (body.rotation - rotation).norm_squared() * body.radius * body.radius;
+        // (x + y)^2 <= 2 (x^2 + y^2)
+        body.moves() && 2.0 * (shift + turn) > allowed * allowed
+    }
+
+    /// Looks for contacts anew where a block has moved; joints that stay keep their history.
     pub fn refresh(&mut self) {
-        self.joints.refresh(&self.bodies, self.laws, &self.contact);
-        self.seen = self.bodies.all.iter().map(|b| (b.position, b.rotation)).collect();
+        let pose = |body: &Body| (body.position, body.rotation);
+        let allowed = SETTLED * 0.5 * self.contact.reach;
+        let all = self.bodies.all.iter().enumerate();
+        let moved: Vec<bool> = match self.seen.is_empty() {
+            true => vec![true; self.bodies.all.len()],
+            false => all.map(|(index, _)| self.moved_further(index, allowed)).collect(),
+        };
+        self.joints.refresh(&self.bodies, self.laws, &self.contact, &moved);
+        if self.seen.is_empty() {
+            self.seen = self.bodies.all.iter().map(pose).collect();
+        }
+        for ((body, seen), _) in
+            self.bodies.all.iter().zip(&mut self.seen).zip(moved).filter(|(_, moved)| *moved)
+        {
+            *seen = pose(body);
+        }
     }
 
     /// Whether all positions and forces are finite.

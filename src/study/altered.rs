@@ -2,15 +2,16 @@
 //! what is read off it.
 
 use crate::generate::Layout;
-use crate::law::{Coulomb, NormalLaw, Sampling, Weakening};
+use crate::law::{Coulomb, NormalLaw, PATCHES_ALONG, Sampling, Weakening};
 use crate::math::tan;
 use crate::model::{Tag, Wall};
 use crate::protocol::{Changes, Contacts, Direction, Ends, Loss, Protocol, Restraint};
 use crate::random::{Family, Stream, Streams};
 use crate::study::mechanism::{EndRelease, Mechanisms};
 
-/// Patches of a joint, see [`Sampling::Patches`].
-const PATCHES: usize = 16;
+/// Patches along each side of a joint, see [`Sampling::Patches`], and parts of four patches each.
+const SIDE: u32 = PATCHES_ALONG;
+const PARTS: usize = (SIDE * SIDE / 4) as usize;
 
 impl Mechanisms {
     /// The layout that walls are drawn from.
@@ -139,17 +140,25 @@ impl AlteredJoints {
     }
 }
 
-/// A mask of the sixteenths nearest to a share, at least one, each choice of patches as likely as any other.
-fn patches(share: f64, stream: &mut Stream) -> u16 {
-    let count = ((PATCHES as f64 * share).round() as usize).clamp(1, PATCHES);
-    let mut order: [usize; PATCHES] = std::array::from_fn(|k| k);
-    let mut mask = 0;
-    for k in 0..count {
-        // The uniforms of the first patches do not depend on how many there are: a larger share adds to a smaller one.
-        order.swap(k, k + stream.below(PATCHES - k));
-        mask |= 1 << order[k];
-    }
-    mask
+/// A mask of the patches nearest to a share, at least one. A stone settles until it is carried on all sides, so the parts of
+/// a joint, four patches each, take turns: in each of four rounds each has one more of its patches, in random order.
+fn patches(share: f64, stream: &mut Stream) -> u64 {
+    let count = ((f64::from(SIDE * SIDE) * share).round() as usize).clamp(1, 4 * PARTS);
+    let within: [[usize; 4]; PARTS] = std::array::from_fn(|_| shuffled(stream));
+    // The uniforms of the first patches do not depend on how many there are: a larger share adds to a smaller one.
+    let order = (0..4).flat_map(|round| shuffled::<PARTS>(stream).map(|part| (part, within[part][round])));
+    order.take(count).fold(0, |mask, (part, patch)| {
+        let side = SIDE as usize;
+        let (row, column) = (2 * (part / (side / 2)) + patch / 2, 2 * (part % (side / 2)) + patch % 2);
+        mask | 1 << (side * row + column)
+    })
+}
+
+/// The first numbers in random order.
+fn shuffled<const N: usize>(stream: &mut Stream) -> [usize; N] {
+    let mut order = std::array::from_fn(|k| k);
+    (0..N).for_each(|k| order.swap(k, k + stream.below(N - k)));
+    order
 }
 
 #[cfg(test)]
@@ -159,16 +168,23 @@ mod tests {
     #[test]
     fn patches_are_as_many_as_asked_for_and_grow_with_the_share() {
         let of = |share: f64, name: &str| patches(share, &mut Streams::new(3, 1).of(name));
-        for (share, count) in [(0.01, 1), (0.25, 4), (0.5, 8), (0.53, 8), (0.9, 14), (1.0, 16)] {
+        for (share, count) in [(0.001, 1), (0.25, 16), (0.5, 32), (0.53, 34), (0.9, 58), (1.0, 64)] {
             assert_eq!(of(share, "a").count_ones(), count, "{share}");
         }
         assert_eq!(of(0.25, "a") & of(0.75, "a"), of(0.25, "a"));
         assert_ne!(of(0.5, "a"), of(0.5, "b"));
+        // A quarter is one patch in each part: bits 0, 1, 8, 9 are the first.
+        for k in 0..100 {
+            let mask = of(0.25, &format!("{k}"));
+            for part in [0, 2, 16, 34, 54] {
+                assert_eq!((mask >> part & 0x0303).count_ones(), 1, "{mask:064b}");
+            }
+        }
         // Every patch comes up as often: 16 x 1000 draws of a quarter, 4000 +- 5 sigma of a binomial of 3/4 x 1/4.
-        let mut seen = [0u32; 16];
+        let mut seen = [0u32; 64];
         for k in 0..16_000 {
             let mask = of(0.25, &k.to_string());
-            (0..16).for_each(|bit| seen[bit] += u32::from(mask >> bit & 1));
+            (0..64).for_each(|bit| seen[bit] += u32::from(mask >> bit & 1 == 1));
         }
         assert!(seen.iter().all(|n| n.abs_diff(4000) < 274), "{seen:?}");
     }

@@ -199,5 +199,5 @@ fn mechanisms_of_the_joints_are_in_their_laws() {
     let Sampling::Patches(mask) = of(Mechanisms { contact_area: Some(0.3), ..none() }).sampling else {
         panic!("it touches in patches")
     };
-    assert_eq!(mask.count_ones(), 5);
+    assert_eq!(mask.count_ones(), 19);
 }

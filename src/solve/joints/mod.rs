@@ -43,9 +43,16 @@ pub struct Joints {
 }
 
 impl Joints {
-    /// Finds all joints of the bodies where they are now. Joints that were there before keep their law and their
-    /// history: each new sub-contact takes the state of the nearest old one of the same pair.
-    pub fn refresh(&mut self, bodies: &Bodies, laws: &dyn JointLaws, settings: &contact::Settings) {
+    /// Finds the joints of the bodies that have moved where they are now; those between two that have not stay as they are.
+    /// Joints that were there before keep their law and their history: each new sub-contact takes the state of the nearest
+    /// old one of the same pair.
+    pub fn refresh(
+        &mut self,
+        bodies: &Bodies,
+        laws: &dyn JointLaws,
+        settings: &contact::Settings,
+        moved: &[bool],
+    ) {
         let shapes: Vec<_> = (0..bodies.all.len()).map(|i| bodies.world_shape(i)).collect();
         let mut old: BTreeMap<(u32, u32), Joint> = self.all.drain(..).map(|j| (j.pair(), j)).collect();
         for (a, b) in candidate_pairs(&shapes, 2.0 * settings.reach) {
@@ -53,6 +60,10 @@ impl Joints {
             let moves = |block: u32| bodies.all[carrier(block)].moves();
             let gone = self.removed.contains(&a) || self.removed.contains(&b);
             if gone || carrier(a) == carrier(b) || !(moves(a) || moves(b)) {
+                continue;
+            }
+            if !moved[carrier(a)] && !moved[carrier(b)] {
+                self.all.extend(old.remove(&(a, b)));
                 continue;
             }
             // The ground is the preferred reference: the pressure then acts along its normal.

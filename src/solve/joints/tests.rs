@@ -107,7 +107,7 @@ fn the_tangent_is_that_of_finite_differences() {
     let rough = Coulomb { tan_phi: 50.0, ..DRY };
     let cohesive = Coulomb { cohesion: 3e3, tension: 2e3, ..DRY };
     let vertices = Coulomb { sampling: Sampling::Vertices, ..DRY };
-    let patches = Coulomb { sampling: Sampling::Patches(0b0110_1001_1011_0101), ..rough };
+    let patches = Coulomb { sampling: Sampling::Patches(0x69b5_a7c3_19f0_5ad6), ..rough };
     let weak = |distance| Coulomb { weakening: Some(Weakening { residual: 0.4, distance }), ..DRY };
     let cases = [
         ("closed", DRY, press(2e-5, [3e-6, 5e-6], [2e-5, 1e-5, 3e-5]), [false, false]),

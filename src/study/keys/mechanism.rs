@@ -78,7 +78,7 @@ static CONTACT_AREA: Section = mechanism(
         "share",
         real("1", POSITIVE_SHARE),
         Required,
-        "Share of each joint in contact, in sixteenths: so many patches of a 4 x 4 grid.",
+        "Share of each joint in contact, in 64ths: so many patches of an 8 x 8 grid.",
     )]],
     "Joints that touch in patches only, drawn per joint; the stiffness per area in contact stays.",
 );
