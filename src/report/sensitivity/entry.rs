@@ -9,7 +9,7 @@ use crate::study::{Described, MeasuredQuantity, Study};
 const DEFINITION: &str = "change: mean over the walls of the observable with the mechanism less without it, the same walls and \
     random numbers; error: standard deviation of the measured mean, errors of the readings and scatter between specimens \
     together (the larger of the measured and the simulated scatter, over the root of the number of specimens); of an \
-    observable of which only bounds are known, the part of the change that lies beyond the bounds counts";
+    observable of which only bounds are known (*), the part of the change that lies beyond the bounds counts";
 
 /// The map. Intervals are at 95 % (Student's, of the paired differences); what is not defined is null.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]

@@ -105,7 +105,7 @@ impl<'s> HeatMap<'s> {
         [
             format!("Each mechanism at the {quantile} quantile of its priors, from the weak end; mean of {members} walls per family, the same with and without it."),
             "Error: standard deviation of the measured mean, readings and scatter between specimens together.".to_string(),
-            "(bound): the readings are known to be below a bound; what lies beyond it counts.".to_string(),
+            "*: the readings are only known to be below a bound; what lies beyond it counts.".to_string(),
             "~: 95 % interval of the paired change includes 0. falls: collapsed before the reading. fallen: also without it.".to_string(),
             "stands: reaches the reading only with it. n/a: cannot act on these walls. end: stood to the end. lost: not solved. -: no error is known.".to_string(),
         ]

@@ -58,7 +58,7 @@ fn table(summary: &SensitivitySummary, family: &str) -> String {
 
 /// The head of a column, in two lines.
 pub(super) fn heading(observable: &ObservableEntry) -> [String; 2] {
-    let bound = if observable.bounds_only { " (bound)" } else { "" };
+    let bound = if observable.bounds_only { " *" } else { "" };
     let tilt = observable.tilt_deg.map(|tilt| format!("{tilt} deg")).unwrap_or_default();
     [observable.short().to_string(), format!("{tilt}{bound}")]
 }
