@@ -62,6 +62,14 @@ pub(crate) enum Verb {
          A wall that falls or cannot be built is counted in the results; it is no error.\n\n{CODES}"
     ))]
     Run(Run),
+    /// Simulate the walls that a diagnosis of a study's measurements rests on: every mechanism at many strengths, with joints that
+    /// are known as badly as they are. Resumes by itself.
+    #[command(after_help = format!(
+        "Example: pirca bank studies/tilting-table --points 200\n\n\
+         More points later leave the first ones as they are, in another folder. The priors are in distributions/mechanism and\n\
+         distributions/nuisance beside the folder of the studies.\n\n{CODES}"
+    ))]
+    Bank(Bank),
     /// Which mechanisms could the measured data see? What each of them changes in every quantity of measured.csv, in units of
     /// the quantity's error, for a study on the tilting table.
     #[command(after_help = format!(
@@ -228,6 +236,22 @@ pub(crate) struct Sensitivity {
     /// Quantile of the priors, counted from the end at which a mechanism is weak; 0.5 is the median.
     #[arg(long, value_name = "Q", default_value = "0.84", value_parser = sensitivity::quantile, allow_negative_numbers = true)]
     pub quantile: f64,
+    /// Worker threads [default: one per processor]. No result depends on their number.
+    #[arg(long, value_name = "T")]
+    pub threads: Option<NonZero<usize>>,
+}
+
+/// Arguments of `bank`.
+#[derive(Args, Debug)]
+pub(crate) struct Bank {
+    #[command(flatten)]
+    pub which: Which,
+    /// Output folder [default: runs/<study>-bank].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Points in the priors for each mechanism; twice as many for the base model.
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u64).range(10..=100_000))]
+    pub points: u64,
     /// Worker threads [default: one per processor]. No result depends on their number.
     #[arg(long, value_name = "T")]
     pub threads: Option<NonZero<usize>>,

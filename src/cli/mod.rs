@@ -2,6 +2,7 @@
 
 mod analyse;
 mod arguments;
+mod bank;
 mod check;
 mod elements;
 mod failure;
@@ -30,6 +31,7 @@ pub fn main() -> ExitCode {
     };
     let done = match &arguments.verb {
         Verb::Analyse(arguments) => analyse::analyse(arguments),
+        Verb::Bank(arguments) => bank::bank(arguments),
         Verb::Check(arguments) => check::check(arguments),
         Verb::Generate(arguments) => generate::generate(arguments),
         Verb::Mechanisms(arguments) => mechanisms::mechanisms(arguments),

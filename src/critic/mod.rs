@@ -1,6 +1,7 @@
 //! Measured beside simulated: how far apart they are, which joint stiffness the measurements speak for, and which mechanisms
 //! they could see.
 
+mod bank;
 mod calibrate;
 mod compare;
 mod likelihood;
@@ -14,6 +15,7 @@ mod simulated;
 #[cfg(test)]
 pub(crate) mod tests;
 
+pub use bank::{BANK, Bank, Emulator, NotThisBank, Path, Place, Plan};
 pub use calibrate::{Calibration, CurvePoint, End, LEAST_POINTS, calibrate, calibrate_family};
 pub use compare::{Beside, Difference, Measured, Ours, Walls, compare};
 pub use likelihood::log_likelihood;

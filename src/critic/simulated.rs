@@ -67,7 +67,7 @@ fn displacement(quantity: MeasuredQuantity, tilt: f64, row: &Row) -> Simulated {
 }
 
 /// The load steps at which the wall was at rest, tilts ascending; the step in which it fell is not among them.
-fn at_rest(row: &Row) -> Vec<(f64, &StepRow)> {
+pub(super) fn at_rest(row: &Row) -> Vec<(f64, &StepRow)> {
     let reached = match row.outcome {
         Outcome::Collapsed { .. } => row.collapse_angle_deg,
         _ => row.largest_tilt_deg,

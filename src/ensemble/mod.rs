@@ -23,3 +23,4 @@ pub use progress::{Progress, Silent};
 pub use quantity::{Observed, Quantity};
 pub use record::{LimitAnalysis, Mechanism, Row, StepRow};
 pub use run::{Settings, run, run_with};
+pub(crate) use table::parquet;

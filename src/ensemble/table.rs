@@ -92,7 +92,7 @@ pub(crate) fn steps(rows: &[Row]) -> Result<Vec<u8>, RunError> {
 }
 
 /// Encodes sequentially, so that no thread count enters.
-fn parquet(table: &'static str, height: usize, columns: Vec<Column>) -> Result<Vec<u8>, RunError> {
+pub(crate) fn parquet(table: &'static str, height: usize, columns: Vec<Column>) -> Result<Vec<u8>, RunError> {
     let mut bytes = Vec::new();
     DataFrame::new(height, columns)
         .and_then(|mut frame| ParquetWriter::new(&mut bytes).set_parallel(false).finish(&mut frame))

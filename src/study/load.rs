@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use crate::study::build::{self, Parts};
 use crate::study::catalogue::{Catalogue, Used};
-use crate::study::checked::{InputFile, Study};
+use crate::study::checked::{Arm, InputFile, Study};
 use crate::study::fault::{Fault, Faults, Source};
 use crate::study::measured::Measurement;
 use crate::study::raw::{self, Node};
@@ -141,6 +141,17 @@ impl Study {
     pub(super) fn rehashed(mut self) -> Study {
         self.hash = hash_of(&self.effective);
         self
+    }
+
+    /// A study of other arms that follow from this one and from what is stated, by key; nothing measured or published is said
+    /// of them.
+    pub fn of_arms(mut self, name: String, arms: Vec<Arm>, decided_by: BTreeMap<String, String>) -> Study {
+        self.name = name;
+        self.arms = arms;
+        self.measured.clear();
+        self.published.clear();
+        self.effective.extend(decided_by);
+        self.rehashed()
     }
 
     /// The same study with another number of walls in every arm that has more than one; at least one.

@@ -14,6 +14,7 @@ mod keys;
 mod load;
 pub mod measured;
 mod mechanism;
+mod nuisance;
 mod published;
 mod quantity;
 mod raw;
@@ -37,6 +38,7 @@ pub use measured::{MeasuredKind, MeasuredQuantity, Measurement};
 pub use mechanism::{
     EndRelease, FrictionChange, JointClosure, Mechanisms, SpecimenScatter, Unfit, WedgeLoss,
 };
+pub use nuisance::{NUISANCES, Nuisance, nuisances};
 pub use reference::key_reference;
 pub use strength::Switched;
 

@@ -1,0 +1,86 @@
+//! The way of a wall up to its collapse, in numbers that hang smoothly on what it is made of.
+//!
+//! A wall that nears its collapse angle `a_c` moves faster and faster: displacement over tilt has a parabola's corner there, whatever
+//! the wall. Over `q = sqrt(1 - a/a_c)` it has none: the path is a smooth function from `q = 1` (upright) to 0 (falling), and the
+//! same few places tell it for all walls.
+
+use crate::critic::monotone::Monotone;
+use crate::critic::simulated::at_rest;
+use crate::ensemble::Row;
+use crate::math::{exp, ln, radians};
+use crate::model::Outcome;
+
+/// Places `q` at which a path is told: at tilts of 98, 91, 75, 51, 28 and 0 % of the collapse angle.
+pub const PLACES: [f64; 6] = [0.15, 0.3, 0.5, 0.7, 0.85, 1.0];
+/// Numbers of a path: the collapse angle, and three at every place.
+pub const NUMBERS: usize = 1 + 3 * PLACES.len();
+
+/// The path of a wall on the tilting table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Path {
+    /// Logarithm of the collapse angle (rad); at each place, the logarithm of the mean of the three points' displacements over
+    /// the tilt (m/rad); at each place the centre less the mean of the ends, over that mean; at each place the left end less the
+    /// right one, over that mean.
+    pub numbers: [f64; NUMBERS],
+}
+
+impl Path {
+    /// The path of a wall that fell; `None` where it did not, or leans uphill, or fell before it could be read twice.
+    pub fn of(row: &Row) -> Option<Path> {
+        let Outcome::Collapsed { .. } = row.outcome else { return None };
+        let collapse = row.collapse_angle_deg.filter(|angle| *angle > 0.0)?;
+        let mut read = Vec::new();
+        for (tilt, step) in at_rest(row).into_iter().filter(|(tilt, _)| *tilt > 0.0) {
+            let points = [step.left_m?, step.centre_m?, step.right_m?];
+            let mean = (points[0] + points[1] + points[2]) / 3.0;
+            if mean <= 0.0 {
+                return None;
+            }
+            let [left, centre, right] = points.map(|x| x / mean);
+            let q = (1.0 - tilt / collapse).max(0.0).sqrt();
+            read.push((q, [ln(mean / radians(tilt)), centre - 0.5 * (left + right), left - right]));
+        }
+        // Ascending in q; the last tilt comes first.
+        read.reverse();
+        read.dedup_by(|later, earlier| later.0 <= earlier.0);
+        if read.len() < 2 {
+            return None;
+        }
+        // Upright, where the wall answers in proportion to the tilt: on from the two lowest tilts.
+        let [next, first] = [read[read.len() - 2], read[read.len() - 1]];
+        let further = (1.0 - first.0) / (first.0 - next.0);
+        read.push((1.0, [0, 1, 2].map(|kind| first.1[kind] + further * (first.1[kind] - next.1[kind]))));
+        let q: Vec<f64> = read.iter().map(|(q, _)| *q).collect();
+        let mut numbers = [ln(radians(collapse)); NUMBERS];
+        for kind in 0..3 {
+            let values: Vec<f64> = read.iter().map(|(_, values)| values[kind]).collect();
+            let curve = Monotone::through(&q, &values);
+            for (place, &q) in PLACES.iter().enumerate() {
+                numbers[1 + kind * PLACES.len() + place] = curve.at(q);
+            }
+        }
+        Some(Path { numbers })
+    }
+
+    /// The collapse angle (rad).
+    pub fn collapse(&self) -> f64 {
+        exp(self.numbers[0])
+    }
+
+    /// Displacements (m) of the left end, the centre and the right end at a tilt (rad); `None` where the wall has fallen.
+    pub fn displacements(&self, tilt: f64) -> Option<[f64; 3]> {
+        let collapse = self.collapse();
+        if tilt > collapse {
+            return None;
+        }
+        let q = (1.0 - tilt / collapse).max(0.0).sqrt();
+        let [mean, bow, twist] = [0, 1, 2].map(|kind| {
+            let values = &self.numbers[1 + kind * PLACES.len()..][..PLACES.len()];
+            Monotone::through(&PLACES, values).at(q)
+        });
+        let mean = exp(mean) * tilt;
+        // centre - ends = bow, left - right = twist, and their mean is 1.
+        let ends = 1.0 - bow / 3.0;
+        Some([ends + 0.5 * twist, ends + bow, ends - 0.5 * twist].map(|x| x * mean))
+    }
+}

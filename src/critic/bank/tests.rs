@@ -1,0 +1,164 @@
+//! Paths and emulators of walls whose formula is known.
+
+use crate::critic::bank::emulator::Emulator;
+use crate::critic::bank::path::{NUMBERS, Path};
+use crate::critic::bank::{Bank, NotThisBank, Plan};
+use crate::critic::tests::fallen;
+use crate::ensemble::{Row, StepRow};
+use crate::math::radians;
+use crate::random::Streams;
+use crate::random::standard_normal;
+use crate::study::{Study, nuisances};
+
+/// Displacements (m) at a tilt of a wall that falls at another (deg): compliance, and a parabola's corner at the end.
+fn formula(tilt: f64, collapse: f64) -> [f64; 3] {
+    let mean = 2e-4 * tilt + 6e-3 * (1.0 - (1.0 - tilt / collapse).sqrt());
+    [0.9 * mean, 1.2 * mean, 0.9 * mean].map(|x| x + 1e-5 * tilt)
+}
+
+fn wall(collapse: f64, step: f64) -> Row {
+    let like = fallen(0, 0, collapse);
+    let at = |tilt: f64| {
+        let [left, centre, right] = formula(tilt, collapse).map(Some);
+        StepRow {
+            tilt_deg: Some(tilt),
+            left_m: left,
+            centre_m: centre,
+            right_m: right,
+            ..like.load_steps[0].clone()
+        }
+    };
+    let mut load_steps: Vec<StepRow> =
+        (0..).map(|k| f64::from(k) * step).take_while(|tilt| *tilt < collapse).map(at).collect();
+    load_steps.push(at(collapse));
+    Row { load_steps, ..like }
+}
+
+#[test]
+fn a_path_tells_what_was_read_between_its_steps() {
+    for collapse in [9.3, 17.8, 24.0] {
+        let path = Path::of(&wall(collapse, 2.5)).expect("it fell");
+        assert!((path.collapse() - radians(collapse)).abs() < 1e-12);
+        for share in [0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.95, 0.98] {
+            let tilt = share * collapse;
+            let found = path.displacements(radians(tilt)).expect("it stands");
+            for (found, exact) in found.iter().zip(formula(tilt, collapse)) {
+                // Cubics between steps of 2.5 deg and then between six places; the corner's last two per cent are the worst.
+                let allowed = if share > 0.95 { 0.03 } else { 0.012 };
+                assert!(
+                    (found / exact - 1.0).abs() < allowed,
+                    "{tilt} of {collapse}: {found:e} against {exact:e}"
+                );
+            }
+        }
+        assert!(path.displacements(radians(collapse) + 1e-9).is_none());
+    }
+}
+
+#[test]
+fn a_wall_that_did_not_fall_has_no_path() {
+    let mut stands = wall(20.0, 2.5);
+    stands.outcome = crate::model::Outcome::Equilibrium;
+    assert!(Path::of(&stands).is_none());
+    let mut leans_back = wall(20.0, 2.5);
+    for step in &mut leans_back.load_steps {
+        (step.left_m, step.centre_m, step.right_m) = (Some(-1e-3), Some(-1e-3), Some(-1e-3));
+    }
+    assert!(Path::of(&leans_back).is_none());
+}
+
+/// Scores and paths: the first number is a quadratic of the inputs, the second that and noise, the others are noise.
+fn bank(walls: u64) -> (Vec<Vec<f64>>, Vec<Path>) {
+    let normal = |stream: &mut crate::random::Stream| standard_normal::quantile(stream.uniform());
+    (0..walls)
+        .map(|wall| {
+            let streams = Streams::new(11, wall);
+            let scores: Vec<f64> = (0..3).map(|k| normal(&mut streams.of(&format!("input {k}")))).collect();
+            let mut noise = streams.of("noise");
+            let mut numbers = [0.0; NUMBERS];
+            numbers.iter_mut().for_each(|number| *number = 0.1 * normal(&mut noise));
+            let exact = quadratic(&scores);
+            (numbers[0], numbers[1]) = (exact, exact + numbers[1]);
+            (scores, Path { numbers })
+        })
+        .unzip()
+}
+
+fn quadratic(z: &[f64]) -> f64 {
+    0.3 + 0.5 * z[0] - 0.2 * z[1] + 0.1 * z[0] * z[1] - 0.05 * z[2] * z[2]
+}
+
+#[test]
+fn an_emulator_finds_the_curve_and_knows_what_it_does_not_tell() {
+    let (scores, paths) = bank(200);
+    let emulator = Emulator::fit(&scores, &paths).expect("twenty walls per term");
+    let at = [0.7, -1.1, 0.4];
+    let (found, exact) = (emulator.expected(&at).numbers, quadratic(&at));
+    // The penalty takes a thousandth; the noise of 0.1 leaves a mean over 200 walls with ten terms some 0.02.
+    assert!((found[0] - exact).abs() < 2e-3, "{} against {exact}", found[0]);
+    assert!((found[1] - exact).abs() < 0.06, "{} against {exact}", found[1]);
+    let explained = emulator.explained();
+    // All but what scores beyond 2.5 lose, which are taken to be there.
+    assert!(explained[0] > 0.995, "{explained:?}");
+    // Variances: the quadratic's 0.25 + 0.04 + 0.01 + 0.005, the noise's 0.01.
+    assert!((explained[1] - 0.305 / 0.315).abs() < 0.02, "{explained:?}");
+    // A curve through noise alone explains less than nothing of a wall that it does not know.
+    assert!(explained[2..].iter().all(|share| *share < 0.05), "{explained:?}");
+    let left: Vec<f64> = emulator.nearest(&at, 50).iter().map(|left| left[1]).collect();
+    let sigma = crate::stats::sigma(&left).expect("fifty");
+    // 0.1, from 50 values and with the error of a curve that does not know the wall: within 3 sigma of sigma.
+    assert!((sigma - 0.1).abs() < 0.03, "{sigma}");
+}
+
+#[test]
+fn an_emulator_needs_walls() {
+    let (scores, paths) = bank(19);
+    assert!(Emulator::fit(&scores, &paths).is_none());
+    let (scores, paths) = bank(20);
+    assert!(Emulator::fit(&scores, &paths).is_some());
+}
+
+#[test]
+fn the_nearest_walls_come_first() {
+    let (scores, paths) = bank(40);
+    let emulator = Emulator::fit(&scores, &paths).expect("enough");
+    let at = scores[7].clone();
+    let whole = emulator.nearest(&at, 40);
+    assert_eq!(whole.len(), 40);
+    assert_eq!(emulator.nearest(&at, 1), whole[..1]);
+    // What the wall itself is left with: its own number less the curve's, and further by its own pull.
+    let own = paths[7].numbers[1] - emulator.expected(&at).numbers[1];
+    let ratio = whole[0][1] / own;
+    assert!(ratio > 1.0 && ratio < 3.0, "{ratio}");
+}
+
+#[test]
+fn a_bank_comes_back_from_its_table_and_only_for_its_own_plan() {
+    let (plan, other) = (small(10), small(11));
+    let rows: Vec<Row> = (0..plan.places.len())
+        .map(|wall| if wall % 7 == 3 { standing(wall) } else { wall_of(wall) })
+        .collect();
+    let bank = Bank::of(&rows);
+    assert!(bank.paths[3].is_none() && bank.paths[4].is_some());
+    let bytes = bank.table(&plan).expect("it is written");
+    assert_eq!(bytes, bank.table(&plan).expect("it is written"));
+    assert_eq!(Bank::read(&bytes, &plan).expect("it is its own"), bank);
+    assert!(matches!(Bank::read(&bytes, &other), Err(NotThisBank::Design { .. })));
+    assert!(matches!(Bank::read(b"no table", &plan), Err(NotThisBank::Table(_))));
+}
+
+fn wall_of(number: usize) -> Row {
+    wall(10.0 + 0.01 * number as f64, 2.5)
+}
+
+fn standing(number: usize) -> Row {
+    Row { outcome: crate::model::Outcome::Equilibrium, ..wall_of(number) }
+}
+
+fn small(points: u64) -> Plan {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let study =
+        Study::load(&root.join("studies/tilting-table"), None).unwrap_or_else(|f| panic!("{f}")).study;
+    let priors = nuisances(&root.join("distributions")).unwrap_or_else(|lacks| panic!("{lacks}"));
+    Plan::new(&study, &[], &priors, points).unwrap_or_else(|f| panic!("{f}"))
+}
