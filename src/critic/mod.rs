@@ -4,6 +4,7 @@
 mod bank;
 mod calibrate;
 mod compare;
+mod diagnose;
 mod likelihood;
 mod monotone;
 mod neighbours;
@@ -18,6 +19,10 @@ pub(crate) mod tests;
 pub use bank::{BANK, Bank, Emulator, NotThisBank, Path, Place, Plan};
 pub use calibrate::{Calibration, CurvePoint, End, LEAST_POINTS, calibrate, calibrate_family};
 pub use compare::{Beside, Difference, Measured, Ours, Walls, compare};
+pub use diagnose::{
+    COVERED, Campaign, Contrast, Design, Feature, Limits, Ranked, Ranking, Reference, Scale, Seen, SelfTest,
+    SelfTestRow, Specimen, Truth, World, Wrong, features,
+};
 pub use likelihood::log_likelihood;
 pub use monotone::Monotone;
 pub use neighbours::{OtherPhi, other_friction};

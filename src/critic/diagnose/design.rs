@@ -1,0 +1,117 @@
+//! What was read on which specimen: the design that a measured campaign shares with every simulated one.
+
+use crate::study::{MeasuredKind, MeasuredQuantity, Measurement, Study};
+
+/// A tilting test.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Specimen {
+    /// Its name.
+    pub name: String,
+    /// Index of its arm.
+    pub family: usize,
+    /// Place in the order of the tests, from 1, where that is known.
+    pub order: Option<u32>,
+    /// Its readings, in the order of the file.
+    pub readings: Vec<Measurement>,
+}
+
+/// All tests, and what was measured on joints alone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Design {
+    /// The specimens that were tilted, in the order of the file.
+    pub specimens: Vec<Specimen>,
+    /// Two-stone tests: the index of their family's arm, and the reading.
+    pub joints: Vec<(usize, Measurement)>,
+    /// Lines of the file that a diagnosis does not use: weights, and readings after the platform has gone back.
+    pub unused: Vec<usize>,
+}
+
+/// What a reading shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Seen {
+    /// A value (SI).
+    Value(f64),
+    /// That the value is on the bound's side, and no more.
+    Beyond,
+    /// Nothing: the wall had fallen.
+    Nothing,
+}
+
+impl Design {
+    /// The design of a study's measurements, and what was seen, by specimen and reading, joints last.
+    pub fn of(study: &Study) -> (Design, Campaign) {
+        let mut design = Design { specimens: Vec::new(), joints: Vec::new(), unused: Vec::new() };
+        for m in &study.measured {
+            let Some(family) = study.arms.iter().position(|arm| arm.name == m.family) else {
+                design.unused.push(m.line);
+                continue;
+            };
+            match m.quantity {
+                MeasuredQuantity::JointKn | MeasuredQuantity::JointPhi => {
+                    design.joints.push((family, m.clone()))
+                }
+                MeasuredQuantity::SpecimenWeight | MeasuredQuantity::BlockWeight => {
+                    design.unused.push(m.line)
+                }
+                _ if !rises(m, &study.measured) => design.unused.push(m.line),
+                _ => {
+                    let of = |s: &&mut Specimen| s.name == m.specimen && s.family == family;
+                    match design.specimens.iter_mut().find(of) {
+                        Some(specimen) => specimen.readings.push(m.clone()),
+                        None => design.specimens.push(Specimen {
+                            name: m.specimen.clone(),
+                            family,
+                            order: m.order,
+                            readings: vec![m.clone()],
+                        }),
+                    }
+                }
+            }
+        }
+        let seen = |m: &Measurement| if m.kind.is_censored() { Seen::Beyond } else { Seen::Value(m.value) };
+        let specimens = design.specimens.iter().map(|s| s.readings.iter().map(seen).collect());
+        let campaign = Campaign {
+            specimens: specimens.collect(),
+            joints: design.joints.iter().map(|(_, m)| seen(m)).collect(),
+        };
+        (design, campaign)
+    }
+}
+
+/// What was seen in a campaign, measured or simulated, in the order of a [`Design`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Campaign {
+    /// By specimen and reading.
+    pub specimens: Vec<Vec<Seen>>,
+    /// The tests on joints.
+    pub joints: Vec<Seen>,
+}
+
+/// Whether a reading was taken before the platform went back: no reading on its specimen at an earlier stage has a larger tilt.
+fn rises(m: &Measurement, all: &[Measurement]) -> bool {
+    let Some(tilt) = m.tilt else { return true };
+    let before = all.iter().filter(|o| o.specimen == m.specimen && o.family == m.family && o.stage < m.stage);
+    before.filter_map(|o| o.tilt).all(|earlier| earlier <= tilt)
+}
+
+impl Seen {
+    /// What a value, its errors added, shows where a reading of this kind was taken.
+    pub(super) fn of(value: f64, m: &Measurement) -> Seen {
+        match m.kind {
+            MeasuredKind::Exact => Seen::Value(value),
+            MeasuredKind::Rounded => Seen::Value((value / m.resolution).round() * m.resolution),
+            MeasuredKind::Below if value < m.value => Seen::Beyond,
+            MeasuredKind::Above if value > m.value => Seen::Beyond,
+            MeasuredKind::Below | MeasuredKind::Above => Seen::Value(value),
+        }
+    }
+
+    /// As a number: what lies beyond a bound counts as lying on it. `None` where nothing was seen.
+    pub(super) fn told(self, m: &Measurement) -> Option<f64> {
+        match self {
+            Seen::Value(value) => Some(value),
+            Seen::Beyond => Some(m.value),
+            Seen::Nothing => None,
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! What a campaign looks like beside the base model, in few signed numbers that a person can name.
+//!
+//! Every reading is first set against what the base model shows of it, in units of its standard deviation there (joints unknown,
+//! stones random, errors of the reading). Of the readings of a specimen only a few contrasts are kept; of these, per family,
+//! the mean over its specimens and their scatter.
+
+use std::collections::BTreeMap;
+
+use crate::critic::diagnose::design::{Campaign, Design, Seen, Specimen};
+use crate::math::ln;
+use crate::stats;
+use crate::study::{MeasuredQuantity, Measurement};
+
+/// What is looked at on a specimen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Contrast {
+    /// The collapse angle.
+    Collapse,
+    /// Displacements as a whole.
+    Level,
+    /// Their growth with the tilt.
+    Growth,
+    /// Whether they grow ever faster: middle tilts against low and high ones.
+    Curvature,
+    /// The centre against the two ends.
+    Bow,
+    /// The left end against the right one.
+    Twist,
+    /// Readings taken after others of its kind had fallen, or missing: how many were reached.
+    Reached,
+}
+
+/// A number of a campaign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Feature {
+    /// Mean of a contrast over the specimens of a family (its arm's index).
+    Mean(usize, Contrast),
+    /// Logarithm of its scatter between them.
+    Scatter(usize, Contrast),
+    /// How a contrast goes with the order of the tests, over all specimens.
+    Order(Contrast),
+    /// A test on joints: the family and the quantity.
+    Joint(usize, MeasuredQuantity),
+}
+
+/// What readings are set against: mean and standard deviation of each in the base model, by specimen and reading, joints last.
+#[derive(Clone, Debug)]
+pub struct Scale {
+    specimens: Vec<Vec<[f64; 2]>>,
+    joints: Vec<[f64; 2]>,
+}
+
+/// Contrasts whose scatter is looked at.
+const SCATTERING: [Contrast; 3] = [Contrast::Collapse, Contrast::Level, Contrast::Growth];
+/// Contrasts that are followed over the order of the tests.
+const ORDERED: [Contrast; 2] = [Contrast::Collapse, Contrast::Level];
+/// A scatter below this counts as this: three readings rounded to the same step do not agree to all digits.
+const LEAST_SCATTER: f64 = 0.05;
+/// A standard deviation below this share of the largest value counts as this: readings at a bound do not vary at all.
+const LEAST_SHARE: f64 = 1e-3;
+
+impl Scale {
+    /// From campaigns of the base model.
+    pub fn of(design: &Design, campaigns: &[Campaign]) -> Scale {
+        let over = |m: &Measurement, seen: &dyn Fn(&Campaign) -> Seen| {
+            let told: Vec<f64> = campaigns.iter().filter_map(|campaign| seen(campaign).told(m)).collect();
+            let largest = told.iter().fold(m.value.abs(), |largest, x| largest.max(x.abs()));
+            let floor = m.error.max(LEAST_SHARE * largest);
+            [stats::mean(&told).unwrap_or(m.value), stats::sigma(&told).unwrap_or(0.0).max(floor)]
+        };
+        let specimens = design.specimens.iter().enumerate().map(|(index, specimen)| {
+            let readings = specimen.readings.iter().enumerate();
+            readings.map(|(k, m)| over(m, &|campaign| campaign.specimens[index][k])).collect()
+        });
+        let joints = design.joints.iter().enumerate();
+        let joints = joints.map(|(k, (_, m))| over(m, &|campaign| campaign.joints[k]));
+        Scale { specimens: specimens.collect(), joints: joints.collect() }
+    }
+}
+
+/// All features of a campaign that its design allows; a specimen that shows nothing of a contrast is not in it.
+pub fn features(design: &Design, scale: &Scale, campaign: &Campaign) -> BTreeMap<Feature, f64> {
+    let mut by_family: BTreeMap<(usize, Contrast), Vec<f64>> = BTreeMap::new();
+    let mut ordered: BTreeMap<Contrast, Vec<(f64, f64)>> = BTreeMap::new();
+    for ((specimen, seen), scale) in design.specimens.iter().zip(&campaign.specimens).zip(&scale.specimens) {
+        for (contrast, value) in contrasts(specimen, seen, scale) {
+            by_family.entry((specimen.family, contrast)).or_default().push(value);
+            if let Some(order) = specimen.order.filter(|_| ORDERED.contains(&contrast)) {
+                ordered.entry(contrast).or_default().push((f64::from(order), value));
+            }
+        }
+    }
+    let mut found = BTreeMap::new();
+    for ((family, contrast), values) in by_family {
+        found.extend(stats::mean(&values).map(|mean| (Feature::Mean(family, contrast), mean)));
+        if SCATTERING.contains(&contrast) && values.len() > 1 {
+            let scatter = stats::sigma(&values).unwrap_or(0.0).max(LEAST_SCATTER);
+            found.insert(Feature::Scatter(family, contrast), ln(scatter));
+        }
+    }
+    for (contrast, values) in ordered.into_iter().filter(|(_, values)| values.len() > 2) {
+        found.extend(slope(&values).map(|slope| (Feature::Order(contrast), slope)));
+    }
+    let mut joints: BTreeMap<Feature, Vec<f64>> = BTreeMap::new();
+    for (((family, m), seen), [mean, sd]) in design.joints.iter().zip(&campaign.joints).zip(&scale.joints) {
+        let told = seen.told(m).map(|told| (told - mean) / sd);
+        joints.entry(Feature::Joint(*family, m.quantity)).or_default().extend(told);
+    }
+    found.extend(joints.into_iter().filter_map(|(feature, values)| Some((feature, stats::mean(&values)?))));
+    found
+}
+
+/// The contrasts of a specimen, each in units that make independent readings one standard deviation.
+fn contrasts(specimen: &Specimen, seen: &[Seen], scale: &[[f64; 2]]) -> Vec<(Contrast, f64)> {
+    use MeasuredQuantity as Q;
+    let last = specimen.readings.iter().filter_map(|m| m.tilt).fold(0.0, f64::max);
+    let mut weighted: BTreeMap<Contrast, Vec<(f64, f64)>> = BTreeMap::new();
+    let (mut read, mut reached) = (0.0, 0.0);
+    for ((m, seen), [mean, sd]) in specimen.readings.iter().zip(seen).zip(scale) {
+        let Some(tilt) = m.tilt else {
+            let told = seen.told(m).map(|told| (1.0, (told - mean) / sd));
+            weighted.entry(Contrast::Collapse).or_default().extend(told);
+            continue;
+        };
+        read += 1.0;
+        let Some(told) = seen.told(m) else { continue };
+        reached += 1.0;
+        let (z, s) = ((told - mean) / sd, tilt / last);
+        let mut add = |contrast, weight| weighted.entry(contrast).or_default().push((weight, z));
+        if m.quantity != Q::DisplacementCentreMinusEnds {
+            add(Contrast::Level, 1.0);
+            add(Contrast::Growth, s - 0.5);
+            add(Contrast::Curvature, 12.0 * (s - 0.5) * (s - 0.5) - 1.0);
+        }
+        match m.quantity {
+            Q::DisplacementLeft => {
+                add(Contrast::Bow, -0.5);
+                add(Contrast::Twist, 1.0);
+            }
+            Q::DisplacementRight => {
+                add(Contrast::Bow, -0.5);
+                add(Contrast::Twist, -1.0);
+            }
+            Q::DisplacementCentre => add(Contrast::Bow, 1.0),
+            Q::DisplacementCentreMinusEnds => {
+                add(Contrast::Bow, 1.0);
+                add(Contrast::Growth, s - 0.5);
+            }
+            _ => {}
+        }
+    }
+    let mut found: Vec<(Contrast, f64)> = weighted
+        .into_iter()
+        .filter_map(|(contrast, terms)| {
+            let square: f64 = terms.iter().fold(0.0, |sum, (weight, _)| sum + weight * weight);
+            let sum: f64 = terms.iter().fold(0.0, |sum, (weight, z)| sum + weight * z);
+            (square > 0.0).then(|| (contrast, sum / square.sqrt()))
+        })
+        .collect();
+    if read > 0.0 {
+        found.push((Contrast::Reached, reached / read));
+    }
+    found
+}
+
+/// Slope of a straight line through points; `None` where all have the same place.
+fn slope(points: &[(f64, f64)]) -> Option<f64> {
+    let of = |k: fn(&(f64, f64)) -> f64| points.iter().map(k).collect::<Vec<_>>();
+    let (x, y) = (stats::mean(&of(|p| p.0))?, stats::mean(&of(|p| p.1))?);
+    let (above, below) = points
+        .iter()
+        .fold((0.0, 0.0), |(above, below), (a, b)| (above + (a - x) * (b - y), below + (a - x) * (a - x)));
+    (below > 0.0).then(|| above / below)
+}

@@ -1,0 +1,16 @@
+//! What the simulation gets wrong: measured campaigns beside those that the base model could have shown.
+
+mod design;
+mod features;
+mod network;
+mod ranking;
+#[cfg(test)]
+mod tests;
+mod world;
+mod wrong;
+
+pub use design::{Campaign, Design, Seen, Specimen};
+pub use features::{Contrast, Feature, Scale, features};
+pub use ranking::{COVERED, Limits, Ranked, Ranking, SelfTest, SelfTestRow};
+pub use world::{Truth, World};
+pub use wrong::{Reference, Wrong};

@@ -1,0 +1,218 @@
+//! Campaigns that could have been measured, from a bank: truth in, readings out.
+
+use std::collections::BTreeMap;
+
+use crate::critic::bank::{Bank, Emulator, Path, Plan};
+use crate::critic::diagnose::design::{Campaign, Design, Seen};
+use crate::ensemble::is_random;
+use crate::math::{atan, radians, tan};
+use crate::random::standard_normal::{cdf, quantile};
+use crate::random::{Family, Streams};
+use crate::study::{Acts, Arm, Described, MeasuredQuantity, Measurement, Nuisance, Study};
+
+/// A wall differs from the expected path as one of so many of its nearest neighbours in the bank does.
+const NEIGHBOURS: usize = 20;
+
+/// What is true of a simulated campaign. Scores are standard normal: where a quantity lies in its prior.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Truth {
+    /// Index of the mechanism; none for the base model.
+    pub cause: Option<usize>,
+    /// The parameters of the cause, in its order.
+    pub parameters: Vec<f64>,
+    /// The factors on the joints in the order of [`NUISANCES`](crate::study::NUISANCES), for each kind of joint.
+    pub joints: Vec<[f64; 3]>,
+}
+
+/// The walls of a family under a cause.
+#[derive(Debug)]
+struct Walls {
+    emulator: Emulator,
+    /// Whether walls of one family differ.
+    random: bool,
+}
+
+/// The walls of a bank that an emulator is fitted through.
+#[derive(Default)]
+struct Told {
+    scores: Vec<Vec<f64>>,
+    paths: Vec<Path>,
+    random: bool,
+}
+
+/// All that campaigns of a study are simulated from.
+#[derive(Debug)]
+pub struct World<'s> {
+    study: &'s Study,
+    mechanisms: &'s [Described],
+    nuisances: &'s [Nuisance; 3],
+    /// By family and cause.
+    walls: BTreeMap<(usize, Option<usize>), Walls>,
+    /// Kind of joint of each arm: arms whose joints are stated alike have the same.
+    kinds: Vec<usize>,
+}
+
+impl<'s> World<'s> {
+    /// From a bank; `None` where a family's base model has too few walls to tell others from them. A cause that has too few, or
+    /// cannot act on a family, has there the walls of the base model.
+    pub fn new(
+        study: &'s Study,
+        mechanisms: &'s [Described],
+        nuisances: &'s [Nuisance; 3],
+        plan: &Plan,
+        bank: &Bank,
+    ) -> Option<World<'s>> {
+        let mut grouped: BTreeMap<(usize, Option<usize>), Told> = BTreeMap::new();
+        for ((place, path), arm) in plan.places.iter().zip(&bank.paths).zip(&plan.study.arms) {
+            let told = grouped.entry((place.family, place.cause)).or_default();
+            told.random |= is_random(arm);
+            if let Some(path) = path {
+                let joints = place.joints.iter().copied().map(quantile);
+                let parameters = place.parameters.iter().copied().map(quantile);
+                let mut all: Vec<f64> = joints.collect();
+                all.extend(varying(mechanisms, place.cause, parameters));
+                told.scores.push(all);
+                told.paths.push(path.clone());
+            }
+        }
+        let mut walls = BTreeMap::new();
+        for (key, Told { scores, paths, random }) in grouped {
+            match Emulator::fit(&scores, &paths) {
+                Some(emulator) => drop(walls.insert(key, Walls { emulator, random })),
+                None if key.1.is_none() => return None,
+                None => {}
+            }
+        }
+        Some(World { study, mechanisms, nuisances, walls, kinds: kinds(&study.arms) })
+    }
+
+    /// Kinds of joints that differ in what is stated of them.
+    pub fn joint_kinds(&self) -> usize {
+        self.kinds.iter().max().map_or(0, |last| last + 1)
+    }
+
+    /// The truth with a cause, drawn from the priors.
+    pub fn drawn(&self, cause: Option<usize>, streams: &Streams) -> Truth {
+        let mut scores = streams.of("truth");
+        let mut score = || quantile(scores.uniform());
+        let joints = (0..self.joint_kinds()).map(|_| [score(), score(), score()]).collect();
+        let count = cause.map_or(0, |index| self.mechanisms[index].parameters.len());
+        Truth { cause, parameters: (0..count).map(|_| score()).collect(), joints }
+    }
+
+    /// A campaign of a design under a truth: a pure function of these and the streams.
+    pub fn campaign(&self, design: &Design, truth: &Truth, streams: &Streams) -> Campaign {
+        let score = |name: &str| quantile(streams.of(name).uniform());
+        let mut common = BTreeMap::new();
+        let mut read = |value: f64, m: &Measurement, name: &str| {
+            let shared = *common
+                .entry(m.quantity)
+                .or_insert_with(|| score(&format!("common error {}", m.quantity.name())));
+            Seen::of(value + m.common_error * shared + m.error * score(name), m)
+        };
+        let specimens = design.specimens.iter().enumerate().map(|(index, specimen)| {
+            let path = self.wall(specimen.family, truth, index, streams);
+            let readings = specimen.readings.iter().enumerate();
+            readings
+                .map(|(k, m)| match self.shown(&path, m, truth) {
+                    Some(value) => read(value, m, &format!("error {index} {k}")),
+                    None => Seen::Nothing,
+                })
+                .collect()
+        });
+        let specimens: Vec<Vec<Seen>> = specimens.collect();
+        let joints = design.joints.iter().enumerate();
+        let joints = joints
+            .map(|(k, (family, m))| read(self.joint(*family, m, truth), m, &format!("joint error {k}")));
+        Campaign { specimens, joints: joints.collect() }
+    }
+
+    /// The path of a specimen.
+    fn wall(&self, family: usize, truth: &Truth, specimen: usize, streams: &Streams) -> Path {
+        let own = self.walls.get(&(family, truth.cause)).map(|walls| (walls, truth.cause));
+        let (walls, cause) = own.unwrap_or_else(|| (&self.walls[&(family, None)], None));
+        let mut scores = truth.joints[self.kinds[family]].to_vec();
+        if cause.is_some() {
+            scores.extend(varying(self.mechanisms, cause, truth.parameters.iter().copied()));
+        }
+        let mut path = walls.emulator.expected(&scores);
+        let near = walls.emulator.nearest(&scores, NEIGHBOURS);
+        // Walls in which nothing is drawn are alike: what is left is the emulator's error, and they share it.
+        let name = match walls.random {
+            true => format!("stones {specimen}"),
+            false => format!("stones of family {family}"),
+        };
+        let own = near[streams.of(&name).below(near.len())];
+        path.numbers.iter_mut().zip(own).for_each(|(number, left)| *number += left);
+        path
+    }
+
+    /// What a wall shows of a reading before its errors; `None` where it has fallen.
+    fn shown(&self, path: &Path, m: &Measurement, truth: &Truth) -> Option<f64> {
+        use MeasuredQuantity as Q;
+        if m.quantity == Q::CollapseAngle {
+            return Some(path.collapse());
+        }
+        let [left, centre, right] = path.displacements(m.tilt?)?.map(|x| self.gauge(x, truth));
+        Some(match m.quantity {
+            Q::DisplacementLeft => left,
+            Q::DisplacementCentre => centre,
+            Q::DisplacementRight => right,
+            Q::DisplacementCentreMinusEnds => centre - 0.5 * (left + right),
+            _ => (left + centre + right) / 3.0,
+        })
+    }
+
+    /// A parameter of the cause (in its key's unit), if this mechanism is the cause.
+    fn parameter(&self, truth: &Truth, mechanism: &str, key: &str) -> Option<f64> {
+        let described = &self.mechanisms[truth.cause?];
+        let at = described.parameters.iter().position(|p| p.key == key && described.name == mechanism)?;
+        Some(described.parameters[at].prior.quantile(cdf(truth.parameters[at])))
+    }
+
+    /// What a gauge shows of a displacement.
+    fn gauge(&self, displacement: f64, truth: &Truth) -> f64 {
+        let factor = self.parameter(truth, "gauge_scale", "factor").unwrap_or(1.0);
+        factor * displacement + self.parameter(truth, "gauge_offset", "offset_m").unwrap_or(0.0)
+    }
+
+    /// What a test on two stones shows of a family's joints: stiffness over the whole joint, and friction before it weakens.
+    fn joint(&self, family: usize, m: &Measurement, truth: &Truth) -> f64 {
+        let arm = &self.study.arms[family];
+        let factor = |k: usize| self.nuisances[k].prior.quantile(cdf(truth.joints[self.kinds[family]][k]));
+        if m.quantity == MeasuredQuantity::JointKn {
+            let kn = arm.kn_points[arm.kn_points.len().saturating_sub(1) / 2];
+            return kn * factor(0) * self.parameter(truth, "contact_area", "share").unwrap_or(1.0);
+        }
+        let phi = radians(arm.joint.phi_deg.mean() * factor(1));
+        atan(tan(phi) * self.parameter(truth, "friction", "factor").unwrap_or(1.0))
+    }
+
+    /// The causes that a diagnosis can tell of: those with walls of their own in some family, and those that act on readings.
+    pub fn causes(&self) -> Vec<usize> {
+        let has_walls = |cause: usize| self.walls.keys().any(|(_, own)| *own == Some(cause));
+        let told = |(index, m): &(usize, &Described)| m.acts == Acts::Readings || has_walls(*index);
+        self.mechanisms.iter().enumerate().filter(told).map(|(index, _)| index).collect()
+    }
+}
+
+/// Scores of the parameters that vary.
+fn varying(mechanisms: &[Described], cause: Option<usize>, scores: impl Iterator<Item = f64>) -> Vec<f64> {
+    let parameters = cause.map_or(&[][..], |index| &mechanisms[index].parameters);
+    let varies = |prior: &Family| !matches!(prior, Family::Constant { .. });
+    parameters.iter().zip(scores).filter(|(p, _)| varies(&p.prior)).map(|(_, score)| score).collect()
+}
+
+/// Numbers the kinds of joints.
+fn kinds(arms: &[Arm]) -> Vec<usize> {
+    let mut seen: Vec<&Arm> = Vec::new();
+    arms.iter()
+        .map(|arm| {
+            let alike = |other: &&Arm| other.joint == arm.joint && other.kn_points == arm.kn_points;
+            seen.iter().position(alike).unwrap_or_else(|| {
+                seen.push(arm);
+                seen.len() - 1
+            })
+        })
+        .collect()
+}

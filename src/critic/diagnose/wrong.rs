@@ -1,0 +1,154 @@
+//! Is anything wrong beyond error and natural scatter? The features that joints within their priors do not explain, the largest
+//! of them against the largest that campaigns without any effect show.
+
+use std::collections::BTreeMap;
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::critic::diagnose::design::{Campaign, Design};
+use crate::critic::diagnose::features::{Feature, Scale, features};
+use crate::critic::diagnose::world::{Truth, World};
+use crate::random::Streams;
+use crate::stats;
+
+/// Campaigns that the scale of the readings comes from.
+const SCALING: u64 = 300;
+/// A feature counts that so large a share of the campaigns without effect have.
+const COMMON: f64 = 0.5;
+
+/// The base model as a design sees it.
+#[derive(Debug)]
+pub struct Reference {
+    /// What readings are set against.
+    pub scale: Scale,
+    /// The features, in order.
+    pub features: Vec<Feature>,
+    mean: DVector<f64>,
+    /// How the features go with the scores of the joints.
+    slopes: DMatrix<f64>,
+    /// Inverse of the covariance of what the joints leave.
+    precision: DMatrix<f64>,
+    /// Standard deviation of what a fit of the joints leaves, by feature.
+    spread: DVector<f64>,
+    /// The largest such excess of each campaign without effect, ascending.
+    largest: Vec<f64>,
+}
+
+/// What is off in a campaign.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wrong {
+    /// Share of campaigns without any effect whose largest excess is at least as large: with `n` campaigns at least 1/(n + 1).
+    pub p_value: f64,
+    /// The excess of every feature over what the best joints explain, in standard deviations of campaigns without effect; `None`
+    /// where the campaign does not show the feature.
+    pub excess: BTreeMap<Feature, Option<f64>>,
+    /// Scores of the joints that explain most, by kind of joint.
+    pub joints: Vec<[f64; 3]>,
+}
+
+impl Reference {
+    /// From `count` campaigns of the base model with the joints drawn from their priors; a pure function of the world, the design
+    /// and the seed. `None` where nothing can be told.
+    pub fn new(world: &World<'_>, design: &Design, count: u64, seed: u64) -> Option<Reference> {
+        let one = |campaign: u64| -> (Truth, Campaign) {
+            let streams = Streams::new(seed, campaign);
+            let truth = world.drawn(None, &streams);
+            let shown = world.campaign(design, &truth, &streams);
+            (truth, shown)
+        };
+        let scaling: Vec<Campaign> = (0..SCALING).map(|k| one(k).1).collect();
+        let scale = Scale::of(design, &scaling);
+        let simulated: Vec<(Vec<f64>, BTreeMap<Feature, f64>)> = (SCALING..SCALING + count)
+            .map(|k| {
+                let (truth, campaign) = one(k);
+                (truth.joints.concat(), features(design, &scale, &campaign))
+            })
+            .collect();
+        let mut seen: BTreeMap<Feature, usize> = BTreeMap::new();
+        simulated.iter().flat_map(|(_, found)| found.keys()).for_each(|f| *seen.entry(*f).or_default() += 1);
+        let enough = |n: &usize| *n as f64 >= COMMON * count as f64;
+        let kept: Vec<Feature> = seen.iter().filter(|(_, n)| enough(n)).map(|(f, _)| *f).collect();
+        if kept.is_empty() {
+            return None;
+        }
+        let column =
+            |f: &Feature| simulated.iter().filter_map(|(_, found)| found.get(f).copied()).collect::<Vec<_>>();
+        let mean =
+            DVector::from_iterator(kept.len(), kept.iter().map(|f| stats::mean(&column(f)).unwrap_or(0.0)));
+        // What a campaign does not show is taken to be as always, for the slopes alone.
+        let shown = DMatrix::from_fn(simulated.len(), kept.len(), |row, k| {
+            simulated[row].1.get(&kept[k]).map_or(0.0, |x| x - mean[k])
+        });
+        let inputs = simulated[0].0.len();
+        let scores = DMatrix::from_fn(simulated.len(), inputs, |row, k| simulated[row].0[k]);
+        let normal = scores.transpose() * &scores;
+        let slopes = normal.cholesky()?.solve(&(scores.transpose() * &shown)).transpose();
+        let left = &shown - &scores * slopes.transpose();
+        let mut covariance = left.transpose() * &left / simulated.len() as f64;
+        for k in 0..kept.len() {
+            // A feature that never varies tells nothing, and must not divide.
+            covariance[(k, k)] = covariance[(k, k)] * (1.0 + 1e-6) + 1e-9;
+        }
+        let precision = covariance.cholesky()?.inverse();
+        let spread = DVector::from_element(kept.len(), 1.0);
+        let mut reference =
+            Reference { scale, features: kept, mean, slopes, precision, spread, largest: Vec::new() };
+        let excesses: Vec<Vec<Option<f64>>> =
+            simulated.iter().map(|(_, found)| reference.excess(found).0).collect();
+        for k in 0..reference.features.len() {
+            let squares: Vec<f64> = excesses.iter().filter_map(|e| e[k]).map(|x| x * x).collect();
+            reference.spread[k] = (stats::sum(&squares) / squares.len().max(1) as f64).sqrt().max(1e-6);
+        }
+        let mut largest: Vec<f64> = excesses
+            .iter()
+            .map(|excess| {
+                largest(excess.iter().zip(reference.spread.iter()).map(|(x, spread)| x.map(|x| x / spread)))
+            })
+            .collect();
+        largest.sort_by(f64::total_cmp);
+        reference.largest = largest;
+        Some(reference)
+    }
+
+    /// What is wrong with a campaign of the same design.
+    pub fn judge(&self, design: &Design, campaign: &Campaign) -> Wrong {
+        let found = features(design, &self.scale, campaign);
+        let (excess, joints) = self.excess(&found);
+        let largest = largest(excess.iter().copied());
+        let as_large = self.largest.len() - self.largest.partition_point(|x| *x < largest);
+        Wrong {
+            p_value: (as_large + 1) as f64 / (self.largest.len() + 1) as f64,
+            excess: self.features.iter().copied().zip(excess).collect(),
+            joints: joints.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect(),
+        }
+    }
+
+    /// The excess of each feature over the joints that explain most (Gaussian, within their priors), and the scores of these.
+    fn excess(&self, found: &BTreeMap<Feature, f64>) -> (Vec<Option<f64>>, Vec<f64>) {
+        let shown: Vec<usize> =
+            (0..self.features.len()).filter(|&k| found.contains_key(&self.features[k])).collect();
+        let off = DVector::from_fn(self.features.len(), |k, _| {
+            found.get(&self.features[k]).map_or(0.0, |x| x - self.mean[k])
+        });
+        // What is not shown weighs nothing.
+        let mut slopes = self.slopes.clone();
+        let mut precision = self.precision.clone();
+        for k in (0..self.features.len()).filter(|k| !shown.contains(k)) {
+            slopes.row_mut(k).fill(0.0);
+            precision.row_mut(k).fill(0.0);
+            precision.column_mut(k).fill(0.0);
+        }
+        let weighted = slopes.transpose() * &precision;
+        let normal = &weighted * &slopes + DMatrix::identity(slopes.ncols(), slopes.ncols());
+        let scores = normal
+            .cholesky()
+            .map_or_else(|| DVector::zeros(slopes.ncols()), |normal| normal.solve(&(&weighted * &off)));
+        let rest = &off - &self.slopes * &scores;
+        let excess = (0..self.features.len()).map(|k| shown.contains(&k).then(|| rest[k] / self.spread[k]));
+        (excess.collect(), scores.iter().copied().collect())
+    }
+}
+
+fn largest(excess: impl Iterator<Item = Option<f64>>) -> f64 {
+    excess.flatten().map(f64::abs).fold(0.0, f64::max)
+}
