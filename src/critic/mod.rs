@@ -20,8 +20,9 @@ pub use bank::{BANK, Bank, Emulator, NotThisBank, Path, Place, Plan};
 pub use calibrate::{Calibration, CurvePoint, End, LEAST_POINTS, calibrate, calibrate_family};
 pub use compare::{Beside, Difference, Measured, Ours, Walls, compare};
 pub use diagnose::{
-    COVERED, Campaign, Contrast, Design, Feature, Limits, Ranked, Ranking, Reference, Scale, Seen, SelfTest,
-    SelfTestRow, Specimen, Truth, World, Wrong, features,
+    COVERED, Campaign, Contrast, Design, Diagnosis, Feature, Guarded, Limits, MOST_AMBIGUOUS, Ranked,
+    Ranking, Reference, Scale, Seen, SelfTest, SelfTestRow, Specimen, Truth, Verdict, World, Wrong,
+    diagnosed, features, guarded,
 };
 pub use likelihood::log_likelihood;
 pub use monotone::Monotone;

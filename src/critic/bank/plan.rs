@@ -93,6 +93,8 @@ impl Plan {
         });
         let mut decided: BTreeMap<String, String> = priors.chain(parameters).collect();
         decided.insert("bank.points".to_owned(), points.to_string());
+        let named: Vec<&str> = families.iter().map(|&family| study.arms[family].name.as_str()).collect();
+        decided.insert("bank.families".to_owned(), named.join(", "));
         let name = format!("{}-bank", study.name);
         Ok(Plan { study: base.of_arms(name, arms, decided), places })
     }
@@ -152,6 +154,18 @@ mod tests {
             assert_eq!(&more.study.arms[at], arm);
         }
         assert_ne!(few.study.hash, more.study.hash);
+    }
+
+    #[test]
+    fn other_families_make_another_design() {
+        let (study, mechanisms, plan) = planned(2);
+        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let nuisances = nuisances(&root.join("distributions")).unwrap_or_else(|lacks| panic!("{lacks}"));
+        let mut fewer = study;
+        fewer.measured.retain(|m| m.family != "cbl");
+        let other = Plan::new(&fewer, &mechanisms, &nuisances, 2).unwrap_or_else(|f| panic!("{f}"));
+        assert!(other.places.len() < plan.places.len());
+        assert_ne!(other.study.hash, plan.study.hash);
     }
 
     #[test]

@@ -78,6 +78,21 @@ impl Scale {
     }
 }
 
+impl Scale {
+    /// Every reading in its units, with its family, joints' tests not among them; `None` where nothing was seen.
+    pub fn readings(&self, design: &Design, campaign: &Campaign) -> Vec<(usize, Option<f64>)> {
+        let specimens = design.specimens.iter().zip(&campaign.specimens).zip(&self.specimens);
+        specimens
+            .flat_map(|((specimen, seen), scale)| {
+                let readings = specimen.readings.iter().zip(seen).zip(scale);
+                readings.map(|((m, seen), [mean, sd])| {
+                    (specimen.family, seen.told(m).map(|told| (told - mean) / sd))
+                })
+            })
+            .collect()
+    }
+}
+
 /// All features of a campaign that its design allows; a specimen that shows nothing of a contrast is not in it.
 pub fn features(design: &Design, scale: &Scale, campaign: &Campaign) -> BTreeMap<Feature, f64> {
     let mut by_family: BTreeMap<(usize, Contrast), Vec<f64>> = BTreeMap::new();

@@ -2,15 +2,19 @@
 
 mod design;
 mod features;
+mod guard;
 mod network;
 mod ranking;
 #[cfg(test)]
 mod tests;
+mod verdict;
 mod world;
 mod wrong;
 
 pub use design::{Campaign, Design, Seen, Specimen};
 pub use features::{Contrast, Feature, Scale, features};
+pub use guard::{Guarded, guarded};
 pub use ranking::{COVERED, Limits, Ranked, Ranking, SelfTest, SelfTestRow};
+pub use verdict::{Diagnosis, MOST_AMBIGUOUS, Verdict, diagnosed};
 pub use world::{Truth, World};
 pub use wrong::{Reference, Wrong};

@@ -85,7 +85,7 @@ impl Ranking {
 }
 
 /// What the network sees: every excess and the scores of the joints, large ones by their logarithm.
-fn inputs(wrong: &Wrong) -> Vec<f64> {
+pub(super) fn inputs(wrong: &Wrong) -> Vec<f64> {
     let tamed = |x: f64| x.signum() * ln(1.0 + x.abs());
     let excess = wrong.excess.values().map(|x| tamed(x.unwrap_or(0.0)));
     excess.chain(wrong.joints.iter().flatten().map(|x| tamed(*x))).collect()
@@ -125,11 +125,13 @@ pub struct Limits {
     pub found: f64,
     /// A cause is named at this probability or above.
     pub named: f64,
+    /// A cause that fits a campaign worse than all but so large a share of its own does not explain it.
+    pub guard: f64,
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        Limits { found: 0.05, named: 0.8 }
+        Limits { found: 0.05, named: 0.8, guard: 0.05 }
     }
 }
 

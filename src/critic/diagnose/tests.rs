@@ -1,7 +1,9 @@
 //! Campaigns of walls whose formula is known: what is seen of them, and whether anything is found where nothing is wrong.
 
 use crate::critic::bank::{Bank, Path, Plan};
-use crate::critic::diagnose::{Campaign, Contrast, Design, Feature, Limits, Ranking, Reference, Seen, World};
+use crate::critic::diagnose::{
+    Campaign, Contrast, Design, Feature, Limits, Ranking, Reference, Seen, Verdict, World, diagnosed,
+};
 use crate::math::{ln, radians};
 use crate::random::Streams;
 use crate::random::standard_normal::quantile;
@@ -218,4 +220,44 @@ fn strong_causes_are_named_and_those_that_do_nothing_are_not() {
     assert!(test.rows[0].cause.is_none() && test.rows[0].found < 15 && test.rows[0].misnamed < 3);
     // Nine in ten of the sets hold the cause; 95 % of 100 such counts are above 84, and those found are a choice of them.
     assert!(creep.covered as f64 > 0.8 * creep.found as f64, "{creep:?}");
+}
+
+#[test]
+fn a_cause_outside_the_catalogue_is_not_given_the_name_of_one_inside() {
+    let made = made();
+    let world = made.world();
+    let (design, _) = Design::of(&made.study);
+    let reference = Reference::new(&world, &design, 1000, 77).expect("it can be told");
+    let ranking = Ranking::trained(&world, &design, &reference, 300, 5);
+    let limits = Limits::default();
+    let creep = made.mechanisms.iter().position(|m| m.name == "creep").expect("in the catalogue");
+    let (mut right, mut wrongly, mut unexplained) = (0, 0, 0);
+    for k in 0..40 {
+        let streams = Streams::new(31, k);
+        let mut truth = world.drawn(Some(creep), &streams);
+        truth.parameters[0] = 1.5;
+        let shown = world.campaign(&design, &truth, &streams);
+        right += usize::from(
+            diagnosed(&world, &design, (&reference, &ranking), &shown, &limits, 1).verdict
+                == Verdict::Named(creep),
+        );
+        // One specimen of each family moves, and far; creep would move all of them.
+        let base = world.drawn(None, &streams);
+        let mut other = world.campaign(&design, &base, &streams);
+        for (specimen, seen) in design.specimens.iter().zip(&mut other.specimens) {
+            for (m, seen) in specimen.readings.iter().zip(seen).filter(|(m, _)| m.tilt.is_some()) {
+                if let (true, Seen::Value(value)) = (specimen.name.ends_with('1'), &*seen) {
+                    *seen = Seen::of(value + 0.15, m);
+                }
+            }
+        }
+        match diagnosed(&world, &design, (&reference, &ranking), &other, &limits, 1).verdict {
+            Verdict::Named(_) => wrongly += 1,
+            Verdict::Unexplained => unexplained += 1,
+            _ => {}
+        }
+    }
+    println!("{right} of 40 named; of the others {wrongly} named, {unexplained} unexplained");
+    assert!(right > 28, "{right}");
+    assert!(wrongly < 4 && unexplained > 20, "{wrongly} {unexplained}");
 }

@@ -1,0 +1,90 @@
+//! Does a cause explain all that was seen, or only what it was chosen by? Single readings are set against those of the cause's own
+//! campaigns that look most alike; a cause outside the catalogue fits the few numbers that the network sees better than it fits
+//! these.
+
+use crate::critic::diagnose::design::{Campaign, Design};
+use crate::critic::diagnose::ranking::inputs;
+use crate::critic::diagnose::world::{Truth, World};
+use crate::critic::diagnose::wrong::Reference;
+use crate::random::Streams;
+use crate::stats;
+
+/// Campaigns of the cause.
+const POOL: u64 = 1500;
+/// Of these so many look most alike.
+const ALIKE: usize = 60;
+/// So many of them are judged as if they had been measured.
+const JUDGED: usize = 300;
+/// A reading is set against the others where so many of these show it.
+const SHOWN: usize = 15;
+
+/// What the guard says of a cause.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Guarded {
+    /// Share of the cause's own campaigns that fit no better.
+    pub p_value: f64,
+    /// The truths of the campaigns that look most alike: draws from what the parameters and the joints may be.
+    pub alike: Vec<Truth>,
+}
+
+/// A campaign of the cause.
+struct Own {
+    truth: Truth,
+    inputs: Vec<f64>,
+    readings: Vec<(usize, Option<f64>)>,
+}
+
+/// Asks the guard about a cause (none: the base model); a pure function of its arguments.
+pub fn guarded(
+    world: &World<'_>,
+    design: &Design,
+    reference: &Reference,
+    cause: Option<usize>,
+    campaign: &Campaign,
+    seed: u64,
+) -> Guarded {
+    let seen = |truth: Truth, campaign: &Campaign| Own {
+        truth,
+        inputs: inputs(&reference.judge(design, campaign)),
+        readings: reference.scale.readings(design, campaign),
+    };
+    let pool: Vec<Own> = (0..POOL)
+        .map(|k| {
+            let streams = Streams::new(seed, k);
+            let truth = world.drawn(cause, &streams);
+            let shown = world.campaign(design, &truth, &streams);
+            seen(truth, &shown)
+        })
+        .collect();
+    let none = Truth { cause: None, parameters: Vec::new(), joints: Vec::new() };
+    let measured = seen(none, campaign);
+    let (misfit, near) = misfit(&measured, &pool, None);
+    let worse = (0..JUDGED).filter(|&k| self::misfit(&pool[k], &pool, Some(k)).0 >= misfit).count();
+    let alike = near.into_iter().map(|k| pool[k].truth.clone()).collect();
+    Guarded { p_value: (worse + 1) as f64 / (JUDGED + 1) as f64, alike }
+}
+
+/// The largest of the families' mean squares of the readings less those of the campaigns most alike, in standard deviations of
+/// these; and which they are. `but` is not among them.
+fn misfit(one: &Own, pool: &[Own], but: Option<usize>) -> (f64, Vec<usize>) {
+    let distance =
+        |other: &Own| one.inputs.iter().zip(&other.inputs).fold(0.0, |sum, (a, b)| sum + (a - b) * (a - b));
+    let others = pool.iter().enumerate().filter(|(k, _)| Some(*k) != but);
+    let mut order: Vec<(f64, usize)> = others.map(|(k, other)| (distance(other), k)).collect();
+    order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let near: Vec<usize> = order.into_iter().take(ALIKE).map(|(_, k)| k).collect();
+    let families = one.readings.iter().map(|(family, _)| family + 1).max().unwrap_or(0);
+    let mut squares: Vec<Vec<f64>> = vec![Vec::new(); families];
+    for (place, (family, shown)) in one.readings.iter().enumerate() {
+        let Some(z) = shown else { continue };
+        let theirs: Vec<f64> = near.iter().filter_map(|&k| pool[k].readings[place].1).collect();
+        let (Some(mean), Some(sigma)) = (stats::mean(&theirs), stats::sigma(&theirs)) else { continue };
+        if theirs.len() >= SHOWN {
+            // A reading at its bound in all of them does not vary: half a standard deviation of the base model then.
+            let off = (z - mean) / sigma.max(0.5);
+            squares[*family].push(off * off);
+        }
+    }
+    let worst = squares.iter().filter_map(|squares| stats::mean(squares)).fold(0.0, f64::max);
+    (worst, near)
+}
