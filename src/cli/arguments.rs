@@ -70,6 +70,13 @@ pub(crate) enum Verb {
          distributions/nuisance beside the folder of the studies.\n\n{CODES}"
     ))]
     Bank(Bank),
+    /// What does the simulation get wrong beyond errors and natural scatter, and which mechanism explains it, or which few, or none?
+    #[command(after_help = format!(
+        "Example: pirca diagnose studies/tilting-table --measured my-tests.csv\n\n\
+         Writes verdict.json. The walls it needs are simulated once for a design, which takes hours; see bank.\n\n{CODES}\n\
+         Every verdict (named, ambiguous, unexplained, nothing found) ends with 0."
+    ))]
+    Diagnose(Diagnose),
     /// Which mechanisms could the measured data see? What each of them changes in every quantity of measured.csv, in units of
     /// the quantity's error, for a study on the tilting table.
     #[command(after_help = format!(
@@ -237,6 +244,34 @@ pub(crate) struct Sensitivity {
     #[arg(long, value_name = "Q", default_value = "0.84", value_parser = sensitivity::quantile, allow_negative_numbers = true)]
     pub quantile: f64,
     /// Worker threads [default: one per processor]. No result depends on their number.
+    #[arg(long, value_name = "T")]
+    pub threads: Option<NonZero<usize>>,
+}
+
+/// Arguments of `diagnose`.
+#[derive(Args, Debug)]
+pub(crate) struct Diagnose {
+    #[command(flatten)]
+    pub which: Which,
+    /// What was measured [default: the study's measured.csv].
+    #[arg(long, value_name = "FILE")]
+    pub measured: Option<PathBuf>,
+    /// Folder of the bank [default: runs/<study>-bank].
+    #[arg(long, value_name = "DIR")]
+    pub bank: Option<PathBuf>,
+    /// Points in the priors for each mechanism that the bank has.
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u64).range(10..=100_000))]
+    pub points: u64,
+    /// Stop with the command to run, where there is no bank.
+    #[arg(long)]
+    pub no_build: bool,
+    /// Output folder [default: runs/<study>-diagnosis].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Seed of the diagnosis instead of the study's; the bank keeps the study's.
+    #[arg(long, value_name = "S")]
+    pub seed: Option<u64>,
+    /// Worker threads of the bank [default: one per processor]. No result depends on their number.
     #[arg(long, value_name = "T")]
     pub threads: Option<NonZero<usize>>,
 }

@@ -1,6 +1,7 @@
 //! `pirca bank`: the walls that diagnoses of a study's measurements rest on.
 
-use std::path::PathBuf;
+use std::num::NonZero;
+use std::path::{Path, PathBuf};
 
 use crate::cli::arguments::Bank;
 use crate::cli::failure::Failure;
@@ -13,27 +14,30 @@ use crate::study::{described, nuisances};
 pub(crate) fn bank(arguments: &Bank) -> Result<(), Failure> {
     let study = locate::study(&arguments.which)?.study;
     if study.measured.is_empty() {
-        return Err(Failure::Input(format!(
-            "{}: nothing was measured; a bank is made for the families of a measured.csv",
-            study.name
-        )));
+        let text = "nothing was measured; a bank is made for the families of a measured.csv";
+        return Err(Failure::Input(format!("{}: {text}", study.name)));
     }
     let distributions = locate::folder(&arguments.which.study)?.join("../../distributions");
     let mechanisms = described(&distributions).map_err(Failure::Input)?;
     let nuisances = nuisances(&distributions).map_err(Failure::Input)?;
-    let plan = Plan::new(&study, &mechanisms, &nuisances, arguments.points)
-        .map_err(|faults| Failure::Input(faults.to_string()))?;
+    let plan = Plan::new(&study, &mechanisms, &nuisances, arguments.points)?;
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("runs").join(&plan.study.name));
-    let settings = Settings { out: out.clone(), threads: arguments.threads };
-    let rows = run_with(&plan.study, &settings, progress::on_stderr(&plan.study).as_ref(), &|_, task| {
-        plan.evaluate(task)
-    })?;
-    let bank = critic::Bank::of(&rows);
-    replace_file(&out.join(BANK), &bank.table(&plan)?)?;
+    let bank = computed(&plan, &out, arguments.threads)?;
     let told = bank.paths.iter().flatten().count();
-    output::print(&format!(
-        "{} walls, {told} with a path to their collapse, in {}\n",
-        rows.len(),
-        out.display()
-    ))
+    let walls = bank.paths.len();
+    output::print(&format!("{walls} walls, {told} with a path to their collapse, in {}\n", out.display()))
+}
+
+/// Simulates what a folder does not hold yet of a plan's walls, and writes their table there.
+pub(crate) fn computed(
+    plan: &Plan,
+    folder: &Path,
+    threads: Option<NonZero<usize>>,
+) -> Result<critic::Bank, Failure> {
+    let settings = Settings { out: folder.to_path_buf(), threads };
+    let progress = progress::on_stderr(&plan.study);
+    let rows = run_with(&plan.study, &settings, progress.as_ref(), &|_, task| plan.evaluate(task))?;
+    let bank = critic::Bank::of(&rows);
+    replace_file(&folder.join(BANK), &bank.table(plan)?)?;
+    Ok(bank)
 }

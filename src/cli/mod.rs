@@ -4,6 +4,7 @@ mod analyse;
 mod arguments;
 mod bank;
 mod check;
+mod diagnose;
 mod elements;
 mod failure;
 mod generate;
@@ -33,6 +34,7 @@ pub fn main() -> ExitCode {
         Verb::Analyse(arguments) => analyse::analyse(arguments),
         Verb::Bank(arguments) => bank::bank(arguments),
         Verb::Check(arguments) => check::check(arguments),
+        Verb::Diagnose(arguments) => diagnose::diagnose(arguments),
         Verb::Generate(arguments) => generate::generate(arguments),
         Verb::Mechanisms(arguments) => mechanisms::mechanisms(arguments),
         Verb::Picture(arguments) => picture::picture(arguments),

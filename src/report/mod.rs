@@ -4,6 +4,7 @@
 mod beside;
 mod compare;
 mod csv;
+mod diagnosis;
 mod draw;
 mod drift;
 mod elements;
@@ -29,6 +30,7 @@ mod vtu;
 
 pub use beside::{Earlier, Mean};
 pub use compare::{Basis, Comparison};
+pub use diagnosis::{DiagnosisSummary, diagnosis_text, write_diagnosis};
 pub use elements::{element_table, write_elements};
 pub use files::{FRAGILITY, SUMMARY_JSON, write_all};
 pub use measured::{CalibrationEntry, ComparisonEntry, MeasuredSummary};

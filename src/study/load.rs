@@ -106,6 +106,21 @@ impl Study {
         }
     }
 
+    /// The same study with the measurements of another file.
+    ///
+    /// # Errors
+    /// All faults of the file.
+    pub fn with_measured(mut self, path: &Path) -> Result<Study, Faults> {
+        let name = path.display().to_string();
+        let arms: Vec<String> = self.arms.iter().map(|arm| arm.name.clone()).collect();
+        let file =
+            files::read(path, &name, 0, measured::FORMAT).map_err(|fault| Faults::sorted(vec![*fault]))?;
+        self.measured = measured::read(&file.source, Some(&arms)).map_err(Faults::sorted)?;
+        self.inputs.retain(|input| input.path != Path::new(measured::FILE));
+        self.inputs.push(InputFile { path: path.to_path_buf(), sha256: file.sha256 });
+        Ok(self)
+    }
+
     /// The same study with another seed.
     pub fn with_seed(mut self, seed: u64) -> Study {
         self.seed = seed;

@@ -167,7 +167,7 @@ impl<'s> World<'s> {
     fn parameter(&self, truth: &Truth, mechanism: &str, key: &str) -> Option<f64> {
         let described = &self.mechanisms[truth.cause?];
         let at = described.parameters.iter().position(|p| p.key == key && described.name == mechanism)?;
-        Some(described.parameters[at].prior.quantile(cdf(truth.parameters[at])))
+        Some(described.parameters[at].at_score(truth.parameters[at]))
     }
 
     /// What a gauge shows of a displacement.
