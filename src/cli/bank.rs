@@ -8,7 +8,8 @@ use crate::cli::failure::Failure;
 use crate::cli::{locate, output, progress};
 use crate::critic::{self, BANK, Plan};
 use crate::ensemble::{Settings, replace_file, run_with};
-use crate::study::{described, nuisances};
+use crate::protocol::Protocol;
+use crate::study::{Study, described, nuisances};
 
 /// Computes what the bank does not hold yet.
 pub(crate) fn bank(arguments: &Bank) -> Result<(), Failure> {
@@ -17,6 +18,7 @@ pub(crate) fn bank(arguments: &Bank) -> Result<(), Failure> {
         let text = "nothing was measured; a bank is made for the families of a measured.csv";
         return Err(Failure::Input(format!("{}: {text}", study.name)));
     }
+    check(&study)?;
     let distributions = locate::folder(&arguments.which.study)?.join("../../distributions");
     let mechanisms = described(&distributions).map_err(Failure::Input)?;
     let nuisances = nuisances(&distributions).map_err(Failure::Input)?;
@@ -26,6 +28,17 @@ pub(crate) fn bank(arguments: &Bank) -> Result<(), Failure> {
     let told = bank.paths.iter().flatten().count();
     let walls = bank.paths.len();
     output::print(&format!("{walls} walls, {told} with a path to their collapse, in {}\n", out.display()))
+}
+
+/// A bank holds walls on their way to collapse on a tilting table.
+pub(crate) fn check(study: &Study) -> Result<(), Failure> {
+    match study.protocol {
+        Protocol::Tilting(_) => Ok(()),
+        _ => Err(Failure::Input(format!(
+            "{}: the study tilts no platform: diagnoses are of tilting tests",
+            study.name
+        ))),
+    }
 }
 
 /// Simulates what a folder does not hold yet of a plan's walls, and writes their table there.

@@ -29,6 +29,7 @@ pub(crate) fn diagnose(arguments: &Diagnose) -> Result<(), Failure> {
             study.name
         )));
     }
+    bank::check(&study)?;
     let distributions = locate::folder(&arguments.which.study)?.join("../../distributions");
     let mechanisms = described(&distributions).map_err(Failure::Input)?;
     let nuisances = nuisances(&distributions).map_err(Failure::Input)?;

@@ -4,6 +4,7 @@ mod analyse;
 mod bad_walls;
 mod catalogue;
 mod commands;
+mod diagnose;
 #[path = "../ensemble/fixture.rs"]
 mod fixture;
 mod layering;
