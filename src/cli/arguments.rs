@@ -281,6 +281,9 @@ pub(crate) struct Diagnose {
 pub(crate) struct Bank {
     #[command(flatten)]
     pub which: Which,
+    /// What was measured [default: the study's measured.csv]; only the families in it matter.
+    #[arg(long, value_name = "FILE")]
+    pub measured: Option<PathBuf>,
     /// Output folder [default: runs/<study>-bank].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

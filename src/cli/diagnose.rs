@@ -4,11 +4,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::cli::arguments::Diagnose;
+use crate::cli::bank::{self, Prepared};
 use crate::cli::failure::Failure;
-use crate::cli::{bank, locate, output};
+use crate::cli::output;
 use crate::critic::{self, BANK, Design, Limits, Plan, Ranking, Reference, World, diagnosed};
 use crate::report::{self, DiagnosisSummary};
-use crate::study::{described, nuisances};
 
 /// Campaigns of the base model that say how far off they are by chance.
 const REFERENCE: u64 = 2000;
@@ -19,22 +19,10 @@ const TESTED: u64 = 100;
 
 /// Diagnoses the measurements of a study.
 pub(crate) fn diagnose(arguments: &Diagnose) -> Result<(), Failure> {
-    let mut study = locate::study(&arguments.which)?.study;
-    if let Some(path) = &arguments.measured {
-        study = study.with_measured(path)?;
-    }
-    if study.measured.is_empty() {
-        return Err(Failure::Input(format!(
-            "{}: nothing was measured; name a file with --measured, or put a measured.csv into the study's folder",
-            study.name
-        )));
-    }
-    bank::check(&study)?;
-    let distributions = locate::folder(&arguments.which.study)?.join("../../distributions");
-    let mechanisms = described(&distributions).map_err(Failure::Input)?;
-    let nuisances = nuisances(&distributions).map_err(Failure::Input)?;
-    let plan = Plan::new(&study, &mechanisms, &nuisances, arguments.points)?;
-    let folder = arguments.bank.clone().unwrap_or_else(|| PathBuf::from("runs").join(&plan.study.name));
+    let study = bank::measured(&arguments.which, arguments.measured.as_deref())?;
+    let Prepared { mechanisms, nuisances, plan } =
+        bank::prepared(&study, &arguments.which, arguments.points)?;
+    let folder = arguments.bank.clone().unwrap_or_else(|| bank::default_folder(&plan));
     let walls = banked(&plan, &folder, arguments)?;
     let Some(world) = World::new(&study, &mechanisms, &nuisances, &plan, &walls) else {
         let text = "the bank holds too few walls that fell: ask for more --points, or for a load path that ends later";
@@ -78,8 +66,10 @@ fn banked(plan: &Plan, folder: &Path, arguments: &Diagnose) -> Result<critic::Ba
     if arguments.no_build {
         let study = arguments.which.study.display();
         let points = arguments.points;
+        let measured = arguments.measured.as_ref();
+        let measured = measured.map_or(String::new(), |file| format!(" --measured {}", file.display()));
         return Err(Failure::Input(format!(
-            "there is no {}: {walls} walls are to be simulated first, by\n  pirca bank {study} --points {points} --out {}",
+            "there is no {}: {walls} walls are to be simulated first, by\n  pirca bank {study}{measured} --points {points} --out {}",
             path.display(),
             folder.display()
         )));

@@ -34,7 +34,9 @@ fn a_gauge_that_has_moved_is_named_from_a_csv_and_the_bank_is_made_once() {
     let diagnose = ["diagnose", "studies/tiny", "--measured", "tests.csv", "--points", "60"];
     let refused = ends_with(&folder, 3, &[&diagnose[..], &["--no-build"]].concat());
     assert!(
-        stderr(&refused).contains("840 walls are to be simulated first, by\n  pirca bank studies/tiny"),
+        stderr(&refused).contains(
+            "840 walls are to be simulated first, by\n  pirca bank studies/tiny --measured tests.csv"
+        ),
         "{}",
         stderr(&refused)
     );
