@@ -131,11 +131,9 @@ pub(crate) struct Check {
     pub keys: bool,
 }
 
-/// Arguments of `generate`.
+/// Which wall of a study.
 #[derive(Args, Debug)]
-pub(crate) struct Generate {
-    #[command(flatten)]
-    pub which: Which,
+pub(crate) struct OneWall {
     /// Name of the arm; without it the first whose walls are random.
     #[arg(long, value_name = "ARM")]
     pub arm: Option<String>,
@@ -148,6 +146,15 @@ pub(crate) struct Generate {
     /// Seed instead of the study's.
     #[arg(long, value_name = "S")]
     pub seed: Option<u64>,
+}
+
+/// Arguments of `generate`.
+#[derive(Args, Debug)]
+pub(crate) struct Generate {
+    #[command(flatten)]
+    pub which: Which,
+    #[command(flatten)]
+    pub wall: OneWall,
     /// Solve the wall as `run` does, and write the displacement of every stone's centroid (m) into the .vtu.
     #[arg(long)]
     pub solved: bool,
@@ -164,18 +171,8 @@ pub(crate) struct Generate {
 pub(crate) struct Picture {
     #[command(flatten)]
     pub which: Which,
-    /// Name of the arm; without it the first whose walls are random.
-    #[arg(long, value_name = "ARM")]
-    pub arm: Option<String>,
-    /// Number of the kn point, from 0.
-    #[arg(long, value_name = "K", default_value_t = 0)]
-    pub point: u32,
-    /// Number of the member, from 0.
-    #[arg(long, value_name = "M", default_value_t = 0)]
-    pub member: u64,
-    /// Seed instead of the study's.
-    #[arg(long, value_name = "S")]
-    pub seed: Option<u64>,
+    #[command(flatten)]
+    pub wall: OneWall,
     /// What joints are coloured by.
     #[arg(long, value_name = "NAME", default_value = "opening")]
     pub colour: Measure,

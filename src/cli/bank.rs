@@ -50,7 +50,7 @@ pub(crate) fn prepared(study: &Study, which: &Which, points: u64) -> Result<Prep
         let text = "the study tilts no platform: diagnoses are of tilting tests";
         return Err(Failure::Input(format!("{}: {text}", study.name)));
     };
-    let distributions = locate::folder(&which.study)?.join("../../distributions");
+    let distributions = locate::distributions(which)?;
     let mechanisms = described(&distributions).map_err(Failure::Input)?;
     let nuisances = nuisances(&distributions).map_err(Failure::Input)?;
     let plan = Plan::new(study, &mechanisms, &nuisances, points)?;

@@ -45,8 +45,7 @@ pub(crate) fn diagnose(arguments: &Diagnose) -> Result<(), Failure> {
         .out
         .clone()
         .unwrap_or_else(|| PathBuf::from("runs").join(format!("{}-diagnosis", study.name)));
-    fs::create_dir_all(&out)
-        .map_err(|error| Failure::Run(format!("cannot create the folder {}: {error}", out.display())))?;
+    output::folder(&out)?;
     report::write_diagnosis(&summary, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
     if arguments.which.json {
         return output::print_json(&summary);

@@ -6,11 +6,11 @@ use serde_json::json;
 
 use crate::cli::arguments::Generate;
 use crate::cli::failure::Failure;
-use crate::cli::{locate, output};
-use crate::ensemble::{self, Task, replace_file};
+use crate::cli::one_wall::OneWall;
+use crate::cli::output;
+use crate::ensemble::replace_file;
 use crate::model::Wall;
 use crate::protocol::Run;
-use crate::study::{Arm, Study};
 use crate::{exchange, report};
 
 /// The formats that a wall is written in, by the ending of the file.
@@ -29,18 +29,10 @@ pub(crate) fn generate(arguments: &Generate) -> Result<(), Failure> {
             "--solved: only a .vtu file holds displacements; give --out FILE.vtu".to_owned(),
         ));
     }
-    let mut study = locate::study(&arguments.which)?.study;
-    if let Some(seed) = arguments.seed {
-        study = study.with_seed(seed);
-    }
-    let index = arm_index(&study, arguments.arm.as_deref())?;
-    let (arm, member) = (study.arms[index].name.as_str(), arguments.member);
-    let kn = kn(&study.arms[index], arguments.point)?;
-    let generated = ensemble::build(&study, index as u32, member)
-        .map_err(|e| Failure::Run(format!("arm {arm}, member {member}: invalid geometry: {e}")))?;
-    let solved = arguments.solved.then(|| {
-        ensemble::solve(&study, Task { arm: index as u32, point: arguments.point, member }, &generated.wall)
-    });
+    let chosen = OneWall::of(&arguments.which, &arguments.wall)?;
+    let solved = arguments.solved.then(|| chosen.solved());
+    let OneWall { study, task, kn, generated } = chosen;
+    let (arm, member) = (study.arms[task.arm as usize].name.as_str(), task.member);
     let wall = if arguments.with_base { generated.wall.with_base() } else { generated.wall };
     replace_file(&arguments.out, encoded(format, &wall, solved.as_ref()).as_bytes())?;
 
@@ -49,7 +41,7 @@ pub(crate) fn generate(arguments: &Generate) -> Result<(), Failure> {
     if arguments.which.json {
         return output::print_json(&json!({
             "study": study.name, "variant": study.variant, "seed": study.seed,
-            "arm": arm, "point": arguments.point, "kn_pa_per_m": kn, "member": member,
+            "arm": arm, "point": task.point, "kn_pa_per_m": kn, "member": member,
             "out": out, "stones": stones, "wedges": wedges, "headers": headers,
             "attempts": generated.attempts, "redraws": generated.redraws, "merges": generated.merges,
             "volume_m3": generated.realised.volume, "outcome": solved.map(|run| run.outcome.name()),
@@ -80,24 +72,4 @@ fn format_of(path: &Path) -> Result<Format, Failure> {
             path.display()
         ))),
     }
-}
-
-/// The arm of that name, or the first one that is random, or else the first one.
-pub(super) fn arm_index(study: &Study, name: Option<&str>) -> Result<usize, Failure> {
-    let Some(name) = name else {
-        let random = study.arms.iter().position(ensemble::is_random);
-        return Ok(random.unwrap_or(0));
-    };
-    study.arms.iter().position(|arm| arm.name == name).ok_or_else(|| {
-        let names: Vec<_> = study.arms.iter().map(|arm| arm.name.as_str()).collect();
-        Failure::Usage(format!("--arm {name}: the study has no such arm; it has {}", names.join(", ")))
-    })
-}
-
-/// The joint stiffness (Pa/m) of an arm's point.
-pub(super) fn kn(arm: &Arm, point: u32) -> Result<f64, Failure> {
-    arm.kn_points.get(point as usize).copied().ok_or_else(|| {
-        let last = arm.kn_points.len() - 1;
-        Failure::Usage(format!("--point {point}: arm {} has points 0 to {last}", arm.name))
-    })
 }

@@ -39,6 +39,11 @@ pub(crate) fn folder(path: &Path) -> Result<PathBuf, Failure> {
     Err(Failure::Input(format!("no study at {found}\n{}", known(path))))
 }
 
+/// The folder of distributions beside that of the studies.
+pub(crate) fn distributions(which: &Which) -> Result<PathBuf, Failure> {
+    Ok(folder(&which.study)?.join("../../distributions"))
+}
+
 /// The studies in `studies/` and beside the path, nearest names first.
 fn known(path: &Path) -> String {
     let wanted = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();

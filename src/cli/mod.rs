@@ -10,6 +10,7 @@ mod failure;
 mod generate;
 mod locate;
 mod mechanisms;
+mod one_wall;
 mod output;
 mod picture;
 mod progress;

@@ -1,6 +1,8 @@
 //! Standard output and standard error.
 
+use std::fs;
 use std::io::{ErrorKind, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 use crate::cli::failure::Failure;
@@ -21,6 +23,12 @@ pub(crate) fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
     let text =
         serde_json::to_string_pretty(value).map_err(|e| Failure::Run(format!("cannot write JSON: {e}")))?;
     print(&format!("{text}\n"))
+}
+
+/// Makes the folder that results are written to.
+pub(crate) fn folder(path: &Path) -> Result<(), Failure> {
+    fs::create_dir_all(path)
+        .map_err(|error| Failure::Run(format!("cannot create the folder {}: {error}", path.display())))
 }
 
 /// Writes a line to standard error; where nobody reads it, there is nobody left to tell.

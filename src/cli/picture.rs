@@ -6,9 +6,10 @@ use serde_json::json;
 
 use crate::cli::arguments::{Measure, Picture as Arguments};
 use crate::cli::failure::Failure;
-use crate::cli::{generate, locate, output};
+use crate::cli::one_wall::OneWall;
+use crate::cli::output;
 use crate::contact::{self, find_patch};
-use crate::ensemble::{self, Task, replace_file};
+use crate::ensemble::replace_file;
 use crate::math::Vec3;
 use crate::model::{Outcome, Wall};
 use crate::protocol::{self, Direction, JointState, Protocol, Run, typical_size};
@@ -23,17 +24,10 @@ pub(crate) fn picture(arguments: &Arguments) -> Result<(), Failure> {
             arguments.out.display()
         )));
     }
-    let mut study = locate::study(&arguments.which)?.study;
-    if let Some(seed) = arguments.seed {
-        study = study.with_seed(seed);
-    }
-    let index = generate::arm_index(&study, arguments.arm.as_deref())?;
-    let (arm, member) = (&study.arms[index], arguments.member);
-    let kn = generate::kn(arm, arguments.point)?;
-    let generated = ensemble::build(&study, index as u32, member)
-        .map_err(|e| Failure::Run(format!("arm {}, member {member}: invalid geometry: {e}", arm.name)))?;
-    let wall = &generated.wall;
-    let run = ensemble::solve(&study, Task { arm: index as u32, point: arguments.point, member }, wall);
+    let chosen = OneWall::of(&arguments.which, &arguments.wall)?;
+    let run = chosen.solved();
+    let OneWall { study, task, kn, generated } = &chosen;
+    let (arm, member, wall) = (&study.arms[task.arm as usize], task.member, &generated.wall);
 
     let stones = stones(wall, &run);
     let magnification = arguments.magnify.unwrap_or_else(|| Picture::fitting(&stones));
@@ -59,7 +53,7 @@ pub(crate) fn picture(arguments: &Arguments) -> Result<(), Failure> {
         let failure = run.failure.as_ref();
         return output::print_json(&json!({
             "study": study.name, "variant": study.variant, "seed": study.seed,
-            "arm": arm.name, "point": arguments.point, "kn_pa_per_m": kn, "member": member,
+            "arm": arm.name, "point": task.point, "kn_pa_per_m": kn, "member": member,
             "out": out, "outcome": run.outcome.name(), "magnification": magnification,
             "mode": failure.map(|f| f.mode.name()), "hinge_height_m": failure.map(|f| f.hinge_height),
             "moving_weight_share": failure.map(|f| f.weight_share),

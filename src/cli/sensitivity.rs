@@ -1,6 +1,5 @@
 //! `pirca sensitivity`: which mechanisms could the measured data see?
 
-use std::fs;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -15,7 +14,7 @@ use crate::study::described;
 /// Computes the map, writes it and prints it.
 pub(crate) fn sensitivity(arguments: &Sensitivity) -> Result<(), Failure> {
     let study = locate::study(&arguments.which)?.study;
-    let distributions = locate::folder(&arguments.which.study)?.join("../../distributions");
+    let distributions = locate::distributions(&arguments.which)?;
     let mechanisms = described(&distributions).map_err(Failure::Input)?;
     let settings = SensitivitySettings {
         members: arguments.members,
@@ -29,8 +28,7 @@ pub(crate) fn sensitivity(arguments: &Sensitivity) -> Result<(), Failure> {
         let variant = study.variant.as_ref().map(|name| format!("-{name}")).unwrap_or_default();
         PathBuf::from("runs").join(format!("{}{variant}-sensitivity", study.name))
     });
-    fs::create_dir_all(&out)
-        .map_err(|error| Failure::Run(format!("cannot create the folder {}: {error}", out.display())))?;
+    output::folder(&out)?;
     report::write_sensitivity(&summary, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
     if arguments.which.json {
         return output::print_json(&summary);

@@ -140,7 +140,7 @@ pub(super) fn groups(study: &Study) -> BTreeMap<(usize, MeasuredQuantity, u64, b
 }
 
 /// Whether no earlier stage of the specimen had as large a tilt.
-fn is_rising(m: &Measurement, all: &[Measurement]) -> bool {
+pub(super) fn is_rising(m: &Measurement, all: &[Measurement]) -> bool {
     let earlier = |other: &&Measurement| other.specimen == m.specimen && other.stage < m.stage;
     let Some(tilt) = m.tilt else { return true };
     all.iter().filter(earlier).all(|other| other.tilt.is_none_or(|before| before < tilt))

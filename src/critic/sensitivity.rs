@@ -185,7 +185,7 @@ type Job<'s> = (&'s Study, usize, Task);
 
 fn planned<'s>(study: &'s Study, place: usize, arms: &[usize], members: u64) -> Vec<Job<'s>> {
     let walls = |&arm: &usize| {
-        let point = (study.arms[arm].kn_points.len().saturating_sub(1) / 2) as u32;
+        let point = study.arms[arm].middle_point() as u32;
         (0..members.max(1)).map(move |member| (study, place, Task { arm: arm as u32, point, member }))
     };
     arms.iter().flat_map(walls).collect()

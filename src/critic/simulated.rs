@@ -86,7 +86,11 @@ pub(super) fn at_rest(row: &Row) -> Vec<(f64, &StepRow)> {
 
 /// The quantity at a step (m).
 fn read(quantity: MeasuredQuantity, step: &StepRow) -> Option<f64> {
-    let (left, centre, right) = (step.left_m?, step.centre_m?, step.right_m?);
+    of_points(quantity, [step.left_m?, step.centre_m?, step.right_m?])
+}
+
+/// A displacement (m) from those of the left end, the centre and the right end; `None` where the quantity is none of them.
+pub(super) fn of_points(quantity: MeasuredQuantity, [left, centre, right]: [f64; 3]) -> Option<f64> {
     match quantity {
         MeasuredQuantity::DisplacementLeft => Some(left),
         MeasuredQuantity::DisplacementCentre => Some(centre),

@@ -13,6 +13,8 @@ mod record;
 mod run;
 mod table;
 
+/// What [`build`] gives.
+pub use crate::generate::Generated;
 pub use design::{Task, is_random, plan};
 pub use elements::{ElementRow, Timed, evaluate_element, run_elements};
 pub use error::{MemberFault, RunError};

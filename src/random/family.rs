@@ -4,6 +4,7 @@ use super::Stream;
 use super::discrete::{Constant, Empirical};
 use super::flat::{Triangular, Uniform};
 use super::gaussian::{Lognormal, Normal};
+use super::standard_normal::cdf;
 use super::truncated::TruncatedNormal;
 
 /// A distribution of one real variable. The parameters have the unit of the variable.
@@ -80,6 +81,11 @@ impl Family {
     pub fn quantile(&self, u: f64) -> f64 {
         crate::check!(u > 0.0 && u < 1.0, "a quantile was asked at {u}, outside (0, 1)");
         self.ask(|d| d.quantile(u))
+    }
+
+    /// The value at a standard normal score: that score's quantile.
+    pub fn at_score(&self, score: f64) -> f64 {
+        self.quantile(cdf(score))
     }
 
     /// Probability density at `x`, per unit of the variable; 0 outside the support. `None` for the constant and the

@@ -167,7 +167,7 @@ impl DiagnosisSummary {
 fn parameters(mechanism: &Described, guard: &Guarded) -> Vec<ParameterEntry> {
     let entry = |(k, parameter): (usize, &crate::study::Parameter)| {
         let values: Vec<f64> =
-            guard.alike.iter().map(|truth| parameter.at_score(truth.parameters[k])).collect();
+            guard.alike.iter().map(|truth| parameter.prior.at_score(truth.parameters[k])).collect();
         let at = |p: f64| stats::quantile(&values, p);
         Some(ParameterEntry {
             key: parameter.key,

@@ -3,7 +3,7 @@
 use crate::contact;
 use crate::math::{Mat3, Vec3};
 use crate::model::{JointLaws, Wall};
-use crate::solve::bodies::{Bodies, Body, Freedom};
+use crate::solve::bodies::{Bodies, Freedom};
 use crate::solve::joints::Joints;
 use crate::solve::mount::{Mount, Mounted};
 use crate::solve::ties::{Held, Tie};
@@ -149,22 +149,13 @@ impl<'a> Assembly<'a> {
 
     /// Looks for contacts anew where a block has moved; joints that stay keep their history.
     pub fn refresh(&mut self) {
-        let pose = |body: &Body| (body.position, body.rotation);
         let allowed = SETTLED * 0.5 * self.contact.reach;
-        let all = self.bodies.all.iter().enumerate();
-        let moved: Vec<bool> = match self.seen.is_empty() {
-            true => vec![true; self.bodies.all.len()],
-            false => all.map(|(index, _)| self.moved_further(index, allowed)).collect(),
-        };
+        let all = 0..self.bodies.all.len();
+        let moved: Vec<bool> =
+            all.clone().map(|body| self.seen.is_empty() || self.moved_further(body, allowed)).collect();
         self.joints.refresh(&self.bodies, self.laws, &self.contact, &moved);
-        if self.seen.is_empty() {
-            self.seen = self.bodies.all.iter().map(pose).collect();
-        }
-        for ((body, seen), _) in
-            self.bodies.all.iter().zip(&mut self.seen).zip(moved).filter(|(_, moved)| *moved)
-        {
-            *seen = pose(body);
-        }
+        let pose = |body: usize| (self.bodies.all[body].position, self.bodies.all[body].rotation);
+        self.seen = all.map(|body| if moved[body] { pose(body) } else { self.seen[body] }).collect();
     }
 
     /// Whether all positions and forces are finite.

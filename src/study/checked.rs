@@ -67,6 +67,13 @@ pub struct Arm {
     pub mechanisms: Mechanisms,
 }
 
+impl Arm {
+    /// The middle of its points in kn, the lower of two.
+    pub fn middle_point(&self) -> usize {
+        self.kn_points.len().saturating_sub(1) / 2
+    }
+}
+
 /// Joint properties; those that are families are drawn once per joint from a stream keyed by the pair of blocks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joint {

@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::random::Family;
-use crate::random::standard_normal::cdf;
 use crate::study::catalogue::{DistributionFile, load_distributions};
 use crate::study::keys::MECHANISM;
 use crate::study::schema::{Key, Kind, Presence, Section};
@@ -184,13 +183,6 @@ pub struct Parameter {
     pub source: String,
     /// What a user should know.
     pub note: Option<String>,
-}
-
-impl Parameter {
-    /// The value at a standard normal score: that score's quantile of the prior.
-    pub fn at_score(&self, score: f64) -> f64 {
-        self.prior.quantile(cdf(score))
-    }
 }
 
 /// All mechanisms with their priors, the entry `prior` of `mechanism/<name>/<key>.toml` below a `distributions` folder.

@@ -6,9 +6,9 @@ mod path;
 mod plan;
 mod store;
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;
 
 pub use emulator::Emulator;
-pub use path::Path;
+pub use path::{Curves, Path};
 pub use plan::{Place, Plan};
 pub use store::{BANK, Bank, NotThisBank};

@@ -62,22 +62,37 @@ impl Path {
         Some(Path { numbers })
     }
 
+    /// The path between its places.
+    pub fn curves(&self) -> Curves {
+        let curve = |kind: usize| {
+            Monotone::through(&PLACES, &self.numbers[1 + kind * PLACES.len()..][..PLACES.len()])
+        };
+        Curves { collapse: exp(self.numbers[0]), kinds: [curve(0), curve(1), curve(2)] }
+    }
+}
+
+/// A path between its places.
+#[derive(Clone, Debug)]
+pub struct Curves {
+    /// The collapse angle (rad).
+    collapse: f64,
+    /// Over `q`, in the order of [`Path::numbers`].
+    kinds: [Monotone; 3],
+}
+
+impl Curves {
     /// The collapse angle (rad).
     pub fn collapse(&self) -> f64 {
-        exp(self.numbers[0])
+        self.collapse
     }
 
     /// Displacements (m) of the left end, the centre and the right end at a tilt (rad); `None` where the wall has fallen.
     pub fn displacements(&self, tilt: f64) -> Option<[f64; 3]> {
-        let collapse = self.collapse();
-        if tilt > collapse {
+        if tilt > self.collapse {
             return None;
         }
-        let q = (1.0 - tilt / collapse).max(0.0).sqrt();
-        let [mean, bow, twist] = [0, 1, 2].map(|kind| {
-            let values = &self.numbers[1 + kind * PLACES.len()..][..PLACES.len()];
-            Monotone::through(&PLACES, values).at(q)
-        });
+        let q = (1.0 - tilt / self.collapse).max(0.0).sqrt();
+        let [mean, bow, twist] = [0, 1, 2].map(|kind| self.kinds[kind].at(q));
         let mean = exp(mean) * tilt;
         // centre - ends = bow, left - right = twist, and their mean is 1.
         let ends = 1.0 - bow / 3.0;

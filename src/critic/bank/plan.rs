@@ -74,7 +74,7 @@ impl Plan {
                     let joints = [0, 1, 2]
                         .map(|k| streams.of(&format!("bank {} {}", arm.name, nuisances[k].name)).uniform());
                     let factors = [0, 1, 2].map(|k| nuisances[k].prior.quantile(joints[k]));
-                    let kn = arm.kn_points[arm.kn_points.len().saturating_sub(1) / 2];
+                    let kn = arm.kn_points[arm.middle_point()];
                     let mut one = arm.with_joints(kn, factors);
                     one.members = 1;
                     one.name = format!("{}/{}/{point}", arm.name, cause.map_or("base", |(_, m)| m.name));
@@ -108,18 +108,11 @@ impl Plan {
 
 #[cfg(test)]
 mod tests {
-    use std::path::Path;
-
     use super::*;
-    use crate::study::{described, nuisances};
+    use crate::critic::bank::tests::shipped;
 
     fn planned(points: u64) -> (Study, Vec<Described>, Plan) {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-        let study =
-            Study::load(&root.join("studies/tilting-table"), None).unwrap_or_else(|f| panic!("{f}")).study;
-        let distributions = root.join("distributions");
-        let mechanisms = described(&distributions).unwrap_or_else(|lacks| panic!("{lacks}"));
-        let nuisances = nuisances(&distributions).unwrap_or_else(|lacks| panic!("{lacks}"));
+        let (study, mechanisms, nuisances) = shipped();
         let plan = Plan::new(&study, &mechanisms, &nuisances, points).unwrap_or_else(|f| panic!("{f}"));
         (study, mechanisms, plan)
     }
@@ -159,8 +152,7 @@ mod tests {
     #[test]
     fn other_families_make_another_design() {
         let (study, mechanisms, plan) = planned(2);
-        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-        let nuisances = nuisances(&root.join("distributions")).unwrap_or_else(|lacks| panic!("{lacks}"));
+        let nuisances = shipped().2;
         let mut fewer = study;
         fewer.measured.retain(|m| m.family != "cbl");
         let other = Plan::new(&fewer, &mechanisms, &nuisances, 2).unwrap_or_else(|f| panic!("{f}"));
@@ -180,8 +172,7 @@ mod tests {
         let index =
             plan.places.iter().position(|p| p.family == sbl && p.cause.is_none()).expect("it is there");
         let (arm, of) = (&plan.study.arms[index], &study.arms[sbl]);
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("distributions");
-        let priors = nuisances(&root).unwrap_or_else(|lacks| panic!("{lacks}"));
+        let priors = shipped().2;
         let factor = |k: usize| priors[k].prior.quantile(plan.places[index].joints[k]);
         assert_eq!(arm.kn_points, [of.kn_points[0] * factor(0)]);
         assert!((arm.joint.phi_deg.mean() / (of.joint.phi_deg.mean() * factor(1)) - 1.0).abs() < 1e-12);

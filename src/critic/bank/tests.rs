@@ -8,7 +8,17 @@ use crate::ensemble::{Row, StepRow};
 use crate::math::radians;
 use crate::random::Streams;
 use crate::random::standard_normal;
-use crate::study::{Study, nuisances};
+use crate::study::{Described, Nuisance, Study, described, nuisances};
+
+/// The nine walls, the catalogue and the priors of the joints.
+pub fn shipped() -> (Study, Vec<Described>, [Nuisance; 3]) {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let study =
+        Study::load(&root.join("studies/tilting-table"), None).unwrap_or_else(|f| panic!("{f}")).study;
+    let distributions = root.join("distributions");
+    let mechanisms = described(&distributions).unwrap_or_else(|lacks| panic!("{lacks}"));
+    (study, mechanisms, nuisances(&distributions).unwrap_or_else(|lacks| panic!("{lacks}")))
+}
 
 /// Displacements (m) at a tilt of a wall that falls at another (deg): compliance, and a parabola's corner at the end.
 fn formula(tilt: f64, collapse: f64) -> [f64; 3] {
@@ -37,7 +47,7 @@ fn wall(collapse: f64, step: f64) -> Row {
 #[test]
 fn a_path_tells_what_was_read_between_its_steps() {
     for collapse in [9.3, 17.8, 24.0] {
-        let path = Path::of(&wall(collapse, 2.5)).expect("it fell");
+        let path = Path::of(&wall(collapse, 2.5)).expect("it fell").curves();
         assert!((path.collapse() - radians(collapse)).abs() < 1e-12);
         for share in [0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.95, 0.98] {
             let tilt = share * collapse;
@@ -156,9 +166,6 @@ fn standing(number: usize) -> Row {
 }
 
 fn small(points: u64) -> Plan {
-    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
-    let study =
-        Study::load(&root.join("studies/tilting-table"), None).unwrap_or_else(|f| panic!("{f}")).study;
-    let priors = nuisances(&root.join("distributions")).unwrap_or_else(|lacks| panic!("{lacks}"));
+    let (study, _, priors) = shipped();
     Plan::new(&study, &[], &priors, points).unwrap_or_else(|f| panic!("{f}"))
 }

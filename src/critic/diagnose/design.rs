@@ -1,5 +1,6 @@
 //! What was read on which specimen: the design that a measured campaign shares with every simulated one.
 
+use crate::critic::compare::is_rising;
 use crate::study::{MeasuredKind, MeasuredQuantity, Measurement, Study};
 
 /// A tilting test.
@@ -53,7 +54,7 @@ impl Design {
                 MeasuredQuantity::SpecimenWeight | MeasuredQuantity::BlockWeight => {
                     design.unused.push(m.line)
                 }
-                _ if !rises(m, &study.measured) => design.unused.push(m.line),
+                _ if !is_rising(m, &study.measured) => design.unused.push(m.line),
                 _ => {
                     let of = |s: &&mut Specimen| s.name == m.specimen && s.family == family;
                     match design.specimens.iter_mut().find(of) {
@@ -85,13 +86,6 @@ pub struct Campaign {
     pub specimens: Vec<Vec<Seen>>,
     /// The tests on joints.
     pub joints: Vec<Seen>,
-}
-
-/// Whether a reading was taken before the platform went back: no reading on its specimen at an earlier stage has a larger tilt.
-fn rises(m: &Measurement, all: &[Measurement]) -> bool {
-    let Some(tilt) = m.tilt else { return true };
-    let before = all.iter().filter(|o| o.specimen == m.specimen && o.family == m.family && o.stage < m.stage);
-    before.filter_map(|o| o.tilt).all(|earlier| earlier <= tilt)
 }
 
 impl Seen {

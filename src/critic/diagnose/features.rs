@@ -26,7 +26,7 @@ pub enum Contrast {
     Bow,
     /// The left end against the right one.
     Twist,
-    /// Readings taken after others of its kind had fallen, or missing: how many were reached.
+    /// Share of the readings that the wall still stood for.
     Reached,
 }
 
@@ -76,21 +76,22 @@ impl Scale {
         let joints = joints.map(|(k, (_, m))| over(m, &|campaign| campaign.joints[k]));
         Scale { specimens: specimens.collect(), joints: joints.collect() }
     }
-}
 
-impl Scale {
     /// Every reading in its units, with its family, joints' tests not among them; `None` where nothing was seen.
     pub fn readings(&self, design: &Design, campaign: &Campaign) -> Vec<(usize, Option<f64>)> {
         let specimens = design.specimens.iter().zip(&campaign.specimens).zip(&self.specimens);
         specimens
             .flat_map(|((specimen, seen), scale)| {
                 let readings = specimen.readings.iter().zip(seen).zip(scale);
-                readings.map(|((m, seen), [mean, sd])| {
-                    (specimen.family, seen.told(m).map(|told| (told - mean) / sd))
-                })
+                readings.map(|((m, seen), scale)| (specimen.family, scaled(*seen, m, scale)))
             })
             .collect()
     }
+}
+
+/// A reading against its mean and in its standard deviation; `None` where nothing was seen.
+fn scaled(seen: Seen, m: &Measurement, [mean, sd]: &[f64; 2]) -> Option<f64> {
+    seen.told(m).map(|told| (told - mean) / sd)
 }
 
 /// All features of a campaign that its design allows; a specimen that shows nothing of a contrast is not in it.
@@ -117,9 +118,8 @@ pub fn features(design: &Design, scale: &Scale, campaign: &Campaign) -> BTreeMap
         found.extend(slope(&values).map(|slope| (Feature::Order(contrast), slope)));
     }
     let mut joints: BTreeMap<Feature, Vec<f64>> = BTreeMap::new();
-    for (((family, m), seen), [mean, sd]) in design.joints.iter().zip(&campaign.joints).zip(&scale.joints) {
-        let told = seen.told(m).map(|told| (told - mean) / sd);
-        joints.entry(Feature::Joint(*family, m.quantity)).or_default().extend(told);
+    for (((family, m), seen), scale) in design.joints.iter().zip(&campaign.joints).zip(&scale.joints) {
+        joints.entry(Feature::Joint(*family, m.quantity)).or_default().extend(scaled(*seen, m, scale));
     }
     found.extend(joints.into_iter().filter_map(|(feature, values)| Some((feature, stats::mean(&values)?))));
     found
@@ -131,16 +131,16 @@ fn contrasts(specimen: &Specimen, seen: &[Seen], scale: &[[f64; 2]]) -> Vec<(Con
     let last = specimen.readings.iter().filter_map(|m| m.tilt).fold(0.0, f64::max);
     let mut weighted: BTreeMap<Contrast, Vec<(f64, f64)>> = BTreeMap::new();
     let (mut read, mut reached) = (0.0, 0.0);
-    for ((m, seen), [mean, sd]) in specimen.readings.iter().zip(seen).zip(scale) {
+    for ((m, seen), scale) in specimen.readings.iter().zip(seen).zip(scale) {
+        let z = scaled(*seen, m, scale);
         let Some(tilt) = m.tilt else {
-            let told = seen.told(m).map(|told| (1.0, (told - mean) / sd));
-            weighted.entry(Contrast::Collapse).or_default().extend(told);
+            weighted.entry(Contrast::Collapse).or_default().extend(z.map(|z| (1.0, z)));
             continue;
         };
         read += 1.0;
-        let Some(told) = seen.told(m) else { continue };
+        let Some(z) = z else { continue };
         reached += 1.0;
-        let (z, s) = ((told - mean) / sd, tilt / last);
+        let s = tilt / last;
         let mut add = |contrast, weight| weighted.entry(contrast).or_default().push((weight, z));
         if m.quantity != Q::DisplacementCentreMinusEnds {
             add(Contrast::Level, 1.0);

@@ -27,9 +27,8 @@ pub struct Guarded {
     pub alike: Vec<Truth>,
 }
 
-/// A campaign of the cause.
-struct Own {
-    truth: Truth,
+/// What a campaign looks like.
+struct Looks {
     inputs: Vec<f64>,
     readings: Vec<(usize, Option<f64>)>,
 }
@@ -43,32 +42,29 @@ pub fn guarded(
     campaign: &Campaign,
     seed: u64,
 ) -> Guarded {
-    let seen = |truth: Truth, campaign: &Campaign| Own {
-        truth,
+    let looks = |campaign: &Campaign| Looks {
         inputs: inputs(&reference.judge(design, campaign)),
         readings: reference.scale.readings(design, campaign),
     };
-    let pool: Vec<Own> = (0..POOL)
+    let (truths, pool): (Vec<Truth>, Vec<Looks>) = (0..POOL)
         .map(|k| {
             let streams = Streams::new(seed, k);
             let truth = world.drawn(cause, &streams);
-            let shown = world.campaign(design, &truth, &streams);
-            seen(truth, &shown)
+            let shown = looks(&world.campaign(design, &truth, &streams));
+            (truth, shown)
         })
-        .collect();
-    let none = Truth { cause: None, parameters: Vec::new(), joints: Vec::new() };
-    let measured = seen(none, campaign);
-    let (misfit, near) = misfit(&measured, &pool, None);
+        .unzip();
+    let (misfit, near) = misfit(&looks(campaign), &pool, None);
     let worse = (0..JUDGED).filter(|&k| self::misfit(&pool[k], &pool, Some(k)).0 >= misfit).count();
-    let alike = near.into_iter().map(|k| pool[k].truth.clone()).collect();
+    let alike = near.into_iter().map(|k| truths[k].clone()).collect();
     Guarded { p_value: (worse + 1) as f64 / (JUDGED + 1) as f64, alike }
 }
 
 /// The largest of the families' mean squares of the readings less those of the campaigns most alike, in standard deviations of
 /// these; and which they are. `but` is not among them.
-fn misfit(one: &Own, pool: &[Own], but: Option<usize>) -> (f64, Vec<usize>) {
+fn misfit(one: &Looks, pool: &[Looks], but: Option<usize>) -> (f64, Vec<usize>) {
     let distance =
-        |other: &Own| one.inputs.iter().zip(&other.inputs).fold(0.0, |sum, (a, b)| sum + (a - b) * (a - b));
+        |other: &Looks| one.inputs.iter().zip(&other.inputs).fold(0.0, |sum, (a, b)| sum + (a - b) * (a - b));
     let others = pool.iter().enumerate().filter(|(k, _)| Some(*k) != but);
     let mut order: Vec<(f64, usize)> = others.map(|(k, other)| (distance(other), k)).collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));

@@ -5,6 +5,7 @@ mod features;
 mod guard;
 mod network;
 mod ranking;
+mod self_test;
 #[cfg(test)]
 mod tests;
 mod verdict;
@@ -14,7 +15,8 @@ mod wrong;
 pub use design::{Campaign, Design, Seen, Specimen};
 pub use features::{Contrast, Feature, Scale, features};
 pub use guard::{Guarded, guarded};
-pub use ranking::{COVERED, Limits, Ranked, Ranking, SelfTest, SelfTestRow};
-pub use verdict::{Diagnosis, MOST_AMBIGUOUS, Verdict, diagnosed};
+pub use ranking::{COVERED, Ranked, Ranking};
+pub use self_test::{SelfTest, SelfTestRow};
+pub use verdict::{Diagnosis, Limits, MOST_AMBIGUOUS, Verdict, diagnosed};
 pub use world::{Truth, World};
 pub use wrong::{Reference, Wrong};

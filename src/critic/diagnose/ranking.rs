@@ -1,13 +1,12 @@
 //! Which cause explains what is wrong? A network trained on campaigns that the causes would have shown, and sets of causes that
 //! hold the true one nine times in ten, whichever it is.
 
-use crate::critic::diagnose::design::{Campaign, Design};
+use crate::critic::diagnose::design::Design;
 use crate::critic::diagnose::network::{Example, Network};
 use crate::critic::diagnose::world::World;
 use crate::critic::diagnose::wrong::{Reference, Wrong};
 use crate::math::ln;
 use crate::random::Streams;
-use crate::stats;
 
 /// Share of the sets that hold the true cause, for each cause.
 pub const COVERED: f64 = 0.9;
@@ -72,6 +71,11 @@ impl Ranking {
         Ranking { causes, network, least }
     }
 
+    /// The causes that are told apart, the base model first.
+    pub fn causes(&self) -> &[Option<usize>] {
+        &self.causes
+    }
+
     /// Ranks the causes of what is wrong with a campaign.
     pub fn of(&self, wrong: &Wrong) -> Ranked {
         let probabilities = self.network.probabilities(&inputs(wrong));
@@ -84,102 +88,17 @@ impl Ranking {
     }
 }
 
+impl Ranked {
+    /// The most likely cause, if it is at least so likely and not the base model.
+    pub fn named(&self, least: f64) -> Option<usize> {
+        let (cause, probability) = self.causes[0];
+        cause.filter(|_| probability >= least)
+    }
+}
+
 /// What the network sees: every excess and the scores of the joints, large ones by their logarithm.
 pub(super) fn inputs(wrong: &Wrong) -> Vec<f64> {
     let tamed = |x: f64| x.signum() * ln(1.0 + x.abs());
     let excess = wrong.excess.values().map(|x| tamed(x.unwrap_or(0.0)));
     excess.chain(wrong.joints.iter().flatten().map(|x| tamed(*x))).collect()
-}
-
-/// How often diagnoses of a design find and name what is hidden, by simulation.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SelfTest {
-    /// For each cause and for the base model (first): campaigns, how many are found, named rightly, named wrongly, and in how many
-    /// of those found the set holds the cause; and the mean number of causes in these sets.
-    pub rows: Vec<SelfTestRow>,
-}
-
-/// A line of the self-test.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SelfTestRow {
-    /// What was hidden; none where nothing was.
-    pub cause: Option<usize>,
-    /// Campaigns.
-    pub campaigns: u64,
-    /// In which something was found.
-    pub found: u64,
-    /// In which the cause was named.
-    pub named: u64,
-    /// In which another one was.
-    pub misnamed: u64,
-    /// Of those found, whose set holds the cause.
-    pub covered: u64,
-    /// Mean number of causes in the sets of those found.
-    pub set_size: f64,
-}
-
-/// The limits of a verdict.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
-    /// Something is wrong below this p-value.
-    pub found: f64,
-    /// A cause is named at this probability or above.
-    pub named: f64,
-    /// A cause that fits a campaign worse than all but so large a share of its own does not explain it.
-    pub guard: f64,
-}
-
-impl Default for Limits {
-    fn default() -> Self {
-        Limits { found: 0.05, named: 0.8, guard: 0.05 }
-    }
-}
-
-impl Ranking {
-    /// The cause that a campaign names, if any.
-    pub fn named(&self, wrong: &Wrong, limits: &Limits) -> Option<usize> {
-        if wrong.p_value >= limits.found {
-            return None;
-        }
-        let (cause, probability) = self.of(wrong).causes[0];
-        cause.filter(|_| probability >= limits.named)
-    }
-
-    /// Diagnoses `count` campaigns of every cause and of the base model, drawn from the priors with another seed than the
-    /// training's.
-    pub fn self_test(
-        &self,
-        world: &World<'_>,
-        design: &Design,
-        reference: &Reference,
-        limits: &Limits,
-        count: u64,
-        seed: u64,
-    ) -> SelfTest {
-        let row = |cause: Option<usize>| {
-            let (mut found, mut named, mut misnamed, mut covered) = (0, 0, 0, 0);
-            let mut sizes = Vec::new();
-            for k in 0..count {
-                let streams = Streams::new(seed, k);
-                let truth = world.drawn(cause, &streams);
-                let shown: Campaign = world.campaign(design, &truth, &streams);
-                let wrong = reference.judge(design, &shown);
-                if wrong.p_value >= limits.found {
-                    continue;
-                }
-                found += 1;
-                let set = self.of(&wrong).set;
-                sizes.push(set.len() as f64);
-                covered += u64::from(cause.is_some_and(|cause| set.contains(&cause)));
-                match self.named(&wrong, limits) {
-                    Some(name) if Some(name) == cause => named += 1,
-                    Some(_) => misnamed += 1,
-                    None => {}
-                }
-            }
-            let set_size = stats::mean(&sizes).unwrap_or(0.0);
-            SelfTestRow { cause, campaigns: count, found, named, misnamed, covered, set_size }
-        };
-        SelfTest { rows: self.causes.iter().map(|cause| row(*cause)).collect() }
-    }
 }

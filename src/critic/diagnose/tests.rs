@@ -1,5 +1,6 @@
 //! Campaigns of walls whose formula is known: what is seen of them, and whether anything is found where nothing is wrong.
 
+use crate::critic::bank::tests::shipped;
 use crate::critic::bank::{Bank, Path, Plan};
 use crate::critic::diagnose::{
     Campaign, Contrast, Design, Feature, Limits, Ranking, Reference, Seen, Verdict, World, diagnosed,
@@ -7,7 +8,7 @@ use crate::critic::diagnose::{
 use crate::math::{ln, radians};
 use crate::random::Streams;
 use crate::random::standard_normal::quantile;
-use crate::study::{Described, MeasuredKind, MeasuredQuantity, Nuisance, Study, described, nuisances};
+use crate::study::{Described, MeasuredKind, MeasuredQuantity, Nuisance, Study};
 
 struct Made {
     study: Study,
@@ -20,11 +21,7 @@ struct Made {
 /// The nine walls, of a bank that no solver made: the collapse angle goes with kn and phi, displacements go with 1/kn, stones make
 /// 2 % of difference.
 fn made() -> Made {
-    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
-    let study =
-        Study::load(&root.join("studies/tilting-table"), None).unwrap_or_else(|f| panic!("{f}")).study;
-    let mechanisms = described(&root.join("distributions")).unwrap_or_else(|lacks| panic!("{lacks}"));
-    let nuisances = nuisances(&root.join("distributions")).unwrap_or_else(|lacks| panic!("{lacks}"));
+    let (study, mechanisms, nuisances) = shipped();
     let plan = Plan::new(&study, &mechanisms, &nuisances, 45).unwrap_or_else(|f| panic!("{f}"));
     let path = |wall: usize| {
         let place = &plan.places[wall];
@@ -57,6 +54,13 @@ impl Made {
     fn world(&self) -> World<'_> {
         World::new(&self.study, &self.mechanisms, &self.nuisances, &self.plan, &self.bank)
             .expect("enough walls")
+    }
+
+    /// The base model as the paper's design sees it.
+    fn told(&self) -> (World<'_>, Design, Reference) {
+        let (world, (design, _)) = (self.world(), Design::of(&self.study));
+        let reference = Reference::new(&world, &design, 1000, 77).expect("it can be told");
+        (world, design, reference)
     }
 }
 
@@ -147,9 +151,7 @@ fn a_gauge_that_has_moved_shows_in_every_reading_and_in_no_angle() {
 #[test]
 fn little_is_found_where_nothing_is_hidden_also_with_joints_far_out_in_their_priors() {
     let made = made();
-    let world = made.world();
-    let (design, _) = Design::of(&made.study);
-    let reference = Reference::new(&world, &design, 1000, 77).expect("it can be told");
+    let (world, design, reference) = made.told();
     let found = |far: f64, seed: u64| {
         let wrong = |k: u64| {
             let streams = Streams::new(seed, k);
@@ -170,9 +172,7 @@ fn little_is_found_where_nothing_is_hidden_also_with_joints_far_out_in_their_pri
 #[test]
 fn a_family_that_moves_four_times_too_far_is_found_and_said_to() {
     let made = made();
-    let world = made.world();
-    let (design, _) = Design::of(&made.study);
-    let reference = Reference::new(&world, &design, 1000, 77).expect("it can be told");
+    let (world, design, reference) = made.told();
     let streams = Streams::new(3, 3);
     let truth = world.drawn(None, &streams);
     let mut campaign = world.campaign(&design, &truth, &streams);
@@ -201,9 +201,7 @@ fn a_family_that_moves_four_times_too_far_is_found_and_said_to() {
 #[test]
 fn strong_causes_are_named_and_those_that_do_nothing_are_not() {
     let made = made();
-    let world = made.world();
-    let (design, _) = Design::of(&made.study);
-    let reference = Reference::new(&world, &design, 1000, 77).expect("it can be told");
+    let (world, design, reference) = made.told();
     let ranking = Ranking::trained(&world, &design, &reference, 300, 5);
     let test = ranking.self_test(&world, &design, &reference, &Limits::default(), 100, 6);
     let of = |name: &str| {
@@ -225,9 +223,7 @@ fn strong_causes_are_named_and_those_that_do_nothing_are_not() {
 #[test]
 fn a_cause_outside_the_catalogue_is_not_given_the_name_of_one_inside() {
     let made = made();
-    let world = made.world();
-    let (design, _) = Design::of(&made.study);
-    let reference = Reference::new(&world, &design, 1000, 77).expect("it can be told");
+    let (world, design, reference) = made.told();
     let ranking = Ranking::trained(&world, &design, &reference, 300, 5);
     let limits = Limits::default();
     let creep = made.mechanisms.iter().position(|m| m.name == "creep").expect("in the catalogue");

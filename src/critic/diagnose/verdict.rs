@@ -2,12 +2,29 @@
 
 use crate::critic::diagnose::design::{Campaign, Design};
 use crate::critic::diagnose::guard::{Guarded, guarded};
-use crate::critic::diagnose::ranking::{Limits, Ranked, Ranking};
+use crate::critic::diagnose::ranking::{Ranked, Ranking};
 use crate::critic::diagnose::world::World;
 use crate::critic::diagnose::wrong::{Reference, Wrong};
 
 /// A set of more causes than this separates nothing.
 pub const MOST_AMBIGUOUS: usize = 3;
+
+/// The limits of a verdict.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Something is wrong below this p-value.
+    pub found: f64,
+    /// A cause is named at this probability or above.
+    pub named: f64,
+    /// A cause that fits a campaign worse than all but so large a share of its own does not explain it.
+    pub guard: f64,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Limits { found: 0.05, named: 0.8, guard: 0.05 }
+    }
+}
 
 /// What a campaign says of the base model.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -49,7 +66,7 @@ pub fn diagnosed(
     if wrong.p_value >= limits.found {
         return Diagnosis { wrong, ranked, guarded: Vec::new(), verdict: Verdict::NothingFound };
     }
-    let named = ranking.named(&wrong, limits);
+    let named = ranked.named(limits.named);
     let likely = ranked.causes.iter().filter_map(|(cause, _)| *cause);
     let in_question: Vec<usize> =
         likely.filter(|cause| named == Some(*cause) || ranked.set.contains(cause)).collect();

@@ -2,13 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use crate::critic::bank::{Bank, Emulator, Path, Plan};
+use crate::critic::bank::{Bank, Curves, Emulator, Path, Plan};
 use crate::critic::diagnose::design::{Campaign, Design, Seen};
+use crate::critic::simulated::of_points;
 use crate::ensemble::is_random;
 use crate::math::{atan, radians, tan};
-use crate::random::standard_normal::{cdf, quantile};
+use crate::random::standard_normal::quantile;
 use crate::random::{Family, Streams};
-use crate::study::{Acts, Arm, Described, MeasuredQuantity, Measurement, Nuisance, Study};
+use crate::study::{Acts, Arm, Described, MeasuredQuantity, Measurement, Mechanisms, Nuisance, Study};
 
 /// A wall differs from the expected path as one of so many of its nearest neighbours in the bank does.
 const NEIGHBOURS: usize = 20;
@@ -110,11 +111,11 @@ impl<'s> World<'s> {
                 .or_insert_with(|| score(&format!("common error {}", m.quantity.name())));
             Seen::of(value + m.common_error * shared + m.error * score(name), m)
         };
-        let specimens = design.specimens.iter().enumerate().map(|(index, specimen)| {
-            let path = self.wall(specimen.family, truth, index, streams);
-            let readings = specimen.readings.iter().enumerate();
+        let values = self.values(design, truth, streams).into_iter().zip(&design.specimens).enumerate();
+        let specimens = values.map(|(index, (values, specimen))| {
+            let readings = values.into_iter().zip(&specimen.readings).enumerate();
             readings
-                .map(|(k, m)| match self.shown(&path, m, truth) {
+                .map(|(k, (value, m))| match value {
                     Some(value) => read(value, m, &format!("error {index} {k}")),
                     None => Seen::Nothing,
                 })
@@ -125,6 +126,19 @@ impl<'s> World<'s> {
         let joints = joints
             .map(|(k, (family, m))| read(self.joint(*family, m, truth), m, &format!("joint error {k}")));
         Campaign { specimens, joints: joints.collect() }
+    }
+
+    /// What the specimens of a campaign show of each reading (SI, gauges included) before the readings' errors; `None` where the
+    /// wall has fallen. The walls are those of [`Self::campaign`] with the same streams.
+    pub fn values(&self, design: &Design, truth: &Truth, streams: &Streams) -> Vec<Vec<Option<f64>>> {
+        let gauge = self.gauge(truth);
+        let specimens = design.specimens.iter().enumerate();
+        specimens
+            .map(|(index, specimen)| {
+                let curves = self.wall(specimen.family, truth, index, streams).curves();
+                specimen.readings.iter().map(|m| shown(&curves, m, &gauge)).collect()
+            })
+            .collect()
     }
 
     /// The path of a specimen.
@@ -147,41 +161,28 @@ impl<'s> World<'s> {
         path
     }
 
-    /// What a wall shows of a reading before its errors; `None` where it has fallen.
-    fn shown(&self, path: &Path, m: &Measurement, truth: &Truth) -> Option<f64> {
-        use MeasuredQuantity as Q;
-        if m.quantity == Q::CollapseAngle {
-            return Some(path.collapse());
-        }
-        let [left, centre, right] = path.displacements(m.tilt?)?.map(|x| self.gauge(x, truth));
-        Some(match m.quantity {
-            Q::DisplacementLeft => left,
-            Q::DisplacementCentre => centre,
-            Q::DisplacementRight => right,
-            Q::DisplacementCentreMinusEnds => centre - 0.5 * (left + right),
-            _ => (left + centre + right) / 3.0,
-        })
-    }
-
     /// A parameter of the cause (in its key's unit), if this mechanism is the cause.
     fn parameter(&self, truth: &Truth, mechanism: &str, key: &str) -> Option<f64> {
         let described = &self.mechanisms[truth.cause?];
         let at = described.parameters.iter().position(|p| p.key == key && described.name == mechanism)?;
-        Some(described.parameters[at].at_score(truth.parameters[at]))
+        Some(described.parameters[at].prior.at_score(truth.parameters[at]))
     }
 
-    /// What a gauge shows of a displacement.
-    fn gauge(&self, displacement: f64, truth: &Truth) -> f64 {
-        let factor = self.parameter(truth, "gauge_scale", "factor").unwrap_or(1.0);
-        factor * displacement + self.parameter(truth, "gauge_offset", "offset_m").unwrap_or(0.0)
+    /// What gauges make of the displacements.
+    fn gauge(&self, truth: &Truth) -> Mechanisms {
+        Mechanisms {
+            gauge_scale: self.parameter(truth, "gauge_scale", "factor"),
+            gauge_offset: self.parameter(truth, "gauge_offset", "offset_m"),
+            ..Mechanisms::default()
+        }
     }
 
     /// What a test on two stones shows of a family's joints: stiffness over the whole joint, and friction before it weakens.
     fn joint(&self, family: usize, m: &Measurement, truth: &Truth) -> f64 {
         let arm = &self.study.arms[family];
-        let factor = |k: usize| self.nuisances[k].prior.quantile(cdf(truth.joints[self.kinds[family]][k]));
+        let factor = |k: usize| self.nuisances[k].prior.at_score(truth.joints[self.kinds[family]][k]);
         if m.quantity == MeasuredQuantity::JointKn {
-            let kn = arm.kn_points[arm.kn_points.len().saturating_sub(1) / 2];
+            let kn = arm.kn_points[arm.middle_point()];
             return kn * factor(0) * self.parameter(truth, "contact_area", "share").unwrap_or(1.0);
         }
         let phi = radians(arm.joint.phi_deg.mean() * factor(1));
@@ -194,6 +195,14 @@ impl<'s> World<'s> {
         let told = |(index, m): &(usize, &Described)| m.acts == Acts::Readings || has_walls(*index);
         self.mechanisms.iter().enumerate().filter(told).map(|(index, _)| index).collect()
     }
+}
+
+/// What a wall shows of a reading before its errors; `None` where it has fallen.
+fn shown(wall: &Curves, m: &Measurement, gauge: &Mechanisms) -> Option<f64> {
+    if m.quantity == MeasuredQuantity::CollapseAngle {
+        return Some(wall.collapse());
+    }
+    of_points(m.quantity, wall.displacements(m.tilt?)?.map(|x| gauge.reading(x)))
 }
 
 /// Scores of the parameters that vary.

@@ -125,26 +125,24 @@ impl Reference {
 
     /// The excess of each feature over the joints that explain most (Gaussian, within their priors), and the scores of these.
     fn excess(&self, found: &BTreeMap<Feature, f64>) -> (Vec<Option<f64>>, Vec<f64>) {
-        let shown: Vec<usize> =
-            (0..self.features.len()).filter(|&k| found.contains_key(&self.features[k])).collect();
+        let shown: Vec<bool> = self.features.iter().map(|feature| found.contains_key(feature)).collect();
         let off = DVector::from_fn(self.features.len(), |k, _| {
             found.get(&self.features[k]).map_or(0.0, |x| x - self.mean[k])
         });
         // What is not shown weighs nothing.
-        let mut slopes = self.slopes.clone();
         let mut precision = self.precision.clone();
-        for k in (0..self.features.len()).filter(|k| !shown.contains(k)) {
-            slopes.row_mut(k).fill(0.0);
+        for k in (0..shown.len()).filter(|&k| !shown[k]) {
             precision.row_mut(k).fill(0.0);
             precision.column_mut(k).fill(0.0);
         }
+        let slopes = &self.slopes;
         let weighted = slopes.transpose() * &precision;
-        let normal = &weighted * &slopes + DMatrix::identity(slopes.ncols(), slopes.ncols());
+        let normal = &weighted * slopes + DMatrix::identity(slopes.ncols(), slopes.ncols());
         let scores = normal
             .cholesky()
             .map_or_else(|| DVector::zeros(slopes.ncols()), |normal| normal.solve(&(&weighted * &off)));
-        let rest = &off - &self.slopes * &scores;
-        let excess = (0..self.features.len()).map(|k| shown.contains(&k).then(|| rest[k] / self.spread[k]));
+        let rest = &off - slopes * &scores;
+        let excess = shown.iter().enumerate().map(|(k, shown)| shown.then(|| rest[k] / self.spread[k]));
         (excess.collect(), scores.iter().copied().collect())
     }
 }

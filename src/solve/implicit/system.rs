@@ -9,7 +9,7 @@ use faer::prelude::Solve;
 use faer::sparse::linalg::LltError;
 use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
-use faer::{Col, Side};
+use faer::{ColMut, Side};
 
 use crate::solve::bodies::{Body, Freedom};
 use crate::solve::implicit::elimination::{Elimination, Order};
@@ -223,17 +223,15 @@ impl System {
 
     /// Solves with the factorised matrix; NaN where there is none.
     pub fn solve(&self, right: &[f64]) -> Vec<f64> {
-        let mut x = Col::from_fn(right.len(), |k| right[k]);
+        let mut x = right.to_vec();
         match &self.factor {
             Factor::None => x.fill(f64::NAN),
-            Factor::Symmetric(factor) => factor.solve_in_place(x.as_mut()),
-            Factor::General(elimination) => {
-                let mut x = right.to_vec();
-                elimination.solve(&mut x);
-                return x;
+            Factor::Symmetric(factor) => {
+                factor.solve_in_place(ColMut::from_slice_mut(&mut x));
             }
+            Factor::General(elimination) => elimination.solve(&mut x),
         }
-        (0..right.len()).map(|k| x[k]).collect()
+        x
     }
 }
 
