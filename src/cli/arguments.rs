@@ -262,6 +262,9 @@ pub(crate) struct Diagnose {
     /// Stop with the command to run, where there is no bank.
     #[arg(long)]
     pub no_build: bool,
+    /// Do not measure what the extended model gains on readings held out: minutes on a large design.
+    #[arg(long)]
+    pub no_gain: bool,
     /// Output folder [default: runs/<study>-diagnosis].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

@@ -7,13 +7,11 @@ use crate::cli::arguments::Diagnose;
 use crate::cli::bank::{self, Prepared};
 use crate::cli::failure::Failure;
 use crate::cli::output;
-use crate::critic::{self, BANK, Design, Limits, Plan, Ranking, Reference, World, diagnosed};
-use crate::report::{self, DiagnosisSummary};
+use crate::critic::{self, BANK, Design, Effort, Judge, Limits, Measuring, Plan, Truth, Verdict, World};
+use crate::report::{self, Advice, DiagnosisSummary, GainSummary};
 
-/// Campaigns of the base model that say how far off they are by chance.
-const REFERENCE: u64 = 2000;
-/// Campaigns of each cause that the ranking learns from.
-const TRAINING: u64 = 1200;
+/// Seeds that a part of a diagnosis may use from its own on.
+const SEEDS: u64 = 1000;
 /// Campaigns of each cause in the self-test.
 const TESTED: u64 = 100;
 
@@ -31,16 +29,21 @@ pub(crate) fn diagnose(arguments: &Diagnose) -> Result<(), Failure> {
     let (design, measured) = Design::of(&study);
     // The bank keeps the study's own seed.
     let seed = arguments.seed.unwrap_or(study.seed);
-    let Some(reference) = Reference::new(&world, &design, REFERENCE, seed) else {
+    let Some(judge) = Judge::trained(&world, &design, Effort::default(), seed) else {
         return Err(Failure::Input("none of the measurements can be set against a simulation".to_string()));
     };
-    let ranking = Ranking::trained(&world, &design, &reference, TRAINING, seed.wrapping_add(1));
     let limits = Limits::default();
-    let diagnosis =
-        diagnosed(&world, &design, (&reference, &ranking), &measured, &limits, seed.wrapping_add(2));
-    let test = ranking.self_test(&world, &design, &reference, &limits, TESTED, seed.wrapping_add(3));
-    let summary =
+    let diagnosis = judge.diagnosed(&measured, &limits, seed.wrapping_add(SEEDS));
+    let test = judge.self_test(&limits, TESTED, seed.wrapping_add(2 * SEEDS));
+    let mut summary =
         DiagnosisSummary::of(&study, seed, &plan.study.hash, &mechanisms, &design, &diagnosis, &test);
+    let possible: Vec<(f64, Vec<Truth>)> = diagnosis.possible();
+    let offered = critic::offers(&judge, &possible, seed.wrapping_add(4 * SEEDS));
+    summary.advice = Advice::of(&test, &offered, &mechanisms);
+    if diagnosis.verdict != Verdict::NothingFound && !arguments.no_gain {
+        let gain = critic::gain(&judge, &measured, &Measuring::default(), seed.wrapping_add(3 * SEEDS));
+        summary.gain = gain.map(|gain| GainSummary::of(&gain, &design, &mechanisms));
+    }
     let out = arguments
         .out
         .clone()

@@ -20,9 +20,10 @@ pub use bank::{BANK, Bank, Emulator, NotThisBank, Path, Place, Plan};
 pub use calibrate::{Calibration, CurvePoint, End, LEAST_POINTS, calibrate, calibrate_family};
 pub use compare::{Beside, Difference, Measured, Ours, Walls, compare};
 pub use diagnose::{
-    COVERED, Campaign, Contrast, Design, Diagnosis, Feature, Guarded, Limits, MOST_AMBIGUOUS, Ranked,
-    Ranking, Reference, Scale, Seen, SelfTest, SelfTestRow, Specimen, Truth, Verdict, World, Wrong,
-    diagnosed, features, guarded,
+    CAUGHT, COVERED, Campaign, Caught, Choice, Contrast, DOUBT, Design, Diagnosis, Effort, Evidence, Feature,
+    Gain, Gained, HeldOut, Interval, Judge, Limits, LookedAt, MOST_AMBIGUOUS, Measuring, Offer, Offered,
+    Ranked, Ranking, Reference, Scale, Scores, Seeming, Seen, SelfTest, SelfTestRow, Specimen, Truth,
+    Verdict, World, Wrong, evidence, features, gain, guarded, offers,
 };
 pub use likelihood::log_likelihood;
 pub use monotone::Monotone;

@@ -4,8 +4,10 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 
-use crate::critic::{Contrast, Design, Diagnosis, Feature, Guarded, SelfTest, Verdict};
+use crate::critic::{Contrast, Design, Diagnosis, Feature, SelfTest, Truth, Verdict};
 use crate::ensemble::replace_file;
+use crate::report::advice::Advice;
+use crate::report::gain::GainSummary;
 use crate::report::number::significant;
 use crate::stats;
 use crate::study::{Described, MeasuredQuantity, Study};
@@ -40,6 +42,10 @@ pub struct DiagnosisSummary {
     pub unused_lines: Vec<usize>,
     /// How reliable verdicts on such data are.
     pub self_test: Vec<SelfTestEntry>,
+    /// What the data cannot tell, and what would.
+    pub advice: Advice,
+    /// What the extended model gains on readings that were not known; null where it was not asked or nothing was found.
+    pub gain: Option<GainSummary>,
 }
 
 /// A cause.
@@ -49,11 +55,13 @@ pub struct CauseEntry {
     pub id: &'static str,
     /// Its probability.
     pub probability: f64,
+    /// Its share of the evidence of the causes that were looked at closely and of the base model; null for the others.
+    pub evidence: Option<f64>,
     /// Whether the verdict speaks of it.
     pub in_verdict: bool,
     /// Share of its own campaigns that fit the readings no better; null where the guard was not asked.
     pub guard_p_value: Option<f64>,
-    /// Its parameters, as far as the data tell them; empty where the guard was not asked.
+    /// Its parameters, as far as the data tell them; empty where it was not looked at closely.
     pub parameters: Vec<ParameterEntry>,
 }
 
@@ -111,26 +119,27 @@ impl DiagnosisSummary {
             Verdict::Ambiguous(causes) => ("ambiguous", causes.clone()),
             Verdict::Unexplained => ("unexplained", Vec::new()),
         };
-        let guard =
-            |cause: usize| diagnosis.guarded.iter().find(|(own, _)| *own == cause).map(|(_, guard)| guard);
-        let mut causes: Vec<CauseEntry> = diagnosis
-            .ranked
+        let ranked = &diagnosis.seeming.ranked;
+        let mut causes: Vec<CauseEntry> = ranked
             .causes
             .iter()
             .filter_map(|&(cause, probability)| {
                 let cause = cause?;
+                let closely = diagnosis.looked_at(cause);
                 Some(CauseEntry {
                     id: mechanisms[cause].name,
                     probability,
+                    evidence: closely.map(|own| own.evidence),
                     in_verdict: spoken.contains(&cause),
-                    guard_p_value: guard(cause).map(|guard| guard.p_value),
-                    parameters: guard(cause)
-                        .map_or_else(Vec::new, |guard| parameters(&mechanisms[cause], guard)),
+                    guard_p_value: closely.and_then(|own| own.guard),
+                    parameters: closely
+                        .map_or_else(Vec::new, |own| parameters(&mechanisms[cause], &own.draws)),
                 })
             })
             .collect();
         causes.sort_by_key(|cause| !cause.in_verdict);
         let mut off: Vec<OffEntry> = diagnosis
+            .seeming
             .wrong
             .excess
             .iter()
@@ -139,7 +148,7 @@ impl DiagnosisSummary {
             })
             .collect();
         off.sort_by(|a, b| b.in_sd.abs().total_cmp(&a.in_sd.abs()));
-        let base = diagnosis.ranked.causes.iter().find(|(cause, _)| cause.is_none());
+        let base = ranked.causes.iter().find(|(cause, _)| cause.is_none());
         let tested = self_test.rows.iter().map(|row| SelfTestEntry {
             hidden: row.cause.map_or("nothing", |cause| mechanisms[cause].name),
             campaigns: row.campaigns,
@@ -155,19 +164,21 @@ impl DiagnosisSummary {
             verdict,
             causes,
             base_probability: base.map_or(0.0, |(_, probability)| *probability),
-            p_value: diagnosis.wrong.p_value,
+            p_value: diagnosis.seeming.p_value,
             off,
             unused_lines: design.unused.clone(),
             self_test: tested.collect(),
+            advice: Advice::default(),
+            gain: None,
         }
     }
 }
 
-/// What the campaigns that look most alike have of a cause's parameters.
-fn parameters(mechanism: &Described, guard: &Guarded) -> Vec<ParameterEntry> {
+/// What the posterior says of a cause's parameters.
+fn parameters(mechanism: &Described, draws: &[Truth]) -> Vec<ParameterEntry> {
     let entry = |(k, parameter): (usize, &crate::study::Parameter)| {
         let values: Vec<f64> =
-            guard.alike.iter().map(|truth| parameter.prior.at_score(truth.parameters[k])).collect();
+            draws.iter().map(|truth| parameter.prior.at_score(truth.parameters[k])).collect();
         let at = |p: f64| stats::quantile(&values, p);
         Some(ParameterEntry {
             key: parameter.key,
@@ -241,11 +252,15 @@ pub fn diagnosis_text(summary: &DiagnosisSummary) -> String {
     if worth.is_empty() {
         text.push_str("  nothing by two or more\n");
     }
-    text.push_str("\nCauses (probability if all were equally likely before; guard: share of the cause's own campaigns that fit worse)\n");
+    text.push_str("\nCauses (probability if all were equally likely before; share of the evidence; guard: share of the cause's own campaigns that\nfit worse)\n");
     for cause in summary.causes.iter().take(6) {
         let mark = if cause.in_verdict { "*" } else { " " };
-        let guard = cause.guard_p_value.map_or("-".to_string(), |p| significant(p, 2));
-        text.push_str(&format!("{mark} {:<18} {:>6.3}   guard {guard}\n", cause.id, cause.probability));
+        let or_dash = |p: Option<f64>| p.map_or("-".to_string(), |p| significant(p, 2));
+        let (evidence, guard) = (or_dash(cause.evidence), or_dash(cause.guard_p_value));
+        text.push_str(&format!(
+            "{mark} {:<18} {:>6.3}   evidence {evidence}   guard {guard}\n",
+            cause.id, cause.probability
+        ));
         for parameter in cause.parameters.iter().filter(|_| cause.in_verdict) {
             let [low, high] = parameter.interval.map(|x| significant(x, 3));
             let median = significant(parameter.median, 3);
@@ -253,6 +268,8 @@ pub fn diagnosis_text(summary: &DiagnosisSummary) -> String {
         }
     }
     text.push_str(&format!("  {:<18} {:>6.3}\n", "none of them", summary.base_probability));
+    text.push_str(&summary.gain.as_ref().map_or_else(String::new, GainSummary::text));
+    text.push_str(&summary.advice.text());
     text.push_str(&reliability(summary));
     if !summary.unused_lines.is_empty() {
         let lines: Vec<String> = summary.unused_lines.iter().map(ToString::to_string).collect();

@@ -1,6 +1,7 @@
 //! What a reader gets: the summary, the comparison with published statements, the table on the terminal, the figure,
 //! the wall for ParaView, the picture of a wall that falls. Reads rows and statistics; never computes physics.
 
+mod advice;
 mod beside;
 mod compare;
 mod csv;
@@ -11,6 +12,7 @@ mod elements;
 mod figure;
 mod files;
 mod fragility;
+mod gain;
 mod marker;
 mod measured;
 mod number;
@@ -28,11 +30,13 @@ mod table;
 mod tests;
 mod vtu;
 
+pub use advice::Advice;
 pub use beside::{Earlier, Mean};
 pub use compare::{Basis, Comparison};
 pub use diagnosis::{DiagnosisSummary, diagnosis_text, write_diagnosis};
 pub use elements::{element_table, write_elements};
 pub use files::{FRAGILITY, SUMMARY_JSON, write_all};
+pub use gain::GainSummary;
 pub use measured::{CalibrationEntry, ComparisonEntry, MeasuredSummary};
 pub use picture::{Movement, Picture, Seam, Stone};
 pub use published::{Published, Verdict};

@@ -6,7 +6,7 @@
 use std::path::Path;
 use std::sync::OnceLock;
 
-use pirca::critic::{Bank, Design, Diagnosis, Limits, Plan, Ranking, Reference, Verdict, World, diagnosed};
+use pirca::critic::{Bank, Design, Diagnosis, Effort, Judge, Limits, Plan, Verdict, World};
 use pirca::ensemble::{Row, Task, evaluate};
 use pirca::math::{exp, radians};
 use pirca::protocol::Protocol;
@@ -135,9 +135,8 @@ fn verdict(hidden: &Hidden, seed: u64) -> (Verdict, Diagnosis) {
     let world = World::new(&study, &known.mechanisms, &known.nuisances, &known.plan, &known.bank);
     let world = world.expect("enough walls");
     let (design, measured) = Design::of(&study);
-    let reference = Reference::new(&world, &design, 1500, 11).expect("it can be told");
-    let ranking = Ranking::trained(&world, &design, &reference, 800, 12);
-    let found = diagnosed(&world, &design, (&reference, &ranking), &measured, &Limits::default(), 13);
+    let judge = Judge::trained(&world, &design, Effort { reference: 1500, training: 800 }, 11);
+    let found = judge.expect("it can be told").diagnosed(&measured, &Limits::default(), 13);
     (found.verdict.clone(), found)
 }
 

@@ -9,6 +9,6 @@ mod store;
 pub(super) mod tests;
 
 pub use emulator::Emulator;
-pub use path::{Curves, Path};
+pub use path::{Curves, NUMBERS, Path};
 pub use plan::{Place, Plan};
 pub use store::{BANK, Bank, NotThisBank};

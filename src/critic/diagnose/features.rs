@@ -77,6 +77,11 @@ impl Scale {
         Scale { specimens: specimens.collect(), joints: joints.collect() }
     }
 
+    /// The base model's standard deviation of every reading (SI), by specimen and reading.
+    pub fn units(&self) -> Vec<Vec<f64>> {
+        self.specimens.iter().map(|readings| readings.iter().map(|[_, sd]| *sd).collect()).collect()
+    }
+
     /// Every reading in its units, with its family, joints' tests not among them; `None` where nothing was seen.
     pub fn readings(&self, design: &Design, campaign: &Campaign) -> Vec<(usize, Option<f64>)> {
         let specimens = design.specimens.iter().zip(&campaign.specimens).zip(&self.specimens);

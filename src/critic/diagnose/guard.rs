@@ -2,10 +2,11 @@
 //! campaigns that look most alike; a cause outside the catalogue fits the few numbers that the network sees better than it fits
 //! these.
 
-use crate::critic::diagnose::design::{Campaign, Design};
+use rayon::prelude::*;
+
+use crate::critic::diagnose::design::Campaign;
+use crate::critic::diagnose::judge::Judge;
 use crate::critic::diagnose::ranking::inputs;
-use crate::critic::diagnose::world::{Truth, World};
-use crate::critic::diagnose::wrong::Reference;
 use crate::random::Streams;
 use crate::stats;
 
@@ -18,51 +19,35 @@ const JUDGED: usize = 300;
 /// A reading is set against the others where so many of these show it.
 const SHOWN: usize = 15;
 
-/// What the guard says of a cause.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Guarded {
-    /// Share of the cause's own campaigns that fit no better.
-    pub p_value: f64,
-    /// The truths of the campaigns that look most alike: draws from what the parameters and the joints may be.
-    pub alike: Vec<Truth>,
-}
-
 /// What a campaign looks like.
 struct Looks {
     inputs: Vec<f64>,
     readings: Vec<(usize, Option<f64>)>,
 }
 
-/// Asks the guard about a cause (none: the base model); a pure function of its arguments.
-pub fn guarded(
-    world: &World<'_>,
-    design: &Design,
-    reference: &Reference,
-    cause: Option<usize>,
-    campaign: &Campaign,
-    seed: u64,
-) -> Guarded {
+/// Share of a cause's own campaigns (none: the base model) that fit it no better than this one does; a pure function of its
+/// arguments.
+pub fn guarded(judge: &Judge<'_>, cause: Option<usize>, campaign: &Campaign, seed: u64) -> f64 {
+    let Judge { world, design, reference, .. } = judge;
     let looks = |campaign: &Campaign| Looks {
         inputs: inputs(&reference.judge(design, campaign)),
         readings: reference.scale.readings(design, campaign),
     };
-    let (truths, pool): (Vec<Truth>, Vec<Looks>) = (0..POOL)
+    let pool: Vec<Looks> = (0..POOL)
+        .into_par_iter()
         .map(|k| {
             let streams = Streams::new(seed, k);
-            let truth = world.drawn(cause, &streams);
-            let shown = looks(&world.campaign(design, &truth, &streams));
-            (truth, shown)
+            looks(&world.campaign(design, &world.drawn(cause, &streams), &streams))
         })
-        .unzip();
-    let (misfit, near) = misfit(&looks(campaign), &pool, None);
-    let worse = (0..JUDGED).filter(|&k| self::misfit(&pool[k], &pool, Some(k)).0 >= misfit).count();
-    let alike = near.into_iter().map(|k| truths[k].clone()).collect();
-    Guarded { p_value: (worse + 1) as f64 / (JUDGED + 1) as f64, alike }
+        .collect();
+    let own = misfit(&looks(campaign), &pool, None);
+    let worse = (0..JUDGED).into_par_iter().filter(|&k| misfit(&pool[k], &pool, Some(k)) >= own).count();
+    (worse + 1) as f64 / (JUDGED + 1) as f64
 }
 
 /// The largest of the families' mean squares of the readings less those of the campaigns most alike, in standard deviations of
-/// these; and which they are. `but` is not among them.
-fn misfit(one: &Looks, pool: &[Looks], but: Option<usize>) -> (f64, Vec<usize>) {
+/// these. `but` is not among them.
+fn misfit(one: &Looks, pool: &[Looks], but: Option<usize>) -> f64 {
     let distance =
         |other: &Looks| one.inputs.iter().zip(&other.inputs).fold(0.0, |sum, (a, b)| sum + (a - b) * (a - b));
     let others = pool.iter().enumerate().filter(|(k, _)| Some(*k) != but);
@@ -81,6 +66,5 @@ fn misfit(one: &Looks, pool: &[Looks], but: Option<usize>) -> (f64, Vec<usize>) 
             squares[*family].push(off * off);
         }
     }
-    let worst = squares.iter().filter_map(|squares| stats::mean(squares)).fold(0.0, f64::max);
-    (worst, near)
+    squares.iter().filter_map(|squares| stats::mean(squares)).fold(0.0, f64::max)
 }

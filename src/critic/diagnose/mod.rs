@@ -1,9 +1,15 @@
 //! What the simulation gets wrong: measured campaigns beside those that the base model could have shown.
 
+mod alarm;
 mod design;
+mod evidence;
 mod features;
+mod gain;
 mod guard;
+mod judge;
+mod likelihood;
 mod network;
+mod next;
 mod ranking;
 mod self_test;
 #[cfg(test)]
@@ -13,10 +19,14 @@ mod world;
 mod wrong;
 
 pub use design::{Campaign, Design, Seen, Specimen};
+pub use evidence::{Evidence, evidence};
 pub use features::{Contrast, Feature, Scale, features};
-pub use guard::{Guarded, guarded};
+pub use gain::{Choice, Gain, Gained, HeldOut, Interval, Measuring, Scores, gain};
+pub use guard::guarded;
+pub use judge::{Effort, Judge, Seeming};
+pub use next::{Offer, Offered, offers};
 pub use ranking::{COVERED, Ranked, Ranking};
-pub use self_test::{SelfTest, SelfTestRow};
-pub use verdict::{Diagnosis, Limits, MOST_AMBIGUOUS, Verdict, diagnosed};
-pub use world::{Truth, World};
+pub use self_test::{CAUGHT, Caught, SelfTest, SelfTestRow};
+pub use verdict::{Diagnosis, Limits, LookedAt, MOST_AMBIGUOUS, Verdict};
+pub use world::{DOUBT, Truth, World};
 pub use wrong::{Reference, Wrong};

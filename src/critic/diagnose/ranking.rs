@@ -1,6 +1,8 @@
 //! Which cause explains what is wrong? A network trained on campaigns that the causes would have shown, and sets of causes that
 //! hold the true one nine times in ten, whichever it is.
 
+use rayon::prelude::*;
+
 use crate::critic::diagnose::design::Design;
 use crate::critic::diagnose::network::{Example, Network};
 use crate::critic::diagnose::world::World;
@@ -46,17 +48,19 @@ impl Ranking {
         let causes: Vec<Option<usize>> =
             std::iter::once(None).chain(world.causes().into_iter().map(Some)).collect();
         let classes = causes.len();
-        let mut examples: Vec<Example> = Vec::new();
-        let mut kept: Vec<Example> = Vec::new();
-        for k in 0..count {
-            for (class, cause) in causes.iter().enumerate() {
-                // The same stones and errors under every cause.
-                let streams = Streams::new(seed, k);
-                let truth = world.drawn(*cause, &streams);
-                let wrong = reference.judge(design, &world.campaign(design, &truth, &streams));
-                let to = if k % KEPT == 0 { &mut kept } else { &mut examples };
-                to.push((inputs(&wrong), class));
-            }
+        let shown = |k: u64, (class, cause): (usize, &Option<usize>)| -> Example {
+            // The same stones and errors under every cause.
+            let streams = Streams::new(seed, k);
+            let truth = world.drawn(*cause, &streams);
+            (inputs(&reference.judge(design, &world.campaign(design, &truth, &streams))), class)
+        };
+        let all: Vec<Vec<Example>> = (0..count)
+            .into_par_iter()
+            .map(|k| causes.iter().enumerate().map(|cause| shown(k, cause)).collect())
+            .collect();
+        let (mut examples, mut kept): (Vec<Example>, Vec<Example>) = (Vec::new(), Vec::new());
+        for (k, shown) in (0..count).zip(all) {
+            if k.is_multiple_of(KEPT) { &mut kept } else { &mut examples }.extend(shown);
         }
         let network = Network::trained(&examples, classes, &mut Streams::new(seed, count).of("network"));
         let least = (0..classes).map(|class| {
@@ -89,6 +93,13 @@ impl Ranking {
 }
 
 impl Ranked {
+    /// How much more likely any cause is than the base model (logarithm of the odds).
+    pub fn odds(&self) -> f64 {
+        let base = self.causes.iter().find(|(cause, _)| cause.is_none()).map_or(0.0, |(_, p)| *p);
+        let tiny = 1e-12;
+        ln((1.0 - base).max(tiny)) - ln(base.max(tiny))
+    }
+
     /// The most likely cause, if it is at least so likely and not the base model.
     pub fn named(&self, least: f64) -> Option<usize> {
         let (cause, probability) = self.causes[0];

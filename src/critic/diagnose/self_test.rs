@@ -1,18 +1,27 @@
-//! How often diagnoses of a design find and name what is hidden, by simulation from the bank.
+//! How often diagnoses of a design find and name what is hidden, by simulation from the bank; which causes it cannot tell apart,
+//! and how large an effect must be to be caught.
 
-use crate::critic::diagnose::design::Design;
-use crate::critic::diagnose::ranking::Ranking;
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use crate::critic::diagnose::judge::{Judge, Seeming};
 use crate::critic::diagnose::verdict::Limits;
-use crate::critic::diagnose::world::World;
-use crate::critic::diagnose::wrong::Reference;
+use crate::critic::diagnose::world::Truth;
 use crate::random::Streams;
 use crate::stats;
+
+/// Two causes look alike where so large a share of the sets of either hold the other.
+const ALIKE: f64 = 0.5;
+/// An effect is caught where so large a share of its campaigns is found.
+pub const CAUGHT: f64 = 0.8;
+/// That share is taken over so many campaigns of neighbouring strengths.
+const WINDOW: usize = 15;
 
 /// How often diagnoses of a design find and name what is hidden, by simulation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SelfTest {
-    /// For each cause and for the base model (first): campaigns, how many are found, named rightly, named wrongly, and in how many
-    /// of those found the set holds the cause; and the mean number of causes in these sets.
+    /// For the base model (first) and each cause.
     pub rows: Vec<SelfTestRow>,
 }
 
@@ -33,43 +42,177 @@ pub struct SelfTestRow {
     pub covered: u64,
     /// Mean number of causes in the sets of those found.
     pub set_size: f64,
+    /// Of those found, in how many sets each cause is.
+    pub with: BTreeMap<usize, u64>,
+    /// From where on its first parameter that matters is caught; `None` where no strength within the prior is.
+    pub caught: Option<Caught>,
 }
 
-impl Ranking {
-    /// Diagnoses `count` campaigns of every cause and of the base model, drawn from the priors with another seed than the
+/// Strengths from which on an effect is found four times in five.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Caught {
+    /// Index of the parameter.
+    pub parameter: usize,
+    /// Its score from where on.
+    pub score: f64,
+    /// Whether smaller values are caught, not larger ones.
+    pub below: bool,
+}
+
+/// A campaign of the self-test.
+struct Tested {
+    truth: Truth,
+    seeming: Seeming,
+}
+
+impl Judge<'_> {
+    /// Judges `count` campaigns of every cause and of the base model, drawn from the priors with another seed than the
     /// training's.
-    pub fn self_test(
-        &self,
-        world: &World<'_>,
-        design: &Design,
-        reference: &Reference,
-        limits: &Limits,
-        count: u64,
-        seed: u64,
-    ) -> SelfTest {
-        let row = |cause: Option<usize>| {
-            let (mut found, mut named, mut misnamed, mut covered) = (0, 0, 0, 0);
-            let mut sizes = Vec::new();
-            for k in 0..count {
+    pub fn self_test(&self, limits: &Limits, count: u64, seed: u64) -> SelfTest {
+        let row = |cause: &Option<usize>| {
+            let one = |k: u64| {
                 let streams = Streams::new(seed, k);
-                let truth = world.drawn(cause, &streams);
-                let wrong = reference.judge(design, &world.campaign(design, &truth, &streams));
-                if wrong.p_value >= limits.found {
-                    continue;
-                }
-                found += 1;
-                let ranked = self.of(&wrong);
-                sizes.push(ranked.set.len() as f64);
-                covered += u64::from(cause.is_some_and(|cause| ranked.set.contains(&cause)));
-                match ranked.named(limits.named) {
-                    Some(name) if Some(name) == cause => named += 1,
-                    Some(_) => misnamed += 1,
-                    None => {}
-                }
-            }
-            let set_size = stats::mean(&sizes).unwrap_or(0.0);
-            SelfTestRow { cause, campaigns: count, found, named, misnamed, covered, set_size }
+                let truth = self.world.drawn(*cause, &streams);
+                let seeming = self.seeming(&self.world.campaign(&self.design, &truth, &streams));
+                Tested { truth, seeming }
+            };
+            row(*cause, &(0..count).map(one).collect::<Vec<_>>(), limits)
         };
-        SelfTest { rows: self.causes().iter().map(|cause| row(*cause)).collect() }
+        SelfTest { rows: self.ranking.causes().par_iter().map(row).collect() }
+    }
+}
+
+fn row(cause: Option<usize>, campaigns: &[Tested], limits: &Limits) -> SelfTestRow {
+    let is_found = |tested: &&Tested| tested.seeming.p_value < limits.found;
+    let found: Vec<&Tested> = campaigns.iter().filter(is_found).collect();
+    let count = |is: &dyn Fn(&Tested) -> bool| found.iter().filter(|tested| is(tested)).count() as u64;
+    let name = |tested: &Tested| tested.seeming.ranked.named(limits.named);
+    let sizes: Vec<f64> = found.iter().map(|tested| tested.seeming.ranked.set.len() as f64).collect();
+    let mut with: BTreeMap<usize, u64> = BTreeMap::new();
+    found
+        .iter()
+        .flat_map(|tested| &tested.seeming.ranked.set)
+        .for_each(|cause| *with.entry(*cause).or_default() += 1);
+    let parameters = campaigns.first().map_or(0, |tested| tested.truth.parameters.len());
+    let shown = |parameter: usize| -> Vec<(f64, bool)> {
+        campaigns.iter().map(|tested| (tested.truth.parameters[parameter], is_found(&tested))).collect()
+    };
+    let caught = (0..parameters).find_map(|parameter| {
+        let (score, below) = caught(&shown(parameter))?;
+        Some(Caught { parameter, score, below })
+    });
+    SelfTestRow {
+        cause,
+        campaigns: campaigns.len() as u64,
+        found: found.len() as u64,
+        named: count(&|tested| cause.is_some() && name(tested) == cause),
+        misnamed: count(&|tested| name(tested).is_some_and(|name| Some(name) != cause)),
+        covered: cause.map_or(0, |cause| with.get(&cause).copied().unwrap_or(0)),
+        set_size: stats::mean(&sizes).unwrap_or(0.0),
+        with,
+        caught,
+    }
+}
+
+/// The score from where on, upwards or (true) downwards, effects are caught; the side on which more are.
+fn caught(shown: &[(f64, bool)]) -> Option<(f64, bool)> {
+    let from = |sign: f64| {
+        let mut order: Vec<(f64, bool)> = shown.iter().map(|(score, found)| (sign * score, *found)).collect();
+        order.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let mut reached = None;
+        // From the strongest on, as long as the neighbours in strength are found.
+        for (k, window) in order.windows(WINDOW).enumerate() {
+            let found = window.iter().filter(|(_, found)| *found).count();
+            if (found as f64) < CAUGHT * WINDOW as f64 {
+                break;
+            }
+            reached = Some((k, window[WINDOW / 2].0));
+        }
+        reached
+    };
+    let (up, down) = (from(1.0), from(-1.0));
+    match (up, down) {
+        (Some((more, score)), Some((fewer, _))) if more >= fewer => Some((score, false)),
+        (_, Some((_, score))) => Some((-score, true)),
+        (Some((_, score)), None) => Some((score, false)),
+        (None, None) => None,
+    }
+}
+
+impl SelfTest {
+    /// Causes that the design cannot tell apart, in classes of two or more; `found` is the least share of campaigns in which a
+    /// cause must be found to be in one.
+    pub fn classes(&self, found: f64) -> Vec<Vec<usize>> {
+        let seen: Vec<&SelfTestRow> = self
+            .rows
+            .iter()
+            .filter(|row| {
+                row.cause.is_some() && row.found as f64 >= found * row.campaigns as f64 && row.found > 0
+            })
+            .collect();
+        let holds = |row: &SelfTestRow, other: &SelfTestRow| {
+            let both = other.cause.and_then(|other| row.with.get(&other)).copied().unwrap_or(0);
+            both as f64 / row.found as f64
+        };
+        let mut classes: Vec<Vec<&SelfTestRow>> = Vec::new();
+        for row in seen {
+            let alike = |class: &Vec<&SelfTestRow>| {
+                class.iter().any(|other| holds(row, other) >= ALIKE && holds(other, row) >= ALIKE)
+            };
+            let (mut joined, apart): (Vec<_>, Vec<_>) = classes.into_iter().partition(alike);
+            let mut class = joined.drain(..).flatten().collect::<Vec<_>>();
+            class.push(row);
+            classes = apart;
+            classes.push(class);
+        }
+        let mut classes: Vec<Vec<usize>> =
+            classes.into_iter().map(|class| class.iter().filter_map(|row| row.cause).collect()).collect();
+        classes.retain(|class: &Vec<usize>| class.len() > 1);
+        classes.iter_mut().for_each(|class| class.sort_unstable());
+        classes.sort();
+        classes
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_effect_is_caught_from_where_on_its_neighbours_are() {
+        // Found above 1, for sure; below not at all.
+        let shown = |found: &dyn Fn(f64) -> bool| -> Vec<(f64, bool)> {
+            (0..400).map(|k| 0.01 * f64::from(k) - 2.0).map(|score| (score, found(score))).collect()
+        };
+        let (score, below) = caught(&shown(&|score| score > 1.0)).expect("it is found");
+        assert!((score - 1.0).abs() < 0.1 && !below, "{score}");
+        let (score, below) = caught(&shown(&|score| score < -1.0)).expect("it is found");
+        assert!((score + 1.0).abs() < 0.1 && below, "{score}");
+        assert_eq!(caught(&shown(&|_| false)), None);
+    }
+
+    #[test]
+    fn causes_in_each_others_sets_make_a_class() {
+        let row = |cause: usize, found: u64, with: &[(usize, u64)]| SelfTestRow {
+            cause: Some(cause),
+            campaigns: 100,
+            found,
+            named: 0,
+            misnamed: 0,
+            covered: 0,
+            set_size: 0.0,
+            with: with.iter().copied().collect(),
+            caught: None,
+        };
+        // 1 and 2 look like each other, 3 like nothing; 4 looks like 1, but is never found.
+        let test = SelfTest {
+            rows: vec![
+                row(1, 80, &[(1, 80), (2, 60)]),
+                row(2, 50, &[(1, 30), (2, 50)]),
+                row(3, 90, &[(3, 90), (1, 20)]),
+                row(4, 5, &[(1, 5)]),
+            ],
+        };
+        assert_eq!(test.classes(0.2), [[1, 2]]);
     }
 }

@@ -1,13 +1,19 @@
 //! The verdict: nothing found, one cause named, a few that cannot be told apart, or something that no known cause explains.
 
-use crate::critic::diagnose::design::{Campaign, Design};
-use crate::critic::diagnose::guard::{Guarded, guarded};
-use crate::critic::diagnose::ranking::{Ranked, Ranking};
-use crate::critic::diagnose::world::World;
-use crate::critic::diagnose::wrong::{Reference, Wrong};
+use rayon::prelude::*;
+
+use crate::critic::diagnose::design::Campaign;
+use crate::critic::diagnose::evidence::{Evidence, evidence};
+use crate::critic::diagnose::guard::guarded;
+use crate::critic::diagnose::judge::{Judge, Seeming};
+use crate::critic::diagnose::world::Truth;
+use crate::math::exp;
+use crate::stats;
 
 /// A set of more causes than this separates nothing.
 pub const MOST_AMBIGUOUS: usize = 3;
+/// So many causes, the most likely, are looked at closely.
+const CLOSELY: usize = 5;
 
 /// The limits of a verdict.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,50 +48,107 @@ pub enum Verdict {
 /// A verdict with what it rests on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnosis {
-    /// What is off.
-    pub wrong: Wrong,
-    /// The causes with their probabilities.
-    pub ranked: Ranked,
-    /// What the guard says of the causes that were in question, most likely first.
-    pub guarded: Vec<(usize, Guarded)>,
+    /// What is off, and how likely that is by chance.
+    pub seeming: Seeming,
+    /// The causes that were looked at closely, most likely first; none where nothing was found.
+    pub looked_at: Vec<LookedAt>,
     /// The verdict.
     pub verdict: Verdict,
 }
 
-/// Judges a campaign; a pure function of its arguments.
-pub fn diagnosed(
-    world: &World<'_>,
-    design: &Design,
-    (reference, ranking): (&Reference, &Ranking),
-    campaign: &Campaign,
-    limits: &Limits,
-    seed: u64,
-) -> Diagnosis {
-    let wrong = reference.judge(design, campaign);
-    let ranked = ranking.of(&wrong);
-    if wrong.p_value >= limits.found {
-        return Diagnosis { wrong, ranked, guarded: Vec::new(), verdict: Verdict::NothingFound };
+/// A cause that was looked at closely.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LookedAt {
+    /// Index of the mechanism.
+    pub cause: usize,
+    /// Share of the cause's own campaigns that fit no better; `None` where the guard was not asked, as the cause was not in
+    /// question.
+    pub guard: Option<f64>,
+    /// Its share of the evidence of all causes looked at and of the base model.
+    pub evidence: f64,
+    /// What its parameters and the joints may be: draws, equally likely.
+    pub draws: Vec<Truth>,
+}
+
+impl Diagnosis {
+    /// What was seen of a cause that was looked at closely.
+    pub fn looked_at(&self, cause: usize) -> Option<&LookedAt> {
+        self.looked_at.iter().find(|own| own.cause == cause)
     }
-    let named = ranked.named(limits.named);
-    let likely = ranked.causes.iter().filter_map(|(cause, _)| *cause);
-    let in_question: Vec<usize> =
-        likely.filter(|cause| named == Some(*cause) || ranked.set.contains(cause)).collect();
-    let guarded: Vec<(usize, Guarded)> = match in_question.len() {
-        // The guard of many would choose among them by chance.
-        n if n > 2 * MOST_AMBIGUOUS && named.is_none() => Vec::new(),
-        _ => in_question
+
+    /// The causes that were looked at closely, each with its probability and draws of what is true under it.
+    pub fn possible(&self) -> Vec<(f64, Vec<Truth>)> {
+        let probability = |cause: usize| {
+            let own = self.seeming.ranked.causes.iter().find(|(other, _)| *other == Some(cause));
+            own.map_or(0.0, |(_, probability)| *probability)
+        };
+        self.looked_at.iter().map(|own| (probability(own.cause), own.draws.clone())).collect()
+    }
+}
+
+impl Judge<'_> {
+    /// Judges a campaign; a pure function of the judge and the arguments.
+    pub fn diagnosed(&self, campaign: &Campaign, limits: &Limits, seed: u64) -> Diagnosis {
+        let seeming = self.seeming(campaign);
+        if seeming.p_value >= limits.found {
+            return Diagnosis { seeming, looked_at: Vec::new(), verdict: Verdict::NothingFound };
+        }
+        let ranked = &seeming.ranked;
+        let named = ranked.named(limits.named);
+        let likely: Vec<usize> = ranked.causes.iter().filter_map(|(cause, _)| *cause).collect();
+        let mut in_question: Vec<usize> = likely
             .iter()
-            .map(|&cause| (cause, guarded(world, design, reference, Some(cause), campaign, seed)))
-            .collect(),
-    };
-    let passes = |cause: usize| guarded.iter().any(|(own, g)| *own == cause && g.p_value >= limits.guard);
-    let explain: Vec<usize> = in_question.iter().copied().filter(|&cause| passes(cause)).collect();
-    let verdict = match (named, explain.len()) {
-        (Some(cause), _) if passes(cause) => Verdict::Named(cause),
-        // What was as good as certain, and does not fit, speaks against the catalogue.
-        (Some(_), _) => Verdict::Unexplained,
-        (None, 1..=MOST_AMBIGUOUS) => Verdict::Ambiguous(explain),
-        (None, _) => Verdict::Unexplained,
-    };
-    Diagnosis { wrong, ranked, guarded, verdict }
+            .copied()
+            .filter(|cause| named == Some(*cause) || ranked.set.contains(cause))
+            .collect();
+        if in_question.len() > 2 * MOST_AMBIGUOUS && named.is_none() {
+            // The guard of many would choose among them by chance.
+            in_question.clear();
+        }
+        let mut closely = likely[..likely.len().min(CLOSELY)].to_vec();
+        closely
+            .extend(in_question.iter().copied().filter(|cause| !closely.contains(cause)).collect::<Vec<_>>());
+        let models: Vec<Option<usize>> =
+            std::iter::once(None).chain(closely.iter().copied().map(Some)).collect();
+        let evidences: Vec<Evidence> = models
+            .par_iter()
+            .map(|cause| evidence(self.world, &self.design, campaign, *cause, seed.wrapping_add(1)))
+            .collect();
+        let shares = shares(&evidences);
+        let looked_at: Vec<LookedAt> = closely
+            .iter()
+            .zip(evidences.into_iter().zip(shares).skip(1))
+            .map(|(&cause, (found, share))| LookedAt {
+                cause,
+                guard: in_question.contains(&cause).then(|| guarded(self, Some(cause), campaign, seed)),
+                evidence: share,
+                draws: found.draws,
+            })
+            .collect();
+        let passes = |cause: usize| {
+            looked_at.iter().any(|own| own.cause == cause && own.guard.is_some_and(|p| p >= limits.guard))
+        };
+        let first = looked_at.iter().fold(None, |first: Option<&LookedAt>, own| match first {
+            Some(first) if first.evidence >= own.evidence => Some(first),
+            _ => Some(own),
+        });
+        let agreed = named.filter(|cause| first.is_some_and(|first| first.cause == *cause));
+        let explain: Vec<usize> = in_question.iter().copied().filter(|&cause| passes(cause)).collect();
+        let verdict = match (named, agreed, explain.len()) {
+            (_, Some(cause), _) if passes(cause) => Verdict::Named(cause),
+            // What was as good as certain, and does not fit, speaks against the catalogue.
+            (Some(cause), _, _) if !passes(cause) => Verdict::Unexplained,
+            (_, _, 1..=MOST_AMBIGUOUS) => Verdict::Ambiguous(explain),
+            _ => Verdict::Unexplained,
+        };
+        Diagnosis { seeming, looked_at, verdict }
+    }
+}
+
+/// Each model's share of the evidence.
+fn shares(evidences: &[Evidence]) -> Vec<f64> {
+    let largest = evidences.iter().map(|evidence| evidence.log).fold(f64::NEG_INFINITY, f64::max);
+    let raw: Vec<f64> = evidences.iter().map(|evidence| exp(evidence.log - largest)).collect();
+    let sum = stats::sum(&raw);
+    raw.into_iter().map(|share| share / sum).collect()
 }

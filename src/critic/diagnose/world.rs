@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::critic::bank::{Bank, Curves, Emulator, Path, Plan};
+use crate::critic::bank::{Bank, Curves, Emulator, NUMBERS, Path, Plan};
 use crate::critic::diagnose::design::{Campaign, Design, Seen};
 use crate::critic::simulated::of_points;
 use crate::ensemble::is_random;
@@ -13,6 +13,10 @@ use crate::study::{Acts, Arm, Described, MeasuredQuantity, Measurement, Mechanis
 
 /// A wall differs from the expected path as one of so many of its nearest neighbours in the bank does.
 const NEIGHBOURS: usize = 20;
+
+/// Joints are taken to be so much less known than their priors say: a prior that is off by two of its standard deviations is no
+/// effect to be found.
+pub const DOUBT: f64 = 1.5;
 
 /// What is true of a simulated campaign. Scores are standard normal: where a quantity lies in its prior.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +34,15 @@ pub struct Truth {
 struct Walls {
     emulator: Emulator,
     /// Whether walls of one family differ.
+    random: bool,
+}
+
+/// What is known of a wall before it is built.
+struct Likely<'w> {
+    /// The path to be expected.
+    expected: Path,
+    /// What it may differ by, each equally likely.
+    near: Vec<&'w [f64; NUMBERS]>,
     random: bool,
 }
 
@@ -92,13 +105,24 @@ impl<'s> World<'s> {
         self.kinds.iter().max().map_or(0, |last| last + 1)
     }
 
-    /// The truth with a cause, drawn from the priors.
+    /// The truth with a cause, drawn from the priors, those of the joints wider by [`DOUBT`].
     pub fn drawn(&self, cause: Option<usize>, streams: &Streams) -> Truth {
         let mut scores = streams.of("truth");
-        let mut score = || quantile(scores.uniform());
-        let joints = (0..self.joint_kinds()).map(|_| [score(), score(), score()]).collect();
-        let count = cause.map_or(0, |index| self.mechanisms[index].parameters.len());
-        Truth { cause, parameters: (0..count).map(|_| score()).collect(), joints }
+        let scores: Vec<f64> = (0..self.inputs(cause)).map(|_| quantile(scores.uniform())).collect();
+        self.truth(cause, &scores)
+    }
+
+    /// Scores that a truth with a cause has: three for each kind of joint, then one for each parameter.
+    pub fn inputs(&self, cause: Option<usize>) -> usize {
+        3 * self.joint_kinds() + cause.map_or(0, |index| self.mechanisms[index].parameters.len())
+    }
+
+    /// The truth with a cause and these scores; those of the joints count [`DOUBT`] times.
+    pub fn truth(&self, cause: Option<usize>, scores: &[f64]) -> Truth {
+        crate::check!(scores.len() == self.inputs(cause), "{} scores for {cause:?}", scores.len());
+        let (joints, parameters) = scores.split_at(3 * self.joint_kinds());
+        let joints = joints.chunks_exact(3).map(|c| [DOUBT * c[0], DOUBT * c[1], DOUBT * c[2]]).collect();
+        Truth { cause, parameters: parameters.to_vec(), joints }
     }
 
     /// A campaign of a design under a truth: a pure function of these and the streams.
@@ -141,24 +165,58 @@ impl<'s> World<'s> {
             .collect()
     }
 
-    /// The path of a specimen.
+    /// The path of a specimen: one of those that a wall may have.
     fn wall(&self, family: usize, truth: &Truth, specimen: usize, streams: &Streams) -> Path {
+        let Likely { expected, near, random } = self.likely(family, truth);
+        // Walls in which nothing is drawn are alike: what is left is the emulator's error, and they share it.
+        let name = match random {
+            true => format!("stones {specimen}"),
+            false => format!("stones of family {family}"),
+        };
+        moved(&expected, near[streams.of(&name).below(near.len())])
+    }
+
+    /// The paths that a wall of a family may have under a truth.
+    fn likely(&self, family: usize, truth: &Truth) -> Likely<'_> {
         let own = self.walls.get(&(family, truth.cause)).map(|walls| (walls, truth.cause));
         let (walls, cause) = own.unwrap_or_else(|| (&self.walls[&(family, None)], None));
         let mut scores = truth.joints[self.kinds[family]].to_vec();
         if cause.is_some() {
             scores.extend(varying(self.mechanisms, cause, truth.parameters.iter().copied()));
         }
-        let mut path = walls.emulator.expected(&scores);
-        let near = walls.emulator.nearest(&scores, NEIGHBOURS);
-        // Walls in which nothing is drawn are alike: what is left is the emulator's error, and they share it.
-        let name = match walls.random {
-            true => format!("stones {specimen}"),
-            false => format!("stones of family {family}"),
+        let expected = walls.emulator.expected(&scores);
+        Likely { expected, near: walls.emulator.nearest(&scores, NEIGHBOURS), random: walls.random }
+    }
+
+    /// What the paths that a wall of a family may have under a truth, equally likely, show of readings before their errors, path
+    /// by path; and whether walls of the family differ, or share one path. A wall that has fallen shows what it did last.
+    pub(super) fn may_show(
+        &self,
+        family: usize,
+        readings: &[&Measurement],
+        truth: &Truth,
+    ) -> (Vec<Vec<f64>>, bool) {
+        let Likely { expected, near, random } = self.likely(family, truth);
+        let gauge = self.gauge(truth);
+        let mut tilts: Vec<f64> = readings.iter().filter_map(|m| m.tilt).collect();
+        tilts.sort_by(f64::total_cmp);
+        tilts.dedup();
+        let of = |left: &[f64; NUMBERS]| {
+            let curves = moved(&expected, left).curves();
+            let last = curves.collapse();
+            let points: Vec<[f64; 3]> = tilts
+                .iter()
+                .map(|tilt| {
+                    curves.displacements(tilt.min(last)).unwrap_or_default().map(|x| gauge.reading(x))
+                })
+                .collect();
+            let shows = |m: &&Measurement| {
+                let at = m.tilt.map(|tilt| tilts.partition_point(|known| *known < tilt));
+                at.and_then(|at| of_points(m.quantity, points[at])).unwrap_or(last)
+            };
+            readings.iter().map(shows).collect()
         };
-        let own = near[streams.of(&name).below(near.len())];
-        path.numbers.iter_mut().zip(own).for_each(|(number, left)| *number += left);
-        path
+        (near.into_iter().map(of).collect(), random)
     }
 
     /// A parameter of the cause (in its key's unit), if this mechanism is the cause.
@@ -178,7 +236,7 @@ impl<'s> World<'s> {
     }
 
     /// What a test on two stones shows of a family's joints: stiffness over the whole joint, and friction before it weakens.
-    fn joint(&self, family: usize, m: &Measurement, truth: &Truth) -> f64 {
+    pub(super) fn joint(&self, family: usize, m: &Measurement, truth: &Truth) -> f64 {
         let arm = &self.study.arms[family];
         let factor = |k: usize| self.nuisances[k].prior.at_score(truth.joints[self.kinds[family]][k]);
         if m.quantity == MeasuredQuantity::JointKn {
@@ -203,6 +261,11 @@ fn shown(wall: &Curves, m: &Measurement, gauge: &Mechanisms) -> Option<f64> {
         return Some(wall.collapse());
     }
     of_points(m.quantity, wall.displacements(m.tilt?)?.map(|x| gauge.reading(x)))
+}
+
+/// A path and what a wall differs by.
+fn moved(expected: &Path, left: &[f64; NUMBERS]) -> Path {
+    Path { numbers: std::array::from_fn(|k| expected.numbers[k] + left[k]) }
 }
 
 /// Scores of the parameters that vary.

@@ -1,13 +1,13 @@
-//! Is anything wrong beyond error and natural scatter? The features that joints within their priors do not explain, the largest
-//! of them against the largest that campaigns without any effect show.
+//! What is wrong beyond error and natural scatter: the features that joints within their priors do not explain.
 
 use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
 
 use crate::critic::diagnose::design::{Campaign, Design};
 use crate::critic::diagnose::features::{Feature, Scale, features};
-use crate::critic::diagnose::world::{Truth, World};
+use crate::critic::diagnose::world::{DOUBT, Truth, World};
 use crate::random::Streams;
 use crate::stats;
 
@@ -30,20 +30,25 @@ pub struct Reference {
     precision: DMatrix<f64>,
     /// Standard deviation of what a fit of the joints leaves, by feature.
     spread: DVector<f64>,
-    /// The largest such excess of each campaign without effect, ascending.
-    largest: Vec<f64>,
 }
 
 /// What is off in a campaign.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wrong {
-    /// Share of campaigns without any effect whose largest excess is at least as large: with `n` campaigns at least 1/(n + 1).
-    pub p_value: f64,
     /// The excess of every feature over what the best joints explain, in standard deviations of campaigns without effect; `None`
     /// where the campaign does not show the feature.
     pub excess: BTreeMap<Feature, Option<f64>>,
     /// Scores of the joints that explain most, by kind of joint.
     pub joints: Vec<[f64; 3]>,
+    /// How far all features together are from what the best joints explain: square of the Mahalanobis distance.
+    pub distance: f64,
+}
+
+impl Wrong {
+    /// The largest excess, without its sign.
+    pub fn largest(&self) -> f64 {
+        self.excess.values().flatten().fold(0.0, |largest, x| largest.max(x.abs()))
+    }
 }
 
 impl Reference {
@@ -56,12 +61,16 @@ impl Reference {
             let shown = world.campaign(design, &truth, &streams);
             (truth, shown)
         };
-        let scaling: Vec<Campaign> = (0..SCALING).map(|k| one(k).1).collect();
+        let scaling: Vec<Campaign> = (0..SCALING).into_par_iter().map(|k| one(k).1).collect();
         let scale = Scale::of(design, &scaling);
         let simulated: Vec<(Vec<f64>, BTreeMap<Feature, f64>)> = (SCALING..SCALING + count)
+            .into_par_iter()
             .map(|k| {
                 let (truth, campaign) = one(k);
-                (truth.joints.concat(), features(design, &scale, &campaign))
+                (
+                    truth.joints.concat().iter().map(|z| z / DOUBT).collect(),
+                    features(design, &scale, &campaign),
+                )
             })
             .collect();
         let mut seen: BTreeMap<Feature, usize> = BTreeMap::new();
@@ -91,40 +100,28 @@ impl Reference {
         }
         let precision = covariance.cholesky()?.inverse();
         let spread = DVector::from_element(kept.len(), 1.0);
-        let mut reference =
-            Reference { scale, features: kept, mean, slopes, precision, spread, largest: Vec::new() };
+        let mut reference = Reference { scale, features: kept, mean, slopes, precision, spread };
         let excesses: Vec<Vec<Option<f64>>> =
-            simulated.iter().map(|(_, found)| reference.excess(found).0).collect();
+            simulated.iter().map(|(_, found)| reference.excess(found).by_feature).collect();
         for k in 0..reference.features.len() {
             let squares: Vec<f64> = excesses.iter().filter_map(|e| e[k]).map(|x| x * x).collect();
             reference.spread[k] = (stats::sum(&squares) / squares.len().max(1) as f64).sqrt().max(1e-6);
         }
-        let mut largest: Vec<f64> = excesses
-            .iter()
-            .map(|excess| {
-                largest(excess.iter().zip(reference.spread.iter()).map(|(x, spread)| x.map(|x| x / spread)))
-            })
-            .collect();
-        largest.sort_by(f64::total_cmp);
-        reference.largest = largest;
         Some(reference)
     }
 
     /// What is wrong with a campaign of the same design.
     pub fn judge(&self, design: &Design, campaign: &Campaign) -> Wrong {
-        let found = features(design, &self.scale, campaign);
-        let (excess, joints) = self.excess(&found);
-        let largest = largest(excess.iter().copied());
-        let as_large = self.largest.len() - self.largest.partition_point(|x| *x < largest);
+        let Excess { by_feature, scores, distance } = self.excess(&features(design, &self.scale, campaign));
         Wrong {
-            p_value: (as_large + 1) as f64 / (self.largest.len() + 1) as f64,
-            excess: self.features.iter().copied().zip(excess).collect(),
-            joints: joints.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect(),
+            excess: self.features.iter().copied().zip(by_feature).collect(),
+            joints: scores.chunks_exact(3).map(|c| [DOUBT * c[0], DOUBT * c[1], DOUBT * c[2]]).collect(),
+            distance,
         }
     }
 
-    /// The excess of each feature over the joints that explain most (Gaussian, within their priors), and the scores of these.
-    fn excess(&self, found: &BTreeMap<Feature, f64>) -> (Vec<Option<f64>>, Vec<f64>) {
+    /// The excess of each feature over the joints that explain most (Gaussian, within their priors).
+    fn excess(&self, found: &BTreeMap<Feature, f64>) -> Excess {
         let shown: Vec<bool> = self.features.iter().map(|feature| found.contains_key(feature)).collect();
         let off = DVector::from_fn(self.features.len(), |k, _| {
             found.get(&self.features[k]).map_or(0.0, |x| x - self.mean[k])
@@ -142,11 +139,18 @@ impl Reference {
             .cholesky()
             .map_or_else(|| DVector::zeros(slopes.ncols()), |normal| normal.solve(&(&weighted * &off)));
         let rest = &off - slopes * &scores;
-        let excess = shown.iter().enumerate().map(|(k, shown)| shown.then(|| rest[k] / self.spread[k]));
-        (excess.collect(), scores.iter().copied().collect())
+        let by_feature = shown.iter().enumerate().map(|(k, shown)| shown.then(|| rest[k] / self.spread[k]));
+        Excess {
+            by_feature: by_feature.collect(),
+            distance: rest.dot(&(&precision * &rest)),
+            scores: scores.iter().copied().collect(),
+        }
     }
 }
 
-fn largest(excess: impl Iterator<Item = Option<f64>>) -> f64 {
-    excess.flatten().map(f64::abs).fold(0.0, f64::max)
+/// What the best joints leave.
+struct Excess {
+    by_feature: Vec<Option<f64>>,
+    scores: Vec<f64>,
+    distance: f64,
 }

@@ -1,0 +1,123 @@
+//! Scores against closed forms, and gains where there is one to be had and where there is none.
+
+use crate::critic::diagnose::gain::fold::{Fold, HeldOut};
+use crate::critic::diagnose::gain::gained::{Row, estimates, gained};
+use crate::critic::diagnose::gain::predicted::{Predicted, Score, normal_score};
+use crate::critic::diagnose::gain::{Measuring, gain};
+use crate::critic::diagnose::tests::{EFFORT, made};
+use crate::critic::diagnose::{Design, Judge, Limits, Seen};
+use crate::random::Streams;
+use crate::random::standard_normal::quantile;
+use crate::study::MeasuredKind;
+
+const MEASURING: Measuring =
+    Measuring { effort: EFFORT, limits: Limits { found: 0.05, named: 0.8, guard: 0.05 }, nulls: 10 };
+
+#[test]
+fn every_specimen_is_left_out_once_and_the_largest_tilts_together() {
+    let (design, campaign) = Design::of(&made().study);
+    let folds = Fold::all(&design);
+    assert_eq!(folds.len(), 10);
+    for (index, fold) in folds[..9].iter().enumerate() {
+        assert_eq!(fold.held_out, HeldOut::Specimen(index));
+        let part = fold.design(&design);
+        assert!(part.specimens.len() == 8 && !part.specimens.contains(&design.specimens[index]));
+        assert_eq!(fold.campaign(&campaign).specimens.len(), 8);
+    }
+    let last = &folds[9];
+    assert_eq!(last.held_out, HeldOut::LargestTilts);
+    // 5, 10 and 15 deg: two are known, and no collapse angle; of 5 and 10 deg one.
+    let part = last.design(&design);
+    let readings = |name: &str| {
+        let specimen = part.specimens.iter().find(|s| s.name == name).expect("it was read twice");
+        specimen
+            .readings
+            .iter()
+            .map(|m| crate::math::degrees(m.tilt.expect("a tilt")).round())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!((readings("SBR1"), readings("SBL1")), (vec![5.0, 10.0], vec![5.0]));
+}
+
+#[test]
+fn draws_of_a_normal_number_are_scored_as_the_normal_is() {
+    let (design, _) = Design::of(&made().study);
+    let mut m = design.specimens[0].readings[0].clone();
+    (m.kind, m.error, m.common_error) = (MeasuredKind::Exact, 0.6, 0.8);
+    // Walls of mean 2 and standard deviation 1, so that readings have root 2; 2,001 quantiles stand for draws.
+    let walls = (0..2001).map(|k| vec![vec![2.0 + quantile((f64::from(k) + 0.5) / 2001.0)]]).collect();
+    let predicted = Predicted { walls };
+    for value in [2.0, 3.5, -1.0] {
+        let drawn = predicted.score((0, 0), &m, Seen::Value(value), 1.0).expect("a value");
+        let normal = normal_score(&m, Seen::Value(value), 2.0, 2f64.sqrt(), 1.0).expect("a value");
+        // The errors are drawn at random: 2,001 of them; the kernels widen the walls by 4 %.
+        assert!((drawn.log - normal.log).abs() < 0.1, "{value}: {} {}", drawn.log, normal.log);
+        let (a, b) = (drawn.crps.expect("a value"), normal.crps.expect("a value"));
+        assert!((a - b).abs() < 0.03, "{value}: {a} {b}");
+        assert!((drawn.square.expect("a value") - (value - 2.0) * (value - 2.0)).abs() < 1e-9);
+    }
+    // In units of two, errors are half as large, and probabilities what they are.
+    let [one, two] =
+        [1.0, 2.0].map(|unit| predicted.score((0, 0), &m, Seen::Value(3.0), unit).expect("a value"));
+    assert_eq!(
+        (one.log, one.crps.map(|x| x / 2.0), one.square.map(|x| x / 4.0)),
+        (two.log, two.crps, two.square)
+    );
+    // A bound has a probability and no error: half of the walls lie below their mean.
+    m.kind = MeasuredKind::Below;
+    m.value = 2.0;
+    let bound = predicted.score((0, 0), &m, Seen::Beyond, 1.0).expect("a bound");
+    assert!((bound.log - crate::math::ln(0.5)).abs() < 1e-2 && bound.crps.is_none() && bound.square.is_none());
+    assert_eq!(predicted.score((0, 0), &m, Seen::Nothing, 1.0), None);
+}
+
+#[test]
+fn standard_errors_are_those_of_the_mean_over_specimens() {
+    let score = |log: f64| Score { log, crps: Some(-log), square: Some(1.0) };
+    let values = [0.3, 1.1, -0.4, 0.8];
+    let row = |(specimen, log): (usize, &f64)| Row {
+        specimen,
+        base: score(0.0),
+        extended: score(*log),
+        ceiling: None,
+    };
+    let rows: Vec<Row> = values.iter().enumerate().map(row).collect();
+    let [[log, error], [crps, _], [rms, _]] = estimates(&rows);
+    let sigma = crate::stats::sigma(&values).expect("four");
+    assert!((log - 0.45).abs() < 1e-12 && (error - sigma / 2.0).abs() < 1e-12);
+    assert!((crps - log).abs() < 1e-12 && rms == 0.0);
+    // Nulls that claim much widen the interval, none leave it plain.
+    let plain = gained(&rows, &[]).expect("four specimens");
+    assert!((plain.gain[0].ends[0] - (log - 1.96 * error)).abs() < 1e-12);
+    let nulls = vec![[[3.0, 1.0]; 3]; 10];
+    let wide = gained(&rows, &nulls).expect("four specimens");
+    assert!((wide.gain[0].ends[0] - (log - 3.0 * error)).abs() < 1e-12);
+    assert_eq!(gained(&rows[..1], &nulls), None);
+}
+
+#[test]
+fn a_strong_effect_is_a_gain_and_its_absence_is_none() {
+    let made = made();
+    let (world, (design, _)) = (made.world(), Design::of(&made.study));
+    let judge = Judge::trained(&world, &design, EFFORT, 5).expect("it can be told");
+    let creep = made.cause("creep");
+    let streams = Streams::new(61, 1);
+    let mut truth = world.drawn(Some(creep), &streams);
+    truth.parameters[0] = 1.5;
+    let shown = world.campaign(&design, &truth, &streams);
+    let found = gain(&judge, &shown, &MEASURING, 9).expect("nine specimens");
+    assert!(found.choices.iter().all(|choice| choice.cause == Some(creep)), "{:?}", found.choices);
+    let specimens = found.specimens.as_ref().expect("nine specimens");
+    println!("{specimens:?}\n{:?}", found.tilts);
+    assert!(specimens.gain.iter().all(|gain| gain.ends[0] > 0.0 && gain.value > 0.0), "{:?}", specimens.gain);
+    // A free discrepancy finds some of it, too.
+    assert!(specimens.ceiling.log > specimens.base.log);
+    assert_eq!(gain(&judge, &shown, &MEASURING, 9), Some(found));
+    // Nothing hidden, nothing chosen: both models are the same.
+    let nothing =
+        world.campaign(&design, &world.truth(None, &vec![0.0; world.inputs(None)]), &Streams::new(61, 2));
+    let none = gain(&judge, &nothing, &MEASURING, 9).expect("nine specimens");
+    assert!(none.choices.iter().all(|choice| choice.cause.is_none()), "{:?}", none.choices);
+    let specimens = none.specimens.expect("nine specimens");
+    assert!(specimens.gain.iter().all(|gain| gain.value == 0.0 && gain.ends == [0.0; 2]));
+}

@@ -1,0 +1,232 @@
+//! Which measurement would tell apart what these data cannot: each of a menu is simulated under every cause that is still possible,
+//! and judged by the information about the cause that it brings, and what it costs.
+
+use std::collections::BTreeMap;
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use crate::critic::diagnose::design::{Design, Specimen};
+use crate::critic::diagnose::features::{Feature, Scale, features};
+use crate::critic::diagnose::judge::Judge;
+use crate::critic::diagnose::world::Truth;
+use crate::math::{exp, ln, radians};
+use crate::random::Streams;
+use crate::stats;
+use crate::study::{MeasuredKind, MeasuredQuantity, Measurement};
+
+/// Campaigns of each cause.
+const SIMULATED: u64 = 240;
+/// Campaigns of the base model that scale them.
+const SCALING: u64 = 200;
+/// Ridge on the covariance of features, in their variance.
+const RIDGE: f64 = 0.05;
+/// Random error of a displacement read against a fixed target or with a dial gauge (m).
+const FINE: f64 = 0.3e-3;
+
+/// A measurement that could be made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Offer {
+    /// kn (10 %) and friction angle (1 deg) of two stones' joints, of every family.
+    TwoStones,
+    /// Six readings up to 3 deg at three points, to 0.3 mm, on as many specimens of every family as there were.
+    LowTilts,
+    /// The tilts of the campaign once more at three points, to 0.3 mm.
+    FinerReadings,
+    /// A reading at every degree up to the largest tilt, with the errors of the campaign's.
+    MoreTilts,
+    /// As many specimens again, read as these were.
+    MoreSpecimens,
+}
+
+/// All offers with what they cost, in hours of two people (our estimate).
+const MENU: [(Offer, f64); 5] = [
+    (Offer::TwoStones, 2.0),
+    (Offer::LowTilts, 6.0),
+    (Offer::FinerReadings, 8.0),
+    (Offer::MoreTilts, 7.0),
+    (Offer::MoreSpecimens, 40.0),
+];
+
+/// What an offer would tell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Offered {
+    /// The measurement.
+    pub offer: Offer,
+    /// Hours.
+    pub hours: f64,
+    /// Expected information about the cause (bit).
+    pub bits: f64,
+    /// What is not known of the cause before (bit).
+    pub of: f64,
+}
+
+/// Judges the menu for causes with their probabilities and draws of what is true under each; the most information per hour first. A
+/// pure function of its arguments. Stones are drawn anew: what these specimens showed of their own stones is not used.
+pub fn offers(judge: &Judge<'_>, possible: &[(f64, Vec<Truth>)], seed: u64) -> Vec<Offered> {
+    if possible.len() < 2 {
+        return Vec::new();
+    }
+    let sum = stats::sum(&possible.iter().map(|(p, _)| *p).collect::<Vec<_>>());
+    let weights: Vec<f64> = possible.iter().map(|(p, _)| p / sum).collect();
+    let entropy = -stats::sum(&weights.iter().map(|w| w * ln(w.max(1e-12))).collect::<Vec<_>>());
+    let mut offered: Vec<Offered> = MENU
+        .par_iter()
+        .filter_map(|&(offer, hours)| {
+            let design = planned(offer, judge)?;
+            let told = information(judge, &design, possible, &weights, entropy, seed);
+            Some(Offered { offer, hours, bits: told / ln(2.0), of: entropy / ln(2.0) })
+        })
+        .collect();
+    offered.sort_by(|a, b| (b.bits / b.hours).total_cmp(&(a.bits / a.hours)));
+    offered
+}
+
+/// The readings of an offer; `None` where it adds nothing to a design.
+fn planned(offer: Offer, judge: &Judge<'_>) -> Option<Design> {
+    use MeasuredQuantity as Q;
+    let design = &judge.design;
+    let mut new = Design { specimens: Vec::new(), joints: Vec::new(), unused: Vec::new() };
+    let pattern = design.specimens.iter().flat_map(|specimen| &specimen.readings).next()?;
+    let reading = |quantity, tilt: Option<f64>, error: f64| Measurement {
+        quantity,
+        tilt,
+        error,
+        kind: MeasuredKind::Exact,
+        common_error: 0.0,
+        resolution: 0.0,
+        ..pattern.clone()
+    };
+    let points = [Q::DisplacementLeft, Q::DisplacementCentre, Q::DisplacementRight];
+    let at = |tilts: &[f64]| -> Vec<Measurement> {
+        tilts.iter().flat_map(|tilt| points.map(|point| reading(point, Some(*tilt), FINE))).collect()
+    };
+    let again = |readings: &dyn Fn(&Specimen) -> Vec<Measurement>| -> Vec<Specimen> {
+        let specimens = design.specimens.iter();
+        specimens.map(|own| Specimen { readings: readings(own), ..own.clone() }).collect()
+    };
+    match offer {
+        Offer::TwoStones => {
+            for (k, specimen) in design.specimens.iter().enumerate() {
+                if design.specimens[..k].iter().any(|other| other.family == specimen.family) {
+                    continue;
+                }
+                let mut kn = reading(Q::JointKn, None, 0.0);
+                let middle = judge.world.truth(None, &vec![0.0; judge.world.inputs(None)]);
+                kn.error = 0.1 * judge.world.joint(specimen.family, &kn, &middle);
+                new.joints.push((specimen.family, kn));
+                new.joints.push((specimen.family, reading(Q::JointPhi, None, radians(1.0))));
+            }
+        }
+        Offer::LowTilts => {
+            let tilts = [0.5, 1.0, 1.5, 2.0, 2.5, 3.0].map(radians);
+            new.specimens = again(&|_| at(&tilts));
+        }
+        Offer::FinerReadings => {
+            new.specimens = again(&|own| {
+                let mut tilts: Vec<f64> = own.readings.iter().filter_map(|m| m.tilt).collect();
+                tilts.dedup();
+                at(&tilts)
+            });
+        }
+        Offer::MoreTilts => {
+            new.specimens = again(&|own| {
+                let largest = own.readings.iter().filter_map(|m| m.tilt).fold(0.0, f64::max);
+                let Some(m) = own.readings.iter().find(|m| m.tilt.is_some()) else { return Vec::new() };
+                let tilts =
+                    (1..90).map(|deg| radians(f64::from(deg))).take_while(|tilt| *tilt <= largest + 1e-9);
+                tilts.map(|tilt| Measurement { tilt: Some(tilt), ..m.clone() }).collect()
+            });
+        }
+        Offer::MoreSpecimens => new.specimens.clone_from(&design.specimens),
+    }
+    new.specimens.retain(|specimen| !specimen.readings.is_empty());
+    (!new.specimens.is_empty() || !new.joints.is_empty()).then_some(new)
+}
+
+/// Expected information (nat) of new readings about the cause: its entropy less the mean cross entropy of a Gaussian classifier on
+/// campaigns that it has not seen, which can only be too little.
+fn information(
+    judge: &Judge<'_>,
+    design: &Design,
+    possible: &[(f64, Vec<Truth>)],
+    weights: &[f64],
+    entropy: f64,
+    seed: u64,
+) -> f64 {
+    let shown = |truth: &Truth, k: u64| judge.world.campaign(design, truth, &Streams::new(seed, k));
+    let scaling: Vec<_> = (0..SCALING)
+        .map(|k| shown(&judge.world.drawn(None, &Streams::new(seed.wrapping_add(1), k)), k))
+        .collect();
+    let scale = Scale::of(design, &scaling);
+    let told: Vec<Vec<BTreeMap<Feature, f64>>> = possible
+        .iter()
+        .enumerate()
+        .map(|(class, (_, draws))| {
+            let draw = |k: u64| &draws[Streams::new(seed, k).of("offer").below(draws.len())];
+            let first = class as u64 * SIMULATED;
+            (0..SIMULATED).map(|k| features(design, &scale, &shown(draw(k), first + k))).collect()
+        })
+        .collect();
+    let mut names: Vec<Feature> = told.iter().flatten().flat_map(|found| found.keys().copied()).collect();
+    names.sort();
+    names.dedup();
+    let vector = |found: &BTreeMap<Feature, f64>| {
+        let tamed = |x: f64| x.signum() * ln(1.0 + x.abs());
+        DVector::from_iterator(
+            names.len(),
+            names.iter().map(|name| tamed(found.get(name).copied().unwrap_or(0.0))),
+        )
+    };
+    let points: Vec<Vec<DVector<f64>>> = told.iter().map(|own| own.iter().map(vector).collect()).collect();
+    // Learnt from the even campaigns, judged on the odd ones.
+    let normals: Vec<Normal> =
+        points.iter().filter_map(|own| Normal::of(&own.iter().step_by(2).collect::<Vec<_>>())).collect();
+    if normals.len() < points.len() {
+        return 0.0;
+    }
+    let mut cross = 0.0;
+    for (class, own) in points.iter().enumerate() {
+        let logs = own.iter().skip(1).step_by(2).map(|point| {
+            let joint: Vec<f64> =
+                normals.iter().zip(weights).map(|(normal, w)| normal.log(point) + ln(w.max(1e-12))).collect();
+            let largest = joint.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            let sum = stats::sum(&joint.iter().map(|log| exp(log - largest)).collect::<Vec<_>>());
+            // A classifier that is sure and wrong tells as little as one that knows nothing.
+            (joint[class] - largest - ln(sum)).max(ln(weights[class].max(1e-12)) - 1.0)
+        });
+        cross -= weights[class] * stats::mean(&logs.collect::<Vec<_>>()).unwrap_or(0.0);
+    }
+    (entropy - cross).max(0.0)
+}
+
+/// A normal distribution of features.
+struct Normal {
+    mean: DVector<f64>,
+    lower: nalgebra::Cholesky<f64, nalgebra::Dyn>,
+    half_log_determinant: f64,
+}
+
+impl Normal {
+    fn of(points: &[&DVector<f64>]) -> Option<Normal> {
+        let n = points.len() as f64;
+        let size = points.first()?.len();
+        let mean = points.iter().fold(DVector::zeros(size), |sum, point| sum + *point) / n;
+        let mut covariance: DMatrix<f64> = DMatrix::zeros(size, size);
+        for point in points {
+            let off = *point - &mean;
+            covariance += &off * off.transpose() / n;
+        }
+        for k in 0..size {
+            covariance[(k, k)] = covariance[(k, k)] * (1.0 + RIDGE) + 1e-4;
+        }
+        let lower = covariance.cholesky()?;
+        let half_log_determinant = (0..size).fold(0.0, |sum, k| sum + ln(lower.l_dirty()[(k, k)]));
+        Some(Normal { mean, lower, half_log_determinant })
+    }
+
+    fn log(&self, point: &DVector<f64>) -> f64 {
+        let off = point - &self.mean;
+        -0.5 * off.dot(&self.lower.solve(&off)) - self.half_log_determinant
+    }
+}

@@ -1,0 +1,126 @@
+//! What the data cannot tell, and what would: causes that look alike, the next measurement, and how large an effect must be to be
+//! caught.
+
+use crate::critic::{CAUGHT, Offer, Offered, SelfTest};
+use crate::report::number::significant;
+use crate::study::Described;
+
+/// A cause that is found in fewer of its campaigns than this is not seen at all.
+const SEEN: f64 = 0.2;
+
+/// What the data cannot tell, and what would.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
+pub struct Advice {
+    /// Causes that data like these cannot tell apart, in classes.
+    pub look_alike: Vec<Vec<&'static str>>,
+    /// Causes that data like these see in less than a fifth of cases.
+    pub not_seen: Vec<&'static str>,
+    /// The smallest effects that data like these catch four times in five.
+    pub caught: Vec<CaughtEntry>,
+    /// Measurements that would tell the possible causes apart, the most information per hour first; empty where nothing was found.
+    pub next: Vec<NextEntry>,
+}
+
+/// From where on an effect is caught.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct CaughtEntry {
+    /// The mechanism.
+    pub cause: &'static str,
+    /// Its parameter and the unit.
+    pub parameter: &'static str,
+    /// Unit of the parameter.
+    pub unit: &'static str,
+    /// From this value on.
+    pub value: f64,
+    /// Whether smaller values are caught, not larger ones.
+    pub below: bool,
+}
+
+/// A measurement that could be made next.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct NextEntry {
+    /// What to measure.
+    pub what: &'static str,
+    /// Hours of two people, our estimate.
+    pub hours: f64,
+    /// Expected information about the cause (bit).
+    pub bits: f64,
+    /// What is not known of the cause before (bit).
+    pub of_bits: f64,
+}
+
+impl Advice {
+    /// From the self-test and what was offered.
+    pub fn of(test: &SelfTest, offered: &[Offered], mechanisms: &[Described]) -> Advice {
+        let names = |causes: Vec<usize>| causes.into_iter().map(|cause| mechanisms[cause].name).collect();
+        let rows = || test.rows.iter().filter_map(|row| Some((row.cause?, row)));
+        let unseen = rows().filter(|(_, row)| (row.found as f64) < SEEN * row.campaigns as f64);
+        let caught = rows().filter_map(|(cause, row)| {
+            let (mechanism, caught) = (&mechanisms[cause], row.caught?);
+            let parameter = &mechanism.parameters[caught.parameter];
+            Some(CaughtEntry {
+                cause: mechanism.name,
+                parameter: parameter.key,
+                unit: parameter.unit,
+                value: parameter.prior.at_score(caught.score),
+                below: caught.below,
+            })
+        });
+        let next = offered.iter().map(|own| NextEntry {
+            what: words(own.offer),
+            hours: own.hours,
+            bits: own.bits,
+            of_bits: own.of,
+        });
+        Advice {
+            look_alike: test.classes(SEEN).into_iter().map(names).collect(),
+            not_seen: unseen.map(|(cause, _)| mechanisms[cause].name).collect(),
+            caught: caught.collect(),
+            next: next.collect(),
+        }
+    }
+
+    /// The advice as people read it.
+    pub fn text(&self) -> String {
+        let mut text = String::new();
+        if !self.look_alike.is_empty() {
+            let classes: Vec<String> = self.look_alike.iter().map(|class| class.join(", ")).collect();
+            text.push_str(&format!("\nData like these cannot tell apart: {}\n", classes.join("; ")));
+        }
+        if !self.not_seen.is_empty() {
+            text.push_str(&format!("\nData like these hardly see: {}\n", self.not_seen.join(", ")));
+        }
+        if !self.caught.is_empty() {
+            text.push_str(&format!("\nSmallest effects caught in {:.0} % of campaigns\n", 100.0 * CAUGHT));
+            for own in &self.caught {
+                let side = if own.below { "at most" } else { "at least" };
+                let value = significant(own.value, 2);
+                text.push_str(&format!(
+                    "  {:<18} {} {side} {value} {}\n",
+                    own.cause, own.parameter, own.unit
+                ));
+            }
+        }
+        if let Some(first) = self.next.first() {
+            text.push_str(&format!(
+                "\nNext measurement (expected information about the cause, of {} bit that are open; hours of two people, our estimate)\n",
+                significant(first.of_bits, 2)
+            ));
+            for own in &self.next {
+                let bits = significant(own.bits, 2);
+                text.push_str(&format!("  {bits:>6} bit in {:>3.0} h  {}\n", own.hours, own.what));
+            }
+        }
+        text
+    }
+}
+
+fn words(offer: Offer) -> &'static str {
+    match offer {
+        Offer::TwoStones => "test two stones: kn to 10 %, friction angle to 1 deg, of every family",
+        Offer::LowTilts => "six readings up to 3 deg at three points to 0.3 mm, on new specimens",
+        Offer::FinerReadings => "the same tilts at three points to 0.3 mm, on new specimens",
+        Offer::MoreTilts => "a reading at every degree, on new specimens",
+        Offer::MoreSpecimens => "as many specimens again, read as these were",
+    }
+}
