@@ -66,8 +66,8 @@ pub(crate) enum Verb {
     /// are known as badly as they are. Resumes by itself.
     #[command(after_help = format!(
         "Example: pirca bank studies/tilting-table --points 200\n\n\
-         More points later leave the first ones as they are, in another folder. The priors are in distributions/mechanism and\n\
-         distributions/nuisance beside the folder of the studies.\n\n{CODES}"
+         More points later leave the first ones as they are, in another folder. The priors are in mechanism and nuisance\n\
+         of the nearest folder distributions above the study.\n\n{CODES}"
     ))]
     Bank(Bank),
     /// What does the simulation get wrong beyond errors and natural scatter, and which mechanism explains it, or which few, or none?
@@ -82,7 +82,7 @@ pub(crate) enum Verb {
     #[command(after_help = format!(
         "Example: pirca sensitivity studies/tilting-table --members 3 --out runs/sensitivity\n\n\
          Writes sensitivity.csv, sensitivity.json, sensitivity.svg and sensitivity.png. The strength of each mechanism comes from\n\
-         the priors in distributions/mechanism beside the folder of the studies.\n\n{CODES}"
+         the priors in distributions/mechanism, the nearest above the study.\n\n{CODES}"
     ))]
     Sensitivity(Sensitivity),
     /// List the mechanisms that a study may switch on: what each is, where it acts, its parameters with their priors, whether its
@@ -253,7 +253,7 @@ pub(crate) struct Diagnose {
     /// What was measured [default: the study's measured.csv].
     #[arg(long, value_name = "FILE")]
     pub measured: Option<PathBuf>,
-    /// Folder of the bank [default: runs/<study>-bank].
+    /// Folder of the bank [default: runs/<study>-bank, with -<variant> in it if one is named].
     #[arg(long, value_name = "DIR")]
     pub bank: Option<PathBuf>,
     /// Points in the priors for each mechanism that the bank has.
@@ -262,7 +262,7 @@ pub(crate) struct Diagnose {
     /// Stop with the command to run, where there is no bank.
     #[arg(long)]
     pub no_build: bool,
-    /// Output folder [default: runs/<study>-diagnosis].
+    /// Output folder [default: runs/<study>-diagnosis, with -<variant> in it if one is named].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Seed of the diagnosis instead of the study's; the bank keeps the study's.
@@ -281,7 +281,7 @@ pub(crate) struct Bank {
     /// What was measured [default: the study's measured.csv]; only the families in it matter.
     #[arg(long, value_name = "FILE")]
     pub measured: Option<PathBuf>,
-    /// Output folder [default: runs/<study>-bank].
+    /// Output folder [default: runs/<study>-bank, with -<variant> in it if one is named].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Points in the priors for each mechanism; twice as many for the base model.

@@ -1,14 +1,18 @@
 //! `pirca diagnose`: what does the simulation get wrong, and which cause explains it?
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::cli::arguments::Diagnose;
 use crate::cli::bank::{self, Prepared};
 use crate::cli::failure::Failure;
 use crate::cli::output;
-use crate::critic::{self, BANK, Design, Limits, Plan, Ranking, Reference, World, diagnosed};
-use crate::report::{self, DiagnosisSummary};
+use crate::critic::{
+    self, BANK, Design, Diagnosis, Limits, Plan, Ranking, Reference, World, diagnosed, doubts_beside,
+    extension,
+};
+use crate::report::{self, DiagnosisSummary, EXTENDED, Origin};
+use crate::study::Loaded;
 
 /// Campaigns of the base model that say how far off they are by chance.
 const REFERENCE: u64 = 2000;
@@ -19,10 +23,10 @@ const TESTED: u64 = 100;
 
 /// Diagnoses the measurements of a study.
 pub(crate) fn diagnose(arguments: &Diagnose) -> Result<(), Failure> {
-    let study = bank::measured(&arguments.which, arguments.measured.as_deref())?;
-    let Prepared { mechanisms, nuisances, plan } =
+    let Loaded { study, stated, .. } = bank::measured(&arguments.which, arguments.measured.as_deref())?;
+    let Prepared { mechanisms, nuisances, plan, mut notes } =
         bank::prepared(&study, &arguments.which, arguments.points)?;
-    let folder = arguments.bank.clone().unwrap_or_else(|| bank::default_folder(&plan));
+    let folder = arguments.bank.clone().unwrap_or_else(|| output::default_folder(&study, "bank"));
     let walls = banked(&plan, &folder, arguments)?;
     let Some(world) = World::new(&study, &mechanisms, &nuisances, &plan, &walls) else {
         let text = "the bank holds too few walls that fell: ask for more --points, or for a load path that ends later";
@@ -31,26 +35,55 @@ pub(crate) fn diagnose(arguments: &Diagnose) -> Result<(), Failure> {
     let (design, measured) = Design::of(&study);
     // The bank keeps the study's own seed.
     let seed = arguments.seed.unwrap_or(study.seed);
+    notes.extend(bank::noted(&doubts_beside(&world, &design, &measured, seed.wrapping_add(10))));
     let Some(reference) = Reference::new(&world, &design, REFERENCE, seed) else {
-        return Err(Failure::Input("none of the measurements can be set against a simulation".to_string()));
+        return Err(Failure::Input(
+            "none of the measurements can be set against a simulation: at their tilts simulated walls have fallen".to_string(),
+        ));
     };
     let ranking = Ranking::trained(&world, &design, &reference, TRAINING, seed.wrapping_add(1));
     let limits = Limits::default();
     let diagnosis =
         diagnosed(&world, &design, (&reference, &ranking), &measured, &limits, seed.wrapping_add(2));
     let test = ranking.self_test(&world, &design, &reference, &limits, TESTED, seed.wrapping_add(3));
-    let summary =
+    let mut summary =
         DiagnosisSummary::of(&study, seed, &plan.study.hash, &mechanisms, &design, &diagnosis, &test);
-    let out = arguments
-        .out
-        .clone()
-        .unwrap_or_else(|| PathBuf::from("runs").join(format!("{}-diagnosis", study.name)));
+    summary.notes = notes;
+    let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, "diagnosis"));
     output::folder(&out)?;
     report::write_diagnosis(&summary, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
+    let origin = Origin { study: &study, stated: &stated, seed, bank: &plan.study.hash };
+    let extended = extended(&origin, &world, &diagnosis, &out)?;
     if arguments.which.json {
         return output::print_json(&summary);
     }
-    output::print(&format!("{}\nwritten to {}\n", report::diagnosis_text(&summary), out.display()))
+    let text = report::diagnosis_text(&summary);
+    output::print(&format!("{text}\nwritten to {}\n{extended}", out.display()))
+}
+
+/// Writes the study that each cause of the verdict extends, in the place of those of an earlier verdict; says so in a line for each.
+fn extended(
+    origin: &Origin<'_>,
+    world: &World<'_>,
+    diagnosis: &Diagnosis,
+    out: &Path,
+) -> Result<String, Failure> {
+    report::remove_extended(world.mechanisms(), out);
+    let mut said = String::new();
+    for (_, guarded) in
+        diagnosis.guarded.iter().filter(|(cause, _)| diagnosis.verdict.causes().contains(cause))
+    {
+        let Some(extension) = extension(world, &guarded.alike) else { continue };
+        let folder = out.join(EXTENDED).join(extension.median.mechanism);
+        report::write_extended(origin, &extension, &folder)
+            .map_err(|error| Failure::Run(format!("{}: {error:#}", folder.display())))?;
+        said.push_str(&format!(
+            "the study extended by {}: {}\n",
+            extension.median.mechanism,
+            folder.display()
+        ));
+    }
+    Ok(said)
 }
 
 /// The bank of a plan: read, or computed where it is not there.
@@ -67,8 +100,10 @@ fn banked(plan: &Plan, folder: &Path, arguments: &Diagnose) -> Result<critic::Ba
         let points = arguments.points;
         let measured = arguments.measured.as_ref();
         let measured = measured.map_or(String::new(), |file| format!(" --measured {}", file.display()));
+        let variant =
+            arguments.which.variant.as_ref().map_or(String::new(), |name| format!(" --variant {name}"));
         return Err(Failure::Input(format!(
-            "there is no {}: {walls} walls are to be simulated first, by\n  pirca bank {study}{measured} --points {points} --out {}",
+            "there is no {}: {walls} walls are to be simulated first, by\n  pirca bank {study}{variant}{measured} --points {points} --out {}",
             path.display(),
             folder.display()
         )));

@@ -20,9 +20,9 @@ pub use bank::{BANK, Bank, Emulator, NotThisBank, Path, Place, Plan};
 pub use calibrate::{Calibration, CurvePoint, End, LEAST_POINTS, calibrate, calibrate_family};
 pub use compare::{Beside, Difference, Measured, Ours, Walls, compare};
 pub use diagnose::{
-    COVERED, Campaign, Contrast, Design, Diagnosis, Feature, Guarded, Limits, MOST_AMBIGUOUS, Ranked,
-    Ranking, Reference, Scale, Seen, SelfTest, SelfTestRow, Specimen, Truth, Verdict, World, Wrong,
-    diagnosed, features, guarded,
+    COVERED, Campaign, Contrast, DRAWS, Design, Diagnosis, Doubt, Extension, Feature, Guarded, Known, Limits,
+    MOST_AMBIGUOUS, Ranked, Ranking, Reference, Scale, Seen, SelfTest, SelfTestRow, Specimen, Truth, Verdict,
+    World, Wrong, diagnosed, doubts, doubts_beside, extension, features, guarded,
 };
 pub use likelihood::log_likelihood;
 pub use monotone::Monotone;
