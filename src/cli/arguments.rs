@@ -66,14 +66,17 @@ pub(crate) enum Verb {
     /// are known as badly as they are. Resumes by itself.
     #[command(after_help = format!(
         "Example: pirca bank studies/tilting-table --points 200\n\n\
-         More points later leave the first ones as they are, in another folder. The priors are in distributions/mechanism and\n\
-         distributions/nuisance beside the folder of the studies.\n\n{CODES}"
+         More points later leave the first ones as they are, in another folder. The priors are in mechanism and nuisance\n\
+         of the nearest folder distributions above the study.\n\n{CODES}"
     ))]
     Bank(Bank),
     /// What does the simulation get wrong beyond errors and natural scatter, and which mechanism explains it, or which few, or none?
     #[command(after_help = format!(
         "Example: pirca diagnose studies/tilting-table --measured my-tests.csv\n\n\
-         Writes verdict.json. The walls it needs are simulated once for a design, which takes hours; see bank.\n\n{CODES}\n\
+         Writes verdict.json and, for each cause of the verdict, the study extended by it: extended/<cause>, an ordinary study\n\
+         at the medians of what is not known, with draws from it as variants (run extended/<cause> --variant draw-07).\n\
+         The walls it needs are simulated once for a design, which takes hours; see bank. What looks odd about the measurements\n\
+         (a value far beyond what is simulated, one specimen alone) is noted on standard error and judged all the same.\n\n{CODES}\n\
          Every verdict (named, ambiguous, unexplained, nothing found) ends with 0."
     ))]
     Diagnose(Diagnose),
@@ -82,7 +85,7 @@ pub(crate) enum Verb {
     #[command(after_help = format!(
         "Example: pirca sensitivity studies/tilting-table --members 3 --out runs/sensitivity\n\n\
          Writes sensitivity.csv, sensitivity.json, sensitivity.svg and sensitivity.png. The strength of each mechanism comes from\n\
-         the priors in distributions/mechanism beside the folder of the studies.\n\n{CODES}"
+         the priors in distributions/mechanism, the nearest above the study.\n\n{CODES}"
     ))]
     Sensitivity(Sensitivity),
     /// List the mechanisms that a study may switch on: what each is, where it acts, its parameters with their priors, whether its
@@ -253,7 +256,7 @@ pub(crate) struct Diagnose {
     /// What was measured [default: the study's measured.csv].
     #[arg(long, value_name = "FILE")]
     pub measured: Option<PathBuf>,
-    /// Folder of the bank [default: runs/<study>-bank].
+    /// Folder of the bank [default: runs/<study>-bank, with -<variant> in it if one is named].
     #[arg(long, value_name = "DIR")]
     pub bank: Option<PathBuf>,
     /// Points in the priors for each mechanism that the bank has.
@@ -265,7 +268,7 @@ pub(crate) struct Diagnose {
     /// Do not measure what the extended model gains on readings held out: minutes on a large design.
     #[arg(long)]
     pub no_gain: bool,
-    /// Output folder [default: runs/<study>-diagnosis].
+    /// Output folder [default: runs/<study>-diagnosis, with -<variant> in it if one is named].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Seed of the diagnosis instead of the study's; the bank keeps the study's.
@@ -284,7 +287,7 @@ pub(crate) struct Bank {
     /// What was measured [default: the study's measured.csv]; only the families in it matter.
     #[arg(long, value_name = "FILE")]
     pub measured: Option<PathBuf>,
-    /// Output folder [default: runs/<study>-bank].
+    /// Output folder [default: runs/<study>-bank, with -<variant> in it if one is named].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Points in the priors for each mechanism; twice as many for the base model.

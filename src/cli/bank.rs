@@ -1,28 +1,30 @@
 //! `pirca bank`: the walls that diagnoses of a study's measurements rest on.
 
 use std::num::NonZero;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::cli::arguments::{Bank, Which};
 use crate::cli::failure::Failure;
 use crate::cli::{locate, output, progress};
-use crate::critic::{self, BANK, Plan};
+use crate::critic::{self, BANK, Design, Doubt, Plan, doubts};
 use crate::ensemble::{Settings, replace_file, run_with};
 use crate::protocol::Protocol;
-use crate::study::{Described, Nuisance, Study, described, nuisances};
+use crate::study::{Described, Loaded, Nuisance, Study, described, nuisances};
 
 /// What a bank is made of.
 pub(crate) struct Prepared {
     pub mechanisms: Vec<Described>,
     pub nuisances: [Nuisance; 3],
     pub plan: Plan,
+    /// What was said on standard error of the measurements.
+    pub notes: Vec<String>,
 }
 
 /// Computes what the bank does not hold yet.
 pub(crate) fn bank(arguments: &Bank) -> Result<(), Failure> {
-    let study = measured(&arguments.which, arguments.measured.as_deref())?;
+    let study = measured(&arguments.which, arguments.measured.as_deref())?.study;
     let Prepared { plan, .. } = prepared(&study, &arguments.which, arguments.points)?;
-    let out = arguments.out.clone().unwrap_or_else(|| default_folder(&plan));
+    let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, "bank"));
     let bank = computed(&plan, &out, arguments.threads)?;
     let told = bank.paths.iter().flatten().count();
     let walls = bank.paths.len();
@@ -30,11 +32,11 @@ pub(crate) fn bank(arguments: &Bank) -> Result<(), Failure> {
 }
 
 /// The study that the arguments name, with the measurements of another file if one is named.
-pub(crate) fn measured(which: &Which, file: Option<&Path>) -> Result<Study, Failure> {
-    let study = locate::study(which)?.study;
+pub(crate) fn measured(which: &Which, file: Option<&Path>) -> Result<Loaded, Failure> {
+    let loaded = locate::study(which)?;
     match file {
-        Some(file) => Ok(study.with_measured(file)?),
-        None => Ok(study),
+        Some(file) => Ok(loaded.with_measured(file)?),
+        None => Ok(loaded),
     }
 }
 
@@ -50,16 +52,29 @@ pub(crate) fn prepared(study: &Study, which: &Which, points: u64) -> Result<Prep
         let text = "the study tilts no platform: diagnoses are of tilting tests";
         return Err(Failure::Input(format!("{}: {text}", study.name)));
     };
+    let (design, _) = Design::of(study);
+    if design.specimens.is_empty() {
+        let arms: Vec<&str> = study.arms.iter().map(|arm| arm.name.as_str()).collect();
+        return Err(Failure::Input(format!(
+            "{}: no specimen was tilted: a diagnosis needs collapse angles or displacements of a wall of {}; weights, tests on \
+             joints alone and other arms say nothing of these",
+            study.name,
+            arms.join(", ")
+        )));
+    }
+    let notes = noted(&doubts(study, &design));
     let distributions = locate::distributions(which)?;
     let mechanisms = described(&distributions).map_err(Failure::Input)?;
     let nuisances = nuisances(&distributions).map_err(Failure::Input)?;
     let plan = Plan::new(study, &mechanisms, &nuisances, points)?;
-    Ok(Prepared { mechanisms, nuisances, plan })
+    Ok(Prepared { mechanisms, nuisances, plan, notes })
 }
 
-/// Where a bank is kept.
-pub(crate) fn default_folder(plan: &Plan) -> PathBuf {
-    PathBuf::from("runs").join(&plan.study.name)
+/// Says doubts on standard error, and gives their words.
+pub(crate) fn noted(doubts: &[Doubt]) -> Vec<String> {
+    let words: Vec<String> = doubts.iter().map(ToString::to_string).collect();
+    words.iter().for_each(|words| output::note(&format!("note: {words}")));
+    words
 }
 
 /// Simulates what a folder does not hold yet of a plan's walls, and writes their table there.

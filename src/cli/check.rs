@@ -32,7 +32,7 @@ pub(crate) fn check(arguments: &Check) -> Result<(), Failure> {
         }
     };
     match Study::load(&folder, which.variant.as_deref()) {
-        Ok(Loaded { study, warnings, variants, used }) => output::print_json(&json!({
+        Ok(Loaded { study, warnings, variants, used, .. }) => output::print_json(&json!({
             "valid": true,
             "study": study.name,
             "variant": study.variant,

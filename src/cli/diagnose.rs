@@ -1,14 +1,18 @@
 //! `pirca diagnose`: what does the simulation get wrong, and which cause explains it?
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::cli::arguments::Diagnose;
 use crate::cli::bank::{self, Prepared};
 use crate::cli::failure::Failure;
 use crate::cli::output;
-use crate::critic::{self, BANK, Design, Effort, Judge, Limits, Measuring, Plan, Truth, Verdict, World};
-use crate::report::{self, Advice, DiagnosisSummary, GainSummary};
+use crate::critic::{
+    self, BANK, Design, Diagnosis, Effort, Judge, Limits, Measuring, Plan, Verdict, World, doubts_beside,
+    extension,
+};
+use crate::report::{self, Advice, DiagnosisSummary, EXTENDED, GainSummary, Origin};
+use crate::study::Loaded;
 
 /// Seeds that a part of a diagnosis may use from its own on.
 const SEEDS: u64 = 1000;
@@ -17,10 +21,10 @@ const TESTED: u64 = 100;
 
 /// Diagnoses the measurements of a study.
 pub(crate) fn diagnose(arguments: &Diagnose) -> Result<(), Failure> {
-    let study = bank::measured(&arguments.which, arguments.measured.as_deref())?;
-    let Prepared { mechanisms, nuisances, plan } =
+    let Loaded { study, stated, .. } = bank::measured(&arguments.which, arguments.measured.as_deref())?;
+    let Prepared { mechanisms, nuisances, plan, mut notes } =
         bank::prepared(&study, &arguments.which, arguments.points)?;
-    let folder = arguments.bank.clone().unwrap_or_else(|| bank::default_folder(&plan));
+    let folder = arguments.bank.clone().unwrap_or_else(|| output::default_folder(&study, "bank"));
     let walls = banked(&plan, &folder, arguments)?;
     let Some(world) = World::new(&study, &mechanisms, &nuisances, &plan, &walls) else {
         let text = "the bank holds too few walls that fell: ask for more --points, or for a load path that ends later";
@@ -29,31 +33,58 @@ pub(crate) fn diagnose(arguments: &Diagnose) -> Result<(), Failure> {
     let (design, measured) = Design::of(&study);
     // The bank keeps the study's own seed.
     let seed = arguments.seed.unwrap_or(study.seed);
+    notes.extend(bank::noted(&doubts_beside(&world, &design, &measured, seed.wrapping_add(5 * SEEDS))));
     let Some(judge) = Judge::trained(&world, &design, Effort::default(), seed) else {
-        return Err(Failure::Input("none of the measurements can be set against a simulation".to_string()));
+        return Err(Failure::Input(
+            "none of the measurements can be set against a simulation: at their tilts simulated walls have fallen".to_string(),
+        ));
     };
     let limits = Limits::default();
     let diagnosis = judge.diagnosed(&measured, &limits, seed.wrapping_add(SEEDS));
     let test = judge.self_test(&limits, TESTED, seed.wrapping_add(2 * SEEDS));
     let mut summary =
         DiagnosisSummary::of(&study, seed, &plan.study.hash, &mechanisms, &design, &diagnosis, &test);
-    let possible: Vec<(f64, Vec<Truth>)> = diagnosis.possible();
-    let offered = critic::offers(&judge, &possible, seed.wrapping_add(4 * SEEDS));
+    summary.notes = notes;
+    let offered = critic::offers(&judge, &diagnosis.possible(), seed.wrapping_add(4 * SEEDS));
     summary.advice = Advice::of(&test, &offered, &mechanisms);
     if diagnosis.verdict != Verdict::NothingFound && !arguments.no_gain {
         let gain = critic::gain(&judge, &measured, &Measuring::default(), seed.wrapping_add(3 * SEEDS));
         summary.gain = gain.map(|gain| GainSummary::of(&gain, &design, &mechanisms));
     }
-    let out = arguments
-        .out
-        .clone()
-        .unwrap_or_else(|| PathBuf::from("runs").join(format!("{}-diagnosis", study.name)));
+    let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, "diagnosis"));
     output::folder(&out)?;
     report::write_diagnosis(&summary, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
+    let origin = Origin { study: &study, stated: &stated, seed, bank: &plan.study.hash };
+    let extended = extended(&origin, &world, &diagnosis, &out)?;
     if arguments.which.json {
         return output::print_json(&summary);
     }
-    output::print(&format!("{}\nwritten to {}\n", report::diagnosis_text(&summary), out.display()))
+    let text = report::diagnosis_text(&summary);
+    output::print(&format!("{text}\nwritten to {}\n{extended}", out.display()))
+}
+
+/// Writes the study that each cause of the verdict extends, in the place of those of an earlier verdict; says so in a line for each.
+fn extended(
+    origin: &Origin<'_>,
+    world: &World<'_>,
+    diagnosis: &Diagnosis,
+    out: &Path,
+) -> Result<String, Failure> {
+    report::remove_extended(world.mechanisms(), out);
+    let mut said = String::new();
+    let causes = diagnosis.verdict.causes();
+    for own in diagnosis.looked_at.iter().filter(|own| causes.contains(&own.cause)) {
+        let Some(extension) = extension(world, &own.draws) else { continue };
+        let folder = out.join(EXTENDED).join(extension.median.mechanism);
+        report::write_extended(origin, &extension, &folder)
+            .map_err(|error| Failure::Run(format!("{}: {error:#}", folder.display())))?;
+        said.push_str(&format!(
+            "the study extended by {}: {}\n",
+            extension.median.mechanism,
+            folder.display()
+        ));
+    }
+    Ok(said)
 }
 
 /// The bank of a plan: read, or computed where it is not there.
@@ -70,8 +101,10 @@ fn banked(plan: &Plan, folder: &Path, arguments: &Diagnose) -> Result<critic::Ba
         let points = arguments.points;
         let measured = arguments.measured.as_ref();
         let measured = measured.map_or(String::new(), |file| format!(" --measured {}", file.display()));
+        let variant =
+            arguments.which.variant.as_ref().map_or(String::new(), |name| format!(" --variant {name}"));
         return Err(Failure::Input(format!(
-            "there is no {}: {walls} walls are to be simulated first, by\n  pirca bank {study}{measured} --points {points} --out {}",
+            "there is no {}: {walls} walls are to be simulated first, by\n  pirca bank {study}{variant}{measured} --points {points} --out {}",
             path.display(),
             folder.display()
         )));

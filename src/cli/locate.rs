@@ -7,7 +7,7 @@ use crate::cli::arguments::Which;
 use crate::cli::failure::Failure;
 use crate::cli::output;
 use crate::math::edit_distance;
-use crate::study::{ElementStudy, Loaded, Study};
+use crate::study::{ElementStudy, Loaded, Study, distributions_above};
 
 /// Loads the study that the arguments name, in the variant asked for, and passes its warnings on to standard error.
 pub(crate) fn study(which: &Which) -> Result<Loaded, Failure> {
@@ -39,9 +39,13 @@ pub(crate) fn folder(path: &Path) -> Result<PathBuf, Failure> {
     Err(Failure::Input(format!("no study at {found}\n{}", known(path))))
 }
 
-/// The folder of distributions beside that of the studies.
+/// The folder of distributions that the study takes its own from.
 pub(crate) fn distributions(which: &Which) -> Result<PathBuf, Failure> {
-    Ok(folder(&which.study)?.join("../../distributions"))
+    let folder = folder(&which.study)?;
+    distributions_above(&folder).map_err(|none| {
+        let fix = "put the folder `distributions` beside `studies`: the priors are in it";
+        Failure::Input(format!("{}: wanted is {none}; {fix}", folder.display()))
+    })
 }
 
 /// The studies in `studies/` and beside the path, nearest names first.

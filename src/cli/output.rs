@@ -2,10 +2,11 @@
 
 use std::fs;
 use std::io::{ErrorKind, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use crate::cli::failure::Failure;
+use crate::study::Study;
 
 /// Writes text to standard output. A reader that has gone away (`pirca ... | head`) has read what it wanted.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
@@ -23,6 +24,14 @@ pub(crate) fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
     let text =
         serde_json::to_string_pretty(value).map_err(|e| Failure::Run(format!("cannot write JSON: {e}")))?;
     print(&format!("{text}\n"))
+}
+
+/// Where the results of a study are written by default: by its name and its variant's, so that no variant takes another's place.
+/// `what` they are comes behind; empty for those of a run.
+pub(crate) fn default_folder(study: &Study, what: &str) -> PathBuf {
+    let parts =
+        [Some(study.name.as_str()), study.variant.as_deref(), Some(what).filter(|what| !what.is_empty())];
+    PathBuf::from("runs").join(parts.into_iter().flatten().collect::<Vec<_>>().join("-"))
 }
 
 /// Makes the folder that results are written to.

@@ -1,7 +1,5 @@
 //! `pirca run`: generate, solve, statistics, figures.
 
-use std::path::PathBuf;
-
 use crate::cli::arguments::{Run, SolverName};
 use crate::cli::failure::Failure;
 use crate::cli::{elements, locate, output, progress};
@@ -16,7 +14,7 @@ pub(crate) fn run(arguments: &Run) -> Result<(), Failure> {
         return elements::run(&folder, arguments);
     }
     let study = asked(locate::study(&arguments.which)?.study, arguments)?;
-    let out = arguments.out.clone().unwrap_or_else(|| default_folder(&study));
+    let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, ""));
     let quantity = Quantity::of(&study.protocol);
     let beside = arguments.beside.as_ref().map(|dir| Earlier::read(dir, &study.name, quantity));
     let beside = beside.transpose().map_err(|error| Failure::Usage(format!("--beside: {error:#}")))?;
@@ -46,9 +44,4 @@ fn asked(mut study: Study, arguments: &Run) -> Result<Study, Failure> {
         study = study.with_members(members);
     }
     Ok(study)
-}
-
-fn default_folder(study: &Study) -> PathBuf {
-    let variant = study.variant.as_ref().map(|name| format!("-{name}")).unwrap_or_default();
-    PathBuf::from("runs").join(format!("{}{variant}", study.name))
 }

@@ -1,6 +1,5 @@
 //! `pirca sensitivity`: which mechanisms could the measured data see?
 
-use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::cli::arguments::Sensitivity;
@@ -24,10 +23,7 @@ pub(crate) fn sensitivity(arguments: &Sensitivity) -> Result<(), Failure> {
     let progress = Tenths { total: AtomicUsize::new(0), done: AtomicUsize::new(0) };
     let map = map_of(&study, &mechanisms, &settings, &progress).map_err(failure)?;
     let summary = SensitivitySummary::of(&study, &mechanisms, &settings, &map);
-    let out = arguments.out.clone().unwrap_or_else(|| {
-        let variant = study.variant.as_ref().map(|name| format!("-{name}")).unwrap_or_default();
-        PathBuf::from("runs").join(format!("{}{variant}-sensitivity", study.name))
-    });
+    let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, "sensitivity"));
     output::folder(&out)?;
     report::write_sensitivity(&summary, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
     if arguments.which.json {

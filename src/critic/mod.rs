@@ -20,10 +20,11 @@ pub use bank::{BANK, Bank, Emulator, NotThisBank, Path, Place, Plan};
 pub use calibrate::{Calibration, CurvePoint, End, LEAST_POINTS, calibrate, calibrate_family};
 pub use compare::{Beside, Difference, Measured, Ours, Walls, compare};
 pub use diagnose::{
-    CAUGHT, COVERED, Campaign, Caught, Choice, Contrast, DOUBT, Design, Diagnosis, Effort, Evidence, Feature,
-    Gain, Gained, HeldOut, Interval, Judge, Limits, LookedAt, MOST_AMBIGUOUS, Measuring, Offer, Offered,
-    Ranked, Ranking, Reference, Scale, Scores, Seeming, Seen, SelfTest, SelfTestRow, Specimen, Truth,
-    Verdict, World, Wrong, evidence, features, gain, guarded, offers,
+    CAUGHT, COVERED, Campaign, Caught, Choice, Contrast, DOUBT, DRAWS, Design, Diagnosis, Doubt, Effort,
+    Evidence, Extension, Feature, Gain, Gained, HeldOut, Interval, Judge, Known, Limits, LookedAt,
+    MOST_AMBIGUOUS, Measuring, Offer, Offered, Ranked, Ranking, Reference, Scale, Scores, Seeming, Seen,
+    SelfTest, SelfTestRow, Specimen, Truth, Verdict, World, Wrong, doubts, doubts_beside, evidence,
+    extension, features, gain, guarded, offers,
 };
 pub use likelihood::log_likelihood;
 pub use monotone::Monotone;

@@ -40,6 +40,8 @@ pub struct DiagnosisSummary {
     pub off: Vec<OffEntry>,
     /// Lines of the measurements that were not used.
     pub unused_lines: Vec<usize>,
+    /// What looks odd about the measurements and was judged all the same.
+    pub notes: Vec<String>,
     /// How reliable verdicts on such data are.
     pub self_test: Vec<SelfTestEntry>,
     /// What the data cannot tell, and what would.
@@ -167,6 +169,7 @@ impl DiagnosisSummary {
             p_value: diagnosis.seeming.p_value,
             off,
             unused_lines: design.unused.clone(),
+            notes: Vec::new(),
             self_test: tested.collect(),
             advice: Advice::default(),
             gain: None,
@@ -274,7 +277,7 @@ pub fn diagnosis_text(summary: &DiagnosisSummary) -> String {
     if !summary.unused_lines.is_empty() {
         let lines: Vec<String> = summary.unused_lines.iter().map(ToString::to_string).collect();
         text.push_str(&format!(
-            "\nNot used: lines {} of the measurements (weights, readings after unloading)\n",
+            "\nNot used: lines {} of the measurements (weights, readings after unloading, arms that are not evaluated)\n",
             lines.join(", ")
         ));
     }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::random::Family;
 use crate::study::checked::InputFile;
+use crate::study::distributions::{NoDistributions, distributions_above};
 use crate::study::fault::{Fault, Faults, Found};
 use crate::study::quantity::family;
 use crate::study::raw::{self, Entry, Node, Table, Value};
@@ -55,7 +56,7 @@ pub struct Used {
 
 /// Reads files below `distributions` when they are first referred to.
 pub struct Catalogue {
-    folder: PathBuf,
+    folder: Result<PathBuf, NoDistributions>,
     files: BTreeMap<String, Option<(DistributionFile, Vec<String>)>>,
     /// Faults of the files read.
     pub faults: Vec<Fault>,
@@ -66,8 +67,12 @@ pub struct Catalogue {
 }
 
 impl Catalogue {
-    /// The catalogue of a folder.
-    pub fn new(folder: PathBuf) -> Catalogue {
+    /// The catalogue above the folder of a study.
+    pub fn above(study: &Path) -> Catalogue {
+        Catalogue::new(distributions_above(study))
+    }
+
+    fn new(folder: Result<PathBuf, NoDistributions>) -> Catalogue {
         Catalogue { folder, files: BTreeMap::new(), faults: Vec::new(), inputs: Vec::new(), used: Vec::new() }
     }
 
@@ -92,19 +97,22 @@ impl Catalogue {
         if !file.split('/').all(is_name) || !is_name(entry) {
             return Err(fault(form.to_owned(), "use lower-case letters, digits, - and _".to_owned()));
         }
-        if !self.files.contains_key(file) && !self.path_of(file).exists() {
-            let known = names_below(&self.folder);
+        let folder = self.folder.clone().map_err(|none| {
+            let fix = "put the folder `distributions` beside `studies`, or write the numbers here";
+            fault(format!("a file of {none}"), fix.to_owned())
+        })?;
+        if !self.files.contains_key(file) && !path_of(&folder, file).exists() {
+            let known = names_below(&folder);
             if known.is_empty() {
-                let wanted = format!("a file of {}, which holds none", self.folder.display());
-                let fix = "put the folder `distributions` beside `studies`, or write the numbers here";
-                return Err(fault(wanted, fix.to_owned()));
+                let wanted = format!("a file of {}, which holds none", folder.display());
+                return Err(fault(wanted, "put the file there, or write the numbers here".to_owned()));
             }
             return Err(fault(
                 format!("a file of `distributions`: {}", known.join(", ")),
                 suggestion(file, &known),
             ));
         }
-        let Some((held, faulty)) = self.file(file) else { return Ok(None) };
+        let Some((held, faulty)) = self.file(&folder, file) else { return Ok(None) };
         if faulty.iter().any(|f| f == entry) {
             return Ok(None);
         }
@@ -131,23 +139,19 @@ impl Catalogue {
         Ok(Some(found.family))
     }
 
-    fn path_of(&self, file: &str) -> PathBuf {
-        self.folder.join(format!("{file}.toml"))
-    }
-
     /// The file of that name and the names of its faulty entries, read once.
-    fn file(&mut self, file: &str) -> Option<&(DistributionFile, Vec<String>)> {
+    fn file(&mut self, folder: &Path, file: &str) -> Option<&(DistributionFile, Vec<String>)> {
         if !self.files.contains_key(file) {
-            let read = self.read(file);
+            let read = self.read(folder, file);
             self.files.insert(file.to_owned(), read);
         }
         self.files.get(file).and_then(Option::as_ref)
     }
 
-    fn read(&mut self, file: &str) -> Option<(DistributionFile, Vec<String>)> {
+    fn read(&mut self, folder: &Path, file: &str) -> Option<(DistributionFile, Vec<String>)> {
         let name = format!("distributions/{file}.toml");
         let parsed =
-            files::read(&self.path_of(file), &name, 3 + self.files.len(), raw::FORMAT).and_then(|text| {
+            files::read(&path_of(folder, file), &name, 3 + self.files.len(), raw::FORMAT).and_then(|text| {
                 self.inputs.push(InputFile { path: PathBuf::from(&name), sha256: text.sha256.clone() });
                 raw::parse(&text.source)
             });
@@ -163,6 +167,10 @@ impl Catalogue {
         self.faults.append(&mut notes.faults);
         read
     }
+}
+
+fn path_of(folder: &Path, file: &str) -> PathBuf {
+    folder.join(format!("{file}.toml"))
 }
 
 /// Head and entries of a file, with the names of the faulty entries.
@@ -232,10 +240,10 @@ fn names_below(folder: &Path) -> Vec<String> {
 /// # Errors
 /// All faults of all files.
 pub fn load_distributions(folder: &Path) -> Result<BTreeMap<String, DistributionFile>, Faults> {
-    let mut catalogue = Catalogue::new(folder.to_owned());
+    let mut catalogue = Catalogue::new(Ok(folder.to_owned()));
     let mut read = BTreeMap::new();
     for name in names_below(folder) {
-        if let Some((file, _)) = catalogue.file(&name) {
+        if let Some((file, _)) = catalogue.file(folder, &name) {
             read.insert(name, file.clone());
         }
     }

@@ -67,6 +67,14 @@ pub struct Arm {
     pub mechanisms: Mechanisms,
 }
 
+impl Study {
+    /// The arms, by index, of which something was measured.
+    pub fn measured_arms(&self) -> Vec<usize> {
+        let measured = |arm: &usize| self.measured.iter().any(|m| m.family == self.arms[*arm].name);
+        (0..self.arms.len()).filter(measured).collect()
+    }
+}
+
 impl Arm {
     /// The middle of its points in kn, the lower of two.
     pub fn middle_point(&self) -> usize {
@@ -205,7 +213,7 @@ pub enum ClaimTest {
 /// An input file of a study and its hash.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct InputFile {
-    /// Path relative to the study's folder, or to its `distributions` sibling.
+    /// Path relative to the study's folder, or to the folder above its `distributions`.
     pub path: PathBuf,
     /// SHA-256 in hex.
     pub sha256: String,

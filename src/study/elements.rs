@@ -111,7 +111,7 @@ impl ElementStudy {
             true => parsed(&folder, "published.toml", 1, &mut inputs, &mut faults),
             false => None,
         };
-        let mut catalogue = Catalogue::new(folder.join("../../distributions"));
+        let mut catalogue = Catalogue::above(&folder);
         let study = root.and_then(|root| study(&root, &mut notes, &mut catalogue));
         // What others report decides no result.
         let effective = std::mem::take(&mut notes.effective);

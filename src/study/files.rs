@@ -9,6 +9,7 @@ use crate::study::fault::{Fault, Found, Place, Source};
 use crate::study::schema::nearest;
 
 /// A text file and the hash of its bytes.
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TextFile {
     /// The text, for parsing and pointing.
     pub source: Arc<Source>,

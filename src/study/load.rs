@@ -8,10 +8,11 @@ use crate::study::build::{self, Parts};
 use crate::study::catalogue::{Catalogue, Used};
 use crate::study::checked::{Arm, InputFile, Study};
 use crate::study::fault::{Fault, Faults, Source};
-use crate::study::measured::Measurement;
+use crate::study::files::TextFile;
 use crate::study::raw::{self, Node};
 use crate::study::reader::{Notes, Reader, table_name};
 use crate::study::schema::suggestion;
+use crate::study::stated::Stated;
 use crate::study::variant::{self, Variant};
 use crate::study::{files, keys, measured, published};
 
@@ -26,6 +27,8 @@ pub struct Loaded {
     pub variants: Vec<VariantName>,
     /// The entries of `distributions` that it takes, with their provenance.
     pub used: Vec<Used>,
+    /// What its files state, to be written as another study.
+    pub stated: Stated,
 }
 
 /// A variant that a study offers.
@@ -38,15 +41,35 @@ pub struct VariantName {
 }
 
 /// One reading of the study: the base or a variant.
-struct Reading {
+pub(super) struct Reading {
+    root: Node,
     parts: Option<Parts>,
     notes: Notes,
     used: Vec<Used>,
 }
 
+impl Loaded {
+    /// The same study with the measurements of another file.
+    ///
+    /// # Errors
+    /// All faults of the file.
+    pub fn with_measured(mut self, path: &Path) -> Result<Loaded, Faults> {
+        let name = path.display().to_string();
+        let file =
+            files::read(path, &name, 0, measured::FORMAT).map_err(|fault| Faults::sorted(vec![*fault]))?;
+        // As beside the study: a variant that evaluates fewer arms reads the same files.
+        let arms = self.stated.arms();
+        self.study.measured = measured::read(&file.source, arms.as_deref()).map_err(Faults::sorted)?;
+        self.study.inputs.retain(|input| input.path != Path::new(measured::FILE));
+        self.study.inputs.push(InputFile { path: path.to_path_buf(), sha256: file.sha256.clone() });
+        self.stated.measured = Some(file);
+        Ok(self)
+    }
+}
+
 impl Study {
     /// Loads and checks the study in `folder` (study.toml, published.toml and measured.csv if there are any, and the files that it refers
-    /// to below `../../distributions`), as the variant of that name reads it.
+    /// to below the nearest [`distributions`](crate::study::distributions_above)), as the variant of that name reads it.
     ///
     /// All variants are checked, whichever is asked for.
     ///
@@ -62,7 +85,8 @@ impl Study {
         } else {
             None
         };
-        let mut catalogue = Catalogue::new(folder.join("../../distributions"));
+        let published_text = published_root.as_ref().map(|root| root.place.source.clone());
+        let mut catalogue = Catalogue::above(&folder);
         let mut notes = Notes::default();
         let variants = root.as_ref().map_or_else(Vec::new, |root| variant::read(root, &mut notes));
         let chosen = choose(variant, &variants, root.as_ref(), &mut notes.faults);
@@ -72,12 +96,16 @@ impl Study {
         let claims = published_root
             .map(|root| published::read(&root, arms.as_deref(), &mut notes))
             .unwrap_or_default();
-        let measured = measurements(&folder, arms.as_deref(), &mut inputs, &mut faults);
+        let measured_file = measurements(&folder, &mut inputs, &mut faults);
+        let measured = measured_file.as_ref().and_then(|file| {
+            let read = measured::read(&file.source, arms.as_deref());
+            read.map_err(|mut found| faults.append(&mut found)).ok()
+        });
         faults.append(&mut notes.faults);
         faults.append(&mut catalogue.faults);
         inputs.append(&mut catalogue.inputs);
         match reading {
-            Some(Reading { parts: Some(parts), notes, used }) if faults.is_empty() => {
+            Some(Reading { parts: Some(parts), root, notes, used }) if faults.is_empty() => {
                 let name = folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
                 let hash = hash_of(&notes.effective);
                 let study = Study {
@@ -90,35 +118,22 @@ impl Study {
                     solver: parts.solver,
                     agreement: parts.agreement,
                     published: claims,
-                    measured,
+                    measured: measured.unwrap_or_default(),
                     inputs,
                     effective: notes.effective,
                     hash,
                 };
                 let name_of = |v: &Variant| VariantName { name: v.name.clone(), why: v.why.clone() };
                 let warnings = Faults::sorted(notes.warnings).faults;
-                Ok(Loaded { study, warnings, variants: variants.iter().map(name_of).collect(), used })
+                let variants = variants.iter().map(name_of).collect();
+                let stated = Stated::of(root, &mut catalogue, published_text, measured_file);
+                Ok(Loaded { study, warnings, variants, used, stated })
             }
             _ => {
                 crate::check!(!faults.is_empty(), "the study was refused without a fault");
                 Err(Faults::sorted(faults))
             }
         }
-    }
-
-    /// The same study with the measurements of another file.
-    ///
-    /// # Errors
-    /// All faults of the file.
-    pub fn with_measured(mut self, path: &Path) -> Result<Study, Faults> {
-        let name = path.display().to_string();
-        let arms: Vec<String> = self.arms.iter().map(|arm| arm.name.clone()).collect();
-        let file =
-            files::read(path, &name, 0, measured::FORMAT).map_err(|fault| Faults::sorted(vec![*fault]))?;
-        self.measured = measured::read(&file.source, Some(&arms)).map_err(Faults::sorted)?;
-        self.inputs.retain(|input| input.path != Path::new(measured::FILE));
-        self.inputs.push(InputFile { path: path.to_path_buf(), sha256: file.sha256 });
-        Ok(self)
     }
 
     /// The same study with another seed.
@@ -215,23 +230,16 @@ pub(super) fn parsed(
     read.map_err(|fault| faults.push(*fault)).ok()
 }
 
-/// What measured.csv holds; nothing where there is none.
-fn measurements(
-    folder: &Path,
-    arms: Option<&[String]>,
-    inputs: &mut Vec<InputFile>,
-    faults: &mut Vec<Fault>,
-) -> Vec<Measurement> {
+/// measured.csv; `None` where there is none.
+fn measurements(folder: &Path, inputs: &mut Vec<InputFile>, faults: &mut Vec<Fault>) -> Option<TextFile> {
     let path = folder.join(measured::FILE);
     if !path.exists() {
-        return Vec::new();
+        return None;
     }
-    let file = files::read(&path, measured::FILE, 2, measured::FORMAT).map_err(|fault| vec![*fault]);
-    let read = file.and_then(|file| {
-        inputs.push(InputFile { path: PathBuf::from(measured::FILE), sha256: file.sha256 });
-        measured::read(&file.source, arms)
-    });
-    read.map_err(|mut found| faults.append(&mut found)).unwrap_or_default()
+    let file = files::read(&path, measured::FILE, 2, measured::FORMAT);
+    let file = file.map_err(|fault| faults.push(*fault)).ok()?;
+    inputs.push(InputFile { path: PathBuf::from(measured::FILE), sha256: file.sha256.clone() });
+    Some(file)
 }
 
 /// The variant asked for.
@@ -257,7 +265,7 @@ fn choose<'v>(
 }
 
 /// Reads the base and every variant, and answers with the reading asked for.
-fn read_all(
+pub(super) fn read_all(
     root: &Node,
     variants: &[Variant],
     chosen: Option<&Variant>,
@@ -287,11 +295,11 @@ fn read_one(root: &Node, catalogue: &mut Catalogue) -> Reading {
     let mut notes = Notes::default();
     catalogue.used.clear();
     let parts = build::parts(root, &mut notes, catalogue);
-    Reading { parts, notes, used: std::mem::take(&mut catalogue.used) }
+    Reading { root: root.clone(), parts, notes, used: std::mem::take(&mut catalogue.used) }
 }
 
 /// Names of the arms, as far as they are valid names.
-fn arm_names(root: &Node) -> Option<Vec<String>> {
+pub(super) fn arm_names(root: &Node) -> Option<Vec<String>> {
     let raw::Value::Table(table) = &root.value else { return None };
     let raw::Value::List(list) = &table.get("arm")?.node.value else { return None };
     Some(list.iter().filter_map(|node| table_name(node).map(str::to_owned)).collect())

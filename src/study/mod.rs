@@ -5,7 +5,9 @@ mod arm;
 mod build;
 mod catalogue;
 mod checked;
+mod distributions;
 mod elements;
+mod extended;
 mod fault;
 mod files;
 mod inventory;
@@ -22,12 +24,15 @@ mod reader;
 mod reference;
 mod schema;
 mod setting;
+mod stated;
 mod strength;
 mod variant;
 
 pub use catalogue::{Distribution, DistributionFile, Used, load_distributions};
 pub use checked::{Arm, Claim, ClaimTest, InputFile, Joint, NormalLawName, Study};
+pub use distributions::{NoDistributions, distributions_above};
 pub use elements::{ElementArm, ElementStudy, Reported};
+pub use extended::Point;
 pub use fault::{Fault, Faults, Found};
 pub use inventory::{
     Acts, Described, Entry as InventoryEntry, INVENTORY, InLimitAnalysis, Parameter, Unloading, described,
@@ -40,6 +45,7 @@ pub use mechanism::{
 };
 pub use nuisance::{NUISANCES, Nuisance, nuisances};
 pub use reference::key_reference;
+pub use stated::{Settings, Stated, WrittenVariant};
 pub use strength::Switched;
 
 #[cfg(test)]

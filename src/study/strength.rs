@@ -78,9 +78,7 @@ impl Study {
         };
         let (mut study, mut idle) = (self.clone(), BTreeMap::new());
         for arm in &mut study.arms {
-            let shared = format!("mechanism.{name}.");
-            let there = [shared.clone(), format!("arm.{}.{shared}", arm.name)];
-            if there.iter().any(|prefix| self.effective.keys().any(|key| key.starts_with(prefix))) {
+            if self.arms_with(name).contains(&arm.name.as_str()) {
                 idle.insert(arm.name.clone(), "the study has it on already");
                 continue;
             }

@@ -50,10 +50,23 @@ fn a_gauge_that_has_moved_is_named_from_a_csv_and_the_bank_is_made_once() {
     // 3 mm were hidden; 0.02 mm of error in ninety readings, and some of the 60 campaigns most alike are further away.
     let median = moved["median"].as_f64().unwrap();
     assert!((median - 3e-3).abs() < 5e-4, "{moved}");
-    // Again, with the bank as it is: the same verdict to the bit.
+    let extended = extended_by_an_offset(&folder);
+    // Again, with the bank as it is: the same verdict and the same study to the bit, and none of an earlier verdict.
     let bank = fs::read(folder.path("runs/tiny-bank/bank.parquet")).unwrap();
+    for stale in ["runs/tiny-diagnosis/extended/lean", "runs/tiny-diagnosis/extended/creep"] {
+        fs::create_dir_all(folder.path(stale)).unwrap();
+        fs::write(folder.path(stale).join("study.toml"), "of an earlier verdict").unwrap();
+    }
+    fs::write(folder.path("runs/tiny-diagnosis/extended/creep/notes.txt"), "the user's own").unwrap();
     ends_with(&folder, 0, &[&diagnose[..], &["--no-build"]].concat());
+    assert!(!folder.path("runs/tiny-diagnosis/extended/lean").exists());
+    assert!(!folder.path("runs/tiny-diagnosis/extended/creep/study.toml").exists());
+    assert!(folder.path("runs/tiny-diagnosis/extended/creep/notes.txt").exists());
     assert_eq!(fs::read(folder.path("runs/tiny-diagnosis/verdict.json")).unwrap(), verdict);
+    assert_eq!(
+        fs::read(folder.path("runs/tiny-diagnosis/extended/gauge_offset/study.toml")).unwrap(),
+        extended
+    );
     assert_eq!(fs::read(folder.path("runs/tiny-bank/bank.parquet")).unwrap(), bank);
     // Another design is not diagnosed with this bank.
     let other =
@@ -63,6 +76,214 @@ fn a_gauge_that_has_moved_is_named_from_a_csv_and_the_bank_is_made_once() {
     fs::write(folder.path("runs/tiny-bank/bank.parquet"), b"no table").unwrap();
     let broken = ends_with(&folder, 3, &diagnose);
     assert!(stderr(&broken).contains("it is no bank"), "{}", stderr(&broken));
+}
+
+/// What a named offset of the gauge writes: a study that is checked and run from any place. Its bytes.
+fn extended_by_an_offset(folder: &Folder) -> Vec<u8> {
+    let written = folder.path("runs/tiny-diagnosis/extended/gauge_offset");
+    assert_eq!(fs::read(written.join("measured.csv")).unwrap(), MEASURED.as_bytes());
+    let text = fs::read_to_string(written.join("study.toml")).unwrap();
+    for part in [
+        "# Made by `pirca diagnose` from the study \"tiny\", seed 7.\n",
+        "#   mechanism.gauge_offset.offset_m  0.003",
+        "#   arm.tower.joint.kn_pa_per_m",
+        "\n[mechanism.gauge_offset]\noffset_m = 0.003",
+        "\nname = \"draw-20\"\n",
+    ] {
+        assert!(text.contains(part), "{part} in: {text}");
+    }
+    // Nothing lies beside or above it there.
+    let elsewhere = Folder::with_study(STUDY);
+    for file in ["study.toml", "measured.csv"] {
+        fs::copy(written.join(file), elsewhere.path("studies/tiny").join(file)).unwrap();
+    }
+    let checked = ends_with(&elsewhere, 0, &["check", "studies/tiny"]);
+    let said = String::from_utf8_lossy(&checked.stdout).into_owned();
+    assert!(said.contains("measured: 96 values on 6 specimens"), "{said}");
+    assert_eq!(said.matches("variant draw-").count(), 20, "{said}");
+    let run = ["run", "studies/tiny", "--variant", "draw-07", "--members", "1"];
+    ends_with(&elsewhere, 0, &run);
+    assert!(elsewhere.path("runs/tiny-draw-07/summary.json").exists());
+    text.into_bytes()
+}
+
+#[test]
+fn variants_have_banks_and_diagnoses_of_their_own() {
+    let folder = folder(&format!(
+        "{TOWERS}\n[[variant]]\nname = \"soft\"\nwhy = \"Softer joints.\"\nset = {{ \"joint.kn_pa_per_m\" = [4e7] }}\n"
+    ));
+    let soft = ["studies/tiny", "--variant", "soft", "--measured", "tests.csv", "--points", "12"];
+    let refused = ends_with(&folder, 3, &[&["diagnose", "--no-build"], &soft[..]].concat());
+    let wanted = "there is no runs/tiny-soft-bank/bank.parquet: 168 walls are to be simulated first, by\n  \
+                  pirca bank studies/tiny --variant soft --measured tests.csv --points 12";
+    assert!(stderr(&refused).contains(wanted), "{}", stderr(&refused));
+    ends_with(&folder, 0, &[&["bank"], &soft[..]].concat());
+    ends_with(&folder, 0, &[&["diagnose", "--no-build"], &soft[..]].concat());
+    let text =
+        fs::read_to_string(folder.path("runs/tiny-soft-diagnosis/extended/gauge_offset/study.toml")).unwrap();
+    assert!(text.contains("from the study \"tiny\", variant soft, seed 7"), "{text}");
+    assert!(text.contains("\n[joint]\nkn_pa_per_m = [40000000.0]\n"), "{text}");
+    assert!(!folder.path("runs/tiny-bank").exists() && !folder.path("runs/tiny-diagnosis").exists());
+}
+
+/// What is said of measurements that are judged all the same, on standard error and in the verdict.
+#[test]
+fn what_looks_odd_is_noted_and_judged() {
+    let folder = folder(TOWERS);
+    let header = MEASURED.lines().next().unwrap();
+    let of_one = MEASURED.lines().filter(|line| line.starts_with("s0,")).collect::<Vec<_>>().join("\n");
+    let cases: [(&str, String, &str); 4] = [
+        (
+            "one",
+            format!("{header}\n{of_one}\n"),
+            "there is one specimen: the scatter between specimens cannot be judged",
+        ),
+        (
+            "unit",
+            MEASURED.replacen("3.228331,mm", "3.228331,cm", 1),
+            "line 3: displacement_left of s0 is 32.28 mm at 2.5 deg, where 99.9 % of simulated readings lie within ",
+        ),
+        (
+            "thick",
+            MEASURED.replacen("3.228331,mm", "322.8331,mm", 1),
+            "line 3: displacement_left of s0 is 322.8 mm at 2.5 deg, more than the wall's thickness of 80 mm",
+        ),
+        (
+            "steep",
+            MEASURED.replacen("collapse_angle,16.707637", "collapse_angle,60", 1),
+            "line 2: collapse_angle of s0 is 60 deg, where 99.9 % of simulated readings lie within ",
+        ),
+    ];
+    for (name, text, note) in cases {
+        let csv = format!("{name}.csv");
+        fs::write(folder.path(&csv), text).unwrap();
+        let arguments =
+            ["diagnose", "studies/tiny", "--measured", &csv, "--points", "12", "--bank", "bank", "--json"];
+        let output = ends_with(&folder, 0, &arguments);
+        let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let notes: Vec<&str> = json["notes"].as_array().unwrap().iter().filter_map(Value::as_str).collect();
+        assert!(notes.iter().any(|own| own.starts_with(note)), "{name}: {notes:?}");
+        assert!(notes.iter().all(|own| stderr(&output).contains(&format!("note: {own}\n"))), "{name}");
+        assert!(
+            name != "unit" || notes[0].ends_with("; 3.228 mm would: was it meant in another unit?"),
+            "{notes:?}"
+        );
+    }
+    // What is in order is not doubted.
+    let arguments =
+        ["diagnose", "studies/tiny", "--measured", "tests.csv", "--points", "12", "--bank", "bank", "--json"];
+    let output = ends_with(&folder, 0, &arguments);
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(json["notes"], Value::Array(Vec::new()));
+}
+
+#[test]
+fn tilts_beyond_the_platforms_range_are_noted_before_anything_is_simulated() {
+    let folder = folder(&TOWERS.replace("step_deg = 2.5", "step_deg = 2.5\nend_deg = 11"));
+    let refused =
+        ends_with(&folder, 3, &["diagnose", "studies/tiny", "--measured", "tests.csv", "--no-build"]);
+    let note = "note: lines 15, 16, 17, 31, 32, 33, 47, 48, 49, 63, 64, 65, 79, 80, 81, 95, 96, 97: read at up to 12.5 deg, and the \
+                study's platform goes to 11 deg";
+    assert!(stderr(&refused).contains(note), "{}", stderr(&refused));
+}
+
+/// An arm that the study has and a variant leaves out: its rows are named, and not taken for weights.
+#[test]
+fn rows_of_an_arm_that_is_not_evaluated_are_named() {
+    let (before, arm) = TOWERS.split_once("[[arm]]").unwrap();
+    let second = arm.replace("name = \"tower\"", "name = \"other\"");
+    let variant =
+        "\n[[variant]]\nname = \"other-only\"\nwhy = \"One arm.\"\nset = { \"study.arms\" = [\"other\"] }\n";
+    let folder = folder(&format!("{before}[[arm]]{arm}\n[[arm]]{second}{variant}"));
+    let with = |rows: &str| {
+        fs::write(folder.path("both.csv"), format!("{MEASURED}{rows}")).unwrap();
+        let arguments =
+            ["diagnose", "studies/tiny", "--variant", "other-only", "--measured", "both.csv", "--no-build"];
+        stderr(&ends_with(&folder, 3, &arguments))
+    };
+    let none = with("x0,other,,joint_phi,35,deg,1,exact\n");
+    assert!(none.contains("no specimen was tilted") && none.contains("a wall of other;"), "{none}");
+    let one = with("x0,other,,collapse_angle,16,deg,0.1,exact\n");
+    assert!(
+        one.contains("note: lines 2, 3, 4")
+            && one.contains("97: tower is an arm that the study does not evaluate"),
+        "{one}"
+    );
+}
+
+/// Faults of the file that a diagnosis is asked for: file, line, what is allowed.
+#[test]
+fn faulty_measurements_are_refused_with_their_lines() {
+    let folder = folder(TOWERS);
+    let first = "s0,tower,2.5,displacement_left,3.228331,mm,0.02,exact";
+    let cases: [(&str, &str, &str); 7] = [
+        ("tilt_deg,quantity", "tilt,quantity", "bad.csv:1: tilt is not a known column"),
+        (
+            first,
+            &first.replace("tower", "wall"),
+            "bad.csv:3: family = wall: allowed is an arm of study.toml: tower",
+        ),
+        (
+            first,
+            &first.replace("displacement_left", "speed"),
+            "bad.csv:3: quantity = speed: allowed is one of \"collapse_angle\"",
+        ),
+        (
+            first,
+            &first.replace("mm", "deg"),
+            "bad.csv:3: unit = deg: allowed is one of \"m\", \"cm\", \"mm\"",
+        ),
+        (
+            first,
+            &first.replace("0.02", "-0.02"),
+            "bad.csv:3: error = -0.02: allowed is a number at least 0 (mm)",
+        ),
+        (first, &first.replace("2.5", "95"), "bad.csv:3: tilt_deg = 95"),
+        (first, &first.replace("3.228331", "3,2"), "bad.csv:3: has 9 cells"),
+    ]
+    .map(|(from, to, said)| (from, Box::leak(to.to_owned().into_boxed_str()) as &str, said));
+    for (from, to, said) in cases {
+        fs::write(folder.path("bad.csv"), MEASURED.replacen(from, to, 1)).unwrap();
+        for verb in ["diagnose", "bank"] {
+            let error = stderr(&ends_with(&folder, 3, &[verb, "studies/tiny", "--measured", "bad.csv"]));
+            assert!(error.contains(said), "{said} in: {error}");
+        }
+    }
+    assert!(!folder.path("runs").exists());
+}
+
+/// Studies in folders of their own take the nearest `distributions` above them, for references and for priors.
+#[test]
+fn a_nested_study_finds_its_distributions_further_up() {
+    let nested = folder(TOWERS);
+    let length = "length_m = { family = \"uniform\", low = 0.08, high = 0.12 }";
+    assert!(TOWERS.contains(length));
+    let text = TOWERS.replace(length, "length_m = \"block/size:shaped-stone-length\"");
+    fs::create_dir_all(nested.path("studies/hidden-effects/example")).unwrap();
+    fs::write(nested.path("studies/hidden-effects/example/study.toml"), text).unwrap();
+    ends_with(&nested, 0, &["check", "studies/hidden-effects/example"]);
+    let arguments = ["diagnose", "studies/hidden-effects/example", "--measured", "tests.csv", "--no-build"];
+    assert!(stderr(&ends_with(&nested, 3, &arguments)).contains("walls are to be simulated first"));
+    // The nearer one counts.
+    fs::create_dir_all(nested.path("studies/distributions/block")).unwrap();
+    let refused = stderr(&ends_with(&nested, 3, &["check", "studies/hidden-effects/example"]));
+    assert!(refused.contains("studies/distributions, which holds none"), "{refused}");
+    fs::remove_dir_all(nested.path("studies/distributions")).unwrap();
+    fs::remove_file(nested.path("distributions")).unwrap();
+    let place = fs::canonicalize(nested.path("studies")).unwrap();
+    let wanted =
+        format!("a folder `distributions` in {} or in a folder above it, and there is none", place.display());
+    for arguments in [&["check", "studies/hidden-effects/example"][..], &arguments] {
+        let refused = stderr(&ends_with(&nested, 3, arguments));
+        assert!(
+            refused.contains(&wanted) && refused.contains("put the folder `distributions` beside"),
+            "{refused}"
+        );
+    }
+    // Where nothing is referred to, the priors alone are missing.
+    let wanted = "wanted is a folder `distributions` in ";
+    let refused = ends_with(&nested, 3, &["bank", "studies/tiny", "--measured", "tests.csv"]);
+    assert!(stderr(&refused).contains(wanted), "{}", stderr(&refused));
 }
 
 #[test]
@@ -82,6 +303,16 @@ fn what_cannot_be_diagnosed_is_said_before_anything_is_simulated() {
     fs::write(towers.path("spoilt.csv"), spoilt).unwrap();
     let faults = ["2 faults", "spoilt.csv:3: family", "spoilt.csv:3: quantity"];
     said(&towers, &["diagnose", "studies/tiny", "--measured", "spoilt.csv"], &faults);
+    let header = MEASURED.lines().next().unwrap();
+    let weight =
+        format!("{header}\ns0,tower,,specimen_weight,600,N,1,exact\ns0,tower,,joint_phi,35,deg,1,exact\n");
+    fs::write(towers.path("weights.csv"), weight).unwrap();
+    said(
+        &towers,
+        &["diagnose", "studies/tiny", "--measured", "weights.csv"],
+        &["no specimen was tilted", "tower"],
+    );
+    said(&towers, &["bank", "studies/tiny", "--measured", "weights.csv"], &["no specimen was tilted"]);
     let pushed = folder(STUDY);
     fs::write(pushed.path("pushed.csv"), MEASURED.replace("tower", "random")).unwrap();
     said(&pushed, &["diagnose", "studies/tiny", "--measured", "pushed.csv"], &["tilts no platform"]);

@@ -5,6 +5,7 @@ mod bad_walls;
 mod catalogue;
 mod commands;
 mod diagnose;
+mod extended;
 #[path = "../ensemble/fixture.rs"]
 mod fixture;
 mod layering;

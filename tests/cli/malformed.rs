@@ -283,11 +283,14 @@ fn faults_of_whole_files() {
             &["distributions/block/size.toml: is a folder"],
         ),
         (
-            "no-distributions",
-            |s| fs::remove_dir_all(s.path("distributions")).expect("it was there"),
+            "empty-distributions",
+            |s| {
+                fs::remove_dir_all(s.path("distributions")).expect("it was there");
+                fs::create_dir(s.path("distributions")).expect("a folder");
+            },
             &[
                 "arm.laid.length_m = \"block/size:length\": allowed is a file of ",
-                "which holds none; put the folder `distributions` beside `studies`",
+                "which holds none; put the file there, or write the numbers here",
             ],
         ),
         (

@@ -45,9 +45,7 @@ impl Plan {
         nuisances: &[Nuisance; 3],
         points: u64,
     ) -> Result<Plan, Faults> {
-        let families: Vec<usize> = (0..study.arms.len())
-            .filter(|&arm| study.measured.iter().any(|m| m.family == study.arms[arm].name))
-            .collect();
+        let families = study.measured_arms();
         let base = study.clone().without_limit_analysis();
         let (mut arms, mut places) = (Vec::new(), Vec::new());
         for point in 0..BASE * points {

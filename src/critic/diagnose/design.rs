@@ -23,7 +23,8 @@ pub struct Design {
     pub specimens: Vec<Specimen>,
     /// Two-stone tests: the index of their family's arm, and the reading.
     pub joints: Vec<(usize, Measurement)>,
-    /// Lines of the file that a diagnosis does not use: weights, and readings after the platform has gone back.
+    /// Lines of the file that a diagnosis does not use: weights, readings after the platform has gone back, and arms that the study
+    /// does not evaluate.
     pub unused: Vec<usize>,
 }
 

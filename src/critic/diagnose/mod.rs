@@ -2,7 +2,10 @@
 
 mod alarm;
 mod design;
+mod doubt;
+mod doubts;
 mod evidence;
+mod extension;
 mod features;
 mod gain;
 mod guard;
@@ -19,7 +22,10 @@ mod world;
 mod wrong;
 
 pub use design::{Campaign, Design, Seen, Specimen};
+pub use doubt::Doubt;
+pub use doubts::{doubts, doubts_beside};
 pub use evidence::{Evidence, evidence};
+pub use extension::{DRAWS, Extension, Known, extension};
 pub use features::{Contrast, Feature, Scale, features};
 pub use gain::{Choice, Gain, Gained, HeldOut, Interval, Measuring, Scores, gain};
 pub use guard::guarded;

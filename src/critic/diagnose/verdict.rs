@@ -45,6 +45,17 @@ pub enum Verdict {
     Unexplained,
 }
 
+impl Verdict {
+    /// The causes that it speaks of.
+    pub fn causes(&self) -> &[usize] {
+        match self {
+            Verdict::Named(cause) => std::slice::from_ref(cause),
+            Verdict::Ambiguous(causes) => causes,
+            Verdict::NothingFound | Verdict::Unexplained => &[],
+        }
+    }
+}
+
 /// A verdict with what it rests on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnosis {

@@ -219,6 +219,29 @@ impl<'s> World<'s> {
         (near.into_iter().map(of).collect(), random)
     }
 
+    /// The parameters of the cause of a truth, in its order and in the units of their keys.
+    pub fn parameters(&self, truth: &Truth) -> Vec<f64> {
+        let parameters = truth.cause.map_or(&[][..], |cause| &self.mechanisms[cause].parameters);
+        parameters.iter().zip(&truth.parameters).map(|(p, score)| p.prior.at_score(*score)).collect()
+    }
+
+    /// Factors on the joints of a family (its arm's index) under a truth, in the order of
+    /// [`NUISANCES`](crate::study::NUISANCES).
+    pub fn factors(&self, truth: &Truth, family: usize) -> [f64; 3] {
+        let scores = truth.joints[self.kinds[family]];
+        std::array::from_fn(|k| self.nuisances[k].prior.at_score(scores[k]))
+    }
+
+    /// The study whose campaigns these are.
+    pub fn study(&self) -> &'s Study {
+        self.study
+    }
+
+    /// The mechanisms that its causes are indices of.
+    pub fn mechanisms(&self) -> &'s [Described] {
+        self.mechanisms
+    }
+
     /// A parameter of the cause (in its key's unit), if this mechanism is the cause.
     fn parameter(&self, truth: &Truth, mechanism: &str, key: &str) -> Option<f64> {
         let described = &self.mechanisms[truth.cause?];
@@ -238,12 +261,12 @@ impl<'s> World<'s> {
     /// What a test on two stones shows of a family's joints: stiffness over the whole joint, and friction before it weakens.
     pub(super) fn joint(&self, family: usize, m: &Measurement, truth: &Truth) -> f64 {
         let arm = &self.study.arms[family];
-        let factor = |k: usize| self.nuisances[k].prior.at_score(truth.joints[self.kinds[family]][k]);
+        let factors = self.factors(truth, family);
         if m.quantity == MeasuredQuantity::JointKn {
             let kn = arm.kn_points[arm.middle_point()];
-            return kn * factor(0) * self.parameter(truth, "contact_area", "share").unwrap_or(1.0);
+            return kn * factors[0] * self.parameter(truth, "contact_area", "share").unwrap_or(1.0);
         }
-        let phi = radians(arm.joint.phi_deg.mean() * factor(1));
+        let phi = radians(arm.joint.phi_deg.mean() * factors[1]);
         atan(tan(phi) * self.parameter(truth, "friction", "factor").unwrap_or(1.0))
     }
 

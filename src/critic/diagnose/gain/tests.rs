@@ -67,7 +67,9 @@ fn draws_of_a_normal_number_are_scored_as_the_normal_is() {
     m.kind = MeasuredKind::Below;
     m.value = 2.0;
     let bound = predicted.score((0, 0), &m, Seen::Beyond, 1.0).expect("a bound");
-    assert!((bound.log - crate::math::ln(0.5)).abs() < 1e-2 && bound.crps.is_none() && bound.square.is_none());
+    assert!(
+        (bound.log - crate::math::ln(0.5)).abs() < 1e-2 && bound.crps.is_none() && bound.square.is_none()
+    );
     assert_eq!(predicted.score((0, 0), &m, Seen::Nothing, 1.0), None);
 }
 

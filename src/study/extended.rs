@@ -1,0 +1,121 @@
+//! A study with one more mechanism and with other joints: at one point of what may be, and at others as its variants.
+
+use crate::study::checked::{Arm, Study};
+use crate::study::fault::Faults;
+use crate::study::inventory::{INVENTORY, InLimitAnalysis};
+use crate::study::stated::{Settings, Stated, WrittenVariant, family_value};
+
+/// A mechanism at one strength, and joints.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// Name of the mechanism.
+    pub mechanism: &'static str,
+    /// Its parameters by key, in the key's unit.
+    pub parameters: Vec<(&'static str, f64)>,
+    /// Arms with other joints: the index of each, and factors on the middle of its points in kn, on its friction angle and on
+    /// kn over ks, in the order of [`NUISANCES`](crate::study::NUISANCES).
+    pub joints: Vec<(usize, [f64; 3])>,
+}
+
+impl Study {
+    /// What its files state with the mechanism on and with other joints: the study itself at one point, a variant for each
+    /// of the others. The mechanism stands in `[mechanism]`, or in the arms that it can act on where another arm refuses it. An
+    /// arm that has it already keeps its own; but a gauge is read by the gauge found.
+    ///
+    /// # Errors
+    /// The faults of values that their keys do not allow.
+    pub fn extended(
+        &self,
+        stated: &Stated,
+        own: &Point,
+        others: Vec<(String, String, Point)>,
+    ) -> Result<Stated, Faults> {
+        let with = |everywhere: bool| {
+            let settings = |point: &Point| self.settings(point, everywhere);
+            let variants = others.iter().map(|(name, why, point)| {
+                Ok(WrittenVariant { name: name.clone(), why: why.clone(), set: settings(point)? })
+            });
+            let variants = variants.collect::<Result<Vec<WrittenVariant>, Faults>>()?;
+            let mut set = settings(own)?;
+            if self.leaves_limit_analysis(own.mechanism) {
+                set.insert("solver.agreement".to_owned(), false.into());
+            }
+            stated.clone().with(set, variants)
+        };
+        with(!self.reads_by_gauges(own.mechanism)).or_else(|_| with(false))
+    }
+
+    /// Whether limit analysis beside the solver has to go for a mechanism.
+    pub fn leaves_limit_analysis(&self, mechanism: &str) -> bool {
+        let refused =
+            INVENTORY.iter().any(|entry| entry.name == mechanism && entry.limit == InLimitAnalysis::Refused);
+        self.agreement && refused
+    }
+
+    /// The arms that have a mechanism on.
+    pub fn arms_with(&self, mechanism: &str) -> Vec<&str> {
+        let has = |arm: &&Arm| {
+            let shared = format!("mechanism.{mechanism}.");
+            let own = format!("arm.{}.{shared}", arm.name);
+            self.effective.keys().any(|key| key.starts_with(&shared) || key.starts_with(&own))
+        };
+        self.arms.iter().filter(has).map(|arm| arm.name.as_str()).collect()
+    }
+
+    /// Whether a gauge that is found reads what another gauge shows.
+    fn reads_by_gauges(&self, mechanism: &str) -> bool {
+        let gauges = ["gauge_scale", "gauge_offset"];
+        gauges.contains(&mechanism) && gauges.iter().any(|gauge| !self.arms_with(gauge).is_empty())
+    }
+
+    /// The keys that a point sets.
+    fn settings(&self, point: &Point, everywhere: bool) -> Result<Settings, Faults> {
+        let mut set = Settings::new();
+        let mut put = |below: &str, (mechanism, key, value): (&str, &str, f64)| {
+            set.insert(format!("{below}mechanism.{mechanism}.{key}"), value.into());
+        };
+        let name = point.mechanism;
+        if everywhere {
+            point.parameters.iter().for_each(|(key, value)| put("", (name, key, *value)));
+        } else if self.reads_by_gauges(name) {
+            for arm in &self.arms {
+                let found = arm.read_by(point);
+                found.into_iter().for_each(|own| put(&format!("arm.{}.", arm.name), own));
+            }
+        } else {
+            let idle = self.with_mechanism(name, &point.parameters)?.idle;
+            for arm in self.arms.iter().filter(|arm| !idle.contains_key(&arm.name)) {
+                let below = format!("arm.{}.", arm.name);
+                point.parameters.iter().for_each(|(key, value)| put(&below, (name, key, *value)));
+            }
+        }
+        for (arm, factors) in &point.joints {
+            let arm = &self.arms[*arm];
+            let with = arm.with_joints(arm.kn_points[arm.middle_point()], *factors);
+            let mut joint = |key: &str, value: toml::Value| {
+                set.insert(format!("arm.{}.joint.{key}", arm.name), value);
+            };
+            joint("kn_pa_per_m", with.kn_points.clone().into());
+            joint("phi_deg", family_value(&with.joint.phi_deg));
+            joint("kn_over_ks", with.joint.kn_over_ks.into());
+        }
+        Ok(set)
+    }
+}
+
+impl Arm {
+    /// Keys of one gauge that shows what a gauge that is found makes of the arm's own.
+    fn read_by(&self, found: &Point) -> Vec<(&'static str, &'static str, f64)> {
+        let value = found.parameters.first().map_or(1.0, |(_, value)| *value);
+        let (scale, offset) = (self.mechanisms.gauge_scale, self.mechanisms.gauge_offset);
+        let scaled = |scale: f64| ("gauge_scale", "factor", scale);
+        let moved = |offset: f64| ("gauge_offset", "offset_m", offset);
+        match found.mechanism {
+            "gauge_scale" => {
+                let own = offset.map(|offset| moved(offset * value));
+                std::iter::once(scaled(scale.unwrap_or(1.0) * value)).chain(own).collect()
+            }
+            _ => vec![moved(offset.unwrap_or(0.0) + value)],
+        }
+    }
+}
