@@ -20,8 +20,8 @@ pub use bank::{BANK, Bank, Emulator, NotThisBank, Path, Place, Plan};
 pub use calibrate::{Calibration, CurvePoint, End, LEAST_POINTS, calibrate, calibrate_family};
 pub use compare::{Beside, Difference, Measured, Ours, Walls, compare};
 pub use diagnose::{
-    CAUGHT, COVERED, Campaign, Caught, Choice, Contrast, DOUBT, DRAWS, Design, Diagnosis, Doubt, Effort,
-    Evidence, Extension, Feature, Gain, Gained, HeldOut, Interval, Judge, Known, Limits, LookedAt,
+    Bent, CAUGHT, COVERED, Campaign, Caught, Choice, Contrast, DOUBT, DRAWS, Design, Diagnosis, Doubt,
+    Effort, Evidence, Extension, Feature, Gain, Gained, HeldOut, Interval, Judge, Known, Limits, LookedAt,
     MOST_AMBIGUOUS, Measuring, Offer, Offered, Ranked, Ranking, Reference, Scale, Scores, Seeming, Seen,
     SelfTest, SelfTestRow, Specimen, Truth, Verdict, World, Wrong, doubts, doubts_beside, evidence,
     extension, features, gain, guarded, offers,

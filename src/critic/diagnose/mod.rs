@@ -2,6 +2,7 @@
 
 mod alarm;
 mod design;
+mod discrepancy;
 mod doubt;
 mod doubts;
 mod evidence;
@@ -13,6 +14,7 @@ mod judge;
 mod likelihood;
 mod network;
 mod next;
+mod predicted;
 mod ranking;
 mod self_test;
 #[cfg(test)]
@@ -22,6 +24,7 @@ mod world;
 mod wrong;
 
 pub use design::{Campaign, Design, Seen, Specimen};
+pub use discrepancy::Bent;
 pub use doubt::Doubt;
 pub use doubts::{doubts, doubts_beside};
 pub use evidence::{Evidence, evidence};

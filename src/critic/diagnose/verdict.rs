@@ -3,9 +3,11 @@
 use rayon::prelude::*;
 
 use crate::critic::diagnose::design::Campaign;
+use crate::critic::diagnose::discrepancy::{Bent, Discrepancy};
 use crate::critic::diagnose::evidence::{Evidence, evidence};
 use crate::critic::diagnose::guard::guarded;
 use crate::critic::diagnose::judge::{Judge, Seeming};
+use crate::critic::diagnose::predicted::Predicted;
 use crate::critic::diagnose::world::Truth;
 use crate::math::exp;
 use crate::stats;
@@ -63,6 +65,8 @@ pub struct Diagnosis {
     pub seeming: Seeming,
     /// The causes that were looked at closely, most likely first; none where nothing was found.
     pub looked_at: Vec<LookedAt>,
+    /// What the base model, its joints fitted, lacks, if it is anything smooth; empty where nothing was found.
+    pub form: Vec<Bent>,
     /// The verdict.
     pub verdict: Verdict,
 }
@@ -102,7 +106,12 @@ impl Judge<'_> {
     pub fn diagnosed(&self, campaign: &Campaign, limits: &Limits, seed: u64) -> Diagnosis {
         let seeming = self.seeming(campaign);
         if seeming.p_value >= limits.found {
-            return Diagnosis { seeming, looked_at: Vec::new(), verdict: Verdict::NothingFound };
+            return Diagnosis {
+                seeming,
+                looked_at: Vec::new(),
+                form: Vec::new(),
+                verdict: Verdict::NothingFound,
+            };
         }
         let ranked = &seeming.ranked;
         let named = ranked.named(limits.named);
@@ -126,6 +135,7 @@ impl Judge<'_> {
             .map(|cause| evidence(self.world, &self.design, campaign, *cause, seed.wrapping_add(1)))
             .collect();
         let shares = shares(&evidences);
+        let form = self.form(campaign, &evidences[0].draws, seed.wrapping_add(2));
         let looked_at: Vec<LookedAt> = closely
             .iter()
             .zip(evidences.into_iter().zip(shares).skip(1))
@@ -152,7 +162,17 @@ impl Judge<'_> {
             (_, _, 1..=MOST_AMBIGUOUS) => Verdict::Ambiguous(explain),
             _ => Verdict::Unexplained,
         };
-        Diagnosis { seeming, looked_at, verdict }
+        Diagnosis { seeming, looked_at, form, verdict }
+    }
+
+    /// What the base model lacks with these joints.
+    fn form(&self, campaign: &Campaign, joints: &[Truth], seed: u64) -> Vec<Bent> {
+        let base = Predicted::of(self.world, &self.design, joints, seed);
+        let known: Vec<Vec<bool>> =
+            self.design.specimens.iter().map(|specimen| vec![true; specimen.readings.len()]).collect();
+        let units = self.reference.scale.units();
+        Discrepancy::new(&self.design, campaign, &known, &base, &units)
+            .map_or_else(Vec::new, |free| free.form())
     }
 }
 

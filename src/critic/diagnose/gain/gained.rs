@@ -1,6 +1,6 @@
 //! Scores of readings, summed up over specimens, and the interval of what one model gains over the other.
 
-use crate::critic::diagnose::gain::predicted::Score;
+use crate::critic::diagnose::predicted::Score;
 use crate::stats;
 
 /// A plain 95 % interval reaches so many standard errors: the least that any interval does.

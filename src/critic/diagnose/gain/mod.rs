@@ -3,28 +3,26 @@
 //! because the choice of the cause is made on the same few specimens: intervals are widened until campaigns without any effect
 //! claim one in no more than one case in twenty.
 
-mod ceiling;
 mod fold;
 mod gained;
-mod predicted;
 #[cfg(test)]
 mod tests;
 
 use rayon::prelude::*;
 
 use crate::critic::diagnose::design::{Campaign, Design};
+use crate::critic::diagnose::discrepancy::Discrepancy;
 use crate::critic::diagnose::evidence::evidence;
 use crate::critic::diagnose::judge::{Effort, Judge};
+use crate::critic::diagnose::predicted::Predicted;
 use crate::critic::diagnose::verdict::Limits;
 use crate::critic::diagnose::world::Truth;
 use crate::random::Streams;
 
-use ceiling::ceiling;
 use fold::Fold;
 pub use fold::HeldOut;
 pub use gained::{Gained, Interval, Scores};
 use gained::{Row, estimates, gained};
-use predicted::Predicted;
 
 /// What was chosen in a fold.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -146,8 +144,10 @@ fn rows(
         };
         let base = walls(None);
         let extended = choice.map(|cause| walls(Some(cause)));
-        let ceilings =
-            if with_ceiling { ceiling(&judge.design, campaign, fold, &base, &units) } else { Vec::new() };
+        let free = with_ceiling
+            .then(|| Discrepancy::new(&judge.design, campaign, &fold.known, &base, &units))
+            .flatten();
+        let ceilings = free.map_or_else(Vec::new, |free| free.scores());
         let mut rows = Vec::new();
         for (specimen, own) in judge.design.specimens.iter().enumerate() {
             for (reading, m) in own.readings.iter().enumerate().filter(|(k, _)| !fold.known[specimen][*k]) {

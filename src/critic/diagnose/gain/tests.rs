@@ -2,8 +2,8 @@
 
 use crate::critic::diagnose::gain::fold::{Fold, HeldOut};
 use crate::critic::diagnose::gain::gained::{Row, estimates, gained};
-use crate::critic::diagnose::gain::predicted::{Predicted, Score, normal_score};
 use crate::critic::diagnose::gain::{Measuring, gain};
+use crate::critic::diagnose::predicted::{Predicted, Score, normal_score};
 use crate::critic::diagnose::tests::{EFFORT, made};
 use crate::critic::diagnose::{Design, Judge, Limits, Seen};
 use crate::random::Streams;

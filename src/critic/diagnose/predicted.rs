@@ -1,7 +1,7 @@
 //! What a model predicts of readings that it has not seen, and how good that is: the logarithm of the probability it gave, the
 //! continuous ranked probability score, and the square of its error (Gneiting and Raftery 2007).
 
-use crate::critic::diagnose::design::{Design, Seen};
+use crate::critic::diagnose::design::{Design, Seen, Specimen};
 use crate::critic::diagnose::world::{Truth, World};
 use crate::critic::likelihood::log_likelihood;
 use crate::math::{exp, ln};
@@ -55,7 +55,7 @@ impl Predicted {
                     let mut first: Vec<usize> = vec![0; families.len()];
                     let shared: Vec<usize> =
                         families.iter().map(|(_, shown, _)| stones.below(shown.len())).collect();
-                    let of = |specimen: &crate::critic::Specimen| {
+                    let of = |specimen: &Specimen| {
                         let at = families.iter().position(|(family, ..)| *family == specimen.family);
                         let at = at.unwrap_or_default();
                         let (_, shown, random) = &families[at];
