@@ -20,9 +20,10 @@ pub use bank::{BANK, Bank, Emulator, NotThisBank, Path, Place, Plan};
 pub use calibrate::{Calibration, CurvePoint, End, LEAST_POINTS, calibrate, calibrate_family};
 pub use compare::{Beside, Difference, Measured, Ours, Walls, compare};
 pub use diagnose::{
-    COVERED, Campaign, Contrast, Design, Diagnosis, Feature, Guarded, Limits, MOST_AMBIGUOUS, Ranked,
-    Ranking, Reference, Scale, Seen, SelfTest, SelfTestRow, Specimen, Truth, Verdict, World, Wrong,
-    diagnosed, features, guarded,
+    Band, Baseline, COVERED, Campaign, Contrast, Curve, Design, Diagnosis, Expected, FamilyCurves, Feature,
+    Group, Guarded, Limits, MOST_AMBIGUOUS, Parts, Ranked, Ranking, Reference, Residual, Residuals, Scale,
+    Seen, SelfTest, SelfTestRow, Side, Specimen, Truth, Verdict, World, Wrong, base_truths, diagnosed,
+    features, guarded, over_the_tilt,
 };
 pub use likelihood::log_likelihood;
 pub use monotone::Monotone;

@@ -5,6 +5,7 @@ mod features;
 mod guard;
 mod network;
 mod ranking;
+mod residual;
 mod self_test;
 #[cfg(test)]
 mod tests;
@@ -16,6 +17,10 @@ pub use design::{Campaign, Design, Seen, Specimen};
 pub use features::{Contrast, Feature, Scale, features};
 pub use guard::{Guarded, guarded};
 pub use ranking::{COVERED, Ranked, Ranking};
+pub use residual::{
+    Band, Baseline, Curve, Expected, FamilyCurves, Group, Parts, Residual, Residuals, Side, base_truths,
+    over_the_tilt,
+};
 pub use self_test::{SelfTest, SelfTestRow};
 pub use verdict::{Diagnosis, Limits, MOST_AMBIGUOUS, Verdict, diagnosed};
 pub use world::{Truth, World};
