@@ -7,8 +7,11 @@ use crate::cli::arguments::Diagnose;
 use crate::cli::bank::{self, Prepared};
 use crate::cli::failure::Failure;
 use crate::cli::output;
-use crate::critic::{self, BANK, Design, Limits, Plan, Ranking, Reference, World, diagnosed};
-use crate::report::{self, DiagnosisSummary};
+use crate::critic::{
+    self, BANK, Baseline, Design, Limits, Plan, Ranking, Reference, World, base_curves, cause_curves,
+    diagnosed,
+};
+use crate::report::{self, DiagnosisSummary, FamilyFigure};
 
 /// Campaigns of the base model that say how far off they are by chance.
 const REFERENCE: u64 = 2000;
@@ -39,14 +42,19 @@ pub(crate) fn diagnose(arguments: &Diagnose) -> Result<(), Failure> {
     let diagnosis =
         diagnosed(&world, &design, (&reference, &ranking), &measured, &limits, seed.wrapping_add(2));
     let test = ranking.self_test(&world, &design, &reference, &limits, TESTED, seed.wrapping_add(3));
+    let residuals = Baseline::new(&world, &design, seed.wrapping_add(4)).residuals(&measured);
     let summary =
-        DiagnosisSummary::of(&study, seed, &plan.study.hash, &mechanisms, &design, &diagnosis, &test);
+        DiagnosisSummary::of(&study, seed, &plan.study.hash, &mechanisms, &design, &diagnosis, &test)
+            .beside(&study, &residuals);
+    let base = base_curves(&world, &design, seed.wrapping_add(5));
+    let causes = cause_curves(&world, &design, &diagnosis, seed.wrapping_add(5));
+    let families = FamilyFigure::all(&study, &mechanisms, &residuals, &base, &causes);
     let out = arguments
         .out
         .clone()
         .unwrap_or_else(|| PathBuf::from("runs").join(format!("{}-diagnosis", study.name)));
     output::folder(&out)?;
-    report::write_diagnosis(&summary, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
+    report::write_diagnosis(&summary, &families, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
     if arguments.which.json {
         return output::print_json(&summary);
     }

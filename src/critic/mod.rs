@@ -19,11 +19,13 @@ pub(crate) mod tests;
 pub use bank::{BANK, Bank, Emulator, NotThisBank, Path, Place, Plan};
 pub use calibrate::{Calibration, CurvePoint, End, LEAST_POINTS, calibrate, calibrate_family};
 pub use compare::{Beside, Difference, Measured, Ours, Walls, compare};
+#[cfg(test)]
+pub(crate) use diagnose::tests::{Made, made};
 pub use diagnose::{
     Band, Baseline, COVERED, Campaign, Contrast, Curve, Design, Diagnosis, Expected, FamilyCurves, Feature,
     Group, Guarded, Limits, MOST_AMBIGUOUS, Parts, Ranked, Ranking, Reference, Residual, Residuals, Scale,
-    Seen, SelfTest, SelfTestRow, Side, Specimen, Truth, Verdict, World, Wrong, base_truths, diagnosed,
-    features, guarded, over_the_tilt,
+    Seen, SelfTest, SelfTestRow, Side, Specimen, Truth, Verdict, World, Wrong, base_curves, cause_curves,
+    diagnosed, features, guarded,
 };
 pub use likelihood::log_likelihood;
 pub use monotone::Monotone;

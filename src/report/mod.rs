@@ -12,6 +12,7 @@ mod figure;
 mod files;
 mod fragility;
 mod marker;
+mod markup;
 mod measured;
 mod number;
 mod pen;
@@ -30,7 +31,7 @@ mod vtu;
 
 pub use beside::{Earlier, Mean};
 pub use compare::{Basis, Comparison};
-pub use diagnosis::{DiagnosisSummary, diagnosis_text, write_diagnosis};
+pub use diagnosis::{DiagnosisSummary, FamilyFigure, diagnosis_text, write_diagnosis};
 pub use elements::{element_table, write_elements};
 pub use files::{FRAGILITY, SUMMARY_JSON, write_all};
 pub use measured::{CalibrationEntry, ComparisonEntry, MeasuredSummary};

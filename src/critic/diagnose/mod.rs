@@ -8,7 +8,7 @@ mod ranking;
 mod residual;
 mod self_test;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod verdict;
 mod world;
 mod wrong;
@@ -18,8 +18,8 @@ pub use features::{Contrast, Feature, Scale, features};
 pub use guard::{Guarded, guarded};
 pub use ranking::{COVERED, Ranked, Ranking};
 pub use residual::{
-    Band, Baseline, Curve, Expected, FamilyCurves, Group, Parts, Residual, Residuals, Side, base_truths,
-    over_the_tilt,
+    Band, Baseline, Curve, Expected, FamilyCurves, Group, Parts, Residual, Residuals, Side, base_curves,
+    cause_curves,
 };
 pub use self_test::{SelfTest, SelfTestRow};
 pub use verdict::{Diagnosis, Limits, MOST_AMBIGUOUS, Verdict, diagnosed};

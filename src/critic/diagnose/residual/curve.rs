@@ -2,12 +2,16 @@
 
 use crate::critic::diagnose::design::{Design, Specimen};
 use crate::critic::diagnose::residual::band::Band;
+use crate::critic::diagnose::verdict::{Diagnosis, Verdict};
 use crate::critic::diagnose::world::{Truth, World};
 use crate::random::Streams;
 use crate::study::{MeasuredQuantity, Measurement};
 
 /// Steps of the tilt.
 const STEPS: usize = 60;
+/// Walls of a band, and sets of stones under every truth of the base model.
+const WALLS: u64 = 1000;
+const SETS: u64 = 2;
 
 /// The walls of a family.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,30 +33,47 @@ pub struct Curve {
     pub bands: Vec<(f64, Band)>,
 }
 
-/// So many truths of the base model.
-pub fn base_truths(world: &World<'_>, count: u64, seed: u64) -> Vec<Truth> {
-    (0..count).map(|k| world.drawn(None, &Streams::new(seed, k))).collect()
+/// Bands of the base model, family by family; a pure function of its arguments.
+pub fn base_curves(world: &World<'_>, design: &Design, seed: u64) -> Vec<FamilyCurves> {
+    let truths: Vec<Truth> = (0..WALLS / SETS).map(|k| world.drawn(None, &Streams::new(seed, k))).collect();
+    over_the_tilt(world, design, &truths, seed)
 }
 
-/// Bands of the families of a design over all given truths, each with `sets` of stones; a pure function of its arguments.
-pub fn over_the_tilt(
+/// Bands of every cause that a verdict speaks of, with the parameters and joints of its campaigns that look most alike.
+pub fn cause_curves(
+    world: &World<'_>,
+    design: &Design,
+    diagnosis: &Diagnosis,
+    seed: u64,
+) -> Vec<(usize, Vec<FamilyCurves>)> {
+    let spoken = |cause: usize| match &diagnosis.verdict {
+        Verdict::Named(named) => *named == cause,
+        Verdict::Ambiguous(causes) => causes.contains(&cause),
+        Verdict::NothingFound | Verdict::Unexplained => false,
+    };
+    let asked = diagnosis.guarded.iter().filter(|(cause, _)| spoken(*cause));
+    asked.map(|(cause, guard)| (*cause, over_the_tilt(world, design, &guard.alike, seed))).collect()
+}
+
+/// Bands over all given truths.
+pub(super) fn over_the_tilt(
     world: &World<'_>,
     design: &Design,
     truths: &[Truth],
-    sets: u64,
     seed: u64,
 ) -> Vec<FamilyCurves> {
     let mut families: Vec<usize> = design.specimens.iter().map(|specimen| specimen.family).collect();
     families.sort_unstable();
     families.dedup();
-    families.iter().filter_map(|&family| curves(world, design, family, (truths, sets, seed))).collect()
+    families.iter().filter_map(|&family| curves(world, design, family, truths, seed)).collect()
 }
 
 fn curves(
     world: &World<'_>,
     design: &Design,
     family: usize,
-    (truths, sets, seed): (&[Truth], u64, u64),
+    truths: &[Truth],
+    seed: u64,
 ) -> Option<FamilyCurves> {
     let own = design.specimens.iter().filter(|specimen| specimen.family == family);
     let read: Vec<&Measurement> = own.flat_map(|specimen| &specimen.readings).collect();
@@ -64,8 +85,10 @@ fn curves(
     let walls = |readings: Vec<Measurement>| -> Vec<Vec<Option<f64>>> {
         let wall = Specimen { name: String::new(), family, order: None, readings };
         let one = Design { specimens: vec![wall], joints: Vec::new(), unused: Vec::new() };
-        let streams = (0..sets).flat_map(|set| truths.iter().zip(0..).map(move |(t, k)| (t, sets * k + set)));
-        streams.flat_map(|(truth, k)| world.values(&one, truth, &Streams::new(seed, k))).collect()
+        let sets = WALLS / truths.len().max(1) as u64;
+        let drawn =
+            truths.iter().zip(0..).flat_map(|(truth, k)| (0..sets).map(move |set| (truth, sets * k + set)));
+        drawn.flat_map(|(truth, k)| world.values(&one, truth, &Streams::new(seed, k))).collect()
     };
     let angles = walls(vec![of(MeasuredQuantity::CollapseAngle, None)]);
     let collapse = Band::of(&angles.concat().into_iter().flatten().collect::<Vec<_>>())?;

@@ -17,7 +17,7 @@ mod tests;
 
 pub use band::Band;
 pub use baseline::{Baseline, Residuals};
-pub use curve::{Curve, FamilyCurves, base_truths, over_the_tilt};
+pub use curve::{Curve, FamilyCurves, base_curves, cause_curves};
 pub use group::{Group, Side};
 pub use parts::{Expected, Parts};
 pub use reading::Residual;

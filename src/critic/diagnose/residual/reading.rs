@@ -49,6 +49,11 @@ impl Residual {
         }
     }
 
+    /// Error of the reading, its rounding and the common one included: one standard deviation.
+    pub fn error(&self) -> f64 {
+        error_of_mean(&[&self.reading])
+    }
+
     /// With what was seen.
     pub(super) fn with(&self, seen: Seen) -> Residual {
         let in_sd = match seen {

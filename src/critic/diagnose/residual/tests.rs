@@ -1,9 +1,10 @@
 //! Residuals of campaigns of walls whose formula is known.
 
+use crate::critic::diagnose::residual::curve::over_the_tilt;
 use crate::critic::diagnose::residual::nested::Nested;
 use crate::critic::diagnose::tests::made;
 use crate::critic::diagnose::{
-    Baseline, Campaign, Design, Group, Residuals, Seen, Side, World, base_truths, over_the_tilt,
+    Baseline, Campaign, Design, Group, Residuals, Seen, Side, Truth, World, base_curves,
 };
 use crate::math::{degrees, radians};
 use crate::random::Streams;
@@ -47,7 +48,7 @@ fn the_parts_of_a_residual_are_those_that_made_it() {
     near(degrees(parts.measurement), 0.5 / 12.0_f64.sqrt());
     near(degrees(parts.scatter), 14.5 * 0.02);
     near(degrees(parts.parameters), 14.5 * 0.0026_f64.sqrt());
-    near(parts.sd(), radians(0.25 / 12.0 + 14.5 * 14.5 * 0.003.sqrt()));
+    near(parts.sd(), radians((0.25 / 12.0 + 14.5 * 14.5 * 0.003_f64).sqrt()));
     let Seen::Value(value) = single.seen else { panic!("it was read") };
     let expected = single.expected.expect("walls stand");
     near(single.in_sd.expect("a value"), (value - expected.mean) / parts.sd());
@@ -202,8 +203,8 @@ fn campaigns_of_one_truth_share_its_joints_and_not_their_stones() {
 fn bands_over_the_tilt_go_to_where_half_have_fallen_and_show_a_cause() {
     let made = made();
     let (world, (design, _)) = (made.world(), Design::of(&made.study));
-    let truths = base_truths(&world, 200, 9);
-    let base = over_the_tilt(&world, &design, &truths, 2, 9);
+    let truths: Vec<Truth> = (0..500).map(|k| world.drawn(None, &Streams::new(9, k))).collect();
+    let base = base_curves(&world, &design, 9);
     assert_eq!(base.iter().map(|family| family.family).collect::<Vec<_>>(), [0, 1, 2]);
     for family in &base {
         let [curve] = &family.curves[..] else { panic!("one quantity was read") };
@@ -218,7 +219,7 @@ fn bands_over_the_tilt_go_to_where_half_have_fallen_and_show_a_cause() {
     let mut moved = truths.clone();
     // 5 mm is one standard deviation of the prior.
     moved.iter_mut().for_each(|truth| (truth.cause, truth.parameters) = (Some(offset), vec![1.0]));
-    let with = over_the_tilt(&world, &design, &moved, 2, 9);
+    let with = over_the_tilt(&world, &design, &moved, 9);
     assert_eq!(with[SBL].collapse, base[SBL].collapse);
     for ((tilt, with), (_, base)) in with[SBL].curves[0].bands.iter().zip(&base[SBL].curves[0].bands) {
         assert!((with.median - base.median - 5e-3).abs() < 1e-9, "{tilt}: {with:?} {base:?}");
