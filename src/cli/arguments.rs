@@ -73,7 +73,8 @@ pub(crate) enum Verb {
     /// What does the simulation get wrong beyond errors and natural scatter, and which mechanism explains it, or which few, or none?
     #[command(after_help = format!(
         "Example: pirca diagnose studies/tilting-table --measured my-tests.csv\n\n\
-         Writes verdict.json. The walls it needs are simulated once for a design, which takes hours; see bank.\n\n{CODES}\n\
+         Writes verdict.html (a page with all of it), verdict.json, and figures as SVG and PNG: one per family, and residuals.\n\
+         The walls it needs are simulated once for a design, which takes hours; see bank.\n\n{CODES}\n\
          Every verdict (named, ambiguous, unexplained, nothing found) ends with 0."
     ))]
     Diagnose(Diagnose),

@@ -50,10 +50,13 @@ fn a_gauge_that_has_moved_is_named_from_a_csv_and_the_bank_is_made_once() {
     // 3 mm were hidden; 0.02 mm of error in ninety readings, and some of the 60 campaigns most alike are further away.
     let median = moved["median"].as_f64().unwrap();
     assert!((median - 3e-3).abs() < 5e-4, "{moved}");
+    what_is_wrong_is_shown(&folder, &text, &json);
+    let page = fs::read(folder.path("runs/tiny-diagnosis/verdict.html")).unwrap();
     // Again, with the bank as it is: the same verdict to the bit.
     let bank = fs::read(folder.path("runs/tiny-bank/bank.parquet")).unwrap();
     ends_with(&folder, 0, &[&diagnose[..], &["--no-build"]].concat());
     assert_eq!(fs::read(folder.path("runs/tiny-diagnosis/verdict.json")).unwrap(), verdict);
+    assert_eq!(fs::read(folder.path("runs/tiny-diagnosis/verdict.html")).unwrap(), page);
     assert_eq!(fs::read(folder.path("runs/tiny-bank/bank.parquet")).unwrap(), bank);
     // Another design is not diagnosed with this bank.
     let other =
@@ -63,6 +66,42 @@ fn a_gauge_that_has_moved_is_named_from_a_csv_and_the_bank_is_made_once() {
     fs::write(folder.path("runs/tiny-bank/bank.parquet"), b"no table").unwrap();
     let broken = ends_with(&folder, 3, &diagnose);
     assert!(stderr(&broken).contains("it is no bank"), "{}", stderr(&broken));
+}
+
+/// Readings and their groups in the text, in the JSON and in the figures.
+fn what_is_wrong_is_shown(folder: &Folder, text: &str, json: &Value) {
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    for part in [
+        "- tower: collapse angle: 16.6 deg measured, ",
+        "- tower: displacement left at 2.5 deg: 3.21 mm measured, ",
+    ] {
+        assert!(words.contains(part), "no `{part}` in\n{text}");
+    }
+    let (residuals, groups) = (json["residuals"].as_array().unwrap(), json["groups"].as_array().unwrap());
+    // Six towers, their angles and three points at five tilts.
+    assert_eq!((residuals.len(), groups.len()), (6 * 16, 16));
+    let of = |group: &&Value| group["quantity"] == "displacement_left" && group["tilt_deg"] == 2.5;
+    let group = groups.iter().find(of).unwrap();
+    assert_eq!(
+        (&group["family"], &group["readings"], &group["unit"]),
+        (&"tower".into(), &6.into(), &"m".into())
+    );
+    // 3 mm against a few tenths of one.
+    assert_eq!(group["stands"], "above");
+    assert!(group["in_sd"].as_f64().unwrap() > 5.0 && group["p_value"].as_f64().unwrap() < 0.01, "{group}");
+    let sd = |part: &str| group["simulated"][part].as_f64().unwrap();
+    let parts = ["sd_measurement", "sd_scatter", "sd_parameters"].map(sd);
+    let together = parts.iter().map(|x| x * x).sum::<f64>().sqrt();
+    assert!((together / sd("sd") - 1.0).abs() < 1e-9, "{group}");
+    // 0.02 mm in each of six readings.
+    assert!((parts[0] - 2e-5 / 6.0_f64.sqrt()).abs() < 1e-12, "{group}");
+    for name in ["tower.svg", "tower.png", "residuals.svg", "residuals.png"] {
+        assert!(folder.path("runs/tiny-diagnosis").join(name).is_file(), "{name}");
+    }
+    let page = fs::read_to_string(folder.path("runs/tiny-diagnosis/verdict.html")).unwrap();
+    for part in ["(gauge_offset)", "median if the cause is gauge_offset", "<td>tower: collapse angle</td>"] {
+        assert!(page.contains(part), "no `{part}` in the page");
+    }
 }
 
 #[test]

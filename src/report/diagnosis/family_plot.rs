@@ -4,10 +4,11 @@
 
 use plotters::coord::Shift;
 use plotters::coord::types::RangedCoordf64;
-use plotters::element::{DynElement, IntoDynElement};
 use plotters::prelude::*;
 
+use crate::critic::Band;
 use crate::report::diagnosis::family::{FamilyFigure, Panel};
+use crate::report::diagnosis::signs::{dashes, reading};
 use crate::report::draw::Figure;
 use crate::report::marker::colour;
 use crate::report::number::{range, shortened};
@@ -27,8 +28,8 @@ const SPREAD: f64 = 54.0;
 /// Names longer than this are cut.
 const LONGEST_NAME: usize = 30;
 /// Where the rows of the strip lie.
-const SIMULATED: f64 = 0.72;
-const MEASURED: f64 = 0.27;
+const SIMULATED: f64 = 0.77;
+const MEASURED: f64 = 0.32;
 
 type Chart<'a, DB> = ChartContext<'a, DB, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
@@ -77,14 +78,8 @@ impl<'f> FamilyPlot<'f> {
         for mark in &panel.marks {
             let x = mark.tilt + step * mark.place;
             let bar = [(x, mark.value - mark.error), (x, mark.value + mark.error)];
-            match mark.bound {
-                None => chart.draw_series([PathElement::new(bar, BLACK.stroke_width(2 * self.pen.scale))])?,
-                Some(_) => chart.draw_series([EmptyElement::at((x, mark.value))])?,
-            };
-            let up = mark.bound.map(|kind| (0, if kind == MeasuredKind::Above { -1 } else { 1 }));
-            for part in self.mark((x, mark.value), up) {
-                chart.plotting_area().draw(&part)?;
-            }
+            let towards = mark.bound.map(|kind| (0, if kind == MeasuredKind::Above { -1 } else { 1 }));
+            self.reading(&mut chart, (x, mark.value), bar, towards)?;
         }
         Ok(())
     }
@@ -92,7 +87,7 @@ impl<'f> FamilyPlot<'f> {
     /// Half and nine in ten of the walls, and their median.
     fn bands<DB: DrawingBackend>(&self, chart: &mut Chart<'_, DB>, panel: &Panel) -> Drawn<DB> {
         let ours = colour(0);
-        let edge = |of: &dyn Fn(&crate::critic::Band) -> f64| -> Vec<(f64, f64)> {
+        let edge = |of: &dyn Fn(&Band) -> f64| -> Vec<(f64, f64)> {
             panel.bands.iter().map(|(tilt, band)| (*tilt, of(band))).collect()
         };
         for (low, high, dark) in [
@@ -118,37 +113,26 @@ impl<'f> FamilyPlot<'f> {
         line: Vec<(f64, f64)>,
         cause: usize,
     ) -> Drawn<DB> {
-        let ([dash, gap], style) = self.dash(cause);
-        chart.draw_series(DashedLineSeries::new(line, self.pen.px(dash), self.pen.px(gap), style))?;
+        let ([dash, gap], style) = dashes(cause, self.pen);
+        chart.draw_series(DashedLineSeries::new(line, dash, gap, style))?;
         Ok(())
     }
 
-    /// Lengths of the dashes of a cause and of their gaps (pixels at scale 1), and their style.
-    fn dash(&self, cause: usize) -> ([i32; 2], ShapeStyle) {
-        const DASHES: [[i32; 2]; 3] = [[12, 7], [5, 5], [20, 5]];
-        (DASHES[cause % DASHES.len()], colour(cause + 1).stroke_width(3 * self.pen.scale))
-    }
-
-    /// A point, or for a bound a bar with an arrow towards where the value lies.
-    fn mark<'m, DB: DrawingBackend + 'm, C: Clone + 'm>(
+    /// A reading with the bar of its error, or a bound with an arrow.
+    fn reading<DB: DrawingBackend>(
         &self,
-        at: C,
+        chart: &mut Chart<'_, DB>,
+        at: (f64, f64),
+        bar: [(f64, f64); 2],
         towards: Option<(i32, i32)>,
-    ) -> Vec<DynElement<'m, DB, C>> {
-        let px = |length: i32| self.pen.px(length);
-        let line = BLACK.stroke_width(2 * self.pen.scale);
-        let Some((x, y)) = towards else {
-            return vec![(EmptyElement::at(at) + Circle::new((0, 0), px(4), BLACK.filled())).into_dyn()];
-        };
-        let along = |far: i32, side: i32| (px(far * x + side * y), px(far * y + side * x));
-        let path =
-            |ends: [(i32, i32); 2]| (EmptyElement::at(at.clone()) + PathElement::new(ends, line)).into_dyn();
-        let head = Polygon::new([along(20, 0), along(11, 4), along(11, -4)], BLACK.filled());
-        vec![
-            path([along(0, -5), along(0, 5)]),
-            path([along(0, 0), along(12, 0)]),
-            (EmptyElement::at(at.clone()) + head).into_dyn(),
-        ]
+    ) -> Drawn<DB> {
+        if towards.is_none() {
+            chart.draw_series([PathElement::new(bar, BLACK.stroke_width(2 * self.pen.scale))])?;
+        }
+        for part in reading(at, towards, self.pen) {
+            chart.plotting_area().draw(&part)?;
+        }
+        Ok(())
     }
 
     /// The collapse angles that were measured below those that were simulated.
@@ -168,11 +152,11 @@ impl<'f> FamilyPlot<'f> {
             .draw()?;
         let ours = colour(0);
         let (band, causes) = &self.figure.collapse;
-        for ([from, to], half, dark) in [(band.most, 0.11, 1.0), (band.half, 0.17, 1.6)] {
+        for ([from, to], half, dark) in [(band.most, 0.1, 1.0), (band.half, 0.15, 1.6)] {
             let corners = [(from, SIMULATED - half), (to, SIMULATED + half)];
             chart.draw_series([Rectangle::new(corners, ours.mix(dark * BAND_ALPHA).filled())])?;
         }
-        let upright = |x: f64| vec![(x, SIMULATED - 0.19), (x, SIMULATED + 0.19)];
+        let upright = |x: f64| vec![(x, SIMULATED - 0.17), (x, SIMULATED + 0.17)];
         let style = ours.stroke_width(2 * self.pen.scale);
         chart.draw_series(LineSeries::new(upright(band.median), style))?;
         for (index, angle) in causes.iter().enumerate() {
@@ -180,15 +164,10 @@ impl<'f> FamilyPlot<'f> {
         }
         let most = self.figure.angles.iter().map(|mark| mark.place.abs()).fold(1.0, f64::max);
         for mark in &self.figure.angles {
-            let y = MEASURED - 0.2 * mark.place / most;
-            if mark.bound.is_none() {
-                let bar = [(mark.value - mark.error, y), (mark.value + mark.error, y)];
-                chart.draw_series([PathElement::new(bar, BLACK.stroke_width(2 * self.pen.scale))])?;
-            }
+            let y = MEASURED - 0.18 * mark.place / most;
+            let bar = [(mark.value - mark.error, y), (mark.value + mark.error, y)];
             let towards = mark.bound.map(|kind| (if kind == MeasuredKind::Above { 1 } else { -1 }, 0));
-            for part in self.mark((mark.value, y), towards) {
-                chart.plotting_area().draw(&part)?;
-            }
+            self.reading(&mut chart, (mark.value, y), bar, towards)?;
         }
         for (y, row) in [(SIMULATED, "simulated"), (MEASURED, "measured")] {
             let name = Text::new(row, (self.pen.px(12), 0), self.pen.font(18).pos(left()));
@@ -229,22 +208,21 @@ impl<'f> FamilyPlot<'f> {
                     area.draw(&PathElement::new([(from, y), (to, y)], style))?;
                 }
                 (_, Some(cause)) => {
-                    let ([dash, gap], style) = self.dash(cause);
-                    let dashes = (0..).map(|k| from + k * self.pen.px(dash + gap)).take_while(|x| *x < to);
-                    for x in dashes {
-                        let ends = [(x, y), ((x + self.pen.px(dash)).min(to), y)];
+                    let ([dash, gap], style) = dashes(cause, self.pen);
+                    for x in (0..).map(|k| from + k * (dash + gap)).take_while(|x| *x < to) {
+                        let ends = [(x, y), ((x + dash).min(to), y)];
                         area.draw(&PathElement::new(ends, style))?;
                     }
                 }
                 (1, None) => {
                     let bar = [(middle, y - self.pen.px(10)), (middle, y + self.pen.px(10))];
                     area.draw(&PathElement::new(bar, BLACK.stroke_width(2 * self.pen.scale)))?;
-                    for part in self.mark((middle, y), None) {
+                    for part in reading((middle, y), None, self.pen) {
                         area.draw(&part)?;
                     }
                 }
                 (_, None) => {
-                    for part in self.mark((middle, y - self.pen.px(8)), Some((0, 1))) {
+                    for part in reading((middle, y - self.pen.px(8)), Some((0, 1)), self.pen) {
                         area.draw(&part)?;
                     }
                 }

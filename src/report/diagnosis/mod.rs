@@ -5,6 +5,7 @@ mod family_plot;
 mod page;
 mod residual;
 mod residual_plot;
+mod signs;
 mod summary;
 mod text;
 mod words;

@@ -137,9 +137,12 @@ impl<'r> ResidualPlot<'r> {
             .y_label_area_size(self.pen.px(LEFT))
             .build_cartesian_2d(ends[0]..ends[1], bottom..top)?;
         let (x_decimals, y_decimals) = (decimals(ends[1] - ends[0]), decimals(top - bottom));
-        let label = |value: &f64| match (panel.labels.get(value.round() as usize), value.fract() == 0.0) {
+        let whole = panel.labels.is_empty() && panel.points.iter().all(|spot| spot.at.fract() == 0.0);
+        let label = |value: &f64| match panel.labels.get(value.round() as usize) {
+            _ if value.fract() != 0.0 && (whole || !panel.labels.is_empty()) => String::new(),
+            _ if whole => format!("{value:.0}"),
             _ if panel.labels.is_empty() => format!("{value:.x_decimals$}"),
-            (Some(label), true) if *value >= 0.0 => (*label).to_string(),
+            Some(label) if *value >= 0.0 => (*label).to_string(),
             _ => String::new(),
         };
         let mut mesh = chart.configure_mesh();
