@@ -127,7 +127,7 @@ impl<'s> World<'s> {
 
     /// Whether walls of a family differ in the base model. Where they do not, simulated ones differ by the emulator's error alone.
     pub fn is_random(&self, family: usize) -> bool {
-        self.walls[&(family, None)].random
+        self.walls.get(&(family, None)).is_some_and(|walls| walls.random)
     }
 
     /// The path of a specimen.

@@ -69,7 +69,7 @@ fn sentence(summary: &DiagnosisSummary) -> String {
         summary.causes.iter().filter(|cause| cause.in_verdict).map(|cause| cause.id).collect();
     match spoken.is_empty() {
         true => verdict(summary),
-        false => format!("{} ({})", verdict(summary), spoken.join(", ")),
+        false => verdict(summary).replacen(':', &format!(" ({}):", spoken.join(", ")), 1),
     }
 }
 

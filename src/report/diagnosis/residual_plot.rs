@@ -48,6 +48,8 @@ struct Against {
     words: &'static str,
     /// Labels of whole numbers, where they are positions.
     labels: Vec<&'static str>,
+    /// Whether specimens share places, and are spread about them.
+    shared: bool,
     points: Vec<Spot>,
 }
 
@@ -101,11 +103,11 @@ impl<'r> ResidualPlot<'r> {
                 let beside = (one as f64 + 0.5) / self.specimens.len() as f64 - 0.5;
                 Some(Spot { at: place(r)?, in_sd: r.in_sd?, family, beside })
             };
-            Against { words, labels, points: self.readings.iter().filter_map(spot).collect() }
+            Against { words, labels, shared: false, points: self.readings.iter().filter_map(spot).collect() }
         };
         let labels = places.iter().map(|(_, word)| *word).collect();
         let panels = [
-            against("tilt of the reading (deg)", Vec::new(), &|r| r.tilt_deg),
+            Against { shared: true, ..against("tilt of the reading (deg)", Vec::new(), &|r| r.tilt_deg) },
             against(
                 "position (each from low tilts to high; difference: centre less mean of the ends)",
                 labels,
@@ -163,7 +165,7 @@ impl<'r> ResidualPlot<'r> {
         }
         let spread = SPREAD * (ends[1] - ends[0]) / f64::from(WIDTH - LEFT as u32);
         for spot in &panel.points {
-            let x = spot.at + if panel.labels.is_empty() { spread * spot.beside } else { 0.0 };
+            let x = spot.at + if panel.shared { spread * spot.beside } else { 0.0 };
             chart.plotting_area().draw(&filled((x, spot.in_sd), spot.family, self.pen.scale))?;
         }
         Ok(())

@@ -9,6 +9,9 @@ use crate::critic::diagnose::residual::reading::Residual;
 use crate::critic::diagnose::world::World;
 use crate::study::{MeasuredQuantity, Measurement};
 
+/// Readings with their places in the design.
+type Places<'d> = Vec<(usize, &'d Measurement)>;
+
 /// What readings and groups are set against.
 pub struct Baseline {
     readings: Vec<Residual>,
@@ -28,8 +31,7 @@ impl Baseline {
     /// From campaigns of the base model; a pure function of its arguments.
     pub fn new(world: &World<'_>, design: &Design, seed: u64) -> Baseline {
         let nested = Nested::new(world, design, seed);
-        let mut grouped: BTreeMap<(usize, MeasuredQuantity, u64), Vec<(usize, &Measurement)>> =
-            BTreeMap::new();
+        let mut grouped: BTreeMap<(usize, MeasuredQuantity, u64), Places<'_>> = BTreeMap::new();
         for (place, (family, m)) in design.readings().enumerate() {
             // The bits of numbers that are not negative are in their order.
             let tilt = m.tilt.map_or(0, |tilt| tilt.abs().to_bits());
