@@ -73,8 +73,9 @@ pub(crate) enum Verb {
     /// What does the simulation get wrong beyond errors and natural scatter, and which mechanism explains it, or which few, or none?
     #[command(after_help = format!(
         "Example: pirca diagnose studies/tilting-table --measured my-tests.csv\n\n\
-         Writes verdict.json and, for each cause of the verdict, the study extended by it: extended/<cause>, an ordinary study\n\
-         at the medians of what is not known, with draws from it as variants (run extended/<cause> --variant draw-07).\n\
+         Writes verdict.html (a page with all of it), verdict.json, figures as SVG and PNG (one per family, and residuals) and, for\n\
+         each cause of the verdict, the study extended by it: extended/<cause>, an ordinary study at the medians of what is not\n\
+         known, with draws from it as variants (run extended/<cause> --variant draw-07).\n\
          The walls it needs are simulated once for a design, which takes hours; see bank. What looks odd about the measurements\n\
          (a value far beyond what is simulated, one specimen alone) is noted on standard error and judged all the same.\n\n{CODES}\n\
          Every verdict (named, ambiguous, unexplained, nothing found) ends with 0."

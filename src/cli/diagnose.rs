@@ -8,10 +8,10 @@ use crate::cli::bank::{self, Prepared};
 use crate::cli::failure::Failure;
 use crate::cli::output;
 use crate::critic::{
-    self, BANK, Design, Diagnosis, Effort, Judge, Limits, Measuring, Plan, Verdict, World, doubts_beside,
-    extension,
+    self, BANK, Baseline, Design, Diagnosis, Effort, Judge, Limits, Measuring, Plan, Verdict, World,
+    base_curves, cause_curves, doubts_beside, extension,
 };
-use crate::report::{self, Advice, DiagnosisSummary, EXTENDED, GainSummary, Origin};
+use crate::report::{self, Advice, DiagnosisSummary, EXTENDED, FamilyFigure, GainSummary, Origin};
 use crate::study::Loaded;
 
 /// Seeds that a part of a diagnosis may use from its own on.
@@ -42,8 +42,10 @@ pub(crate) fn diagnose(arguments: &Diagnose) -> Result<(), Failure> {
     let limits = Limits::default();
     let diagnosis = judge.diagnosed(&measured, &limits, seed.wrapping_add(SEEDS));
     let test = judge.self_test(&limits, TESTED, seed.wrapping_add(2 * SEEDS));
+    let residuals = Baseline::new(&world, &design, seed.wrapping_add(6 * SEEDS)).residuals(&measured);
     let mut summary =
-        DiagnosisSummary::of(&study, seed, &plan.study.hash, &mechanisms, &design, &diagnosis, &test);
+        DiagnosisSummary::of(&study, seed, &plan.study.hash, &mechanisms, &design, &diagnosis, &test)
+            .beside(&study, &residuals);
     summary.notes = notes;
     let offered = critic::offers(&judge, &diagnosis.possible(), seed.wrapping_add(4 * SEEDS));
     summary.advice = Advice::of(&test, &offered, &mechanisms);
@@ -51,9 +53,13 @@ pub(crate) fn diagnose(arguments: &Diagnose) -> Result<(), Failure> {
         let gain = critic::gain(&judge, &measured, &Measuring::default(), seed.wrapping_add(3 * SEEDS));
         summary.gain = gain.map(|gain| GainSummary::of(&gain, &design, &mechanisms));
     }
+    let drawn = seed.wrapping_add(7 * SEEDS);
+    let base = base_curves(&world, &design, drawn);
+    let causes = cause_curves(&world, &design, &diagnosis, drawn);
+    let families = FamilyFigure::all(&study, &mechanisms, &residuals, &base, &causes);
     let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, "diagnosis"));
     output::folder(&out)?;
-    report::write_diagnosis(&summary, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
+    report::write_diagnosis(&summary, &families, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
     let origin = Origin { study: &study, stated: &stated, seed, bank: &plan.study.hash };
     let extended = extended(&origin, &world, &diagnosis, &out)?;
     if arguments.which.json {

@@ -155,15 +155,21 @@ pub(super) fn reading_variance(m: &Measurement) -> f64 {
     m.error * m.error + m.resolution * m.resolution / 12.0
 }
 
-pub(super) fn measured(group: &[&Measurement]) -> Measured {
-    let values: Vec<f64> = known(group).map(|m| m.value).collect();
-    let n = values.len() as f64;
-    let random: Vec<f64> = known(group).map(reading_variance).collect();
-    let common: Vec<f64> = known(group).map(|m| m.common_error).collect();
+/// Error of the mean of some readings, one standard deviation: random errors and rounding averaged, the common error whole.
+pub(super) fn error_of_mean(group: &[&Measurement]) -> f64 {
+    let n = group.len() as f64;
+    let random: Vec<f64> = group.iter().map(|m| reading_variance(m)).collect();
+    let common: Vec<f64> = group.iter().map(|m| m.common_error).collect();
     let shared = stats::sum(&common) / n;
+    (stats::sum(&random) / (n * n) + shared * shared).sqrt()
+}
+
+pub(super) fn measured(group: &[&Measurement]) -> Measured {
+    let known: Vec<&Measurement> = known(group).collect();
+    let values: Vec<f64> = known.iter().map(|m| m.value).collect();
     let count = |kind| group.iter().filter(|m| m.kind == kind).count() as u64;
     Measured {
-        error: (!values.is_empty()).then(|| (stats::sum(&random) / (n * n) + shared * shared).sqrt()),
+        error: (!known.is_empty()).then(|| error_of_mean(&known)),
         values: Summary::of(&values),
         below: count(MeasuredKind::Below),
         above: count(MeasuredKind::Above),

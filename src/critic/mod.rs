@@ -19,11 +19,14 @@ pub(crate) mod tests;
 pub use bank::{BANK, Bank, Emulator, NotThisBank, Path, Place, Plan};
 pub use calibrate::{Calibration, CurvePoint, End, LEAST_POINTS, calibrate, calibrate_family};
 pub use compare::{Beside, Difference, Measured, Ours, Walls, compare};
+#[cfg(test)]
+pub(crate) use diagnose::tests::{Made, made};
 pub use diagnose::{
-    Bent, CAUGHT, COVERED, Campaign, Caught, Choice, Contrast, DOUBT, DRAWS, Design, Diagnosis, Doubt,
-    Effort, Evidence, Extension, Feature, Gain, Gained, HeldOut, Interval, Judge, Known, Limits, LookedAt,
-    MOST_AMBIGUOUS, Measuring, Offer, Offered, Ranked, Ranking, Reference, Scale, Scores, Seeming, Seen,
-    SelfTest, SelfTestRow, Specimen, Truth, Verdict, World, Wrong, doubts, doubts_beside, evidence,
+    Band, Baseline, Bent, CAUGHT, COVERED, Campaign, Caught, Choice, Contrast, Curve, DOUBT, DRAWS, Design,
+    Diagnosis, Doubt, Effort, Evidence, Expected, Extension, FamilyCurves, Feature, Gain, Gained, Group,
+    HeldOut, Interval, Judge, Known, Limits, LookedAt, MOST_AMBIGUOUS, Measuring, Offer, Offered, Parts,
+    Ranked, Ranking, Reference, Residual, Residuals, Scale, Scores, Seeming, Seen, SelfTest, SelfTestRow,
+    Side, Specimen, Truth, Verdict, World, Wrong, base_curves, cause_curves, doubts, doubts_beside, evidence,
     extension, features, gain, guarded, offers,
 };
 pub use likelihood::log_likelihood;

@@ -52,6 +52,9 @@ fn a_gauge_that_has_moved_is_named_from_a_csv_and_the_bank_is_made_once() {
     assert!((median - 3e-3).abs() < 5e-4, "{moved}");
     let extended = extended_by_an_offset(&folder);
     // Again, with the bank as it is: the same verdict and the same study to the bit, and none of an earlier verdict.
+    what_is_wrong_is_shown(&folder, &text, &json);
+    let page = fs::read(folder.path("runs/tiny-diagnosis/verdict.html")).unwrap();
+    // Again, with the bank as it is: the same verdict to the bit.
     let bank = fs::read(folder.path("runs/tiny-bank/bank.parquet")).unwrap();
     for stale in ["runs/tiny-diagnosis/extended/lean", "runs/tiny-diagnosis/extended/creep"] {
         fs::create_dir_all(folder.path(stale)).unwrap();
@@ -67,6 +70,7 @@ fn a_gauge_that_has_moved_is_named_from_a_csv_and_the_bank_is_made_once() {
         fs::read(folder.path("runs/tiny-diagnosis/extended/gauge_offset/study.toml")).unwrap(),
         extended
     );
+    assert_eq!(fs::read(folder.path("runs/tiny-diagnosis/verdict.html")).unwrap(), page);
     assert_eq!(fs::read(folder.path("runs/tiny-bank/bank.parquet")).unwrap(), bank);
     // Another design is not diagnosed with this bank.
     let other =
@@ -284,6 +288,42 @@ fn a_nested_study_finds_its_distributions_further_up() {
     let wanted = "wanted is a folder `distributions` in ";
     let refused = ends_with(&nested, 3, &["bank", "studies/tiny", "--measured", "tests.csv"]);
     assert!(stderr(&refused).contains(wanted), "{}", stderr(&refused));
+}
+
+/// Readings and their groups in the text, in the JSON and in the figures.
+fn what_is_wrong_is_shown(folder: &Folder, text: &str, json: &Value) {
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    for part in [
+        "- tower: collapse angle: 16.6 deg measured, ",
+        "- tower: displacement left at 2.5 deg: 3.21 mm measured, ",
+    ] {
+        assert!(words.contains(part), "no `{part}` in\n{text}");
+    }
+    let (residuals, groups) = (json["residuals"].as_array().unwrap(), json["groups"].as_array().unwrap());
+    // Six towers, their angles and three points at five tilts.
+    assert_eq!((residuals.len(), groups.len()), (6 * 16, 16));
+    let of = |group: &&Value| group["quantity"] == "displacement_left" && group["tilt_deg"] == 2.5;
+    let group = groups.iter().find(of).unwrap();
+    assert_eq!(
+        (&group["family"], &group["readings"], &group["unit"]),
+        (&"tower".into(), &6.into(), &"m".into())
+    );
+    // 3 mm against a few tenths of one.
+    assert_eq!(group["stands"], "above");
+    assert!(group["in_sd"].as_f64().unwrap() > 5.0 && group["p_value"].as_f64().unwrap() < 0.01, "{group}");
+    let sd = |part: &str| group["simulated"][part].as_f64().unwrap();
+    let parts = ["sd_measurement", "sd_scatter", "sd_parameters"].map(sd);
+    let together = parts.iter().map(|x| x * x).sum::<f64>().sqrt();
+    assert!((together / sd("sd") - 1.0).abs() < 1e-9, "{group}");
+    // 0.02 mm in each of six readings.
+    assert!((parts[0] - 2e-5 / 6.0_f64.sqrt()).abs() < 1e-12, "{group}");
+    for name in ["tower.svg", "tower.png", "residuals.svg", "residuals.png"] {
+        assert!(folder.path("runs/tiny-diagnosis").join(name).is_file(), "{name}");
+    }
+    let page = fs::read_to_string(folder.path("runs/tiny-diagnosis/verdict.html")).unwrap();
+    for part in ["(gauge_offset)", "median if the cause is gauge_offset", "<td>tower: collapse angle</td>"] {
+        assert!(page.contains(part), "no `{part}` in the page");
+    }
 }
 
 #[test]

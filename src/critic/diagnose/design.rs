@@ -1,6 +1,10 @@
 //! What was read on which specimen: the design that a measured campaign shares with every simulated one.
 
+use std::collections::BTreeMap;
+
 use crate::critic::compare::is_rising;
+use crate::random::Streams;
+use crate::random::standard_normal::quantile;
 use crate::study::{MeasuredKind, MeasuredQuantity, Measurement, Study};
 
 /// A tilting test.
@@ -80,6 +84,15 @@ impl Design {
     }
 }
 
+impl Design {
+    /// All readings with their families, specimen by specimen, the tests on joints last.
+    pub fn readings(&self) -> impl Iterator<Item = (usize, &Measurement)> {
+        let specimens = self.specimens.iter();
+        let of_walls = specimens.flat_map(|s| s.readings.iter().map(|reading| (s.family, reading)));
+        of_walls.chain(self.joints.iter().map(|(family, reading)| (*family, reading)))
+    }
+}
+
 /// What was seen in a campaign, measured or simulated, in the order of a [`Design`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Campaign {
@@ -87,6 +100,44 @@ pub struct Campaign {
     pub specimens: Vec<Vec<Seen>>,
     /// The tests on joints.
     pub joints: Vec<Seen>,
+}
+
+impl Campaign {
+    /// What is read where walls (by specimen and reading, `None` once they have fallen) and joints have these values: a pure
+    /// function of these and the streams.
+    pub(super) fn read(
+        design: &Design,
+        walls: &[Vec<Option<f64>>],
+        joints: &[f64],
+        streams: &Streams,
+    ) -> Campaign {
+        let score = |name: &str| quantile(streams.of(name).uniform());
+        let mut common = BTreeMap::new();
+        let mut read = |value: f64, m: &Measurement, name: &str| {
+            let shared = *common
+                .entry(m.quantity)
+                .or_insert_with(|| score(&format!("common error {}", m.quantity.name())));
+            Seen::of(value + m.common_error * shared + m.error * score(name), m)
+        };
+        let specimens = walls.iter().zip(&design.specimens).enumerate().map(|(index, (values, specimen))| {
+            let readings = values.iter().zip(&specimen.readings).enumerate();
+            readings
+                .map(|(k, (value, m))| match value {
+                    Some(value) => read(*value, m, &format!("error {index} {k}")),
+                    None => Seen::Nothing,
+                })
+                .collect()
+        });
+        let specimens: Vec<Vec<Seen>> = specimens.collect();
+        let joints = joints.iter().zip(&design.joints).enumerate();
+        let joints = joints.map(|(k, (value, (_, m)))| read(*value, m, &format!("joint error {k}")));
+        Campaign { specimens, joints: joints.collect() }
+    }
+
+    /// What was seen, in the order of [`Design::readings`].
+    pub fn seen(&self) -> impl Iterator<Item = Seen> {
+        self.specimens.iter().flatten().chain(&self.joints).copied()
+    }
 }
 
 impl Seen {

@@ -16,9 +16,10 @@ mod network;
 mod next;
 mod predicted;
 mod ranking;
+mod residual;
 mod self_test;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod verdict;
 mod world;
 mod wrong;
@@ -35,6 +36,10 @@ pub use guard::guarded;
 pub use judge::{Effort, Judge, Seeming};
 pub use next::{Offer, Offered, offers};
 pub use ranking::{COVERED, Ranked, Ranking};
+pub use residual::{
+    Band, Baseline, Curve, Expected, FamilyCurves, Group, Parts, Residual, Residuals, Side, base_curves,
+    cause_curves,
+};
 pub use self_test::{CAUGHT, Caught, SelfTest, SelfTestRow};
 pub use verdict::{Diagnosis, Limits, LookedAt, MOST_AMBIGUOUS, Verdict};
 pub use world::{DOUBT, Truth, World};

@@ -11,17 +11,17 @@ use crate::random::Streams;
 use crate::random::standard_normal::quantile;
 use crate::study::{Described, MeasuredKind, MeasuredQuantity, Nuisance, Study};
 
-pub(super) struct Made {
-    pub study: Study,
-    pub mechanisms: Vec<Described>,
-    nuisances: [Nuisance; 3],
+pub(crate) struct Made {
+    pub(crate) study: Study,
+    pub(crate) mechanisms: Vec<Described>,
+    pub(crate) nuisances: [Nuisance; 3],
     plan: Plan,
     bank: Bank,
 }
 
 /// The nine walls, of a bank that no solver made: the collapse angle goes with kn and phi, displacements go with 1/kn, stones make
 /// 2 % of difference.
-pub(super) fn made() -> Made {
+pub(crate) fn made() -> Made {
     let (study, mechanisms, nuisances) = shipped();
     let plan = Plan::new(&study, &mechanisms, &nuisances, 45).unwrap_or_else(|f| panic!("{f}"));
     let path = |wall: usize| {
@@ -52,7 +52,7 @@ pub(super) fn made() -> Made {
 }
 
 impl Made {
-    pub(super) fn world(&self) -> World<'_> {
+    pub(crate) fn world(&self) -> World<'_> {
         World::new(&self.study, &self.mechanisms, &self.nuisances, &self.plan, &self.bank)
             .expect("enough walls")
     }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::critic::bank::{Bank, Curves, Emulator, NUMBERS, Path, Plan};
-use crate::critic::diagnose::design::{Campaign, Design, Seen};
+use crate::critic::diagnose::design::{Campaign, Design};
 use crate::critic::simulated::of_points;
 use crate::ensemble::is_random;
 use crate::math::{atan, radians, tan};
@@ -127,29 +127,8 @@ impl<'s> World<'s> {
 
     /// A campaign of a design under a truth: a pure function of these and the streams.
     pub fn campaign(&self, design: &Design, truth: &Truth, streams: &Streams) -> Campaign {
-        let score = |name: &str| quantile(streams.of(name).uniform());
-        let mut common = BTreeMap::new();
-        let mut read = |value: f64, m: &Measurement, name: &str| {
-            let shared = *common
-                .entry(m.quantity)
-                .or_insert_with(|| score(&format!("common error {}", m.quantity.name())));
-            Seen::of(value + m.common_error * shared + m.error * score(name), m)
-        };
-        let values = self.values(design, truth, streams).into_iter().zip(&design.specimens).enumerate();
-        let specimens = values.map(|(index, (values, specimen))| {
-            let readings = values.into_iter().zip(&specimen.readings).enumerate();
-            readings
-                .map(|(k, (value, m))| match value {
-                    Some(value) => read(value, m, &format!("error {index} {k}")),
-                    None => Seen::Nothing,
-                })
-                .collect()
-        });
-        let specimens: Vec<Vec<Seen>> = specimens.collect();
-        let joints = design.joints.iter().enumerate();
-        let joints = joints
-            .map(|(k, (family, m))| read(self.joint(*family, m, truth), m, &format!("joint error {k}")));
-        Campaign { specimens, joints: joints.collect() }
+        let values = self.values(design, truth, streams);
+        Campaign::read(design, &values, &self.joint_values(design, truth), streams)
     }
 
     /// What the specimens of a campaign show of each reading (SI, gauges included) before the readings' errors; `None` where the
@@ -163,6 +142,16 @@ impl<'s> World<'s> {
                 specimen.readings.iter().map(|m| shown(&curves, m, &gauge)).collect()
             })
             .collect()
+    }
+
+    /// What the tests on joints show before their errors.
+    pub fn joint_values(&self, design: &Design, truth: &Truth) -> Vec<f64> {
+        design.joints.iter().map(|(family, m)| self.joint(*family, m, truth)).collect()
+    }
+
+    /// Whether walls of a family differ in the base model. Where they do not, simulated ones differ by the emulator's error alone.
+    pub fn is_random(&self, family: usize) -> bool {
+        self.walls.get(&(family, None)).is_some_and(|walls| walls.random)
     }
 
     /// The path of a specimen: one of those that a wall may have.

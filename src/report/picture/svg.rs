@@ -1,6 +1,7 @@
 //! The picture as SVG text, from the furthest block to the nearest.
 
 use crate::math::Vec3;
+use crate::report::markup::escaped;
 use crate::report::number::{range, significant};
 use crate::report::pen::FONT_NAME;
 use crate::report::picture::colour;
@@ -184,7 +185,7 @@ fn polygon(points: &str, fill: &str, stroke: &str, width: f64) -> String {
 }
 
 fn label(x: f64, y: f64, size: u32, text: &str) -> String {
-    let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+    let text = escaped(text);
     format!("<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{size}\" fill=\"#000000\">{text}</text>\n")
 }
 

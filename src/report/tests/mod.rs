@@ -2,6 +2,7 @@
 
 mod beside;
 mod capacity;
+mod diagnosis;
 mod figure;
 mod measured;
 mod summary;

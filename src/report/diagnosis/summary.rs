@@ -1,19 +1,14 @@
-//! The verdict on a base model: `verdict.json`, and what is printed.
+//! A diagnosis as `verdict.json` holds it.
 
-use std::path::Path;
-
-use anyhow::{Context, Result};
-
-use crate::critic::{Contrast, Design, Diagnosis, Feature, SelfTest, Truth, Verdict};
-use crate::ensemble::replace_file;
+use crate::critic::{Contrast, Design, Diagnosis, Feature, Residuals, SelfTest, Truth, Verdict};
 use crate::report::advice::Advice;
+use crate::report::diagnosis::form::BentEntry;
+use crate::report::diagnosis::residual::{GroupEntry, ResidualEntry};
 use crate::report::gain::GainSummary;
-use crate::report::number::significant;
+use crate::report::number::with_interval;
 use crate::stats;
 use crate::study::{Described, MeasuredQuantity, Study};
 
-/// What is off by less than this many standard deviations is not worth a line.
-const WORTH_SAYING: f64 = 2.0;
 /// Quantiles of a parameter.
 const INTERVAL: [f64; 2] = [0.05, 0.95];
 
@@ -38,6 +33,12 @@ pub struct DiagnosisSummary {
     pub p_value: f64,
     /// What is off, the furthest first.
     pub off: Vec<OffEntry>,
+    /// Reading by reading, how far it lies from walls with joints as uncertain as their priors.
+    pub residuals: Vec<ResidualEntry>,
+    /// The same of the means over the specimens, by family, quantity and tilt.
+    pub groups: Vec<GroupEntry>,
+    /// Where the base model with fitted joints surely lacks something, if that is smooth over the tilt.
+    pub form: Vec<BentEntry>,
     /// Lines of the measurements that were not used.
     pub unused_lines: Vec<usize>,
     /// What looks odd about the measurements and was judged all the same.
@@ -78,6 +79,14 @@ pub struct ParameterEntry {
     pub median: f64,
     /// 5 and 95 % quantile.
     pub interval: [f64; 2],
+}
+
+impl ParameterEntry {
+    /// In words: key, median, interval and unit.
+    pub(super) fn words(&self) -> String {
+        let ParameterEntry { key, unit, median, interval } = self;
+        format!("{key} {} {unit}", with_interval(Some(*median), Some(*interval), 3))
+    }
 }
 
 /// Something that is off.
@@ -168,12 +177,22 @@ impl DiagnosisSummary {
             base_probability: base.map_or(0.0, |(_, probability)| *probability),
             p_value: diagnosis.seeming.p_value,
             off,
+            residuals: Vec::new(),
+            groups: Vec::new(),
+            form: diagnosis.form.iter().filter_map(|bent| BentEntry::of(study, bent)).collect(),
             unused_lines: design.unused.clone(),
             notes: Vec::new(),
             self_test: tested.collect(),
             advice: Advice::default(),
             gain: None,
         }
+    }
+
+    /// With how far readings and groups lie from the base model.
+    pub fn beside(mut self, study: &Study, residuals: &Residuals) -> DiagnosisSummary {
+        self.residuals = residuals.readings.iter().map(|r| ResidualEntry::of(study, r)).collect();
+        self.groups = residuals.groups.iter().map(|group| GroupEntry::of(study, group)).collect();
+        self
     }
 }
 
@@ -215,92 +234,4 @@ fn words(study: &Study, feature: Feature) -> String {
         }
         Feature::Joint(arm, _) => format!("{}: friction in the test on two stones", family(arm)),
     }
-}
-
-/// Writes `verdict.json` into an existing folder.
-///
-/// # Errors
-/// The file that could not be written, and why.
-pub fn write_diagnosis(summary: &DiagnosisSummary, dir: &Path) -> Result<()> {
-    let json = serde_json::to_string_pretty(summary).context("the verdict cannot be written as JSON")? + "\n";
-    Ok(replace_file(&dir.join("verdict.json"), json.as_bytes())?)
-}
-
-/// The verdict as people read it.
-pub fn diagnosis_text(summary: &DiagnosisSummary) -> String {
-    let mut text = format!("Study {}, seed {}\n\n", summary.study, summary.seed);
-    let p = significant(summary.p_value, 2);
-    let verdict = match summary.verdict {
-        "nothing_found" => format!(
-            "NOTHING FOUND: what is off is no more than errors, scatter and joints within their priors make of it (p {p})."
-        ),
-        "named" => "NAMED: something is wrong, and one cause explains it.".to_string(),
-        "ambiguous" => {
-            "AMBIGUOUS: something is wrong, and the data cannot tell between these causes.".to_string()
-        }
-        _ => "UNEXPLAINED: something is wrong, and no one cause of the catalogue explains it.".to_string(),
-    };
-    text.push_str(&verdict);
-    text.push('\n');
-    if summary.verdict != "nothing_found" {
-        text.push_str(&format!("Campaigns without any effect are as far off in a share of {p} of cases.\n"));
-    }
-    text.push_str(
-        "\nWhat is off (measured less simulated, in standard deviations of campaigns without any effect)\n",
-    );
-    let worth: Vec<&OffEntry> = summary.off.iter().filter(|off| off.in_sd.abs() >= WORTH_SAYING).collect();
-    for off in &worth {
-        text.push_str(&format!("  {:+6.1}  {}\n", off.in_sd, off.what));
-    }
-    if worth.is_empty() {
-        text.push_str("  nothing by two or more\n");
-    }
-    text.push_str("\nCauses (probability if all were equally likely before; share of the evidence; guard: share of the cause's own campaigns that\nfit worse)\n");
-    for cause in summary.causes.iter().take(6) {
-        let mark = if cause.in_verdict { "*" } else { " " };
-        let or_dash = |p: Option<f64>| p.map_or("-".to_string(), |p| significant(p, 2));
-        let (evidence, guard) = (or_dash(cause.evidence), or_dash(cause.guard_p_value));
-        text.push_str(&format!(
-            "{mark} {:<18} {:>6.3}   evidence {evidence}   guard {guard}\n",
-            cause.id, cause.probability
-        ));
-        for parameter in cause.parameters.iter().filter(|_| cause.in_verdict) {
-            let [low, high] = parameter.interval.map(|x| significant(x, 3));
-            let median = significant(parameter.median, 3);
-            text.push_str(&format!("      {} {median} [{low}, {high}] {}\n", parameter.key, parameter.unit));
-        }
-    }
-    text.push_str(&format!("  {:<18} {:>6.3}\n", "none of them", summary.base_probability));
-    text.push_str(&summary.gain.as_ref().map_or_else(String::new, GainSummary::text));
-    text.push_str(&summary.advice.text());
-    text.push_str(&reliability(summary));
-    if !summary.unused_lines.is_empty() {
-        let lines: Vec<String> = summary.unused_lines.iter().map(ToString::to_string).collect();
-        text.push_str(&format!(
-            "\nNot used: lines {} of the measurements (weights, readings after unloading, arms that are not evaluated)\n",
-            lines.join(", ")
-        ));
-    }
-    text
-}
-
-/// What the self-test says.
-fn reliability(summary: &DiagnosisSummary) -> String {
-    let (nothing, hidden): (Vec<_>, Vec<_>) =
-        summary.self_test.iter().partition(|row| row.hidden == "nothing");
-    let sum =
-        |rows: &[&SelfTestEntry], of: fn(&SelfTestEntry) -> u64| rows.iter().map(|row| of(row)).sum::<u64>();
-    let share = |part: u64, whole: u64| if whole == 0 { 0.0 } else { 100.0 * part as f64 / whole as f64 };
-    let campaigns = sum(&hidden, |row| row.campaigns);
-    let given = sum(&hidden, |row| row.named + row.misnamed);
-    format!(
-        "\nWith data like these, by simulation from the bank: an effect drawn from its prior is found in {:.0} % of campaigns\n\
-         and named in {:.0} %; a name is wrong in {:.0} % of cases; where nothing is hidden, something is found in {:.0} % and named\n\
-         in {:.1} % (before the guard).\n",
-        share(sum(&hidden, |row| row.found), campaigns),
-        share(sum(&hidden, |row| row.named), campaigns),
-        share(sum(&hidden, |row| row.misnamed), given),
-        share(sum(&nothing, |row| row.found), sum(&nothing, |row| row.campaigns)),
-        share(sum(&nothing, |row| row.misnamed), sum(&nothing, |row| row.campaigns)),
-    )
 }

@@ -1,0 +1,57 @@
+//! All readings and groups of a design as the base model shows them, for any campaign of that design.
+
+use std::collections::BTreeMap;
+
+use crate::critic::diagnose::design::{Campaign, Design, Seen};
+use crate::critic::diagnose::residual::group::{Group, GroupBase};
+use crate::critic::diagnose::residual::nested::Nested;
+use crate::critic::diagnose::residual::reading::Residual;
+use crate::critic::diagnose::world::World;
+use crate::study::{MeasuredQuantity, Measurement};
+
+/// Readings with their places in the design.
+type Places<'d> = Vec<(usize, &'d Measurement)>;
+
+/// What readings and groups are set against.
+pub struct Baseline {
+    readings: Vec<Residual>,
+    groups: Vec<GroupBase>,
+}
+
+/// How far a campaign lies from the base model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Residuals {
+    /// Reading by reading, in the order of [`Design::readings`].
+    pub readings: Vec<Residual>,
+    /// By family, quantity and tilt, in this order.
+    pub groups: Vec<Group>,
+}
+
+impl Baseline {
+    /// From campaigns of the base model; a pure function of its arguments.
+    pub fn new(world: &World<'_>, design: &Design, seed: u64) -> Baseline {
+        let nested = Nested::new(world, design, seed);
+        let mut grouped: BTreeMap<(usize, MeasuredQuantity, u64), Places<'_>> = BTreeMap::new();
+        for (place, (family, m)) in design.readings().enumerate() {
+            // The bits of numbers that are not negative are in their order.
+            let tilt = m.tilt.map_or(0, |tilt| tilt.abs().to_bits());
+            grouped.entry((family, m.quantity, tilt)).or_default().push((place, m));
+        }
+        let readings = design.readings().enumerate();
+        let readings = readings
+            .map(|(place, (family, m))| Residual::new((family, m), place, &nested, world.is_random(family)));
+        let groups = grouped.iter().filter_map(|((family, ..), members)| {
+            GroupBase::new(*family, members, &nested, world.is_random(*family))
+        });
+        Baseline { readings: readings.collect(), groups: groups.collect() }
+    }
+
+    /// How far a campaign of the same design lies from it.
+    pub fn residuals(&self, campaign: &Campaign) -> Residuals {
+        let seen: Vec<Seen> = campaign.seen().collect();
+        Residuals {
+            readings: self.readings.iter().zip(&seen).map(|(reading, seen)| reading.with(*seen)).collect(),
+            groups: self.groups.iter().map(|group| group.with(&seen)).collect(),
+        }
+    }
+}

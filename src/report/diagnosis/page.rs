@@ -1,0 +1,111 @@
+//! A verdict as a page: one file of plain HTML with its figures in it, for any browser and for print.
+
+use crate::report::diagnosis::summary::{CauseEntry, DiagnosisSummary};
+use crate::report::diagnosis::text::{
+    CAUSE, CAUSES, FORM, OFF, by_chance, not_used, or_dash, reliability, verdict, worth_saying,
+};
+use crate::report::diagnosis::words::{lines, reading};
+use crate::report::gain::GainSummary;
+use crate::report::markup::escaped;
+
+const STYLE: &str = "body { font-family: \"DejaVu Sans\", Verdana, sans-serif; max-width: 60em; margin: 2em auto; padding: 0 1em; \
+    color: #000; background: #fff; line-height: 1.4; }\n\
+    table { border-collapse: collapse; margin: 1em 0; }\n\
+    th, td { text-align: left; vertical-align: top; padding: 0.25em 1em 0.25em 0; border-bottom: 1px solid #ccc; }\n\
+    .verdict { font-size: 1.2em; font-weight: bold; }\n\
+    pre { white-space: pre-wrap; font-size: 0.9em; }\n\
+    figure { margin: 1em 0; break-inside: avoid; }\n\
+    figure svg { max-width: 100%; height: auto; }\n\
+    tr { break-inside: avoid; }\n";
+
+/// A figure of the page: its caption and its SVG.
+pub struct Drawing {
+    /// What it shows.
+    pub caption: String,
+    /// The figure, as it is.
+    pub svg: String,
+}
+
+/// The page.
+pub fn page(summary: &DiagnosisSummary, drawings: &[Drawing]) -> String {
+    let variant = summary.variant.as_ref().map_or_else(String::new, |variant| format!(", variant {variant}"));
+    let title = format!("Diagnosis of study {}{variant}", summary.study);
+    let mut body = format!("<h1>{}</h1>\n", escaped(&title));
+    body.push_str(&format!("<p class=\"verdict\">{}</p>\n", escaped(&sentence(summary))));
+    body.push_str(&by_chance(summary).map_or_else(String::new, |words| paragraph(&words)));
+    body.push_str("<h2>Measured beside simulated</h2>\n");
+    body.push_str(&paragraph(&reading(&summary.groups)));
+    let cells = lines(&summary.groups).into_iter();
+    let rows = cells.map(|line| vec![line.what, line.measured, line.simulated, line.finding]).collect();
+    body.push_str(&table(&["what", "measured", "simulated", "finding"], rows));
+    for Drawing { caption, svg } in drawings {
+        body.push_str(&format!("<figure>\n{svg}<figcaption>{}</figcaption>\n</figure>\n", escaped(caption)));
+    }
+    body.push_str("<h2>What is off once joints are fitted</h2>\n");
+    body.push_str(&paragraph(&format!("{OFF}.")));
+    let off = worth_saying(summary).into_iter();
+    let rows: Vec<_> = off.map(|off| vec![off.what.clone(), format!("{:+.1}", off.in_sd)]).collect();
+    body.push_str(&match rows.is_empty() {
+        true => paragraph("Nothing by two or more."),
+        false => table(&["what", "sd"], rows),
+    });
+    body.push_str(&format!("<h2>Causes</h2>\n{}", paragraph(&format!("In the table: {CAUSE}."))));
+    let mut rows: Vec<Vec<String>> = summary.causes.iter().take(CAUSES).map(cause).collect();
+    let base = format!("{:.3}", summary.base_probability);
+    rows.push(["none of them", &base, "", "", ""].map(String::from).to_vec());
+    body.push_str(&table(
+        &["cause", "probability", "evidence", "guard", "parameters: median and nine in ten"],
+        rows,
+    ));
+    if summary.verdict == "unexplained" {
+        let sentences: Vec<Vec<String>> = summary.form.iter().map(|bent| vec![bent.sentence()]).collect();
+        body.push_str(&format!("<h2>What is not explained</h2>\n{}", table(&[FORM], sentences)));
+    }
+    let gain = summary.gain.as_ref().map_or_else(String::new, GainSummary::text);
+    for (title, text) in
+        [("What is gained", gain), ("What the data cannot tell, and what would", summary.advice.text())]
+    {
+        if !text.is_empty() {
+            body.push_str(&format!("<h2>{title}</h2>\n<pre>{}</pre>\n", escaped(text.trim())));
+        }
+    }
+    body.push_str(&format!("<h2>How reliable is this?</h2>\n{}", paragraph(&reliability(summary))));
+    body.push_str(&not_used(summary).map_or_else(String::new, |words| paragraph(&format!("{words}."))));
+    body.push_str(&paragraph(&format!("Seed {}, bank {}.", summary.seed, summary.bank)));
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en-GB\">\n<head>\n<meta charset=\"utf-8\">\n<title>{}</title>\n<style>\n{STYLE}</style>\n\
+         </head>\n<body>\n{body}</body>\n</html>\n",
+        escaped(&title)
+    )
+}
+
+/// The verdict with the causes that it speaks of.
+fn sentence(summary: &DiagnosisSummary) -> String {
+    let spoken: Vec<&str> =
+        summary.causes.iter().filter(|cause| cause.in_verdict).map(|cause| cause.id).collect();
+    match spoken.is_empty() {
+        true => verdict(summary),
+        false => verdict(summary).replacen(':', &format!(" ({}):", spoken.join(", ")), 1),
+    }
+}
+
+fn cause(cause: &CauseEntry) -> Vec<String> {
+    let name = if cause.in_verdict { format!("{} (in the verdict)", cause.id) } else { cause.id.to_string() };
+    let [evidence, guard] = [cause.evidence, cause.guard_p_value].map(or_dash);
+    let parameters: Vec<String> = cause.parameters.iter().map(|parameter| parameter.words()).collect();
+    vec![name, format!("{:.3}", cause.probability), evidence, guard, parameters.join("; ")]
+}
+
+fn paragraph(words: &str) -> String {
+    format!("<p>{}</p>\n", escaped(words))
+}
+
+fn table(heads: &[&str], rows: Vec<Vec<String>>) -> String {
+    let row = |cells: &mut dyn Iterator<Item = &str>, tag: &str| {
+        let cells: String = cells.map(|cell| format!("<{tag}>{}</{tag}>", escaped(cell))).collect();
+        format!("<tr>{cells}</tr>\n")
+    };
+    let head = row(&mut heads.iter().copied(), "th");
+    let rows: String = rows.iter().map(|cells| row(&mut cells.iter().map(String::as_str), "td")).collect();
+    format!("<table>\n{head}{rows}</table>\n")
+}

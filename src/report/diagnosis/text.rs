@@ -1,0 +1,130 @@
+//! A verdict as people read it on a terminal, and the sentences that the page has as well.
+
+use crate::report::diagnosis::summary::{DiagnosisSummary, OffEntry, SelfTestEntry};
+use crate::report::diagnosis::words::{lines, reading};
+use crate::report::gain::GainSummary;
+use crate::report::number::significant;
+use crate::report::table::wrapped;
+
+/// What is off by less than this many standard deviations is not worth a line.
+const WORTH_SAYING: f64 = 2.0;
+/// So many causes are shown.
+pub(super) const CAUSES: usize = 6;
+
+/// The verdict for a terminal.
+pub fn diagnosis_text(summary: &DiagnosisSummary) -> String {
+    let mut text = format!("Study {}, seed {}\n\n{}\n", summary.study, summary.seed, verdict(summary));
+    text.push_str(&by_chance(summary).map_or_else(String::new, |words| words + "\n"));
+    text.push_str(&format!("\n{OFF}\n"));
+    let worth = worth_saying(summary);
+    for off in &worth {
+        text.push_str(&format!("  {:+6.1}  {}\n", off.in_sd, off.what));
+    }
+    if worth.is_empty() {
+        text.push_str("  nothing by two or more\n");
+    }
+    if !summary.groups.is_empty() {
+        text.push_str("\nMeasured beside simulated\n");
+        text.push_str(&wrapped("  ", &reading(&summary.groups)));
+        for line in lines(&summary.groups) {
+            text.push_str(&wrapped("  - ", &line.sentence()));
+        }
+    }
+    text.push_str(&format!("\nCauses ({CAUSE})\n"));
+    for cause in summary.causes.iter().take(CAUSES) {
+        let mark = if cause.in_verdict { "*" } else { " " };
+        let [evidence, guard] = [cause.evidence, cause.guard_p_value].map(or_dash);
+        text.push_str(&format!(
+            "{mark} {:<18} {:>6.3}   evidence {evidence}   guard {guard}\n",
+            cause.id, cause.probability
+        ));
+        for parameter in cause.parameters.iter().filter(|_| cause.in_verdict) {
+            text.push_str(&format!("      {}\n", parameter.words()));
+        }
+    }
+    text.push_str(&format!("  {:<18} {:>6.3}\n", "none of them", summary.base_probability));
+    if summary.verdict == "unexplained" {
+        text.push_str(&format!("\n{FORM}\n"));
+        summary.form.iter().for_each(|bent| text.push_str(&wrapped("  - ", &bent.sentence())));
+        if summary.form.is_empty() {
+            text.push_str("  none that is sure\n");
+        }
+    }
+    text.push_str(&summary.gain.as_ref().map_or_else(String::new, GainSummary::text));
+    text.push_str(&summary.advice.text());
+    text.push_str(&format!("\n{}", wrapped("", &reliability(summary))));
+    text.push_str(&not_used(summary).map_or_else(String::new, |words| format!("\n{}", wrapped("", &words))));
+    text
+}
+
+/// What the numbers of what is off are.
+pub(super) const OFF: &str =
+    "What is off (measured less simulated, in standard deviations of campaigns without any effect)";
+/// What the numbers of the causes are.
+pub(super) const CAUSE: &str = "probability if all were equally likely before; share of the evidence; guard: share of the cause's own campaigns that fit worse";
+/// What the numbers of a form are.
+pub(super) const FORM: &str = "Form of what is not explained (measured less base model with fitted joints, if it is smooth over the tilt)";
+
+/// A share, or a dash where there is none.
+pub(super) fn or_dash(share: Option<f64>) -> String {
+    share.map_or("-".to_string(), |share| significant(share, 2))
+}
+
+/// The verdict in a sentence.
+pub(super) fn verdict(summary: &DiagnosisSummary) -> String {
+    match summary.verdict {
+        "nothing_found" => format!(
+            "NOTHING FOUND: what is off is no more than errors, scatter and joints within their priors make of it (p {}).",
+            significant(summary.p_value, 2)
+        ),
+        "named" => "NAMED: something is wrong, and one cause explains it.".to_string(),
+        "ambiguous" => {
+            "AMBIGUOUS: something is wrong, and the data cannot tell between these causes.".to_string()
+        }
+        _ => "UNEXPLAINED: something is wrong, and no one cause of the catalogue explains it.".to_string(),
+    }
+}
+
+/// How often campaigns without any effect are as far off, where something is wrong.
+pub(super) fn by_chance(summary: &DiagnosisSummary) -> Option<String> {
+    let p = significant(summary.p_value, 2);
+    (summary.verdict != "nothing_found")
+        .then(|| format!("Campaigns without any effect are as far off in a share of {p} of cases."))
+}
+
+/// What is off enough for a line, the furthest first.
+pub(super) fn worth_saying(summary: &DiagnosisSummary) -> Vec<&OffEntry> {
+    summary.off.iter().filter(|off| off.in_sd.abs() >= WORTH_SAYING).collect()
+}
+
+/// What was not used of the measurements.
+pub(super) fn not_used(summary: &DiagnosisSummary) -> Option<String> {
+    let lines: Vec<String> = summary.unused_lines.iter().map(ToString::to_string).collect();
+    (!lines.is_empty()).then(|| {
+        format!(
+            "Not used: lines {} of the measurements (weights, readings after unloading, arms that are not evaluated)",
+            lines.join(", ")
+        )
+    })
+}
+
+/// What the self-test says.
+pub(super) fn reliability(summary: &DiagnosisSummary) -> String {
+    let (nothing, hidden): (Vec<_>, Vec<_>) =
+        summary.self_test.iter().partition(|row| row.hidden == "nothing");
+    let sum =
+        |rows: &[&SelfTestEntry], of: fn(&SelfTestEntry) -> u64| rows.iter().map(|row| of(row)).sum::<u64>();
+    let share = |part: u64, whole: u64| if whole == 0 { 0.0 } else { 100.0 * part as f64 / whole as f64 };
+    let campaigns = sum(&hidden, |row| row.campaigns);
+    let given = sum(&hidden, |row| row.named + row.misnamed);
+    format!(
+        "With data like these, by simulation from the bank: an effect drawn from its prior is found in {:.0} % of campaigns and \
+         named in {:.0} %; a name is wrong in {:.0} % of cases; where nothing is hidden, something is found in {:.0} % and named \
+         in {:.1} % (before the guard).",
+        share(sum(&hidden, |row| row.found), campaigns),
+        share(sum(&hidden, |row| row.named), campaigns),
+        share(sum(&hidden, |row| row.misnamed), given),
+        share(sum(&nothing, |row| row.found), sum(&nothing, |row| row.campaigns)),
+        share(sum(&nothing, |row| row.misnamed), sum(&nothing, |row| row.campaigns)),
+    )
+}

@@ -1,0 +1,164 @@
+//! Groups in words: what was measured, what was simulated, and how the two stand to each other.
+
+use crate::report::diagnosis::residual::{ExpectedEntry, GroupEntry};
+use crate::report::number::significant;
+
+/// Ratios nearer to one than this are said as differences.
+const LEAST_RATIO: f64 = 1.1;
+/// A share of fallen walls that is worth saying.
+const FALLEN: f64 = 0.05;
+
+/// A line of the table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// Family, quantity and tilt.
+    pub what: String,
+    /// What was measured; empty where tilts share the line.
+    pub measured: String,
+    /// What was simulated; empty where tilts share the line.
+    pub simulated: String,
+    /// How they stand.
+    pub finding: String,
+}
+
+impl Line {
+    /// In one sentence.
+    pub fn sentence(&self) -> String {
+        let Line { what, measured, simulated, finding } = self;
+        match measured.is_empty() {
+            true => format!("{what}: {finding}"),
+            false => format!("{what}: {measured} measured, {simulated} simulated: {finding}"),
+        }
+    }
+}
+
+/// What is to be known before single lines are read.
+pub fn reading(groups: &[GroupEntry]) -> String {
+    format!(
+        "The mean over the specimens; in brackets what nine in ten simulated campaigns show, with joints anywhere in their priors, \
+         not fitted as they are for what is off; sd: standard deviations of errors, scatter and joints together; p: share of \
+         simulated campaigns that are as far off. Single lines are not corrected for their number (of {}, one in ten disagrees \
+         by chance); the p-value of the verdict is.",
+        groups.len()
+    )
+}
+
+/// A line per group, or per family and quantity where all tilts agree.
+pub fn lines(groups: &[GroupEntry]) -> Vec<Line> {
+    let same = |a: &GroupEntry, b: &GroupEntry| a.family == b.family && a.quantity == b.quantity;
+    groups
+        .chunk_by(same)
+        .flat_map(|tilts| match tilts.len() > 1 && tilts.iter().all(agrees) {
+            true => vec![together(tilts)],
+            false => tilts.iter().map(line).collect(),
+        })
+        .collect()
+}
+
+fn agrees(group: &GroupEntry) -> bool {
+    group.p_value.is_some() && group.stands == "within"
+}
+
+/// Tilts that all agree.
+fn together(groups: &[GroupEntry]) -> Line {
+    let tilts: Vec<String> = groups.iter().filter_map(|g| g.tilt_deg).map(|tilt| tilt.to_string()).collect();
+    let (last, others) = tilts.split_last().map_or(("", &[][..]), |(last, others)| (last.as_str(), others));
+    let least = groups.iter().filter_map(|group| group.p_value).fold(1.0, f64::min);
+    Line {
+        what: format!("{} at {} and {last} deg", name(&groups[0]), others.join(", ")),
+        measured: String::new(),
+        simulated: String::new(),
+        finding: format!("agrees (p {} or more)", significant(least, 2)),
+    }
+}
+
+fn line(group: &GroupEntry) -> Line {
+    let tilt = group.tilt_deg.map_or_else(String::new, |tilt| format!(" at {tilt} deg"));
+    Line {
+        what: format!("{}{tilt}", name(group)),
+        measured: measured(group),
+        simulated: group.simulated.as_ref().map_or_else(|| "nothing".to_string(), |s| simulated(group, s)),
+        finding: finding(group),
+    }
+}
+
+fn name(group: &GroupEntry) -> String {
+    format!("{}: {}", group.family, group.quantity.replace('_', " "))
+}
+
+fn measured(group: &GroupEntry) -> String {
+    let Some(mean) = group.measured else { return "nothing".to_string() };
+    let mean = format!("{} {}", shown(group, mean), shown_unit(group));
+    let all = |bounds: usize| bounds == group.readings;
+    let number = match group.readings {
+        1 => String::new(),
+        n => format!(" in all {n}"),
+    };
+    match group.below + group.above {
+        0 => mean,
+        _ if all(group.below) => format!("below {mean}{number}"),
+        _ if all(group.above) => format!("above {mean}{number}"),
+        bounds => format!("{mean} ({bounds} of {} only bounds)", group.readings),
+    }
+}
+
+fn simulated(group: &GroupEntry, expected: &ExpectedEntry) -> String {
+    let [low, high] = expected.band_90.map(|x| shown(group, x));
+    format!("{} [{low}, {high}]", shown(group, expected.median))
+}
+
+fn finding(group: &GroupEntry) -> String {
+    let Some((p, simulated)) = group.p_value.zip(group.simulated.as_ref()) else {
+        return format!(
+            "nothing can be said: {:.0} % of the simulated walls had fallen",
+            100.0 * group.fallen_share
+        );
+    };
+    let sd = group.in_sd.map_or_else(String::new, |sd| format!("{:.1} sd, ", sd.abs()));
+    let p = format!("p {}", significant(p, 2));
+    let mut finding = match group.stands {
+        "within" => format!("agrees ({p})"),
+        side => format!("{} ({sd}{p})", amount(group, simulated, side == "above")),
+    };
+    if let Some(share) = group.agreeing_share {
+        finding.push_str(&format!("; {:.0} % of simulated readings keep the bound", 100.0 * share));
+    }
+    if group.fallen_share > FALLEN {
+        finding.push_str(&format!("; {:.0} % of the simulated walls had fallen", 100.0 * group.fallen_share));
+    }
+    finding
+}
+
+/// By how much a mean is off: as a ratio where both are surely positive, else as a difference; of bounds neither.
+fn amount(group: &GroupEntry, simulated: &ExpectedEntry, above: bool) -> String {
+    let words = match (group.unit, above) {
+        ("m", true) => "too far",
+        ("m", false) => "too little",
+        (_, true) => "too high",
+        (_, false) => "too low",
+    };
+    let Some(measured) = group.measured.filter(|_| group.below + group.above == 0) else {
+        return words.to_string();
+    };
+    let ratio = if above { measured / simulated.median } else { simulated.median / measured };
+    if group.unit != "deg" && measured > 0.0 && simulated.band_90[0] > 0.0 && ratio >= LEAST_RATIO {
+        return format!("{} times {words}", significant(ratio, 2));
+    }
+    let off = (measured - simulated.median).abs();
+    format!("{} {} {words}", shown(group, off), shown_unit(group))
+}
+
+/// A number in the unit of text and figures.
+fn shown(group: &GroupEntry, x: f64) -> String {
+    match group.unit {
+        "m" => significant(1e3 * x, 3),
+        _ => significant(x, 3),
+    }
+}
+
+fn shown_unit(group: &GroupEntry) -> &'static str {
+    match group.unit {
+        "m" => "mm",
+        unit => unit,
+    }
+}

@@ -1,0 +1,311 @@
+//! A diagnosis in words, in figures and as a page.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use super::figure::folder;
+use crate::critic::{
+    Baseline, Contrast, Design, Diagnosis, Feature, LookedAt, Made, Ranked, Seeming, SelfTest, SelfTestRow,
+    Truth, Verdict, Wrong, base_curves, cause_curves, made,
+};
+use crate::report::diagnosis::{
+    DiagnosisSummary, ExpectedEntry, FamilyFigure, GroupEntry, diagnosis_text, lines, write_diagnosis,
+};
+use crate::report::draw::is_whole;
+
+/// A group of SBL at 5 deg: 3.1 mm simulated, nine in ten within 2.0 to 5.5 mm.
+fn group(measured: f64, stands: &'static str, p: f64, in_sd: f64) -> GroupEntry {
+    let simulated = ExpectedEntry {
+        mean: 3.2e-3,
+        median: 3.1e-3,
+        band_50: [2.6e-3, 3.9e-3],
+        band_90: [2.0e-3, 5.5e-3],
+        sd: 1.2e-3,
+        sd_measurement: 1e-3,
+        sd_scatter: 5e-4,
+        sd_parameters: 4e-4,
+    };
+    GroupEntry {
+        family: "sbl".into(),
+        quantity: "displacement_mean",
+        tilt_deg: Some(5.0),
+        unit: "m",
+        readings: 3,
+        below: 0,
+        above: 0,
+        measured: Some(measured),
+        simulated: Some(simulated),
+        fallen_share: 0.0,
+        in_sd: Some(in_sd),
+        agreeing_share: None,
+        p_value: Some(p),
+        stands,
+    }
+}
+
+/// The paper's nine walls, and a verdict that creep moves them and has perhaps moved the gauge.
+fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>) {
+    let world = made.world();
+    let (mut design, measured) = Design::of(&made.study);
+    design.unused = vec![7, 9];
+    for (place, reading) in design.specimens.iter_mut().flat_map(|s| &mut s.readings).enumerate() {
+        reading.order = Some(place as u32 % 9 + 1);
+    }
+    let cause = |name: &str| made.mechanisms.iter().position(|m| m.name == name).expect("in the catalogue");
+    let guard = |cause: usize| {
+        let parameters = vec![0.5; made.mechanisms[cause].parameters.len()];
+        let joints = vec![[0.0; 3]; world.joint_kinds()];
+        let draws = vec![Truth { cause: Some(cause), parameters, joints }];
+        LookedAt { cause, guard: Some(0.4), evidence: 0.45, draws }
+    };
+    let causes = [cause("creep"), cause("gauge_offset")];
+    let rows = [None, Some(causes[0])].map(|cause| SelfTestRow {
+        cause,
+        campaigns: 10,
+        found: 5,
+        named: 4,
+        misnamed: 1,
+        covered: 4,
+        set_size: 1.5,
+        with: BTreeMap::new(),
+        caught: None,
+    });
+    let diagnosis = Diagnosis {
+        seeming: Seeming {
+            p_value: 0.001,
+            wrong: Wrong {
+                excess: BTreeMap::from([(Feature::Mean(1, Contrast::Level), Some(4.2))]),
+                joints: vec![[0.0; 3]],
+                distance: 30.0,
+            },
+            ranked: Ranked {
+                causes: vec![(Some(causes[0]), 0.6), (Some(causes[1]), 0.3), (None, 0.1)],
+                set: causes.to_vec(),
+            },
+        },
+        looked_at: causes.map(guard).to_vec(),
+        form: Vec::new(),
+        verdict: Verdict::Ambiguous(causes.to_vec()),
+    };
+    let residuals = Baseline::new(&world, &design, 2).residuals(&measured);
+    let test = SelfTest { rows: rows.to_vec() };
+    let summary = DiagnosisSummary::of(&made.study, 3, "00ff", &made.mechanisms, &design, &diagnosis, &test)
+        .beside(&made.study, &residuals);
+    let (base, under) = (base_curves(&world, &design, 4), cause_curves(&world, &design, &diagnosis, 4));
+    let families = FamilyFigure::all(&made.study, &made.mechanisms, &residuals, &base, &under);
+    (summary, families)
+}
+
+fn read(folder: &Path, name: &str) -> String {
+    fs::read_to_string(folder.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+#[test]
+fn a_group_is_said_in_words_with_how_far_it_is_off() {
+    let said = |group: GroupEntry| {
+        let lines = lines(&[group]);
+        assert_eq!(lines.len(), 1);
+        lines[0].sentence()
+    };
+    let head = "sbl: displacement mean at 5 deg:";
+    assert_eq!(
+        said(group(13.3e-3, "above", 0.002, 3.2)),
+        format!("{head} 13.3 mm measured, 3.10 [2.00, 5.50] simulated: 4.3 times too far (3.2 sd, p 0.0020)")
+    );
+    assert_eq!(
+        said(group(1.55e-3, "below", 0.03, -2.1)),
+        format!(
+            "{head} 1.55 mm measured, 3.10 [2.00, 5.50] simulated: 2.0 times too little (2.1 sd, p 0.030)"
+        )
+    );
+    assert_eq!(
+        said(group(3e-3, "within", 0.8, -0.2)),
+        format!("{head} 3.00 mm measured, 3.10 [2.00, 5.50] simulated: agrees (p 0.80)")
+    );
+    // Where simulated ones may be negative, and of angles, a ratio says nothing.
+    let mut either = group(9.1e-3, "above", 0.01, 3.0);
+    either.simulated.as_mut().expect("simulated").band_90[0] = -1e-3;
+    assert!(said(either).ends_with("6.00 mm too far (3.0 sd, p 0.010)"));
+    let mut angle = group(14.3, "below", 0.01, -3.0);
+    (angle.quantity, angle.tilt_deg, angle.unit) = ("collapse_angle", None, "deg");
+    let simulated = angle.simulated.as_mut().expect("simulated");
+    (simulated.median, simulated.band_90) = (17.6, [15.1, 19.5]);
+    assert_eq!(
+        said(angle),
+        "sbl: collapse angle: 14.3 deg measured, 17.6 [15.1, 19.5] simulated: 3.30 deg too low (3.0 sd, p 0.010)"
+    );
+    // Bounds have no ratio and no standard deviations.
+    let bounds = |below, stands| GroupEntry {
+        below,
+        in_sd: None,
+        agreeing_share: Some(0.12),
+        ..group(1e-3, stands, 0.01, 0.0)
+    };
+    let keep = "12 % of simulated readings keep the bound";
+    assert_eq!(
+        said(bounds(3, "below")),
+        format!(
+            "{head} below 1.00 mm in all 3 measured, 3.10 [2.00, 5.50] simulated: too little (p 0.010); {keep}"
+        )
+    );
+    assert!(said(bounds(2, "below")).contains("1.00 mm (2 of 3 only bounds) measured"));
+    // Walls that had fallen show nothing.
+    let few = GroupEntry { fallen_share: 0.3, ..group(3e-3, "within", 0.8, 0.0) };
+    assert!(said(few).ends_with("agrees (p 0.80); 30 % of the simulated walls had fallen"));
+    let none =
+        GroupEntry { simulated: None, p_value: None, fallen_share: 0.999, ..group(3e-3, "within", 1.0, 0.0) };
+    assert!(
+        said(none)
+            .ends_with("nothing simulated: nothing can be said: 100 % of the simulated walls had fallen")
+    );
+}
+
+#[test]
+fn tilts_that_all_agree_share_a_line_and_others_do_not() {
+    let at = |tilt: f64, stands| GroupEntry { tilt_deg: Some(tilt), ..group(3e-3, stands, 0.04 * tilt, 0.0) };
+    let agreeing = lines(&[at(5.0, "within"), at(7.5, "within"), at(10.0, "within")]);
+    assert_eq!(agreeing.len(), 1);
+    assert_eq!(
+        agreeing[0].sentence(),
+        "sbl: displacement mean at 5, 7.5 and 10 deg: agrees (p 0.20 or more)"
+    );
+    let other = GroupEntry { family: "cbl".into(), ..at(5.0, "within") };
+    let mixed = lines(&[other, at(5.0, "within"), at(7.5, "above"), at(10.0, "within")]);
+    assert_eq!(mixed.len(), 4);
+}
+
+#[test]
+fn the_text_the_page_and_the_files_show_what_was_measured_beside_what_was_simulated() {
+    let made = made();
+    let (summary, families) = diagnosed(&made);
+    let text = diagnosis_text(&summary);
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    for part in [
+        "AMBIGUOUS: ",
+        "Measured beside simulated The mean over the specimens;",
+        "Single lines are not corrected for their number (of 11, one in ten disagrees by chance)",
+        "- cbl: displacement mean at 5, 10 and 15 deg: agrees (p ",
+        "- sbl: displacement mean at 5 deg: 13.3 mm measured, ",
+        "times too far",
+        "Not used: lines 7, 9 of the measurements",
+    ] {
+        assert!(words.contains(part), "no `{part}` in\n{text}");
+    }
+    let (first, second) = (folder("diagnosis-first"), folder("diagnosis-second"));
+    write_diagnosis(&summary, &families, &first).unwrap();
+    write_diagnosis(&summary, &families, &second).unwrap();
+    let mut names: Vec<String> = fs::read_dir(&first)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    let figures = ["cbl", "residuals", "sbl", "sbr"];
+    let wanted = figures.iter().flat_map(|name| [format!("{name}.png"), format!("{name}.svg")]);
+    let wanted: Vec<String> = wanted.chain(["verdict.html", "verdict.json"].map(String::from)).collect();
+    assert_eq!(names, wanted);
+    for name in &names {
+        assert!(
+            fs::read(first.join(name)).unwrap() == fs::read(second.join(name)).unwrap(),
+            "{name} differs"
+        );
+        assert!(!name.ends_with(".png") || is_whole(&first.join(name)).unwrap());
+    }
+    let page = read(&first, "verdict.html");
+    for name in figures {
+        assert!(page.contains(&read(&first, &format!("{name}.svg"))), "{name} is not in the page");
+    }
+    for part in [
+        "<h1>Diagnosis of study tilting-table",
+        "creep (in the verdict)",
+        "<td>sbl: collapse angle</td>",
+        "lines 7, 9",
+    ] {
+        assert!(page.contains(part), "no `{part}` in the page");
+    }
+    // Nothing is fetched and nothing runs.
+    for part in ["<script", "<link", "<img", "href", "src="] {
+        assert!(!page.contains(part), "`{part}` is in the page");
+    }
+    let json: serde_json::Value = serde_json::from_str(&read(&first, "verdict.json")).unwrap();
+    assert_eq!(
+        (json["residuals"].as_array().unwrap().len(), json["groups"].as_array().unwrap().len()),
+        (33, 11)
+    );
+    let bound = &json["residuals"][1];
+    assert_eq!((bound["specimen"].as_str(), bound["kind"].as_str()), (Some("CBL1"), Some("below")));
+    assert!(bound["in_sd"].is_null() && bound["agreeing_share"].as_f64().unwrap() > 0.5);
+    for folder in [first, second] {
+        fs::remove_dir_all(folder).unwrap();
+    }
+}
+
+#[test]
+fn figures_say_what_is_in_them_and_no_more() {
+    let (summary, families) = diagnosed(&made());
+    let place = folder("diagnosis-figures");
+    write_diagnosis(&summary, &families, &place).unwrap();
+    let (cbl, sbl, residuals) =
+        (read(&place, "cbl.svg"), read(&place, "sbl.svg"), read(&place, "residuals.svg"));
+    let bounds = "measured: only known to lie on the arrow&apos;s side";
+    assert!(cbl.contains(bounds) && !sbl.contains(bounds), "bounds are of CBL alone");
+    for part in
+        ["collapse angle", "displacement, mean of left, centre and right", "median if the cause is creep"]
+    {
+        assert!(sbl.contains(part), "no `{part}` in the figure");
+    }
+    for part in [
+        "tilt of the reading (deg)",
+        "place in the order of the tests",
+        "difference",
+        "9 readings are not drawn",
+    ] {
+        assert!(residuals.contains(part), "no `{part}` in the figure");
+    }
+    // Without an order and without a cause there are neither.
+    let mut bare = summary.clone();
+    bare.residuals.iter_mut().for_each(|reading| reading.order = None);
+    let without = |family: &FamilyFigure| {
+        let mut family = family.clone();
+        family.causes.clear();
+        family.collapse.1.clear();
+        family.panels.iter_mut().for_each(|panel| panel.causes.clear());
+        family
+    };
+    let mut alone: Vec<FamilyFigure> = families.iter().map(without).collect();
+    // A family may be called as the figure of all readings is.
+    alone[1].family = "residuals".into();
+    write_diagnosis(&bare, &alone, &place).unwrap();
+    assert!(!read(&place, "residuals.svg").contains("place in the order of the tests"));
+    let named = read(&place, "residuals.family.svg");
+    assert!(named.contains("collapse angle") && !named.contains("if the cause is"));
+    // Bounds alone leave nothing to draw.
+    bare.residuals.retain(|reading| reading.in_sd.is_none());
+    write_diagnosis(&bare, &[], &place).unwrap();
+    assert!(read(&place, "residuals.svg").contains("there is nothing to draw"));
+    fs::remove_dir_all(place).unwrap();
+}
+
+#[test]
+fn everything_in_the_page_is_escaped() {
+    let (mut summary, _) = diagnosed(&made());
+    let (raw, written) = ("a<b>&\"c", "a&lt;b&gt;&amp;&quot;c");
+    (summary.study, summary.bank, summary.variant) = (raw.into(), raw.into(), Some(raw.into()));
+    summary.groups.truncate(1);
+    summary.groups[0].family = raw.into();
+    summary.off[0].what = raw.into();
+    summary.residuals.iter_mut().for_each(|reading| reading.family = raw.into());
+    let place = folder("diagnosis-escaped");
+    write_diagnosis(&summary, &[], &place).unwrap();
+    let page = read(&place, "verdict.html");
+    let count = page.matches(written).count();
+    assert!(!page.contains(raw) && count >= 7, "{count}");
+    // Tags come in pairs.
+    for tag in [
+        "p", "table", "tr", "td", "th", "figure", "h1", "h2", "svg", "body", "html", "head", "title", "style",
+    ] {
+        let open = page.matches(&format!("<{tag}>")).count() + page.matches(&format!("<{tag} ")).count();
+        assert_eq!(open, page.matches(&format!("</{tag}>")).count(), "{tag}");
+    }
+    fs::remove_dir_all(place).unwrap();
+}
