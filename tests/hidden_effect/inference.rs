@@ -72,6 +72,8 @@ pub struct Said {
     pub set: Vec<String>,
     /// The most likely cause with its probability.
     pub likeliest: (String, f64),
+    /// What the guard says of the causes in question: the share of a cause's own campaigns that fit no better.
+    pub guard: Vec<(String, f64)>,
 }
 
 /// A verdict without its causes.
@@ -115,7 +117,8 @@ impl<'k> Judge<'k> {
         let mut causes = found.ranked.causes.iter();
         let likeliest = causes.find_map(|(cause, p)| Some((name(&(*cause)?), *p))).expect("a catalogue");
         let set = found.ranked.set.iter().map(name).collect();
-        Said { p_value: found.wrong.p_value, verdict, names, set, likeliest }
+        let guard = found.guarded.iter().map(|(cause, guard)| (name(cause), guard.p_value)).collect();
+        Said { p_value: found.wrong.p_value, verdict, names, set, likeliest, guard }
     }
 }
 

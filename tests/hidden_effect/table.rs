@@ -260,7 +260,8 @@ mod tests {
             let verdict = if name.is_some() { Word::Named } else { Word::NothingFound };
             let names: Vec<String> = name.clone().into_iter().collect();
             let likeliest = (name.unwrap_or_else(|| "lean".to_owned()), 0.95);
-            let said = Said { p_value: 0.5, verdict, set: names.clone(), names, likeliest };
+            let said =
+                Said { p_value: 0.5, verdict, set: names.clone(), names, likeliest, guard: Vec::new() };
             Judged { label, design: Design::Rich.name().to_owned(), said }
         })
         .collect()
