@@ -107,7 +107,7 @@ impl Place {
     }
 
     /// Distance of its middle from the nearer end of the wall (m).
-    pub fn from_end(&self) -> f64 {
+    pub fn to_nearer_end(&self) -> f64 {
         let x = self.middle().x;
         (x - self.wall[0].x).min(self.wall[1].x - x)
     }

@@ -24,6 +24,9 @@ const OTHER_CODE: u64 = 3;
 /// Where nothing in the catalogue is wrong but the priors: so many standard deviations.
 const FAR: [f64; 2] = [1.5, 2.5];
 
+/// What is hidden in a campaign of a kind, by its number and with draws of its own.
+type Make<'m> = dyn Fn(u64, &mut Stream) -> (Group, Vec<Hidden>) + 'm;
+
 /// The catalogue with its priors.
 pub fn catalogue() -> Vec<Described> {
     described(&root("distributions")).unwrap_or_else(|lacks| panic!("{lacks}"))
@@ -39,7 +42,7 @@ pub fn roster(share: f64, master: u64) -> Vec<Label> {
     let some = |full: u64| ((full as f64 * share).round() as u64).max(1);
     let mechanisms = catalogue();
     let mut labels = Vec::new();
-    let mut add = |kind: String, count: u64, make: &dyn Fn(u64, &mut Stream) -> (Group, Vec<Hidden>)| {
+    let mut add = |kind: String, count: u64, make: &Make<'_>| {
         for k in 0..count {
             let streams = Streams::new(master, k);
             let mut stream = streams.of(&format!("roster {kind}"));

@@ -138,7 +138,7 @@ pub struct GradedEnds {
 
 impl Effect for GradedEnds {
     fn law(&self, law: Coulomb, place: &Place, _: &Streams) -> Coulomb {
-        let near = (1.0 - place.from_end() / (2.0 * self.within)).clamp(0.0, 1.0);
+        let near = (1.0 - place.to_nearer_end() / (2.0 * self.within)).clamp(0.0, 1.0);
         let share = |least: f64| 1.0 - near * (1.0 - least);
         Coulomb { tan_phi: law.tan_phi * share(self.friction), ks: law.ks * share(self.stiffness), ..law }
     }
