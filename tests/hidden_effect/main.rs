@@ -5,6 +5,7 @@
 //! lies in the campaigns' folders and nothing else, `table` sets the two against each other.
 
 mod inference;
+mod printed;
 mod run;
 mod sealed;
 mod table;

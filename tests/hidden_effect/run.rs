@@ -13,6 +13,7 @@ use pirca::study::{Measurement, Study, nuisances};
 use rayon::prelude::*;
 
 use crate::inference::{Judge, Known, Said};
+use crate::printed;
 use crate::sealed::Sealed;
 use crate::table::{self, Judged};
 use crate::truth::campaign::{campaign, planned};
@@ -159,8 +160,8 @@ fn hidden_effect_campaigns_are_sealed_judged_and_opened() {
     let folders = Folders { out: path("HIDDEN_EFFECT_OUT", "runs/hidden-effects") };
     let share = share();
     let study = study();
-    let labels = roster(share, MASTER);
-    let names = hidden(&folders, &study, &labels);
+    let all = roster(share, MASTER);
+    let names = hidden(&folders, &study, &all);
     let bank = path("HIDDEN_EFFECT_BANK", "studies/tilting-table/bank.parquet");
     let bytes = fs::read(&bank).unwrap_or_else(|error| panic!("{}: {error}", bank.display()));
     let known =
@@ -180,7 +181,7 @@ fn hidden_effect_campaigns_are_sealed_judged_and_opened() {
             together(&labels, judged(&folders, &kind, &known.without(index), &names))
         })
         .collect();
-    let unsolved = roster(share, MASTER).len() - names.len();
+    let unsolved = all.len() - names.len();
     let table = table::of(&together(&labels, verdicts), &removed);
     let head = format!(
         "Share of the full sizes: {share}. Campaigns judged: {}; not solved: {unsolved}. Bank: {POINTS} points, design {}.\n",
@@ -188,6 +189,6 @@ fn hidden_effect_campaigns_are_sealed_judged_and_opened() {
         &known.plan.study.hash[..12]
     );
     let results = root("studies/hidden-effects");
-    write(&results.join("table.csv"), &table::csv(&table));
-    write(&results.join("table.md"), &format!("{head}\n{}", table::markdown(&table)));
+    write(&results.join("table.csv"), &printed::csv(&table));
+    write(&results.join("table.md"), &format!("{head}\n{}", printed::markdown(&table)));
 }

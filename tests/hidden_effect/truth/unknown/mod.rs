@@ -4,7 +4,9 @@ mod readings;
 mod walls;
 
 use readings::{Backlash, Crosstalk, Drift, Knock, Saturation, StickSlip, TiltScale};
-use walls::{Bond, HeavyTailedJoints, LightTop, SkewAxis, SlipperyPlatform, SoftCourse, SoftLeft, TautRopes};
+use walls::{
+    HeavyTailedJoints, LightTop, SkewAxis, SlipperyPlatform, SoftCourse, SoftLeft, TautRopes, ThinWall,
+};
 
 use super::effect::Effect;
 
@@ -70,12 +72,12 @@ pub const UNKNOWN: [Unknown; 15] = [
         parameters: &[("pretension_n", 5.0, 30.0)],
         effect: |p| Box::new(TautRopes { pretension: p[0] }),
     },
-    // Joints that hold together until they are pulled apart.
+    // A wall that is thinner than it is said to be.
     Unknown {
-        name: "bond",
+        name: "thin_wall",
         aliases: &[],
-        parameters: &[("tension_pa", 50.0, 500.0)],
-        effect: |p| Box::new(Bond { tension: p[0] }),
+        parameters: &[("thickness_share", 0.9, 0.98)],
+        effect: |p| Box::new(ThinWall { share: p[0] }),
     },
     // A reading that stays until the point has moved by so much.
     Unknown {

@@ -6,6 +6,7 @@ use pirca::model::Wall;
 use pirca::protocol::{Ends, Restraint};
 use pirca::random::Streams;
 use pirca::random::standard_normal::quantile;
+use pirca::study::Study;
 
 use crate::truth::effect::{Effect, Place};
 
@@ -121,12 +122,16 @@ impl Effect for TautRopes {
     }
 }
 
-pub struct Bond {
-    pub tension: f64,
+pub struct ThinWall {
+    pub share: f64,
 }
 
-impl Effect for Bond {
-    fn law(&self, law: Coulomb, _: &Place, _: &Streams) -> Coulomb {
-        Coulomb { tension: self.tension, ..law }
+impl Effect for ThinWall {
+    fn study(&self, mut study: Study) -> Study {
+        for outline in study.arms.iter_mut().map(|arm| &mut arm.layout.outline) {
+            outline.base_thickness *= self.share;
+            outline.top_thickness *= self.share;
+        }
+        study
     }
 }

@@ -24,23 +24,26 @@ impl Effect for ClosureByDepth {
     }
 }
 
-/// Joints that touch in few patches, each four times as large.
+/// Joints that touch in few patches, each four times as large. The quarters of a joint take turns, or stones would not stand.
 pub struct LargePatches {
     pub share: f64,
 }
 
 impl Effect for LargePatches {
     fn law(&self, law: Coulomb, place: &Place, streams: &Streams) -> Coulomb {
-        let half = PATCHES_ALONG as usize / 2;
         let [a, b] = place.blocks;
         let mut stream = streams.of(&format!("hidden large patches {a}-{b}"));
-        let mut order: Vec<usize> = (0..half * half).collect();
-        (0..order.len()).for_each(|k| order.swap(k, k + stream.below(half * half - k)));
-        let count = ((order.len() as f64 * self.share).round() as usize).max(1);
-        let mask = order[..count].iter().fold(0_u64, |mask, part| {
-            let corner = 2 * (part / half) * 2 * half + 2 * (part % half);
-            mask | (0b11 << corner) | (0b11 << (corner + 2 * half))
-        });
+        let within: [[u32; 4]; 4] = std::array::from_fn(|_| shuffled(&mut stream));
+        let order =
+            (0..4).flat_map(|round| shuffled(&mut stream).map(|part| (part, within[part as usize][round])));
+        let count = ((16.0 * self.share).round() as usize).max(1);
+        // Part and patch count along the rows of two by two: of quarters, and of patches in a quarter.
+        let corner = |(part, patch): (u32, u32)| {
+            let (row, column) = (2 * (part / 2) + patch / 2, 2 * (part % 2) + patch % 2);
+            2 * (row * PATCHES_ALONG + column)
+        };
+        let patch = |at: u32| (0b11 << at) | (0b11 << (at + PATCHES_ALONG));
+        let mask = order.take(count).fold(0_u64, |mask, place| mask | patch(corner(place)));
         Coulomb { sampling: Sampling::Patches(mask), ..law }
     }
 
@@ -51,6 +54,13 @@ impl Effect for LargePatches {
     fn two_stones(&self, test: TwoStones) -> TwoStones {
         TwoStones { kn: test.kn * self.share, ..test }
     }
+}
+
+/// 0 to 3 in random order.
+fn shuffled(stream: &mut Stream) -> [u32; 4] {
+    let mut order = [0, 1, 2, 3];
+    (0..4).for_each(|k| order.swap(k, k + stream.below(4 - k)));
+    order
 }
 
 /// A factor on the friction angle, instead of on its tangent, and a loss that comes in half the slip.
@@ -141,5 +151,47 @@ impl Effect for GradedEnds {
         let near = (1.0 - place.to_nearer_end() / (2.0 * self.within)).clamp(0.0, 1.0);
         let share = |least: f64| 1.0 - near * (1.0 - least);
         Coulomb { tan_phi: law.tan_phi * share(self.friction), ks: law.ks * share(self.stiffness), ..law }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use pirca::law::{CohesionAfterSlip, NormalLaw};
+    use pirca::math::Vec3;
+
+    use super::*;
+
+    #[test]
+    fn large_patches_are_two_by_two_and_lie_in_all_quarters() {
+        let law = Coulomb {
+            normal: NormalLaw::Linear { kn: 1e8 },
+            ks: 5e7,
+            tan_phi: 0.6,
+            cohesion: 0.0,
+            tension: 0.0,
+            cohesion_after_slip: CohesionAfterSlip::Kept,
+            weakening: None,
+            sampling: Sampling::Area,
+            bonded: false,
+        };
+        for joint in 0..50 {
+            let place = Place {
+                blocks: [joint, joint + 1],
+                shared: [Vec3::zeros(); 2],
+                wall: [Vec3::zeros(); 2],
+                on_platform: false,
+            };
+            for (share, patches) in [(0.25, 4), (0.5, 8), (0.8, 13), (1.0, 16)] {
+                let altered = LargePatches { share }.law(law, &place, &Streams::new(1, 1));
+                let Sampling::Patches(mask) = altered.sampling else { panic!("{altered:?}") };
+                assert_eq!(mask.count_ones(), 4 * patches, "{mask:064b}");
+                // The corner of every two by two decides on all four.
+                let corners = mask & 0x0055_0055_0055_0055;
+                assert_eq!(corners | corners << 1 | corners << 8 | corners << 9, mask);
+                for quarter in [0, 4, 32, 36] {
+                    assert!(mask >> quarter & 0x0f0f_0f0f != 0, "{mask:064b}");
+                }
+            }
+        }
     }
 }
