@@ -10,8 +10,8 @@ use super::label::Label;
 use super::readings::{Entry, Series};
 use super::walls::{Way, alike, refined, solved};
 
-/// A wall that does not end in a collapse is built of other stones, so many times.
-const REBUILT: u64 = 3;
+/// A wall that does not stand, or does not end in a collapse that the solver found, is built of other stones, so many times.
+const REBUILT: u64 = 12;
 
 /// The campaign of a label, by design; `None` where one of its walls cannot be made to fall.
 pub fn campaign(
@@ -24,14 +24,13 @@ pub fn campaign(
     let acted = effects.iter().fold(base.clone(), |study, effect| effect.study(study));
     let mut series = Vec::new();
     for arm in 0..FAMILIES.len() {
-        let mut ways: Vec<Way> = Vec::new();
-        for number in 0..PER_FAMILY {
-            let way = match ways.first() {
-                Some(first) if alike(&acted, arm as u32, &effects) => first.clone(),
-                _ => fallen(&acted, arm, (arm * PER_FAMILY + number) as u64, &effects)?,
-            };
-            ways.push(way);
-        }
+        let first = (arm * PER_FAMILY) as u64;
+        let ways: Vec<Way> = match alike(&acted, arm as u32, &effects) {
+            true => vec![solved(&acted, arm as u32, first, &effects)?; PER_FAMILY],
+            false => (first..first + PER_FAMILY as u64)
+                .map(|member| fallen(&acted, arm as u32, member, &effects))
+                .collect::<Option<_>>()?,
+        };
         let gauge = |displacement: f64| acted.arms[arm].mechanisms.reading(displacement);
         for (number, way) in ways.iter().enumerate() {
             let index = arm * PER_FAMILY + number;
@@ -63,9 +62,9 @@ fn jointed(study: &Study, nuisances: &[Nuisance; 3], label: &Label) -> Study {
 }
 
 /// A wall that falls.
-fn fallen(study: &Study, arm: usize, member: u64, effects: &[Box<dyn Effect>]) -> Option<Way> {
+fn fallen(study: &Study, arm: u32, member: u64, effects: &[Box<dyn Effect>]) -> Option<Way> {
     let again = (FAMILIES.len() * PER_FAMILY) as u64;
-    (0..=REBUILT).find_map(|attempt| solved(study, arm as u32, member + again * attempt, effects))
+    (0..=REBUILT).find_map(|attempt| solved(study, arm, member + again * attempt, effects))
 }
 
 /// Tests on two stones of the tested families.

@@ -69,7 +69,7 @@ pub const UNKNOWN: [Unknown; 15] = [
     Unknown {
         name: "taut_ropes",
         aliases: &[],
-        parameters: &[("pretension_n", 5.0, 30.0)],
+        parameters: &[("pretension_n", 30.0, 150.0)],
         effect: |p| Box::new(TautRopes { pretension: p[0] }),
     },
     // A wall that is thinner than it is said to be.
