@@ -38,6 +38,10 @@ fn every_study_loads_in_all_its_variants() {
     let mut seen = 0;
     for entry in fs::read_dir(root("studies")).expect("studies can be listed").flatten() {
         let folder = entry.path();
+        if folder.ends_with("hidden-effects") {
+            // It asks about the study tilting-table, and has none of its own.
+            continue;
+        }
         seen += 1;
         if ElementStudy::is_in(&folder) {
             let study = ElementStudy::load(&folder).unwrap_or_else(|faults| panic!("{faults}"));

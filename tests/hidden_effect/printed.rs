@@ -1,0 +1,56 @@
+//! The table as text.
+
+use std::fmt::Write as _;
+
+use pirca::stats::clopper_pearson;
+
+use crate::table::Line;
+use crate::truth::designs::Design;
+
+/// All numbers as a file.
+pub fn csv(lines: &[Line]) -> String {
+    let mut text = "design,group,measure,hits,trials,value,low,high\n".to_owned();
+    let number = |x: Option<f64>| x.map_or_else(String::new, |x| x.to_string());
+    for line in lines {
+        let [hits, trials] = line.counts.map_or([None; 2], |counts| counts.map(|count| Some(count as f64)));
+        let [low, high] = interval(line).map_or([None; 2], |interval| interval.map(Some));
+        let cells = [hits, trials, line.value, low, high].map(number).join(",");
+        writeln!(text, "{},\"{}\",{},{cells}", line.design, line.group, line.measure).expect("text can grow");
+    }
+    text
+}
+
+/// A table with a column for each design.
+pub fn markdown(lines: &[Line]) -> String {
+    let designs = Design::ALL.map(Design::name);
+    let mut text =
+        format!("| group | measure | {} |\n|---|---|{}\n", designs.join(" | "), "---|".repeat(designs.len()));
+    for line in lines.iter().filter(|line| line.design == designs[0]) {
+        let same = |other: &&Line| (&other.group, other.measure) == (&line.group, line.measure);
+        if lines.iter().filter(same).all(|line| line.value.is_none()) {
+            // A part of the full size may have no such campaign.
+            continue;
+        }
+        let cells: Vec<String> = lines.iter().filter(same).map(cell).collect();
+        writeln!(text, "| {} | {} | {} |", line.group, line.measure, cells.join(" | "))
+            .expect("text can grow");
+    }
+    text
+}
+
+fn cell(line: &Line) -> String {
+    match (line.counts, interval(line), line.value) {
+        (Some([hits, trials]), Some([low, high]), Some(value)) => {
+            let [value, low, high] = [value, low, high].map(|share| format!("{:.0}", 100.0 * share));
+            format!("{hits}/{trials} {value} % [{low}, {high}]")
+        }
+        (.., Some(value)) => format!("{value:.2}"),
+        _ => "-".to_owned(),
+    }
+}
+
+/// The 95 % interval of a share (Clopper and Pearson).
+pub fn interval(line: &Line) -> Option<[f64; 2]> {
+    let [hits, trials] = line.counts.filter(|[_, trials]| *trials > 0)?;
+    Some(clopper_pearson(hits, trials))
+}

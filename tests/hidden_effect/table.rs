@@ -1,0 +1,276 @@
+//! What was said beside what was true: shares and means, by design and group.
+
+use pirca::random::Streams;
+use pirca::stats::mean;
+
+use crate::inference::{Said, Word};
+use crate::truth::designs::Design;
+use crate::truth::label::{Group, Label};
+use crate::truth::roster::catalogue;
+use crate::truth::strength::Strength;
+use crate::truth::unknown::UNKNOWN;
+
+/// Bins of the probability given, for its calibration.
+const BINS: usize = 10;
+
+/// A campaign that was judged by a design.
+#[derive(Clone, Debug)]
+pub struct Judged {
+    pub label: Label,
+    pub design: String,
+    pub said: Said,
+}
+
+/// A number of the table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    pub design: &'static str,
+    pub group: String,
+    pub measure: &'static str,
+    /// Hits and trials, where it is a share.
+    pub counts: Option<[usize; 2]>,
+    /// The value; none without trials.
+    pub value: Option<f64>,
+}
+
+impl Judged {
+    fn found(&self) -> bool {
+        self.said.verdict != Word::NothingFound
+    }
+
+    fn named(&self) -> bool {
+        self.said.verdict == Word::Named
+    }
+
+    /// Whether a cause is hidden, by its own name or by one that means the same.
+    fn is_hidden(&self, cause: &str) -> bool {
+        self.label.hidden.iter().any(|hidden| {
+            let unknown = UNKNOWN.iter().find(|unknown| unknown.name == hidden.name);
+            hidden.name == cause || unknown.is_some_and(|unknown| unknown.aliases.contains(&cause))
+        })
+    }
+
+    fn right(&self) -> bool {
+        self.named() && self.is_hidden(&self.said.names[0])
+    }
+
+    fn wrong(&self) -> bool {
+        self.named() && !self.right()
+    }
+
+    fn other_code(&self) -> bool {
+        self.label.hidden.iter().any(|hidden| hidden.other_code)
+    }
+
+    /// Whether what is said is all that should be: nothing where nothing is hidden, the name of a mechanism.
+    fn correct(&self) -> bool {
+        match self.label.group {
+            Group::Nothing | Group::PriorWrong => !self.found(),
+            _ => self.right(),
+        }
+    }
+}
+
+/// The table of campaigns that were judged, and of those that were judged by a catalogue without their mechanism.
+pub fn of(judged: &[Judged], removed: &[Judged]) -> Vec<Line> {
+    Design::ALL.into_iter().flat_map(|design| of_design(design.name(), judged, removed)).collect()
+}
+
+fn of_design(design: &'static str, judged: &[Judged], removed: &[Judged]) -> Vec<Line> {
+    let own: Vec<&Judged> = judged.iter().filter(|j| j.design == design).collect();
+    let of = |group: Group| own.iter().copied().filter(move |j| j.label.group == group).collect::<Vec<_>>();
+    let (nothing, far, mechanisms) = (of(Group::Nothing), of(Group::PriorWrong), of(Group::Mechanism));
+    let ours: Vec<&Judged> = mechanisms.iter().copied().filter(|j| !j.other_code()).collect();
+    let catalogued: Vec<&Judged> = [&nothing[..], &far[..], &mechanisms[..]].concat();
+    let mut lines = Lines { design, lines: Vec::new() };
+    lines.share("all groups", "a name given is right", &named(&own), Judged::right);
+    lines.share("catalogue and nothing", "a name given is right", &named(&catalogued), Judged::right);
+    lines.share("nothing hidden", "found", &nothing, Judged::found);
+    lines.share("nothing hidden", "named", &nothing, Judged::named);
+    lines.share("prior wrong", "found", &far, Judged::found);
+    lines.share("prior wrong", "named", &far, Judged::named);
+    for strength in Strength::ALL.into_iter().rev() {
+        let some: Vec<&Judged> =
+            mechanisms.iter().copied().filter(|j| j.label.hidden[0].strength == Some(strength)).collect();
+        lines.of_mechanisms(&format!("mechanism, {}", strength.name()), &some);
+    }
+    lines.of_mechanisms("mechanism, our code", &ours);
+    let other: Vec<&Judged> = mechanisms.iter().copied().filter(|j| j.other_code()).collect();
+    lines.of_mechanisms("mechanism, other code", &other);
+    for mechanism in catalogue() {
+        let some = |j: &&Judged| {
+            j.label.hidden[0].name == mechanism.name && j.label.hidden[0].strength == Some(Strength::Strong)
+        };
+        let some: Vec<&Judged> = mechanisms.iter().copied().filter(some).collect();
+        lines.of_mechanisms(&format!("{}, strong", mechanism.name), &some);
+    }
+    let found: Vec<&Judged> = mechanisms.iter().copied().filter(|j| j.found()).collect();
+    lines.share("mechanism, found", "the set holds it", &found, |j| {
+        j.said.set.contains(&j.label.hidden[0].name)
+    });
+    let sizes: Vec<f64> = found.iter().map(|j| j.said.set.len() as f64).collect();
+    lines.value("mechanism, found", "mean size of the set", mean(&sizes));
+    lines.value("mechanism, found", "calibration error of the likeliest", calibration_error(&found));
+    let pairs = of(Group::Pair);
+    lines.share("pairs", "found", &pairs, Judged::found);
+    lines.share("pairs", "one of the two named", &pairs, Judged::right);
+    lines.share("pairs", "another one named", &pairs, Judged::wrong);
+    let unknown = of(Group::Unknown);
+    lines.share("out of catalogue", "found", &unknown, Judged::found);
+    lines.share("out of catalogue", "wrongly named", &unknown, Judged::wrong);
+    for effect in &UNKNOWN {
+        let some: Vec<&Judged> =
+            unknown.iter().copied().filter(|j| j.label.hidden[0].name == effect.name).collect();
+        lines.share(effect.name, "found", &some, Judged::found);
+        lines.share(effect.name, "wrongly named", &some, Judged::wrong);
+    }
+    let without: Vec<&Judged> = removed.iter().filter(|j| j.design == design).collect();
+    lines.share("out of the catalogue in turn", "found", &without, Judged::found);
+    lines.share("out of the catalogue in turn", "wrongly named", &without, Judged::wrong);
+    let decoys = of(Group::Decoy);
+    lines.share("decoys", "found", &decoys, Judged::found);
+    lines.share("decoys", "named", &decoys, Judged::named);
+    lines.share("catalogue and nothing", "correct", &catalogued, Judged::correct);
+    let still = |j: &Judged| matches!(j.label.group, Group::Nothing | Group::PriorWrong);
+    lines.share("catalogue and nothing", "correct if nothing is ever found", &catalogued, still);
+    let frequent = most_frequent(&catalogued);
+    lines.share("catalogue and nothing", "correct if the most frequent is always named", &catalogued, |j| {
+        frequent.as_ref().is_some_and(|name| j.is_hidden(name))
+    });
+    let permuted = permuted(&named(&mechanisms));
+    let permuted: Vec<&Judged> = permuted.iter().collect();
+    lines.share("mechanism, labels permuted", "a name given is right", &permuted, Judged::right);
+    lines.lines
+}
+
+/// Lines of a design.
+struct Lines {
+    design: &'static str,
+    lines: Vec<Line>,
+}
+
+impl Lines {
+    fn share(&mut self, group: &str, measure: &'static str, of: &[&Judged], hit: impl Fn(&Judged) -> bool) {
+        let hits = of.iter().filter(|j| hit(j)).count();
+        let value = (!of.is_empty()).then(|| hits as f64 / of.len() as f64);
+        let counts = Some([hits, of.len()]);
+        self.lines.push(Line { design: self.design, group: group.to_owned(), measure, counts, value });
+    }
+
+    fn value(&mut self, group: &str, measure: &'static str, value: Option<f64>) {
+        self.lines.push(Line { design: self.design, group: group.to_owned(), measure, counts: None, value });
+    }
+
+    fn of_mechanisms(&mut self, group: &str, of: &[&Judged]) {
+        self.share(group, "found", of, Judged::found);
+        self.share(group, "named", of, Judged::right);
+        self.share(group, "another one named", of, Judged::wrong);
+    }
+}
+
+fn named<'j>(of: &[&'j Judged]) -> Vec<&'j Judged> {
+    of.iter().copied().filter(|j| j.named()).collect()
+}
+
+/// Mean distance of how often the likeliest cause is the hidden one from the probability that it was given, over bins of this
+/// probability, each weighted by its campaigns.
+fn calibration_error(of: &[&Judged]) -> Option<f64> {
+    let bin = |j: &&&Judged| ((j.said.likeliest.1 * BINS as f64) as usize).min(BINS - 1);
+    let off = (0..BINS).filter_map(|number| {
+        let own: Vec<&Judged> = of.iter().filter(|j| bin(j) == number).copied().collect();
+        let given: Vec<f64> = own.iter().map(|j| j.said.likeliest.1).collect();
+        let right = own.iter().filter(|j| j.is_hidden(&j.said.likeliest.0)).count() as f64;
+        Some((mean(&given)? * own.len() as f64 - right).abs())
+    });
+    let total = off.fold(0.0, |sum, x| sum + x);
+    (!of.is_empty()).then(|| total / of.len() as f64)
+}
+
+/// The mechanism that is hidden most often, the first of several.
+fn most_frequent(of: &[&Judged]) -> Option<String> {
+    let count = |name: &str| of.iter().filter(|j| j.is_hidden(name)).count();
+    let names = catalogue().into_iter().map(|mechanism| mechanism.name).rev();
+    names.max_by_key(|name| count(name)).map(str::to_owned)
+}
+
+/// The same verdicts with labels that have changed places.
+pub fn permuted(of: &[&Judged]) -> Vec<Judged> {
+    let mut stream = Streams::new(1, 0).of("permuted labels");
+    let mut order: Vec<usize> = (0..of.len()).collect();
+    (0..order.len()).for_each(|k| order.swap(k, k + stream.below(of.len() - k)));
+    of.iter().zip(order).map(|(j, other)| Judged { label: of[other].label.clone(), ..(*j).clone() }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::printed::{interval, markdown};
+    use crate::truth::roster::roster;
+
+    /// What somebody says who knows all labels, and gives no name where there is none.
+    fn told() -> Vec<Judged> {
+        let all = roster(0.2, 3).into_iter();
+        all.map(|label| {
+            let name = label.hidden.first().map(|hidden| hidden.name.clone());
+            let name = name.filter(|_| label.group == Group::Mechanism);
+            let verdict = if name.is_some() { Word::Named } else { Word::NothingFound };
+            let names: Vec<String> = name.clone().into_iter().collect();
+            let likeliest = (name.unwrap_or_else(|| "lean".to_owned()), 0.95);
+            let said = Said {
+                p_value: 0.5,
+                verdict,
+                set: names.clone(),
+                names,
+                likeliest,
+                guard: Vec::new(),
+                evidence: Vec::new(),
+            };
+            Judged { label, design: Design::Rich.name().to_owned(), said }
+        })
+        .collect()
+    }
+
+    fn line<'l>(lines: &'l [Line], group: &str, measure: &str) -> &'l Line {
+        let own = |line: &&Line| line.design == "rich" && line.group == group && line.measure == measure;
+        lines.iter().find(own).unwrap_or_else(|| panic!("{group}: {measure}"))
+    }
+
+    #[test]
+    fn who_knows_all_is_always_right_and_with_permuted_labels_by_chance() {
+        let told = told();
+        let lines = of(&told, &[]);
+        for (group, measure, value) in [
+            ("all groups", "a name given is right", 1.0),
+            ("mechanism, strong", "named", 1.0),
+            ("mechanism, other code", "another one named", 0.0),
+            ("catalogue and nothing", "correct", 1.0),
+            ("mechanism, found", "the set holds it", 1.0),
+            ("out of catalogue", "wrongly named", 0.0),
+        ] {
+            assert_eq!(line(&lines, group, measure).value, Some(value), "{group}: {measure}");
+        }
+        let error = line(&lines, "mechanism, found", "calibration error of the likeliest").value;
+        assert!((error.expect("some are found") - 0.05).abs() < 1e-12);
+        let permuted = line(&lines, "mechanism, labels permuted", "a name given is right");
+        let [low, high] = interval(permuted).expect("there are some");
+        assert!(low < 1.0 / 16.0 && 1.0 / 16.0 < high, "{low} to {high}");
+        // Of nothing, nothing is told; and of a design without campaigns.
+        assert_eq!(line(&lines, "out of the catalogue in turn", "wrongly named").value, None);
+        assert!(
+            markdown(&lines).contains("| mechanism, strong | named | - | - | 192/192 100 % [98, 100] | - |")
+        );
+    }
+
+    #[test]
+    fn another_word_for_the_same_thing_is_not_wrong() {
+        let mut judged = told();
+        judged.retain(|j| j.label.group == Group::Unknown);
+        for j in &mut judged {
+            (j.said.verdict, j.said.names) = (Word::Named, vec!["lean".to_owned()]);
+        }
+        let lines = of(&judged, &[]);
+        assert_eq!(line(&lines, "backlash", "wrongly named").counts, Some([0, 20]));
+        assert_eq!(line(&lines, "knock", "wrongly named").counts, Some([20, 20]));
+        assert_eq!(line(&lines, "out of catalogue", "wrongly named").counts, Some([280, 300]));
+    }
+}

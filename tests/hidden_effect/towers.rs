@@ -1,0 +1,222 @@
+//! Effects hidden in campaigns of small towers: what the whole test on real walls looks for, in seconds.
+//!
+//! The campaigns come from the solver itself, with other seeds and finer steps than the bank that the inference knows, with joints
+//! drawn anew, and with errors that are drawn here.
+
+use std::path::Path;
+use std::sync::OnceLock;
+
+use pirca::critic::{Bank, Effort, Plan};
+use pirca::ensemble::{Row, Task, evaluate};
+use pirca::math::{exp, radians};
+use pirca::protocol::Protocol;
+use pirca::random::Streams;
+use pirca::random::standard_normal::quantile;
+use pirca::study::{MeasuredKind, MeasuredQuantity, Measurement, Study};
+use rayon::ThreadPoolBuilder;
+use rayon::prelude::*;
+
+use crate::inference::{Judge, Known, Said, Word};
+
+/// Specimens of a campaign.
+const SPECIMENS: u64 = 6;
+/// Tilts of the readings (deg).
+const TILTS: [f64; 5] = [2.5, 5.0, 7.5, 10.0, 12.5];
+/// Random error of a collapse angle (deg) and of a displacement (m).
+const ERRORS: [f64; 2] = [0.1, 2e-5];
+/// Points of the bank.
+const POINTS: u64 = 60;
+
+fn towers() -> Study {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/hidden_effect/towers");
+    Study::load(&folder, None).unwrap_or_else(|faults| panic!("{faults}")).study
+}
+
+fn known() -> &'static Known {
+    static KNOWN: OnceLock<Known> = OnceLock::new();
+    KNOWN.get_or_init(|| {
+        let mut study = towers();
+        // The design: what is read is the same in every campaign.
+        study.measured = campaign(&towers(), &Hidden::default(), 1);
+        Known::new(study, POINTS, bank)
+    })
+}
+
+fn bank(plan: &Plan) -> Bank {
+    let tasks: Vec<Task> =
+        (0..plan.places.len() as u32).map(|arm| Task { arm, point: 0, member: 0 }).collect();
+    let rows: Vec<Row> = tasks.into_par_iter().map(|task| plan.evaluate(task)).collect();
+    Bank::of(&rows)
+}
+
+/// What is hidden in a campaign.
+#[derive(Default)]
+struct Hidden {
+    /// A mechanism with its parameters.
+    mechanism: Option<(&'static str, &'static [(&'static str, f64)])>,
+    /// Scores of kn and of the friction angle in their priors, where they are not drawn.
+    joints: Option<[f64; 2]>,
+}
+
+/// What is read on walls of the solver. The seed is that of walls, joints and errors.
+fn campaign(study: &Study, hidden: &Hidden, seed: u64) -> Vec<Measurement> {
+    let mut draws = Streams::new(seed, 0).of("hidden");
+    let mut normal = || quantile(draws.uniform());
+    let drawn = [normal(), normal()];
+    let [kn, phi] = hidden.joints.unwrap_or(drawn);
+    let mut study = study.clone().with_seed(seed);
+    if let Some((name, parameters)) = hidden.mechanism {
+        study = study.with_mechanism(name, parameters).unwrap_or_else(|faults| panic!("{faults}")).study;
+    }
+    // Lognormal, as the priors are: 47 % of kn, 6 % of the friction angle.
+    let arm = study.arms[0].with_joints(5e7, [exp(0.47 * kn), exp(0.06 * phi), 1.0]);
+    study.arms[0] = arm;
+    let Protocol::Tilting(tilting) = &mut study.protocol else { panic!("towers are tilted") };
+    tilting.step = radians(1.25);
+    let rows: Vec<Row> = (0..SPECIMENS)
+        .into_par_iter()
+        .map(|member| evaluate(&study, Task { arm: 0, point: 0, member }))
+        .collect();
+    let mut readings = Vec::new();
+    for row in &rows {
+        let Some(collapse) = row.collapse_angle_deg else { continue };
+        let mut read = |quantity, tilt: Option<f64>, value: f64, error: f64| {
+            readings.push(Measurement {
+                specimen: format!("T{}", row.member),
+                family: study.arms[0].name.clone(),
+                tilt: tilt.map(radians),
+                quantity,
+                value: value + error * normal(),
+                kind: MeasuredKind::Exact,
+                error,
+                common_error: 0.0,
+                resolution: 0.0,
+                order: None,
+                stage: 0,
+                line: 0,
+            });
+        };
+        read(MeasuredQuantity::CollapseAngle, None, radians(collapse), radians(ERRORS[0]));
+        for tilt in TILTS.into_iter().filter(|tilt| *tilt < collapse) {
+            let steps = row.load_steps.iter();
+            let step = steps.min_by(|a, b| {
+                let off = |tilted: Option<f64>| (tilted.unwrap_or(f64::INFINITY) - tilt).abs();
+                off(a.tilt_deg).total_cmp(&off(b.tilt_deg))
+            });
+            let step = step.expect("it has been tilted");
+            assert!((step.tilt_deg.expect("it is a tilt") - tilt).abs() < 1e-6, "no step at {tilt} deg");
+            let points = [
+                (MeasuredQuantity::DisplacementLeft, step.left_m),
+                (MeasuredQuantity::DisplacementCentre, step.centre_m),
+                (MeasuredQuantity::DisplacementRight, step.right_m),
+            ];
+            for (quantity, value) in points {
+                read(quantity, Some(tilt), value.expect("it was read"), ERRORS[1]);
+            }
+        }
+    }
+    readings
+}
+
+/// What is said of a campaign.
+fn said(hidden: &Hidden, seed: u64) -> Said {
+    said_knowing(known(), hidden, seed)
+}
+
+fn said_knowing(known: &Known, hidden: &Hidden, seed: u64) -> Said {
+    let measured = campaign(&towers(), hidden, seed);
+    let said =
+        Judge::trained(known, measured.clone(), Effort { reference: 1500, training: 800 }).said(&measured);
+    println!(
+        "{:?}, seed {seed}: {:?} {:?}, p = {:.4}",
+        hidden.mechanism, said.verdict, said.names, said.p_value
+    );
+    said
+}
+
+#[test]
+fn nothing_is_named_where_nothing_is_hidden() {
+    // Joints drawn from their priors, and kn two standard deviations from where it is thought to be, either way.
+    let cases = (200..208).map(|seed| (None, seed));
+    let far = [(Some([2.0, 0.0]), 300), (Some([-2.0, 0.0]), 301), (Some([2.0, -1.0]), 302)];
+    let mut found = 0;
+    for (joints, seed) in cases.chain(far) {
+        let verdict = said(&Hidden { joints, mechanism: None }, seed).verdict;
+        assert!(verdict != Word::Named, "seed {seed}");
+        found += usize::from(verdict != Word::NothingFound);
+    }
+    // One in twenty is found by chance: three of eleven would be one in fifty times.
+    assert!(found < 3, "{found} of 11");
+}
+
+#[test]
+fn strong_effects_that_the_data_identify_are_named() {
+    let cases: [(&'static str, &'static [(&'static str, f64)]); 3] = [
+        ("gauge_offset", &[("offset_m", 3e-3)]),
+        ("joint_closure", &[("initial_pa_per_m", 6e6), ("closure_m", 3e-4)]),
+        ("contact_area", &[("share", 0.5)]),
+    ];
+    for (name, parameters) in cases {
+        let named = (100..103).filter(|&seed| {
+            let names = said(&Hidden { mechanism: Some((name, parameters)), joints: None }, seed).names;
+            // Whatever is said, the truth is among it.
+            assert!(names.is_empty() || names.iter().any(|own| own == name), "{name} hidden, {names:?} said");
+            names == [name]
+        });
+        assert!(named.count() >= 2, "{name}");
+    }
+}
+
+#[test]
+fn what_looks_alike_is_said_to_look_alike() {
+    // Lean and rounded arrises both take a piece off the angle and add little to the displacements.
+    for seed in 100..103 {
+        let Said { verdict, names, .. } =
+            said(&Hidden { mechanism: Some(("lean", &[("angle_deg", 1.0)])), joints: None }, seed);
+        assert!(verdict == Word::NothingFound || names.iter().any(|own| own == "lean"), "{verdict:?}");
+        assert!(names != ["contact_inset"]);
+    }
+}
+
+#[test]
+fn a_mechanism_that_is_taken_out_of_the_catalogue_is_not_named() {
+    let hidden = Hidden { mechanism: Some(("gauge_offset", &[("offset_m", 3e-3)])), joints: None };
+    let index = known().mechanisms.iter().position(|m| m.name == "gauge_offset").expect("it is in there");
+    let reduced = known().without(index);
+    for seed in 100..103 {
+        let said = said_knowing(&reduced, &hidden, seed);
+        // It is still seen that something is wrong, and neither it nor another one is made responsible.
+        assert!(said.verdict != Word::NothingFound && said.verdict != Word::Named, "{said:?}");
+        let everything = said.names.iter().chain(&said.set).chain([&said.likeliest.0]);
+        assert!(everything.into_iter().all(|name| name != "gauge_offset"), "{said:?}");
+    }
+}
+
+#[test]
+fn a_catalogue_without_a_mechanism_keeps_the_walls_of_the_others() {
+    let known = known();
+    for (removed, mechanism) in known.mechanisms.iter().enumerate() {
+        let reduced = known.without(removed);
+        assert_eq!(reduced.mechanisms.len(), known.mechanisms.len() - 1);
+        let named = |known: &Known, cause: Option<usize>| cause.map(|index| known.mechanisms[index].name);
+        let walls = |known: &Known| -> Vec<_> {
+            let walls = known.plan.places.iter().zip(&known.bank.paths).zip(&known.plan.study.arms);
+            walls
+                .map(|((place, path), arm)| (named(known, place.cause), path.clone(), arm.name.clone()))
+                .collect()
+        };
+        let mut left = walls(known);
+        left.retain(|(cause, ..)| *cause != Some(mechanism.name));
+        assert_eq!(walls(&reduced), left, "{}", mechanism.name);
+    }
+}
+
+#[test]
+fn a_verdict_comes_out_the_same_bit_for_bit_with_any_number_of_threads() {
+    let hidden = Hidden { mechanism: Some(("gauge_offset", &[("offset_m", 3e-3)])), joints: None };
+    let with = |threads: usize| {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be had");
+        pool.install(|| said(&hidden, 100))
+    };
+    assert_eq!(with(1), with(3));
+}
