@@ -94,11 +94,9 @@ impl Advice {
             text.push_str(&format!("\nSmallest effects caught in {:.0} % of campaigns\n", 100.0 * CAUGHT));
             for own in &self.caught {
                 let side = if own.below { "at most" } else { "at least" };
+                let unit = if own.unit == "1" { String::new() } else { format!(" {}", own.unit) };
                 let value = significant(own.value, 2);
-                text.push_str(&format!(
-                    "  {:<18} {} {side} {value} {}\n",
-                    own.cause, own.parameter, own.unit
-                ));
+                text.push_str(&format!("  {:<18} {} {side} {value}{unit}\n", own.cause, own.parameter));
             }
         }
         if let Some(first) = self.next.first() {

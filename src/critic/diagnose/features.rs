@@ -6,6 +6,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::critic::compare::reading_variance;
 use crate::critic::diagnose::design::{Campaign, Design, Seen, Specimen};
 use crate::math::ln;
 use crate::stats;
@@ -54,7 +55,8 @@ pub struct Scale {
 const SCATTERING: [Contrast; 3] = [Contrast::Collapse, Contrast::Level, Contrast::Growth];
 /// Contrasts that are followed over the order of the tests.
 const ORDERED: [Contrast; 2] = [Contrast::Collapse, Contrast::Level];
-/// A scatter below this counts as this: three readings rounded to the same step do not agree to all digits.
+/// A scatter below the readings' errors and rounding, and below this, counts as these: three readings rounded to the same step do
+/// not agree to all digits.
 const LEAST_SCATTER: f64 = 0.05;
 /// A standard deviation below this share of the largest value counts as this: readings at a bound do not vary at all.
 const LEAST_SHARE: f64 = 1e-3;
@@ -101,21 +103,23 @@ fn scaled(seen: Seen, m: &Measurement, [mean, sd]: &[f64; 2]) -> Option<f64> {
 
 /// All features of a campaign that its design allows; a specimen that shows nothing of a contrast is not in it.
 pub fn features(design: &Design, scale: &Scale, campaign: &Campaign) -> BTreeMap<Feature, f64> {
-    let mut by_family: BTreeMap<(usize, Contrast), Vec<f64>> = BTreeMap::new();
+    let mut by_family: BTreeMap<(usize, Contrast), Vec<[f64; 2]>> = BTreeMap::new();
     let mut ordered: BTreeMap<Contrast, Vec<(f64, f64)>> = BTreeMap::new();
     for ((specimen, seen), scale) in design.specimens.iter().zip(&campaign.specimens).zip(&scale.specimens) {
-        for (contrast, value) in contrasts(specimen, seen, scale) {
-            by_family.entry((specimen.family, contrast)).or_default().push(value);
+        for (contrast, [value, error]) in contrasts(specimen, seen, scale) {
+            by_family.entry((specimen.family, contrast)).or_default().push([value, error]);
             if let Some(order) = specimen.order.filter(|_| ORDERED.contains(&contrast)) {
                 ordered.entry(contrast).or_default().push((f64::from(order), value));
             }
         }
     }
     let mut found = BTreeMap::new();
-    for ((family, contrast), values) in by_family {
+    for ((family, contrast), shown) in by_family {
+        let [values, errors] = [0, 1].map(|k| shown.iter().map(|of| of[k]).collect::<Vec<_>>());
         found.extend(stats::mean(&values).map(|mean| (Feature::Mean(family, contrast), mean)));
         if SCATTERING.contains(&contrast) && values.len() > 1 {
-            let scatter = stats::sigma(&values).unwrap_or(0.0).max(LEAST_SCATTER);
+            let error = stats::mean(&errors).unwrap_or(0.0).max(LEAST_SCATTER);
+            let scatter = stats::sigma(&values).unwrap_or(0.0).max(error);
             found.insert(Feature::Scatter(family, contrast), ln(scatter));
         }
     }
@@ -130,23 +134,25 @@ pub fn features(design: &Design, scale: &Scale, campaign: &Campaign) -> BTreeMap
     found
 }
 
-/// The contrasts of a specimen, each in units that make independent readings one standard deviation.
-fn contrasts(specimen: &Specimen, seen: &[Seen], scale: &[[f64; 2]]) -> Vec<(Contrast, f64)> {
+/// The contrasts of a specimen, each in units that make independent readings one standard deviation, with the part that errors and
+/// rounding have in it (one standard deviation).
+fn contrasts(specimen: &Specimen, seen: &[Seen], scale: &[[f64; 2]]) -> Vec<(Contrast, [f64; 2])> {
     use MeasuredQuantity as Q;
     let last = specimen.readings.iter().filter_map(|m| m.tilt).fold(0.0, f64::max);
-    let mut weighted: BTreeMap<Contrast, Vec<(f64, f64)>> = BTreeMap::new();
+    let mut weighted: BTreeMap<Contrast, Vec<[f64; 3]>> = BTreeMap::new();
     let (mut read, mut reached) = (0.0, 0.0);
     for ((m, seen), scale) in specimen.readings.iter().zip(seen).zip(scale) {
         let z = scaled(*seen, m, scale);
+        let error = reading_variance(m).sqrt() / scale[1];
         let Some(tilt) = m.tilt else {
-            weighted.entry(Contrast::Collapse).or_default().extend(z.map(|z| (1.0, z)));
+            weighted.entry(Contrast::Collapse).or_default().extend(z.map(|z| [1.0, z, error]));
             continue;
         };
         read += 1.0;
         let Some(z) = z else { continue };
         reached += 1.0;
         let s = tilt / last;
-        let mut add = |contrast, weight| weighted.entry(contrast).or_default().push((weight, z));
+        let mut add = |contrast, weight| weighted.entry(contrast).or_default().push([weight, z, error]);
         if m.quantity != Q::DisplacementCentreMinusEnds {
             add(Contrast::Level, 1.0);
             add(Contrast::Growth, s - 0.5);
@@ -169,16 +175,18 @@ fn contrasts(specimen: &Specimen, seen: &[Seen], scale: &[[f64; 2]]) -> Vec<(Con
             _ => {}
         }
     }
-    let mut found: Vec<(Contrast, f64)> = weighted
+    let mut found: Vec<(Contrast, [f64; 2])> = weighted
         .into_iter()
         .filter_map(|(contrast, terms)| {
-            let square: f64 = terms.iter().fold(0.0, |sum, (weight, _)| sum + weight * weight);
-            let sum: f64 = terms.iter().fold(0.0, |sum, (weight, z)| sum + weight * z);
-            (square > 0.0).then(|| (contrast, sum / square.sqrt()))
+            let sum = |of: fn(&[f64; 3]) -> f64| terms.iter().fold(0.0, |sum, term| sum + of(term));
+            let square = sum(|[weight, ..]| weight * weight);
+            let value = sum(|[weight, z, _]| weight * z);
+            let error = sum(|[weight, _, error]| weight * weight * error * error);
+            (square > 0.0).then(|| (contrast, [value / square.sqrt(), (error / square).sqrt()]))
         })
         .collect();
     if read > 0.0 {
-        found.push((Contrast::Reached, reached / read));
+        found.push((Contrast::Reached, [reached / read, 0.0]));
     }
     found
 }

@@ -32,6 +32,10 @@ pub struct Reference {
     spread: DVector<f64>,
 }
 
+/// No feature is known better than this, in standard deviations of independent readings: where the base model draws nothing,
+/// walls that differ by a step of a protractor would be off beyond all measure.
+const LEAST_SPREAD: f64 = 0.3;
+
 /// What is off in a campaign.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wrong {
@@ -95,8 +99,7 @@ impl Reference {
         let left = &shown - &scores * slopes.transpose();
         let mut covariance = left.transpose() * &left / simulated.len() as f64;
         for k in 0..kept.len() {
-            // A feature that never varies tells nothing, and must not divide.
-            covariance[(k, k)] = covariance[(k, k)] * (1.0 + 1e-6) + 1e-9;
+            covariance[(k, k)] = covariance[(k, k)].max(LEAST_SPREAD * LEAST_SPREAD) * (1.0 + 1e-6);
         }
         let precision = covariance.cholesky()?.inverse();
         let spread = DVector::from_element(kept.len(), 1.0);
@@ -105,7 +108,8 @@ impl Reference {
             simulated.iter().map(|(_, found)| reference.excess(found).by_feature).collect();
         for k in 0..reference.features.len() {
             let squares: Vec<f64> = excesses.iter().filter_map(|e| e[k]).map(|x| x * x).collect();
-            reference.spread[k] = (stats::sum(&squares) / squares.len().max(1) as f64).sqrt().max(1e-6);
+            reference.spread[k] =
+                (stats::sum(&squares) / squares.len().max(1) as f64).sqrt().max(LEAST_SPREAD);
         }
         Some(reference)
     }
