@@ -65,7 +65,7 @@ pub(crate) enum Verb {
     /// Simulate the walls that a diagnosis of a study's measurements rests on: every mechanism at many strengths, with joints that
     /// are known as badly as they are. Resumes by itself.
     #[command(after_help = format!(
-        "Example: pirca bank studies/tilting-table --points 200\n\n\
+        "Example: pirca bank studies/tilting-table --points 120\n\n\
          More points later leave the first ones as they are, in another folder. The priors are in mechanism and nuisance\n\
          of the nearest folder distributions above the study.\n\n{CODES}"
     ))]
@@ -257,11 +257,11 @@ pub(crate) struct Diagnose {
     /// What was measured [default: the study's measured.csv].
     #[arg(long, value_name = "FILE")]
     pub measured: Option<PathBuf>,
-    /// Folder of the bank [default: runs/<study>-bank, with -<variant> in it if one is named].
+    /// Folder of the bank [default: runs/<study>-bank, with -<variant> in it if one is named; else the bank beside the study].
     #[arg(long, value_name = "DIR")]
     pub bank: Option<PathBuf>,
     /// Points in the priors for each mechanism that the bank has.
-    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u64).range(10..=100_000))]
+    #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u64).range(10..=100_000))]
     pub points: u64,
     /// Stop with the command to run, where there is no bank.
     #[arg(long)]
@@ -292,7 +292,7 @@ pub(crate) struct Bank {
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Points in the priors for each mechanism; twice as many for the base model.
-    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u64).range(10..=100_000))]
+    #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u64).range(10..=100_000))]
     pub points: u64,
     /// Worker threads [default: one per processor]. No result depends on their number.
     #[arg(long, value_name = "T")]

@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::cli::arguments::Diagnose;
 use crate::cli::bank::{self, Prepared};
 use crate::cli::failure::Failure;
-use crate::cli::output;
+use crate::cli::{locate, output};
 use crate::critic::{
     self, BANK, Baseline, Design, Diagnosis, Effort, Judge, Limits, Measuring, Plan, Verdict, World,
     base_curves, cause_curves, doubts_beside, extension,
@@ -51,7 +51,7 @@ pub(crate) fn diagnose(arguments: &Diagnose) -> Result<(), Failure> {
     summary.advice = Advice::of(&test, &offered, &mechanisms);
     if diagnosis.verdict != Verdict::NothingFound && !arguments.no_gain {
         let gain = critic::gain(&judge, &measured, &Measuring::default(), seed.wrapping_add(3 * SEEDS));
-        summary.gain = gain.map(|gain| GainSummary::of(&gain, &design, &mechanisms));
+        summary.gain = gain.map(|gain| GainSummary::of(&gain, &study, &design, &mechanisms));
     }
     let drawn = seed.wrapping_add(7 * SEEDS);
     let base = base_curves(&world, &design, drawn);
@@ -93,9 +93,16 @@ fn extended(
     Ok(said)
 }
 
-/// The bank of a plan: read, or computed where it is not there.
+/// The bank of a plan: read, or computed where it is not there. A study may come with one, which counts where no folder is named and
+/// it is of this plan.
 fn banked(plan: &Plan, folder: &Path, arguments: &Diagnose) -> Result<critic::Bank, Failure> {
     let path = folder.join(BANK);
+    if arguments.bank.is_none() && !path.exists() {
+        let beside = fs::read(locate::folder(&arguments.which.study)?.join(BANK));
+        if let Some(bank) = beside.ok().and_then(|bytes| critic::Bank::read(&bytes, plan).ok()) {
+            return Ok(bank);
+        }
+    }
     if let Ok(bytes) = fs::read(&path) {
         return critic::Bank::read(&bytes, plan).map_err(|why| {
             Failure::Input(format!("{}: {why}; name another folder with --bank", path.display()))

@@ -30,8 +30,8 @@ pub struct CaughtEntry {
     pub parameter: &'static str,
     /// Unit of the parameter.
     pub unit: &'static str,
-    /// From this value on.
-    pub value: f64,
+    /// From this value on; null where it is caught anywhere in its prior.
+    pub value: Option<f64>,
     /// Whether smaller values are caught, not larger ones.
     pub below: bool,
 }
@@ -62,7 +62,7 @@ impl Advice {
                 cause: mechanism.name,
                 parameter: parameter.key,
                 unit: parameter.unit,
-                value: parameter.prior.at_score(caught.score),
+                value: caught.score.map(|score| parameter.prior.at_score(score)),
                 below: caught.below,
             })
         });
@@ -95,8 +95,10 @@ impl Advice {
             for own in &self.caught {
                 let side = if own.below { "at most" } else { "at least" };
                 let unit = if own.unit == "1" { String::new() } else { format!(" {}", own.unit) };
-                let value = significant(own.value, 2);
-                text.push_str(&format!("  {:<18} {} {side} {value}{unit}\n", own.cause, own.parameter));
+                let from = own.value.map_or("anywhere in its prior".to_string(), |value| {
+                    format!("{side} {}{unit}", significant(value, 2))
+                });
+                text.push_str(&format!("  {:<18} {} {from}\n", own.cause, own.parameter));
             }
         }
         if let Some(first) = self.next.first() {

@@ -2,7 +2,7 @@
 
 use crate::critic::{Design, Gain, Gained, HeldOut, Interval, Scores};
 use crate::report::number::significant;
-use crate::study::Described;
+use crate::study::{Described, Study};
 
 /// The gain.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -11,6 +11,8 @@ pub struct GainSummary {
     pub specimens_left_out: Option<GainedEntry>,
     /// The largest tilts and the collapse angles of all specimens left out; null where nothing is left then.
     pub largest_tilts_left_out: Option<GainedEntry>,
+    /// All families left out but one.
+    pub one_family_known: Vec<FamilyEntry>,
     /// The cause that was chosen in each fold, from what was known there.
     pub choices: Vec<ChoiceEntry>,
     /// Campaigns without any effect that the intervals are widened by.
@@ -58,10 +60,19 @@ pub struct GainEntry {
     pub interval: [f64; 2],
 }
 
+/// What is gained on all other families.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct FamilyEntry {
+    /// The family that is known.
+    pub family: String,
+    /// The gain.
+    pub gained: GainedEntry,
+}
+
 /// What was chosen in a fold.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct ChoiceEntry {
-    /// The specimen that was left out, or "largest tilts".
+    /// The specimen that was left out, "largest tilts", or "all but" a family.
     pub left_out: String,
     /// The mechanism; null where nothing was found.
     pub cause: Option<&'static str>,
@@ -69,17 +80,23 @@ pub struct ChoiceEntry {
 
 impl GainSummary {
     /// From a gain measured on a design.
-    pub fn of(gain: &Gain, design: &Design, mechanisms: &[Described]) -> GainSummary {
+    pub fn of(gain: &Gain, study: &Study, design: &Design, mechanisms: &[Described]) -> GainSummary {
+        let name = |family: usize| study.arms[family].name.clone();
         let choices = gain.choices.iter().map(|choice| ChoiceEntry {
             left_out: match choice.held_out {
                 HeldOut::Specimen(index) => design.specimens[index].name.clone(),
                 HeldOut::LargestTilts => "largest tilts".to_string(),
+                HeldOut::OtherFamilies(family) => format!("all but {}", name(family)),
             },
             cause: choice.cause.map(|cause| mechanisms[cause].name),
         });
+        let families = gain.families.iter();
+        let families = families
+            .map(|(family, gained)| FamilyEntry { family: name(*family), gained: GainedEntry::of(gained) });
         GainSummary {
             specimens_left_out: gain.specimens.as_ref().map(GainedEntry::of),
             largest_tilts_left_out: gain.tilts.as_ref().map(GainedEntry::of),
+            one_family_known: families.collect(),
             choices: choices.collect(),
             nulls: gain.nulls,
         }
@@ -97,6 +114,9 @@ impl GainSummary {
                 Some(entry) => text.push_str(&entry.text(what)),
                 None => text.push_str(&format!("  {what}: there is nothing to hold out\n")),
             }
+        }
+        for own in &self.one_family_known {
+            text.push_str(&own.gained.text(&format!("fitted to {} alone, all others left out", own.family)));
         }
         let chosen: Vec<String> = self
             .choices

@@ -10,7 +10,7 @@ use serde_json::Value;
 use crate::fixture::{Folder, STUDY, stderr};
 
 /// Towers that are solved in milliseconds.
-const TOWERS: &str = include_str!("../hidden_effect/towers/study.toml");
+const TOWERS: &str = include_str!("../../studies/hidden-effects/example/study.toml");
 /// Six of them, simulated with kn of 4.1e7 Pa/m and read with a gauge that has moved by 3 mm after its zero reading.
 const MEASURED: &str = include_str!("fixtures/diagnose/gauge-offset.csv");
 
@@ -122,7 +122,7 @@ fn variants_have_banks_and_diagnoses_of_their_own() {
                   pirca bank studies/tiny --variant soft --measured tests.csv --points 12";
     assert!(stderr(&refused).contains(wanted), "{}", stderr(&refused));
     ends_with(&folder, 0, &[&["bank"], &soft[..]].concat());
-    ends_with(&folder, 0, &[&["diagnose", "--no-build"], &soft[..]].concat());
+    ends_with(&folder, 0, &[&["diagnose", "--no-build", "--no-gain"], &soft[..]].concat());
     let text =
         fs::read_to_string(folder.path("runs/tiny-soft-diagnosis/extended/gauge_offset/study.toml")).unwrap();
     assert!(text.contains("from the study \"tiny\", variant soft, seed 7"), "{text}");
@@ -161,8 +161,18 @@ fn what_looks_odd_is_noted_and_judged() {
     for (name, text, note) in cases {
         let csv = format!("{name}.csv");
         fs::write(folder.path(&csv), text).unwrap();
-        let arguments =
-            ["diagnose", "studies/tiny", "--measured", &csv, "--points", "12", "--bank", "bank", "--json"];
+        let arguments = [
+            "diagnose",
+            "studies/tiny",
+            "--measured",
+            &csv,
+            "--points",
+            "12",
+            "--bank",
+            "bank",
+            "--no-gain",
+            "--json",
+        ];
         let output = ends_with(&folder, 0, &arguments);
         let json: Value = serde_json::from_slice(&output.stdout).unwrap();
         let notes: Vec<&str> = json["notes"].as_array().unwrap().iter().filter_map(Value::as_str).collect();
@@ -174,8 +184,18 @@ fn what_looks_odd_is_noted_and_judged() {
         );
     }
     // What is in order is not doubted.
-    let arguments =
-        ["diagnose", "studies/tiny", "--measured", "tests.csv", "--points", "12", "--bank", "bank", "--json"];
+    let arguments = [
+        "diagnose",
+        "studies/tiny",
+        "--measured",
+        "tests.csv",
+        "--points",
+        "12",
+        "--bank",
+        "bank",
+        "--no-gain",
+        "--json",
+    ];
     let output = ends_with(&folder, 0, &arguments);
     let json: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(json["notes"], Value::Array(Vec::new()));

@@ -8,7 +8,7 @@ use pirca::study::{Arm, Loaded, Point, Study, described};
 use crate::fixture::Folder;
 
 /// Towers with room for what a test adds.
-const TOWERS: &str = include_str!("../hidden_effect/towers/study.toml");
+const TOWERS: &str = include_str!("../../studies/hidden-effects/example/study.toml");
 
 fn root(below: &str) -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(below)

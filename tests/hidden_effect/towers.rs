@@ -28,7 +28,7 @@ const ERRORS: [f64; 2] = [0.1, 2e-5];
 const POINTS: u64 = 60;
 
 fn towers() -> Study {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/hidden_effect/towers");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/hidden-effects/example");
     Study::load(&folder, None).unwrap_or_else(|faults| panic!("{faults}")).study
 }
 

@@ -173,3 +173,48 @@ fn alike(a: &At<'_>, b: &At<'_>) -> f64 {
 fn part(whole: &DMatrix<f64>, rows: &[usize], columns: &[usize]) -> DMatrix<f64> {
     DMatrix::from_fn(rows.len(), columns.len(), |a, b| whole[(rows[a], columns[b])])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::critic::diagnose::tests::made;
+    use crate::critic::diagnose::{Truth, World};
+    use crate::random::Streams;
+
+    /// The form of a campaign whose stones' displacements are off by so much (m).
+    fn form(world: &World<'_>, design: &Design, off: f64) -> Vec<Bent> {
+        let joints = vec![0.0; world.inputs(None)];
+        let truth = world.truth(None, &joints);
+        let mut campaign = world.campaign(design, &truth, &Streams::new(71, 1));
+        for (specimen, seen) in design.specimens.iter().zip(&mut campaign.specimens) {
+            for (m, seen) in specimen.readings.iter().zip(seen) {
+                if let (1, Some(_), Seen::Value(value)) = (specimen.family, m.tilt, &*seen) {
+                    *seen = Seen::Value(value + off);
+                }
+            }
+        }
+        let draws: Vec<Truth> = vec![truth; 40];
+        let base = Predicted::of(world, design, &draws, 72);
+        let known: Vec<Vec<bool>> = design.specimens.iter().map(|s| vec![true; s.readings.len()]).collect();
+        let units: Vec<Vec<f64>> = design
+            .specimens
+            .iter()
+            .map(|s| s.readings.iter().map(|m| if m.tilt.is_some() { 2e-3 } else { 0.01 }).collect())
+            .collect();
+        Discrepancy::new(design, &campaign, &known, &base, &units).expect("readings").form()
+    }
+
+    #[test]
+    fn what_is_lacking_is_found_where_it_is_and_with_its_size() {
+        let made = made();
+        let (world, (design, _)) = (made.world(), Design::of(&made.study));
+        let sure = |bent: &&Bent| bent.value.abs() > 2.0 * bent.sd;
+        let bent = form(&world, &design, 8e-3);
+        let own: Vec<&Bent> = bent.iter().filter(|b| b.family == 1 && b.tilt.is_some()).collect();
+        assert!(!own.is_empty() && own.iter().copied().filter(|b| sure(b)).count() == own.len(), "{own:?}");
+        // Three readings of 1.7 mm each, and what a smooth curve shrinks it by.
+        assert!(own.iter().all(|b| (b.value - 8e-3).abs() < 3e-3), "{own:?}");
+        assert!(bent.iter().filter(|b| b.tilt.is_none()).filter(sure).count() == 0, "{bent:?}");
+        assert!(form(&world, &design, 0.0).iter().filter(sure).count() == 0);
+    }
+}

@@ -230,3 +230,38 @@ impl Normal {
         -0.5 * off.dot(&self.lower.solve(&off)) - self.half_log_determinant
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::critic::diagnose::Design;
+    use crate::critic::diagnose::tests::{EFFORT, made};
+
+    #[test]
+    fn a_measurement_that_tells_causes_apart_brings_what_is_open_and_others_bring_nothing() {
+        let made = made();
+        let (world, (design, _)) = (made.world(), Design::of(&made.study));
+        let judge = Judge::trained(&world, &design, EFFORT, 5).expect("it can be told");
+        let draws = |name: &str, score: f64| -> (f64, Vec<Truth>) {
+            let cause = Some(made.cause(name));
+            let one = |k: u64| {
+                let mut truth = world.drawn(cause, &Streams::new(81, k));
+                truth.parameters.iter_mut().for_each(|own| *own = score);
+                truth
+            };
+            (0.5, (0..100).map(one).collect())
+        };
+        // In the made-up bank creep moves every wall, cohesion nothing, and two stones show neither.
+        let offered = offers(&judge, &[draws("creep", 1.5), draws("cohesion", 0.0)], 6);
+        let of = |wanted: Offer| offered.iter().find(|own| own.offer == wanted).expect("in the menu");
+        println!("{offered:?}");
+        assert!((of(Offer::FinerReadings).of - 1.0).abs() < 1e-9);
+        assert!(of(Offer::FinerReadings).bits > 0.8 && of(Offer::TwoStones).bits < 0.1);
+        let alike = offers(&judge, &[draws("density", 1.0), draws("cohesion", 1.0)], 6);
+        assert!(alike.iter().all(|own| own.bits < 0.15), "{alike:?}");
+        // The most information per hour comes first.
+        let worth: Vec<f64> = offered.iter().map(|own| own.bits / own.hours).collect();
+        assert!(worth.windows(2).all(|pair| pair[0] >= pair[1]));
+        assert_eq!(offers(&judge, &[draws("creep", 1.0)], 6), []);
+    }
+}

@@ -53,8 +53,8 @@ pub struct SelfTestRow {
 pub struct Caught {
     /// Index of the parameter.
     pub parameter: usize,
-    /// Its score from where on.
-    pub score: f64,
+    /// Its score from where on; `None` where it is caught anywhere in its prior.
+    pub score: Option<f64>,
     /// Whether smaller values are caught, not larger ones.
     pub below: bool,
 }
@@ -115,7 +115,7 @@ fn row(cause: Option<usize>, campaigns: &[Tested], limits: &Limits) -> SelfTestR
 }
 
 /// The score from where on, upwards or (true) downwards, effects are caught; the side on which more are.
-fn caught(shown: &[(f64, bool)]) -> Option<(f64, bool)> {
+fn caught(shown: &[(f64, bool)]) -> Option<(Option<f64>, bool)> {
     let from = |sign: f64| {
         let mut order: Vec<(f64, bool)> = shown.iter().map(|(score, found)| (sign * score, *found)).collect();
         order.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -126,14 +126,15 @@ fn caught(shown: &[(f64, bool)]) -> Option<(f64, bool)> {
             if (found as f64) < CAUGHT * WINDOW as f64 {
                 break;
             }
-            reached = Some((k, window[WINDOW / 2].0));
+            let everywhere = k + WINDOW == order.len();
+            reached = Some((k, (!everywhere).then(|| sign * window[WINDOW / 2].0)));
         }
         reached
     };
     let (up, down) = (from(1.0), from(-1.0));
     match (up, down) {
         (Some((more, score)), Some((fewer, _))) if more >= fewer => Some((score, false)),
-        (_, Some((_, score))) => Some((-score, true)),
+        (_, Some((_, score))) => Some((score, true)),
         (Some((_, score)), None) => Some((score, false)),
         (None, None) => None,
     }
@@ -185,9 +186,10 @@ mod tests {
             (0..400).map(|k| 0.01 * f64::from(k) - 2.0).map(|score| (score, found(score))).collect()
         };
         let (score, below) = caught(&shown(&|score| score > 1.0)).expect("it is found");
-        assert!((score - 1.0).abs() < 0.1 && !below, "{score}");
+        assert!(score.is_some_and(|score| (score - 1.0).abs() < 0.1) && !below, "{score:?}");
         let (score, below) = caught(&shown(&|score| score < -1.0)).expect("it is found");
-        assert!((score + 1.0).abs() < 0.1 && below, "{score}");
+        assert!(score.is_some_and(|score| (score + 1.0).abs() < 0.1) && below, "{score:?}");
+        assert_eq!(caught(&shown(&|_| true)), Some((None, false)));
         assert_eq!(caught(&shown(&|_| false)), None);
     }
 

@@ -112,6 +112,13 @@ impl<'s> World<'s> {
         self.truth(cause, &scores)
     }
 
+    /// The truth of the base model, drawn from the priors as they are stated.
+    pub fn stated(&self, streams: &Streams) -> Truth {
+        let mut truth = self.drawn(None, streams);
+        truth.joints.iter_mut().flatten().for_each(|score| *score /= DOUBT);
+        truth
+    }
+
     /// Scores that a truth with a cause has: three for each kind of joint, then one for each parameter.
     pub fn inputs(&self, cause: Option<usize>) -> usize {
         3 * self.joint_kinds() + cause.map_or(0, |index| self.mechanisms[index].parameters.len())

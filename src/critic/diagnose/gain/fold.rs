@@ -1,4 +1,4 @@
-//! What is held out of a campaign: each specimen in turn, and the largest tilts of all.
+//! What is held out of a campaign: each specimen in turn, the largest tilts of all, and all families but one.
 
 use crate::critic::diagnose::design::{Campaign, Design};
 
@@ -6,12 +6,14 @@ use crate::critic::diagnose::design::{Campaign, Design};
 const LARGEST: f64 = 1.0 / 3.0;
 
 /// What is held out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum HeldOut {
     /// All that was read on a specimen (its place in the design).
     Specimen(usize),
     /// The upper third of every specimen's tilts, at least one of them, and its collapse angle.
     LargestTilts,
+    /// All that was read on other families than this one (its arm).
+    OtherFamilies(usize),
 }
 
 /// A campaign in two parts.
@@ -24,7 +26,7 @@ pub struct Fold {
 }
 
 impl Fold {
-    /// All folds that leave something to learn from, specimens first.
+    /// All folds that leave something to learn from: specimens, tilts, families.
     pub fn all(design: &Design) -> Vec<Fold> {
         let specimens = 0..design.specimens.len();
         let mut folds: Vec<Fold> = specimens
@@ -43,6 +45,14 @@ impl Fold {
             specimen.readings.iter().map(|m| m.tilt.is_some_and(|tilt| tilt <= last)).collect()
         });
         folds.push(Fold { held_out: HeldOut::LargestTilts, known: known.collect() });
+        let mut families: Vec<usize> = design.specimens.iter().map(|specimen| specimen.family).collect();
+        families.sort_unstable();
+        families.dedup();
+        folds.extend(families.into_iter().map(|family| {
+            let known = design.specimens.iter();
+            let known = known.map(|own| vec![own.family == family; own.readings.len()]).collect();
+            Fold { held_out: HeldOut::OtherFamilies(family), known }
+        }));
         folds.retain(|fold| {
             let all = || fold.known.iter().flatten();
             all().any(|known| *known) && all().any(|known| !known)

@@ -8,6 +8,8 @@ mod gained;
 #[cfg(test)]
 mod tests;
 
+use std::collections::BTreeMap;
+
 use rayon::prelude::*;
 
 use crate::critic::diagnose::design::{Campaign, Design};
@@ -40,6 +42,8 @@ pub struct Gain {
     pub specimens: Option<Gained>,
     /// The largest tilts of all specimens left out; `None` where nothing is left then.
     pub tilts: Option<Gained>,
+    /// All families left out but one (its arm); empty where there is only one.
+    pub families: Vec<(usize, Gained)>,
     /// What was chosen, fold by fold.
     pub choices: Vec<Choice>,
     /// Campaigns without any effect that the intervals rest on.
@@ -105,27 +109,39 @@ pub fn gain(judge: &Judge<'_>, campaign: &Campaign, measuring: &Measuring, seed:
     let rows = rows(judge, &folds, campaign, &choices, seed, true);
     // Campaigns that the base model, fitted to this one, would show.
     let fitted = evidence(judge.world, &judge.design, campaign, None, seed).draws;
-    let null = |k: u64| -> [Vec<Row>; 2] {
+    let null = |k: u64| -> BTreeMap<Kind, Vec<Row>> {
         let streams = Streams::new(seed.wrapping_add(1), k);
         let truth = &fitted[streams.of("null").below(fitted.len())];
         let shown = judge.world.campaign(&judge.design, truth, &streams);
         let choices = folds.choices(&shown, &measuring.limits);
         match choices.iter().all(Option::is_none) {
-            true => [Vec::new(), Vec::new()],
+            true => BTreeMap::new(),
             false => self::rows(judge, &folds, &shown, &choices, seed.wrapping_add(2 + k), false),
         }
     };
-    let nulls: Vec<[Vec<Row>; 2]> = (0..measuring.nulls).into_par_iter().map(null).collect();
-    let [specimens, tilts] = [0, 1].map(|kind| {
-        let nulls: Vec<[[f64; 2]; 3]> = nulls.iter().map(|null| estimates(&null[kind])).collect();
-        gained(&rows[kind], &nulls)
+    let nulls: Vec<BTreeMap<Kind, Vec<Row>>> = (0..measuring.nulls).into_par_iter().map(null).collect();
+    let of = |kind: Kind| {
+        let nulls: Vec<[[f64; 2]; 3]> =
+            nulls.iter().map(|null| null.get(&kind).map_or([[0.0; 2]; 3], |rows| estimates(rows))).collect();
+        gained(rows.get(&kind)?, &nulls)
+    };
+    let families = rows.keys().filter_map(|kind| match kind {
+        Kind::Family(family) => Some((*family, of(*kind)?)),
+        Kind::Specimens | Kind::Tilts => None,
     });
+    let families = families.collect();
     let held_out = folds.folds.iter().map(|(fold, _)| fold.held_out);
     let choices = held_out.zip(choices).map(|(held_out, cause)| Choice { held_out, cause }).collect();
-    Some(Gain { specimens, tilts, choices, nulls: measuring.nulls })
+    Some(Gain {
+        specimens: of(Kind::Specimens),
+        tilts: of(Kind::Tilts),
+        families,
+        choices,
+        nulls: measuring.nulls,
+    })
 }
 
-/// How the readings held out are predicted: those of the specimens left out, and those of the largest tilts.
+/// How the readings held out are predicted.
 fn rows(
     judge: &Judge<'_>,
     folds: &Folds<'_>,
@@ -133,9 +149,9 @@ fn rows(
     choices: &[Option<usize>],
     seed: u64,
     with_ceiling: bool,
-) -> [Vec<Row>; 2] {
+) -> BTreeMap<Kind, Vec<Row>> {
     let units = judge.reference.scale.units();
-    let of = |((fold, index), choice): (&(Fold, usize), &Option<usize>)| -> (bool, Vec<Row>) {
+    let of = |((fold, index), choice): (&(Fold, usize), &Option<usize>)| -> (Kind, Vec<Row>) {
         let known = &folds.judges[*index].design;
         let seen = fold.campaign(campaign);
         let walls = |cause: Option<usize>| {
@@ -166,12 +182,30 @@ fn rows(
                 rows.push(Row { specimen, base, extended, ceiling });
             }
         }
-        (fold.held_out == HeldOut::LargestTilts, rows)
+        (Kind::of(fold.held_out), rows)
     };
-    let all: Vec<(bool, Vec<Row>)> = folds.folds.par_iter().zip(choices).map(of).collect();
-    [false, true].map(|tilts| {
-        all.iter().filter(|(kind, _)| *kind == tilts).flat_map(|(_, rows)| rows.iter().copied()).collect()
-    })
+    let all: Vec<(Kind, Vec<Row>)> = folds.folds.par_iter().zip(choices).map(of).collect();
+    let mut by_kind: BTreeMap<Kind, Vec<Row>> = BTreeMap::new();
+    all.into_iter().for_each(|(kind, rows)| by_kind.entry(kind).or_default().extend(rows));
+    by_kind
+}
+
+/// What is summed up together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Kind {
+    Specimens,
+    Tilts,
+    Family(usize),
+}
+
+impl Kind {
+    fn of(held_out: HeldOut) -> Kind {
+        match held_out {
+            HeldOut::Specimen(_) => Kind::Specimens,
+            HeldOut::LargestTilts => Kind::Tilts,
+            HeldOut::OtherFamilies(family) => Kind::Family(family),
+        }
+    }
 }
 
 /// Whether the same is read in both, whatever the specimens are called.

@@ -17,13 +17,19 @@ const MEASURING: Measuring =
 fn every_specimen_is_left_out_once_and_the_largest_tilts_together() {
     let (design, campaign) = Design::of(&made().study);
     let folds = Fold::all(&design);
-    assert_eq!(folds.len(), 10);
+    assert_eq!(folds.len(), 13);
     for (index, fold) in folds[..9].iter().enumerate() {
         assert_eq!(fold.held_out, HeldOut::Specimen(index));
         let part = fold.design(&design);
         assert!(part.specimens.len() == 8 && !part.specimens.contains(&design.specimens[index]));
         assert_eq!(fold.campaign(&campaign).specimens.len(), 8);
     }
+    let stones = folds[11].design(&design);
+    assert_eq!(folds[11].held_out, HeldOut::OtherFamilies(1));
+    assert_eq!(
+        stones.specimens.iter().map(|s| s.name.as_str()).collect::<Vec<_>>(),
+        ["SBL1", "SBL2", "SBL3"]
+    );
     let last = &folds[9];
     assert_eq!(last.held_out, HeldOut::LargestTilts);
     // 5, 10 and 15 deg: two are known, and no collapse angle; of 5 and 10 deg one.
@@ -112,6 +118,7 @@ fn a_strong_effect_is_a_gain_and_its_absence_is_none() {
     let specimens = found.specimens.as_ref().expect("nine specimens");
     println!("{specimens:?}\n{:?}", found.tilts);
     assert!(specimens.gain.iter().all(|gain| gain.ends[0] > 0.0 && gain.value > 0.0), "{:?}", specimens.gain);
+    assert_eq!(found.families.iter().map(|(family, _)| *family).collect::<Vec<_>>(), [0, 1, 2]);
     // A free discrepancy finds some of it, too.
     assert!(specimens.ceiling.log > specimens.base.log);
     assert_eq!(gain(&judge, &shown, &MEASURING, 9), Some(found));

@@ -35,7 +35,7 @@ pub struct Curve {
 
 /// Bands of the base model, family by family; a pure function of its arguments.
 pub fn base_curves(world: &World<'_>, design: &Design, seed: u64) -> Vec<FamilyCurves> {
-    let truths: Vec<Truth> = (0..WALLS / SETS).map(|k| world.drawn(None, &Streams::new(seed, k))).collect();
+    let truths: Vec<Truth> = (0..WALLS / SETS).map(|k| world.stated(&Streams::new(seed, k))).collect();
     over_the_tilt(world, design, &truths, seed)
 }
 

@@ -31,7 +31,7 @@ impl Nested {
         let readings = walls.chain(open.joints.iter_mut().map(|(_, reading)| reading));
         readings.filter(|m| m.kind.is_censored()).for_each(|m| m.kind = MeasuredKind::Exact);
         let one = |truth: u64| {
-            let of_truth = world.drawn(None, &Streams::new(seed, truth));
+            let of_truth = world.stated(&Streams::new(seed, truth));
             let joints = world.joint_values(&open, &of_truth);
             let shown = |set: u64| {
                 let streams = Streams::new(seed, TRUTHS + SETS * truth + set);

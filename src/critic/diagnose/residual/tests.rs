@@ -17,7 +17,7 @@ const SBL: usize = 1;
 
 fn campaign(world: &World<'_>, design: &Design, seed: u64, k: u64) -> Campaign {
     let streams = Streams::new(seed, k);
-    world.campaign(design, &world.drawn(None, &streams), &streams)
+    world.campaign(design, &world.stated(&streams), &streams)
 }
 
 fn readings(design: &mut Design) -> impl Iterator<Item = &mut Measurement> {
@@ -203,7 +203,7 @@ fn campaigns_of_one_truth_share_its_joints_and_not_their_stones() {
 fn bands_over_the_tilt_go_to_where_half_have_fallen_and_show_a_cause() {
     let made = made();
     let (world, (design, _)) = (made.world(), Design::of(&made.study));
-    let truths: Vec<Truth> = (0..500).map(|k| world.drawn(None, &Streams::new(9, k))).collect();
+    let truths: Vec<Truth> = (0..500).map(|k| world.stated(&Streams::new(9, k))).collect();
     let base = base_curves(&world, &design, 9);
     assert_eq!(base.iter().map(|family| family.family).collect::<Vec<_>>(), [0, 1, 2]);
     for family in &base {
