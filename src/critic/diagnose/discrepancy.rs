@@ -62,7 +62,7 @@ pub struct Bent {
 
 impl<'d> Discrepancy<'d> {
     /// From the known readings of a campaign, what the base model expects of all of them, and its standard deviations of the
-    /// readings. A bound counts as lying on it. `None` where nothing is known.
+    /// readings. A bound tells it nothing. `None` where nothing is known.
     pub fn new(
         design: &'d Design,
         campaign: &Campaign,
@@ -78,7 +78,8 @@ impl<'d> Discrepancy<'d> {
                     continue;
                 }
                 let mean = stats::mean(&base.reading(specimen, reading))?;
-                let (unit, known) = (units[specimen][reading], known[specimen][reading]);
+                let (unit, told) = (units[specimen][reading], seen != Seen::Beyond);
+                let known = known[specimen][reading] && told;
                 all.push(At { place: (specimen, reading), family: own.family, m, seen, unit, mean, known });
             }
         }
@@ -114,6 +115,7 @@ impl<'d> Discrepancy<'d> {
 
     /// How the readings that were not known are predicted, by specimen and reading.
     pub fn scores(&self) -> Vec<((usize, usize), Score)> {
+        // Bounds that were known are among them: they were not used.
         let out = (0..self.all.len()).filter(|&k| !self.all[k].known);
         out.filter_map(|k| {
             let at = &self.all[k];
@@ -133,7 +135,7 @@ impl<'d> Discrepancy<'d> {
             let alike = |bent: &Bent| {
                 bent.family == at.family && bent.quantity == at.m.quantity && bent.tilt == at.m.tilt
             };
-            if form.iter().any(alike) {
+            if at.seen == Seen::Beyond || form.iter().any(alike) {
                 continue;
             }
             let told = self.told(&self.smooth, k);

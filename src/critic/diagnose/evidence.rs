@@ -20,8 +20,9 @@ const MOVES: usize = 3;
 /// Length of a random walk's steps in standard deviations of the particles, over the root of their dimensions (Roberts, Gelman
 /// and Gilks 1997).
 const STEP: f64 = 2.38;
-/// Scores beyond this, one in 500 million of their prior, are as good as impossible.
-const FURTHEST: f64 = 6.0;
+/// Scores beyond this, one in two million of their prior, are as good as impossible; the joints' count [`DOUBT`](crate::critic::DOUBT) times, and are
+/// numbers that a quantile still tells from infinity.
+const FURTHEST: f64 = 5.0;
 /// No more temperatures than this.
 const TEMPERATURES: usize = 60;
 
@@ -219,6 +220,25 @@ mod tests {
         println!("{covered} of 60");
         // 80 % of 60 are 48 +- 3.1; 160 particles that have moved a few times are a little too close to each other.
         assert!((38..=57).contains(&covered), "{covered}");
+    }
+
+    #[test]
+    fn joints_that_a_reading_pushes_out_of_all_bounds_stop_there() {
+        let made = made();
+        let (world, (mut design, mut shown)) = (made.world(), Design::of(&made.study));
+        // Two stones a thousand times as stiff as anybody thinks.
+        let mut kn = design.specimens[0].readings[0].clone();
+        (kn.quantity, kn.tilt, kn.error) = (crate::study::MeasuredQuantity::JointKn, None, 1e6);
+        design.joints = vec![(0, kn)];
+        shown.joints = vec![crate::critic::Seen::Value(5e10)];
+        let found = evidence(&world, &design, &shown, None, 1);
+        assert!(found.log.is_finite());
+        let furthest = found
+            .draws
+            .iter()
+            .flat_map(|draw| draw.joints.iter().flatten())
+            .fold(0.0, |a: f64, b| a.max(b.abs()));
+        assert!(furthest > 5.0 && furthest <= 7.5, "{furthest}");
     }
 
     #[test]

@@ -68,7 +68,10 @@ fn together(groups: &[GroupEntry]) -> Line {
         what: format!("{} at {} and {last} deg", name(&groups[0]), others.join(", ")),
         measured: String::new(),
         simulated: String::new(),
-        finding: format!("agrees (p {} or more)", significant(least, 2)),
+        finding: match least < 1.0 {
+            true => format!("agrees (p {} or more)", significant(least, 2)),
+            false => "agrees".to_string(),
+        },
     }
 }
 
