@@ -133,10 +133,14 @@ pub(super) fn groups(study: &Study) -> BTreeMap<(usize, MeasuredQuantity, u64, b
     let mut groups: BTreeMap<_, Group<'_>> = BTreeMap::new();
     for m in &study.measured {
         let arm = study.arms.iter().position(|arm| arm.name == m.family).unwrap_or(study.arms.len());
-        let tilt = m.tilt.map_or(0, |tilt| tilt.abs().to_bits());
-        groups.entry((arm, m.quantity, tilt, is_rising(m, &study.measured))).or_default().push(m);
+        groups.entry((arm, m.quantity, order_of_tilt(m), is_rising(m, &study.measured))).or_default().push(m);
     }
     groups
+}
+
+/// A key that is in the order of the tilts: the bits of a number that is not negative; 0 where there is none.
+pub(super) fn order_of_tilt(m: &Measurement) -> u64 {
+    m.tilt.map_or(0, |tilt| tilt.abs().to_bits())
 }
 
 /// Whether no earlier stage of the specimen had as large a tilt.

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use pirca::critic::Bank;
 use pirca::ensemble::replace_file;
@@ -54,8 +55,11 @@ fn path(variable: &str, default: &str) -> PathBuf {
     env::var_os(variable).map_or_else(|| root(default), PathBuf::from)
 }
 
-fn loaded() -> Loaded {
-    Study::load(&root("studies/tilting-table"), None).unwrap_or_else(|faults| panic!("{faults}"))
+fn loaded() -> &'static Loaded {
+    static LOADED: OnceLock<Loaded> = OnceLock::new();
+    LOADED.get_or_init(|| {
+        Study::load(&root("studies/tilting-table"), None).unwrap_or_else(|faults| panic!("{faults}"))
+    })
 }
 
 fn write(path: &Path, text: &str) {
@@ -67,7 +71,7 @@ fn read(path: &Path) -> String {
 }
 
 fn measured(path: &Path) -> Vec<Measurement> {
-    loaded().with_measured(path).unwrap_or_else(|faults| panic!("{faults}")).study.measured
+    loaded().clone().with_measured(path).unwrap_or_else(|faults| panic!("{faults}")).study.measured
 }
 
 /// Solves and seals what is not there yet. Gives the names of the campaigns that could be solved, which tell nothing.
@@ -159,7 +163,7 @@ fn together(labels: &[Label], verdicts: Vec<Verdicts>) -> Vec<Judged> {
 fn hidden_effect_campaigns_are_sealed_judged_and_opened() {
     let folders = Folders { out: path("HIDDEN_EFFECT_OUT", "runs/hidden-effects") };
     let share = share();
-    let study = loaded().study;
+    let study = loaded().study.clone();
     let all = roster(share, MASTER);
     let names = hidden(&folders, &study, &all);
     let bank = path("HIDDEN_EFFECT_BANK", "studies/tilting-table/bank.parquet");

@@ -20,6 +20,16 @@ pub struct Specimen {
     pub readings: Vec<Measurement>,
 }
 
+impl Specimen {
+    /// The tilts that it was read at (rad), each once, ascending.
+    pub fn tilts(&self) -> Vec<f64> {
+        let mut tilts: Vec<f64> = self.readings.iter().filter_map(|m| m.tilt).collect();
+        tilts.sort_by(f64::total_cmp);
+        tilts.dedup();
+        tilts
+    }
+}
+
 /// All tests, and what was measured on joints alone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Design {
@@ -82,9 +92,15 @@ impl Design {
         };
         (design, campaign)
     }
-}
 
-impl Design {
+    /// The families of the specimens (their arms), each once, in their order.
+    pub fn families(&self) -> Vec<usize> {
+        let mut families: Vec<usize> = self.specimens.iter().map(|specimen| specimen.family).collect();
+        families.sort_unstable();
+        families.dedup();
+        families
+    }
+
     /// All readings with their families, specimen by specimen, the tests on joints last.
     pub fn readings(&self) -> impl Iterator<Item = (usize, &Measurement)> {
         let specimens = self.specimens.iter();

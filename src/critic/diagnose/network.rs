@@ -209,7 +209,7 @@ fn rectified(mut values: Vec<f64>) -> Vec<f64> {
     values
 }
 
-fn softmax(sums: &[f64], temperature: f64) -> Vec<f64> {
+pub(super) fn softmax(sums: &[f64], temperature: f64) -> Vec<f64> {
     let largest = sums.iter().fold(f64::NEG_INFINITY, |m, x| m.max(*x));
     let raised: Vec<f64> = sums.iter().map(|x| exp((x - largest) / temperature)).collect();
     let whole = raised.iter().fold(0.0, |sum, x| sum + x);

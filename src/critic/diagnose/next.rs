@@ -9,8 +9,9 @@ use rayon::prelude::*;
 use crate::critic::diagnose::design::{Design, Specimen};
 use crate::critic::diagnose::features::{Feature, Scale, features};
 use crate::critic::diagnose::judge::Judge;
+use crate::critic::diagnose::network::softmax;
 use crate::critic::diagnose::world::Truth;
-use crate::math::{exp, ln, radians};
+use crate::math::{ln, radians};
 use crate::random::Streams;
 use crate::stats;
 use crate::study::{MeasuredKind, MeasuredQuantity, Measurement};
@@ -107,15 +108,12 @@ fn planned(offer: Offer, judge: &Judge<'_>) -> Option<Design> {
     };
     match offer {
         Offer::TwoStones => {
-            for (k, specimen) in design.specimens.iter().enumerate() {
-                if design.specimens[..k].iter().any(|other| other.family == specimen.family) {
-                    continue;
-                }
+            let middle = judge.world.truth(None, &vec![0.0; judge.world.inputs(None)]);
+            for family in design.families() {
                 let mut kn = reading(Q::JointKn, None, 0.0);
-                let middle = judge.world.truth(None, &vec![0.0; judge.world.inputs(None)]);
-                kn.error = 0.1 * judge.world.joint(specimen.family, &kn, &middle);
-                new.joints.push((specimen.family, kn));
-                new.joints.push((specimen.family, reading(Q::JointPhi, None, radians(1.0))));
+                kn.error = 0.1 * judge.world.joint(family, &kn, &middle);
+                new.joints.push((family, kn));
+                new.joints.push((family, reading(Q::JointPhi, None, radians(1.0))));
             }
         }
         Offer::LowTilts => {
@@ -123,11 +121,7 @@ fn planned(offer: Offer, judge: &Judge<'_>) -> Option<Design> {
             new.specimens = again(&|_| at(&tilts));
         }
         Offer::FinerReadings => {
-            new.specimens = again(&|own| {
-                let mut tilts: Vec<f64> = own.readings.iter().filter_map(|m| m.tilt).collect();
-                tilts.dedup();
-                at(&tilts)
-            });
+            new.specimens = again(&|own| at(&own.tilts()));
         }
         Offer::MoreTilts => {
             new.specimens = again(&|own| {
@@ -190,10 +184,8 @@ fn information(
         let logs = own.iter().skip(1).step_by(2).map(|point| {
             let joint: Vec<f64> =
                 normals.iter().zip(weights).map(|(normal, w)| normal.log(point) + ln(w.max(1e-12))).collect();
-            let largest = joint.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            let sum = stats::sum(&joint.iter().map(|log| exp(log - largest)).collect::<Vec<_>>());
             // A classifier that is sure and wrong tells as little as one that knows nothing.
-            (joint[class] - largest - ln(sum)).max(ln(weights[class].max(1e-12)) - 1.0)
+            ln(softmax(&joint, 1.0)[class]).max(ln(weights[class].max(1e-12)) - 1.0)
         });
         cross -= weights[class] * stats::mean(&logs.collect::<Vec<_>>()).unwrap_or(0.0);
     }

@@ -41,7 +41,8 @@ impl Predicted {
     pub fn of(world: &World<'_>, design: &Design, draws: &[Truth], seed: u64) -> Predicted {
         let one = |(index, truth): (usize, &Truth)| -> Vec<Vec<Vec<f64>>> {
             let mut stones = Streams::new(seed, index as u64).of("predicted stones");
-            let families: Vec<(usize, Vec<Vec<f64>>, bool)> = families(design)
+            let families: Vec<(usize, Vec<Vec<f64>>, bool)> = design
+                .families()
                 .into_iter()
                 .map(|family| {
                     let own = design.specimens.iter().filter(|specimen| specimen.family == family);
@@ -139,12 +140,4 @@ fn crps(draws: &[f64], value: f64) -> f64 {
     // Mean distance of two draws, from their order.
     let apart: Vec<f64> = draws.iter().enumerate().map(|(k, x)| (2.0 * k as f64 + 1.0 - n) * x).collect();
     stats::sum(&off) / n - stats::sum(&apart) / (n * n)
-}
-
-/// The families of a design, each once.
-fn families(design: &Design) -> Vec<usize> {
-    let mut families: Vec<usize> = design.specimens.iter().map(|specimen| specimen.family).collect();
-    families.sort_unstable();
-    families.dedup();
-    families
 }

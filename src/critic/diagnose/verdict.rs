@@ -7,10 +7,9 @@ use crate::critic::diagnose::discrepancy::{Bent, Discrepancy};
 use crate::critic::diagnose::evidence::{Evidence, evidence};
 use crate::critic::diagnose::guard::guarded;
 use crate::critic::diagnose::judge::{Judge, Seeming};
+use crate::critic::diagnose::network::softmax;
 use crate::critic::diagnose::predicted::Predicted;
 use crate::critic::diagnose::world::Truth;
-use crate::math::exp;
-use crate::stats;
 
 /// A set of more causes than this separates nothing.
 pub const MOST_AMBIGUOUS: usize = 3;
@@ -125,16 +124,17 @@ impl Judge<'_> {
             // The guard of many would choose among them by chance.
             in_question.clear();
         }
-        let mut closely = likely[..likely.len().min(CLOSELY)].to_vec();
-        closely
-            .extend(in_question.iter().copied().filter(|cause| !closely.contains(cause)).collect::<Vec<_>>());
+        let closely = likely.iter().enumerate();
+        let closely = closely.filter(|(rank, cause)| *rank < CLOSELY || in_question.contains(cause));
+        let closely: Vec<usize> = closely.map(|(_, cause)| *cause).collect();
         let models: Vec<Option<usize>> =
             std::iter::once(None).chain(closely.iter().copied().map(Some)).collect();
         let evidences: Vec<Evidence> = models
             .par_iter()
             .map(|cause| evidence(self.world, &self.design, campaign, *cause, seed.wrapping_add(1)))
             .collect();
-        let shares = shares(&evidences);
+        let logs: Vec<f64> = evidences.iter().map(|evidence| evidence.log).collect();
+        let shares = softmax(&logs, 1.0);
         let form = self.form(campaign, &evidences[0].draws, seed.wrapping_add(2));
         let looked_at: Vec<LookedAt> = closely
             .iter()
@@ -174,12 +174,4 @@ impl Judge<'_> {
         Discrepancy::new(&self.design, campaign, &known, &base, &units)
             .map_or_else(Vec::new, |free| free.form())
     }
-}
-
-/// Each model's share of the evidence.
-fn shares(evidences: &[Evidence]) -> Vec<f64> {
-    let largest = evidences.iter().map(|evidence| evidence.log).fold(f64::NEG_INFINITY, f64::max);
-    let raw: Vec<f64> = evidences.iter().map(|evidence| exp(evidence.log - largest)).collect();
-    let sum = stats::sum(&raw);
-    raw.into_iter().map(|share| share / sum).collect()
 }

@@ -37,18 +37,13 @@ impl Fold {
             })
             .collect();
         let known = design.specimens.iter().map(|specimen| {
-            let mut tilts: Vec<f64> = specimen.readings.iter().filter_map(|m| m.tilt).collect();
-            tilts.sort_by(f64::total_cmp);
-            tilts.dedup();
+            let tilts = specimen.tilts();
             let out = (LARGEST * tilts.len() as f64).ceil() as usize;
             let last = tilts.len().checked_sub(out + 1).map_or(f64::NEG_INFINITY, |last| tilts[last]);
             specimen.readings.iter().map(|m| m.tilt.is_some_and(|tilt| tilt <= last)).collect()
         });
         folds.push(Fold { held_out: HeldOut::LargestTilts, known: known.collect() });
-        let mut families: Vec<usize> = design.specimens.iter().map(|specimen| specimen.family).collect();
-        families.sort_unstable();
-        families.dedup();
-        folds.extend(families.into_iter().map(|family| {
+        folds.extend(design.families().into_iter().map(|family| {
             let known = design.specimens.iter();
             let known = known.map(|own| vec![own.family == family; own.readings.len()]).collect();
             Fold { held_out: HeldOut::OtherFamilies(family), known }

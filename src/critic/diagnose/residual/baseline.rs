@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::critic::compare::order_of_tilt;
 use crate::critic::diagnose::design::{Campaign, Design, Seen};
 use crate::critic::diagnose::residual::group::{Group, GroupBase};
 use crate::critic::diagnose::residual::nested::Nested;
@@ -33,9 +34,7 @@ impl Baseline {
         let nested = Nested::new(world, design, seed);
         let mut grouped: BTreeMap<(usize, MeasuredQuantity, u64), Places<'_>> = BTreeMap::new();
         for (place, (family, m)) in design.readings().enumerate() {
-            // The bits of numbers that are not negative are in their order.
-            let tilt = m.tilt.map_or(0, |tilt| tilt.abs().to_bits());
-            grouped.entry((family, m.quantity, tilt)).or_default().push((place, m));
+            grouped.entry((family, m.quantity, order_of_tilt(m))).or_default().push((place, m));
         }
         let readings = design.readings().enumerate();
         let readings = readings

@@ -57,10 +57,7 @@ pub(super) fn over_the_tilt(
     truths: &[Truth],
     seed: u64,
 ) -> Vec<FamilyCurves> {
-    let mut families: Vec<usize> = design.specimens.iter().map(|specimen| specimen.family).collect();
-    families.sort_unstable();
-    families.dedup();
-    families.iter().filter_map(|&family| curves(world, design, family, truths, seed)).collect()
+    design.families().into_iter().filter_map(|family| curves(world, design, family, truths, seed)).collect()
 }
 
 fn curves(
