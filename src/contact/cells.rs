@@ -11,6 +11,13 @@ pub struct Cell {
     pub outline: Polygon,
 }
 
+impl Cell {
+    /// All of an outline.
+    pub fn within(outline: Polygon) -> Cell {
+        Cell { moments: outline.moments(), outline }
+    }
+}
+
 /// Divides a polygon by lines of equal spacing into `counts` parts along its longer and its shorter extent; parts
 /// outside the polygon vanish.
 ///
@@ -64,9 +71,9 @@ fn grid(polygon: &Polygon, counts: [u32; 2], wanted: impl Fn([u32; 2]) -> bool) 
                 let cell = if j > 0 { strip.clip(low, 0.0, -1.0) } else { strip.clone() };
                 if j + 1 < along_t { cell.clip(-high, 0.0, 1.0) } else { cell }
             };
-            let moments = outline.moments();
-            if moments.area > smallest {
-                cells.push(Cell { moments, outline });
+            let cell = Cell::within(outline);
+            if cell.moments.area > smallest {
+                cells.push(cell);
             }
         }
     }

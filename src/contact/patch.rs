@@ -5,7 +5,7 @@
 //! polygon clipped by a straight line. Blocks that meet at a steep angle, edge to edge or corner to face touch in a
 //! patch of stated width instead: a strip along an edge, a square at a point.
 
-use crate::contact::{EdgeAxis, best_edge_axis, best_face_axis};
+use crate::contact::{Cell, EdgeAxis, best_edge_axis, best_face_axis, patches};
 use crate::math::Vec3;
 use crate::shape::{Frame, Plane, Polygon, Polyhedron};
 
@@ -69,10 +69,34 @@ pub struct Patch {
     pub frame: Frame,
     /// The polygon, counter-clockwise in the frame's (s, t) coordinates.
     pub polygon: Polygon,
+    /// The frame of the other face, which looks at it, where that is the first block's: what is uneven on a joint lies on that
+    /// block, so that it stays where it is when the two change their roles.
+    pub uneven: Option<Frame>,
     /// Plane of the reference block, normal pointing out of it.
     pub plane: Plane,
     /// The features that meet.
     pub feature: Feature,
+}
+
+impl Patch {
+    /// Those of its `along` by `along` cells on the first block's face whose bit is set, in the coordinates of its polygon:
+    /// [`patches`].
+    pub fn pieces(&self, along: u32, mask: u64) -> Vec<Cell> {
+        let Some(uneven) = &self.uneven else { return patches(&self.polygon, along, mask) };
+        let there = |v: &[f64; 2]| uneven.project(&self.frame.lift(*v));
+        let back = |v: &[f64; 2]| {
+            let p = uneven.lift(*v);
+            let away =
+                self.frame.normal.dot(&(self.frame.origin - p)) / self.frame.normal.dot(&uneven.normal);
+            self.frame.project(&(p + uneven.normal * away))
+        };
+        // What runs counter-clockwise here runs clockwise there.
+        let over = |polygon: &Polygon, onto: &dyn Fn(&[f64; 2]) -> [f64; 2]| Polygon {
+            vertices: polygon.vertices.iter().rev().map(onto).collect(),
+        };
+        let cells = patches(&over(&self.polygon, &there), along, mask);
+        cells.iter().map(|cell| Cell::within(over(&cell.outline, &back))).collect()
+    }
 }
 
 /// Finds the patch between two blocks, or `None` when they are further apart than the reach or share no area.
@@ -99,7 +123,7 @@ pub fn find_patch(first: &Polyhedron, second: &Polyhedron, settings: &Settings) 
     let faces_meet = cosine >= settings.face_cosine;
     if faces_meet {
         match meeting.face_patch() {
-            Overlap::Patch(patch) => return Some(patch),
+            Overlap::Patch(patch) => return Some(*patch),
             Overlap::Worn => return None,
             Overlap::None => {}
         }
@@ -115,7 +139,7 @@ pub fn find_patch(first: &Polyhedron, second: &Polyhedron, settings: &Settings) 
 /// What two faces share.
 enum Overlap {
     /// An area to press on.
-    Patch(Patch),
+    Patch(Box<Patch>),
     /// An area that lies within the inset of an edge: no joint at all, not one of edges either.
     Worn,
     /// No area.
@@ -162,7 +186,9 @@ impl Meeting<'_> {
         if !counts(&polygon) {
             return Overlap::Worn;
         }
-        Overlap::Patch(self.patch(frame, polygon, Feature::Faces(self.opposite as u32, self.face as u32)))
+        let feature = Feature::Faces(self.opposite as u32, self.face as u32);
+        let uneven = (!self.reference_is_second).then(|| face_frame(self.reference, self.face));
+        Overlap::Patch(Box::new(Patch { uneven, ..self.patch(frame, polygon, feature) }))
     }
 
     /// A corner or an edge of the incident block on the reference face, too steep to touch as faces.
@@ -210,7 +236,8 @@ impl Meeting<'_> {
     }
 
     fn patch(&self, frame: Frame, polygon: Polygon, feature: Feature) -> Patch {
-        Patch { reference_is_second: self.reference_is_second, frame, polygon, plane: self.plane, feature }
+        let (reference_is_second, plane) = (self.reference_is_second, self.plane);
+        Patch { reference_is_second, frame, polygon, uneven: None, plane, feature }
     }
 }
 
@@ -299,7 +326,8 @@ fn edge_patch(
     let half = 0.5 * settings.steep_width;
     let polygon = Polygon { vertices: vec![[-half, -half], [half, -half], [half, half], [-half, half]] };
     let plane = Plane::through(on_first, normal);
-    Some(Patch { reference_is_second: false, frame, polygon, plane, feature: Feature::Edges(ea, eb) })
+    let feature = Feature::Edges(ea, eb);
+    Some(Patch { reference_is_second: false, frame, polygon, uneven: None, plane, feature })
 }
 
 /// Some unit vector in the plane with this normal.

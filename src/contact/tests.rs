@@ -87,6 +87,27 @@ fn a_joint_no_wider_than_the_arrises_is_none() {
 }
 
 #[test]
+fn what_is_uneven_stays_where_it_is_when_two_blocks_change_their_roles() {
+    // Flat on each other the lower block is the reference; a plate that leans separates better by its own face.
+    let lower = Polyhedron::cuboid(Vec3::new(-0.1, -0.15, -0.1), Vec3::new(0.1, 0.15, 0.0));
+    let plate = Polyhedron::cuboid(Vec3::new(-0.25, -0.3, 0.0), Vec3::new(0.2, 0.35, 0.1));
+    let leaning = plate.moved(&about_x(0.5), &Vec3::new(0.0, 0.0, -1e-4));
+    let patches = [&plate, &leaning].map(|upper| find_patch(&lower, upper, &settings()).unwrap());
+    assert_eq!([false, true], [0, 1].map(|k| patches[k].reference_is_second));
+    let [flat, leant] = patches.map(|patch| {
+        let lift = |v: [f64; 2]| patch.frame.lift(v);
+        let cells = patch.pieces(8, 1 << 3 | 1 << 21 | 1 << 40);
+        assert!(cells.iter().all(|cell| cell.outline.area() > 0.0));
+        cells.iter().map(|cell| lift(cell.moments.centroid())).collect::<Vec<_>>()
+    });
+    assert_eq!((flat.len(), leant.len()), (3, 3));
+    for (a, b) in flat.iter().zip(&leant) {
+        // Cells are 25 by 37 mm; half a degree lifts them by a millimetre and moves them by hundredths.
+        assert!((a - b).xy().norm() < 1e-4 && (a - b).norm() < 2e-3, "{a} against {b}");
+    }
+}
+
+#[test]
 fn hexagonal_faces_keep_their_whole_area() {
     let patch = find_patch(&prism(0.0), &prism(1.0), &settings()).unwrap();
     assert_relative_eq!(patch.polygon.area(), 1.5 * 3f64.sqrt(), max_relative = 1e-12);

@@ -7,7 +7,7 @@ use crate::math::Vec3;
 use crate::protocol::Task;
 use crate::protocol::mechanism::{Failure, failure};
 use crate::protocol::watch::{LoadStep, Watch};
-use crate::solve::bodies::Body;
+use crate::solve::bodies::Bodies;
 use crate::solve::explicit::{self, Simulation};
 use crate::solve::limit::{self, Analysis, Loads, PointLoad, When};
 use crate::solve::{Assembly, Equilibrate, Status};
@@ -39,24 +39,25 @@ impl Confirmation {
     }
 }
 
-/// A wall that falls at a level, and how.
-pub struct Fall {
+/// A wall that falls at a level. How it does is [asked](Judge::failure) of the fall that ends the test alone: it takes longer
+/// to watch a wall fall than to tell that it does.
+pub struct Fall<'a> {
     /// The level (SI units).
     pub level: f64,
     /// Whether limit analysis says so: an upper bound, where a relaxation may have been thrown off its balance by the step.
     pub by_bound: bool,
     /// What was read while it fell.
     pub step: LoadStep,
-    /// The mechanism.
-    pub failure: Failure,
-    /// Where the bodies were left.
-    pub bodies: Vec<Body>,
+    /// The last state at rest.
+    at_rest: Assembly<'a>,
+    /// The wall when it had run away.
+    pub away: Assembly<'a>,
 }
 
 /// What could be told of a level.
 pub enum Told<'a> {
     /// The wall falls.
-    Falls(Box<Fall>),
+    Falls(Box<Fall<'a>>),
     /// It comes to rest, with the unbalanced force ratio reached.
     Rests(Box<Assembly<'a>>, f64),
     /// The numbers went bad.
@@ -125,7 +126,7 @@ impl<'t, 'a> Judge<'t, 'a> {
             *spent += swung.steps;
             if swung.status == Status::Stopped && watch.moved(&free.assembly.bodies) > limit {
                 let ratio = swung.unbalanced_ratio;
-                let fall = Box::new(self.watch_fall(from, &free.assembly, watch, level, ratio));
+                let fall = Box::new(self.fall(from, free.assembly, watch, level, ratio));
                 if !is_final {
                     return Told::Falls(fall);
                 }
@@ -139,7 +140,7 @@ impl<'t, 'a> Judge<'t, 'a> {
         match settled.status {
             Status::Equilibrium => Told::Rests(Box::new(simulation.assembly), ratio),
             Status::Stopped => {
-                Told::Falls(Box::new(self.watch_fall(from, &simulation.assembly, watch, level, ratio)))
+                Told::Falls(Box::new(self.fall(from, simulation.assembly, watch, level, ratio)))
             }
             Status::StepsSpent | Status::NoEquilibrium => thrown.map_or(Told::Nothing, Told::Falls),
             Status::NonFinite => Told::NonFinite(Box::new(simulation.assembly)),
@@ -147,7 +148,7 @@ impl<'t, 'a> Judge<'t, 'a> {
     }
 
     /// How the wall falls at a level where limit analysis finds that it cannot stand.
-    fn cannot_stand(&self, from: &Assembly<'_>, level: f64, watch: &Watch) -> Option<Fall> {
+    fn cannot_stand(&self, from: &Assembly<'a>, level: f64, watch: &Watch) -> Option<Fall<'a>> {
         let stands = |analysis: &Analysis, level: f64| analysis.stands(&self.loads(level));
         let rigid = self.rigid.get_or_init(|| {
             let Task { wall, laws, contact, .. } = *self.task;
@@ -163,21 +164,14 @@ impl<'t, 'a> Judge<'t, 'a> {
         if standing.stands != Some(false) {
             return None;
         }
-        let mut bodies = from.bodies.clone();
-        for (body, motion) in bodies.all.iter_mut().zip(&standing.mechanism) {
+        let mut away = from.clone();
+        for (body, motion) in away.bodies.all.iter_mut().zip(&standing.mechanism) {
             // The mechanism comes as velocities, the fastest 1 m/s: as far as a wall that runs away.
             let limit = self.task.confirmation.limit;
             let here = body.clone();
             body.place(&here, &(motion.velocity * limit), &(motion.spin * limit));
         }
-        let towards = self.task.path.direction();
-        Some(Fall {
-            level,
-            by_bound: true,
-            step: watch.read(&bodies, self.task.path.level(level), f64::NAN, 0),
-            failure: failure(self.task.wall, from, &from.bodies.all, &bodies, towards),
-            bodies: bodies.all,
-        })
+        Some(Fall { by_bound: true, ..self.fall(from, away, watch, level, f64::NAN) })
     }
 
     /// The loads of a level for limit analysis.
@@ -192,20 +186,28 @@ impl<'t, 'a> Judge<'t, 'a> {
         Loads { dead: gravity, live: Vec3::zeros(), points: points.collect() }
     }
 
-    /// How a wall falls that runs away: [`watch_fall`].
-    pub fn watch_fall(
+    /// A wall that has run away since it was at rest.
+    pub fn fall(
         &self,
-        at_rest: &Assembly<'_>,
-        away: &Assembly<'_>,
+        at_rest: &Assembly<'a>,
+        away: Assembly<'a>,
         watch: &Watch,
         level: f64,
         ratio: f64,
-    ) -> Fall {
+    ) -> Fall<'a> {
         let step = watch.read(&away.bodies, self.task.path.level(level), ratio, 0);
-        let bodies = away.bodies.all.clone();
+        Fall { level, by_bound: false, step, at_rest: at_rest.clone(), away }
+    }
+
+    /// How a wall falls: by the mechanism of limit analysis, or as it is [seen](watch_fall) to.
+    pub fn failure(&self, fall: &Fall<'a>, watch: &Watch) -> Failure {
+        let Fall { at_rest, away, .. } = fall;
+        if fall.by_bound {
+            let towards = self.task.path.direction();
+            return failure(self.task.wall, at_rest, &at_rest.bodies.all, &away.bodies, towards);
+        }
         let simulation = Simulation::of(away.clone(), self.task.confirmation.explicit);
-        let failure = watch_fall(self.task, at_rest, simulation, watch);
-        Fall { level, by_bound: false, step, failure, bodies }
+        watch_fall(self.task, at_rest, simulation, watch)
     }
 }
 
@@ -218,8 +220,9 @@ pub fn watch_fall(
     watch: &Watch,
 ) -> Failure {
     let before = falling.assembly.bodies.all.clone();
-    let far = 2.0 * watch.moved(&falling.assembly.bodies);
-    let settled = falling.settle(&mut |bodies| watch.moved(bodies) > far);
+    let moved = |bodies: &Bodies| watch.moved_between(&at_rest.bodies, bodies);
+    let far = 2.0 * moved(&falling.assembly.bodies);
+    let settled = falling.settle(&mut |bodies| moved(bodies) > far);
     let after = &falling.assembly.bodies;
     let from = if settled.status == Status::Stopped { &before } else { &at_rest.bodies.all };
     failure(task.wall, at_rest, from, after, task.path.direction())

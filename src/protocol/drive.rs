@@ -131,7 +131,7 @@ struct Climber<'c, 'a, S> {
     /// How often the path has been followed.
     followed: u32,
     /// The lowest level at which the wall is certain to fall.
-    certain: Option<Fall>,
+    certain: Option<Fall<'a>>,
     pace: Pace,
 }
 
@@ -214,8 +214,10 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
         match tried {
             Tried::Rest(next, ratio) => Verdict::Rest(self.read(next, level, ratio), 0.0),
             Tried::Away(next, ratio) if is_final => {
-                let fall = self.judge.watch_fall(from.assembly(), next.assembly(), &self.watch, level, ratio);
-                self.ended(Why::Fell, next.assembly(), level, ratio, Some(fall.failure))
+                let away = next.assembly().clone();
+                let fall = self.judge.fall(from.assembly(), away, &self.watch, level, ratio);
+                let failure = self.judge.failure(&fall, &self.watch);
+                self.ended(Why::Fell, next.assembly(), level, ratio, Some(failure))
             }
             Tried::Away(..) => Verdict::GoBack,
             Tried::Lost(next, ratio, status) => self.suspected(from, next, level, (ratio, status), is_final),
@@ -342,6 +344,7 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
     /// The end of a wall that falls at a level, as it was seen to fall.
     fn fell(&mut self, level: f64, ratio: f64) -> Verdict<S> {
         let Some(fall) = self.certain.take() else { return Verdict::GoBack };
+        let failure = Some(self.judge.failure(&fall, &self.watch));
         let spent = std::mem::take(&mut self.spent);
         let step = LoadStep {
             level: self.task.path.level(level),
@@ -349,7 +352,8 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
             solver_steps: spent,
             ..fall.step
         };
-        Verdict::End(Box::new(End { why: Why::Fell, step, failure: Some(fall.failure), bodies: fall.bodies }))
+        let bodies = fall.away.bodies.all;
+        Verdict::End(Box::new(End { why: Why::Fell, step, failure, bodies }))
     }
 
     fn ended(

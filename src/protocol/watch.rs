@@ -85,11 +85,17 @@ impl Watch {
 
     /// Largest movement of a block's centroid since the last state at rest (m).
     pub fn moved(&self, bodies: &Bodies) -> f64 {
-        self.movable
-            .iter()
-            .map(|&id| (bodies.all[id].position - self.last[id]).norm_squared())
-            .fold(0.0, f64::max)
-            .sqrt()
+        self.moved_from(bodies, |id| self.last[id])
+    }
+
+    /// Largest movement of a block's centroid between two states (m).
+    pub fn moved_between(&self, from: &Bodies, to: &Bodies) -> f64 {
+        self.moved_from(to, |id| from.all[id].position)
+    }
+
+    fn moved_from(&self, bodies: &Bodies, from: impl Fn(usize) -> Vec3) -> f64 {
+        let square = |&id: &usize| (bodies.all[id].position - from(id)).norm_squared();
+        self.movable.iter().map(square).fold(0.0, f64::max).sqrt()
     }
 
     /// What is read off the wall now.

@@ -92,7 +92,7 @@ fn a_platform_on_stiff_springs_is_a_fixed_one_and_takes_its_strip_along() {
     let law = dry(1e8, 20.0);
     let points = |compliance, solver: &Solver| {
         let base = Base { strip_height: Some(0.03), compliance, ..Base::default() };
-        let run = run(&wall, &law, &tilting(5.0, 25.0), &free(base), [2, 2], solver);
+        let run = run(&wall, &law, &tilting(0.5, 25.0), &free(base), [2, 2], solver);
         assert_eq!(run.outcome, Outcome::Equilibrium);
         run.steps.last().and_then(|step| step.points).expect("it has a top")[1]
     };
@@ -101,8 +101,9 @@ fn a_platform_on_stiff_springs_is_a_fixed_one_and_takes_its_strip_along() {
         let (fixed, stiff) = (points(None, solver), points(Some(stiff), solver));
         println!("{fixed:e} {stiff:e}");
         // The springs turn by 3e-9 rad under the block, and its top moves by 1e-9 m of 1e-4. In time it slides onto the strip
-        // and bounces: where it comes to rest depends on the last place of its path, by some per cent.
-        let allowed = if matches!(solver, Solver::Implicit(_)) { 1e-4 } else { 5e-2 };
+        // and bounces: where it comes to rest depends on the last place of its path, by some thousandths in steps as small as
+        // these; in a step of 5 deg the bounce is anything that friction can hold.
+        let allowed = if matches!(solver, Solver::Implicit(_)) { 1e-4 } else { 1e-2 };
         assert!((fixed - stiff).abs() < allowed * fixed, "{fixed:e} {stiff:e}");
         // Tilted beyond its friction the block leans on the strip. It turns with the platform and the strip as one: were the
         // strip left behind, the block would rub down on it.

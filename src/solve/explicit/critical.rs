@@ -28,17 +28,17 @@ pub fn block_bounds(assembly: &Assembly<'_>) -> Vec<f64> {
         let body = &bodies.all[tie.tie.body];
         if body.moves() {
             let (lever, axis) = tie.own(body);
-            stiffness[tie.tie.body].add_spring(body, &lever, &axis, tie.tie.stiffness);
+            stiffness[tie.tie.body].add_spring(&lever, &axis, tie.tie.stiffness);
         }
     }
     if let Some(mounted) = assembly.mounted() {
         let (index, [.., settlement, rotation, _, _]) = (mounted.mount.body, mounted.stiffness());
         let body = &bodies.all[index];
         let (up, along) = (body.rotation.tr_mul(&Vec3::z()), body.rotation.tr_mul(&Vec3::x()));
-        stiffness[index].add_row(body, [up.x, up.y, up.z, 0.0, 0.0, 0.0], settlement);
-        stiffness[index].add_row(body, [0.0, 0.0, 0.0, along.x, along.y, along.z], rotation);
+        stiffness[index].add_row([up.x, up.y, up.z, 0.0, 0.0, 0.0], settlement);
+        stiffness[index].add_row([0.0, 0.0, 0.0, along.x, along.y, along.z], rotation);
     }
-    stiffness.iter().map(RowSums::bound).collect()
+    stiffness.iter().zip(&bodies.all).map(|(own, body)| own.bound(body)).collect()
 }
 
 /// Adds a joint in full contact to the stiffness of one of its bodies.
@@ -53,7 +53,7 @@ fn add_joint(k: &mut RowSums, body: &Body, joint: &Joint, all: &[Body]) {
     for (i, j) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
         let lever = local(centroid + along_s * i + along_t * j - body.position);
         for (axis, stiffness) in [(normal, kn), (s, ks), (t, ks)] {
-            k.add_spring(body, &lever, &local(axis), stiffness);
+            k.add_spring(&lever, &local(axis), stiffness);
         }
     }
 }

@@ -18,7 +18,7 @@ pub fn step(grains: &Grains) -> f64 {
         let local = |v: Vec3| body.rotation.tr_mul(&v);
         let lever = local(at - body.position);
         for (axis, k) in [(frame.normal, kn), (frame.s, ks), (frame.t, ks)] {
-            stiffness[id].add_spring(body, &lever, &local(axis), k);
+            stiffness[id].add_spring(&lever, &local(axis), k);
         }
     };
     for contact in &grains.contacts.pairs {
@@ -33,7 +33,8 @@ pub fn step(grains: &Grains) -> f64 {
         let at = spheres.centre[i] - normal * spheres.radius[i];
         add(contact.sphere, &at, &normal, contact.spring.kn, contact.spring.ks);
     }
-    let bound = stiffness.iter().map(RowSums::bound).fold(0.0, f64::max);
+    let bounds = stiffness.iter().zip(&grains.bodies).map(|(own, body)| own.bound(body));
+    let bound = bounds.fold(0.0, f64::max);
     p_wave(grains).min(2.0 / (2.0 * bound).sqrt())
 }
 

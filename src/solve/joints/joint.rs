@@ -1,6 +1,6 @@
 //! One joint: its geometry in its bodies' own axes, where it is now, and what it takes over from its past.
 
-use crate::contact::{self, Cell, Patch, corners, divide, patches};
+use crate::contact::{self, Cell, Patch, corners, divide};
 use crate::law::{Coulomb, PATCHES_ALONG, Sampling, SubContact};
 use crate::math::Vec3;
 use crate::shape::{Moments, Polygon};
@@ -82,7 +82,7 @@ impl Joint {
         let cells = match law.sampling {
             Sampling::Area => divide(&patch.polygon, settings.sub_contacts),
             Sampling::Vertices => corners(&patch.polygon),
-            Sampling::Patches(mask) => patches(&patch.polygon, PATCHES_ALONG, mask),
+            Sampling::Patches(mask) => patch.pieces(PATCHES_ALONG, mask),
         };
         let whole = match law.sampling {
             Sampling::Area | Sampling::Vertices => patch.polygon.moments(),

@@ -1,6 +1,6 @@
 //! Blocks and the points at which they touch: the joint polygons' vertices.
 
-use crate::contact::{self, Feature, Patch, candidate_pairs, find_patch, patches};
+use crate::contact::{self, Feature, Patch, candidate_pairs, find_patch};
 use crate::law::{Coulomb, PATCHES_ALONG, Sampling};
 use crate::math::Vec3;
 use crate::model::{JointLaws, Support, Wall};
@@ -141,10 +141,8 @@ fn contact_points(patch: &Patch, closed: f64, sampling: Sampling) -> Vec<Contact
     let touching = |outline: &Polygon| outline.clip(gap - closed, normal.dot(&frame.s), normal.dot(&frame.t));
     let (vertices, area) = match (patch.feature, sampling) {
         (Feature::Faces(..), Sampling::Patches(mask)) => {
-            let pieces: Vec<Polygon> = patches(&patch.polygon, PATCHES_ALONG, mask)
-                .iter()
-                .map(|cell| touching(&cell.outline))
-                .collect();
+            let cells = patch.pieces(PATCHES_ALONG, mask);
+            let pieces: Vec<Polygon> = cells.iter().map(|cell| touching(&cell.outline)).collect();
             let corners = pieces.iter().flat_map(|piece| &piece.vertices).copied().collect();
             let area = pieces.iter().map(Polygon::area).sum();
             (distinct(Polygon::around(corners).vertices), Some(area))
