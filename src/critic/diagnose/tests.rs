@@ -27,7 +27,8 @@ pub(crate) fn made() -> Made {
     let path = |wall: usize| {
         let place = &plan.places[wall];
         let [kn, phi, _] = place.joints.map(quantile);
-        let mut noise = Streams::new(5, wall as u64).of("stones");
+        // A point has the same stones under every cause.
+        let mut noise = Streams::new(5, place.point).of(&format!("stones {}", place.family));
         let mut draw = |sd: f64| if place.family == 0 { 0.0 } else { sd * quantile(noise.uniform()) };
         let mut numbers = [0.0; 19];
         numbers[0] = ln(radians([19.0, 14.5, 19.5][place.family])) + 0.05 * kn + 0.01 * phi + draw(0.02);
@@ -112,6 +113,23 @@ fn a_campaign_has_the_errors_and_the_rounding_of_its_readings() {
     let cbl = design.specimens.iter().position(|s| s.name == "CBL1").expect("it was tested");
     let beyond = shown.iter().filter(|c| c.specimens[cbl][1] == Seen::Beyond).count();
     assert!(beyond > 300, "{beyond}");
+}
+
+#[test]
+fn a_cause_that_changes_nothing_has_the_walls_of_the_base_model() {
+    let made = made();
+    let world = made.world();
+    let (design, _) = Design::of(&made.study);
+    let base = world.drawn(None, &Streams::new(9, 0));
+    let with = |name: &str| Truth { cause: Some(made.cause(name)), parameters: vec![0.3], ..base.clone() };
+    let shown = |truth: &Truth| world.values(&design, truth, &Streams::new(9, 1));
+    // To the rounding of a curve through nothing but zeros.
+    let apart = |a: &[Vec<Option<f64>>], b: &[Vec<Option<f64>>]| {
+        let pairs = a.iter().flatten().zip(b.iter().flatten());
+        pairs.filter_map(|(a, b)| Some((a.as_ref()? - b.as_ref()?).abs())).fold(0.0, f64::max)
+    };
+    assert!(apart(&shown(&with("density")), &shown(&base)) < 1e-12);
+    assert!(apart(&shown(&with("lean")), &shown(&base)) > 1e-2);
 }
 
 #[test]

@@ -29,7 +29,7 @@ pub struct Truth {
     pub joints: Vec<[f64; 3]>,
 }
 
-/// The walls of a family under a cause.
+/// The walls of a family: in the base model, or what a cause changes of them.
 #[derive(Debug)]
 struct Walls {
     emulator: Emulator,
@@ -38,11 +38,11 @@ struct Walls {
 }
 
 /// What is known of a wall before it is built.
-struct Likely<'w> {
+struct Likely {
     /// The path to be expected.
     expected: Path,
     /// What it may differ by, each equally likely.
-    near: Vec<&'w [f64; NUMBERS]>,
+    near: Vec<[f64; NUMBERS]>,
     random: bool,
 }
 
@@ -60,8 +60,11 @@ pub struct World<'s> {
     study: &'s Study,
     mechanisms: &'s [Described],
     nuisances: &'s [Nuisance; 3],
-    /// By family and cause.
-    walls: BTreeMap<(usize, Option<usize>), Walls>,
+    /// The base model, by family.
+    base: BTreeMap<usize, Walls>,
+    /// What a cause changes, by family and cause. A point of the bank has the same stones and joints under every cause: the
+    /// difference that a cause makes is known far better than either wall, and dies away with the cause.
+    changes: BTreeMap<(usize, usize), Walls>,
     /// Kind of joint of each arm: arms whose joints are stated alike have the same.
     kinds: Vec<usize>,
 }
@@ -76,28 +79,33 @@ impl<'s> World<'s> {
         plan: &Plan,
         bank: &Bank,
     ) -> Option<World<'s>> {
+        let mut unchanged: BTreeMap<(usize, u64), &Path> = BTreeMap::new();
+        for (place, path) in plan.places.iter().zip(&bank.paths).filter(|(place, _)| place.cause.is_none()) {
+            unchanged.extend(path.as_ref().map(|path| ((place.family, place.point), path)));
+        }
         let mut grouped: BTreeMap<(usize, Option<usize>), Told> = BTreeMap::new();
         for ((place, path), arm) in plan.places.iter().zip(&bank.paths).zip(&plan.study.arms) {
             let told = grouped.entry((place.family, place.cause)).or_default();
             told.random |= is_random(arm);
-            if let Some(path) = path {
-                let joints = place.joints.iter().copied().map(quantile);
-                let parameters = place.parameters.iter().copied().map(quantile);
-                let mut all: Vec<f64> = joints.collect();
-                all.extend(varying(mechanisms, place.cause, parameters));
-                told.scores.push(all);
-                told.paths.push(path.clone());
+            let Some(path) = path else { continue };
+            let Some(before) = unchanged.get(&(place.family, place.point)) else { continue };
+            let joints = place.joints.iter().copied().map(quantile);
+            let parameters = place.parameters.iter().copied().map(quantile);
+            told.scores.push(joints.chain(varying(mechanisms, place.cause, parameters)).collect());
+            told.paths.push(match place.cause {
+                None => path.clone(),
+                Some(_) => Path { numbers: std::array::from_fn(|k| path.numbers[k] - before.numbers[k]) },
+            });
+        }
+        let (mut base, mut changes) = (BTreeMap::new(), BTreeMap::new());
+        for ((family, cause), Told { scores, paths, random }) in grouped {
+            let walls = Emulator::fit(&scores, &paths).map(|emulator| Walls { emulator, random });
+            match cause {
+                None => drop(base.insert(family, walls?)),
+                Some(cause) => changes.extend(walls.map(|walls| ((family, cause), walls))),
             }
         }
-        let mut walls = BTreeMap::new();
-        for (key, Told { scores, paths, random }) in grouped {
-            match Emulator::fit(&scores, &paths) {
-                Some(emulator) => drop(walls.insert(key, Walls { emulator, random })),
-                None if key.1.is_none() => return None,
-                None => {}
-            }
-        }
-        Some(World { study, mechanisms, nuisances, walls, kinds: kinds(&study.arms) })
+        Some(World { study, mechanisms, nuisances, base, changes, kinds: kinds(&study.arms) })
     }
 
     /// Kinds of joints that differ in what is stated of them.
@@ -158,7 +166,7 @@ impl<'s> World<'s> {
 
     /// Whether walls of a family differ in the base model. Where they do not, simulated ones differ by the emulator's error alone.
     pub fn is_random(&self, family: usize) -> bool {
-        self.walls.get(&(family, None)).is_some_and(|walls| walls.random)
+        self.base.get(&family).is_some_and(|walls| walls.random)
     }
 
     /// The path of a specimen: one of those that a wall may have.
@@ -169,19 +177,33 @@ impl<'s> World<'s> {
             true => format!("stones {specimen}"),
             false => format!("stones of family {family}"),
         };
-        moved(&expected, near[streams.of(&name).below(near.len())])
+        moved(&expected, &near[streams.of(&name).below(near.len())])
     }
 
     /// The paths that a wall of a family may have under a truth.
-    fn likely(&self, family: usize, truth: &Truth) -> Likely<'_> {
-        let own = self.walls.get(&(family, truth.cause)).map(|walls| (walls, truth.cause));
-        let (walls, cause) = own.unwrap_or_else(|| (&self.walls[&(family, None)], None));
-        let mut scores = truth.joints[self.kinds[family]].to_vec();
-        if cause.is_some() {
-            scores.extend(varying(self.mechanisms, cause, truth.parameters.iter().copied()));
+    fn likely(&self, family: usize, truth: &Truth) -> Likely {
+        let Walls { emulator, random } = &self.base[&family];
+        let mut random = *random;
+        let joints = truth.joints[self.kinds[family]];
+        let mut expected = emulator.expected(&joints);
+        let mut near: Vec<[f64; NUMBERS]> =
+            emulator.nearest(&joints, NEIGHBOURS).into_iter().copied().collect();
+        if let Some(cause) = truth.cause
+            && let Some(change) = self.changes.get(&(family, cause))
+        {
+            let parameters = varying(self.mechanisms, truth.cause, truth.parameters.iter().copied());
+            let scores: Vec<f64> = joints.into_iter().chain(parameters).collect();
+            expected = moved(&expected, &change.emulator.expected(&scores).numbers);
+            let left = change.emulator.nearest(&scores, NEIGHBOURS);
+            // The stones of the nearest wall with what the effect on a wall half way down the list is left with, and so on round:
+            // what is nearest in the one has no part in what is nearest in the other.
+            let further = left.iter().cycle().skip(left.len() / 2);
+            for (own, further) in near.iter_mut().zip(further) {
+                own.iter_mut().zip(*further).for_each(|(own, further)| *own += further);
+            }
+            random |= change.random;
         }
-        let expected = walls.emulator.expected(&scores);
-        Likely { expected, near: walls.emulator.nearest(&scores, NEIGHBOURS), random: walls.random }
+        Likely { expected, near, random }
     }
 
     /// What the paths that a wall of a family may have under a truth, equally likely, show of readings before their errors, path
@@ -212,7 +234,7 @@ impl<'s> World<'s> {
             };
             readings.iter().map(shows).collect()
         };
-        (near.into_iter().map(of).collect(), random)
+        (near.iter().map(of).collect(), random)
     }
 
     /// The parameters of the cause of a truth, in its order and in the units of their keys.
@@ -268,7 +290,7 @@ impl<'s> World<'s> {
 
     /// The causes that a diagnosis can tell of: those with walls of their own in some family, and those that act on readings.
     pub fn causes(&self) -> Vec<usize> {
-        let has_walls = |cause: usize| self.walls.keys().any(|(_, own)| *own == Some(cause));
+        let has_walls = |cause: usize| self.changes.keys().any(|(_, own)| *own == cause);
         let told = |(index, m): &(usize, &Described)| m.acts == Acts::Readings || has_walls(*index);
         self.mechanisms.iter().enumerate().filter(told).map(|(index, _)| index).collect()
     }
