@@ -135,6 +135,7 @@ impl Judge<'_> {
             .collect();
         let logs: Vec<f64> = evidences.iter().map(|evidence| evidence.log).collect();
         let shares = softmax(&logs, 1.0);
+        let base = shares[0];
         let form = self.form(campaign, &evidences[0].draws, seed.wrapping_add(2));
         let looked_at: Vec<LookedAt> = closely
             .iter()
@@ -153,7 +154,9 @@ impl Judge<'_> {
             Some(first) if first.evidence >= own.evidence => Some(first),
             _ => Some(own),
         });
-        let agreed = named.filter(|cause| first.is_some_and(|first| first.cause == *cause));
+        // The base model with other joints may have more of the evidence than any cause.
+        let agreed =
+            named.filter(|cause| first.is_some_and(|first| first.cause == *cause && first.evidence > base));
         let explain: Vec<usize> = in_question.iter().copied().filter(|&cause| passes(cause)).collect();
         let verdict = match (named, agreed, explain.len()) {
             (_, Some(cause), _) if passes(cause) => Verdict::Named(cause),

@@ -2,7 +2,7 @@
 
 use crate::report::diagnosis::summary::{CauseEntry, DiagnosisSummary};
 use crate::report::diagnosis::text::{
-    CAUSE, CAUSES, FORM, OFF, by_chance, not_used, or_dash, reliability, verdict, worth_saying,
+    CAUSE, CAUSES, FORM, OFF, by_chance, excluded, not_used, or_dash, reliability, verdict, worth_saying,
 };
 use crate::report::diagnosis::words::{lines, reading};
 use crate::report::gain::GainSummary;
@@ -60,6 +60,7 @@ pub fn page(summary: &DiagnosisSummary, drawings: &[Drawing]) -> String {
     if summary.verdict == "unexplained" {
         let sentences: Vec<Vec<String>> = summary.form.iter().map(|bent| vec![bent.sentence()]).collect();
         body.push_str(&format!("<h2>What is not explained</h2>\n{}", table(&[FORM], sentences)));
+        excluded(summary).iter().for_each(|words| body.push_str(&paragraph(words)));
     }
     let gain = summary.gain.as_ref().map_or_else(String::new, GainSummary::text);
     for (title, text) in

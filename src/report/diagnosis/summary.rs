@@ -1,6 +1,6 @@
 //! A diagnosis as `verdict.json` holds it.
 
-use crate::critic::{Contrast, Design, Diagnosis, Feature, Residuals, SelfTest, Truth, Verdict};
+use crate::critic::{Contrast, Design, Diagnosis, Feature, Limits, Residuals, SelfTest, Truth, Verdict};
 use crate::report::advice::Advice;
 use crate::report::diagnosis::form::BentEntry;
 use crate::report::diagnosis::residual::{GroupEntry, ResidualEntry};
@@ -62,6 +62,9 @@ pub struct CauseEntry {
     pub evidence: Option<f64>,
     /// Whether the verdict speaks of it.
     pub in_verdict: bool,
+    /// What speaks against it: `readings` where it fits them worse than nearly all of its own campaigns, `looks` where nine in
+    /// ten of its campaigns look more like it; null where nothing does.
+    pub excluded_by: Option<&'static str>,
     /// Share of its own campaigns that fit the readings no better; null where the guard was not asked.
     pub guard_p_value: Option<f64>,
     /// Its parameters, as far as the data tell them; empty where it was not looked at closely.
@@ -142,6 +145,7 @@ impl DiagnosisSummary {
                     probability,
                     evidence: closely.map(|own| own.evidence),
                     in_verdict: spoken.contains(&cause),
+                    excluded_by: excluded_by(diagnosis, cause),
                     guard_p_value: closely.and_then(|own| own.guard),
                     parameters: closely
                         .map_or_else(Vec::new, |own| parameters(&mechanisms[cause], &own.draws)),
@@ -193,6 +197,17 @@ impl DiagnosisSummary {
         self.residuals = residuals.readings.iter().map(|r| ResidualEntry::of(study, r)).collect();
         self.groups = residuals.groups.iter().map(|group| GroupEntry::of(study, group)).collect();
         self
+    }
+}
+
+/// What speaks against a cause, where something was found.
+fn excluded_by(diagnosis: &Diagnosis, cause: usize) -> Option<&'static str> {
+    let found = diagnosis.verdict != Verdict::NothingFound;
+    let guard = diagnosis.looked_at(cause).and_then(|own| own.guard);
+    match guard {
+        Some(p) if p < Limits::default().guard => Some("readings"),
+        _ if found && !diagnosis.seeming.ranked.set.contains(&cause) => Some("looks"),
+        _ => None,
     }
 }
 

@@ -49,6 +49,7 @@ pub fn diagnosis_text(summary: &DiagnosisSummary) -> String {
         if summary.form.is_empty() {
             text.push_str("  none that is sure\n");
         }
+        excluded(summary).iter().for_each(|words| text.push_str(&wrapped("  - ", words)));
     }
     text.push_str(&summary.gain.as_ref().map_or_else(String::new, GainSummary::text));
     text.push_str(&summary.advice.text());
@@ -95,6 +96,22 @@ pub(super) fn by_chance(summary: &DiagnosisSummary) -> Option<String> {
 /// What is off enough for a line, the furthest first.
 pub(super) fn worth_saying(summary: &DiagnosisSummary) -> Vec<&OffEntry> {
     summary.off.iter().filter(|off| off.in_sd.abs() >= WORTH_SAYING).collect()
+}
+
+/// Which causes are put aside and why, and which are not.
+pub(super) fn excluded(summary: &DiagnosisSummary) -> Vec<String> {
+    let by = |why: Option<&str>| -> Vec<&str> {
+        summary.causes.iter().filter(|cause| cause.excluded_by == why).map(|cause| cause.id).collect()
+    };
+    [
+        ("Excluded, as nearly all of their own campaigns fit single readings better", by(Some("readings"))),
+        ("Excluded, as nine in ten of their own campaigns look more like them", by(Some("looks"))),
+        ("Not excluded", by(None)),
+    ]
+    .into_iter()
+    .filter(|(_, causes)| !causes.is_empty())
+    .map(|(why, causes)| format!("{why}: {}.", causes.join(", ")))
+    .collect()
 }
 
 /// What was not used of the measurements.

@@ -80,7 +80,12 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>) {
                 distance: 30.0,
             },
             ranked: Ranked {
-                causes: vec![(Some(causes[0]), 0.6), (Some(causes[1]), 0.3), (None, 0.1)],
+                causes: vec![
+                    (Some(causes[0]), 0.6),
+                    (Some(causes[1]), 0.3),
+                    (None, 0.06),
+                    (Some(cause("lean")), 0.04),
+                ],
                 set: causes.to_vec(),
             },
         },
@@ -99,6 +104,24 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>) {
 
 fn read(folder: &Path, name: &str) -> String {
     fs::read_to_string(folder.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+#[test]
+fn what_is_not_explained_excludes_causes_and_says_why() {
+    let (mut summary, _) = diagnosed(&made());
+    let by = |id: &str| summary.causes.iter().find(|cause| cause.id == id).expect("ranked").excluded_by;
+    // In the set of those that cannot be put aside, and out of it.
+    assert_eq!([by("creep"), by("gauge_offset"), by("lean")], [None, None, Some("looks")]);
+    assert!(!diagnosis_text(&summary).contains("Excluded"));
+    (summary.verdict, summary.causes[0].excluded_by) = ("unexplained", Some("readings"));
+    let text = diagnosis_text(&summary);
+    for sentence in [
+        "Excluded, as nearly all of their own campaigns fit single readings better: creep.",
+        "Excluded, as nine in ten of their own campaigns look more like them: lean.",
+        "Not excluded: gauge_offset.",
+    ] {
+        assert!(text.contains(sentence), "{text}");
+    }
 }
 
 #[test]
