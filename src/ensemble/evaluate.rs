@@ -152,7 +152,7 @@ fn unsolved(study: &Study, task: Task, outcome: Outcome) -> Row {
 }
 
 /// Weight of the stones (N), added in the order of their ids.
-fn weight(wall: &Wall) -> f64 {
+pub fn weight(wall: &Wall) -> f64 {
     wall.stones().map(|(_, stone)| stone.density * stone.shape.volume()).fold(0.0, |sum, mass| sum + mass)
         * STANDARD_GRAVITY
 }

@@ -18,7 +18,7 @@ pub use crate::generate::Generated;
 pub use design::{Task, is_random, plan};
 pub use elements::{ElementRow, Timed, evaluate_element, run_elements};
 pub use error::{MemberFault, RunError};
-pub use evaluate::{build, evaluate, solve};
+pub use evaluate::{build, evaluate, solve, weight};
 pub use files::replace_file;
 pub use manifest::Manifest;
 pub use progress::{Progress, Silent};

@@ -133,7 +133,7 @@ fn matched(design: &Design, measured: &[Measurement]) -> Campaign {
     };
     let specimens = design.specimens.iter().map(|s| s.readings.iter().map(&mut seen).collect());
     let specimens = specimens.collect();
-    let joints = design.joints.iter().map(|(_, planned)| seen(planned)).collect();
+    let apart = design.apart.iter().map(|(_, planned)| seen(planned)).collect();
     assert!(left.is_empty(), "{:?} was not planned", left[0]);
-    Campaign { specimens, joints }
+    Campaign { specimens, apart }
 }

@@ -30,14 +30,14 @@ impl Specimen {
     }
 }
 
-/// All tests, and what was measured on joints alone.
+/// All tests, and what was measured apart from them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Design {
     /// The specimens that were tilted, in the order of the file.
     pub specimens: Vec<Specimen>,
-    /// Two-stone tests: the index of their family's arm, and the reading.
-    pub joints: Vec<(usize, Measurement)>,
-    /// Lines of the file that a diagnosis does not use: weights, readings after the platform has gone back, and arms that the study
+    /// Two-stone tests and weights of specimens: the index of their family's arm, and the reading.
+    pub apart: Vec<(usize, Measurement)>,
+    /// Lines of the file that a diagnosis does not use: weights of single blocks, readings after the platform has gone back, and arms that the study
     /// does not evaluate.
     pub unused: Vec<usize>,
 }
@@ -54,21 +54,19 @@ pub enum Seen {
 }
 
 impl Design {
-    /// The design of a study's measurements, and what was seen, by specimen and reading, joints last.
+    /// The design of a study's measurements, and what was seen, by specimen and reading, what was measured apart last.
     pub fn of(study: &Study) -> (Design, Campaign) {
-        let mut design = Design { specimens: Vec::new(), joints: Vec::new(), unused: Vec::new() };
+        let mut design = Design { specimens: Vec::new(), apart: Vec::new(), unused: Vec::new() };
         for m in &study.measured {
             let Some(family) = study.arms.iter().position(|arm| arm.name == m.family) else {
                 design.unused.push(m.line);
                 continue;
             };
             match m.quantity {
-                MeasuredQuantity::JointKn | MeasuredQuantity::JointPhi => {
-                    design.joints.push((family, m.clone()))
+                MeasuredQuantity::JointKn | MeasuredQuantity::JointPhi | MeasuredQuantity::SpecimenWeight => {
+                    design.apart.push((family, m.clone()))
                 }
-                MeasuredQuantity::SpecimenWeight | MeasuredQuantity::BlockWeight => {
-                    design.unused.push(m.line)
-                }
+                MeasuredQuantity::BlockWeight => design.unused.push(m.line),
                 _ if !is_rising(m, &study.measured) => design.unused.push(m.line),
                 _ => {
                     let of = |s: &&mut Specimen| s.name == m.specimen && s.family == family;
@@ -88,7 +86,7 @@ impl Design {
         let specimens = design.specimens.iter().map(|s| s.readings.iter().map(seen).collect());
         let campaign = Campaign {
             specimens: specimens.collect(),
-            joints: design.joints.iter().map(|(_, m)| seen(m)).collect(),
+            apart: design.apart.iter().map(|(_, m)| seen(m)).collect(),
         };
         (design, campaign)
     }
@@ -101,11 +99,11 @@ impl Design {
         families
     }
 
-    /// All readings with their families, specimen by specimen, the tests on joints last.
+    /// All readings with their families, specimen by specimen, what was measured apart last.
     pub fn readings(&self) -> impl Iterator<Item = (usize, &Measurement)> {
         let specimens = self.specimens.iter();
         let of_walls = specimens.flat_map(|s| s.readings.iter().map(|reading| (s.family, reading)));
-        of_walls.chain(self.joints.iter().map(|(family, reading)| (*family, reading)))
+        of_walls.chain(self.apart.iter().map(|(family, reading)| (*family, reading)))
     }
 }
 
@@ -114,17 +112,17 @@ impl Design {
 pub struct Campaign {
     /// By specimen and reading.
     pub specimens: Vec<Vec<Seen>>,
-    /// The tests on joints.
-    pub joints: Vec<Seen>,
+    /// What was measured apart.
+    pub apart: Vec<Seen>,
 }
 
 impl Campaign {
-    /// What is read where walls (by specimen and reading, `None` once they have fallen) and joints have these values: a pure
+    /// What is read where walls (by specimen and reading, `None` once they have fallen) and what is measured apart have these values: a pure
     /// function of these and the streams.
     pub(super) fn read(
         design: &Design,
         walls: &[Vec<Option<f64>>],
-        joints: &[f64],
+        apart: &[f64],
         streams: &Streams,
     ) -> Campaign {
         let score = |name: &str| quantile(streams.of(name).uniform());
@@ -145,14 +143,14 @@ impl Campaign {
                 .collect()
         });
         let specimens: Vec<Vec<Seen>> = specimens.collect();
-        let joints = joints.iter().zip(&design.joints).enumerate();
-        let joints = joints.map(|(k, (value, (_, m)))| read(*value, m, &format!("joint error {k}")));
-        Campaign { specimens, joints: joints.collect() }
+        let apart = apart.iter().zip(&design.apart).enumerate();
+        let apart = apart.map(|(k, (value, (_, m)))| read(*value, m, &format!("error apart {k}")));
+        Campaign { specimens, apart: apart.collect() }
     }
 
     /// What was seen, in the order of [`Design::readings`].
     pub fn seen(&self) -> impl Iterator<Item = Seen> {
-        self.specimens.iter().flatten().chain(&self.joints).copied()
+        self.specimens.iter().flatten().chain(&self.apart).copied()
     }
 }
 

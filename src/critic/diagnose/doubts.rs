@@ -69,11 +69,11 @@ pub fn doubts_beside(world: &World<'_>, design: &Design, measured: &Campaign, se
         (of(measured), simulated.iter().filter_map(|campaign| of(campaign).told(m)).collect())
     };
     let specimens = specimens.map(|(m, of)| (m, read(m, &of)));
-    let joints = design.joints.iter().enumerate();
-    let joints = joints.map(|(k, (_, m))| (m, read(m, &|campaign| campaign.joints[k])));
+    let apart = design.apart.iter().enumerate();
+    let apart = apart.map(|(k, (_, m))| (m, read(m, &|campaign| campaign.apart[k])));
     let mut fallen: Vec<&Measurement> = Vec::new();
     let mut out: Vec<(&Measurement, [f64; 2], Option<f64>)> = Vec::new();
-    for (m, (seen, shown)) in specimens.chain(joints) {
+    for (m, (seen, shown)) in specimens.chain(apart) {
         if shown.is_empty() {
             fallen.push(m);
         }

@@ -229,8 +229,8 @@ mod tests {
         // Two stones a thousand times as stiff as anybody thinks.
         let mut kn = design.specimens[0].readings[0].clone();
         (kn.quantity, kn.tilt, kn.error) = (crate::study::MeasuredQuantity::JointKn, None, 1e6);
-        design.joints = vec![(0, kn)];
-        shown.joints = vec![crate::critic::Seen::Value(5e10)];
+        design.apart = vec![(0, kn)];
+        shown.apart = vec![crate::critic::Seen::Value(5e10)];
         let found = evidence(&world, &design, &shown, None, 1);
         assert!(found.log.is_finite());
         let furthest = found

@@ -40,15 +40,15 @@ pub enum Feature {
     Scatter(usize, Contrast),
     /// How a contrast goes with the order of the tests, over all specimens.
     Order(Contrast),
-    /// A test on joints: the family and the quantity.
-    Joint(usize, MeasuredQuantity),
+    /// Something measured apart from the tilting tests: the family and the quantity.
+    Apart(usize, MeasuredQuantity),
 }
 
-/// What readings are set against: mean and standard deviation of each in the base model, by specimen and reading, joints last.
+/// What readings are set against: mean and standard deviation of each in the base model, by specimen and reading, what is measured apart last.
 #[derive(Clone, Debug)]
 pub struct Scale {
     specimens: Vec<Vec<[f64; 2]>>,
-    joints: Vec<[f64; 2]>,
+    apart: Vec<[f64; 2]>,
 }
 
 /// Contrasts whose scatter is looked at.
@@ -74,9 +74,9 @@ impl Scale {
             let readings = specimen.readings.iter().enumerate();
             readings.map(|(k, m)| over(m, &|campaign| campaign.specimens[index][k])).collect()
         });
-        let joints = design.joints.iter().enumerate();
-        let joints = joints.map(|(k, (_, m))| over(m, &|campaign| campaign.joints[k]));
-        Scale { specimens: specimens.collect(), joints: joints.collect() }
+        let apart = design.apart.iter().enumerate();
+        let apart = apart.map(|(k, (_, m))| over(m, &|campaign| campaign.apart[k]));
+        Scale { specimens: specimens.collect(), apart: apart.collect() }
     }
 
     /// The base model's standard deviation of every reading (SI), by specimen and reading.
@@ -84,7 +84,7 @@ impl Scale {
         self.specimens.iter().map(|readings| readings.iter().map(|[_, sd]| *sd).collect()).collect()
     }
 
-    /// Every reading in its units, with its family, joints' tests not among them; `None` where nothing was seen.
+    /// Every reading in its units, with its family, what is measured apart not among them; `None` where nothing was seen.
     pub fn readings(&self, design: &Design, campaign: &Campaign) -> Vec<(usize, Option<f64>)> {
         let specimens = design.specimens.iter().zip(&campaign.specimens).zip(&self.specimens);
         specimens
@@ -126,11 +126,11 @@ pub fn features(design: &Design, scale: &Scale, campaign: &Campaign) -> BTreeMap
     for (contrast, values) in ordered.into_iter().filter(|(_, values)| values.len() > 2) {
         found.extend(slope(&values).map(|slope| (Feature::Order(contrast), slope)));
     }
-    let mut joints: BTreeMap<Feature, Vec<f64>> = BTreeMap::new();
-    for (((family, m), seen), scale) in design.joints.iter().zip(&campaign.joints).zip(&scale.joints) {
-        joints.entry(Feature::Joint(*family, m.quantity)).or_default().extend(scaled(*seen, m, scale));
+    let mut apart: BTreeMap<Feature, Vec<f64>> = BTreeMap::new();
+    for (((family, m), seen), scale) in design.apart.iter().zip(&campaign.apart).zip(&scale.apart) {
+        apart.entry(Feature::Apart(*family, m.quantity)).or_default().extend(scaled(*seen, m, scale));
     }
-    found.extend(joints.into_iter().filter_map(|(feature, values)| Some((feature, stats::mean(&values)?))));
+    found.extend(apart.into_iter().filter_map(|(feature, values)| Some((feature, stats::mean(&values)?))));
     found
 }
 

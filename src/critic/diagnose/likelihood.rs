@@ -20,8 +20,8 @@ const LEAST: f64 = 0.02;
 pub struct Likelihood<'c> {
     world: &'c World<'c>,
     specimens: Vec<Read<'c>>,
-    /// Two-stone tests: the family and the reading with its value.
-    joints: Vec<(usize, &'c Measurement, f64)>,
+    /// What was measured apart: the family and the reading with its value.
+    apart: Vec<(usize, &'c Measurement, f64)>,
     /// Quantities whose readings share an error.
     common: Vec<MeasuredQuantity>,
 }
@@ -50,15 +50,15 @@ impl<'c> Likelihood<'c> {
             read
         });
         let specimens: Vec<Read<'c>> = specimens.collect();
-        let joints = design.joints.iter().zip(&campaign.joints);
-        let joints: Vec<_> =
-            joints.filter_map(|((family, m), seen)| Some((*family, m, seen.told(m)?))).collect();
-        let all = specimens.iter().flat_map(Read::all).chain(joints.iter().map(|(_, m, _)| *m));
+        let apart = design.apart.iter().zip(&campaign.apart);
+        let apart: Vec<_> =
+            apart.filter_map(|((family, m), seen)| Some((*family, m, seen.told(m)?))).collect();
+        let all = specimens.iter().flat_map(Read::all).chain(apart.iter().map(|(_, m, _)| *m));
         let mut common: Vec<MeasuredQuantity> =
             all.filter(|m| m.common_error > 0.0).map(|m| m.quantity).collect();
         common.sort();
         common.dedup();
-        Likelihood { world, specimens, joints, common }
+        Likelihood { world, specimens, apart, common }
     }
 
     /// How many errors are shared by readings; each is a score beside the truth.
@@ -91,9 +91,9 @@ impl<'c> Likelihood<'c> {
                 false => Group::joined(groups).map_or(0.0, |group| group.log()),
             };
         }
-        for (family, m, value) in &self.joints {
+        for (family, m, value) in &self.apart {
             let sd = (reading_variance(m)).sqrt();
-            let off = value - shared(m) - self.world.joint(*family, m, truth);
+            let off = value - shared(m) - self.world.apart(*family, m, truth);
             log -= 0.5 * (off / sd) * (off / sd);
         }
         log

@@ -25,11 +25,16 @@ const RIDGE: f64 = 0.05;
 /// Random error of a displacement read against a fixed target or with a dial gauge (m).
 const FINE: f64 = 0.3e-3;
 
+/// Random error of a weight, as a share of it.
+const WEIGHED: f64 = 5e-3;
+
 /// A measurement that could be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Offer {
     /// kn (10 %) and friction angle (1 deg) of two stones' joints, of every family.
     TwoStones,
+    /// The weight of a specimen of every family, to 0.5 %.
+    Weights,
     /// Six readings up to 3 deg at three points, to 0.3 mm, on as many specimens of every family as there were.
     LowTilts,
     /// The tilts of the campaign once more at three points, to 0.3 mm.
@@ -41,7 +46,8 @@ pub enum Offer {
 }
 
 /// All offers with what they cost, in hours of two people (our estimate).
-const MENU: [(Offer, f64); 5] = [
+const MENU: [(Offer, f64); 6] = [
+    (Offer::Weights, 1.0),
     (Offer::TwoStones, 2.0),
     (Offer::LowTilts, 6.0),
     (Offer::FinerReadings, 8.0),
@@ -87,7 +93,7 @@ pub fn offers(judge: &Judge<'_>, possible: &[(f64, Vec<Truth>)], seed: u64) -> V
 fn planned(offer: Offer, judge: &Judge<'_>) -> Option<Design> {
     use MeasuredQuantity as Q;
     let design = &judge.design;
-    let mut new = Design { specimens: Vec::new(), joints: Vec::new(), unused: Vec::new() };
+    let mut new = Design { specimens: Vec::new(), apart: Vec::new(), unused: Vec::new() };
     let pattern = design.specimens.iter().flat_map(|specimen| &specimen.readings).next()?;
     let reading = |quantity, tilt: Option<f64>, error: f64| Measurement {
         quantity,
@@ -98,6 +104,7 @@ fn planned(offer: Offer, judge: &Judge<'_>) -> Option<Design> {
         resolution: 0.0,
         ..pattern.clone()
     };
+    let middle = judge.world.truth(None, &vec![0.0; judge.world.inputs(None)]);
     let points = [Q::DisplacementLeft, Q::DisplacementCentre, Q::DisplacementRight];
     let at = |tilts: &[f64]| -> Vec<Measurement> {
         tilts.iter().flat_map(|tilt| points.map(|point| reading(point, Some(*tilt), FINE))).collect()
@@ -107,13 +114,19 @@ fn planned(offer: Offer, judge: &Judge<'_>) -> Option<Design> {
         specimens.map(|own| Specimen { readings: readings(own), ..own.clone() }).collect()
     };
     match offer {
+        Offer::Weights => {
+            for family in design.families() {
+                let mut weight = reading(Q::SpecimenWeight, None, 0.0);
+                weight.error = WEIGHED * judge.world.apart(family, &weight, &middle);
+                new.apart.push((family, weight));
+            }
+        }
         Offer::TwoStones => {
-            let middle = judge.world.truth(None, &vec![0.0; judge.world.inputs(None)]);
             for family in design.families() {
                 let mut kn = reading(Q::JointKn, None, 0.0);
-                kn.error = 0.1 * judge.world.joint(family, &kn, &middle);
-                new.joints.push((family, kn));
-                new.joints.push((family, reading(Q::JointPhi, None, radians(1.0))));
+                kn.error = 0.1 * judge.world.apart(family, &kn, &middle);
+                new.apart.push((family, kn));
+                new.apart.push((family, reading(Q::JointPhi, None, radians(1.0))));
             }
         }
         Offer::LowTilts => {
@@ -135,7 +148,7 @@ fn planned(offer: Offer, judge: &Judge<'_>) -> Option<Design> {
         Offer::MoreSpecimens => new.specimens.clone_from(&design.specimens),
     }
     new.specimens.retain(|specimen| !specimen.readings.is_empty());
-    (!new.specimens.is_empty() || !new.joints.is_empty()).then_some(new)
+    (!new.specimens.is_empty() || !new.apart.is_empty()).then_some(new)
 }
 
 /// Expected information (nat) of new readings about the cause: its entropy less the mean cross entropy of a Gaussian classifier on

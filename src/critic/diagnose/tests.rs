@@ -79,7 +79,7 @@ fn the_papers_campaign_is_nine_specimens_with_their_bounds() {
     let made = made();
     let (design, campaign) = Design::of(&made.study);
     assert_eq!(design.specimens.len(), 9);
-    assert!(design.unused.is_empty() && design.joints.is_empty());
+    assert!(design.unused.is_empty() && design.apart.is_empty());
     let at = |name: &str| design.specimens.iter().position(|s| s.name == name).expect("it was tested");
     assert_eq!(campaign.specimens[at("CBL1")][1..], [Seen::Beyond; 3]);
     let Seen::Value(first) = campaign.specimens[at("SBL1")][1] else { panic!("it was read") };
@@ -130,6 +130,33 @@ fn a_cause_that_changes_nothing_has_the_walls_of_the_base_model() {
     };
     assert!(apart(&shown(&with("density")), &shown(&base)) < 1e-12);
     assert!(apart(&shown(&with("lean")), &shown(&base)) > 1e-2);
+}
+
+#[test]
+fn a_weight_tells_of_the_density_and_of_nothing_else() {
+    let mut made = made();
+    let sbl = made.study.arms.iter().position(|arm| arm.name == "sbl").expect("a family");
+    let mut weighed = made.study.measured[0].clone();
+    (weighed.family, weighed.quantity) = ("sbl".to_owned(), MeasuredQuantity::SpecimenWeight);
+    (weighed.tilt, weighed.value, weighed.error) = (None, 1250.0, 7.0);
+    (weighed.kind, weighed.common_error) = (MeasuredKind::Exact, 0.0);
+    made.study.measured.push(weighed);
+    let world = made.world();
+    let (design, campaign) = Design::of(&made.study);
+    assert_eq!((design.apart.len(), campaign.apart[0]), (1, Seen::Value(1250.0)));
+    assert_eq!((design.specimens.len(), design.apart[0].0), (9, sbl));
+    let base = world.drawn(None, &Streams::new(9, 0));
+    let weight = |name: &str| {
+        let cause = Some(made.cause(name));
+        let parameters = vec![-1.0; made.mechanisms[made.cause(name)].parameters.len()];
+        world.values_apart(&design, &Truth { cause, parameters, ..base.clone() })[0]
+    };
+    // Table 1 of the source paper: 1371 N.
+    let stated = world.values_apart(&design, &base)[0];
+    assert!((stated - 1371.0).abs() < 0.1, "{stated}");
+    let factor = made.mechanisms[made.cause("density")].parameters[0].prior.at_score(-1.0);
+    assert!((weight("density") / stated - factor).abs() < 1e-12 && factor < 1.0);
+    assert_eq!([weight("lean"), weight("contact_area")], [stated; 2]);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::critic::bank::{Bank, Curves, Emulator, NUMBERS, Path, Plan};
 use crate::critic::diagnose::design::{Campaign, Design};
 use crate::critic::simulated::of_points;
-use crate::ensemble::is_random;
+use crate::ensemble::{build, is_random, weight};
 use crate::math::{atan, radians, tan};
 use crate::random::standard_normal::quantile;
 use crate::random::{Family, Streams};
@@ -13,6 +13,9 @@ use crate::study::{Acts, Arm, Described, MeasuredQuantity, Measurement, Mechanis
 
 /// A wall differs from the expected path as one of so many of its nearest neighbours in the bank does.
 const NEIGHBOURS: usize = 20;
+
+/// So many walls of a family are tried for one that can be built and weighed.
+const BUILT: u64 = 20;
 
 /// Joints are taken to be so much less known than their priors say: a prior that is off by two of its standard deviations is no
 /// effect to be found.
@@ -65,6 +68,8 @@ pub struct World<'s> {
     /// What a cause changes, by family and cause. A point of the bank has the same stones and joints under every cause: the
     /// difference that a cause makes is known far better than either wall, and dies away with the cause.
     changes: BTreeMap<(usize, usize), Walls>,
+    /// Weight of a wall as it is stated (N), by family.
+    weights: BTreeMap<usize, f64>,
     /// Kind of joint of each arm: arms whose joints are stated alike have the same.
     kinds: Vec<usize>,
 }
@@ -105,7 +110,12 @@ impl<'s> World<'s> {
                 Some(cause) => changes.extend(walls.map(|walls| ((family, cause), walls))),
             }
         }
-        Some(World { study, mechanisms, nuisances, base, changes, kinds: kinds(&study.arms) })
+        let weighed = |family: usize| {
+            let wall = (0..BUILT).find_map(|member| build(study, family as u32, member).ok())?.wall;
+            Some((family, weight(&wall)))
+        };
+        let weights = base.keys().map(|&family| weighed(family)).collect::<Option<BTreeMap<usize, f64>>>()?;
+        Some(World { study, mechanisms, nuisances, base, changes, weights, kinds: kinds(&study.arms) })
     }
 
     /// Kinds of joints that differ in what is stated of them.
@@ -143,7 +153,7 @@ impl<'s> World<'s> {
     /// A campaign of a design under a truth: a pure function of these and the streams.
     pub fn campaign(&self, design: &Design, truth: &Truth, streams: &Streams) -> Campaign {
         let values = self.values(design, truth, streams);
-        Campaign::read(design, &values, &self.joint_values(design, truth), streams)
+        Campaign::read(design, &values, &self.values_apart(design, truth), streams)
     }
 
     /// What the specimens of a campaign show of each reading (SI, gauges included) before the readings' errors; `None` where the
@@ -159,9 +169,9 @@ impl<'s> World<'s> {
             .collect()
     }
 
-    /// What the tests on joints show before their errors.
-    pub fn joint_values(&self, design: &Design, truth: &Truth) -> Vec<f64> {
-        design.joints.iter().map(|(family, m)| self.joint(*family, m, truth)).collect()
+    /// What is measured apart before its errors.
+    pub fn values_apart(&self, design: &Design, truth: &Truth) -> Vec<f64> {
+        design.apart.iter().map(|(family, m)| self.apart(*family, m, truth)).collect()
     }
 
     /// Whether walls of a family differ in the base model. Where they do not, simulated ones differ by the emulator's error alone.
@@ -276,16 +286,19 @@ impl<'s> World<'s> {
         }
     }
 
-    /// What a test on two stones shows of a family's joints: stiffness over the whole joint, and friction before it weakens.
-    pub(super) fn joint(&self, family: usize, m: &Measurement, truth: &Truth) -> f64 {
+    /// What is measured of a family apart from tilting: in a test on two stones the stiffness over the whole joint, and the
+    /// friction angle before it weakens; the weight of a specimen.
+    pub(super) fn apart(&self, family: usize, m: &Measurement, truth: &Truth) -> f64 {
         let arm = &self.study.arms[family];
         let factors = self.factors(truth, family);
-        if m.quantity == MeasuredQuantity::JointKn {
-            let kn = arm.kn_points[arm.middle_point()];
-            return kn * factors[0] * self.parameter(truth, "contact_area", "share").unwrap_or(1.0);
+        let by = |mechanism: &str, key: &str| self.parameter(truth, mechanism, key).unwrap_or(1.0);
+        match m.quantity {
+            MeasuredQuantity::JointKn => {
+                arm.kn_points[arm.middle_point()] * factors[0] * by("contact_area", "share")
+            }
+            MeasuredQuantity::SpecimenWeight => self.weights[&family] * by("density", "factor"),
+            _ => atan(tan(radians(arm.joint.phi_deg.mean() * factors[1])) * by("friction", "factor")),
         }
-        let phi = radians(arm.joint.phi_deg.mean() * factors[1]);
-        atan(tan(phi) * self.parameter(truth, "friction", "factor").unwrap_or(1.0))
     }
 
     /// The causes that a diagnosis can tell of: those with walls of their own in some family, and those that act on readings.

@@ -244,9 +244,10 @@ fn words(study: &Study, feature: Feature) -> String {
             format!("{}: scatter of the {} between specimens", family(arm), of(contrast))
         }
         Feature::Order(contrast) => format!("{} over the order of the tests", of(contrast)),
-        Feature::Joint(arm, MeasuredQuantity::JointKn) => {
+        Feature::Apart(arm, MeasuredQuantity::JointKn) => {
             format!("{}: stiffness in the test on two stones", family(arm))
         }
-        Feature::Joint(arm, _) => format!("{}: friction in the test on two stones", family(arm)),
+        Feature::Apart(arm, MeasuredQuantity::SpecimenWeight) => format!("{}: weight", family(arm)),
+        Feature::Apart(arm, _) => format!("{}: friction in the test on two stones", family(arm)),
     }
 }

@@ -119,7 +119,7 @@ pub(super) fn not_used(summary: &DiagnosisSummary) -> Option<String> {
     let lines: Vec<String> = summary.unused_lines.iter().map(ToString::to_string).collect();
     (!lines.is_empty()).then(|| {
         format!(
-            "Not used: lines {} of the measurements (weights, readings after unloading, arms that are not evaluated)",
+            "Not used: lines {} of the measurements (weights of single blocks, readings after unloading, arms that are not evaluated)",
             lines.join(", ")
         )
     })

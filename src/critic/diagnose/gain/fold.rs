@@ -70,7 +70,7 @@ impl Fold {
         let specimens = campaign.specimens.iter().zip(&self.known).map(|(seen, known)| kept(seen, known));
         Campaign {
             specimens: specimens.filter(|seen| !seen.is_empty()).collect(),
-            joints: campaign.joints.clone(),
+            apart: campaign.apart.clone(),
         }
     }
 }

@@ -76,7 +76,7 @@ fn curves(
     let of = |quantity, tilt| Measurement { quantity, tilt, ..(*read[0]).clone() };
     let walls = |readings: Vec<Measurement>| -> Vec<Vec<Option<f64>>> {
         let wall = Specimen { name: String::new(), family, order: None, readings };
-        let one = Design { specimens: vec![wall], joints: Vec::new(), unused: Vec::new() };
+        let one = Design { specimens: vec![wall], apart: Vec::new(), unused: Vec::new() };
         let sets = WALLS / truths.len().max(1) as u64;
         let drawn =
             truths.iter().zip(0..).flat_map(|(truth, k)| (0..sets).map(move |set| (truth, sets * k + set)));

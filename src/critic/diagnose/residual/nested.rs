@@ -28,16 +28,16 @@ impl Nested {
     pub fn new(world: &World<'_>, design: &Design, seed: u64) -> Nested {
         let mut open = design.clone();
         let walls = open.specimens.iter_mut().flat_map(|specimen| &mut specimen.readings);
-        let readings = walls.chain(open.joints.iter_mut().map(|(_, reading)| reading));
+        let readings = walls.chain(open.apart.iter_mut().map(|(_, reading)| reading));
         readings.filter(|m| m.kind.is_censored()).for_each(|m| m.kind = MeasuredKind::Exact);
         let one = |truth: u64| {
             let of_truth = world.stated(&Streams::new(seed, truth));
-            let joints = world.joint_values(&open, &of_truth);
+            let apart = world.values_apart(&open, &of_truth);
             let shown = |set: u64| {
                 let streams = Streams::new(seed, TRUTHS + SETS * truth + set);
                 let walls = world.values(&open, &of_truth, &streams);
-                let read = Campaign::read(&open, &walls, &joints, &streams);
-                let values = walls.concat().into_iter().chain(joints.iter().copied().map(Some));
+                let read = Campaign::read(&open, &walls, &apart, &streams);
+                let values = walls.concat().into_iter().chain(apart.iter().copied().map(Some));
                 let value = |seen: Seen| if let Seen::Value(value) = seen { Some(value) } else { None };
                 Shown { values: values.collect(), read: read.seen().map(value).collect() }
             };
