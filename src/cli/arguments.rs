@@ -261,7 +261,7 @@ pub(crate) struct Diagnose {
     #[arg(long, value_name = "DIR")]
     pub bank: Option<PathBuf>,
     /// Points in the priors for each mechanism that the bank has.
-    #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u64).range(10..=100_000))]
+    #[arg(long, value_name = "N", default_value_t = 120, value_parser = clap::value_parser!(u64).range(10..=100_000))]
     pub points: u64,
     /// Stop with the command to run, where there is no bank.
     #[arg(long)]
@@ -292,7 +292,7 @@ pub(crate) struct Bank {
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Points in the priors for each mechanism; twice as many for the base model.
-    #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u64).range(10..=100_000))]
+    #[arg(long, value_name = "N", default_value_t = 120, value_parser = clap::value_parser!(u64).range(10..=100_000))]
     pub points: u64,
     /// Worker threads [default: one per processor]. No result depends on their number.
     #[arg(long, value_name = "T")]

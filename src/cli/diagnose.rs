@@ -69,7 +69,7 @@ pub(crate) fn diagnose(arguments: &Diagnose) -> Result<(), Failure> {
     output::print(&format!("{text}\nwritten to {}\n{extended}", out.display()))
 }
 
-/// Writes the study that each cause of the verdict extends, in the place of those of an earlier verdict; says so in a line for each.
+/// Writes the study that each cause of the verdict, or its pair, extends, in the place of those of an earlier verdict; says so in a line for each.
 fn extended(
     origin: &Origin<'_>,
     world: &World<'_>,
@@ -78,17 +78,13 @@ fn extended(
 ) -> Result<String, Failure> {
     report::remove_extended(world.mechanisms(), out);
     let mut said = String::new();
-    let causes = diagnosis.verdict.causes();
-    for own in diagnosis.looked_at.iter().filter(|own| causes.contains(&own.cause)) {
-        let Some(extension) = extension(world, &own.draws) else { continue };
-        let folder = out.join(EXTENDED).join(extension.median.mechanism);
+    for (_, draws) in diagnosis.explained_by() {
+        let Some(extension) = extension(world, draws) else { continue };
+        let names: Vec<&str> = extension.median.acting.iter().map(|own| own.mechanism).collect();
+        let folder = out.join(EXTENDED).join(report::extended_name(&names));
         report::write_extended(origin, &extension, &folder)
             .map_err(|error| Failure::Run(format!("{}: {error:#}", folder.display())))?;
-        said.push_str(&format!(
-            "the study extended by {}: {}\n",
-            extension.median.mechanism,
-            folder.display()
-        ));
+        said.push_str(&format!("the study extended by {}: {}\n", names.join(" and "), folder.display()));
     }
     Ok(said)
 }

@@ -52,10 +52,19 @@ pub fn write_extended(origin: &Origin<'_>, extension: &Extension, dir: &Path) ->
     Ok(())
 }
 
+/// Name of the folder of the study that mechanisms extend.
+pub fn extended_name(mechanisms: &[&str]) -> String {
+    mechanisms.join("-and-")
+}
+
 /// Takes away the extended studies of an earlier diagnosis in the same folder, whose verdict this is not any more; what else
 /// lies there stays.
 pub fn remove_extended(mechanisms: &[Described], dir: &Path) {
-    for folder in mechanisms.iter().map(|mechanism| dir.join(EXTENDED).join(mechanism.name)) {
+    let alone = mechanisms.iter().map(|mechanism| mechanism.name.to_string());
+    let pairs = mechanisms
+        .iter()
+        .flat_map(|one| mechanisms.iter().map(|other| extended_name(&[one.name, other.name])));
+    for folder in alone.chain(pairs).map(|name| dir.join(EXTENDED).join(name)) {
         // What is not there needs not be taken away.
         FILES.iter().for_each(|name| drop(fs::remove_file(folder.join(name))));
         let _ = fs::remove_dir(folder);
@@ -66,7 +75,8 @@ pub fn remove_extended(mechanisms: &[Described], dir: &Path) {
 /// What it is, where it comes from, and what is known of its values, as comments.
 fn header(origin: &Origin<'_>, extension: &Extension) -> String {
     let Origin { study, stated, seed, bank } = origin;
-    let (name, count) = (extension.median.mechanism, extension.draws.len());
+    let names: Vec<&str> = extension.median.acting.iter().map(|own| own.mechanism).collect();
+    let count = extension.draws.len();
     let variant = study.variant.as_ref().map(|variant| format!(", variant {variant}")).unwrap_or_default();
     let sha256 = stated.measured().map_or("none", |(_, sha256)| sha256);
     let mut lines = vec![
@@ -75,14 +85,16 @@ fn header(origin: &Origin<'_>, extension: &Extension) -> String {
         format!("Hash of the bank's design:   {bank}"),
         String::new(),
         format!(
-            "The study with {name} at the median of what the measurements leave open, and the joints of the families measured"
+            "The study with {} at the median of what the measurements leave open, and the joints of the families measured",
+            names.join(" and ")
         ),
         format!(
             "at theirs. Variants draw-01 to draw-{count:02}: draws, of which all values belong together."
         ),
     ];
-    let has = study.arms_with(name);
-    if !has.is_empty() {
+    for (name, has) in
+        names.iter().map(|&name| (name, study.arms_with(name))).filter(|(_, has)| !has.is_empty())
+    {
         let what = match name {
             "gauge_offset" | "gauge_scale" => {
                 "what was found acts on what it shows, and both stand here as one"
@@ -91,7 +103,7 @@ fn header(origin: &Origin<'_>, extension: &Extension) -> String {
         };
         lines.push(format!("The study has {name} on already in {}: {what}.", has.join(", ")));
     }
-    if study.leaves_limit_analysis(name) {
+    for name in names.iter().filter(|name| study.leaves_limit_analysis(name)) {
         lines.push(format!("Limit analysis beside the solver is left out: it cannot take {name}."));
     }
     lines.extend([String::new(), "Median and 90 % interval:".to_string()]);

@@ -37,7 +37,7 @@ pub use beside::{Earlier, Mean};
 pub use compare::{Basis, Comparison};
 pub use diagnosis::{DiagnosisSummary, FamilyFigure, diagnosis_text, write_diagnosis};
 pub use elements::{element_table, write_elements};
-pub use extended::{EXTENDED, Origin, remove_extended, write_extended};
+pub use extended::{EXTENDED, Origin, extended_name, remove_extended, write_extended};
 pub use files::{FRAGILITY, SUMMARY_JSON, write_all};
 pub use gain::GainSummary;
 pub use measured::{CalibrationEntry, ComparisonEntry, MeasuredSummary};

@@ -1,25 +1,35 @@
-//! A study with one more mechanism and with other joints: at one point of what may be, and at others as its variants.
+//! A study with one or two more mechanisms and with other joints: at one point of what may be, and at others as its variants.
 
 use crate::study::checked::{Arm, Study};
 use crate::study::fault::Faults;
 use crate::study::inventory::{INVENTORY, InLimitAnalysis};
 use crate::study::stated::{Settings, Stated, WrittenVariant, family_value};
 
-/// A mechanism at one strength, and joints.
+/// What changes readings alone: first the factor, then what is added.
+const GAUGES: [&str; 2] = ["gauge_scale", "gauge_offset"];
+
+/// A mechanism at one strength.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Point {
-    /// Name of the mechanism.
+pub struct Acting {
+    /// Its name.
     pub mechanism: &'static str,
     /// Its parameters by key, in the key's unit.
     pub parameters: Vec<(&'static str, f64)>,
+}
+
+/// Mechanisms at one strength each, and joints.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// The mechanisms.
+    pub acting: Vec<Acting>,
     /// Arms with other joints: the index of each, and factors on the middle of its points in kn, on its friction angle and on
     /// kn over ks, in the order of [`NUISANCES`](crate::study::NUISANCES).
     pub joints: Vec<(usize, [f64; 3])>,
 }
 
 impl Study {
-    /// What its files state with the mechanism on and with other joints: the study itself at one point, a variant for each
-    /// of the others. The mechanism stands in `[mechanism]`, or in the arms that it can act on where another arm refuses it. An
+    /// What its files state with the mechanisms on and with other joints: the study itself at one point, a variant for each
+    /// of the others. A mechanism stands in `[mechanism]`, or in the arms that it can act on where another arm refuses it. An
     /// arm that has it already keeps its own; but a gauge is read by the gauge found.
     ///
     /// # Errors
@@ -37,12 +47,12 @@ impl Study {
             });
             let variants = variants.collect::<Result<Vec<WrittenVariant>, Faults>>()?;
             let mut set = settings(own)?;
-            if self.leaves_limit_analysis(own.mechanism) {
+            if own.acting.iter().any(|own| self.leaves_limit_analysis(own.mechanism)) {
                 set.insert("solver.agreement".to_owned(), false.into());
             }
             stated.clone().with(set, variants)
         };
-        with(!self.reads_by_gauges(own.mechanism)).or_else(|_| with(false))
+        with(!own.acting.iter().any(|own| self.reads_by_gauges(own))).or_else(|_| with(false))
     }
 
     /// Whether limit analysis beside the solver has to go for a mechanism.
@@ -63,9 +73,8 @@ impl Study {
     }
 
     /// Whether a gauge that is found reads what another gauge shows.
-    fn reads_by_gauges(&self, mechanism: &str) -> bool {
-        let gauges = ["gauge_scale", "gauge_offset"];
-        gauges.contains(&mechanism) && gauges.iter().any(|gauge| !self.arms_with(gauge).is_empty())
+    fn reads_by_gauges(&self, found: &Acting) -> bool {
+        GAUGES.contains(&found.mechanism) && GAUGES.iter().any(|gauge| !self.arms_with(gauge).is_empty())
     }
 
     /// The keys that a point sets.
@@ -74,19 +83,21 @@ impl Study {
         let mut put = |below: &str, (mechanism, key, value): (&str, &str, f64)| {
             set.insert(format!("{below}mechanism.{mechanism}.{key}"), value.into());
         };
-        let name = point.mechanism;
-        if everywhere {
-            point.parameters.iter().for_each(|(key, value)| put("", (name, key, *value)));
-        } else if self.reads_by_gauges(name) {
-            for arm in &self.arms {
-                let found = arm.read_by(point);
-                found.into_iter().for_each(|own| put(&format!("arm.{}.", arm.name), own));
-            }
-        } else {
-            let idle = self.with_mechanism(name, &point.parameters)?.idle;
-            for arm in self.arms.iter().filter(|arm| !idle.contains_key(&arm.name)) {
-                let below = format!("arm.{}.", arm.name);
-                point.parameters.iter().for_each(|(key, value)| put(&below, (name, key, *value)));
+        for own in &point.acting {
+            let Acting { mechanism, parameters } = own;
+            if everywhere {
+                parameters.iter().for_each(|(key, value)| put("", (mechanism, key, *value)));
+            } else if self.reads_by_gauges(own) {
+                for arm in &self.arms {
+                    let found = arm.read_by(point);
+                    found.into_iter().for_each(|own| put(&format!("arm.{}.", arm.name), own));
+                }
+            } else {
+                let idle = self.with_mechanism(mechanism, parameters)?.idle;
+                for arm in self.arms.iter().filter(|arm| !idle.contains_key(&arm.name)) {
+                    let below = format!("arm.{}.", arm.name);
+                    parameters.iter().for_each(|(key, value)| put(&below, (mechanism, key, *value)));
+                }
             }
         }
         for (arm, factors) in &point.joints {
@@ -104,18 +115,21 @@ impl Study {
 }
 
 impl Arm {
-    /// Keys of one gauge that shows what a gauge that is found makes of the arm's own.
+    /// Keys of one gauge that shows what the gauges that are found make of the arm's own: the own reading times a factor, and
+    /// moved.
     fn read_by(&self, found: &Point) -> Vec<(&'static str, &'static str, f64)> {
-        let value = found.parameters.first().map_or(1.0, |(_, value)| *value);
+        let of = |gauge: &str| {
+            let own = found.acting.iter().find(|own| own.mechanism == gauge)?;
+            own.parameters.first().map(|(_, value)| *value)
+        };
+        let [factor, further] = GAUGES.map(of);
         let (scale, offset) = (self.mechanisms.gauge_scale, self.mechanisms.gauge_offset);
-        let scaled = |scale: f64| ("gauge_scale", "factor", scale);
-        let moved = |offset: f64| ("gauge_offset", "offset_m", offset);
-        match found.mechanism {
-            "gauge_scale" => {
-                let own = offset.map(|offset| moved(offset * value));
-                std::iter::once(scaled(scale.unwrap_or(1.0) * value)).chain(own).collect()
-            }
-            _ => vec![moved(offset.unwrap_or(0.0) + value)],
-        }
+        let scaled = factor.map(|factor| scale.unwrap_or(1.0) * factor);
+        let moved = match (offset, further) {
+            (None, None) => None,
+            (own, further) => Some(own.unwrap_or(0.0) * factor.unwrap_or(1.0) + further.unwrap_or(0.0)),
+        };
+        let scaled = scaled.map(|scale| (GAUGES[0], "factor", scale));
+        scaled.into_iter().chain(moved.map(|offset| (GAUGES[1], "offset_m", offset))).collect()
     }
 }

@@ -32,7 +32,7 @@ pub use catalogue::{Distribution, DistributionFile, Used, load_distributions};
 pub use checked::{Arm, Claim, ClaimTest, InputFile, Joint, NormalLawName, Study};
 pub use distributions::{NoDistributions, distributions_above};
 pub use elements::{ElementArm, ElementStudy, Reported};
-pub use extended::Point;
+pub use extended::{Acting, Point};
 pub use fault::{Fault, Faults, Found};
 pub use inventory::{
     Acts, Described, Entry as InventoryEntry, INVENTORY, InLimitAnalysis, Parameter, Unloading, described,

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use pirca::study::{Arm, Loaded, Point, Study, described};
+use pirca::study::{Acting, Arm, Loaded, Point, Study, described};
 
 use crate::fixture::Folder;
 
@@ -37,13 +37,13 @@ fn read_back(loaded: &Loaded, own: &Point, others: &[Point]) -> (String, Vec<Stu
 /// A point with each parameter at a quantile of its prior, and factors on the joints of some arms.
 fn point(mechanism: &pirca::study::Described, quantile: f64, joints: Vec<(usize, [f64; 3])>) -> Point {
     let parameters = mechanism.parameters.iter().map(|p| (p.key, p.prior.quantile(quantile)));
-    Point { mechanism: mechanism.name, parameters: parameters.collect(), joints }
+    Point { acting: vec![Acting { mechanism: mechanism.name, parameters: parameters.collect() }], joints }
 }
 
 /// The arms that a point makes of a study's own.
 fn expected(study: &Study, point: &Point) -> Vec<Arm> {
-    let on =
-        study.with_mechanism(point.mechanism, &point.parameters).unwrap_or_else(|faults| panic!("{faults}"));
+    let [Acting { mechanism, parameters }] = &point.acting[..] else { panic!("one mechanism") };
+    let on = study.with_mechanism(mechanism, parameters).unwrap_or_else(|faults| panic!("{faults}"));
     let mut arms = on.study.arms;
     for (arm, factors) in &point.joints {
         let kn = arms[*arm].kn_points[arms[*arm].middle_point()];
@@ -127,7 +127,7 @@ fn a_study_that_is_changed_in_nothing_is_the_same_study() {
 }
 
 fn at(mechanism: &'static str, parameters: &[(&'static str, f64)]) -> Point {
-    Point { mechanism, parameters: parameters.to_vec(), joints: Vec::new() }
+    Point { acting: vec![Acting { mechanism, parameters: parameters.to_vec() }], joints: Vec::new() }
 }
 
 #[test]
@@ -161,6 +161,32 @@ fn an_arm_that_has_the_mechanism_keeps_its_own_and_gauges_read_one_another() {
         [(None, Some(0.003)), (Some(2.0), Some(0.004))]
     );
     assert_eq!(gauges(at("gauge_scale", &[("factor", 3.0)])), [(Some(3.0), None), (Some(6.0), Some(0.003))]);
+}
+
+#[test]
+fn two_mechanisms_stand_beside_each_other_and_two_gauges_are_read_as_one() {
+    let both =
+        |one: Point, other: Point| Point { acting: [one.acting, other.acting].concat(), joints: Vec::new() };
+    let (before, arm) = TOWERS.split_once("[[arm]]").unwrap();
+    let second = arm.replace("name = \"tower\"", "name = \"other\"");
+    let gauge = "[arm.mechanism]\ngauge_offset = { offset_m = 0.001 }\ngauge_scale = { factor = 2 }";
+    let folder = Folder::with_study(&format!("{before}[[arm]]{arm}\n[[arm]]{second}\n{gauge}"));
+    let base = load(&folder.path("studies/tiny"), None);
+    let pair = both(at("lean", &[("angle_deg", 1.0)]), at("density", &[("factor", 1.2)]));
+    let (_, read) = read_back(&base, &pair, &[]);
+    let lean = |arm: &Arm| arm.mechanisms.lean.unwrap().to_degrees();
+    for arm in &read[0].arms {
+        assert!((lean(arm) - 1.0).abs() < 1e-9);
+        assert_eq!(arm.mechanisms.density, Some(1.2));
+    }
+    // Three times what a gauge of 2 x + 1 mm shows, and 3 mm more.
+    let gauges = both(at("gauge_offset", &[("offset_m", 0.003)]), at("gauge_scale", &[("factor", 3.0)]));
+    let (_, read) = read_back(&base, &gauges, &[]);
+    let of = |arm: &Arm| (arm.mechanisms.gauge_scale, arm.mechanisms.gauge_offset);
+    assert_eq!(
+        read[0].arms.iter().map(of).collect::<Vec<_>>(),
+        [(Some(3.0), Some(0.003)), (Some(6.0), Some(0.006))]
+    );
 }
 
 #[test]

@@ -58,7 +58,7 @@ pub struct Said {
     /// How often chance alone makes a campaign as odd.
     pub p_value: f64,
     pub verdict: Word,
-    /// The causes of the verdict: one that is named, or a few.
+    /// The causes of the verdict: one or two that are named, or a few.
     pub names: Vec<String>,
     /// The causes that cannot be put aside.
     pub set: Vec<String>,
@@ -105,6 +105,7 @@ impl<'k> Judge<'k> {
         let (verdict, names) = match &found.verdict {
             Verdict::NothingFound => (Word::NothingFound, Vec::new()),
             Verdict::Named(cause) => (Word::Named, vec![name(cause)]),
+            Verdict::NamedPair(causes) => (Word::Named, causes.iter().map(name).collect()),
             Verdict::Ambiguous(causes) => (Word::Ambiguous, causes.iter().map(name).collect()),
             Verdict::Unexplained => (Word::Unexplained, Vec::new()),
         };

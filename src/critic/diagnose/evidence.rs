@@ -4,6 +4,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::critic::diagnose::causes::Causes;
 use crate::critic::diagnose::design::{Campaign, Design};
 use crate::critic::diagnose::likelihood::Likelihood;
 use crate::critic::diagnose::world::{Truth, World};
@@ -42,19 +43,20 @@ struct Particle {
     log: f64,
 }
 
-/// The evidence of a cause (none: the base model); a pure function of its arguments.
+/// The evidence of causes; a pure function of its arguments.
 pub fn evidence(
     world: &World<'_>,
     design: &Design,
     campaign: &Campaign,
-    cause: Option<usize>,
+    causes: impl Into<Causes>,
     seed: u64,
 ) -> Evidence {
+    let causes = causes.into();
     let likelihood = Likelihood::new(world, design, campaign);
-    let inputs = world.inputs(cause);
+    let inputs = world.inputs(causes);
     let dimensions = inputs + likelihood.common_errors();
-    let log = |scores: &[f64]| likelihood.log(&world.truth(cause, &scores[..inputs]), &scores[inputs..]);
-    let mut draws = Streams::new(seed, cause.map_or(0, |index| 1 + index as u64)).of("evidence");
+    let log = |scores: &[f64]| likelihood.log(&world.truth(causes, &scores[..inputs]), &scores[inputs..]);
+    let mut draws = Streams::new(seed, causes.number()).of("evidence");
     let mut particles: Vec<Particle> = (0..PARTICLES)
         .map(|_| {
             let scores: Vec<f64> = (0..dimensions).map(|_| quantile(draws.uniform())).collect();
@@ -78,7 +80,7 @@ pub fn evidence(
             break;
         }
     }
-    let draws = particles.iter().map(|particle| world.truth(cause, &particle.scores[..inputs])).collect();
+    let draws = particles.iter().map(|particle| world.truth(causes, &particle.scores[..inputs])).collect();
     Evidence { log: evidence, draws }
 }
 

@@ -2,14 +2,14 @@
 
 use crate::critic::diagnose::world::{Truth, World};
 use crate::stats;
-use crate::study::Point;
+use crate::study::{Acting, Described, Point};
 
 /// Most draws of an extension.
 pub const DRAWS: usize = 20;
 /// Quantiles of the intervals.
 const INTERVAL: [f64; 2] = [0.05, 0.95];
 
-/// A cause as an extension of the base model.
+/// Causes as an extension of the base model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extension {
     /// Every parameter and joint at its median.
@@ -33,10 +33,16 @@ pub struct Known {
     pub interval: [f64; 2],
 }
 
-/// The extension by the cause of these truths, which are draws from what may be; at most [`DRAWS`] of them are kept, from all of
+/// The extension by the causes of these truths, which are draws from what may be; at most [`DRAWS`] of them are kept, from all of
 /// their order. `None` without a truth, or where these have no cause.
 pub fn extension(world: &World<'_>, truths: &[Truth]) -> Option<Extension> {
-    let mechanism = &world.mechanisms()[truths.first()?.cause?];
+    let causes = truths.first()?.causes.each();
+    let mechanisms: Vec<&Described> = causes.map(|cause| &world.mechanisms()[cause]).collect();
+    let each =
+        || mechanisms.iter().flat_map(|mechanism| mechanism.parameters.iter().map(move |p| (mechanism, p)));
+    if mechanisms.is_empty() {
+        return None;
+    }
     let families = world.study().measured_arms();
     // A row per truth: the parameters, then the factors on the joints by family.
     let rows: Vec<Vec<f64>> = truths
@@ -50,19 +56,21 @@ pub fn extension(world: &World<'_>, truths: &[Truth]) -> Option<Extension> {
         let column = |k: usize| stats::quantile(&rows.iter().map(|row| row[k]).collect::<Vec<_>>(), p);
         (0..rows[0].len()).map(column).collect()
     };
-    let keys: Vec<&'static str> = mechanism.parameters.iter().map(|p| p.key).collect();
     let point = |row: &Vec<f64>| {
-        let (parameters, factors) = row.split_at(keys.len());
+        let (mut parameters, factors) = row.split_at(each().count());
+        let acting = mechanisms.iter().map(|mechanism| {
+            let (own, others) = parameters.split_at(mechanism.parameters.len());
+            parameters = others;
+            let parameters = mechanism.parameters.iter().map(|p| p.key).zip(own.iter().copied());
+            Acting { mechanism: mechanism.name, parameters: parameters.collect() }
+        });
+        let acting = acting.collect();
         let joints = families.iter().zip(factors.chunks_exact(3));
-        Point {
-            mechanism: mechanism.name,
-            parameters: keys.iter().copied().zip(parameters.iter().copied()).collect(),
-            joints: joints.map(|(family, f)| (*family, [f[0], f[1], f[2]])).collect(),
-        }
+        Point { acting, joints: joints.map(|(family, f)| (*family, [f[0], f[1], f[2]])).collect() }
     };
     let (median, low, high) = (at(0.5)?, at(INTERVAL[0])?, at(INTERVAL[1])?);
     let parameters =
-        mechanism.parameters.iter().map(|p| (format!("mechanism.{}.{}", mechanism.name, p.key), p.unit, 1.0));
+        each().map(|(mechanism, p)| (format!("mechanism.{}.{}", mechanism.name, p.key), p.unit, 1.0));
     let joints = families.iter().flat_map(|&family| {
         let arm = &world.study().arms[family];
         let stated = [

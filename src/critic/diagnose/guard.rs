@@ -4,6 +4,7 @@
 
 use rayon::prelude::*;
 
+use crate::critic::diagnose::causes::Causes;
 use crate::critic::diagnose::design::Campaign;
 use crate::critic::diagnose::judge::Judge;
 use crate::critic::diagnose::ranking::inputs;
@@ -25,9 +26,9 @@ struct Looks {
     readings: Vec<(usize, Option<f64>)>,
 }
 
-/// Share of a cause's own campaigns (none: the base model) that fit it no better than this one does; a pure function of its
-/// arguments.
-pub fn guarded(judge: &Judge<'_>, cause: Option<usize>, campaign: &Campaign, seed: u64) -> f64 {
+/// Share of the causes' own campaigns that fit them no better than this one does; a pure function of its arguments.
+pub fn guarded(judge: &Judge<'_>, causes: impl Into<Causes>, campaign: &Campaign, seed: u64) -> f64 {
+    let causes = causes.into();
     let Judge { world, design, reference, .. } = judge;
     let looks = |campaign: &Campaign| Looks {
         inputs: inputs(&reference.judge(design, campaign)),
@@ -37,7 +38,7 @@ pub fn guarded(judge: &Judge<'_>, cause: Option<usize>, campaign: &Campaign, see
         .into_par_iter()
         .map(|k| {
             let streams = Streams::new(seed, k);
-            looks(&world.campaign(design, &world.drawn(cause, &streams), &streams))
+            looks(&world.campaign(design, &world.drawn(causes, &streams), &streams))
         })
         .collect();
     let own = misfit(&looks(campaign), &pool, None);

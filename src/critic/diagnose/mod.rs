@@ -1,6 +1,7 @@
 //! What the simulation gets wrong: measured campaigns beside those that the base model could have shown.
 
 mod alarm;
+mod causes;
 mod design;
 mod discrepancy;
 mod doubt;
@@ -24,6 +25,7 @@ mod verdict;
 mod world;
 mod wrong;
 
+pub use causes::Causes;
 pub use design::{Campaign, Design, Seen, Specimen};
 pub use discrepancy::Bent;
 pub use doubt::Doubt;
@@ -41,6 +43,6 @@ pub use residual::{
     cause_curves,
 };
 pub use self_test::{CAUGHT, Caught, SelfTest, SelfTestRow};
-pub use verdict::{Diagnosis, Limits, LookedAt, MOST_AMBIGUOUS, Verdict};
+pub use verdict::{Diagnosis, Limits, LookedAt, LookedAtPair, MOST_AMBIGUOUS, Verdict};
 pub use world::{DOUBT, Truth, World};
 pub use wrong::{Reference, Wrong};

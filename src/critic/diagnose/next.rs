@@ -256,14 +256,18 @@ mod tests {
             };
             (0.5, (0..100).map(one).collect())
         };
-        // In the made-up bank creep moves every wall, cohesion nothing, and two stones show neither.
+        // In the made-up bank creep moves every wall, cohesion none, and two stones show neither.
         let offered = offers(&judge, &[draws("creep", 1.5), draws("cohesion", 0.0)], 6);
         let of = |wanted: Offer| offered.iter().find(|own| own.offer == wanted).expect("in the menu");
         println!("{offered:?}");
         assert!((of(Offer::FinerReadings).of - 1.0).abs() < 1e-9);
         assert!(of(Offer::FinerReadings).bits > 0.8 && of(Offer::TwoStones).bits < 0.1);
-        let alike = offers(&judge, &[draws("density", 1.0), draws("cohesion", 1.0)], 6);
+        let alike = offers(&judge, &[draws("end_release", 1.0), draws("cohesion", 1.0)], 6);
         assert!(alike.iter().all(|own| own.bits < 0.15), "{alike:?}");
+        // Nor does density move any, but it weighs.
+        let weighed = offers(&judge, &[draws("density", 1.0), draws("cohesion", 1.0)], 6);
+        assert!(weighed[0].offer == Offer::Weights && weighed[0].bits > 0.9, "{weighed:?}");
+        assert!(weighed[1..].iter().all(|own| own.bits < 0.15), "{weighed:?}");
         // The most information per hour comes first.
         let worth: Vec<f64> = offered.iter().map(|own| own.bits / own.hours).collect();
         assert!(worth.windows(2).all(|pair| pair[0] >= pair[1]));

@@ -3,8 +3,8 @@
 use crate::critic::bank::tests::shipped;
 use crate::critic::bank::{Bank, Path, Plan};
 use crate::critic::diagnose::{
-    Campaign, Contrast, Design, Doubt, Effort, Feature, Judge, Limits, Reference, Seen, Truth, Verdict,
-    World, doubts_beside, extension,
+    Campaign, Causes, Contrast, Design, Doubt, Effort, Feature, Judge, Limits, Reference, Seen, Truth,
+    Verdict, World, doubts_beside, extension,
 };
 use crate::math::{ln, radians};
 use crate::random::Streams;
@@ -121,7 +121,8 @@ fn a_cause_that_changes_nothing_has_the_walls_of_the_base_model() {
     let world = made.world();
     let (design, _) = Design::of(&made.study);
     let base = world.drawn(None, &Streams::new(9, 0));
-    let with = |name: &str| Truth { cause: Some(made.cause(name)), parameters: vec![0.3], ..base.clone() };
+    let with =
+        |name: &str| Truth { causes: Some(made.cause(name)).into(), parameters: vec![0.3], ..base.clone() };
     let shown = |truth: &Truth| world.values(&design, truth, &Streams::new(9, 1));
     // To the rounding of a curve through nothing but zeros.
     let apart = |a: &[Vec<Option<f64>>], b: &[Vec<Option<f64>>]| {
@@ -149,7 +150,7 @@ fn a_weight_tells_of_the_density_and_of_nothing_else() {
     let weight = |name: &str| {
         let cause = Some(made.cause(name));
         let parameters = vec![-1.0; made.mechanisms[made.cause(name)].parameters.len()];
-        world.values_apart(&design, &Truth { cause, parameters, ..base.clone() })[0]
+        world.values_apart(&design, &Truth { causes: cause.into(), parameters, ..base.clone() })[0]
     };
     // Table 1 of the source paper: 1371 N.
     let stated = world.values_apart(&design, &base)[0];
@@ -183,7 +184,7 @@ fn a_gauge_that_has_moved_shows_in_every_reading_and_in_no_angle() {
     let offset = made.cause("gauge_offset");
     let mut moved = base.clone();
     // 5 mm is one standard deviation of the prior.
-    (moved.cause, moved.parameters) = (Some(offset), vec![1.0]);
+    (moved.causes, moved.parameters) = (Some(offset).into(), vec![1.0]);
     let (before, after) = (
         world.campaign(&design, &base, &Streams::new(2, 0)),
         world.campaign(&design, &moved, &Streams::new(2, 0)),
@@ -300,7 +301,7 @@ fn a_cause_outside_the_catalogue_is_not_given_the_name_of_one_inside() {
             }
         }
         match judge.diagnosed(&other, &limits, 1).verdict {
-            Verdict::Named(_) => wrongly += 1,
+            Verdict::Named(_) | Verdict::NamedPair(_) => wrongly += 1,
             Verdict::Unexplained => unexplained += 1,
             _ => {}
         }
@@ -309,6 +310,45 @@ fn a_cause_outside_the_catalogue_is_not_given_the_name_of_one_inside() {
     // 37 of 40 are named, and none of 40 others.
     assert!(right > 6, "{right}");
     assert!(wrongly < 2 && unexplained > 6, "{wrongly} {unexplained}");
+}
+
+#[test]
+fn two_causes_that_act_together_are_named_together_and_one_alone_is_not() {
+    let made = made();
+    let (world, (design, _)) = (made.world(), Design::of(&made.study));
+    let judge = Judge::trained(&world, &design, EFFORT, 5).expect("it can be told");
+    let (creep, lean) = (made.cause("creep"), made.cause("lean"));
+    let pair = Causes::pair(creep, lean);
+    assert_eq!((pair, pair.each().collect::<Vec<_>>()), (Causes::pair(lean, creep), vec![lean, creep]));
+    let (mut together, mut alone) = (0, 0);
+    for k in 0..8 {
+        let streams = Streams::new(37, k);
+        let mut truth = world.drawn(pair, &streams);
+        // The wall leans downhill, and creeps: it moves far and falls early.
+        truth.parameters[..2].copy_from_slice(&[1.5, 1.5]);
+        let shown = world.campaign(&design, &truth, &streams);
+        let found = judge.diagnosed(&shown, &Limits::default(), 1);
+        println!("{:?} {:?}", found.verdict, found.pairs.first().map(|pair| (pair.evidence, pair.guard)));
+        together += usize::from(found.verdict == Verdict::NamedPair([lean, creep]));
+        if let Verdict::NamedPair(_) = found.verdict {
+            let [(causes, draws)] = &found.explained_by()[..] else { panic!("the pair") };
+            assert_eq!(
+                (&causes[..], draws[0].parameters.len()),
+                (&[lean, creep][..], truth.parameters.len())
+            );
+        }
+        let one = world.campaign(
+            &design,
+            &Truth { causes: Some(creep).into(), parameters: truth.parameters[1..].to_vec(), ..truth },
+            &streams,
+        );
+        alone += usize::from(matches!(
+            judge.diagnosed(&one, &Limits::default(), 1).verdict,
+            Verdict::NamedPair(_)
+        ));
+    }
+    println!("{together} of 8 together, {alone} of 8 alone");
+    assert!(together > 4 && alone == 0, "{together} {alone}");
 }
 
 #[test]
@@ -324,12 +364,12 @@ fn an_extension_is_the_median_of_its_truths_and_draws_from_all_of_them() {
         values.sort_by(f64::total_cmp);
         values[30]
     };
-    let keys: Vec<&str> = found.median.parameters.iter().map(|(key, _)| *key).collect();
+    let keys: Vec<&str> = found.median.acting[0].parameters.iter().map(|(key, _)| *key).collect();
     assert_eq!(
-        (found.median.mechanism, &keys[..]),
+        (found.median.acting[0].mechanism, &keys[..]),
         ("friction", &["factor", "residual_share", "slip_distance_m"][..])
     );
-    for (k, (_, value)) in found.median.parameters.iter().enumerate() {
+    for (k, (_, value)) in found.median.acting[0].parameters.iter().enumerate() {
         assert_eq!(*value, middle(&|truth| row(truth).0[k]));
     }
     for (family, factors) in &found.median.joints {
@@ -338,7 +378,7 @@ fn an_extension_is_the_median_of_its_truths_and_draws_from_all_of_them() {
     // Draws keep together what belongs together: the first, the fourth, ... and one near the end.
     assert_eq!(found.draws.len(), 20);
     for (draw, at) in found.draws.iter().zip((0..20).map(|k| k * 61 / 20)) {
-        let values: Vec<f64> = draw.parameters.iter().map(|(_, value)| *value).collect();
+        let values: Vec<f64> = draw.acting[0].parameters.iter().map(|(_, value)| *value).collect();
         let factors: Vec<[f64; 3]> = draw.joints.iter().map(|(_, factors)| *factors).collect();
         assert_eq!((values, &factors[..]), (row(&truths[at]).0, &row(&truths[at]).1[..]));
     }
@@ -348,6 +388,11 @@ fn an_extension_is_the_median_of_its_truths_and_draws_from_all_of_them() {
     assert!(known.interval[0] < known.median && known.median < known.interval[1]);
     assert_eq!(extension(&world, &truths[..3]).map(|few| few.draws.len()), Some(3));
     assert_eq!(extension(&world, &[]), None);
+    let both = world.drawn(Causes::pair(friction, made.cause("density")), &Streams::new(3, 0));
+    let both = extension(&world, &[both]).expect("there is one").median;
+    let names: Vec<(&str, usize)> =
+        both.acting.iter().map(|own| (own.mechanism, own.parameters.len())).collect();
+    assert_eq!(names, [("friction", 3), ("density", 1)]);
     assert_eq!(extension(&world, &[world.drawn(None, &Streams::new(3, 0))]), None);
 }
 

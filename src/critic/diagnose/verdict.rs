@@ -1,7 +1,8 @@
-//! The verdict: nothing found, one cause named, a few that cannot be told apart, or something that no known cause explains.
+//! The verdict: nothing found, one cause or a pair named, a few that cannot be told apart, or something that no known cause explains.
 
 use rayon::prelude::*;
 
+use crate::critic::diagnose::causes::Causes;
 use crate::critic::diagnose::design::Campaign;
 use crate::critic::diagnose::discrepancy::{Bent, Discrepancy};
 use crate::critic::diagnose::evidence::{Evidence, evidence};
@@ -10,6 +11,7 @@ use crate::critic::diagnose::judge::{Judge, Seeming};
 use crate::critic::diagnose::network::softmax;
 use crate::critic::diagnose::predicted::Predicted;
 use crate::critic::diagnose::world::Truth;
+use crate::math::ln;
 
 /// A set of more causes than this separates nothing.
 pub const MOST_AMBIGUOUS: usize = 3;
@@ -40,6 +42,8 @@ pub enum Verdict {
     NothingFound,
     /// Something is wrong, and this cause explains it.
     Named(usize),
+    /// Something is wrong, no one cause explains it, and these two together do.
+    NamedPair([usize; 2]),
     /// Something is wrong, and each of these, at most [`MOST_AMBIGUOUS`], explains it.
     Ambiguous(Vec<usize>),
     /// Something is wrong, and no cause of the catalogue explains it, or too many do.
@@ -51,6 +55,7 @@ impl Verdict {
     pub fn causes(&self) -> &[usize] {
         match self {
             Verdict::Named(cause) => std::slice::from_ref(cause),
+            Verdict::NamedPair(causes) => causes,
             Verdict::Ambiguous(causes) => causes,
             Verdict::NothingFound | Verdict::Unexplained => &[],
         }
@@ -64,6 +69,8 @@ pub struct Diagnosis {
     pub seeming: Seeming,
     /// The causes that were looked at closely, most likely first; none where nothing was found.
     pub looked_at: Vec<LookedAt>,
+    /// Pairs of causes that were looked at as no one explains what is wrong, that with most of the evidence first.
+    pub pairs: Vec<LookedAtPair>,
     /// What the base model, its joints fitted, lacks, if it is anything smooth; empty where nothing was found.
     pub form: Vec<Bent>,
     /// The verdict.
@@ -84,7 +91,34 @@ pub struct LookedAt {
     pub draws: Vec<Truth>,
 }
 
+/// Two causes together that were looked at closely.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LookedAtPair {
+    /// Indices of the mechanisms, ascending.
+    pub causes: [usize; 2],
+    /// Share of the pair's own campaigns that fit no better; `None` where it has too little of the evidence to be asked.
+    pub guard: Option<f64>,
+    /// Its share of the evidence of all pairs, of the causes that were looked at closely and of the base model.
+    pub evidence: f64,
+    /// What its parameters and the joints may be: draws, equally likely.
+    pub draws: Vec<Truth>,
+}
+
 impl Diagnosis {
+    /// The causes of the verdict, together or each on its own, with draws of what is true under them.
+    pub fn explained_by(&self) -> Vec<(Vec<usize>, &[Truth])> {
+        match &self.verdict {
+            Verdict::NamedPair(pair) => {
+                let own = self.pairs.iter().filter(|own| own.causes == *pair);
+                own.map(|own| (pair.to_vec(), &own.draws[..])).collect()
+            }
+            verdict => {
+                let own = verdict.causes().iter().filter_map(|&cause| self.looked_at(cause));
+                own.map(|own| (vec![own.cause], &own.draws[..])).collect()
+            }
+        }
+    }
+
     /// What was seen of a cause that was looked at closely.
     pub fn looked_at(&self, cause: usize) -> Option<&LookedAt> {
         self.looked_at.iter().find(|own| own.cause == cause)
@@ -108,6 +142,7 @@ impl Judge<'_> {
             return Diagnosis {
                 seeming,
                 looked_at: Vec::new(),
+                pairs: Vec::new(),
                 form: Vec::new(),
                 verdict: Verdict::NothingFound,
             };
@@ -127,23 +162,18 @@ impl Judge<'_> {
         let closely = likely.iter().enumerate();
         let closely = closely.filter(|(rank, cause)| *rank < CLOSELY || in_question.contains(cause));
         let closely: Vec<usize> = closely.map(|(_, cause)| *cause).collect();
-        let models: Vec<Option<usize>> =
-            std::iter::once(None).chain(closely.iter().copied().map(Some)).collect();
-        let evidences: Vec<Evidence> = models
-            .par_iter()
-            .map(|cause| evidence(self.world, &self.design, campaign, *cause, seed.wrapping_add(1)))
-            .collect();
+        let models = std::iter::once(None).chain(closely.iter().copied().map(Some)).map(Causes::from);
+        let evidences = self.evidences(campaign, &models.collect::<Vec<_>>(), seed);
         let logs: Vec<f64> = evidences.iter().map(|evidence| evidence.log).collect();
         let shares = softmax(&logs, 1.0);
-        let base = shares[0];
         let form = self.form(campaign, &evidences[0].draws, seed.wrapping_add(2));
         let looked_at: Vec<LookedAt> = closely
             .iter()
-            .zip(evidences.into_iter().zip(shares).skip(1))
+            .zip(evidences.into_iter().zip(&shares).skip(1))
             .map(|(&cause, (found, share))| LookedAt {
                 cause,
                 guard: in_question.contains(&cause).then(|| guarded(self, Some(cause), campaign, seed)),
-                evidence: share,
+                evidence: *share,
                 draws: found.draws,
             })
             .collect();
@@ -155,8 +185,8 @@ impl Judge<'_> {
             _ => Some(own),
         });
         // The base model with other joints may have more of the evidence than any cause.
-        let agreed =
-            named.filter(|cause| first.is_some_and(|first| first.cause == *cause && first.evidence > base));
+        let agreed = named
+            .filter(|cause| first.is_some_and(|first| first.cause == *cause && first.evidence > shares[0]));
         let explain: Vec<usize> = in_question.iter().copied().filter(|&cause| passes(cause)).collect();
         let verdict = match (named, agreed, explain.len()) {
             (_, Some(cause), _) if passes(cause) => Verdict::Named(cause),
@@ -165,7 +195,57 @@ impl Judge<'_> {
             (_, _, 1..=MOST_AMBIGUOUS) => Verdict::Ambiguous(explain),
             _ => Verdict::Unexplained,
         };
-        Diagnosis { seeming, looked_at, form, verdict }
+        let mut diagnosis = Diagnosis { seeming, looked_at, pairs: Vec::new(), form, verdict };
+        if diagnosis.verdict == Verdict::Unexplained {
+            diagnosis.pairs = self.pairs(campaign, &closely, &logs, limits, seed);
+            let named = diagnosis.pairs.iter().find(|pair| pair.guard.is_some_and(|p| p >= limits.guard));
+            diagnosis.verdict = named.map_or(Verdict::Unexplained, |pair| Verdict::NamedPair(pair.causes));
+        }
+        diagnosis
+    }
+
+    fn evidences(&self, campaign: &Campaign, models: &[Causes], seed: u64) -> Vec<Evidence> {
+        let of =
+            |causes: &Causes| evidence(self.world, &self.design, campaign, *causes, seed.wrapping_add(1));
+        models.par_iter().map(of).collect()
+    }
+
+    /// The pairs of the cause that has most of the evidence with every other, where none explains a campaign alone; `logs` are the
+    /// logarithms of the evidence of the base model and of each cause looked at closely. A second cause is as likely beforehand as
+    /// one in all that there are. The guard is asked of a pair that has nearly all of the evidence.
+    fn pairs(
+        &self,
+        campaign: &Campaign,
+        closely: &[usize],
+        logs: &[f64],
+        limits: &Limits,
+        seed: u64,
+    ) -> Vec<LookedAtPair> {
+        let singles = logs[1..].iter().zip(closely);
+        let Some((_, &best)) = singles.reduce(|best, own| if own.0 > best.0 { own } else { best }) else {
+            return Vec::new();
+        };
+        let causes = self.world.causes();
+        let others = causes.iter().filter(|other| **other != best);
+        let pairs: Vec<[usize; 2]> = others.map(|&other| [best.min(other), best.max(other)]).collect();
+        let models: Vec<Causes> = pairs.iter().map(|&[one, other]| Causes::pair(one, other)).collect();
+        let evidences = self.evidences(campaign, &models, seed);
+        let rare = ln(causes.len() as f64);
+        let all: Vec<f64> =
+            logs.iter().copied().chain(evidences.iter().map(|evidence| evidence.log - rare)).collect();
+        let shares = softmax(&all, 1.0);
+        let rows = pairs.into_iter().zip(evidences).zip(&shares[logs.len()..]);
+        let mut pairs: Vec<LookedAtPair> = rows
+            .map(|((causes, found), &evidence)| LookedAtPair {
+                causes,
+                guard: (evidence >= limits.named)
+                    .then(|| guarded(self, Causes::pair(causes[0], causes[1]), campaign, seed)),
+                evidence,
+                draws: found.draws,
+            })
+            .collect();
+        pairs.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+        pairs
     }
 
     /// What the base model lacks with these joints.

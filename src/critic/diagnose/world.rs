@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::critic::bank::{Bank, Curves, Emulator, NUMBERS, Path, Plan};
+use crate::critic::diagnose::causes::Causes;
 use crate::critic::diagnose::design::{Campaign, Design};
 use crate::critic::simulated::of_points;
 use crate::ensemble::{build, is_random, weight};
@@ -24,9 +25,9 @@ pub const DOUBT: f64 = 1.5;
 /// What is true of a simulated campaign. Scores are standard normal: where a quantity lies in its prior.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truth {
-    /// Index of the mechanism; none for the base model.
-    pub cause: Option<usize>,
-    /// The parameters of the cause, in its order.
+    /// What is wrong.
+    pub causes: Causes,
+    /// The parameters of the causes, each in its order.
     pub parameters: Vec<f64>,
     /// The factors on the joints in the order of [`NUISANCES`](crate::study::NUISANCES), for each kind of joint.
     pub joints: Vec<[f64; 3]>,
@@ -123,11 +124,12 @@ impl<'s> World<'s> {
         self.kinds.iter().max().map_or(0, |last| last + 1)
     }
 
-    /// The truth with a cause, drawn from the priors, those of the joints wider by [`DOUBT`].
-    pub fn drawn(&self, cause: Option<usize>, streams: &Streams) -> Truth {
+    /// The truth with these causes, drawn from the priors, those of the joints wider by [`DOUBT`].
+    pub fn drawn(&self, causes: impl Into<Causes>, streams: &Streams) -> Truth {
+        let causes = causes.into();
         let mut scores = streams.of("truth");
-        let scores: Vec<f64> = (0..self.inputs(cause)).map(|_| quantile(scores.uniform())).collect();
-        self.truth(cause, &scores)
+        let scores: Vec<f64> = (0..self.inputs(causes)).map(|_| quantile(scores.uniform())).collect();
+        self.truth(causes, &scores)
     }
 
     /// The truth of the base model, drawn from the priors as they are stated.
@@ -137,17 +139,19 @@ impl<'s> World<'s> {
         truth
     }
 
-    /// Scores that a truth with a cause has: three for each kind of joint, then one for each parameter.
-    pub fn inputs(&self, cause: Option<usize>) -> usize {
-        3 * self.joint_kinds() + cause.map_or(0, |index| self.mechanisms[index].parameters.len())
+    /// Scores that a truth with these causes has: three for each kind of joint, then one for each parameter.
+    pub fn inputs(&self, causes: impl Into<Causes>) -> usize {
+        let parameters = causes.into().each().map(|cause| self.mechanisms[cause].parameters.len());
+        3 * self.joint_kinds() + parameters.sum::<usize>()
     }
 
-    /// The truth with a cause and these scores; those of the joints count [`DOUBT`] times.
-    pub fn truth(&self, cause: Option<usize>, scores: &[f64]) -> Truth {
-        crate::check!(scores.len() == self.inputs(cause), "{} scores for {cause:?}", scores.len());
+    /// The truth with these causes and these scores; those of the joints count [`DOUBT`] times.
+    pub fn truth(&self, causes: impl Into<Causes>, scores: &[f64]) -> Truth {
+        let causes = causes.into();
+        crate::check!(scores.len() == self.inputs(causes), "{} scores for {causes:?}", scores.len());
         let (joints, parameters) = scores.split_at(3 * self.joint_kinds());
         let joints = joints.chunks_exact(3).map(|c| [DOUBT * c[0], DOUBT * c[1], DOUBT * c[2]]).collect();
-        Truth { cause, parameters: parameters.to_vec(), joints }
+        Truth { causes, parameters: parameters.to_vec(), joints }
     }
 
     /// A campaign of a design under a truth: a pure function of these and the streams.
@@ -198,16 +202,15 @@ impl<'s> World<'s> {
         let mut expected = emulator.expected(&joints);
         let mut near: Vec<[f64; NUMBERS]> =
             emulator.nearest(&joints, NEIGHBOURS).into_iter().copied().collect();
-        if let Some(cause) = truth.cause
-            && let Some(change) = self.changes.get(&(family, cause))
-        {
-            let parameters = varying(self.mechanisms, truth.cause, truth.parameters.iter().copied());
+        for (place, (cause, parameters)) in self.parts(truth).enumerate() {
+            let Some(change) = self.changes.get(&(family, cause)) else { continue };
+            let parameters = varying(self.mechanisms, Some(cause), parameters.iter().copied());
             let scores: Vec<f64> = joints.into_iter().chain(parameters).collect();
             expected = moved(&expected, &change.emulator.expected(&scores).numbers);
             let left = change.emulator.nearest(&scores, NEIGHBOURS);
-            // The stones of the nearest wall with what the effect on a wall half way down the list is left with, and so on round:
-            // what is nearest in the one has no part in what is nearest in the other.
-            let further = left.iter().cycle().skip(left.len() / 2);
+            // The stones of the nearest wall with what the effect on a wall half way down the list is left with (a second effect: a
+            // quarter), and so on round: what is nearest in the one has no part in what is nearest in the other.
+            let further = left.iter().cycle().skip(left.len() >> (1 + place));
             for (own, further) in near.iter_mut().zip(further) {
                 own.iter_mut().zip(*further).for_each(|(own, further)| *own += further);
             }
@@ -247,10 +250,20 @@ impl<'s> World<'s> {
         (near.iter().map(of).collect(), random)
     }
 
-    /// The parameters of the cause of a truth, in its order and in the units of their keys.
+    /// The parameters of the causes of a truth, each in its order and in the units of their keys.
     pub fn parameters(&self, truth: &Truth) -> Vec<f64> {
-        let parameters = truth.cause.map_or(&[][..], |cause| &self.mechanisms[cause].parameters);
-        parameters.iter().zip(&truth.parameters).map(|(p, score)| p.prior.at_score(*score)).collect()
+        let parameters = truth.causes.each().flat_map(|cause| &self.mechanisms[cause].parameters);
+        parameters.zip(&truth.parameters).map(|(p, score)| p.prior.at_score(*score)).collect()
+    }
+
+    /// Each cause of a truth with the scores of its parameters.
+    fn parts<'t>(&self, truth: &'t Truth) -> impl Iterator<Item = (usize, &'t [f64])> {
+        let mut left = &truth.parameters[..];
+        truth.causes.each().map(move |cause| {
+            let (own, others) = left.split_at(self.mechanisms[cause].parameters.len());
+            left = others;
+            (cause, own)
+        })
     }
 
     /// Factors on the joints of a family (its arm's index) under a truth, in the order of
@@ -270,11 +283,13 @@ impl<'s> World<'s> {
         self.mechanisms
     }
 
-    /// A parameter of the cause (in its key's unit), if this mechanism is the cause.
+    /// A parameter of a mechanism (in its key's unit), if it is among the causes.
     fn parameter(&self, truth: &Truth, mechanism: &str, key: &str) -> Option<f64> {
-        let described = &self.mechanisms[truth.cause?];
-        let at = described.parameters.iter().position(|p| p.key == key && described.name == mechanism)?;
-        Some(described.parameters[at].prior.at_score(truth.parameters[at]))
+        let (cause, scores) =
+            self.parts(truth).find(|(cause, _)| self.mechanisms[*cause].name == mechanism)?;
+        let parameters = &self.mechanisms[cause].parameters;
+        let at = parameters.iter().position(|p| p.key == key)?;
+        Some(parameters[at].prior.at_score(scores[at]))
     }
 
     /// What gauges make of the displacements.

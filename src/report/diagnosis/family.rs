@@ -10,7 +10,7 @@ pub struct FamilyFigure {
     /// Its name.
     pub family: String,
     /// The causes that a verdict speaks of.
-    pub causes: Vec<&'static str>,
+    pub causes: Vec<String>,
     /// What was read at a tilt, quantity by quantity.
     pub panels: Vec<Panel>,
     /// The collapse angle (deg) of the base model, and its median under each cause.
@@ -54,14 +54,15 @@ impl FamilyFigure {
         mechanisms: &[Described],
         residuals: &Residuals,
         base: &[FamilyCurves],
-        causes: &[(usize, Vec<FamilyCurves>)],
+        causes: &[(Vec<usize>, Vec<FamilyCurves>)],
     ) -> Vec<FamilyFigure> {
         let figure = |curves: &FamilyCurves| {
             let own = |families: &'_ [FamilyCurves]| families.iter().position(|c| c.family == curves.family);
-            let causes: Vec<(&'static str, &FamilyCurves)> = causes
-                .iter()
-                .filter_map(|(cause, all)| Some((mechanisms[*cause].name, &all[own(all)?])))
-                .collect();
+            let name = |causes: &[usize]| {
+                causes.iter().map(|cause| mechanisms[*cause].name).collect::<Vec<_>>().join(" and ")
+            };
+            let causes: Vec<(String, &FamilyCurves)> =
+                causes.iter().filter_map(|(causes, all)| Some((name(causes), &all[own(all)?]))).collect();
             FamilyFigure::of(study, curves, &causes, &residuals.readings)
         };
         base.iter().map(figure).collect()
@@ -70,7 +71,7 @@ impl FamilyFigure {
     fn of(
         study: &Study,
         curves: &FamilyCurves,
-        causes: &[(&'static str, &FamilyCurves)],
+        causes: &[(String, &FamilyCurves)],
         readings: &[Residual],
     ) -> FamilyFigure {
         let own: Vec<&Residual> = readings.iter().filter(|r| r.family == curves.family).collect();
@@ -103,7 +104,7 @@ impl FamilyFigure {
         let angles = causes.iter().map(|(_, curves)| degrees(curves.collapse.median));
         FamilyFigure {
             family: study.arms[curves.family].name.clone(),
-            causes: causes.iter().map(|(name, _)| *name).collect(),
+            causes: causes.iter().map(|(name, _)| name.clone()).collect(),
             panels: panels.collect(),
             collapse: (curves.collapse.map(degrees), angles.collect()),
             angles: marks(MeasuredQuantity::CollapseAngle),

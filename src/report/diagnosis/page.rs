@@ -2,7 +2,8 @@
 
 use crate::report::diagnosis::summary::{CauseEntry, DiagnosisSummary};
 use crate::report::diagnosis::text::{
-    CAUSE, CAUSES, FORM, OFF, by_chance, excluded, not_used, or_dash, reliability, verdict, worth_saying,
+    CAUSE, CAUSES, FORM, OFF, by_chance, excluded, not_used, or_dash, pairs, reliability, verdict,
+    worth_saying,
 };
 use crate::report::diagnosis::words::{lines, reading};
 use crate::report::gain::GainSummary;
@@ -57,6 +58,7 @@ pub fn page(summary: &DiagnosisSummary, drawings: &[Drawing]) -> String {
         &["cause", "probability", "evidence", "guard", "parameters: median and nine in ten"],
         rows,
     ));
+    body.push_str(&pairs(summary).map_or_else(String::new, |words| paragraph(&words)));
     if summary.verdict == "unexplained" {
         let sentences: Vec<Vec<String>> = summary.form.iter().map(|bent| vec![bent.sentence()]).collect();
         body.push_str(&format!("<h2>What is not explained</h2>\n{}", table(&[FORM], sentences)));

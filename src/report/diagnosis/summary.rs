@@ -27,6 +27,8 @@ pub struct DiagnosisSummary {
     pub verdict: &'static str,
     /// The causes that the verdict speaks of, then all others; probabilities when all are equally likely beforehand.
     pub causes: Vec<CauseEntry>,
+    /// Pairs of causes that were looked at because no one explains what is wrong, that with most of the evidence first.
+    pub pairs: Vec<PairEntry>,
     /// Probability of the base model among them.
     pub base_probability: f64,
     /// Share of campaigns without any effect in which something is as far off.
@@ -69,6 +71,19 @@ pub struct CauseEntry {
     pub guard_p_value: Option<f64>,
     /// Its parameters, as far as the data tell them; empty where it was not looked at closely.
     pub parameters: Vec<ParameterEntry>,
+}
+
+/// Two causes together.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct PairEntry {
+    /// Names of the mechanisms.
+    pub ids: [&'static str; 2],
+    /// Share of the evidence of all pairs, of the causes that were looked at closely and of the base model.
+    pub evidence: f64,
+    /// Whether the verdict names the pair.
+    pub in_verdict: bool,
+    /// Share of its own campaigns that fit the readings no better; null where the guard was not asked.
+    pub guard_p_value: Option<f64>,
 }
 
 /// A parameter of a cause.
@@ -130,9 +145,30 @@ impl DiagnosisSummary {
         let (verdict, spoken): (&'static str, Vec<usize>) = match &diagnosis.verdict {
             Verdict::NothingFound => ("nothing_found", Vec::new()),
             Verdict::Named(cause) => ("named", vec![*cause]),
+            Verdict::NamedPair(causes) => ("named", causes.to_vec()),
             Verdict::Ambiguous(causes) => ("ambiguous", causes.clone()),
             Verdict::Unexplained => ("unexplained", Vec::new()),
         };
+        let explained = diagnosis.explained_by();
+        let drawn = |cause: usize| {
+            let own = explained.iter().find(|(causes, _)| causes.contains(&cause));
+            let parameters = |causes: &[usize], draws: &[Truth]| {
+                let before = causes.iter().take_while(|other| **other != cause);
+                let first = before.map(|other| mechanisms[*other].parameters.len()).sum();
+                parameters(&mechanisms[cause], first, draws)
+            };
+            match (own, diagnosis.looked_at(cause)) {
+                (Some((causes, draws)), _) => parameters(causes, draws),
+                (None, Some(own)) => parameters(&[cause], &own.draws),
+                (None, None) => Vec::new(),
+            }
+        };
+        let pairs = diagnosis.pairs.iter().map(|own| PairEntry {
+            ids: own.causes.map(|cause| mechanisms[cause].name),
+            evidence: own.evidence,
+            in_verdict: diagnosis.verdict == Verdict::NamedPair(own.causes),
+            guard_p_value: own.guard,
+        });
         let ranked = &diagnosis.seeming.ranked;
         let mut causes: Vec<CauseEntry> = ranked
             .causes
@@ -147,8 +183,7 @@ impl DiagnosisSummary {
                     in_verdict: spoken.contains(&cause),
                     excluded_by: excluded_by(diagnosis, cause),
                     guard_p_value: closely.and_then(|own| own.guard),
-                    parameters: closely
-                        .map_or_else(Vec::new, |own| parameters(&mechanisms[cause], &own.draws)),
+                    parameters: drawn(cause),
                 })
             })
             .collect();
@@ -178,6 +213,7 @@ impl DiagnosisSummary {
             bank: bank.to_string(),
             verdict,
             causes,
+            pairs: pairs.collect(),
             base_probability: base.map_or(0.0, |(_, probability)| *probability),
             p_value: diagnosis.seeming.p_value,
             off,
@@ -211,11 +247,11 @@ fn excluded_by(diagnosis: &Diagnosis, cause: usize) -> Option<&'static str> {
     }
 }
 
-/// What the posterior says of a cause's parameters.
-fn parameters(mechanism: &Described, draws: &[Truth]) -> Vec<ParameterEntry> {
+/// What the posterior says of a cause's parameters; `first` is the place of its first one in the draws.
+fn parameters(mechanism: &Described, first: usize, draws: &[Truth]) -> Vec<ParameterEntry> {
     let entry = |(k, parameter): (usize, &crate::study::Parameter)| {
         let values: Vec<f64> =
-            draws.iter().map(|truth| parameter.prior.at_score(truth.parameters[k])).collect();
+            draws.iter().map(|truth| parameter.prior.at_score(truth.parameters[first + k])).collect();
         let at = |p: f64| stats::quantile(&values, p);
         Some(ParameterEntry {
             key: parameter.key,

@@ -43,6 +43,7 @@ pub fn diagnosis_text(summary: &DiagnosisSummary) -> String {
         }
     }
     text.push_str(&format!("  {:<18} {:>6.3}\n", "none of them", summary.base_probability));
+    text.push_str(&pairs(summary).map_or_else(String::new, |words| wrapped("", &words)));
     if summary.verdict == "unexplained" {
         text.push_str(&format!("\n{FORM}\n"));
         summary.form.iter().for_each(|bent| text.push_str(&wrapped("  - ", &bent.sentence())));
@@ -78,11 +79,15 @@ pub(super) fn verdict(summary: &DiagnosisSummary) -> String {
             "NOTHING FOUND: what is off is no more than errors, scatter and joints within their priors make of it (p {}).",
             significant(summary.p_value, 2)
         ),
+        "named" if summary.pairs.iter().any(|pair| pair.in_verdict) => {
+            "NAMED: something is wrong, and two causes together explain it.".to_string()
+        }
         "named" => "NAMED: something is wrong, and one cause explains it.".to_string(),
         "ambiguous" => {
             "AMBIGUOUS: something is wrong, and the data cannot tell between these causes.".to_string()
         }
-        _ => "UNEXPLAINED: something is wrong, and no one cause of the catalogue explains it.".to_string(),
+        _ => "UNEXPLAINED: something is wrong, and no one cause of the catalogue and no pair explains it."
+            .to_string(),
     }
 }
 
@@ -96,6 +101,19 @@ pub(super) fn by_chance(summary: &DiagnosisSummary) -> Option<String> {
 /// What is off enough for a line, the furthest first.
 pub(super) fn worth_saying(summary: &DiagnosisSummary) -> Vec<&OffEntry> {
     summary.off.iter().filter(|off| off.in_sd.abs() >= WORTH_SAYING).collect()
+}
+
+/// The pair with most of the evidence, where pairs were looked at.
+pub(super) fn pairs(summary: &DiagnosisSummary) -> Option<String> {
+    let pair = summary.pairs.first()?;
+    Some(format!(
+        "No cause explains it alone. Of {} pairs {} and {} have most of the evidence: a share of {}, guard {}.",
+        summary.pairs.len(),
+        pair.ids[0],
+        pair.ids[1],
+        significant(pair.evidence, 2),
+        or_dash(pair.guard_p_value)
+    ))
 }
 
 /// Which causes are put aside and why, and which are not.

@@ -56,7 +56,7 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>) {
     let guard = |cause: usize| {
         let parameters = vec![0.5; made.mechanisms[cause].parameters.len()];
         let joints = vec![[0.0; 3]; world.joint_kinds()];
-        let draws = vec![Truth { cause: Some(cause), parameters, joints }];
+        let draws = vec![Truth { causes: Some(cause).into(), parameters, joints }];
         LookedAt { cause, guard: Some(0.4), evidence: 0.45, draws }
     };
     let causes = [cause("creep"), cause("gauge_offset")];
@@ -90,6 +90,7 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>) {
             },
         },
         looked_at: causes.map(guard).to_vec(),
+        pairs: Vec::new(),
         form: Vec::new(),
         verdict: Verdict::Ambiguous(causes.to_vec()),
     };

@@ -39,15 +39,15 @@ pub fn base_curves(world: &World<'_>, design: &Design, seed: u64) -> Vec<FamilyC
     over_the_tilt(world, design, &truths, seed)
 }
 
-/// Bands of every cause that a verdict speaks of, with draws of its parameters and the joints.
+/// Bands of every cause that a verdict speaks of, or of a pair together, with draws of the parameters and the joints.
 pub fn cause_curves(
     world: &World<'_>,
     design: &Design,
     diagnosis: &Diagnosis,
     seed: u64,
-) -> Vec<(usize, Vec<FamilyCurves>)> {
-    let asked = diagnosis.verdict.causes().iter().filter_map(|&cause| diagnosis.looked_at(cause));
-    asked.map(|own| (own.cause, over_the_tilt(world, design, &own.draws, seed))).collect()
+) -> Vec<(Vec<usize>, Vec<FamilyCurves>)> {
+    let asked = diagnosis.explained_by().into_iter();
+    asked.map(|(causes, draws)| (causes, over_the_tilt(world, design, draws, seed))).collect()
 }
 
 /// Bands over all given truths.

@@ -218,7 +218,7 @@ fn bands_over_the_tilt_go_to_where_half_have_fallen_and_show_a_cause() {
     let offset = made.mechanisms.iter().position(|m| m.name == "gauge_offset").expect("in the catalogue");
     let mut moved = truths.clone();
     // 5 mm is one standard deviation of the prior.
-    moved.iter_mut().for_each(|truth| (truth.cause, truth.parameters) = (Some(offset), vec![1.0]));
+    moved.iter_mut().for_each(|truth| (truth.causes, truth.parameters) = (Some(offset).into(), vec![1.0]));
     let with = over_the_tilt(&world, &design, &moved, 9);
     assert_eq!(with[SBL].collapse, base[SBL].collapse);
     for ((tilt, with), (_, base)) in with[SBL].curves[0].bands.iter().zip(&base[SBL].curves[0].bands) {
