@@ -1,22 +1,51 @@
-//! What the walls of a bank would have done between its points: a quadratic in the scores of the inputs for every number of a
-//! path, and what it leaves.
+//! What the walls of a bank would have done between its points: a Gaussian process with a quadratic mean over the scores of the
+//! inputs for every number of a path (Rasmussen and Williams 2006, chapter 2), and what it leaves. In units of the variance that it
+//! leaves its covariance is
+//!
+//! ```text
+//! k(z, z') = [z = z'] + WIDE t(z) . t(z') + s m(r)        t: 1, each score, each product of two
+//! m(r) = (1 + sqrt(5) r + 5/3 r^2) exp(-sqrt(5) r)         r^2 = sum of ((z_k - z'_k) / l_k)^2  (Matern, 5/2)
+//! ```
+//!
+//! with the size `s` and the lengths `l` that tell walls best that they do not know.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
+use rayon::prelude::*;
 
 use crate::critic::bank::path::{NUMBERS, Path};
+use crate::math::{exp, ln};
 use crate::stats;
 
-/// Weight of the penalty on coefficients, per wall: enough to keep a point of few neighbours from pulling a curve its way.
-const RIDGE: f64 = 1e-3;
-/// Scores beyond this are taken to be there: a quadratic says nothing of the far ends of its inputs.
+/// Variance of the quadratic's coefficients.
+const WIDE: f64 = 10.0;
+/// Scores beyond this are taken to be there: few walls tell of the far ends of their inputs.
 const FURTHEST: f64 = 2.5;
+/// The first inputs are the joints': walls answer to them smoothly.
+const JOINTS: usize = 3;
+/// Length over which they do (in scores).
+const SMOOTH: f64 = 5.0;
+/// Lengths that are tried for the other inputs, and sizes of what a quadratic misses; none at all is tried as well.
+const LENGTHS: [f64; 3] = [0.7, 1.5, 3.0];
+const SIZES: [f64; 3] = [3.0, 30.0, 300.0];
+
+/// What is smooth beside the quadratic.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Shape {
+    size: f64,
+    length: f64,
+}
 
 /// The walls of a family under one cause, told by few numbers.
 #[derive(Clone, Debug)]
 pub struct Emulator {
     inputs: usize,
-    /// Coefficients by term and number.
+    shape: Shape,
+    /// Means of the numbers, from which all else counts.
+    middle: [f64; NUMBERS],
+    /// Coefficients of the quadratic, by term and number.
     coefficients: DMatrix<f64>,
+    /// Weights of the walls in what is smooth beside it, by wall and number.
+    weights: DMatrix<f64>,
     /// Where the walls of the bank lie, in scores.
     scores: Vec<Vec<f64>>,
     /// What each wall of the bank differs by from a curve that does not know it: the stones' own part, and the emulator's error.
@@ -25,9 +54,16 @@ pub struct Emulator {
     explained: [f64; NUMBERS],
 }
 
+/// What a shape makes of the walls.
+struct Fitted {
+    weights: DMatrix<f64>,
+    /// By wall and number.
+    left: DMatrix<f64>,
+}
+
 impl Emulator {
     /// Through walls by their scores (standard normal, one per input) and paths; `None` for fewer than twice as many walls as
-    /// terms.
+    /// a quadratic has terms.
     pub fn fit(scores: &[Vec<f64>], paths: &[Path]) -> Option<Emulator> {
         let inputs = scores.first()?.len();
         let rows: Vec<Vec<f64>> = scores.iter().map(|z| terms(z)).collect();
@@ -36,22 +72,21 @@ impl Emulator {
             return None;
         }
         let design = DMatrix::from_fn(n, p, |row, column| rows[row][column]);
-        let wanted = DMatrix::from_fn(n, NUMBERS, |row, column| paths[row].numbers[column]);
-        let mut normal = design.transpose() * &design;
-        for k in 1..p {
-            normal[(k, k)] += RIDGE * n as f64;
-        }
-        let solved = normal.cholesky()?;
-        let coefficients = solved.solve(&(design.transpose() * &wanted));
-        let errors = &wanted - &design * &coefficients;
-        let left: Vec<[f64; NUMBERS]> = (0..n)
-            .map(|wall| {
-                let own = DVector::from_row_slice(&rows[wall]);
-                // Without the wall the curve would be further away by this factor (leave-one-out of a linear smoother).
-                let further = 1.0 / (1.0 - own.dot(&solved.solve(&own)));
-                std::array::from_fn(|number| errors[(wall, number)] * further)
-            })
+        let mean = |number: usize| stats::mean(&paths.iter().map(|p| p.numbers[number]).collect::<Vec<_>>());
+        let middle: [f64; NUMBERS] = std::array::from_fn(|number| mean(number).unwrap_or(0.0));
+        let wanted = DMatrix::from_fn(n, NUMBERS, |row, number| paths[row].numbers[number] - middle[number]);
+        let plain = Shape { size: 0.0, length: 1.0 };
+        let others = SIZES.iter().flat_map(|&size| LENGTHS.map(|length| Shape { size, length }));
+        let tried: Vec<Shape> = std::iter::once(plain).chain(others.filter(|_| inputs > JOINTS)).collect();
+        let fitted: Vec<(Shape, Fitted)> = tried
+            .into_par_iter()
+            .filter_map(|shape| Some((shape, Fitted::of(shape, scores, &design, &wanted)?)))
             .collect();
+        let best = fitted.into_iter().map(|(shape, fitted)| (fitted.misses(), shape, fitted));
+        let (_, shape, Fitted { weights, left }) =
+            best.reduce(|best, own| if own.0 < best.0 { own } else { best })?;
+        let left: Vec<[f64; NUMBERS]> =
+            (0..n).map(|wall| std::array::from_fn(|number| left[(wall, number)])).collect();
         let explained = std::array::from_fn(|number| {
             let values: Vec<f64> = paths.iter().map(|path| path.numbers[number]).collect();
             let squares: Vec<f64> = left.iter().map(|left| left[number] * left[number]).collect();
@@ -59,27 +94,40 @@ impl Emulator {
             let rest = stats::sum(&squares) / n as f64;
             if whole > 0.0 { 1.0 - rest / (whole * whole) } else { 0.0 }
         });
-        Some(Emulator { inputs, coefficients, scores: scores.to_vec(), left, explained })
+        let coefficients = design.transpose() * &weights * WIDE;
+        Some(Emulator {
+            inputs,
+            shape,
+            middle,
+            coefficients,
+            weights,
+            scores: scores.to_vec(),
+            left,
+            explained,
+        })
     }
 
     /// The path to be expected at these scores, one per input.
     pub fn expected(&self, scores: &[f64]) -> Path {
         crate::check!(scores.len() == self.inputs, "{} scores for {} inputs", scores.len(), self.inputs);
-        let terms = terms(scores);
-        let number = |k: usize| {
-            let products: Vec<f64> =
-                terms.iter().zip(self.coefficients.column(k).iter()).map(|(t, c)| t * c).collect();
-            stats::sum(&products)
+        let mut numbers = self.middle;
+        let mut add = |share: f64, of: &DMatrix<f64>, row: usize| {
+            numbers.iter_mut().enumerate().for_each(|(k, number)| *number += share * of[(row, k)]);
         };
-        Path { numbers: std::array::from_fn(number) }
+        terms(scores).into_iter().enumerate().for_each(|(row, term)| add(term, &self.coefficients, row));
+        if self.shape.size > 0.0 {
+            for (row, wall) in self.scores.iter().enumerate() {
+                add(self.shape.covariance(scores, wall), &self.weights, row);
+            }
+        }
+        Path { numbers }
     }
 
     /// What the walls of the bank that lie nearest to these scores are left with, nearest first: a wall there differs from the
     /// expected path by one of them.
     pub fn nearest(&self, scores: &[f64], count: usize) -> Vec<&[f64; NUMBERS]> {
-        let distance =
-            |wall: &Vec<f64>| wall.iter().zip(scores).map(|(a, b)| (a - b) * (a - b)).fold(0.0, |s, x| s + x);
-        let mut order: Vec<(f64, usize)> = self.scores.iter().map(distance).zip(0..).collect();
+        let distances = self.scores.iter().map(|wall| self.shape.squared_distance(wall, scores));
+        let mut order: Vec<(f64, usize)> = distances.zip(0..).collect();
         order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         order.into_iter().take(count).map(|(_, wall)| &self.left[wall]).collect()
     }
@@ -90,9 +138,59 @@ impl Emulator {
     }
 }
 
+impl Fitted {
+    /// The weights, and what leaving out each wall in turn leaves of it (section 5.4.2): its weight over the diagonal of the
+    /// inverse covariance.
+    fn of(shape: Shape, scores: &[Vec<f64>], design: &DMatrix<f64>, wanted: &DMatrix<f64>) -> Option<Fitted> {
+        let n = scores.len();
+        let mut covariance = design * design.transpose() * WIDE;
+        for (row, one) in scores.iter().enumerate() {
+            for (column, other) in scores[..row].iter().enumerate() {
+                let own = shape.covariance(one, other);
+                covariance[(row, column)] += own;
+                covariance[(column, row)] += own;
+            }
+            covariance[(row, row)] += 1.0 + shape.size;
+        }
+        let inverse = covariance.cholesky()?.inverse();
+        let weights = &inverse * wanted;
+        let left =
+            DMatrix::from_fn(n, NUMBERS, |wall, number| weights[(wall, number)] / inverse[(wall, wall)]);
+        Some(Fitted { weights, left })
+    }
+
+    /// How far off it is of walls that it does not know: mean logarithm over the numbers that vary.
+    fn misses(&self) -> f64 {
+        let squares = self.left.column_iter().map(|left| left.dot(&left)).filter(|square| *square > 0.0);
+        stats::mean(&squares.map(ln).collect::<Vec<_>>()).unwrap_or(0.0)
+    }
+}
+
+impl Shape {
+    fn squared_distance(&self, one: &[f64], other: &[f64]) -> f64 {
+        let pairs = one.iter().zip(other).enumerate();
+        pairs.fold(0.0, |sum, (k, (a, b))| {
+            let length = if k < JOINTS { SMOOTH } else { self.length };
+            let off = (held(*a) - held(*b)) / length;
+            sum + off * off
+        })
+    }
+
+    fn covariance(&self, one: &[f64], other: &[f64]) -> f64 {
+        let square = 5.0 * self.squared_distance(one, other);
+        let root = square.sqrt();
+        self.size * (1.0 + root + square / 3.0) * exp(-root)
+    }
+}
+
+/// A score within what walls tell of.
+fn held(score: f64) -> f64 {
+    score.clamp(-FURTHEST, FURTHEST)
+}
+
 /// One, each score, and each product of two.
 fn terms(scores: &[f64]) -> Vec<f64> {
-    let z: Vec<f64> = scores.iter().map(|z| z.clamp(-FURTHEST, FURTHEST)).collect();
+    let z: Vec<f64> = scores.iter().copied().map(held).collect();
     let mut terms = vec![1.0];
     terms.extend(&z);
     for (k, a) in z.iter().enumerate() {

@@ -121,6 +121,28 @@ fn an_emulator_finds_the_curve_and_knows_what_it_does_not_tell() {
 }
 
 #[test]
+fn an_emulator_follows_what_begins_in_the_middle_of_a_prior() {
+    // Nothing below a threshold of the fourth input, ever more above it, and 1 % of noise; a quadratic is off by 0.1 and more.
+    let begins = |z: f64| if z > 0.0 { 0.5 * z } else { 0.0 };
+    let (mut scores, mut paths) = bank(120);
+    for (wall, (scores, path)) in scores.iter_mut().zip(&mut paths).enumerate() {
+        let mut draws = Streams::new(12, wall as u64).of("fourth");
+        let [fourth, noise] = [draws.uniform(), draws.uniform()].map(standard_normal::quantile);
+        scores.push(fourth);
+        path.numbers = [begins(fourth) + 0.01 * noise; NUMBERS];
+    }
+    let emulator = Emulator::fit(&scores, &paths).expect("four walls per term");
+    for fourth in [-1.5, -0.8, -0.3, 0.5, 1.0, 1.6] {
+        let at = [0.2, -0.4, 0.5, fourth];
+        let found = emulator.expected(&at).numbers[3];
+        assert!((found - begins(fourth)).abs() < 0.04, "{fourth}: {found}");
+        // What is nearest lies on the same side, and is left with no more than it is off.
+        let left: Vec<f64> = emulator.nearest(&at, 20).iter().map(|left| left[3]).collect();
+        assert!(crate::stats::sigma(&left).expect("twenty") < 0.05, "{fourth}: {left:?}");
+    }
+}
+
+#[test]
 fn an_emulator_needs_walls() {
     let (scores, paths) = bank(19);
     assert!(Emulator::fit(&scores, &paths).is_none());
