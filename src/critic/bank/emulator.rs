@@ -128,8 +128,13 @@ impl Emulator {
     pub fn nearest(&self, scores: &[f64], count: usize) -> Vec<&[f64; NUMBERS]> {
         let distances = self.scores.iter().map(|wall| self.shape.squared_distance(wall, scores));
         let mut order: Vec<(f64, usize)> = distances.zip(0..).collect();
-        order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        order.into_iter().take(count).map(|(_, wall)| &self.left[wall]).collect()
+        let nearer = |a: &(f64, usize), b: &(f64, usize)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+        if count < order.len() {
+            order.select_nth_unstable_by(count, nearer);
+            order.truncate(count);
+        }
+        order.sort_unstable_by(nearer);
+        order.into_iter().map(|(_, wall)| &self.left[wall]).collect()
     }
 
     /// Share of the variance of each number that is told beforehand for a wall that the curve does not know.

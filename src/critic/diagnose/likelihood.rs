@@ -165,28 +165,31 @@ impl Group {
             return self.bounds;
         }
         let freedom = (paths - 1) as f64;
-        let mean: Vec<f64> = (0..readings)
-            .map(|k| self.off.iter().fold(0.0, |sum, off| sum + off[k]) / paths as f64)
-            .collect();
+        // Path by path, as they lie in memory.
+        let mut mean = vec![0.0; readings];
+        for off in &self.off {
+            mean.iter_mut().zip(off).for_each(|(sum, off)| *sum += off);
+        }
+        mean.iter_mut().for_each(|sum| *sum /= paths as f64);
+        let mut square = vec![0.0; readings];
+        for off in &self.off {
+            let apart = off.iter().zip(&mean).map(|(off, mean)| off - mean);
+            square.iter_mut().zip(apart).for_each(|(sum, apart)| *sum += apart * apart);
+        }
         // In units of each reading's own error, of which no reading is free.
-        let sd: Vec<f64> = (0..readings)
-            .map(|k| {
-                let square =
-                    self.off.iter().fold(0.0, |sum, off| sum + (off[k] - mean[k]) * (off[k] - mean[k]));
-                (self.variance[k] + LEAST * square / freedom).sqrt().max(f64::MIN_POSITIVE)
-            })
-            .collect();
-        let spread = DMatrix::from_fn(paths, readings, |path, k| {
-            (self.off[path][k] - mean[k]) / sd[k] / freedom.sqrt()
-        });
+        let own = self.variance.iter().zip(&square);
+        let sd: Vec<f64> =
+            own.map(|(own, square)| (own + LEAST * square / freedom).sqrt().max(f64::MIN_POSITIVE)).collect();
+        let unit: Vec<f64> = sd.iter().map(|sd| 1.0 / (sd * freedom.sqrt())).collect();
+        let spread = DMatrix::from_fn(readings, paths, |k, path| (self.off[path][k] - mean[k]) * unit[k]);
         let off = DVector::from_fn(readings, |k, _| mean[k] / sd[k]);
-        // Woodbury: of the readings' covariance 1 + spread' spread only the paths' side is factored.
-        let mut inner = &spread * spread.transpose();
+        // Woodbury: of the readings' covariance 1 + spread spread' only the paths' side is factored.
+        let mut inner = spread.tr_mul(&spread);
         for k in 0..paths {
             inner[(k, k)] += 1.0;
         }
         let Some(inner) = inner.cholesky() else { return f64::NEG_INFINITY };
-        let along = &spread * &off;
+        let along = spread.tr_mul(&off);
         let square = off.dot(&off) - along.dot(&inner.solve(&along));
         let lower = inner.l_dirty();
         let half_log_determinant = (0..paths).fold(0.0, |sum, k| sum + ln(lower[(k, k)]));

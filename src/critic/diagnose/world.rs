@@ -232,6 +232,11 @@ impl<'s> World<'s> {
         let mut tilts: Vec<f64> = readings.iter().filter_map(|m| m.tilt).collect();
         tilts.sort_by(f64::total_cmp);
         tilts.dedup();
+        // Where each reading finds what the points did at its tilt.
+        let places: Vec<(MeasuredQuantity, Option<usize>)> = readings
+            .iter()
+            .map(|m| (m.quantity, m.tilt.map(|tilt| tilts.partition_point(|known| *known < tilt))))
+            .collect();
         let of = |left: &[f64; NUMBERS]| {
             let curves = moved(&expected, left).curves();
             let last = curves.collapse();
@@ -241,11 +246,10 @@ impl<'s> World<'s> {
                     curves.displacements(tilt.min(last)).unwrap_or_default().map(|x| gauge.reading(x))
                 })
                 .collect();
-            let shows = |m: &&Measurement| {
-                let at = m.tilt.map(|tilt| tilts.partition_point(|known| *known < tilt));
-                at.and_then(|at| of_points(m.quantity, points[at])).unwrap_or(last)
+            let shows = |(quantity, at): &(MeasuredQuantity, Option<usize>)| {
+                at.and_then(|at| of_points(*quantity, points[at])).unwrap_or(last)
             };
-            readings.iter().map(shows).collect()
+            places.iter().map(shows).collect()
         };
         (near.iter().map(of).collect(), random)
     }
