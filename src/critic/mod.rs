@@ -25,9 +25,9 @@ pub use diagnose::{
     Band, Baseline, Bent, CAUGHT, COVERED, Campaign, Caught, Causes, Choice, Contrast, Curve, DOUBT, DRAWS,
     Design, Diagnosis, Doubt, Effort, Evidence, Expected, Extension, FamilyCurves, Feature, Gain, Gained,
     Group, HeldOut, Interval, Judge, Known, Limits, LookedAt, LookedAtPair, MOST_AMBIGUOUS, Measuring, Offer,
-    Offered, Parts, Ranked, Ranking, Reference, Residual, Residuals, Scale, Scores, Seeming, Seen, SelfTest,
-    SelfTestRow, Side, Specimen, Truth, Verdict, World, Wrong, base_curves, cause_curves, doubts,
-    doubts_beside, evidence, extension, features, gain, guarded, offers,
+    Offered, PairLimits, Parts, Ranked, Ranking, Reference, Residual, Residuals, Scale, Scores, Seeming,
+    Seen, SelfTest, SelfTestRow, Side, Specimen, Truth, Verdict, World, Wrong, base_curves, cause_curves,
+    doubts, doubts_beside, evidence, extension, features, gain, guarded, offers,
 };
 pub use likelihood::log_likelihood;
 pub use monotone::Monotone;

@@ -68,6 +68,8 @@ pub struct Said {
     pub guard: Vec<(String, f64)>,
     /// Share of the evidence of the causes that were looked at closely.
     pub evidence: Vec<(String, f64)>,
+    /// Share of the evidence of the best pair, where pairs were looked at, and what the guard says of it.
+    pub pair: Option<([String; 2], f64, Option<f64>)>,
 }
 
 /// A verdict without its causes.
@@ -115,7 +117,9 @@ impl<'k> Judge<'k> {
         let set = ranked.set.iter().map(name).collect();
         let guard = found.looked_at.iter().filter_map(|own| Some((name(&own.cause), own.guard?))).collect();
         let evidence = found.looked_at.iter().map(|own| (name(&own.cause), own.evidence)).collect();
-        Said { p_value: found.seeming.p_value, verdict, names, set, likeliest, guard, evidence }
+        let best = found.pairs.first();
+        let pair = best.map(|own| ([0, 1].map(|k| name(&own.causes[k])), own.evidence, own.guard));
+        Said { p_value: found.seeming.p_value, verdict, names, set, likeliest, guard, evidence, pair }
     }
 }
 

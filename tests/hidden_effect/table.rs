@@ -224,6 +224,7 @@ mod tests {
                 likeliest,
                 guard: Vec::new(),
                 evidence: Vec::new(),
+                pair: None,
             };
             Judged { label, design: Design::Rich.name().to_owned(), said }
         })

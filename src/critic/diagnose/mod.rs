@@ -43,6 +43,6 @@ pub use residual::{
     cause_curves,
 };
 pub use self_test::{CAUGHT, Caught, SelfTest, SelfTestRow};
-pub use verdict::{Diagnosis, Limits, LookedAt, LookedAtPair, MOST_AMBIGUOUS, Verdict};
+pub use verdict::{Diagnosis, Limits, LookedAt, LookedAtPair, MOST_AMBIGUOUS, PairLimits, Verdict};
 pub use world::{DOUBT, Truth, World};
 pub use wrong::{Reference, Wrong};

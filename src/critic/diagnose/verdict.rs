@@ -27,11 +27,22 @@ pub struct Limits {
     pub named: f64,
     /// A cause that fits a campaign worse than all but so large a share of its own does not explain it.
     pub guard: f64,
+    /// The same two limits of a pair: the best of many pairs fits much that it has no part in, so that it must fit better.
+    pub pair: PairLimits,
+}
+
+/// The limits of a pair of causes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PairLimits {
+    /// Share of the evidence at which it is named.
+    pub named: f64,
+    /// Share of its own campaigns that must fit no better.
+    pub guard: f64,
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        Limits { found: 0.05, named: 0.8, guard: 0.05 }
+        Limits { found: 0.05, named: 0.8, guard: 0.05, pair: PairLimits { named: 0.99, guard: 0.25 } }
     }
 }
 
@@ -198,7 +209,8 @@ impl Judge<'_> {
         let mut diagnosis = Diagnosis { seeming, looked_at, pairs: Vec::new(), form, verdict };
         if diagnosis.verdict == Verdict::Unexplained {
             diagnosis.pairs = self.pairs(campaign, &closely, &logs, limits, seed);
-            let named = diagnosis.pairs.iter().find(|pair| pair.guard.is_some_and(|p| p >= limits.guard));
+            let named =
+                diagnosis.pairs.iter().find(|pair| pair.guard.is_some_and(|p| p >= limits.pair.guard));
             diagnosis.verdict = named.map_or(Verdict::Unexplained, |pair| Verdict::NamedPair(pair.causes));
         }
         diagnosis
@@ -238,7 +250,7 @@ impl Judge<'_> {
         let mut pairs: Vec<LookedAtPair> = rows
             .map(|((causes, found), &evidence)| LookedAtPair {
                 causes,
-                guard: (evidence >= limits.named)
+                guard: (evidence >= limits.pair.named)
                     .then(|| guarded(self, Causes::pair(causes[0], causes[1]), campaign, seed)),
                 evidence,
                 draws: found.draws,
