@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use crate::critic::diagnose::alarm::Alarm;
 use crate::critic::diagnose::design::{Campaign, Design};
 use crate::critic::diagnose::ranking::{Ranked, Ranking};
+use crate::critic::diagnose::verdict::Limits;
 use crate::critic::diagnose::world::World;
 use crate::critic::diagnose::wrong::{Reference, Wrong};
 use crate::random::Streams;
@@ -47,6 +48,13 @@ pub struct Seeming {
     pub ranked: Ranked,
     /// Share of campaigns without any effect that surprise as much.
     pub p_value: f64,
+}
+
+impl Seeming {
+    /// The cause that would be named if nothing else spoke against it.
+    pub fn named(&self, limits: &Limits) -> Option<usize> {
+        self.ranked.named(limits.named).filter(|_| self.p_value < limits.sure)
+    }
 }
 
 impl<'w> Judge<'w> {

@@ -86,7 +86,7 @@ fn row(cause: Option<usize>, campaigns: &[Tested], limits: &Limits) -> SelfTestR
     let is_found = |tested: &&Tested| tested.seeming.p_value < limits.found;
     let found: Vec<&Tested> = campaigns.iter().filter(is_found).collect();
     let count = |is: &dyn Fn(&Tested) -> bool| found.iter().filter(|tested| is(tested)).count() as u64;
-    let name = |tested: &Tested| tested.seeming.ranked.named(limits.named);
+    let name = |tested: &Tested| tested.seeming.named(limits);
     let sizes: Vec<f64> = found.iter().map(|tested| tested.seeming.ranked.set.len() as f64).collect();
     let mut with: BTreeMap<usize, u64> = BTreeMap::new();
     found

@@ -25,6 +25,8 @@ pub struct Limits {
     pub found: f64,
     /// A cause is named at this probability or above.
     pub named: f64,
+    /// And below this p-value: where nothing is hidden a name is given in no larger a share of campaigns.
+    pub sure: f64,
     /// A cause that fits a campaign worse than all but so large a share of its own does not explain it.
     pub guard: f64,
     /// The same two limits of a pair: the best of many pairs fits much that it has no part in, so that it must fit better.
@@ -42,7 +44,13 @@ pub struct PairLimits {
 
 impl Default for Limits {
     fn default() -> Self {
-        Limits { found: 0.05, named: 0.8, guard: 0.05, pair: PairLimits { named: 0.99, guard: 0.25 } }
+        Limits {
+            found: 0.05,
+            named: 0.8,
+            sure: 0.01,
+            guard: 0.05,
+            pair: PairLimits { named: 0.99, guard: 0.25 },
+        }
     }
 }
 
@@ -159,7 +167,7 @@ impl Judge<'_> {
             };
         }
         let ranked = &seeming.ranked;
-        let named = ranked.named(limits.named);
+        let named = seeming.named(limits);
         let likely: Vec<usize> = ranked.causes.iter().filter_map(|(cause, _)| *cause).collect();
         let mut in_question: Vec<usize> = likely
             .iter()
@@ -209,8 +217,8 @@ impl Judge<'_> {
         let mut diagnosis = Diagnosis { seeming, looked_at, pairs: Vec::new(), form, verdict };
         if diagnosis.verdict == Verdict::Unexplained {
             diagnosis.pairs = self.pairs(campaign, &closely, &logs, limits, seed);
-            let named =
-                diagnosis.pairs.iter().find(|pair| pair.guard.is_some_and(|p| p >= limits.pair.guard));
+            let fits = |pair: &&LookedAtPair| pair.guard.is_some_and(|p| p >= limits.pair.guard);
+            let named = diagnosis.pairs.iter().find(fits).filter(|_| diagnosis.seeming.p_value < limits.sure);
             diagnosis.verdict = named.map_or(Verdict::Unexplained, |pair| Verdict::NamedPair(pair.causes));
         }
         diagnosis
