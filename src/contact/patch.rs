@@ -79,8 +79,8 @@ pub struct Patch {
 }
 
 impl Patch {
-    /// Those of its `along` by `along` cells on the first block's face whose bit is set, in the coordinates of its polygon:
-    /// [`patches`].
+    /// Those of its `along` by `along` cells, eight at most, on the first block's face whose bit is set (`along i + j` for the cell
+    /// `i` along its first and `j` along its second axis), in the coordinates of its polygon.
     pub fn pieces(&self, along: u32, mask: u64) -> Vec<Cell> {
         let Some(uneven) = &self.uneven else { return patches(&self.polygon, along, mask) };
         let there = |v: &[f64; 2]| uneven.project(&self.frame.lift(*v));
