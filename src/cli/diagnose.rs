@@ -69,7 +69,8 @@ pub(crate) fn diagnose(arguments: &Diagnose) -> Result<(), Failure> {
     output::print(&format!("{text}\nwritten to {}\n{extended}", out.display()))
 }
 
-/// Writes the study that each cause of the verdict, or its pair, extends, in the place of those of an earlier verdict; says so in a line for each.
+/// Writes the study that each cause of the verdict, or its pair, extends, in the place of those of an earlier verdict; says so in
+/// a line for each.
 fn extended(
     origin: &Origin<'_>,
     world: &World<'_>,

@@ -28,6 +28,19 @@ pub fn quantile_interval(values: &[f64], p: f64) -> Option<[f64; 2]> {
     (high <= n).then(|| [values[low - 1], values[high - 1]])
 }
 
+/// Places of the `count` smallest of values that come with their places, smallest first; of equal ones the lower place. All
+/// of them where there are no more.
+pub fn smallest(values: impl Iterator<Item = (f64, usize)>, count: usize) -> Vec<usize> {
+    let mut values: Vec<(f64, usize)> = values.collect();
+    let order = |a: &(f64, usize), b: &(f64, usize)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+    if count < values.len() {
+        values.select_nth_unstable_by(count, order);
+        values.truncate(count);
+    }
+    values.sort_unstable_by(order);
+    values.into_iter().map(|(_, place)| place).collect()
+}
+
 /// Type 7 quantile of values in ascending order.
 pub(super) fn quantile_of_sorted(values: &[f64], p: f64) -> Option<f64> {
     check_probability(p);

@@ -161,23 +161,17 @@ fn what_looks_odd_is_noted_and_judged() {
             "line 2: collapse_angle of s0 is 60 deg, where 99.9 % of simulated readings lie within ",
         ),
     ];
+    let judged = |csv: &str| -> (Output, Value) {
+        let diagnose = ["diagnose", "studies/tiny", "--measured", csv, "--json"];
+        let arguments = [&diagnose[..], &["--points", "12", "--bank", "bank", "--no-gain"]].concat();
+        let output = ends_with(&folder, 0, &arguments);
+        let json = serde_json::from_slice(&output.stdout).unwrap();
+        (output, json)
+    };
     for (name, text, note) in cases {
         let csv = format!("{name}.csv");
         fs::write(folder.path(&csv), text).unwrap();
-        let arguments = [
-            "diagnose",
-            "studies/tiny",
-            "--measured",
-            &csv,
-            "--points",
-            "12",
-            "--bank",
-            "bank",
-            "--no-gain",
-            "--json",
-        ];
-        let output = ends_with(&folder, 0, &arguments);
-        let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let (output, json) = judged(&csv);
         let notes: Vec<&str> = json["notes"].as_array().unwrap().iter().filter_map(Value::as_str).collect();
         assert!(notes.iter().any(|own| own.starts_with(note)), "{name}: {notes:?}");
         assert!(notes.iter().all(|own| stderr(&output).contains(&format!("note: {own}\n"))), "{name}");
@@ -187,20 +181,7 @@ fn what_looks_odd_is_noted_and_judged() {
         );
     }
     // What is in order is not doubted.
-    let arguments = [
-        "diagnose",
-        "studies/tiny",
-        "--measured",
-        "tests.csv",
-        "--points",
-        "12",
-        "--bank",
-        "bank",
-        "--no-gain",
-        "--json",
-    ];
-    let output = ends_with(&folder, 0, &arguments);
-    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let (_, json) = judged("tests.csv");
     assert_eq!(json["notes"], Value::Array(Vec::new()));
 }
 

@@ -1,6 +1,6 @@
 //! Quantiles, their distribution-free interval, and the Kolmogorov distance.
 
-use pirca::stats::{ks_p_value, ks_statistic, quantile, quantile_interval};
+use pirca::stats::{ks_p_value, ks_statistic, quantile, quantile_interval, smallest};
 
 /// Type 7 of Hyndman and Fan: with n values the k-th smallest sits at (k - 1) / (n - 1).
 #[test]
@@ -66,4 +66,13 @@ fn kolmogorov_probability_against_the_exact_law() {
     for lambda in [1.0 - 1e-9, 1.0 + 1e-9] {
         assert!((at(lambda) - 0.2699996716735).abs() < 1e-8, "{}", at(lambda));
     }
+}
+
+#[test]
+fn the_smallest_values_are_told_by_their_places() {
+    let values = [3.0, -1.0, 2.0, -1.0, 7.0, 0.5];
+    let of = |count: usize| smallest(values.into_iter().zip(0..), count);
+    assert_eq!(of(3), [1, 3, 5]);
+    assert_eq!((of(0), of(1)), (vec![], vec![1]));
+    assert_eq!(of(9), [1, 3, 5, 2, 0, 4]);
 }

@@ -46,7 +46,7 @@ pub struct Emulator {
     coefficients: DMatrix<f64>,
     /// Weights of the walls in what is smooth beside it, by wall and number.
     weights: DMatrix<f64>,
-    /// Where the walls of the bank lie, in scores.
+    /// Where the walls of the bank lie, in scores that are [`held`].
     scores: Vec<Vec<f64>>,
     /// What each wall of the bank differs by from a curve that does not know it: the stones' own part, and the emulator's error.
     left: Vec<[f64; NUMBERS]>,
@@ -66,6 +66,7 @@ impl Emulator {
     /// a quadratic has terms.
     pub fn fit(scores: &[Vec<f64>], paths: &[Path]) -> Option<Emulator> {
         let inputs = scores.first()?.len();
+        let scores: Vec<Vec<f64>> = scores.iter().map(|z| held(z)).collect();
         let rows: Vec<Vec<f64>> = scores.iter().map(|z| terms(z)).collect();
         let (n, p) = (rows.len(), rows[0].len());
         if n < 2 * p {
@@ -80,7 +81,7 @@ impl Emulator {
         let tried: Vec<Shape> = std::iter::once(plain).chain(others.filter(|_| inputs > JOINTS)).collect();
         let fitted: Vec<(Shape, Fitted)> = tried
             .into_par_iter()
-            .filter_map(|shape| Some((shape, Fitted::of(shape, scores, &design, &wanted)?)))
+            .filter_map(|shape| Some((shape, Fitted::of(shape, &scores, &design, &wanted)?)))
             .collect();
         let best = fitted.into_iter().map(|(shape, fitted)| (fitted.misses(), shape, fitted));
         let (_, shape, Fitted { weights, left }) =
@@ -95,29 +96,21 @@ impl Emulator {
             if whole > 0.0 { 1.0 - rest / (whole * whole) } else { 0.0 }
         });
         let coefficients = design.transpose() * &weights * WIDE;
-        Some(Emulator {
-            inputs,
-            shape,
-            middle,
-            coefficients,
-            weights,
-            scores: scores.to_vec(),
-            left,
-            explained,
-        })
+        Some(Emulator { inputs, shape, middle, coefficients, weights, scores, left, explained })
     }
 
     /// The path to be expected at these scores, one per input.
     pub fn expected(&self, scores: &[f64]) -> Path {
         crate::check!(scores.len() == self.inputs, "{} scores for {} inputs", scores.len(), self.inputs);
+        let scores = held(scores);
         let mut numbers = self.middle;
         let mut add = |share: f64, of: &DMatrix<f64>, row: usize| {
             numbers.iter_mut().enumerate().for_each(|(k, number)| *number += share * of[(row, k)]);
         };
-        terms(scores).into_iter().enumerate().for_each(|(row, term)| add(term, &self.coefficients, row));
+        terms(&scores).into_iter().enumerate().for_each(|(row, term)| add(term, &self.coefficients, row));
         if self.shape.size > 0.0 {
             for (row, wall) in self.scores.iter().enumerate() {
-                add(self.shape.covariance(scores, wall), &self.weights, row);
+                add(self.shape.covariance(&scores, wall), &self.weights, row);
             }
         }
         Path { numbers }
@@ -126,15 +119,9 @@ impl Emulator {
     /// What the walls of the bank that lie nearest to these scores are left with, nearest first: a wall there differs from the
     /// expected path by one of them.
     pub fn nearest(&self, scores: &[f64], count: usize) -> Vec<&[f64; NUMBERS]> {
-        let distances = self.scores.iter().map(|wall| self.shape.squared_distance(wall, scores));
-        let mut order: Vec<(f64, usize)> = distances.zip(0..).collect();
-        let nearer = |a: &(f64, usize), b: &(f64, usize)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
-        if count < order.len() {
-            order.select_nth_unstable_by(count, nearer);
-            order.truncate(count);
-        }
-        order.sort_unstable_by(nearer);
-        order.into_iter().map(|(_, wall)| &self.left[wall]).collect()
+        let scores = held(scores);
+        let distances = self.scores.iter().map(|wall| self.shape.squared_distance(wall, &scores));
+        stats::smallest(distances.zip(0..), count).into_iter().map(|wall| &self.left[wall]).collect()
     }
 
     /// Share of the variance of each number that is told beforehand for a wall that the curve does not know.
@@ -176,7 +163,7 @@ impl Shape {
         let pairs = one.iter().zip(other).enumerate();
         pairs.fold(0.0, |sum, (k, (a, b))| {
             let length = if k < JOINTS { SMOOTH } else { self.length };
-            let off = (held(*a) - held(*b)) / length;
+            let off = (a - b) / length;
             sum + off * off
         })
     }
@@ -188,16 +175,15 @@ impl Shape {
     }
 }
 
-/// A score within what walls tell of.
-fn held(score: f64) -> f64 {
-    score.clamp(-FURTHEST, FURTHEST)
+/// Scores within what walls tell of.
+fn held(scores: &[f64]) -> Vec<f64> {
+    scores.iter().map(|score| score.clamp(-FURTHEST, FURTHEST)).collect()
 }
 
 /// One, each score, and each product of two.
-fn terms(scores: &[f64]) -> Vec<f64> {
-    let z: Vec<f64> = scores.iter().copied().map(held).collect();
+fn terms(z: &[f64]) -> Vec<f64> {
     let mut terms = vec![1.0];
-    terms.extend(&z);
+    terms.extend(z);
     for (k, a) in z.iter().enumerate() {
         terms.extend(z[k..].iter().map(|b| a * b));
     }

@@ -117,8 +117,8 @@ pub struct Campaign {
 }
 
 impl Campaign {
-    /// What is read where walls (by specimen and reading, `None` once they have fallen) and what is measured apart have these values: a pure
-    /// function of these and the streams.
+    /// What is read where walls (by specimen and reading, `None` once they have fallen) and what is measured apart have these
+    /// values: a pure function of these and the streams.
     pub(super) fn read(
         design: &Design,
         walls: &[Vec<Option<f64>>],

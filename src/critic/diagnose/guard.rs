@@ -52,15 +52,7 @@ fn misfit(one: &Looks, pool: &[Looks], but: Option<usize>) -> f64 {
     let distance =
         |other: &Looks| one.inputs.iter().zip(&other.inputs).fold(0.0, |sum, (a, b)| sum + (a - b) * (a - b));
     let others = pool.iter().enumerate().filter(|(k, _)| Some(*k) != but);
-    let mut order: Vec<(f64, usize)> = others.map(|(k, other)| (distance(other), k)).collect();
-    let nearer = |a: &(f64, usize), b: &(f64, usize)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
-    if ALIKE < order.len() {
-        order.select_nth_unstable_by(ALIKE, nearer);
-        order.truncate(ALIKE);
-    }
-    // In an order of their own, so that sums are the same whatever the selection left.
-    order.sort_unstable_by(nearer);
-    let near: Vec<usize> = order.into_iter().map(|(_, k)| k).collect();
+    let near = stats::smallest(others.map(|(k, other)| (distance(other), k)), ALIKE);
     let families = one.readings.iter().map(|(family, _)| family + 1).max().unwrap_or(0);
     let mut squares: Vec<Vec<f64>> = vec![Vec::new(); families];
     for (place, (family, shown)) in one.readings.iter().enumerate() {
