@@ -139,7 +139,7 @@ impl Curves {
     fn through(points: &[AnglePoint]) -> Curves {
         let x: Vec<f64> = points.iter().map(|point| ln(point.kn)).collect();
         let curve =
-            |of: fn(&AnglePoint) -> f64| Monotone::through(&x, &points.iter().map(of).collect::<Vec<_>>());
+            |of: fn(&AnglePoint) -> f64| Monotone::through(x.clone(), points.iter().map(of).collect());
         Curves {
             mean: curve(|point| point.mean),
             sigma: curve(|point| point.sigma),

@@ -16,15 +16,15 @@ mod simulated;
 #[cfg(test)]
 pub(crate) mod tests;
 
-pub use bank::{BANK, Bank, Emulator, NotThisBank, Path, Place, Plan};
+pub use bank::{BANK, Bank, DOUBT, Emulator, NotThisBank, Path, Place, Plan};
 pub use calibrate::{Calibration, CurvePoint, End, LEAST_POINTS, calibrate, calibrate_family};
 pub use compare::{Beside, Difference, Measured, Ours, Walls, compare};
 #[cfg(test)]
 pub(crate) use diagnose::tests::{Made, made};
 pub use diagnose::{
-    Band, Baseline, Bent, CAUGHT, COVERED, Campaign, Caught, Causes, Choice, Contrast, Curve, DOUBT, DRAWS,
-    Design, Diagnosis, Doubt, Effort, Evidence, Expected, Extension, FamilyCurves, Feature, Gain, Gained,
-    Group, HeldOut, Interval, Judge, Known, Limits, LookedAt, LookedAtPair, MOST_AMBIGUOUS, Measuring, Offer,
+    Band, Baseline, Bent, CAUGHT, COVERED, Campaign, Caught, Causes, Choice, Contrast, Curve, DRAWS, Design,
+    Diagnosis, Doubt, Effort, Evidence, Expected, Extension, FamilyCurves, Feature, Gain, Gained, Group,
+    HeldOut, Interval, Judge, Known, Limits, LookedAt, LookedAtPair, MOST_AMBIGUOUS, Measuring, Offer,
     Offered, PairLimits, Parts, Ranked, Ranking, Reference, Residual, Residuals, Scale, Scores, Seeming,
     Seen, SelfTest, SelfTestRow, Side, Specimen, Truth, Verdict, World, Wrong, base_curves, cause_curves,
     doubts, doubts_beside, evidence, extension, features, gain, guarded, offers,

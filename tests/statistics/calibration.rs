@@ -168,19 +168,19 @@ fn known_scatter_makes_the_intervals_safe() {
 fn a_monotone_curve_keeps_to_its_points() {
     let x = [7.99, 8.09, 8.19, 8.7, 9.2, 10.0, 12.0, 15.0, 20.0];
     let y = [0.0, 2.764_29e-5, 4.374_98e-2, 0.169_183, 0.469_428, 0.943_740, 0.998_636, 0.999_919, 0.999_994];
-    let curve = Monotone::through(&x, &y);
+    let curve = Monotone::through(x, y);
     for (x, y) in x.iter().zip(y) {
         assert!((curve.at(*x) - y).abs() < 1e-15);
     }
     let steps: Vec<f64> = (0..=2000).map(|k| curve.at(7.9 + 0.006_1 * f64::from(k))).collect();
     assert!(steps.windows(2).all(|pair| pair[0] <= pair[1] + 1e-15), "the curve falls");
-    let line = Monotone::through(&[0.0, 1.0, 3.0, 4.0], &[1.0, 3.0, 7.0, 9.0]);
+    let line = Monotone::through([0.0, 1.0, 3.0, 4.0], [1.0, 3.0, 7.0, 9.0]);
     for k in 0..=40 {
         let x = 0.1 * f64::from(k);
         assert!((line.at(x) - (1.0 + 2.0 * x)).abs() < 1e-12);
     }
     // A point that breaks the rise is a local extremum, not an overshoot; beyond the ends the curve stays level.
-    let bent = Monotone::through(&[0.0, 1.0, 2.0], &[0.0, 1.0, 0.5]);
+    let bent = Monotone::through([0.0, 1.0, 2.0], [0.0, 1.0, 0.5]);
     assert!(
         (0..=20).all(|k| bent.at(0.1 * f64::from(k)) <= 1.0) && bent.at(9.0) == 0.5 && bent.at(-9.0) == 0.0
     );

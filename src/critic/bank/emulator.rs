@@ -43,9 +43,9 @@ pub struct Emulator {
     /// Means of the numbers, from which all else counts.
     middle: [f64; NUMBERS],
     /// Coefficients of the quadratic, by term and number.
-    coefficients: DMatrix<f64>,
+    coefficients: Vec<[f64; NUMBERS]>,
     /// Weights of the walls in what is smooth beside it, by wall and number.
-    weights: DMatrix<f64>,
+    weights: Vec<[f64; NUMBERS]>,
     /// Where the walls of the bank lie, in scores that are [`held`].
     scores: Vec<Vec<f64>>,
     /// What each wall of the bank differs by from a curve that does not know it: the stones' own part, and the emulator's error.
@@ -67,12 +67,12 @@ impl Emulator {
     pub fn fit(scores: &[Vec<f64>], paths: &[Path]) -> Option<Emulator> {
         let inputs = scores.first()?.len();
         let scores: Vec<Vec<f64>> = scores.iter().map(|z| held(z)).collect();
-        let rows: Vec<Vec<f64>> = scores.iter().map(|z| terms(z)).collect();
-        let (n, p) = (rows.len(), rows[0].len());
+        let terms: Vec<Vec<f64>> = scores.iter().map(|z| terms(z)).collect();
+        let (n, p) = (terms.len(), terms[0].len());
         if n < 2 * p {
             return None;
         }
-        let design = DMatrix::from_fn(n, p, |row, column| rows[row][column]);
+        let design = DMatrix::from_fn(n, p, |row, column| terms[row][column]);
         let mean = |number: usize| stats::mean(&paths.iter().map(|p| p.numbers[number]).collect::<Vec<_>>());
         let middle: [f64; NUMBERS] = std::array::from_fn(|number| mean(number).unwrap_or(0.0));
         let wanted = DMatrix::from_fn(n, NUMBERS, |row, number| paths[row].numbers[number] - middle[number]);
@@ -86,8 +86,7 @@ impl Emulator {
         let best = fitted.into_iter().map(|(shape, fitted)| (fitted.misses(), shape, fitted));
         let (_, shape, Fitted { weights, left }) =
             best.reduce(|best, own| if own.0 < best.0 { own } else { best })?;
-        let left: Vec<[f64; NUMBERS]> =
-            (0..n).map(|wall| std::array::from_fn(|number| left[(wall, number)])).collect();
+        let left = by_row(&left);
         let explained = std::array::from_fn(|number| {
             let values: Vec<f64> = paths.iter().map(|path| path.numbers[number]).collect();
             let squares: Vec<f64> = left.iter().map(|left| left[number] * left[number]).collect();
@@ -95,33 +94,29 @@ impl Emulator {
             let rest = stats::sum(&squares) / n as f64;
             if whole > 0.0 { 1.0 - rest / (whole * whole) } else { 0.0 }
         });
-        let coefficients = design.transpose() * &weights * WIDE;
+        let coefficients = by_row(&(design.transpose() * &weights * WIDE));
+        let weights = by_row(&weights);
         Some(Emulator { inputs, shape, middle, coefficients, weights, scores, left, explained })
     }
 
-    /// The path to be expected at these scores, one per input.
-    pub fn expected(&self, scores: &[f64]) -> Path {
+    /// The path to be expected at these scores (one per input), and what so many walls of the bank, those that lie nearest, are
+    /// left with, nearest first: a wall there differs from the expected path by one of them.
+    pub fn told(&self, scores: &[f64], count: usize) -> (Path, Vec<&[f64; NUMBERS]>) {
         crate::check!(scores.len() == self.inputs, "{} scores for {} inputs", scores.len(), self.inputs);
         let scores = held(scores);
+        let distances: Vec<f64> =
+            self.scores.iter().map(|wall| self.shape.squared_distance(&scores, wall)).collect();
         let mut numbers = self.middle;
-        let mut add = |share: f64, of: &DMatrix<f64>, row: usize| {
-            numbers.iter_mut().enumerate().for_each(|(k, number)| *number += share * of[(row, k)]);
+        let mut add = |share: f64, of: &[f64; NUMBERS]| {
+            numbers.iter_mut().zip(of).for_each(|(number, of)| *number += share * of);
         };
-        terms(&scores).into_iter().enumerate().for_each(|(row, term)| add(term, &self.coefficients, row));
+        terms(&scores).into_iter().zip(&self.coefficients).for_each(|(term, of)| add(term, of));
         if self.shape.size > 0.0 {
-            for (row, wall) in self.scores.iter().enumerate() {
-                add(self.shape.covariance(&scores, wall), &self.weights, row);
-            }
+            let covariances = distances.iter().map(|square| self.shape.covariance(*square));
+            covariances.zip(&self.weights).for_each(|(covariance, of)| add(covariance, of));
         }
-        Path { numbers }
-    }
-
-    /// What the walls of the bank that lie nearest to these scores are left with, nearest first: a wall there differs from the
-    /// expected path by one of them.
-    pub fn nearest(&self, scores: &[f64], count: usize) -> Vec<&[f64; NUMBERS]> {
-        let scores = held(scores);
-        let distances = self.scores.iter().map(|wall| self.shape.squared_distance(wall, &scores));
-        stats::smallest(distances.zip(0..), count).into_iter().map(|wall| &self.left[wall]).collect()
+        let nearest = stats::smallest(distances.into_iter().zip(0..), count);
+        (Path { numbers }, nearest.into_iter().map(|wall| &self.left[wall]).collect())
     }
 
     /// Share of the variance of each number that is told beforehand for a wall that the curve does not know.
@@ -138,7 +133,7 @@ impl Fitted {
         let mut covariance = design * design.transpose() * WIDE;
         for (row, one) in scores.iter().enumerate() {
             for (column, other) in scores[..row].iter().enumerate() {
-                let own = shape.covariance(one, other);
+                let own = shape.covariance(shape.squared_distance(one, other));
                 covariance[(row, column)] += own;
                 covariance[(column, row)] += own;
             }
@@ -168,11 +163,16 @@ impl Shape {
         })
     }
 
-    fn covariance(&self, one: &[f64], other: &[f64]) -> f64 {
-        let square = 5.0 * self.squared_distance(one, other);
+    fn covariance(&self, squared_distance: f64) -> f64 {
+        let square = 5.0 * squared_distance;
         let root = square.sqrt();
         self.size * (1.0 + root + square / 3.0) * exp(-root)
     }
+}
+
+/// Numbers by number, row by row.
+fn by_row(of: &DMatrix<f64>) -> Vec<[f64; NUMBERS]> {
+    of.row_iter().map(|row| std::array::from_fn(|number| row[number])).collect()
 }
 
 /// Scores within what walls tell of.

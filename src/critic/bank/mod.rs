@@ -10,5 +10,5 @@ pub(super) mod tests;
 
 pub use emulator::Emulator;
 pub use path::{Curves, NUMBERS, Path};
-pub use plan::{Place, Plan};
+pub use plan::{DOUBT, Place, Plan};
 pub use store::{BANK, Bank, NotThisBank};

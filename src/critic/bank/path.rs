@@ -54,7 +54,7 @@ impl Path {
         let mut numbers = [ln(radians(collapse)); NUMBERS];
         for kind in 0..3 {
             let values: Vec<f64> = read.iter().map(|(_, values)| values[kind]).collect();
-            let curve = Monotone::through(&q, &values);
+            let curve = Monotone::through(q.clone(), values);
             for (place, &q) in PLACES.iter().enumerate() {
                 numbers[1 + kind * PLACES.len() + place] = curve.at(q);
             }
@@ -64,9 +64,8 @@ impl Path {
 
     /// The path between its places.
     pub fn curves(&self) -> Curves {
-        let curve = |kind: usize| {
-            Monotone::through(&PLACES, &self.numbers[1 + kind * PLACES.len()..][..PLACES.len()])
-        };
+        let own = |kind: usize| std::array::from_fn(|place| self.numbers[1 + kind * PLACES.len() + place]);
+        let curve = |kind: usize| Monotone::through(PLACES, own(kind));
         Curves { collapse: exp(self.numbers[0]), kinds: [curve(0), curve(1), curve(2)] }
     }
 }
@@ -77,7 +76,7 @@ pub struct Curves {
     /// The collapse angle (rad).
     collapse: f64,
     /// Over `q`, in the order of [`Path::numbers`].
-    kinds: [Monotone; 3],
+    kinds: [Monotone<[f64; PLACES.len()]>; 3],
 }
 
 impl Curves {

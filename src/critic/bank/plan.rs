@@ -4,10 +4,15 @@ use std::collections::BTreeMap;
 
 use crate::ensemble::{Row, Task, evaluate};
 use crate::random::Streams;
+use crate::random::standard_normal::quantile;
 use crate::study::{Acts, Described, Faults, Nuisance, Parameter, Study};
 
 /// So many times as many points without any cause: all others are compared with them.
 const BASE: u64 = 2;
+
+/// Joints are taken to be so much less known than their priors say: a prior that is off by two of its standard deviations is no
+/// effect to be found.
+pub const DOUBT: f64 = 1.5;
 
 /// A wall of a bank: which family, which cause, where in the priors.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,7 +23,8 @@ pub struct Place {
     pub cause: Option<usize>,
     /// Number of the point. The same point has the same stones and joints' scores under every cause.
     pub point: u64,
-    /// The factors on the joints, in the order of [`NUISANCES`](crate::study::NUISANCES), as quantiles of their priors.
+    /// Where the factors on the joints lie in their priors (standard normal scores), in the order of
+    /// [`NUISANCES`](crate::study::NUISANCES); [`DOUBT`] times as far out as the priors say.
     pub joints: [f64; 3],
     /// The parameters of the cause, in its order, as quantiles of their priors.
     pub parameters: Vec<f64>,
@@ -69,9 +75,11 @@ impl Plan {
                     if idle.contains_key(&arm.name) {
                         continue;
                     }
-                    let joints = [0, 1, 2]
-                        .map(|k| streams.of(&format!("bank {} {}", arm.name, nuisances[k].name)).uniform());
-                    let factors = [0, 1, 2].map(|k| nuisances[k].prior.quantile(joints[k]));
+                    let joints = [0, 1, 2].map(|k| {
+                        let mut stream = streams.of(&format!("bank {} {}", arm.name, nuisances[k].name));
+                        DOUBT * quantile(stream.uniform())
+                    });
+                    let factors = [0, 1, 2].map(|k| nuisances[k].prior.at_score(joints[k]));
                     let kn = arm.kn_points[arm.middle_point()];
                     let mut one = arm.with_joints(kn, factors);
                     one.members = 1;
@@ -91,6 +99,7 @@ impl Plan {
         });
         let mut decided: BTreeMap<String, String> = priors.chain(parameters).collect();
         decided.insert("bank.points".to_owned(), points.to_string());
+        decided.insert("bank.doubt".to_owned(), DOUBT.to_string());
         let named: Vec<&str> = families.iter().map(|&family| study.arms[family].name.as_str()).collect();
         decided.insert("bank.families".to_owned(), named.join(", "));
         let name = format!("{}-bank", study.name);
@@ -171,7 +180,7 @@ mod tests {
             plan.places.iter().position(|p| p.family == sbl && p.cause.is_none()).expect("it is there");
         let (arm, of) = (&plan.study.arms[index], &study.arms[sbl]);
         let priors = shipped().2;
-        let factor = |k: usize| priors[k].prior.quantile(plan.places[index].joints[k]);
+        let factor = |k: usize| priors[k].prior.at_score(plan.places[index].joints[k]);
         assert_eq!(arm.kn_points, [of.kn_points[0] * factor(0)]);
         assert!((arm.joint.phi_deg.mean() / (of.joint.phi_deg.mean() * factor(1)) - 1.0).abs() < 1e-12);
         assert_eq!(arm.joint.kn_over_ks, of.joint.kn_over_ks * factor(2));

@@ -103,7 +103,7 @@ fn an_emulator_finds_the_curve_and_knows_what_it_does_not_tell() {
     let (scores, paths) = bank(200);
     let emulator = Emulator::fit(&scores, &paths).expect("twenty walls per term");
     let at = [0.7, -1.1, 0.4];
-    let (found, exact) = (emulator.expected(&at).numbers, quadratic(&at));
+    let (found, exact) = (emulator.told(&at, 0).0.numbers, quadratic(&at));
     // The penalty takes a thousandth; the noise of 0.1 leaves a mean over 200 walls with ten terms some 0.02.
     assert!((found[0] - exact).abs() < 2e-3, "{} against {exact}", found[0]);
     assert!((found[1] - exact).abs() < 0.06, "{} against {exact}", found[1]);
@@ -114,7 +114,7 @@ fn an_emulator_finds_the_curve_and_knows_what_it_does_not_tell() {
     assert!((explained[1] - 0.305 / 0.315).abs() < 0.02, "{explained:?}");
     // A curve through noise alone explains less than nothing of a wall that it does not know.
     assert!(explained[2..].iter().all(|share| *share < 0.05), "{explained:?}");
-    let left: Vec<f64> = emulator.nearest(&at, 50).iter().map(|left| left[1]).collect();
+    let left: Vec<f64> = emulator.told(&at, 50).1.iter().map(|left| left[1]).collect();
     let sigma = crate::stats::sigma(&left).expect("fifty");
     // 0.1, from 50 values and with the error of a curve that does not know the wall: within 3 sigma of sigma.
     assert!((sigma - 0.1).abs() < 0.03, "{sigma}");
@@ -134,10 +134,10 @@ fn an_emulator_follows_what_begins_in_the_middle_of_a_prior() {
     let emulator = Emulator::fit(&scores, &paths).expect("four walls per term");
     for fourth in [-1.5, -0.8, -0.3, 0.5, 1.0, 1.6] {
         let at = [0.2, -0.4, 0.5, fourth];
-        let found = emulator.expected(&at).numbers[3];
+        let found = emulator.told(&at, 0).0.numbers[3];
         assert!((found - begins(fourth)).abs() < 0.04, "{fourth}: {found}");
         // What is nearest lies on the same side, and is left with no more than it is off.
-        let left: Vec<f64> = emulator.nearest(&at, 20).iter().map(|left| left[3]).collect();
+        let left: Vec<f64> = emulator.told(&at, 20).1.iter().map(|left| left[3]).collect();
         assert!(crate::stats::sigma(&left).expect("twenty") < 0.05, "{fourth}: {left:?}");
     }
 }
@@ -155,11 +155,11 @@ fn the_nearest_walls_come_first() {
     let (scores, paths) = bank(40);
     let emulator = Emulator::fit(&scores, &paths).expect("enough");
     let at = scores[7].clone();
-    let whole = emulator.nearest(&at, 40);
+    let whole = emulator.told(&at, 40).1;
     assert_eq!(whole.len(), 40);
-    assert_eq!(emulator.nearest(&at, 1), whole[..1]);
+    assert_eq!(emulator.told(&at, 1).1, whole[..1]);
     // What the wall itself is left with: its own number less the curve's, and further by its own pull.
-    let own = paths[7].numbers[1] - emulator.expected(&at).numbers[1];
+    let own = paths[7].numbers[1] - emulator.told(&at, 0).0.numbers[1];
     let ratio = whole[0][1] / own;
     assert!(ratio > 1.0 && ratio < 3.0, "{ratio}");
 }

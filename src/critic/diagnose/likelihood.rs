@@ -1,16 +1,14 @@
 //! How likely a campaign is under a truth: the readings of a wall are as those of the paths that it may have, with their errors
 //! (a synthetic likelihood: multivariate Student's t with the mean and the covariance of these paths).
 
-use std::collections::BTreeMap;
-
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use crate::critic::compare::reading_variance;
+use crate::critic::diagnose::asked::Asked;
 use crate::critic::diagnose::design::{Campaign, Design, Seen};
 use crate::critic::diagnose::world::{Truth, World};
 use crate::math::ln;
 use crate::random::standard_normal::cdf;
-use crate::stats;
 use crate::study::{MeasuredKind, MeasuredQuantity, Measurement};
 
 /// Share of the walls' variance that counts as a reading's own: few paths do not span all that walls may do.
@@ -19,46 +17,55 @@ const LEAST: f64 = 0.02;
 /// The likelihood of a campaign.
 pub struct Likelihood<'c> {
     world: &'c World<'c>,
-    specimens: Vec<Read<'c>>,
+    families: Vec<Family<'c>>,
     /// What was measured apart: the family and the reading with its value.
     apart: Vec<(usize, &'c Measurement, f64)>,
     /// Quantities whose readings share an error.
     common: Vec<MeasuredQuantity>,
 }
 
-/// What was read on a specimen.
-struct Read<'c> {
+/// What was read on the specimens of a family.
+struct Family<'c> {
     family: usize,
-    /// Readings with a value.
-    values: Vec<(&'c Measurement, f64)>,
+    asked: Asked,
+    /// By specimen, where every one is a wall of its own.
+    each: Vec<Wall<'c>>,
+    /// All as if they had been read on one wall, where walls do not differ.
+    all: [Wall<'c>; 1],
+}
+
+/// What was read on a wall. Columns are those of [`Asked`].
+#[derive(Clone, Default)]
+struct Wall<'c> {
+    /// Readings with a value, by column.
+    values: Vec<(usize, &'c Measurement, f64)>,
     /// Readings of which only the bound's side is known.
-    bounds: Vec<&'c Measurement>,
+    bounds: Vec<(usize, &'c Measurement)>,
+    /// The first wall of the family on which the same has a value, with the same errors.
+    alike: usize,
 }
 
 impl<'c> Likelihood<'c> {
     /// Of what was seen in a campaign.
     pub fn new(world: &'c World<'c>, design: &'c Design, campaign: &Campaign) -> Likelihood<'c> {
-        let specimens = design.specimens.iter().zip(&campaign.specimens).map(|(specimen, seen)| {
-            let mut read = Read { family: specimen.family, values: Vec::new(), bounds: Vec::new() };
-            for (m, seen) in specimen.readings.iter().zip(seen) {
-                match seen {
-                    Seen::Value(value) => read.values.push((m, *value)),
-                    Seen::Beyond => read.bounds.push(m),
-                    Seen::Nothing => {}
-                }
-            }
-            read
+        let families = design.families().into_iter().map(|family| {
+            let own = design.specimens.iter().zip(&campaign.specimens);
+            let own = own.filter(|(specimen, _)| specimen.family == family);
+            Family::new(family, own.map(|(specimen, seen)| (&specimen.readings[..], &seen[..])).collect())
         });
-        let specimens: Vec<Read<'c>> = specimens.collect();
+        let families: Vec<Family<'c>> = families.collect();
         let apart = design.apart.iter().zip(&campaign.apart);
         let apart: Vec<_> =
             apart.filter_map(|((family, m), seen)| Some((*family, m, seen.told(m)?))).collect();
-        let all = specimens.iter().flat_map(Read::all).chain(apart.iter().map(|(_, m, _)| *m));
-        let mut common: Vec<MeasuredQuantity> =
-            all.filter(|m| m.common_error > 0.0).map(|m| m.quantity).collect();
+        let all = families.iter().flat_map(|own| own.all[0].readings());
+        let mut common: Vec<MeasuredQuantity> = all
+            .chain(apart.iter().map(|(_, m, _)| *m))
+            .filter(|m| m.common_error > 0.0)
+            .map(|m| m.quantity)
+            .collect();
         common.sort();
         common.dedup();
-        Likelihood { world, specimens, apart, common }
+        Likelihood { world, families, apart, common }
     }
 
     /// How many errors are shared by readings; each is a score beside the truth.
@@ -72,24 +79,19 @@ impl<'c> Likelihood<'c> {
             let at = self.common.iter().position(|quantity| *quantity == m.quantity);
             at.map_or(0.0, |at| m.common_error * common[at])
         };
-        let mut families: BTreeMap<usize, Vec<&Read<'c>>> = BTreeMap::new();
-        for read in &self.specimens {
-            families.entry(read.family).or_default().push(read);
-        }
         let mut log = 0.0;
-        for (family, reads) in families {
-            let readings: Vec<&Measurement> = reads.iter().flat_map(|read| read.all()).collect();
-            let (shown, random) = self.world.may_show(family, &readings, truth);
-            let mut first = 0;
-            let groups = reads.into_iter().map(|read| {
-                let own = first..first + read.count();
-                first = own.end;
-                Group::of(read, shown.iter().map(|path| &path[own.clone()]), &shared)
-            });
-            log += match random {
-                true => stats::sum(&groups.map(|group| group.log()).collect::<Vec<_>>()),
-                false => Group::joined(groups).map_or(0.0, |group| group.log()),
-            };
+        for Family { family, asked, each, all } in &self.families {
+            let (shown, random) = self.world.may_show(*family, asked, truth);
+            let paths = Paths::of(shown);
+            let walls = if random { &each[..] } else { &all[..] };
+            let first =
+                |(k, wall): (usize, &Wall<'_>)| (wall.alike == k).then(|| Density::of(wall, &paths))?;
+            let densities: Vec<Option<Density>> = walls.iter().enumerate().map(first).collect();
+            for wall in walls {
+                let density = densities[wall.alike].as_ref();
+                log += density.map_or(f64::NEG_INFINITY, |density| density.log(wall, &paths, &shared));
+                log += wall.bounds_log(&paths, &shared);
+            }
         }
         for (family, m, value) in &self.apart {
             let sd = (reading_variance(m)).sqrt();
@@ -100,103 +102,133 @@ impl<'c> Likelihood<'c> {
     }
 }
 
-impl<'c> Read<'c> {
-    fn count(&self) -> usize {
-        self.values.len() + self.bounds.len()
-    }
-
-    /// Its readings, those with a value first.
-    fn all(&self) -> impl Iterator<Item = &'c Measurement> {
-        self.values.iter().map(|(m, _)| *m).chain(self.bounds.iter().copied())
+impl<'c> Family<'c> {
+    /// Of what was planned and seen, specimen by specimen.
+    fn new(family: usize, specimens: Vec<(&'c [Measurement], &[Seen])>) -> Family<'c> {
+        let readings: Vec<&Measurement> = specimens.iter().flat_map(|(readings, _)| *readings).collect();
+        let asked = Asked::by(&readings);
+        let mut columns = asked.by_reading.iter().copied();
+        let (mut each, mut all): (Vec<Wall<'c>>, Wall<'c>) = (Vec::new(), Wall::default());
+        for (readings, seen) in specimens {
+            let mut wall = Wall::default();
+            for ((m, seen), column) in readings.iter().zip(seen).zip(&mut columns) {
+                match seen {
+                    Seen::Value(value) => wall.values.push((column, m, *value)),
+                    Seen::Beyond => wall.bounds.push((column, m)),
+                    Seen::Nothing => {}
+                }
+            }
+            all.values.extend(&wall.values);
+            all.bounds.extend(&wall.bounds);
+            wall.alike = each.iter().position(|other| other.is_like(&wall)).unwrap_or(each.len());
+            each.push(wall);
+        }
+        Family { family, asked, each, all: [all] }
     }
 }
 
-/// Readings of walls that share a path.
-struct Group {
-    /// What was read less what the paths show, by path and reading.
-    off: Vec<Vec<f64>>,
-    /// Variance of each reading's own error.
-    variance: Vec<f64>,
-    /// Log likelihood of its bounds.
-    bounds: f64,
-}
+impl<'c> Wall<'c> {
+    /// Its readings that show anything.
+    fn readings(&self) -> impl Iterator<Item = &'c Measurement> {
+        self.values.iter().map(|(_, m, _)| *m).chain(self.bounds.iter().map(|(_, m)| *m))
+    }
 
-impl Group {
-    /// What was read, beside what its paths show of [`Read::all`].
-    fn of<'s>(
-        read: &Read<'_>,
-        shown: impl Iterator<Item = &'s [f64]>,
-        shared: &impl Fn(&Measurement) -> f64,
-    ) -> Group {
-        let values = read.values.len();
-        let shown: Vec<&[f64]> = shown.collect();
-        let off = shown.iter().map(|shown| {
-            read.values.iter().zip(*shown).map(|((m, value), shown)| value - shared(m) - shown).collect()
-        });
-        let bounds = read.bounds.iter().enumerate().map(|(k, m)| {
-            let column: Vec<f64> = shown.iter().map(|shown| shown[values + k]).collect();
-            let sigma = stats::sigma(&column).unwrap_or(0.0);
-            let sd = (reading_variance(m) + sigma * sigma).sqrt().max(f64::MIN_POSITIVE);
-            let inside = (m.value - stats::mean(&column).unwrap_or(0.0) - shared(m)) / sd;
+    fn is_like(&self, other: &Wall<'_>) -> bool {
+        let read = |(column, m, _): &(usize, &Measurement, f64)| (*column, reading_variance(m));
+        self.values.iter().map(read).eq(other.values.iter().map(read))
+    }
+
+    /// Logarithm of the probability of its bounds' sides.
+    fn bounds_log(&self, paths: &Paths, shared: &impl Fn(&Measurement) -> f64) -> f64 {
+        let one = |(column, m): &(usize, &Measurement)| {
+            let sd = (reading_variance(m) + paths.variance[*column]).sqrt().max(f64::MIN_POSITIVE);
+            let inside = (m.value - paths.mean[*column] - shared(m)) / sd;
             let side = if m.kind == MeasuredKind::Below { inside } else { -inside };
             ln(cdf(side).max(f64::MIN_POSITIVE))
-        });
-        Group {
-            bounds: stats::sum(&bounds.collect::<Vec<_>>()),
-            off: off.collect(),
-            variance: read.values.iter().map(|(m, _)| reading_variance(m)).collect(),
-        }
+        };
+        self.bounds.iter().fold(0.0, |sum, bound| sum + one(bound))
     }
+}
 
-    /// Readings of several walls as those of one.
-    fn joined(groups: impl Iterator<Item = Group>) -> Option<Group> {
-        groups.reduce(|mut one, other| {
-            one.off.iter_mut().zip(other.off).for_each(|(one, other)| one.extend(other));
-            one.variance.extend(other.variance);
-            one.bounds += other.bounds;
-            one
-        })
-    }
+/// What the paths that a wall may have show, by column.
+struct Paths {
+    /// By path.
+    shown: Vec<Vec<f64>>,
+    mean: Vec<f64>,
+    variance: Vec<f64>,
+}
 
-    /// Student's t: the covariance is that of few paths and not known exactly.
-    fn log(&self) -> f64 {
-        let (paths, readings) = (self.off.len(), self.variance.len());
-        if readings == 0 {
-            return self.bounds;
-        }
-        let freedom = (paths - 1) as f64;
+impl Paths {
+    fn of(shown: Vec<Vec<f64>>) -> Paths {
+        let columns = shown[0].len();
         // Path by path, as they lie in memory.
-        let mut mean = vec![0.0; readings];
-        for off in &self.off {
-            mean.iter_mut().zip(off).for_each(|(sum, off)| *sum += off);
+        let mut mean = vec![0.0; columns];
+        for path in &shown {
+            mean.iter_mut().zip(path).for_each(|(sum, x)| *sum += x);
         }
-        mean.iter_mut().for_each(|sum| *sum /= paths as f64);
-        let mut square = vec![0.0; readings];
-        for off in &self.off {
-            let apart = off.iter().zip(&mean).map(|(off, mean)| off - mean);
-            square.iter_mut().zip(apart).for_each(|(sum, apart)| *sum += apart * apart);
+        mean.iter_mut().for_each(|sum| *sum /= shown.len() as f64);
+        let mut variance = vec![0.0; columns];
+        for path in &shown {
+            let off = path.iter().zip(&mean).map(|(x, mean)| x - mean);
+            variance.iter_mut().zip(off).for_each(|(sum, off)| *sum += off * off);
         }
-        // In units of each reading's own error, of which no reading is free.
-        let own = self.variance.iter().zip(&square);
-        let sd: Vec<f64> =
-            own.map(|(own, square)| (own + LEAST * square / freedom).sqrt().max(f64::MIN_POSITIVE)).collect();
+        let freedom = (shown.len() - 1) as f64;
+        variance.iter_mut().for_each(|sum| *sum /= freedom);
+        Paths { shown, mean, variance }
+    }
+}
+
+/// The density of readings with a value: Student's t, as the covariance is that of few paths and not known exactly.
+struct Density {
+    /// Degrees of freedom of the covariance.
+    freedom: f64,
+    /// Each reading's own standard deviation, of which none is free.
+    sd: Vec<f64>,
+    /// What the paths are off their mean in units of it, by reading and path, such that the readings' covariance is 1 + spread spread'.
+    spread: DMatrix<f64>,
+    /// Woodbury: only the paths' side of that, 1 + spread' spread, is factored.
+    inner: Cholesky<f64, Dyn>,
+    /// Logarithm of the square root of the covariance's determinant.
+    half_log_determinant: f64,
+}
+
+impl Density {
+    /// `None` where the paths are no numbers.
+    fn of(wall: &Wall<'_>, paths: &Paths) -> Option<Density> {
+        let (readings, count) = (wall.values.len(), paths.shown.len());
+        let freedom = (count - 1) as f64;
+        let sd = wall.values.iter().map(|(column, m, _)| {
+            (reading_variance(m) + LEAST * paths.variance[*column]).sqrt().max(f64::MIN_POSITIVE)
+        });
+        let sd: Vec<f64> = sd.collect();
         let unit: Vec<f64> = sd.iter().map(|sd| 1.0 / (sd * freedom.sqrt())).collect();
-        let spread = DMatrix::from_fn(readings, paths, |k, path| (self.off[path][k] - mean[k]) * unit[k]);
-        let off = DVector::from_fn(readings, |k, _| mean[k] / sd[k]);
-        // Woodbury: of the readings' covariance 1 + spread spread' only the paths' side is factored.
-        let mut inner = spread.tr_mul(&spread);
-        for k in 0..paths {
-            inner[(k, k)] += 1.0;
+        let spread = DMatrix::from_fn(readings, count, |k, path| {
+            let column = wall.values[k].0;
+            (paths.mean[column] - paths.shown[path][column]) * unit[k]
+        });
+        // The lower triangle is all that is asked for.
+        let mut inner = DMatrix::identity(count, count);
+        for column in 0..count {
+            for row in column..count {
+                inner[(row, column)] += spread.column(row).dot(&spread.column(column));
+            }
         }
-        let Some(inner) = inner.cholesky() else { return f64::NEG_INFINITY };
-        let along = spread.tr_mul(&off);
-        let square = off.dot(&off) - along.dot(&inner.solve(&along));
-        let lower = inner.l_dirty();
-        let half_log_determinant = (0..paths).fold(0.0, |sum, k| sum + ln(lower[(k, k)]));
+        let inner = inner.cholesky()?;
         let own = sd.iter().fold(0.0, |sum, sd| sum + ln(*sd));
-        self.bounds
-            - half_log_determinant
-            - own
-            - 0.5 * (freedom + readings as f64) * ln(1.0 + square / freedom)
+        let lower = inner.l_dirty();
+        let half_log_determinant = (0..count).fold(own, |sum, k| sum + ln(lower[(k, k)]));
+        Some(Density { freedom, sd, spread, inner, half_log_determinant })
+    }
+
+    /// Its logarithm, of a wall that is [alike](Wall::alike).
+    fn log(&self, wall: &Wall<'_>, paths: &Paths, shared: &impl Fn(&Measurement) -> f64) -> f64 {
+        let off = wall.values.iter().zip(&self.sd);
+        let off =
+            off.map(|((column, m, value), sd)| (value - shared(m) - paths.mean[*column]) / sd).collect();
+        let off = DVector::from_vec(off);
+        let along = self.spread.tr_mul(&off);
+        let square = off.dot(&off) - along.dot(&self.inner.solve(&along));
+        let power = 0.5 * (self.freedom + off.len() as f64);
+        -self.half_log_determinant - power * ln(1.0 + square / self.freedom)
     }
 }

@@ -1,6 +1,7 @@
 //! What the simulation gets wrong: measured campaigns beside those that the base model could have shown.
 
 mod alarm;
+mod asked;
 mod causes;
 mod design;
 mod discrepancy;
@@ -44,5 +45,5 @@ pub use residual::{
 };
 pub use self_test::{CAUGHT, Caught, SelfTest, SelfTestRow};
 pub use verdict::{Diagnosis, Limits, LookedAt, LookedAtPair, MOST_AMBIGUOUS, PairLimits, Verdict};
-pub use world::{DOUBT, Truth, World};
+pub use world::{Truth, World};
 pub use wrong::{Reference, Wrong};

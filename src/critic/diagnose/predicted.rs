@@ -1,6 +1,7 @@
 //! What a model predicts of readings that it has not seen, and how good that is: the logarithm of the probability it gave, the
 //! continuous ranked probability score, and the square of its error (Gneiting and Raftery 2007).
 
+use crate::critic::diagnose::asked::Asked;
 use crate::critic::diagnose::design::{Design, Seen, Specimen};
 use crate::critic::diagnose::world::{Truth, World};
 use crate::critic::likelihood::log_likelihood;
@@ -47,8 +48,10 @@ impl Predicted {
                 .map(|family| {
                     let own = design.specimens.iter().filter(|specimen| specimen.family == family);
                     let readings: Vec<&Measurement> = own.flat_map(|specimen| &specimen.readings).collect();
-                    let (shown, random) = world.may_show(family, &readings, truth);
-                    (family, shown, random)
+                    let asked = Asked::by(&readings);
+                    let (shown, random) = world.may_show(family, &asked, truth);
+                    let all = |path: Vec<f64>| asked.by_reading.iter().map(|&at| path[at]).collect();
+                    (family, shown.into_iter().map(all).collect(), random)
                 })
                 .collect();
             (0..WALLS)

@@ -26,7 +26,7 @@ pub(crate) fn made() -> Made {
     let plan = Plan::new(&study, &mechanisms, &nuisances, 45).unwrap_or_else(|f| panic!("{f}"));
     let path = |wall: usize| {
         let place = &plan.places[wall];
-        let [kn, phi, _] = place.joints.map(quantile);
+        let [kn, phi, _] = place.joints;
         // A point has the same stones under every cause.
         let mut noise = Streams::new(5, place.point).of(&format!("stones {}", place.family));
         let mut draw = |sd: f64| if place.family == 0 { 0.0 } else { sd * quantile(noise.uniform()) };

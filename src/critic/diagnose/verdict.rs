@@ -5,18 +5,22 @@ use rayon::prelude::*;
 use crate::critic::diagnose::causes::Causes;
 use crate::critic::diagnose::design::Campaign;
 use crate::critic::diagnose::discrepancy::{Bent, Discrepancy};
-use crate::critic::diagnose::evidence::{Evidence, evidence};
+use crate::critic::diagnose::evidence::{Evidence, evidence, rough_evidence};
 use crate::critic::diagnose::guard::guarded;
 use crate::critic::diagnose::judge::{Judge, Seeming};
 use crate::critic::diagnose::network::softmax;
 use crate::critic::diagnose::predicted::Predicted;
 use crate::critic::diagnose::world::Truth;
 use crate::math::ln;
+use crate::stats;
 
 /// A set of more causes than this separates nothing.
 pub const MOST_AMBIGUOUS: usize = 3;
-/// So many causes, the most likely, are looked at closely.
-const CLOSELY: usize = 5;
+/// So many causes that the ranking takes to be most likely, and so many that a rough look at the evidence does, are looked at
+/// closely.
+const CLOSELY: usize = 3;
+/// And so many pairs, those that a rough look promises most of.
+const PAIRS: usize = 4;
 
 /// The limits of a verdict.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -178,8 +182,11 @@ impl Judge<'_> {
             // The guard of many would choose among them by chance.
             in_question.clear();
         }
-        let closely = likely.iter().enumerate();
-        let closely = closely.filter(|(rank, cause)| *rank < CLOSELY || in_question.contains(cause));
+        let promising =
+            self.promising(campaign, likely.iter().map(|cause| Some(*cause).into()), CLOSELY, seed);
+        let closely = likely.iter().enumerate().filter(|(rank, cause)| {
+            *rank < CLOSELY || promising.contains(rank) || in_question.contains(cause)
+        });
         let closely: Vec<usize> = closely.map(|(_, cause)| *cause).collect();
         let models = std::iter::once(None).chain(closely.iter().copied().map(Some)).map(Causes::from);
         let evidences = self.evidences(campaign, &models.collect::<Vec<_>>(), seed);
@@ -230,7 +237,21 @@ impl Judge<'_> {
         models.par_iter().map(of).collect()
     }
 
-    /// The pairs of the cause that has most of the evidence with every other, where none explains a campaign alone; `logs` are the
+    /// Places of so many models that a rough look gives most of the evidence.
+    fn promising(
+        &self,
+        campaign: &Campaign,
+        models: impl Iterator<Item = Causes>,
+        count: usize,
+        seed: u64,
+    ) -> Vec<usize> {
+        let rough =
+            |causes: Causes| rough_evidence(self.world, &self.design, campaign, causes, seed.wrapping_add(1));
+        let logs: Vec<f64> = models.collect::<Vec<_>>().into_par_iter().map(rough).collect();
+        stats::smallest(logs.iter().map(|log| -log).zip(0..), count)
+    }
+
+    /// The most promising pairs of the cause that has most of the evidence with another, where none explains a campaign alone; `logs` are the
     /// logarithms of the evidence of the base model and of each cause looked at closely. A second cause is as likely beforehand as
     /// one in all that there are. The guard is asked of a pair that has nearly all of the evidence.
     fn pairs(
@@ -248,6 +269,9 @@ impl Judge<'_> {
         let causes = self.world.causes();
         let others = causes.iter().filter(|other| **other != best);
         let pairs: Vec<[usize; 2]> = others.map(|&other| [best.min(other), best.max(other)]).collect();
+        let models = pairs.iter().map(|&[one, other]| Causes::pair(one, other));
+        let promising = self.promising(campaign, models, PAIRS, seed);
+        let pairs: Vec<[usize; 2]> = promising.into_iter().map(|at| pairs[at]).collect();
         let models: Vec<Causes> = pairs.iter().map(|&[one, other]| Causes::pair(one, other)).collect();
         let evidences = self.evidences(campaign, &models, seed);
         let rare = ln(causes.len() as f64);

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::critic::bank::{Bank, Curves, Emulator, NUMBERS, Path, Plan};
+use crate::critic::bank::{Bank, Curves, DOUBT, Emulator, NUMBERS, Path, Plan};
+use crate::critic::diagnose::asked::Asked;
 use crate::critic::diagnose::causes::Causes;
 use crate::critic::diagnose::design::{Campaign, Design};
 use crate::critic::simulated::of_points;
@@ -17,10 +18,6 @@ const NEIGHBOURS: usize = 20;
 
 /// So many walls of a family are tried for one that can be built and weighed.
 const BUILT: u64 = 20;
-
-/// Joints are taken to be so much less known than their priors say: a prior that is off by two of its standard deviations is no
-/// effect to be found.
-pub const DOUBT: f64 = 1.5;
 
 /// What is true of a simulated campaign. Scores are standard normal: where a quantity lies in its prior.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,7 +92,7 @@ impl<'s> World<'s> {
             told.random |= is_random(arm);
             let Some(path) = path else { continue };
             let Some(before) = unchanged.get(&(place.family, place.point)) else { continue };
-            let joints = place.joints.iter().copied().map(quantile);
+            let joints = place.joints.into_iter().map(|score| score / DOUBT);
             let parameters = place.parameters.iter().copied().map(quantile);
             told.scores.push(joints.chain(varying(mechanisms, place.cause, parameters)).collect());
             told.paths.push(match place.cause {
@@ -198,16 +195,15 @@ impl<'s> World<'s> {
     fn likely(&self, family: usize, truth: &Truth) -> Likely {
         let Walls { emulator, random } = &self.base[&family];
         let mut random = *random;
-        let joints = truth.joints[self.kinds[family]];
-        let mut expected = emulator.expected(&joints);
-        let mut near: Vec<[f64; NUMBERS]> =
-            emulator.nearest(&joints, NEIGHBOURS).into_iter().copied().collect();
+        let joints = truth.joints[self.kinds[family]].map(|score| score / DOUBT);
+        let (mut expected, near) = emulator.told(&joints, NEIGHBOURS);
+        let mut near: Vec<[f64; NUMBERS]> = near.into_iter().copied().collect();
         for (place, (cause, parameters)) in self.parts(truth).enumerate() {
             let Some(change) = self.changes.get(&(family, cause)) else { continue };
             let parameters = varying(self.mechanisms, Some(cause), parameters.iter().copied());
             let scores: Vec<f64> = joints.into_iter().chain(parameters).collect();
-            expected = moved(&expected, &change.emulator.expected(&scores).numbers);
-            let left = change.emulator.nearest(&scores, NEIGHBOURS);
+            let (by, left) = change.emulator.told(&scores, NEIGHBOURS);
+            expected = moved(&expected, &by.numbers);
             // The stones of the nearest wall with what the effect on a wall half way down the list is left with (a second effect: a
             // quarter), and so on round: what is nearest in the one has no part in what is nearest in the other.
             let further = left.iter().cycle().skip(left.len() >> (1 + place));
@@ -219,37 +215,18 @@ impl<'s> World<'s> {
         Likely { expected, near, random }
     }
 
-    /// What the paths that a wall of a family may have under a truth, equally likely, show of readings before their errors, path
-    /// by path; and whether walls of the family differ, or share one path. A wall that has fallen shows what it did last.
-    pub(super) fn may_show(
-        &self,
-        family: usize,
-        readings: &[&Measurement],
-        truth: &Truth,
-    ) -> (Vec<Vec<f64>>, bool) {
+    /// What the paths that a wall of a family may have under a truth, equally likely, show before errors of what is asked, path by
+    /// path; and whether walls of the family differ, or share one path. A wall that has fallen shows what it did last.
+    pub(super) fn may_show(&self, family: usize, asked: &Asked, truth: &Truth) -> (Vec<Vec<f64>>, bool) {
         let Likely { expected, near, random } = self.likely(family, truth);
         let gauge = self.gauge(truth);
-        let mut tilts: Vec<f64> = readings.iter().filter_map(|m| m.tilt).collect();
-        tilts.sort_by(f64::total_cmp);
-        tilts.dedup();
-        // Where each reading finds what the points did at its tilt.
-        let places: Vec<(MeasuredQuantity, Option<usize>)> = readings
-            .iter()
-            .map(|m| (m.quantity, m.tilt.map(|tilt| tilts.partition_point(|known| *known < tilt))))
-            .collect();
         let of = |left: &[f64; NUMBERS]| {
             let curves = moved(&expected, left).curves();
             let last = curves.collapse();
-            let points: Vec<[f64; 3]> = tilts
-                .iter()
-                .map(|tilt| {
-                    curves.displacements(tilt.min(last)).unwrap_or_default().map(|x| gauge.reading(x))
-                })
-                .collect();
-            let shows = |(quantity, at): &(MeasuredQuantity, Option<usize>)| {
-                at.and_then(|at| of_points(*quantity, points[at])).unwrap_or(last)
+            let points = |tilt: &f64| {
+                curves.displacements(tilt.min(last)).unwrap_or_default().map(|x| gauge.reading(x))
             };
-            places.iter().map(shows).collect()
+            asked.shown(last, &asked.tilts.iter().map(points).collect::<Vec<_>>())
         };
         (near.iter().map(of).collect(), random)
     }

@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
+use crate::critic::bank::DOUBT;
 use crate::critic::diagnose::design::{Campaign, Design};
 use crate::critic::diagnose::features::{Feature, Scale, features};
-use crate::critic::diagnose::world::{DOUBT, Truth, World};
+use crate::critic::diagnose::world::{Truth, World};
 use crate::random::Streams;
 use crate::stats;
 

@@ -107,7 +107,7 @@ pub(super) fn worth_saying(summary: &DiagnosisSummary) -> Vec<&OffEntry> {
 pub(super) fn pairs(summary: &DiagnosisSummary) -> Option<String> {
     let pair = summary.pairs.first()?;
     Some(format!(
-        "No cause explains it alone. Of {} pairs {} and {} have most of the evidence: a share of {}, guard {}.",
+        "No cause explains it alone. Of {} pairs looked at closely {} and {} have most of the evidence: a share of {}, guard {}.",
         summary.pairs.len(),
         pair.ids[0],
         pair.ids[1],

@@ -12,6 +12,10 @@ use crate::stats;
 use crate::study::{MeasuredKind, MeasuredQuantity, Measurement};
 
 /// Families of the paper's nine walls, in the order of their arms: nothing is random in the first.
+/// A standard deviation of stones is that of the fifty-odd walls of the bank that lie within the priors as they are stated: off by
+/// a tenth, two of which are allowed.
+const SAMPLED: f64 = 0.2;
+
 const CBL: usize = 0;
 const SBL: usize = 1;
 
@@ -36,7 +40,7 @@ fn the_parts_of_a_residual_are_those_that_made_it() {
     let (world, (design, measured)) = (made.world(), Design::of(&made.study));
     let found = Baseline::new(&world, &design, 1).residuals(&measured);
     assert_eq!((found.readings.len(), found.groups.len()), (27 + 6, 3 + 3 + 2 + 3));
-    let near = |x: f64, wanted: f64| assert!((x / wanted - 1.0).abs() < 0.1, "{x} and not {wanted}");
+    let near = |x: f64, wanted: f64| assert!((x / wanted - 1.0).abs() < SAMPLED, "{x} and not {wanted}");
     // The angle is 14.5 deg times exp(0.05 kn + 0.01 phi + 0.02 stones), read in steps of 0.5 deg.
     let angle = group(&found, SBL, MeasuredQuantity::CollapseAngle, None);
     let parts = angle.expected.expect("walls stand").parts;
@@ -196,7 +200,7 @@ fn campaigns_of_one_truth_share_its_joints_and_not_their_stones() {
     // Stones of 2 % make the two differ by 2 % times the root of two.
     let apart: Vec<f64> = by_truth.iter().map(|sets| sets[0] - sets[1]).collect();
     let sigma = degrees(stats::sigma(&apart).expect("many"));
-    assert!((sigma / (14.5 * 0.02 * 2.0_f64.sqrt()) - 1.0).abs() < 0.1, "{sigma}");
+    assert!((sigma / (14.5 * 0.02 * 2.0_f64.sqrt()) - 1.0).abs() < SAMPLED, "{sigma}");
 }
 
 #[test]

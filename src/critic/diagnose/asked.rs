@@ -1,0 +1,38 @@
+//! What is asked of the walls of a family: each quantity at each tilt once, however many readings ask for it.
+
+use crate::critic::simulated::of_points;
+use crate::study::{MeasuredQuantity, Measurement};
+
+/// What readings ask of a wall.
+pub(super) struct Asked {
+    /// Tilts (rad), ascending.
+    pub tilts: Vec<f64>,
+    /// What is asked: a quantity, with the place of its tilt where it has one.
+    what: Vec<(MeasuredQuantity, Option<usize>)>,
+    /// Which of these each reading asks for.
+    pub by_reading: Vec<usize>,
+}
+
+impl Asked {
+    /// By readings of one family.
+    pub fn by(readings: &[&Measurement]) -> Asked {
+        let mut tilts: Vec<f64> = readings.iter().filter_map(|m| m.tilt).collect();
+        tilts.sort_by(f64::total_cmp);
+        tilts.dedup();
+        let place = |tilt: f64| tilts.partition_point(|known| *known < tilt);
+        let all: Vec<_> = readings.iter().map(|m| (m.quantity, m.tilt.map(place))).collect();
+        let mut what = all.clone();
+        what.sort_unstable();
+        what.dedup();
+        let by_reading = all.iter().map(|one| what.partition_point(|known| known < one)).collect();
+        Asked { tilts, what, by_reading }
+    }
+
+    /// What a wall shows that falls at this tilt and moves left, centre and right by so much at each of the tilts.
+    pub fn shown(&self, collapse: f64, points: &[[f64; 3]]) -> Vec<f64> {
+        let one = |(quantity, at): &(MeasuredQuantity, Option<usize>)| {
+            at.and_then(|at| of_points(*quantity, points[at])).unwrap_or(collapse)
+        };
+        self.what.iter().map(one).collect()
+    }
+}
