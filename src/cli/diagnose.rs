@@ -8,7 +8,7 @@ use crate::cli::bank::{self, Prepared};
 use crate::cli::failure::Failure;
 use crate::cli::{locate, output};
 use crate::critic::{
-    self, BANK, Baseline, Design, Diagnosis, Effort, Judge, Limits, Measuring, Plan, Verdict, World,
+    self, BANK, Baseline, Design, Diagnosis, Effort, Folds, Judge, Limits, Measuring, Plan, Verdict, World,
     base_curves, cause_curves, doubts_beside, extension,
 };
 use crate::report::{self, Advice, DiagnosisSummary, EXTENDED, FamilyFigure, GainSummary, Origin};
@@ -50,8 +50,8 @@ pub(crate) fn diagnose(arguments: &Diagnose) -> Result<(), Failure> {
     let offered = critic::offers(&judge, &diagnosis.possible(), seed.wrapping_add(4 * SEEDS));
     summary.advice = Advice::of(&test, &offered, &mechanisms);
     if diagnosis.verdict != Verdict::NothingFound && !arguments.no_gain {
-        let gain = critic::gain(&judge, &measured, &Measuring::default(), seed.wrapping_add(3 * SEEDS));
-        summary.gain = gain.map(|gain| GainSummary::of(&gain, &study, &design, &mechanisms));
+        let folds = Folds::new(&judge, Measuring::default(), seed.wrapping_add(3 * SEEDS));
+        summary.gain = folds.gain(&measured).map(|gain| GainSummary::of(&gain, &study, &design, &mechanisms));
     }
     let drawn = seed.wrapping_add(7 * SEEDS);
     let base = base_curves(&world, &design, drawn);

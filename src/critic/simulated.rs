@@ -22,7 +22,7 @@ pub enum Simulated {
 }
 
 /// What a row shows of a quantity read at a tilt (rad, on the way up); `None` where the simulation has no such quantity:
-/// joint properties go into it, and single blocks are not weighed.
+/// joint properties go into it, single blocks are not weighed, and gauges are no part of it.
 ///
 /// A displacement is that of the load step at the tilt; between two steps it is interpolated linearly.
 pub fn simulated(quantity: MeasuredQuantity, tilt: Option<f64>, row: &Row) -> Option<Simulated> {
@@ -39,7 +39,7 @@ pub fn simulated(quantity: MeasuredQuantity, tilt: Option<f64>, row: &Row) -> Op
         | Q::DisplacementRight
         | Q::DisplacementMean
         | Q::DisplacementCentreMinusEnds => displacement(quantity, tilt?, row),
-        Q::JointKn | Q::JointPhi | Q::BlockWeight => return None,
+        Q::JointKn | Q::JointPhi | Q::BlockWeight | Q::FixedTarget => return None,
     };
     Some(found)
 }

@@ -35,6 +35,7 @@ pub fn measurement(
         kind: MeasuredKind::Exact,
         error: 0.0,
         common_error: 0.0,
+        unknown_share: false,
         resolution: 0.0,
         order: None,
         stage: 0,

@@ -118,6 +118,7 @@ impl Advice {
 fn words(offer: Offer) -> &'static str {
     match offer {
         Offer::Weights => "weigh a specimen of every family, to 0.5 %",
+        Offer::FixedTarget => "read a target that does not move, to 0.3 mm",
         Offer::TwoStones => "test two stones: kn to 10 %, friction angle to 1 deg, of every family",
         Offer::LowTilts => "six readings up to 3 deg at three points to 0.3 mm, on new specimens",
         Offer::FinerReadings => "the same tilts at three points to 0.3 mm, on new specimens",

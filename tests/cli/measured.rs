@@ -45,6 +45,7 @@ fn a_sound_file_is_read_in_si_units() {
         kind: MeasuredKind::Rounded,
         error: radians(0.1),
         common_error: 0.0,
+        unknown_share: false,
         resolution: radians(0.5),
         order: Some(1),
         stage: 0,
@@ -61,6 +62,25 @@ fn a_sound_file_is_read_in_si_units() {
     // 0.05 N/mm3 is 5e7 Pa/m.
     assert_eq!(values[6], ("B, the 1st \"dry\" one", 0.05 * 1e9, 5e-3 * 1e9));
     assert_eq!((values[7], values[8]), (("B2", 0.6, 0.01), ("B2", 1371.0, 1.0)));
+}
+
+/// How much of an error is common may be unknown: half of the variance then stands in either part, whatever else is known.
+#[test]
+fn an_unknown_share_is_half_until_it_is_known() {
+    let text = GOOD
+        .replace("exact,0.1,", "exact,unknown,")
+        .replace("B2,hewn,,specimen_weight,1.371,kN,0.001", "B2,hewn,,fixed_target,5,mm,0.3");
+    let found = load("unknown-share", &text).unwrap_or_else(|faults| panic!("{faults}"));
+    let m = &found[1];
+    assert!(m.unknown_share && !found[0].unknown_share);
+    assert!((m.error - 0.003 * 0.5_f64.sqrt()).abs() < 1e-15 && m.common_error == m.error);
+    let [random, common] = m.errors(0.19);
+    assert!((random - 0.9 * 0.003).abs() < 1e-12 && (random.hypot(common) - 0.003).abs() < 1e-12);
+    assert_eq!(found[0].errors(0.7), [found[0].error, found[0].common_error]);
+    assert_eq!(
+        (found[8].quantity, found[8].tilt, found[8].value),
+        (MeasuredQuantity::FixedTarget, None, 0.005)
+    );
 }
 
 /// It is an input of the study, and decides no simulated result.
@@ -125,6 +145,7 @@ const CASES: &[Case] = &[
     ("kN,0.001", "kN,", &["@ error is missing: allowed is a number at least 0 (kN)", "0 for none"]),
     ("kN,0.001", "kN,1 N", &["@ error = 1 N"]),
     ("exact,0.1,", "exact,-0.1,", &["@ common_error = -0.1"]),
+    ("exact,0.1,", "exact,?,", &["@ common_error = \"?\": allowed is a number at least 0 (cm), or unknown"]),
     ("rounded,,0.5", "rounded,,", &["@ resolution is missing: allowed is a number above 0 (deg)"]),
     ("rounded,,0.5", "rounded,,0", &["@ resolution = 0", "raise it"]),
     ("rounded,,0.5", "rounded,,1", &["@ resolution = 1: allowed is a step of which the value 13.5 is a multiple"]),

@@ -1,13 +1,16 @@
 //! What the inference knows, and what it says of a campaign: a study, the catalogue with its priors, a bank, and the data.
 
 use std::path::Path;
+use std::sync::OnceLock;
 
-use pirca::critic::{self, Bank, Campaign, Design, Effort, Limits, Plan, Seen, Verdict, World};
+use pirca::critic::{
+    self, Bank, Campaign, Design, Effort, Folds, Gained, Limits, Measuring, Plan, Seen, Verdict, World,
+};
 use pirca::study::{Described, Measurement, Nuisance, Study, described, nuisances};
 use serde::{Deserialize, Serialize};
 
-/// Seeds of what is learnt, and of the verdicts.
-const SEEDS: [u64; 2] = [11, 13];
+/// Seeds of what is learnt, of the verdicts, and of the gains.
+const SEEDS: [u64; 3] = [11, 13, 17];
 
 /// What the inference knows.
 pub struct Known {
@@ -48,8 +51,20 @@ impl Known {
 
 /// A judge of campaigns of one design.
 pub struct Judge<'k> {
-    known: &'k Known,
-    judge: critic::Judge<'k>,
+    pub known: &'k Known,
+    pub judge: &'k critic::Judge<'k>,
+    /// Who measures gains, from the first time on.
+    folds: OnceLock<Folds<'k, 'k>>,
+}
+
+/// What the extended model gains on readings held out: the gain and the ends of its interval, for the logarithm of the probability
+/// given, the ranked score and the error.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Gains {
+    /// Specimen by specimen held out.
+    pub specimens: Option<[[f64; 3]; 3]>,
+    /// The largest tilts held out.
+    pub tilts: Option<[[f64; 3]; 3]>,
 }
 
 /// What is said of a campaign.
@@ -93,10 +108,26 @@ impl<'k> Judge<'k> {
         let world = World::new(&known.study, &known.mechanisms, &known.nuisances, &known.plan, &known.bank)
             .expect("enough walls");
         let (design, _) = Design::of(&Study { measured: planned, ..known.study.clone() });
-        // Judges live as long as the test, and so do their worlds.
+        // Judges live as long as the test, and so does what they rest on.
         let world: &World<'k> = Box::leak(Box::new(world));
         let judge = critic::Judge::trained(world, &design, effort, SEEDS[0]).expect("it can be told");
-        Judge { known, judge }
+        Judge { known, judge: Box::leak(Box::new(judge)), folds: OnceLock::new() }
+    }
+
+    /// Who measures gains.
+    pub fn folds(&self) -> &Folds<'k, 'k> {
+        self.folds.get_or_init(|| Folds::new(self.judge, Measuring::default(), SEEDS[2]))
+    }
+
+    /// Measures what the extended model gains.
+    pub fn gains(&self, measured: &[Measurement]) -> Gains {
+        let gain = self.folds().gain(&matched(&self.judge.design, measured));
+        let of = |gained: &Gained| gained.gain.map(|own| [own.value, own.ends[0], own.ends[1]]);
+        let gain = gain.as_ref();
+        Gains {
+            specimens: gain.and_then(|gain| gain.specimens.as_ref()).map(of),
+            tilts: gain.and_then(|gain| gain.tilts.as_ref()).map(of),
+        }
     }
 
     /// Judges what was measured. What was planned and is not there was not seen.

@@ -8,6 +8,7 @@ mod inference;
 mod printed;
 mod run;
 mod sealed;
+mod shift;
 mod table;
 mod towers;
 mod truth;

@@ -1,9 +1,9 @@
 //! What was said beside what was true: shares and means, by design and group.
 
 use pirca::random::Streams;
-use pirca::stats::mean;
+use pirca::stats::{mean, quantile};
 
-use crate::inference::{Said, Word};
+use crate::inference::{Gains, Said, Word};
 use crate::truth::designs::Design;
 use crate::truth::label::{Group, Label};
 use crate::truth::roster::catalogue;
@@ -13,12 +13,19 @@ use crate::truth::unknown::UNKNOWN;
 /// Bins of the probability given, for its calibration.
 const BINS: usize = 10;
 
+/// Bands of the shift that an effect makes, in standard deviations.
+const SHIFTS: [[f64; 2]; 4] = [[0.0, 1.0], [1.0, 3.0], [3.0, 10.0], [10.0, f64::INFINITY]];
+
 /// A campaign that was judged by a design.
 #[derive(Clone, Debug)]
 pub struct Judged {
     pub label: Label,
     pub design: String,
     pub said: Said,
+    /// What the extended model gains, where that was measured.
+    pub gains: Option<Gains>,
+    /// How far the mechanism that is hidden moves what the design sees, in standard deviations, where it is one of our code.
+    pub shift: Option<f64>,
 }
 
 /// A number of the table.
@@ -56,6 +63,18 @@ impl Judged {
 
     fn wrong(&self) -> bool {
         self.named() && !self.right()
+    }
+
+    /// Whether the interval of the gain on specimens held out, in the logarithm of the probability, lies above 0.
+    fn gains(&self) -> bool {
+        let own = |gains: &Gains| gains.specimens.is_some_and(|[[_, low, _], ..]| low > 0.0);
+        self.gains.as_ref().is_some_and(own)
+    }
+
+    /// The same on the largest tilts.
+    fn gains_further(&self) -> bool {
+        let own = |gains: &Gains| gains.tilts.is_some_and(|[[_, low, _], ..]| low > 0.0);
+        self.gains.as_ref().is_some_and(own)
     }
 
     fn other_code(&self) -> bool {
@@ -97,12 +116,21 @@ fn of_design(design: &'static str, judged: &[Judged], removed: &[Judged]) -> Vec
     lines.of_mechanisms("mechanism, our code", &ours);
     let other: Vec<&Judged> = mechanisms.iter().copied().filter(|j| j.other_code()).collect();
     lines.of_mechanisms("mechanism, other code", &other);
+    for [low, high] in SHIFTS {
+        let some = |j: &&Judged| j.shift.is_some_and(|shift| (low..high).contains(&shift));
+        let some: Vec<&Judged> = ours.iter().copied().filter(some).collect();
+        let to = if high.is_finite() { format!("{low} to {high}") } else { format!("above {low}") };
+        lines.of_mechanisms(&format!("mechanism, shift {to}"), &some);
+    }
     for mechanism in catalogue() {
         let some = |j: &&Judged| {
             j.label.hidden[0].name == mechanism.name && j.label.hidden[0].strength == Some(Strength::Strong)
         };
         let some: Vec<&Judged> = mechanisms.iter().copied().filter(some).collect();
-        lines.of_mechanisms(&format!("{}, strong", mechanism.name), &some);
+        let group = format!("{}, strong", mechanism.name);
+        lines.of_mechanisms(&group, &some);
+        let shifts: Vec<f64> = some.iter().filter_map(|j| j.shift).collect();
+        lines.value(&group, "median shift", quantile(&shifts, 0.5));
     }
     let found: Vec<&Judged> = mechanisms.iter().copied().filter(|j| j.found()).collect();
     lines.share("mechanism, found", "the set holds it", &found, |j| {
@@ -111,6 +139,11 @@ fn of_design(design: &'static str, judged: &[Judged], removed: &[Judged]) -> Vec
     let sizes: Vec<f64> = found.iter().map(|j| j.said.set.len() as f64).collect();
     lines.value("mechanism, found", "mean size of the set", mean(&sizes));
     lines.value("mechanism, found", "calibration error of the likeliest", calibration_error(&found));
+    for (group, of) in [("mechanism, named", named(&mechanisms)), ("nothing hidden", nothing.clone())] {
+        let measured: Vec<&Judged> = of.into_iter().filter(|j| j.gains.is_some()).collect();
+        lines.share(group, "a gain on specimens held out", &measured, Judged::gains);
+        lines.share(group, "a gain on the largest tilts held out", &measured, Judged::gains_further);
+    }
     let pairs = of(Group::Pair);
     lines.share("pairs", "found", &pairs, Judged::found);
     lines.share("pairs", "one of the two named", &pairs, Judged::right);
@@ -226,7 +259,7 @@ mod tests {
                 evidence: Vec::new(),
                 pair: None,
             };
-            Judged { label, design: Design::Rich.name().to_owned(), said }
+            Judged { label, design: Design::Rich.name().to_owned(), said, gains: None, shift: None }
         })
         .collect()
     }
@@ -258,7 +291,8 @@ mod tests {
         // Of nothing, nothing is told; and of a design without campaigns.
         assert_eq!(line(&lines, "out of the catalogue in turn", "wrongly named").value, None);
         assert!(
-            markdown(&lines).contains("| mechanism, strong | named | - | - | 192/192 100 % [98, 100] | - |")
+            markdown(&lines)
+                .contains("| mechanism, strong | named | - | - | - | 192/192 100 % [98, 100] | - |")
         );
     }
 

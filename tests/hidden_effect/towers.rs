@@ -90,6 +90,7 @@ fn campaign(study: &Study, hidden: &Hidden, seed: u64) -> Vec<Measurement> {
                 kind: MeasuredKind::Exact,
                 error,
                 common_error: 0.0,
+                unknown_share: false,
                 resolution: 0.0,
                 order: None,
                 stage: 0,

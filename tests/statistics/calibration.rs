@@ -28,6 +28,7 @@ fn reading(specimen: usize, angle: f64) -> Measurement {
         kind: MeasuredKind::Exact,
         error: 0.0,
         common_error: 0.0,
+        unknown_share: false,
         resolution: 0.0,
         order: None,
         stage: 0,

@@ -35,7 +35,7 @@ impl Specimen {
 pub struct Design {
     /// The specimens that were tilted, in the order of the file.
     pub specimens: Vec<Specimen>,
-    /// Two-stone tests and weights of specimens: the index of their family's arm, and the reading.
+    /// Two-stone tests, weights of specimens and readings of fixed targets: the index of their family's arm, and the reading.
     pub apart: Vec<(usize, Measurement)>,
     /// Lines of the file that a diagnosis does not use: weights of single blocks, readings after the platform has gone back, and arms that the study
     /// does not evaluate.
@@ -63,9 +63,10 @@ impl Design {
                 continue;
             };
             match m.quantity {
-                MeasuredQuantity::JointKn | MeasuredQuantity::JointPhi | MeasuredQuantity::SpecimenWeight => {
-                    design.apart.push((family, m.clone()))
-                }
+                MeasuredQuantity::JointKn
+                | MeasuredQuantity::JointPhi
+                | MeasuredQuantity::SpecimenWeight
+                | MeasuredQuantity::FixedTarget => design.apart.push((family, m.clone())),
                 MeasuredQuantity::BlockWeight => design.unused.push(m.line),
                 _ if !is_rising(m, &study.measured) => design.unused.push(m.line),
                 _ => {
@@ -126,12 +127,15 @@ impl Campaign {
         streams: &Streams,
     ) -> Campaign {
         let score = |name: &str| quantile(streams.of(name).uniform());
-        let mut common = BTreeMap::new();
+        let mut shared = BTreeMap::new();
         let mut read = |value: f64, m: &Measurement, name: &str| {
-            let shared = *common
-                .entry(m.quantity)
-                .or_insert_with(|| score(&format!("common error {}", m.quantity.name())));
-            Seen::of(value + m.common_error * shared + m.error * score(name), m)
+            let (common, share) = *shared.entry(m.quantity).or_insert_with(|| {
+                let name = m.quantity.name();
+                let share = streams.of(&format!("share of the common error {name}")).uniform();
+                (score(&format!("common error {name}")), share)
+            });
+            let [random, whole] = m.errors(share);
+            Seen::of(value + whole * common + random * score(name), m)
         };
         let specimens = walls.iter().zip(&design.specimens).enumerate().map(|(index, (values, specimen))| {
             let readings = values.iter().zip(&specimen.readings).enumerate();

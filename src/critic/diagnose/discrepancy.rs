@@ -1,5 +1,6 @@
-//! A discrepancy that is free to be anything smooth (Kennedy and O'Hagan 2001): a Gaussian process over the tilt for every quantity,
-//! in part common to all families. It says which form something has that no cause explains, and how much there is to be gained.
+//! A discrepancy that is free to be anything smooth (Kennedy and O'Hagan 2001): Gaussian processes over the tilt for every quantity
+//! and for what the left end has more than the right, in part common to all families, and a straight line over the order of the
+//! tests. It says which form something has that no cause explains, and how much there is to be gained.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
@@ -14,6 +15,9 @@ use crate::study::{MeasuredQuantity, Measurement};
 const LENGTH_DEG: f64 = 5.0;
 /// Share of its variance that is common to all families.
 const COMMON: f64 = 0.5;
+/// Variance of the left end less that of the centre, and of the last test less that of a middle one, in that of a reading's level.
+const TWISTING: f64 = 0.5;
+const DRIFTING: f64 = 0.5;
 /// Standard deviations of the discrepancy that are tried, in those of the base model's readings; the likeliest is taken.
 const TRIED: [f64; 7] = [0.0, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0];
 /// Variance (in those units) that no reading is without, so that covariances can be factored.
@@ -30,14 +34,20 @@ struct At<'d> {
     /// What the base model expects.
     mean: f64,
     known: bool,
+    /// 1 for the left end, -1 for the right one.
+    side: f64,
+    /// Where the test lies in the order of all: -1 the first, 1 the last; 0 where that is not known.
+    order: f64,
 }
 
 /// The discrepancy as far as the known readings tell it.
 pub struct Discrepancy<'d> {
     all: Vec<At<'d>>,
     known: Vec<usize>,
-    /// Covariance of the discrepancy at all readings, in their units.
-    smooth: DMatrix<f64>,
+    /// Covariances of the discrepancy at all readings, in their units, part by part.
+    smooth: [DMatrix<f64>; 3],
+    /// From the middle of the tests to the last (tests).
+    half: f64,
     /// That of the readings.
     whole: DMatrix<f64>,
     factored: Cholesky<f64, Dyn>,
@@ -45,12 +55,25 @@ pub struct Discrepancy<'d> {
     weights: DVector<f64>,
 }
 
-/// The discrepancy at a reading of a family.
+/// The parts of a discrepancy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lacking {
+    /// Of readings as they are.
+    Level,
+    /// Of the left end less the right one.
+    Twist,
+    /// From each test to the next.
+    Drift,
+}
+
+/// A part of the discrepancy at a reading of a family.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bent {
-    /// Index of its arm.
-    pub family: usize,
-    /// What was read.
+    /// Which part.
+    pub part: Lacking,
+    /// Index of the family's arm; none where all families share it.
+    pub family: Option<usize>,
+    /// What was read; of a twist the left end's displacement, of a drift the first quantity that was read of its kind.
     pub quantity: MeasuredQuantity,
     /// At which tilt (rad); `None` where the quantity has none of its own.
     pub tilt: Option<f64>,
@@ -71,6 +94,9 @@ impl<'d> Discrepancy<'d> {
         units: &[Vec<f64>],
     ) -> Option<Discrepancy<'d>> {
         let mut all: Vec<At<'d>> = Vec::new();
+        let orders = || design.specimens.iter().filter_map(|specimen| specimen.order).map(f64::from);
+        let (first, last) = (orders().fold(f64::INFINITY, f64::min), orders().fold(0.0, f64::max));
+        let half = 0.5 * (last - first).max(0.0);
         for (specimen, own) in design.specimens.iter().enumerate() {
             for (reading, m) in own.readings.iter().enumerate() {
                 let seen = campaign.specimens[specimen][reading];
@@ -80,7 +106,14 @@ impl<'d> Discrepancy<'d> {
                 let mean = stats::mean(&base.reading(specimen, reading))?;
                 let (unit, told) = (units[specimen][reading], seen != Seen::Beyond);
                 let known = known[specimen][reading] && told;
-                all.push(At { place: (specimen, reading), family: own.family, m, seen, unit, mean, known });
+                let side = match m.quantity {
+                    MeasuredQuantity::DisplacementLeft => 1.0,
+                    MeasuredQuantity::DisplacementRight => -1.0,
+                    _ => 0.0,
+                };
+                let order = own.order.map_or(0.0, |order| (f64::from(order) - first) / half.max(0.5) - 1.0);
+                let place = (specimen, reading);
+                all.push(At { place, family: own.family, m, seen, unit, mean, known, side, order });
             }
         }
         let columns = DMatrix::from_fn(base.walls.len(), all.len(), |draw, k| {
@@ -96,21 +129,22 @@ impl<'d> Discrepancy<'d> {
         if places.is_empty() {
             return None;
         }
-        let smooth = DMatrix::from_fn(all.len(), all.len(), |a, b| alike(&all[a], &all[b]));
+        let smooth =
+            PARTS.map(|part| DMatrix::from_fn(all.len(), all.len(), |a, b| alike(part, &all[a], &all[b])));
         let off = DVector::from_fn(places.len(), |k, _| {
             let at = &all[places[k]];
             (at.seen.told(at.m).unwrap_or(at.mean) - at.mean) / at.unit
         });
         let tried = TRIED.into_iter().filter_map(|sigma| {
-            let smooth = &smooth * (sigma * sigma);
-            let whole = &walls + &smooth;
+            let smooth = smooth.each_ref().map(|part| part * (sigma * sigma));
+            let whole = smooth.iter().fold(walls.clone(), |whole, part| whole + part);
             let factored = part(&whole, &places, &places).cholesky()?;
             let half = (0..places.len()).fold(0.0, |sum, k| sum + ln(factored.l_dirty()[(k, k)]));
             let weights = factored.solve(&off);
             Some((-0.5 * off.dot(&weights) - half, smooth, whole, factored, weights))
         });
         let (_, smooth, whole, factored, weights) = tried.max_by(|a, b| a.0.total_cmp(&b.0))?;
-        Some(Discrepancy { all, known: places, smooth, whole, factored, weights })
+        Some(Discrepancy { all, known: places, smooth, half, whole, factored, weights })
     }
 
     /// How the readings that were not known are predicted, by specimen and reading.
@@ -128,27 +162,41 @@ impl<'d> Discrepancy<'d> {
         .collect()
     }
 
-    /// The discrepancy itself, once for each family, quantity and tilt that was read.
+    /// The discrepancy itself: its level once for each family, quantity and tilt that was read, its twist once for each family and
+    /// tilt at which both ends were, and its drift once for each kind of quantity where the order of the tests is known.
     pub fn form(&self) -> Vec<Bent> {
         let mut form: Vec<Bent> = Vec::new();
-        for (k, at) in self.all.iter().enumerate() {
-            let alike = |bent: &Bent| {
-                bent.family == at.family && bent.quantity == at.m.quantity && bent.tilt == at.m.tilt
+        for (k, at) in self.all.iter().enumerate().filter(|(_, at)| at.seen != Seen::Beyond) {
+            let mut add = |part: Lacking, family: Option<usize>, tilt: Option<f64>, by: f64| {
+                let (quantity, (value, sd)) = (at.m.quantity, self.lacking(part, k));
+                let told = |bent: &Bent| {
+                    let same = match part {
+                        Lacking::Drift => kind(bent.quantity) == kind(quantity),
+                        _ => bent.quantity == quantity,
+                    };
+                    (bent.part, bent.family, bent.tilt) == (part, family, tilt) && same
+                };
+                if !form.iter().any(told) {
+                    form.push(Bent { part, family, quantity, tilt, value: by * value, sd: by.abs() * sd });
+                }
             };
-            if at.seen == Seen::Beyond || form.iter().any(alike) {
-                continue;
+            add(Lacking::Level, Some(at.family), at.m.tilt, 1.0);
+            if at.side > 0.0 {
+                add(Lacking::Twist, Some(at.family), at.m.tilt, 2.0);
             }
-            let told = self.told(&self.smooth, k);
-            let variance = (self.smooth[(k, k)] - told.dot(&self.factored.solve(&told))).max(0.0);
-            form.push(Bent {
-                family: at.family,
-                quantity: at.m.quantity,
-                tilt: at.m.tilt,
-                value: at.unit * told.dot(&self.weights),
-                sd: at.unit * variance.sqrt(),
-            });
+            if at.order.abs() == 1.0 && self.half > 0.0 {
+                add(Lacking::Drift, None, None, at.order / self.half);
+            }
         }
         form
+    }
+
+    /// A part of the discrepancy at a reading and its standard deviation (SI).
+    fn lacking(&self, part: Lacking, k: usize) -> (f64, f64) {
+        let (smooth, unit) = (&self.smooth[part as usize], self.all[k].unit);
+        let told = self.told(smooth, k);
+        let variance = (smooth[(k, k)] - told.dot(&self.factored.solve(&told))).max(0.0);
+        (unit * told.dot(&self.weights), unit * variance.sqrt())
     }
 
     /// Covariances of a reading with those that are known.
@@ -157,19 +205,31 @@ impl<'d> Discrepancy<'d> {
     }
 }
 
-/// Correlation of the discrepancies of two readings.
-fn alike(a: &At<'_>, b: &At<'_>) -> f64 {
-    let kind = |m: &Measurement| match m.quantity {
+/// All of them, as they are numbered.
+const PARTS: [Lacking; 3] = [Lacking::Level, Lacking::Twist, Lacking::Drift];
+
+/// Quantities of different kinds have nothing in common.
+fn kind(quantity: MeasuredQuantity) -> u8 {
+    match quantity {
         MeasuredQuantity::CollapseAngle => 0,
         MeasuredQuantity::DisplacementCentreMinusEnds => 1,
         _ => 2,
-    };
-    if kind(a.m) != kind(b.m) {
+    }
+}
+
+/// Covariance of a part of the discrepancies of two readings, in the variance of a level.
+fn alike(part: Lacking, a: &At<'_>, b: &At<'_>) -> f64 {
+    if kind(a.m.quantity) != kind(b.m.quantity) {
         return 0.0;
     }
     let apart = degrees(a.m.tilt.unwrap_or(0.0) - b.m.tilt.unwrap_or(0.0)) / LENGTH_DEG;
     let families = if a.family == b.family { 1.0 } else { COMMON };
-    families * exp(-0.5 * apart * apart)
+    let over_the_tilt = families * exp(-0.5 * apart * apart);
+    match part {
+        Lacking::Level => over_the_tilt,
+        Lacking::Twist => TWISTING * a.side * b.side * over_the_tilt,
+        Lacking::Drift => DRIFTING * a.order * b.order,
+    }
 }
 
 fn part(whole: &DMatrix<f64>, rows: &[usize], columns: &[usize]) -> DMatrix<f64> {
@@ -183,15 +243,19 @@ mod tests {
     use crate::critic::diagnose::{Truth, World};
     use crate::random::Streams;
 
-    /// The form of a campaign whose stones' displacements are off by so much (m).
-    fn form(world: &World<'_>, design: &Design, off: f64) -> Vec<Bent> {
+    /// The form of a campaign of a design whose readings of stones are off by so much (m), by their specimen's order and quantity.
+    fn form(
+        world: &World<'_>,
+        design: &Design,
+        off: &dyn Fn(Option<u32>, MeasuredQuantity) -> f64,
+    ) -> Vec<Bent> {
         let joints = vec![0.0; world.inputs(None)];
         let truth = world.truth(None, &joints);
         let mut campaign = world.campaign(design, &truth, &Streams::new(71, 1));
         for (specimen, seen) in design.specimens.iter().zip(&mut campaign.specimens) {
             for (m, seen) in specimen.readings.iter().zip(seen) {
                 if let (1, Some(_), Seen::Value(value)) = (specimen.family, m.tilt, &*seen) {
-                    *seen = Seen::Value(value + off);
+                    *seen = Seen::Value(value + off(specimen.order, m.quantity));
                 }
             }
         }
@@ -206,17 +270,67 @@ mod tests {
         Discrepancy::new(design, &campaign, &known, &base, &units).expect("readings").form()
     }
 
+    fn sure(bent: &&Bent) -> bool {
+        bent.value.abs() > 2.0 * bent.sd
+    }
+
     #[test]
     fn what_is_lacking_is_found_where_it_is_and_with_its_size() {
         let made = made();
         let (world, (design, _)) = (made.world(), Design::of(&made.study));
-        let sure = |bent: &&Bent| bent.value.abs() > 2.0 * bent.sd;
-        let bent = form(&world, &design, 8e-3);
-        let own: Vec<&Bent> = bent.iter().filter(|b| b.family == 1 && b.tilt.is_some()).collect();
+        let bent = form(&world, &design, &|_, _| 8e-3);
+        let own: Vec<&Bent> = bent.iter().filter(|b| b.family == Some(1) && b.tilt.is_some()).collect();
         assert!(!own.is_empty() && own.iter().copied().filter(|b| sure(b)).count() == own.len(), "{own:?}");
         // Three readings of 1.7 mm each, and what a smooth curve shrinks it by.
         assert!(own.iter().all(|b| (b.value - 8e-3).abs() < 3e-3), "{own:?}");
         assert!(bent.iter().filter(|b| b.tilt.is_none()).filter(sure).count() == 0, "{bent:?}");
-        assert!(form(&world, &design, 0.0).iter().filter(sure).count() == 0);
+        assert!(form(&world, &design, &|_, _| 0.0).iter().filter(sure).count() == 0);
+        // Who reads one point of a wall, in an order that nobody wrote down, sees no twist and no drift.
+        assert!(bent.iter().all(|b| b.part == Lacking::Level), "{bent:?}");
+    }
+
+    #[test]
+    fn a_twist_and_a_drift_are_told_from_a_level() {
+        let made = made();
+        let (world, (mut design, _)) = (made.world(), Design::of(&made.study));
+        // Both ends read to 0.3 mm, and the tests of the stones numbered 1, 4 and 7.
+        let ends = [MeasuredQuantity::DisplacementLeft, MeasuredQuantity::DisplacementRight];
+        for (index, specimen) in design.specimens.iter_mut().enumerate() {
+            specimen.order = Some((index % 3 * 3 + index / 3) as u32);
+            let readings = specimen.readings.iter().flat_map(|m| match m.tilt {
+                Some(_) => ends
+                    .map(|quantity| Measurement {
+                        quantity,
+                        error: 3e-4,
+                        kind: crate::study::MeasuredKind::Exact,
+                        resolution: 0.0,
+                        ..m.clone()
+                    })
+                    .to_vec(),
+                None => vec![m.clone()],
+            });
+            specimen.readings = readings.collect();
+        }
+        let twisted = |_: Option<u32>, quantity| if quantity == ends[0] { 4e-3 } else { -4e-3 };
+        let drifting = |order: Option<u32>, _| 2e-3 * (f64::from(order.expect("numbered")) - 4.0);
+        let of = |bent: &[Bent], part: Lacking| -> Vec<Bent> {
+            bent.iter()
+                .filter(|b| b.part == part && b.family.is_none_or(|family| family == 1))
+                .copied()
+                .collect()
+        };
+        let bent = form(&world, &design, &twisted);
+        let twists = of(&bent, Lacking::Twist);
+        assert!(!twists.is_empty() && twists.iter().filter(sure).count() == twists.len(), "{twists:?}");
+        assert!(twists.iter().all(|b| (b.value - 8e-3).abs() < 2e-3), "{twists:?}");
+        assert_eq!(of(&bent, Lacking::Drift).iter().filter(sure).count(), 0, "{bent:?}");
+        let bent = form(&world, &design, &drifting);
+        let drifts: Vec<Bent> = of(&bent, Lacking::Drift);
+        // Of the displacements, and of the collapse angles.
+        assert_eq!((drifts.len(), drifts.iter().filter(sure).count()), (2, 1), "{drifts:?}");
+        let own = drifts.iter().find(|b| b.quantity != MeasuredQuantity::CollapseAngle).expect("it was read");
+        // One family in three drifts.
+        assert!(own.value > 0.3e-3 && own.value < 2.5e-3, "{own:?}");
+        assert_eq!(of(&bent, Lacking::Twist).iter().filter(sure).count(), 0, "{bent:?}");
     }
 }

@@ -1,15 +1,21 @@
-//! Does a cause explain all that was seen, or only what it was chosen by? Single readings are set against those of the cause's own
-//! campaigns that look most alike; a cause outside the catalogue fits the few numbers that the network sees better than it fits
-//! these.
+//! Does a cause explain all that was seen, or only what it was chosen by? A cause outside the catalogue fits the few numbers that
+//! the network sees better than it fits all others. Two looks: single readings against those of the cause's own campaigns that look
+//! most alike; and parts of the campaign, from the coarse to the fine, against what the cause predicts with the parameters and the
+//! joints that the campaign itself speaks for (a posterior predictive check, Gelman, Meng and Stern 1996).
+
+use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
 use crate::critic::diagnose::causes::Causes;
-use crate::critic::diagnose::design::Campaign;
+use crate::critic::diagnose::design::{Campaign, Design};
+use crate::critic::diagnose::features::{Feature, Scale, features};
 use crate::critic::diagnose::judge::Judge;
 use crate::critic::diagnose::ranking::inputs;
+use crate::critic::diagnose::world::Truth;
 use crate::random::Streams;
 use crate::stats;
+use crate::study::MeasuredQuantity;
 
 /// Campaigns of the cause.
 const POOL: u64 = 1500;
@@ -19,6 +25,15 @@ const ALIKE: usize = 60;
 const JUDGED: usize = 300;
 /// A reading is set against the others where so many of these show it.
 const SHOWN: usize = 15;
+/// Campaigns that are predicted.
+const PREDICTED: u64 = 400;
+/// A part is judged that so large a share of them have.
+const COMMON: f64 = 0.5;
+/// No part is predicted better than this, in standard deviations of independent readings: where hardly anything varies, walls that
+/// differ by a step of a protractor would be off beyond all measure.
+const LEAST: f64 = 0.3;
+/// Number of looks.
+const LOOKS: f64 = 2.0;
 
 /// What a campaign looks like.
 struct Looks {
@@ -26,8 +41,21 @@ struct Looks {
     readings: Vec<(usize, Option<f64>)>,
 }
 
-/// Share of the causes' own campaigns that fit them no better than this one does; a pure function of its arguments.
-pub fn guarded(judge: &Judge<'_>, causes: impl Into<Causes>, campaign: &Campaign, seed: u64) -> f64 {
+/// Share of the causes' own campaigns that fit them no better than this one does, in the worse of the two looks, their number
+/// accounted for; `draws` are what the campaign speaks for under the causes. A pure function of its arguments.
+pub fn guarded(
+    judge: &Judge<'_>,
+    causes: impl Into<Causes>,
+    draws: &[Truth],
+    campaign: &Campaign,
+    seed: u64,
+) -> f64 {
+    let looks = [alike(judge, causes, campaign, seed), predicted(judge, draws, campaign, seed)];
+    (LOOKS * looks[0].min(looks[1])).min(1.0)
+}
+
+/// Share of the causes' own campaigns whose readings differ as much from those that look most alike.
+fn alike(judge: &Judge<'_>, causes: impl Into<Causes>, campaign: &Campaign, seed: u64) -> f64 {
     let causes = causes.into();
     let Judge { world, design, reference, .. } = judge;
     let looks = |campaign: &Campaign| Looks {
@@ -66,4 +94,67 @@ fn misfit(one: &Looks, pool: &[Looks], but: Option<usize>) -> f64 {
         }
     }
     squares.iter().filter_map(|squares| stats::mean(squares)).fold(0.0, f64::max)
+}
+
+/// A part of a campaign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Part {
+    /// What the ranking sees as well.
+    Feature(Feature),
+    /// Readings of a quantity on a family in a third of its tilts (0 to 2).
+    Third(usize, MeasuredQuantity, usize),
+    /// Those on one specimen.
+    Own(usize, MeasuredQuantity, usize),
+}
+
+/// The parts of a campaign, each in standard deviations of independent readings.
+fn parts(design: &Design, scale: &Scale, campaign: &Campaign) -> BTreeMap<Part, f64> {
+    let mut shown: BTreeMap<Part, Vec<f64>> = BTreeMap::new();
+    let mut readings = scale.readings(design, campaign).into_iter();
+    for (index, specimen) in design.specimens.iter().enumerate() {
+        let last = specimen.readings.iter().filter_map(|m| m.tilt).fold(f64::MIN_POSITIVE, f64::max);
+        for (m, (family, z)) in specimen.readings.iter().zip(&mut readings) {
+            let (Some(tilt), Some(z)) = (m.tilt, z) else { continue };
+            let third = ((3.0 * tilt / last).ceil() as usize).clamp(1, 3) - 1;
+            shown.entry(Part::Third(family, m.quantity, third)).or_default().push(z);
+            shown.entry(Part::Own(index, m.quantity, third)).or_default().push(z);
+        }
+    }
+    let mean = |(part, values): (Part, Vec<f64>)| {
+        let root = (values.len() as f64).sqrt();
+        Some((part, stats::mean(&values)? * root))
+    };
+    let coarse = features(design, scale, campaign).into_iter().map(|(f, value)| (Part::Feature(f), value));
+    shown.into_iter().filter_map(mean).chain(coarse).collect()
+}
+
+/// Share of the campaigns that draws predict which are as far off in any part.
+fn predicted(judge: &Judge<'_>, draws: &[Truth], campaign: &Campaign, seed: u64) -> f64 {
+    let Judge { world, design, reference, .. } = judge;
+    let shown: Vec<BTreeMap<Part, f64>> = (0..PREDICTED)
+        .into_par_iter()
+        .map(|k| {
+            let streams = Streams::new(seed.wrapping_add(1), k);
+            let truth = &draws[streams.of("predicted").below(draws.len())];
+            parts(design, &reference.scale, &world.campaign(design, truth, &streams))
+        })
+        .collect();
+    let mut by_part: BTreeMap<Part, Vec<f64>> = BTreeMap::new();
+    for (part, value) in shown.iter().flatten() {
+        by_part.entry(*part).or_default().push(*value);
+    }
+    by_part.retain(|_, values| values.len() as f64 >= COMMON * PREDICTED as f64);
+    let normal = |(part, values): (Part, Vec<f64>)| {
+        Some((part, (stats::mean(&values)?, stats::sigma(&values)?.max(LEAST))))
+    };
+    let normals: BTreeMap<Part, (f64, f64)> = by_part.into_iter().filter_map(normal).collect();
+    let furthest = |parts: &BTreeMap<Part, f64>| {
+        let off = parts.iter().filter_map(|(part, value)| {
+            normals.get(part).map(|(mean, sigma)| ((value - mean) / sigma).abs())
+        });
+        off.fold(0.0, f64::max)
+    };
+    let own = furthest(&parts(design, &reference.scale, campaign));
+    let further = shown.iter().filter(|parts| furthest(parts) >= own).count();
+    (further + 1) as f64 / (PREDICTED + 1) as f64
 }

@@ -1,13 +1,15 @@
 //! How likely a campaign is under a truth: the readings of a wall are as those of the paths that it may have, with their errors
 //! (a synthetic likelihood: multivariate Student's t with the mean and the covariance of these paths).
 
+use std::f64::consts::PI;
+
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use crate::critic::compare::reading_variance;
 use crate::critic::diagnose::asked::Asked;
 use crate::critic::diagnose::design::{Campaign, Design, Seen};
 use crate::critic::diagnose::world::{Truth, World};
-use crate::math::ln;
+use crate::math::{ln, ln_gamma};
 use crate::random::standard_normal::cdf;
 use crate::study::{MeasuredKind, MeasuredQuantity, Measurement};
 
@@ -22,6 +24,27 @@ pub struct Likelihood<'c> {
     apart: Vec<(usize, &'c Measurement, f64)>,
     /// Quantities whose readings share an error.
     common: Vec<MeasuredQuantity>,
+    /// Those of them where nobody knows how much.
+    unknown: Vec<MeasuredQuantity>,
+}
+
+/// The errors of readings.
+struct Errors<'l> {
+    of: &'l Likelihood<'l>,
+    /// Scores of the shared errors, then of how much of the error they are.
+    scores: &'l [f64],
+}
+
+impl Errors<'_> {
+    /// The variance of a reading's own error and rounding, and the error that it shares.
+    fn of(&self, m: &Measurement) -> (f64, f64) {
+        let Likelihood { common, unknown, .. } = self.of;
+        let at = |list: &[MeasuredQuantity]| list.iter().position(|quantity| *quantity == m.quantity);
+        let share = at(unknown).map_or(0.0, |at| cdf(self.scores[common.len() + at]));
+        let [random, whole] = m.errors(share);
+        let rounding = reading_variance(m) - m.error * m.error;
+        (random * random + rounding, at(common).map_or(0.0, |at| whole * self.scores[at]))
+    }
 }
 
 /// What was read on the specimens of a family.
@@ -58,45 +81,44 @@ impl<'c> Likelihood<'c> {
         let apart: Vec<_> =
             apart.filter_map(|((family, m), seen)| Some((*family, m, seen.told(m)?))).collect();
         let all = families.iter().flat_map(|own| own.all[0].readings());
-        let mut common: Vec<MeasuredQuantity> = all
-            .chain(apart.iter().map(|(_, m, _)| *m))
-            .filter(|m| m.common_error > 0.0)
-            .map(|m| m.quantity)
-            .collect();
-        common.sort();
-        common.dedup();
-        Likelihood { world, families, apart, common }
-    }
-
-    /// How many errors are shared by readings; each is a score beside the truth.
-    pub fn common_errors(&self) -> usize {
-        self.common.len()
-    }
-
-    /// The logarithm of the likelihood, but for a constant that all truths share.
-    pub fn log(&self, truth: &Truth, common: &[f64]) -> f64 {
-        let shared = |m: &Measurement| {
-            let at = self.common.iter().position(|quantity| *quantity == m.quantity);
-            at.map_or(0.0, |at| m.common_error * common[at])
+        let all: Vec<&Measurement> = all.chain(apart.iter().map(|(_, m, _)| *m)).collect();
+        let those = |is: fn(&&&Measurement) -> bool| {
+            let mut those: Vec<MeasuredQuantity> = all.iter().filter(is).map(|m| m.quantity).collect();
+            those.sort();
+            those.dedup();
+            those
         };
+        let (common, unknown) = (those(|m| m.common_error > 0.0), those(|m| m.unknown_share));
+        Likelihood { world, families, apart, common, unknown }
+    }
+
+    /// How many scores beside the truth it takes: one for each error that readings share, and one for each share that is not known.
+    pub fn common_errors(&self) -> usize {
+        self.common.len() + self.unknown.len()
+    }
+
+    /// The logarithm of the likelihood, but for a constant that all truths share, whatever causes they have.
+    pub fn log(&self, truth: &Truth, common: &[f64]) -> f64 {
+        let errors = Errors { of: self, scores: common };
         let mut log = 0.0;
         for Family { family, asked, each, all } in &self.families {
             let (shown, random) = self.world.may_show(*family, asked, truth);
             let paths = Paths::of(shown);
             let walls = if random { &each[..] } else { &all[..] };
-            let first =
-                |(k, wall): (usize, &Wall<'_>)| (wall.alike == k).then(|| Density::of(wall, &paths))?;
+            let first = |(k, wall): (usize, &Wall<'_>)| {
+                (wall.alike == k).then(|| Density::of(wall, &paths, &errors))?
+            };
             let densities: Vec<Option<Density>> = walls.iter().enumerate().map(first).collect();
             for wall in walls {
                 let density = densities[wall.alike].as_ref();
-                log += density.map_or(f64::NEG_INFINITY, |density| density.log(wall, &paths, &shared));
-                log += wall.bounds_log(&paths, &shared);
+                log += density.map_or(f64::NEG_INFINITY, |density| density.log(wall, &paths, &errors));
+                log += wall.bounds_log(&paths, &errors);
             }
         }
         for (family, m, value) in &self.apart {
-            let sd = (reading_variance(m)).sqrt();
-            let off = value - shared(m) - self.world.apart(*family, m, truth);
-            log -= 0.5 * (off / sd) * (off / sd);
+            let (variance, shared) = errors.of(m);
+            let off = value - shared - self.world.apart(*family, m, truth);
+            log -= 0.5 * (off * off / variance + ln(variance));
         }
         log
     }
@@ -134,15 +156,18 @@ impl<'c> Wall<'c> {
     }
 
     fn is_like(&self, other: &Wall<'_>) -> bool {
-        let read = |(column, m, _): &(usize, &Measurement, f64)| (*column, reading_variance(m));
+        let read = |(column, m, _): &(usize, &Measurement, f64)| {
+            (*column, m.quantity, reading_variance(m), m.common_error)
+        };
         self.values.iter().map(read).eq(other.values.iter().map(read))
     }
 
     /// Logarithm of the probability of its bounds' sides.
-    fn bounds_log(&self, paths: &Paths, shared: &impl Fn(&Measurement) -> f64) -> f64 {
+    fn bounds_log(&self, paths: &Paths, errors: &Errors<'_>) -> f64 {
         let one = |(column, m): &(usize, &Measurement)| {
-            let sd = (reading_variance(m) + paths.variance[*column]).sqrt().max(f64::MIN_POSITIVE);
-            let inside = (m.value - paths.mean[*column] - shared(m)) / sd;
+            let (variance, shared) = errors.of(m);
+            let sd = (variance + paths.variance[*column]).sqrt().max(f64::MIN_POSITIVE);
+            let inside = (m.value - paths.mean[*column] - shared) / sd;
             let side = if m.kind == MeasuredKind::Below { inside } else { -inside };
             ln(cdf(side).max(f64::MIN_POSITIVE))
         };
@@ -188,17 +213,17 @@ struct Density {
     spread: DMatrix<f64>,
     /// Woodbury: only the paths' side of that, 1 + spread' spread, is factored.
     inner: Cholesky<f64, Dyn>,
-    /// Logarithm of the square root of the covariance's determinant.
-    half_log_determinant: f64,
+    /// Logarithm of the density where nothing is off: models that share a path among walls, and models that do not, are compared.
+    top: f64,
 }
 
 impl Density {
     /// `None` where the paths are no numbers.
-    fn of(wall: &Wall<'_>, paths: &Paths) -> Option<Density> {
+    fn of(wall: &Wall<'_>, paths: &Paths, errors: &Errors<'_>) -> Option<Density> {
         let (readings, count) = (wall.values.len(), paths.shown.len());
         let freedom = (count - 1) as f64;
         let sd = wall.values.iter().map(|(column, m, _)| {
-            (reading_variance(m) + LEAST * paths.variance[*column]).sqrt().max(f64::MIN_POSITIVE)
+            (errors.of(m).0 + LEAST * paths.variance[*column]).sqrt().max(f64::MIN_POSITIVE)
         });
         let sd: Vec<f64> = sd.collect();
         let unit: Vec<f64> = sd.iter().map(|sd| 1.0 / (sd * freedom.sqrt())).collect();
@@ -217,18 +242,67 @@ impl Density {
         let own = sd.iter().fold(0.0, |sum, sd| sum + ln(*sd));
         let lower = inner.l_dirty();
         let half_log_determinant = (0..count).fold(own, |sum, k| sum + ln(lower[(k, k)]));
-        Some(Density { freedom, sd, spread, inner, half_log_determinant })
+        let n = readings as f64;
+        let top = ln_gamma(0.5 * (freedom + n)) - ln_gamma(0.5 * freedom) - 0.5 * n * ln(PI * freedom);
+        Some(Density { freedom, sd, spread, inner, top: top - half_log_determinant })
     }
 
     /// Its logarithm, of a wall that is [alike](Wall::alike).
-    fn log(&self, wall: &Wall<'_>, paths: &Paths, shared: &impl Fn(&Measurement) -> f64) -> f64 {
+    fn log(&self, wall: &Wall<'_>, paths: &Paths, errors: &Errors<'_>) -> f64 {
         let off = wall.values.iter().zip(&self.sd);
         let off =
-            off.map(|((column, m, value), sd)| (value - shared(m) - paths.mean[*column]) / sd).collect();
+            off.map(|((column, m, value), sd)| (value - errors.of(m).1 - paths.mean[*column]) / sd).collect();
         let off = DVector::from_vec(off);
         let along = self.spread.tr_mul(&off);
         let square = off.dot(&off) - along.dot(&self.inner.solve(&along));
         let power = 0.5 * (self.freedom + off.len() as f64);
-        -self.half_log_determinant - power * ln(1.0 + square / self.freedom)
+        self.top - power * ln(1.0 + square / self.freedom)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::critic::diagnose::tests::made;
+    use crate::math::exp;
+    use crate::random::Streams;
+    use crate::study::MeasuredKind;
+
+    /// Sum of the likelihood over all that so many walls of a family could show in one reading each.
+    fn sum(family: usize, walls: usize) -> f64 {
+        let made = made();
+        let world = made.world();
+        let (mut design, _) = Design::of(&made.study);
+        design.specimens.retain(|specimen| specimen.family == family);
+        design.specimens.truncate(walls);
+        for specimen in &mut design.specimens {
+            specimen.readings.retain(|m| m.quantity == MeasuredQuantity::CollapseAngle);
+            let angle = &mut specimen.readings[0];
+            (angle.kind, angle.resolution, angle.error) = (MeasuredKind::Exact, 0.0, 2e-3);
+        }
+        let truth = world.truth(None, &vec![0.0; world.inputs(None)]);
+        let middle = world.values(&design, &truth, &Streams::new(3, 1))[0][0].expect("it falls");
+        let step = 1e-3;
+        let grid: Vec<f64> = (-100..=100).map(|k| middle + step * f64::from(k)).collect();
+        let mut shown = vec![0; walls];
+        let mut sum = 0.0;
+        loop {
+            let specimens = shown.iter().map(|&k: &usize| vec![Seen::Value(grid[k])]).collect();
+            let campaign = Campaign { specimens, apart: Vec::new() };
+            sum += exp(Likelihood::new(&world, &design, &campaign).log(&truth, &[]));
+            let Some(at) = shown.iter().position(|k| k + 1 < grid.len()) else { break };
+            shown[at] += 1;
+            shown[..at].fill(0);
+        }
+        sum * step.powi(walls as i32)
+    }
+
+    #[test]
+    fn the_likelihoods_of_all_that_could_be_seen_sum_up_to_one_whether_walls_differ_or_share_a_path() {
+        for (family, walls) in [(0, 1), (1, 1), (0, 2), (1, 2)] {
+            // Trapezia of a thirtieth of the width, out to where one in a million lies beyond.
+            let sum = sum(family, walls);
+            assert!((sum - 1.0).abs() < 1e-3, "{walls} walls of family {family}: {sum}");
+        }
     }
 }

@@ -28,13 +28,13 @@ mod wrong;
 
 pub use causes::Causes;
 pub use design::{Campaign, Design, Seen, Specimen};
-pub use discrepancy::Bent;
+pub use discrepancy::{Bent, Lacking};
 pub use doubt::Doubt;
 pub use doubts::{doubts, doubts_beside};
 pub use evidence::{Evidence, evidence};
 pub use extension::{DRAWS, Extension, Known, extension};
 pub use features::{Contrast, Feature, Scale, features};
-pub use gain::{Choice, Gain, Gained, HeldOut, Interval, Measuring, Scores, gain};
+pub use gain::{Choice, Folds, Gain, Gained, HeldOut, Interval, Measuring, Scores};
 pub use guard::guarded;
 pub use judge::{Effort, Judge, Seeming};
 pub use next::{Offer, Offered, offers};

@@ -35,6 +35,8 @@ pub enum Offer {
     TwoStones,
     /// The weight of a specimen of every family, to 0.5 %.
     Weights,
+    /// What the gauge shows of a target that does not move, to 0.3 mm.
+    FixedTarget,
     /// Six readings up to 3 deg at three points, to 0.3 mm, on as many specimens of every family as there were.
     LowTilts,
     /// The tilts of the campaign once more at three points, to 0.3 mm.
@@ -46,7 +48,8 @@ pub enum Offer {
 }
 
 /// All offers with what they cost, in hours of two people (our estimate).
-const MENU: [(Offer, f64); 6] = [
+const MENU: [(Offer, f64); 7] = [
+    (Offer::FixedTarget, 0.5),
     (Offer::Weights, 1.0),
     (Offer::TwoStones, 2.0),
     (Offer::LowTilts, 6.0),
@@ -101,6 +104,7 @@ fn planned(offer: Offer, judge: &Judge<'_>) -> Option<Design> {
         error,
         kind: MeasuredKind::Exact,
         common_error: 0.0,
+        unknown_share: false,
         resolution: 0.0,
         ..pattern.clone()
     };
@@ -120,6 +124,10 @@ fn planned(offer: Offer, judge: &Judge<'_>) -> Option<Design> {
                 weight.error = WEIGHED * judge.world.apart(family, &weight, &middle);
                 new.apart.push((family, weight));
             }
+        }
+        Offer::FixedTarget => {
+            let family = design.specimens.first()?.family;
+            new.apart.push((family, reading(Q::FixedTarget, None, FINE)));
         }
         Offer::TwoStones => {
             for family in design.families() {
@@ -268,6 +276,10 @@ mod tests {
         let weighed = offers(&judge, &[draws("density", 1.0), draws("cohesion", 1.0)], 6);
         assert!(weighed[0].offer == Offer::Weights && weighed[0].bits > 0.9, "{weighed:?}");
         assert!(weighed[1..].iter().all(|own| own.bits < 0.15), "{weighed:?}");
+        // A gauge that has moved by 5 mm shows it on what stands still, which a wall that leans does not.
+        let still = offers(&judge, &[draws("gauge_offset", 1.0), draws("lean", 0.0)], 6);
+        assert!(still[0].offer == Offer::FixedTarget && still[0].bits > 0.9, "{still:?}");
+        assert!(weighed.iter().all(|own| own.offer != Offer::FixedTarget || own.bits < 0.05), "{weighed:?}");
         // The most information per hour comes first.
         let worth: Vec<f64> = offered.iter().map(|own| own.bits / own.hours).collect();
         assert!(worth.windows(2).all(|pair| pair[0] >= pair[1]));

@@ -83,16 +83,20 @@ impl Ranking {
     /// Ranks the causes of what is wrong with a campaign.
     pub fn of(&self, wrong: &Wrong) -> Ranked {
         let probabilities = self.network.probabilities(&inputs(wrong));
-        let mut causes: Vec<(Option<usize>, f64)> =
-            self.causes.iter().copied().zip(probabilities.iter().copied()).collect();
-        causes.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+        let causes = self.causes.iter().copied().zip(probabilities.iter().copied()).collect();
         let inside = self.causes.iter().zip(&probabilities).zip(&self.least);
         let set = inside.filter(|((_, p), least)| p >= least).filter_map(|((cause, _), _)| *cause);
-        Ranked { causes, set: set.collect() }
+        Ranked::new(causes, set.collect())
     }
 }
 
 impl Ranked {
+    /// Of causes with their probabilities, in any order.
+    pub(super) fn new(mut causes: Vec<(Option<usize>, f64)>, set: Vec<usize>) -> Ranked {
+        causes.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+        Ranked { causes, set }
+    }
+
     /// How much more likely any cause is than the base model (logarithm of the odds).
     pub fn odds(&self) -> f64 {
         let base = self.causes.iter().find(|(cause, _)| cause.is_none()).map_or(0.0, |(_, p)| *p);

@@ -9,7 +9,8 @@ use crate::critic::diagnose::{
 use crate::math::{ln, radians};
 use crate::random::Streams;
 use crate::random::standard_normal::quantile;
-use crate::study::{Described, MeasuredKind, MeasuredQuantity, Nuisance, Study};
+use crate::stats;
+use crate::study::{Described, MeasuredKind, MeasuredQuantity, Measurement, Nuisance, Study};
 
 pub(crate) struct Made {
     pub(crate) study: Study,
@@ -158,6 +159,92 @@ fn a_weight_tells_of_the_density_and_of_nothing_else() {
     let factor = made.mechanisms[made.cause("density")].parameters[0].prior.at_score(-1.0);
     assert!((weight("density") / stated - factor).abs() < 1e-12 && factor < 1.0);
     assert_eq!([weight("lean"), weight("contact_area")], [stated; 2]);
+}
+
+#[test]
+fn an_error_of_which_nobody_knows_how_much_is_shared_is_drawn_and_fitted_as_such() {
+    let made = made();
+    let (world, (mut design, _)) = (made.world(), Design::of(&made.study));
+    let joints = vec![0.0; world.inputs(None)];
+    let truth = world.truth(None, &joints);
+    // Readings whose error is all that differs: 6 mm, on walls that move by 2 % of as much.
+    design.specimens.retain(|specimen| specimen.family == 1);
+    for m in design.specimens.iter_mut().flat_map(|specimen| &mut specimen.readings) {
+        (m.kind, m.resolution) = (MeasuredKind::Exact, 0.0);
+        if m.tilt.is_some() {
+            let half = 6e-3 * 0.5_f64.sqrt();
+            (m.error, m.common_error, m.unknown_share) = (half, half, true);
+        }
+    }
+    let off = |k: u64| -> Vec<f64> {
+        let streams = Streams::new(15, k);
+        let (values, shown) =
+            (world.values(&design, &truth, &streams), world.campaign(&design, &truth, &streams));
+        let rows = values.iter().zip(&shown.specimens).zip(&design.specimens);
+        rows.flat_map(|((values, seen), specimen)| {
+            values.iter().zip(seen).zip(&specimen.readings).filter_map(|((value, seen), m)| {
+                match (value, seen) {
+                    (Some(value), Seen::Value(seen)) if m.tilt.is_some() => Some(seen - value),
+                    _ => None,
+                }
+            })
+        })
+        .collect()
+    };
+    let offs: Vec<Vec<f64>> = (0..600).map(off).collect();
+    let whole: Vec<f64> = offs.concat();
+    let sigma = stats::sigma(&whole).expect("many");
+    assert!((sigma / 6e-3 - 1.0).abs() < 0.05, "{sigma}");
+    // In the mean half of the variance is shared, in single campaigns nearly none or nearly all.
+    let scatter: Vec<f64> =
+        offs.iter().filter_map(|off| stats::sigma(off)).map(|s| s * s / (6e-3 * 6e-3)).collect();
+    let mean = stats::mean(&scatter).expect("many");
+    assert!((mean - 0.5).abs() < 0.05, "{mean}");
+    assert!(scatter.iter().any(|s| *s < 0.05) && scatter.iter().any(|s| *s > 1.0));
+    // A campaign that is off by 12 mm throughout is no finding then, and it is if nothing of the error is shared.
+    let evidence_of = |design: &Design| {
+        let values = world.values(design, &truth, &Streams::new(15, 3));
+        let rows = values.iter().zip(&design.specimens).map(|(values, specimen)| {
+            let one = |(value, m): (&Option<f64>, &Measurement)| match value {
+                Some(value) if m.tilt.is_some() => Seen::Value(value + 12e-3),
+                Some(value) => Seen::Value(*value),
+                None => Seen::Nothing,
+            };
+            values.iter().zip(&specimen.readings).map(one).collect()
+        });
+        let shown = Campaign { specimens: rows.collect(), apart: Vec::new() };
+        let creep = Some(made.cause("creep"));
+        [None, creep].map(|cause| crate::critic::evidence(&world, design, &shown, cause, 3).log)
+    };
+    let [base, creep] = evidence_of(&design);
+    let unknown = creep - base;
+    design.specimens.iter_mut().flat_map(|s| &mut s.readings).filter(|m| m.tilt.is_some()).for_each(|m| {
+        (m.error, m.common_error, m.unknown_share) = (6e-3, 0.0, false);
+    });
+    let [base, creep] = evidence_of(&design);
+    println!("{unknown} {}", creep - base);
+    assert!(unknown < creep - base - 1.0, "{unknown} {}", creep - base);
+}
+
+#[test]
+fn a_fixed_target_tells_of_the_gauge_and_of_nothing_else() {
+    let mut made = made();
+    let mut still = made.study.measured[0].clone();
+    (still.quantity, still.tilt, still.value) = (MeasuredQuantity::FixedTarget, None, 5.2e-3);
+    (still.kind, still.error, still.common_error) = (MeasuredKind::Exact, 3e-4, 0.0);
+    made.study.measured.push(still);
+    let world = made.world();
+    let (design, campaign) = Design::of(&made.study);
+    assert_eq!((design.specimens.len(), &campaign.apart[..]), (9, &[Seen::Value(5.2e-3)][..]));
+    let shown = |name: &str| {
+        let cause = made.cause(name);
+        let parameters = vec![1.0; made.mechanisms[cause].parameters.len()];
+        let truth =
+            Truth { causes: Some(cause).into(), parameters, ..world.drawn(None, &Streams::new(9, 0)) };
+        world.values_apart(&design, &truth)[0]
+    };
+    let offset = made.mechanisms[made.cause("gauge_offset")].parameters[0].prior.at_score(1.0);
+    assert_eq!((shown("gauge_offset"), shown("gauge_scale"), shown("creep")), (offset, 0.0, 0.0));
 }
 
 #[test]
@@ -330,9 +417,10 @@ fn two_causes_that_act_together_are_named_together_and_one_alone_is_not() {
         let shown = world.campaign(&design, &truth, &streams);
         let found = judge.diagnosed(&shown, &Limits::default(), 1);
         println!("{:?} {:?}", found.verdict, found.pairs.first().map(|pair| (pair.evidence, pair.guard)));
-        let best = &found.pairs.first();
+        // Where one of the two explains all that can be told, it is named alone.
+        let best = found.pairs.first().map(|best| best.causes);
         together +=
-            usize::from(best.is_some_and(|best| best.causes == [lean, creep] && best.evidence > 0.99));
+            usize::from(best.map_or(found.verdict == Verdict::Named(creep), |best| best == [lean, creep]));
         named += usize::from(found.verdict == Verdict::NamedPair([lean, creep]));
         if let Verdict::NamedPair(_) = found.verdict {
             let [(causes, draws)] = &found.explained_by()[..] else { panic!("the pair") };
@@ -351,8 +439,10 @@ fn two_causes_that_act_together_are_named_together_and_one_alone_is_not() {
             Verdict::NamedPair(_)
         ));
     }
-    println!("{together} of 8 best together, {named} named, {alone} of 8 alone");
-    assert!(together > 4 && named > 0 && alone == 0, "{together} {named} {alone}");
+    println!(
+        "{together} of 8 best together or one of them named, {named} named together, {alone} of 8 alone"
+    );
+    assert!(together == 8 && named > 0 && alone == 0, "{together} {named} {alone}");
 }
 
 #[test]

@@ -283,7 +283,7 @@ impl<'s> World<'s> {
     }
 
     /// What is measured of a family apart from tilting: in a test on two stones the stiffness over the whole joint, and the
-    /// friction angle before it weakens; the weight of a specimen.
+    /// friction angle before it weakens; the weight of a specimen; what the gauge shows of a target that does not move.
     pub(super) fn apart(&self, family: usize, m: &Measurement, truth: &Truth) -> f64 {
         let arm = &self.study.arms[family];
         let factors = self.factors(truth, family);
@@ -293,6 +293,7 @@ impl<'s> World<'s> {
                 arm.kn_points[arm.middle_point()] * factors[0] * by("contact_area", "share")
             }
             MeasuredQuantity::SpecimenWeight => self.weights[&family] * by("density", "factor"),
+            MeasuredQuantity::FixedTarget => self.gauge(truth).reading(0.0),
             _ => atan(tan(radians(arm.joint.phi_deg.mean() * factors[1])) * by("friction", "factor")),
         }
     }

@@ -125,6 +125,24 @@ impl Reference {
         }
     }
 
+    /// How far a truth's campaigns are from any without effect, whatever a single one shows: Mahalanobis distance of their mean
+    /// features from what the best joints explain, less what the mean of `count` campaigns has of it by chance.
+    pub fn shift(&self, world: &World<'_>, design: &Design, truth: &Truth, count: u64, seed: u64) -> f64 {
+        let one = |campaign: u64| {
+            let shown = world.campaign(design, truth, &Streams::new(seed, campaign));
+            features(design, &self.scale, &shown)
+        };
+        let shown: Vec<BTreeMap<Feature, f64>> = (0..count).into_par_iter().map(one).collect();
+        let mean = |feature: &Feature| {
+            let own: Vec<f64> = shown.iter().filter_map(|found| found.get(feature).copied()).collect();
+            stats::mean(&own).filter(|_| own.len() as f64 >= COMMON * count as f64)
+        };
+        let means = self.features.iter().filter_map(|feature| Some((*feature, mean(feature)?)));
+        let means: BTreeMap<Feature, f64> = means.collect();
+        let chance = means.len() as f64 / count as f64;
+        (self.excess(&means).distance - chance).max(0.0).sqrt()
+    }
+
     /// The excess of each feature over the joints that explain most (Gaussian, within their priors).
     fn excess(&self, found: &BTreeMap<Feature, f64>) -> Excess {
         let shown: Vec<bool> = self.features.iter().map(|feature| found.contains_key(feature)).collect();

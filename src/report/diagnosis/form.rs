@@ -1,6 +1,6 @@
 //! What the base model lacks where no cause explains it.
 
-use crate::critic::Bent;
+use crate::critic::{Bent, Lacking};
 use crate::report::measured::{in_unit, tidy_degrees, unit};
 use crate::report::number::significant;
 use crate::study::Study;
@@ -8,12 +8,15 @@ use crate::study::Study;
 /// A discrepancy is told where it is larger than so many of its standard deviations.
 const SURE: f64 = 2.0;
 
-/// What is lacking at a tilt.
+/// What is lacking at a tilt, or from test to test.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct BentEntry {
-    /// The arm.
-    pub family: String,
-    /// What was measured.
+    /// What it is: `level` of the readings as they are, `twist` of the left end less the right one, `drift` from each test to the
+    /// next.
+    pub part: &'static str,
+    /// The arm; null where all share it.
+    pub family: Option<String>,
+    /// What was measured; of a drift the first quantity of its kind.
     pub quantity: &'static str,
     /// At which tilt; null where the quantity has none of its own.
     pub tilt_deg: Option<f64>,
@@ -31,7 +34,12 @@ impl BentEntry {
         let told = |x: f64| in_unit(bent.quantity, x);
         let reach = SURE * bent.sd;
         (bent.value.abs() > reach && bent.value != 0.0).then(|| BentEntry {
-            family: study.arms[bent.family].name.clone(),
+            part: match bent.part {
+                Lacking::Level => "level",
+                Lacking::Twist => "twist",
+                Lacking::Drift => "drift",
+            },
+            family: bent.family.map(|family| study.arms[family].name.clone()),
             quantity: bent.quantity.name(),
             tilt_deg: bent.tilt.map(tidy_degrees),
             unit: unit(bent.quantity),
@@ -46,7 +54,13 @@ impl BentEntry {
         let number = |x: f64| significant(scale * x, 2);
         let tilt = self.tilt_deg.map_or_else(String::new, |tilt| format!(" at {tilt} deg"));
         let [low, high] = self.interval.map(number);
-        let quantity = self.quantity.replace('_', " ");
-        format!("{}: {quantity}{tilt}: {} [{low}, {high}] {unit}", self.family, number(self.value))
+        let quantity = match (self.part, self.quantity) {
+            ("twist", _) => "left end less right end".to_owned(),
+            ("drift", "collapse_angle") => "collapse angles from each test to the next".to_owned(),
+            ("drift", _) => "displacements from each test to the next".to_owned(),
+            (_, quantity) => quantity.replace('_', " "),
+        };
+        let family = self.family.as_deref().unwrap_or("all families");
+        format!("{family}: {quantity}{tilt}: {} [{low}, {high}] {unit}", number(self.value))
     }
 }

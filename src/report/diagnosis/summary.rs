@@ -284,6 +284,7 @@ fn words(study: &Study, feature: Feature) -> String {
             format!("{}: stiffness in the test on two stones", family(arm))
         }
         Feature::Apart(arm, MeasuredQuantity::SpecimenWeight) => format!("{}: weight", family(arm)),
+        Feature::Apart(_, MeasuredQuantity::FixedTarget) => "the target that does not move".to_owned(),
         Feature::Apart(arm, _) => format!("{}: friction in the test on two stones", family(arm)),
     }
 }

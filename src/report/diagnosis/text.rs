@@ -65,7 +65,7 @@ pub(super) const OFF: &str =
 /// What the numbers of the causes are.
 pub(super) const CAUSE: &str = "probability if all were equally likely before; share of the evidence; guard: share of the cause's own campaigns that fit worse";
 /// What the numbers of a form are.
-pub(super) const FORM: &str = "Form of what is not explained (measured less base model with fitted joints, if it is smooth over the tilt)";
+pub(super) const FORM: &str = "Form of what is not explained (measured less base model with fitted joints, if it is smooth over the tilt, or goes with the order of the tests)";
 
 /// A share, or a dash where there is none.
 pub(super) fn or_dash(share: Option<f64>) -> String {

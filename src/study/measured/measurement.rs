@@ -21,6 +21,8 @@ pub struct Measurement {
     pub error: f64,
     /// Error that all readings of the quantity share, one standard deviation.
     pub common_error: f64,
+    /// Whether nobody knows how much of the error is shared: half of the variance then stands in either.
+    pub unknown_share: bool,
     /// Distance of neighbouring values of a rounded reading; 0 of any other.
     pub resolution: f64,
     /// Place of the specimen in the order of the tests, from 1.
@@ -29,6 +31,18 @@ pub struct Measurement {
     pub stage: u32,
     /// Line of the file.
     pub line: usize,
+}
+
+impl Measurement {
+    /// The random and the common error (one standard deviation each), where the common one has this share of the variance if that
+    /// is not known.
+    pub fn errors(&self, share: f64) -> [f64; 2] {
+        if !self.unknown_share {
+            return [self.error, self.common_error];
+        }
+        let whole = self.error * self.error + self.common_error * self.common_error;
+        [(1.0 - share) * whole, share * whole].map(f64::sqrt)
+    }
 }
 
 /// How a value is to be read.
@@ -89,11 +103,13 @@ pub enum MeasuredQuantity {
     SpecimenWeight,
     /// Weight of one block (N).
     BlockWeight,
+    /// What the gauge shows of a target that does not move (m).
+    FixedTarget,
 }
 
 impl MeasuredQuantity {
     /// All of them.
-    pub const ALL: [MeasuredQuantity; 10] = [
+    pub const ALL: [MeasuredQuantity; 11] = [
         MeasuredQuantity::CollapseAngle,
         MeasuredQuantity::DisplacementLeft,
         MeasuredQuantity::DisplacementCentre,
@@ -104,6 +120,7 @@ impl MeasuredQuantity {
         MeasuredQuantity::JointPhi,
         MeasuredQuantity::SpecimenWeight,
         MeasuredQuantity::BlockWeight,
+        MeasuredQuantity::FixedTarget,
     ];
 
     /// Name in files.
@@ -119,6 +136,7 @@ impl MeasuredQuantity {
             MeasuredQuantity::JointPhi => "joint_phi",
             MeasuredQuantity::SpecimenWeight => "specimen_weight",
             MeasuredQuantity::BlockWeight => "block_weight",
+            MeasuredQuantity::FixedTarget => "fixed_target",
         }
     }
 
@@ -139,6 +157,6 @@ impl MeasuredQuantity {
 
     /// Whether it is read at a tilt of the platform.
     pub fn has_tilt(self) -> bool {
-        self.dimension() == Dimension::Length
+        self.dimension() == Dimension::Length && self != MeasuredQuantity::FixedTarget
     }
 }

@@ -34,6 +34,9 @@ pub fn read(
     Row { header, line, faults }.measurement(arms).map(|measurement| (measurement, line.place.clone()))
 }
 
+/// A common error of which nobody knows how much of the error it is.
+const UNKNOWN: &str = "unknown";
+
 /// Where the values of a quantity must lie, in the first of its units.
 fn limits(quantity: MeasuredQuantity) -> Interval {
     match quantity {
@@ -64,7 +67,7 @@ impl Row<'_> {
             let unit = self.unit(quantity.dimension())?;
             self.numbers(quantity, &unit, kind)
         });
-        let [value, error, common_error, resolution] = numbers?;
+        let ([value, error, common_error, resolution], unknown_share) = numbers?;
         Some(Measurement {
             specimen: specimen?,
             family: family?,
@@ -74,6 +77,7 @@ impl Row<'_> {
             kind: kind?,
             error,
             common_error,
+            unknown_share,
             resolution,
             order: order?,
             stage: stage?.unwrap_or(0),
@@ -183,13 +187,14 @@ impl Row<'_> {
         Some(Some(radians(tilt)))
     }
 
-    /// Value, error, common error and resolution in SI units; `kind` is `None` where it is faulty itself.
+    /// Value, error, common error and resolution in SI units, and whether nobody knows how much of the error is common; `kind` is
+    /// `None` where it is faulty itself.
     fn numbers(
         &mut self,
         quantity: MeasuredQuantity,
         unit: &str,
         kind: Option<MeasuredKind>,
-    ) -> Option<[f64; 4]> {
+    ) -> Option<([f64; 4], bool)> {
         let value = self.value(quantity, unit);
         let any = Interval::closed(0.0, 1e15);
         let error_allowed = format!("a number at least 0 ({unit})");
@@ -197,13 +202,22 @@ impl Row<'_> {
         let error = self
             .needed("error", error_allowed.as_str(), fix)
             .and_then(|cell| self.number(&cell, "error", any, &error_allowed));
-        let common = match self.given("common_error") {
+        let given = self.given("common_error");
+        let unknown_share = given.as_ref().is_some_and(|cell| cell.text == UNKNOWN);
+        let common = match given.filter(|_| !unknown_share) {
             None => Some(0.0),
-            Some(cell) => self.number(&cell, "common_error", any, &error_allowed),
+            Some(cell) => {
+                let allowed = format!("{error_allowed}, or {UNKNOWN}");
+                self.number(&cell, "common_error", any, &allowed)
+            }
         };
         let resolution = self.resolution(unit, kind, value);
+        let (error, common) = match unknown_share {
+            true => (error.map(|error| error * 0.5_f64.sqrt()), error.map(|error| error * 0.5_f64.sqrt())),
+            false => (error, common),
+        };
         let numbers = [value?, error?, common?, resolution?];
-        Some(numbers.map(|number| quantity.dimension().si(number, unit)))
+        Some((numbers.map(|number| quantity.dimension().si(number, unit)), unknown_share))
     }
 
     /// The value as written, after it was found to be possible.

@@ -67,127 +67,141 @@ impl Default for Measuring {
     }
 }
 
-/// The judges of the folds: one for all whose known parts are alike.
-struct Folds<'w> {
+/// Who measures the gain on campaigns of a design: the folds, with a judge for all whose known parts are alike.
+pub struct Folds<'j, 'w> {
+    judge: &'j Judge<'w>,
+    measuring: Measuring,
     folds: Vec<(Fold, usize)>,
     judges: Vec<Judge<'w>>,
+    seed: u64,
 }
 
-impl<'w> Folds<'w> {
-    fn of(judge: &Judge<'w>, effort: Effort, seed: u64) -> Folds<'w> {
+impl<'j, 'w> Folds<'j, 'w> {
+    /// The folds of the design of a judge.
+    pub fn new(judge: &'j Judge<'w>, measuring: Measuring, seed: u64) -> Folds<'j, 'w> {
         let (mut folds, mut judges): (Vec<(Fold, usize)>, Vec<Judge<'w>>) = (Vec::new(), Vec::new());
         for fold in Fold::all(&judge.design) {
             let part = fold.design(&judge.design);
             let known = judges.iter().position(|judge| alike(&judge.design, &part));
             let index = known.or_else(|| {
-                judges.push(Judge::trained(judge.world, &part, effort, seed)?);
+                judges.push(Judge::trained(judge.world, &part, measuring.effort, seed)?);
                 Some(judges.len() - 1)
             });
             folds.extend(index.map(|index| (fold, index)));
         }
-        Folds { folds, judges }
+        Folds { judge, measuring, folds, judges, seed }
     }
 
     /// What is chosen in each fold.
-    fn choices(&self, campaign: &Campaign, limits: &Limits) -> Vec<Option<usize>> {
+    fn choices(&self, campaign: &Campaign) -> Vec<Option<usize>> {
         let choice = |(fold, judge): &(Fold, usize)| {
-            let seeming = self.judges[*judge].seeming(&fold.campaign(campaign));
-            let mut likely = seeming.ranked.causes.iter().filter_map(|(cause, _)| *cause);
-            if seeming.p_value < limits.found { likely.next() } else { None }
+            let (judge, known) = (&self.judges[*judge], fold.campaign(campaign));
+            let seeming = judge.seeming(&known);
+            if seeming.p_value >= self.measuring.limits.found {
+                return None;
+            }
+            let weighed = judge.weighed(&seeming.ranked, &known, self.seed);
+            weighed.causes.into_iter().find_map(|(cause, _)| cause)
         };
         self.folds.iter().map(choice).collect()
     }
-}
 
-/// Measures the gain of a campaign's extended model; a pure function of its arguments. `None` where nothing can be held out.
-pub fn gain(judge: &Judge<'_>, campaign: &Campaign, measuring: &Measuring, seed: u64) -> Option<Gain> {
-    let folds = Folds::of(judge, measuring.effort, seed);
-    if folds.folds.is_empty() {
-        return None;
-    }
-    let choices = folds.choices(campaign, &measuring.limits);
-    let rows = rows(judge, &folds, campaign, &choices, seed, true);
-    // Campaigns that the base model, fitted to this one, would show.
-    let fitted = evidence(judge.world, &judge.design, campaign, None, seed).draws;
-    let null = |k: u64| -> BTreeMap<Kind, Vec<Row>> {
-        let streams = Streams::new(seed.wrapping_add(1), k);
-        let truth = &fitted[streams.of("null").below(fitted.len())];
-        let shown = judge.world.campaign(&judge.design, truth, &streams);
-        let choices = folds.choices(&shown, &measuring.limits);
-        match choices.iter().all(Option::is_none) {
-            true => BTreeMap::new(),
-            false => self::rows(judge, &folds, &shown, &choices, seed.wrapping_add(2 + k), false),
+    /// Measures the gain of a campaign's extended model; a pure function of this and the campaign. `None` where nothing can be held
+    /// out.
+    pub fn gain(&self, campaign: &Campaign) -> Option<Gain> {
+        if self.folds.is_empty() {
+            return None;
         }
-    };
-    let nulls: Vec<BTreeMap<Kind, Vec<Row>>> = (0..measuring.nulls).into_par_iter().map(null).collect();
-    let of = |kind: Kind| {
-        let nulls: Vec<[[f64; 2]; 3]> =
-            nulls.iter().map(|null| null.get(&kind).map_or([[0.0; 2]; 3], |rows| estimates(rows))).collect();
-        gained(rows.get(&kind)?, &nulls)
-    };
-    let families = rows.keys().filter_map(|kind| match kind {
-        Kind::Family(family) => Some((*family, of(*kind)?)),
-        Kind::Specimens | Kind::Tilts => None,
-    });
-    let families = families.collect();
-    let held_out = folds.folds.iter().map(|(fold, _)| fold.held_out);
-    let choices = held_out.zip(choices).map(|(held_out, cause)| Choice { held_out, cause }).collect();
-    Some(Gain {
-        specimens: of(Kind::Specimens),
-        tilts: of(Kind::Tilts),
-        families,
-        choices,
-        nulls: measuring.nulls,
-    })
-}
-
-/// How the readings held out are predicted.
-fn rows(
-    judge: &Judge<'_>,
-    folds: &Folds<'_>,
-    campaign: &Campaign,
-    choices: &[Option<usize>],
-    seed: u64,
-    with_ceiling: bool,
-) -> BTreeMap<Kind, Vec<Row>> {
-    let units = judge.reference.scale.units();
-    let of = |((fold, index), choice): (&(Fold, usize), &Option<usize>)| -> (Kind, Vec<Row>) {
-        let known = &folds.judges[*index].design;
-        let seen = fold.campaign(campaign);
-        let walls = |cause: Option<usize>| {
-            let draws: Vec<Truth> = evidence(judge.world, known, &seen, cause, seed).draws;
-            Predicted::of(judge.world, &judge.design, &draws, seed)
+        let choices = self.choices(campaign);
+        let rows = self.rows(campaign, &choices, self.seed, true);
+        let nulls = match choices.iter().all(Option::is_none) {
+            // Both models are the same: there is nothing to claim.
+            true => Vec::new(),
+            false => self.nulls(campaign),
         };
-        let base = walls(None);
-        let extended = choice.map(|cause| walls(Some(cause)));
-        let free = with_ceiling
-            .then(|| Discrepancy::new(&judge.design, campaign, &fold.known, &base, &units))
-            .flatten();
-        let ceilings = free.map_or_else(Vec::new, |free| free.scores());
-        let mut rows = Vec::new();
-        for (specimen, own) in judge.design.specimens.iter().enumerate() {
-            for (reading, m) in own.readings.iter().enumerate().filter(|(k, _)| !fold.known[specimen][*k]) {
-                let score = |walls: &Predicted| {
-                    walls.score(
-                        (specimen, reading),
-                        m,
-                        campaign.specimens[specimen][reading],
-                        units[specimen][reading],
-                    )
-                };
-                let Some(base) = score(&base) else { continue };
-                let extended = extended.as_ref().and_then(score).unwrap_or(base);
-                let ceiling =
-                    ceilings.iter().find(|(at, _)| *at == (specimen, reading)).map(|(_, score)| *score);
-                rows.push(Row { specimen, base, extended, ceiling });
+        let of = |kind: Kind| {
+            let nulls: Vec<[[f64; 2]; 3]> = nulls
+                .iter()
+                .map(|null| null.get(&kind).map_or([[0.0; 2]; 3], |rows| estimates(rows)))
+                .collect();
+            gained(rows.get(&kind)?, &nulls)
+        };
+        let families = rows.keys().filter_map(|kind| match kind {
+            Kind::Family(family) => Some((*family, of(*kind)?)),
+            Kind::Specimens | Kind::Tilts => None,
+        });
+        let families = families.collect();
+        let held_out = self.folds.iter().map(|(fold, _)| fold.held_out);
+        let choices = held_out.zip(choices).map(|(held_out, cause)| Choice { held_out, cause }).collect();
+        Some(Gain {
+            specimens: of(Kind::Specimens),
+            tilts: of(Kind::Tilts),
+            families,
+            choices,
+            nulls: self.measuring.nulls,
+        })
+    }
+
+    /// How campaigns are predicted that the base model, fitted to this one, would show.
+    fn nulls(&self, campaign: &Campaign) -> Vec<BTreeMap<Kind, Vec<Row>>> {
+        let Folds { judge, measuring, seed, .. } = self;
+        let fitted = evidence(judge.world, &judge.design, campaign, None, *seed).draws;
+        let null = |k: u64| -> BTreeMap<Kind, Vec<Row>> {
+            let streams = Streams::new(seed.wrapping_add(1), k);
+            let truth = &fitted[streams.of("null").below(fitted.len())];
+            let shown = judge.world.campaign(&judge.design, truth, &streams);
+            let choices = self.choices(&shown);
+            match choices.iter().all(Option::is_none) {
+                true => BTreeMap::new(),
+                false => self.rows(&shown, &choices, seed.wrapping_add(2 + k), false),
             }
-        }
-        (Kind::of(fold.held_out), rows)
-    };
-    let all: Vec<(Kind, Vec<Row>)> = folds.folds.par_iter().zip(choices).map(of).collect();
-    let mut by_kind: BTreeMap<Kind, Vec<Row>> = BTreeMap::new();
-    all.into_iter().for_each(|(kind, rows)| by_kind.entry(kind).or_default().extend(rows));
-    by_kind
+        };
+        (0..measuring.nulls).into_par_iter().map(null).collect()
+    }
+
+    /// How the readings held out are predicted.
+    fn rows(
+        &self,
+        campaign: &Campaign,
+        choices: &[Option<usize>],
+        seed: u64,
+        with_ceiling: bool,
+    ) -> BTreeMap<Kind, Vec<Row>> {
+        let judge = self.judge;
+        let units = judge.reference.scale.units();
+        let of = |((fold, index), choice): (&(Fold, usize), &Option<usize>)| -> (Kind, Vec<Row>) {
+            let known = &self.judges[*index].design;
+            let seen = fold.campaign(campaign);
+            let walls = |cause: Option<usize>| {
+                let draws: Vec<Truth> = evidence(judge.world, known, &seen, cause, seed).draws;
+                Predicted::of(judge.world, &judge.design, &draws, seed)
+            };
+            let base = walls(None);
+            let extended = choice.map(|cause| walls(Some(cause)));
+            let free = with_ceiling
+                .then(|| Discrepancy::new(&judge.design, campaign, &fold.known, &base, &units))
+                .flatten();
+            let ceilings = free.map_or_else(Vec::new, |free| free.scores());
+            let mut rows = Vec::new();
+            for (specimen, own) in judge.design.specimens.iter().enumerate() {
+                for (reading, m) in own.readings.iter().enumerate().filter(|(k, _)| !fold.known[specimen][*k])
+                {
+                    let at = (specimen, reading);
+                    let seen = campaign.specimens[specimen][reading];
+                    let score = |walls: &Predicted| walls.score(at, m, seen, units[specimen][reading]);
+                    let Some(base) = score(&base) else { continue };
+                    let extended = extended.as_ref().and_then(score).unwrap_or(base);
+                    let ceiling = ceilings.iter().find(|(other, _)| *other == at).map(|(_, score)| *score);
+                    rows.push(Row { specimen, base, extended, ceiling });
+                }
+            }
+            (Kind::of(fold.held_out), rows)
+        };
+        let all: Vec<(Kind, Vec<Row>)> = self.folds.par_iter().zip(choices).map(of).collect();
+        let mut by_kind: BTreeMap<Kind, Vec<Row>> = BTreeMap::new();
+        all.into_iter().for_each(|(kind, rows)| by_kind.entry(kind).or_default().extend(rows));
+        by_kind
+    }
 }
 
 /// What is summed up together.

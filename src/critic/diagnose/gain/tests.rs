@@ -2,7 +2,7 @@
 
 use crate::critic::diagnose::gain::fold::{Fold, HeldOut};
 use crate::critic::diagnose::gain::gained::{Row, estimates, gained};
-use crate::critic::diagnose::gain::{Measuring, gain};
+use crate::critic::diagnose::gain::{Folds, Measuring};
 use crate::critic::diagnose::predicted::{Predicted, Score, normal_score};
 use crate::critic::diagnose::tests::{EFFORT, made};
 use crate::critic::diagnose::{Design, Judge, Seen};
@@ -114,7 +114,8 @@ fn a_strong_effect_is_a_gain_and_its_absence_is_none() {
     let mut truth = world.drawn(Some(creep), &streams);
     truth.parameters[0] = 1.5;
     let shown = world.campaign(&design, &truth, &streams);
-    let found = gain(&judge, &shown, &measuring(), 9).expect("nine specimens");
+    let folds = Folds::new(&judge, measuring(), 9);
+    let found = folds.gain(&shown).expect("nine specimens");
     assert!(found.choices.iter().all(|choice| choice.cause == Some(creep)), "{:?}", found.choices);
     let specimens = found.specimens.as_ref().expect("nine specimens");
     println!("{specimens:?}\n{:?}", found.tilts);
@@ -122,11 +123,11 @@ fn a_strong_effect_is_a_gain_and_its_absence_is_none() {
     assert_eq!(found.families.iter().map(|(family, _)| *family).collect::<Vec<_>>(), [0, 1, 2]);
     // A free discrepancy finds some of it, too.
     assert!(specimens.ceiling.log > specimens.base.log);
-    assert_eq!(gain(&judge, &shown, &measuring(), 9), Some(found));
+    assert_eq!(Folds::new(&judge, measuring(), 9).gain(&shown), Some(found));
     // Nothing hidden, nothing chosen: both models are the same.
     let nothing =
         world.campaign(&design, &world.truth(None, &vec![0.0; world.inputs(None)]), &Streams::new(61, 2));
-    let none = gain(&judge, &nothing, &measuring(), 9).expect("nine specimens");
+    let none = folds.gain(&nothing).expect("nine specimens");
     assert!(none.choices.iter().all(|choice| choice.cause.is_none()), "{:?}", none.choices);
     let specimens = none.specimens.expect("nine specimens");
     assert!(specimens.gain.iter().all(|gain| gain.value == 0.0 && gain.ends == [0.0; 2]));

@@ -1,0 +1,29 @@
+//! How strong a hidden effect is in the eyes of a design, whatever the verdict: how far it moves what is seen.
+
+use pirca::critic::Truth;
+use pirca::random::standard_normal::quantile;
+use pirca::study::Parameter;
+
+use crate::inference::Judge;
+use crate::truth::label::Label;
+
+/// Campaigns that a shift is the mean of.
+const CAMPAIGNS: u64 = 300;
+const SEED: u64 = 19;
+/// Quantiles nearer to 0 and 1 than this are as good as there.
+const END: f64 = 1e-6;
+
+/// How far campaigns with the mechanism and the joints of a label are from any without it, in standard deviations.
+pub fn shift(judge: &Judge<'_>, label: &Label) -> f64 {
+    let hidden = &label.hidden[0];
+    let of_name = judge.known.mechanisms.iter().enumerate().find(|(_, m)| m.name == hidden.name);
+    let (index, mechanism) = of_name.expect("in the catalogue");
+    let score = |p: &Parameter| quantile(p.prior.cdf(hidden.value(p.key)).clamp(END, 1.0 - END));
+    let truth = Truth {
+        causes: Some(index).into(),
+        parameters: mechanism.parameters.iter().map(score).collect(),
+        joints: label.joints.to_vec(),
+    };
+    let judge = judge.judge;
+    judge.reference.shift(judge.world, &judge.design, &truth, CAMPAIGNS, SEED)
+}
