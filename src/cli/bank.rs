@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::cli::arguments::{Bank, Which};
 use crate::cli::failure::Failure;
-use crate::cli::{locate, output, progress};
+use crate::cli::{judge, locate, output, progress};
 use crate::critic::{self, BANK, Design, Doubt, Plan, doubts};
 use crate::ensemble::{Settings, replace_file, run_with};
 use crate::protocol::Protocol;
@@ -23,9 +23,15 @@ pub(crate) struct Prepared {
 /// Computes what the bank does not hold yet.
 pub(crate) fn bank(arguments: &Bank) -> Result<(), Failure> {
     let study = measured(&arguments.which, arguments.measured.as_deref())?.study;
-    let Prepared { plan, .. } = prepared(&study, &arguments.which, arguments.points)?;
+    let Prepared { mechanisms, nuisances, plan, .. } = prepared(&study, &arguments.which, arguments.points)?;
     let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, "bank"));
     let bank = computed(&plan, &out, arguments.threads)?;
+    // Few points make a bank that may grow, and nothing to judge by.
+    if let Ok(world) = judge::world(&study, &mechanisms, &nuisances, &plan, &bank)
+        && let Ok(judge) = judge::judge(&world, &Design::of(&study).0, study.seed)
+    {
+        judge::keep_self_test(&judge, &plan, study.seed, &out)?;
+    }
     let told = bank.paths.iter().flatten().count();
     let walls = bank.paths.len();
     output::print(&format!("{walls} walls, {told} with a path to their collapse, in {}\n", out.display()))

@@ -1,47 +1,34 @@
 //! `pirca diagnose`: what does the simulation get wrong, and which cause explains it?
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::cli::arguments::Diagnose;
 use crate::cli::bank::{self, Prepared};
 use crate::cli::failure::Failure;
+use crate::cli::judge::{self, SEEDS};
 use crate::cli::{locate, output};
 use crate::critic::{
-    self, BANK, Baseline, Design, Diagnosis, Effort, Folds, Judge, Limits, Measuring, Plan, Verdict, World,
-    base_curves, cause_curves, doubts_beside, extension,
+    self, BANK, Baseline, Design, Diagnosis, Folds, Limits, Measuring, Plan, Verdict, World, base_curves,
+    cause_curves, doubts_beside, extension,
 };
 use crate::report::{self, Advice, DiagnosisSummary, EXTENDED, FamilyFigure, GainSummary, Origin};
-use crate::study::Loaded;
-
-/// Seeds that a part of a diagnosis may use from its own on.
-const SEEDS: u64 = 1000;
-/// Campaigns of each cause in the self-test.
-const TESTED: u64 = 100;
+use crate::study::{Loaded, Study};
 
 /// Diagnoses the measurements of a study.
 pub(crate) fn diagnose(arguments: &Diagnose) -> Result<(), Failure> {
     let Loaded { study, stated, .. } = bank::measured(&arguments.which, arguments.measured.as_deref())?;
     let Prepared { mechanisms, nuisances, plan, mut notes } =
         bank::prepared(&study, &arguments.which, arguments.points)?;
-    let folder = arguments.bank.clone().unwrap_or_else(|| output::default_folder(&study, "bank"));
-    let walls = banked(&plan, &folder, arguments)?;
-    let Some(world) = World::new(&study, &mechanisms, &nuisances, &plan, &walls) else {
-        let text = "the bank holds too few walls that fell: ask for more --points, or for a load path that ends later";
-        return Err(Failure::Run(text.to_string()));
-    };
+    let (walls, folder) = banked(&plan, arguments, &study)?;
+    let world = judge::world(&study, &mechanisms, &nuisances, &plan, &walls)?;
     let (design, measured) = Design::of(&study);
     // The bank keeps the study's own seed.
     let seed = arguments.seed.unwrap_or(study.seed);
     notes.extend(bank::noted(&doubts_beside(&world, &design, &measured, seed.wrapping_add(5 * SEEDS))));
-    let Some(judge) = Judge::trained(&world, &design, Effort::default(), seed) else {
-        return Err(Failure::Input(
-            "none of the measurements can be set against a simulation: at their tilts simulated walls have fallen".to_string(),
-        ));
-    };
-    let limits = Limits::default();
-    let diagnosis = judge.diagnosed(&measured, &limits, seed.wrapping_add(SEEDS));
-    let test = judge.self_test(&limits, TESTED, seed.wrapping_add(2 * SEEDS));
+    let judge = judge::judge(&world, &design, seed)?;
+    let diagnosis = judge.diagnosed(&measured, &Limits::default(), seed.wrapping_add(SEEDS));
+    let test = judge::self_test(&judge, &plan, seed, &folder);
     let residuals = Baseline::new(&world, &design, seed.wrapping_add(6 * SEEDS)).residuals(&measured);
     let mut summary =
         DiagnosisSummary::of(&study, seed, &plan.study.hash, &mechanisms, &design, &diagnosis, &test)
@@ -90,20 +77,23 @@ fn extended(
     Ok(said)
 }
 
-/// The bank of a plan: read, or computed where it is not there. A study may come with one, which counts where no folder is named and
-/// it is of this plan.
-fn banked(plan: &Plan, folder: &Path, arguments: &Diagnose) -> Result<critic::Bank, Failure> {
+/// The bank of a plan and its folder: read, or computed where it is not there. A study may come with one, which counts where no
+/// folder is named and it is of this plan.
+fn banked(plan: &Plan, arguments: &Diagnose, study: &Study) -> Result<(critic::Bank, PathBuf), Failure> {
+    let folder = arguments.bank.clone().unwrap_or_else(|| output::default_folder(study, "bank"));
     let path = folder.join(BANK);
     if arguments.bank.is_none() && !path.exists() {
-        let beside = fs::read(locate::folder(&arguments.which.study)?.join(BANK));
+        let own = locate::folder(&arguments.which.study)?;
+        let beside = fs::read(own.join(BANK));
         if let Some(bank) = beside.ok().and_then(|bytes| critic::Bank::read(&bytes, plan).ok()) {
-            return Ok(bank);
+            return Ok((bank, own));
         }
     }
     if let Ok(bytes) = fs::read(&path) {
-        return critic::Bank::read(&bytes, plan).map_err(|why| {
+        let bank = critic::Bank::read(&bytes, plan).map_err(|why| {
             Failure::Input(format!("{}: {why}; name another folder with --bank", path.display()))
-        });
+        })?;
+        return Ok((bank, folder));
     }
     let walls = plan.places.len();
     if arguments.no_build {
@@ -123,5 +113,6 @@ fn banked(plan: &Plan, folder: &Path, arguments: &Diagnose) -> Result<critic::Ba
         "{walls} walls are simulated first, once for this design, into {}",
         folder.display()
     ));
-    bank::computed(plan, folder, arguments.threads)
+    let bank = bank::computed(plan, &folder, arguments.threads)?;
+    Ok((bank, folder))
 }

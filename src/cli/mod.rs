@@ -8,6 +8,7 @@ mod diagnose;
 mod elements;
 mod failure;
 mod generate;
+mod judge;
 mod locate;
 mod mechanisms;
 mod one_wall;

@@ -108,7 +108,7 @@ impl Advice {
             ));
             for own in &self.next {
                 let bits = significant(own.bits, 2);
-                text.push_str(&format!("  {bits:>6} bit in {:>3.0} h  {}\n", own.hours, own.what));
+                text.push_str(&format!("  {bits:>6} bit in {:>4} h  {}\n", own.hours, own.what));
             }
         }
         text

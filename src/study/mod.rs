@@ -34,6 +34,7 @@ pub use distributions::{NoDistributions, distributions_above};
 pub use elements::{ElementArm, ElementStudy, Reported};
 pub use extended::{Acting, Point};
 pub use fault::{Fault, Faults, Found};
+pub(crate) use files::sha256;
 pub use inventory::{
     Acts, Described, Entry as InventoryEntry, INVENTORY, InLimitAnalysis, Parameter, Unloading, described,
 };

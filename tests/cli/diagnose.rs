@@ -75,6 +75,7 @@ fn a_gauge_that_has_moved_is_named_from_a_csv_and_the_bank_is_made_once() {
     );
     assert_eq!(fs::read(folder.path("runs/tiny-diagnosis/verdict.html")).unwrap(), page);
     assert_eq!(fs::read(folder.path("runs/tiny-bank/bank.parquet")).unwrap(), bank);
+    the_self_test_is_kept_beside_the_bank(&folder, &json["self_test"]);
     // Another design is not diagnosed with this bank.
     let other =
         ends_with(&folder, 3, &["diagnose", "studies/tiny", "--measured", "tests.csv", "--points", "61"]);
@@ -83,6 +84,28 @@ fn a_gauge_that_has_moved_is_named_from_a_csv_and_the_bank_is_made_once() {
     fs::write(folder.path("runs/tiny-bank/bank.parquet"), b"no table").unwrap();
     let broken = ends_with(&folder, 3, &diagnose);
     assert!(stderr(&broken).contains("it is no bank"), "{}", stderr(&broken));
+}
+
+/// `bank` keeps the self-test, a diagnosis takes it from there, and only if it is of the same.
+fn the_self_test_is_kept_beside_the_bank(folder: &Folder, computed: &Value) {
+    let told = || -> Value {
+        let diagnose = ["diagnose", "studies/tiny", "--measured", "tests.csv", "--points", "60", "--no-gain"];
+        let json = ends_with(folder, 0, &[&diagnose[..], &["--json"]].concat()).stdout;
+        serde_json::from_slice::<Value>(&json).unwrap()["self_test"].clone()
+    };
+    let path = folder.path("runs/tiny-bank/self-test.json");
+    assert!(!path.exists());
+    ends_with(folder, 0, &["bank", "studies/tiny", "--measured", "tests.csv", "--points", "60"]);
+    let kept = fs::read_to_string(&path).unwrap();
+    assert_eq!(&told(), computed);
+    fs::write(&path, kept.replace("\"campaigns\": 100", "\"campaigns\": 50")).unwrap();
+    assert_ne!(&told(), computed);
+    fs::write(
+        &path,
+        kept.replace("\"campaigns\": 100", "\"campaigns\": 50").replace("\"of\": \"", "\"of\": \"0"),
+    )
+    .unwrap();
+    assert_eq!(&told(), computed);
 }
 
 /// What a named offset of the gauge writes: a study that is checked and run from any place. Its bytes.

@@ -24,7 +24,8 @@ const SCALING: u64 = 200;
 const RIDGE: f64 = 0.05;
 /// Random error of a displacement read against a fixed target or with a dial gauge (m).
 const FINE: f64 = 0.3e-3;
-
+/// Below so much that is not known of the cause (bit) nothing is offered.
+const OPEN: f64 = 0.01;
 /// Random error of a weight, as a share of it.
 const WEIGHED: f64 = 5e-3;
 
@@ -74,12 +75,12 @@ pub struct Offered {
 /// Judges the menu for causes with their probabilities and draws of what is true under each; the most information per hour first. A
 /// pure function of its arguments. Stones are drawn anew: what these specimens showed of their own stones is not used.
 pub fn offers(judge: &Judge<'_>, possible: &[(f64, Vec<Truth>)], seed: u64) -> Vec<Offered> {
-    if possible.len() < 2 {
-        return Vec::new();
-    }
     let sum = stats::sum(&possible.iter().map(|(p, _)| *p).collect::<Vec<_>>());
     let weights: Vec<f64> = possible.iter().map(|(p, _)| p / sum).collect();
     let entropy = -stats::sum(&weights.iter().map(|w| w * ln(w.max(1e-12))).collect::<Vec<_>>());
+    if possible.len() < 2 || entropy < OPEN * ln(2.0) {
+        return Vec::new();
+    }
     let mut offered: Vec<Offered> = MENU
         .par_iter()
         .filter_map(|&(offer, hours)| {

@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use crate::critic::diagnose::judge::{Judge, Seeming};
 use crate::critic::diagnose::verdict::Limits;
@@ -19,14 +20,14 @@ pub const CAUGHT: f64 = 0.8;
 const WINDOW: usize = 15;
 
 /// How often diagnoses of a design find and name what is hidden, by simulation.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SelfTest {
     /// For the base model (first) and each cause.
     pub rows: Vec<SelfTestRow>,
 }
 
 /// A line of the self-test.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SelfTestRow {
     /// What was hidden; none where nothing was.
     pub cause: Option<usize>,
@@ -49,7 +50,7 @@ pub struct SelfTestRow {
 }
 
 /// Strengths from which on an effect is found four times in five.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Caught {
     /// Index of the parameter.
     pub parameter: usize,

@@ -1,0 +1,81 @@
+//! Who judges what was measured, and how well: the same for `diagnose`, and for `bank`, which keeps the self-test beside the walls.
+
+use std::fs;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::cli::failure::Failure;
+use crate::critic::{Bank, Design, Effort, Judge, Limits, Plan, SelfTest, World};
+use crate::ensemble::replace_file;
+use crate::study::{Described, Nuisance, Study, sha256};
+
+/// Seeds that a part of a diagnosis may use from its own on.
+pub(super) const SEEDS: u64 = 1000;
+/// Name of the file of a self-test.
+const KEPT: &str = "self-test.json";
+/// Campaigns of each cause in it.
+const CAMPAIGNS: u64 = 100;
+
+/// A self-test with what it is of.
+#[derive(Serialize, Deserialize)]
+struct Kept {
+    of: String,
+    test: SelfTest,
+}
+
+/// What campaigns are simulated from.
+pub(super) fn world<'s>(
+    study: &'s Study,
+    mechanisms: &'s [Described],
+    nuisances: &'s [Nuisance; 3],
+    plan: &Plan,
+    bank: &Bank,
+) -> Result<World<'s>, Failure> {
+    World::new(study, mechanisms, nuisances, plan, bank).ok_or_else(|| {
+        let text = "the bank holds too few walls that fell: ask for more --points, or for a load path that ends later";
+        Failure::Run(text.to_owned())
+    })
+}
+
+/// Who judges campaigns of a design.
+pub(super) fn judge<'w>(world: &'w World<'w>, design: &Design, seed: u64) -> Result<Judge<'w>, Failure> {
+    Judge::trained(world, design, Effort::default(), seed).ok_or_else(|| {
+        Failure::Input(
+            "none of the measurements can be set against a simulation: at their tilts simulated walls have fallen".to_owned(),
+        )
+    })
+}
+
+/// The self-test of a judge: the one that is kept in the bank's folder, if it is of the same.
+pub(super) fn self_test(judge: &Judge<'_>, plan: &Plan, seed: u64, folder: &Path) -> SelfTest {
+    let kept = fs::read(folder.join(KEPT)).ok();
+    let kept = kept.and_then(|bytes| serde_json::from_slice::<Kept>(&bytes).ok());
+    match kept.filter(|kept| kept.of == identity(judge, plan, seed)) {
+        Some(kept) => kept.test,
+        None => computed(judge, seed),
+    }
+}
+
+/// Computes the self-test of a judge and keeps it in the bank's folder.
+pub(super) fn keep_self_test(
+    judge: &Judge<'_>,
+    plan: &Plan,
+    seed: u64,
+    folder: &Path,
+) -> Result<(), Failure> {
+    let kept = Kept { of: identity(judge, plan, seed), test: computed(judge, seed) };
+    let mut json = serde_json::to_vec_pretty(&kept).map_err(|error| Failure::Run(error.to_string()))?;
+    json.push(b'\n');
+    Ok(replace_file(&folder.join(KEPT), &json)?)
+}
+
+fn computed(judge: &Judge<'_>, seed: u64) -> SelfTest {
+    judge.self_test(&Limits::default(), CAMPAIGNS, seed.wrapping_add(2 * SEEDS))
+}
+
+/// All that a self-test hangs on.
+fn identity(judge: &Judge<'_>, plan: &Plan, seed: u64) -> String {
+    let (hash, measured) = (&plan.study.hash, &judge.world.study().measured);
+    sha256(format!("{hash} {CAMPAIGNS} {seed} {:?} {measured:?}", Limits::default()).as_bytes())
+}
