@@ -58,10 +58,10 @@ fn write_slopes(x: &[f64], y: &[f64], slopes: &mut [f64]) {
     }
     let mut before = chord(0);
     slopes[0] = end_slope(before, chord(1));
-    for i in 1..n - 1 {
+    for (i, slope) in slopes.iter_mut().enumerate().take(n - 1).skip(1) {
         let after = chord(i);
         let ((h0, d0), (h1, d1)) = (before, after);
-        slopes[i] = if d0 * d1 <= 0.0 {
+        *slope = if d0 * d1 <= 0.0 {
             0.0
         } else {
             let (w0, w1) = (2.0 * h1 + h0, h1 + 2.0 * h0);

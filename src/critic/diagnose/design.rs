@@ -37,8 +37,8 @@ pub struct Design {
     pub specimens: Vec<Specimen>,
     /// Two-stone tests, weights of specimens and readings of fixed targets: the index of their family's arm, and the reading.
     pub apart: Vec<(usize, Measurement)>,
-    /// Lines of the file that a diagnosis does not use: weights of single blocks, readings after the platform has gone back, and arms that the study
-    /// does not evaluate.
+    /// Lines of the file that a diagnosis does not use: weights of single blocks, readings after the platform has gone back, and
+    /// arms that the study does not evaluate.
     pub unused: Vec<usize>,
 }
 

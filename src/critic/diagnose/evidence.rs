@@ -27,8 +27,8 @@ const COUNTING: f64 = 0.5;
 /// Length of a random walk's steps in standard deviations of the particles, over the root of their dimensions (Roberts, Gelman
 /// and Gilks 1997).
 const STEP: f64 = 2.38;
-/// Scores beyond this, one in two million of their prior, are as good as impossible; the joints' count [`DOUBT`](crate::critic::DOUBT) times, and are
-/// numbers that a quantile still tells from infinity.
+/// Scores beyond this, one in two million of their prior, are as good as impossible; the joints' count
+/// [`DOUBT`](crate::critic::DOUBT) times, and are numbers that a quantile still tells from infinity.
 const FURTHEST: f64 = 5.0;
 /// No more temperatures than this.
 const TEMPERATURES: usize = 60;

@@ -209,7 +209,8 @@ struct Density {
     freedom: f64,
     /// Each reading's own standard deviation, of which none is free.
     sd: Vec<f64>,
-    /// What the paths are off their mean in units of it, by reading and path, such that the readings' covariance is 1 + spread spread'.
+    /// What the paths are off their mean in units of it, by reading and path, such that the readings' covariance is
+    /// 1 + spread spread'.
     spread: DMatrix<f64>,
     /// Woodbury: only the paths' side of that, 1 + spread' spread, is factored.
     inner: Cholesky<f64, Dyn>,
@@ -294,7 +295,7 @@ mod tests {
             shown[at] += 1;
             shown[..at].fill(0);
         }
-        sum * step.powi(walls as i32)
+        (0..walls).fold(sum, |sum, _| sum * step)
     }
 
     #[test]

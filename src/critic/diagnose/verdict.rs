@@ -261,9 +261,9 @@ impl Judge<'_> {
         models.collect::<Vec<_>>().into_par_iter().map(rough).collect()
     }
 
-    /// The most promising pairs of the cause that has most of the evidence with another, where none explains a campaign alone; `logs` are the
-    /// logarithms of the evidence of the base model and of each cause looked at closely. A second cause is as likely beforehand as
-    /// one in all that there are. The guard is asked of a pair that has nearly all of the evidence.
+    /// The most promising pairs of the cause that has most of the evidence with another, where none explains a campaign alone;
+    /// `logs` are the logarithms of the evidence of the base model and of each cause looked at closely. A second cause is as likely
+    /// beforehand as one in all that there are. The guard is asked of a pair that has nearly all of the evidence.
     fn pairs(
         &self,
         campaign: &Campaign,
