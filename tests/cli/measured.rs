@@ -148,7 +148,7 @@ const CASES: &[Case] = &[
     ("kN,0.001", "kN,", &["@ error is missing: allowed is a number at least 0 (kN)", "0 for none"]),
     ("kN,0.001", "kN,1 N", &["@ error = 1 N"]),
     ("exact,0.1,", "exact,-0.1,", &["@ common_error = -0.1"]),
-    ("exact,0.1,", "exact,?,", &["@ common_error = \"?\": allowed is a number at least 0 (cm), or unknown"]),
+    ("exact,0.1,", "exact,?,", &["@ common_error = ?: allowed is a number at least 0 (cm), or unknown"]),
     ("rounded,,0.5", "rounded,,", &["@ resolution is missing: allowed is a number above 0 (deg)"]),
     ("rounded,,0.5", "rounded,,0", &["@ resolution = 0", "raise it"]),
     ("rounded,,0.5", "rounded,,1", &["@ resolution = 1: allowed is a step of which the value 13.5 is a multiple"]),

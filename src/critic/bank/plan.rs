@@ -157,6 +157,16 @@ mod tests {
     }
 
     #[test]
+    fn joints_are_drawn_as_widely_as_diagnoses_take_them() {
+        let (.., plan) = planned(40);
+        let base = plan.places.iter().filter(|place| place.cause.is_none());
+        let scores: Vec<f64> = base.flat_map(|place| place.joints).collect();
+        let sigma = crate::stats::sigma(&scores).expect("many");
+        // 720 scores tell a standard deviation to 2.6 %.
+        assert!(scores.len() == 720 && (sigma / DOUBT - 1.0).abs() < 0.08, "{} {sigma}", scores.len());
+    }
+
+    #[test]
     fn other_families_make_another_design() {
         let (study, mechanisms, plan) = planned(2);
         let nuisances = shipped().2;
