@@ -200,7 +200,9 @@ fn an_error_of_which_nobody_knows_how_much_is_shared_is_drawn_and_fitted_as_such
         offs.iter().filter_map(|off| stats::sigma(off)).map(|s| s * s / (6e-3 * 6e-3)).collect();
     let mean = stats::mean(&scatter).expect("many");
     assert!((mean - 0.5).abs() < 0.05, "{mean}");
-    assert!(scatter.iter().any(|s| *s < 0.05) && scatter.iter().any(|s| *s > 1.0));
+    // Of six readings a scatter below a fifth of the error has a chance of 0.8 % where half is shared, of 8 % with any share.
+    let little = scatter.iter().filter(|s| **s < 0.05).count();
+    assert!((25..80).contains(&little), "{little}");
     // A campaign that is off by 12 mm throughout is no finding then, and it is if nothing of the error is shared.
     let evidence_of = |design: &Design| {
         let values = world.values(design, &truth, &Streams::new(15, 3));
