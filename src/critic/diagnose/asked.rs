@@ -1,5 +1,6 @@
 //! What is asked of the walls of a family: each quantity at each tilt once, however many readings ask for it.
 
+use crate::critic::diagnose::design::tilts;
 use crate::critic::simulated::of_points;
 use crate::study::{MeasuredQuantity, Measurement};
 
@@ -16,9 +17,7 @@ pub(super) struct Asked {
 impl Asked {
     /// By readings of one family.
     pub fn by(readings: &[&Measurement]) -> Asked {
-        let mut tilts: Vec<f64> = readings.iter().filter_map(|m| m.tilt).collect();
-        tilts.sort_by(f64::total_cmp);
-        tilts.dedup();
+        let tilts = tilts(readings.iter().copied());
         let place = |tilt: f64| tilts.partition_point(|known| *known < tilt);
         let all: Vec<_> = readings.iter().map(|m| (m.quantity, m.tilt.map(place))).collect();
         let mut what = all.clone();

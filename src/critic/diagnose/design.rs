@@ -23,11 +23,16 @@ pub struct Specimen {
 impl Specimen {
     /// The tilts that it was read at (rad), each once, ascending.
     pub fn tilts(&self) -> Vec<f64> {
-        let mut tilts: Vec<f64> = self.readings.iter().filter_map(|m| m.tilt).collect();
-        tilts.sort_by(f64::total_cmp);
-        tilts.dedup();
-        tilts
+        tilts(&self.readings)
     }
+}
+
+/// The tilts of readings (rad), each once, ascending.
+pub(super) fn tilts<'m>(readings: impl IntoIterator<Item = &'m Measurement>) -> Vec<f64> {
+    let mut tilts: Vec<f64> = readings.into_iter().filter_map(|m| m.tilt).collect();
+    tilts.sort_by(f64::total_cmp);
+    tilts.dedup();
+    tilts
 }
 
 /// All tests, and what was measured apart from them.

@@ -44,15 +44,17 @@ struct At<'d> {
 pub struct Discrepancy<'d> {
     all: Vec<At<'d>>,
     known: Vec<usize>,
-    /// Covariances of the discrepancy at all readings, in their units, part by part.
+    /// Covariances of the discrepancy at all readings, part by part, in units of its variance.
     smooth: [DMatrix<f64>; 3],
-    /// From the middle of the tests to the last (tests).
-    half: f64,
-    /// That of the readings.
+    /// That variance, in the readings' units.
+    variance: f64,
+    /// Covariance of the readings.
     whole: DMatrix<f64>,
     factored: Cholesky<f64, Dyn>,
     /// Inverse covariance of the known readings times what they are off by.
     weights: DVector<f64>,
+    /// From the middle of the tests to the last (tests).
+    half: f64,
 }
 
 /// The parts of a discrepancy.
@@ -136,15 +138,15 @@ impl<'d> Discrepancy<'d> {
             (at.seen.told(at.m).unwrap_or(at.mean) - at.mean) / at.unit
         });
         let tried = TRIED.into_iter().filter_map(|sigma| {
-            let smooth = smooth.each_ref().map(|part| part * (sigma * sigma));
-            let whole = smooth.iter().fold(walls.clone(), |whole, part| whole + part);
+            let variance = sigma * sigma;
+            let whole = smooth.iter().fold(walls.clone(), |whole, part| whole + part * variance);
             let factored = part(&whole, &places, &places).cholesky()?;
             let half = (0..places.len()).fold(0.0, |sum, k| sum + ln(factored.l_dirty()[(k, k)]));
             let weights = factored.solve(&off);
-            Some((-0.5 * off.dot(&weights) - half, smooth, whole, factored, weights))
+            Some((-0.5 * off.dot(&weights) - half, variance, whole, factored, weights))
         });
-        let (_, smooth, whole, factored, weights) = tried.max_by(|a, b| a.0.total_cmp(&b.0))?;
-        Some(Discrepancy { all, known: places, smooth, half, whole, factored, weights })
+        let (_, variance, whole, factored, weights) = tried.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some(Discrepancy { all, known: places, smooth, variance, whole, factored, weights, half })
     }
 
     /// How the readings that were not known are predicted, by specimen and reading.
@@ -168,7 +170,7 @@ impl<'d> Discrepancy<'d> {
         let mut form: Vec<Bent> = Vec::new();
         for (k, at) in self.all.iter().enumerate().filter(|(_, at)| at.seen != Seen::Beyond) {
             let mut add = |part: Lacking, family: Option<usize>, tilt: Option<f64>, by: f64| {
-                let (quantity, (value, sd)) = (at.m.quantity, self.lacking(part, k));
+                let quantity = at.m.quantity;
                 let told = |bent: &Bent| {
                     let same = match part {
                         Lacking::Drift => kind(bent.quantity) == kind(quantity),
@@ -177,6 +179,7 @@ impl<'d> Discrepancy<'d> {
                     (bent.part, bent.family, bent.tilt) == (part, family, tilt) && same
                 };
                 if !form.iter().any(told) {
+                    let (value, sd) = self.lacking(part, k);
                     form.push(Bent { part, family, quantity, tilt, value: by * value, sd: by.abs() * sd });
                 }
             };
@@ -194,8 +197,8 @@ impl<'d> Discrepancy<'d> {
     /// A part of the discrepancy at a reading and its standard deviation (SI).
     fn lacking(&self, part: Lacking, k: usize) -> (f64, f64) {
         let (smooth, unit) = (&self.smooth[part as usize], self.all[k].unit);
-        let told = self.told(smooth, k);
-        let variance = (smooth[(k, k)] - told.dot(&self.factored.solve(&told))).max(0.0);
+        let told = self.told(smooth, k) * self.variance;
+        let variance = (self.variance * smooth[(k, k)] - told.dot(&self.factored.solve(&told))).max(0.0);
         (unit * told.dot(&self.weights), unit * variance.sqrt())
     }
 

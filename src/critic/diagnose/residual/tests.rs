@@ -11,11 +11,11 @@ use crate::random::Streams;
 use crate::stats;
 use crate::study::{MeasuredKind, MeasuredQuantity, Measurement};
 
-/// Families of the paper's nine walls, in the order of their arms: nothing is random in the first.
 /// A standard deviation of stones is that of the fifty-odd walls of the bank that lie within the priors as they are stated: off by
 /// a tenth, two of which are allowed.
 const SAMPLED: f64 = 0.2;
 
+/// Families of the paper's nine walls, in the order of their arms: nothing is random in the first.
 const CBL: usize = 0;
 const SBL: usize = 1;
 
@@ -40,17 +40,19 @@ fn the_parts_of_a_residual_are_those_that_made_it() {
     let (world, (design, measured)) = (made.world(), Design::of(&made.study));
     let found = Baseline::new(&world, &design, 1).residuals(&measured);
     assert_eq!((found.readings.len(), found.groups.len()), (27 + 6, 3 + 3 + 2 + 3));
-    let near = |x: f64, wanted: f64| assert!((x / wanted - 1.0).abs() < SAMPLED, "{x} and not {wanted}");
+    let within =
+        |x: f64, wanted: f64, off: f64| assert!((x / wanted - 1.0).abs() < off, "{x} and not {wanted}");
+    let near = |x: f64, wanted: f64| within(x, wanted, 0.1);
     // The angle is 14.5 deg times exp(0.05 kn + 0.01 phi + 0.02 stones), read in steps of 0.5 deg.
     let angle = group(&found, SBL, MeasuredQuantity::CollapseAngle, None);
     let parts = angle.expected.expect("walls stand").parts;
     near(degrees(parts.measurement), 0.5 / 36.0_f64.sqrt());
-    near(degrees(parts.scatter), 14.5 * 0.02 / 3.0_f64.sqrt());
+    within(degrees(parts.scatter), 14.5 * 0.02 / 3.0_f64.sqrt(), SAMPLED);
     near(degrees(parts.parameters), 14.5 * 0.0026_f64.sqrt());
     let single = found.readings.iter().find(|r| r.family == SBL && r.reading.tilt.is_none()).expect("read");
     let parts = single.expected.expect("walls stand").parts;
     near(degrees(parts.measurement), 0.5 / 12.0_f64.sqrt());
-    near(degrees(parts.scatter), 14.5 * 0.02);
+    within(degrees(parts.scatter), 14.5 * 0.02, SAMPLED);
     near(degrees(parts.parameters), 14.5 * 0.0026_f64.sqrt());
     near(parts.sd(), radians((0.25 / 12.0 + 14.5 * 14.5 * 0.003_f64).sqrt()));
     let Seen::Value(value) = single.seen else { panic!("it was read") };
