@@ -1,14 +1,15 @@
 //! What a campaign looks like beside the base model, in few signed numbers that a person can name.
 //!
 //! Every reading is first set against what the base model shows of it, in units of its standard deviation there (joints unknown,
-//! stones random, errors of the reading). Of the readings of a specimen only a few contrasts are kept; of these, per family,
-//! the mean over its specimens and their scatter.
+//! stones random, errors of the reading): by its logarithm where it is far above its error, as stiffnesses and stones act as factors,
+//! and as it stands where it is not (the inverse hyperbolic sine). Of the readings of a specimen only a few contrasts are kept; of
+//! these, per family, the mean over its specimens and their scatter.
 
 use std::collections::BTreeMap;
 
 use crate::critic::compare::reading_variance;
 use crate::critic::diagnose::design::{Campaign, Design, Seen, Specimen};
-use crate::math::ln;
+use crate::math::{asinh, cosh, ln};
 use crate::stats;
 use crate::study::{MeasuredQuantity, Measurement};
 
@@ -44,11 +45,22 @@ pub enum Feature {
     Apart(usize, MeasuredQuantity),
 }
 
-/// What readings are set against: mean and standard deviation of each in the base model, by specimen and reading, what is measured apart last.
+/// What readings are set against, by specimen and reading, what is measured apart last.
 #[derive(Clone, Debug)]
 pub struct Scale {
-    specimens: Vec<Vec<[f64; 2]>>,
-    apart: Vec<[f64; 2]>,
+    specimens: Vec<Vec<Usual>>,
+    apart: Vec<Usual>,
+}
+
+/// What the base model shows of a reading.
+#[derive(Clone, Copy, Debug)]
+struct Usual {
+    /// Its standard deviation (SI).
+    sd: f64,
+    /// Readings far above this (SI) count by their logarithm.
+    bend: f64,
+    /// Mean and standard deviation of what they count.
+    counted: [f64; 2],
 }
 
 /// Contrasts whose scatter is looked at.
@@ -66,9 +78,7 @@ impl Scale {
     pub fn of(design: &Design, campaigns: &[Campaign]) -> Scale {
         let over = |m: &Measurement, seen: &dyn Fn(&Campaign) -> Seen| {
             let told: Vec<f64> = campaigns.iter().filter_map(|campaign| seen(campaign).told(m)).collect();
-            let largest = told.iter().fold(m.value.abs(), |largest, x| largest.max(x.abs()));
-            let floor = m.error.max(LEAST_SHARE * largest);
-            [stats::mean(&told).unwrap_or(m.value), stats::sigma(&told).unwrap_or(0.0).max(floor)]
+            Usual::of(m, &told)
         };
         let specimens = design.specimens.iter().enumerate().map(|(index, specimen)| {
             let readings = specimen.readings.iter().enumerate();
@@ -81,7 +91,7 @@ impl Scale {
 
     /// The base model's standard deviation of every reading (SI), by specimen and reading.
     pub fn units(&self) -> Vec<Vec<f64>> {
-        self.specimens.iter().map(|readings| readings.iter().map(|[_, sd]| *sd).collect()).collect()
+        self.specimens.iter().map(|readings| readings.iter().map(|usual| usual.sd).collect()).collect()
     }
 
     /// Every reading in its units, with its family, what is measured apart not among them; `None` where nothing was seen.
@@ -90,15 +100,39 @@ impl Scale {
         specimens
             .flat_map(|((specimen, seen), scale)| {
                 let readings = specimen.readings.iter().zip(seen).zip(scale);
-                readings.map(|((m, seen), scale)| (specimen.family, scaled(*seen, m, scale)))
+                readings.map(|((m, seen), usual)| (specimen.family, usual.scaled(*seen, m)))
             })
             .collect()
     }
 }
 
-/// A reading against its mean and in its standard deviation; `None` where nothing was seen.
-fn scaled(seen: Seen, m: &Measurement, [mean, sd]: &[f64; 2]) -> Option<f64> {
-    seen.told(m).map(|told| (told - mean) / sd)
+impl Usual {
+    /// From what campaigns of the base model show (SI).
+    fn of(m: &Measurement, told: &[f64]) -> Usual {
+        let largest = told.iter().fold(m.value.abs(), |largest, x| largest.max(x.abs()));
+        let floor = m.error.max(LEAST_SHARE * largest);
+        let bend = reading_variance(m).sqrt().max(LEAST_SHARE * largest).max(f64::MIN_POSITIVE);
+        let counted: Vec<f64> = told.iter().map(|x| asinh(x / bend)).collect();
+        let mean = stats::mean(&counted).unwrap_or_else(|| asinh(m.value / bend));
+        let least = floor / (bend * cosh(mean));
+        Usual {
+            sd: stats::sigma(told).unwrap_or(0.0).max(floor),
+            bend,
+            counted: [mean, stats::sigma(&counted).unwrap_or(0.0).max(least)],
+        }
+    }
+
+    /// A reading against its mean and in its standard deviation; `None` where nothing was seen.
+    fn scaled(&self, seen: Seen, m: &Measurement) -> Option<f64> {
+        let [mean, sd] = self.counted;
+        seen.told(m).map(|told| (asinh(told / self.bend) - mean) / sd)
+    }
+
+    /// Its error and rounding in that standard deviation, where it is as usual.
+    fn error(&self, m: &Measurement) -> f64 {
+        let [mean, sd] = self.counted;
+        reading_variance(m).sqrt() / (self.bend * cosh(mean) * sd)
+    }
 }
 
 /// All features of a campaign that its design allows; a specimen that shows nothing of a contrast is not in it.
@@ -127,8 +161,8 @@ pub fn features(design: &Design, scale: &Scale, campaign: &Campaign) -> BTreeMap
         found.extend(slope(&values).map(|slope| (Feature::Order(contrast), slope)));
     }
     let mut apart: BTreeMap<Feature, Vec<f64>> = BTreeMap::new();
-    for (((family, m), seen), scale) in design.apart.iter().zip(&campaign.apart).zip(&scale.apart) {
-        apart.entry(Feature::Apart(*family, m.quantity)).or_default().extend(scaled(*seen, m, scale));
+    for (((family, m), seen), usual) in design.apart.iter().zip(&campaign.apart).zip(&scale.apart) {
+        apart.entry(Feature::Apart(*family, m.quantity)).or_default().extend(usual.scaled(*seen, m));
     }
     found.extend(apart.into_iter().filter_map(|(feature, values)| Some((feature, stats::mean(&values)?))));
     found
@@ -136,14 +170,13 @@ pub fn features(design: &Design, scale: &Scale, campaign: &Campaign) -> BTreeMap
 
 /// The contrasts of a specimen, each in units that make independent readings one standard deviation, with the part that errors and
 /// rounding have in it (one standard deviation).
-fn contrasts(specimen: &Specimen, seen: &[Seen], scale: &[[f64; 2]]) -> Vec<(Contrast, [f64; 2])> {
+fn contrasts(specimen: &Specimen, seen: &[Seen], scale: &[Usual]) -> Vec<(Contrast, [f64; 2])> {
     use MeasuredQuantity as Q;
     let last = specimen.readings.iter().filter_map(|m| m.tilt).fold(0.0, f64::max);
     let mut weighted: BTreeMap<Contrast, Vec<[f64; 3]>> = BTreeMap::new();
     let (mut read, mut reached) = (0.0, 0.0);
-    for ((m, seen), scale) in specimen.readings.iter().zip(seen).zip(scale) {
-        let z = scaled(*seen, m, scale);
-        let error = reading_variance(m).sqrt() / scale[1];
+    for ((m, seen), usual) in specimen.readings.iter().zip(seen).zip(scale) {
+        let (z, error) = (usual.scaled(*seen, m), usual.error(m));
         let Some(tilt) = m.tilt else {
             weighted.entry(Contrast::Collapse).or_default().extend(z.map(|z| [1.0, z, error]));
             continue;
@@ -199,4 +232,41 @@ fn slope(points: &[(f64, f64)]) -> Option<f64> {
         .iter()
         .fold((0.0, 0.0), |(above, below), (a, b)| (above + (a - x) * (b - y), below + (a - x) * (a - x)));
     (below > 0.0).then(|| above / below)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::critic::diagnose::tests::made;
+    use crate::math::exp;
+    use crate::study::MeasuredKind;
+
+    #[test]
+    fn readings_count_by_their_logarithm_far_above_their_error_and_as_they_stand_below() {
+        let made = made();
+        let (design, _) = Design::of(&made.study);
+        let error = 1e-3;
+        let m = Measurement {
+            error,
+            resolution: 0.0,
+            kind: MeasuredKind::Exact,
+            ..design.specimens[0].readings[0].clone()
+        };
+        // From ten to a thousand times the error, a factor apart each.
+        let told: Vec<f64> = (0..101).map(|k| error * exp(ln(10.0) * (1.0 + 0.02 * f64::from(k)))).collect();
+        let usual = Usual::of(&m, &told);
+        let of = |value: f64| usual.scaled(Seen::Value(value), &m).expect("it is seen");
+        // What stiffer joints do to all displacements is the same step for small and for large ones.
+        let (small, large) = (of(0.04) - of(0.02), of(0.8) - of(0.4));
+        assert!(small > 0.0 && (small / large - 1.0).abs() < 1e-3, "{small} {large}");
+        let (once, twice) = (of(0.05 * error) - of(0.0), of(0.1 * error) - of(0.0));
+        assert!((twice / once - 2.0).abs() < 0.01, "{once} {twice}");
+        // The middle of the logarithms counts 0, and an error there what it moves.
+        let middle = 0.1;
+        assert!(of(middle).abs() < 1e-3, "{}", of(middle));
+        let moved = of(middle + 0.5 * error) - of(middle - 0.5 * error);
+        assert!((usual.error(&m) / moved - 1.0).abs() < 1e-3, "{moved}");
+        // In metres it varies as it does.
+        assert!((usual.sd - stats::sigma(&told).expect("many")).abs() < 1e-12);
+    }
 }

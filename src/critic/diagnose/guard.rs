@@ -31,7 +31,7 @@ const PREDICTED: u64 = 400;
 const COMMON: f64 = 0.5;
 /// No part is predicted better than this, in standard deviations of independent readings: where hardly anything varies, walls that
 /// differ by a step of a protractor would be off beyond all measure.
-const LEAST: f64 = 0.3;
+const LEAST: f64 = 0.1;
 /// Number of looks.
 const LOOKS: f64 = 2.0;
 

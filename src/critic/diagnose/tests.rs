@@ -330,7 +330,8 @@ fn a_family_that_moves_four_times_too_far_is_found_and_said_to() {
         }
     }
     let wrong = reference.judge(&design, &campaign);
-    assert!(wrong.largest() > 5.0, "{}", wrong.largest());
+    // One in 100,000 by chance for one feature, of some thirty.
+    assert!(wrong.largest() > 4.5, "{}", wrong.largest());
     let worst = wrong
         .excess
         .iter()
