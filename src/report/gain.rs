@@ -13,7 +13,7 @@ pub struct GainSummary {
     pub largest_tilts_left_out: Option<GainedEntry>,
     /// All families left out but one.
     pub one_family_known: Vec<FamilyEntry>,
-    /// The cause that was chosen in each fold, from what was known there.
+    /// What was chosen in each fold, from what was known there.
     pub choices: Vec<ChoiceEntry>,
     /// Campaigns without any effect that the intervals are widened by.
     pub nulls: u64,
@@ -74,8 +74,17 @@ pub struct FamilyEntry {
 pub struct ChoiceEntry {
     /// The specimen that was left out, "largest tilts", or "all but" a family.
     pub left_out: String,
-    /// The mechanism; null where nothing was found.
-    pub cause: Option<&'static str>,
+    /// The mechanisms with their shares of the extended model; none where nothing was found.
+    pub causes: Vec<ShareEntry>,
+}
+
+/// A part of a mixture.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct ShareEntry {
+    /// The mechanism.
+    pub cause: &'static str,
+    /// Its share of the extended model.
+    pub share: f64,
 }
 
 impl GainSummary {
@@ -88,7 +97,11 @@ impl GainSummary {
                 HeldOut::LargestTilts => "largest tilts".to_string(),
                 HeldOut::OtherFamilies(family) => format!("all but {}", name(family)),
             },
-            cause: choice.cause.map(|cause| mechanisms[cause].name),
+            causes: choice
+                .causes
+                .iter()
+                .map(|(cause, share)| ShareEntry { cause: mechanisms[*cause].name, share: *share })
+                .collect(),
         });
         let families = gain.families.iter();
         let families = families
@@ -118,13 +131,24 @@ impl GainSummary {
         for own in &self.one_family_known {
             text.push_str(&own.gained.text(&format!("fitted to {} alone, all others left out", own.family)));
         }
-        let chosen: Vec<String> = self
-            .choices
-            .iter()
-            .map(|choice| format!("{} {}", choice.left_out, choice.cause.unwrap_or("none")))
-            .collect();
+        let chosen: Vec<String> =
+            self.choices.iter().map(|choice| format!("{} {}", choice.left_out, choice.text())).collect();
         text.push_str(&format!("  chosen without them: {}\n", chosen.join(", ")));
         text
+    }
+}
+
+impl ChoiceEntry {
+    /// One cause by its name, several with their shares.
+    fn text(&self) -> String {
+        match &self.causes[..] {
+            [] => "none".to_string(),
+            [one] => one.cause.to_string(),
+            several => {
+                let part = |own: &ShareEntry| format!("{:.2} {}", own.share, own.cause);
+                several.iter().map(part).collect::<Vec<_>>().join(" + ")
+            }
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! How much better the extended model predicts readings that it has not seen. In every fold the cause is chosen anew, from what is
-//! known there alone, and both models are fitted with the same effort. A plain interval over specimens claims a gain too often,
+//! known there alone, and both models are fitted with the same effort. Where a fold's readings do not name one cause, the extended
+//! model is a mixture of those that they leave open, each by its probability. A plain interval over specimens claims a gain too often,
 //! because the choice of the cause is made on the same few specimens: intervals are widened until campaigns without any effect
 //! claim one in no more than one case in twenty.
 
@@ -17,7 +18,8 @@ use crate::critic::diagnose::discrepancy::Discrepancy;
 use crate::critic::diagnose::evidence::evidence;
 use crate::critic::diagnose::judge::{Effort, Judge};
 use crate::critic::diagnose::predicted::Predicted;
-use crate::critic::diagnose::verdict::Limits;
+use crate::critic::diagnose::ranking::Ranked;
+use crate::critic::diagnose::verdict::{Limits, MOST_AMBIGUOUS};
 use crate::critic::diagnose::world::Truth;
 use crate::random::Streams;
 
@@ -26,13 +28,17 @@ pub use fold::HeldOut;
 pub use gained::{Gained, Interval, Scores};
 use gained::{Row, estimates, gained};
 
+/// Causes that are left out of a mixture have together no more than this probability.
+const LEFT_OUT: f64 = 0.1;
+
 /// What was chosen in a fold.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
     /// What was held out.
     pub held_out: HeldOut,
-    /// The cause that the extended model has in this fold; none where nothing was found.
-    pub cause: Option<usize>,
+    /// The causes that the extended model has in this fold, with their shares of it, of sum 1, the largest first; none where
+    /// nothing was found.
+    pub causes: Vec<(usize, f64)>,
 }
 
 /// The gain on readings that were held out.
@@ -48,6 +54,36 @@ pub struct Gain {
     pub choices: Vec<Choice>,
     /// Campaigns without any effect that the intervals rest on.
     pub nulls: u64,
+}
+
+/// The causes of a fold's extended model: one that would be named, or those that are left open.
+fn mixed(ranked: &Ranked, named: f64) -> Vec<(usize, f64)> {
+    let causes: Vec<(usize, f64)> =
+        ranked.causes.iter().filter_map(|(cause, p)| Some(((*cause)?, *p))).collect();
+    let count = match ranked.named(named) {
+        Some(_) => 1,
+        None => {
+            let whole = causes.iter().fold(0.0, |sum, (_, p)| sum + p);
+            let mut left = whole;
+            let open = causes.iter().take_while(|(_, p)| {
+                let open = left > LEFT_OUT * whole;
+                left -= p;
+                open
+            });
+            open.count().min(MOST_AMBIGUOUS)
+        }
+    };
+    let whole = causes[..count].iter().fold(0.0, |sum, (_, p)| sum + p);
+    causes[..count].iter().map(|(cause, p)| (*cause, p / whole)).collect()
+}
+
+/// As many draws as of a part alone, of each part its share, spread evenly over it.
+fn mixture(parts: Vec<(Vec<Truth>, f64)>) -> Vec<Truth> {
+    let each = |(draws, share): (Vec<Truth>, f64)| {
+        let count = (share * draws.len() as f64).round() as usize;
+        (0..count).map(move |k| draws[k * draws.len() / count].clone())
+    };
+    parts.into_iter().flat_map(each).collect()
 }
 
 /// How a gain is measured.
@@ -93,15 +129,14 @@ impl<'j, 'w> Folds<'j, 'w> {
     }
 
     /// What is chosen in each fold.
-    fn choices(&self, campaign: &Campaign) -> Vec<Option<usize>> {
+    fn choices(&self, campaign: &Campaign) -> Vec<Vec<(usize, f64)>> {
         let choice = |(fold, judge): &(Fold, usize)| {
             let (judge, known) = (&self.judges[*judge], fold.campaign(campaign));
             let seeming = judge.seeming(&known);
             if seeming.p_value >= self.measuring.limits.found {
-                return None;
+                return Vec::new();
             }
-            let weighed = judge.weighed(&seeming.ranked, &known, self.seed);
-            weighed.causes.into_iter().find_map(|(cause, _)| cause)
+            mixed(&judge.weighed(&seeming.ranked, &known, self.seed), self.measuring.limits.named)
         };
         self.folds.iter().map(choice).collect()
     }
@@ -114,7 +149,7 @@ impl<'j, 'w> Folds<'j, 'w> {
         }
         let choices = self.choices(campaign);
         let rows = self.rows(campaign, &choices, self.seed, true);
-        let nulls = match choices.iter().all(Option::is_none) {
+        let nulls = match choices.iter().all(Vec::is_empty) {
             // Both models are the same: there is nothing to claim.
             true => Vec::new(),
             false => self.nulls(campaign),
@@ -132,7 +167,7 @@ impl<'j, 'w> Folds<'j, 'w> {
         });
         let families = families.collect();
         let held_out = self.folds.iter().map(|(fold, _)| fold.held_out);
-        let choices = held_out.zip(choices).map(|(held_out, cause)| Choice { held_out, cause }).collect();
+        let choices = held_out.zip(choices).map(|(held_out, causes)| Choice { held_out, causes }).collect();
         Some(Gain {
             specimens: of(Kind::Specimens),
             tilts: of(Kind::Tilts),
@@ -151,7 +186,7 @@ impl<'j, 'w> Folds<'j, 'w> {
             let truth = &fitted[streams.of("null").below(fitted.len())];
             let shown = judge.world.campaign(&judge.design, truth, &streams);
             let choices = self.choices(&shown);
-            match choices.iter().all(Option::is_none) {
+            match choices.iter().all(Vec::is_empty) {
                 true => BTreeMap::new(),
                 false => self.rows(&shown, &choices, seed.wrapping_add(2 + k), false),
             }
@@ -163,21 +198,20 @@ impl<'j, 'w> Folds<'j, 'w> {
     fn rows(
         &self,
         campaign: &Campaign,
-        choices: &[Option<usize>],
+        choices: &[Vec<(usize, f64)>],
         seed: u64,
         with_ceiling: bool,
     ) -> BTreeMap<Kind, Vec<Row>> {
         let judge = self.judge;
         let units = judge.reference.scale.units();
-        let of = |((fold, index), choice): (&(Fold, usize), &Option<usize>)| -> (Kind, Vec<Row>) {
+        let of = |((fold, index), choice): (&(Fold, usize), &Vec<(usize, f64)>)| -> (Kind, Vec<Row>) {
             let known = &self.judges[*index].design;
             let seen = fold.campaign(campaign);
-            let walls = |cause: Option<usize>| {
-                let draws: Vec<Truth> = evidence(judge.world, known, &seen, cause, seed).draws;
-                Predicted::of(judge.world, &judge.design, &draws, seed)
-            };
-            let base = walls(None);
-            let extended = choice.map(|cause| walls(Some(cause)));
+            let draws = |cause: Option<usize>| evidence(judge.world, known, &seen, cause, seed).draws;
+            let walls = |draws: &[Truth]| Predicted::of(judge.world, &judge.design, draws, seed);
+            let base = walls(&draws(None));
+            let parts = choice.iter().map(|(cause, share)| (draws(Some(*cause)), *share)).collect::<Vec<_>>();
+            let extended = (!parts.is_empty()).then(|| walls(&mixture(parts)));
             let free = with_ceiling
                 .then(|| Discrepancy::new(&judge.design, campaign, &fold.known, &base, &units))
                 .flatten();

@@ -2,10 +2,12 @@
 
 use crate::critic::diagnose::gain::fold::{Fold, HeldOut};
 use crate::critic::diagnose::gain::gained::{Row, estimates, gained};
-use crate::critic::diagnose::gain::{Folds, Measuring};
+use crate::critic::diagnose::gain::{Folds, Measuring, mixed, mixture};
 use crate::critic::diagnose::predicted::{Predicted, Score, normal_score};
+use crate::critic::diagnose::ranking::Ranked;
 use crate::critic::diagnose::tests::{EFFORT, made};
-use crate::critic::diagnose::{Design, Judge, Seen};
+use crate::critic::diagnose::verdict::MOST_AMBIGUOUS;
+use crate::critic::diagnose::{Design, Judge, Seen, Truth};
 use crate::random::Streams;
 use crate::random::standard_normal::quantile;
 use crate::study::MeasuredKind;
@@ -116,7 +118,7 @@ fn a_strong_effect_is_a_gain_and_its_absence_is_none() {
     let shown = world.campaign(&design, &truth, &streams);
     let folds = Folds::new(&judge, measuring(), 9);
     let found = folds.gain(&shown).expect("nine specimens");
-    assert!(found.choices.iter().all(|choice| choice.cause == Some(creep)), "{:?}", found.choices);
+    assert!(found.choices.iter().all(|choice| choice.causes == [(creep, 1.0)]), "{:?}", found.choices);
     let specimens = found.specimens.as_ref().expect("nine specimens");
     println!("{specimens:?}\n{:?}", found.tilts);
     assert!(specimens.gain.iter().all(|gain| gain.ends[0] > 0.0 && gain.value > 0.0), "{:?}", specimens.gain);
@@ -128,7 +130,32 @@ fn a_strong_effect_is_a_gain_and_its_absence_is_none() {
     let nothing =
         world.campaign(&design, &world.truth(None, &vec![0.0; world.inputs(None)]), &Streams::new(61, 2));
     let none = folds.gain(&nothing).expect("nine specimens");
-    assert!(none.choices.iter().all(|choice| choice.cause.is_none()), "{:?}", none.choices);
+    assert!(none.choices.iter().all(|choice| choice.causes.is_empty()), "{:?}", none.choices);
     let specimens = none.specimens.expect("nine specimens");
     assert!(specimens.gain.iter().all(|gain| gain.value == 0.0 && gain.ends == [0.0; 2]));
+}
+
+#[test]
+fn a_fold_that_names_no_cause_mixes_those_that_it_leaves_open() {
+    let ranked = |shares: &[(Option<usize>, f64)]| Ranked::new(shares.to_vec(), Vec::new());
+    // A name stands alone, whatever is left of the others.
+    assert_eq!(mixed(&ranked(&[(Some(4), 0.85), (Some(2), 0.15)]), 0.8), [(4, 1.0)]);
+    // Two of three have more than nine tenths of what the causes have together.
+    let two = mixed(&ranked(&[(Some(4), 0.44), (None, 0.1), (Some(2), 0.40), (Some(7), 0.06)]), 0.8);
+    assert_eq!(two.iter().map(|(cause, _)| *cause).collect::<Vec<_>>(), [4, 2]);
+    assert!((two[0].1 - 0.44 / 0.84).abs() < 1e-12 && (two[0].1 + two[1].1 - 1.0).abs() < 1e-12);
+    // No more than a verdict would call ambiguous.
+    let many: Vec<(Option<usize>, f64)> = (0..10).map(|k| (Some(k), 0.1)).collect();
+    assert_eq!(mixed(&ranked(&many), 0.8).len(), MOST_AMBIGUOUS);
+    // Draws by their shares, from all over each part.
+    let truth = |cause: usize, k: usize| Truth {
+        causes: Some(cause).into(),
+        parameters: vec![k as f64],
+        joints: Vec::new(),
+    };
+    let part = |cause: usize| (0..20).map(|k| truth(cause, k)).collect::<Vec<_>>();
+    let both = mixture(vec![(part(1), 0.75), (part(2), 0.25)]);
+    let of = |cause: usize| both.iter().filter(|own| own.causes == Some(cause).into()).collect::<Vec<_>>();
+    assert_eq!((of(1).len(), of(2).len()), (15, 5));
+    assert_eq!(of(2).iter().map(|own| own.parameters[0]).collect::<Vec<_>>(), [0.0, 4.0, 8.0, 12.0, 16.0]);
 }
