@@ -1,5 +1,6 @@
 //! `pirca bank`: the walls that diagnoses of a study's measurements rest on.
 
+use std::fs;
 use std::num::NonZero;
 use std::path::Path;
 
@@ -25,7 +26,9 @@ pub(crate) fn bank(arguments: &Bank) -> Result<(), Failure> {
     let study = measured(&arguments.which, arguments.measured.as_deref())?.study;
     let Prepared { mechanisms, nuisances, plan, .. } = prepared(&study, &arguments.which, arguments.points)?;
     let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, "bank"));
-    let bank = computed(&plan, &out, arguments.threads)?;
+    // A table that came without its journal is as good as one that was computed here.
+    let there = fs::read(out.join(BANK)).ok().and_then(|bytes| critic::Bank::read(&bytes, &plan).ok());
+    let bank = there.map_or_else(|| computed(&plan, &out, arguments.threads), Ok)?;
     // Few points make a bank that may grow, and nothing to judge by.
     if let Ok(world) = judge::world(&study, &mechanisms, &nuisances, &plan, &bank)
         && let Ok(judge) = judge::judge(&world, &Design::of(&study).0, study.seed)

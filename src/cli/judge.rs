@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::cli::failure::Failure;
 use crate::critic::{Bank, Design, Effort, Judge, Limits, Plan, SelfTest, World};
 use crate::ensemble::replace_file;
+use crate::random::Streams;
 use crate::study::{Described, Nuisance, Study, sha256};
 
 /// Seeds that a part of a diagnosis may use from its own on.
@@ -57,25 +58,34 @@ pub(super) fn self_test(judge: &Judge<'_>, plan: &Plan, seed: u64, folder: &Path
     }
 }
 
-/// Computes the self-test of a judge and keeps it in the bank's folder.
+/// Keeps the self-test of a judge in the bank's folder.
 pub(super) fn keep_self_test(
     judge: &Judge<'_>,
     plan: &Plan,
     seed: u64,
     folder: &Path,
 ) -> Result<(), Failure> {
-    let kept = Kept { of: identity(judge, plan, seed), test: computed(judge, seed) };
+    let kept = Kept { of: identity(judge, plan, seed), test: self_test(judge, plan, seed, folder) };
     let mut json = serde_json::to_vec_pretty(&kept).map_err(|error| Failure::Run(error.to_string()))?;
     json.push(b'\n');
     Ok(replace_file(&folder.join(KEPT), &json)?)
 }
 
 fn computed(judge: &Judge<'_>, seed: u64) -> SelfTest {
-    judge.self_test(&Limits::default(), CAMPAIGNS, seed.wrapping_add(2 * SEEDS))
+    judge.self_test(&Limits::default(), CAMPAIGNS, tested(seed))
 }
 
-/// All that a self-test hangs on.
+/// Seed of its campaigns.
+fn tested(seed: u64) -> u64 {
+    seed.wrapping_add(2 * SEEDS)
+}
+
+/// All that a self-test hangs on; how one campaign seems to the judge stands for all that it has learnt, so that another way of
+/// judging tests itself anew.
 fn identity(judge: &Judge<'_>, plan: &Plan, seed: u64) -> String {
     let (hash, measured) = (&plan.study.hash, &judge.world.study().measured);
-    sha256(format!("{hash} {CAMPAIGNS} {seed} {:?} {measured:?}", Limits::default()).as_bytes())
+    let streams = Streams::new(tested(seed), CAMPAIGNS);
+    let one = judge.world.campaign(&judge.design, &judge.world.drawn(None, &streams), &streams);
+    let seeming = judge.seeming(&one);
+    sha256(format!("{hash} {CAMPAIGNS} {seed} {:?} {measured:?} {seeming:?}", Limits::default()).as_bytes())
 }

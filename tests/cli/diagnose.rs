@@ -106,6 +106,13 @@ fn the_self_test_is_kept_beside_the_bank(folder: &Folder, computed: &Value) {
     )
     .unwrap();
     assert_eq!(&told(), computed);
+    // A table that came without its journal needs no wall simulated, and gets the same self-test.
+    fs::create_dir(folder.path("runs/alone")).unwrap();
+    fs::copy(folder.path("runs/tiny-bank/bank.parquet"), folder.path("runs/alone/bank.parquet")).unwrap();
+    let alone = ["bank", "studies/tiny", "--measured", "tests.csv", "--points", "60", "--out", "runs/alone"];
+    ends_with(folder, 0, &alone);
+    assert_eq!(fs::read_dir(folder.path("runs/alone")).unwrap().count(), 2);
+    assert_eq!(fs::read_to_string(folder.path("runs/alone/self-test.json")).unwrap(), kept);
 }
 
 /// What a named offset of the gauge writes: a study that is checked and run from any place. Its bytes.
