@@ -12,6 +12,8 @@ use crate::truth::unknown::UNKNOWN;
 
 /// Bins of the probability given, for its calibration.
 const BINS: usize = 10;
+/// Draws of what chance makes of it.
+const CALIBRATED: u64 = 1000;
 
 /// Bands of the shift that an effect makes, in standard deviations.
 const SHIFTS: [[f64; 2]; 4] = [[0.0, 1.0], [1.0, 3.0], [3.0, 10.0], [10.0, f64::INFINITY]];
@@ -138,7 +140,10 @@ fn of_design(design: &'static str, judged: &[Judged], removed: &[Judged]) -> Vec
     });
     let sizes: Vec<f64> = found.iter().map(|j| j.said.set.len() as f64).collect();
     lines.value("mechanism, found", "mean size of the set", mean(&sizes));
-    lines.value("mechanism, found", "calibration error of the likeliest", calibration_error(&found));
+    let given: Vec<(f64, bool)> =
+        found.iter().map(|j| (j.said.likeliest.1, j.is_hidden(&j.said.likeliest.0))).collect();
+    lines.value("mechanism, found", "calibration error of the likeliest", calibration_error(&given));
+    lines.value("mechanism, found", "that of one who is calibrated, by chance", chance_error(&given));
     for (group, of) in [("mechanism, named", named(&mechanisms)), ("nothing hidden", nothing.clone())] {
         let measured: Vec<&Judged> = of.into_iter().filter(|j| j.gains.is_some()).collect();
         lines.share(group, "a gain on specimens held out", &measured, Judged::gains);
@@ -207,16 +212,21 @@ fn named<'j>(of: &[&'j Judged]) -> Vec<&'j Judged> {
 
 /// Mean distance of how often the likeliest cause is the hidden one from the probability that it was given, over bins of this
 /// probability, each weighted by its campaigns.
-fn calibration_error(of: &[&Judged]) -> Option<f64> {
-    let bin = |j: &&&Judged| ((j.said.likeliest.1 * BINS as f64) as usize).min(BINS - 1);
-    let off = (0..BINS).filter_map(|number| {
-        let own: Vec<&Judged> = of.iter().filter(|j| bin(j) == number).copied().collect();
-        let given: Vec<f64> = own.iter().map(|j| j.said.likeliest.1).collect();
-        let right = own.iter().filter(|j| j.is_hidden(&j.said.likeliest.0)).count() as f64;
-        Some((mean(&given)? * own.len() as f64 - right).abs())
-    });
-    let total = off.fold(0.0, |sum, x| sum + x);
-    (!of.is_empty()).then(|| total / of.len() as f64)
+fn calibration_error(of: &[(f64, bool)]) -> Option<f64> {
+    let mut bins = [0.0; BINS];
+    for (given, right) in of {
+        bins[((given * BINS as f64) as usize).min(BINS - 1)] += given - f64::from(u8::from(*right));
+    }
+    (!of.is_empty()).then(|| bins.iter().fold(0.0, |sum, off| sum + off.abs()) / of.len() as f64)
+}
+
+/// The same, in the mean over many draws, of one whose probabilities are those that they are given: with few campaigns chance alone
+/// makes an error.
+fn chance_error(of: &[(f64, bool)]) -> Option<f64> {
+    let mut stream = Streams::new(2, 0).of("calibrated");
+    let mut drawn = || of.iter().map(|(given, _)| (*given, stream.uniform() < *given)).collect::<Vec<_>>();
+    let errors: Vec<f64> = (0..CALIBRATED).filter_map(|_| calibration_error(&drawn())).collect();
+    mean(&errors)
 }
 
 /// The mechanism that is hidden most often, the first of several.
@@ -294,6 +304,25 @@ mod tests {
             markdown(&lines)
                 .contains("| mechanism, strong | named | - | - | - | 192/192 100 % [98, 100] | - |")
         );
+    }
+
+    #[test]
+    fn who_is_calibrated_errs_by_chance_alone() {
+        let mut stream = Streams::new(3, 0).of("given");
+        let mut given = |count: usize, shift: f64| -> Vec<(f64, bool)> {
+            let mut one = || (stream.uniform(), stream.uniform());
+            (0..count).map(|_| one()).map(|(p, u)| (p, u < (p - shift).max(0.0))).collect()
+        };
+        // Of forty a tenth is expected: ten bins of four, each off by some 0.4 of a standard deviation of 0.2 times 0.8.
+        let few = chance_error(&given(40, 0.0)).expect("some");
+        assert!((0.1..0.2).contains(&few), "{few}");
+        let many = given(40_000, 0.0);
+        assert!(chance_error(&many).expect("some") < 0.01);
+        assert!(calibration_error(&many).expect("some") < 0.01);
+        // Who gives 0.2 too much is seen to, whatever chance makes.
+        let sure = given(40_000, 0.2);
+        assert!((calibration_error(&sure).expect("some") - 0.18).abs() < 0.01);
+        assert_eq!(chance_error(&[]), None);
     }
 
     #[test]

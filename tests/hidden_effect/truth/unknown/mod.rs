@@ -72,10 +72,11 @@ pub const UNKNOWN: [Unknown; 15] = [
         parameters: &[("pretension_n", 30.0, 150.0)],
         effect: |p| Box::new(TautRopes { pretension: p[0] }),
     },
-    // A wall that is thinner than it is said to be.
+    // A wall that is thinner than it is said to be: the same as joints that begin behind its faces, but for its weight, which
+    // their stiffness hides.
     Unknown {
         name: "thin_wall",
-        aliases: &[],
+        aliases: &["contact_inset"],
         parameters: &[("thickness_share", 0.9, 0.98)],
         effect: |p| Box::new(ThinWall { share: p[0] }),
     },
