@@ -89,3 +89,23 @@ fn identity(judge: &Judge<'_>, plan: &Plan, seed: u64) -> String {
     let seeming = judge.seeming(&one);
     sha256(format!("{hash} {CAMPAIGNS} {seed} {:?} {measured:?} {seeming:?}", Limits::default()).as_bytes())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::critic::made;
+
+    #[test]
+    fn a_judge_who_has_learnt_otherwise_is_not_taken_for_the_same() {
+        let made = made();
+        let (world, (design, _)) = (made.world(), Design::of(&made.study));
+        let plan =
+            Plan::new(&made.study, &made.mechanisms, &made.nuisances, 2).expect("the priors are allowed");
+        let learnt = |training: u64| {
+            let effort = Effort { reference: 200, training };
+            identity(&Judge::trained(&world, &design, effort, 5).expect("it can be told"), &plan, 7)
+        };
+        assert_eq!(learnt(20), learnt(20));
+        assert_ne!(learnt(20), learnt(25));
+    }
+}

@@ -28,7 +28,8 @@ pub use fold::HeldOut;
 pub use gained::{Gained, Interval, Scores};
 use gained::{Row, estimates, gained};
 
-/// Causes that are left out of a mixture have together no more than this probability.
+/// Causes are taken into a mixture, the likeliest first, until those left out have together no more than this probability; more
+/// than a verdict would call ambiguous are not taken.
 const LEFT_OUT: f64 = 0.1;
 
 /// What was chosen in a fold.
