@@ -143,7 +143,7 @@ fn of_design(design: &'static str, judged: &[Judged], removed: &[Judged]) -> Vec
     let given: Vec<(f64, bool)> =
         found.iter().map(|j| (j.said.likeliest.1, j.is_hidden(&j.said.likeliest.0))).collect();
     lines.value("mechanism, found", "calibration error of the likeliest", calibration_error(&given));
-    lines.value("mechanism, found", "that of one who is calibrated, by chance", chance_error(&given));
+    lines.value("mechanism, found", "calibration error by chance alone", chance_error(&given));
     for (group, of) in [("mechanism, named", named(&mechanisms)), ("nothing hidden", nothing.clone())] {
         let measured: Vec<&Judged> = of.into_iter().filter(|j| j.gains.is_some()).collect();
         lines.share(group, "a gain on specimens held out", &measured, Judged::gains);
