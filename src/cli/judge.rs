@@ -8,7 +8,6 @@ use serde::{Deserialize, Serialize};
 use crate::cli::failure::Failure;
 use crate::critic::{Bank, Design, Effort, Judge, Limits, Plan, SelfTest, World};
 use crate::ensemble::replace_file;
-use crate::random::Streams;
 use crate::study::{Described, Nuisance, Study, sha256};
 
 /// Seeds that a part of a diagnosis may use from its own on.
@@ -84,9 +83,7 @@ fn tested(seed: u64) -> u64 {
 /// judging tests itself anew.
 fn identity(judge: &Judge<'_>, plan: &Plan, seed: u64) -> String {
     let (hash, measured) = (&plan.study.hash, &judge.world.study().measured);
-    let streams = Streams::new(tested(seed), CAMPAIGNS);
-    let one = judge.world.campaign(&judge.design, &judge.world.drawn(None, &streams), &streams);
-    let seeming = judge.seeming(&one);
+    let seeming = judge.seeming_of_nothing(tested(seed), CAMPAIGNS);
     sha256(format!("{hash} {CAMPAIGNS} {seed} {:?} {measured:?} {seeming:?}", Limits::default()).as_bytes())
 }
 
