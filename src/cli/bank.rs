@@ -27,8 +27,7 @@ pub(crate) fn bank(arguments: &Bank) -> Result<(), Failure> {
     let Prepared { mechanisms, nuisances, plan, .. } = prepared(&study, &arguments.which, arguments.points)?;
     let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, "bank"));
     // A table that came without its journal is as good as one that was computed here.
-    let there = fs::read(out.join(BANK)).ok().and_then(|bytes| critic::Bank::read(&bytes, &plan).ok());
-    let bank = there.map_or_else(|| computed(&plan, &out, arguments.threads), Ok)?;
+    let bank = present(&plan, &out).map_or_else(|| computed(&plan, &out, arguments.threads), Ok)?;
     // Few points make a bank that may grow, and nothing to judge by.
     if let Ok(world) = judge::world(&study, &mechanisms, &nuisances, &plan, &bank)
         && let Ok(judge) = judge::judge(&world, &Design::of(&study).0, study.seed)
@@ -84,6 +83,11 @@ pub(crate) fn noted(doubts: &[Doubt]) -> Vec<String> {
     let words: Vec<String> = doubts.iter().map(ToString::to_string).collect();
     words.iter().for_each(|words| output::note(&format!("note: {words}")));
     words
+}
+
+/// The bank that lies in a folder, if it is of a plan.
+pub(crate) fn present(plan: &Plan, folder: &Path) -> Option<critic::Bank> {
+    critic::Bank::read(&fs::read(folder.join(BANK)).ok()?, plan).ok()
 }
 
 /// Simulates what a folder does not hold yet of a plan's walls, and writes their table there.

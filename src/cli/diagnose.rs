@@ -84,8 +84,7 @@ fn banked(plan: &Plan, arguments: &Diagnose, study: &Study) -> Result<(critic::B
     let path = folder.join(BANK);
     if arguments.bank.is_none() && !path.exists() {
         let own = locate::folder(&arguments.which.study)?;
-        let beside = fs::read(own.join(BANK));
-        if let Some(bank) = beside.ok().and_then(|bytes| critic::Bank::read(&bytes, plan).ok()) {
+        if let Some(bank) = bank::present(plan, &own) {
             return Ok((bank, own));
         }
     }

@@ -49,12 +49,7 @@ pub(super) fn judge<'w>(world: &'w World<'w>, design: &Design, seed: u64) -> Res
 
 /// The self-test of a judge: the one that is kept in the bank's folder, if it is of the same.
 pub(super) fn self_test(judge: &Judge<'_>, plan: &Plan, seed: u64, folder: &Path) -> SelfTest {
-    let kept = fs::read(folder.join(KEPT)).ok();
-    let kept = kept.and_then(|bytes| serde_json::from_slice::<Kept>(&bytes).ok());
-    match kept.filter(|kept| kept.of == identity(judge, plan, seed)) {
-        Some(kept) => kept.test,
-        None => computed(judge, seed),
-    }
+    kept(judge, plan, seed, folder).test
 }
 
 /// Keeps the self-test of a judge in the bank's folder.
@@ -64,14 +59,21 @@ pub(super) fn keep_self_test(
     seed: u64,
     folder: &Path,
 ) -> Result<(), Failure> {
-    let kept = Kept { of: identity(judge, plan, seed), test: self_test(judge, plan, seed, folder) };
+    let kept = kept(judge, plan, seed, folder);
     let mut json = serde_json::to_vec_pretty(&kept).map_err(|error| Failure::Run(error.to_string()))?;
     json.push(b'\n');
     Ok(replace_file(&folder.join(KEPT), &json)?)
 }
 
-fn computed(judge: &Judge<'_>, seed: u64) -> SelfTest {
-    judge.self_test(&Limits::default(), CAMPAIGNS, tested(seed))
+/// What is kept in a folder, if it is of the same, or else computed.
+fn kept(judge: &Judge<'_>, plan: &Plan, seed: u64, folder: &Path) -> Kept {
+    let of = identity(judge, plan, seed);
+    let there = fs::read(folder.join(KEPT)).ok();
+    let there = there.and_then(|bytes| serde_json::from_slice::<Kept>(&bytes).ok());
+    there.filter(|kept| kept.of == of).unwrap_or_else(|| {
+        let test = judge.self_test(&Limits::default(), CAMPAIGNS, tested(seed));
+        Kept { of, test }
+    })
 }
 
 /// Seed of its campaigns.

@@ -313,7 +313,7 @@ mod tests {
             let mut one = || (stream.uniform(), stream.uniform());
             (0..count).map(|_| one()).map(|(p, u)| (p, u < (p - shift).max(0.0))).collect()
         };
-        // Of forty a tenth is expected: ten bins of four, each off by some 0.4 of a standard deviation of 0.2 times 0.8.
+        // Ten bins of four: 0.8 of a standard deviation of 0.2 each.
         let few = chance_error(&given(40, 0.0)).expect("some");
         assert!((0.1..0.2).contains(&few), "{few}");
         let many = given(40_000, 0.0);

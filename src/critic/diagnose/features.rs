@@ -61,6 +61,8 @@ struct Usual {
     bend: f64,
     /// Mean and standard deviation of what they count.
     counted: [f64; 2],
+    /// Their error and rounding in that standard deviation, where they are as usual.
+    error: f64,
 }
 
 /// Contrasts whose scatter is looked at.
@@ -111,14 +113,18 @@ impl Usual {
     fn of(m: &Measurement, told: &[f64]) -> Usual {
         let largest = told.iter().fold(m.value.abs(), |largest, x| largest.max(x.abs()));
         let floor = m.error.max(LEAST_SHARE * largest);
-        let bend = reading_variance(m).sqrt().max(LEAST_SHARE * largest).max(f64::MIN_POSITIVE);
+        let error = reading_variance(m).sqrt();
+        let bend = error.max(LEAST_SHARE * largest).max(f64::MIN_POSITIVE);
         let counted: Vec<f64> = told.iter().map(|x| asinh(x / bend)).collect();
         let mean = stats::mean(&counted).unwrap_or_else(|| asinh(m.value / bend));
-        let least = floor / (bend * cosh(mean));
+        // What makes it count one more there.
+        let step = bend * cosh(mean);
+        let sd = stats::sigma(&counted).unwrap_or(0.0).max(floor / step);
         Usual {
             sd: stats::sigma(told).unwrap_or(0.0).max(floor),
             bend,
-            counted: [mean, stats::sigma(&counted).unwrap_or(0.0).max(least)],
+            counted: [mean, sd],
+            error: error / (step * sd),
         }
     }
 
@@ -126,12 +132,6 @@ impl Usual {
     fn scaled(&self, seen: Seen, m: &Measurement) -> Option<f64> {
         let [mean, sd] = self.counted;
         seen.told(m).map(|told| (asinh(told / self.bend) - mean) / sd)
-    }
-
-    /// Its error and rounding in that standard deviation, where it is as usual.
-    fn error(&self, m: &Measurement) -> f64 {
-        let [mean, sd] = self.counted;
-        reading_variance(m).sqrt() / (self.bend * cosh(mean) * sd)
     }
 }
 
@@ -176,7 +176,7 @@ fn contrasts(specimen: &Specimen, seen: &[Seen], scale: &[Usual]) -> Vec<(Contra
     let mut weighted: BTreeMap<Contrast, Vec<[f64; 3]>> = BTreeMap::new();
     let (mut read, mut reached) = (0.0, 0.0);
     for ((m, seen), usual) in specimen.readings.iter().zip(seen).zip(scale) {
-        let (z, error) = (usual.scaled(*seen, m), usual.error(m));
+        let (z, error) = (usual.scaled(*seen, m), usual.error);
         let Some(tilt) = m.tilt else {
             weighted.entry(Contrast::Collapse).or_default().extend(z.map(|z| [1.0, z, error]));
             continue;
@@ -265,7 +265,7 @@ mod tests {
         let middle = 0.1;
         assert!(of(middle).abs() < 1e-3, "{}", of(middle));
         let moved = of(middle + 0.5 * error) - of(middle - 0.5 * error);
-        assert!((usual.error(&m) / moved - 1.0).abs() < 1e-3, "{moved}");
+        assert!((usual.error / moved - 1.0).abs() < 1e-3, "{moved}");
         // In metres it varies as it does.
         assert!((usual.sd - stats::sigma(&told).expect("many")).abs() < 1e-12);
     }

@@ -75,12 +75,6 @@ impl<'w> Judge<'w> {
         Some(Judge { world, design: design.clone(), reference, ranking, alarm })
     }
 
-    /// How a campaign without effect seems, by its seed and number.
-    pub fn seeming_of_nothing(&self, seed: u64, number: u64) -> Seeming {
-        let streams = Streams::new(seed, number);
-        self.seeming(&self.world.campaign(&self.design, &self.world.drawn(None, &streams), &streams))
-    }
-
     /// How a campaign seems.
     pub fn seeming(&self, campaign: &Campaign) -> Seeming {
         let wrong = self.reference.judge(&self.design, campaign);

@@ -71,15 +71,22 @@ impl Judge<'_> {
     /// training's.
     pub fn self_test(&self, limits: &Limits, count: u64, seed: u64) -> SelfTest {
         let row = |cause: &Option<usize>| {
-            let one = |k: u64| {
-                let streams = Streams::new(seed, k);
-                let truth = self.world.drawn(*cause, &streams);
-                let seeming = self.seeming(&self.world.campaign(&self.design, &truth, &streams));
-                Tested { truth, seeming }
-            };
-            row(*cause, &(0..count).map(one).collect::<Vec<_>>(), limits)
+            let campaigns: Vec<Tested> = (0..count).map(|k| self.tested(*cause, seed, k)).collect();
+            row(*cause, &campaigns, limits)
         };
         SelfTest { rows: self.ranking.causes().par_iter().map(row).collect() }
+    }
+
+    /// How a campaign of a self-test without effect seems.
+    pub fn seeming_of_nothing(&self, seed: u64, number: u64) -> Seeming {
+        self.tested(None, seed, number).seeming
+    }
+
+    fn tested(&self, cause: Option<usize>, seed: u64, number: u64) -> Tested {
+        let streams = Streams::new(seed, number);
+        let truth = self.world.drawn(cause, &streams);
+        let seeming = self.seeming(&self.world.campaign(&self.design, &truth, &streams));
+        Tested { truth, seeming }
     }
 }
 

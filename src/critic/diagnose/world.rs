@@ -1,5 +1,8 @@
 //! Campaigns that could have been measured, from a bank: truth in, readings out.
 
+#[cfg(test)]
+mod tests;
+
 use std::collections::BTreeMap;
 
 use crate::critic::bank::{Bank, Curves, DOUBT, Emulator, NUMBERS, Path, Plan};

@@ -61,21 +61,14 @@ pub struct Gain {
 fn mixed(ranked: &Ranked, named: f64) -> Vec<(usize, f64)> {
     let causes: Vec<(usize, f64)> =
         ranked.causes.iter().filter_map(|(cause, p)| Some(((*cause)?, *p))).collect();
+    let whole = |of: &[(usize, f64)]| of.iter().fold(0.0, |sum, (_, p)| sum + p);
+    let enough = |count: &usize| whole(&causes[*count..]) <= LEFT_OUT * whole(&causes);
     let count = match ranked.named(named) {
         Some(_) => 1,
-        None => {
-            let whole = causes.iter().fold(0.0, |sum, (_, p)| sum + p);
-            let mut left = whole;
-            let open = causes.iter().take_while(|(_, p)| {
-                let open = left > LEFT_OUT * whole;
-                left -= p;
-                open
-            });
-            open.count().min(MOST_AMBIGUOUS)
-        }
+        None => (0..MOST_AMBIGUOUS).find(enough).unwrap_or(MOST_AMBIGUOUS),
     };
-    let whole = causes[..count].iter().fold(0.0, |sum, (_, p)| sum + p);
-    causes[..count].iter().map(|(cause, p)| (*cause, p / whole)).collect()
+    let taken = &causes[..count];
+    taken.iter().map(|(cause, p)| (*cause, p / whole(taken))).collect()
 }
 
 /// As many draws as of a part alone, of each part its share, spread evenly over it.
