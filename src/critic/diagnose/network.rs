@@ -11,8 +11,6 @@ const BATCH: usize = 50;
 const EPOCHS: u32 = 25;
 /// Step of Adam at the start; it goes down to nothing as a half cosine's chord, a straight line.
 const RATE: f64 = 3e-3;
-/// Every so many-th example is kept from the training, for the temperature.
-const HELD: usize = 8;
 
 /// A layer: weights by unit and input, and a bias for each unit.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,12 +32,14 @@ pub struct Network {
 pub type Example = (Vec<f64>, usize);
 
 impl Network {
-    /// Trains on examples of so many classes, all of the same number of inputs of order one.
-    pub fn trained(examples: &[Example], classes: usize, stream: &mut Stream) -> Network {
+    /// Trains on examples of so many classes, all of the same number of inputs of order one; `held` ones, of all classes, tell the
+    /// temperature.
+    pub fn trained(examples: &[Example], held: &[Example], classes: usize, stream: &mut Stream) -> Network {
         crate::check!(
-            examples.len() > 2 * HELD && classes > 1,
-            "{} examples of {classes} classes",
-            examples.len()
+            !examples.is_empty() && !held.is_empty() && classes > 1,
+            "{} examples and {} held of {classes} classes",
+            examples.len(),
+            held.len()
         );
         let inputs = examples[0].0.len();
         let layers = [
@@ -48,8 +48,7 @@ impl Network {
             Layer::new(HIDDEN, classes, stream),
         ];
         let mut network = Network { layers, temperature: 1.0 };
-        let is_held = |k: &usize| k % HELD == HELD - 1;
-        let mut order: Vec<usize> = (0..examples.len()).filter(|k| !is_held(k)).collect();
+        let mut order: Vec<usize> = (0..examples.len()).collect();
         let mut adam = Adam::new(&network);
         let batches = order.len().div_ceil(BATCH) * EPOCHS as usize;
         let mut done = 0;
@@ -67,8 +66,7 @@ impl Network {
                 done += 1;
             }
         }
-        let held: Vec<&Example> = (0..examples.len()).filter(is_held).map(|k| &examples[k]).collect();
-        network.temperature = network.best_temperature(&held);
+        network.temperature = network.best_temperature(held);
         network
     }
 
@@ -105,7 +103,7 @@ impl Network {
     }
 
     /// The temperature that makes held examples most likely, to a per cent, between a fifth and five.
-    fn best_temperature(&self, held: &[&Example]) -> f64 {
+    fn best_temperature(&self, held: &[Example]) -> f64 {
         let sums: Vec<(Vec<f64>, usize)> =
             held.iter().map(|(inputs, class)| (self.sums(inputs)[2].clone(), *class)).collect();
         let loss = |temperature: f64| -> f64 {
@@ -236,7 +234,8 @@ mod tests {
 
     #[test]
     fn a_network_learns_the_probability_and_not_only_the_class() {
-        let network = Network::trained(&examples(4000), 2, &mut Streams::new(1, 0).of("network"));
+        let all = examples(4500);
+        let network = Network::trained(&all[500..], &all[..500], 2, &mut Streams::new(1, 0).of("network"));
         for x in [-2.0, -1.0, -0.3, 0.0, 0.4, 1.2, 2.0] {
             for idle in [-1.0, 0.5] {
                 let found = network.probabilities(&[x, idle]);
@@ -251,7 +250,8 @@ mod tests {
 
     #[test]
     fn the_same_examples_and_stream_give_the_same_network() {
-        let train = || Network::trained(&examples(200), 2, &mut Streams::new(1, 0).of("network"));
+        let all = examples(200);
+        let train = || Network::trained(&all[20..], &all[..20], 2, &mut Streams::new(1, 0).of("network"));
         assert_eq!(train(), train());
     }
 

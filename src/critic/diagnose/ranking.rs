@@ -12,8 +12,10 @@ use crate::random::Streams;
 
 /// Share of the sets that hold the true cause, for each cause.
 pub const COVERED: f64 = 0.9;
-/// One campaign in so many is kept from the training, for the sets.
+/// One campaign in so many, under every cause, is kept from the training, for the sets.
 const KEPT: u64 = 5;
+/// And one in so many of the others for the network's temperature.
+const HELD: u64 = 8;
 
 /// The causes of a world as a design can tell them apart.
 #[derive(Clone, Debug)]
@@ -58,11 +60,18 @@ impl Ranking {
             .into_par_iter()
             .map(|k| causes.iter().enumerate().map(|cause| shown(k, cause)).collect())
             .collect();
-        let (mut examples, mut kept): (Vec<Example>, Vec<Example>) = (Vec::new(), Vec::new());
+        let (mut examples, mut held, mut kept): (Vec<Example>, Vec<Example>, Vec<Example>) =
+            Default::default();
         for (k, shown) in (0..count).zip(all) {
-            if k.is_multiple_of(KEPT) { &mut kept } else { &mut examples }.extend(shown);
+            let part = match k {
+                k if k.is_multiple_of(KEPT) => &mut kept,
+                k if k % HELD == 1 => &mut held,
+                _ => &mut examples,
+            };
+            part.extend(shown);
         }
-        let network = Network::trained(&examples, classes, &mut Streams::new(seed, count).of("network"));
+        let mut stream = Streams::new(seed, count).of("network");
+        let network = Network::trained(&examples, &held, classes, &mut stream);
         let least = (0..classes).map(|class| {
             let own = kept.iter().filter(|(_, own)| *own == class);
             let mut given: Vec<f64> = own.map(|(inputs, _)| network.probabilities(inputs)[class]).collect();
@@ -102,6 +111,12 @@ impl Ranked {
         let base = self.causes.iter().find(|(cause, _)| cause.is_none()).map_or(0.0, |(_, p)| *p);
         let tiny = 1e-12;
         ln((1.0 - base).max(tiny)) - ln(base.max(tiny))
+    }
+
+    /// The probability of a cause.
+    pub fn probability(&self, cause: usize) -> f64 {
+        let own = self.causes.iter().find(|(other, _)| *other == Some(cause));
+        own.map_or(0.0, |(_, probability)| *probability)
     }
 
     /// The most likely cause, if it is at least so likely and not the base model.
