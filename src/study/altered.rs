@@ -31,6 +31,7 @@ impl Mechanisms {
             rope.slack += added;
         }
         restraint.base.compliance = self.base_compliance.or(restraint.base.compliance);
+        restraint.base.tan_phi = self.platform_friction.or(restraint.base.tan_phi);
         restraint
     }
 

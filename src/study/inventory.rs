@@ -76,7 +76,7 @@ const fn entry(
 
 /// All mechanisms, in the order of their keys.
 #[rustfmt::skip]
-pub static INVENTORY: [Entry; 16] = {
+pub static INVENTORY: [Entry; 17] = {
     use Acts::{Joints, Loading, Readings, Restraint, Wall};
     use InLimitAnalysis::{Honoured, NoBearing, Refused};
     use Unloading::{AsWithout, Irreversible, Reversible};
@@ -96,7 +96,8 @@ pub static INVENTORY: [Entry; 16] = {
         entry("gauge_scale", Readings, Reversible, NoBearing, &["joint.kn_pa_per_m", "joint_closure", "base_compliance"]),
         entry("creep", Loading, Irreversible, Refused, &["joint.kn_over_ks", "gauge_offset", "friction", "wedge_loss"]),
         entry("specimen_scatter", Joints, AsWithout, Honoured, &["size_scatter", "contact_area"]),
-        entry("end_release", Joints, Irreversible, Honoured, &["rope_slack", "friction"]),
+        entry("end_release", Joints, Irreversible, Honoured, &["rope_slack", "friction", "platform_friction"]),
+        entry("platform_friction", Restraint, Irreversible, Honoured, &["restraint.platform_phi_deg", "restraint.strip_height_m", "end_release", "lean"]),
     ]
 };
 

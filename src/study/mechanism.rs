@@ -1,6 +1,6 @@
 //! The mechanisms that the base model leaves out, as a study asks for them.
 
-use crate::math::{degrees, radians};
+use crate::math::{degrees, radians, tan};
 use crate::protocol::{Compliance, Creep};
 use crate::study::inventory::INVENTORY;
 use crate::study::reader::Reader;
@@ -40,6 +40,8 @@ pub struct Mechanisms {
     pub specimen_scatter: Option<SpecimenScatter>,
     /// Less interlocked ends.
     pub end_release: Option<EndRelease>,
+    /// Tangent of the friction angle on platform and strip.
+    pub platform_friction: Option<f64>,
 }
 
 /// Hyperbolic closure in series with kn; see [`crate::law::NormalLaw::Hyperbolic`].
@@ -168,6 +170,7 @@ impl Mechanisms {
                     t.reals(["within_m", "friction_share", "stiffness_share"])?;
                 self.end_release = Some(EndRelease { within, friction, stiffness });
             }
+            "platform_friction" => self.platform_friction = Some(tan(radians(t.real("phi_deg")?))),
             other => {
                 crate::check!(false, "the mechanism `{other}` of the catalogue is not read");
                 return None;

@@ -16,7 +16,7 @@ use crate::study::reader::{Notes, Reader};
 
 /// Parameters whose mechanism is the stronger, the smaller they are; of every other it is the stronger, the larger they are.
 /// Factors that go either way count as stronger where they weaken the wall.
-const STRONGER_BELOW: [(&str, &str); 10] = [
+const STRONGER_BELOW: [(&str, &str); 11] = [
     ("joint_closure", "initial_pa_per_m"),
     ("contact_area", "share"),
     ("friction", "factor"),
@@ -27,6 +27,7 @@ const STRONGER_BELOW: [(&str, &str); 10] = [
     ("wedge_loss", "beyond_deg"),
     ("end_release", "friction_share"),
     ("end_release", "stiffness_share"),
+    ("platform_friction", "phi_deg"),
 ];
 
 /// A study with a mechanism switched on.
@@ -131,6 +132,7 @@ impl Mechanisms {
             creep: self.creep.or(other.creep),
             specimen_scatter: self.specimen_scatter.or(other.specimen_scatter),
             end_release: self.end_release.or(other.end_release),
+            platform_friction: self.platform_friction.or(other.platform_friction),
         }
     }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use pirca::math::radians;
+use pirca::math::{radians, tan};
 use pirca::protocol::{Compliance, Creep};
 use pirca::study::{
     Acts, EndRelease, FrictionChange, INVENTORY, InLimitAnalysis, JointClosure, Mechanisms, SpecimenScatter,
@@ -128,6 +128,8 @@ friction_cov = 0.05
 within_m = 0.2
 friction_share = 0.5
 stiffness_share = 0.4
+[mechanism.platform_friction]
+phi_deg = 20
 ";
 
 #[test]
@@ -154,12 +156,14 @@ fn a_study_switches_all_of_them_on() {
         creep: Some(Creep { rate: pirca::math::degrees(0.01), hold_share: 0.05, hold_every: radians(5.0) }),
         specimen_scatter: Some(SpecimenScatter { kn: 0.3, friction: 0.05 }),
         end_release: Some(EndRelease { within: 0.2, friction: 0.5, stiffness: 0.4 }),
+        platform_friction: Some(tan(radians(20.0))),
     };
     assert!(study.arms.iter().all(|arm| arm.mechanisms == expected), "{:?}", study.arms[0].mechanisms);
     assert_eq!(study.arms[0].layout.density.mean(), 1.05 * without.arms[0].layout.density.mean());
     assert_ne!(study.hash, without.hash);
     // Those that act on layout and restraint are in these.
     assert_eq!(study.arms[0].restraint.base.compliance, expected.base_compliance);
+    assert_eq!(study.arms[0].restraint.base.tan_phi, expected.platform_friction);
     let pirca::protocol::Ends::Ropes(rope) = study.arms[0].restraint.ends else {
         panic!("the ends are ropes")
     };

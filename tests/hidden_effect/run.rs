@@ -26,7 +26,7 @@ use crate::truth::readings::csv;
 use crate::truth::roster::{catalogue, root, roster};
 
 /// Seed of the roster, far from that of the bank, and none that the inference was made better by.
-const MASTER: u64 = 20_270_777;
+const MASTER: u64 = 20_280_115;
 /// Points of the bank.
 const POINTS: u64 = 120;
 /// Mechanisms are taken out of the catalogue, and gains are measured, in these designs: two stones add nothing that could be held

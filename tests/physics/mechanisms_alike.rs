@@ -142,6 +142,7 @@ fn cases() -> Vec<(&'static str, Mechanisms)> {
         ("creep", Mechanisms { creep, ..none() }),
         ("specimen_scatter", Mechanisms { specimen_scatter: scatter, ..none() }),
         ("end_release", Mechanisms { end_release: release, ..none() }),
+        ("platform_friction", Mechanisms { platform_friction: Some(0.1), ..none() }),
         (
             "many",
             Mechanisms {

@@ -39,6 +39,7 @@ pub static MECHANISM: Section = Section {
         switched("creep", &CREEP),
         switched("specimen_scatter", &SPECIMEN_SCATTER),
         switched("end_release", &END_RELEASE),
+        switched("platform_friction", &PLATFORM_FRICTION),
     ]],
 };
 
@@ -235,4 +236,15 @@ static END_RELEASE: Section = mechanism(
         ),
     ]],
     "End panels that are less interlocked than the middle.",
+);
+
+static PLATFORM_FRICTION: Section = mechanism(
+    "[mechanism.platform_friction]",
+    &[&[Key::new(
+        "phi_deg",
+        real("deg", Interval::closed(0.0, 85.0)),
+        Required,
+        "Friction angle of the joint with platform and strip, instead of what the restraint says.",
+    )]],
+    "A platform that the wall slides on more easily, or less, than on itself.",
 );

@@ -40,6 +40,7 @@ const AWAY: &[(&str, &str, Away)] = &[
     ("gauge_scale", "factor", Away::From(1.0)),
     ("end_release", "friction_share", Away::Down),
     ("end_release", "stiffness_share", Away::Down),
+    ("platform_friction", "phi_deg", Away::Down),
 ];
 
 impl Strength {

@@ -4,9 +4,7 @@ mod readings;
 mod walls;
 
 use readings::{Backlash, Crosstalk, Drift, Knock, Saturation, StickSlip, TiltScale};
-use walls::{
-    HeavyTailedJoints, LightTop, SkewAxis, SlipperyPlatform, SoftCourse, SoftLeft, TautRopes, ThinWall,
-};
+use walls::{HeavyTailedJoints, LightTop, SkewAxis, SoftCourse, SoftLeft, TautRopes, ThinWall};
 
 use super::effect::Effect;
 
@@ -22,7 +20,7 @@ pub struct Unknown {
 }
 
 /// All of them; those that act on walls come first.
-pub const UNKNOWN: [Unknown; 15] = [
+pub const UNKNOWN: [Unknown; 14] = [
     // One course in softer joints.
     Unknown {
         name: "soft_course",
@@ -57,13 +55,6 @@ pub const UNKNOWN: [Unknown; 15] = [
         aliases: &[],
         parameters: &[("density_share", 0.6, 0.9)],
         effect: |p| Box::new(LightTop { share: p[0] }),
-    },
-    // A platform on which the wall slides.
-    Unknown {
-        name: "slippery_platform",
-        aliases: &[],
-        parameters: &[("tan_phi", 0.22, 0.34)],
-        effect: |p| Box::new(SlipperyPlatform { tan_phi: p[0] }),
     },
     // Ropes that press on the wall from the start.
     Unknown {

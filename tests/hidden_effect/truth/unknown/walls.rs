@@ -98,17 +98,6 @@ impl Effect for LightTop {
     }
 }
 
-pub struct SlipperyPlatform {
-    pub tan_phi: f64,
-}
-
-impl Effect for SlipperyPlatform {
-    fn restraint(&self, mut restraint: Restraint) -> Restraint {
-        restraint.base.tan_phi = Some(self.tan_phi);
-        restraint
-    }
-}
-
 pub struct TautRopes {
     pub pretension: f64,
 }
