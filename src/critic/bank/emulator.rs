@@ -9,10 +9,10 @@
 //!
 //! with the size `s` and the lengths `l` that tell walls best that they do not know.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use crate::critic::bank::path::{NUMBERS, Path};
+use crate::critic::bank::path::NUMBERS;
 use crate::math::{exp, ln};
 use crate::stats;
 
@@ -46,6 +46,10 @@ pub struct Emulator {
     coefficients: Vec<[f64; NUMBERS]>,
     /// Weights of the walls in what is smooth beside it, by wall and number.
     weights: Vec<[f64; NUMBERS]>,
+    /// Of the covariance of the walls of the bank.
+    inverse: DMatrix<f64>,
+    /// Terms of the quadratic, by wall.
+    terms: Vec<Vec<f64>>,
     /// Where the walls of the bank lie, in scores that are [`held`].
     scores: Vec<Vec<f64>>,
     /// What each wall of the bank differs by from a curve that does not know it: the stones' own part, and the emulator's error.
@@ -54,17 +58,29 @@ pub struct Emulator {
     explained: [f64; NUMBERS],
 }
 
+/// What an emulator tells of walls at some scores.
+pub struct Told<'e> {
+    /// The numbers to be expected.
+    pub numbers: [f64; NUMBERS],
+    /// What the walls of the bank that lie nearest are left with, nearest first: a wall differs from what is expected by one of
+    /// them.
+    pub left: Vec<&'e [f64; NUMBERS]>,
+    /// Share of the variance of that which is the emulator's own error: all walls at these scores have it in common.
+    pub common: f64,
+}
+
 /// What a shape makes of the walls.
 struct Fitted {
+    inverse: DMatrix<f64>,
     weights: DMatrix<f64>,
     /// By wall and number.
     left: DMatrix<f64>,
 }
 
 impl Emulator {
-    /// Through walls by their scores (standard normal, one per input) and paths; `None` for fewer than twice as many walls as
-    /// a quadratic has terms.
-    pub fn fit(scores: &[Vec<f64>], paths: &[Path]) -> Option<Emulator> {
+    /// Through walls by their scores (standard normal, one per input) and numbers, see [`Path::adding`](super::Path::adding);
+    /// `None` for fewer than twice as many walls as a quadratic has terms.
+    pub fn fit(scores: &[Vec<f64>], walls: &[[f64; NUMBERS]]) -> Option<Emulator> {
         let inputs = scores.first()?.len();
         let scores: Vec<Vec<f64>> = scores.iter().map(|z| held(z)).collect();
         let terms: Vec<Vec<f64>> = scores.iter().map(|z| terms(z)).collect();
@@ -73,9 +89,9 @@ impl Emulator {
             return None;
         }
         let design = DMatrix::from_fn(n, p, |row, column| terms[row][column]);
-        let mean = |number: usize| stats::mean(&paths.iter().map(|p| p.numbers[number]).collect::<Vec<_>>());
+        let mean = |number: usize| stats::mean(&walls.iter().map(|wall| wall[number]).collect::<Vec<_>>());
         let middle: [f64; NUMBERS] = std::array::from_fn(|number| mean(number).unwrap_or(0.0));
-        let wanted = DMatrix::from_fn(n, NUMBERS, |row, number| paths[row].numbers[number] - middle[number]);
+        let wanted = DMatrix::from_fn(n, NUMBERS, |row, number| walls[row][number] - middle[number]);
         let plain = Shape { size: 0.0, length: 1.0 };
         let others = SIZES.iter().flat_map(|&size| LENGTHS.map(|length| Shape { size, length }));
         let tried: Vec<Shape> = std::iter::once(plain).chain(others.filter(|_| inputs > JOINTS)).collect();
@@ -84,11 +100,11 @@ impl Emulator {
             .filter_map(|shape| Some((shape, Fitted::of(shape, &scores, &design, &wanted)?)))
             .collect();
         let best = fitted.into_iter().map(|(shape, fitted)| (fitted.misses(), shape, fitted));
-        let (_, shape, Fitted { weights, left }) =
+        let (_, shape, Fitted { inverse, weights, left }) =
             best.reduce(|best, own| if own.0 < best.0 { own } else { best })?;
         let left = by_row(&left);
         let explained = std::array::from_fn(|number| {
-            let values: Vec<f64> = paths.iter().map(|path| path.numbers[number]).collect();
+            let values: Vec<f64> = walls.iter().map(|wall| wall[number]).collect();
             let squares: Vec<f64> = left.iter().map(|left| left[number] * left[number]).collect();
             let whole = stats::sigma(&values).unwrap_or(0.0);
             let rest = stats::sum(&squares) / n as f64;
@@ -96,27 +112,47 @@ impl Emulator {
         });
         let coefficients = by_row(&(design.transpose() * &weights * WIDE));
         let weights = by_row(&weights);
-        Some(Emulator { inputs, shape, middle, coefficients, weights, scores, left, explained })
+        Some(Emulator {
+            inputs,
+            shape,
+            middle,
+            coefficients,
+            weights,
+            inverse,
+            terms,
+            scores,
+            left,
+            explained,
+        })
     }
 
-    /// The path to be expected at these scores (one per input), and what so many walls of the bank, those that lie nearest, are
-    /// left with, nearest first: a wall there differs from the expected path by one of them.
-    pub fn told(&self, scores: &[f64], count: usize) -> (Path, Vec<&[f64; NUMBERS]>) {
+    /// What it tells of walls at these scores (one per input), with what so many walls of the bank are left with.
+    pub fn told(&self, scores: &[f64], count: usize) -> Told<'_> {
         crate::check!(scores.len() == self.inputs, "{} scores for {} inputs", scores.len(), self.inputs);
         let scores = held(scores);
+        let own = terms(&scores);
         let distances: Vec<f64> =
             self.scores.iter().map(|wall| self.shape.squared_distance(&scores, wall)).collect();
+        let smooth = |square: f64| if self.shape.size > 0.0 { self.shape.covariance(square) } else { 0.0 };
+        let smooths: Vec<f64> = distances.iter().map(|square| smooth(*square)).collect();
         let mut numbers = self.middle;
         let mut add = |share: f64, of: &[f64; NUMBERS]| {
             numbers.iter_mut().zip(of).for_each(|(number, of)| *number += share * of);
         };
-        terms(&scores).into_iter().zip(&self.coefficients).for_each(|(term, of)| add(term, of));
-        if self.shape.size > 0.0 {
-            let covariances = distances.iter().map(|square| self.shape.covariance(*square));
-            covariances.zip(&self.weights).for_each(|(covariance, of)| add(covariance, of));
-        }
+        own.iter().zip(&self.coefficients).for_each(|(term, of)| add(*term, of));
+        smooths.iter().zip(&self.weights).for_each(|(covariance, of)| add(*covariance, of));
+        let dot = |other: &[f64]| WIDE * own.iter().zip(other).fold(0.0, |sum, (a, b)| sum + a * b);
+        let covariances = smooths.iter().zip(&self.terms).map(|(smooth, other)| smooth + dot(other));
+        let covariances = DVector::from_iterator(smooths.len(), covariances);
+        // Section 2.2: what the walls of the bank do not tell of the curve, in units of what the stones leave.
+        let known = covariances.dot(&(&self.inverse * &covariances));
+        let unknown = (smooth(0.0) + dot(&own) - known).max(0.0);
         let nearest = stats::smallest(distances.into_iter().zip(0..), count);
-        (Path { numbers }, nearest.into_iter().map(|wall| &self.left[wall]).collect())
+        Told {
+            numbers,
+            left: nearest.into_iter().map(|wall| &self.left[wall]).collect(),
+            common: unknown / (1.0 + unknown),
+        }
     }
 
     /// Share of the variance of each number that is told beforehand for a wall that the curve does not know.
@@ -143,7 +179,7 @@ impl Fitted {
         let weights = &inverse * wanted;
         let left =
             DMatrix::from_fn(n, NUMBERS, |wall, number| weights[(wall, number)] / inverse[(wall, wall)]);
-        Some(Fitted { weights, left })
+        Some(Fitted { inverse, weights, left })
     }
 
     /// How far off it is of walls that it does not know: mean logarithm over the numbers that vary.

@@ -8,7 +8,7 @@ mod store;
 #[cfg(test)]
 pub(super) mod tests;
 
-pub use emulator::Emulator;
+pub use emulator::{Emulator, Told};
 pub use path::{Curves, NUMBERS, Path};
 pub use plan::{DOUBT, Place, Plan};
 pub use store::{BANK, Bank, NotThisBank};

@@ -15,6 +15,9 @@ pub const PLACES: [f64; 6] = [0.15, 0.3, 0.5, 0.7, 0.85, 1.0];
 /// Numbers of a path: the collapse angle, and three at every place.
 pub const NUMBERS: usize = 1 + 3 * PLACES.len();
 
+/// No wall that stands falls before this tilt (rad): the least that a bank's collapses are told apart by, some 0.06 deg.
+const LEAST: f64 = 1e-3;
+
 /// The path of a wall on the tilting table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
@@ -62,11 +65,12 @@ impl Path {
         Some(Path { numbers })
     }
 
-    /// The path between its places.
-    pub fn curves(&self) -> Curves {
-        let own = |kind: usize| std::array::from_fn(|place| self.numbers[1 + kind * PLACES.len() + place]);
-        let curve = |kind: usize| Monotone::through(PLACES, own(kind));
-        Curves { collapse: exp(self.numbers[0]), kinds: [curve(0), curve(1), curve(2)] }
+    /// What of it adds up when several things act: the collapse angle itself (rad), as lost width and lean subtract from it, and a
+    /// wall that barely stands has no logarithm of it worth the name; all other numbers as they are.
+    pub fn adding(&self) -> [f64; NUMBERS] {
+        let mut adding = self.numbers;
+        adding[0] = exp(adding[0]);
+        adding
     }
 }
 
@@ -80,6 +84,14 @@ pub struct Curves {
 }
 
 impl Curves {
+    /// The way of the wall that has these [adding](Path::adding) numbers; one that should not stand at all falls right after its
+    /// zero reading.
+    pub fn of(adding: &[f64; NUMBERS]) -> Curves {
+        let own = |kind: usize| std::array::from_fn(|place| adding[1 + kind * PLACES.len() + place]);
+        let curve = |kind: usize| Monotone::through(PLACES, own(kind));
+        Curves { collapse: adding[0].max(LEAST), kinds: [curve(0), curve(1), curve(2)] }
+    }
+
     /// The collapse angle (rad).
     pub fn collapse(&self) -> f64 {
         self.collapse

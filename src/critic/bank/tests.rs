@@ -1,7 +1,9 @@
 //! Paths and emulators of walls whose formula is known.
 
+use nalgebra::{DMatrix, DVector};
+
 use crate::critic::bank::emulator::Emulator;
-use crate::critic::bank::path::{NUMBERS, Path};
+use crate::critic::bank::path::{Curves, NUMBERS, Path};
 use crate::critic::bank::{Bank, NotThisBank, Plan};
 use crate::critic::tests::fallen;
 use crate::ensemble::{Row, StepRow};
@@ -47,7 +49,7 @@ fn wall(collapse: f64, step: f64) -> Row {
 #[test]
 fn a_path_tells_what_was_read_between_its_steps() {
     for collapse in [9.3, 17.8, 24.0] {
-        let path = Path::of(&wall(collapse, 2.5)).expect("it fell").curves();
+        let path = Curves::of(&Path::of(&wall(collapse, 2.5)).expect("it fell").adding());
         assert!((path.collapse() - radians(collapse)).abs() < 1e-12);
         for share in [0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.95, 0.98] {
             let tilt = share * collapse;
@@ -78,7 +80,7 @@ fn a_wall_that_did_not_fall_has_no_path() {
 }
 
 /// Scores and paths: the first number is a quadratic of the inputs, the second that and noise, the others are noise.
-fn bank(walls: u64) -> (Vec<Vec<f64>>, Vec<Path>) {
+fn bank(walls: u64) -> (Vec<Vec<f64>>, Vec<[f64; NUMBERS]>) {
     let normal = |stream: &mut crate::random::Stream| standard_normal::quantile(stream.uniform());
     (0..walls)
         .map(|wall| {
@@ -89,7 +91,7 @@ fn bank(walls: u64) -> (Vec<Vec<f64>>, Vec<Path>) {
             numbers.iter_mut().for_each(|number| *number = 0.1 * normal(&mut noise));
             let exact = quadratic(&scores);
             (numbers[0], numbers[1]) = (exact, exact + numbers[1]);
-            (scores, Path { numbers })
+            (scores, numbers)
         })
         .unzip()
 }
@@ -100,10 +102,10 @@ fn quadratic(z: &[f64]) -> f64 {
 
 #[test]
 fn an_emulator_finds_the_curve_and_knows_what_it_does_not_tell() {
-    let (scores, paths) = bank(200);
-    let emulator = Emulator::fit(&scores, &paths).expect("twenty walls per term");
+    let (scores, walls) = bank(200);
+    let emulator = Emulator::fit(&scores, &walls).expect("twenty walls per term");
     let at = [0.7, -1.1, 0.4];
-    let (found, exact) = (emulator.told(&at, 0).0.numbers, quadratic(&at));
+    let (found, exact) = (emulator.told(&at, 0).numbers, quadratic(&at));
     // The penalty takes a thousandth; the noise of 0.1 leaves a mean over 200 walls with ten terms some 0.02.
     assert!((found[0] - exact).abs() < 2e-3, "{} against {exact}", found[0]);
     assert!((found[1] - exact).abs() < 0.06, "{} against {exact}", found[1]);
@@ -114,7 +116,7 @@ fn an_emulator_finds_the_curve_and_knows_what_it_does_not_tell() {
     assert!((explained[1] - 0.305 / 0.315).abs() < 0.02, "{explained:?}");
     // A curve through noise alone explains less than nothing of a wall that it does not know.
     assert!(explained[2..].iter().all(|share| *share < 0.05), "{explained:?}");
-    let left: Vec<f64> = emulator.told(&at, 50).1.iter().map(|left| left[1]).collect();
+    let left: Vec<f64> = emulator.told(&at, 50).left.iter().map(|left| left[1]).collect();
     let sigma = crate::stats::sigma(&left).expect("fifty");
     // 0.1, from 50 values and with the error of a curve that does not know the wall: within 3 sigma of sigma.
     assert!((sigma - 0.1).abs() < 0.03, "{sigma}");
@@ -124,42 +126,68 @@ fn an_emulator_finds_the_curve_and_knows_what_it_does_not_tell() {
 fn an_emulator_follows_what_begins_in_the_middle_of_a_prior() {
     // Nothing below a threshold of the fourth input, ever more above it, and 1 % of noise; a quadratic is off by 0.1 and more.
     let begins = |z: f64| if z > 0.0 { 0.5 * z } else { 0.0 };
-    let (mut scores, mut paths) = bank(120);
-    for (wall, (scores, path)) in scores.iter_mut().zip(&mut paths).enumerate() {
+    let (mut scores, mut walls) = bank(120);
+    for (wall, (scores, path)) in scores.iter_mut().zip(&mut walls).enumerate() {
         let mut draws = Streams::new(12, wall as u64).of("fourth");
         let [fourth, noise] = [draws.uniform(), draws.uniform()].map(standard_normal::quantile);
         scores.push(fourth);
-        path.numbers = [begins(fourth) + 0.01 * noise; NUMBERS];
+        *path = [begins(fourth) + 0.01 * noise; NUMBERS];
     }
-    let emulator = Emulator::fit(&scores, &paths).expect("four walls per term");
+    let emulator = Emulator::fit(&scores, &walls).expect("four walls per term");
     for fourth in [-1.5, -0.8, -0.3, 0.5, 1.0, 1.6] {
         let at = [0.2, -0.4, 0.5, fourth];
-        let found = emulator.told(&at, 0).0.numbers[3];
+        let found = emulator.told(&at, 0).numbers[3];
         assert!((found - begins(fourth)).abs() < 0.04, "{fourth}: {found}");
         // What is nearest lies on the same side, and is left with no more than it is off.
-        let left: Vec<f64> = emulator.told(&at, 20).1.iter().map(|left| left[3]).collect();
+        let left: Vec<f64> = emulator.told(&at, 20).left.iter().map(|left| left[3]).collect();
         assert!(crate::stats::sigma(&left).expect("twenty") < 0.05, "{fourth}: {left:?}");
     }
 }
 
 #[test]
+fn what_an_emulator_does_not_know_of_its_curve_is_that_of_a_regression() {
+    let (scores, walls) = bank(60);
+    let emulator = Emulator::fit(&scores, &walls).expect("six walls per term");
+    let terms = |z: &[f64]| {
+        let z: [f64; 3] = std::array::from_fn(|k| z[k].clamp(-2.5, 2.5));
+        let products = [z[0] * z[0], z[0] * z[1], z[0] * z[2], z[1] * z[1], z[1] * z[2], z[2] * z[2]];
+        DVector::from_iterator(10, [1.0].into_iter().chain(z).chain(products))
+    };
+    // Bayes: the coefficients' covariance is the inverse of the walls' information and the prior's 1/10, in units of the noise.
+    let information = scores.iter().fold(DMatrix::identity(10, 10) / 10.0, |sum, z| {
+        let t = terms(z);
+        sum + &t * t.transpose()
+    });
+    let covariance = information.try_inverse().expect("it is positive");
+    for at in [[0.0, 0.0, 0.0], [1.0, -0.5, 0.3], [2.0, 2.0, -2.0]] {
+        let t = terms(&at);
+        let unknown = t.dot(&(&covariance * &t));
+        let common = emulator.told(&at, 0).common;
+        assert!((common - unknown / (1.0 + unknown)).abs() < 1e-9, "{at:?}: {common} against {unknown}");
+    }
+    // Ten terms of sixty walls leave a sixth of the noise in the mean over the walls, and far more in a corner.
+    let [middle, corner] = [[0.0; 3], [2.0, 2.0, -2.0]].map(|at| emulator.told(&at, 0).common);
+    assert!(middle < 0.1 && corner > 0.4, "{middle} {corner}");
+}
+
+#[test]
 fn an_emulator_needs_walls() {
-    let (scores, paths) = bank(19);
-    assert!(Emulator::fit(&scores, &paths).is_none());
-    let (scores, paths) = bank(20);
-    assert!(Emulator::fit(&scores, &paths).is_some());
+    let (scores, walls) = bank(19);
+    assert!(Emulator::fit(&scores, &walls).is_none());
+    let (scores, walls) = bank(20);
+    assert!(Emulator::fit(&scores, &walls).is_some());
 }
 
 #[test]
 fn the_nearest_walls_come_first() {
-    let (scores, paths) = bank(40);
-    let emulator = Emulator::fit(&scores, &paths).expect("enough");
+    let (scores, walls) = bank(40);
+    let emulator = Emulator::fit(&scores, &walls).expect("enough");
     let at = scores[7].clone();
-    let whole = emulator.told(&at, 40).1;
+    let whole = emulator.told(&at, 40).left;
     assert_eq!(whole.len(), 40);
-    assert_eq!(emulator.told(&at, 1).1, whole[..1]);
+    assert_eq!(emulator.told(&at, 1).left, whole[..1]);
     // What the wall itself is left with: its own number less the curve's, and further by its own pull.
-    let own = paths[7].numbers[1] - emulator.told(&at, 0).0.numbers[1];
+    let own = walls[7][1] - emulator.told(&at, 0).numbers[1];
     let ratio = whole[0][1] / own;
     assert!(ratio > 1.0 && ratio < 3.0, "{ratio}");
 }

@@ -102,7 +102,7 @@ impl<'c> Likelihood<'c> {
         let errors = Errors { of: self, scores: common };
         let mut log = 0.0;
         for Family { family, asked, each, all } in &self.families {
-            let (shown, random) = self.world.may_show(*family, asked, truth);
+            let (shown, random) = self.world.may_show(*family, asked, truth, each.len());
             let paths = Paths::of(shown);
             let walls = if random { &each[..] } else { &all[..] };
             let first = |(k, wall): (usize, &Wall<'_>)| {

@@ -49,7 +49,7 @@ impl Predicted {
                     let own = design.specimens.iter().filter(|specimen| specimen.family == family);
                     let readings: Vec<&Measurement> = own.flat_map(|specimen| &specimen.readings).collect();
                     let asked = Asked::by(&readings);
-                    let (shown, random) = world.may_show(family, &asked, truth);
+                    let (shown, random) = world.may_show(family, &asked, truth, 1);
                     let all = |path: Vec<f64>| asked.by_reading.iter().map(|&at| path[at]).collect();
                     (family, shown.into_iter().map(all).collect(), random)
                 })

@@ -5,7 +5,7 @@ mod tests;
 
 use std::collections::BTreeMap;
 
-use crate::critic::bank::{Bank, Curves, DOUBT, Emulator, NUMBERS, Path, Plan};
+use crate::critic::bank::{Bank, Curves, DOUBT, Emulator, NUMBERS, Path, Plan, Told};
 use crate::critic::diagnose::asked::Asked;
 use crate::critic::diagnose::causes::Causes;
 use crate::critic::diagnose::design::{Campaign, Design};
@@ -18,6 +18,9 @@ use crate::study::{Acts, Arm, Described, MeasuredQuantity, Measurement, Mechanis
 
 /// A wall differs from the expected path as one of so many of its nearest neighbours in the bank does.
 const NEIGHBOURS: usize = 20;
+
+/// What walls share is set beside what the wall so far down the list of the nearest has of its own.
+const COMMON_APART: usize = 3;
 
 /// So many walls of a family are tried for one that can be built and weighed.
 const BUILT: u64 = 20;
@@ -41,20 +44,22 @@ struct Walls {
     random: bool,
 }
 
-/// What is known of a wall before it is built.
+/// What is known of the walls of a family before they are built.
 struct Likely {
-    /// The path to be expected.
-    expected: Path,
-    /// What it may differ by, each equally likely.
-    near: Vec<[f64; NUMBERS]>,
+    /// The numbers of a path to be expected, see [`Path::adding`].
+    expected: [f64; NUMBERS],
+    /// What each may differ by, each equally likely.
+    own: Vec<[f64; NUMBERS]>,
+    /// And what all of them may besides, by the emulators' errors, each equally likely.
+    common: Vec<[f64; NUMBERS]>,
     random: bool,
 }
 
 /// The walls of a bank that an emulator is fitted through.
 #[derive(Default)]
-struct Told {
+struct Learnt {
     scores: Vec<Vec<f64>>,
-    paths: Vec<Path>,
+    walls: Vec<[f64; NUMBERS]>,
     random: bool,
 }
 
@@ -89,7 +94,7 @@ impl<'s> World<'s> {
         for (place, path) in plan.places.iter().zip(&bank.paths).filter(|(place, _)| place.cause.is_none()) {
             unchanged.extend(path.as_ref().map(|path| ((place.family, place.point), path)));
         }
-        let mut grouped: BTreeMap<(usize, Option<usize>), Told> = BTreeMap::new();
+        let mut grouped: BTreeMap<(usize, Option<usize>), Learnt> = BTreeMap::new();
         for ((place, path), arm) in plan.places.iter().zip(&bank.paths).zip(&plan.study.arms) {
             let told = grouped.entry((place.family, place.cause)).or_default();
             told.random |= is_random(arm);
@@ -98,14 +103,15 @@ impl<'s> World<'s> {
             let joints = place.joints.into_iter().map(|score| score / DOUBT);
             let parameters = place.parameters.iter().copied().map(quantile);
             told.scores.push(joints.chain(varying(mechanisms, place.cause, parameters)).collect());
-            told.paths.push(match place.cause {
-                None => path.clone(),
-                Some(_) => Path { numbers: std::array::from_fn(|k| path.numbers[k] - before.numbers[k]) },
+            let (own, before) = (path.adding(), before.adding());
+            told.walls.push(match place.cause {
+                None => own,
+                Some(_) => std::array::from_fn(|k| own[k] - before[k]),
             });
         }
         let (mut base, mut changes) = (BTreeMap::new(), BTreeMap::new());
-        for ((family, cause), Told { scores, paths, random }) in grouped {
-            let walls = Emulator::fit(&scores, &paths).map(|emulator| Walls { emulator, random });
+        for ((family, cause), Learnt { scores, walls, random }) in grouped {
+            let walls = Emulator::fit(&scores, &walls).map(|emulator| Walls { emulator, random });
             match cause {
                 None => drop(base.insert(family, walls?)),
                 Some(cause) => changes.extend(walls.map(|walls| ((family, cause), walls))),
@@ -167,7 +173,7 @@ impl<'s> World<'s> {
         let specimens = design.specimens.iter().enumerate();
         specimens
             .map(|(index, specimen)| {
-                let curves = self.wall(specimen.family, truth, index, streams).curves();
+                let curves = Curves::of(&self.wall(specimen.family, truth, index, streams));
                 specimen.readings.iter().map(|m| shown(&curves, m, &gauge)).collect()
             })
             .collect()
@@ -183,55 +189,69 @@ impl<'s> World<'s> {
         self.base.get(&family).is_some_and(|walls| walls.random)
     }
 
-    /// The path of a specimen: one of those that a wall may have.
-    fn wall(&self, family: usize, truth: &Truth, specimen: usize, streams: &Streams) -> Path {
-        let Likely { expected, near, random } = self.likely(family, truth);
+    /// The numbers of a specimen's path: one of those that a wall may have.
+    fn wall(&self, family: usize, truth: &Truth, specimen: usize, streams: &Streams) -> [f64; NUMBERS] {
+        let Likely { expected, own, common, random } = self.likely(family, truth);
         // Walls in which nothing is drawn are alike: what is left is the emulator's error, and they share it.
         let name = match random {
             true => format!("stones {specimen}"),
             false => format!("stones of family {family}"),
         };
-        moved(&expected, &near[streams.of(&name).below(near.len())])
+        let alone = moved(&expected, &own[streams.of(&name).below(own.len())]);
+        let shared = streams.of(&format!("emulator of family {family}")).below(common.len());
+        moved(&alone, &common[shared])
     }
 
-    /// The paths that a wall of a family may have under a truth.
+    /// The paths that the walls of a family may have under a truth.
     fn likely(&self, family: usize, truth: &Truth) -> Likely {
         let Walls { emulator, random } = &self.base[&family];
-        let mut random = *random;
         let joints = truth.joints[self.kinds[family]].map(|score| score / DOUBT);
-        let (mut expected, near) = emulator.told(&joints, NEIGHBOURS);
-        let mut near: Vec<[f64; NUMBERS]> = near.into_iter().copied().collect();
+        let base = emulator.told(&joints, NEIGHBOURS);
+        let mut likely = Likely {
+            expected: base.numbers,
+            own: vec![[0.0; NUMBERS]; base.left.len()],
+            common: vec![[0.0; NUMBERS]; base.left.len()],
+            random: *random,
+        };
+        likely.leave(&base, 0);
         for (place, (cause, parameters)) in self.parts(truth).enumerate() {
             let Some(change) = self.changes.get(&(family, cause)) else { continue };
             let parameters = varying(self.mechanisms, Some(cause), parameters.iter().copied());
             let scores: Vec<f64> = joints.into_iter().chain(parameters).collect();
-            let (by, left) = change.emulator.told(&scores, NEIGHBOURS);
-            expected = moved(&expected, &by.numbers);
+            let told = change.emulator.told(&scores, NEIGHBOURS);
+            likely.expected = moved(&likely.expected, &told.numbers);
             // The stones of the nearest wall with what the effect on a wall half way down the list is left with (a second effect: a
             // quarter), and so on round: what is nearest in the one has no part in what is nearest in the other.
-            let further = left.iter().cycle().skip(left.len() >> (1 + place));
-            for (own, further) in near.iter_mut().zip(further) {
-                own.iter_mut().zip(*further).for_each(|(own, further)| *own += further);
-            }
-            random |= change.random;
+            likely.leave(&told, told.left.len() >> (1 + place));
+            likely.random |= change.random;
         }
-        Likely { expected, near, random }
+        likely
     }
 
     /// What the paths that a wall of a family may have under a truth, equally likely, show before errors of what is asked, path by
-    /// path; and whether walls of the family differ, or share one path. A wall that has fallen shows what it did last.
-    pub(super) fn may_show(&self, family: usize, asked: &Asked, truth: &Truth) -> (Vec<Vec<f64>>, bool) {
-        let Likely { expected, near, random } = self.likely(family, truth);
+    /// path; and whether walls of the family differ, or share one path. Taken for independent of each other, the mean of so many
+    /// `walls` scatters as it does where they share the emulators' errors. A wall that has fallen shows what it did last.
+    pub(super) fn may_show(
+        &self,
+        family: usize,
+        asked: &Asked,
+        truth: &Truth,
+        walls: usize,
+    ) -> (Vec<Vec<f64>>, bool) {
+        let Likely { expected, own, common, random } = self.likely(family, truth);
         let gauge = self.gauge(truth);
-        let of = |left: &[f64; NUMBERS]| {
-            let curves = moved(&expected, left).curves();
+        let times = if random { (walls as f64).sqrt() } else { 1.0 };
+        let apart = common.iter().cycle().skip(COMMON_APART);
+        let of = |(own, common): (&[f64; NUMBERS], &[f64; NUMBERS])| {
+            let left = std::array::from_fn(|k| own[k] + times * common[k]);
+            let curves = Curves::of(&moved(&expected, &left));
             let last = curves.collapse();
             let points = |tilt: &f64| {
                 curves.displacements(tilt.min(last)).unwrap_or_default().map(|x| gauge.reading(x))
             };
             asked.shown(last, &asked.tilts.iter().map(points).collect::<Vec<_>>())
         };
-        (near.iter().map(of).collect(), random)
+        (own.iter().zip(apart).map(of).collect(), random)
     }
 
     /// The parameters of the causes of a truth, each in its order and in the units of their keys.
@@ -317,9 +337,27 @@ fn shown(wall: &Curves, m: &Measurement, gauge: &Mechanisms) -> Option<f64> {
     of_points(m.quantity, wall.displacements(m.tilt?)?.map(|x| gauge.reading(x)))
 }
 
-/// A path and what a wall differs by.
-fn moved(expected: &Path, left: &[f64; NUMBERS]) -> Path {
-    Path { numbers: std::array::from_fn(|k| expected.numbers[k] + left[k]) }
+impl Likely {
+    /// Adds what an emulator leaves, from the wall at `first` on.
+    fn leave(&mut self, told: &Told<'_>, first: usize) {
+        let count = told.left.len() as f64;
+        let mean: [f64; NUMBERS] =
+            std::array::from_fn(|k| told.left.iter().fold(0.0, |sum, left| sum + left[k]) / count);
+        let [alone, shared] = [(1.0 - told.common).sqrt(), told.common.sqrt()];
+        let left = told.left.iter().cycle().skip(first);
+        for ((own, common), left) in self.own.iter_mut().zip(&mut self.common).zip(left) {
+            for k in 0..NUMBERS {
+                let off = left[k] - mean[k];
+                own[k] += mean[k] + alone * off;
+                common[k] += shared * off;
+            }
+        }
+    }
+}
+
+/// What is expected of a wall and what it differs by.
+fn moved(expected: &[f64; NUMBERS], left: &[f64; NUMBERS]) -> [f64; NUMBERS] {
+    std::array::from_fn(|k| expected[k] + left[k])
 }
 
 /// Scores of the parameters that vary.

@@ -1,5 +1,7 @@
 //! Campaigns of walls whose formula is known: what is seen of them.
 
+use super::NEIGHBOURS;
+use crate::critic::diagnose::asked::Asked;
 use crate::critic::diagnose::tests::made;
 use crate::critic::diagnose::{Campaign, Design, Seen, Truth};
 use crate::math::radians;
@@ -64,6 +66,50 @@ fn a_cause_that_changes_nothing_has_the_walls_of_the_base_model() {
     };
     assert!(apart(&shown(&with("density")), &shown(&base)) < 1e-12);
     assert!(apart(&shown(&with("lean")), &shown(&base)) > 1e-2);
+}
+
+#[test]
+fn walls_of_a_family_share_the_emulators_error_and_their_mean_scatters_by_it() {
+    let made = made();
+    let world = made.world();
+    // Far out the curve through 90 walls is known badly.
+    let mut truth = world.truth(None, &vec![0.0; world.inputs(None)]);
+    truth.joints = vec![[3.0, -3.0, 3.0]; world.joint_kinds()];
+    let told = world.base[&1].emulator.told(&[2.0, -2.0, 2.0], NEIGHBOURS);
+    let variance = |values: &[f64]| {
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        values.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / values.len() as f64
+    };
+    let left = variance(&told.left.iter().map(|left| left[0]).collect::<Vec<_>>());
+    assert!(told.common > 0.2 && told.common < 0.8, "{}", told.common);
+    let drawn: Vec<[f64; 3]> = (0..4000)
+        .map(|k| [0, 1, 2].map(|specimen| world.wall(1, &truth, specimen, &Streams::new(31, k))[0]))
+        .collect();
+    let of = |what: &dyn Fn(&[f64; 3]) -> f64| variance(&drawn.iter().map(what).collect::<Vec<_>>());
+    // 4000 draws tell a variance to 2 %, those of 20 discrete ones to a little less.
+    let alone = of(&|walls| walls[0]) / left;
+    assert!((alone - 1.0).abs() < 0.1, "{alone}");
+    let mean = of(&|walls| (walls[0] + walls[1] + walls[2]) / 3.0) / left;
+    let expected = told.common + (1.0 - told.common) / 3.0;
+    assert!((mean / expected - 1.0).abs() < 0.1, "{mean} {expected}");
+    // As independent walls they are shown wider, so that the mean of three scatters so much.
+    let (design, _) = Design::of(&made.study);
+    let falls: Vec<&Measurement> = design
+        .specimens
+        .iter()
+        .filter(|specimen| specimen.family == 1)
+        .flat_map(|specimen| &specimen.readings)
+        .filter(|m| m.quantity == MeasuredQuantity::CollapseAngle)
+        .collect();
+    let asked = Asked::by(&falls);
+    let shown = |walls: usize| {
+        let (paths, random) = world.may_show(1, &asked, &truth, walls);
+        assert!(random);
+        variance(&paths.iter().map(|path| path[0]).collect::<Vec<_>>()) / left
+    };
+    // What is shared and what is not are those of other walls of the bank: twenty pairs correlate by chance.
+    let ratio = shown(3) / (3.0 * expected);
+    assert!((ratio - 1.0).abs() < 0.4 && shown(3) > shown(1), "{ratio} {} {}", shown(3), shown(1));
 }
 
 #[test]
