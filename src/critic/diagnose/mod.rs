@@ -44,6 +44,6 @@ pub use residual::{
     cause_curves,
 };
 pub use self_test::{CAUGHT, Caught, SelfTest, SelfTestRow};
-pub use verdict::{Diagnosis, Limits, LookedAt, LookedAtPair, MOST_AMBIGUOUS, PairLimits, Verdict};
+pub use verdict::{Diagnosis, Limits, LookedAt, LookedAtPair, MOST_AMBIGUOUS, POSSIBLE, PairLimits, Verdict};
 pub use world::{Truth, World};
 pub use wrong::{Reference, Wrong};

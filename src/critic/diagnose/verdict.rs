@@ -25,6 +25,11 @@ const PAIRS: usize = 4;
 /// campaigns of the nine walls, as the paper read them (with tests on two stones as well) and richly, the most probability. Rough
 /// evidence is too sure of itself by far: it leans on a normal law and on few particles.
 const HEARD: [f64; 2] = [0.7, 0.2];
+/// Power in which the evidence of those that are looked at closely counts besides, found in the same way on 56 campaigns: it is far
+/// better told, and sure of itself by as much as its law is not that of the walls.
+const HEARD_CLOSELY: f64 = 0.2;
+/// A cause that the ranking cannot put aside is put aside by the evidence where this leaves it a smaller probability.
+pub const POSSIBLE: f64 = 0.01;
 
 /// The limits of a verdict.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -153,11 +158,8 @@ impl Diagnosis {
 
     /// The causes that were looked at closely, each with its probability and draws of what is true under it.
     pub fn possible(&self) -> Vec<(f64, Vec<Truth>)> {
-        let probability = |cause: usize| {
-            let own = self.seeming.ranked.causes.iter().find(|(other, _)| *other == Some(cause));
-            own.map_or(0.0, |(_, probability)| *probability)
-        };
-        self.looked_at.iter().map(|own| (probability(own.cause), own.draws.clone())).collect()
+        let probability = |own: &LookedAt| self.seeming.ranked.probability(own.cause);
+        self.looked_at.iter().map(|own| (probability(own), own.draws.clone())).collect()
     }
 }
 
@@ -175,41 +177,38 @@ impl Judge<'_> {
             };
         }
         let seeming = Seeming { ranked: self.weighed(&seeming.ranked, campaign, seed), ..seeming };
-        let ranked = &seeming.ranked;
-        let named = seeming.named(limits);
-        let likely: Vec<usize> = ranked.causes.iter().filter_map(|(cause, _)| *cause).collect();
-        let mut in_question: Vec<usize> = likely
-            .iter()
-            .copied()
-            .filter(|cause| named == Some(*cause) || ranked.set.contains(cause))
-            .collect();
-        if in_question.len() > 2 * MOST_AMBIGUOUS && named.is_none() {
-            // The guard of many would choose among them by chance.
-            in_question.clear();
-        }
-        let closely = likely.iter().enumerate();
-        let closely = closely.filter(|(rank, cause)| *rank < CLOSELY || in_question.contains(cause));
+        let likely: Vec<usize> = seeming.ranked.causes.iter().filter_map(|(cause, _)| *cause).collect();
+        // The guard of many would choose among them by chance.
+        let set = seeming.ranked.set.clone();
+        let few = set.len() <= 2 * MOST_AMBIGUOUS;
+        let open = |cause: &usize| few && set.contains(cause);
+        let closely = likely.iter().enumerate().filter(|(rank, cause)| *rank < CLOSELY || open(cause));
         let closely: Vec<usize> = closely.map(|(_, cause)| *cause).collect();
         let models = std::iter::once(None).chain(closely.iter().copied().map(Some)).map(Causes::from);
         let evidences = self.evidences(campaign, &models.collect::<Vec<_>>(), seed);
         let logs: Vec<f64> = evidences.iter().map(|evidence| evidence.log).collect();
         let shares = softmax(&logs, 1.0);
         let form = self.form(campaign, &evidences[0].draws, seed.wrapping_add(2));
-        let looked_at: Vec<LookedAt> = closely
+        let ranked = heard(&seeming.ranked, &closely, &logs);
+        let seeming = Seeming { ranked, ..seeming };
+        let named = seeming.named(limits);
+        let possible = |cause: &usize| open(cause) && seeming.ranked.probability(*cause) >= POSSIBLE;
+        let in_question = |cause: &usize| named == Some(*cause) || possible(cause);
+        let mut looked_at: Vec<LookedAt> = closely
             .iter()
             .zip(evidences.into_iter().zip(&shares).skip(1))
             .map(|(&cause, (found, share))| LookedAt {
                 cause,
-                guard: in_question
-                    .contains(&cause)
-                    .then(|| guarded(self, Some(cause), &found.draws, campaign, seed)),
+                guard: in_question(&cause).then(|| guarded(self, Some(cause), &found.draws, campaign, seed)),
                 evidence: *share,
                 draws: found.draws,
             })
             .collect();
-        let passes = |cause: usize| {
-            looked_at.iter().any(|own| own.cause == cause && own.guard.is_some_and(|p| p >= limits.guard))
-        };
+        let place =
+            |own: &LookedAt| seeming.ranked.causes.iter().position(|(cause, _)| *cause == Some(own.cause));
+        looked_at.sort_by_key(place);
+        let fits = |own: &&LookedAt| own.guard.is_some_and(|p| p >= limits.guard);
+        let explain: Vec<usize> = looked_at.iter().filter(fits).map(|own| own.cause).collect();
         let first = looked_at.iter().fold(None, |first: Option<&LookedAt>, own| match first {
             Some(first) if first.evidence >= own.evidence => Some(first),
             _ => Some(own),
@@ -217,12 +216,11 @@ impl Judge<'_> {
         // The base model with other joints may have more of the evidence than any cause.
         let agreed = named
             .filter(|cause| first.is_some_and(|first| first.cause == *cause && first.evidence > shares[0]));
-        let explain: Vec<usize> = in_question.iter().copied().filter(|&cause| passes(cause)).collect();
         let verdict = match (named, agreed, explain.len()) {
-            (_, Some(cause), _) if passes(cause) => Verdict::Named(cause),
+            (_, Some(cause), _) if explain.contains(&cause) => Verdict::Named(cause),
             // What was as good as certain, and does not fit, speaks against the catalogue.
-            (Some(cause), _, _) if !passes(cause) => Verdict::Unexplained,
-            (_, _, 1..=MOST_AMBIGUOUS) => Verdict::Ambiguous(explain),
+            (Some(cause), _, _) if !explain.contains(&cause) => Verdict::Unexplained,
+            (_, _, 1..=MOST_AMBIGUOUS) if few => Verdict::Ambiguous(explain),
             _ => Verdict::Unexplained,
         };
         let mut diagnosis = Diagnosis { seeming, looked_at, pairs: Vec::new(), form, verdict };
@@ -311,5 +309,44 @@ impl Judge<'_> {
         let units = self.reference.scale.units();
         Discrepancy::new(&self.design, campaign, &known, &base, &units)
             .map_or_else(Vec::new, |free| free.form())
+    }
+}
+
+/// The causes with their probabilities, once the evidence of those looked at closely has been heard as well; `logs` are its logarithms,
+/// that of the base model first. What these and the base model have together stays theirs.
+fn heard(ranked: &Ranked, closely: &[usize], logs: &[f64]) -> Ranked {
+    let models = std::iter::once(None).chain(closely.iter().copied().map(Some));
+    let known: Vec<(Option<usize>, f64)> = models.zip(logs.iter().copied()).collect();
+    let log = |cause: &Option<usize>| known.iter().find(|(own, _)| own == cause).map(|(_, log)| *log);
+    let (looked_at, others): (Vec<_>, Vec<_>) =
+        ranked.causes.iter().copied().partition(|(cause, _)| log(cause).is_some());
+    let whole = looked_at.iter().fold(0.0, |sum, (_, p)| sum + p);
+    let both = looked_at.iter().filter_map(|(cause, p)| Some(ln(p.max(1e-12)) + HEARD_CLOSELY * log(cause)?));
+    let shares = softmax(&both.collect::<Vec<_>>(), 1.0);
+    let told = looked_at.iter().zip(shares).map(|((cause, _), share)| (*cause, whole * share));
+    Ranked::new(told.chain(others).collect(), ranked.set.clone())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::exp;
+
+    #[test]
+    fn the_evidence_of_some_moves_what_they_have_together_and_nothing_else() {
+        let ranked =
+            Ranked::new(vec![(Some(3), 0.5), (Some(1), 0.3), (None, 0.1), (Some(2), 0.1)], vec![1, 3]);
+        let found = heard(&ranked, &[3, 1], &[-20.0, -10.0, 0.0]);
+        let of = |cause: Option<usize>| {
+            found.causes.iter().find(|(own, _)| *own == cause).map(|(_, p)| *p).expect("it is there")
+        };
+        // Powers of the evidence: e^-2 of the second, e^-4 of the base model.
+        let (first, second, base) = (0.5 * exp(-2.0), 0.3, 0.1 * exp(-4.0));
+        let sum = first + second + base;
+        for (cause, p) in [(Some(3), first), (Some(1), second), (None, base)] {
+            assert!((of(cause) - 0.9 * p / sum).abs() < 1e-12, "{cause:?}");
+        }
+        assert_eq!(of(Some(2)), 0.1);
+        assert_eq!((found.causes[0].0, &found.set[..]), (Some(1), &[1, 3][..]));
     }
 }

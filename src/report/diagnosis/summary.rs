@@ -1,6 +1,8 @@
 //! A diagnosis as `verdict.json` holds it.
 
-use crate::critic::{Contrast, Design, Diagnosis, Feature, Limits, Residuals, SelfTest, Truth, Verdict};
+use crate::critic::{
+    Contrast, Design, Diagnosis, Feature, Limits, POSSIBLE, Residuals, SelfTest, Truth, Verdict,
+};
 use crate::report::advice::Advice;
 use crate::report::diagnosis::form::BentEntry;
 use crate::report::diagnosis::residual::{GroupEntry, ResidualEntry};
@@ -65,7 +67,7 @@ pub struct CauseEntry {
     /// Whether the verdict speaks of it.
     pub in_verdict: bool,
     /// What speaks against it: `readings` where it fits them worse than nearly all of its own campaigns, `looks` where nine in
-    /// ten of its campaigns look more like it; null where nothing does.
+    /// ten of its campaigns look more like it, `evidence` where that leaves it hardly any probability; null where nothing does.
     pub excluded_by: Option<&'static str>,
     /// Share of its own campaigns that fit the readings no better; null where the guard was not asked.
     pub guard_p_value: Option<f64>,
@@ -243,6 +245,7 @@ fn excluded_by(diagnosis: &Diagnosis, cause: usize) -> Option<&'static str> {
     match guard {
         Some(p) if p < Limits::default().guard => Some("readings"),
         _ if found && !diagnosis.seeming.ranked.set.contains(&cause) => Some("looks"),
+        None if found && diagnosis.seeming.ranked.probability(cause) < POSSIBLE => Some("evidence"),
         _ => None,
     }
 }

@@ -124,6 +124,10 @@ pub(super) fn excluded(summary: &DiagnosisSummary) -> Vec<String> {
     [
         ("Excluded, as nearly all of their own campaigns fit single readings better", by(Some("readings"))),
         ("Excluded, as nine in ten of their own campaigns look more like them", by(Some("looks"))),
+        (
+            "Excluded, as the evidence over all readings leaves them less than one in a hundred",
+            by(Some("evidence")),
+        ),
         ("Not excluded", by(None)),
     ]
     .into_iter()
