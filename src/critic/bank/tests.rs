@@ -68,6 +68,17 @@ fn a_path_tells_what_was_read_between_its_steps() {
 }
 
 #[test]
+fn a_wall_that_should_not_stand_falls_right_after_its_zero_reading() {
+    let mut adding = Path::of(&wall(15.0, 2.5)).expect("it fell").adding();
+    assert!((adding[0] - radians(15.0)).abs() < 1e-12);
+    // More than it has.
+    adding[0] -= radians(18.0);
+    let curves = Curves::of(&adding);
+    assert!(curves.collapse() > 0.0 && curves.collapse() < radians(0.1));
+    assert!(curves.displacements(0.0).is_some() && curves.displacements(radians(0.1)).is_none());
+}
+
+#[test]
 fn a_wall_that_did_not_fall_has_no_path() {
     let mut stands = wall(20.0, 2.5);
     stands.outcome = crate::model::Outcome::Equilibrium;

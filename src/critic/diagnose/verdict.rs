@@ -178,8 +178,8 @@ impl Judge<'_> {
         }
         let seeming = Seeming { ranked: self.weighed(&seeming.ranked, campaign, seed), ..seeming };
         let likely: Vec<usize> = seeming.ranked.causes.iter().filter_map(|(cause, _)| *cause).collect();
-        // The guard of many would choose among them by chance.
         let set = seeming.ranked.set.clone();
+        // The guard of many would choose among them by chance.
         let few = set.len() <= 2 * MOST_AMBIGUOUS;
         let open = |cause: &usize| few && set.contains(cause);
         let closely = likely.iter().enumerate().filter(|(rank, cause)| *rank < CLOSELY || open(cause));
