@@ -86,7 +86,7 @@ pub static INVENTORY: [Entry; 17] = {
         entry("contact_area", Joints, AsWithout, Honoured, &["joint.kn_pa_per_m", "contact_inset", "joint_closure", "size_scatter", "specimen_scatter", "wedge_loss"]),
         entry("friction", Joints, Irreversible, Honoured, &["joint.phi_deg", "cohesion", "end_release", "creep"]),
         entry("cohesion", Joints, AsWithout, Honoured, &["friction", "density"]),
-        entry("lean", Wall, AsWithout, Honoured, &["wall.battered_face", "contact_inset", "base_compliance"]),
+        entry("lean", Wall, AsWithout, Honoured, &["wall.battered_face", "contact_inset", "base_compliance", "platform_friction"]),
         entry("base_compliance", Restraint, Reversible, Refused, &["joint.kn_pa_per_m", "joint_closure", "lean", "gauge_scale"]),
         entry("wedge_loss", Loading, Irreversible, Refused, &["creep", "contact_area", "size_scatter"]),
         entry("rope_slack", Restraint, Reversible, NoBearing, &["restraint.rope.stiffness_n_per_m", "end_release"]),

@@ -35,7 +35,7 @@ fn a_gauge_that_has_moved_is_named_from_a_csv_and_the_bank_is_made_once() {
     let refused = ends_with(&folder, 3, &[&diagnose[..], &["--no-build"]].concat());
     assert!(
         stderr(&refused).contains(
-            "840 walls are to be simulated first, by\n  pirca bank studies/tiny --measured tests.csv"
+            "900 walls are to be simulated first, by\n  pirca bank studies/tiny --measured tests.csv"
         ),
         "{}",
         stderr(&refused)
@@ -151,7 +151,7 @@ fn variants_have_banks_and_diagnoses_of_their_own() {
     ));
     let soft = ["studies/tiny", "--variant", "soft", "--measured", "tests.csv", "--points", "12"];
     let refused = ends_with(&folder, 3, &[&["diagnose", "--no-build"], &soft[..]].concat());
-    let wanted = "there is no runs/tiny-soft-bank/bank.parquet: 168 walls are to be simulated first, by\n  \
+    let wanted = "there is no runs/tiny-soft-bank/bank.parquet: 180 walls are to be simulated first, by\n  \
                   pirca bank studies/tiny --variant soft --measured tests.csv --points 12";
     assert!(stderr(&refused).contains(wanted), "{}", stderr(&refused));
     ends_with(&folder, 0, &[&["bank"], &soft[..]].concat());
