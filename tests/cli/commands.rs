@@ -408,7 +408,7 @@ fn sensitivity_writes_the_map_and_names_what_has_no_number() {
     let errors = cells("gauge_offset")[1]["in_measurement_errors"].as_f64().unwrap();
     assert!((errors - 9.9446).abs() < 1e-3, "{errors}");
     let text = fs::read_to_string(folder.path("a/sensitivity.csv")).unwrap();
-    assert_eq!(text.lines().count(), 1 + 16 * 3);
+    assert_eq!(text.lines().count(), 1 + 17 * 3);
     let columns = text.lines().next().unwrap().split(',').count();
     assert!(text.lines().filter(|line| !line.contains('"')).all(|line| line.split(',').count() == columns));
     assert!(!text.contains("NaN") && !text.contains("inf"));
