@@ -123,8 +123,8 @@ mod tests {
         let full = roster(1.0, 5);
         let count = |group: Group| full.iter().filter(|label| label.group == group).count();
         assert_eq!((count(Group::Nothing), count(Group::PriorWrong)), (600, 400));
-        assert_eq!((count(Group::Mechanism), count(Group::Pair)), (16 * 3 * 60, 300));
-        assert_eq!((count(Group::Unknown), count(Group::Decoy)), (1500, 200));
+        assert_eq!((count(Group::Mechanism), count(Group::Pair)), (17 * 3 * 60, 300));
+        assert_eq!((count(Group::Unknown), count(Group::Decoy)), (1400, 200));
         let other = full.iter().filter(|label| label.hidden.iter().any(|hidden| hidden.other_code)).count();
         assert_eq!(other, WRITTEN_TWICE.len() * 3 * 20);
         let share = roster(0.02, 5);
