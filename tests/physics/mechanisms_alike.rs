@@ -142,7 +142,8 @@ fn cases() -> Vec<(&'static str, Mechanisms)> {
         ("creep", Mechanisms { creep, ..none() }),
         ("specimen_scatter", Mechanisms { specimen_scatter: scatter, ..none() }),
         ("end_release", Mechanisms { end_release: release, ..none() }),
-        ("platform_friction", Mechanisms { platform_friction: Some(0.1), ..none() }),
+        // The wall slides as a whole at 6.8 deg: at the end a part of its base does.
+        ("platform_friction", Mechanisms { platform_friction: Some(0.12), ..none() }),
         (
             "many",
             Mechanisms {
