@@ -102,6 +102,7 @@ pub(super) type Group<'m> = Vec<&'m Measurement>;
 /// Compares all that was measured with the rows: families in the order of the arms, quantities, tilts and kn ascending.
 pub fn compare(study: &Study, rows: &[Row]) -> Vec<Beside> {
     let tilts = matches!(study.protocol, Protocol::Tilting(_));
+    let goes_back = study.goes_back();
     let mut all = Vec::new();
     for ((arm, quantity, _, rising), group) in groups(study) {
         let Some(first) = group.first() else { continue };
@@ -119,6 +120,9 @@ pub fn compare(study: &Study, rows: &[Row]) -> Vec<Beside> {
                 all.push(beside(Ours::None("the walls are not tilted here")));
             }
             (_, false) => all.push(beside(Ours::None("read after the load had been larger"))),
+            _ if quantity.remains_of().is_some() && !goes_back => {
+                all.push(beside(Ours::None("the platform does not go back here: load.remainders = true")));
+            }
             (Some(own), true) => match walls(own, arm, &group, &measured, rows) {
                 Some(walls) => all.extend(walls.into_iter().map(|walls| beside(Ours::Walls(walls)))),
                 None => all.push(beside(Ours::None("the simulation does not give it"))),
@@ -146,7 +150,7 @@ pub(super) fn order_of_tilt(m: &Measurement) -> u64 {
 /// Whether no earlier stage of the specimen had as large a tilt.
 pub(super) fn is_rising(m: &Measurement, all: &[Measurement]) -> bool {
     let earlier = |other: &&Measurement| other.specimen == m.specimen && other.stage < m.stage;
-    let Some(tilt) = m.tilt else { return true };
+    let Some(tilt) = m.tilt.filter(|_| m.quantity.remains_of().is_none()) else { return true };
     all.iter().filter(earlier).all(|other| other.tilt.is_none_or(|before| before < tilt))
 }
 

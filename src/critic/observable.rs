@@ -55,8 +55,10 @@ impl Observable {
 /// The observables of a study, in the order of the arms, quantities and tilts, without what no simulation gives; `rows` are
 /// those of an arm in the base model, whose scatter enters the errors.
 pub(super) fn observables<'r>(study: &Study, rows: impl Fn(usize) -> Vec<&'r Row>) -> Vec<Observable> {
-    let groups =
-        groups(study).into_iter().filter(|((arm, .., rising), _)| *rising && *arm < study.arms.len());
+    let told = |quantity: MeasuredQuantity| study.goes_back() || quantity.remains_of().is_none();
+    let groups = groups(study)
+        .into_iter()
+        .filter(|((arm, quantity, _, rising), _)| *rising && *arm < study.arms.len() && told(*quantity));
     groups.filter_map(|((arm, ..), group)| observable(arm, &group, &rows(arm))).collect()
 }
 

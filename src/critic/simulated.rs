@@ -24,7 +24,8 @@ pub enum Simulated {
 /// What a row shows of a quantity read at a tilt (rad, on the way up); `None` where the simulation has no such quantity:
 /// joint properties go into it, single blocks are not weighed, and gauges are no part of it.
 ///
-/// A displacement is that of the load step at the tilt; between two steps it is interpolated linearly.
+/// A displacement is that of the load step at the tilt, a remainder what is left after it; between two steps it is interpolated
+/// linearly.
 pub fn simulated(quantity: MeasuredQuantity, tilt: Option<f64>, row: &Row) -> Option<Simulated> {
     use MeasuredQuantity as Q;
     let found = match quantity {
@@ -38,7 +39,12 @@ pub fn simulated(quantity: MeasuredQuantity, tilt: Option<f64>, row: &Row) -> Op
         | Q::DisplacementCentre
         | Q::DisplacementRight
         | Q::DisplacementMean
-        | Q::DisplacementCentreMinusEnds => displacement(quantity, tilt?, row),
+        | Q::DisplacementCentreMinusEnds
+        | Q::RemainderLeft
+        | Q::RemainderCentre
+        | Q::RemainderRight
+        | Q::RemainderMean
+        | Q::RemainderCentreMinusEnds => displacement(quantity, tilt?, row),
         Q::JointKn | Q::JointPhi | Q::BlockWeight | Q::FixedTarget => return None,
     };
     Some(found)
@@ -47,20 +53,27 @@ pub fn simulated(quantity: MeasuredQuantity, tilt: Option<f64>, row: &Row) -> Op
 fn displacement(quantity: MeasuredQuantity, tilt: f64, row: &Row) -> Simulated {
     let steps = at_rest(row);
     let tilt_deg = crate::math::degrees(tilt);
-    let Some(above) = steps.iter().position(|(at, _)| *at >= tilt_deg - SAME_TILT_DEG) else {
+    if steps.last().is_none_or(|(last, _)| *last < tilt_deg - SAME_TILT_DEG) {
         return match row.outcome {
             Outcome::Collapsed { .. } | Outcome::UnstableAtRest => Simulated::FellBefore,
             _ => Simulated::Nothing,
         };
+    }
+    // Nothing is left of nothing, and no platform goes back from a step that was halved.
+    let mut known: Vec<(f64, f64)> = Vec::new();
+    known.extend(quantity.remains_of().map(|_| (0.0, 0.0)));
+    known.extend(steps.into_iter().filter_map(|(at, step)| Some((at, read(quantity, step)?))));
+    let Some(above) = known.iter().position(|(at, _)| *at >= tilt_deg - SAME_TILT_DEG) else {
+        return Simulated::Nothing;
     };
-    let (upper_tilt, upper) = steps[above];
+    let (upper_tilt, upper) = known[above];
     let value = if (upper_tilt - tilt_deg).abs() <= SAME_TILT_DEG {
-        read(quantity, upper)
+        Some(upper)
     } else {
-        above.checked_sub(1).and_then(|below| {
-            let (lower_tilt, lower) = steps[below];
+        above.checked_sub(1).map(|below| {
+            let (lower_tilt, lower) = known[below];
             let share = (tilt_deg - lower_tilt) / (upper_tilt - lower_tilt);
-            Some((1.0 - share) * read(quantity, lower)? + share * read(quantity, upper)?)
+            (1.0 - share) * lower + share * upper
         })
     };
     value.map_or(Simulated::Nothing, Simulated::Value)
@@ -86,12 +99,17 @@ pub(super) fn at_rest(row: &Row) -> Vec<(f64, &StepRow)> {
 
 /// The quantity at a step (m).
 fn read(quantity: MeasuredQuantity, step: &StepRow) -> Option<f64> {
-    of_points(quantity, [step.left_m?, step.centre_m?, step.right_m?])
+    let points = match quantity.remains_of() {
+        None => [step.left_m, step.centre_m, step.right_m],
+        Some(_) => [step.left_remainder_m, step.centre_remainder_m, step.right_remainder_m],
+    };
+    of_points(quantity, [points[0]?, points[1]?, points[2]?])
 }
 
-/// A displacement (m) from those of the left end, the centre and the right end; `None` where the quantity is none of them.
+/// A displacement (m), or what is left of it, from those of the left end, the centre and the right end; `None` where the quantity is
+/// neither.
 pub(super) fn of_points(quantity: MeasuredQuantity, [left, centre, right]: [f64; 3]) -> Option<f64> {
-    match quantity {
+    match quantity.remains_of().unwrap_or(quantity) {
         MeasuredQuantity::DisplacementLeft => Some(left),
         MeasuredQuantity::DisplacementCentre => Some(centre),
         MeasuredQuantity::DisplacementRight => Some(right),

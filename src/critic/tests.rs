@@ -52,6 +52,9 @@ pub fn fallen(member: u64, point: u32, angle: f64) -> Row {
         left_m: Some(1e-3 * tilt),
         centre_m: Some(2e-3 * tilt),
         right_m: Some(6e-3 * tilt),
+        left_remainder_m: None,
+        centre_remainder_m: None,
+        right_remainder_m: None,
         unbalanced_ratio: None,
         solver_steps: 1,
     };
@@ -145,6 +148,29 @@ fn a_displacement_is_read_between_steps_and_never_beyond_the_last_at_rest() {
     assert_eq!(simulated(Q::CollapseAngle, None, &stood), Some(Simulated::Above(radians(45.0))));
 }
 
+#[test]
+fn a_remainder_is_read_between_the_steps_from_which_the_platform_went_back() {
+    use MeasuredQuantity as Q;
+    let mut row = fallen(0, 0, 13.0);
+    for step in row.load_steps.iter_mut().filter(|step| [Some(5.0), Some(10.0)].contains(&step.tilt_deg)) {
+        let left = |whole: Option<f64>| whole.map(|x| 0.1 * x);
+        step.left_remainder_m = left(step.left_m);
+        step.centre_remainder_m = left(step.centre_m);
+        step.right_remainder_m = left(step.right_m);
+    }
+    let at = |quantity, tilt: f64| simulated(quantity, Some(radians(tilt)), &row);
+    let value = |quantity, tilt: f64| match at(quantity, tilt) {
+        Some(Simulated::Value(x)) => x,
+        other => panic!("{other:?}"),
+    };
+    assert!((value(Q::RemainderLeft, 5.0) - 0.5e-3).abs() < 1e-12);
+    assert!((value(Q::RemainderCentre, 2.5) - 0.5e-3).abs() < 1e-12);
+    assert!((value(Q::RemainderMean, 7.5) - 2.25e-3).abs() < 1e-12);
+    assert!((value(Q::RemainderCentreMinusEnds, 10.0) + 1.5e-3).abs() < 1e-12);
+    assert_eq!(at(Q::RemainderMean, 11.0), Some(Simulated::Nothing));
+    assert_eq!(at(Q::RemainderMean, 13.5), Some(Simulated::FellBefore));
+}
+
 /// Three specimens at 13, 14 and 15 deg with an error of 0.3 deg, half of it shared, beside walls at 15, 16 and 17.
 #[test]
 fn the_difference_has_its_three_parts() {
@@ -211,7 +237,8 @@ fn what_cannot_be_compared_says_why() {
     study.measured = vec![
         read(0, 5.0),
         read(1, 10.0),
-        read(2, 0.0),
+        read(2, 5.0),
+        Measurement { stage: 2, ..measurement("a", MeasuredQuantity::RemainderMean, Some(10.0), 1e-3) },
         measurement("b", MeasuredQuantity::JointKn, None, 5e7),
         Measurement {
             family: "elsewhere".into(),
@@ -232,6 +259,7 @@ fn what_cannot_be_compared_says_why() {
             "read after the load had been larger",
             "3",
             "3",
+            "the platform does not go back here: load.remainders = true",
             "the simulation does not give it",
             "the arm is not evaluated here"
         ]

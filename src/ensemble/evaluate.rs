@@ -17,7 +17,9 @@ use crate::study::{Arm, DrawnJoints, Study};
 pub fn build(study: &Study, arm: u32, member: u64) -> Result<Generated, InvalidGeometry> {
     let arm = &study.arms[arm as usize];
     let generated = generate(&arm.layout, &Streams::new(study.seed, member))?;
-    Ok(Generated { wall: arm.mechanisms.built(generated.wall, &study.protocol), ..generated })
+    let wall = arm.mechanisms.built(generated.wall, &study.protocol);
+    let wall = if arm.turned { wall.turned(arm.layout.outline.length) } else { wall };
+    Ok(Generated { wall, ..generated })
 }
 
 /// Evaluates one member at one kn: builds its wall, draws its joints, takes it through the study's protocol. A wall
@@ -66,6 +68,9 @@ fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
         left_m: step.points.and_then(|[left, ..]| read(number, left)),
         centre_m: step.points.and_then(|[_, centre, _]| read(number, centre)),
         right_m: step.points.and_then(|[.., right]| read(number, right)),
+        left_remainder_m: step.remainders.and_then(|[left, ..]| read(number, left)),
+        centre_remainder_m: step.remainders.and_then(|[_, centre, _]| read(number, centre)),
+        right_remainder_m: step.remainders.and_then(|[.., right]| read(number, right)),
         unbalanced_ratio: finite(step.unbalanced_ratio),
         solver_steps: step.solver_steps,
     });

@@ -85,6 +85,9 @@ pub(crate) fn steps(rows: &[Row]) -> Result<Vec<u8>, RunError> {
         real("left_m", |(.., step)| step.left_m),
         real("centre_m", |(.., step)| step.centre_m),
         real("right_m", |(.., step)| step.right_m),
+        real("left_remainder_m", |(.., step)| step.left_remainder_m),
+        real("centre_remainder_m", |(.., step)| step.centre_remainder_m),
+        real("right_remainder_m", |(.., step)| step.right_remainder_m),
         real("unbalanced_ratio", |(.., step)| step.unbalanced_ratio),
         count("solver_steps", |(.., step)| step.solver_steps),
     ];

@@ -40,6 +40,15 @@ impl Wall {
         self
     }
 
+    /// The wall turned round: by half a turn about the vertical axis through the middle of a wall of this length (m) whose base has
+    /// its middle at y = 0.
+    pub fn turned(mut self, length: f64) -> Wall {
+        for vertex in self.blocks.iter_mut().flat_map(|block| &mut block.shape.vertices) {
+            (vertex.x, vertex.y) = (length - vertex.x, -vertex.y);
+        }
+        self
+    }
+
     /// The wall on the ground: adds one fixed block as the last one, so that the stones keep their ids. Its top is
     /// the plane z = 0; it is 0.1 m thick and reaches 0.1 m beyond the wall on all sides. Its density is that of the
     /// first stone; being fixed, its weight acts on nothing.

@@ -159,6 +159,8 @@ enum Verdict<S> {
 const MOST_WRONG: u32 = 20;
 /// The path of equilibria is followed so often: where it is lost, it is so again from nearby.
 const MOST_FOLLOWED: u32 = 3;
+/// A step back to level 0 is halved down to this share of a full one.
+const SHORTEST_BACK: f64 = 0.13;
 /// A fall is followed for this share of how far a wall goes that runs away.
 const FOLLOWED: f64 = 0.5;
 /// So many full steps above a suspicion a fall is looked for, when it cannot be told there.
@@ -377,14 +379,43 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
         }
         let full_step = self.task.path.higher(0.0, 1);
         self.pace.note(level, self.watch.moved(bodies), full_step);
+        // Where a step was halved the wall is near its end, from which nobody goes back.
+        let full_steps = level / full_step;
+        let goes_back = self.task.remainders && level > 0.0 && (full_steps - full_steps.round()).abs() < 1e-9;
+        let remainders = goes_back.then(|| self.left_at_level_0(&state, level)).flatten();
         let step =
             self.watch.read(bodies, self.task.path.level(level), ratio, std::mem::take(&mut self.spent));
-        self.steps.push(step);
+        self.steps.push(LoadStep { remainders, ..step });
         self.watch.rests(bodies);
         if self.certain.as_ref().is_some_and(|fall| fall.level <= level) {
             self.certain = None;
         }
         state
+    }
+
+    /// What is left of the displacements where the load goes back to level 0 from a state at rest, in full steps or, where no
+    /// equilibrium is found, shorter ones; `None` where that does not help.
+    fn left_at_level_0(&mut self, from: &S, level: f64) -> Option<[f64; 3]> {
+        let full_step = self.task.path.higher(0.0, 1);
+        let (mut state, mut at, mut step) = (from.clone(), level, full_step);
+        while at > 0.0 {
+            let lower = (at - step).max(0.0);
+            let mut next = state.clone();
+            let (gravity, factor) = self.task.path.loads(lower);
+            next.set_loads(gravity, factor);
+            // It may have come far, and goes back as far.
+            let settled = next.settle(&mut |_| false);
+            self.spent += settled.steps;
+            if settled.status == Status::Equilibrium {
+                (state, at) = (next, lower);
+                step = (2.0 * step).min(full_step);
+            } else if step <= SHORTEST_BACK * full_step {
+                return None;
+            } else {
+                step *= 0.5;
+            }
+        }
+        self.watch.points(&state.assembly().bodies)
     }
 
     /// The last level at which the wall came to rest.

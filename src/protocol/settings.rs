@@ -156,6 +156,9 @@ pub struct Tilting {
     pub rate: Rate,
     /// What the test is about; default the collapse angle.
     pub observes: Observes,
+    /// Whether the platform is let back to the level after every full step of tilt, and what is left of the displacements is read
+    /// there. The test goes on from the tilt as if it had not; default no.
+    pub remainders: bool,
 }
 
 /// What a test on a tilting table is about.
@@ -201,6 +204,7 @@ impl Default for Tilting {
             collapse_share: 0.1,
             rate: Rate::Static,
             observes: Observes::CollapseAngle,
+            remainders: false,
         }
     }
 }

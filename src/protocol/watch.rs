@@ -25,6 +25,9 @@ pub struct LoadStep {
     /// Displacement of the left, centre and right point of the top along +y, since the wall came to rest under gravity (m);
     /// `None` where the wall has no stones.
     pub points: Option<[f64; 3]>,
+    /// What is left of these (m) when the platform goes back to the level from here; `None` where that was not asked for, or the
+    /// wall does not come to rest on the way.
+    pub remainders: Option<[f64; 3]>,
     /// Unbalanced force ratio reached.
     pub unbalanced_ratio: f64,
     /// Time steps or iterations that it took, failed attempts on the way included.
@@ -100,13 +103,16 @@ impl Watch {
 
     /// What is read off the wall now.
     pub fn read(&self, bodies: &Bodies, level: Level, unbalanced_ratio: f64, solver_steps: u64) -> LoadStep {
-        let points = self.three_now(bodies).map(|now| {
-            let [l, c, r] = self.three_at_rest;
-            [now[0] - l, now[1] - c, now[2] - r]
-        });
+        let points = self.points(bodies);
         let (top_displacement, _) =
             furthest(&displacements(&self.top, bodies), &self.top_at_rest, self.towards);
-        LoadStep { level, top_displacement, points, unbalanced_ratio, solver_steps }
+        LoadStep { level, top_displacement, points, remainders: None, unbalanced_ratio, solver_steps }
+    }
+
+    /// See [`LoadStep::points`].
+    pub fn points(&self, bodies: &Bodies) -> Option<[f64; 3]> {
+        let [l, c, r] = self.three_at_rest;
+        self.three_now(bodies).map(|now| [now[0] - l, now[1] - c, now[2] - r])
     }
 
     fn three_now(&self, bodies: &Bodies) -> Option<[f64; 3]> {

@@ -120,6 +120,10 @@ fn words(offer: Offer) -> &'static str {
         Offer::Weights => "weigh a specimen of every family, to 0.5 %",
         Offer::FixedTarget => "read a target that does not move, to 0.3 mm",
         Offer::TwoStones => "test two stones: kn to 10 %, friction angle to 1 deg, of every family",
+        Offer::Remainders => {
+            "go back to 0 deg from the largest tilt read and read what is left at three points to 0.3 mm"
+        }
+        Offer::TurnedWalls => "turn as many walls round and read them at the same tilts",
         Offer::LowTilts => "six readings up to 3 deg at three points to 0.3 mm, on new specimens",
         Offer::FinerReadings => "the same tilts at three points to 0.3 mm, on new specimens",
         Offer::MoreTilts => "a reading at every degree, on new specimens",

@@ -22,6 +22,7 @@ pub struct WallKeys {
     base_thickness: Option<f64>,
     top_thickness: Option<f64>,
     battered_face: Option<BatteredFace>,
+    turned: bool,
     bond: BondKeys,
 }
 
@@ -49,6 +50,7 @@ pub fn wall(t: &mut Reader<'_>) -> WallKeys {
         base_thickness: t.real("base_thickness_m"),
         top_thickness: t.real("top_thickness_m"),
         battered_face: t.choice("battered_face"),
+        turned: t.flag("turned").unwrap_or(false),
         bond: BondKeys {
             wythes: t.whole32("wythes"),
             header_share: t.real("header_share"),
@@ -133,6 +135,7 @@ fn arm(t: &mut Reader<'_>, name: Option<String>, shared: &Setting, catalogue: &m
         members: members?,
         curve,
         layout: mechanisms.layout(layout),
+        turned: setting.wall.turned,
         joint,
         kn_points,
         restraint: mechanisms.restraint(setting.restraint?),

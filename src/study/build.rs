@@ -135,7 +135,7 @@ fn lateral(t: &mut Reader<'_>) -> Option<Lateral> {
 fn tilting(t: &mut Reader<'_>) -> Option<Tilting> {
     let towards = t.choice("towards");
     let reals = t.reals(["step_deg", "end_deg", "bracket_deg", "runaway_share"]);
-    let observes = t.choice("observes");
+    let (observes, remainders) = (t.choice("observes"), t.flag("remainders"));
     let turns = t.has("turning");
     let turning = t.table("turning").and_then(|mut t| {
         let [rate, damping, step_safety] = t.reals(["rate_deg_per_s", "damping", "step_safety"])?;
@@ -144,8 +144,15 @@ fn tilting(t: &mut Reader<'_>) -> Option<Tilting> {
     let [step, end, bracket, collapse_share] = reals?;
     let rate = if turns { Rate::Dynamic(turning?) } else { Rate::Static };
     let (step, end, bracket) = (radians(step), radians(end), radians(bracket));
-    let observes = observes?;
-    Some(Tilting { towards: towards?, step, end, bracket, collapse_share, rate, observes })
+    let (towards, observes, remainders) = (towards?, observes?, remainders?);
+    if remainders && turns {
+        t.fault(
+            "remainders",
+            "false where the platform turns steadily, as it never stops",
+            "remove one of the two",
+        );
+    }
+    Some(Tilting { towards, step, end, bracket, collapse_share, rate, observes, remainders })
 }
 
 /// Reads the solver and its settings.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use crate::generate::Layout;
+use crate::generate::{BatteredFace, Layout};
 use crate::law::{CohesionAfterSlip, Sampling};
 use crate::protocol::{FailureMode, Protocol, Restraint};
 use crate::random::Family;
@@ -55,6 +55,8 @@ pub struct Arm {
     pub curve: Option<String>,
     /// What each wall is asked to be.
     pub layout: Layout,
+    /// Whether each wall as built is turned round on the platform by half a turn.
+    pub turned: bool,
     /// Joint properties other than kn.
     pub joint: Joint,
     /// Normal stiffnesses of the joints (Pa/m), ascending: the points at which the arm is evaluated.
@@ -76,6 +78,12 @@ impl Study {
 }
 
 impl Arm {
+    /// Whether the section of its walls has no back and no front.
+    pub fn is_alike_from_both_sides(&self) -> bool {
+        let outline = &self.layout.outline;
+        outline.battered_face == BatteredFace::Both || outline.base_thickness == outline.top_thickness
+    }
+
     /// The middle of its points in kn, the lower of two.
     pub fn middle_point(&self) -> usize {
         self.kn_points.len().saturating_sub(1) / 2

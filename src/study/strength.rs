@@ -59,6 +59,20 @@ impl Study {
         self.rehashed()
     }
 
+    /// The same study of a tilting table whose platform is let back to the level from every stop; of a service load as it was.
+    pub fn with_remainders(mut self) -> Study {
+        if let Protocol::Tilting(tilting) = &mut self.protocol {
+            tilting.remainders = true;
+            self.effective.insert("load.remainders".to_owned(), "true".to_owned());
+        }
+        self.rehashed()
+    }
+
+    /// Whether its platform is let back to the level from every stop.
+    pub fn goes_back(&self) -> bool {
+        matches!(&self.protocol, Protocol::Tilting(tilting) if tilting.remainders)
+    }
+
     /// The same study with a mechanism on, its parameters by key and in the key's unit. An arm that the mechanism cannot act on,
     /// or that has it already, stays as it is.
     ///

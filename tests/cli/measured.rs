@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use pirca::math::radians;
+use pirca::math::{degrees, radians};
 use pirca::study::{MeasuredKind, MeasuredQuantity, Measurement, Study};
 
 use crate::mutated_walls::{Draws, spoilt};
@@ -83,6 +83,43 @@ fn an_unknown_share_is_half_until_it_is_known() {
     assert_eq!(
         (found[8].quantity, found[8].tilt, found[8].value),
         (MeasuredQuantity::FixedTarget, None, 0.005)
+    );
+}
+
+/// What is read at 0 deg after an earlier stage is what is left of the largest tilt before, and may be written as that as well.
+#[test]
+fn a_displacement_read_after_going_back_is_a_remainder() {
+    let text = "specimen,family,tilt_deg,quantity,value,unit,error,kind,stage\n\
+                A,laid,0,displacement_mean,0,mm,0.1,exact,0\n\
+                A,laid,8,displacement_mean,3,mm,0.1,exact,0\n\
+                A,laid,5,displacement_left,2,mm,0.1,exact,0\n\
+                A,laid,0,displacement_left,0.2,mm,0.1,exact,1\n\
+                A,laid,12,displacement_left,9,mm,0.1,exact,2\n\
+                A,laid,4,displacement_left,2.5,mm,0.1,exact,3\n\
+                A,laid,0,displacement_centre_minus_ends,0.4,mm,0.1,exact,3\n\
+                B,laid,0,displacement_mean,0.1,mm,0.1,exact,1\n\
+                C,laid,8,remainder_mean,0.3,mm,0.1,exact,0\n";
+    let found = load("remainder", text).unwrap_or_else(|faults| panic!("{faults}"));
+    let read: Vec<(MeasuredQuantity, f64)> =
+        found.iter().map(|m| (m.quantity, degrees(m.tilt.expect("read at a tilt")).round())).collect();
+    use MeasuredQuantity as Q;
+    assert_eq!(
+        read,
+        [
+            (Q::DisplacementMean, 0.0),
+            (Q::DisplacementMean, 8.0),
+            (Q::DisplacementLeft, 5.0),
+            (Q::RemainderLeft, 8.0),
+            (Q::DisplacementLeft, 12.0),
+            (Q::DisplacementLeft, 4.0),
+            (Q::RemainderCentreMinusEnds, 12.0),
+            // Nothing came before it.
+            (Q::DisplacementMean, 0.0),
+            (Q::RemainderMean, 8.0),
+        ]
+    );
+    assert!(
+        found.iter().all(|m| m.quantity.remainder().is_none_or(|left| left.remains_of() == Some(m.quantity)))
     );
 }
 

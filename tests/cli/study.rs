@@ -144,6 +144,9 @@ fn a_tilting_study_has_the_defaults_of_its_protocol() {
         Protocol::Tilting(Tilting { rate: Rate::Dynamic(expected), ..Tilting::default() })
     );
     assert_ne!(turning.hash, study.hash);
+    let back = with("remainders = true\n");
+    assert_eq!(back.protocol, Protocol::Tilting(Tilting { remainders: true, ..Tilting::default() }));
+    assert_ne!(back.hash, study.hash);
     scratch.replace(
         STUDY,
         "base = \"fixed\"",

@@ -93,3 +93,67 @@ fn a_wall_changes_by_what_is_asked_for_with_the_same_draws() {
     println!("{} {}", spread(&narrow), spread(&wide));
     assert!(spread(&wide) > 1.1 * spread(&narrow), "{narrow:?} {wide:?}");
 }
+
+#[test]
+fn a_gauge_reads_what_is_left_as_well_and_the_way_up_does_not_know_of_it() {
+    let back = |mechanisms: &str| {
+        let (folder, study) = study(mechanisms);
+        let study = study.with_remainders();
+        (folder, study)
+    };
+    let (_folder, plain) = study("");
+    let (_other, with) = back("");
+    let (_third, gauged) = back("[mechanism.gauge_offset]\noffset_m = 0.002\n");
+    assert!(with.goes_back() && !plain.goes_back() && with.hash != plain.hash);
+    let [plain, with, gauged] = [plain, with, gauged].map(|study| row(&study, 1));
+    for (step, ((a, b), c)) in
+        plain.load_steps.iter().zip(&with.load_steps).zip(&gauged.load_steps).enumerate()
+    {
+        assert_eq!((a.left_m, a.centre_m, a.right_m), (b.left_m, b.centre_m, b.right_m));
+        assert_eq!((a.left_remainder_m, a.centre_remainder_m, a.right_remainder_m), (None, None, None));
+        for (b, c) in [
+            (b.left_remainder_m, c.left_remainder_m),
+            (b.centre_remainder_m, c.centre_remainder_m),
+            (b.right_remainder_m, c.right_remainder_m),
+        ] {
+            assert_eq!(b.is_some(), step > 0);
+            assert_eq!(c, b.map(|left| left + 0.002));
+        }
+    }
+}
+
+/// A wall that leans and is turned round leans the other way: it falls where one does that was built so.
+#[test]
+fn a_wall_that_is_turned_round_leans_the_other_way() {
+    let load = |lean: &str, turned: &str| {
+        let text = STUDY
+            .replace(
+                "protocol = \"lateral\"\nmean_pressure_pa = 200\nbase_over_top = 2",
+                "protocol = \"tilting\"\nstep_deg = 2\nbracket_deg = 0.02",
+            )
+            .replace("battered_face = \"both\"", &format!("battered_face = \"both\"\n{turned}"))
+            .replace("ends = \"joint_springs\"", "ends = \"free\"")
+            .replace(
+                "[solver]\nunbalanced_ratio = 1e-4",
+                &format!("[solver]\nname = \"implicit\"\n\n[mechanism.lean]\nangle_deg = {lean}\n"),
+            )
+            + "\n";
+        let folder = Folder::with_study(&text);
+        Study::load(&folder.path("studies/tiny"), None).unwrap_or_else(|faults| panic!("{faults}")).study
+    };
+    let angle = |lean: &str, turned: &str| row(&load(lean, turned), 0).collapse_angle_deg.expect("it falls");
+    let turned = "turned = true";
+    let [downhill, uphill, round] = [angle("1", ""), angle("-1", ""), angle("1", turned)];
+    println!("{downhill} {uphill} {round}");
+    assert!(uphill - downhill > 1.3 && (round - uphill).abs() < 0.03, "{downhill} {uphill} {round}");
+    // By half a turn about the middle of its length and its base, stone by stone.
+    let [built, turned] =
+        ["", turned].map(|turned| build(&load("1", turned), 1, 1).expect("it can be built").wall);
+    let length = load("1", "").arms[1].layout.outline.length;
+    for (a, b) in built.blocks.iter().zip(&turned.blocks) {
+        for (a, b) in a.shape.vertices.iter().zip(&b.shape.vertices) {
+            assert_eq!([b.x, b.y, b.z], [length - a.x, -a.y, a.z]);
+        }
+        assert!((a.shape.volume() - b.shape.volume()).abs() < 1e-15);
+    }
+}

@@ -22,6 +22,8 @@ use crate::inference::{Judge, Known, Said, Word};
 const SPECIMENS: u64 = 6;
 /// Tilts of the readings (deg).
 const TILTS: [f64; 5] = [2.5, 5.0, 7.5, 10.0, 12.5];
+/// The tilt from which the platform goes back, where it does (deg).
+const BACK_FROM: f64 = 10.0;
 /// Random error of a collapse angle (deg) and of a displacement (m).
 const ERRORS: [f64; 2] = [0.1, 2e-5];
 /// Points of the bank.
@@ -50,12 +52,19 @@ fn bank(plan: &Plan) -> Bank {
 }
 
 /// What is hidden in a campaign.
-#[derive(Default)]
+#[derive(Clone, Copy, Default)]
 struct Hidden {
     /// A mechanism with its parameters.
     mechanism: Option<(&'static str, &'static [(&'static str, f64)])>,
     /// Scores of kn and of the friction angle in their priors, where they are not drawn.
     joints: Option<[f64; 2]>,
+    /// Whether the platform goes back to the level from one of the tilts for a reading of what is left.
+    goes_back: bool,
+}
+
+/// A mechanism, with joints drawn from their priors.
+fn hiding(name: &'static str, parameters: &'static [(&'static str, f64)]) -> Hidden {
+    Hidden { mechanism: Some((name, parameters)), ..Hidden::default() }
 }
 
 /// What is read on walls of the solver. The seed is that of walls, joints and errors.
@@ -71,6 +80,9 @@ fn campaign(study: &Study, hidden: &Hidden, seed: u64) -> Vec<Measurement> {
     // Lognormal, as the priors are: 47 % of kn, 6 % of the friction angle.
     let arm = study.arms[0].with_joints(5e7, [exp(0.47 * kn), exp(0.06 * phi), 1.0]);
     study.arms[0] = arm;
+    if hidden.goes_back {
+        study = study.with_remainders();
+    }
     let Protocol::Tilting(tilting) = &mut study.protocol else { panic!("towers are tilted") };
     tilting.step = radians(1.25);
     let rows: Vec<Row> = (0..SPECIMENS)
@@ -114,6 +126,14 @@ fn campaign(study: &Study, hidden: &Hidden, seed: u64) -> Vec<Measurement> {
             for (quantity, value) in points {
                 read(quantity, Some(tilt), value.expect("it was read"), ERRORS[1]);
             }
+            let left = [
+                (MeasuredQuantity::RemainderLeft, step.left_remainder_m),
+                (MeasuredQuantity::RemainderCentre, step.centre_remainder_m),
+                (MeasuredQuantity::RemainderRight, step.right_remainder_m),
+            ];
+            for (quantity, value) in left.into_iter().filter(|_| hidden.goes_back && tilt == BACK_FROM) {
+                read(quantity, Some(tilt), value.expect("it goes back"), ERRORS[1]);
+            }
         }
     }
     readings
@@ -142,7 +162,7 @@ fn nothing_is_named_where_nothing_is_hidden() {
     let far = [(Some([2.0, 0.0]), 300), (Some([-2.0, 0.0]), 301), (Some([2.0, -1.0]), 302)];
     let mut found = 0;
     for (joints, seed) in cases.chain(far) {
-        let verdict = said(&Hidden { joints, mechanism: None }, seed).verdict;
+        let verdict = said(&Hidden { joints, ..Hidden::default() }, seed).verdict;
         assert!(verdict != Word::Named, "seed {seed}");
         found += usize::from(verdict != Word::NothingFound);
     }
@@ -159,7 +179,7 @@ fn strong_effects_that_the_data_identify_are_named() {
     ];
     for (name, parameters) in cases {
         let named = (100..103).filter(|&seed| {
-            let names = said(&Hidden { mechanism: Some((name, parameters)), joints: None }, seed).names;
+            let names = said(&hiding(name, parameters), seed).names;
             // Whatever is said, the truth is among it.
             assert!(names.is_empty() || names.iter().any(|own| own == name), "{name} hidden, {names:?} said");
             names == [name]
@@ -172,16 +192,29 @@ fn strong_effects_that_the_data_identify_are_named() {
 fn what_looks_alike_is_said_to_look_alike() {
     // Lean and rounded arrises both take a piece off the angle and add little to the displacements.
     for seed in 100..103 {
-        let Said { verdict, names, .. } =
-            said(&Hidden { mechanism: Some(("lean", &[("angle_deg", 1.0)])), joints: None }, seed);
+        let Said { verdict, names, .. } = said(&hiding("lean", &[("angle_deg", 1.0)]), seed);
         assert!(verdict == Word::NothingFound || names.iter().any(|own| own == "lean"), "{verdict:?}");
         assert!(names != ["contact_inset"]);
     }
 }
 
 #[test]
+fn what_has_crept_is_known_by_what_is_left_after_going_back() {
+    let crept = |goes_back| {
+        let own = hiding("creep", &[("rate_per_deg", 0.06), ("hold_share", 0.1), ("hold_every_deg", 5.0)]);
+        (100..103).filter(|&seed| said(&Hidden { goes_back, ..own }, seed).names == ["creep"]).count()
+    };
+    let (without, with) = (crept(false), crept(true));
+    assert!(with >= 2 && without == 0, "{without} of 3 without, {with} with");
+    // And what has not crept leaves nothing that would have to be explained.
+    let still = Hidden { goes_back: true, ..Hidden::default() };
+    let found = (200..204).filter(|&seed| said(&still, seed).verdict != Word::NothingFound).count();
+    assert!(found < 2, "{found} of 4");
+}
+
+#[test]
 fn a_mechanism_that_is_taken_out_of_the_catalogue_is_not_named() {
-    let hidden = Hidden { mechanism: Some(("gauge_offset", &[("offset_m", 3e-3)])), joints: None };
+    let hidden = hiding("gauge_offset", &[("offset_m", 3e-3)]);
     let index = known().mechanisms.iter().position(|m| m.name == "gauge_offset").expect("it is in there");
     let reduced = known().without(index);
     for seed in 100..103 {
@@ -214,7 +247,7 @@ fn a_catalogue_without_a_mechanism_keeps_the_walls_of_the_others() {
 
 #[test]
 fn a_verdict_comes_out_the_same_bit_for_bit_with_any_number_of_threads() {
-    let hidden = Hidden { mechanism: Some(("gauge_offset", &[("offset_m", 3e-3)])), joints: None };
+    let hidden = hiding("gauge_offset", &[("offset_m", 3e-3)]);
     let with = |threads: usize| {
         let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be had");
         pool.install(|| said(&hidden, 100))

@@ -17,6 +17,7 @@ mod mechanisms_joints;
 mod mechanisms_loading;
 mod objectivity;
 mod pressure;
+mod remainders;
 mod ropes;
 mod shapes;
 mod table;

@@ -12,7 +12,7 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use crate::critic::bank::path::NUMBERS;
+use crate::critic::bank::path::{NUMBERS, NUMBERS_UP};
 use crate::math::{exp, ln};
 use crate::stats;
 
@@ -44,18 +44,30 @@ pub struct Emulator {
     middle: [f64; NUMBERS],
     /// Coefficients of the quadratic, by term and number.
     coefficients: Vec<[f64; NUMBERS]>,
-    /// Weights of the walls in what is smooth beside it, by wall and number.
-    weights: Vec<[f64; NUMBERS]>,
-    /// Of the covariance of the walls of the bank.
-    inverse: DMatrix<f64>,
-    /// Terms of the quadratic, by wall.
-    terms: Vec<Vec<f64>>,
+    /// What tells how well the curve is known.
+    known: Known,
     /// Where the walls of the bank lie, in scores that are [`held`].
     scores: Vec<Vec<f64>>,
     /// What each wall of the bank differs by from a curve that does not know it: the stones' own part, and the emulator's error.
     left: Vec<[f64; NUMBERS]>,
     /// Share of the variance that such curves explain, by number.
     explained: [f64; NUMBERS],
+}
+
+/// How well a curve is known by the walls of the bank (sections 2.1.2 and 2.2).
+#[derive(Clone, Debug)]
+enum Known {
+    /// A quadratic alone: the covariance of its coefficients.
+    Quadratic(DMatrix<f64>),
+    /// A quadratic with what is smooth beside it.
+    Smooth {
+        /// Of the covariance of the walls.
+        inverse: DMatrix<f64>,
+        /// Terms of the quadratic, by wall.
+        terms: Vec<Vec<f64>>,
+        /// Weights of the walls in what is smooth, by wall and number.
+        weights: Vec<[f64; NUMBERS]>,
+    },
 }
 
 /// What an emulator tells of walls at some scores.
@@ -111,19 +123,13 @@ impl Emulator {
             if whole > 0.0 { 1.0 - rest / (whole * whole) } else { 0.0 }
         });
         let coefficients = by_row(&(design.transpose() * &weights * WIDE));
-        let weights = by_row(&weights);
-        Some(Emulator {
-            inputs,
-            shape,
-            middle,
-            coefficients,
-            weights,
-            inverse,
-            terms,
-            scores,
-            left,
-            explained,
-        })
+        let known = if shape.size > 0.0 {
+            Known::Smooth { inverse, terms, weights: by_row(&weights) }
+        } else {
+            let information = DMatrix::identity(p, p) / WIDE + design.tr_mul(&design);
+            Known::Quadratic(information.cholesky()?.inverse())
+        };
+        Some(Emulator { inputs, shape, middle, coefficients, known, scores, left, explained })
     }
 
     /// What it tells of walls at these scores (one per input), with what so many walls of the bank are left with.
@@ -133,20 +139,28 @@ impl Emulator {
         let own = terms(&scores);
         let distances: Vec<f64> =
             self.scores.iter().map(|wall| self.shape.squared_distance(&scores, wall)).collect();
-        let smooth = |square: f64| if self.shape.size > 0.0 { self.shape.covariance(square) } else { 0.0 };
-        let smooths: Vec<f64> = distances.iter().map(|square| smooth(*square)).collect();
         let mut numbers = self.middle;
         let mut add = |share: f64, of: &[f64; NUMBERS]| {
             numbers.iter_mut().zip(of).for_each(|(number, of)| *number += share * of);
         };
         own.iter().zip(&self.coefficients).for_each(|(term, of)| add(*term, of));
-        smooths.iter().zip(&self.weights).for_each(|(covariance, of)| add(*covariance, of));
-        let dot = |other: &[f64]| WIDE * own.iter().zip(other).fold(0.0, |sum, (a, b)| sum + a * b);
-        let covariances = smooths.iter().zip(&self.terms).map(|(smooth, other)| smooth + dot(other));
-        let covariances = DVector::from_iterator(smooths.len(), covariances);
-        // Section 2.2: what the walls of the bank do not tell of the curve, in units of what the stones leave.
-        let known = covariances.dot(&(&self.inverse * &covariances));
-        let unknown = (smooth(0.0) + dot(&own) - known).max(0.0);
+        // What the walls of the bank do not tell of the curve, in units of what the stones leave.
+        let unknown = match &self.known {
+            Known::Quadratic(covariance) => {
+                let own = DVector::from_vec(own);
+                own.dot(&(covariance * &own))
+            }
+            Known::Smooth { inverse, terms, weights } => {
+                let smooths: Vec<f64> =
+                    distances.iter().map(|square| self.shape.covariance(*square)).collect();
+                smooths.iter().zip(weights).for_each(|(covariance, of)| add(*covariance, of));
+                let dot = |other: &[f64]| WIDE * own.iter().zip(other).fold(0.0, |sum, (a, b)| sum + a * b);
+                let covariances = smooths.iter().zip(terms).map(|(smooth, other)| smooth + dot(other));
+                let covariances = DVector::from_iterator(smooths.len(), covariances);
+                let known = covariances.dot(&(inverse * &covariances));
+                (self.shape.covariance(0.0) + dot(&own) - known).max(0.0)
+            }
+        };
         let nearest = stats::smallest(distances.into_iter().zip(0..), count);
         Told {
             numbers,
@@ -182,9 +196,11 @@ impl Fitted {
         Some(Fitted { inverse, weights, left })
     }
 
-    /// How far off it is of walls that it does not know: mean logarithm over the numbers that vary.
+    /// How far off it is of walls that it does not know: mean logarithm over the numbers that vary on the way up. What is left on
+    /// the way back is close to nothing for most walls.
     fn misses(&self) -> f64 {
-        let squares = self.left.column_iter().map(|left| left.dot(&left)).filter(|square| *square > 0.0);
+        let up = self.left.column_iter().take(NUMBERS_UP);
+        let squares = up.map(|left| left.dot(&left)).filter(|square| *square > 0.0);
         stats::mean(&squares.map(ln).collect::<Vec<_>>()).unwrap_or(0.0)
     }
 }

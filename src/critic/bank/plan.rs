@@ -52,7 +52,7 @@ impl Plan {
         points: u64,
     ) -> Result<Plan, Faults> {
         let families = study.measured_arms();
-        let base = study.clone().without_limit_analysis();
+        let base = study.clone().without_limit_analysis().with_remainders();
         let (mut arms, mut places) = (Vec::new(), Vec::new());
         for point in 0..BASE * points {
             let streams = Streams::new(study.seed, point);

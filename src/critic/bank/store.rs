@@ -5,7 +5,7 @@ use std::io::Cursor;
 use polars::prelude::{Column, DataFrame, NamedFrom, PolarsError, Series};
 use polars_io::prelude::{ParquetReader, SerReader};
 
-use crate::critic::bank::path::{NUMBERS, Path};
+use crate::critic::bank::path::{KINDS, NUMBERS, PLACES, Path};
 use crate::critic::bank::plan::Plan;
 use crate::ensemble::{Row, RunError, parquet};
 
@@ -105,9 +105,8 @@ fn texts(frame: &DataFrame, name: &str) -> Option<Vec<String>> {
 
 /// Name of a number's column.
 fn name(number: usize) -> String {
-    let places = (NUMBERS - 1) / 3;
     match number.checked_sub(1) {
         None => "ln_collapse_rad".to_string(),
-        Some(k) => format!("{}_{}", ["ln_mean_m_per_rad", "bow", "twist"][k / places], k % places),
+        Some(k) => format!("{}_{}", KINDS[k / PLACES.len()], k % PLACES.len()),
     }
 }

@@ -37,6 +37,9 @@ fn wall(collapse: f64, step: f64) -> Row {
             left_m: left,
             centre_m: centre,
             right_m: right,
+            left_remainder_m: left.map(|x| 0.1 * x),
+            centre_remainder_m: centre.map(|x| 0.2 * x),
+            right_remainder_m: right.map(|x| 0.1 * x),
             ..like.load_steps[0].clone()
         }
     };
@@ -62,8 +65,15 @@ fn a_path_tells_what_was_read_between_its_steps() {
                     "{tilt} of {collapse}: {found:e} against {exact:e}"
                 );
             }
+            let [left, centre, right] = formula(tilt, collapse);
+            let left = [0.1 * left, 0.2 * centre, 0.1 * right];
+            for (found, exact) in path.remainders(radians(tilt)).expect("it stands").iter().zip(left) {
+                let allowed = if share > 0.95 { 0.03 } else { 0.012 };
+                assert!((found / exact - 1.0).abs() < allowed, "{tilt}: {found:e} left, not {exact:e}");
+            }
         }
         assert!(path.displacements(radians(collapse) + 1e-9).is_none());
+        assert!(path.remainders(radians(collapse) + 1e-9).is_none());
     }
 }
 
@@ -88,6 +98,15 @@ fn a_wall_that_did_not_fall_has_no_path() {
         (step.left_m, step.centre_m, step.right_m) = (Some(-1e-3), Some(-1e-3), Some(-1e-3));
     }
     assert!(Path::of(&leans_back).is_none());
+}
+
+#[test]
+fn of_a_wall_that_fell_before_the_platform_could_go_back_nothing_is_left() {
+    let mut never_back = wall(20.0, 2.5);
+    never_back.load_steps.iter_mut().for_each(|step| step.left_remainder_m = None);
+    let path = Curves::of(&Path::of(&never_back).expect("it fell").adding());
+    assert_eq!(path.remainders(radians(8.0)), Some([0.0; 3]));
+    assert!(path.displacements(radians(8.0)).is_some_and(|points| points[0] > 1e-3));
 }
 
 /// Scores and paths: the first number is a quadratic of the inputs, the second that and noise, the others are noise.

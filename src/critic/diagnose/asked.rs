@@ -12,6 +12,8 @@ pub(super) struct Asked {
     what: Vec<(MeasuredQuantity, Option<usize>)>,
     /// Which of these each reading asks for.
     pub by_reading: Vec<usize>,
+    /// Whether any asks for what is left after the platform has gone back.
+    pub goes_back: bool,
 }
 
 impl Asked {
@@ -24,13 +26,16 @@ impl Asked {
         what.sort_unstable();
         what.dedup();
         let by_reading = all.iter().map(|one| what.partition_point(|known| known < one)).collect();
-        Asked { tilts, what, by_reading }
+        let goes_back = what.iter().any(|(quantity, _)| quantity.remains_of().is_some());
+        Asked { tilts, what, by_reading, goes_back }
     }
 
-    /// What a wall shows that falls at this tilt and moves left, centre and right by so much at each of the tilts.
-    pub fn shown(&self, collapse: f64, points: &[[f64; 3]]) -> Vec<f64> {
+    /// What a wall shows that falls at this tilt and moves left, centre and right by so much at each of the tilts; if any
+    /// [goes back](Self::goes_back), with what is left after each.
+    pub fn shown(&self, collapse: f64, points: &[[f64; 3]], left: &[[f64; 3]]) -> Vec<f64> {
         let one = |(quantity, at): &(MeasuredQuantity, Option<usize>)| {
-            at.and_then(|at| of_points(*quantity, points[at])).unwrap_or(collapse)
+            let read = if quantity.remains_of().is_some() { left } else { points };
+            at.and_then(|at| of_points(*quantity, read[at])).unwrap_or(collapse)
         };
         self.what.iter().map(one).collect()
     }

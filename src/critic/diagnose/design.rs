@@ -16,6 +16,8 @@ pub struct Specimen {
     pub family: usize,
     /// Place in the order of the tests, from 1, where that is known.
     pub order: Option<u32>,
+    /// Whether it is turned round beforehand. Only planned specimens are: measured ones are of an arm that says so.
+    pub turned: bool,
     /// Its readings, in the order of the file.
     pub readings: Vec<Measurement>,
 }
@@ -42,7 +44,7 @@ pub struct Design {
     pub specimens: Vec<Specimen>,
     /// Two-stone tests, weights of specimens and readings of fixed targets: the index of their family's arm, and the reading.
     pub apart: Vec<(usize, Measurement)>,
-    /// Lines of the file that a diagnosis does not use: weights of single blocks, readings after the platform has gone back, and
+    /// Lines of the file that a diagnosis does not use: weights of single blocks, readings at a tilt after a larger one, and
     /// arms that the study does not evaluate.
     pub unused: Vec<usize>,
 }
@@ -82,6 +84,7 @@ impl Design {
                             name: m.specimen.clone(),
                             family,
                             order: m.order,
+                            turned: false,
                             readings: vec![m.clone()],
                         }),
                     }

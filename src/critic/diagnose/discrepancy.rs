@@ -109,8 +109,8 @@ impl<'d> Discrepancy<'d> {
                 let (unit, told) = (units[specimen][reading], seen != Seen::Beyond);
                 let known = known[specimen][reading] && told;
                 let side = match m.quantity {
-                    MeasuredQuantity::DisplacementLeft => 1.0,
-                    MeasuredQuantity::DisplacementRight => -1.0,
+                    MeasuredQuantity::DisplacementLeft | MeasuredQuantity::RemainderLeft => 1.0,
+                    MeasuredQuantity::DisplacementRight | MeasuredQuantity::RemainderRight => -1.0,
                     _ => 0.0,
                 };
                 let order = own.order.map_or(0.0, |order| (f64::from(order) - first) / half.max(0.5) - 1.0);
@@ -216,7 +216,9 @@ fn kind(quantity: MeasuredQuantity) -> u8 {
     match quantity {
         MeasuredQuantity::CollapseAngle => 0,
         MeasuredQuantity::DisplacementCentreMinusEnds => 1,
-        _ => 2,
+        MeasuredQuantity::RemainderCentreMinusEnds => 2,
+        other if other.remains_of().is_some() => 3,
+        _ => 4,
     }
 }
 

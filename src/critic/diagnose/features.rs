@@ -28,6 +28,10 @@ pub enum Contrast {
     Bow,
     /// The left end against the right one.
     Twist,
+    /// What is left of the displacements when the platform has gone back.
+    Left,
+    /// The centre against the two ends in that.
+    LeftBow,
     /// Share of the readings that the wall still stood for.
     Reached,
 }
@@ -186,10 +190,14 @@ fn contrasts(specimen: &Specimen, seen: &[Seen], scale: &[Usual]) -> Vec<(Contra
         reached += 1.0;
         let s = tilt / last;
         let mut add = |contrast, weight| weighted.entry(contrast).or_default().push([weight, z, error]);
-        if m.quantity != Q::DisplacementCentreMinusEnds {
-            add(Contrast::Level, 1.0);
-            add(Contrast::Growth, s - 0.5);
-            add(Contrast::Curvature, 12.0 * (s - 0.5) * (s - 0.5) - 1.0);
+        match m.quantity {
+            Q::DisplacementCentreMinusEnds | Q::RemainderCentreMinusEnds => {}
+            other if other.remains_of().is_some() => add(Contrast::Left, 1.0),
+            _ => {
+                add(Contrast::Level, 1.0);
+                add(Contrast::Growth, s - 0.5);
+                add(Contrast::Curvature, 12.0 * (s - 0.5) * (s - 0.5) - 1.0);
+            }
         }
         match m.quantity {
             Q::DisplacementLeft => {
@@ -205,6 +213,8 @@ fn contrasts(specimen: &Specimen, seen: &[Seen], scale: &[Usual]) -> Vec<(Contra
                 add(Contrast::Bow, 1.0);
                 add(Contrast::Growth, s - 0.5);
             }
+            Q::RemainderLeft | Q::RemainderRight => add(Contrast::LeftBow, -0.5),
+            Q::RemainderCentre | Q::RemainderCentreMinusEnds => add(Contrast::LeftBow, 1.0),
             _ => {}
         }
     }

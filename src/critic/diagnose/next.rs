@@ -38,6 +38,11 @@ pub enum Offer {
     Weights,
     /// What the gauge shows of a target that does not move, to 0.3 mm.
     FixedTarget,
+    /// What is left at three points, to 0.3 mm, when the platform goes back from the largest tilt of the campaign's readings, on as
+    /// many specimens of every family as there were.
+    Remainders,
+    /// The readings of the campaign but its collapse angles, on walls that are turned round.
+    TurnedWalls,
     /// Six readings up to 3 deg at three points, to 0.3 mm, on as many specimens of every family as there were.
     LowTilts,
     /// The tilts of the campaign once more at three points, to 0.3 mm.
@@ -49,11 +54,13 @@ pub enum Offer {
 }
 
 /// All offers with what they cost, in hours of two people (our estimate).
-const MENU: [(Offer, f64); 7] = [
+const MENU: [(Offer, f64); 9] = [
     (Offer::FixedTarget, 0.5),
     (Offer::Weights, 1.0),
     (Offer::TwoStones, 2.0),
+    (Offer::Remainders, 5.0),
     (Offer::LowTilts, 6.0),
+    (Offer::TurnedWalls, 9.0),
     (Offer::FinerReadings, 8.0),
     (Offer::MoreTilts, 7.0),
     (Offer::MoreSpecimens, 40.0),
@@ -138,6 +145,18 @@ fn planned(offer: Offer, judge: &Judge<'_>) -> Option<Design> {
                 new.apart.push((family, reading(Q::JointPhi, None, radians(1.0))));
             }
         }
+        Offer::Remainders => {
+            let points = [Q::RemainderLeft, Q::RemainderCentre, Q::RemainderRight];
+            new.specimens = again(&|own| {
+                let from = own.tilts().last().copied().filter(|tilt| *tilt > 0.0);
+                from.map_or_else(Vec::new, |from| points.map(|q| reading(q, Some(from), FINE)).to_vec())
+            });
+        }
+        Offer::TurnedWalls => {
+            new.specimens = again(&|own| own.readings.iter().filter(|m| m.tilt.is_some()).cloned().collect());
+            new.specimens.retain(|own| judge.world.can_turn(own.family));
+            new.specimens.iter_mut().for_each(|own| own.turned = true);
+        }
         Offer::LowTilts => {
             let tilts = [0.5, 1.0, 1.5, 2.0, 2.5, 3.0].map(radians);
             new.specimens = again(&|_| at(&tilts));
@@ -148,7 +167,8 @@ fn planned(offer: Offer, judge: &Judge<'_>) -> Option<Design> {
         Offer::MoreTilts => {
             new.specimens = again(&|own| {
                 let largest = own.readings.iter().filter_map(|m| m.tilt).fold(0.0, f64::max);
-                let Some(m) = own.readings.iter().find(|m| m.tilt.is_some()) else { return Vec::new() };
+                let up = |m: &&Measurement| m.tilt.is_some() && m.quantity.remains_of().is_none();
+                let Some(m) = own.readings.iter().find(up) else { return Vec::new() };
                 let tilts =
                     (1..90).map(|deg| radians(f64::from(deg))).take_while(|tilt| *tilt <= largest + 1e-9);
                 tilts.map(|tilt| Measurement { tilt: Some(tilt), ..m.clone() }).collect()
@@ -281,6 +301,18 @@ mod tests {
         let still = offers(&judge, &[draws("gauge_offset", 1.0), draws("lean", 0.0)], 6);
         assert!(still[0].offer == Offer::FixedTarget && still[0].bits > 0.9, "{still:?}");
         assert!(weighed.iter().all(|own| own.offer != Offer::FixedTarget || own.bits < 0.05), "{weighed:?}");
+        // What has crept does not come back.
+        let bits = |offered: &[Offered], wanted: Offer| {
+            offered.iter().find(|own| own.offer == wanted).expect("in the menu").bits
+        };
+        let back = offers(&judge, &[draws("creep", 1.5), draws("cohesion", 1.5)], 6);
+        assert!(bits(&back, Offer::Remainders) > 0.8 && bits(&alike, Offer::Remainders) < 0.15, "{back:?}");
+        // A wall that leans moves a little further before its fall, turned round a little less.
+        let leans = offers(&judge, &[draws("lean", 1.5), draws("lean", -1.5)], 6);
+        assert!(
+            bits(&leans, Offer::TurnedWalls) > 0.1 && bits(&alike, Offer::TurnedWalls) < 0.05,
+            "{leans:?}"
+        );
         // The most information per hour comes first.
         let worth: Vec<f64> = offered.iter().map(|own| own.bits / own.hours).collect();
         assert!(worth.windows(2).all(|pair| pair[0] >= pair[1]));

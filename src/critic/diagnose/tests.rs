@@ -30,7 +30,7 @@ pub(crate) fn made() -> Made {
         // A point has the same stones under every cause.
         let mut noise = Streams::new(5, place.point).of(&format!("stones {}", place.family));
         let mut draw = |sd: f64| if place.family == 0 { 0.0 } else { sd * quantile(noise.uniform()) };
-        let mut numbers = [0.0; 19];
+        let mut numbers = [0.0; 37];
         numbers[0] = ln(radians([19.0, 14.5, 19.5][place.family])) + 0.05 * kn + 0.01 * phi + draw(0.02);
         let level = draw(0.05);
         for k in 0..6 {
@@ -42,7 +42,10 @@ pub(crate) fn made() -> Made {
         let strength = || 2.0 * place.parameters[0] - 1.0;
         match place.cause.map(|cause| mechanisms[cause].name) {
             Some("lean") => numbers[0] -= 0.2 * strength(),
-            Some("creep") => numbers[1..7].iter_mut().for_each(|x| *x += 2.0 * (1.0 + strength())),
+            Some("creep") => {
+                numbers[1..7].iter_mut().for_each(|x| *x += 2.0 * (1.0 + strength()));
+                numbers[19..25].iter_mut().for_each(|x| *x += 0.4 * (1.0 + strength()));
+            }
             _ => {}
         }
         Some(Path { numbers })

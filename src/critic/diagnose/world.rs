@@ -22,6 +22,9 @@ const NEIGHBOURS: usize = 20;
 /// What walls share is set beside what the wall so far down the list of the nearest has of its own.
 const COMMON_APART: usize = 3;
 
+/// The mechanism that has a side, uphill or downhill.
+const SIDED: &str = "lean";
+
 /// So many walls of a family are tried for one that can be built and weighed.
 const BUILT: u64 = 20;
 
@@ -173,6 +176,7 @@ impl<'s> World<'s> {
         let specimens = design.specimens.iter().enumerate();
         specimens
             .map(|(index, specimen)| {
+                let truth = if specimen.turned { &self.turned(truth) } else { truth };
                 let curves = Curves::of(&self.wall(specimen.family, truth, index, streams));
                 specimen.readings.iter().map(|m| shown(&curves, m, &gauge)).collect()
             })
@@ -187,6 +191,25 @@ impl<'s> World<'s> {
     /// Whether walls of a family differ in the base model. Where they do not, simulated ones differ by the emulator's error alone.
     pub fn is_random(&self, family: usize) -> bool {
         self.base.get(&family).is_some_and(|walls| walls.random)
+    }
+
+    /// Whether a wall that is turned round stands as another one of its family does, but for what [`SIDED`] makes of it.
+    pub fn can_turn(&self, family: usize) -> bool {
+        self.study.arms[family].is_alike_from_both_sides()
+    }
+
+    /// What is true of a wall that is turned round: it leans the other way. The prior of that is the same for both.
+    fn turned(&self, truth: &Truth) -> Truth {
+        let mut turned = truth.clone();
+        let mut left = &mut turned.parameters[..];
+        for cause in truth.causes.each() {
+            let (own, others) = left.split_at_mut(self.mechanisms[cause].parameters.len());
+            left = others;
+            if self.mechanisms[cause].name == SIDED {
+                own.iter_mut().for_each(|score| *score = -*score);
+            }
+        }
+        turned
     }
 
     /// The numbers of a specimen's path: one of those that a wall may have.
@@ -246,10 +269,12 @@ impl<'s> World<'s> {
             let left = std::array::from_fn(|k| own[k] + times * common[k]);
             let curves = Curves::of(&moved(&expected, &left));
             let last = curves.collapse();
-            let points = |tilt: &f64| {
-                curves.displacements(tilt.min(last)).unwrap_or_default().map(|x| gauge.reading(x))
+            let read = |points: Option<[f64; 3]>| points.unwrap_or_default().map(|x| gauge.reading(x));
+            let over = |of: &dyn Fn(f64) -> Option<[f64; 3]>| -> Vec<[f64; 3]> {
+                asked.tilts.iter().map(|tilt| read(of(tilt.min(last)))).collect()
             };
-            asked.shown(last, &asked.tilts.iter().map(points).collect::<Vec<_>>())
+            let left = if asked.goes_back { over(&|tilt| curves.remainders(tilt)) } else { Vec::new() };
+            asked.shown(last, &over(&|tilt| curves.displacements(tilt)), &left)
         };
         (own.iter().zip(apart).map(of).collect(), random)
     }
@@ -334,7 +359,11 @@ fn shown(wall: &Curves, m: &Measurement, gauge: &Mechanisms) -> Option<f64> {
     if m.quantity == MeasuredQuantity::CollapseAngle {
         return Some(wall.collapse());
     }
-    of_points(m.quantity, wall.displacements(m.tilt?)?.map(|x| gauge.reading(x)))
+    let points = match m.quantity.remains_of() {
+        None => wall.displacements(m.tilt?),
+        Some(_) => wall.remainders(m.tilt?),
+    };
+    of_points(m.quantity, points?.map(|x| gauge.reading(x)))
 }
 
 impl Likely {

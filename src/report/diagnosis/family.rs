@@ -156,6 +156,13 @@ fn words(quantity: MeasuredQuantity) -> &'static str {
         MeasuredQuantity::DisplacementRight => "displacement, right end",
         MeasuredQuantity::DisplacementMean => "displacement, mean of left, centre and right",
         MeasuredQuantity::DisplacementCentreMinusEnds => "displacement, centre less mean of the ends",
+        MeasuredQuantity::RemainderLeft => "left after going back from there, left end",
+        MeasuredQuantity::RemainderCentre => "left after going back from there, centre",
+        MeasuredQuantity::RemainderRight => "left after going back from there, right end",
+        MeasuredQuantity::RemainderMean => "left after going back from there, mean of left, centre and right",
+        MeasuredQuantity::RemainderCentreMinusEnds => {
+            "left after going back from there, centre less mean of the ends"
+        }
         other => other.name(),
     }
 }

@@ -1,6 +1,7 @@
 //! What the base model lacks where no cause explains it.
 
 use crate::critic::{Bent, Lacking};
+use crate::report::diagnosis::words::at;
 use crate::report::measured::{in_unit, tidy_degrees, unit};
 use crate::report::number::significant;
 use crate::study::Study;
@@ -52,7 +53,8 @@ impl BentEntry {
     pub fn sentence(&self) -> String {
         let (scale, unit) = if self.unit == "m" { (1e3, "mm") } else { (1.0, self.unit) };
         let number = |x: f64| significant(scale * x, 2);
-        let tilt = self.tilt_deg.map_or_else(String::new, |tilt| format!(" at {tilt} deg"));
+        let tilt =
+            self.tilt_deg.map_or_else(String::new, |tilt| format!(" {} {tilt} deg", at(self.quantity)));
         let [low, high] = self.interval.map(number);
         let quantity = match (self.part, self.quantity) {
             ("twist", _) => "left end less right end".to_owned(),

@@ -275,6 +275,8 @@ fn words(study: &Study, feature: Feature) -> String {
         Contrast::Curvature => "curvature of the displacements over the tilt",
         Contrast::Bow => "centre against the ends",
         Contrast::Twist => "left against right",
+        Contrast::Left => "what is left after going back",
+        Contrast::LeftBow => "centre against the ends after going back",
         Contrast::Reached => "share of the readings that were reached",
     };
     match feature {

@@ -2,6 +2,7 @@
 
 use crate::report::diagnosis::residual::{ExpectedEntry, GroupEntry};
 use crate::report::number::significant;
+use crate::study::MeasuredQuantity;
 
 /// Ratios nearer to one than this are said as differences.
 const LEAST_RATIO: f64 = 1.1;
@@ -65,7 +66,7 @@ fn together(groups: &[GroupEntry]) -> Line {
     let (last, others) = tilts.split_last().map_or(("", &[][..]), |(last, others)| (last.as_str(), others));
     let least = groups.iter().filter_map(|group| group.p_value).fold(1.0, f64::min);
     Line {
-        what: format!("{} at {} and {last} deg", name(&groups[0]), others.join(", ")),
+        what: format!("{} {} {} and {last} deg", name(&groups[0]), at(groups[0].quantity), others.join(", ")),
         measured: String::new(),
         simulated: String::new(),
         finding: match least < 1.0 {
@@ -76,13 +77,19 @@ fn together(groups: &[GroupEntry]) -> Line {
 }
 
 fn line(group: &GroupEntry) -> Line {
-    let tilt = group.tilt_deg.map_or_else(String::new, |tilt| format!(" at {tilt} deg"));
+    let tilt = group.tilt_deg.map_or_else(String::new, |tilt| format!(" {} {tilt} deg", at(group.quantity)));
     Line {
         what: format!("{}{tilt}", name(group)),
         measured: measured(group),
         simulated: group.simulated.as_ref().map_or_else(|| "nothing".to_string(), |s| simulated(group, s)),
         finding: finding(group),
     }
+}
+
+/// How a quantity stands to its tilt: what remains is read after it.
+pub(super) fn at(quantity: &str) -> &'static str {
+    let remains = MeasuredQuantity::named(quantity).is_some_and(|quantity| quantity.remains_of().is_some());
+    if remains { "after" } else { "at" }
 }
 
 fn name(group: &GroupEntry) -> String {

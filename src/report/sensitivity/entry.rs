@@ -172,6 +172,11 @@ impl ObservableEntry {
             Some(MeasuredQuantity::DisplacementLeft) => "left",
             Some(MeasuredQuantity::DisplacementCentre) => "centre",
             Some(MeasuredQuantity::DisplacementRight) => "right",
+            Some(MeasuredQuantity::RemainderMean) => "mean, back",
+            Some(MeasuredQuantity::RemainderCentreMinusEnds) => "centre-ends, back",
+            Some(MeasuredQuantity::RemainderLeft) => "left, back",
+            Some(MeasuredQuantity::RemainderCentre) => "centre, back",
+            Some(MeasuredQuantity::RemainderRight) => "right, back",
             Some(MeasuredQuantity::SpecimenWeight) => "weight",
             _ => self.quantity,
         }

@@ -94,6 +94,12 @@ static WALL: Section = Section {
             Required,
             "Which face leans; front is downhill, back is where the load presses.",
         ),
+        Key::new(
+            "turned",
+            Kind::Flag,
+            Optional,
+            "Whether the wall as built, lean included, is turned round on the platform by half a turn; without it it is not.",
+        ),
         Key::new("wythes", Kind::Whole { low: 1, high: 10 }, Default("1"), "Stones through the thickness."),
         Key::new("header_share", real("1", SHARE), Default("0"), "Share of stones that span all wythes."),
         Key::new(

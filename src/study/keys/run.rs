@@ -88,6 +88,14 @@ pub static LOAD: Section = Section {
         )
         .only(TILTING),
         Key::new(
+            "remainders",
+            Kind::Flag,
+            Default("false"),
+            "After every full step the platform also goes back to the level: what is left of the displacements there, in \
+             steps.parquet. The test goes on from the tilt as if it had not.",
+        )
+        .only(TILTING),
+        Key::new(
             "turning",
             Kind::Table(&TURNING),
             Optional,

@@ -23,7 +23,7 @@ pub const COLUMNS: &[Column] = &[
     required("family", "the arm of study.toml that it is a specimen of, in lower or upper case"),
     required(
         "tilt_deg",
-        "tilt of the platform at the reading (deg); empty where the quantity has none of its own",
+        "tilt of the platform at the reading, for a remainder that from which it has gone back (deg); empty where the quantity has none of its own",
     ),
     required("quantity", "what was measured"),
     required("value", "the value, or the bound of a censored reading"),
@@ -41,7 +41,7 @@ pub const COLUMNS: &[Column] = &[
     optional("order", "place of the specimen in the order of the tests, from 1"),
     optional(
         "stage",
-        "place of the reading in the sequence on its specimen, from 0; tells a reading after unloading from one before",
+        "place of the reading in the sequence on its specimen, from 0; a displacement read at 0 deg after an earlier stage is a remainder",
     ),
 ];
 

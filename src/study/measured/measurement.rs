@@ -9,7 +9,7 @@ pub struct Measurement {
     pub specimen: String,
     /// Name of the arm that it is a specimen of.
     pub family: String,
-    /// Tilt of the platform at the reading (rad); `None` where the quantity has none of its own.
+    /// Tilt of the platform at the reading, of a remainder that from which it has gone back (rad); `None` where the quantity has none of its own.
     pub tilt: Option<f64>,
     /// What was measured.
     pub quantity: MeasuredQuantity,
@@ -95,6 +95,16 @@ pub enum MeasuredQuantity {
     DisplacementMean,
     /// Displacement at the centre less the mean of those at the two ends (m).
     DisplacementCentreMinusEnds,
+    /// What is left of the displacement at the left end when the platform has gone back to 0 deg from a tilt (m).
+    RemainderLeft,
+    /// The same at the centre (m).
+    RemainderCentre,
+    /// The same at the right end (m).
+    RemainderRight,
+    /// Mean of what is left at the left, the centre and the right (m).
+    RemainderMean,
+    /// What is left at the centre less the mean of that at the two ends (m).
+    RemainderCentreMinusEnds,
     /// Normal stiffness of a joint in a two-stone test (Pa/m).
     JointKn,
     /// Friction angle of a joint in a two-stone test (rad).
@@ -109,13 +119,18 @@ pub enum MeasuredQuantity {
 
 impl MeasuredQuantity {
     /// All of them.
-    pub const ALL: [MeasuredQuantity; 11] = [
+    pub const ALL: [MeasuredQuantity; 16] = [
         MeasuredQuantity::CollapseAngle,
         MeasuredQuantity::DisplacementLeft,
         MeasuredQuantity::DisplacementCentre,
         MeasuredQuantity::DisplacementRight,
         MeasuredQuantity::DisplacementMean,
         MeasuredQuantity::DisplacementCentreMinusEnds,
+        MeasuredQuantity::RemainderLeft,
+        MeasuredQuantity::RemainderCentre,
+        MeasuredQuantity::RemainderRight,
+        MeasuredQuantity::RemainderMean,
+        MeasuredQuantity::RemainderCentreMinusEnds,
         MeasuredQuantity::JointKn,
         MeasuredQuantity::JointPhi,
         MeasuredQuantity::SpecimenWeight,
@@ -132,6 +147,11 @@ impl MeasuredQuantity {
             MeasuredQuantity::DisplacementRight => "displacement_right",
             MeasuredQuantity::DisplacementMean => "displacement_mean",
             MeasuredQuantity::DisplacementCentreMinusEnds => "displacement_centre_minus_ends",
+            MeasuredQuantity::RemainderLeft => "remainder_left",
+            MeasuredQuantity::RemainderCentre => "remainder_centre",
+            MeasuredQuantity::RemainderRight => "remainder_right",
+            MeasuredQuantity::RemainderMean => "remainder_mean",
+            MeasuredQuantity::RemainderCentreMinusEnds => "remainder_centre_minus_ends",
             MeasuredQuantity::JointKn => "joint_kn",
             MeasuredQuantity::JointPhi => "joint_phi",
             MeasuredQuantity::SpecimenWeight => "specimen_weight",
@@ -155,7 +175,26 @@ impl MeasuredQuantity {
         }
     }
 
-    /// Whether it is read at a tilt of the platform.
+    /// The quantities that are read at a tilt, each with what is left of it when the platform has gone back from there.
+    const LEFT_OF: [(MeasuredQuantity, MeasuredQuantity); 5] = [
+        (MeasuredQuantity::DisplacementLeft, MeasuredQuantity::RemainderLeft),
+        (MeasuredQuantity::DisplacementCentre, MeasuredQuantity::RemainderCentre),
+        (MeasuredQuantity::DisplacementRight, MeasuredQuantity::RemainderRight),
+        (MeasuredQuantity::DisplacementMean, MeasuredQuantity::RemainderMean),
+        (MeasuredQuantity::DisplacementCentreMinusEnds, MeasuredQuantity::RemainderCentreMinusEnds),
+    ];
+
+    /// What is left of a displacement when the platform has gone back; `None` for any other quantity.
+    pub fn remainder(self) -> Option<MeasuredQuantity> {
+        Self::LEFT_OF.into_iter().find(|(whole, _)| *whole == self).map(|(_, left)| left)
+    }
+
+    /// The displacement that it is a remainder of; `None` for any other quantity.
+    pub fn remains_of(self) -> Option<MeasuredQuantity> {
+        Self::LEFT_OF.into_iter().find(|(_, left)| *left == self).map(|(whole, _)| whole)
+    }
+
+    /// Whether it is read at a tilt of the platform, or after it has gone back from one.
     pub fn has_tilt(self) -> bool {
         self.dimension() == Dimension::Length && self != MeasuredQuantity::FixedTarget
     }

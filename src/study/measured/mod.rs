@@ -3,6 +3,7 @@
 mod cells;
 mod columns;
 mod measurement;
+mod returned;
 mod row;
 mod together;
 mod unit;
@@ -39,7 +40,9 @@ pub(super) fn read(source: &Arc<Source>, arms: Option<&[String]>) -> Result<Vec<
     let read: Vec<_> = rows.iter().filter_map(|cells| row::read(&header, cells, arms, &mut faults)).collect();
     together::check(&read, &mut faults);
     if faults.is_empty() {
-        Ok(read.into_iter().map(|(measurement, _)| measurement).collect())
+        let mut rows: Vec<Measurement> = read.into_iter().map(|(measurement, _)| measurement).collect();
+        returned::name_remainders(&mut rows);
+        Ok(rows)
     } else {
         Err(faults)
     }

@@ -75,7 +75,7 @@ fn curves(
     quantities.dedup();
     let of = |quantity, tilt| Measurement { quantity, tilt, ..(*read[0]).clone() };
     let walls = |readings: Vec<Measurement>| -> Vec<Vec<Option<f64>>> {
-        let wall = Specimen { name: String::new(), family, order: None, readings };
+        let wall = Specimen { name: String::new(), family, order: None, turned: false, readings };
         let one = Design { specimens: vec![wall], apart: Vec::new(), unused: Vec::new() };
         let sets = WALLS / truths.len().max(1) as u64;
         let drawn =

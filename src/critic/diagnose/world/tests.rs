@@ -269,3 +269,72 @@ fn a_gauge_that_has_moved_shows_in_every_reading_and_in_no_angle() {
         }
     }
 }
+
+#[test]
+fn what_is_left_after_going_back_tells_of_creep_and_of_the_gauge() {
+    let mut made = made();
+    let left = Measurement {
+        quantity: MeasuredQuantity::RemainderMean,
+        tilt: Some(radians(8.0)),
+        kind: MeasuredKind::Exact,
+        value: 1e-3,
+        error: 0.3e-3,
+        common_error: 0.0,
+        resolution: 0.0,
+        ..made.study.measured.iter().find(|m| m.specimen == "SBL1").expect("it was tested").clone()
+    };
+    made.study.measured.push(left.clone());
+    let world = made.world();
+    let (design, campaign) = Design::of(&made.study);
+    let sbl = design.specimens.iter().position(|s| s.name == "SBL1").expect("it was tested");
+    let last = design.specimens[sbl].readings.len() - 1;
+    assert!(design.unused.is_empty());
+    assert_eq!(
+        (&design.specimens[sbl].readings[last], campaign.specimens[sbl][last]),
+        (&left, Seen::Value(1e-3))
+    );
+    let base = world.drawn(None, &Streams::new(9, 0));
+    let shown = |name: &str| {
+        let cause = Some(made.cause(name));
+        let parameters = vec![1.0; made.mechanisms[made.cause(name)].parameters.len()];
+        let truth = Truth { causes: cause.into(), parameters, ..base.clone() };
+        let values = world.values(&design, &truth, &Streams::new(9, 1));
+        // What the likelihood takes for possible lies around it.
+        let asked = Asked::by(&[&left]);
+        let (paths, _) = world.may_show(1, &asked, &truth, 1);
+        let possible: Vec<f64> = paths.iter().map(|path| path[0]).collect();
+        let value = values[sbl][last].expect("it stands");
+        let (mean, sigma) = (stats::mean(&possible).expect("many"), stats::sigma(&possible).expect("many"));
+        assert!((value - mean).abs() < 4.0 * sigma + 1e-12, "{name}: {value:e} of {mean:e} +- {sigma:e}");
+        value
+    };
+    let offset = made.mechanisms[made.cause("gauge_offset")].parameters[0].prior.at_score(1.0);
+    assert_eq!(shown("cohesion"), 0.0);
+    assert!((shown("gauge_offset") - offset).abs() < 1e-15);
+    // Of a wall of which so large a share of all movement creeps.
+    assert!(shown("creep") > 1e-3, "{:e}", shown("creep"));
+}
+
+#[test]
+fn a_specimen_that_is_turned_round_leans_the_other_way() {
+    let made = made();
+    let world = made.world();
+    let (mut design, _) = Design::of(&made.study);
+    assert!((0..3).all(|family| world.can_turn(family)));
+    let truth = |score: f64| {
+        let mut truth = world.drawn(Some(made.cause("lean")), &Streams::new(9, 0));
+        truth.parameters = vec![score];
+        world.values(&design, &truth, &Streams::new(9, 1))
+    };
+    let [downhill, uphill] = [truth(1.0), truth(-1.0)];
+    assert_ne!(downhill, uphill);
+    let mut turned = world.drawn(Some(made.cause("lean")), &Streams::new(9, 0));
+    turned.parameters = vec![1.0];
+    design.specimens.iter_mut().for_each(|specimen| specimen.turned = true);
+    assert_eq!(world.values(&design, &turned, &Streams::new(9, 1)), uphill);
+    // What has no side shows the same.
+    let creeps = world.drawn(Some(made.cause("creep")), &Streams::new(9, 0));
+    let round = world.values(&design, &creeps, &Streams::new(9, 1));
+    design.specimens.iter_mut().for_each(|specimen| specimen.turned = false);
+    assert_eq!(world.values(&design, &creeps, &Streams::new(9, 1)), round);
+}
