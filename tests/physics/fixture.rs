@@ -10,7 +10,7 @@ use pirca::model::{Block, Support, Tag, Wall};
 use pirca::random::{Family, Streams};
 use pirca::shape::Polyhedron;
 use pirca::solve::explicit::{Settings, Simulation};
-use pirca::solve::{STANDARD_GRAVITY, Status};
+use pirca::solve::{STANDARD_GRAVITY, Solver, Status, implicit};
 
 /// Standard gravity (m/s^2).
 pub const G: f64 = STANDARD_GRAVITY;
@@ -125,4 +125,16 @@ pub fn irregular(member: u64, length: f64, height: f64) -> Wall {
         },
     };
     generate(&layout, &Streams::new(7, member)).expect("a wall comes out").wall.with_base()
+}
+
+/// Size (m) of a block of 2400 kg/m3, the area (m2) it stands on and its weight (N).
+pub const SIZE: [f64; 3] = [0.3, 0.4, 0.2];
+pub const AREA: f64 = 0.3 * 0.4;
+pub const WEIGHT: f64 = AREA * 0.2 * 2400.0 * G;
+
+/// Both elastic solvers, as exact as closed forms are checked by.
+pub fn solvers() -> [Solver; 2] {
+    let exact = implicit::Settings { unbalanced_ratio: 1e-10, ..implicit::Settings::default() };
+    let slow = Settings { unbalanced_ratio: 1e-9, ..Settings::default() };
+    [Solver::Implicit(exact), Solver::Explicit(slow)]
 }

@@ -13,17 +13,7 @@ use pirca::solve::explicit::{self, Simulation};
 use pirca::solve::implicit::{self, Equilibrium};
 use pirca::solve::{Assembly, Equilibrate, Mount, Solver, Status};
 
-use crate::fixture::{G, dry, on_floor, resting, stone, tilted};
-
-const SIZE: [f64; 3] = [0.3, 0.4, 0.2];
-const AREA: f64 = 0.3 * 0.4;
-const WEIGHT: f64 = AREA * 0.2 * 2400.0 * G;
-
-fn solvers() -> [Solver; 2] {
-    let exact = implicit::Settings { unbalanced_ratio: 1e-10, ..implicit::Settings::default() };
-    let slow = explicit::Settings { unbalanced_ratio: 1e-9, ..explicit::Settings::default() };
-    [Solver::Implicit(exact), Solver::Explicit(slow)]
-}
+use crate::fixture::{AREA, SIZE, WEIGHT, dry, on_floor, resting, solvers, stone, tilted};
 
 fn free(base: Base) -> Restraint {
     Restraint { base, ends: Ends::Free }

@@ -4,19 +4,9 @@ use pirca::law::Coulomb;
 use pirca::math::{degrees, exp, radians, sin};
 use pirca::model::{Outcome, Wall};
 use pirca::protocol::{Base, Changes, Creep, Ends, Protocol, Restraint, Run, Tilting, run_changing};
-use pirca::solve::{Solver, explicit, implicit};
+use pirca::solve::Solver;
 
-use crate::fixture::{G, dry, resting};
-
-const SIZE: [f64; 3] = [0.3, 0.4, 0.2];
-const AREA: f64 = 0.3 * 0.4;
-const WEIGHT: f64 = AREA * 0.2 * 2400.0 * G;
-
-fn solvers() -> [Solver; 2] {
-    let exact = implicit::Settings { unbalanced_ratio: 1e-10, ..implicit::Settings::default() };
-    let slow = explicit::Settings { unbalanced_ratio: 1e-9, ..explicit::Settings::default() };
-    [Solver::Implicit(exact), Solver::Explicit(slow)]
-}
+use crate::fixture::{AREA, SIZE, WEIGHT, dry, resting, solvers};
 
 fn tilted(size: [f64; 3], law: &Coulomb, tilting: Tilting, creep: Option<Creep>, solver: &Solver) -> Run {
     let wall = Wall { blocks: vec![resting(size, 2400.0)] };
