@@ -307,6 +307,9 @@ mod tests {
         };
         let back = offers(&judge, &[draws("creep", 1.5), draws("cohesion", 1.5)], 6);
         assert!(bits(&back, Offer::Remainders) > 0.8 && bits(&alike, Offer::Remainders) < 0.15, "{back:?}");
+        let turned = planned(Offer::TurnedWalls, &judge).expect("they can be turned");
+        assert!(turned.specimens.len() == 9 && turned.specimens.iter().all(|own| own.turned));
+        assert!(turned.specimens.iter().flat_map(|own| &own.readings).all(|m| m.tilt.is_some()));
         // A wall that leans moves a little further before its fall, turned round a little less.
         let leans = offers(&judge, &[draws("lean", 1.5), draws("lean", -1.5)], 6);
         assert!(

@@ -193,7 +193,7 @@ impl<'s> World<'s> {
         self.base.get(&family).is_some_and(|walls| walls.random)
     }
 
-    /// Whether a wall that is turned round stands as another one of its family does, but for what [`SIDED`] makes of it.
+    /// Whether a wall that is turned round stands as another one of its family does, but for a lean.
     pub fn can_turn(&self, family: usize) -> bool {
         self.study.arms[family].is_alike_from_both_sides()
     }
