@@ -172,3 +172,13 @@ fn shown_unit(group: &GroupEntry) -> &'static str {
         unit => unit,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::at;
+
+    #[test]
+    fn what_remains_is_read_after_its_tilt() {
+        assert_eq!(["displacement_mean", "remainder_mean"].map(at), ["at", "after"]);
+    }
+}
