@@ -120,7 +120,7 @@ pub fn compare(study: &Study, rows: &[Row]) -> Vec<Beside> {
                 all.push(beside(Ours::None("the walls are not tilted here")));
             }
             (_, false) => all.push(beside(Ours::None("read after the load had been larger"))),
-            _ if quantity.remains_of().is_some() && !goes_back => {
+            _ if quantity.is_remainder() && !goes_back => {
                 all.push(beside(Ours::None("the platform does not go back here: load.remainders = true")));
             }
             (Some(own), true) => match walls(own, arm, &group, &measured, rows) {
@@ -147,10 +147,10 @@ pub(super) fn order_of_tilt(m: &Measurement) -> u64 {
     m.tilt.map_or(0, |tilt| tilt.abs().to_bits())
 }
 
-/// Whether no earlier stage of the specimen had as large a tilt.
+/// Whether no earlier stage of the specimen had as large a tilt; what is left after one belongs to it.
 pub(super) fn is_rising(m: &Measurement, all: &[Measurement]) -> bool {
     let earlier = |other: &&Measurement| other.specimen == m.specimen && other.stage < m.stage;
-    let Some(tilt) = m.tilt.filter(|_| m.quantity.remains_of().is_none()) else { return true };
+    let Some(tilt) = m.tilt.filter(|_| !m.quantity.is_remainder()) else { return true };
     all.iter().filter(earlier).all(|other| other.tilt.is_none_or(|before| before < tilt))
 }
 

@@ -55,7 +55,7 @@ impl Observable {
 /// The observables of a study, in the order of the arms, quantities and tilts, without what no simulation gives; `rows` are
 /// those of an arm in the base model, whose scatter enters the errors.
 pub(super) fn observables<'r>(study: &Study, rows: impl Fn(usize) -> Vec<&'r Row>) -> Vec<Observable> {
-    let told = |quantity: MeasuredQuantity| study.goes_back() || quantity.remains_of().is_none();
+    let told = |quantity: MeasuredQuantity| study.goes_back() || !quantity.is_remainder();
     let groups = groups(study)
         .into_iter()
         .filter(|((arm, quantity, _, rising), _)| *rising && *arm < study.arms.len() && told(*quantity));

@@ -60,8 +60,7 @@ fn displacement(quantity: MeasuredQuantity, tilt: f64, row: &Row) -> Simulated {
         };
     }
     // Nothing is left of nothing, and no platform goes back from a step that was halved.
-    let mut known: Vec<(f64, f64)> = Vec::new();
-    known.extend(quantity.remains_of().map(|_| (0.0, 0.0)));
+    let mut known = if quantity.is_remainder() { vec![(0.0, 0.0)] } else { Vec::new() };
     known.extend(steps.into_iter().filter_map(|(at, step)| Some((at, read(quantity, step)?))));
     let Some(above) = known.iter().position(|(at, _)| *at >= tilt_deg - SAME_TILT_DEG) else {
         return Simulated::Nothing;
@@ -99,9 +98,9 @@ pub(super) fn at_rest(row: &Row) -> Vec<(f64, &StepRow)> {
 
 /// The quantity at a step (m).
 fn read(quantity: MeasuredQuantity, step: &StepRow) -> Option<f64> {
-    let points = match quantity.remains_of() {
-        None => [step.left_m, step.centre_m, step.right_m],
-        Some(_) => [step.left_remainder_m, step.centre_remainder_m, step.right_remainder_m],
+    let points = match quantity.is_remainder() {
+        false => [step.left_m, step.centre_m, step.right_m],
+        true => [step.left_remainder_m, step.centre_remainder_m, step.right_remainder_m],
     };
     of_points(quantity, [points[0]?, points[1]?, points[2]?])
 }

@@ -120,13 +120,10 @@ pub struct StepRow {
     pub right_m: Option<f64>,
     /// What is left of `left_m` when the platform goes back to the level from here (m); `None` unless the study asks for it and the
     /// wall comes to rest on the way.
-    #[serde(default)]
     pub left_remainder_m: Option<f64>,
     /// The same at the centre (m).
-    #[serde(default)]
     pub centre_remainder_m: Option<f64>,
     /// The same at the right end (m).
-    #[serde(default)]
     pub right_remainder_m: Option<f64>,
     /// Unbalanced force ratio reached; `None` when it is not finite.
     pub unbalanced_ratio: Option<f64>,

@@ -160,7 +160,7 @@ const MOST_WRONG: u32 = 20;
 /// The path of equilibria is followed so often: where it is lost, it is so again from nearby.
 const MOST_FOLLOWED: u32 = 3;
 /// A step back to level 0 is halved down to this share of a full one.
-const SHORTEST_BACK: f64 = 0.13;
+const SHORTEST_BACK: f64 = 0.125;
 /// A fall is followed for this share of how far a wall goes that runs away.
 const FOLLOWED: f64 = 0.5;
 /// So many full steps above a suspicion a fall is looked for, when it cannot be told there.
@@ -381,7 +381,8 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
         self.pace.note(level, self.watch.moved(bodies), full_step);
         // Where a step was halved the wall is near its end, from which nobody goes back.
         let full_steps = level / full_step;
-        let goes_back = self.task.remainders && level > 0.0 && (full_steps - full_steps.round()).abs() < 1e-9;
+        let goes_back =
+            self.task.path.goes_back && level > 0.0 && (full_steps - full_steps.round()).abs() < 1e-9;
         let remainders = goes_back.then(|| self.left_at_level_0(&state, level)).flatten();
         let step =
             self.watch.read(bodies, self.task.path.level(level), ratio, std::mem::take(&mut self.spent));

@@ -27,6 +27,9 @@ pub struct LoadPath {
     pub steps: f64,
     /// The level of collapse is bracketed to this; infinite where a failed step is the end of it.
     pub bracket: f64,
+    /// Whether the load is let back to level 0 after every full step, see
+    /// [`LoadStep::remainders`](crate::protocol::LoadStep::remainders).
+    pub goes_back: bool,
 }
 
 impl LoadPath {
@@ -37,17 +40,18 @@ impl LoadPath {
             end: 1.0,
             steps: f64::from(steps.max(1)),
             bracket: f64::INFINITY,
+            goes_back: false,
         }
     }
 
     /// A platform that tilts; angles in radians.
     pub fn tilt(towards: Direction, step: f64, end: f64, bracket: f64) -> LoadPath {
-        LoadPath { growing: Growing::Tilt(towards), end, steps: end / step, bracket }
+        LoadPath { growing: Growing::Tilt(towards), end, steps: end / step, bracket, goes_back: false }
     }
 
     /// A horizontal force of so many times the weight.
     pub fn multiplier(towards: Direction, step: f64, end: f64, bracket: f64) -> LoadPath {
-        LoadPath { growing: Growing::Multiplier(towards), end, steps: end / step, bracket }
+        LoadPath { growing: Growing::Multiplier(towards), end, steps: end / step, bracket, goes_back: false }
     }
 
     /// The number of the level after so many full steps (a fraction of a step counts as that).

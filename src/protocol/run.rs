@@ -47,7 +47,6 @@ pub fn run_changing(
         platform: stage.platform.clone(),
         changes: changes.clone(),
         path,
-        remainders: matches!(protocol, Protocol::Tilting(tilting) if tilting.remainders),
         criterion,
         confirmation,
     };

@@ -31,8 +31,6 @@ pub struct Task<'t> {
     pub changes: Changes,
     /// The load path.
     pub path: LoadPath,
-    /// Whether what is left at level 0 is read after every level, see [`LoadStep::remainders`].
-    pub remainders: bool,
     /// When a wall counts as running away.
     pub criterion: Criterion,
     /// How a suspected collapse is confirmed.

@@ -18,7 +18,8 @@ const BEGINS: f64 = 0.1;
 impl Tilting {
     /// The load path of the static test.
     pub fn path(&self) -> LoadPath {
-        LoadPath::tilt(self.towards, self.step, self.end, self.bracket)
+        let path = LoadPath::tilt(self.towards, self.step, self.end, self.bracket);
+        LoadPath { goes_back: self.remainders, ..path }
     }
 }
 

@@ -300,7 +300,6 @@ fn path<'t>(wall: &'t Wall, law: &'t Coulomb, path: LoadPath) -> Task<'t> {
         platform: None,
         changes: Changes::default(),
         path,
-        remainders: false,
         criterion: Criterion::AnyBlock(0.04),
         confirmation: Confirmation::for_thickness(0.4),
     }

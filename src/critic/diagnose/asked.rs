@@ -26,7 +26,7 @@ impl Asked {
         what.sort_unstable();
         what.dedup();
         let by_reading = all.iter().map(|one| what.partition_point(|known| known < one)).collect();
-        let goes_back = what.iter().any(|(quantity, _)| quantity.remains_of().is_some());
+        let goes_back = what.iter().any(|(quantity, _)| quantity.is_remainder());
         Asked { tilts, what, by_reading, goes_back }
     }
 
@@ -34,7 +34,7 @@ impl Asked {
     /// [goes back](Self::goes_back), with what is left after each.
     pub fn shown(&self, collapse: f64, points: &[[f64; 3]], left: &[[f64; 3]]) -> Vec<f64> {
         let one = |(quantity, at): &(MeasuredQuantity, Option<usize>)| {
-            let read = if quantity.remains_of().is_some() { left } else { points };
+            let read = if quantity.is_remainder() { left } else { points };
             at.and_then(|at| of_points(*quantity, read[at])).unwrap_or(collapse)
         };
         self.what.iter().map(one).collect()

@@ -217,7 +217,7 @@ fn kind(quantity: MeasuredQuantity) -> u8 {
         MeasuredQuantity::CollapseAngle => 0,
         MeasuredQuantity::DisplacementCentreMinusEnds => 1,
         MeasuredQuantity::RemainderCentreMinusEnds => 2,
-        other if other.remains_of().is_some() => 3,
+        other if other.is_remainder() => 3,
         _ => 4,
     }
 }

@@ -111,7 +111,7 @@ fn listed(lines: &[usize]) -> String {
 /// A reading in words.
 fn told(m: &Measurement) -> String {
     let value = shown(m.quantity.dimension(), m.value);
-    let at = if m.quantity.remains_of().is_some() { "after" } else { "at" };
+    let at = m.quantity.at_or_after();
     let tilt = m.tilt.map(|tilt| format!(" {at} {}", shown(Dimension::Angle, tilt))).unwrap_or_default();
     format!("{} of {} is {value}{tilt}", m.quantity.name(), m.specimen)
 }

@@ -192,7 +192,7 @@ fn contrasts(specimen: &Specimen, seen: &[Seen], scale: &[Usual]) -> Vec<(Contra
         let mut add = |contrast, weight| weighted.entry(contrast).or_default().push([weight, z, error]);
         match m.quantity {
             Q::DisplacementCentreMinusEnds | Q::RemainderCentreMinusEnds => {}
-            other if other.remains_of().is_some() => add(Contrast::Left, 1.0),
+            other if other.is_remainder() => add(Contrast::Left, 1.0),
             _ => {
                 add(Contrast::Level, 1.0);
                 add(Contrast::Growth, s - 0.5);

@@ -118,9 +118,10 @@ fn planned(offer: Offer, judge: &Judge<'_>) -> Option<Design> {
     };
     let middle = judge.world.truth(None, &vec![0.0; judge.world.inputs(None)]);
     let points = [Q::DisplacementLeft, Q::DisplacementCentre, Q::DisplacementRight];
-    let at = |tilts: &[f64]| -> Vec<Measurement> {
+    let fine = |points: [Q; 3], tilts: &[f64]| -> Vec<Measurement> {
         tilts.iter().flat_map(|tilt| points.map(|point| reading(point, Some(*tilt), FINE))).collect()
     };
+    let largest = |own: &Specimen| own.tilts().last().copied().filter(|tilt| *tilt > 0.0);
     let again = |readings: &dyn Fn(&Specimen) -> Vec<Measurement>| -> Vec<Specimen> {
         let specimens = design.specimens.iter();
         specimens.map(|own| Specimen { readings: readings(own), ..own.clone() }).collect()
@@ -146,11 +147,8 @@ fn planned(offer: Offer, judge: &Judge<'_>) -> Option<Design> {
             }
         }
         Offer::Remainders => {
-            let points = [Q::RemainderLeft, Q::RemainderCentre, Q::RemainderRight];
-            new.specimens = again(&|own| {
-                let from = own.tilts().last().copied().filter(|tilt| *tilt > 0.0);
-                from.map_or_else(Vec::new, |from| points.map(|q| reading(q, Some(from), FINE)).to_vec())
-            });
+            let left = [Q::RemainderLeft, Q::RemainderCentre, Q::RemainderRight];
+            new.specimens = again(&|own| fine(left, largest(own).as_slice()));
         }
         Offer::TurnedWalls => {
             new.specimens = again(&|own| own.readings.iter().filter(|m| m.tilt.is_some()).cloned().collect());
@@ -159,15 +157,15 @@ fn planned(offer: Offer, judge: &Judge<'_>) -> Option<Design> {
         }
         Offer::LowTilts => {
             let tilts = [0.5, 1.0, 1.5, 2.0, 2.5, 3.0].map(radians);
-            new.specimens = again(&|_| at(&tilts));
+            new.specimens = again(&|_| fine(points, &tilts));
         }
         Offer::FinerReadings => {
-            new.specimens = again(&|own| at(&own.tilts()));
+            new.specimens = again(&|own| fine(points, &own.tilts()));
         }
         Offer::MoreTilts => {
             new.specimens = again(&|own| {
-                let largest = own.readings.iter().filter_map(|m| m.tilt).fold(0.0, f64::max);
-                let up = |m: &&Measurement| m.tilt.is_some() && m.quantity.remains_of().is_none();
+                let largest = largest(own).unwrap_or(0.0);
+                let up = |m: &&Measurement| m.tilt.is_some() && !m.quantity.is_remainder();
                 let Some(m) = own.readings.iter().find(up) else { return Vec::new() };
                 let tilts =
                     (1..90).map(|deg| radians(f64::from(deg))).take_while(|tilt| *tilt <= largest + 1e-9);

@@ -200,16 +200,12 @@ impl<'s> World<'s> {
 
     /// What is true of a wall that is turned round: it leans the other way. The prior of that is the same for both.
     fn turned(&self, truth: &Truth) -> Truth {
-        let mut turned = truth.clone();
-        let mut left = &mut turned.parameters[..];
-        for cause in truth.causes.each() {
-            let (own, others) = left.split_at_mut(self.mechanisms[cause].parameters.len());
-            left = others;
-            if self.mechanisms[cause].name == SIDED {
-                own.iter_mut().for_each(|score| *score = -*score);
-            }
-        }
-        turned
+        let sides = truth.causes.each().flat_map(|cause| {
+            let Described { name, parameters, .. } = &self.mechanisms[cause];
+            parameters.iter().map(move |_| if *name == SIDED { -1.0 } else { 1.0 })
+        });
+        let parameters = truth.parameters.iter().zip(sides).map(|(score, side)| side * score).collect();
+        Truth { parameters, ..truth.clone() }
     }
 
     /// The numbers of a specimen's path: one of those that a wall may have.
@@ -359,9 +355,9 @@ fn shown(wall: &Curves, m: &Measurement, gauge: &Mechanisms) -> Option<f64> {
     if m.quantity == MeasuredQuantity::CollapseAngle {
         return Some(wall.collapse());
     }
-    let points = match m.quantity.remains_of() {
-        None => wall.displacements(m.tilt?),
-        Some(_) => wall.remainders(m.tilt?),
+    let points = match m.quantity.is_remainder() {
+        false => wall.displacements(m.tilt?),
+        true => wall.remainders(m.tilt?),
     };
     of_points(m.quantity, points?.map(|x| gauge.reading(x)))
 }

@@ -86,10 +86,9 @@ fn line(group: &GroupEntry) -> Line {
     }
 }
 
-/// How a quantity stands to its tilt: what remains is read after it.
+/// How the quantity of that name stands to its tilt.
 pub(super) fn at(quantity: &str) -> &'static str {
-    let remains = MeasuredQuantity::named(quantity).is_some_and(|quantity| quantity.remains_of().is_some());
-    if remains { "after" } else { "at" }
+    MeasuredQuantity::named(quantity).map_or("at", MeasuredQuantity::at_or_after)
 }
 
 fn name(group: &GroupEntry) -> String {

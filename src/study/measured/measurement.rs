@@ -194,6 +194,16 @@ impl MeasuredQuantity {
         Self::LEFT_OF.into_iter().find(|(_, left)| *left == self).map(|(whole, _)| whole)
     }
 
+    /// Whether it is what is left of a displacement when the platform has gone back.
+    pub fn is_remainder(self) -> bool {
+        self.remains_of().is_some()
+    }
+
+    /// How it stands to its tilt: what remains is read after it.
+    pub fn at_or_after(self) -> &'static str {
+        if self.is_remainder() { "after" } else { "at" }
+    }
+
     /// Whether it is read at a tilt of the platform, or after it has gone back from one.
     pub fn has_tilt(self) -> bool {
         self.dimension() == Dimension::Length && self != MeasuredQuantity::FixedTarget
