@@ -76,7 +76,7 @@ pub(crate) enum Verb {
          Writes verdict.html (a page with all of it), verdict.json, figures as SVG and PNG (one per family, and residuals) and, for\n\
          each cause of the verdict, the study extended by it: extended/<cause>, an ordinary study at the medians of what is not\n\
          known, with draws from it as variants (run extended/<cause> --variant draw-07).\n\
-         The walls it needs are simulated once for a design, which takes hours; see bank. What looks odd about the measurements\n\
+         The walls it needs are simulated once for a design, which takes minutes to hours; see bank. What looks odd about the measurements\n\
          (a value far beyond what is simulated, one specimen alone) is noted on standard error and judged all the same.\n\n{CODES}\n\
          Every verdict (named, ambiguous, unexplained, nothing found) ends with 0."
     ))]
@@ -275,7 +275,7 @@ pub(crate) struct Diagnose {
     /// Seed of the diagnosis instead of the study's; the bank keeps the study's.
     #[arg(long, value_name = "S")]
     pub seed: Option<u64>,
-    /// Worker threads of the bank [default: one per processor]. No result depends on their number.
+    /// Worker threads [default: one per processor]. No result depends on their number.
     #[arg(long, value_name = "T")]
     pub threads: Option<NonZero<usize>>,
 }
@@ -294,6 +294,10 @@ pub(crate) struct Bank {
     /// Points in the priors for each mechanism; twice as many for the base model.
     #[arg(long, value_name = "N", default_value_t = 120, value_parser = clap::value_parser!(u64).range(10..=100_000))]
     pub points: u64,
+    /// Simulated campaigns of each mechanism that the self-test judges by all that a diagnosis does (seconds each), and five times as
+    /// many with nothing hidden; 100 of each are judged by how they seem.
+    #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u64).range(0..=20))]
+    pub judged: u64,
     /// Worker threads [default: one per processor]. No result depends on their number.
     #[arg(long, value_name = "T")]
     pub threads: Option<NonZero<usize>>,

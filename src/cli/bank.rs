@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::cli::arguments::{Bank, Which};
 use crate::cli::failure::Failure;
 use crate::cli::{judge, locate, output, progress};
-use crate::critic::{self, BANK, Design, Doubt, Plan, doubts};
+use crate::critic::{self, BANK, Design, Doubt, NotThisBank, Plan, doubts};
 use crate::ensemble::{Settings, replace_file, run_with};
 use crate::protocol::Protocol;
 use crate::study::{Described, Loaded, Nuisance, Study, described, nuisances};
@@ -27,12 +27,13 @@ pub(crate) fn bank(arguments: &Bank) -> Result<(), Failure> {
     let Prepared { mechanisms, nuisances, plan, .. } = prepared(&study, &arguments.which, arguments.points)?;
     let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, "bank"));
     // A table that came without its journal is as good as one that was computed here.
-    let bank = present(&plan, &out).map_or_else(|| computed(&plan, &out, arguments.threads), Ok)?;
+    let present = fs::read(out.join(BANK)).ok().and_then(|bytes| critic::Bank::read(&bytes, &plan).ok());
+    let bank = present.map_or_else(|| computed(&plan, &out, arguments.threads), Ok)?;
     // Few points make a bank that may grow, and nothing to judge by.
     if let Ok(world) = judge::world(&study, &mechanisms, &nuisances, &plan, &bank)
         && let Ok(judge) = judge::judge(&world, &Design::of(&study).0, study.seed)
     {
-        judge::keep_self_test(&judge, &plan, study.seed, &out)?;
+        judge::keep_self_test(&judge, &plan, study.seed, &out, arguments.judged)?;
     }
     let told = bank.paths.iter().flatten().count();
     let walls = bank.paths.len();
@@ -85,9 +86,23 @@ pub(crate) fn noted(doubts: &[Doubt]) -> Vec<String> {
     words
 }
 
-/// The bank that lies in a folder, if it is of a plan.
-pub(crate) fn present(plan: &Plan, folder: &Path) -> Option<critic::Bank> {
-    critic::Bank::read(&fs::read(folder.join(BANK)).ok()?, plan).ok()
+impl Prepared {
+    /// The walls of its plan in a table that was made for it, or for more families.
+    pub fn bank(&self, bytes: &[u8], study: &Study) -> Result<critic::Bank, NotThisBank> {
+        match critic::Bank::read(bytes, &self.plan) {
+            Err(other @ NotThisBank::Design { .. }) => self.part(bytes, study).ok_or(other),
+            own => own,
+        }
+    }
+
+    fn part(&self, bytes: &[u8], study: &Study) -> Option<critic::Bank> {
+        let held = critic::Bank::held(bytes).ok()?;
+        let families = study.arms.iter().enumerate().filter(|(_, arm)| held.families.contains(&arm.name));
+        let families: Vec<usize> = families.map(|(family, _)| family).collect();
+        let Prepared { mechanisms, nuisances, plan, .. } = self;
+        let own = Plan::of_families(study, &families, mechanisms, nuisances, held.points).ok()?;
+        critic::Bank::read(bytes, &own).ok()?.part(&own, plan)
+    }
 }
 
 /// Simulates what a folder does not hold yet of a plan's walls, and writes their table there.

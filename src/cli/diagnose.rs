@@ -1,7 +1,10 @@
 //! `pirca diagnose`: what does the simulation get wrong, and which cause explains it?
 
 use std::fs;
+use std::num::NonZero;
 use std::path::{Path, PathBuf};
+
+use rayon::ThreadPoolBuilder;
 
 use crate::cli::arguments::Diagnose;
 use crate::cli::bank::{self, Prepared};
@@ -9,7 +12,7 @@ use crate::cli::failure::Failure;
 use crate::cli::judge::{self, SEEDS};
 use crate::cli::{locate, output};
 use crate::critic::{
-    self, BANK, Baseline, Design, Diagnosis, Folds, Limits, Measuring, Plan, Verdict, World, base_curves,
+    self, BANK, Baseline, Design, Diagnosis, Folds, Limits, Measuring, Verdict, World, base_curves,
     cause_curves, doubts_beside, extension,
 };
 use crate::report::{self, Advice, DiagnosisSummary, EXTENDED, FamilyFigure, GainSummary, Origin};
@@ -17,10 +20,17 @@ use crate::study::{Loaded, Study};
 
 /// Diagnoses the measurements of a study.
 pub(crate) fn diagnose(arguments: &Diagnose) -> Result<(), Failure> {
+    let threads = ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, NonZero::get)).build();
+    threads
+        .map_err(|error| Failure::Run(format!("cannot start the worker threads: {error}")))?
+        .install(|| judged(arguments))
+}
+
+fn judged(arguments: &Diagnose) -> Result<(), Failure> {
     let Loaded { study, stated, .. } = bank::measured(&arguments.which, arguments.measured.as_deref())?;
-    let Prepared { mechanisms, nuisances, plan, mut notes } =
-        bank::prepared(&study, &arguments.which, arguments.points)?;
-    let (walls, folder) = banked(&plan, arguments, &study)?;
+    let prepared = bank::prepared(&study, &arguments.which, arguments.points)?;
+    let (walls, folder) = banked(&prepared, arguments, &study)?;
+    let Prepared { mechanisms, nuisances, plan, mut notes } = prepared;
     let world = judge::world(&study, &mechanisms, &nuisances, &plan, &walls)?;
     let (design, measured) = Design::of(&study);
     // The bank keeps the study's own seed.
@@ -77,23 +87,31 @@ fn extended(
     Ok(said)
 }
 
-/// The bank of a plan and its folder: read, or computed where it is not there. A study may come with one, which counts where no
-/// folder is named and it is of this plan.
-fn banked(plan: &Plan, arguments: &Diagnose, study: &Study) -> Result<(critic::Bank, PathBuf), Failure> {
+/// The bank of a plan and its folder: read, or computed where it is not there. Where no folder is named, a study may come with one,
+/// which serves if the default folder has none that does.
+fn banked(
+    prepared: &Prepared,
+    arguments: &Diagnose,
+    study: &Study,
+) -> Result<(critic::Bank, PathBuf), Failure> {
     let folder = arguments.bank.clone().unwrap_or_else(|| output::default_folder(study, "bank"));
     let path = folder.join(BANK);
-    if arguments.bank.is_none() && !path.exists() {
+    let here = fs::read(&path).ok().map(|bytes| prepared.bank(&bytes, study));
+    if let Some(Ok(bank)) = here {
+        return Ok((bank, folder));
+    }
+    if arguments.bank.is_none() {
         let own = locate::folder(&arguments.which.study)?;
-        if let Some(bank) = bank::present(plan, &own) {
+        let bank = fs::read(own.join(BANK)).ok().and_then(|bytes| prepared.bank(&bytes, study).ok());
+        if let Some(bank) = bank {
             return Ok((bank, own));
         }
     }
-    if let Ok(bytes) = fs::read(&path) {
-        let bank = critic::Bank::read(&bytes, plan).map_err(|why| {
-            Failure::Input(format!("{}: {why}; name another folder with --bank", path.display()))
-        })?;
-        return Ok((bank, folder));
+    if let Some(Err(why)) = here {
+        let fix = "name another folder with --bank";
+        return Err(Failure::Input(format!("{}: {why}; {fix}", path.display())));
     }
+    let plan = &prepared.plan;
     let walls = plan.places.len();
     if arguments.no_build {
         let study = arguments.which.study.display();

@@ -49,29 +49,31 @@ pub(super) fn judge<'w>(world: &'w World<'w>, design: &Design, seed: u64) -> Res
 
 /// The self-test of a judge: the one that is kept in the bank's folder, if it is of the same.
 pub(super) fn self_test(judge: &Judge<'_>, plan: &Plan, seed: u64, folder: &Path) -> SelfTest {
-    kept(judge, plan, seed, folder).test
+    kept(judge, plan, seed, folder, 0).test
 }
 
-/// Keeps the self-test of a judge in the bank's folder.
+/// Keeps the self-test of a judge in the bank's folder, with so many campaigns of each cause judged by all that a diagnosis does.
 pub(super) fn keep_self_test(
     judge: &Judge<'_>,
     plan: &Plan,
     seed: u64,
     folder: &Path,
+    judged: u64,
 ) -> Result<(), Failure> {
-    let kept = kept(judge, plan, seed, folder);
+    let kept = kept(judge, plan, seed, folder, judged);
     let mut json = serde_json::to_vec_pretty(&kept).map_err(|error| Failure::Run(error.to_string()))?;
     json.push(b'\n');
     Ok(replace_file(&folder.join(KEPT), &json)?)
 }
 
-/// What is kept in a folder, if it is of the same, or else computed.
-fn kept(judge: &Judge<'_>, plan: &Plan, seed: u64, folder: &Path) -> Kept {
+/// What is kept in a folder, if it is of the same and not of less, or else computed.
+fn kept(judge: &Judge<'_>, plan: &Plan, seed: u64, folder: &Path, judged: u64) -> Kept {
     let of = identity(judge, plan, seed);
     let there = fs::read(folder.join(KEPT)).ok();
     let there = there.and_then(|bytes| serde_json::from_slice::<Kept>(&bytes).ok());
-    there.filter(|kept| kept.of == of).unwrap_or_else(|| {
-        let test = judge.self_test(&Limits::default(), CAMPAIGNS, tested(seed));
+    let enough = |kept: &Kept| kept.test.rows.iter().all(|row| row.judged.campaigns >= judged);
+    there.filter(|kept| kept.of == of && enough(kept)).unwrap_or_else(|| {
+        let test = judge.self_test(&Limits::default(), CAMPAIGNS, judged, tested(seed));
         Kept { of, test }
     })
 }

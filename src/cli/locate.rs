@@ -36,7 +36,7 @@ pub(crate) fn folder(path: &Path) -> Result<PathBuf, Failure> {
         }
         Ok(_) => format!("{} is a file, but not a study.toml", path.display()),
     };
-    Err(Failure::Input(format!("no study at {found}\n{}", known(path))))
+    Err(Failure::Input(format!("no study: {found}\n{}", known(path))))
 }
 
 /// The folder of distributions that the study takes its own from.
@@ -48,11 +48,11 @@ pub(crate) fn distributions(which: &Which) -> Result<PathBuf, Failure> {
     })
 }
 
-/// The studies in `studies/` and beside the path, nearest names first.
+/// The studies in `studies/`, beside the path and in it, nearest names first.
 fn known(path: &Path) -> String {
     let wanted = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let beside = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut found: Vec<(usize, PathBuf)> = [Path::new("studies"), beside]
+    let mut found: Vec<(usize, PathBuf)> = [Path::new("studies"), beside, path]
         .into_iter()
         .filter_map(|folder| fs::read_dir(folder).ok())
         .flat_map(|entries| entries.flatten().map(|entry| entry.path()))

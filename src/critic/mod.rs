@@ -16,18 +16,18 @@ mod simulated;
 #[cfg(test)]
 pub(crate) mod tests;
 
-pub use bank::{BANK, Bank, DOUBT, Emulator, NotThisBank, Path, Place, Plan};
+pub use bank::{BANK, Bank, DOUBT, Emulator, Held, NotThisBank, Path, Place, Plan};
 pub use calibrate::{Calibration, CurvePoint, End, LEAST_POINTS, calibrate, calibrate_family};
 pub use compare::{Beside, Difference, Measured, Ours, Walls, compare};
 #[cfg(test)]
 pub(crate) use diagnose::tests::{Made, made};
 pub use diagnose::{
-    Band, Baseline, Bent, CAUGHT, COVERED, Campaign, Caught, Causes, Choice, Contrast, Curve, DRAWS, Design,
-    Diagnosis, Doubt, Effort, Evidence, Expected, Extension, FamilyCurves, Feature, Folds, Gain, Gained,
-    Group, HeldOut, Interval, Judge, Known, Lacking, Limits, LookedAt, LookedAtPair, MOST_AMBIGUOUS,
-    Measuring, Offer, Offered, POSSIBLE, PairLimits, Parts, Ranked, Ranking, Reference, Residual, Residuals,
-    Scale, Scores, Seeming, Seen, SelfTest, SelfTestRow, Side, Specimen, Truth, Verdict, World, Wrong,
-    base_curves, cause_curves, doubts, doubts_beside, evidence, extension, features, guarded, offers,
+    Band, Baseline, Bent, CAUGHT, COVERED, Campaign, Caught, Causes, Choice, Contrast, Counted, Curve, DRAWS,
+    Design, Diagnosis, Doubt, Effort, Evidence, Excluded, Expected, Extension, FamilyCurves, Feature, Folds,
+    Gain, Gained, Group, HeldOut, Interval, Judge, Known, Lacking, Limits, LookedAt, LookedAtPair, MORE,
+    MOST_AMBIGUOUS, Measuring, Offer, Offered, PairLimits, Parts, Ranked, Ranking, Reference, Residual,
+    Residuals, Scale, Scores, Seeming, Seen, SelfTest, SelfTestRow, Side, Specimen, Truth, Verdict, World,
+    Wrong, base_curves, cause_curves, doubts, doubts_beside, evidence, extension, features, guarded, offers,
 };
 pub use likelihood::log_likelihood;
 pub use monotone::Monotone;

@@ -54,7 +54,7 @@ impl Advice {
     pub fn of(test: &SelfTest, offered: &[Offered], mechanisms: &[Described]) -> Advice {
         let names = |causes: Vec<usize>| causes.into_iter().map(|cause| mechanisms[cause].name).collect();
         let rows = || test.rows.iter().filter_map(|row| Some((row.cause?, row)));
-        let unseen = rows().filter(|(_, row)| (row.found as f64) < SEEN * row.campaigns as f64);
+        let unseen = rows().filter(|(_, row)| (row.all.found as f64) < SEEN * row.all.campaigns as f64);
         let caught = rows().filter_map(|(cause, row)| {
             let (mechanism, caught) = (&mechanisms[cause], row.caught?);
             let parameter = &mechanism.parameters[caught.parameter];

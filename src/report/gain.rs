@@ -152,6 +152,17 @@ impl ChoiceEntry {
     }
 }
 
+impl GainEntry {
+    /// What its interval shows.
+    fn claim(&self) -> &'static str {
+        match self.interval {
+            [low, _] if low > 0.0 => "better",
+            [_, high] if high < 0.0 => "worse",
+            _ => "no gain shown",
+        }
+    }
+}
+
 impl GainedEntry {
     fn of(gained: &Gained) -> GainedEntry {
         let scores = |s: &Scores| ScoresEntry { log_score: s.log, crps: s.crps, rmse: s.rms };
@@ -172,8 +183,7 @@ impl GainedEntry {
         let number = |x: f64| significant(x, 3);
         let gain = |gain: &GainEntry| {
             let [low, high] = gain.interval.map(number);
-            let claim = if gain.interval[0] > 0.0 { "better" } else { "no gain shown" };
-            format!("{} [{low}, {high}], {claim}", number(gain.value))
+            format!("{} [{low}, {high}], {}", number(gain.value), gain.claim())
         };
         let line = |name: &str, of: fn(&ScoresEntry) -> f64, own: &GainEntry| {
             let [base, extended, ceiling] =
@@ -184,5 +194,17 @@ impl GainedEntry {
             + &line("log score per reading", |s| s.log_score, &self.log_score)
             + &line("CRPS (sd)", |s| s.crps, &self.crps)
             + &line("RMSE (sd)", |s| s.rmse, &self.rmse)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_gain_a_loss_and_neither_are_told_apart() {
+        let claims = [[0.1, 0.3], [-0.1, 0.3], [-0.3, -0.1]]
+            .map(|interval| GainEntry { value: 0.5 * (interval[0] + interval[1]), interval }.claim());
+        assert_eq!(claims, ["better", "no gain shown", "worse"]);
     }
 }

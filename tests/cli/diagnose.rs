@@ -80,6 +80,7 @@ fn a_gauge_that_has_moved_is_named_from_a_csv_and_the_bank_is_made_once() {
     let other =
         ends_with(&folder, 3, &["diagnose", "studies/tiny", "--measured", "tests.csv", "--points", "61"]);
     assert!(stderr(&other).contains("it was made for another design"), "{}", stderr(&other));
+    assert!(stderr(&other).contains("it has 60 points, wanted are 61"), "{}", stderr(&other));
     // Nor is a bank that has been tampered with.
     fs::write(folder.path("runs/tiny-bank/bank.parquet"), b"no table").unwrap();
     let broken = ends_with(&folder, 3, &diagnose);
@@ -95,7 +96,8 @@ fn the_self_test_is_kept_beside_the_bank(folder: &Folder, computed: &Value) {
     };
     let path = folder.path("runs/tiny-bank/self-test.json");
     assert!(!path.exists());
-    ends_with(folder, 0, &["bank", "studies/tiny", "--measured", "tests.csv", "--points", "60"]);
+    let bank = ["bank", "studies/tiny", "--measured", "tests.csv", "--points", "60"];
+    ends_with(folder, 0, &[&bank[..], &["--judged", "0"]].concat());
     let kept = fs::read_to_string(&path).unwrap();
     assert_eq!(&told(), computed);
     fs::write(&path, kept.replace("\"campaigns\": 100", "\"campaigns\": 50")).unwrap();
@@ -109,10 +111,15 @@ fn the_self_test_is_kept_beside_the_bank(folder: &Folder, computed: &Value) {
     // A table that came without its journal needs no wall simulated, and gets the same self-test.
     fs::create_dir(folder.path("runs/alone")).unwrap();
     fs::copy(folder.path("runs/tiny-bank/bank.parquet"), folder.path("runs/alone/bank.parquet")).unwrap();
-    let alone = ["bank", "studies/tiny", "--measured", "tests.csv", "--points", "60", "--out", "runs/alone"];
-    ends_with(folder, 0, &alone);
+    ends_with(folder, 0, &[&bank[..], &["--out", "runs/alone", "--judged", "0"]].concat());
     assert_eq!(fs::read_dir(folder.path("runs/alone")).unwrap().count(), 2);
     assert_eq!(fs::read_to_string(folder.path("runs/alone/self-test.json")).unwrap(), kept);
+    // All that a diagnosis does is asked of as many campaigns as are wanted, and told where that is known.
+    ends_with(folder, 0, &[&bank[..], &["--judged", "1"]].concat());
+    let judged = told();
+    assert_eq!((&judged[0]["hidden"], &judged[0]["judged"]["campaigns"]), (&"nothing".into(), &5.into()));
+    assert_eq!(judged[1]["judged"]["campaigns"], 1);
+    assert_eq!(computed[1]["judged"]["campaigns"], 0);
 }
 
 /// What a named offset of the gauge writes: a study that is checked and run from any place. Its bytes.
@@ -154,7 +161,7 @@ fn variants_have_banks_and_diagnoses_of_their_own() {
     let wanted = "there is no runs/tiny-soft-bank/bank.parquet: 180 walls are to be simulated first, by\n  \
                   pirca bank studies/tiny --variant soft --measured tests.csv --points 12";
     assert!(stderr(&refused).contains(wanted), "{}", stderr(&refused));
-    ends_with(&folder, 0, &[&["bank"], &soft[..]].concat());
+    ends_with(&folder, 0, &[&["bank", "--judged", "0"], &soft[..]].concat());
     ends_with(&folder, 0, &[&["diagnose", "--no-build", "--no-gain"], &soft[..]].concat());
     let text =
         fs::read_to_string(folder.path("runs/tiny-soft-diagnosis/extended/gauge_offset/study.toml")).unwrap();
@@ -169,7 +176,12 @@ fn what_looks_odd_is_noted_and_judged() {
     let folder = folder(TOWERS);
     let header = MEASURED.lines().next().unwrap();
     let of_one = MEASURED.lines().filter(|line| line.starts_with("s0,")).collect::<Vec<_>>().join("\n");
-    let cases: [(&str, String, &str); 4] = [
+    let cases: [(&str, String, &str); 5] = [
+        (
+            "level",
+            format!("{MEASURED}s0,tower,0,displacement_left,0.05,mm,0.02,exact\n"),
+            "line 98: a displacement at 0 deg is 0, as readings are relative to the one at rest at 0 deg: if it is what was left",
+        ),
         (
             "one",
             format!("{header}\n{of_one}\n"),
@@ -193,7 +205,7 @@ fn what_looks_odd_is_noted_and_judged() {
     ];
     let judged = |csv: &str| -> (Output, Value) {
         let diagnose = ["diagnose", "studies/tiny", "--measured", csv, "--json"];
-        let arguments = [&diagnose[..], &["--points", "12", "--bank", "bank", "--no-gain"]].concat();
+        let arguments = [&diagnose[..], &["--points", "60", "--bank", "bank", "--no-gain"]].concat();
         let output = ends_with(&folder, 0, &arguments);
         let json = serde_json::from_slice(&output.stdout).unwrap();
         (output, json)
@@ -213,6 +225,32 @@ fn what_looks_odd_is_noted_and_judged() {
     // What is in order is not doubted.
     let (_, json) = judged("tests.csv");
     assert_eq!(json["notes"], Value::Array(Vec::new()));
+}
+
+/// Whoever tests but some of the families of a study needs no bank of his own.
+#[test]
+fn the_bank_beside_a_study_serves_measurements_of_one_of_its_families() {
+    let folder = folder(TOWERS);
+    let study = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/tilting-table");
+    let all = fs::read_to_string(study.join("measured.csv")).unwrap();
+    let own: Vec<&str> =
+        all.lines().filter(|line| line.starts_with("specimen") || line.starts_with("SBR")).collect();
+    fs::write(folder.path("sbr.csv"), own.join("\n") + "\n").unwrap();
+    let diagnose = ["diagnose", study.to_str().unwrap(), "--measured", "sbr.csv"];
+    let judged = ends_with(
+        &folder,
+        0,
+        &[&diagnose[..], &["--no-build", "--no-gain", "--threads", "1", "--json"]].concat(),
+    );
+    let json: Value = serde_json::from_slice(&judged.stdout).unwrap();
+    let families = json["groups"].as_array().unwrap().iter().map(|group| &group["family"]);
+    assert!(families.clone().count() == 4 && families.clone().all(|family| family == "sbr"), "{json}");
+    // A table of another design says what differs, wherever it lies.
+    fs::create_dir_all(folder.path("wrong")).unwrap();
+    fs::copy(study.join("bank.parquet"), folder.path("wrong/bank.parquet")).unwrap();
+    let other = ["diagnose", "studies/tiny", "--measured", "tests.csv", "--bank", "wrong"];
+    let refused = stderr(&ends_with(&folder, 3, &other));
+    assert!(refused.contains("its walls are of cbl, sbl, sbr, wanted are those of tower"), "{refused}");
 }
 
 #[test]

@@ -75,8 +75,10 @@ pub struct Said {
     pub verdict: Word,
     /// The causes of the verdict: one or two that are named, or a few.
     pub names: Vec<String>,
-    /// The causes that cannot be put aside.
+    /// The causes that the ranking cannot put aside.
     pub set: Vec<String>,
+    /// Where something was found, the causes that nothing speaks against.
+    pub open: Vec<String>,
     /// The most likely cause with its probability.
     pub likeliest: (String, f64),
     /// What the guard says of the causes in question: the share of a cause's own campaigns that fit no better.
@@ -146,11 +148,13 @@ impl<'k> Judge<'k> {
         let mut causes = ranked.causes.iter();
         let likeliest = causes.find_map(|(cause, p)| Some((name(&(*cause)?), *p))).expect("a catalogue");
         let set = ranked.set.iter().map(name).collect();
+        let is_found = found.verdict != Verdict::NothingFound;
+        let open = if is_found { found.left_open().iter().map(name).collect() } else { Vec::new() };
         let guard = found.looked_at.iter().filter_map(|own| Some((name(&own.cause), own.guard?))).collect();
         let evidence = found.looked_at.iter().map(|own| (name(&own.cause), own.evidence)).collect();
         let best = found.pairs.first();
         let pair = best.map(|own| ([0, 1].map(|k| name(&own.causes[k])), own.evidence, own.guard));
-        Said { p_value: found.seeming.p_value, verdict, names, set, likeliest, guard, evidence, pair }
+        Said { p_value: found.seeming.p_value, verdict, names, set, open, likeliest, guard, evidence, pair }
     }
 }
 

@@ -16,7 +16,7 @@ use serde::de::DeserializeOwned;
 
 use crate::inference::{Gains, Judge, Known, Said, Word};
 use crate::printed;
-use crate::sealed::Sealed;
+use crate::sealed::{self, Sealed};
 use crate::shift::shift;
 use crate::table::{self, Judged};
 use crate::truth::campaign::{campaign, planned};
@@ -26,7 +26,9 @@ use crate::truth::readings::csv;
 use crate::truth::roster::{catalogue, root, roster};
 
 /// Seed of the roster, far from that of the bank, and none that the inference was made better by.
-const MASTER: u64 = 20_280_115;
+const MASTER: u64 = 20_290_417;
+/// The variant of the study whose walls are hidden in: the dips of its stones are drawn in [-20, 20] deg.
+const VARIANT: &str = "random-dips";
 /// Points of the bank.
 const POINTS: u64 = 120;
 /// Mechanisms are taken out of the catalogue, and gains are measured, in these designs: two stones add nothing that could be held
@@ -67,7 +69,7 @@ fn path(variable: &str, default: &str) -> PathBuf {
 fn loaded() -> &'static Loaded {
     static LOADED: OnceLock<Loaded> = OnceLock::new();
     LOADED.get_or_init(|| {
-        Study::load(&root("studies/tilting-table"), None).unwrap_or_else(|faults| panic!("{faults}"))
+        Study::load(&root("studies/tilting-table"), Some(VARIANT)).unwrap_or_else(|faults| panic!("{faults}"))
     })
 }
 
@@ -83,14 +85,26 @@ fn measured(path: &Path) -> Vec<Measurement> {
     loaded().clone().with_measured(path).unwrap_or_else(|faults| panic!("{faults}")).study.measured
 }
 
-/// Solves and seals what is not there yet. Gives the names of the campaigns that could be solved, which tell nothing.
+/// The secret of a run, which lies with the labels: that of an earlier one if it is named, or one of its own.
+fn secret(folders: &Folders) -> String {
+    let path = folders.of("sealed").join("secret.txt");
+    if !path.exists() {
+        write(&path, &env::var("HIDDEN_EFFECT_SECRET").unwrap_or_else(|_| sealed::secret()));
+    }
+    read(&path)
+}
+
+/// Solves and seals what is not there yet. Gives the names of the campaigns that could be solved, which tell nothing, in an order
+/// that tells nothing and is the same for every secret.
 fn hidden(folders: &Folders, study: &Study, labels: &[Label]) -> Vec<String> {
+    let run = secret(folders);
     let nuisances = nuisances(&root("distributions")).unwrap_or_else(|lacks| panic!("{lacks}"));
     let (campaigns, sealed) = (folders.of("campaigns"), folders.of("sealed"));
-    let mut names: Vec<String> = labels
+    let mut names: Vec<(u64, String)> = labels
         .par_iter()
         .filter_map(|label| {
-            let secret = Sealed::new(serde_json::to_string(label).expect("a label has string keys only"));
+            let secret =
+                Sealed::new(&run, serde_json::to_string(label).expect("a label has string keys only"));
             let seal = secret.seal();
             let name = seal[..16].to_owned();
             let (folder, unsolved) = (campaigns.join(&name), sealed.join(format!("{name}.unsolved")));
@@ -110,11 +124,11 @@ fn hidden(folders: &Folders, study: &Study, labels: &[Label]) -> Vec<String> {
                 }
                 write(&folder.join("seal.txt"), &seal);
             }
-            Some(name)
+            Some((label.seed, name))
         })
         .collect();
     names.sort();
-    names
+    names.into_iter().map(|(_, name)| name).collect()
 }
 
 /// The judges of what is known, one for each design, from the first time on that it is asked: by one thread alone, as what
@@ -264,7 +278,7 @@ fn hidden_effect_campaigns_are_sealed_judged_and_opened() {
     let study = loaded().study.clone();
     let all = roster(share, MASTER);
     let names = hidden(&folders, &study, &all);
-    let bank = path("HIDDEN_EFFECT_BANK", "studies/tilting-table/bank.parquet");
+    let bank = path("HIDDEN_EFFECT_BANK", "studies/hidden-effects/bank.parquet");
     let bytes = fs::read(&bank).unwrap_or_else(|error| panic!("{}: {error}", bank.display()));
     let known =
         Known::new(study, POINTS, |plan| Bank::read(&bytes, plan).unwrap_or_else(|error| panic!("{error}")));
@@ -275,9 +289,11 @@ fn hidden_effect_campaigns_are_sealed_judged_and_opened() {
     let mut all_judged = together(&names, &labels, verdicts);
     let unsolved = all.len() - names.len();
     let head = format!(
-        "Share of the full sizes: {share}. Campaigns judged: {}; not solved: {unsolved}. Bank: {POINTS} points, design {}.\n",
+        "Share of the full sizes: {share}. Campaigns judged: {}; not solved: {unsolved}. Bank: {POINTS} points, design {}. Secret of \
+         the seals: {}.\n",
         names.len(),
-        &known.plan.study.hash[..12]
+        &known.plan.study.hash[..12],
+        secret(&folders)
     );
     let results = root("studies/hidden-effects");
     let published = |all: &[(String, Judged)], removed: &[(String, Judged)]| {

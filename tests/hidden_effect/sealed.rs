@@ -1,11 +1,16 @@
 //! A label is sealed before anything is judged: beside the data lies a hash of it that cannot be guessed, the label itself lies
 //! elsewhere.
 
+use std::hash::{BuildHasher, Hasher, RandomState};
+
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-/// What salts come from. Only this file has it; with it a run can be repeated.
-const SECRET: &str = "what is hidden here is told at the end";
+/// What the salts of a run come from: nobody's choice, unless it is one that an earlier run has told at its end.
+pub fn secret() -> String {
+    let random = |_| RandomState::new().build_hasher().finish();
+    sha256(&format!("{:?}", [0; 4].map(random)))
+}
 
 /// A label with the salt of its seal.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -15,9 +20,9 @@ pub struct Sealed {
 }
 
 impl Sealed {
-    /// Seals a label.
-    pub fn new(label: String) -> Sealed {
-        Sealed { salt: sha256(&format!("{SECRET}\n{label}")), label }
+    /// Seals a label with a run's secret.
+    pub fn new(secret: &str, label: String) -> Sealed {
+        Sealed { salt: sha256(&format!("{secret}\n{label}")), label }
     }
 
     /// The seal: it tells nothing of the label, and fits no other.
@@ -44,14 +49,18 @@ mod tests {
 
     #[test]
     fn a_sealed_label_cannot_be_changed_unnoticed() {
-        let sealed = Sealed::new(r#"{"hidden":"lean"}"#.to_owned());
+        let label = r#"{"hidden":"lean"}"#;
+        let sealed = Sealed::new("of this run", label.to_owned());
         let seal = sealed.seal();
-        assert_eq!(sealed.opened(&seal), Ok(r#"{"hidden":"lean"}"#));
+        assert_eq!(sealed.opened(&seal), Ok(label));
         let other_label = Sealed { label: r#"{"hidden":"creep"}"#.to_owned(), ..sealed.clone() };
         let other_salt = Sealed { salt: sha256("another"), ..sealed.clone() };
         assert!(other_label.opened(&seal).is_err() && other_salt.opened(&seal).is_err());
         // Without the salt the seal is not the label's hash.
-        assert_ne!(seal, sha256(r#"{"hidden":"lean"}"#));
-        assert_eq!(Sealed::new(r#"{"hidden":"lean"}"#.to_owned()).seal(), seal);
+        assert_ne!(seal, sha256(label));
+        // Nor can it be guessed by who knows all labels, but not the run's secret; who is told it, finds the seal again.
+        assert_ne!(Sealed::new("of another run", label.to_owned()).seal(), seal);
+        assert_eq!(Sealed::new("of this run", label.to_owned()).seal(), seal);
+        assert_ne!(secret(), secret());
     }
 }

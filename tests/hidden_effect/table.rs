@@ -118,6 +118,7 @@ fn of_design(design: &'static str, judged: &[Judged], removed: &[Judged]) -> Vec
     lines.of_mechanisms("mechanism, our code", &ours);
     let other: Vec<&Judged> = mechanisms.iter().copied().filter(|j| j.other_code()).collect();
     lines.of_mechanisms("mechanism, other code", &other);
+    lines.share("mechanism, other code", "a name given is right", &named(&other), Judged::right);
     for [low, high] in SHIFTS {
         let some = |j: &&Judged| j.shift.is_some_and(|shift| (low..high).contains(&shift));
         let some: Vec<&Judged> = ours.iter().copied().filter(some).collect();
@@ -140,6 +141,18 @@ fn of_design(design: &'static str, judged: &[Judged], removed: &[Judged]) -> Vec
     });
     let sizes: Vec<f64> = found.iter().map(|j| j.said.set.len() as f64).collect();
     lines.value("mechanism, found", "mean size of the set", mean(&sizes));
+    let few: Vec<&Judged> = found.iter().copied().filter(|j| j.said.verdict == Word::Ambiguous).collect();
+    lines.share("mechanism, ambiguous", "the verdict holds it", &few, |j| {
+        j.said.names.iter().any(|name| j.is_hidden(name))
+    });
+    let sizes: Vec<f64> = few.iter().map(|j| j.said.names.len() as f64).collect();
+    lines.value("mechanism, ambiguous", "mean number of causes", mean(&sizes));
+    let unexplained: Vec<&Judged> =
+        found.iter().copied().filter(|j| j.said.verdict == Word::Unexplained).collect();
+    lines.share("mechanism, found", "unexplained", &found, |j| j.said.verdict == Word::Unexplained);
+    lines.share("mechanism, unexplained", "it is left open", &unexplained, |j| {
+        j.said.open.iter().any(|name| j.is_hidden(name))
+    });
     let given: Vec<(f64, bool)> =
         found.iter().map(|j| (j.said.likeliest.1, j.is_hidden(&j.said.likeliest.0))).collect();
     lines.value("mechanism, found", "calibration error of the likeliest", calibration_error(&given));
@@ -155,7 +168,9 @@ fn of_design(design: &'static str, judged: &[Judged], removed: &[Judged]) -> Vec
     lines.share("pairs", "another one named", &pairs, Judged::wrong);
     let unknown = of(Group::Unknown);
     lines.share("out of catalogue", "found", &unknown, Judged::found);
+    lines.share("out of catalogue", "named", &unknown, Judged::named);
     lines.share("out of catalogue", "wrongly named", &unknown, Judged::wrong);
+    lines.share("out of catalogue", "unexplained", &unknown, |j| j.said.verdict == Word::Unexplained);
     for effect in &UNKNOWN {
         let some: Vec<&Judged> =
             unknown.iter().copied().filter(|j| j.label.hidden[0].name == effect.name).collect();
@@ -263,6 +278,7 @@ mod tests {
                 p_value: 0.5,
                 verdict,
                 set: names.clone(),
+                open: Vec::new(),
                 names,
                 likeliest,
                 guard: Vec::new(),

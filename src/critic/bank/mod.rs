@@ -11,4 +11,4 @@ pub(super) mod tests;
 pub use emulator::{Emulator, Told};
 pub use path::{Curves, NUMBERS, Path};
 pub use plan::{DOUBT, Place, Plan};
-pub use store::{BANK, Bank, NotThisBank};
+pub use store::{BANK, Bank, Held, NotThisBank};

@@ -8,7 +8,7 @@ use crate::random::standard_normal::quantile;
 use crate::study::{Acts, Described, Faults, Nuisance, Parameter, Study};
 
 /// So many times as many points without any cause: all others are compared with them.
-const BASE: u64 = 2;
+pub(super) const BASE: u64 = 2;
 
 /// Joints are taken to be so much less known than their priors say: a prior that is off by two of its standard deviations is no
 /// effect to be found.
@@ -51,7 +51,20 @@ impl Plan {
         nuisances: &[Nuisance; 3],
         points: u64,
     ) -> Result<Plan, Faults> {
-        let families = study.measured_arms();
+        Plan::of_families(study, &study.measured_arms(), mechanisms, nuisances, points)
+    }
+
+    /// The same for any families (their arms' indices, ascending). Walls of a family are the same whichever others there are.
+    ///
+    /// # Errors
+    /// As of [`Plan::new`].
+    pub fn of_families(
+        study: &Study,
+        families: &[usize],
+        mechanisms: &[Described],
+        nuisances: &[Nuisance; 3],
+        points: u64,
+    ) -> Result<Plan, Faults> {
         let base = study.clone().without_limit_analysis().with_remainders();
         let (mut arms, mut places) = (Vec::new(), Vec::new());
         for point in 0..BASE * points {
@@ -70,7 +83,7 @@ impl Plan {
                     let switched = base.with_mechanism(mechanism.name, &values)?;
                     (on, idle) = (Some(switched.study), switched.idle);
                 }
-                for &family in &families {
+                for &family in families {
                     let arm = &on.as_ref().unwrap_or(&base).arms[family];
                     if idle.contains_key(&arm.name) {
                         continue;

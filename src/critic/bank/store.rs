@@ -1,12 +1,13 @@
 //! A bank that has been computed, as a table: `bank.parquet`, a row per wall, with the hash of the design it was made for.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::Cursor;
 
 use polars::prelude::{Column, DataFrame, NamedFrom, PolarsError, Series};
 use polars_io::prelude::{ParquetReader, SerReader};
 
 use crate::critic::bank::path::{KINDS, NUMBERS, PLACES, Path};
-use crate::critic::bank::plan::Plan;
+use crate::critic::bank::plan::{BASE, Plan};
 use crate::ensemble::{Row, RunError, parquet};
 
 /// Name of the file.
@@ -31,15 +32,49 @@ pub enum NotThisBank {
     #[error("it is no bank: its column {0} is missing or of another kind")]
     Column(String),
     /// It was made for something else.
-    #[error(
-        "it was made for another design: study, priors, number of points or version have changed (hash {found}, here {wanted})"
-    )]
+    #[error("it was made for another design: {differs} (hash {found}, here {wanted})")]
     Design {
+        /// What differs, in words.
+        differs: String,
         /// Hash of what it was made for.
         found: String,
         /// Hash of the plan.
         wanted: String,
     },
+}
+
+/// What a table has walls of.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Held {
+    /// Names of the families, each once.
+    pub families: BTreeSet<String>,
+    /// Points in the priors for each mechanism.
+    pub points: u64,
+}
+
+impl Held {
+    /// From the names of walls; `None` where they are none that a plan gives.
+    fn of(walls: &[String]) -> Option<Held> {
+        let (mut families, mut points) = (BTreeSet::new(), 0);
+        for wall in walls {
+            let [family, _, point] = wall.split('/').collect::<Vec<_>>().try_into().ok()?;
+            families.insert(family.to_owned());
+            points = points.max(point.parse::<u64>().ok()? + 1);
+        }
+        Some(Held { families, points: points / BASE })
+    }
+
+    /// What makes it another one than is wanted, in words.
+    fn differs(&self, wanted: &Held) -> String {
+        let listed = |held: &Held| held.families.iter().cloned().collect::<Vec<_>>().join(", ");
+        if self.families != wanted.families {
+            return format!("its walls are of {}, wanted are those of {}", listed(self), listed(wanted));
+        }
+        if self.points != wanted.points {
+            return format!("it has {} points, wanted are {}: see --points", self.points, wanted.points);
+        }
+        "study, priors or version have changed".to_owned()
+    }
 }
 
 impl Bank {
@@ -71,6 +106,28 @@ impl Bank {
         parquet(BANK, n, columns)
     }
 
+    /// What a table has walls of, whatever plan it was made for.
+    ///
+    /// # Errors
+    /// See [`NotThisBank`].
+    pub fn held(bytes: &[u8]) -> Result<Held, NotThisBank> {
+        let frame = ParquetReader::new(Cursor::new(bytes)).finish()?;
+        let lacking = || NotThisBank::Column("wall".to_owned());
+        Held::of(&texts(&frame, "wall").ok_or_else(lacking)?).ok_or_else(lacking)
+    }
+
+    /// The walls of a plan of fewer families among those of this one's plan; `None` where it has not all of them.
+    pub fn part(&self, own: &Plan, plan: &Plan) -> Option<Bank> {
+        let walls = own.study.arms.iter().enumerate().map(|(wall, arm)| (arm.name.as_str(), wall));
+        let places: BTreeMap<&str, usize> = walls.collect();
+        let at = plan.study.arms.iter().map(|arm| places.get(arm.name.as_str()).copied());
+        let at = at.collect::<Option<Vec<usize>>>()?;
+        Some(Bank {
+            paths: at.iter().map(|&wall| self.paths[wall].clone()).collect(),
+            endings: at.iter().map(|&wall| self.endings[wall].clone()).collect(),
+        })
+    }
+
     /// Reads the table of a plan.
     ///
     /// # Errors
@@ -82,7 +139,12 @@ impl Bank {
         let designs = text("design")?;
         let found = designs.first().cloned().unwrap_or_default();
         if designs.len() != plan.places.len() || designs.iter().any(|design| *design != wanted) {
-            return Err(NotThisBank::Design { found, wanted });
+            let own: Vec<String> = plan.study.arms.iter().map(|arm| arm.name.clone()).collect();
+            let differs = match (Held::of(&text("wall")?), Held::of(&own)) {
+                (Some(held), Some(own)) => held.differs(&own),
+                _ => "its walls have other names".to_owned(),
+            };
+            return Err(NotThisBank::Design { differs, found, wanted });
         }
         let numbers = (0..NUMBERS)
             .map(|number| {

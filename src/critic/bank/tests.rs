@@ -233,8 +233,44 @@ fn a_bank_comes_back_from_its_table_and_only_for_its_own_plan() {
     let bytes = bank.table(&plan).expect("it is written");
     assert_eq!(bytes, bank.table(&plan).expect("it is written"));
     assert_eq!(Bank::read(&bytes, &plan).expect("it is its own"), bank);
-    assert!(matches!(Bank::read(&bytes, &other), Err(NotThisBank::Design { .. })));
+    let why = Bank::read(&bytes, &other).expect_err("of eleven points").to_string();
+    assert!(why.contains("it has 10 points, wanted are 11: see --points"), "{why}");
     assert!(matches!(Bank::read(b"no table", &plan), Err(NotThisBank::Table(_))));
+}
+
+#[test]
+fn a_bank_of_more_families_or_points_serves_a_plan_of_fewer() {
+    let (study, _, priors) = shipped();
+    let of = |families: &[usize], points: u64| {
+        Plan::of_families(&study, families, &[], &priors, points).unwrap_or_else(|f| panic!("{f}"))
+    };
+    let own = of(&[0, 1, 2], 4);
+    let bank = Bank::of(&(0..own.places.len()).map(wall_of).collect::<Vec<_>>());
+    let bytes = bank.table(&own).expect("it is written");
+    let held = Bank::held(&bytes).expect("it is a bank");
+    assert_eq!(
+        (held.families.into_iter().collect::<Vec<_>>(), held.points),
+        (vec!["cbl".into(), "sbl".into(), "sbr".into()], 4)
+    );
+    for plan in [of(&[1], 4), of(&[0, 2], 3)] {
+        let part = bank.part(&own, &plan).expect("it has all of them");
+        assert_eq!(part.paths.len(), plan.places.len());
+        for (path, place) in part.paths.iter().zip(&plan.places) {
+            let at = own.places.iter().position(|other| other == place).expect("the same wall");
+            assert_eq!(path, &bank.paths[at]);
+        }
+    }
+    assert_eq!(bank.part(&own, &of(&[0, 1], 5)), None);
+    let why = Bank::read(&bytes, &of(&[1], 4)).expect_err("of three families").to_string();
+    assert!(why.contains("its walls are of cbl, sbl, sbr, wanted are those of sbl"), "{why}");
+    let soft = Study::load(
+        &std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/tilting-table"),
+        Some("random-dips"),
+    );
+    let soft = soft.unwrap_or_else(|f| panic!("{f}")).study;
+    let soft = Plan::of_families(&soft, &[0, 1, 2], &[], &priors, 4).unwrap_or_else(|f| panic!("{f}"));
+    let why = Bank::read(&bytes, &soft).expect_err("of other stones").to_string();
+    assert!(why.contains("study, priors or version have changed"), "{why}");
 }
 
 fn wall_of(number: usize) -> Row {

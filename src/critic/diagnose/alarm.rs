@@ -41,11 +41,20 @@ impl Alarm {
         alarm
     }
 
-    fn smallest(&self, looks: &[f64; 3]) -> f64 {
-        self.looks.iter().zip(looks).map(|(known, look)| share(known, *look)).fold(1.0, f64::min)
+    fn shares(&self, looks: &[f64; 3]) -> [f64; 3] {
+        [0, 1, 2].map(|k| share(&self.looks[k], looks[k]))
     }
 
-    /// Share of campaigns without any effect that surprise as much: with `n` campaigns at least 1/(n + 1).
+    fn smallest(&self, looks: &[f64; 3]) -> f64 {
+        self.shares(looks).into_iter().fold(1.0, f64::min)
+    }
+
+    /// Share of campaigns without any effect that surprise as much each way: with `n` campaigns at least 1/(n + 1).
+    pub fn each(&self, wrong: &Wrong, ranked: &Ranked) -> [f64; 3] {
+        self.shares(&looks(wrong, ranked))
+    }
+
+    /// Share of campaigns without any effect that surprise as much in any way.
     pub fn p_value(&self, wrong: &Wrong, ranked: &Ranked) -> f64 {
         let smallest = self.smallest(&looks(wrong, ranked));
         let as_small = self.smallest.partition_point(|x| *x <= smallest);

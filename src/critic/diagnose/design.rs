@@ -137,8 +137,8 @@ impl Campaign {
         let score = |name: &str| quantile(streams.of(name).uniform());
         let mut shared = BTreeMap::new();
         let mut read = |value: f64, m: &Measurement, name: &str| {
-            let (common, share) = *shared.entry(m.quantity).or_insert_with(|| {
-                let name = m.quantity.name();
+            let (common, share) = *shared.entry(m.quantity.instrument()).or_insert_with(|| {
+                let name = m.quantity.instrument().name();
                 let share = streams.of(&format!("share of the common error {name}")).uniform();
                 (score(&format!("common error {name}")), share)
             });

@@ -1,6 +1,6 @@
 //! A discrepancy that is free to be anything smooth (Kennedy and O'Hagan 2001): Gaussian processes over the tilt for every quantity
-//! and for what the left end has more than the right, in part common to all families, and a straight line over the order of the
-//! tests. It says which form something has that no cause explains, and how much there is to be gained.
+//! and for what the left end has more than the right and the centre more than the ends, in part common to all families, and a straight
+//! line over the order of the tests. It says which form something has that no cause explains, and how much there is to be gained.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
@@ -15,8 +15,10 @@ use crate::study::{MeasuredQuantity, Measurement};
 const LENGTH_DEG: f64 = 5.0;
 /// Share of its variance that is common to all families.
 const COMMON: f64 = 0.5;
-/// Variance of the left end less that of the centre, and of the last test less that of a middle one, in that of a reading's level.
+/// Variance of the left end less that of the middle, of the centre less that of the mean, and of the last test less that of a middle
+/// one, in that of a reading's level.
 const TWISTING: f64 = 0.5;
+const BENDING: f64 = 0.5;
 const DRIFTING: f64 = 0.5;
 /// Standard deviations of the discrepancy that are tried, in those of the base model's readings; the likeliest is taken.
 const TRIED: [f64; 7] = [0.0, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0];
@@ -36,6 +38,8 @@ struct At<'d> {
     known: bool,
     /// 1 for the left end, -1 for the right one.
     side: f64,
+    /// What a bow moves it by: 1 at the centre, -1/2 at the ends.
+    bow: f64,
     /// Where the test lies in the order of all: -1 the first, 1 the last; 0 where that is not known.
     order: f64,
 }
@@ -45,7 +49,7 @@ pub struct Discrepancy<'d> {
     all: Vec<At<'d>>,
     known: Vec<usize>,
     /// Covariances of the discrepancy at all readings, part by part, in units of its variance.
-    smooth: [DMatrix<f64>; 3],
+    smooth: [DMatrix<f64>; 4],
     /// That variance, in the readings' units.
     variance: f64,
     /// Covariance of the readings.
@@ -64,6 +68,8 @@ pub enum Lacking {
     Level,
     /// Of the left end less the right one.
     Twist,
+    /// Of the centre less the mean of the ends, where these were read each.
+    Bow,
     /// From each test to the next.
     Drift,
 }
@@ -75,7 +81,7 @@ pub struct Bent {
     pub part: Lacking,
     /// Index of the family's arm; none where all families share it.
     pub family: Option<usize>,
-    /// What was read; of a twist the left end's displacement, of a drift the first quantity that was read of its kind.
+    /// What was read; of a twist the left end's displacement, of a bow the centre's, of a drift the first quantity that was read of its kind.
     pub quantity: MeasuredQuantity,
     /// At which tilt (rad); `None` where the quantity has none of its own.
     pub tilt: Option<f64>,
@@ -108,14 +114,15 @@ impl<'d> Discrepancy<'d> {
                 let mean = stats::mean(&base.reading(specimen, reading))?;
                 let (unit, told) = (units[specimen][reading], seen != Seen::Beyond);
                 let known = known[specimen][reading] && told;
-                let side = match m.quantity {
-                    MeasuredQuantity::DisplacementLeft | MeasuredQuantity::RemainderLeft => 1.0,
-                    MeasuredQuantity::DisplacementRight | MeasuredQuantity::RemainderRight => -1.0,
-                    _ => 0.0,
+                let (side, bow) = match m.quantity {
+                    MeasuredQuantity::DisplacementLeft | MeasuredQuantity::RemainderLeft => (1.0, -0.5),
+                    MeasuredQuantity::DisplacementRight | MeasuredQuantity::RemainderRight => (-1.0, -0.5),
+                    MeasuredQuantity::DisplacementCentre | MeasuredQuantity::RemainderCentre => (0.0, 1.0),
+                    _ => (0.0, 0.0),
                 };
                 let order = own.order.map_or(0.0, |order| (f64::from(order) - first) / half.max(0.5) - 1.0);
                 let place = (specimen, reading);
-                all.push(At { place, family: own.family, m, seen, unit, mean, known, side, order });
+                all.push(At { place, family: own.family, m, seen, unit, mean, known, side, bow, order });
             }
         }
         let columns = DMatrix::from_fn(base.walls.len(), all.len(), |draw, k| {
@@ -124,8 +131,11 @@ impl<'d> Discrepancy<'d> {
         });
         let mut walls = columns.transpose() * &columns / (base.walls.len() as f64 - 1.0);
         for (k, at) in all.iter().enumerate() {
-            let error = reading_variance(at.m) + at.m.common_error * at.m.common_error;
-            walls[(k, k)] += error / (at.unit * at.unit) + NUGGET;
+            walls[(k, k)] += reading_variance(at.m) / (at.unit * at.unit) + NUGGET;
+            let alike = |other: &At<'_>| other.m.quantity.instrument() == at.m.quantity.instrument();
+            for (j, other) in all.iter().enumerate().filter(|(_, other)| alike(other)) {
+                walls[(k, j)] += at.m.common_error / at.unit * (other.m.common_error / other.unit);
+            }
         }
         let places: Vec<usize> = (0..all.len()).filter(|&k| all[k].known).collect();
         if places.is_empty() {
@@ -165,7 +175,7 @@ impl<'d> Discrepancy<'d> {
     }
 
     /// The discrepancy itself: its level once for each family, quantity and tilt that was read, its twist once for each family and
-    /// tilt at which both ends were, and its drift once for each kind of quantity where the order of the tests is known.
+    /// tilt at which both ends were, its bow at which the centre and an end were, and its drift once for each kind of quantity where the order of the tests is known.
     pub fn form(&self) -> Vec<Bent> {
         let mut form: Vec<Bent> = Vec::new();
         for (k, at) in self.all.iter().enumerate().filter(|(_, at)| at.seen != Seen::Beyond) {
@@ -184,8 +194,18 @@ impl<'d> Discrepancy<'d> {
                 }
             };
             add(Lacking::Level, Some(at.family), at.m.tilt, 1.0);
-            if at.side > 0.0 {
+            let beside = |other: &At<'_>| {
+                (other.family, other.m.tilt) == (at.family, at.m.tilt)
+                    && kind(other.m.quantity) == kind(at.m.quantity)
+            };
+            let is_read = |place: &dyn Fn(&At<'_>) -> bool| {
+                self.all.iter().any(|other| other.seen != Seen::Beyond && beside(other) && place(other))
+            };
+            if at.side > 0.0 && is_read(&|other| other.side < 0.0) {
                 add(Lacking::Twist, Some(at.family), at.m.tilt, 2.0);
+            }
+            if at.bow > 0.0 && is_read(&|other| other.bow < 0.0) {
+                add(Lacking::Bow, Some(at.family), at.m.tilt, 1.5);
             }
             if at.order.abs() == 1.0 && self.half > 0.0 {
                 add(Lacking::Drift, None, None, at.order / self.half);
@@ -209,7 +229,7 @@ impl<'d> Discrepancy<'d> {
 }
 
 /// All of them, as they are numbered.
-const PARTS: [Lacking; 3] = [Lacking::Level, Lacking::Twist, Lacking::Drift];
+const PARTS: [Lacking; 4] = [Lacking::Level, Lacking::Twist, Lacking::Bow, Lacking::Drift];
 
 /// Quantities of different kinds have nothing in common.
 fn kind(quantity: MeasuredQuantity) -> u8 {
@@ -233,6 +253,7 @@ fn alike(part: Lacking, a: &At<'_>, b: &At<'_>) -> f64 {
     match part {
         Lacking::Level => over_the_tilt,
         Lacking::Twist => TWISTING * a.side * b.side * over_the_tilt,
+        Lacking::Bow => BENDING * a.bow * b.bow * over_the_tilt,
         Lacking::Drift => DRIFTING * a.order * b.order,
     }
 }
@@ -295,15 +316,19 @@ mod tests {
     }
 
     #[test]
-    fn a_twist_and_a_drift_are_told_from_a_level() {
+    fn a_twist_a_bow_and_a_drift_are_told_from_a_level() {
         let made = made();
         let (world, (mut design, _)) = (made.world(), Design::of(&made.study));
-        // Both ends read to 0.3 mm, and the tests of the stones numbered 1, 4 and 7.
-        let ends = [MeasuredQuantity::DisplacementLeft, MeasuredQuantity::DisplacementRight];
+        // Three points read to 0.3 mm, and the tests of the stones numbered 1, 4 and 7.
+        let points = [
+            MeasuredQuantity::DisplacementLeft,
+            MeasuredQuantity::DisplacementCentre,
+            MeasuredQuantity::DisplacementRight,
+        ];
         for (index, specimen) in design.specimens.iter_mut().enumerate() {
             specimen.order = Some((index % 3 * 3 + index / 3) as u32);
             let readings = specimen.readings.iter().flat_map(|m| match m.tilt {
-                Some(_) => ends
+                Some(_) => points
                     .map(|quantity| Measurement {
                         quantity,
                         error: 3e-4,
@@ -316,7 +341,17 @@ mod tests {
             });
             specimen.readings = readings.collect();
         }
-        let twisted = |_: Option<u32>, quantity| if quantity == ends[0] { 4e-3 } else { -4e-3 };
+        let of_points = |[left, centre, right]: [f64; 3]| {
+            move |_: Option<u32>, quantity| {
+                if quantity == points[0] {
+                    left
+                } else if quantity == points[1] {
+                    centre
+                } else {
+                    right
+                }
+            }
+        };
         let drifting = |order: Option<u32>, _| 2e-3 * (f64::from(order.expect("numbered")) - 4.0);
         let of = |bent: &[Bent], part: Lacking| -> Vec<Bent> {
             bent.iter()
@@ -324,11 +359,17 @@ mod tests {
                 .copied()
                 .collect()
         };
-        let bent = form(&world, &design, &twisted);
+        let bent = form(&world, &design, &of_points([4e-3, 0.0, -4e-3]));
         let twists = of(&bent, Lacking::Twist);
         assert!(!twists.is_empty() && twists.iter().filter(sure).count() == twists.len(), "{twists:?}");
         assert!(twists.iter().all(|b| (b.value - 8e-3).abs() < 2e-3), "{twists:?}");
         assert_eq!(of(&bent, Lacking::Drift).iter().filter(sure).count(), 0, "{bent:?}");
+        assert_eq!(of(&bent, Lacking::Bow).iter().filter(sure).count(), 0, "{bent:?}");
+        let bent = form(&world, &design, &of_points([-3e-3, 6e-3, -3e-3]));
+        let bows = of(&bent, Lacking::Bow);
+        assert!(bows.len() == twists.len() && bows.iter().filter(sure).count() == bows.len(), "{bows:?}");
+        assert!(bows.iter().all(|b| (b.value - 9e-3).abs() < 2e-3 && b.quantity == points[1]), "{bows:?}");
+        assert_eq!(of(&bent, Lacking::Twist).iter().filter(sure).count(), 0, "{bent:?}");
         let bent = form(&world, &design, &drifting);
         let drifts: Vec<Bent> = of(&bent, Lacking::Drift);
         // Of the displacements, and of the collapse angles.

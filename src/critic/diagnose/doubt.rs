@@ -11,6 +11,16 @@ use crate::study::measured::Dimension;
 pub enum Doubt {
     /// There is but one specimen.
     OneSpecimen,
+    /// The bank has too few walls of some mechanisms.
+    NotConsidered {
+        /// The mechanisms.
+        mechanisms: Vec<&'static str>,
+    },
+    /// Displacements at 0 deg that no earlier stage makes remainders of.
+    Level {
+        /// The lines.
+        lines: Vec<usize>,
+    },
     /// The study has the arm, but does not evaluate it.
     NotEvaluated {
         /// The arm.
@@ -62,6 +72,18 @@ impl fmt::Display for Doubt {
             Doubt::OneSpecimen => f.write_str(
                 "there is one specimen: the scatter between specimens cannot be judged, and none can be held out to see how \
                  well it is predicted",
+            ),
+            Doubt::NotConsidered { mechanisms } => write!(
+                f,
+                "too few walls of the bank came to a fall under {}: these are not considered, and another cause may be named in \
+                 their place; ask for more --points",
+                mechanisms.join(", ")
+            ),
+            Doubt::Level { lines } => write!(
+                f,
+                "{}: a displacement at 0 deg is 0, as readings are relative to the one at rest at 0 deg: if it is what was left after \
+                 going back, number the readings in the column stage",
+                listed(lines)
             ),
             Doubt::NotEvaluated { family, lines } => write!(
                 f,

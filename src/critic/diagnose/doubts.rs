@@ -34,6 +34,10 @@ pub fn doubts(study: &Study, design: &Design) -> Vec<Doubt> {
         elsewhere.into_iter().map(|(family, lines)| Doubt::NotEvaluated { family: family.to_owned(), lines }),
     );
     let readings = || design.specimens.iter().flat_map(|specimen| &specimen.readings);
+    let level: Vec<usize> = readings().filter(|m| m.tilt == Some(0.0)).map(|m| m.line).collect();
+    if !level.is_empty() {
+        found.push(Doubt::Level { lines: level });
+    }
     if let Protocol::Tilting(tilting) = &study.protocol {
         let beyond = readings().filter_map(|m| Some((m.line, m.tilt.filter(|tilt| *tilt > tilting.end)?)));
         let (lines, tilts): (Vec<usize>, Vec<f64>) = beyond.unzip();
@@ -86,10 +90,15 @@ pub fn doubts_beside(world: &World<'_>, design: &Design, measured: &Campaign, se
             out.push((m, [low, high], others.find(|x| inside(*x))));
         }
     }
-    let mut found: Vec<Doubt> = grouped(&fallen, |m| (m.quantity, m.family.clone()))
-        .into_iter()
-        .map(|(first, lines)| Doubt::Fallen { lines, first: Box::new(first.clone()) })
-        .collect();
+    let lacking = world.too_few().iter().map(|cause| world.mechanisms()[*cause].name);
+    let lacking: Vec<&'static str> = lacking.collect();
+    let lacking = (!lacking.is_empty()).then_some(Doubt::NotConsidered { mechanisms: lacking });
+    let mut found: Vec<Doubt> = lacking.into_iter().collect();
+    found.extend(
+        grouped(&fallen, |m| (m.quantity, m.family.clone()))
+            .into_iter()
+            .map(|(first, lines)| Doubt::Fallen { lines, first: Box::new(first.clone()) }),
+    );
     let readings: Vec<&Measurement> = out.iter().map(|(m, ..)| *m).collect();
     let of = |m: &Measurement| {
         out.iter().find(|(own, ..)| own.line == m.line).map(|(_, range, fits)| (*range, *fits))

@@ -32,6 +32,8 @@ pub enum Contrast {
     Left,
     /// The centre against the two ends in that.
     LeftBow,
+    /// The largest step from one tilt to the next beside the steps before and after it, in errors of the readings.
+    Jump,
     /// Share of the readings that the wall still stood for.
     Reached,
 }
@@ -45,6 +47,10 @@ pub enum Feature {
     Scatter(usize, Contrast),
     /// How a contrast goes with the order of the tests, over all specimens.
     Order(Contrast),
+    /// Mean of a contrast over the families whose ends are held, less that over those whose ends are free.
+    Restraint(Contrast),
+    /// How a contrast goes with the logarithm of the mean weight of a family's stones.
+    StoneSize(Contrast),
     /// Something measured apart from the tilting tests: the family and the quantity.
     Apart(usize, MeasuredQuantity),
 }
@@ -228,10 +234,33 @@ fn contrasts(specimen: &Specimen, seen: &[Seen], scale: &[Usual]) -> Vec<(Contra
             (square > 0.0).then(|| (contrast, [value / square.sqrt(), (error / square).sqrt()]))
         })
         .collect();
+    found.extend(jump(specimen, seen, scale).map(|jump| (Contrast::Jump, [jump, 0.0])));
     if read > 0.0 {
         found.push((Contrast::Reached, [reached / read, 0.0]));
     }
     found
+}
+
+/// How far the largest step of any point of a specimen from one tilt to the next stands out from the mean of its two neighbours, in
+/// standard deviations of the readings' errors: what grows smoothly has none. `None` where no point was read at four tilts.
+fn jump(specimen: &Specimen, seen: &[Seen], scale: &[Usual]) -> Option<f64> {
+    let mut points: BTreeMap<MeasuredQuantity, Vec<[f64; 3]>> = BTreeMap::new();
+    for ((m, seen), usual) in specimen.readings.iter().zip(seen).zip(scale) {
+        let Some(tilt) = m.tilt.filter(|_| !m.quantity.is_remainder()) else { continue };
+        let Some(z) = usual.scaled(*seen, m) else { continue };
+        points.entry(m.quantity).or_default().push([tilt, z, usual.error.max(LEAST_SCATTER)]);
+    }
+    let weights = [0.5, -1.5, 1.5, -0.5];
+    let steps = points.into_values().flat_map(|mut point| {
+        point.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let one = |four: &[[f64; 3]]| {
+            let terms = weights.iter().zip(four).map(|(weight, [_, z, error])| [weight * z, weight * error]);
+            let (step, square) = terms.fold((0.0, 0.0), |(step, square), [z, e]| (step + z, square + e * e));
+            step.abs() / square.sqrt()
+        };
+        point.windows(weights.len()).map(one).collect::<Vec<f64>>()
+    });
+    steps.reduce(f64::max)
 }
 
 /// Slope of a straight line through points; `None` where all have the same place.
@@ -250,6 +279,42 @@ mod tests {
     use crate::critic::diagnose::tests::made;
     use crate::math::exp;
     use crate::study::MeasuredKind;
+
+    #[test]
+    fn a_jump_stands_out_of_the_steps_before_and_after_it() {
+        let made = made();
+        let (mut design, _) = Design::of(&made.study);
+        design.specimens.truncate(1);
+        let first = design.specimens[0].readings.iter().find(|m| m.tilt.is_some()).expect("read").clone();
+        let tilts: Vec<f64> = (1..=8).map(f64::from).collect();
+        design.specimens[0].readings = tilts
+            .iter()
+            .map(|deg| Measurement {
+                tilt: Some(crate::math::radians(*deg)),
+                quantity: MeasuredQuantity::DisplacementCentre,
+                kind: MeasuredKind::Exact,
+                resolution: 0.0,
+                error: 1e-3,
+                ..first.clone()
+            })
+            .collect();
+        // Readings far below the bend count as they are: a millimetre, their error, is one standard deviation.
+        let usual = Usual { sd: 1e-3, bend: 1e3, counted: [0.0, 1e-6], error: 1.0 };
+        let scale = Scale { specimens: vec![vec![usual; tilts.len()]], apart: Vec::new() };
+        let of = |value: &dyn Fn(f64) -> f64| {
+            let seen = tilts.iter().map(|deg| Seen::Value(1e-3 * value(*deg))).collect();
+            let shown = Campaign { specimens: vec![seen], apart: Vec::new() };
+            features(&design, &scale, &shown)[&Feature::Mean(design.specimens[0].family, Contrast::Jump)]
+        };
+        assert!(of(&|x| 3.0 * x) < 1e-6 && of(&|x| x * x) < 1e-6);
+        let stepped = of(&|x| x + if x > 4.5 { 6.0 } else { 0.0 });
+        // The step, in the error of four readings with the weights 1/2, 3/2, 3/2 and 1/2.
+        assert!((stepped - 6.0 / 5.0_f64.sqrt()).abs() < 1e-6, "{stepped}");
+        design.specimens[0].readings.truncate(3);
+        let few = Campaign { specimens: vec![vec![Seen::Value(0.0); 3]], apart: Vec::new() };
+        let found = features(&design, &scale, &few);
+        assert!(found.keys().all(|feature| !matches!(feature, Feature::Mean(_, Contrast::Jump))));
+    }
 
     #[test]
     fn readings_count_by_their_logarithm_far_above_their_error_and_as_they_stand_below() {

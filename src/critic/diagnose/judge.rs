@@ -48,6 +48,8 @@ pub struct Seeming {
     pub ranked: Ranked,
     /// Share of campaigns without any effect that surprise as much.
     pub p_value: f64,
+    /// The same of each way of looking alone: the furthest single number, all numbers together, likeness to a cause.
+    pub looks: [f64; 3],
 }
 
 impl Seeming {
@@ -80,6 +82,7 @@ impl<'w> Judge<'w> {
         let wrong = self.reference.judge(&self.design, campaign);
         let ranked = self.ranking.of(&wrong);
         let p_value = self.alarm.p_value(&wrong, &ranked);
-        Seeming { wrong, ranked, p_value }
+        let looks = self.alarm.each(&wrong, &ranked);
+        Seeming { wrong, ranked, p_value, looks }
     }
 }

@@ -20,9 +20,9 @@ const LEAST: f64 = 0.02;
 pub struct Likelihood<'c> {
     world: &'c World<'c>,
     families: Vec<Family<'c>>,
-    /// What was measured apart: the family and the reading with its value.
-    apart: Vec<(usize, &'c Measurement, f64)>,
-    /// Quantities whose readings share an error.
+    /// What was measured apart: the family, the reading and what it showed.
+    apart: Vec<(usize, &'c Measurement, Seen)>,
+    /// [Instruments](MeasuredQuantity::instrument) whose readings share an error.
     common: Vec<MeasuredQuantity>,
     /// Those of them where nobody knows how much.
     unknown: Vec<MeasuredQuantity>,
@@ -39,7 +39,8 @@ impl Errors<'_> {
     /// The variance of a reading's own error and rounding, and the error that it shares.
     fn of(&self, m: &Measurement) -> (f64, f64) {
         let Likelihood { common, unknown, .. } = self.of;
-        let at = |list: &[MeasuredQuantity]| list.iter().position(|quantity| *quantity == m.quantity);
+        let at =
+            |list: &[MeasuredQuantity]| list.iter().position(|shared| *shared == m.quantity.instrument());
         let share = at(unknown).map_or(0.0, |at| cdf(self.scores[common.len() + at]));
         let [random, whole] = m.errors(share);
         let rounding = reading_variance(m) - m.error * m.error;
@@ -78,12 +79,13 @@ impl<'c> Likelihood<'c> {
         });
         let families: Vec<Family<'c>> = families.collect();
         let apart = design.apart.iter().zip(&campaign.apart);
-        let apart: Vec<_> =
-            apart.filter_map(|((family, m), seen)| Some((*family, m, seen.told(m)?))).collect();
+        let apart = apart.filter(|(_, seen)| **seen != Seen::Nothing);
+        let apart: Vec<_> = apart.map(|((family, m), seen)| (*family, m, *seen)).collect();
         let all = families.iter().flat_map(|own| own.all[0].readings());
         let all: Vec<&Measurement> = all.chain(apart.iter().map(|(_, m, _)| *m)).collect();
         let those = |is: fn(&&&Measurement) -> bool| {
-            let mut those: Vec<MeasuredQuantity> = all.iter().filter(is).map(|m| m.quantity).collect();
+            let mut those: Vec<MeasuredQuantity> =
+                all.iter().filter(is).map(|m| m.quantity.instrument()).collect();
             those.sort();
             those.dedup();
             those
@@ -115,10 +117,16 @@ impl<'c> Likelihood<'c> {
                 log += wall.bounds_log(&paths, &errors);
             }
         }
-        for (family, m, value) in &self.apart {
+        for (family, m, seen) in &self.apart {
             let (variance, shared) = errors.of(m);
-            let off = value - shared - self.world.apart(*family, m, truth);
-            log -= 0.5 * (off * off / variance + ln(variance));
+            let expected = shared + self.world.apart(*family, m, truth);
+            log += match seen {
+                Seen::Value(value) => {
+                    let off = value - expected;
+                    -0.5 * (off * off / variance + ln(variance))
+                }
+                Seen::Beyond | Seen::Nothing => side_log(m, expected, variance),
+            };
         }
         log
     }
@@ -166,13 +174,17 @@ impl<'c> Wall<'c> {
     fn bounds_log(&self, paths: &Paths, errors: &Errors<'_>) -> f64 {
         let one = |(column, m): &(usize, &Measurement)| {
             let (variance, shared) = errors.of(m);
-            let sd = (variance + paths.variance[*column]).sqrt().max(f64::MIN_POSITIVE);
-            let inside = (m.value - paths.mean[*column] - shared) / sd;
-            let side = if m.kind == MeasuredKind::Below { inside } else { -inside };
-            ln(cdf(side).max(f64::MIN_POSITIVE))
+            side_log(m, paths.mean[*column] + shared, variance + paths.variance[*column])
         };
         self.bounds.iter().fold(0.0, |sum, bound| sum + one(bound))
     }
+}
+
+/// Logarithm of the probability of a bound's side.
+fn side_log(m: &Measurement, expected: f64, variance: f64) -> f64 {
+    let inside = (m.value - expected) / variance.sqrt().max(f64::MIN_POSITIVE);
+    let side = if m.kind == MeasuredKind::Below { inside } else { -inside };
+    ln(cdf(side).max(f64::MIN_POSITIVE))
 }
 
 /// What the paths that a wall may have show, by column.

@@ -1,5 +1,6 @@
 //! What the simulation gets wrong: measured campaigns beside those that the base model could have shown.
 
+mod across;
 mod alarm;
 mod asked;
 mod causes;
@@ -8,6 +9,7 @@ mod discrepancy;
 mod doubt;
 mod doubts;
 mod evidence;
+mod excluded;
 mod extension;
 mod features;
 mod gain;
@@ -32,6 +34,7 @@ pub use discrepancy::{Bent, Lacking};
 pub use doubt::Doubt;
 pub use doubts::{doubts, doubts_beside};
 pub use evidence::{Evidence, evidence};
+pub use excluded::Excluded;
 pub use extension::{DRAWS, Extension, Known, extension};
 pub use features::{Contrast, Feature, Scale, features};
 pub use gain::{Choice, Folds, Gain, Gained, HeldOut, Interval, Measuring, Scores};
@@ -43,7 +46,7 @@ pub use residual::{
     Band, Baseline, Curve, Expected, FamilyCurves, Group, Parts, Residual, Residuals, Side, base_curves,
     cause_curves,
 };
-pub use self_test::{CAUGHT, Caught, SelfTest, SelfTestRow};
-pub use verdict::{Diagnosis, Limits, LookedAt, LookedAtPair, MOST_AMBIGUOUS, POSSIBLE, PairLimits, Verdict};
+pub use self_test::{CAUGHT, Caught, Counted, MORE, SelfTest, SelfTestRow};
+pub use verdict::{Diagnosis, Limits, LookedAt, LookedAtPair, MOST_AMBIGUOUS, PairLimits, Verdict};
 pub use world::{Truth, World};
 pub use wrong::{Reference, Wrong};

@@ -6,8 +6,9 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use crate::critic::diagnose::design::Campaign;
 use crate::critic::diagnose::judge::{Judge, Seeming};
-use crate::critic::diagnose::verdict::Limits;
+use crate::critic::diagnose::verdict::{Limits, Verdict};
 use crate::critic::diagnose::world::Truth;
 use crate::random::Streams;
 use crate::stats;
@@ -16,6 +17,8 @@ use crate::stats;
 const ALIKE: f64 = 0.5;
 /// An effect is caught where so large a share of its campaigns is found.
 pub const CAUGHT: f64 = 0.8;
+/// So many times as many campaigns without any effect are judged by all that a diagnosis does.
+pub const MORE: u64 = 5;
 /// That share is taken over so many campaigns of neighbouring strengths.
 const WINDOW: usize = 15;
 
@@ -31,14 +34,12 @@ pub struct SelfTest {
 pub struct SelfTestRow {
     /// What was hidden; none where nothing was.
     pub cause: Option<usize>,
-    /// Campaigns.
-    pub campaigns: u64,
-    /// In which something was found.
-    pub found: u64,
-    /// In which the cause was named.
-    pub named: u64,
-    /// In which another one was.
-    pub misnamed: u64,
+    /// Campaigns, by how they seem.
+    pub all: Counted,
+    /// The third of them in which the cause moves most of what is read; none where nothing was hidden.
+    pub strong: Counted,
+    /// Some of them by all that a diagnosis does: the evidence, the guard and pairs besides how they seem.
+    pub judged: Counted,
     /// Of those found, whose set holds the cause.
     pub covered: u64,
     /// Mean number of causes in the sets of those found.
@@ -47,6 +48,19 @@ pub struct SelfTestRow {
     pub with: BTreeMap<usize, u64>,
     /// From where on its first parameter that matters is caught; `None` where no strength within the prior is.
     pub caught: Option<Caught>,
+}
+
+/// What was said of campaigns.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Counted {
+    /// How many there were.
+    pub campaigns: u64,
+    /// In which something was found.
+    pub found: u64,
+    /// In which the cause was named.
+    pub named: u64,
+    /// In which another one was.
+    pub misnamed: u64,
 }
 
 /// Strengths from which on an effect is found four times in five.
@@ -63,16 +77,24 @@ pub struct Caught {
 /// A campaign of the self-test.
 struct Tested {
     truth: Truth,
+    campaign: Campaign,
     seeming: Seeming,
+    /// How far the cause moved what is read: root of the sum of squares, in standard deviations of the base model's readings.
+    moved: f64,
 }
 
 impl Judge<'_> {
-    /// Judges `count` campaigns of every cause and of the base model, drawn from the priors with another seed than the
-    /// training's.
-    pub fn self_test(&self, limits: &Limits, count: u64, seed: u64) -> SelfTest {
+    /// Judges `count` campaigns of every cause and of the base model, drawn from the priors with another seed than the training's,
+    /// by how they seem; of these `judged` of each cause, and [`MORE`] times as many of the base model, by all that a diagnosis does.
+    pub fn self_test(&self, limits: &Limits, count: u64, judged: u64, seed: u64) -> SelfTest {
         let row = |cause: &Option<usize>| {
-            let campaigns: Vec<Tested> = (0..count).map(|k| self.tested(*cause, seed, k)).collect();
-            row(*cause, &campaigns, limits)
+            let campaigns: Vec<Tested> =
+                (0..count).into_par_iter().map(|k| self.tested(*cause, seed, k)).collect();
+            let judged = if cause.is_none() { MORE * judged } else { judged };
+            let closely = campaigns[..campaigns.len().min(judged as usize)].par_iter();
+            let verdicts: Vec<Verdict> =
+                closely.map(|tested| self.diagnosed(&tested.campaign, limits, seed).verdict).collect();
+            SelfTestRow { judged: judged_of(*cause, &verdicts), ..row(*cause, &campaigns, limits) }
         };
         SelfTest { rows: self.ranking.causes().par_iter().map(row).collect() }
     }
@@ -85,16 +107,53 @@ impl Judge<'_> {
     fn tested(&self, cause: Option<usize>, seed: u64, number: u64) -> Tested {
         let streams = Streams::new(seed, number);
         let truth = self.world.drawn(cause, &streams);
-        let seeming = self.seeming(&self.world.campaign(&self.design, &truth, &streams));
-        Tested { truth, seeming }
+        let campaign = self.world.campaign(&self.design, &truth, &streams);
+        let seeming = self.seeming(&campaign);
+        // The same stones, joints and errors.
+        let still = Truth { causes: None.into(), parameters: Vec::new(), joints: truth.joints.clone() };
+        let still = self.world.campaign(&self.design, &still, &streams);
+        let read = |campaign: &Campaign| self.reference.scale.readings(&self.design, campaign);
+        let both = read(&campaign).into_iter().zip(read(&still));
+        let squares = both.filter_map(|((_, own), (_, still))| Some((own? - still?) * (own? - still?)));
+        let moved = squares.fold(0.0, |sum, square| sum + square).sqrt();
+        Tested { truth, campaign, seeming, moved }
+    }
+}
+
+/// What verdicts say of campaigns of a cause.
+fn judged_of(cause: Option<usize>, verdicts: &[Verdict]) -> Counted {
+    let count = |is: &dyn Fn(&Verdict) -> bool| verdicts.iter().filter(|verdict| is(verdict)).count() as u64;
+    let is_named = |verdict: &Verdict| matches!(verdict, Verdict::Named(_) | Verdict::NamedPair(_));
+    let right =
+        |verdict: &Verdict| is_named(verdict) && cause.is_some_and(|cause| verdict.causes().contains(&cause));
+    Counted {
+        campaigns: verdicts.len() as u64,
+        found: count(&|verdict| *verdict != Verdict::NothingFound),
+        named: count(&right),
+        misnamed: count(&|verdict| is_named(verdict) && !right(verdict)),
     }
 }
 
 fn row(cause: Option<usize>, campaigns: &[Tested], limits: &Limits) -> SelfTestRow {
     let is_found = |tested: &&Tested| tested.seeming.p_value < limits.found;
     let found: Vec<&Tested> = campaigns.iter().filter(is_found).collect();
-    let count = |is: &dyn Fn(&Tested) -> bool| found.iter().filter(|tested| is(tested)).count() as u64;
     let name = |tested: &Tested| tested.seeming.named(limits);
+    let counted = |some: &[&Tested]| {
+        let found = some.iter().copied().filter(|tested| is_found(tested));
+        let named: Vec<Option<usize>> = found.map(name).collect();
+        let count =
+            |is: &dyn Fn(usize) -> bool| named.iter().flatten().filter(|own| is(**own)).count() as u64;
+        Counted {
+            campaigns: some.len() as u64,
+            found: named.len() as u64,
+            named: count(&|own| Some(own) == cause),
+            misnamed: count(&|own| Some(own) != cause),
+        }
+    };
+    let mut by_size: Vec<&Tested> = campaigns.iter().collect();
+    let all = counted(&by_size);
+    by_size.sort_by(|a, b| b.moved.total_cmp(&a.moved));
+    by_size.truncate(if cause.is_some() { campaigns.len() / 3 } else { 0 });
     let sizes: Vec<f64> = found.iter().map(|tested| tested.seeming.ranked.set.len() as f64).collect();
     let mut with: BTreeMap<usize, u64> = BTreeMap::new();
     found
@@ -111,10 +170,9 @@ fn row(cause: Option<usize>, campaigns: &[Tested], limits: &Limits) -> SelfTestR
     });
     SelfTestRow {
         cause,
-        campaigns: campaigns.len() as u64,
-        found: found.len() as u64,
-        named: count(&|tested| cause.is_some() && name(tested) == cause),
-        misnamed: count(&|tested| name(tested).is_some_and(|name| Some(name) != cause)),
+        all,
+        strong: counted(&by_size),
+        judged: Counted::default(),
         covered: cause.map_or(0, |cause| with.get(&cause).copied().unwrap_or(0)),
         set_size: stats::mean(&sizes).unwrap_or(0.0),
         with,
@@ -156,12 +214,14 @@ impl SelfTest {
             .rows
             .iter()
             .filter(|row| {
-                row.cause.is_some() && row.found as f64 >= found * row.campaigns as f64 && row.found > 0
+                row.cause.is_some()
+                    && row.all.found as f64 >= found * row.all.campaigns as f64
+                    && row.all.found > 0
             })
             .collect();
         let holds = |row: &SelfTestRow, other: &SelfTestRow| {
             let both = other.cause.and_then(|other| row.with.get(&other)).copied().unwrap_or(0);
-            both as f64 / row.found as f64
+            both as f64 / row.all.found as f64
         };
         let mut classes: Vec<Vec<&SelfTestRow>> = Vec::new();
         for row in seen {
@@ -205,10 +265,9 @@ mod tests {
     fn causes_in_each_others_sets_make_a_class() {
         let row = |cause: usize, found: u64, with: &[(usize, u64)]| SelfTestRow {
             cause: Some(cause),
-            campaigns: 100,
-            found,
-            named: 0,
-            misnamed: 0,
+            all: Counted { campaigns: 100, found, named: 0, misnamed: 0 },
+            strong: Counted::default(),
+            judged: Counted::default(),
             covered: 0,
             set_size: 0.0,
             with: with.iter().copied().collect(),

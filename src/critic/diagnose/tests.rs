@@ -135,7 +135,7 @@ fn strong_causes_are_named_and_those_that_do_nothing_are_not() {
     let made = made();
     let (world, (design, _)) = (made.world(), Design::of(&made.study));
     let judge = Judge::trained(&world, &design, EFFORT, 5).expect("it can be told");
-    let test = judge.self_test(&Limits::default(), 100, 6);
+    let test = judge.self_test(&Limits::default(), 100, 4, 6);
     let of = |name: &str| {
         let row =
             test.rows.iter().find(|row| row.cause.is_some_and(|cause| made.mechanisms[cause].name == name));
@@ -144,12 +144,19 @@ fn strong_causes_are_named_and_those_that_do_nothing_are_not() {
     let (creep, nothing) = (of("creep"), of("cohesion"));
     println!("{creep:?}\n{nothing:?}\n{:?}", test.rows[0]);
     // The level of all displacements up to e^4 times as large, and only that.
-    assert!(creep.found > 70 && creep.named > 50, "{creep:?}");
+    assert!(creep.all.found > 70 && creep.all.named > 50, "{creep:?}");
+    // The strongest third is found and named more often; of the base model none is.
+    assert!(creep.strong.campaigns == 33 && 100 * creep.strong.named > 33 * creep.all.named, "{creep:?}");
+    assert_eq!(test.rows[0].strong.campaigns, 0);
+    // All that a diagnosis does is asked of the first four, and of twenty without any effect.
+    assert_eq!((creep.judged.campaigns, test.rows[0].judged.campaigns), (4, 20));
+    assert!(creep.judged.named > 0 && test.rows[0].judged.named == 0, "{:?}", creep.judged);
+    assert!(test.rows[0].judged.misnamed < 2, "{:?}", test.rows[0].judged);
     // It looks like the base model: found as often as that is, and never named.
-    assert!(nothing.found < 15 && nothing.named == 0 && nothing.misnamed < 5, "{nothing:?}");
-    assert!(test.rows[0].cause.is_none() && test.rows[0].found < 15 && test.rows[0].misnamed < 3);
+    assert!(nothing.all.found < 15 && nothing.all.named == 0 && nothing.all.misnamed < 5, "{nothing:?}");
+    assert!(test.rows[0].cause.is_none() && test.rows[0].all.found < 15 && test.rows[0].all.misnamed < 3);
     // Nine in ten of the sets hold the cause; 95 % of 100 such counts are above 84, and those found are a choice of them.
-    assert!(creep.covered as f64 > 0.8 * creep.found as f64, "{creep:?}");
+    assert!(creep.covered as f64 > 0.8 * creep.all.found as f64, "{creep:?}");
 }
 
 #[test]
@@ -283,11 +290,16 @@ fn readings_where_every_wall_has_fallen_are_doubted() {
     let made = made();
     let world = made.world();
     let (mut design, campaign) = Design::of(&made.study);
-    assert_eq!(doubts_beside(&world, &design, &campaign, 5), []);
+    // A mechanism of three parameters needs 56 walls, and there are 45 points.
+    let few = doubts_beside(&world, &design, &campaign, 5);
+    assert!(
+        matches!(&few[..], [Doubt::NotConsidered { mechanisms }] if mechanisms.contains(&"friction")),
+        "{few:?}"
+    );
     let sbl = design.specimens.iter().position(|s| s.name == "SBL2").expect("it was tested");
     design.specimens[sbl].readings[1].tilt = Some(radians(60.0));
     let line = design.specimens[sbl].readings[1].line;
-    let found = doubts_beside(&world, &design, &campaign, 5);
+    let found = doubts_beside(&world, &design, &campaign, 5).split_off(1);
     assert!(matches!(&found[..], [Doubt::Fallen { lines, .. }] if *lines == [line]), "{found:?}");
     let words = found[0].to_string();
     assert!(words.contains("of SBL2 is 12 mm at 60 deg, where every simulated wall has fallen"), "{words}");

@@ -30,6 +30,11 @@ const HEARD: [f64; 2] = [0.7, 0.2];
 const HEARD_CLOSELY: f64 = 0.2;
 /// A cause that the ranking cannot put aside is put aside by the evidence where this leaves it a smaller probability.
 pub const POSSIBLE: f64 = 0.01;
+/// And one that the ranking puts aside is not put aside where the evidence leaves it this probability or more.
+const LIKELY: f64 = 0.1;
+/// Causes are left open only where those that fit have together so large a share of the probability of all causes: where the likely
+/// ones are refused, and an unlikely one is not, none explains it.
+const MOST: f64 = 0.5;
 
 /// The limits of a verdict.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -192,7 +197,11 @@ impl Judge<'_> {
         let ranked = heard(&seeming.ranked, &closely, &logs);
         let seeming = Seeming { ranked, ..seeming };
         let named = seeming.named(limits);
-        let possible = |cause: &usize| open(cause) && seeming.ranked.probability(*cause) >= POSSIBLE;
+        // What all readings make likely is asked about, however it looks.
+        let possible = |cause: &usize| {
+            let p = seeming.ranked.probability(*cause);
+            few && p >= if set.contains(cause) { POSSIBLE } else { LIKELY }
+        };
         let in_question = |cause: &usize| named == Some(*cause) || possible(cause);
         let mut looked_at: Vec<LookedAt> = closely
             .iter()
@@ -216,12 +225,11 @@ impl Judge<'_> {
         // The base model with other joints may have more of the evidence than any cause.
         let agreed = named
             .filter(|cause| first.is_some_and(|first| first.cause == *cause && first.evidence > shares[0]));
-        let verdict = match (named, agreed, explain.len()) {
-            (_, Some(cause), _) if explain.contains(&cause) => Verdict::Named(cause),
+        let verdict = match agreed.filter(|cause| explain.contains(cause)) {
+            Some(cause) => Verdict::Named(cause),
             // What was as good as certain, and does not fit, speaks against the catalogue.
-            (Some(cause), _, _) if !explain.contains(&cause) => Verdict::Unexplained,
-            (_, _, 1..=MOST_AMBIGUOUS) if few => Verdict::Ambiguous(explain),
-            _ => Verdict::Unexplained,
+            None if named.is_some_and(|cause| !explain.contains(&cause)) || !few => Verdict::Unexplained,
+            None => unnamed(&seeming.ranked, explain),
         };
         let mut diagnosis = Diagnosis { seeming, looked_at, pairs: Vec::new(), form, verdict };
         if diagnosis.verdict == Verdict::Unexplained {
@@ -312,6 +320,17 @@ impl Judge<'_> {
     }
 }
 
+/// The verdict where none can be named, and these causes fit.
+fn unnamed(ranked: &Ranked, fit: Vec<usize>) -> Verdict {
+    let causes = ranked.causes.iter().filter(|(cause, _)| cause.is_some());
+    let whole = causes.fold(0.0, |sum, (_, p)| sum + p);
+    let theirs = fit.iter().fold(0.0, |sum, cause| sum + ranked.probability(*cause));
+    match fit.len() {
+        1..=MOST_AMBIGUOUS if theirs >= MOST * whole => Verdict::Ambiguous(fit),
+        _ => Verdict::Unexplained,
+    }
+}
+
 /// The causes with their probabilities, once the evidence of those looked at closely has been heard as well; `logs` are its logarithms,
 /// that of the base model first. What these and the base model have together stays theirs.
 fn heard(ranked: &Ranked, closely: &[usize], logs: &[f64]) -> Ranked {
@@ -331,6 +350,18 @@ fn heard(ranked: &Ranked, closely: &[usize], logs: &[f64]) -> Ranked {
 mod tests {
     use super::*;
     use crate::math::exp;
+
+    #[test]
+    fn few_causes_are_left_open_if_the_likely_ones_are_among_them() {
+        let causes = [(Some(3), 0.5), (Some(1), 0.2), (None, 0.1), (Some(2), 0.1), (Some(4), 0.1)];
+        let ranked = Ranked::new(causes.to_vec(), vec![1, 2, 3]);
+        assert_eq!(unnamed(&ranked, vec![3]), Verdict::Ambiguous(vec![3]));
+        assert_eq!(unnamed(&ranked, vec![3, 1, 2]), Verdict::Ambiguous(vec![3, 1, 2]));
+        // The likeliest was refused, or there are too many.
+        assert_eq!(unnamed(&ranked, vec![1, 2]), Verdict::Unexplained);
+        assert_eq!(unnamed(&ranked, vec![3, 1, 2, 4]), Verdict::Unexplained);
+        assert_eq!(unnamed(&ranked, Vec::new()), Verdict::Unexplained);
+    }
 
     #[test]
     fn the_evidence_of_some_moves_what_they_have_together_and_nothing_else() {

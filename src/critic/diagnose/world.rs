@@ -3,7 +3,7 @@
 #[cfg(test)]
 mod tests;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::critic::bank::{Bank, Curves, DOUBT, Emulator, NUMBERS, Path, Plan, Told};
 use crate::critic::diagnose::asked::Asked;
@@ -77,8 +77,10 @@ pub struct World<'s> {
     /// What a cause changes, by family and cause. A point of the bank has the same stones and joints under every cause: the
     /// difference that a cause makes is known far better than either wall, and dies away with the cause.
     changes: BTreeMap<(usize, usize), Walls>,
-    /// Weight of a wall as it is stated (N), by family.
-    weights: BTreeMap<usize, f64>,
+    /// Causes of which the bank has walls, and too few that fell to tell of them.
+    too_few: Vec<usize>,
+    /// Weight of a wall as it is stated, and of its stones in the mean (N), by family.
+    weights: BTreeMap<usize, [f64; 2]>,
     /// Kind of joint of each arm: arms whose joints are stated alike have the same.
     kinds: Vec<usize>,
 }
@@ -112,6 +114,7 @@ impl<'s> World<'s> {
                 Some(_) => std::array::from_fn(|k| own[k] - before[k]),
             });
         }
+        let planned: BTreeSet<usize> = grouped.keys().filter_map(|(_, cause)| *cause).collect();
         let (mut base, mut changes) = (BTreeMap::new(), BTreeMap::new());
         for ((family, cause), Learnt { scores, walls, random }) in grouped {
             let walls = Emulator::fit(&scores, &walls).map(|emulator| Walls { emulator, random });
@@ -120,12 +123,24 @@ impl<'s> World<'s> {
                 Some(cause) => changes.extend(walls.map(|walls| ((family, cause), walls))),
             }
         }
+        let is_told = |cause: &usize| changes.keys().any(|(_, own)| own == cause);
+        let too_few = planned.into_iter().filter(|cause| !is_told(cause)).collect();
         let weighed = |family: usize| {
             let wall = (0..BUILT).find_map(|member| build(study, family as u32, member).ok())?.wall;
-            Some((family, weight(&wall)))
+            let whole = weight(&wall);
+            Some((family, [whole, whole / wall.stones().count() as f64]))
         };
-        let weights = base.keys().map(|&family| weighed(family)).collect::<Option<BTreeMap<usize, f64>>>()?;
-        Some(World { study, mechanisms, nuisances, base, changes, weights, kinds: kinds(&study.arms) })
+        let weights = base.keys().map(|&family| weighed(family)).collect::<Option<BTreeMap<_, _>>>()?;
+        Some(World {
+            study,
+            mechanisms,
+            nuisances,
+            base,
+            changes,
+            too_few,
+            weights,
+            kinds: kinds(&study.arms),
+        })
     }
 
     /// Kinds of joints that differ in what is stated of them.
@@ -191,6 +206,11 @@ impl<'s> World<'s> {
     /// Whether walls of a family differ in the base model. Where they do not, simulated ones differ by the emulator's error alone.
     pub fn is_random(&self, family: usize) -> bool {
         self.base.get(&family).is_some_and(|walls| walls.random)
+    }
+
+    /// Weight of a stone of a family as it is stated, in the mean over a wall (N).
+    pub fn stone_weight(&self, family: usize) -> f64 {
+        self.weights[&family][1]
     }
 
     /// Whether a wall that is turned round stands as another one of its family does, but for a lean.
@@ -336,10 +356,15 @@ impl<'s> World<'s> {
             MeasuredQuantity::JointKn => {
                 arm.kn_points[arm.middle_point()] * factors[0] * by("contact_area", "share")
             }
-            MeasuredQuantity::SpecimenWeight => self.weights[&family] * by("density", "factor"),
+            MeasuredQuantity::SpecimenWeight => self.weights[&family][0] * by("density", "factor"),
             MeasuredQuantity::FixedTarget => self.gauge(truth).reading(0.0),
             _ => atan(tan(radians(arm.joint.phi_deg.mean() * factors[1])) * by("friction", "factor")),
         }
+    }
+
+    /// Causes that cannot be told of, as too few of their walls in the bank came to a fall.
+    pub fn too_few(&self) -> &[usize] {
+        &self.too_few
     }
 
     /// The causes that a diagnosis can tell of: those with walls of their own in some family, and those that act on readings.

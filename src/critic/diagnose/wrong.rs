@@ -6,6 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use crate::critic::bank::DOUBT;
+use crate::critic::diagnose::across::across;
 use crate::critic::diagnose::design::{Campaign, Design};
 use crate::critic::diagnose::features::{Feature, Scale, features};
 use crate::critic::diagnose::world::{Truth, World};
@@ -24,12 +25,14 @@ pub struct Reference {
     pub scale: Scale,
     /// The features, in order.
     pub features: Vec<Feature>,
+    /// Sums of them across families, which say nothing new to a distance, and what is off in one respect at a glance.
+    across: Vec<(Feature, Vec<(usize, f64)>)>,
     mean: DVector<f64>,
     /// How the features go with the scores of the joints.
     slopes: DMatrix<f64>,
     /// Inverse of the covariance of what the joints leave.
     precision: DMatrix<f64>,
-    /// Standard deviation of what a fit of the joints leaves, by feature.
+    /// Standard deviation of what a fit of the joints leaves, by feature, those across families last.
     spread: DVector<f64>,
 }
 
@@ -103,11 +106,12 @@ impl Reference {
             covariance[(k, k)] = covariance[(k, k)].max(LEAST_SPREAD * LEAST_SPREAD) * (1.0 + 1e-6);
         }
         let precision = covariance.cholesky()?.inverse();
-        let spread = DVector::from_element(kept.len(), 1.0);
-        let mut reference = Reference { scale, features: kept, mean, slopes, precision, spread };
+        let across = across(world, &kept);
+        let spread = DVector::from_element(kept.len() + across.len(), 1.0);
+        let mut reference = Reference { scale, features: kept, across, mean, slopes, precision, spread };
         let excesses: Vec<Vec<Option<f64>>> =
             simulated.iter().map(|(_, found)| reference.excess(found).by_feature).collect();
-        for k in 0..reference.features.len() {
+        for k in 0..reference.spread.len() {
             let squares: Vec<f64> = excesses.iter().filter_map(|e| e[k]).map(|x| x * x).collect();
             reference.spread[k] =
                 (stats::sum(&squares) / squares.len().max(1) as f64).sqrt().max(LEAST_SPREAD);
@@ -119,7 +123,13 @@ impl Reference {
     pub fn judge(&self, design: &Design, campaign: &Campaign) -> Wrong {
         let Excess { by_feature, scores, distance } = self.excess(&features(design, &self.scale, campaign));
         Wrong {
-            excess: self.features.iter().copied().zip(by_feature).collect(),
+            excess: self
+                .features
+                .iter()
+                .chain(self.across.iter().map(|(feature, _)| feature))
+                .copied()
+                .zip(by_feature)
+                .collect(),
             joints: scores.chunks_exact(3).map(|c| [DOUBT * c[0], DOUBT * c[1], DOUBT * c[2]]).collect(),
             distance,
         }
@@ -162,7 +172,12 @@ impl Reference {
             .cholesky()
             .map_or_else(|| DVector::zeros(slopes.ncols()), |normal| normal.solve(&(&weighted * &off)));
         let rest = &off - slopes * &scores;
-        let by_feature = shown.iter().enumerate().map(|(k, shown)| shown.then(|| rest[k] / self.spread[k]));
+        let left = shown.iter().enumerate().map(|(k, shown)| shown.then(|| rest[k]));
+        let sum = |weights: &[(usize, f64)]| -> Option<f64> {
+            weights.iter().try_fold(0.0, |sum, (k, weight)| shown[*k].then(|| sum + weight * rest[*k]))
+        };
+        let across = self.across.iter().map(|(_, weights)| sum(weights));
+        let by_feature = left.chain(across).zip(&self.spread).map(|(left, spread)| Some(left? / spread));
         Excess {
             by_feature: by_feature.collect(),
             distance: rest.dot(&(&precision * &rest)),

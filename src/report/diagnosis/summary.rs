@@ -1,7 +1,7 @@
 //! A diagnosis as `verdict.json` holds it.
 
 use crate::critic::{
-    Contrast, Design, Diagnosis, Feature, Limits, POSSIBLE, Residuals, SelfTest, Truth, Verdict,
+    Contrast, Counted, Design, Diagnosis, Excluded, Feature, Residuals, SelfTest, Truth, Verdict,
 };
 use crate::report::advice::Advice;
 use crate::report::diagnosis::form::BentEntry;
@@ -35,6 +35,8 @@ pub struct DiagnosisSummary {
     pub base_probability: f64,
     /// Share of campaigns without any effect in which something is as far off.
     pub p_value: f64,
+    /// The same of each way of looking alone.
+    pub looks: LooksEntry,
     /// What is off, the furthest first.
     pub off: Vec<OffEntry>,
     /// Reading by reading, how far it lies from walls with joints as uncertain as their priors.
@@ -53,6 +55,17 @@ pub struct DiagnosisSummary {
     pub advice: Advice,
     /// What the extended model gains on readings that were not known; null where it was not asked or nothing was found.
     pub gain: Option<GainSummary>,
+}
+
+/// Shares of campaigns without any effect that surprise as much, by the way of looking.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct LooksEntry {
+    /// By the number that is furthest off.
+    pub furthest: f64,
+    /// By how far all numbers are off together.
+    pub together: f64,
+    /// By how much it looks like a cause.
+    pub likeness: f64,
 }
 
 /// A cause.
@@ -123,14 +136,13 @@ pub struct OffEntry {
 pub struct SelfTestEntry {
     /// What was hidden; "nothing" where nothing was.
     pub hidden: &'static str,
-    /// Campaigns.
-    pub campaigns: u64,
-    /// In which something was found.
-    pub found: u64,
-    /// In which it was named, before the guard.
-    pub named: u64,
-    /// In which something else was.
-    pub misnamed: u64,
+    /// Campaigns, by how they seem: before evidence and guard.
+    #[serde(flatten)]
+    pub all: Counted,
+    /// The third of them that the cause moves most.
+    pub strong: Counted,
+    /// Some of them by all that a diagnosis does.
+    pub judged: Counted,
 }
 
 impl DiagnosisSummary {
@@ -183,7 +195,11 @@ impl DiagnosisSummary {
                     probability,
                     evidence: closely.map(|own| own.evidence),
                     in_verdict: spoken.contains(&cause),
-                    excluded_by: excluded_by(diagnosis, cause),
+                    excluded_by: diagnosis.excluded(cause).map(|by| match by {
+                        Excluded::ByReadings => "readings",
+                        Excluded::ByLooks => "looks",
+                        Excluded::ByEvidence => "evidence",
+                    }),
                     guard_p_value: closely.and_then(|own| own.guard),
                     parameters: drawn(cause),
                 })
@@ -201,12 +217,12 @@ impl DiagnosisSummary {
             .collect();
         off.sort_by(|a, b| b.in_sd.abs().total_cmp(&a.in_sd.abs()));
         let base = ranked.causes.iter().find(|(cause, _)| cause.is_none());
+        let [furthest, together, likeness] = diagnosis.seeming.looks;
         let tested = self_test.rows.iter().map(|row| SelfTestEntry {
             hidden: row.cause.map_or("nothing", |cause| mechanisms[cause].name),
-            campaigns: row.campaigns,
-            found: row.found,
-            named: row.named,
-            misnamed: row.misnamed,
+            all: row.all,
+            strong: row.strong,
+            judged: row.judged,
         });
         DiagnosisSummary {
             study: study.name.clone(),
@@ -218,6 +234,7 @@ impl DiagnosisSummary {
             pairs: pairs.collect(),
             base_probability: base.map_or(0.0, |(_, probability)| *probability),
             p_value: diagnosis.seeming.p_value,
+            looks: LooksEntry { furthest, together, likeness },
             off,
             residuals: Vec::new(),
             groups: Vec::new(),
@@ -235,18 +252,6 @@ impl DiagnosisSummary {
         self.residuals = residuals.readings.iter().map(|r| ResidualEntry::of(study, r)).collect();
         self.groups = residuals.groups.iter().map(|group| GroupEntry::of(study, group)).collect();
         self
-    }
-}
-
-/// What speaks against a cause, where something was found.
-fn excluded_by(diagnosis: &Diagnosis, cause: usize) -> Option<&'static str> {
-    let found = diagnosis.verdict != Verdict::NothingFound;
-    let guard = diagnosis.looked_at(cause).and_then(|own| own.guard);
-    match guard {
-        Some(p) if p < Limits::default().guard => Some("readings"),
-        _ if found && !diagnosis.seeming.ranked.set.contains(&cause) => Some("looks"),
-        None if found && diagnosis.seeming.ranked.probability(cause) < POSSIBLE => Some("evidence"),
-        _ => None,
     }
 }
 
@@ -277,6 +282,7 @@ fn words(study: &Study, feature: Feature) -> String {
         Contrast::Twist => "left against right",
         Contrast::Left => "what is left after going back",
         Contrast::LeftBow => "centre against the ends after going back",
+        Contrast::Jump => "largest jump of the displacements from one tilt to the next",
         Contrast::Reached => "share of the readings that were reached",
     };
     match feature {
@@ -285,6 +291,8 @@ fn words(study: &Study, feature: Feature) -> String {
             format!("{}: scatter of the {} between specimens", family(arm), of(contrast))
         }
         Feature::Order(contrast) => format!("{} over the order of the tests", of(contrast)),
+        Feature::Restraint(contrast) => format!("ends held against ends free: {}", of(contrast)),
+        Feature::StoneSize(contrast) => format!("large stones against small ones: {}", of(contrast)),
         Feature::Apart(arm, MeasuredQuantity::JointKn) => {
             format!("{}: stiffness in the test on two stones", family(arm))
         }

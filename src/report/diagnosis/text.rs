@@ -1,6 +1,7 @@
 //! A verdict as people read it on a terminal, and the sentences that the page has as well.
 
-use crate::report::diagnosis::summary::{DiagnosisSummary, OffEntry, SelfTestEntry};
+use crate::critic::{Counted, Limits, MOST_AMBIGUOUS};
+use crate::report::diagnosis::summary::{DiagnosisSummary, LooksEntry, OffEntry, SelfTestEntry};
 use crate::report::diagnosis::words::{lines, reading};
 use crate::report::gain::GainSummary;
 use crate::report::number::significant;
@@ -14,7 +15,7 @@ pub(super) const CAUSES: usize = 6;
 /// The verdict for a terminal.
 pub fn diagnosis_text(summary: &DiagnosisSummary) -> String {
     let mut text = format!("Study {}, seed {}\n\n{}\n", summary.study, summary.seed, verdict(summary));
-    text.push_str(&by_chance(summary).map_or_else(String::new, |words| words + "\n"));
+    text.push_str(&by_chance(summary).map_or_else(String::new, |words| wrapped("", &words)));
     text.push_str(&format!("\n{OFF}\n"));
     let worth = worth_saying(summary);
     for off in &worth {
@@ -63,7 +64,7 @@ pub fn diagnosis_text(summary: &DiagnosisSummary) -> String {
 pub(super) const OFF: &str =
     "What is off (measured less simulated, in standard deviations of campaigns without any effect)";
 /// What the numbers of the causes are.
-pub(super) const CAUSE: &str = "probability if all were equally likely before; share of the evidence; guard: share of the cause's own campaigns that fit worse";
+pub(super) const CAUSE: &str = "probability if all were equally likely before, by how each one's campaigns look and by the evidence together; evidence: its share of that of the causes looked at closely, which knows every reading and is too sure of itself to be taken alone; guard: share of the cause's own campaigns that fit worse; a dash where that was not asked";
 /// What the numbers of a form are.
 pub(super) const FORM: &str = "Form of what is not explained (measured less base model with fitted joints, if it is smooth over the tilt, or goes with the order of the tests)";
 
@@ -83,19 +84,42 @@ pub(super) fn verdict(summary: &DiagnosisSummary) -> String {
             "NAMED: something is wrong, and two causes together explain it.".to_string()
         }
         "named" => "NAMED: something is wrong, and one cause explains it.".to_string(),
+        "ambiguous" if summary.causes.iter().filter(|cause| cause.in_verdict).count() == 1 => {
+            "AMBIGUOUS: something is wrong, and this cause explains it, but not surely enough to be named."
+                .to_string()
+        }
         "ambiguous" => {
             "AMBIGUOUS: something is wrong, and the data cannot tell between these causes.".to_string()
         }
-        _ => "UNEXPLAINED: something is wrong, and no one cause of the catalogue and no pair explains it."
-            .to_string(),
+        _ => match summary.causes.iter().filter(|cause| cause.excluded_by.is_none()).count() {
+            0 => {
+                "UNEXPLAINED: something is wrong, and no one cause of the catalogue and no pair explains it."
+                    .to_string()
+            }
+            open => {
+                let many = if open > MOST_AMBIGUOUS { ": more than these data can tell apart" } else { "" };
+                format!(
+                    "UNEXPLAINED: something is wrong, and no cause explains it surely; {open} of the catalogue cannot be excluded{many}."
+                )
+            }
+        },
     }
 }
 
 /// How often campaigns without any effect are as far off, where something is wrong.
 pub(super) fn by_chance(summary: &DiagnosisSummary) -> Option<String> {
-    let p = significant(summary.p_value, 2);
-    (summary.verdict != "nothing_found")
-        .then(|| format!("Campaigns without any effect are as far off in a share of {p} of cases."))
+    let number = |p: f64| significant(p, 2);
+    let LooksEntry { furthest, together, likeness } = summary.looks;
+    (summary.verdict != "nothing_found").then(|| {
+        format!(
+            "Campaigns without any effect are as far off in a share of {} of cases (by the number that is furthest off alone {}, by all \
+             numbers together {}, by how much they look like a cause {}).",
+            number(summary.p_value),
+            number(furthest),
+            number(together),
+            number(likeness)
+        )
+    })
 }
 
 /// What is off enough for a line, the furthest first.
@@ -105,14 +129,16 @@ pub(super) fn worth_saying(summary: &DiagnosisSummary) -> Vec<&OffEntry> {
 
 /// The pair with most of the evidence, where pairs were looked at.
 pub(super) fn pairs(summary: &DiagnosisSummary) -> Option<String> {
-    let pair = summary.pairs.first()?;
+    let (pair, limits) = (summary.pairs.first()?, Limits::default().pair);
     Some(format!(
-        "No cause explains it alone. Of {} pairs looked at closely {} and {} have most of the evidence: a share of {}, guard {}.",
+        "Of {} pairs looked at closely {} and {} have most of the evidence: a share of {}, guard {}; a pair is named from {} and {} on.",
         summary.pairs.len(),
         pair.ids[0],
         pair.ids[1],
         significant(pair.evidence, 2),
-        or_dash(pair.guard_p_value)
+        or_dash(pair.guard_p_value),
+        limits.named,
+        limits.guard
     ))
 }
 
@@ -151,19 +177,39 @@ pub(super) fn not_used(summary: &DiagnosisSummary) -> Option<String> {
 pub(super) fn reliability(summary: &DiagnosisSummary) -> String {
     let (nothing, hidden): (Vec<_>, Vec<_>) =
         summary.self_test.iter().partition(|row| row.hidden == "nothing");
-    let sum =
-        |rows: &[&SelfTestEntry], of: fn(&SelfTestEntry) -> u64| rows.iter().map(|row| of(row)).sum::<u64>();
+    let sum = |rows: &[&SelfTestEntry], of: fn(&SelfTestEntry) -> Counted| {
+        rows.iter().map(|row| of(row)).fold(Counted::default(), |sum, own| Counted {
+            campaigns: sum.campaigns + own.campaigns,
+            found: sum.found + own.found,
+            named: sum.named + own.named,
+            misnamed: sum.misnamed + own.misnamed,
+        })
+    };
     let share = |part: u64, whole: u64| if whole == 0 { 0.0 } else { 100.0 * part as f64 / whole as f64 };
-    let campaigns = sum(&hidden, |row| row.campaigns);
-    let given = sum(&hidden, |row| row.named + row.misnamed);
-    format!(
-        "With data like these, by simulation from the bank: an effect drawn from its prior is found in {:.0} % of campaigns and \
-         named in {:.0} %; a name is wrong in {:.0} % of cases; where nothing is hidden, something is found in {:.0} % and named \
-         in {:.1} % (before the guard).",
-        share(sum(&hidden, |row| row.found), campaigns),
-        share(sum(&hidden, |row| row.named), campaigns),
-        share(sum(&hidden, |row| row.misnamed), given),
-        share(sum(&nothing, |row| row.found), sum(&nothing, |row| row.campaigns)),
-        share(sum(&nothing, |row| row.misnamed), sum(&nothing, |row| row.campaigns)),
-    )
+    let (all, strong) = (sum(&hidden, |row| row.all), sum(&hidden, |row| row.strong));
+    let (judged, closely) = (sum(&hidden, |row| row.judged), sum(&nothing, |row| row.judged));
+    let still = sum(&nothing, |row| row.all);
+    let seeming = format!(
+        "With data like these, by simulation from the bank: an effect drawn from its prior is found in {:.0} % of campaigns, one of \
+         the third that moves most of what is read in {:.0} %; where nothing is hidden, something is found in {:.0} %. By looks alone, \
+         before evidence and guard, it is named in {:.0} % ({:.0} %), a name is wrong in {:.0} % of cases, and where nothing is hidden \
+         one is given in {:.1} %.",
+        share(all.found, all.campaigns),
+        share(strong.found, strong.campaigns),
+        share(still.found, still.campaigns),
+        share(all.named, all.campaigns),
+        share(strong.named, strong.campaigns),
+        share(all.misnamed, all.named + all.misnamed),
+        share(still.misnamed, still.campaigns),
+    );
+    match judged.campaigns {
+        0 => format!(
+            "{seeming} How often by all that a diagnosis does, `pirca bank` finds out and keeps beside the walls."
+        ),
+        _ => format!(
+            "{seeming} By all that a diagnosis does, {} of {} such effects are named and {} given another name; of {} campaigns with \
+             nothing hidden {}.",
+            judged.named, judged.campaigns, judged.misnamed, closely.campaigns, closely.misnamed
+        ),
+    }
 }

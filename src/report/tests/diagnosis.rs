@@ -6,8 +6,8 @@ use std::path::Path;
 
 use super::figure::folder;
 use crate::critic::{
-    Baseline, Contrast, Design, Diagnosis, Feature, LookedAt, Made, Ranked, Seeming, SelfTest, SelfTestRow,
-    Truth, Verdict, Wrong, base_curves, cause_curves, made,
+    Baseline, Contrast, Counted, Design, Diagnosis, Feature, LookedAt, Made, Ranked, Seeming, SelfTest,
+    SelfTestRow, Truth, Verdict, Wrong, base_curves, cause_curves, made,
 };
 use crate::report::diagnosis::{
     DiagnosisSummary, ExpectedEntry, FamilyFigure, GroupEntry, diagnosis_text, lines, write_diagnosis,
@@ -62,10 +62,9 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>) {
     let causes = [cause("creep"), cause("gauge_offset")];
     let rows = [None, Some(causes[0])].map(|cause| SelfTestRow {
         cause,
-        campaigns: 10,
-        found: 5,
-        named: 4,
-        misnamed: 1,
+        all: Counted { campaigns: 10, found: 5, named: 4, misnamed: 1 },
+        strong: Counted { campaigns: 3, found: 3, named: 2, misnamed: 0 },
+        judged: Counted { campaigns: 2, found: 1, named: 1, misnamed: 0 },
         covered: 4,
         set_size: 1.5,
         with: BTreeMap::new(),
@@ -74,6 +73,7 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>) {
     let diagnosis = Diagnosis {
         seeming: Seeming {
             p_value: 0.001,
+            looks: [0.004, 0.001, 0.02],
             wrong: Wrong {
                 excess: BTreeMap::from([(Feature::Mean(1, Contrast::Level), Some(4.2))]),
                 joints: vec![[0.0; 3]],
@@ -120,6 +120,7 @@ fn what_is_not_explained_excludes_causes_and_says_why() {
     (summary.verdict, summary.causes[0].excluded_by) = ("unexplained", Some("readings"));
     let text = diagnosis_text(&summary);
     for sentence in [
+        "no cause explains it surely; 1 of the catalogue cannot be excluded.",
         "Excluded, as nearly all of their own campaigns fit single readings better: creep.",
         "Excluded, as nine in ten of their own campaigns look more like them: lean.",
         "Excluded, as the evidence over all readings leaves them less than one in a hundred: density.",
@@ -127,6 +128,15 @@ fn what_is_not_explained_excludes_causes_and_says_why() {
     ] {
         assert!(text.contains(sentence), "{text}");
     }
+    summary.causes.iter_mut().for_each(|cause| cause.excluded_by = None);
+    assert!(summary.causes.len() > 3);
+    let many = format!("{} of the catalogue cannot be excluded: more than these", summary.causes.len());
+    assert!(diagnosis_text(&summary).contains(&many));
+    summary.causes.iter_mut().for_each(|cause| cause.excluded_by = Some("looks"));
+    assert!(diagnosis_text(&summary).contains("no one cause of the catalogue and no pair explains it."));
+    (summary.verdict, summary.causes[0].in_verdict) = ("ambiguous", true);
+    summary.causes[1..].iter_mut().for_each(|cause| cause.in_verdict = false);
+    assert!(diagnosis_text(&summary).contains("this cause explains it, but not surely enough to be named."));
 }
 
 #[test]

@@ -35,7 +35,7 @@ pub const COLUMNS: &[Column] = &[
     required("kind", "exact; below or above, where only a bound is known; rounded, to the resolution"),
     optional(
         "common_error",
-        "error that all readings of the quantity share, one standard deviation; empty for none; `unknown` where nobody knows how much of `error` it is",
+        "error that all readings of one instrument share, one standard deviation: displacements, remainders and fixed targets have the same, differences of points, collapse angles and what is measured apart their own; empty for none; `unknown` where nobody knows how much of `error` it is",
     ),
     optional("resolution", "distance of neighbouring values of a rounded reading"),
     optional("order", "place of the specimen in the order of the tests, from 1"),

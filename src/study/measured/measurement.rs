@@ -19,7 +19,7 @@ pub struct Measurement {
     pub kind: MeasuredKind,
     /// Random error of the value, one standard deviation.
     pub error: f64,
-    /// Error that all readings of the quantity share, one standard deviation.
+    /// Error that all readings of the [instrument](MeasuredQuantity::instrument) share, one standard deviation.
     pub common_error: f64,
     /// Whether nobody knows how much of the error is shared: half of the variance then stands in either.
     pub unknown_share: bool,
@@ -197,6 +197,22 @@ impl MeasuredQuantity {
     /// Whether it is what is left of a displacement when the platform has gone back.
     pub fn is_remainder(self) -> bool {
         self.remains_of().is_some()
+    }
+
+    /// Whether it is measured apart from the tilting of walls.
+    pub fn is_apart(self) -> bool {
+        !self.has_tilt() && self != MeasuredQuantity::CollapseAngle
+    }
+
+    /// The quantity that stands for all that share its common error: what a gauge is off at every point of a wall it is off at all of
+    /// them, on the way up, after going back, and on a target that does not move. A difference of points is free of that, and has its own.
+    pub fn instrument(self) -> MeasuredQuantity {
+        use MeasuredQuantity as Q;
+        match self {
+            Q::DisplacementCentreMinusEnds | Q::RemainderCentreMinusEnds => Q::DisplacementCentreMinusEnds,
+            other if other.dimension() == Dimension::Length => Q::DisplacementMean,
+            other => other,
+        }
     }
 
     /// How it stands to its tilt: what remains is read after it.

@@ -197,17 +197,23 @@ impl Row<'_> {
     ) -> Option<([f64; 4], bool)> {
         let value = self.value(quantity, unit);
         let any = Interval::closed(0.0, 1e15);
-        let error_allowed = format!("a number at least 0 ({unit})");
-        let fix = "state one standard deviation of the instrument's random error; 0 for none";
+        // Walls differ, and what is read on one is never known exactly; of what is measured apart the error is all that is left open.
+        let needs_error = quantity.is_apart() && kind == Some(MeasuredKind::Exact);
+        let (some, least, none) = match needs_error {
+            true => (Interval::above(0.0, 1e15), "above", ""),
+            false => (any, "at least", "; 0 for none"),
+        };
+        let error_allowed = format!("a number {least} 0 ({unit})");
+        let fix = &format!("state one standard deviation of the instrument's random error{none}");
         let error = self
             .needed("error", error_allowed.as_str(), fix)
-            .and_then(|cell| self.number(&cell, "error", any, &error_allowed));
+            .and_then(|cell| self.number(&cell, "error", some, &error_allowed));
         let given = self.given("common_error");
         let unknown_share = given.as_ref().is_some_and(|cell| cell.text == UNKNOWN);
         let common = match given.filter(|_| !unknown_share) {
             None => Some(0.0),
             Some(cell) => {
-                let allowed = format!("{error_allowed}, or {UNKNOWN}");
+                let allowed = format!("a number at least 0 ({unit}), or {UNKNOWN}");
                 self.number(&cell, "common_error", any, &allowed)
             }
         };

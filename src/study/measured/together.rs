@@ -81,7 +81,17 @@ fn after_collapse(rows: &[Read], faults: &mut Vec<Fault>) {
     for (m, place) in rows {
         let (Some(tilt), Some(fall)) = (m.tilt, angles.get(m.specimen.as_str())) else { continue };
         let latest = fall.value + fall.resolution + BEYOND * (fall.error + fall.common_error);
-        if tilt > latest {
+        if m.stage > fall.stage && fall.stage > 0 {
+            let found = Found::Words(format!("{} comes after the collapse of {}", m.stage, m.specimen));
+            let allowed = format!("at most {}, by line {}", fall.stage, fall.line);
+            faults.push(Fault::at(
+                place,
+                "stage",
+                found,
+                allowed,
+                "mend the stage: nothing is read on a wall that fell",
+            ));
+        } else if tilt > latest {
             let found =
                 Found::Words(format!("{} is above the collapse angle of {}", in_degrees(tilt), m.specimen));
             let allowed = format!("at most {}, by line {}", in_degrees(latest), fall.line);

@@ -207,6 +207,95 @@ fn an_error_of_which_nobody_knows_how_much_is_shared_is_drawn_and_fitted_as_such
 }
 
 #[test]
+fn an_error_of_a_gauge_is_shared_by_all_its_points_and_by_a_target_that_does_not_move() {
+    let made = made();
+    let (world, (mut design, _)) = (made.world(), Design::of(&made.study));
+    let truth = world.truth(None, &vec![0.0; world.inputs(None)]);
+    use MeasuredQuantity as Q;
+    let common = 5e-3;
+    let read = |m: &Measurement, quantity| Measurement {
+        quantity,
+        kind: MeasuredKind::Exact,
+        resolution: 0.0,
+        error: 1e-9,
+        common_error: common,
+        ..m.clone()
+    };
+    design.specimens.truncate(1);
+    let own = &mut design.specimens[0].readings;
+    let first = own.iter().find(|m| m.tilt.is_some()).expect("it is read").clone();
+    let quantities = [Q::DisplacementLeft, Q::DisplacementCentre, Q::DisplacementRight, Q::RemainderMean];
+    *own = quantities.map(|quantity| read(&first, quantity)).to_vec();
+    own.push(Measurement { common_error: 0.0, ..read(&first, Q::DisplacementCentreMinusEnds) });
+    own.push(Measurement { tilt: None, ..read(&first, Q::CollapseAngle) });
+    design.apart = vec![(0, Measurement { tilt: None, ..read(&first, Q::FixedTarget) })];
+    let campaigns: Vec<[f64; 7]> = (0..200)
+        .map(|k| {
+            let streams = Streams::new(16, k);
+            let (values, seen) =
+                (world.values(&design, &truth, &streams), world.campaign(&design, &truth, &streams));
+            let values = values.concat().into_iter().chain([Some(0.0)]);
+            let off: Vec<f64> = values
+                .zip(seen.seen())
+                .map(|(value, seen)| match (value, seen) {
+                    (Some(value), Seen::Value(seen)) => seen - value,
+                    other => panic!("{other:?}"),
+                })
+                .collect();
+            off.try_into().expect("seven")
+        })
+        .collect();
+    for off in &campaigns {
+        for k in [1, 2, 3, 6] {
+            assert!((off[k] - off[0]).abs() < 1e-7, "{off:?}");
+        }
+        // A difference of points is free of it, and a collapse angle has its own.
+        assert!(off[4].abs() < 1e-7 && (off[5] - off[0]).abs() > 1e-7, "{off:?}");
+    }
+    let sigma = stats::sigma(&campaigns.iter().map(|off| off[0]).collect::<Vec<_>>()).expect("many");
+    assert!((sigma / common - 1.0).abs() < 0.15, "{sigma}");
+    // Points that are off together are no surprise; against each other they are.
+    let truths = [truth];
+    let likely = |off: [f64; 4]| {
+        let values = world.values(&design, &truths[0], &Streams::new(16, 0));
+        let own = values[0].iter().zip(off.into_iter().chain([0.0, 0.0]));
+        let seen = own.map(|(value, off)| Seen::Value(value.expect("it stands") + off)).collect();
+        let shown = Campaign { specimens: vec![seen], apart: vec![Seen::Value(off[3])] };
+        crate::critic::evidence(&world, &design, &shown, None, 3).log
+    };
+    let (together, apart) = (likely([4e-3; 4]), likely([4e-3, -4e-3, 4e-3, -4e-3]));
+    assert!(together > apart + 10.0, "{together} {apart}");
+}
+
+#[test]
+fn a_bound_on_a_test_of_two_stones_says_its_side_and_no_more() {
+    let made = made();
+    let (world, (mut design, mut shown)) = (made.world(), Design::of(&made.study));
+    let stated = {
+        let mut kn = design.specimens[0].readings[0].clone();
+        (kn.quantity, kn.tilt, kn.resolution) = (MeasuredQuantity::JointKn, None, 0.0);
+        (kn.kind, kn.error, kn.value) = (MeasuredKind::Above, 1e6, 1e4);
+        design.apart = vec![(0, kn)];
+        world.values_apart(&design, &world.truth(None, &vec![0.0; world.inputs(None)]))[0]
+    };
+    shown.apart = vec![Seen::Beyond];
+    let found = |design: &Design, shown: &Campaign| {
+        let found = crate::critic::evidence(&world, design, shown, None, 3);
+        let kn: Vec<f64> = found.draws.iter().map(|draw| world.values_apart(design, draw)[0]).collect();
+        (found.log, stats::quantile(&kn, 0.1).expect("many"), stats::quantile(&kn, 0.9).expect("many"))
+    };
+    let none = Campaign { apart: vec![Seen::Nothing], ..shown.clone() };
+    // That it is above next to nothing changes nothing.
+    assert_eq!(found(&design, &shown), found(&design, &none));
+    let (_, low, high) = found(&design, &none);
+    assert!(low < stated && high > stated, "{low} {high}");
+    // That it is above what is thought leaves the upper half, as far as it reaches.
+    design.apart[0].1.value = stated;
+    let (_, above, furthest) = found(&design, &shown);
+    assert!(above > 0.95 * stated && furthest > 1.2 * stated, "{above} {furthest}");
+}
+
+#[test]
 fn a_fixed_target_tells_of_the_gauge_and_of_nothing_else() {
     let mut made = made();
     let mut still = made.study.measured[0].clone();
