@@ -50,7 +50,7 @@ pub fn page(summary: &DiagnosisSummary, drawings: &[Drawing]) -> String {
         true => paragraph("Nothing by two or more."),
         false => table(&["what", "sd"], rows),
     });
-    body.push_str(&format!("<h2>Causes</h2>\n{}", paragraph(&format!("In the table: {CAUSE}."))));
+    body.push_str(&format!("<h2>Causes</h2>\n{}", paragraph(&format!("{CAUSE}."))));
     let mut rows: Vec<Vec<String>> = summary.causes.iter().take(CAUSES).map(cause).collect();
     let base = format!("{:.3}", summary.base_probability);
     rows.push(["none of them", &base, "", "", ""].map(String::from).to_vec());

@@ -31,7 +31,7 @@ pub fn diagnosis_text(summary: &DiagnosisSummary) -> String {
             text.push_str(&wrapped("  - ", &line.sentence()));
         }
     }
-    text.push_str(&format!("\nCauses ({CAUSE})\n"));
+    text.push_str(&format!("\nCauses\n{}", wrapped("  ", CAUSE)));
     for cause in summary.causes.iter().take(CAUSES) {
         let mark = if cause.in_verdict { "*" } else { " " };
         let [evidence, guard] = [cause.evidence, cause.guard_p_value].map(or_dash);
@@ -64,7 +64,9 @@ pub fn diagnosis_text(summary: &DiagnosisSummary) -> String {
 pub(super) const OFF: &str =
     "What is off (measured less simulated, in standard deviations of campaigns without any effect)";
 /// What the numbers of the causes are.
-pub(super) const CAUSE: &str = "probability if all were equally likely before, by how each one's campaigns look and by the evidence together; evidence: its share of that of the causes looked at closely, which knows every reading and is too sure of itself to be taken alone; guard: share of the cause's own campaigns that fit worse; a dash where that was not asked";
+pub(super) const CAUSE: &str = "Probability if all were equally likely before, by how each one's campaigns look and by the evidence together. \
+    Evidence: its share of that of the causes looked at closely, which knows every reading, and is too sure of itself to be taken alone. \
+    Guard: share of the cause's own campaigns that fit worse. A dash: not asked";
 /// What the numbers of a form are.
 pub(super) const FORM: &str = "Form of what is not explained (measured less base model with fitted joints, if it is smooth over the tilt, or goes with the order of the tests)";
 
