@@ -12,6 +12,8 @@ use super::walls::{Way, alike, refined, solved};
 
 /// A wall that does not stand, or does not end in a collapse that the solver found, is built of other stones, so many times.
 const REBUILT: u64 = 12;
+/// A wall that falls within the protractor's first step (deg) does not stand: a tilt of 0 is no tilt.
+const STANDS_DEG: f64 = 0.5;
 
 /// The campaign of a label, by design; `None` where one of its walls cannot be made to fall.
 pub fn campaign(
@@ -64,7 +66,9 @@ fn jointed(study: &Study, nuisances: &[Nuisance; 3], label: &Label) -> Study {
 /// A wall that falls.
 fn fallen(study: &Study, arm: u32, member: u64, effects: &[Box<dyn Effect>]) -> Option<Way> {
     let again = (FAMILIES.len() * PER_FAMILY) as u64;
-    (0..=REBUILT).find_map(|attempt| solved(study, arm, member + again * attempt, effects))
+    let stands = |way: &Way| way.collapse >= radians(STANDS_DEG);
+    let tried = |attempt| solved(study, arm, member + again * attempt, effects).filter(stands);
+    (0..=REBUILT).find_map(tried)
 }
 
 /// Tests on two stones of the tested families.
