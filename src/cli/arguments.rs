@@ -76,8 +76,9 @@ pub(crate) enum Verb {
          Writes verdict.html (a page with all of it), verdict.json, figures as SVG and PNG (one per family, and residuals) and, for\n\
          each cause of the verdict, the study extended by it: extended/<cause>, an ordinary study at the medians of what is not\n\
          known, with draws from it as variants (run extended/<cause> --variant draw-07).\n\
-         The walls it needs are simulated once for a design, which takes minutes to hours; see bank. What looks odd about the measurements\n\
-         (a value far beyond what is simulated, one specimen alone) is noted on standard error and judged all the same.\n\n{CODES}\n\
+         The walls it needs are simulated once for a design, which takes minutes to hours; see bank. What looks odd about the\n\
+         measurements (a value far beyond what is simulated, one specimen alone) is noted on standard error and judged all the\n\
+         same.\n\n{CODES}\n\
          Every verdict (named, ambiguous, unexplained, nothing found) ends with 0."
     ))]
     Diagnose(Diagnose),

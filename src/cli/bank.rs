@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::cli::arguments::{Bank, Which};
 use crate::cli::failure::Failure;
-use crate::cli::{judge, locate, output, progress};
+use crate::cli::{judge, locate, output, progress, threads};
 use crate::critic::{self, BANK, Design, Doubt, NotThisBank, Plan, doubts};
 use crate::ensemble::{Settings, replace_file, run_with};
 use crate::protocol::Protocol;
@@ -23,6 +23,10 @@ pub(crate) struct Prepared {
 
 /// Computes what the bank does not hold yet.
 pub(crate) fn bank(arguments: &Bank) -> Result<(), Failure> {
+    threads::on(arguments.threads, || made(arguments))
+}
+
+fn made(arguments: &Bank) -> Result<(), Failure> {
     let study = measured(&arguments.which, arguments.measured.as_deref())?.study;
     let Prepared { mechanisms, nuisances, plan, .. } = prepared(&study, &arguments.which, arguments.points)?;
     let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, "bank"));

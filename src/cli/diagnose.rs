@@ -1,16 +1,13 @@
 //! `pirca diagnose`: what does the simulation get wrong, and which cause explains it?
 
 use std::fs;
-use std::num::NonZero;
 use std::path::{Path, PathBuf};
-
-use rayon::ThreadPoolBuilder;
 
 use crate::cli::arguments::Diagnose;
 use crate::cli::bank::{self, Prepared};
 use crate::cli::failure::Failure;
 use crate::cli::judge::{self, SEEDS};
-use crate::cli::{locate, output};
+use crate::cli::{locate, output, threads};
 use crate::critic::{
     self, BANK, Baseline, Design, Diagnosis, Folds, Limits, Measuring, Verdict, World, base_curves,
     cause_curves, doubts_beside, extension,
@@ -20,10 +17,7 @@ use crate::study::{Loaded, Study};
 
 /// Diagnoses the measurements of a study.
 pub(crate) fn diagnose(arguments: &Diagnose) -> Result<(), Failure> {
-    let threads = ThreadPoolBuilder::new().num_threads(arguments.threads.map_or(0, NonZero::get)).build();
-    threads
-        .map_err(|error| Failure::Run(format!("cannot start the worker threads: {error}")))?
-        .install(|| judged(arguments))
+    threads::on(arguments.threads, || judged(arguments))
 }
 
 fn judged(arguments: &Diagnose) -> Result<(), Failure> {

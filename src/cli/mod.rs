@@ -17,6 +17,7 @@ mod picture;
 mod progress;
 mod run;
 mod sensitivity;
+mod threads;
 
 use std::process::ExitCode;
 

@@ -25,6 +25,10 @@ fn share(ascending: &[f64], value: f64) -> f64 {
     (as_large + 1) as f64 / (ascending.len() + 1) as f64
 }
 
+fn smallest(shares: [f64; 3]) -> f64 {
+    shares.into_iter().fold(1.0, f64::min)
+}
+
 impl Alarm {
     /// From campaigns of the base model, at least one.
     pub fn of(campaigns: &[(Wrong, Ranked)]) -> Alarm {
@@ -35,9 +39,9 @@ impl Alarm {
             values
         };
         let mut alarm = Alarm { looks: [sorted(0), sorted(1), sorted(2)], smallest: Vec::new() };
-        let mut smallest: Vec<f64> = shown.iter().map(|looks| alarm.smallest(looks)).collect();
-        smallest.sort_by(f64::total_cmp);
-        alarm.smallest = smallest;
+        let mut least: Vec<f64> = shown.iter().map(|looks| smallest(alarm.shares(looks))).collect();
+        least.sort_by(f64::total_cmp);
+        alarm.smallest = least;
         alarm
     }
 
@@ -45,19 +49,11 @@ impl Alarm {
         [0, 1, 2].map(|k| share(&self.looks[k], looks[k]))
     }
 
-    fn smallest(&self, looks: &[f64; 3]) -> f64 {
-        self.shares(looks).into_iter().fold(1.0, f64::min)
-    }
-
-    /// Share of campaigns without any effect that surprise as much each way: with `n` campaigns at least 1/(n + 1).
-    pub fn each(&self, wrong: &Wrong, ranked: &Ranked) -> [f64; 3] {
-        self.shares(&looks(wrong, ranked))
-    }
-
-    /// Share of campaigns without any effect that surprise as much in any way.
-    pub fn p_value(&self, wrong: &Wrong, ranked: &Ranked) -> f64 {
-        let smallest = self.smallest(&looks(wrong, ranked));
-        let as_small = self.smallest.partition_point(|x| *x <= smallest);
-        (as_small + 1) as f64 / (self.smallest.len() + 1) as f64
+    /// Share of campaigns without any effect that surprise as much in any way, and in each way alone: with `n` campaigns at least
+    /// 1/(n + 1).
+    pub fn p_values(&self, wrong: &Wrong, ranked: &Ranked) -> (f64, [f64; 3]) {
+        let shares = self.shares(&looks(wrong, ranked));
+        let as_small = self.smallest.partition_point(|x| *x <= smallest(shares));
+        ((as_small + 1) as f64 / (self.smallest.len() + 1) as f64, shares)
     }
 }

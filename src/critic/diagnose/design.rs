@@ -70,11 +70,8 @@ impl Design {
                 continue;
             };
             match m.quantity {
-                MeasuredQuantity::JointKn
-                | MeasuredQuantity::JointPhi
-                | MeasuredQuantity::SpecimenWeight
-                | MeasuredQuantity::FixedTarget => design.apart.push((family, m.clone())),
                 MeasuredQuantity::BlockWeight => design.unused.push(m.line),
+                apart if apart.is_apart() => design.apart.push((family, m.clone())),
                 _ if !is_rising(m, &study.measured) => design.unused.push(m.line),
                 _ => {
                     let of = |s: &&mut Specimen| s.name == m.specimen && s.family == family;

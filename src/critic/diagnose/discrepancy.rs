@@ -81,7 +81,8 @@ pub struct Bent {
     pub part: Lacking,
     /// Index of the family's arm; none where all families share it.
     pub family: Option<usize>,
-    /// What was read; of a twist the left end's displacement, of a bow the centre's, of a drift the first quantity that was read of its kind.
+    /// What was read; of a twist the left end's displacement, of a bow the centre's, of a drift the first quantity that was read of
+    /// its kind.
     pub quantity: MeasuredQuantity,
     /// At which tilt (rad); `None` where the quantity has none of its own.
     pub tilt: Option<f64>,
@@ -175,7 +176,8 @@ impl<'d> Discrepancy<'d> {
     }
 
     /// The discrepancy itself: its level once for each family, quantity and tilt that was read, its twist once for each family and
-    /// tilt at which both ends were, its bow at which the centre and an end were, and its drift once for each kind of quantity where the order of the tests is known.
+    /// tilt at which both ends were, its bow at which the centre and an end were, and its drift once for each kind of quantity where
+    /// the order of the tests is known.
     pub fn form(&self) -> Vec<Bent> {
         let mut form: Vec<Bent> = Vec::new();
         for (k, at) in self.all.iter().enumerate().filter(|(_, at)| at.seen != Seen::Beyond) {
@@ -341,15 +343,10 @@ mod tests {
             });
             specimen.readings = readings.collect();
         }
-        let of_points = |[left, centre, right]: [f64; 3]| {
+        let of_points = |off: [f64; 3]| {
             move |_: Option<u32>, quantity| {
-                if quantity == points[0] {
-                    left
-                } else if quantity == points[1] {
-                    centre
-                } else {
-                    right
-                }
+                let at = points.iter().position(|point| *point == quantity);
+                off[at.expect("one of the three")]
             }
         };
         let drifting = |order: Option<u32>, _| 2e-3 * (f64::from(order.expect("numbered")) - 4.0);

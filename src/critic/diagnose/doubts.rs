@@ -90,10 +90,12 @@ pub fn doubts_beside(world: &World<'_>, design: &Design, measured: &Campaign, se
             out.push((m, [low, high], others.find(|x| inside(*x))));
         }
     }
-    let lacking = world.too_few().iter().map(|cause| world.mechanisms()[*cause].name);
-    let lacking: Vec<&'static str> = lacking.collect();
-    let lacking = (!lacking.is_empty()).then_some(Doubt::NotConsidered { mechanisms: lacking });
-    let mut found: Vec<Doubt> = lacking.into_iter().collect();
+    let mut found = Vec::new();
+    let lacking = world.too_few().into_iter().map(|cause| world.mechanisms()[cause].name);
+    let mechanisms: Vec<&'static str> = lacking.collect();
+    if !mechanisms.is_empty() {
+        found.push(Doubt::NotConsidered { mechanisms });
+    }
     found.extend(
         grouped(&fallen, |m| (m.quantity, m.family.clone()))
             .into_iter()

@@ -184,6 +184,8 @@ fn contrasts(specimen: &Specimen, seen: &[Seen], scale: &[Usual]) -> Vec<(Contra
     use MeasuredQuantity as Q;
     let last = specimen.readings.iter().filter_map(|m| m.tilt).fold(0.0, f64::max);
     let mut weighted: BTreeMap<Contrast, Vec<[f64; 3]>> = BTreeMap::new();
+    // The way up point by point: tilt, value and error.
+    let mut ways: BTreeMap<MeasuredQuantity, Vec<[f64; 3]>> = BTreeMap::new();
     let (mut read, mut reached) = (0.0, 0.0);
     for ((m, seen), usual) in specimen.readings.iter().zip(seen).zip(scale) {
         let (z, error) = (usual.scaled(*seen, m), usual.error);
@@ -194,6 +196,9 @@ fn contrasts(specimen: &Specimen, seen: &[Seen], scale: &[Usual]) -> Vec<(Contra
         read += 1.0;
         let Some(z) = z else { continue };
         reached += 1.0;
+        if !m.quantity.is_remainder() {
+            ways.entry(m.quantity).or_default().push([tilt, z, error.max(LEAST_SCATTER)]);
+        }
         let s = tilt / last;
         let mut add = |contrast, weight| weighted.entry(contrast).or_default().push([weight, z, error]);
         match m.quantity {
@@ -234,31 +239,25 @@ fn contrasts(specimen: &Specimen, seen: &[Seen], scale: &[Usual]) -> Vec<(Contra
             (square > 0.0).then(|| (contrast, [value / square.sqrt(), (error / square).sqrt()]))
         })
         .collect();
-    found.extend(jump(specimen, seen, scale).map(|jump| (Contrast::Jump, [jump, 0.0])));
+    found.extend(jump(ways).map(|jump| (Contrast::Jump, [jump, 0.0])));
     if read > 0.0 {
         found.push((Contrast::Reached, [reached / read, 0.0]));
     }
     found
 }
 
-/// How far the largest step of any point of a specimen from one tilt to the next stands out from the mean of its two neighbours, in
-/// standard deviations of the readings' errors: what grows smoothly has none. `None` where no point was read at four tilts.
-fn jump(specimen: &Specimen, seen: &[Seen], scale: &[Usual]) -> Option<f64> {
-    let mut points: BTreeMap<MeasuredQuantity, Vec<[f64; 3]>> = BTreeMap::new();
-    for ((m, seen), usual) in specimen.readings.iter().zip(seen).zip(scale) {
-        let Some(tilt) = m.tilt.filter(|_| !m.quantity.is_remainder()) else { continue };
-        let Some(z) = usual.scaled(*seen, m) else { continue };
-        points.entry(m.quantity).or_default().push([tilt, z, usual.error.max(LEAST_SCATTER)]);
-    }
+/// How far the largest step of any point from one tilt to the next stands out from the mean of its two neighbours, in standard
+/// deviations of the readings' errors: what grows smoothly has none. `None` where no point was read at four tilts.
+fn jump(ways: BTreeMap<MeasuredQuantity, Vec<[f64; 3]>>) -> Option<f64> {
     let weights = [0.5, -1.5, 1.5, -0.5];
-    let steps = points.into_values().flat_map(|mut point| {
-        point.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let steps = ways.into_values().flat_map(|mut way| {
+        way.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let one = |four: &[[f64; 3]]| {
             let terms = weights.iter().zip(four).map(|(weight, [_, z, error])| [weight * z, weight * error]);
             let (step, square) = terms.fold((0.0, 0.0), |(step, square), [z, e]| (step + z, square + e * e));
             step.abs() / square.sqrt()
         };
-        point.windows(weights.len()).map(one).collect::<Vec<f64>>()
+        way.windows(weights.len()).map(one).collect::<Vec<f64>>()
     });
     steps.reduce(f64::max)
 }

@@ -81,8 +81,7 @@ impl<'w> Judge<'w> {
     pub fn seeming(&self, campaign: &Campaign) -> Seeming {
         let wrong = self.reference.judge(&self.design, campaign);
         let ranked = self.ranking.of(&wrong);
-        let p_value = self.alarm.p_value(&wrong, &ranked);
-        let looks = self.alarm.each(&wrong, &ranked);
+        let (p_value, looks) = self.alarm.p_values(&wrong, &ranked);
         Seeming { wrong, ranked, p_value, looks }
     }
 }

@@ -46,7 +46,7 @@ pub use residual::{
     Band, Baseline, Curve, Expected, FamilyCurves, Group, Parts, Residual, Residuals, Side, base_curves,
     cause_curves,
 };
-pub use self_test::{CAUGHT, Caught, Counted, MORE, SelfTest, SelfTestRow};
+pub use self_test::{CAUGHT, Caught, Counted, SelfTest, SelfTestRow};
 pub use verdict::{Diagnosis, Limits, LookedAt, LookedAtPair, MOST_AMBIGUOUS, PairLimits, Verdict};
 pub use world::{Truth, World};
 pub use wrong::{Reference, Wrong};

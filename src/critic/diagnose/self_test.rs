@@ -2,6 +2,7 @@
 //! and how large an effect must be to be caught.
 
 use std::collections::BTreeMap;
+use std::iter::Sum;
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -17,10 +18,10 @@ use crate::stats;
 const ALIKE: f64 = 0.5;
 /// An effect is caught where so large a share of its campaigns is found.
 pub const CAUGHT: f64 = 0.8;
-/// So many times as many campaigns without any effect are judged by all that a diagnosis does.
-pub const MORE: u64 = 5;
 /// That share is taken over so many campaigns of neighbouring strengths.
 const WINDOW: usize = 15;
+/// So many times as many campaigns without any effect are judged by all that a diagnosis does.
+const MORE: u64 = 5;
 
 /// How often diagnoses of a design find and name what is hidden, by simulation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -85,7 +86,7 @@ struct Tested {
 
 impl Judge<'_> {
     /// Judges `count` campaigns of every cause and of the base model, drawn from the priors with another seed than the training's,
-    /// by how they seem; of these `judged` of each cause, and [`MORE`] times as many of the base model, by all that a diagnosis does.
+    /// by how they seem; of these `judged` of each cause, and five times as many of the base model, by all that a diagnosis does.
     pub fn self_test(&self, limits: &Limits, count: u64, judged: u64, seed: u64) -> SelfTest {
         let row = |cause: &Option<usize>| {
             let campaigns: Vec<Tested> =
@@ -94,7 +95,7 @@ impl Judge<'_> {
             let closely = campaigns[..campaigns.len().min(judged as usize)].par_iter();
             let verdicts: Vec<Verdict> =
                 closely.map(|tested| self.diagnosed(&tested.campaign, limits, seed).verdict).collect();
-            SelfTestRow { judged: judged_of(*cause, &verdicts), ..row(*cause, &campaigns, limits) }
+            row(*cause, &campaigns, &verdicts, limits)
         };
         SelfTest { rows: self.ranking.causes().par_iter().map(row).collect() }
     }
@@ -109,51 +110,65 @@ impl Judge<'_> {
         let truth = self.world.drawn(cause, &streams);
         let campaign = self.world.campaign(&self.design, &truth, &streams);
         let seeming = self.seeming(&campaign);
-        // The same stones, joints and errors.
-        let still = Truth { causes: None.into(), parameters: Vec::new(), joints: truth.joints.clone() };
-        let still = self.world.campaign(&self.design, &still, &streams);
-        let read = |campaign: &Campaign| self.reference.scale.readings(&self.design, campaign);
-        let both = read(&campaign).into_iter().zip(read(&still));
-        let squares = both.filter_map(|((_, own), (_, still))| Some((own? - still?) * (own? - still?)));
-        let moved = squares.fold(0.0, |sum, square| sum + square).sqrt();
+        let moved = cause.map_or(0.0, |_| self.moved(&truth, &campaign, &streams));
         Tested { truth, campaign, seeming, moved }
     }
-}
 
-/// What verdicts say of campaigns of a cause.
-fn judged_of(cause: Option<usize>, verdicts: &[Verdict]) -> Counted {
-    let count = |is: &dyn Fn(&Verdict) -> bool| verdicts.iter().filter(|verdict| is(verdict)).count() as u64;
-    let is_named = |verdict: &Verdict| matches!(verdict, Verdict::Named(_) | Verdict::NamedPair(_));
-    let right =
-        |verdict: &Verdict| is_named(verdict) && cause.is_some_and(|cause| verdict.causes().contains(&cause));
-    Counted {
-        campaigns: verdicts.len() as u64,
-        found: count(&|verdict| *verdict != Verdict::NothingFound),
-        named: count(&right),
-        misnamed: count(&|verdict| is_named(verdict) && !right(verdict)),
+    /// How far what is read in a campaign of a truth is from that of the same stones, joints and errors without any cause.
+    fn moved(&self, truth: &Truth, campaign: &Campaign, streams: &Streams) -> f64 {
+        let still = Truth { causes: None.into(), parameters: Vec::new(), joints: truth.joints.clone() };
+        let still = self.world.campaign(&self.design, &still, streams);
+        let read = |campaign: &Campaign| self.reference.scale.readings(&self.design, campaign);
+        let both = read(campaign).into_iter().zip(read(&still));
+        let squares = both.filter_map(|((_, own), (_, still))| Some((own? - still?) * (own? - still?)));
+        squares.fold(0.0, |sum, square| sum + square).sqrt()
     }
 }
 
-fn row(cause: Option<usize>, campaigns: &[Tested], limits: &Limits) -> SelfTestRow {
+impl Counted {
+    /// Of campaigns of a cause: what was named in each, nothing found where that is none.
+    fn of(cause: Option<usize>, said: impl Iterator<Item = Option<Vec<usize>>>) -> Counted {
+        said.fold(Counted::default(), |sum, said| {
+            let names = said.as_deref().unwrap_or_default();
+            let named = cause.is_some_and(|cause| names.contains(&cause));
+            Counted {
+                campaigns: sum.campaigns + 1,
+                found: sum.found + u64::from(said.is_some()),
+                named: sum.named + u64::from(named),
+                misnamed: sum.misnamed + u64::from(!named && !names.is_empty()),
+            }
+        })
+    }
+}
+
+impl Sum for Counted {
+    fn sum<I: Iterator<Item = Counted>>(all: I) -> Counted {
+        all.fold(Counted::default(), |sum, own| Counted {
+            campaigns: sum.campaigns + own.campaigns,
+            found: sum.found + own.found,
+            named: sum.named + own.named,
+            misnamed: sum.misnamed + own.misnamed,
+        })
+    }
+}
+
+/// What a verdict names; none where nothing was found.
+fn named(verdict: &Verdict) -> Option<Vec<usize>> {
+    match verdict {
+        Verdict::NothingFound => None,
+        Verdict::Named(_) | Verdict::NamedPair(_) => Some(verdict.causes().to_vec()),
+        Verdict::Ambiguous(_) | Verdict::Unexplained => Some(Vec::new()),
+    }
+}
+
+fn row(cause: Option<usize>, campaigns: &[Tested], verdicts: &[Verdict], limits: &Limits) -> SelfTestRow {
     let is_found = |tested: &&Tested| tested.seeming.p_value < limits.found;
     let found: Vec<&Tested> = campaigns.iter().filter(is_found).collect();
-    let name = |tested: &Tested| tested.seeming.named(limits);
-    let counted = |some: &[&Tested]| {
-        let found = some.iter().copied().filter(|tested| is_found(tested));
-        let named: Vec<Option<usize>> = found.map(name).collect();
-        let count =
-            |is: &dyn Fn(usize) -> bool| named.iter().flatten().filter(|own| is(**own)).count() as u64;
-        Counted {
-            campaigns: some.len() as u64,
-            found: named.len() as u64,
-            named: count(&|own| Some(own) == cause),
-            misnamed: count(&|own| Some(own) != cause),
-        }
-    };
+    let seems =
+        |tested: &&Tested| is_found(tested).then(|| tested.seeming.named(limits).into_iter().collect());
     let mut by_size: Vec<&Tested> = campaigns.iter().collect();
-    let all = counted(&by_size);
     by_size.sort_by(|a, b| b.moved.total_cmp(&a.moved));
-    by_size.truncate(if cause.is_some() { campaigns.len() / 3 } else { 0 });
+    let strong = &by_size[..if cause.is_some() { campaigns.len() / 3 } else { 0 }];
     let sizes: Vec<f64> = found.iter().map(|tested| tested.seeming.ranked.set.len() as f64).collect();
     let mut with: BTreeMap<usize, u64> = BTreeMap::new();
     found
@@ -170,9 +185,9 @@ fn row(cause: Option<usize>, campaigns: &[Tested], limits: &Limits) -> SelfTestR
     });
     SelfTestRow {
         cause,
-        all,
-        strong: counted(&by_size),
-        judged: Counted::default(),
+        all: Counted::of(cause, by_size.iter().map(seems)),
+        strong: Counted::of(cause, strong.iter().map(seems)),
+        judged: Counted::of(cause, verdicts.iter().map(named)),
         covered: cause.map_or(0, |cause| with.get(&cause).copied().unwrap_or(0)),
         set_size: stats::mean(&sizes).unwrap_or(0.0),
         with,

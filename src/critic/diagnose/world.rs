@@ -77,8 +77,8 @@ pub struct World<'s> {
     /// What a cause changes, by family and cause. A point of the bank has the same stones and joints under every cause: the
     /// difference that a cause makes is known far better than either wall, and dies away with the cause.
     changes: BTreeMap<(usize, usize), Walls>,
-    /// Causes of which the bank has walls, and too few that fell to tell of them.
-    too_few: Vec<usize>,
+    /// Causes that were to have walls in the bank.
+    planned: BTreeSet<usize>,
     /// Weight of a wall as it is stated, and of its stones in the mean (N), by family.
     weights: BTreeMap<usize, [f64; 2]>,
     /// Kind of joint of each arm: arms whose joints are stated alike have the same.
@@ -123,8 +123,6 @@ impl<'s> World<'s> {
                 Some(cause) => changes.extend(walls.map(|walls| ((family, cause), walls))),
             }
         }
-        let is_told = |cause: &usize| changes.keys().any(|(_, own)| own == cause);
-        let too_few = planned.into_iter().filter(|cause| !is_told(cause)).collect();
         let weighed = |family: usize| {
             let wall = (0..BUILT).find_map(|member| build(study, family as u32, member).ok())?.wall;
             let whole = weight(&wall);
@@ -137,7 +135,7 @@ impl<'s> World<'s> {
             nuisances,
             base,
             changes,
-            too_few,
+            planned,
             weights,
             kinds: kinds(&study.arms),
         })
@@ -363,15 +361,19 @@ impl<'s> World<'s> {
     }
 
     /// Causes that cannot be told of, as too few of their walls in the bank came to a fall.
-    pub fn too_few(&self) -> &[usize] {
-        &self.too_few
+    pub fn too_few(&self) -> Vec<usize> {
+        self.planned.iter().copied().filter(|cause| !self.has_walls(*cause)).collect()
     }
 
     /// The causes that a diagnosis can tell of: those with walls of their own in some family, and those that act on readings.
     pub fn causes(&self) -> Vec<usize> {
-        let has_walls = |cause: usize| self.changes.keys().any(|(_, own)| *own == cause);
-        let told = |(index, m): &(usize, &Described)| m.acts == Acts::Readings || has_walls(*index);
+        let told = |(index, m): &(usize, &Described)| m.acts == Acts::Readings || self.has_walls(*index);
         self.mechanisms.iter().enumerate().filter(told).map(|(index, _)| index).collect()
+    }
+
+    /// Whether the walls that a cause changes are known in some family.
+    fn has_walls(&self, cause: usize) -> bool {
+        self.changes.keys().any(|(_, own)| *own == cause)
     }
 }
 

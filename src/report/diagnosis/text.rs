@@ -180,12 +180,7 @@ pub(super) fn reliability(summary: &DiagnosisSummary) -> String {
     let (nothing, hidden): (Vec<_>, Vec<_>) =
         summary.self_test.iter().partition(|row| row.hidden == "nothing");
     let sum = |rows: &[&SelfTestEntry], of: fn(&SelfTestEntry) -> Counted| {
-        rows.iter().map(|row| of(row)).fold(Counted::default(), |sum, own| Counted {
-            campaigns: sum.campaigns + own.campaigns,
-            found: sum.found + own.found,
-            named: sum.named + own.named,
-            misnamed: sum.misnamed + own.misnamed,
-        })
+        rows.iter().map(|row| of(row)).sum::<Counted>()
     };
     let share = |part: u64, whole: u64| if whole == 0 { 0.0 } else { 100.0 * part as f64 / whole as f64 };
     let (all, strong) = (sum(&hidden, |row| row.all), sum(&hidden, |row| row.strong));
