@@ -26,7 +26,7 @@ use crate::truth::readings::csv;
 use crate::truth::roster::{catalogue, root, roster};
 
 /// Seed of the roster, far from that of the bank, and none that the inference was made better by.
-const MASTER: u64 = 20_290_417;
+const MASTER: u64 = 20_311_123;
 /// The variant of the study whose walls are hidden in: the dips of its stones are drawn in [-20, 20] deg.
 const VARIANT: &str = "random-dips";
 /// Points of the bank.

@@ -1,5 +1,6 @@
 //! Published statements against our numbers: what the studies' READMEs say comes out, does.
 
+mod diagnoses;
 mod edge_restraint;
 mod element_types;
 mod joint_arrangement;

@@ -1,7 +1,7 @@
 //! Is anything wrong at all? Three ways of looking, each against campaigns without any effect: the largest excess, which sees what
 //! is far off in one respect; the distance of all features together, which sees what is a little off in many; and the odds of the
-//! ranking, which see what looks like one of the causes. The p-value is that of the most surprised of the three, its choice
-//! accounted for (the smallest of several p-values, judged by simulation as in Westfall and Young 1993).
+//! ranking, which see what looks like one of the causes, or like what is nameless. The p-value is that of the most surprised of the
+//! three, its choice accounted for (the smallest of several p-values, judged by simulation as in Westfall and Young 1993).
 
 use crate::critic::diagnose::ranking::Ranked;
 use crate::critic::diagnose::wrong::Wrong;

@@ -15,13 +15,13 @@ use crate::random::Streams;
 pub struct Effort {
     /// Of the base model, for what is wrong and once more for how often that is so by chance.
     pub reference: u64,
-    /// Of each cause, for the ranking.
+    /// Of each cause and of nameless effects, for the ranking.
     pub training: u64,
 }
 
 impl Default for Effort {
     fn default() -> Self {
-        Effort { reference: 2000, training: 1200 }
+        Effort { reference: 2000, training: 2400 }
     }
 }
 
@@ -56,6 +56,11 @@ impl Seeming {
     /// The cause that would be named if nothing else spoke against it.
     pub fn named(&self, limits: &Limits) -> Option<usize> {
         self.ranked.named(limits.named).filter(|_| self.p_value < limits.sure)
+    }
+
+    /// Whether a pair of causes may be named at all.
+    pub(super) fn allows_pair(&self, limits: &Limits) -> bool {
+        self.p_value < limits.sure && self.ranked.nameless <= limits.pair.nameless
     }
 }
 

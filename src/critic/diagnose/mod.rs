@@ -16,6 +16,7 @@ mod gain;
 mod guard;
 mod judge;
 mod likelihood;
+mod nameless;
 mod network;
 mod next;
 mod predicted;

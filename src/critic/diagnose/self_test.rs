@@ -20,7 +20,7 @@ const ALIKE: f64 = 0.5;
 pub const CAUGHT: f64 = 0.8;
 /// That share is taken over so many campaigns of neighbouring strengths.
 const WINDOW: usize = 15;
-/// So many times as many campaigns without any effect are judged by all that a diagnosis does.
+/// So many times as many campaigns without any effect, and with nameless ones, are judged by all that a diagnosis does.
 const MORE: u64 = 5;
 
 /// How often diagnoses of a design find and name what is hidden, by simulation.
@@ -28,6 +28,9 @@ const MORE: u64 = 5;
 pub struct SelfTest {
     /// For the base model (first) and each cause.
     pub rows: Vec<SelfTestRow>,
+    /// Campaigns of [nameless](crate::critic::World::nameless) effects, by how they seem, and some of them by all that a diagnosis does: any name is
+    /// a wrong one.
+    pub nameless: [Counted; 2],
 }
 
 /// A line of the self-test.
@@ -86,18 +89,32 @@ struct Tested {
 
 impl Judge<'_> {
     /// Judges `count` campaigns of every cause and of the base model, drawn from the priors with another seed than the training's,
-    /// by how they seem; of these `judged` of each cause, and five times as many of the base model, by all that a diagnosis does.
+    /// by how they seem, and as many of nameless effects; of these `judged` of each cause, and five times as many of the base model
+    /// and of nameless effects, by all that a diagnosis does.
     pub fn self_test(&self, limits: &Limits, count: u64, judged: u64, seed: u64) -> SelfTest {
         let row = |cause: &Option<usize>| {
             let campaigns: Vec<Tested> =
                 (0..count).into_par_iter().map(|k| self.tested(*cause, seed, k)).collect();
             let judged = if cause.is_none() { MORE * judged } else { judged };
-            let closely = campaigns[..campaigns.len().min(judged as usize)].par_iter();
+            let closely = campaigns.par_iter().take(judged as usize);
             let verdicts: Vec<Verdict> =
                 closely.map(|tested| self.diagnosed(&tested.campaign, limits, seed).verdict).collect();
             row(*cause, &campaigns, &verdicts, limits)
         };
-        SelfTest { rows: self.ranking.causes().par_iter().map(row).collect() }
+        let rows = self.ranking.causes().par_iter().map(row).collect();
+        SelfTest { rows, nameless: self.nameless_test(limits, count, MORE * judged, seed) }
+    }
+
+    /// What is said of campaigns of nameless effects: by how they seem, and of some by all that a diagnosis does.
+    fn nameless_test(&self, limits: &Limits, count: u64, judged: u64, seed: u64) -> [Counted; 2] {
+        let campaigns: Vec<Campaign> =
+            (0..count).map(|k| self.world.nameless(&self.design, &Streams::new(seed, k))).collect();
+        let seem = |campaign: &Campaign| said(&self.seeming(campaign), limits);
+        let seeming: Vec<Option<Vec<usize>>> = campaigns.par_iter().map(seem).collect();
+        let closely = campaigns.par_iter().take(judged as usize);
+        let judged: Vec<Option<Vec<usize>>> =
+            closely.map(|campaign| named(&self.diagnosed(campaign, limits, seed).verdict)).collect();
+        [seeming, judged].map(|said| Counted::of(None, said.into_iter()))
     }
 
     /// How a campaign of a self-test without effect seems.
@@ -152,6 +169,11 @@ impl Sum for Counted {
     }
 }
 
+/// What would be named by how a campaign seems; none where nothing is found.
+fn said(seeming: &Seeming, limits: &Limits) -> Option<Vec<usize>> {
+    (seeming.p_value < limits.found).then(|| seeming.named(limits).into_iter().collect())
+}
+
 /// What a verdict names; none where nothing was found.
 fn named(verdict: &Verdict) -> Option<Vec<usize>> {
     match verdict {
@@ -164,8 +186,7 @@ fn named(verdict: &Verdict) -> Option<Vec<usize>> {
 fn row(cause: Option<usize>, campaigns: &[Tested], verdicts: &[Verdict], limits: &Limits) -> SelfTestRow {
     let is_found = |tested: &&Tested| tested.seeming.p_value < limits.found;
     let found: Vec<&Tested> = campaigns.iter().filter(is_found).collect();
-    let seems =
-        |tested: &&Tested| is_found(tested).then(|| tested.seeming.named(limits).into_iter().collect());
+    let seems = |tested: &&Tested| said(&tested.seeming, limits);
     let mut by_size: Vec<&Tested> = campaigns.iter().collect();
     by_size.sort_by(|a, b| b.moved.total_cmp(&a.moved));
     let strong = &by_size[..if cause.is_some() { campaigns.len() / 3 } else { 0 }];
@@ -290,6 +311,7 @@ mod tests {
         };
         // 1 and 2 look like each other, 3 like nothing; 4 looks like 1, but is never found.
         let test = SelfTest {
+            nameless: [Counted::default(); 2],
             rows: vec![
                 row(1, 80, &[(1, 80), (2, 60)]),
                 row(2, 50, &[(1, 30), (2, 50)]),

@@ -32,8 +32,8 @@ const HEARD_CLOSELY: f64 = 0.2;
 pub const POSSIBLE: f64 = 0.01;
 /// And one that the ranking puts aside is not put aside where the evidence leaves it this probability or more.
 const LIKELY: f64 = 0.1;
-/// Causes are left open only where those that fit have together so large a share of the probability of all causes: where the likely
-/// ones are refused, and an unlikely one is not, none explains it.
+/// Causes are left open only where those that fit have together so large a share of the probability that something is off: where the
+/// likely ones are refused, and an unlikely one is not, or where it is likely nameless, none explains it.
 const MOST: f64 = 0.5;
 
 /// The limits of a verdict.
@@ -58,6 +58,9 @@ pub struct PairLimits {
     pub named: f64,
     /// Share of its own campaigns that must fit no better.
     pub guard: f64,
+    /// The largest probability of something nameless. Two causes in one campaign look like one of them, hardly ever like none; and
+    /// what is like none fits the best of many pairs now and then.
+    pub nameless: f64,
 }
 
 impl Default for Limits {
@@ -67,7 +70,7 @@ impl Default for Limits {
             named: 0.8,
             sure: 0.01,
             guard: 0.05,
-            pair: PairLimits { named: 0.99, guard: 0.25 },
+            pair: PairLimits { named: 0.99, guard: 0.25, nameless: 0.05 },
         }
     }
 }
@@ -235,7 +238,7 @@ impl Judge<'_> {
         if diagnosis.verdict == Verdict::Unexplained {
             diagnosis.pairs = self.pairs(campaign, &closely, &logs, limits, seed);
             let fits = |pair: &&LookedAtPair| pair.guard.is_some_and(|p| p >= limits.pair.guard);
-            let named = diagnosis.pairs.iter().find(fits).filter(|_| diagnosis.seeming.p_value < limits.sure);
+            let named = diagnosis.pairs.iter().find(fits).filter(|_| diagnosis.seeming.allows_pair(limits));
             diagnosis.verdict = named.map_or(Verdict::Unexplained, |pair| Verdict::NamedPair(pair.causes));
         }
         diagnosis
@@ -248,16 +251,15 @@ impl Judge<'_> {
     }
 
     /// The causes with their probabilities, once the evidence has been heard as well: the ranking knows how campaigns of a cause
-    /// look and has seen thousands of them, the evidence knows every reading of this one. A roughly told one counts little.
+    /// look and has seen thousands of them, the evidence knows every reading of this one. A roughly told one counts little. What is
+    /// nameless has no evidence, and keeps its probability.
     pub(super) fn weighed(&self, ranked: &Ranked, campaign: &Campaign, seed: u64) -> Ranked {
         let logs = self.rough(campaign, ranked.causes.iter().map(|(cause, _)| Causes::from(*cause)), seed);
         let both =
             ranked.causes.iter().zip(logs).map(|((_, p), log)| HEARD[0] * ln(p.max(1e-12)) + HEARD[1] * log);
         let probabilities = softmax(&both.collect::<Vec<_>>(), 1.0);
-        Ranked::new(
-            ranked.causes.iter().map(|(cause, _)| *cause).zip(probabilities).collect(),
-            ranked.set.clone(),
-        )
+        let causes = ranked.causes.iter().map(|(cause, _)| *cause);
+        Ranked::new(causes.zip(probabilities).collect(), ranked.nameless, ranked.set.clone())
     }
 
     /// The logarithm of the evidence of each model, roughly.
@@ -323,7 +325,7 @@ impl Judge<'_> {
 /// The verdict where none can be named, and these causes fit.
 fn unnamed(ranked: &Ranked, fit: Vec<usize>) -> Verdict {
     let causes = ranked.causes.iter().filter(|(cause, _)| cause.is_some());
-    let whole = causes.fold(0.0, |sum, (_, p)| sum + p);
+    let whole = causes.fold(ranked.nameless, |sum, (_, p)| sum + p);
     let theirs = fit.iter().fold(0.0, |sum, cause| sum + ranked.probability(*cause));
     match fit.len() {
         1..=MOST_AMBIGUOUS if theirs >= MOST * whole => Verdict::Ambiguous(fit),
@@ -339,34 +341,52 @@ fn heard(ranked: &Ranked, closely: &[usize], logs: &[f64]) -> Ranked {
     let log = |cause: &Option<usize>| known.iter().find(|(own, _)| own == cause).map(|(_, log)| *log);
     let (looked_at, others): (Vec<_>, Vec<_>) =
         ranked.causes.iter().copied().partition(|(cause, _)| log(cause).is_some());
-    let whole = looked_at.iter().fold(0.0, |sum, (_, p)| sum + p);
+    let [whole, all] = [&looked_at, &ranked.causes].map(|of| of.iter().fold(0.0, |sum, (_, p)| sum + p));
     let both = looked_at.iter().filter_map(|(cause, p)| Some(ln(p.max(1e-12)) + HEARD_CLOSELY * log(cause)?));
     let shares = softmax(&both.collect::<Vec<_>>(), 1.0);
     let told = looked_at.iter().zip(shares).map(|((cause, _), share)| (*cause, whole * share));
-    Ranked::new(told.chain(others).collect(), ranked.set.clone())
+    let shares = told.chain(others).map(|(cause, p)| (cause, p / all)).collect();
+    Ranked::new(shares, ranked.nameless, ranked.set.clone())
 }
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeMap;
+
     use super::*;
+    use crate::critic::diagnose::wrong::Wrong;
     use crate::math::exp;
 
     #[test]
     fn few_causes_are_left_open_if_the_likely_ones_are_among_them() {
         let causes = [(Some(3), 0.5), (Some(1), 0.2), (None, 0.1), (Some(2), 0.1), (Some(4), 0.1)];
-        let ranked = Ranked::new(causes.to_vec(), vec![1, 2, 3]);
+        let ranked = Ranked::new(causes.to_vec(), 0.0, vec![1, 2, 3]);
         assert_eq!(unnamed(&ranked, vec![3]), Verdict::Ambiguous(vec![3]));
         assert_eq!(unnamed(&ranked, vec![3, 1, 2]), Verdict::Ambiguous(vec![3, 1, 2]));
         // The likeliest was refused, or there are too many.
         assert_eq!(unnamed(&ranked, vec![1, 2]), Verdict::Unexplained);
         assert_eq!(unnamed(&ranked, vec![3, 1, 2, 4]), Verdict::Unexplained);
         assert_eq!(unnamed(&ranked, Vec::new()), Verdict::Unexplained);
+        // Half of it is nameless: the same causes have less than half of what is off.
+        let ranked = Ranked::new(causes.to_vec(), 0.5, vec![1, 2, 3]);
+        assert_eq!(unnamed(&ranked, vec![3, 1, 2]), Verdict::Unexplained);
+    }
+
+    #[test]
+    fn what_is_perhaps_nameless_or_chance_is_no_pair() {
+        let limits = Limits::default();
+        let allows = |p_value: f64, nameless: f64| {
+            let wrong = Wrong { excess: BTreeMap::new(), joints: Vec::new(), distance: 0.0 };
+            let ranked = Ranked::new(vec![(Some(3), 1.0), (None, 0.0)], nameless, vec![3]);
+            Seeming { wrong, ranked, p_value, looks: [p_value; 3] }.allows_pair(&limits)
+        };
+        assert!(allows(0.001, 0.04) && !allows(0.001, 0.06) && !allows(0.02, 0.04));
     }
 
     #[test]
     fn the_evidence_of_some_moves_what_they_have_together_and_nothing_else() {
         let ranked =
-            Ranked::new(vec![(Some(3), 0.5), (Some(1), 0.3), (None, 0.1), (Some(2), 0.1)], vec![1, 3]);
+            Ranked::new(vec![(Some(3), 0.5), (Some(1), 0.3), (None, 0.1), (Some(2), 0.1)], 0.2, vec![1, 3]);
         let found = heard(&ranked, &[3, 1], &[-20.0, -10.0, 0.0]);
         let of = |cause: Option<usize>| {
             found.causes.iter().find(|(own, _)| *own == cause).map(|(_, p)| *p).expect("it is there")
@@ -375,9 +395,11 @@ mod tests {
         let (first, second, base) = (0.5 * exp(-2.0), 0.3, 0.1 * exp(-4.0));
         let sum = first + second + base;
         for (cause, p) in [(Some(3), first), (Some(1), second), (None, base)] {
-            assert!((of(cause) - 0.9 * p / sum).abs() < 1e-12, "{cause:?}");
+            assert!((of(cause) - 0.8 * 0.9 * p / sum).abs() < 1e-12, "{cause:?}");
         }
-        assert_eq!(of(Some(2)), 0.1);
+        // What was not looked at keeps its part, and so does what has no name.
+        assert!((of(Some(2)) - 0.8 * 0.1).abs() < 1e-12);
+        assert_eq!(found.nameless, 0.2);
         assert_eq!((found.causes[0].0, &found.set[..]), (Some(1), &[1, 3][..]));
     }
 }

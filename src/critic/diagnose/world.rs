@@ -9,6 +9,7 @@ use crate::critic::bank::{Bank, Curves, DOUBT, Emulator, NUMBERS, Path, Plan, To
 use crate::critic::diagnose::asked::Asked;
 use crate::critic::diagnose::causes::Causes;
 use crate::critic::diagnose::design::{Campaign, Design};
+use crate::critic::diagnose::nameless::Nameless;
 use crate::critic::simulated::of_points;
 use crate::ensemble::{build, is_random, weight};
 use crate::math::{atan, radians, tan};
@@ -182,16 +183,39 @@ impl<'s> World<'s> {
         Campaign::read(design, &values, &self.values_apart(design, truth), streams)
     }
 
+    /// A campaign in which something is off that is in no catalogue, with joints drawn from their priors: a pure function of the
+    /// design and the streams.
+    pub fn nameless(&self, design: &Design, streams: &Streams) -> Campaign {
+        let truth = self.drawn(None, streams);
+        let values = self.values_with(design, &truth, &Nameless::drawn(design, streams), streams);
+        Campaign::read(design, &values, &self.values_apart(design, &truth), streams)
+    }
+
     /// What the specimens of a campaign show of each reading (SI, gauges included) before the readings' errors; `None` where the
     /// wall has fallen. The walls are those of [`Self::campaign`] with the same streams.
     pub fn values(&self, design: &Design, truth: &Truth, streams: &Streams) -> Vec<Vec<Option<f64>>> {
+        self.values_with(design, truth, &Nameless::default(), streams)
+    }
+
+    fn values_with(
+        &self,
+        design: &Design,
+        truth: &Truth,
+        nameless: &Nameless,
+        streams: &Streams,
+    ) -> Vec<Vec<Option<f64>>> {
         let gauge = self.gauge(truth);
         let specimens = design.specimens.iter().enumerate();
         specimens
             .map(|(index, specimen)| {
                 let truth = if specimen.turned { &self.turned(truth) } else { truth };
-                let curves = Curves::of(&self.wall(specimen.family, truth, index, streams));
-                specimen.readings.iter().map(|m| shown(&curves, m, &gauge)).collect()
+                let mut numbers = self.wall(specimen.family, truth, index, streams);
+                nameless.act(index, &mut numbers);
+                let curves = Curves::of(&numbers);
+                let seen = |tilt: f64, points: [f64; 3]| {
+                    nameless.shown(index, tilt, points.map(|x| gauge.reading(x)))
+                };
+                specimen.readings.iter().map(|m| shown(&curves, m, &seen)).collect()
             })
             .collect()
     }
@@ -377,16 +401,18 @@ impl<'s> World<'s> {
     }
 }
 
-/// What a wall shows of a reading before its errors; `None` where it has fallen.
-fn shown(wall: &Curves, m: &Measurement, gauge: &Mechanisms) -> Option<f64> {
+/// What a wall shows of a reading before its errors; `None` where it has fallen. `seen` is what gauges make of the three points at a
+/// tilt.
+fn shown(wall: &Curves, m: &Measurement, seen: &impl Fn(f64, [f64; 3]) -> [f64; 3]) -> Option<f64> {
     if m.quantity == MeasuredQuantity::CollapseAngle {
         return Some(wall.collapse());
     }
+    let tilt = m.tilt?;
     let points = match m.quantity.is_remainder() {
-        false => wall.displacements(m.tilt?),
-        true => wall.remainders(m.tilt?),
+        false => wall.displacements(tilt),
+        true => wall.remainders(tilt),
     };
-    of_points(m.quantity, points?.map(|x| gauge.reading(x)))
+    of_points(m.quantity, seen(tilt, points?))
 }
 
 impl Likely {

@@ -48,7 +48,8 @@ pub fn write_diagnosis(summary: &DiagnosisSummary, families: &[FamilyFigure], di
         let name = if family.family == RESIDUALS { "residuals.family" } else { &family.family };
         write_figure(dir, name, &figure(1), &figure(IMAGE_SCALE))?;
         let caption = format!(
-            "Family {}: what was measured on what walls of the base model show. The bands end where half of them have fallen.",
+            "Family {}: what was measured on what walls of the base model show. The bands end where half of them have fallen, the line \
+             of a cause where half of its own have. Specimens read at one tilt stand side by side.",
             family.family
         );
         drawings.push(Drawing { caption, svg: svg(&figure(1))? });

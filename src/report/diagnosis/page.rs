@@ -2,7 +2,7 @@
 
 use crate::report::diagnosis::summary::{CauseEntry, DiagnosisSummary};
 use crate::report::diagnosis::text::{
-    CAUSE, CAUSES, FORM, OFF, by_chance, excluded, not_used, or_dash, pairs, reliability, verdict,
+    CAUSE, CAUSES, FORM, OFF, by_chance, excluded, not_used, or_dash, others, pairs, reliability, verdict,
     worth_saying,
 };
 use crate::report::diagnosis::words::{lines, reading};
@@ -52,8 +52,9 @@ pub fn page(summary: &DiagnosisSummary, drawings: &[Drawing]) -> String {
     });
     body.push_str(&format!("<h2>Causes</h2>\n{}", paragraph(&format!("{CAUSE}."))));
     let mut rows: Vec<Vec<String>> = summary.causes.iter().take(CAUSES).map(cause).collect();
-    let base = format!("{:.3}", summary.base_probability);
-    rows.push(["none of them", &base, "", "", ""].map(String::from).to_vec());
+    for (what, probability) in others(summary) {
+        rows.push([what, &format!("{probability:.3}"), "", "", ""].map(String::from).to_vec());
+    }
     body.push_str(&table(
         &["cause", "probability", "evidence", "guard", "parameters: median and nine in ten"],
         rows,
@@ -62,8 +63,8 @@ pub fn page(summary: &DiagnosisSummary, drawings: &[Drawing]) -> String {
     if summary.verdict == "unexplained" {
         let sentences: Vec<Vec<String>> = summary.form.iter().map(|bent| vec![bent.sentence()]).collect();
         body.push_str(&format!("<h2>What is not explained</h2>\n{}", table(&[FORM], sentences)));
-        excluded(summary).iter().for_each(|words| body.push_str(&paragraph(words)));
     }
+    excluded(summary).iter().for_each(|words| body.push_str(&paragraph(words)));
     let gain = summary.gain.as_ref().map_or_else(String::new, GainSummary::text);
     for (title, text) in
         [("What is gained", gain), ("What the data cannot tell, and what would", summary.advice.text())]

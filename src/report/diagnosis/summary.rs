@@ -33,6 +33,8 @@ pub struct DiagnosisSummary {
     pub pairs: Vec<PairEntry>,
     /// Probability of the base model among them.
     pub base_probability: f64,
+    /// Probability of something that is in no catalogue, as likely beforehand as one of them.
+    pub nameless_probability: f64,
     /// Share of campaigns without any effect in which something is as far off.
     pub p_value: f64,
     /// The same of each way of looking alone.
@@ -51,6 +53,8 @@ pub struct DiagnosisSummary {
     pub notes: Vec<String>,
     /// How reliable verdicts on such data are.
     pub self_test: Vec<SelfTestEntry>,
+    /// The same where something is off that is in no catalogue: any name is a wrong one.
+    pub self_test_nameless: NamelessEntry,
     /// What the data cannot tell, and what would.
     pub advice: Advice,
     /// What the extended model gains on readings that were not known; null where it was not asked or nothing was found.
@@ -64,7 +68,7 @@ pub struct LooksEntry {
     pub furthest: f64,
     /// By how far all numbers are off together.
     pub together: f64,
-    /// By how much it looks like a cause.
+    /// By how much it looks like a cause, or like something that is in no catalogue.
     pub likeness: f64,
 }
 
@@ -129,6 +133,16 @@ pub struct OffEntry {
     pub what: String,
     /// Measured less simulated, in standard deviations of campaigns without any effect.
     pub in_sd: f64,
+}
+
+/// What the self-test says of effects that are in no catalogue.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct NamelessEntry {
+    /// Campaigns, by how they seem: before evidence and guard.
+    #[serde(flatten)]
+    pub all: Counted,
+    /// Some of them by all that a diagnosis does.
+    pub judged: Counted,
 }
 
 /// A line of the self-test.
@@ -233,6 +247,7 @@ impl DiagnosisSummary {
             causes,
             pairs: pairs.collect(),
             base_probability: base.map_or(0.0, |(_, probability)| *probability),
+            nameless_probability: ranked.nameless,
             p_value: diagnosis.seeming.p_value,
             looks: LooksEntry { furthest, together, likeness },
             off,
@@ -242,6 +257,7 @@ impl DiagnosisSummary {
             unused_lines: design.unused.clone(),
             notes: Vec::new(),
             self_test: tested.collect(),
+            self_test_nameless: NamelessEntry { all: self_test.nameless[0], judged: self_test.nameless[1] },
             advice: Advice::default(),
             gain: None,
         }

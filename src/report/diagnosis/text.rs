@@ -43,7 +43,9 @@ pub fn diagnosis_text(summary: &DiagnosisSummary) -> String {
             text.push_str(&format!("      {}\n", parameter.words()));
         }
     }
-    text.push_str(&format!("  {:<18} {:>6.3}\n", "none of them", summary.base_probability));
+    for (what, probability) in others(summary) {
+        text.push_str(&format!("  {what:<18} {probability:>6.3}\n"));
+    }
     text.push_str(&pairs(summary).map_or_else(String::new, |words| wrapped("", &words)));
     if summary.verdict == "unexplained" {
         text.push_str(&format!("\n{FORM}\n"));
@@ -51,8 +53,8 @@ pub fn diagnosis_text(summary: &DiagnosisSummary) -> String {
         if summary.form.is_empty() {
             text.push_str("  none that is sure\n");
         }
-        excluded(summary).iter().for_each(|words| text.push_str(&wrapped("  - ", words)));
     }
+    excluded(summary).iter().for_each(|words| text.push_str(&wrapped("  - ", words)));
     text.push_str(&summary.gain.as_ref().map_or_else(String::new, GainSummary::text));
     text.push_str(&summary.advice.text());
     text.push_str(&format!("\n{}", wrapped("", &reliability(summary))));
@@ -65,8 +67,13 @@ pub(super) const OFF: &str =
     "What is off (measured less simulated, in standard deviations of campaigns without any effect)";
 /// What the numbers of the causes are.
 pub(super) const CAUSE: &str = "Probability if all were equally likely before, by how each one's campaigns look and by the evidence together. \
-    Evidence: its share of that of the causes looked at closely, which knows every reading, and is too sure of itself to be taken alone. \
+    Something else: random forms of what walls do and gauges show, which are no cause's. Evidence: its share of that of the causes looked at closely, which knows every reading, and is too sure of itself to be taken alone. \
     Guard: share of the cause's own campaigns that fit worse. A dash: not asked";
+/// What is likely besides the causes.
+pub(super) fn others(summary: &DiagnosisSummary) -> [(&'static str, f64); 2] {
+    [("something else", summary.nameless_probability), ("nothing", summary.base_probability)]
+}
+
 /// What the numbers of a form are.
 pub(super) const FORM: &str = "Form of what is not explained (measured less base model with fitted joints, if it is smooth over the tilt, or goes with the order of the tests)";
 
@@ -115,7 +122,7 @@ pub(super) fn by_chance(summary: &DiagnosisSummary) -> Option<String> {
     (summary.verdict != "nothing_found").then(|| {
         format!(
             "Campaigns without any effect are as far off in a share of {} of cases (by the number that is furthest off alone {}, by all \
-             numbers together {}, by how much they look like a cause {}).",
+             numbers together {}, by how much they look like a cause or something else {}).",
             number(summary.p_value),
             number(furthest),
             number(together),
@@ -133,19 +140,23 @@ pub(super) fn worth_saying(summary: &DiagnosisSummary) -> Vec<&OffEntry> {
 pub(super) fn pairs(summary: &DiagnosisSummary) -> Option<String> {
     let (pair, limits) = (summary.pairs.first()?, Limits::default().pair);
     Some(format!(
-        "Of {} pairs looked at closely {} and {} have most of the evidence: a share of {}, guard {}; a pair is named from {} and {} on.",
+        "Of {} pairs looked at closely {} and {} have most of the evidence: a share of {}, guard {}; a pair is named from {} and {} on, where something else has {} or less.",
         summary.pairs.len(),
         pair.ids[0],
         pair.ids[1],
         significant(pair.evidence, 2),
         or_dash(pair.guard_p_value),
         limits.named,
-        limits.guard
+        limits.guard,
+        limits.nameless
     ))
 }
 
-/// Which causes are put aside and why, and which are not.
+/// Where no cause is named, though something is wrong: which causes are put aside and why, and which are not.
 pub(super) fn excluded(summary: &DiagnosisSummary) -> Vec<String> {
+    if !["ambiguous", "unexplained"].contains(&summary.verdict) {
+        return Vec::new();
+    }
     let by = |why: Option<&str>| -> Vec<&str> {
         summary.causes.iter().filter(|cause| cause.excluded_by == why).map(|cause| cause.id).collect()
     };
@@ -185,7 +196,7 @@ pub(super) fn reliability(summary: &DiagnosisSummary) -> String {
     let share = |part: u64, whole: u64| if whole == 0 { 0.0 } else { 100.0 * part as f64 / whole as f64 };
     let (all, strong) = (sum(&hidden, |row| row.all), sum(&hidden, |row| row.strong));
     let (judged, closely) = (sum(&hidden, |row| row.judged), sum(&nothing, |row| row.judged));
-    let still = sum(&nothing, |row| row.all);
+    let (still, nameless) = (sum(&nothing, |row| row.all), summary.self_test_nameless.judged);
     let seeming = format!(
         "With data like these, by simulation from the bank: an effect drawn from its prior is found in {:.0} % of campaigns, one of \
          the third that moves most of what is read in {:.0} %; where nothing is hidden, something is found in {:.0} %. By looks alone, \
@@ -205,8 +216,14 @@ pub(super) fn reliability(summary: &DiagnosisSummary) -> String {
         ),
         _ => format!(
             "{seeming} By all that a diagnosis does, {} of {} such effects are named and {} given another name; of {} campaigns with \
-             nothing hidden {}.",
-            judged.named, judged.campaigns, judged.misnamed, closely.campaigns, closely.misnamed
+             nothing hidden {}, and of {} with something in no catalogue {}.",
+            judged.named,
+            judged.campaigns,
+            judged.misnamed,
+            closely.campaigns,
+            closely.misnamed,
+            nameless.campaigns,
+            nameless.misnamed
         ),
     }
 }

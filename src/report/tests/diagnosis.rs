@@ -87,6 +87,7 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>) {
                     (Some(cause("lean")), 0.036),
                     (Some(cause("density")), 0.004),
                 ],
+                nameless: 0.0,
                 set: vec![causes[0], causes[1], cause("density")],
             },
         },
@@ -96,7 +97,8 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>) {
         verdict: Verdict::Ambiguous(causes.to_vec()),
     };
     let residuals = Baseline::new(&world, &design, 2).residuals(&measured);
-    let test = SelfTest { rows: rows.to_vec() };
+    let nameless = [10, 5].map(|campaigns| Counted { campaigns, found: 3, named: 0, misnamed: 1 });
+    let test = SelfTest { rows: rows.to_vec(), nameless };
     let summary = DiagnosisSummary::of(&made.study, 3, "00ff", &made.mechanisms, &design, &diagnosis, &test)
         .beside(&made.study, &residuals);
     let (base, under) = (base_curves(&world, &design, 4), cause_curves(&world, &design, &diagnosis, 4));
@@ -116,7 +118,10 @@ fn what_is_not_explained_excludes_causes_and_says_why() {
     assert_eq!([by("creep"), by("gauge_offset"), by("lean")], [None, None, Some("looks")]);
     // In the set as well, but for the evidence, which leaves it four in a thousand.
     assert_eq!(by("density"), Some("evidence"));
-    assert!(!diagnosis_text(&summary).contains("Excluded"));
+    // Where few are left the others' reasons are told as well, and where one is named nobody asks.
+    assert!(diagnosis_text(&summary).contains("Not excluded: creep, gauge_offset."));
+    summary.verdict = "named";
+    assert!(!diagnosis_text(&summary).contains("xcluded"));
     (summary.verdict, summary.causes[0].excluded_by) = ("unexplained", Some("readings"));
     let text = diagnosis_text(&summary);
     for sentence in [

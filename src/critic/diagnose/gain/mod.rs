@@ -93,7 +93,9 @@ pub struct Measuring {
 
 impl Default for Measuring {
     fn default() -> Self {
-        Measuring { effort: Effort::default(), limits: Limits::default(), nulls: 60 }
+        // A fold's judge chooses for all folds alike, and costs as much as that of the verdict: half of what that learns from.
+        let effort = Effort { training: Effort::default().training / 2, ..Effort::default() };
+        Measuring { effort, limits: Limits::default(), nulls: 60 }
     }
 }
 

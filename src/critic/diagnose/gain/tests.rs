@@ -137,7 +137,7 @@ fn a_strong_effect_is_a_gain_and_its_absence_is_none() {
 
 #[test]
 fn a_fold_that_names_no_cause_mixes_those_that_it_leaves_open() {
-    let ranked = |shares: &[(Option<usize>, f64)]| Ranked::new(shares.to_vec(), Vec::new());
+    let ranked = |shares: &[(Option<usize>, f64)]| Ranked::new(shares.to_vec(), 0.0, Vec::new());
     // A name stands alone, whatever is left of the others.
     assert_eq!(mixed(&ranked(&[(Some(4), 0.85), (Some(2), 0.15)]), 0.8), [(4, 1.0)]);
     // Two of three have more than nine tenths of what the causes have together.
