@@ -29,7 +29,7 @@ const FULL: f64 = 0.26;
 enum On {
     /// The collapse angle, and with it all displacements.
     Fall,
-    /// A kind of number of the way up, in the order of [`KINDS`](crate::critic::bank::KINDS): how far walls move, bow, twist.
+    /// A kind of number of the way up: how far walls move (0), bow (1), twist (2).
     Way(usize),
     /// What is shown of the left, centre and right points, each by its share: a factor.
     Factor([f64; 3]),

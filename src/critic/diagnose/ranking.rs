@@ -22,6 +22,9 @@ const HELD: u64 = 8;
 /// learnt from 2,400 campaigns of each cause tell more of new ones than one that has learnt from 3,600.
 const NETWORKS: u64 = 2;
 
+/// No more than this is ever nameless: what causes share of the rest stays a number.
+const SUREST: f64 = 1.0 - 1e-9;
+
 /// The causes of a world as a design can tell them apart.
 #[derive(Clone, Debug)]
 pub struct Ranking {
@@ -126,6 +129,7 @@ impl Ranked {
     /// Of causes with their shares, of sum 1, in what nameless effects leave of the probability, in any order.
     pub(super) fn new(mut causes: Vec<(Option<usize>, f64)>, nameless: f64, set: Vec<usize>) -> Ranked {
         causes.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+        let nameless = nameless.min(SUREST);
         causes.iter_mut().for_each(|(_, p)| *p *= 1.0 - nameless);
         Ranked { causes, nameless, set }
     }

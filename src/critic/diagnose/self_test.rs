@@ -28,8 +28,8 @@ const MORE: u64 = 5;
 pub struct SelfTest {
     /// For the base model (first) and each cause.
     pub rows: Vec<SelfTestRow>,
-    /// Campaigns of [nameless](crate::critic::World::nameless) effects, by how they seem, and some of them by all that a diagnosis does: any name is
-    /// a wrong one.
+    /// Campaigns of [nameless](crate::critic::World::nameless) effects, by how they seem, and some of them by all that a diagnosis
+    /// does: any name is a wrong one.
     pub nameless: [Counted; 2],
 }
 

@@ -341,11 +341,11 @@ fn heard(ranked: &Ranked, closely: &[usize], logs: &[f64]) -> Ranked {
     let log = |cause: &Option<usize>| known.iter().find(|(own, _)| own == cause).map(|(_, log)| *log);
     let (looked_at, others): (Vec<_>, Vec<_>) =
         ranked.causes.iter().copied().partition(|(cause, _)| log(cause).is_some());
-    let [whole, all] = [&looked_at, &ranked.causes].map(|of| of.iter().fold(0.0, |sum, (_, p)| sum + p));
+    let whole = looked_at.iter().fold(0.0, |sum, (_, p)| sum + p);
     let both = looked_at.iter().filter_map(|(cause, p)| Some(ln(p.max(1e-12)) + HEARD_CLOSELY * log(cause)?));
     let shares = softmax(&both.collect::<Vec<_>>(), 1.0);
     let told = looked_at.iter().zip(shares).map(|((cause, _), share)| (*cause, whole * share));
-    let shares = told.chain(others).map(|(cause, p)| (cause, p / all)).collect();
+    let shares = told.chain(others).map(|(cause, p)| (cause, p / (1.0 - ranked.nameless))).collect();
     Ranked::new(shares, ranked.nameless, ranked.set.clone())
 }
 
@@ -401,5 +401,8 @@ mod tests {
         assert!((of(Some(2)) - 0.8 * 0.1).abs() < 1e-12);
         assert_eq!(found.nameless, 0.2);
         assert_eq!((found.causes[0].0, &found.set[..]), (Some(1), &[1, 3][..]));
+        // What is surely nameless leaves causes little, and that is a number.
+        let sure = heard(&Ranked::new(ranked.causes.clone(), 1.0, vec![1, 3]), &[3, 1], &[-20.0, -10.0, 0.0]);
+        assert!(sure.causes.iter().all(|(_, p)| *p > 0.0 && *p < 1e-8), "{sure:?}");
     }
 }

@@ -67,15 +67,16 @@ pub(super) const OFF: &str =
     "What is off (measured less simulated, in standard deviations of campaigns without any effect)";
 /// What the numbers of the causes are.
 pub(super) const CAUSE: &str = "Probability if all were equally likely before, by how each one's campaigns look and by the evidence together. \
-    Something else: random forms of what walls do and gauges show, which are no cause's. Evidence: its share of that of the causes looked at closely, which knows every reading, and is too sure of itself to be taken alone. \
+    Something else: random forms of what walls do and gauges show, which are no cause's. \
+    Evidence: its share of that of the causes looked at closely, which knows every reading, and is too sure of itself to be taken alone. \
     Guard: share of the cause's own campaigns that fit worse. A dash: not asked";
+/// What the numbers of a form are.
+pub(super) const FORM: &str = "Form of what is not explained (measured less base model with fitted joints, if it is smooth over the tilt, or goes with the order of the tests)";
+
 /// What is likely besides the causes.
 pub(super) fn others(summary: &DiagnosisSummary) -> [(&'static str, f64); 2] {
     [("something else", summary.nameless_probability), ("nothing", summary.base_probability)]
 }
-
-/// What the numbers of a form are.
-pub(super) const FORM: &str = "Form of what is not explained (measured less base model with fitted joints, if it is smooth over the tilt, or goes with the order of the tests)";
 
 /// A share, or a dash where there is none.
 pub(super) fn or_dash(share: Option<f64>) -> String {
@@ -140,7 +141,8 @@ pub(super) fn worth_saying(summary: &DiagnosisSummary) -> Vec<&OffEntry> {
 pub(super) fn pairs(summary: &DiagnosisSummary) -> Option<String> {
     let (pair, limits) = (summary.pairs.first()?, Limits::default().pair);
     Some(format!(
-        "Of {} pairs looked at closely {} and {} have most of the evidence: a share of {}, guard {}; a pair is named from {} and {} on, where something else has {} or less.",
+        "Of {} pairs looked at closely {} and {} have most of the evidence: a share of {}, guard {}; a pair is named from {} \
+         and {} on, where something else has {} or less.",
         summary.pairs.len(),
         pair.ids[0],
         pair.ids[1],

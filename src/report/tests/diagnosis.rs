@@ -87,7 +87,7 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>) {
                     (Some(cause("lean")), 0.036),
                     (Some(cause("density")), 0.004),
                 ],
-                nameless: 0.0,
+                nameless: 0.25,
                 set: vec![causes[0], causes[1], cause("density")],
             },
         },
@@ -231,6 +231,8 @@ fn the_text_the_page_and_the_files_show_what_was_measured_beside_what_was_simula
         "- cbl: displacement mean at 5, 10 and 15 deg: agrees (p ",
         "- sbl: displacement mean at 5 deg: 13.3 mm measured, ",
         "times too far",
+        "something else 0.250 nothing 0.060",
+        "with nothing hidden 0, and of 5 with something in no catalogue 1.",
         "Not used: lines 7, 9 of the measurements",
     ] {
         assert!(words.contains(part), "no `{part}` in\n{text}");
@@ -262,6 +264,7 @@ fn the_text_the_page_and_the_files_show_what_was_measured_beside_what_was_simula
         "<h1>Diagnosis of study tilting-table",
         "creep (in the verdict)",
         "<td>sbl: collapse angle</td>",
+        "<td>something else</td><td>0.250</td>",
         "lines 7, 9",
     ] {
         assert!(page.contains(part), "no `{part}` in the page");
@@ -275,6 +278,8 @@ fn the_text_the_page_and_the_files_show_what_was_measured_beside_what_was_simula
         (json["residuals"].as_array().unwrap().len(), json["groups"].as_array().unwrap().len()),
         (33, 11)
     );
+    let nameless = &json["self_test_nameless"];
+    assert_eq!((&json["nameless_probability"], &nameless["judged"]["misnamed"]), (&0.25.into(), &1.into()));
     let bound = &json["residuals"][1];
     assert_eq!((bound["specimen"].as_str(), bound["kind"].as_str()), (Some("CBL1"), Some("below")));
     assert!(bound["in_sd"].is_null() && bound["agreeing_share"].as_f64().unwrap() > 0.5);

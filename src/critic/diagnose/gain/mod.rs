@@ -93,7 +93,7 @@ pub struct Measuring {
 
 impl Default for Measuring {
     fn default() -> Self {
-        // A fold's judge chooses for all folds alike, and costs as much as that of the verdict: half of what that learns from.
+        // Folds take several judges: each learns from half as many campaigns as that of the verdict.
         let effort = Effort { training: Effort::default().training / 2, ..Effort::default() };
         Measuring { effort, limits: Limits::default(), nulls: 60 }
     }
