@@ -119,13 +119,17 @@ impl GainSummary {
     pub fn text(&self) -> String {
         let mut text = "\nGain on readings that were not known (extended less base model; 95 % intervals, calibrated on campaigns without effect)\n".to_string();
         let parts = [
-            ("each specimen left out in turn", &self.specimens_left_out),
-            ("the largest tilts and the collapse angles left out", &self.largest_tilts_left_out),
+            ("each specimen left out in turn", "it takes two specimens", &self.specimens_left_out),
+            (
+                "the largest tilts and the collapse angles left out",
+                "it takes two specimens that were read at two tilts",
+                &self.largest_tilts_left_out,
+            ),
         ];
-        for (what, entry) in parts {
+        for (what, needed, entry) in parts {
             match entry {
                 Some(entry) => text.push_str(&entry.text(what)),
-                None => text.push_str(&format!("  {what}: there is nothing to hold out\n")),
+                None => text.push_str(&format!("  {what}: {needed}\n")),
             }
         }
         for own in &self.one_family_known {

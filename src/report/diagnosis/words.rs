@@ -14,9 +14,9 @@ const FALLEN: f64 = 0.05;
 pub struct Line {
     /// Family, quantity and tilt.
     pub what: String,
-    /// What was measured; empty where tilts share the line.
+    /// What was measured; at the first and the last of the tilts that share the line.
     pub measured: String,
-    /// What was simulated; empty where tilts share the line.
+    /// What was simulated; the same.
     pub simulated: String,
     /// How they stand.
     pub finding: String,
@@ -26,10 +26,7 @@ impl Line {
     /// In one sentence.
     pub fn sentence(&self) -> String {
         let Line { what, measured, simulated, finding } = self;
-        match measured.is_empty() {
-            true => format!("{what}: {finding}"),
-            false => format!("{what}: {measured} measured, {simulated} simulated: {finding}"),
-        }
+        format!("{what}: {measured} measured, {simulated} simulated: {finding}")
     }
 }
 
@@ -67,8 +64,8 @@ fn together(groups: &[GroupEntry]) -> Line {
     let least = groups.iter().filter_map(|group| group.p_value).fold(1.0, f64::min);
     Line {
         what: format!("{} {} {} and {last} deg", name(&groups[0]), at(groups[0].quantity), others.join(", ")),
-        measured: String::new(),
-        simulated: String::new(),
+        measured: from_to(groups, measured),
+        simulated: from_to(groups, simulated),
         finding: match least < 1.0 {
             true => format!("agrees (p {} or more)", significant(least, 2)),
             false => "agrees".to_string(),
@@ -76,12 +73,19 @@ fn together(groups: &[GroupEntry]) -> Line {
     }
 }
 
+/// What is said of the first tilt and of the last, once if it is the same.
+fn from_to(groups: &[GroupEntry], said: fn(&GroupEntry) -> String) -> String {
+    let mut ends: Vec<String> = groups.first().into_iter().chain(groups.last()).map(said).collect();
+    ends.dedup();
+    ends.join(" to ")
+}
+
 fn line(group: &GroupEntry) -> Line {
     let tilt = group.tilt_deg.map_or_else(String::new, |tilt| format!(" {} {tilt} deg", at(group.quantity)));
     Line {
         what: format!("{}{tilt}", name(group)),
         measured: measured(group),
-        simulated: group.simulated.as_ref().map_or_else(|| "nothing".to_string(), |s| simulated(group, s)),
+        simulated: simulated(group),
         finding: finding(group),
     }
 }
@@ -111,7 +115,8 @@ fn measured(group: &GroupEntry) -> String {
     }
 }
 
-fn simulated(group: &GroupEntry, expected: &ExpectedEntry) -> String {
+fn simulated(group: &GroupEntry) -> String {
+    let Some(expected) = &group.simulated else { return "nothing".to_string() };
     let [low, high] = expected.band_90.map(|x| shown(group, x));
     format!("{} [{low}, {high}]", shown(group, expected.median))
 }

@@ -206,12 +206,16 @@ fn a_group_is_said_in_words_with_how_far_it_is_off() {
 
 #[test]
 fn tilts_that_all_agree_share_a_line_and_others_do_not() {
-    let at = |tilt: f64, stands| GroupEntry { tilt_deg: Some(tilt), ..group(3e-3, stands, 0.04 * tilt, 0.0) };
+    let at = |tilt: f64, stands| GroupEntry {
+        tilt_deg: Some(tilt),
+        ..group(2e-4 * tilt, stands, 0.04 * tilt, 0.0)
+    };
     let agreeing = lines(&[at(5.0, "within"), at(7.5, "within"), at(10.0, "within")]);
     assert_eq!(agreeing.len(), 1);
     assert_eq!(
         agreeing[0].sentence(),
-        "sbl: displacement mean at 5, 7.5 and 10 deg: agrees (p 0.20 or more)"
+        "sbl: displacement mean at 5, 7.5 and 10 deg: 1.00 mm to 2.00 mm measured, 3.10 [2.00, 5.50] simulated: agrees (p 0.20 or \
+         more)"
     );
     let other = GroupEntry { family: "cbl".into(), ..at(5.0, "within") };
     let mixed = lines(&[other, at(5.0, "within"), at(7.5, "above"), at(10.0, "within")]);
@@ -228,7 +232,7 @@ fn the_text_the_page_and_the_files_show_what_was_measured_beside_what_was_simula
         "AMBIGUOUS: ",
         "Measured beside simulated The mean over the specimens;",
         "Single lines are not corrected for their number (of 11, one in ten disagrees by chance)",
-        "- cbl: displacement mean at 5, 10 and 15 deg: agrees (p ",
+        "- cbl: displacement mean at 5, 10 and 15 deg: below 5.00 mm in all 3 measured, ",
         "- sbl: displacement mean at 5 deg: 13.3 mm measured, ",
         "times too far",
         "something else 0.250 nothing 0.060",
