@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::cli::arguments::{Bank, Which};
 use crate::cli::failure::Failure;
 use crate::cli::{judge, locate, output, progress, threads};
-use crate::critic::{self, BANK, Design, Doubt, NotThisBank, Plan, doubts};
+use crate::critic::{self, BANK, Design, Doubt, NotThisBank, Plan, World, doubts};
 use crate::ensemble::{Settings, replace_file, run_with};
 use crate::protocol::Protocol;
 use crate::study::{Described, Loaded, Nuisance, Study, described, nuisances};
@@ -33,15 +33,32 @@ fn made(arguments: &Bank) -> Result<(), Failure> {
     // A table that came without its journal is as good as one that was computed here.
     let present = fs::read(out.join(BANK)).ok().and_then(|bytes| critic::Bank::read(&bytes, &plan).ok());
     let bank = present.map_or_else(|| computed(&plan, &out, arguments.threads), Ok)?;
+    let told = bank.paths.iter().flatten().count();
+    let walls = bank.paths.len();
+    let mut said = format!("{walls} walls, {told} with a path to their collapse, in {}\n", out.display());
     // Few points make a bank that may grow, and nothing to judge by.
     if let Ok(world) = judge::world(&study, &mechanisms, &nuisances, &plan, &bank)
         && let Ok(judge) = judge::judge(&world, &Design::of(&study).0, study.seed)
     {
         judge::keep_self_test(&judge, &plan, study.seed, &out, arguments.judged)?;
+        said.push_str(&foretold(&world));
     }
-    let told = bank.paths.iter().flatten().count();
-    let walls = bank.paths.len();
-    output::print(&format!("{walls} walls, {told} with a path to their collapse, in {}\n", out.display()))
+    output::print(&said)
+}
+
+/// How much of what walls do the emulators know beforehand.
+fn foretold(world: &World<'_>) -> String {
+    let mut text = "Told beforehand of walls that were left out, of the variance in a family (the rest is stones and emulator, and \
+                    is reckoned with)\n"
+        .to_string();
+    for (family, shares) in world.foretold() {
+        let [collapse, moved] = shares.map(|share| 100.0 * share.max(0.0));
+        let name = &world.study().arms[family].name;
+        text.push_str(&format!(
+            "  {name}: collapse angle {collapse:.0} %, displacement half way up {moved:.0} %\n"
+        ));
+    }
+    text
 }
 
 /// The study that the arguments name, with the measurements of another file if one is named.

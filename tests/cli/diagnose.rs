@@ -97,7 +97,13 @@ fn the_self_test_is_kept_beside_the_bank(folder: &Folder, computed: &Value) {
     let path = folder.path("runs/tiny-bank/self-test.json");
     assert!(!path.exists());
     let bank = ["bank", "studies/tiny", "--measured", "tests.csv", "--points", "60"];
-    ends_with(folder, 0, &[&bank[..], &["--judged", "0"]].concat());
+    let made = ends_with(folder, 0, &[&bank[..], &["--judged", "0"]].concat());
+    let made = String::from_utf8(made.stdout).unwrap();
+    let tower = made.lines().last().unwrap();
+    assert!(
+        tower.starts_with("  tower: collapse angle ") && tower.contains(" %, displacement half way up "),
+        "{made}"
+    );
     let kept = fs::read_to_string(&path).unwrap();
     assert_eq!(&told(), computed);
     fs::write(&path, kept.replace("\"campaigns\": 100", "\"campaigns\": 50")).unwrap();

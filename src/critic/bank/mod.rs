@@ -9,6 +9,6 @@ mod store;
 pub(super) mod tests;
 
 pub use emulator::{Emulator, Told};
-pub use path::{Curves, NUMBERS, PLACES, Path};
+pub use path::{Curves, HALF_WAY, NUMBERS, PLACES, Path};
 pub use plan::{DOUBT, Place, Plan};
 pub use store::{BANK, Bank, Held, NotThisBank};

@@ -17,6 +17,8 @@ pub const KINDS: [&str; 6] =
     ["ln_mean_m_per_rad", "bow", "twist", "mean_remainder", "bow_remainder", "twist_remainder"];
 /// Numbers of a path: the collapse angle, and one of every kind at every place.
 pub const NUMBERS: usize = 1 + KINDS.len() * PLACES.len();
+/// The one that tells how far it has moved when half of the collapse angle is reached (51 %).
+pub const HALF_WAY: usize = 1 + 3;
 /// Those of the way up come first.
 pub const NUMBERS_UP: usize = 1 + 3 * PLACES.len();
 

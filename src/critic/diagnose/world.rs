@@ -5,7 +5,7 @@ mod tests;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::critic::bank::{Bank, Curves, DOUBT, Emulator, NUMBERS, Path, Plan, Told};
+use crate::critic::bank::{Bank, Curves, DOUBT, Emulator, HALF_WAY, NUMBERS, Path, Plan, Told};
 use crate::critic::diagnose::asked::Asked;
 use crate::critic::diagnose::causes::Causes;
 use crate::critic::diagnose::design::{Campaign, Design};
@@ -228,6 +228,14 @@ impl<'s> World<'s> {
     /// Whether walls of a family differ in the base model. Where they do not, simulated ones differ by the emulator's error alone.
     pub fn is_random(&self, family: usize) -> bool {
         self.base.get(&family).is_some_and(|walls| walls.random)
+    }
+
+    /// What the emulators tell of walls of the base model that they do not know, by family: share of the variance of the collapse
+    /// angle, and of (the logarithm of) how far a wall has moved half way up to it. The rest is the stones' own and the emulator's
+    /// error.
+    pub fn foretold(&self) -> Vec<(usize, [f64; 2])> {
+        let shares = |walls: &Walls| [0, HALF_WAY].map(|number| walls.emulator.explained()[number]);
+        self.base.iter().map(|(family, walls)| (*family, shares(walls))).collect()
     }
 
     /// Weight of a stone of a family as it is stated, in the mean over a wall (N).
