@@ -153,7 +153,7 @@ impl<'k> Judge<'k> {
         let guard = found.looked_at.iter().filter_map(|own| Some((name(&own.cause), own.guard?))).collect();
         let evidence = found.looked_at.iter().map(|own| (name(&own.cause), own.evidence)).collect();
         let best = found.pairs.first();
-        let pair = best.map(|own| ([0, 1].map(|k| name(&own.causes[k])), own.evidence, own.guard));
+        let pair = best.map(|own| ([0, 1].map(|k| name(&own.cause[k])), own.evidence, own.guard));
         Said { p_value: found.seeming.p_value, verdict, names, set, open, likeliest, guard, evidence, pair }
     }
 }

@@ -1,6 +1,7 @@
 //! What speaks against a cause, and which causes nothing speaks against.
 
-use crate::critic::diagnose::verdict::{Diagnosis, Limits, POSSIBLE, Verdict};
+use crate::critic::diagnose::limits::{Limits, POSSIBLE};
+use crate::critic::diagnose::verdict::{Diagnosis, Verdict};
 
 /// What speaks against a cause.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

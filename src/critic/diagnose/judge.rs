@@ -4,8 +4,8 @@ use rayon::prelude::*;
 
 use crate::critic::diagnose::alarm::Alarm;
 use crate::critic::diagnose::design::{Campaign, Design};
+use crate::critic::diagnose::limits::Limits;
 use crate::critic::diagnose::ranking::{Ranked, Ranking};
-use crate::critic::diagnose::verdict::Limits;
 use crate::critic::diagnose::world::World;
 use crate::critic::diagnose::wrong::{Reference, Wrong};
 use crate::random::Streams;

@@ -5,6 +5,7 @@ mod alarm;
 mod asked;
 mod causes;
 mod design;
+mod diagnosed;
 mod discrepancy;
 mod doubt;
 mod doubts;
@@ -16,6 +17,7 @@ mod gain;
 mod guard;
 mod judge;
 mod likelihood;
+mod limits;
 mod nameless;
 mod network;
 mod next;
@@ -41,6 +43,7 @@ pub use features::{Contrast, Feature, Scale, features};
 pub use gain::{Choice, Folds, Gain, Gained, HeldOut, Interval, Measuring, Scores};
 pub use guard::guarded;
 pub use judge::{Effort, Judge, Seeming};
+pub use limits::{Limits, MOST_AMBIGUOUS, PairLimits};
 pub use next::{Offer, Offered, offers};
 pub use ranking::{COVERED, Ranked, Ranking};
 pub use residual::{
@@ -48,6 +51,6 @@ pub use residual::{
     cause_curves,
 };
 pub use self_test::{CAUGHT, Caught, Counted, SelfTest, SelfTestRow};
-pub use verdict::{Diagnosis, Limits, LookedAt, LookedAtPair, MOST_AMBIGUOUS, PairLimits, Verdict};
+pub use verdict::{Diagnosis, LookedAt, Verdict};
 pub use world::{Truth, World};
 pub use wrong::{Reference, Wrong};

@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::critic::diagnose::design::Campaign;
 use crate::critic::diagnose::judge::{Judge, Seeming};
-use crate::critic::diagnose::verdict::{Limits, Verdict};
+use crate::critic::diagnose::limits::Limits;
+use crate::critic::diagnose::verdict::Verdict;
 use crate::critic::diagnose::world::Truth;
 use crate::random::Streams;
 use crate::stats;

@@ -246,7 +246,7 @@ fn two_causes_that_act_together_are_named_together_and_one_alone_is_not() {
         let found = judge.diagnosed(&shown, &Limits::default(), 1);
         println!("{:?} {:?}", found.verdict, found.pairs.first().map(|pair| (pair.evidence, pair.guard)));
         // Where one of the two explains all that can be told, it is named alone.
-        let best = found.pairs.first().map(|best| best.causes);
+        let best = found.pairs.first().map(|best| best.cause);
         together +=
             usize::from(best.map_or(found.verdict == Verdict::Named(creep), |best| best == [lean, creep]));
         named += usize::from(found.verdict == Verdict::NamedPair([lean, creep]));

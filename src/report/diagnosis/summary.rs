@@ -192,9 +192,9 @@ impl DiagnosisSummary {
             }
         };
         let pairs = diagnosis.pairs.iter().map(|own| PairEntry {
-            ids: own.causes.map(|cause| mechanisms[cause].name),
+            ids: own.cause.map(|cause| mechanisms[cause].name),
             evidence: own.evidence,
-            in_verdict: diagnosis.verdict == Verdict::NamedPair(own.causes),
+            in_verdict: diagnosis.verdict == Verdict::NamedPair(own.cause),
             guard_p_value: own.guard,
         });
         let ranked = &diagnosis.seeming.ranked;

@@ -9,7 +9,7 @@ mod gained;
 #[cfg(test)]
 mod tests;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use rayon::prelude::*;
 
@@ -17,9 +17,9 @@ use crate::critic::diagnose::design::{Campaign, Design};
 use crate::critic::diagnose::discrepancy::Discrepancy;
 use crate::critic::diagnose::evidence::evidence;
 use crate::critic::diagnose::judge::{Effort, Judge};
+use crate::critic::diagnose::limits::{Limits, MOST_AMBIGUOUS};
 use crate::critic::diagnose::predicted::Predicted;
 use crate::critic::diagnose::ranking::Ranked;
-use crate::critic::diagnose::verdict::{Limits, MOST_AMBIGUOUS};
 use crate::critic::diagnose::world::Truth;
 use crate::random::Streams;
 
@@ -190,7 +190,7 @@ impl<'j, 'w> Folds<'j, 'w> {
         (0..measuring.nulls).into_par_iter().map(null).collect()
     }
 
-    /// How the readings held out are predicted.
+    /// How the readings held out are predicted; without ceilings, where anything was chosen: elsewhere both models are the same.
     fn rows(
         &self,
         campaign: &Campaign,
@@ -227,7 +227,12 @@ impl<'j, 'w> Folds<'j, 'w> {
             }
             (Kind::of(fold.held_out), rows)
         };
-        let all: Vec<(Kind, Vec<Row>)> = self.folds.par_iter().zip(choices).map(of).collect();
+        let kind = |fold: &(Fold, usize)| Kind::of(fold.0.held_out);
+        let chosen = self.folds.iter().zip(choices).filter(|(_, choice)| !choice.is_empty());
+        let chosen: BTreeSet<Kind> = chosen.map(|(fold, _)| kind(fold)).collect();
+        let all = self.folds.par_iter().zip(choices);
+        let asked = all.filter(|(fold, _)| with_ceiling || chosen.contains(&kind(fold)));
+        let all: Vec<(Kind, Vec<Row>)> = asked.map(of).collect();
         let mut by_kind: BTreeMap<Kind, Vec<Row>> = BTreeMap::new();
         all.into_iter().for_each(|(kind, rows)| by_kind.entry(kind).or_default().extend(rows));
         by_kind

@@ -2,11 +2,11 @@
 
 use crate::critic::diagnose::gain::fold::{Fold, HeldOut};
 use crate::critic::diagnose::gain::gained::{Row, estimates, gained};
-use crate::critic::diagnose::gain::{Folds, Measuring, mixed, mixture};
+use crate::critic::diagnose::gain::{Folds, Kind, Measuring, mixed, mixture};
+use crate::critic::diagnose::limits::MOST_AMBIGUOUS;
 use crate::critic::diagnose::predicted::{Predicted, Score, normal_score};
 use crate::critic::diagnose::ranking::Ranked;
 use crate::critic::diagnose::tests::{EFFORT, made};
-use crate::critic::diagnose::verdict::MOST_AMBIGUOUS;
 use crate::critic::diagnose::{Design, Judge, Seen, Truth};
 use crate::random::Streams;
 use crate::random::standard_normal::quantile;
@@ -133,6 +133,30 @@ fn a_strong_effect_is_a_gain_and_its_absence_is_none() {
     assert!(none.choices.iter().all(|choice| choice.causes.is_empty()), "{:?}", none.choices);
     let specimens = none.specimens.expect("nine specimens");
     assert!(specimens.gain.iter().all(|gain| gain.value == 0.0 && gain.ends == [0.0; 2]));
+}
+
+#[test]
+fn where_nothing_was_chosen_nothing_is_gained_and_nothing_need_be_predicted() {
+    let made = made();
+    let (world, (design, _)) = (made.world(), Design::of(&made.study));
+    let judge = Judge::trained(&world, &design, EFFORT, 5).expect("it can be told");
+    let streams = Streams::new(61, 3);
+    let shown = world.campaign(&design, &world.drawn(None, &streams), &streams);
+    let folds = Folds::new(&judge, measuring(), 9);
+    let tilts = |(fold, _): &(Fold, usize)| match fold.held_out {
+        HeldOut::LargestTilts => vec![(made.cause("creep"), 1.0)],
+        _ => Vec::new(),
+    };
+    let choices: Vec<Vec<(usize, f64)>> = folds.folds.iter().map(tilts).collect();
+    let [all, some] = [true, false].map(|ceiling| folds.rows(&shown, &choices, 4, ceiling));
+    assert_eq!((all.len(), some.keys().collect::<Vec<_>>()), (5, vec![&Kind::Tilts]));
+    for (kind, rows) in &all {
+        match some.get(kind) {
+            Some(own) => assert_eq!(estimates(own), estimates(rows)),
+            None => assert_eq!(estimates(rows), [[0.0; 2]; 3], "{kind:?}"),
+        }
+    }
+    assert!(estimates(&some[&Kind::Tilts])[0][1] > 0.0);
 }
 
 #[test]
