@@ -1,5 +1,7 @@
 //! Scores of readings, summed up over specimens, and the interval of what one model gains over the other.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use crate::critic::diagnose::predicted::Score;
 use crate::stats;
 
@@ -13,6 +15,8 @@ const CLAIMED: f64 = 0.05;
 pub struct Row {
     /// Its specimen.
     pub specimen: usize,
+    /// The family of that (its arm).
+    pub family: usize,
     /// By the base model.
     pub base: Score,
     /// By the extended model.
@@ -75,33 +79,48 @@ fn gains(rows: &[&Row]) -> [f64; 3] {
 }
 
 /// The gains with their standard errors, by leaving out each specimen in turn (jackknife: readings of a specimen stand together).
+/// Families are not drawn: they are what was built, in these numbers, and an effect may show in one and not in another. What is
+/// left to chance is how the specimens of a family differ (stratified jackknife, Wolter 2007, section 4.5).
 pub fn estimates(rows: &[Row]) -> [[f64; 2]; 3] {
     let all: Vec<&Row> = rows.iter().collect();
+    let without = |out: &usize| gains(&rows.iter().filter(|row| row.specimen != *out).collect::<Vec<_>>());
+    let strata: Vec<Vec<[f64; 3]>> =
+        strata(rows).iter().map(|specimens| specimens.iter().map(without).collect()).collect();
     let whole = gains(&all);
-    let specimens = specimens(rows);
-    let n = specimens.len() as f64;
-    let without: Vec<[f64; 3]> = specimens
-        .iter()
-        .map(|out| gains(&all.iter().copied().filter(|row| row.specimen != *out).collect::<Vec<_>>()))
-        .collect();
+    // Without one of n specimens the mean of all moves by 1 / (n - 1) of what this one is off, with it by 1 / n.
+    let n = strata.iter().map(Vec::len).sum::<usize>() as f64;
+    let share = (n - 1.0) / n;
     [0, 1, 2].map(|k| {
-        let values: Vec<f64> = without.iter().map(|gains| gains[k]).collect();
-        // The jackknife's sum of squares is (n - 1) times the usual variance of the values.
-        let spread = stats::sigma(&values).unwrap_or(f64::INFINITY);
-        [whole[k], spread * (n - 1.0) / n.sqrt()]
+        let variance = strata.iter().fold(0.0, |sum, without| {
+            let values: Vec<f64> = without.iter().map(|gains| gains[k]).collect();
+            let spread = stats::sigma(&values).unwrap_or(f64::INFINITY) * share;
+            sum + values.len() as f64 * spread * spread
+        });
+        [whole[k], variance.sqrt()]
     })
 }
 
-fn specimens(rows: &[Row]) -> Vec<usize> {
-    let mut specimens: Vec<usize> = rows.iter().map(|row| row.specimen).collect();
-    specimens.sort_unstable();
-    specimens.dedup();
-    specimens
+/// The specimens by family. Those that are alone in theirs are taken together, and one that is left alone joins the smallest of
+/// the others (collapsed strata, Wolter 2007, section 2.5): what families differ by counts as chance there.
+fn strata(rows: &[Row]) -> Vec<BTreeSet<usize>> {
+    let mut families: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
+    for row in rows {
+        families.entry(row.family).or_default().insert(row.specimen);
+    }
+    let (alone, mut strata): (Vec<_>, Vec<_>) =
+        families.into_values().partition(|specimens| specimens.len() == 1);
+    let alone: BTreeSet<usize> = alone.into_iter().flatten().collect();
+    match strata.iter_mut().min_by_key(|specimens| specimens.len()) {
+        Some(smallest) if alone.len() == 1 => smallest.extend(alone),
+        _ if alone.is_empty() => (),
+        _ => strata.push(alone),
+    }
+    strata
 }
 
 /// Sums up rows; `nulls` are the estimates of campaigns without any effect. `None` without rows of two specimens.
 pub fn gained(rows: &[Row], nulls: &[[[f64; 2]; 3]]) -> Option<Gained> {
-    let specimens = specimens(rows).len();
+    let specimens = rows.iter().map(|row| row.specimen).collect::<BTreeSet<_>>().len();
     if specimens < 2 {
         return None;
     }

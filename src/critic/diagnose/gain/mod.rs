@@ -222,7 +222,7 @@ impl<'j, 'w> Folds<'j, 'w> {
                     let Some(base) = score(&base) else { continue };
                     let extended = extended.as_ref().and_then(score).unwrap_or(base);
                     let ceiling = ceilings.iter().find(|(other, _)| *other == at).map(|(_, score)| *score);
-                    rows.push(Row { specimen, base, extended, ceiling });
+                    rows.push(Row { specimen, family: own.family, base, extended, ceiling });
                 }
             }
             (Kind::of(fold.held_out), rows)

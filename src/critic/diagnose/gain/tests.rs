@@ -82,17 +82,23 @@ fn draws_of_a_normal_number_are_scored_as_the_normal_is() {
     assert_eq!(predicted.score((0, 0), &m, Seen::Nothing, 1.0), None);
 }
 
-#[test]
-fn standard_errors_are_those_of_the_mean_over_specimens() {
+/// Rows of one reading each that gain so much in the logarithm of the probability, each of a specimen of its own, of these families.
+fn rows(gains: &[(usize, f64)]) -> Vec<Row> {
     let score = |log: f64| Score { log, crps: Some(-log), square: Some(1.0) };
-    let values = [0.3, 1.1, -0.4, 0.8];
-    let row = |(specimen, log): (usize, &f64)| Row {
+    let row = |(specimen, (family, log)): (usize, &(usize, f64))| Row {
         specimen,
+        family: *family,
         base: score(0.0),
         extended: score(*log),
         ceiling: None,
     };
-    let rows: Vec<Row> = values.iter().enumerate().map(row).collect();
+    gains.iter().enumerate().map(row).collect()
+}
+
+#[test]
+fn standard_errors_are_those_of_the_mean_over_specimens() {
+    let values = [0.3, 1.1, -0.4, 0.8];
+    let rows = rows(&values.map(|log| (0, log)));
     let [[log, error], [crps, _], [rms, _]] = estimates(&rows);
     let sigma = crate::stats::sigma(&values).expect("four");
     assert!((log - 0.45).abs() < 1e-12 && (error - sigma / 2.0).abs() < 1e-12);
@@ -104,6 +110,21 @@ fn standard_errors_are_those_of_the_mean_over_specimens() {
     let wide = gained(&rows, &nulls).expect("four specimens");
     assert!((wide.gain[0].ends[0] - (log - 3.0 * error)).abs() < 1e-12);
     assert_eq!(gained(&rows[..1], &nulls), None);
+}
+
+#[test]
+fn what_families_differ_by_is_no_chance_unless_each_has_one_specimen() {
+    let error = |gains: &[(usize, f64)]| estimates(&rows(gains))[0][1];
+    let sigma = |values: &[f64]| crate::stats::sigma(values).expect("two or more");
+    // A mean of two families of two: half of each mean, whose variances are half of the specimens'.
+    let (near, far) = (sigma(&[0.3, 0.5]), sigma(&[7.0, 6.0]));
+    let two = error(&[(3, 0.3), (3, 0.5), (8, 7.0), (8, 6.0)]);
+    assert!((two - (near * near / 8.0 + far * far / 8.0).sqrt()).abs() < 1e-12, "{two}");
+    // One specimen of each: what these differ by is all that there is. One that is alone joins the smallest family.
+    assert!((error(&[(3, 0.3), (5, 0.5), (8, 7.0)]) - sigma(&[0.3, 0.5, 7.0]) / 3f64.sqrt()).abs() < 1e-12);
+    let joined = [(3, 0.3), (3, 0.5), (8, 7.0), (5, 1.0), (5, 1.1), (5, 1.2)];
+    let together = [(3, 0.3), (3, 0.5), (3, 7.0), (5, 1.0), (5, 1.1), (5, 1.2)];
+    assert!((error(&joined) - error(&together)).abs() < 1e-12 && error(&joined) > 1.0);
 }
 
 #[test]
