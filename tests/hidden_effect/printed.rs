@@ -20,12 +20,16 @@ pub fn csv(lines: &[Line]) -> String {
     text
 }
 
+/// The head of a table with a column for each design after these.
+pub fn head(first: &[&str]) -> String {
+    let columns = [first, &Design::ALL.map(Design::name)].concat();
+    format!("| {} |\n|{}\n", columns.join(" | "), "---|".repeat(columns.len()))
+}
+
 /// A table with a column for each design.
 pub fn markdown(lines: &[Line]) -> String {
-    let designs = Design::ALL.map(Design::name);
-    let mut text =
-        format!("| group | measure | {} |\n|---|---|{}\n", designs.join(" | "), "---|".repeat(designs.len()));
-    for line in lines.iter().filter(|line| line.design == designs[0]) {
+    let mut text = head(&["group", "measure"]);
+    for line in lines.iter().filter(|line| line.design == Design::ALL[0].name()) {
         let same = |other: &&Line| (&other.group, other.measure) == (&line.group, line.measure);
         if lines.iter().filter(same).all(|line| line.value.is_none()) {
             // A part of the full size may have no such campaign.

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use pirca::critic::Bank;
+use pirca::critic::{Bank, Plan};
 use pirca::ensemble::replace_file;
 use pirca::study::{Loaded, Measurement, Study, nuisances};
 use rayon::prelude::*;
@@ -24,6 +24,7 @@ use crate::truth::designs::Design;
 use crate::truth::label::{Group, Label};
 use crate::truth::readings::csv;
 use crate::truth::roster::{catalogue, root, roster};
+use crate::wanted;
 
 /// Seed of the roster, far from that of the bank, and none that the inference was made better by.
 const MASTER: u64 = 20_311_123;
@@ -33,22 +34,22 @@ const VARIANT: &str = "random-dips";
 const POINTS: u64 = 120;
 /// Mechanisms are taken out of the catalogue, and gains are measured, in these designs: two stones add nothing that could be held
 /// out.
-const PLAIN: [Design; 2] = [Design::Paper, Design::Rich];
+pub const PLAIN: [Design; 2] = [Design::Paper, Design::Rich];
 /// Gains are measured in each on so many campaigns in which a mechanism was named, and on as many in which nothing is hidden.
-const GAINS: f64 = 120.0;
+const GAINS: f64 = 60.0;
 /// So many campaigns of each mechanism are judged again without it, whatever their strength.
 const WITHOUT: f64 = 60.0;
 
 /// What is said of a campaign, by design.
-type Verdicts = BTreeMap<String, Said>;
+pub type Verdicts = BTreeMap<String, Said>;
 
 /// Where a run lies.
-struct Folders {
-    out: PathBuf,
+pub struct Folders {
+    pub out: PathBuf,
 }
 
 impl Folders {
-    fn of(&self, kind: &str) -> PathBuf {
+    pub fn of(&self, kind: &str) -> PathBuf {
         let folder = self.out.join(kind);
         fs::create_dir_all(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
         folder
@@ -66,11 +67,20 @@ fn path(variable: &str, default: &str) -> PathBuf {
     env::var_os(variable).map_or_else(|| root(default), PathBuf::from)
 }
 
-fn loaded() -> &'static Loaded {
+/// The study that effects are hidden in.
+pub fn loaded() -> &'static Loaded {
     static LOADED: OnceLock<Loaded> = OnceLock::new();
     LOADED.get_or_init(|| {
         Study::load(&root("studies/tilting-table"), Some(VARIANT)).unwrap_or_else(|faults| panic!("{faults}"))
     })
+}
+
+/// What the inference knows: the study and a bank of its walls.
+pub fn known() -> Known {
+    let bank = path("HIDDEN_EFFECT_BANK", "studies/hidden-effects/bank.parquet");
+    let bytes = fs::read(&bank).unwrap_or_else(|error| panic!("{}: {error}", bank.display()));
+    let read = |plan: &Plan| Bank::read(&bytes, plan).unwrap_or_else(|error| panic!("{error}"));
+    Known::new(loaded().study.clone(), POINTS, read)
 }
 
 fn write(path: &Path, text: &str) {
@@ -96,7 +106,7 @@ fn secret(folders: &Folders) -> String {
 
 /// Solves and seals what is not there yet. Gives the names of the campaigns that could be solved, which tell nothing, in an order
 /// that tells nothing and is the same for every secret.
-fn hidden(folders: &Folders, study: &Study, labels: &[Label]) -> Vec<String> {
+pub fn hidden(folders: &Folders, study: &Study, labels: &[Label]) -> Vec<String> {
     let run = secret(folders);
     let nuisances = nuisances(&root("distributions")).unwrap_or_else(|lacks| panic!("{lacks}"));
     let (campaigns, sealed) = (folders.of("campaigns"), folders.of("sealed"));
@@ -133,14 +143,14 @@ fn hidden(folders: &Folders, study: &Study, labels: &[Label]) -> Vec<String> {
 
 /// The judges of what is known, one for each design, from the first time on that it is asked: by one thread alone, as what
 /// trains it hands out work to all threads, which would wait for it.
-struct Judges<'k> {
+pub struct Judges<'k> {
     plans: PathBuf,
     known: &'k Known,
     made: [OnceLock<Judge<'k>>; Design::ALL.len()],
 }
 
 impl<'k> Judges<'k> {
-    fn new(folders: &Folders, known: &'k Known) -> Judges<'k> {
+    pub fn new(folders: &Folders, known: &'k Known) -> Judges<'k> {
         Judges { plans: folders.of("planned"), known, made: [const { OnceLock::new() }; Design::ALL.len()] }
     }
 
@@ -159,7 +169,7 @@ fn told<T: DeserializeOwned>(path: &Path) -> T {
 }
 
 /// Judges what has not been judged yet in some designs. Judges come into being when there is something for them.
-fn judged(
+pub fn judged(
     folders: &Folders,
     kind: &str,
     judges: &Judges<'_>,
@@ -251,7 +261,7 @@ fn shifted(folders: &Folders, judges: &Judges<'_>, design: Design, all: &mut [(S
 }
 
 /// The label of a campaign, which must be the one that was sealed.
-fn opened(folders: &Folders, name: &str) -> Label {
+pub fn opened(folders: &Folders, name: &str) -> Label {
     let sealed: Sealed = told(&folders.of("sealed").join(format!("{name}.json")));
     let seal = read(&folders.of("campaigns").join(name).join("seal.txt"));
     assert!(seal.starts_with(name), "the folder {name} has another seal");
@@ -275,13 +285,9 @@ fn together(names: &[String], labels: &[Label], verdicts: Vec<Verdicts>) -> Vec<
 fn hidden_effect_campaigns_are_sealed_judged_and_opened() {
     let folders = Folders { out: path("HIDDEN_EFFECT_OUT", "runs/hidden-effects") };
     let share = share();
-    let study = loaded().study.clone();
     let all = roster(share, MASTER);
-    let names = hidden(&folders, &study, &all);
-    let bank = path("HIDDEN_EFFECT_BANK", "studies/hidden-effects/bank.parquet");
-    let bytes = fs::read(&bank).unwrap_or_else(|error| panic!("{}: {error}", bank.display()));
-    let known =
-        Known::new(study, POINTS, |plan| Bank::read(&bytes, plan).unwrap_or_else(|error| panic!("{error}")));
+    let names = hidden(&folders, &loaded().study, &all);
+    let known = known();
     let judges = Judges::new(&folders, &known);
     let verdicts = judged(&folders, "verdicts", &judges, &Design::ALL, &names);
     // All verdicts are written: the labels may be opened.
@@ -301,7 +307,9 @@ fn hidden_effect_campaigns_are_sealed_judged_and_opened() {
             [all, removed].map(|some| some.iter().map(|(_, judged)| judged.clone()).collect::<Vec<_>>());
         let table = table::of(&all, &removed);
         write(&results.join("table.csv"), &printed::csv(&table));
-        write(&results.join("table.md"), &format!("{head}\n{}", printed::markdown(&table)));
+        let text =
+            format!("{head}\n{}\n## All lines\n\n{}", wanted::markdown(&table), printed::markdown(&table));
+        write(&results.join("table.md"), &text);
     };
     for design in Design::ALL {
         shifted(&folders, &judges, design, &mut all_judged);

@@ -18,6 +18,9 @@ const CALIBRATED: u64 = 1000;
 /// Bands of the shift that an effect makes, in standard deviations.
 const SHIFTS: [[f64; 2]; 4] = [[0.0, 1.0], [1.0, 3.0], [3.0, 10.0], [10.0, f64::INFINITY]];
 
+/// An effect that moves what is seen by so much is seen by most.
+const CLEAR: f64 = SHIFTS[2][0];
+
 /// A campaign that was judged by a design.
 #[derive(Clone, Debug)]
 pub struct Judged {
@@ -113,7 +116,13 @@ fn of_design(design: &'static str, judged: &[Judged], removed: &[Judged]) -> Vec
     for strength in Strength::ALL.into_iter().rev() {
         let some: Vec<&Judged> =
             mechanisms.iter().copied().filter(|j| j.label.hidden[0].strength == Some(strength)).collect();
-        lines.of_mechanisms(&format!("mechanism, {}", strength.name()), &some);
+        let group = format!("mechanism, {}", strength.name());
+        lines.of_mechanisms(&group, &some);
+        let moved: Vec<&Judged> = some.into_iter().filter(|j| j.shift.is_some()).collect();
+        let clear = |j: &Judged| j.shift.is_some_and(|shift| shift >= CLEAR);
+        lines.share(&group, "shift of 3 or more", &moved, clear);
+        let clear: Vec<&Judged> = moved.into_iter().filter(|j| clear(j)).collect();
+        lines.share(&group, "named where the shift is 3 or more", &clear, Judged::right);
     }
     lines.of_mechanisms("mechanism, our code", &ours);
     let other: Vec<&Judged> = mechanisms.iter().copied().filter(|j| j.other_code()).collect();
@@ -136,9 +145,12 @@ fn of_design(design: &'static str, judged: &[Judged], removed: &[Judged]) -> Vec
         lines.value(&group, "median shift", quantile(&shifts, 0.5));
     }
     let found: Vec<&Judged> = mechanisms.iter().copied().filter(|j| j.found()).collect();
-    lines.share("mechanism, found", "the set holds it", &found, |j| {
-        j.said.set.contains(&j.label.hidden[0].name)
-    });
+    let holds = |j: &Judged| j.said.set.contains(&j.label.hidden[0].name);
+    lines.share("mechanism, found", "the set holds it", &found, holds);
+    for (group, of) in [("mechanism, our code, found", &ours), ("mechanism, other code, found", &other)] {
+        let found: Vec<&Judged> = of.iter().copied().filter(|j| j.found()).collect();
+        lines.share(group, "the set holds it", &found, holds);
+    }
     let sizes: Vec<f64> = found.iter().map(|j| j.said.set.len() as f64).collect();
     lines.value("mechanism, found", "mean size of the set", mean(&sizes));
     let few: Vec<&Judged> = found.iter().copied().filter(|j| j.said.verdict == Word::Ambiguous).collect();
@@ -265,7 +277,8 @@ mod tests {
     use crate::printed::{interval, markdown};
     use crate::truth::roster::roster;
 
-    /// What somebody says who knows all labels, and gives no name where there is none.
+    /// What somebody says who knows all labels, and gives no name where there is none. Strong effects of our code shift what is seen
+    /// by 5, others by 1.
     fn told() -> Vec<Judged> {
         let all = roster(0.2, 3).into_iter();
         all.map(|label| {
@@ -285,7 +298,10 @@ mod tests {
                 evidence: Vec::new(),
                 pair: None,
             };
-            Judged { label, design: Design::Rich.name().to_owned(), said, gains: None, shift: None }
+            let ours = label.group == Group::Mechanism && !label.hidden[0].other_code;
+            let shift = || if label.hidden[0].strength == Some(Strength::Strong) { 5.0 } else { 1.0 };
+            let shift = ours.then(shift);
+            Judged { label, design: Design::Rich.name().to_owned(), said, gains: None, shift }
         })
         .collect()
     }
@@ -305,10 +321,17 @@ mod tests {
             ("mechanism, other code", "another one named", 0.0),
             ("catalogue and nothing", "correct", 1.0),
             ("mechanism, found", "the set holds it", 1.0),
+            ("mechanism, other code, found", "the set holds it", 1.0),
+            ("mechanism, strong", "shift of 3 or more", 1.0),
+            ("mechanism, weak", "shift of 3 or more", 0.0),
+            ("mechanism, strong", "named where the shift is 3 or more", 1.0),
             ("out of catalogue", "wrongly named", 0.0),
         ] {
             assert_eq!(line(&lines, group, measure).value, Some(value), "{group}: {measure}");
         }
+        // Two in three are written in our code where a mechanism is written twice.
+        let moved = line(&lines, "mechanism, strong", "shift of 3 or more").counts;
+        assert_eq!(moved, line(&lines, "mechanism, shift 3 to 10", "named").counts);
         let error = line(&lines, "mechanism, found", "calibration error of the likeliest").value;
         assert!((error.expect("some are found") - 0.05).abs() < 1e-12);
         let permuted = line(&lines, "mechanism, labels permuted", "a name given is right");
