@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::critic::diagnose::predicted::Score;
 use crate::stats;
 
-/// A plain 95 % interval reaches so many standard errors: the least that any interval does.
-const PLAIN: f64 = 1.96;
+/// Probability up to the upper end of a plain 95 % interval.
+const PLAIN: f64 = 0.975;
 /// Share of the campaigns without any effect that may claim a gain.
 const CLAIMED: f64 = 0.05;
 
@@ -15,7 +15,7 @@ const CLAIMED: f64 = 0.05;
 pub struct Row {
     /// Its specimen.
     pub specimen: usize,
-    /// The family of that (its arm).
+    /// The family of the specimen (its arm).
     pub family: usize,
     /// By the base model.
     pub base: Score,
@@ -62,90 +62,126 @@ pub struct Gained {
     pub gain: [Interval; 3],
 }
 
-/// Scores of a model over rows.
-fn scores(rows: &[&Row], of: fn(&Row) -> Score) -> Scores {
-    let all = || rows.iter().map(|row| of(row));
-    let mean = |values: Vec<f64>| stats::mean(&values).unwrap_or(0.0);
-    Scores {
-        log: mean(all().map(|score| score.log).collect()),
-        crps: mean(all().filter_map(|score| score.crps).collect()),
-        rms: mean(all().filter_map(|score| score.square).collect()).sqrt(),
+/// Rows by the specimens whose differences are chance.
+struct Sampled<'r> {
+    rows: &'r [Row],
+    strata: Vec<BTreeSet<usize>>,
+}
+
+impl<'r> Sampled<'r> {
+    /// A stratum for each family: families are not drawn, they are what was built, in these numbers, and an effect may show in one
+    /// and not in another. Specimens that are alone in theirs are taken together, and one that is left alone joins the smallest of
+    /// the others (collapsed strata, Wolter 2007, section 2.5): what families differ by counts as chance there.
+    fn of(rows: &'r [Row]) -> Sampled<'r> {
+        let mut families: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
+        for row in rows {
+            families.entry(row.family).or_default().insert(row.specimen);
+        }
+        let (alone, mut strata): (Vec<_>, Vec<_>) =
+            families.into_values().partition(|specimens| specimens.len() == 1);
+        let alone: BTreeSet<usize> = alone.into_iter().flatten().collect();
+        let smallest = strata.iter_mut().min_by_key(|specimens| specimens.len());
+        if let Some(smallest) = smallest.filter(|_| alone.len() == 1) {
+            smallest.extend(alone);
+        } else if !alone.is_empty() {
+            strata.push(alone);
+        }
+        Sampled { rows, strata }
+    }
+
+    fn specimens(&self) -> usize {
+        self.strata.iter().map(BTreeSet::len).sum()
+    }
+
+    /// Scores of a model, with a specimen or without it: its stratum then counts as much as before.
+    fn scores(&self, of: fn(&Row) -> Score, without: Option<usize>) -> Scores {
+        let mean = |measure: fn(&Score) -> Option<f64>| {
+            let (mut sum, mut count) = (0.0, 0.0);
+            for stratum in &self.strata {
+                let own = self.rows.iter().filter(|row| stratum.contains(&row.specimen));
+                let own = own.filter_map(|row| Some((row.specimen, measure(&of(row))?)));
+                let (specimens, values): (Vec<usize>, Vec<f64>) = own.unzip();
+                let kept = specimens.iter().zip(&values).filter(|(specimen, _)| Some(**specimen) != without);
+                if let Some(mean) = stats::mean(&kept.map(|(_, value)| *value).collect::<Vec<_>>()) {
+                    sum += values.len() as f64 * mean;
+                    count += values.len() as f64;
+                }
+            }
+            if count > 0.0 { sum / count } else { 0.0 }
+        };
+        Scores {
+            log: mean(|score| Some(score.log)),
+            crps: mean(|score| score.crps),
+            rms: mean(|score| score.square).sqrt(),
+        }
+    }
+
+    fn gains(&self, without: Option<usize>) -> [f64; 3] {
+        let models: [fn(&Row) -> Score; 2] = [|row| row.base, |row| row.extended];
+        let [base, extended] = models.map(|of| self.scores(of, without));
+        [extended.log - base.log, base.crps - extended.crps, base.rms - extended.rms]
+    }
+
+    /// The gains with their standard errors, by leaving out each specimen in turn: readings of a specimen stand together
+    /// (stratified jackknife, Wolter 2007, section 4.5).
+    fn estimates(&self) -> [[f64; 2]; 3] {
+        let left_out = |stratum: &BTreeSet<usize>| -> Vec<[f64; 3]> {
+            stratum.iter().map(|specimen| self.gains(Some(*specimen))).collect()
+        };
+        let left_out: Vec<Vec<[f64; 3]>> = self.strata.iter().map(left_out).collect();
+        let whole = self.gains(None);
+        [0, 1, 2].map(|k| {
+            let variance = left_out.iter().fold(0.0, |sum, stratum| {
+                let values: Vec<f64> = stratum.iter().map(|gains| gains[k]).collect();
+                let n = values.len() as f64;
+                // The jackknife's sum of squares is (n - 1) times the usual variance of the values.
+                let part = stats::sigma(&values)
+                    .map_or(f64::INFINITY, |sigma| sigma * sigma * (n - 1.0) * (n - 1.0) / n);
+                sum + part
+            });
+            [whole[k], variance.sqrt()]
+        })
+    }
+
+    /// How many standard errors a plain interval reaches, the least that any does.
+    fn plain(&self) -> f64 {
+        stats::student_quantile(PLAIN, (self.specimens() - self.strata.len()) as f64)
     }
 }
 
-fn gains(rows: &[&Row]) -> [f64; 3] {
-    let (base, extended) = (scores(rows, |row| row.base), scores(rows, |row| row.extended));
-    [extended.log - base.log, base.crps - extended.crps, base.rms - extended.rms]
-}
-
-/// The gains with their standard errors, by leaving out each specimen in turn (jackknife: readings of a specimen stand together).
-/// Families are not drawn: they are what was built, in these numbers, and an effect may show in one and not in another. What is
-/// left to chance is how the specimens of a family differ (stratified jackknife, Wolter 2007, section 4.5).
+/// The gains with their standard errors.
 pub fn estimates(rows: &[Row]) -> [[f64; 2]; 3] {
-    let all: Vec<&Row> = rows.iter().collect();
-    let without = |out: &usize| gains(&rows.iter().filter(|row| row.specimen != *out).collect::<Vec<_>>());
-    let strata: Vec<Vec<[f64; 3]>> =
-        strata(rows).iter().map(|specimens| specimens.iter().map(without).collect()).collect();
-    let whole = gains(&all);
-    // Without one of n specimens the mean of all moves by 1 / (n - 1) of what this one is off, with it by 1 / n.
-    let n = strata.iter().map(Vec::len).sum::<usize>() as f64;
-    let share = (n - 1.0) / n;
-    [0, 1, 2].map(|k| {
-        let variance = strata.iter().fold(0.0, |sum, without| {
-            let values: Vec<f64> = without.iter().map(|gains| gains[k]).collect();
-            let spread = stats::sigma(&values).unwrap_or(f64::INFINITY) * share;
-            sum + values.len() as f64 * spread * spread
-        });
-        [whole[k], variance.sqrt()]
-    })
-}
-
-/// The specimens by family. Those that are alone in theirs are taken together, and one that is left alone joins the smallest of
-/// the others (collapsed strata, Wolter 2007, section 2.5): what families differ by counts as chance there.
-fn strata(rows: &[Row]) -> Vec<BTreeSet<usize>> {
-    let mut families: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
-    for row in rows {
-        families.entry(row.family).or_default().insert(row.specimen);
-    }
-    let (alone, mut strata): (Vec<_>, Vec<_>) =
-        families.into_values().partition(|specimens| specimens.len() == 1);
-    let alone: BTreeSet<usize> = alone.into_iter().flatten().collect();
-    match strata.iter_mut().min_by_key(|specimens| specimens.len()) {
-        Some(smallest) if alone.len() == 1 => smallest.extend(alone),
-        _ if alone.is_empty() => (),
-        _ => strata.push(alone),
-    }
-    strata
+    Sampled::of(rows).estimates()
 }
 
 /// Sums up rows; `nulls` are the estimates of campaigns without any effect. `None` without rows of two specimens.
 pub fn gained(rows: &[Row], nulls: &[[[f64; 2]; 3]]) -> Option<Gained> {
-    let specimens = rows.iter().map(|row| row.specimen).collect::<BTreeSet<_>>().len();
-    if specimens < 2 {
+    let sampled = Sampled::of(rows);
+    if sampled.specimens() < 2 {
         return None;
     }
-    let all: Vec<&Row> = rows.iter().collect();
-    let estimates = estimates(rows);
+    let estimates = sampled.estimates();
     let gain = [0, 1, 2].map(|k| {
         let [value, error] = estimates[k];
-        let reach = reach(nulls.iter().map(|null| null[k])) * error;
+        let reach = reach(nulls.iter().map(|null| null[k]), sampled.plain()) * error;
         Interval { value, ends: [value - reach, value + reach] }
     });
     Some(Gained {
         readings: rows.len(),
-        specimens,
-        base: scores(&all, |row| row.base),
-        extended: scores(&all, |row| row.extended),
-        ceiling: scores(&all, |row| row.ceiling.unwrap_or(row.base)),
+        specimens: sampled.specimens(),
+        base: sampled.scores(|row| row.base, None),
+        extended: sampled.scores(|row| row.extended, None),
+        ceiling: sampled.scores(|row| row.ceiling.unwrap_or(row.base), None),
         gain,
     })
 }
 
-/// How many standard errors an interval reaches, so that no more than [`CLAIMED`] of the campaigns without effect claim a gain.
-fn reach(nulls: impl Iterator<Item = [f64; 2]>) -> f64 {
+/// How many standard errors an interval reaches, so that no more than [`CLAIMED`] of the campaigns without effect claim a gain, and
+/// no fewer than a plain one.
+fn reach(nulls: impl Iterator<Item = [f64; 2]>, plain: f64) -> f64 {
     let ratio = |[value, error]: [f64; 2]| if value > 0.0 && error > 0.0 { value / error } else { 0.0 };
     let mut ratios: Vec<f64> = nulls.map(ratio).collect();
     ratios.sort_by(f64::total_cmp);
     let above = (CLAIMED * ratios.len() as f64).floor() as usize;
-    ratios.len().checked_sub(above + 1).map_or(PLAIN, |at| ratios[at].max(PLAIN))
+    ratios.len().checked_sub(above + 1).map_or(plain, |at| ratios[at].max(plain))
 }

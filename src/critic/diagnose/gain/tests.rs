@@ -10,6 +10,7 @@ use crate::critic::diagnose::tests::{EFFORT, made};
 use crate::critic::diagnose::{Design, Judge, Seen, Truth};
 use crate::random::Streams;
 use crate::random::standard_normal::quantile;
+use crate::stats;
 use crate::study::MeasuredKind;
 
 fn measuring() -> Measuring {
@@ -82,49 +83,70 @@ fn draws_of_a_normal_number_are_scored_as_the_normal_is() {
     assert_eq!(predicted.score((0, 0), &m, Seen::Nothing, 1.0), None);
 }
 
-/// Rows of one reading each that gain so much in the logarithm of the probability, each of a specimen of its own, of these families.
-fn rows(gains: &[(usize, f64)]) -> Vec<Row> {
+/// Rows that gain so much in the logarithm of the probability: of a family the specimens, of a specimen the readings.
+fn rows(families: &[&[&[f64]]]) -> Vec<Row> {
     let score = |log: f64| Score { log, crps: Some(-log), square: Some(1.0) };
-    let row = |(specimen, (family, log)): (usize, &(usize, f64))| Row {
-        specimen,
-        family: *family,
-        base: score(0.0),
-        extended: score(*log),
-        ceiling: None,
-    };
-    gains.iter().enumerate().map(row).collect()
+    let mut rows = Vec::new();
+    let mut specimen = 0;
+    for (family, specimens) in families.iter().enumerate() {
+        for readings in *specimens {
+            let row =
+                |log: &f64| Row { specimen, family, base: score(0.0), extended: score(*log), ceiling: None };
+            rows.extend(readings.iter().map(row));
+            specimen += 1;
+        }
+    }
+    rows
+}
+
+/// The standard error of the gain in the logarithm.
+fn error(families: &[&[&[f64]]]) -> f64 {
+    estimates(&rows(families))[0][1]
+}
+
+fn sigma(values: &[f64]) -> f64 {
+    stats::sigma(values).expect("two or more")
 }
 
 #[test]
 fn standard_errors_are_those_of_the_mean_over_specimens() {
-    let values = [0.3, 1.1, -0.4, 0.8];
-    let rows = rows(&values.map(|log| (0, log)));
+    let rows = rows(&[&[&[0.3], &[1.1], &[-0.4], &[0.8]]]);
     let [[log, error], [crps, _], [rms, _]] = estimates(&rows);
-    let sigma = crate::stats::sigma(&values).expect("four");
+    let sigma = sigma(&[0.3, 1.1, -0.4, 0.8]);
     assert!((log - 0.45).abs() < 1e-12 && (error - sigma / 2.0).abs() < 1e-12);
     assert!((crps - log).abs() < 1e-12 && rms == 0.0);
-    // Nulls that claim much widen the interval, none leave it plain.
+    // Nulls that claim much widen the interval, none leave it plain: Student's t with three degrees of freedom.
     let plain = gained(&rows, &[]).expect("four specimens");
-    assert!((plain.gain[0].ends[0] - (log - 1.96 * error)).abs() < 1e-12);
-    let nulls = vec![[[3.0, 1.0]; 3]; 10];
+    assert!((plain.gain[0].ends[0] - (log - 3.182_446_305 * error)).abs() < 1e-8);
+    let nulls = vec![[[5.0, 1.0]; 3]; 10];
     let wide = gained(&rows, &nulls).expect("four specimens");
-    assert!((wide.gain[0].ends[0] - (log - 3.0 * error)).abs() < 1e-12);
+    assert!((wide.gain[0].ends[0] - (log - 5.0 * error)).abs() < 1e-12);
     assert_eq!(gained(&rows[..1], &nulls), None);
 }
 
 #[test]
-fn what_families_differ_by_is_no_chance_unless_each_has_one_specimen() {
-    let error = |gains: &[(usize, f64)]| estimates(&rows(gains))[0][1];
-    let sigma = |values: &[f64]| crate::stats::sigma(values).expect("two or more");
-    // A mean of two families of two: half of each mean, whose variances are half of the specimens'.
-    let (near, far) = (sigma(&[0.3, 0.5]), sigma(&[7.0, 6.0]));
-    let two = error(&[(3, 0.3), (3, 0.5), (8, 7.0), (8, 6.0)]);
-    assert!((two - (near * near / 8.0 + far * far / 8.0).sqrt()).abs() < 1e-12, "{two}");
-    // One specimen of each: what these differ by is all that there is. One that is alone joins the smallest family.
-    assert!((error(&[(3, 0.3), (5, 0.5), (8, 7.0)]) - sigma(&[0.3, 0.5, 7.0]) / 3f64.sqrt()).abs() < 1e-12);
-    let joined = [(3, 0.3), (3, 0.5), (8, 7.0), (5, 1.0), (5, 1.1), (5, 1.2)];
-    let together = [(3, 0.3), (3, 0.5), (3, 7.0), (5, 1.0), (5, 1.1), (5, 1.2)];
-    assert!((error(&joined) - error(&together)).abs() < 1e-12 && error(&joined) > 1.0);
+fn what_families_differ_by_is_no_chance() {
+    // Means of two and of four specimens, by a third and two thirds of all.
+    let found = error(&[&[&[0.3], &[0.5]], &[&[7.0], &[6.0], &[6.4], &[7.8]]]);
+    let (near, far) = (sigma(&[0.3, 0.5]), sigma(&[7.0, 6.0, 6.4, 7.8]));
+    assert!((found - (near * near / 18.0 + far * far / 9.0).sqrt()).abs() < 1e-12, "{found}");
+    // However many readings there are of each: where the specimens of a family are alike there is no chance.
+    let alike = error(&[&[&[10.0], &[10.0; 5]], &[&[0.0; 3], &[0.0; 3]]]);
+    assert!(alike < 1e-12, "{alike}");
+    // Two families of two leave two degrees of freedom.
+    let four = gained(&rows(&[&[&[0.3], &[0.5]], &[&[7.0], &[6.0]]]), &[]).expect("four specimens");
+    let reach = (four.gain[0].value - four.gain[0].ends[0]) / error(&[&[&[0.3], &[0.5]], &[&[7.0], &[6.0]]]);
+    assert!((reach - 4.302_652_730).abs() < 1e-8, "{reach}");
+}
+
+#[test]
+fn families_of_one_specimen_are_taken_together() {
+    let found = error(&[&[&[0.3]], &[&[0.5]], &[&[7.0]]]);
+    assert!((found - sigma(&[0.3, 0.5, 7.0]) / 3f64.sqrt()).abs() < 1e-12, "{found}");
+    // One alone joins the smallest of the others.
+    let joined = error(&[&[&[0.3], &[0.5]], &[&[7.0]], &[&[1.0], &[1.1], &[1.2]]]);
+    let together = error(&[&[&[0.3], &[0.5], &[7.0]], &[&[1.0], &[1.1], &[1.2]]]);
+    assert!((joined - together).abs() < 1e-12 && joined > 1.0, "{joined}");
 }
 
 #[test]
