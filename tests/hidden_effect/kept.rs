@@ -1,44 +1,57 @@
-//! A few campaigns of the published run, hidden, judged and opened anew: what was found is still found, and what was named still
-//! named, and where nothing is hidden nothing is.
+//! A few campaigns of the published run, hidden, judged and opened anew: what is said of them is what was said.
 
 use std::fs;
 use std::path::Path;
 
-use serde::Deserialize;
-
 use crate::inference::Word;
-use crate::run::{Folders, Judges, PLAIN, hidden, judged, known, loaded, opened};
+use crate::run::{BANK, Folders, Judges, MASTER, PLAIN, hidden, judged, known, loaded, opened};
 use crate::truth::label::Label;
+use crate::truth::roster::{root, roster};
 
-/// A campaign, with what was said of it.
-#[derive(Deserialize)]
-struct Kept {
-    paper: Word,
-    rich: Word,
-    label: Label,
-}
+/// A share of the roster that they are in.
+const SHARE: f64 = 0.1;
+/// By their seeds, with what is said of them by the designs [`PLAIN`].
+const KEPT: [(u64, [Word; PLAIN.len()]); 8] = [
+    // end_release, strong
+    (3_685_888_843_546_938, [Word::Named, Word::Named]),
+    // gauge_offset, strong
+    (3_653_885_504_365_434, [Word::Named, Word::Named]),
+    // joint_closure, strong
+    (4_462_549_361_783_095, [Word::Ambiguous, Word::Named]),
+    // rope_slack, strong
+    (57_672_123_557_404, [Word::NothingFound, Word::Named]),
+    // specimen_scatter, middle
+    (1_416_242_287_071_566, [Word::Ambiguous, Word::Named]),
+    // nothing
+    (1_352_524_665_583_362, [Word::NothingFound, Word::NothingFound]),
+    // joints other than thought
+    (3_763_932_759_429_356, [Word::NothingFound, Word::NothingFound]),
+    // soft_left
+    (2_961_466_872_670_822, [Word::NothingFound, Word::Unexplained]),
+];
 
 #[test]
 fn what_was_said_of_some_campaigns_of_nine_walls_is_still_said() {
-    let kept: Vec<Kept> = serde_json::from_str(include_str!("kept.json")).expect("campaigns with verdicts");
     let folders = Folders { out: Path::new(env!("CARGO_TARGET_TMPDIR")).join("kept-campaigns") };
     if folders.out.exists() {
         // Verdicts of another day are not today's.
         fs::remove_dir_all(&folders.out).expect("the folder is the test's own");
     }
-    let labels: Vec<Label> = kept.iter().map(|one| one.label.clone()).collect();
-    let names = hidden(&folders, &loaded().study, &labels);
-    assert_eq!(names.len(), kept.len(), "not all could be solved");
-    let known = known();
+    let kept = |label: &Label| KEPT.iter().find(|(seed, _)| *seed == label.seed);
+    let mut labels = roster(SHARE, MASTER);
+    labels.retain(|label| kept(label).is_some());
+    let names = hidden(&folders, &loaded().study, &labels, "kept");
+    assert_eq!(names.len(), KEPT.len(), "they are in the roster, and can be solved");
+    let known = known(&root(BANK));
     let verdicts = judged(&folders, "verdicts", &Judges::new(&folders, &known), &PLAIN, &names);
     for (name, verdicts) in names.iter().zip(&verdicts) {
         let label = opened(&folders, name);
-        let one = kept.iter().find(|one| one.label == label).expect("it was kept");
-        for (design, word) in PLAIN.into_iter().zip([one.paper, one.rich]) {
+        let (_, words) = kept(&label).expect("it was kept");
+        for (design, word) in PLAIN.iter().zip(words) {
             let said = &verdicts[design.name()];
-            assert_eq!(said.verdict, word, "{}: {label:?} {said:?}", design.name());
-            if word == Word::Named {
-                assert_eq!(said.names, [label.hidden[0].name.as_str()], "{}: {said:?}", design.name());
+            assert_eq!(said.verdict, *word, "{}: {label:?} {said:?}", design.name());
+            if matches!(word, Word::Named | Word::Ambiguous) {
+                assert!(said.names.contains(&label.hidden[0].name), "{}: {label:?} {said:?}", design.name());
             }
         }
     }

@@ -27,21 +27,24 @@ use crate::truth::roster::{catalogue, root, roster};
 use crate::wanted;
 
 /// Seed of the roster, far from that of the bank, and none that the inference was made better by.
-const MASTER: u64 = 20_311_123;
+pub const MASTER: u64 = 20_311_123;
 /// The variant of the study whose walls are hidden in: the dips of its stones are drawn in [-20, 20] deg.
 const VARIANT: &str = "random-dips";
+/// The bank of its walls.
+pub const BANK: &str = "studies/hidden-effects/bank.parquet";
 /// Points of the bank.
 const POINTS: u64 = 120;
 /// Mechanisms are taken out of the catalogue, and gains are measured, in these designs: two stones add nothing that could be held
 /// out.
 pub const PLAIN: [Design; 2] = [Design::Paper, Design::Rich];
-/// Gains are measured in each on so many campaigns in which a mechanism was named, and on as many in which nothing is hidden.
+/// Gains are measured in each on so many campaigns in which a mechanism was named, and on as many in which nothing is hidden: each
+/// takes minutes.
 const GAINS: f64 = 60.0;
 /// So many campaigns of each mechanism are judged again without it, whatever their strength.
 const WITHOUT: f64 = 60.0;
 
 /// What is said of a campaign, by design.
-pub type Verdicts = BTreeMap<String, Said>;
+type Verdicts = BTreeMap<String, Said>;
 
 /// Where a run lies.
 pub struct Folders {
@@ -49,7 +52,7 @@ pub struct Folders {
 }
 
 impl Folders {
-    pub fn of(&self, kind: &str) -> PathBuf {
+    fn of(&self, kind: &str) -> PathBuf {
         let folder = self.out.join(kind);
         fs::create_dir_all(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
         folder
@@ -76,9 +79,8 @@ pub fn loaded() -> &'static Loaded {
 }
 
 /// What the inference knows: the study and a bank of its walls.
-pub fn known() -> Known {
-    let bank = path("HIDDEN_EFFECT_BANK", "studies/hidden-effects/bank.parquet");
-    let bytes = fs::read(&bank).unwrap_or_else(|error| panic!("{}: {error}", bank.display()));
+pub fn known(bank: &Path) -> Known {
+    let bytes = fs::read(bank).unwrap_or_else(|error| panic!("{}: {error}", bank.display()));
     let read = |plan: &Plan| Bank::read(&bytes, plan).unwrap_or_else(|error| panic!("{error}"));
     Known::new(loaded().study.clone(), POINTS, read)
 }
@@ -106,16 +108,15 @@ fn secret(folders: &Folders) -> String {
 
 /// Solves and seals what is not there yet. Gives the names of the campaigns that could be solved, which tell nothing, in an order
 /// that tells nothing and is the same for every secret.
-pub fn hidden(folders: &Folders, study: &Study, labels: &[Label]) -> Vec<String> {
-    let run = secret(folders);
+pub fn hidden(folders: &Folders, study: &Study, labels: &[Label], secret: &str) -> Vec<String> {
     let nuisances = nuisances(&root("distributions")).unwrap_or_else(|lacks| panic!("{lacks}"));
     let (campaigns, sealed) = (folders.of("campaigns"), folders.of("sealed"));
     let mut names: Vec<(u64, String)> = labels
         .par_iter()
         .filter_map(|label| {
-            let secret =
-                Sealed::new(&run, serde_json::to_string(label).expect("a label has string keys only"));
-            let seal = secret.seal();
+            let sealed_label =
+                Sealed::new(secret, serde_json::to_string(label).expect("a label has string keys only"));
+            let seal = sealed_label.seal();
             let name = seal[..16].to_owned();
             let (folder, unsolved) = (campaigns.join(&name), sealed.join(format!("{name}.unsolved")));
             if unsolved.exists() {
@@ -126,7 +127,7 @@ pub fn hidden(folders: &Folders, study: &Study, labels: &[Label]) -> Vec<String>
                     write(&unsolved, &format!("{label:?}\n"));
                     return None;
                 };
-                let json = serde_json::to_string(&secret).expect("two texts");
+                let json = serde_json::to_string(&sealed_label).expect("two texts");
                 write(&sealed.join(format!("{name}.json")), &json);
                 let folder = folders.of(&format!("campaigns/{name}"));
                 for (design, rows) in files {
@@ -286,8 +287,8 @@ fn hidden_effect_campaigns_are_sealed_judged_and_opened() {
     let folders = Folders { out: path("HIDDEN_EFFECT_OUT", "runs/hidden-effects") };
     let share = share();
     let all = roster(share, MASTER);
-    let names = hidden(&folders, &loaded().study, &all);
-    let known = known();
+    let names = hidden(&folders, &loaded().study, &all, &secret(&folders));
+    let known = known(&path("HIDDEN_EFFECT_BANK", BANK));
     let judges = Judges::new(&folders, &known);
     let verdicts = judged(&folders, "verdicts", &judges, &Design::ALL, &names);
     // All verdicts are written: the labels may be opened.
@@ -296,7 +297,7 @@ fn hidden_effect_campaigns_are_sealed_judged_and_opened() {
     let unsolved = all.len() - names.len();
     let head = format!(
         "Share of the full sizes: {share}. Campaigns judged: {}; not solved: {unsolved}. Bank: {POINTS} points, design {}. Secret of \
-         the seals: {}.\n",
+         the seals: {}.\n\nWhat is as wanted is in bold; the README says how to read it.\n",
         names.len(),
         &known.plan.study.hash[..12],
         secret(&folders)

@@ -6,110 +6,118 @@ use crate::printed::{head, interval};
 use crate::table::Line;
 use crate::truth::designs::Design;
 
-/// On which side of a bound a number should lie.
+/// On which side of its bound a number should lie.
 #[derive(Clone, Copy)]
-enum Bound {
+enum Side {
     AtLeast,
     AtMost,
 }
 
-use Bound::{AtLeast, AtMost};
+use Side::{AtLeast, AtMost};
 
-/// A line of the table with what is wanted of it, if anything: in the paper's designs and in the rich ones, without tests on two stones
-/// and with them. Shares are in percent.
-struct Wanted {
-    what: &'static str,
-    group: &'static str,
-    measure: &'static str,
-    bound: Option<(Bound, [[f64; 2]; 2])>,
+/// Bounds in the paper's designs and in the rich ones.
+#[derive(Clone, Copy)]
+struct Bounds {
+    on: Side,
+    plain: [f64; 2],
+    /// With tests on two stones.
+    with_joints: [f64; 2],
 }
 
-/// Wanted alike with two stones and without.
-const fn alike(bound: Bound, paper: f64, rich: f64) -> Option<(Bound, [[f64; 2]; 2])> {
-    Some((bound, [[paper, rich]; 2]))
+/// The same with tests on two stones and without.
+const fn alike(on: Side, paper: f64, rich: f64) -> Option<Bounds> {
+    Some(Bounds { on, plain: [paper, rich], with_joints: [paper, rich] })
 }
 
-/// A line of the table.
-const fn line(
-    what: &'static str,
-    group: &'static str,
-    measure: &'static str,
-    bound: Option<(Bound, [[f64; 2]; 2])>,
-) -> Wanted {
-    Wanted { what, group, measure, bound }
-}
-
-const MECHANISM_FOUND: &str = "mechanism, found";
-const OTHER_CODE: &str = "mechanism, other code";
-
-const WANTED: [Wanted; 27] = [
-    line(
+/// What a row is called, group and measure of the line that it shows, and what is wanted of it, if anything.
+const WANTED: &[(&str, &str, &str, Option<Bounds>)] = &[
+    (
         "a name given is right (catalogue and nothing)",
         "catalogue and nothing",
         "a name given is right",
-        alike(AtLeast, 95.0, 97.0),
+        alike(AtLeast, 0.95, 0.97),
     ),
-    line("strong effects named", "mechanism, strong", "named", Some((AtLeast, [[28.0, 55.0], [50.0, 75.0]]))),
-    line("middle effects named", "mechanism, middle", "named", Some((AtLeast, [[14.0, 43.0], [27.0, 58.0]]))),
-    line("nothing hidden: named", "nothing hidden", "named", alike(AtMost, 0.5, 1.0)),
-    line("nothing hidden: found", "nothing hidden", "found", alike(AtMost, 6.0, 6.0)),
-    line("prior wrong: named", "prior wrong", "named", alike(AtMost, 1.0, 2.0)),
-    line("prior wrong: found", "prior wrong", "found", alike(AtMost, 10.0, 10.0)),
-    line("the 90 % set holds it", MECHANISM_FOUND, "the set holds it", alike(AtLeast, 90.0, 90.0)),
-    line("its mean size", MECHANISM_FOUND, "mean size of the set", alike(AtMost, 3.5, 2.0)),
-    line(
-        "calibration error",
-        MECHANISM_FOUND,
+    (
+        "strong effects named",
+        "mechanism, strong",
+        "named",
+        Some(Bounds { on: AtLeast, plain: [0.28, 0.55], with_joints: [0.50, 0.75] }),
+    ),
+    (
+        "middle effects named",
+        "mechanism, middle",
+        "named",
+        Some(Bounds { on: AtLeast, plain: [0.14, 0.43], with_joints: [0.27, 0.58] }),
+    ),
+    ("nothing hidden: named", "nothing hidden", "named", alike(AtMost, 0.005, 0.01)),
+    ("nothing hidden: found", "nothing hidden", "found", alike(AtMost, 0.06, 0.06)),
+    ("prior wrong: named", "prior wrong", "named", alike(AtMost, 0.01, 0.02)),
+    ("prior wrong: found", "prior wrong", "found", alike(AtMost, 0.10, 0.10)),
+    (
+        "mechanism found: the 90 % set holds it",
+        "mechanism, found",
+        "the set holds it",
+        alike(AtLeast, 0.90, 0.90),
+    ),
+    (
+        "mechanism found: mean size of the set",
+        "mechanism, found",
+        "mean size of the set",
+        alike(AtMost, 3.5, 2.0),
+    ),
+    (
+        "mechanism found: calibration error",
+        "mechanism, found",
         "calibration error of the likeliest",
         alike(AtMost, 0.05, 0.04),
     ),
-    line(
-        "that of one who is calibrated, by chance",
-        MECHANISM_FOUND,
-        "calibration error by chance alone",
-        None,
-    ),
-    line("truth in another code: named", OTHER_CODE, "named", None),
-    line(
+    ("calibration error by chance alone", "mechanism, found", "calibration error by chance alone", None),
+    ("truth in another code: named", "mechanism, other code", "named", None),
+    (
         "truth in another code: a name given is right",
-        OTHER_CODE,
+        "mechanism, other code",
         "a name given is right",
-        alike(AtLeast, 90.0, 93.0),
+        alike(AtLeast, 0.90, 0.93),
     ),
-    line("out of catalogue: named", "out of catalogue", "named", alike(AtMost, 10.0, 15.0)),
-    line(
-        "the same without other words for the same thing",
+    ("out of catalogue: named", "out of catalogue", "named", alike(AtMost, 0.10, 0.15)),
+    (
+        "out of catalogue: named, not in other words",
         "out of catalogue",
         "wrongly named",
-        alike(AtMost, 2.0, 5.0),
+        alike(AtMost, 0.02, 0.05),
     ),
-    line(
+    (
         "mechanism out of the catalogue: wrongly named",
         "out of the catalogue in turn",
         "wrongly named",
-        alike(AtMost, 5.0, 10.0),
+        alike(AtMost, 0.05, 0.10),
     ),
-    line("pairs: another one named", "pairs", "another one named", alike(AtMost, 10.0, 10.0)),
-    line("decoys named", "decoys", "named", alike(AtMost, 5.0, 5.0)),
-    line(
+    ("pairs: another one named", "pairs", "another one named", alike(AtMost, 0.10, 0.10)),
+    ("decoys: named", "decoys", "named", alike(AtMost, 0.05, 0.05)),
+    (
         "named: a gain on specimens held out",
         "mechanism, named",
         "a gain on specimens held out",
-        alike(AtLeast, 85.0, 90.0),
+        alike(AtLeast, 0.85, 0.90),
     ),
-    line(
+    (
         "nothing hidden: a gain claimed",
         "nothing hidden",
         "a gain on specimens held out",
-        alike(AtMost, 5.0, 5.0),
+        alike(AtMost, 0.05, 0.05),
     ),
-    line("an ambiguous verdict holds it", "mechanism, ambiguous", "the verdict holds it", None),
-    line("found, but unexplained", MECHANISM_FOUND, "unexplained", None),
-    line("there it is left open", "mechanism, unexplained", "it is left open", None),
-    line("strong effects of our code that move it by 3", "mechanism, strong", "shift of 3 or more", None),
-    line("of these named", "mechanism, strong", "named where the shift is 3 or more", None),
-    line("correct", "catalogue and nothing", "correct", None),
-    line(
+    ("ambiguous: the verdict holds the mechanism", "mechanism, ambiguous", "the verdict holds it", None),
+    ("mechanism found: unexplained", "mechanism, found", "unexplained", None),
+    ("unexplained: the mechanism is left open", "mechanism, unexplained", "it is left open", None),
+    ("strong effects of our code with a shift of 3 or more", "mechanism, strong", "shift of 3 or more", None),
+    (
+        "strong effects with such a shift: named",
+        "mechanism, strong",
+        "named where the shift is 3 or more",
+        None,
+    ),
+    ("correct", "catalogue and nothing", "correct", None),
+    (
         "correct by one who never finds anything",
         "catalogue and nothing",
         "correct if nothing is ever found",
@@ -120,71 +128,68 @@ const WANTED: [Wanted; 27] = [
 /// A table with a column for each design; what is as wanted is in bold.
 pub fn markdown(lines: &[Line]) -> String {
     let mut text = head(&["", "wanted, paper and rich"]);
-    for wanted in &WANTED {
-        let own = |design: Design| {
-            let own = |line: &&Line| {
-                (line.design, line.group.as_str(), line.measure)
-                    == (design.name(), wanted.group, wanted.measure)
-            };
-            lines.iter().find(own).unwrap_or_else(|| panic!("{}: {}", wanted.group, wanted.measure))
+    for (what, group, measure, bounds) in WANTED {
+        let of = |design: Design| {
+            let asked = (design.name(), *group, *measure);
+            let own = lines.iter().find(|line| (line.design, &line.group[..], line.measure) == asked);
+            own.unwrap_or_else(|| panic!("{group}: {measure}"))
         };
-        let cells = Design::ALL.map(|design| wanted.cell(design, own(design)));
+        let cells = Design::ALL.map(|design| cell(of(design), bounds.map(|bounds| (design, bounds))));
         if cells.iter().any(|cell| !cell.is_empty()) {
-            let is_share = own(Design::Paper).counts.is_some();
-            writeln!(text, "| {} | {} | {} |", wanted.what, wanted.stated(is_share), cells.join(" | "))
-                .expect("text can grow");
+            let is_share = of(Design::Paper).counts.is_some();
+            let stated = bounds.map_or_else(String::new, |bounds| bounds.stated(is_share));
+            writeln!(text, "| {what} | {stated} | {} |", cells.join(" | ")).expect("text can grow");
         }
     }
     text
 }
 
-impl Wanted {
-    /// What is wanted, in words.
+/// What came out; empty where nothing was measured.
+fn cell(line: &Line, bounds: Option<(Design, Bounds)>) -> String {
+    let Some(value) = line.value else { return String::new() };
+    let (number, between) = match line.counts.zip(interval(line)) {
+        Some(([hits, trials], [low, high])) => {
+            let share = format!("{hits} of {trials}, {:.0} %", 100.0 * value);
+            let number = if hits == 0 || hits == trials { format!("{hits} of {trials}") } else { share };
+            (number, format!(" [{:.0}, {:.0}]", 100.0 * low, 100.0 * high))
+        }
+        None => (format!("{value:.2}"), String::new()),
+    };
+    match bounds.is_some_and(|(design, bounds)| bounds.hold(design, value)) {
+        true => format!("**{number}**{between}"),
+        false => number + &between,
+    }
+}
+
+impl Bounds {
+    /// In words.
     fn stated(&self, is_share: bool) -> String {
-        let Some((bound, [plain, joints])) = &self.bound else { return String::new() };
-        let sign = match bound {
+        let sign = match self.on {
             AtLeast => ">=",
             AtMost => "<=",
         };
-        let unit = if is_share { " %" } else { "" };
-        let both = |[paper, rich]: &[f64; 2]| match paper == rich {
-            true => format!("{paper}{unit}"),
-            false => format!("{paper}, {rich}{unit}"),
+        let both = |[paper, rich]: [f64; 2]| {
+            // Shares are stated in tenths of a percent.
+            let number = |x: f64| if is_share { (1000.0 * x).round() / 10.0 } else { x };
+            let unit = if is_share { " %" } else { "" };
+            match paper == rich {
+                true => format!("{}{unit}", number(paper)),
+                false => format!("{}, {}{unit}", number(paper), number(rich)),
+            }
         };
-        match plain == joints {
-            true => format!("{sign} {}", both(plain)),
-            false => format!("{sign} {}; with two stones {}", both(plain), both(joints)),
+        match self.plain == self.with_joints {
+            true => format!("{sign} {}", both(self.plain)),
+            false => format!("{sign} {}; with two stones {}", both(self.plain), both(self.with_joints)),
         }
     }
 
-    /// What came out; empty where nothing was measured.
-    fn cell(&self, design: Design, line: &Line) -> String {
-        let Some(value) = line.value else { return String::new() };
-        let counted = line.counts.zip(interval(line));
-        let number = match counted {
-            Some(([hits, trials], _)) if hits == 0 || hits == trials => format!("{hits} of {trials}"),
-            Some(([hits, trials], _)) => format!("{hits} of {trials}, {:.0} %", 100.0 * value),
-            None if value < 1.0 => format!("{value:.2}"),
-            None => format!("{value:.1}"),
-        };
-        let between = counted.map_or_else(String::new, |(_, [low, high])| {
-            format!(" [{:.0}, {:.0}]", 100.0 * low, 100.0 * high)
-        });
-        let [with_joints, rich] = match design {
-            Design::Paper | Design::PaperCoarse => [false, false],
-            Design::PaperJoints => [true, false],
-            Design::Rich => [false, true],
-            Design::RichJoints => [true, true],
-        };
-        let value = if line.counts.is_some() { 100.0 * value } else { value };
-        let as_wanted = self.bound.is_some_and(|(bound, wanted)| {
-            let wanted = wanted[usize::from(with_joints)][usize::from(rich)];
-            match bound {
-                AtLeast => value >= wanted,
-                AtMost => value <= wanted,
-            }
-        });
-        if as_wanted { format!("**{number}**{between}") } else { format!("{number}{between}") }
+    fn hold(&self, design: Design, value: f64) -> bool {
+        let [paper, rich] = if design.has_joints() { self.with_joints } else { self.plain };
+        let bound = if design.is_rich() { rich } else { paper };
+        match self.on {
+            AtLeast => value >= bound,
+            AtMost => value <= bound,
+        }
     }
 }
 
@@ -192,6 +197,7 @@ impl Wanted {
 mod tests {
     use super::*;
     use crate::table;
+    use crate::truth::roster::root;
 
     #[test]
     fn every_line_that_is_wanted_is_in_the_table_and_bold_where_it_is_reached() {
@@ -204,19 +210,32 @@ mod tests {
             let line = lines.iter_mut().find(own).expect("it is there");
             (line.counts, line.value) = (counts, Some(value));
         };
-        set("rich", "mechanism, strong", "named", Some([56, 100]), 0.56);
-        set("rich_joints", "mechanism, strong", "named", Some([56, 100]), 0.56);
+        for (design, hits) in [("paper", 14), ("paper_joints", 26), ("rich", 58), ("rich_joints", 58)] {
+            set(design, "mechanism, middle", "named", Some([hits, 100]), hits as f64 / 100.0);
+        }
         set("paper", "decoys", "named", Some([0, 20]), 0.0);
-        set("rich", MECHANISM_FOUND, "mean size of the set", None, 2.04);
+        set("rich", "decoys", "named", Some([3, 20]), 0.15);
+        set("rich", "mechanism, found", "mean size of the set", None, 2.04);
         let text = markdown(&lines);
         let rows: Vec<&str> = text.lines().skip(2).collect();
         assert_eq!(
             rows,
             [
-                "| strong effects named | >= 28, 55 %; with two stones 50, 75 % |  |  |  | **56 of 100, 56 %** [46, 66] | 56 of 100, 56 % [46, 66] |",
-                "| its mean size | <= 3.5, 2 |  |  |  | 2.0 |  |",
-                "| decoys named | <= 5 % | **0 of 20** [0, 17] |  |  |  |  |",
+                "| middle effects named | >= 14, 43 %; with two stones 27, 58 % | **14 of 100, 14 %** [8, 22] |  | 26 of 100, 26 % [18, 36] | **58 of 100, 58 %** [48, 68] | **58 of 100, 58 %** [48, 68] |",
+                "| mechanism found: mean size of the set | <= 3.5, 2 |  |  |  | 2.04 |  |",
+                "| decoys: named | <= 5 % | **0 of 20** [0, 17] |  |  | 3 of 20, 15 % [3, 38] |  |",
             ]
         );
+    }
+
+    #[test]
+    fn the_readme_shows_the_table_that_was_published() {
+        let folder = root("studies/hidden-effects");
+        let [table, readme] = ["table.md", "README.md"]
+            .map(|name| std::fs::read_to_string(folder.join(name)).expect("it is in the repository"));
+        let start =
+            table.find(&head(&["", "wanted, paper and rich"])).expect("it begins with what was wanted");
+        let wanted = table[start..].split("\n\n").next().expect("a table");
+        assert!(wanted.lines().count() > 20 && readme.contains(wanted), "{wanted}");
     }
 }

@@ -70,8 +70,13 @@ impl Design {
         ["paper", "paper_coarse", "paper_joints", "rich", "rich_joints"][self as usize]
     }
 
-    fn is_rich(self) -> bool {
+    pub fn is_rich(self) -> bool {
         matches!(self, Design::Rich | Design::RichJoints)
+    }
+
+    /// Whether two stones are tested as well.
+    pub fn has_joints(self) -> bool {
+        matches!(self, Design::PaperJoints | Design::RichJoints)
     }
 
     /// What is written down of specimens, family by family. Of a plan, which has none, every row that there may be.
@@ -99,7 +104,7 @@ impl Design {
             });
         }
         effects.iter().for_each(|effect| effect.rows(&mut rows, &mut stream));
-        if matches!(self, Design::PaperJoints | Design::RichJoints) {
+        if self.has_joints() {
             let mut stream = streams.of("hidden joint errors");
             rows.extend(
                 joints.iter().zip(FAMILIES).flat_map(|(test, family)| two_stones(test, family, &mut stream)),
