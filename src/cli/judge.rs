@@ -3,10 +3,11 @@
 use std::fs;
 use std::path::Path;
 
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::cli::failure::Failure;
-use crate::critic::{Bank, Design, Effort, Judge, Limits, Plan, SelfTest, World};
+use crate::critic::{Bank, Design, Diagnosis, Effort, Judge, Limits, Plan, SelfTest, World};
 use crate::ensemble::replace_file;
 use crate::study::{Described, Nuisance, Study, sha256};
 
@@ -83,12 +84,18 @@ fn tested(seed: u64) -> u64 {
     seed.wrapping_add(2 * SEEDS)
 }
 
-/// All that a self-test hangs on; how one campaign seems to the judge stands for all that it has learnt, so that another way of
-/// judging tests itself anew.
+/// All that a self-test hangs on; all that is said of one campaign of every cause stands for how the judge judges, so that another
+/// way of judging tests itself anew.
 fn identity(judge: &Judge<'_>, plan: &Plan, seed: u64) -> String {
     let (hash, measured) = (&plan.study.hash, &judge.world.study().measured);
-    let seeming = judge.seeming_of_nothing(tested(seed), CAMPAIGNS);
-    sha256(format!("{hash} {CAMPAIGNS} {seed} {:?} {measured:?} {seeming:?}", Limits::default()).as_bytes())
+    let limits = Limits::default();
+    let said: Vec<Diagnosis> = judge
+        .ranking
+        .causes()
+        .par_iter()
+        .map(|cause| judge.said_of(*cause, &limits, tested(seed), CAMPAIGNS))
+        .collect();
+    sha256(format!("{hash} {CAMPAIGNS} {seed} {limits:?} {measured:?} {said:?}").as_bytes())
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use crate::critic::diagnose::design::Campaign;
 use crate::critic::diagnose::judge::{Judge, Seeming};
 use crate::critic::diagnose::limits::Limits;
-use crate::critic::diagnose::verdict::Verdict;
+use crate::critic::diagnose::verdict::{Diagnosis, Verdict};
 use crate::critic::diagnose::world::Truth;
 use crate::random::Streams;
 use crate::stats;
@@ -98,8 +98,9 @@ impl Judge<'_> {
                 (0..count).into_par_iter().map(|k| self.tested(*cause, seed, k)).collect();
             let judged = if cause.is_none() { MORE * judged } else { judged };
             let closely = campaigns.par_iter().take(judged as usize);
-            let verdicts: Vec<Verdict> =
-                closely.map(|tested| self.diagnosed(&tested.campaign, limits, seed).verdict).collect();
+            let verdicts: Vec<Verdict> = closely
+                .map(|tested| self.diagnosed(&tested.campaign, limits, judging(seed)).verdict)
+                .collect();
             row(*cause, &campaigns, &verdicts, limits)
         };
         let rows = self.ranking.causes().par_iter().map(row).collect();
@@ -114,13 +115,14 @@ impl Judge<'_> {
         let seeming: Vec<Option<Vec<usize>>> = campaigns.par_iter().map(seem).collect();
         let closely = campaigns.par_iter().take(judged as usize);
         let judged: Vec<Option<Vec<usize>>> =
-            closely.map(|campaign| named(&self.diagnosed(campaign, limits, seed).verdict)).collect();
+            closely.map(|campaign| named(&self.diagnosed(campaign, limits, judging(seed)).verdict)).collect();
         [seeming, judged].map(|said| Counted::of(None, said.into_iter()))
     }
 
-    /// How a campaign of a self-test without effect seems.
-    pub fn seeming_of_nothing(&self, seed: u64, number: u64) -> Seeming {
-        self.tested(None, seed, number).seeming
+    /// What is said of a campaign of a cause, by how it seems and by all that a diagnosis does: a fingerprint of a judge.
+    pub fn said_of(&self, cause: Option<usize>, limits: &Limits, seed: u64, number: u64) -> Diagnosis {
+        let tested = self.tested(cause, seed, number);
+        self.diagnosed(&tested.campaign, limits, judging(seed))
     }
 
     fn tested(&self, cause: Option<usize>, seed: u64, number: u64) -> Tested {
@@ -141,6 +143,12 @@ impl Judge<'_> {
         let squares = both.filter_map(|((_, own), (_, still))| Some((own? - still?) * (own? - still?)));
         squares.fold(0.0, |sum, square| sum + square).sqrt()
     }
+}
+
+/// Seed of the judging of campaigns that were drawn with another: the guard simulates some of its own, and one of these would
+/// otherwise be the very campaign that it is asked about.
+fn judging(seed: u64) -> u64 {
+    seed.wrapping_add(1)
 }
 
 impl Counted {
