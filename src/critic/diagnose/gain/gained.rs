@@ -176,12 +176,14 @@ pub fn gained(rows: &[Row], nulls: &[[[f64; 2]; 3]]) -> Option<Gained> {
     })
 }
 
-/// How many standard errors an interval reaches, so that no more than [`CLAIMED`] of the campaigns without effect claim a gain, and
-/// no fewer than a plain one.
+/// How many standard errors an interval reaches, so that another campaign without effect claims a gain with a probability of no
+/// more than [`CLAIMED`], and no fewer than a plain one. Of n campaigns and another one each is as likely to have the largest ratio,
+/// so that the other has a larger one than the k-th largest with a probability of k / (n + 1); fewer than nineteen cannot tell, and
+/// the largest stands for them.
 fn reach(nulls: impl Iterator<Item = [f64; 2]>, plain: f64) -> f64 {
     let ratio = |[value, error]: [f64; 2]| if value > 0.0 && error > 0.0 { value / error } else { 0.0 };
     let mut ratios: Vec<f64> = nulls.map(ratio).collect();
     ratios.sort_by(f64::total_cmp);
-    let above = (CLAIMED * ratios.len() as f64).floor() as usize;
-    ratios.len().checked_sub(above + 1).map_or(plain, |at| ratios[at].max(plain))
+    let rank = ((CLAIMED * (ratios.len() + 1) as f64).floor() as usize).max(1);
+    ratios.len().checked_sub(rank).map_or(plain, |at| ratios[at].max(plain))
 }

@@ -125,6 +125,21 @@ fn standard_errors_are_those_of_the_mean_over_specimens() {
 }
 
 #[test]
+fn one_campaign_more_without_an_effect_claims_a_gain_once_in_twenty_times() {
+    // One specimen scatters little, so that the plain interval is narrow beside what the nulls say.
+    let rows = rows(&[&[&[100.0], &[100.1], &[99.9], &[100.2]]]);
+    let reach = |nulls: u32| {
+        let nulls: Vec<_> = (1..=nulls).map(|ratio| [[f64::from(ratio), 1.0]; 3]).collect();
+        let gain = gained(&rows, &nulls).expect("four specimens").gain[0];
+        (gain.value - gain.ends[0]) / estimates(&rows)[0][1]
+    };
+    // Of 60 ratios 1 to 60 another one is as likely to be anywhere among them: above the third largest with 3 of 61.
+    for (nulls, wanted) in [(60, 58.0), (59, 57.0), (58, 57.0), (19, 19.0), (10, 10.0)] {
+        assert!((reach(nulls) - wanted).abs() < 1e-6, "{nulls}: {}", reach(nulls));
+    }
+}
+
+#[test]
 fn what_families_differ_by_is_no_chance() {
     // Means of two and of four specimens, by a third and two thirds of all.
     let found = error(&[&[&[0.3], &[0.5]], &[&[7.0], &[6.0], &[6.4], &[7.8]]]);
