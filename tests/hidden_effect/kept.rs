@@ -1,5 +1,6 @@
 //! A few campaigns of the published run, hidden, judged and opened anew: what is said of them is what was said.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
@@ -38,9 +39,9 @@ fn what_was_said_of_some_campaigns_of_nine_walls_is_still_said() {
         fs::remove_dir_all(&folders.out).expect("the folder is the test's own");
     }
     let kept = |label: &Label| KEPT.iter().find(|(seed, _)| *seed == label.seed);
-    let mut labels = roster(SHARE, MASTER);
+    let mut labels = roster(SHARE, MASTER, &BTreeMap::new());
     labels.retain(|label| kept(label).is_some());
-    let names = hidden(&folders, &loaded().study, &labels, "kept");
+    let (names, _) = hidden(&folders, &loaded().study, &labels, "kept");
     assert_eq!(names.len(), KEPT.len(), "they are in the roster, and can be solved");
     let known = known(&root(BANK));
     let verdicts = judged(&folders, "verdicts", &Judges::new(&folders, &known), &PLAIN, &names);

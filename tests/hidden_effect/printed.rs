@@ -13,7 +13,7 @@ pub fn csv(lines: &[Line]) -> String {
     let number = |x: Option<f64>| x.map_or_else(String::new, |x| x.to_string());
     for line in lines {
         let [hits, trials] = line.counts.map_or([None; 2], |counts| counts.map(|count| Some(count as f64)));
-        let [low, high] = interval(line).map_or([None; 2], |interval| interval.map(Some));
+        let [low, high] = interval(line).or(line.between).map_or([None; 2], |interval| interval.map(Some));
         let cells = [hits, trials, line.value, low, high].map(number).join(",");
         writeln!(text, "{},\"{}\",{},{cells}", line.design, line.group, line.measure).expect("text can grow");
     }
@@ -48,7 +48,10 @@ fn cell(line: &Line) -> String {
             let [value, low, high] = [value, low, high].map(|share| format!("{:.0}", 100.0 * share));
             format!("{hits}/{trials} {value} % [{low}, {high}]")
         }
-        (.., Some(value)) => format!("{value:.2}"),
+        (.., Some(value)) => {
+            let between = line.between.map(|[low, high]| format!(" [{low:.2}, {high:.2}]"));
+            format!("{value:.2}{}", between.unwrap_or_default())
+        }
         _ => "-".to_owned(),
     }
 }

@@ -107,13 +107,18 @@ fn secret(folders: &Folders) -> String {
 }
 
 /// Solves and seals what is not there yet. Gives the names of the campaigns that could be solved, which tell nothing, in an order
-/// that tells nothing and is the same for every secret.
-pub fn hidden(folders: &Folders, study: &Study, labels: &[Label], secret: &str) -> Vec<String> {
+/// that tells nothing and is the same for every secret; and how many of each kind could not.
+pub fn hidden(
+    folders: &Folders,
+    study: &Study,
+    labels: &[Label],
+    secret: &str,
+) -> (Vec<String>, BTreeMap<String, u64>) {
     let nuisances = nuisances(&root("distributions")).unwrap_or_else(|lacks| panic!("{lacks}"));
     let (campaigns, sealed) = (folders.of("campaigns"), folders.of("sealed"));
-    let mut names: Vec<(u64, String)> = labels
+    let solved: Vec<Option<(u64, String)>> = labels
         .par_iter()
-        .filter_map(|label| {
+        .map(|label| {
             let sealed_label =
                 Sealed::new(secret, serde_json::to_string(label).expect("a label has string keys only"));
             let seal = sealed_label.seal();
@@ -138,8 +143,30 @@ pub fn hidden(folders: &Folders, study: &Study, labels: &[Label], secret: &str) 
             Some((label.seed, name))
         })
         .collect();
+    let mut unsolved: BTreeMap<String, u64> = BTreeMap::new();
+    for (label, _) in labels.iter().zip(&solved).filter(|(_, solved)| solved.is_none()) {
+        *unsolved.entry(label.kind()).or_default() += 1;
+    }
+    let mut names: Vec<(u64, String)> = solved.into_iter().flatten().collect();
     names.sort();
-    names.into_iter().map(|(_, name)| name).collect()
+    (names.into_iter().map(|(_, name)| name).collect(), unsolved)
+}
+
+/// Solves and seals a share of the full sizes, with others of its kind in the place of each that cannot be solved.
+fn hidden_share(
+    folders: &Folders,
+    study: &Study,
+    share: f64,
+    secret: &str,
+) -> (Vec<String>, BTreeMap<String, u64>) {
+    let mut more = BTreeMap::new();
+    loop {
+        let (names, unsolved) = hidden(folders, study, &roster(share, MASTER, &more), secret);
+        if unsolved == more {
+            return (names, unsolved);
+        }
+        more = unsolved;
+    }
 }
 
 /// The judges of what is known, one for each design, from the first time on that it is asked: by one thread alone, as what
@@ -286,19 +313,19 @@ fn together(names: &[String], labels: &[Label], verdicts: Vec<Verdicts>) -> Vec<
 fn hidden_effect_campaigns_are_sealed_judged_and_opened() {
     let folders = Folders { out: path("HIDDEN_EFFECT_OUT", "runs/hidden-effects") };
     let share = share();
-    let all = roster(share, MASTER);
-    let names = hidden(&folders, &loaded().study, &all, &secret(&folders));
+    let (names, unsolved) = hidden_share(&folders, &loaded().study, share, &secret(&folders));
     let known = known(&path("HIDDEN_EFFECT_BANK", BANK));
     let judges = Judges::new(&folders, &known);
     let verdicts = judged(&folders, "verdicts", &judges, &Design::ALL, &names);
     // All verdicts are written: the labels may be opened.
     let labels: Vec<Label> = names.iter().map(|name| opened(&folders, name)).collect();
     let mut all_judged = together(&names, &labels, verdicts);
-    let unsolved = all.len() - names.len();
+    let unsolved: Vec<String> = unsolved.iter().map(|(kind, count)| format!("{kind} {count}")).collect();
     let head = format!(
-        "Share of the full sizes: {share}. Campaigns judged: {}; not solved: {unsolved}. Bank: {POINTS} points, design {}. Secret of \
+        "Share of the full sizes: {share}. Campaigns judged: {}; not solved, and others drawn in their place: {}. Bank: {POINTS} points, design {}. Secret of \
          the seals: {}.\n\nWhat is as wanted is in bold; the README says how to read it.\n",
         names.len(),
+        unsolved.join(", "),
         &known.plan.study.hash[..12],
         secret(&folders)
     );

@@ -15,6 +15,13 @@ const BINS: usize = 10;
 /// Draws of what chance makes of it.
 const CALIBRATED: u64 = 1000;
 
+/// How often campaigns are drawn anew for the interval of a number that they have together.
+const DRAWN_ANEW: u64 = 1000;
+
+/// Effects in no catalogue that are of a form that the ranking learns to keep apart from all causes (a gauge that shifts at some
+/// tilt, or from specimen to specimen).
+const LEARNT: [&str; 2] = ["drift", "knock"];
+
 /// Bands of the shift that an effect makes, in standard deviations.
 const SHIFTS: [[f64; 2]; 4] = [[0.0, 1.0], [1.0, 3.0], [3.0, 10.0], [10.0, f64::INFINITY]];
 
@@ -43,6 +50,8 @@ pub struct Line {
     pub counts: Option<[usize; 2]>,
     /// The value; none without trials.
     pub value: Option<f64>,
+    /// Its 95 % interval, where it is no share: those of the campaigns drawn anew (percentiles).
+    pub between: Option<[f64; 2]>,
 }
 
 impl Judged {
@@ -62,12 +71,18 @@ impl Judged {
         })
     }
 
+    /// Whether something is named and all that is named is hidden.
     fn right(&self) -> bool {
-        self.named() && self.is_hidden(&self.said.names[0])
+        self.named() && self.said.names.iter().all(|name| self.is_hidden(name))
     }
 
     fn wrong(&self) -> bool {
         self.named() && !self.right()
+    }
+
+    /// Whether something is named of which nothing is hidden.
+    fn plainly_wrong(&self) -> bool {
+        self.named() && !self.said.names.iter().any(|name| self.is_hidden(name))
     }
 
     /// Whether the interval of the gain on specimens held out, in the logarithm of the probability, lies above 0.
@@ -142,7 +157,7 @@ fn of_design(design: &'static str, judged: &[Judged], removed: &[Judged]) -> Vec
         let group = format!("{}, strong", mechanism.name);
         lines.of_mechanisms(&group, &some);
         let shifts: Vec<f64> = some.iter().filter_map(|j| j.shift).collect();
-        lines.value(&group, "median shift", quantile(&shifts, 0.5));
+        lines.value(&group, "median shift", &shifts, |shifts| quantile(shifts, 0.5));
     }
     let found: Vec<&Judged> = mechanisms.iter().copied().filter(|j| j.found()).collect();
     for (group, of) in [
@@ -154,13 +169,13 @@ fn of_design(design: &'static str, judged: &[Judged], removed: &[Judged]) -> Vec
         lines.share(group, "the set holds it", &found, |j| j.said.set.contains(&j.label.hidden[0].name));
     }
     let sizes: Vec<f64> = found.iter().map(|j| j.said.set.len() as f64).collect();
-    lines.value("mechanism, found", "mean size of the set", mean(&sizes));
+    lines.value("mechanism, found", "mean size of the set", &sizes, mean);
     let few: Vec<&Judged> = found.iter().copied().filter(|j| j.said.verdict == Word::Ambiguous).collect();
     lines.share("mechanism, ambiguous", "the verdict holds it", &few, |j| {
         j.said.names.iter().any(|name| j.is_hidden(name))
     });
     let sizes: Vec<f64> = few.iter().map(|j| j.said.names.len() as f64).collect();
-    lines.value("mechanism, ambiguous", "mean number of causes", mean(&sizes));
+    lines.value("mechanism, ambiguous", "mean number of causes", &sizes, mean);
     let unexplained: Vec<&Judged> =
         found.iter().copied().filter(|j| j.said.verdict == Word::Unexplained).collect();
     lines.share("mechanism, found", "unexplained", &found, |j| j.said.verdict == Word::Unexplained);
@@ -169,8 +184,8 @@ fn of_design(design: &'static str, judged: &[Judged], removed: &[Judged]) -> Vec
     });
     let given: Vec<(f64, bool)> =
         found.iter().map(|j| (j.said.likeliest.1, j.is_hidden(&j.said.likeliest.0))).collect();
-    lines.value("mechanism, found", "calibration error of the likeliest", calibration_error(&given));
-    lines.value("mechanism, found", "calibration error by chance alone", chance_error(&given));
+    lines.value("mechanism, found", "calibration error of the likeliest", &given, calibration_error);
+    lines.plain("mechanism, found", "calibration error by chance alone", chance_error(&given));
     for (group, of) in [("mechanism, named", named(&mechanisms)), ("nothing hidden", nothing.clone())] {
         let measured: Vec<&Judged> = of.into_iter().filter(|j| j.gains.is_some()).collect();
         lines.share(group, "a gain on specimens held out", &measured, Judged::gains);
@@ -178,13 +193,16 @@ fn of_design(design: &'static str, judged: &[Judged], removed: &[Judged]) -> Vec
     }
     let pairs = of(Group::Pair);
     lines.share("pairs", "found", &pairs, Judged::found);
-    lines.share("pairs", "one of the two named", &pairs, Judged::right);
-    lines.share("pairs", "another one named", &pairs, Judged::wrong);
+    lines.share("pairs", "one of the two named, or both", &pairs, Judged::right);
+    lines.share("pairs", "others named", &pairs, Judged::plainly_wrong);
     let unknown = of(Group::Unknown);
     lines.share("out of catalogue", "found", &unknown, Judged::found);
     lines.share("out of catalogue", "named", &unknown, Judged::named);
     lines.share("out of catalogue", "wrongly named", &unknown, Judged::wrong);
     lines.share("out of catalogue", "unexplained", &unknown, |j| j.said.verdict == Word::Unexplained);
+    let learnt = |j: &Judged| LEARNT.contains(&&j.label.hidden[0].name[..]);
+    let strange: Vec<&Judged> = unknown.iter().copied().filter(|j| !learnt(j)).collect();
+    lines.share("out of catalogue, of no form that was learnt", "wrongly named", &strange, Judged::wrong);
     for effect in &UNKNOWN {
         let some: Vec<&Judged> =
             unknown.iter().copied().filter(|j| j.label.hidden[0].name == effect.name).collect();
@@ -207,6 +225,7 @@ fn of_design(design: &'static str, judged: &[Judged], removed: &[Judged]) -> Vec
     let permuted = permuted(&named(&mechanisms));
     let permuted: Vec<&Judged> = permuted.iter().collect();
     lines.share("mechanism, labels permuted", "a name given is right", &permuted, Judged::right);
+    lines.plain("mechanism, labels permuted", "share of names right to be expected", by_chance(&permuted));
     lines.lines
 }
 
@@ -221,11 +240,32 @@ impl Lines {
         let hits = of.iter().filter(|j| hit(j)).count();
         let value = (!of.is_empty()).then(|| hits as f64 / of.len() as f64);
         let counts = Some([hits, of.len()]);
-        self.lines.push(Line { design: self.design, group: group.to_owned(), measure, counts, value });
+        let group = group.to_owned();
+        self.lines.push(Line { design: self.design, group, measure, counts, value, between: None });
     }
 
-    fn value(&mut self, group: &str, measure: &'static str, value: Option<f64>) {
-        self.lines.push(Line { design: self.design, group: group.to_owned(), measure, counts: None, value });
+    /// A number that campaigns have together, with its interval.
+    fn value<T: Clone>(
+        &mut self,
+        group: &str,
+        measure: &'static str,
+        of: &[T],
+        told: impl Fn(&[T]) -> Option<f64>,
+    ) {
+        self.plain(group, measure, told(of));
+        let mut stream = Streams::new(3, 0).of("campaigns drawn anew");
+        let mut drawn = || -> Vec<T> { of.iter().map(|_| of[stream.below(of.len())].clone()).collect() };
+        let all: Vec<f64> = (0..DRAWN_ANEW).filter_map(|_| told(&drawn())).collect();
+        let ends = [0.025, 0.975].map(|p| quantile(&all, p));
+        if let (Some(line), [Some(low), Some(high)]) = (self.lines.last_mut(), ends) {
+            line.between = Some([low, high]);
+        }
+    }
+
+    /// A number without an interval.
+    fn plain(&mut self, group: &str, measure: &'static str, value: Option<f64>) {
+        let group = group.to_owned();
+        self.lines.push(Line { design: self.design, group, measure, counts: None, value, between: None });
     }
 
     fn of_mechanisms(&mut self, group: &str, of: &[&Judged]) {
@@ -265,6 +305,15 @@ fn most_frequent(of: &[&Judged]) -> Option<String> {
     names.max_by_key(|name| count(name)).map(str::to_owned)
 }
 
+/// Share of names that are right on average over all orders of the labels.
+fn by_chance(of: &[&Judged]) -> Option<f64> {
+    let right = |j: &Judged| {
+        let hides = |other: &&&Judged| j.said.names.iter().all(|name| other.is_hidden(name));
+        of.iter().filter(hides).count() as f64 / of.len() as f64
+    };
+    mean(&of.iter().map(|j| right(j)).collect::<Vec<_>>())
+}
+
 /// The same verdicts with labels that have changed places.
 pub fn permuted(of: &[&Judged]) -> Vec<Judged> {
     let mut stream = Streams::new(1, 0).of("permuted labels");
@@ -275,6 +324,8 @@ pub fn permuted(of: &[&Judged]) -> Vec<Judged> {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeMap;
+
     use super::*;
     use crate::printed::{interval, markdown};
     use crate::truth::roster::roster;
@@ -282,7 +333,7 @@ mod tests {
     /// What somebody says who knows all labels, and gives no name where there is none. Strong effects of our code shift what is seen
     /// by 5, others by 1.
     fn told() -> Vec<Judged> {
-        let all = roster(0.2, 3).into_iter();
+        let all = roster(0.2, 3, &BTreeMap::new()).into_iter();
         all.map(|label| {
             let name = label.hidden.first().map(|hidden| hidden.name.clone());
             let name = name.filter(|_| label.group == Group::Mechanism);
@@ -314,6 +365,55 @@ mod tests {
     }
 
     #[test]
+    fn a_pair_is_right_if_both_are_hidden_whatever_their_order() {
+        let mut told = told();
+        told.retain(|j| matches!(j.label.group, Group::Mechanism | Group::Pair));
+        told.sort_by_key(|j| j.label.group);
+        let counts =
+            |told: &[Judged], group: &str, measure: &str| line(&of(told, &[]), group, measure).counts;
+        let wrong =
+            |told: &[Judged]| counts(told, "mechanism, our code", "another one named").expect("a share")[0];
+        let other = |j: &Judged| {
+            let names = catalogue().into_iter().map(|mechanism| mechanism.name.to_owned());
+            names.into_iter().find(|name| !j.is_hidden(name)).expect("there are more")
+        };
+        let one = told.iter().position(|j| !j.other_code()).expect("two in three");
+        for order in [0, 1] {
+            told[one].said.names = vec![told[one].label.hidden[0].name.clone(); 1];
+            let own = other(&told[one]);
+            told[one].said.names.insert(order, own);
+            assert_eq!(wrong(&told), 1);
+        }
+        let pair = told.iter().position(|j| j.label.group == Group::Pair).expect("there are pairs");
+        let [first, second] = [0, 1].map(|k| told[pair].label.hidden[k].name.clone());
+        let strange = other(&told[pair]);
+        for (names, right, plainly) in [
+            (vec![second.clone(), first.clone()], 1, 0),
+            (vec![second.clone()], 1, 0),
+            (vec![strange.clone(), first], 0, 0),
+            (vec![strange], 0, 1),
+        ] {
+            (told[pair].said.verdict, told[pair].said.names) = (Word::Named, names);
+            let hits = |measure| counts(&told, "pairs", measure).expect("a share")[0];
+            assert_eq!((hits("one of the two named, or both"), hits("others named")), (right, plainly));
+        }
+    }
+
+    #[test]
+    fn numbers_that_are_no_shares_have_their_intervals() {
+        let lines = of(&told(), &[]);
+        let size = line(&lines, "mechanism, found", "mean size of the set");
+        assert_eq!((size.value, size.between), (Some(1.0), Some([1.0, 1.0])));
+        let mut own = Lines { design: "rich", lines: Vec::new() };
+        let values: Vec<f64> = (0..100).map(f64::from).collect();
+        own.value("any", "mean", &values, mean);
+        let [low, high] = own.lines[0].between.expect("drawn anew");
+        // Standard error 2.89, root of n / (n - 1) less; a thousand draws know the ends to a tenth.
+        let half = 1.96 * 28.87 / 10.0;
+        assert!((low - (49.5 - half)).abs() < 0.6 && (high - (49.5 + half)).abs() < 0.6, "{low} {high}");
+    }
+
+    #[test]
     fn who_knows_all_is_always_right_and_with_permuted_labels_by_chance() {
         let told = told();
         let lines = of(&told, &[]);
@@ -339,6 +439,9 @@ mod tests {
         let permuted = line(&lines, "mechanism, labels permuted", "a name given is right");
         let [low, high] = interval(permuted).expect("there are some");
         assert!(low < 1.0 / 17.0 && 1.0 / 17.0 < high, "{low} to {high}");
+        // As many of every mechanism.
+        let expected = line(&lines, "mechanism, labels permuted", "share of names right to be expected");
+        assert!((expected.value.expect("some are named") - 1.0 / 17.0).abs() < 1e-12);
         // One that moves little and is not named lowers what is named, but not of those that move much.
         let mut told = told;
         let strong = told.iter_mut().find(|j| j.shift == Some(5.0)).expect("a strong one");

@@ -135,22 +135,34 @@ impl Reference {
         }
     }
 
-    /// How far a truth's campaigns are from any without effect, whatever a single one shows: Mahalanobis distance of their mean
-    /// features from what the best joints explain, less what the mean of `count` campaigns has of it by chance.
+    /// How far the causes of a truth move its campaigns from those of any joints without them, whatever a single campaign shows:
+    /// Mahalanobis distance of the mean change of the features, with the same stones and errors, from what the best change of the
+    /// joints does, less what the mean of `count` campaigns has of it by chance.
     pub fn shift(&self, world: &World<'_>, design: &Design, truth: &Truth, count: u64, seed: u64) -> f64 {
+        let still = Truth { causes: None.into(), parameters: Vec::new(), joints: truth.joints.clone() };
         let one = |campaign: u64| {
-            let shown = world.campaign(design, truth, &Streams::new(seed, campaign));
-            features(design, &self.scale, &shown)
+            let [with, without] = [truth, &still].map(|truth| {
+                let shown = world.campaign(design, truth, &Streams::new(seed, campaign));
+                features(design, &self.scale, &shown)
+            });
+            let change = |feature: &Feature| Some(with.get(feature)? - without.get(feature)?);
+            self.features.iter().map(change).collect::<Vec<Option<f64>>>()
         };
-        let shown: Vec<BTreeMap<Feature, f64>> = (0..count).into_par_iter().map(one).collect();
-        let mean = |feature: &Feature| {
-            let own: Vec<f64> = shown.iter().filter_map(|found| found.get(feature).copied()).collect();
+        let changes: Vec<Vec<Option<f64>>> = (0..count).into_par_iter().map(one).collect();
+        let mean = |k: usize| {
+            let own: Vec<f64> = changes.iter().filter_map(|change| change[k]).collect();
             stats::mean(&own).filter(|_| own.len() as f64 >= COMMON * count as f64)
         };
-        let means = self.features.iter().filter_map(|feature| Some((*feature, mean(feature)?)));
-        let means: BTreeMap<Feature, f64> = means.collect();
-        let chance = means.len() as f64 / count as f64;
-        (self.excess(&means).distance - chance).max(0.0).sqrt()
+        let means: Vec<Option<f64>> = (0..self.features.len()).map(mean).collect();
+        let distance = |changes: &dyn Fn(usize) -> Option<f64>| {
+            let shown = self.features.iter().enumerate();
+            let shown = shown.filter_map(|(k, feature)| Some((*feature, self.mean[k] + changes(k)?)));
+            self.excess(&shown.collect()).distance
+        };
+        let off = |change: &Vec<Option<f64>>| distance(&|k| Some(change[k].unwrap_or(means[k]?) - means[k]?));
+        let off: Vec<f64> = changes.iter().map(off).collect();
+        let chance = stats::sum(&off) / (count * (count - 1)) as f64;
+        (distance(&|k| means[k]) - chance).max(0.0).sqrt()
     }
 
     /// The excess of each feature over the joints that explain most (Gaussian, within their priors).

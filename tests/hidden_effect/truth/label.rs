@@ -71,6 +71,19 @@ impl Hidden {
 }
 
 impl Label {
+    /// What it is one of so many of.
+    pub fn kind(&self) -> String {
+        match (self.group, &self.hidden[..]) {
+            (Group::Nothing, _) => "nothing".to_owned(),
+            (Group::PriorWrong, _) => "prior wrong".to_owned(),
+            (Group::Mechanism, [Hidden { name, strength: Some(strength), .. }]) => {
+                format!("{name} {}", strength.name())
+            }
+            (Group::Pair, _) => "pair".to_owned(),
+            (_, hidden) => hidden[0].name.clone(),
+        }
+    }
+
     /// All that is hidden.
     pub fn effects(&self) -> Vec<Box<dyn Effect>> {
         self.hidden.iter().map(|hidden| hidden.effect(self.group)).collect()

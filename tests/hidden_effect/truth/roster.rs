@@ -1,5 +1,6 @@
 //! Which campaigns there are: all groups in their full sizes, or a share of each.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use pirca::random::{Stream, Streams};
@@ -37,13 +38,14 @@ pub fn root(folder: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)
 }
 
-/// The campaigns of a share of the full sizes, at least one of each kind. A larger share holds those of a smaller one.
-pub fn roster(share: f64, master: u64) -> Vec<Label> {
+/// The campaigns of a share of the full sizes, at least one of each [kind](Label::kind), and so many more of a kind, in the place of
+/// those that cannot be solved. A larger share holds those of a smaller one.
+pub fn roster(share: f64, master: u64, more: &BTreeMap<String, u64>) -> Vec<Label> {
     let some = |full: u64| ((full as f64 * share).round() as u64).max(1);
     let mechanisms = catalogue();
     let mut labels = Vec::new();
     let mut add = |kind: String, count: u64, make: &Make<'_>| {
-        for k in 0..count {
+        for k in 0..count + more.get(&kind).copied().unwrap_or(0) {
             let streams = Streams::new(master, k);
             let mut stream = streams.of(&format!("roster {kind}"));
             let seed = (stream.uniform() * (1_u64 << 52) as f64) as u64;
@@ -52,7 +54,9 @@ pub fn roster(share: f64, master: u64) -> Vec<Label> {
             if group == Group::PriorWrong {
                 joints.iter_mut().for_each(|scores| far(scores, &mut stream));
             }
-            labels.push(Label { group, seed, joints, hidden });
+            let label = Label { group, seed, joints, hidden };
+            assert_eq!(label.kind(), kind);
+            labels.push(label);
         }
     };
     add("nothing".into(), some(NOTHING), &|_, _| (Group::Nothing, Vec::new()));
@@ -120,14 +124,16 @@ mod tests {
 
     #[test]
     fn the_full_roster_has_its_sizes_and_a_share_is_part_of_it() {
-        let full = roster(1.0, 5);
+        let full = roster(1.0, 5, &BTreeMap::new());
         let count = |group: Group| full.iter().filter(|label| label.group == group).count();
         assert_eq!((count(Group::Nothing), count(Group::PriorWrong)), (600, 400));
         assert_eq!((count(Group::Mechanism), count(Group::Pair)), (17 * 3 * 60, 300));
         assert_eq!((count(Group::Unknown), count(Group::Decoy)), (1400, 200));
         let other = full.iter().filter(|label| label.hidden.iter().any(|hidden| hidden.other_code)).count();
         assert_eq!(other, WRITTEN_TWICE.len() * 3 * 20);
-        let share = roster(0.02, 5);
+        let more = BTreeMap::from([("pair".to_owned(), 3)]);
+        let [share, with_more] = [BTreeMap::new(), more].map(|more| roster(0.02, 5, &more));
+        assert!(with_more.len() == share.len() + 3 && with_more.iter().all(|label| full.contains(label)));
         assert!(share.iter().all(|label| full.contains(label)) && share.len() < full.len() / 40);
         let mut seeds: Vec<u64> = full.iter().map(|label| label.seed).collect();
         seeds.sort_unstable();
