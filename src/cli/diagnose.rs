@@ -9,11 +9,11 @@ use crate::cli::failure::Failure;
 use crate::cli::judge::{self, SEEDS};
 use crate::cli::{locate, output, threads};
 use crate::critic::{
-    self, BANK, Baseline, Design, Diagnosis, Folds, Limits, Measuring, Verdict, World, base_curves,
+    self, BANK, Baseline, Design, Extension, Folds, Limits, Measuring, Verdict, World, base_curves,
     cause_curves, doubts_beside, extension,
 };
-use crate::report::{self, Advice, DiagnosisSummary, EXTENDED, FamilyFigure, GainSummary, Origin};
-use crate::study::{Loaded, Study};
+use crate::report::{self, Advice, DataEntry, DiagnosisSummary, EXTENDED, FamilyFigure, GainSummary, Origin};
+use crate::study::{Loaded, MEASURED, Study};
 
 /// Diagnoses the measurements of a study.
 pub(crate) fn diagnose(arguments: &Diagnose) -> Result<(), Failure> {
@@ -22,6 +22,11 @@ pub(crate) fn diagnose(arguments: &Diagnose) -> Result<(), Failure> {
 
 fn judged(arguments: &Diagnose) -> Result<(), Failure> {
     let Loaded { study, stated, .. } = bank::measured(&arguments.which, arguments.measured.as_deref())?;
+    let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, "diagnosis"));
+    if out.exists() {
+        // Before anything is computed: a file in its place is found at once.
+        output::folder(&out)?;
+    }
     let prepared = bank::prepared(&study, &arguments.which, arguments.points)?;
     let (walls, folder) = banked(&prepared, arguments, &study)?;
     let Prepared { mechanisms, nuisances, plan, mut notes } = prepared;
@@ -38,6 +43,8 @@ fn judged(arguments: &Diagnose) -> Result<(), Failure> {
         DiagnosisSummary::of(&study, seed, &plan.study.hash, &mechanisms, &design, &diagnosis, &test)
             .beside(&study, &residuals);
     summary.notes = notes;
+    let file = arguments.measured.as_deref().unwrap_or(Path::new(MEASURED));
+    summary.measured = stated.measured().map(|(_, sha256)| DataEntry::of(file, sha256));
     let offered = critic::offers(&judge, &diagnosis.possible(), seed.wrapping_add(4 * SEEDS));
     summary.advice = Advice::of(&test, &offered, &mechanisms);
     if diagnosis.verdict != Verdict::NothingFound && !arguments.no_gain {
@@ -48,11 +55,13 @@ fn judged(arguments: &Diagnose) -> Result<(), Failure> {
     let base = base_curves(&world, &design, drawn);
     let causes = cause_curves(&world, &design, &diagnosis, drawn);
     let families = FamilyFigure::all(&study, &mechanisms, &residuals, &base, &causes);
-    let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, "diagnosis"));
+    let extensions: Vec<Extension> =
+        diagnosis.explained_by().iter().filter_map(|(_, draws)| extension(&world, draws)).collect();
+    summary.extended = extensions.iter().map(|own| format!("{EXTENDED}/{}", named(own))).collect();
     output::folder(&out)?;
     report::write_diagnosis(&summary, &families, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
     let origin = Origin { study: &study, stated: &stated, seed, bank: &plan.study.hash };
-    let extended = extended(&origin, &world, &diagnosis, &out)?;
+    let extended = extended(&origin, &world, &extensions, &out)?;
     if arguments.which.json {
         return output::print_json(&summary);
     }
@@ -65,20 +74,29 @@ fn judged(arguments: &Diagnose) -> Result<(), Failure> {
 fn extended(
     origin: &Origin<'_>,
     world: &World<'_>,
-    diagnosis: &Diagnosis,
+    extensions: &[Extension],
     out: &Path,
 ) -> Result<String, Failure> {
     report::remove_extended(world.mechanisms(), out);
     let mut said = String::new();
-    for (_, draws) in diagnosis.explained_by() {
-        let Some(extension) = extension(world, draws) else { continue };
-        let names: Vec<&str> = extension.median.acting.iter().map(|own| own.mechanism).collect();
-        let folder = out.join(EXTENDED).join(report::extended_name(&names));
-        report::write_extended(origin, &extension, &folder)
+    for extension in extensions {
+        let folder = out.join(EXTENDED).join(named(extension));
+        report::write_extended(origin, extension, &folder)
             .map_err(|error| Failure::Run(format!("{}: {error:#}", folder.display())))?;
-        said.push_str(&format!("the study extended by {}: {}\n", names.join(" and "), folder.display()));
+        let causes = acting(extension).join(" and ");
+        said.push_str(&format!("the study extended by {causes}: {}\n", folder.display()));
     }
     Ok(said)
+}
+
+/// The mechanisms of an extension.
+fn acting(extension: &Extension) -> Vec<&'static str> {
+    extension.median.acting.iter().map(|own| own.mechanism).collect()
+}
+
+/// Name of an extension's folder.
+fn named(extension: &Extension) -> String {
+    report::extended_name(&acting(extension))
 }
 
 /// The bank of a plan and its folder: read, or computed where it is not there. Where no folder is named, a study may come with one,

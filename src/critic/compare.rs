@@ -147,11 +147,21 @@ pub(super) fn order_of_tilt(m: &Measurement) -> u64 {
     m.tilt.map_or(0, |tilt| tilt.abs().to_bits())
 }
 
-/// Whether no earlier stage of the specimen had as large a tilt; what is left after one belongs to it.
+/// Whether the specimen comes to the reading's tilt for the first time: no earlier stage had a larger one, nor the same one with
+/// a smaller one, or the level, since; what is left after a tilt belongs to it. Several points may be read at a tilt, each a stage.
 pub(super) fn is_rising(m: &Measurement, all: &[Measurement]) -> bool {
-    let earlier = |other: &&Measurement| other.specimen == m.specimen && other.stage < m.stage;
     let Some(tilt) = m.tilt.filter(|_| !m.quantity.is_remainder()) else { return true };
-    all.iter().filter(earlier).all(|other| other.tilt.is_none_or(|before| before < tilt))
+    let earlier: Vec<(&Measurement, f64)> = all
+        .iter()
+        .filter(|other| other.specimen == m.specimen && other.stage < m.stage)
+        .filter_map(|other| Some((other, other.tilt?)))
+        .collect();
+    let first = earlier.iter().filter(|(_, before)| *before >= tilt).map(|(other, _)| other.stage).min();
+    let Some(first) = first else { return true };
+    earlier
+        .iter()
+        .filter(|(other, _)| other.stage >= first)
+        .all(|(other, before)| *before == tilt && !other.quantity.is_remainder())
 }
 
 pub(super) fn known<'m>(group: &'m [&Measurement]) -> impl Iterator<Item = &'m Measurement> {

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::critic::compare::is_rising;
 use crate::critic::{Ours, Simulated, Walls, compare, log_likelihood, other_friction, simulated};
 use crate::ensemble::{Row, StepRow, evaluate, plan};
 use crate::math::{degrees, exp, ln, radians};
@@ -264,6 +265,31 @@ fn what_cannot_be_compared_says_why() {
             "the arm is not evaluated here"
         ]
     );
+}
+
+/// Readings of one tilt may be numbered one by one; who comes back to a tilt reads another state of the wall.
+#[test]
+fn a_tilt_is_read_for_the_first_time_however_many_points_are_numbered_there() {
+    use MeasuredQuantity as Q;
+    let read =
+        |stage, quantity, tilt: f64| Measurement { stage, ..measurement("a", quantity, Some(tilt), 0.01) };
+    let [left, centre] = [Q::DisplacementLeft, Q::DisplacementCentre];
+    let all = [
+        read(0, left, 5.0),
+        read(1, centre, 5.0),
+        read(2, left, 10.0),
+        read(3, centre, 10.0),
+        read(4, Q::RemainderLeft, 10.0),
+        read(5, left, 10.0),
+        read(6, left, 8.0),
+        read(7, centre, 12.0),
+        read(8, left, 12.0),
+    ];
+    let rising: Vec<bool> = all.iter().map(|m| is_rising(m, &all)).collect();
+    assert_eq!(rising, [true, true, true, true, true, false, false, true, true]);
+    // Without going back between them, but with a smaller tilt.
+    let all = [read(0, left, 10.0), read(1, left, 8.0), read(2, centre, 10.0)];
+    assert_eq!(all.each_ref().map(|m| is_rising(m, &all)), [true, false, false]);
 }
 
 /// Arms that differ in friction alone give the same specimens another kn; arms that differ in more are no such arms.

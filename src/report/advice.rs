@@ -17,6 +17,8 @@ pub struct Advice {
     pub not_seen: Vec<&'static str>,
     /// The smallest effects that data like these catch four times in five.
     pub caught: Vec<CaughtEntry>,
+    /// Causes that they see, but at no strength of one parameter so often.
+    pub seen_in_part: Vec<PartEntry>,
     /// Measurements that would tell the possible causes apart, the most information per hour first; empty where nothing was found.
     pub next: Vec<NextEntry>,
 }
@@ -34,6 +36,17 @@ pub struct CaughtEntry {
     pub value: Option<f64>,
     /// Whether smaller values are caught, not larger ones.
     pub below: bool,
+}
+
+/// How often a cause is found whose strength no one parameter tells.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct PartEntry {
+    /// The mechanism.
+    pub cause: &'static str,
+    /// Campaigns in which it is found, and all.
+    pub found: [u64; 2],
+    /// The same of the third in which it moves most of what is read.
+    pub strong_found: [u64; 2],
 }
 
 /// A measurement that could be made next.
@@ -66,6 +79,14 @@ impl Advice {
                 below: caught.below,
             })
         });
+        let in_part = rows().filter(|(_, row)| {
+            row.caught.is_none() && row.all.found as f64 >= SEEN * row.all.campaigns as f64
+        });
+        let in_part = in_part.map(|(cause, row)| PartEntry {
+            cause: mechanisms[cause].name,
+            found: [row.all.found, row.all.campaigns],
+            strong_found: [row.strong.found, row.strong.campaigns],
+        });
         let next = offered.iter().map(|own| NextEntry {
             what: words(own.offer),
             hours: own.hours,
@@ -76,6 +97,7 @@ impl Advice {
             look_alike: test.classes(SEEN).into_iter().map(names).collect(),
             not_seen: unseen.map(|(cause, _)| mechanisms[cause].name).collect(),
             caught: caught.collect(),
+            seen_in_part: in_part.collect(),
             next: next.collect(),
         }
     }
@@ -99,6 +121,15 @@ impl Advice {
                     format!("{side} {}{unit}", significant(value, 2))
                 });
                 text.push_str(&format!("  {:<18} {} {from}\n", own.cause, own.parameter));
+            }
+        }
+        if !self.seen_in_part.is_empty() {
+            text.push_str(
+                "\nSeen, but not so often at any strength (in all, and in the third that moves most)\n",
+            );
+            for PartEntry { cause, found: [found, all], strong_found: [strong, third] } in &self.seen_in_part
+            {
+                text.push_str(&format!("  {cause:<18} in {found} of {all}, and in {strong} of {third}\n"));
             }
         }
         if let Some(first) = self.next.first() {

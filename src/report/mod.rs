@@ -35,7 +35,7 @@ mod vtu;
 pub use advice::Advice;
 pub use beside::{Earlier, Mean};
 pub use compare::{Basis, Comparison};
-pub use diagnosis::{DiagnosisSummary, FamilyFigure, diagnosis_text, write_diagnosis};
+pub use diagnosis::{DataEntry, DiagnosisSummary, FamilyFigure, diagnosis_text, write_diagnosis};
 pub use elements::{element_table, write_elements};
 pub use extended::{EXTENDED, Origin, extended_name, remove_extended, write_extended};
 pub use files::{FRAGILITY, SUMMARY_JSON, write_all};

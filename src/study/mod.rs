@@ -40,7 +40,7 @@ pub use inventory::{
 };
 pub use joints::DrawnJoints;
 pub use load::{Loaded, VariantName};
-pub use measured::{MeasuredKind, MeasuredQuantity, Measurement};
+pub use measured::{FILE as MEASURED, MeasuredKind, MeasuredQuantity, Measurement};
 pub use mechanism::{
     EndRelease, FrictionChange, JointClosure, Mechanisms, SpecimenScatter, Unfit, WedgeLoss,
 };

@@ -416,6 +416,10 @@ fn what_cannot_be_diagnosed_is_said_before_anything_is_simulated() {
     };
     said(&towers, &["diagnose", "studies/tiny"], &["nothing was measured", "--measured"]);
     said(&towers, &["bank", "studies/tiny"], &["nothing was measured"]);
+    fs::write(towers.path("taken"), "").unwrap();
+    let taken =
+        ends_with(&towers, 1, &["diagnose", "studies/tiny", "--measured", "tests.csv", "--out", "taken"]);
+    assert!(stderr(&taken).contains("taken"), "{}", stderr(&taken));
     said(&towers, &["diagnose", "studies/tiny", "--measured", "none.csv"], &["none.csv"]);
     let spoilt = MEASURED.replacen("s0,tower,2.5,displacement_left", "s0,towers,2.5,displacement_lift", 1);
     fs::write(towers.path("spoilt.csv"), spoilt).unwrap();

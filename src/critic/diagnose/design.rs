@@ -44,9 +44,21 @@ pub struct Design {
     pub specimens: Vec<Specimen>,
     /// Two-stone tests, weights of specimens and readings of fixed targets: the index of their family's arm, and the reading.
     pub apart: Vec<(usize, Measurement)>,
-    /// Lines of the file that a diagnosis does not use: weights of single blocks, readings at a tilt after a larger one, and
-    /// arms that the study does not evaluate.
-    pub unused: Vec<usize>,
+    /// Lines of the file that a diagnosis does not use.
+    pub unused: Vec<(Unused, usize)>,
+}
+
+/// Why a line of the file is not used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Unused {
+    /// The study does not evaluate the arm.
+    NotEvaluated,
+    /// The weight of a single block.
+    BlockWeight,
+    /// A displacement at 0 deg that no earlier stage makes a remainder of: it is 0, whatever the wall.
+    AtLevel,
+    /// Read at a tilt that the wall had come to before.
+    Again,
 }
 
 /// What a reading shows.
@@ -66,13 +78,14 @@ impl Design {
         let mut design = Design { specimens: Vec::new(), apart: Vec::new(), unused: Vec::new() };
         for m in &study.measured {
             let Some(family) = study.arms.iter().position(|arm| arm.name == m.family) else {
-                design.unused.push(m.line);
+                design.unused.push((Unused::NotEvaluated, m.line));
                 continue;
             };
             match m.quantity {
-                MeasuredQuantity::BlockWeight => design.unused.push(m.line),
+                MeasuredQuantity::BlockWeight => design.unused.push((Unused::BlockWeight, m.line)),
                 apart if apart.is_apart() => design.apart.push((family, m.clone())),
-                _ if !is_rising(m, &study.measured) => design.unused.push(m.line),
+                _ if m.tilt == Some(0.0) => design.unused.push((Unused::AtLevel, m.line)),
+                _ if !is_rising(m, &study.measured) => design.unused.push((Unused::Again, m.line)),
                 _ => {
                     let of = |s: &&mut Specimen| s.name == m.specimen && s.family == family;
                     match design.specimens.iter_mut().find(of) {

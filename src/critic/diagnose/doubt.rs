@@ -81,8 +81,8 @@ impl fmt::Display for Doubt {
             ),
             Doubt::Level { lines } => write!(
                 f,
-                "{}: a displacement at 0 deg is 0, as readings are relative to the one at rest at 0 deg: if it is what was left after \
-                 going back, number the readings in the column stage",
+                "{}: a displacement at 0 deg is 0, as readings are relative to the one at rest at 0 deg, and is not used: if it is what \
+                 was left after going back, number the readings in the column stage",
                 listed(lines)
             ),
             Doubt::NotEvaluated { family, lines } => write!(
@@ -106,7 +106,7 @@ impl fmt::Display for Doubt {
             ),
             Doubt::Fallen { lines, first } => write!(
                 f,
-                "{}: {}, where every simulated wall has fallen: it says nothing; check the tilt",
+                "{}: {}, where every simulated wall has fallen: only that the wall still stood there counts, as off; check the tilt",
                 listed(lines),
                 told(first)
             ),

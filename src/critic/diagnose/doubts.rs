@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::critic::diagnose::design::{Campaign, Design, Seen};
+use crate::critic::diagnose::design::{Campaign, Design, Seen, Unused};
 use crate::critic::diagnose::doubt::Doubt;
 use crate::critic::diagnose::world::World;
 use crate::math::ln;
@@ -10,7 +10,7 @@ use crate::protocol::Protocol;
 use crate::random::Streams;
 use crate::stats;
 use crate::study::measured::Dimension;
-use crate::study::{Measurement, Study};
+use crate::study::{MeasuredKind, Measurement, Study};
 
 /// Campaigns of the base model and of every cause that say what a reading may be.
 const CAMPAIGNS: u64 = 150;
@@ -34,7 +34,8 @@ pub fn doubts(study: &Study, design: &Design) -> Vec<Doubt> {
         elsewhere.into_iter().map(|(family, lines)| Doubt::NotEvaluated { family: family.to_owned(), lines }),
     );
     let readings = || design.specimens.iter().flat_map(|specimen| &specimen.readings);
-    let level: Vec<usize> = readings().filter(|m| m.tilt == Some(0.0)).map(|m| m.line).collect();
+    let level = design.unused.iter().filter(|(why, _)| *why == Unused::AtLevel);
+    let level: Vec<usize> = level.map(|(_, line)| *line).collect();
     if !level.is_empty() {
         found.push(Doubt::Level { lines: level });
     }
@@ -48,6 +49,8 @@ pub fn doubts(study: &Study, design: &Design) -> Vec<Doubt> {
     }
     let thickness = |m: &Measurement| arm(m).map_or(f64::INFINITY, |arm| arm.layout.outline.base_thickness);
     let moved = readings().filter(|m| m.quantity.dimension() == Dimension::Length);
+    // A bound from above says only that it is no more.
+    let moved = moved.filter(|m| m.kind != MeasuredKind::Below);
     let further: Vec<&Measurement> = moved.filter(|m| m.value.abs() > thickness(m)).collect();
     found.extend(grouped(&further, |m| (m.quantity, m.family.clone())).into_iter().map(|(first, lines)| {
         Doubt::ThickerThanWall { lines, first: Box::new(first.clone()), thickness: thickness(first) }

@@ -32,7 +32,7 @@ mod world;
 mod wrong;
 
 pub use causes::Causes;
-pub use design::{Campaign, Design, Seen, Specimen};
+pub use design::{Campaign, Design, Seen, Specimen, Unused};
 pub use discrepancy::{Bent, Lacking};
 pub use doubt::Doubt;
 pub use doubts::{doubts, doubts_beside};

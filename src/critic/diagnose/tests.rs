@@ -4,7 +4,7 @@ use crate::critic::bank::tests::shipped;
 use crate::critic::bank::{Bank, Path, Plan};
 use crate::critic::diagnose::{
     Campaign, Causes, Contrast, Design, Doubt, Effort, Feature, Judge, Limits, Reference, Seen, Truth,
-    Verdict, World, doubts_beside, extension,
+    Unused, Verdict, World, doubts, doubts_beside, extension,
 };
 use crate::math::{ln, radians};
 use crate::random::Streams;
@@ -316,6 +316,20 @@ fn an_extension_is_the_median_of_its_truths_and_draws_from_all_of_them() {
         both.acting.iter().map(|own| (own.mechanism, own.parameters.len())).collect();
     assert_eq!(names, [("friction", 3), ("density", 1)]);
     assert_eq!(extension(&world, &[world.drawn(None, &Streams::new(3, 0))]), None);
+}
+
+#[test]
+fn a_zero_reading_is_not_used_and_one_that_is_said_so() {
+    let mut made = made();
+    let zero = made.study.measured.iter().find(|m| m.specimen == "SBL2" && m.tilt.is_some());
+    let mut zero = zero.expect("it was read").clone();
+    (zero.tilt, zero.value, zero.error, zero.line) = (Some(0.0), 0.0, 0.0, 99);
+    made.study.measured.push(zero);
+    let (design, _) = Design::of(&made.study);
+    assert_eq!(design.unused, [(Unused::AtLevel, 99)]);
+    assert!(design.specimens.iter().all(|own| own.readings.iter().all(|m| m.line != 99)));
+    let found = doubts(&made.study, &design);
+    assert!(matches!(&found[..], [Doubt::Level { lines }] if *lines == [99]), "{found:?}");
 }
 
 #[test]

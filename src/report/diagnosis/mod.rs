@@ -14,7 +14,7 @@ mod words;
 pub use family::FamilyFigure;
 #[cfg(test)]
 pub use residual::{ExpectedEntry, GroupEntry};
-pub use summary::DiagnosisSummary;
+pub use summary::{DataEntry, DiagnosisSummary};
 pub use text::diagnosis_text;
 #[cfg(test)]
 pub use words::lines;

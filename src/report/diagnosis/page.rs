@@ -1,6 +1,6 @@
 //! A verdict as a page: one file of plain HTML with its figures in it, for any browser and for print.
 
-use crate::report::diagnosis::summary::{CauseEntry, DiagnosisSummary};
+use crate::report::diagnosis::summary::{CauseEntry, DataEntry, DiagnosisSummary};
 use crate::report::diagnosis::text::{
     CAUSE, CAUSES, FORM, OFF, by_chance, excluded, not_used, or_dash, others, pairs, reliability, verdict,
     worth_saying,
@@ -34,6 +34,11 @@ pub fn page(summary: &DiagnosisSummary, drawings: &[Drawing]) -> String {
     let mut body = format!("<h1>{}</h1>\n", escaped(&title));
     body.push_str(&format!("<p class=\"verdict\">{}</p>\n", escaped(&sentence(summary))));
     body.push_str(&by_chance(summary).map_or_else(String::new, |words| paragraph(&words)));
+    summary.notes.iter().for_each(|note| body.push_str(&paragraph(&format!("Note: {note}."))));
+    if !summary.extended.is_empty() {
+        let folders = summary.extended.join(", ");
+        body.push_str(&paragraph(&format!("Extended study, beside this page, for pirca run: {folders}.")));
+    }
     body.push_str("<h2>Measured beside simulated</h2>\n");
     body.push_str(&paragraph(&reading(&summary.groups)));
     let cells = lines(&summary.groups).into_iter();
@@ -61,7 +66,10 @@ pub fn page(summary: &DiagnosisSummary, drawings: &[Drawing]) -> String {
     ));
     body.push_str(&pairs(summary).map_or_else(String::new, |words| paragraph(&words)));
     if summary.verdict == "unexplained" {
-        let sentences: Vec<Vec<String>> = summary.form.iter().map(|bent| vec![bent.sentence()]).collect();
+        let mut sentences: Vec<Vec<String>> = summary.form.iter().map(|bent| vec![bent.sentence()]).collect();
+        if sentences.is_empty() {
+            sentences.push(vec!["none that is sure".to_owned()]);
+        }
         body.push_str(&format!("<h2>What is not explained</h2>\n{}", table(&[FORM], sentences)));
     }
     excluded(summary).iter().for_each(|words| body.push_str(&paragraph(words)));
@@ -75,6 +83,9 @@ pub fn page(summary: &DiagnosisSummary, drawings: &[Drawing]) -> String {
     }
     body.push_str(&format!("<h2>How reliable is this?</h2>\n{}", paragraph(&reliability(summary))));
     body.push_str(&not_used(summary).map_or_else(String::new, |words| paragraph(&format!("{words}."))));
+    if let Some(DataEntry { file, sha256 }) = &summary.measured {
+        body.push_str(&paragraph(&format!("Measured: {file}, SHA-256 {sha256}.")));
+    }
     body.push_str(&paragraph(&format!("Seed {}, bank {}.", summary.seed, summary.bank)));
     format!(
         "<!DOCTYPE html>\n<html lang=\"en-GB\">\n<head>\n<meta charset=\"utf-8\">\n<title>{}</title>\n<style>\n{STYLE}</style>\n\

@@ -1,7 +1,10 @@
 //! A diagnosis as `verdict.json` holds it.
 
+use std::collections::BTreeMap;
+use std::path::Path;
+
 use crate::critic::{
-    Contrast, Counted, Design, Diagnosis, Excluded, Feature, Residuals, SelfTest, Truth, Verdict,
+    Contrast, Counted, Design, Diagnosis, Excluded, Feature, Residuals, SelfTest, Truth, Unused, Verdict,
 };
 use crate::report::advice::Advice;
 use crate::report::diagnosis::form::BentEntry;
@@ -25,6 +28,8 @@ pub struct DiagnosisSummary {
     pub seed: u64,
     /// Hash of the design of the bank.
     pub bank: String,
+    /// What was measured; null where it is part of the study in memory.
+    pub measured: Option<DataEntry>,
     /// named, ambiguous, unexplained or nothing_found.
     pub verdict: &'static str,
     /// The causes that the verdict speaks of, then all others; probabilities when all are equally likely beforehand.
@@ -47,8 +52,8 @@ pub struct DiagnosisSummary {
     pub groups: Vec<GroupEntry>,
     /// Where the base model with fitted joints surely lacks something, if that is smooth over the tilt.
     pub form: Vec<BentEntry>,
-    /// Lines of the measurements that were not used.
-    pub unused_lines: Vec<usize>,
+    /// What was not used of the measurements.
+    pub unused: Vec<UnusedEntry>,
     /// What looks odd about the measurements and was judged all the same.
     pub notes: Vec<String>,
     /// How reliable verdicts on such data are.
@@ -57,8 +62,27 @@ pub struct DiagnosisSummary {
     pub self_test_nameless: NamelessEntry,
     /// What the data cannot tell, and what would.
     pub advice: Advice,
+    /// Folders of the extended studies, beside this file: one for each cause that the verdict speaks of, or for its pair.
+    pub extended: Vec<String>,
     /// What the extended model gains on readings that were not known; null where it was not asked or nothing was found.
     pub gain: Option<GainSummary>,
+}
+
+/// A file of measurements.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct DataEntry {
+    /// Its name, without its folder.
+    pub file: String,
+    /// Hash of its bytes.
+    pub sha256: String,
+}
+
+impl DataEntry {
+    /// Of a file's path and hash.
+    pub fn of(path: &Path, sha256: &str) -> DataEntry {
+        let file = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        DataEntry { file, sha256: sha256.to_owned() }
+    }
 }
 
 /// Shares of campaigns without any effect that surprise as much, by the way of looking.
@@ -90,6 +114,15 @@ pub struct CauseEntry {
     pub guard_p_value: Option<f64>,
     /// Its parameters, as far as the data tell them; empty where it was not looked at closely.
     pub parameters: Vec<ParameterEntry>,
+}
+
+/// Lines of the measurements that were not used.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct UnusedEntry {
+    /// The lines.
+    pub lines: Vec<usize>,
+    /// Why, in words.
+    pub why: &'static str,
 }
 
 /// Two causes together.
@@ -243,6 +276,7 @@ impl DiagnosisSummary {
             variant: study.variant.clone(),
             seed,
             bank: bank.to_string(),
+            measured: None,
             verdict,
             causes,
             pairs: pairs.collect(),
@@ -254,11 +288,12 @@ impl DiagnosisSummary {
             residuals: Vec::new(),
             groups: Vec::new(),
             form: diagnosis.form.iter().filter_map(|bent| BentEntry::of(study, bent)).collect(),
-            unused_lines: design.unused.clone(),
+            unused: unused(design),
             notes: Vec::new(),
             self_test: tested.collect(),
             self_test_nameless: NamelessEntry { all: self_test.nameless[0], judged: self_test.nameless[1] },
             advice: Advice::default(),
+            extended: Vec::new(),
             gain: None,
         }
     }
@@ -269,6 +304,22 @@ impl DiagnosisSummary {
         self.groups = residuals.groups.iter().map(|group| GroupEntry::of(study, group)).collect();
         self
     }
+}
+
+/// What was not used, reason by reason.
+fn unused(design: &Design) -> Vec<UnusedEntry> {
+    let mut by_reason: BTreeMap<Unused, Vec<usize>> = BTreeMap::new();
+    design.unused.iter().for_each(|(why, line)| by_reason.entry(*why).or_default().push(*line));
+    let entry = |(why, lines): (Unused, Vec<usize>)| UnusedEntry {
+        lines,
+        why: match why {
+            Unused::NotEvaluated => "an arm that the study does not evaluate here",
+            Unused::BlockWeight => "the weight of a single block",
+            Unused::AtLevel => "a displacement at 0 deg, from where displacements count",
+            Unused::Again => "read at a tilt that the wall had come to before",
+        },
+    };
+    by_reason.into_iter().map(entry).collect()
 }
 
 /// What the posterior says of a cause's parameters; `first` is the place of its first one in the draws.

@@ -1,7 +1,7 @@
 //! A verdict as people read it on a terminal, and the sentences that the page has as well.
 
 use crate::critic::{Counted, Limits, MOST_AMBIGUOUS};
-use crate::report::diagnosis::summary::{DiagnosisSummary, LooksEntry, OffEntry, SelfTestEntry};
+use crate::report::diagnosis::summary::{DiagnosisSummary, LooksEntry, OffEntry, SelfTestEntry, UnusedEntry};
 use crate::report::diagnosis::words::{lines, reading};
 use crate::report::gain::GainSummary;
 use crate::report::number::significant;
@@ -103,7 +103,7 @@ pub(super) fn verdict(summary: &DiagnosisSummary) -> String {
         }
         _ => match summary.causes.iter().filter(|cause| cause.excluded_by.is_none()).count() {
             0 => {
-                "UNEXPLAINED: something is wrong, and no one cause of the catalogue and no pair explains it."
+                "UNEXPLAINED: something is wrong, and no one cause of the catalogue explains it; no pair is named."
                     .to_string()
             }
             open => {
@@ -139,18 +139,19 @@ pub(super) fn worth_saying(summary: &DiagnosisSummary) -> Vec<&OffEntry> {
 
 /// The pair with most of the evidence, where pairs were looked at.
 pub(super) fn pairs(summary: &DiagnosisSummary) -> Option<String> {
-    let (pair, limits) = (summary.pairs.first()?, Limits::default().pair);
+    let (pair, limits) = (summary.pairs.first()?, Limits::default());
     Some(format!(
         "Of {} pairs looked at closely {} and {} have most of the evidence: a share of {}, guard {}; a pair is named from {} \
-         and {} on, where something else has {} or less.",
+         and {} on, where something else has {} or less and what is off is so by chance in less than {} of cases.",
         summary.pairs.len(),
         pair.ids[0],
         pair.ids[1],
         significant(pair.evidence, 2),
         or_dash(pair.guard_p_value),
-        limits.named,
-        limits.guard,
-        limits.nameless
+        limits.pair.named,
+        limits.pair.guard,
+        limits.pair.nameless,
+        limits.sure
     ))
 }
 
@@ -179,13 +180,12 @@ pub(super) fn excluded(summary: &DiagnosisSummary) -> Vec<String> {
 
 /// What was not used of the measurements.
 pub(super) fn not_used(summary: &DiagnosisSummary) -> Option<String> {
-    let lines: Vec<String> = summary.unused_lines.iter().map(ToString::to_string).collect();
-    (!lines.is_empty()).then(|| {
-        format!(
-            "Not used: lines {} of the measurements (weights of single blocks, readings after unloading, arms that are not evaluated)",
-            lines.join(", ")
-        )
-    })
+    let reason = |own: &UnusedEntry| {
+        let lines: Vec<String> = own.lines.iter().map(ToString::to_string).collect();
+        format!("{} {} ({})", if lines.len() == 1 { "line" } else { "lines" }, lines.join(", "), own.why)
+    };
+    let reasons: Vec<String> = summary.unused.iter().map(reason).collect();
+    (!reasons.is_empty()).then(|| format!("Not used of the measurements: {}", reasons.join("; ")))
 }
 
 /// What the self-test says.
@@ -214,7 +214,8 @@ pub(super) fn reliability(summary: &DiagnosisSummary) -> String {
     );
     match judged.campaigns {
         0 => format!(
-            "{seeming} How often by all that a diagnosis does, `pirca bank` finds out and keeps beside the walls."
+            "{seeming} How often by all that a diagnosis does, `pirca bank` finds out, with the same measurements (--measured) and the \
+             bank's folder (--out), and keeps it beside the walls."
         ),
         _ => format!(
             "{seeming} By all that a diagnosis does, {} of {} such effects are named and {} given another name; of {} campaigns with \

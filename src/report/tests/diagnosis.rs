@@ -6,11 +6,13 @@ use std::path::Path;
 
 use super::figure::folder;
 use crate::critic::{
-    Baseline, Contrast, Counted, Design, Diagnosis, Feature, LookedAt, Made, Ranked, Seeming, SelfTest,
-    SelfTestRow, Truth, Verdict, Wrong, base_curves, cause_curves, made,
+    Baseline, Caught, Contrast, Counted, Design, Diagnosis, Feature, LookedAt, Made, Ranked, Seeming,
+    SelfTest, SelfTestRow, Truth, Unused, Verdict, Wrong, base_curves, cause_curves, made,
 };
+use crate::report::Advice;
 use crate::report::diagnosis::{
-    DiagnosisSummary, ExpectedEntry, FamilyFigure, GroupEntry, diagnosis_text, lines, write_diagnosis,
+    DataEntry, DiagnosisSummary, ExpectedEntry, FamilyFigure, GroupEntry, diagnosis_text, lines,
+    write_diagnosis,
 };
 use crate::report::draw::is_whole;
 
@@ -48,7 +50,7 @@ fn group(measured: f64, stands: &'static str, p: f64, in_sd: f64) -> GroupEntry 
 fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>) {
     let world = made.world();
     let (mut design, measured) = Design::of(&made.study);
-    design.unused = vec![7, 9];
+    design.unused = vec![(Unused::BlockWeight, 9), (Unused::Again, 12), (Unused::BlockWeight, 7)];
     for (place, reading) in design.specimens.iter_mut().flat_map(|s| &mut s.readings).enumerate() {
         reading.order = Some(place as u32 % 9 + 1);
     }
@@ -138,10 +140,42 @@ fn what_is_not_explained_excludes_causes_and_says_why() {
     let many = format!("{} of the catalogue cannot be excluded: more than these", summary.causes.len());
     assert!(diagnosis_text(&summary).contains(&many));
     summary.causes.iter_mut().for_each(|cause| cause.excluded_by = Some("looks"));
-    assert!(diagnosis_text(&summary).contains("no one cause of the catalogue and no pair explains it."));
+    assert!(
+        diagnosis_text(&summary).contains("no one cause of the catalogue explains it; no pair is named.")
+    );
     (summary.verdict, summary.causes[0].in_verdict) = ("ambiguous", true);
     summary.causes[1..].iter_mut().for_each(|cause| cause.in_verdict = false);
     assert!(diagnosis_text(&summary).contains("this cause explains it, but not surely enough to be named."));
+}
+
+#[test]
+fn every_cause_is_caught_seen_in_part_or_hardly_seen() {
+    let made = made();
+    let cause = |name: &str| made.mechanisms.iter().position(|m| m.name == name).expect("in the catalogue");
+    let row = |name: &str, found: u64, caught: Option<Caught>| SelfTestRow {
+        cause: Some(cause(name)),
+        all: Counted { campaigns: 100, found, named: 0, misnamed: 0 },
+        strong: Counted { campaigns: 33, found: found / 3, named: 0, misnamed: 0 },
+        judged: Counted::default(),
+        covered: 0,
+        set_size: 0.0,
+        with: BTreeMap::new(),
+        caught,
+    };
+    let from = Caught { parameter: 0, score: None, below: false };
+    let rows = vec![row("creep", 90, Some(from)), row("joint_closure", 49, None), row("cohesion", 12, None)];
+    let test = SelfTest { rows, nameless: [Counted::default(); 2] };
+    let advice = Advice::of(&test, &[], &made.mechanisms);
+    let text = advice.text();
+    for part in [
+        "hardly see: cohesion\n",
+        "creep              ",
+        "anywhere in its prior",
+        "joint_closure      in 49 of 100, and in 16 of 33\n",
+    ] {
+        assert!(text.contains(part), "no `{part}` in {text}");
+    }
+    assert_eq!((advice.caught.len(), advice.seen_in_part.len()), (1, 1));
 }
 
 #[test]
@@ -225,7 +259,10 @@ fn tilts_that_all_agree_share_a_line_and_others_do_not() {
 #[test]
 fn the_text_the_page_and_the_files_show_what_was_measured_beside_what_was_simulated() {
     let made = made();
-    let (summary, families) = diagnosed(&made);
+    let (mut summary, families) = diagnosed(&made);
+    summary.notes = vec!["line 3: a doubt".to_owned()];
+    summary.extended = vec!["extended/creep".to_owned()];
+    summary.measured = Some(DataEntry::of(Path::new("somewhere/walls.csv"), "0ab1"));
     let text = diagnosis_text(&summary);
     let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
     for part in [
@@ -237,7 +274,7 @@ fn the_text_the_page_and_the_files_show_what_was_measured_beside_what_was_simula
         "times too far",
         "something else 0.250 nothing 0.060",
         "with nothing hidden 0, and of 5 with something in no catalogue 1.",
-        "Not used: lines 7, 9 of the measurements",
+        "Not used of the measurements: lines 9, 7 (the weight of a single block); line 12 (read at a tilt",
     ] {
         assert!(words.contains(part), "no `{part}` in\n{text}");
     }
@@ -269,7 +306,10 @@ fn the_text_the_page_and_the_files_show_what_was_measured_beside_what_was_simula
         "creep (in the verdict)",
         "<td>sbl: collapse angle</td>",
         "<td>something else</td><td>0.250</td>",
-        "lines 7, 9",
+        "lines 9, 7 (the weight of a single block); line 12 (read at a tilt that the wall had come to before)",
+        "<p>Note: line 3: a doubt.</p>",
+        "for pirca run: extended/creep.",
+        "Measured: walls.csv, SHA-256 0ab1.",
     ] {
         assert!(page.contains(part), "no `{part}` in the page");
     }

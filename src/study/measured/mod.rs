@@ -17,7 +17,7 @@ use std::sync::Arc;
 use crate::study::fault::{Fault, Source};
 
 /// Name of the file, beside study.toml.
-pub(super) const FILE: &str = "measured.csv";
+pub const FILE: &str = "measured.csv";
 /// What it is meant to be.
 pub(super) const FORMAT: &str = "a text file of values separated by commas";
 
