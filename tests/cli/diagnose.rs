@@ -186,7 +186,7 @@ fn what_looks_odd_is_noted_and_judged() {
         (
             "level",
             format!("{MEASURED}s0,tower,0,displacement_left,0.05,mm,0.02,exact\n"),
-            "line 98: a displacement at 0 deg is 0, as readings are relative to the one at rest at 0 deg: if it is what was left",
+            "line 98: a displacement at 0 deg is 0, as readings are relative to the one at rest at 0 deg, and is not used",
         ),
         (
             "one",
