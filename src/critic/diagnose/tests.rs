@@ -319,6 +319,22 @@ fn an_extension_is_the_median_of_its_truths_and_draws_from_all_of_them() {
 }
 
 #[test]
+fn what_a_cause_moves_is_nothing_where_it_does_nothing_and_more_the_stronger_it_is() {
+    let made = made();
+    let (world, design, reference) = made.told();
+    let shift = |name: &str, score: f64| {
+        let mut truth = world.drawn(Some(made.cause(name)), &Streams::new(61, 0));
+        truth.parameters.iter_mut().for_each(|own| *own = score);
+        // Joints far out, where a straight fit of them errs.
+        truth.joints.iter_mut().for_each(|joints| joints[0] = 2.0);
+        reference.shift(&world, &design, &truth, 100, 62)
+    };
+    // In the made-up bank cohesion does nothing; what is left is the emulator's.
+    let [nothing, weak, strong] = [shift("cohesion", 1.5), shift("creep", -1.0), shift("creep", 1.5)];
+    assert!(nothing < 0.3 && weak > 2.0 * nothing && strong > 2.0 * weak, "{nothing} {weak} {strong}");
+}
+
+#[test]
 fn a_zero_reading_is_not_used_and_one_that_is_said_so() {
     let mut made = made();
     let zero = made.study.measured.iter().find(|m| m.specimen == "SBL2" && m.tilt.is_some());
