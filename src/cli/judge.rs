@@ -50,7 +50,9 @@ pub(super) fn judge<'w>(world: &'w World<'w>, design: &Design, seed: u64) -> Res
 
 /// The self-test of a judge: the one that is kept in the bank's folder, if it is of the same.
 pub(super) fn self_test(judge: &Judge<'_>, plan: &Plan, seed: u64, folder: &Path) -> SelfTest {
-    kept(judge, plan, seed, folder, 0).test
+    // Who the judge is takes as long as some diagnoses: it is asked only where something is kept.
+    let own = kept(folder).filter(|kept| kept.of == identity(judge, plan, seed));
+    own.map_or_else(|| computed(judge, seed, 0), |kept| kept.test)
 }
 
 /// Keeps the self-test of a judge in the bank's folder, with so many campaigns of each cause judged by all that a diagnosis does.
@@ -61,22 +63,23 @@ pub(super) fn keep_self_test(
     folder: &Path,
     judged: u64,
 ) -> Result<(), Failure> {
-    let kept = kept(judge, plan, seed, folder, judged);
-    let mut json = serde_json::to_vec_pretty(&kept).map_err(|error| Failure::Run(error.to_string()))?;
+    let of = identity(judge, plan, seed);
+    let enough = |kept: &Kept| kept.test.rows.iter().all(|row| row.judged.campaigns >= judged);
+    let own = kept(folder).filter(|kept| kept.of == of && enough(kept));
+    let own = own.unwrap_or_else(|| Kept { of, test: computed(judge, seed, judged) });
+    let mut json = serde_json::to_vec_pretty(&own).map_err(|error| Failure::Run(error.to_string()))?;
     json.push(b'\n');
     Ok(replace_file(&folder.join(KEPT), &json)?)
 }
 
-/// What is kept in a folder, if it is of the same and not of less, or else computed.
-fn kept(judge: &Judge<'_>, plan: &Plan, seed: u64, folder: &Path, judged: u64) -> Kept {
-    let of = identity(judge, plan, seed);
-    let there = fs::read(folder.join(KEPT)).ok();
-    let there = there.and_then(|bytes| serde_json::from_slice::<Kept>(&bytes).ok());
-    let enough = |kept: &Kept| kept.test.rows.iter().all(|row| row.judged.campaigns >= judged);
-    there.filter(|kept| kept.of == of && enough(kept)).unwrap_or_else(|| {
-        let test = judge.self_test(&Limits::default(), CAMPAIGNS, judged, tested(seed));
-        Kept { of, test }
-    })
+/// What is kept in a folder, of whatever it is.
+fn kept(folder: &Path) -> Option<Kept> {
+    serde_json::from_slice(&fs::read(folder.join(KEPT)).ok()?).ok()
+}
+
+/// A self-test with so many campaigns of each cause judged by all that a diagnosis does.
+fn computed(judge: &Judge<'_>, seed: u64, judged: u64) -> SelfTest {
+    judge.self_test(&Limits::default(), CAMPAIGNS, judged, tested(seed))
 }
 
 /// Seed of its campaigns.

@@ -322,8 +322,8 @@ fn hidden_effect_campaigns_are_sealed_judged_and_opened() {
     let mut all_judged = together(&names, &labels, verdicts);
     let unsolved: Vec<String> = unsolved.iter().map(|(kind, count)| format!("{kind} {count}")).collect();
     let head = format!(
-        "Share of the full sizes: {share}. Campaigns judged: {}; not solved, and others drawn in their place: {}. Bank: {POINTS} points, design {}. Secret of \
-         the seals: {}.\n\nWhat is as wanted is in bold; the README says how to read it.\n",
+        "Share of the full sizes: {share}. Campaigns judged: {}; not solved, and others drawn in their place: {}. Bank: {POINTS} \
+         points, design {}. Secret of the seals: {}.\n\nWhat is as wanted is in bold; the README says how to read it.\n",
         names.len(),
         unsolved.join(", "),
         &known.plan.study.hash[..12],

@@ -124,8 +124,8 @@ impl fmt::Display for Doubt {
     }
 }
 
-/// Lines in words.
-fn listed(lines: &[usize]) -> String {
+/// Lines of a file in words.
+pub fn listed(lines: &[usize]) -> String {
     let words: Vec<String> = lines.iter().map(ToString::to_string).collect();
     if let [line] = &words[..] { format!("line {line}") } else { format!("lines {}", words.join(", ")) }
 }

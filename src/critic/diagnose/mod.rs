@@ -34,7 +34,7 @@ mod wrong;
 pub use causes::Causes;
 pub use design::{Campaign, Design, Seen, Specimen, Unused};
 pub use discrepancy::{Bent, Lacking};
-pub use doubt::Doubt;
+pub use doubt::{Doubt, listed};
 pub use doubts::{doubts, doubts_beside};
 pub use evidence::{Evidence, evidence};
 pub use excluded::Excluded;

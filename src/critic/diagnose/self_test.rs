@@ -136,8 +136,7 @@ impl Judge<'_> {
 
     /// How far what is read in a campaign of a truth is from that of the same stones, joints and errors without any cause.
     fn moved(&self, truth: &Truth, campaign: &Campaign, streams: &Streams) -> f64 {
-        let still = Truth { causes: None.into(), parameters: Vec::new(), joints: truth.joints.clone() };
-        let still = self.world.campaign(&self.design, &still, streams);
+        let still = self.world.campaign(&self.design, &truth.still(), streams);
         let read = |campaign: &Campaign| self.reference.scale.readings(&self.design, campaign);
         let both = read(campaign).into_iter().zip(read(&still));
         let squares = both.filter_map(|((_, own), (_, still))| Some((own? - still?) * (own? - still?)));

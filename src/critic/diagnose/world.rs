@@ -40,6 +40,13 @@ pub struct Truth {
     pub joints: Vec<[f64; 3]>,
 }
 
+impl Truth {
+    /// The same joints without any cause.
+    pub(super) fn still(&self) -> Truth {
+        Truth { causes: None.into(), parameters: Vec::new(), joints: self.joints.clone() }
+    }
+}
+
 /// The walls of a family: in the base model, or what a cause changes of them.
 #[derive(Debug)]
 struct Walls {

@@ -139,7 +139,7 @@ impl Reference {
     /// Mahalanobis distance of the mean change of the features, with the same stones and errors, from what the best change of the
     /// joints does, less what the mean of `count` campaigns has of it by chance.
     pub fn shift(&self, world: &World<'_>, design: &Design, truth: &Truth, count: u64, seed: u64) -> f64 {
-        let still = Truth { causes: None.into(), parameters: Vec::new(), joints: truth.joints.clone() };
+        let still = truth.still();
         let one = |campaign: u64| {
             let [with, without] = [truth, &still].map(|truth| {
                 let shown = world.campaign(design, truth, &Streams::new(seed, campaign));

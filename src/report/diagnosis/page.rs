@@ -2,8 +2,8 @@
 
 use crate::report::diagnosis::summary::{CauseEntry, DataEntry, DiagnosisSummary};
 use crate::report::diagnosis::text::{
-    CAUSE, CAUSES, FORM, OFF, by_chance, excluded, not_used, or_dash, others, pairs, reliability, verdict,
-    worth_saying,
+    CAUSE, CAUSES, FORM, NO_FORM, OFF, by_chance, excluded, not_used, or_dash, others, pairs, reliability,
+    verdict, worth_saying,
 };
 use crate::report::diagnosis::words::{lines, reading};
 use crate::report::gain::GainSummary;
@@ -68,7 +68,7 @@ pub fn page(summary: &DiagnosisSummary, drawings: &[Drawing]) -> String {
     if summary.verdict == "unexplained" {
         let mut sentences: Vec<Vec<String>> = summary.form.iter().map(|bent| vec![bent.sentence()]).collect();
         if sentences.is_empty() {
-            sentences.push(vec!["none that is sure".to_owned()]);
+            sentences.push(vec![NO_FORM.to_owned()]);
         }
         body.push_str(&format!("<h2>What is not explained</h2>\n{}", table(&[FORM], sentences)));
     }

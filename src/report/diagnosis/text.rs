@@ -1,7 +1,7 @@
 //! A verdict as people read it on a terminal, and the sentences that the page has as well.
 
-use crate::critic::{Counted, Limits, MOST_AMBIGUOUS};
-use crate::report::diagnosis::summary::{DiagnosisSummary, LooksEntry, OffEntry, SelfTestEntry, UnusedEntry};
+use crate::critic::{Counted, Limits, MOST_AMBIGUOUS, listed};
+use crate::report::diagnosis::summary::{DiagnosisSummary, LooksEntry, OffEntry, SelfTestEntry};
 use crate::report::diagnosis::words::{lines, reading};
 use crate::report::gain::GainSummary;
 use crate::report::number::significant;
@@ -51,7 +51,7 @@ pub fn diagnosis_text(summary: &DiagnosisSummary) -> String {
         text.push_str(&format!("\n{FORM}\n"));
         summary.form.iter().for_each(|bent| text.push_str(&wrapped("  - ", &bent.sentence())));
         if summary.form.is_empty() {
-            text.push_str("  none that is sure\n");
+            text.push_str(&format!("  {NO_FORM}\n"));
         }
     }
     excluded(summary).iter().for_each(|words| text.push_str(&wrapped("  - ", words)));
@@ -72,6 +72,9 @@ pub(super) const CAUSE: &str = "Probability if all were equally likely before, b
     Guard: share of the cause's own campaigns that fit worse. A dash: not asked";
 /// What the numbers of a form are.
 pub(super) const FORM: &str = "Form of what is not explained (measured less base model with fitted joints, if it is smooth over the tilt, or goes with the order of the tests)";
+
+/// What is said where nothing of it is sure.
+pub(super) const NO_FORM: &str = "none that is sure";
 
 /// What is likely besides the causes.
 pub(super) fn others(summary: &DiagnosisSummary) -> [(&'static str, f64); 2] {
@@ -180,11 +183,8 @@ pub(super) fn excluded(summary: &DiagnosisSummary) -> Vec<String> {
 
 /// What was not used of the measurements.
 pub(super) fn not_used(summary: &DiagnosisSummary) -> Option<String> {
-    let reason = |own: &UnusedEntry| {
-        let lines: Vec<String> = own.lines.iter().map(ToString::to_string).collect();
-        format!("{} {} ({})", if lines.len() == 1 { "line" } else { "lines" }, lines.join(", "), own.why)
-    };
-    let reasons: Vec<String> = summary.unused.iter().map(reason).collect();
+    let reasons = summary.unused.iter().map(|own| format!("{} ({})", listed(&own.lines), own.why));
+    let reasons: Vec<String> = reasons.collect();
     (!reasons.is_empty()).then(|| format!("Not used of the measurements: {}", reasons.join("; ")))
 }
 
