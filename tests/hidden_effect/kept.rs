@@ -4,8 +4,11 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
+use crate::folders::Folders;
+use crate::hide::{MASTER, hidden, opened};
 use crate::inference::Word;
-use crate::run::{BANK, Folders, Judges, MASTER, PLAIN, hidden, judged, known, loaded, opened};
+use crate::record;
+use crate::run::{BANK, Judges, PLAIN, Verdicts, judged, known, loaded};
 use crate::truth::label::Label;
 use crate::truth::roster::{root, roster};
 
@@ -44,7 +47,8 @@ fn what_was_said_of_some_campaigns_of_nine_walls_is_still_said() {
     let (names, _) = hidden(&folders, &loaded().study, &labels, "kept");
     assert_eq!(names.len(), KEPT.len(), "they are in the roster, and can be solved");
     let known = known(&root(BANK));
-    let verdicts = judged(&folders, "verdicts", &Judges::new(&folders, &known), &PLAIN, &names);
+    let judges = Judges::new(&folders, &known);
+    let verdicts = judged(&folders, "verdicts", &judges, &PLAIN, &names);
     for (name, verdicts) in names.iter().zip(&verdicts) {
         let label = opened(&folders, name);
         let (_, words) = kept(&label).expect("it was kept");
@@ -56,4 +60,32 @@ fn what_was_said_of_some_campaigns_of_nine_walls_is_still_said() {
             }
         }
     }
+    goes_on_elsewhere(&folders, &labels, &judges, &names, &verdicts);
+}
+
+/// From its record a run goes on elsewhere: nothing is solved or judged again but what is asked for anew.
+fn goes_on_elsewhere(
+    folders: &Folders,
+    labels: &[Label],
+    judges: &Judges<'_>,
+    names: &[String],
+    verdicts: &[Verdicts],
+) {
+    let (elsewhere, record) =
+        (Folders { out: folders.out.join("elsewhere") }, folders.out.join("record.parquet"));
+    record::pack(&folders.out, &record);
+    record::unpack(&record, &elsewhere.out);
+    assert_eq!(hidden(&elsewhere, &loaded().study, labels, "kept").0, names);
+    assert_eq!(judged(&elsewhere, "verdicts", judges, &PLAIN, names), verdicts);
+    let campaigns = elsewhere.out.join("campaigns");
+    assert!(!campaigns.exists() || fs::read_dir(&campaigns).expect("a folder").next().is_none());
+    // Judged once more, from data that are solved anew.
+    let again = judged(&elsewhere, "again", judges, &PLAIN[..1], &names[..1]);
+    let design = PLAIN[0].name();
+    assert_eq!(again[0][design], verdicts[0][design]);
+    let [first, second] = [&folders.out, &elsewhere.out].map(|out| {
+        let file = out.join("campaigns").join(&names[0]).join(format!("{design}.csv"));
+        fs::read_to_string(file).expect("it was solved")
+    });
+    assert_eq!(first, second);
 }

@@ -1,13 +1,16 @@
 //! Effects are hidden in campaigns of real walls, and must be found; where nothing is hidden, nothing may be found.
 //!
 //! `towers` does so in seconds on small walls, `kept` in a minute on a few of the campaigns of the sealed test. That test does so on
-//! the walls of `studies/tilting-table`, is run by hand, and is described in `studies/hidden-effects`: `truth` makes campaigns,
-//! `sealed` keeps what is hidden in them, `inference` judges what lies in the campaigns' folders and nothing else, `table` sets the
-//! two against each other, and `wanted` against what was asked of it beforehand.
+//! the walls of `studies/tilting-table`, is run by hand, and is described in `studies/hidden-effects`: `run` leads through it, `truth`
+//! makes campaigns, `hide` seals what is hidden in them, `inference` judges what lies in the campaigns' folders and nothing else,
+//! `record` keeps what it said, `table` sets the two against each other, and `wanted` against what was asked of it beforehand.
 
+mod folders;
+mod hide;
 mod inference;
 mod kept;
 mod printed;
+mod record;
 mod run;
 mod sealed;
 mod shift;

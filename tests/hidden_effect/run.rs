@@ -9,29 +9,30 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use pirca::critic::{Bank, Plan};
-use pirca::ensemble::replace_file;
-use pirca::study::{Loaded, Measurement, Study, nuisances};
+use pirca::study::{Loaded, Measurement, Study};
 use rayon::prelude::*;
-use serde::de::DeserializeOwned;
 
+use crate::folders::{Folders, begun_with, read, told, write};
+use crate::hide::{hidden_share, opened, solved_again};
 use crate::inference::{Gains, Judge, Known, Said, Word};
 use crate::printed;
-use crate::sealed::{self, Sealed};
+use crate::record;
+use crate::sealed;
 use crate::shift::shift;
 use crate::table::{self, Judged};
-use crate::truth::campaign::{campaign, planned};
+use crate::truth::campaign::planned;
 use crate::truth::designs::Design;
 use crate::truth::label::{Group, Label};
 use crate::truth::readings::csv;
-use crate::truth::roster::{catalogue, root, roster};
+use crate::truth::roster::{catalogue, root};
 use crate::wanted;
 
-/// Seed of the roster, far from that of the bank, and none that the inference was made better by.
-pub const MASTER: u64 = 20_311_123;
 /// The variant of the study whose walls are hidden in: the dips of its stones are drawn in [-20, 20] deg.
 const VARIANT: &str = "random-dips";
 /// The bank of its walls.
 pub const BANK: &str = "studies/hidden-effects/bank.parquet";
+/// What was said of the published run's campaigns.
+const RECORD: &str = "studies/hidden-effects/record.parquet";
 /// Points of the bank.
 const POINTS: u64 = 120;
 /// Mechanisms are taken out of the catalogue, and gains are measured, in these designs: two stones add nothing that could be held
@@ -43,21 +44,11 @@ const GAINS: f64 = 60.0;
 /// So many campaigns of each mechanism are judged again without it, whatever their strength.
 const WITHOUT: f64 = 60.0;
 
+/// So many campaigns that were judged elsewhere are judged again before others are: what goes on must be the same inference.
+const AGAIN: usize = 3;
+
 /// What is said of a campaign, by design.
-type Verdicts = BTreeMap<String, Said>;
-
-/// Where a run lies.
-pub struct Folders {
-    pub out: PathBuf,
-}
-
-impl Folders {
-    fn of(&self, kind: &str) -> PathBuf {
-        let folder = self.out.join(kind);
-        fs::create_dir_all(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
-        folder
-    }
-}
+pub type Verdicts = BTreeMap<String, Said>;
 
 /// The share of the full sizes that is run.
 fn share() -> f64 {
@@ -85,88 +76,21 @@ pub fn known(bank: &Path) -> Known {
     Known::new(loaded().study.clone(), POINTS, read)
 }
 
-fn write(path: &Path, text: &str) {
-    replace_file(path, text.as_bytes()).unwrap_or_else(|error| panic!("{error}"));
-}
-
-fn read(path: &Path) -> String {
-    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
-}
-
 fn measured(path: &Path) -> Vec<Measurement> {
     loaded().clone().with_measured(path).unwrap_or_else(|faults| panic!("{faults}")).study.measured
 }
 
-/// The secret of a run, which lies with the labels: that of an earlier one if it is named, or one of its own.
+/// The secret of a run: that of an earlier one if it is named, or one of its own.
 fn secret(folders: &Folders) -> String {
-    let path = folders.of("sealed").join("secret.txt");
-    if !path.exists() {
-        write(&path, &env::var("HIDDEN_EFFECT_SECRET").unwrap_or_else(|_| sealed::secret()));
-    }
-    read(&path)
+    let (file, named) = ("secret.txt", env::var("HIDDEN_EFFECT_SECRET").ok());
+    let path = folders.of("sealed").join(file);
+    let now = named.unwrap_or_else(|| if path.exists() { read(&path) } else { sealed::secret() });
+    begun_with(folders, file, now)
 }
 
-/// Solves and seals what is not there yet. Gives the names of the campaigns that could be solved, which tell nothing, in an order
-/// that tells nothing and is the same for every secret; and how many of each kind could not.
-pub fn hidden(
-    folders: &Folders,
-    study: &Study,
-    labels: &[Label],
-    secret: &str,
-) -> (Vec<String>, BTreeMap<String, u64>) {
-    let nuisances = nuisances(&root("distributions")).unwrap_or_else(|lacks| panic!("{lacks}"));
-    let (campaigns, sealed) = (folders.of("campaigns"), folders.of("sealed"));
-    let solved: Vec<Option<(u64, String)>> = labels
-        .par_iter()
-        .map(|label| {
-            let sealed_label =
-                Sealed::new(secret, serde_json::to_string(label).expect("a label has string keys only"));
-            let seal = sealed_label.seal();
-            let name = seal[..16].to_owned();
-            let (folder, unsolved) = (campaigns.join(&name), sealed.join(format!("{name}.unsolved")));
-            if unsolved.exists() {
-                return None;
-            }
-            if !folder.join("seal.txt").exists() {
-                let Some(files) = campaign(study, &nuisances, label) else {
-                    write(&unsolved, &format!("{label:?}\n"));
-                    return None;
-                };
-                let json = serde_json::to_string(&sealed_label).expect("two texts");
-                write(&sealed.join(format!("{name}.json")), &json);
-                let folder = folders.of(&format!("campaigns/{name}"));
-                for (design, rows) in files {
-                    write(&folder.join(format!("{}.csv", design.name())), &csv(&rows));
-                }
-                write(&folder.join("seal.txt"), &seal);
-            }
-            Some((label.seed, name))
-        })
-        .collect();
-    let mut unsolved: BTreeMap<String, u64> = BTreeMap::new();
-    for (label, _) in labels.iter().zip(&solved).filter(|(_, solved)| solved.is_none()) {
-        *unsolved.entry(label.kind()).or_default() += 1;
-    }
-    let mut names: Vec<(u64, String)> = solved.into_iter().flatten().collect();
-    names.sort();
-    (names.into_iter().map(|(_, name)| name).collect(), unsolved)
-}
-
-/// Solves and seals a share of the full sizes, with others of its kind in the place of each that cannot be solved.
-fn hidden_share(
-    folders: &Folders,
-    study: &Study,
-    share: f64,
-    secret: &str,
-) -> (Vec<String>, BTreeMap<String, u64>) {
-    let mut more = BTreeMap::new();
-    loop {
-        let (names, unsolved) = hidden(folders, study, &roster(share, MASTER, &more), secret);
-        if unsolved == more {
-            return (names, unsolved);
-        }
-        more = unsolved;
-    }
+/// The bank that a run is judged with.
+fn design(folders: &Folders, known: &Known) -> String {
+    begun_with(folders, "design.txt", known.plan.study.hash.clone())
 }
 
 /// The judges of what is known, one for each design, from the first time on that it is asked: by one thread alone, as what
@@ -191,11 +115,6 @@ impl<'k> Judges<'k> {
     }
 }
 
-/// What was written in an earlier stage.
-fn told<T: DeserializeOwned>(path: &Path) -> T {
-    serde_json::from_str(&read(path)).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
-}
-
 /// Judges what has not been judged yet in some designs. Judges come into being when there is something for them.
 pub fn judged(
     folders: &Folders,
@@ -207,6 +126,7 @@ pub fn judged(
     let (campaigns, verdicts) = (folders.of("campaigns"), folders.of(kind));
     let path = |name: &String| verdicts.join(format!("{name}.json"));
     let open: Vec<&String> = names.iter().filter(|name| !path(name).exists()).collect();
+    solved_again(folders, &judges.known.study, &open);
     if !open.is_empty() {
         for design in designs {
             judges.of(*design);
@@ -218,23 +138,49 @@ pub fn judged(
             (design.name().to_owned(), judges.of(*design).said(&measured(&file)))
         };
         let said: Verdicts = designs.iter().map(one).collect();
-        write(&path(name), &serde_json::to_string(&said).expect("verdicts have string keys only"));
+        write(&path(name), &record::json(&said));
     });
     names.iter().map(|name| told(&path(name))).collect()
+}
+
+/// Judges a few campaigns again that were judged before, if possible some in which something was named: the verdicts must be the same.
+fn judged_again(folders: &Folders, judges: &Judges<'_>, names: &[String]) {
+    let verdicts = folders.of("verdicts");
+    let path = |name: &String| verdicts.join(format!("{name}.json"));
+    let mut before: Vec<String> = names.iter().filter(|name| path(name).exists()).cloned().collect();
+    if before.is_empty() || before.len() == names.len() {
+        return;
+    }
+    let said = |name: &String| told::<Verdicts>(&path(name));
+    let speaks = |name: &String| said(name).values().any(|said| said.verdict == Word::Named);
+    before.sort_by_key(|name| !speaks(name));
+    before.truncate(AGAIN);
+    let kind = "again";
+    fs::remove_dir_all(folders.of(kind)).expect("it is the run's own");
+    for (name, again) in before.iter().zip(judged(folders, kind, judges, &Design::ALL, &before)) {
+        for (design, first) in said(name) {
+            let again = &again[&design];
+            assert!(
+                (again.verdict, &again.names) == (first.verdict, &first.names),
+                "{name}, {design}: another inference has said {first:?}, this one says {again:?}: verdicts of the two do not mix"
+            );
+        }
+    }
 }
 
 /// Measures what a design's extended models gain on campaigns, where it has not been measured yet.
 fn gains(folders: &Folders, judges: &Judges<'_>, design: Design, names: &[&String]) -> Vec<Gains> {
     let (campaigns, gains) = (folders.of("campaigns"), folders.of(&format!("gains/{}", design.name())));
     let path = |name: &String| gains.join(format!("{name}.json"));
-    let open: Vec<&&String> = names.iter().filter(|name| !path(name).exists()).collect();
+    let open: Vec<&String> = names.iter().copied().filter(|name| !path(name).exists()).collect();
+    solved_again(folders, &judges.known.study, &open);
     if !open.is_empty() {
         judges.of(design).folds();
     }
     open.into_par_iter().for_each(|name| {
         let file = campaigns.join(name).join(format!("{}.csv", design.name()));
         let found = judges.of(design).gains(&measured(&file));
-        write(&path(name), &serde_json::to_string(&found).expect("gains have string keys only"));
+        write(&path(name), &record::json(&found));
     });
     names.iter().map(|name| told(&path(name))).collect()
 }
@@ -282,19 +228,10 @@ fn shifted(folders: &Folders, judges: &Judges<'_>, design: Design, all: &mut [(S
     asked.par_iter_mut().for_each(|(name, judged)| {
         if !path(name).exists() {
             let shift = shift(judges.of(design), &judged.label);
-            write(&path(name), &shift.to_string());
+            write(&path(name), &record::json(&shift));
         }
         judged.shift = Some(told(&path(name)));
     });
-}
-
-/// The label of a campaign, which must be the one that was sealed.
-pub fn opened(folders: &Folders, name: &str) -> Label {
-    let sealed: Sealed = told(&folders.of("sealed").join(format!("{name}.json")));
-    let seal = read(&folders.of("campaigns").join(name).join("seal.txt"));
-    assert!(seal.starts_with(name), "the folder {name} has another seal");
-    let label = sealed.opened(&seal).unwrap_or_else(|why| panic!("{why}"));
-    serde_json::from_str(label).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
 /// Every campaign under every design, with its name.
@@ -312,10 +249,15 @@ fn together(names: &[String], labels: &[Label], verdicts: Vec<Verdicts>) -> Vec<
 #[ignore = "the sealed test: hours; see studies/hidden-effects"]
 fn hidden_effect_campaigns_are_sealed_judged_and_opened() {
     let folders = Folders { out: path("HIDDEN_EFFECT_OUT", "runs/hidden-effects") };
-    let share = share();
-    let (names, unsolved) = hidden_share(&folders, &loaded().study, share, &secret(&folders));
+    let record = path("HIDDEN_EFFECT_RECORD", RECORD);
+    record::unpack(&record, &folders.out);
     let known = known(&path("HIDDEN_EFFECT_BANK", BANK));
+    let (share, secret, design) = (share(), secret(&folders), design(&folders, &known));
+    // What a run that was stopped has left.
+    record::pack(&folders.out, &record);
+    let (names, unsolved) = hidden_share(&folders, &known.study, share, &secret);
     let judges = Judges::new(&folders, &known);
+    judged_again(&folders, &judges, &names);
     let verdicts = judged(&folders, "verdicts", &judges, &Design::ALL, &names);
     // All verdicts are written: the labels may be opened.
     let labels: Vec<Label> = names.iter().map(|name| opened(&folders, name)).collect();
@@ -326,11 +268,12 @@ fn hidden_effect_campaigns_are_sealed_judged_and_opened() {
          points, design {}. Secret of the seals: {}.\n\nWhat is as wanted is in bold; the README says how to read it.\n",
         names.len(),
         unsolved.join(", "),
-        &known.plan.study.hash[..12],
-        secret(&folders)
+        &design[..12],
+        secret
     );
     let results = root("studies/hidden-effects");
     let published = |all: &[(String, Judged)], removed: &[(String, Judged)]| {
+        record::pack(&folders.out, &record);
         let [all, removed] =
             [all, removed].map(|some| some.iter().map(|(_, judged)| judged.clone()).collect::<Vec<_>>());
         let table = table::of(&all, &removed);

@@ -97,6 +97,8 @@ fn the_two_sides_do_not_know_each_other() {
         }
     }
     assert!(seen > 12, "{seen} files were looked at");
+    let text = code("hide.rs");
+    assert!(!text.contains("critic") && !text.contains("inference"), "who hides knows the judge");
     let text = code("inference.rs");
     assert!(!text.contains("truth") && !text.contains("sealed"), "the inference knows what it must not");
 }
