@@ -85,9 +85,13 @@ pub fn doubts_beside(world: &World<'_>, design: &Design, measured: &Campaign, se
             fallen.push(m);
         }
         let range = stats::quantile(&shown, TAIL).zip(stats::quantile(&shown, 1.0 - TAIL));
-        let (Some((low, high)), Seen::Value(value)) = (range, seen) else { continue };
+        let (Some((low, high)), Some(value)) = (range, seen.told(m)) else { continue };
         let slack = 0.5 * m.resolution + 1e-9 * value.abs();
-        let inside = |x: f64| x >= low - slack && x <= high + slack;
+        // A bound may lie anywhere on its other side.
+        let inside = |x: f64| {
+            (x >= low - slack || m.kind == MeasuredKind::Above)
+                && (x <= high + slack || m.kind == MeasuredKind::Below)
+        };
         if shown.len() >= STANDING && !inside(value) {
             let mut others = ratios(m.quantity.dimension()).into_iter().map(|ratio| value * ratio);
             out.push((m, [low, high], others.find(|x| inside(*x))));

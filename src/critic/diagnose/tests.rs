@@ -10,7 +10,7 @@ use crate::math::{ln, radians};
 use crate::random::Streams;
 use crate::random::standard_normal::quantile;
 use crate::stats;
-use crate::study::{Described, Nuisance, Study};
+use crate::study::{Described, MeasuredKind, Nuisance, Study};
 
 pub(crate) struct Made {
     pub(crate) study: Study,
@@ -366,4 +366,33 @@ fn readings_where_every_wall_has_fallen_are_doubted() {
     assert!(matches!(&found[..], [Doubt::Fallen { lines, .. }] if *lines == [line]), "{found:?}");
     let words = found[0].to_string();
     assert!(words.contains("of SBL2 is 12 mm at 60 deg, where every simulated wall has fallen"), "{words}");
+}
+
+#[test]
+fn a_bound_that_no_simulated_wall_keeps_is_doubted() {
+    let made = made();
+    let world = made.world();
+    let doubted = |value: f64, kind: MeasuredKind| {
+        let mut study = made.study.clone();
+        let m = study
+            .measured
+            .iter_mut()
+            .find(|m| m.specimen == "SBL2" && m.tilt.is_some())
+            .expect("it was read");
+        (m.value, m.kind, m.resolution) = (value, kind, 0.0);
+        let (design, campaign) = Design::of(&study);
+        let found = doubts_beside(&world, &design, &campaign, 5).into_iter();
+        let out = found.filter_map(|doubt| match doubt {
+            Doubt::OutOfRange { fits, .. } => Some(fits),
+            _ => None,
+        });
+        out.collect::<Vec<_>>()
+    };
+    // Walls move downhill by millimetres at the first tilt, and gauges are off by a few.
+    assert_eq!(doubted(0.1, MeasuredKind::Below), []);
+    assert_eq!(doubted(-0.1, MeasuredKind::Above), []);
+    let (less, more) = (doubted(-0.1, MeasuredKind::Below), doubted(2.0, MeasuredKind::Above));
+    assert!(less.len() == 1 && more.len() == 1, "{less:?} {more:?}");
+    // Two metres were meant as two centimetres, or less.
+    assert!(more[0].is_some_and(|fits| fits <= 0.02 + 1e-9), "{more:?}");
 }
