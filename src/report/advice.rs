@@ -53,7 +53,7 @@ pub struct PartEntry {
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct NextEntry {
     /// What to measure.
-    pub what: &'static str,
+    pub what: String,
     /// Hours of two people, our estimate.
     pub hours: f64,
     /// Expected information about the cause (bit).
@@ -88,7 +88,7 @@ impl Advice {
             strong_found: [row.strong.found, row.strong.campaigns],
         });
         let next = offered.iter().map(|own| NextEntry {
-            what: words(own.offer),
+            what: words(own.offer, own.fine),
             hours: own.hours,
             bits: own.bits,
             of_bits: own.of,
@@ -139,25 +139,33 @@ impl Advice {
             ));
             for own in &self.next {
                 let bits = significant(own.bits, 2);
-                text.push_str(&format!("  {bits:>6} bit in {:>4} h  {}\n", own.hours, own.what));
+                text.push_str(&format!(
+                    "  {bits:>6} bit in {:>4} h  {}\n",
+                    significant(own.hours, 2),
+                    own.what
+                ));
             }
         }
         text
     }
 }
 
-fn words(offer: Offer) -> &'static str {
+/// What an offer is, with displacements that are read finely to `fine` (m).
+fn words(offer: Offer, fine: f64) -> String {
+    let fine = significant(fine * 1e3, 2);
     match offer {
-        Offer::Weights => "weigh a specimen of every family, to 0.5 %",
-        Offer::FixedTarget => "read a target that does not move, to 0.3 mm",
-        Offer::TwoStones => "test two stones: kn to 10 %, friction angle to 1 deg, of every family",
-        Offer::Remainders => {
-            "go back to 0 deg from the largest tilt read and read what is left at three points to 0.3 mm"
+        Offer::Weights => "weigh a specimen of every family, to 0.5 %".into(),
+        Offer::FixedTarget => format!("read a target that does not move, to {fine} mm"),
+        Offer::TwoStones => "test two stones: kn to 10 %, friction angle to 1 deg, of every family".into(),
+        Offer::Remainders => format!(
+            "go back to 0 deg from the largest tilt read and read what is left at three points to {fine} mm"
+        ),
+        Offer::TurnedWalls => "turn as many walls round and read them at the same tilts".into(),
+        Offer::LowTilts => {
+            format!("six readings up to 3 deg at three points to {fine} mm, on new specimens")
         }
-        Offer::TurnedWalls => "turn as many walls round and read them at the same tilts",
-        Offer::LowTilts => "six readings up to 3 deg at three points to 0.3 mm, on new specimens",
-        Offer::FinerReadings => "the same tilts at three points to 0.3 mm, on new specimens",
-        Offer::MoreTilts => "a reading at every degree, on new specimens",
-        Offer::MoreSpecimens => "as many specimens again, read as these were",
+        Offer::FinerReadings => format!("the same tilts at three points to {fine} mm, on new specimens"),
+        Offer::MoreTilts => "what was read at every degree, on new specimens".into(),
+        Offer::MoreSpecimens => "as many specimens again, read as these were".into(),
     }
 }

@@ -249,6 +249,25 @@ mod tests {
     }
 
     #[test]
+    fn what_is_possible_is_what_nothing_speaks_against() {
+        let looked_at =
+            |cause: usize, guard: Option<f64>| LookedAt { cause, guard, evidence: 0.3, draws: Vec::new() };
+        let wrong = Wrong { excess: BTreeMap::new(), joints: Vec::new(), distance: 0.0 };
+        let causes = [(Some(3), 0.5), (Some(1), 0.3), (Some(2), 0.1), (None, 0.1)];
+        let ranked = Ranked::new(causes.to_vec(), 0.0, vec![1, 3]);
+        let diagnosis = Diagnosis {
+            seeming: Seeming { wrong, ranked, p_value: 0.001, looks: [0.001; 3] },
+            // The likeliest does not fit, and the last is not in the set.
+            looked_at: vec![looked_at(3, Some(0.0)), looked_at(1, Some(0.4)), looked_at(2, None)],
+            pairs: Vec::new(),
+            form: Vec::new(),
+            verdict: Verdict::Unexplained,
+        };
+        assert_eq!(diagnosis.possible(), [(0.3, Vec::new())]);
+        assert_eq!(diagnosis.left_open(), [1]);
+    }
+
+    #[test]
     fn the_evidence_of_some_moves_what_they_have_together_and_nothing_else() {
         let ranked =
             Ranked::new(vec![(Some(3), 0.5), (Some(1), 0.3), (None, 0.1), (Some(2), 0.1)], 0.2, vec![1, 3]);

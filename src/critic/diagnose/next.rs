@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
+use crate::critic::compare::reading_variance;
 use crate::critic::diagnose::design::{Design, Specimen};
 use crate::critic::diagnose::features::{Feature, Scale, features};
 use crate::critic::diagnose::judge::Judge;
@@ -22,7 +23,7 @@ const SIMULATED: u64 = 240;
 const SCALING: u64 = 200;
 /// Ridge on the covariance of features, in their variance.
 const RIDGE: f64 = 0.05;
-/// Random error of a displacement read against a fixed target or with a dial gauge (m).
+/// Random error of a displacement read with a dial gauge (m), unless the campaign was read better.
 const FINE: f64 = 0.3e-3;
 /// Below so much that is not known of the cause (bit) nothing is offered.
 const OPEN: f64 = 0.01;
@@ -36,34 +37,42 @@ pub enum Offer {
     TwoStones,
     /// The weight of a specimen of every family, to 0.5 %.
     Weights,
-    /// What the gauge shows of a target that does not move, to 0.3 mm.
+    /// What the gauge shows of a target that does not move, read [finely](Offered::fine).
     FixedTarget,
-    /// What is left at three points, to 0.3 mm, when the platform goes back from the largest tilt of the campaign's readings, on as
-    /// many specimens of every family as there were.
+    /// What is left at three points, read [finely](Offered::fine), when the platform goes back from the largest tilt of the
+    /// campaign's readings, on as many specimens of every family as there were.
     Remainders,
     /// The readings of the campaign but its collapse angles, on walls that are turned round.
     TurnedWalls,
-    /// Six readings up to 3 deg at three points, to 0.3 mm, on as many specimens of every family as there were.
+    /// Six readings up to 3 deg at three points, read [finely](Offered::fine), on as many specimens of every family as there were.
     LowTilts,
-    /// The tilts of the campaign once more at three points, to 0.3 mm.
+    /// The tilts of the campaign once more at three points, read [finely](Offered::fine).
     FinerReadings,
-    /// A reading at every degree up to the largest tilt, with the errors of the campaign's.
+    /// What the campaign reads of displacements at every degree up to the largest tilt, with its errors.
     MoreTilts,
     /// As many specimens again, read as these were.
     MoreSpecimens,
 }
 
+/// What hours are counted by.
+#[derive(Clone, Copy)]
+enum Per {
+    Campaign,
+    Family,
+    Specimen,
+}
+
 /// All offers with what they cost, in hours of two people (our estimate).
-const MENU: [(Offer, f64); 9] = [
-    (Offer::FixedTarget, 0.5),
-    (Offer::Weights, 1.0),
-    (Offer::TwoStones, 2.0),
-    (Offer::Remainders, 5.0),
-    (Offer::LowTilts, 6.0),
-    (Offer::TurnedWalls, 9.0),
-    (Offer::FinerReadings, 8.0),
-    (Offer::MoreTilts, 7.0),
-    (Offer::MoreSpecimens, 40.0),
+const MENU: [(Offer, f64, Per); 9] = [
+    (Offer::FixedTarget, 0.5, Per::Campaign),
+    (Offer::Weights, 0.33, Per::Family),
+    (Offer::TwoStones, 0.67, Per::Family),
+    (Offer::Remainders, 0.55, Per::Specimen),
+    (Offer::LowTilts, 0.65, Per::Specimen),
+    (Offer::TurnedWalls, 1.0, Per::Specimen),
+    (Offer::FinerReadings, 0.9, Per::Specimen),
+    (Offer::MoreTilts, 0.8, Per::Specimen),
+    (Offer::MoreSpecimens, 4.5, Per::Specimen),
 ];
 
 /// What an offer would tell.
@@ -71,8 +80,11 @@ const MENU: [(Offer, f64); 9] = [
 pub struct Offered {
     /// The measurement.
     pub offer: Offer,
-    /// Hours.
+    /// Hours of two people, for as many families or specimens as it is made on.
     pub hours: f64,
+    /// Random error of a displacement that is read finely (m): that of a dial gauge, or of the campaign's own readings where these
+    /// are better.
+    pub fine: f64,
     /// Expected information about the cause (bit).
     pub bits: f64,
     /// What is not known of the cause before (bit).
@@ -88,20 +100,34 @@ pub fn offers(judge: &Judge<'_>, possible: &[(f64, Vec<Truth>)], seed: u64) -> V
     if possible.len() < 2 || entropy < OPEN * ln(2.0) {
         return Vec::new();
     }
+    let fine = finest(&judge.design).map_or(FINE, |own| own.min(FINE));
     let mut offered: Vec<Offered> = MENU
         .par_iter()
-        .filter_map(|&(offer, hours)| {
-            let design = planned(offer, judge)?;
+        .filter_map(|&(offer, hours, per)| {
+            let design = planned(offer, judge, fine)?;
             let told = information(judge, &design, possible, &weights, entropy, seed);
-            Some(Offered { offer, hours, bits: told / ln(2.0), of: entropy / ln(2.0) })
+            let times = match per {
+                Per::Campaign => 1,
+                Per::Family => judge.design.families().len(),
+                Per::Specimen => design.specimens.len(),
+            };
+            let hours = hours * times as f64;
+            Some(Offered { offer, hours, fine, bits: told / ln(2.0), of: entropy / ln(2.0) })
         })
         .collect();
     offered.sort_by(|a, b| (b.bits / b.hours).total_cmp(&(a.bits / a.hours)));
     offered
 }
 
-/// The readings of an offer; `None` where it adds nothing to a design.
-fn planned(offer: Offer, judge: &Judge<'_>) -> Option<Design> {
+/// The standard deviation of the best displacement of a campaign, rounding included (m).
+fn finest(design: &Design) -> Option<f64> {
+    let readings = design.specimens.iter().flat_map(|specimen| &specimen.readings);
+    let errors = readings.filter(|m| m.tilt.is_some()).map(|m| reading_variance(m).sqrt());
+    errors.filter(|error| *error > 0.0).reduce(f64::min)
+}
+
+/// The readings of an offer, displacements with such an error where they are read finely; `None` where it adds nothing to a design.
+fn planned(offer: Offer, judge: &Judge<'_>, fine: f64) -> Option<Design> {
     use MeasuredQuantity as Q;
     let design = &judge.design;
     let mut new = Design { specimens: Vec::new(), apart: Vec::new(), unused: Vec::new() };
@@ -118,8 +144,8 @@ fn planned(offer: Offer, judge: &Judge<'_>) -> Option<Design> {
     };
     let middle = judge.world.truth(None, &vec![0.0; judge.world.inputs(None)]);
     let points = [Q::DisplacementLeft, Q::DisplacementCentre, Q::DisplacementRight];
-    let fine = |points: [Q; 3], tilts: &[f64]| -> Vec<Measurement> {
-        tilts.iter().flat_map(|tilt| points.map(|point| reading(point, Some(*tilt), FINE))).collect()
+    let finely = |points: [Q; 3], tilts: &[f64]| -> Vec<Measurement> {
+        tilts.iter().flat_map(|tilt| points.map(|point| reading(point, Some(*tilt), fine))).collect()
     };
     let largest = |own: &Specimen| own.tilts().last().copied().filter(|tilt| *tilt > 0.0);
     let again = |readings: &dyn Fn(&Specimen) -> Vec<Measurement>| -> Vec<Specimen> {
@@ -136,7 +162,7 @@ fn planned(offer: Offer, judge: &Judge<'_>) -> Option<Design> {
         }
         Offer::FixedTarget => {
             let family = design.specimens.first()?.family;
-            new.apart.push((family, reading(Q::FixedTarget, None, FINE)));
+            new.apart.push((family, reading(Q::FixedTarget, None, fine)));
         }
         Offer::TwoStones => {
             for family in design.families() {
@@ -148,7 +174,7 @@ fn planned(offer: Offer, judge: &Judge<'_>) -> Option<Design> {
         }
         Offer::Remainders => {
             let left = [Q::RemainderLeft, Q::RemainderCentre, Q::RemainderRight];
-            new.specimens = again(&|own| fine(left, largest(own).as_slice()));
+            new.specimens = again(&|own| finely(left, largest(own).as_slice()));
         }
         Offer::TurnedWalls => {
             new.specimens = again(&|own| own.readings.iter().filter(|m| m.tilt.is_some()).cloned().collect());
@@ -157,19 +183,33 @@ fn planned(offer: Offer, judge: &Judge<'_>) -> Option<Design> {
         }
         Offer::LowTilts => {
             let tilts = [0.5, 1.0, 1.5, 2.0, 2.5, 3.0].map(radians);
-            new.specimens = again(&|_| fine(points, &tilts));
+            new.specimens = again(&|_| finely(points, &tilts));
         }
         Offer::FinerReadings => {
-            new.specimens = again(&|own| fine(points, &own.tilts()));
+            let is_fine = |own: &Specimen, m: &Measurement| {
+                let read = |other: &Measurement| (other.quantity, other.tilt) == (m.quantity, m.tilt);
+                own.readings.iter().any(|other| read(other) && reading_variance(other) <= fine * fine)
+            };
+            new.specimens = again(&|own| {
+                let all = finely(points, &own.tilts());
+                if all.iter().all(|m| is_fine(own, m)) { Vec::new() } else { all }
+            });
         }
         Offer::MoreTilts => {
             new.specimens = again(&|own| {
                 let largest = largest(own).unwrap_or(0.0);
-                let up = |m: &&Measurement| m.tilt.is_some() && !m.quantity.is_remainder();
-                let Some(m) = own.readings.iter().find(up) else { return Vec::new() };
-                let tilts =
-                    (1..90).map(|deg| radians(f64::from(deg))).take_while(|tilt| *tilt <= largest + 1e-9);
-                tilts.map(|tilt| Measurement { tilt: Some(tilt), ..m.clone() }).collect()
+                let mut patterns: Vec<&Measurement> = Vec::new();
+                for m in own.readings.iter().filter(|m| m.tilt.is_some() && !m.quantity.is_remainder()) {
+                    if patterns.iter().all(|known| known.quantity != m.quantity) {
+                        patterns.push(m);
+                    }
+                }
+                let degrees = (1..90).map(|deg| radians(f64::from(deg)));
+                let tilts = degrees.take_while(|tilt| *tilt <= largest + 1e-9);
+                let at = |tilt: f64| {
+                    patterns.iter().map(move |m| Measurement { tilt: Some(tilt), ..(*m).clone() })
+                };
+                tilts.flat_map(at).collect()
             });
         }
         Offer::MoreSpecimens => new.specimens.clone_from(&design.specimens),
@@ -305,7 +345,7 @@ mod tests {
         };
         let back = offers(&judge, &[draws("creep", 1.5), draws("cohesion", 1.5)], 6);
         assert!(bits(&back, Offer::Remainders) > 0.8 && bits(&alike, Offer::Remainders) < 0.15, "{back:?}");
-        let turned = planned(Offer::TurnedWalls, &judge).expect("they can be turned");
+        let turned = planned(Offer::TurnedWalls, &judge, FINE).expect("they can be turned");
         assert!(turned.specimens.len() == 9 && turned.specimens.iter().all(|own| own.turned));
         assert!(turned.specimens.iter().flat_map(|own| &own.readings).all(|m| m.tilt.is_some()));
         // A wall that leans moves a little further before its fall, turned round a little less.
@@ -318,5 +358,53 @@ mod tests {
         let worth: Vec<f64> = offered.iter().map(|own| own.bits / own.hours).collect();
         assert!(worth.windows(2).all(|pair| pair[0] >= pair[1]));
         assert_eq!(offers(&judge, &[draws("creep", 1.0)], 6), []);
+    }
+
+    #[test]
+    fn an_offer_is_read_no_worse_than_the_campaign_and_costs_by_the_wall() {
+        let made = made();
+        let world = made.world();
+        let mut study = made.study.clone();
+        // Read finely at three points, and as the difference of the ends; fewer walls.
+        let of_family = |m: &Measurement| m.specimen.ends_with('1') && m.tilt.is_some();
+        let pattern = study.measured.iter().find(|m| of_family(m)).expect("it is read").clone();
+        let tilts = [4.0, 8.0].map(radians);
+        let points = [
+            MeasuredQuantity::DisplacementLeft,
+            MeasuredQuantity::DisplacementCentre,
+            MeasuredQuantity::DisplacementRight,
+        ];
+        study.measured = tilts
+            .iter()
+            .flat_map(|tilt| {
+                let fine = Measurement {
+                    error: 1e-4,
+                    resolution: 0.0,
+                    kind: MeasuredKind::Exact,
+                    ..pattern.clone()
+                };
+                points.map(|quantity| Measurement { quantity, tilt: Some(*tilt), ..fine.clone() })
+            })
+            .collect();
+        let (design, _) = Design::of(&study);
+        let judge = Judge::trained(&world, &design, EFFORT, 5).expect("it can be told");
+        assert_eq!(finest(&design), Some(1e-4));
+        assert_eq!(planned(Offer::FinerReadings, &judge, 1e-4), None);
+        // Every degree up to 8, at all three points.
+        let more = planned(Offer::MoreTilts, &judge, 1e-4).expect("it adds readings");
+        let read = |quantity| more.specimens[0].readings.iter().filter(|m| m.quantity == quantity).count();
+        assert_eq!(points.map(read), [8, 8, 8]);
+        let draws = |score: f64| -> (f64, Vec<Truth>) {
+            let mut truth = world.drawn(Some(made.cause("creep")), &Streams::new(81, 1));
+            truth.parameters[0] = score;
+            (0.5, vec![truth])
+        };
+        let offered = offers(&judge, &[draws(-1.0), draws(1.0)], 6);
+        let of = |wanted: Offer| offered.iter().find(|own| own.offer == wanted);
+        assert!(offered.iter().all(|own| own.fine == 1e-4), "{offered:?}");
+        assert_eq!(of(Offer::FinerReadings), None);
+        // One wall, one family.
+        assert_eq!(of(Offer::MoreSpecimens).map(|own| own.hours), Some(4.5));
+        assert_eq!(of(Offer::TwoStones).map(|own| own.hours), Some(0.67));
     }
 }

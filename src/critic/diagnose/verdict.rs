@@ -80,9 +80,11 @@ impl Diagnosis {
         self.looked_at.iter().find(|own| own.cause == cause)
     }
 
-    /// The causes that were looked at closely, each with its probability and draws of what is true under it.
+    /// The causes that were looked at closely and that nothing [speaks against](Self::excluded), each with its probability and draws
+    /// of what is true under it.
     pub fn possible(&self) -> Vec<(f64, Vec<Truth>)> {
         let probability = |own: &LookedAt<usize>| self.seeming.ranked.probability(own.cause);
-        self.looked_at.iter().map(|own| (probability(own), own.draws.clone())).collect()
+        let open = self.looked_at.iter().filter(|own| self.excluded(own.cause).is_none());
+        open.map(|own| (probability(own), own.draws.clone())).collect()
     }
 }
