@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use crate::critic::diagnose::features::{Contrast, Feature};
 use crate::critic::diagnose::world::World;
 use crate::math::ln;
-use crate::protocol::Ends;
 use crate::stats;
 
 /// What is looked at across families.
@@ -25,8 +24,8 @@ pub fn across(world: &World<'_>, features: &[Feature]) -> Vec<(Feature, Vec<(usi
                 _ => None,
             })
             .collect();
-        let is_held = |family: usize| world.study().arms[family].restraint.ends != Ends::Free;
-        let (held, free): (Vec<usize>, Vec<usize>) = of_families.keys().partition(|family| is_held(**family));
+        let (held, free): (Vec<usize>, Vec<usize>) =
+            of_families.keys().partition(|family| world.is_held(**family));
         if !held.is_empty() && !free.is_empty() {
             let mean = |families: &[usize], sign: f64| -> Vec<(usize, f64)> {
                 families.iter().map(|family| (of_families[family], sign / families.len() as f64)).collect()

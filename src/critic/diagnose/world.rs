@@ -13,6 +13,7 @@ use crate::critic::diagnose::nameless::Nameless;
 use crate::critic::simulated::of_points;
 use crate::ensemble::{build, is_random, weight};
 use crate::math::{atan, radians, tan};
+use crate::protocol::Ends;
 use crate::random::standard_normal::quantile;
 use crate::random::{Family, Streams};
 use crate::study::{Acts, Arm, Described, MeasuredQuantity, Measurement, Mechanisms, Nuisance, Study};
@@ -243,6 +244,11 @@ impl<'s> World<'s> {
     pub fn foretold(&self) -> Vec<(usize, [f64; 2])> {
         let shares = |walls: &Walls| [0, HALF_WAY].map(|number| walls.emulator.explained()[number]);
         self.base.iter().map(|(family, walls)| (*family, shares(walls))).collect()
+    }
+
+    /// Whether the ends of a family's walls are held.
+    pub fn is_held(&self, family: usize) -> bool {
+        self.study.arms[family].restraint.ends != Ends::Free
     }
 
     /// Weight of a stone of a family as it is stated, in the mean over a wall (N).

@@ -34,6 +34,10 @@ pub struct ResidualEntry {
     pub specimen: String,
     /// The arm.
     pub family: String,
+    /// Whether the ends of the arm's walls are held.
+    pub ends_held: bool,
+    /// Weight of one of their stones as it is stated, in the mean over a wall.
+    pub stone_weight_n: f64,
     /// What was measured.
     pub quantity: &'static str,
     /// Tilt of the reading; null where the quantity has none of its own.
@@ -115,6 +119,8 @@ impl ResidualEntry {
             line: m.line,
             specimen: m.specimen.clone(),
             family: study.arms[residual.family].name.clone(),
+            ends_held: residual.held,
+            stone_weight_n: residual.stone_weight,
             quantity: m.quantity.name(),
             tilt_deg: m.tilt.map(tidy_degrees),
             unit: unit(m.quantity),

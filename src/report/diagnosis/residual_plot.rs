@@ -1,4 +1,5 @@
-//! How the figure of all readings looks: their residuals against tilt, position, order of the tests and collapse angle.
+//! How the figure of all readings looks: their residuals against tilt, position, order of the tests, collapse
+//! angle, and what families differ in: how their ends are held, and how large their stones are.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -33,6 +34,8 @@ const POSITIONS: [(&str, &str); 5] = [
     ("displacement_mean", "mean"),
     ("displacement_centre_minus_ends", "difference"),
 ];
+/// How the ends of walls are held.
+const ENDS: [&str; 2] = ["free", "held"];
 
 /// What is drawn, at which scale.
 pub struct ResidualPlot<'r> {
@@ -46,7 +49,7 @@ pub struct ResidualPlot<'r> {
 /// A panel: what the readings are drawn against.
 struct Against {
     words: &'static str,
-    /// Labels of whole numbers, where they are positions.
+    /// Labels of whole numbers, where these are places that have names.
     labels: Vec<&'static str>,
     /// Whether specimens share places, and are spread about them.
     shared: bool,
@@ -116,7 +119,20 @@ impl<'r> ResidualPlot<'r> {
             against("place in the order of the tests", Vec::new(), &|r| r.order.map(f64::from)),
             against("measured collapse angle of the specimen (deg)", Vec::new(), &fell),
         ];
-        panels.into_iter().filter(|panel| !panel.points.is_empty()).collect()
+        // Where families do not differ in it there is nothing to see.
+        let across = [
+            Against {
+                shared: true,
+                ..against("ends of the walls", ENDS.to_vec(), &|r| Some(f64::from(u8::from(r.ends_held))))
+            },
+            Against {
+                shared: true,
+                ..against("weight of a stone (N), in the mean", Vec::new(), &|r| Some(r.stone_weight_n))
+            },
+        ];
+        let across =
+            across.into_iter().filter(|panel| panel.points.iter().any(|spot| spot.at != panel.points[0].at));
+        panels.into_iter().filter(|panel| !panel.points.is_empty()).chain(across).collect()
     }
 
     fn panel<DB: DrawingBackend>(&self, area: &DrawingArea<DB, Shift>, panel: &Against) -> Drawn<DB> {

@@ -350,13 +350,17 @@ fn figures_say_what_is_in_them_and_no_more() {
         "tilt of the reading (deg)",
         "place in the order of the tests",
         "difference",
+        "ends of the walls",
+        "weight of a stone (N), in the mean",
         "9 readings are not drawn",
     ] {
         assert!(residuals.contains(part), "no `{part}` in the figure");
     }
-    // Without an order and without a cause there are neither.
+    // Without an order and without a cause there are neither; nor is there what all are alike in.
     let mut bare = summary.clone();
-    bare.residuals.iter_mut().for_each(|reading| reading.order = None);
+    bare.residuals.iter_mut().for_each(|reading| {
+        (reading.order, reading.ends_held, reading.stone_weight_n) = (None, true, 60.0);
+    });
     let without = |family: &FamilyFigure| {
         let mut family = family.clone();
         family.causes.clear();
@@ -368,7 +372,10 @@ fn figures_say_what_is_in_them_and_no_more() {
     // A family may be called as the figure of all readings is.
     alone[1].family = "residuals".into();
     write_diagnosis(&bare, &alone, &place).unwrap();
-    assert!(!read(&place, "residuals.svg").contains("place in the order of the tests"));
+    let residuals = read(&place, "residuals.svg");
+    for part in ["place in the order of the tests", "ends of the walls", "weight of a stone"] {
+        assert!(!residuals.contains(part), "all are alike in `{part}`");
+    }
     let named = read(&place, "residuals.family.svg");
     assert!(named.contains("collapse angle") && !named.contains("if the cause is"));
     // Bounds alone leave nothing to draw.

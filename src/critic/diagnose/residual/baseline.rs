@@ -37,8 +37,7 @@ impl Baseline {
             grouped.entry((family, m.quantity, order_of_tilt(m))).or_default().push((place, m));
         }
         let readings = design.readings().enumerate();
-        let readings = readings
-            .map(|(place, (family, m))| Residual::new((family, m), place, &nested, world.is_random(family)));
+        let readings = readings.map(|(place, (family, m))| Residual::new((family, m), place, &nested, world));
         let groups = grouped.iter().filter_map(|((family, ..), members)| {
             GroupBase::new(*family, members, &nested, world.is_random(*family))
         });

@@ -5,6 +5,7 @@ use crate::critic::diagnose::design::Seen;
 use crate::critic::diagnose::residual::band::Band;
 use crate::critic::diagnose::residual::nested::Nested;
 use crate::critic::diagnose::residual::parts::Expected;
+use crate::critic::diagnose::world::World;
 use crate::study::Measurement;
 
 /// A reading and what the base model shows of it.
@@ -12,6 +13,10 @@ use crate::study::Measurement;
 pub struct Residual {
     /// Index of the family's arm.
     pub family: usize,
+    /// Whether the ends of its walls are held.
+    pub held: bool,
+    /// Weight of one of their stones as it is stated, in the mean over a wall (N).
+    pub stone_weight: f64,
     /// The reading.
     pub reading: Measurement,
     /// What was seen.
@@ -32,14 +37,17 @@ impl Residual {
         (family, reading): (usize, &Measurement),
         place: usize,
         nested: &Nested,
-        random: bool,
+        world: &World<'_>,
     ) -> Residual {
         let by_truth = nested.each(|shown| shown.values[place]);
         let standing = by_truth.concat();
-        let expected = Band::of(&standing)
-            .and_then(|band| Expected::of(&by_truth, error_of_mean(&[reading]), random, band));
+        let expected = Band::of(&standing).and_then(|band| {
+            Expected::of(&by_truth, error_of_mean(&[reading]), world.is_random(family), band)
+        });
         Residual {
             family,
+            held: world.is_held(family),
+            stone_weight: world.stone_weight(family),
             reading: reading.clone(),
             seen: Seen::Nothing,
             fallen: 1.0 - standing.len() as f64 / nested.count() as f64,
