@@ -45,8 +45,9 @@ fn judged(arguments: &Diagnose) -> Result<(), Failure> {
     summary.notes = notes;
     let file = arguments.measured.as_deref().unwrap_or(Path::new(MEASURED));
     summary.measured = stated.measured().map(|(_, sha256)| DataEntry::of(file, sha256));
-    let offered = critic::offers(&judge, &diagnosis.possible(), seed.wrapping_add(4 * SEEDS));
-    summary.advice = Advice::of(&test, &offered, &mechanisms);
+    let (possible, are_left) = diagnosis.possible();
+    let offered = critic::offers(&judge, &possible, seed.wrapping_add(4 * SEEDS));
+    summary.advice = Advice::of(&test, &offered, are_left, &mechanisms);
     if diagnosis.verdict != Verdict::NothingFound && !arguments.no_gain {
         let folds = Folds::new(&judge, Measuring::default(), seed.wrapping_add(3 * SEEDS));
         summary.gain = folds.gain(&measured).map(|gain| GainSummary::of(&gain, &study, &design, &mechanisms));

@@ -21,6 +21,9 @@ pub struct Advice {
     pub seen_in_part: Vec<PartEntry>,
     /// Measurements that would tell the possible causes apart, the most information per hour first; empty where nothing was found.
     pub next: Vec<NextEntry>,
+    /// Whether these tell apart the causes that nothing speaks against; or, where fewer than two are left, all that were looked at
+    /// closely.
+    pub next_of_those_left: bool,
 }
 
 /// From where on an effect is caught.
@@ -63,8 +66,8 @@ pub struct NextEntry {
 }
 
 impl Advice {
-    /// From the self-test and what was offered.
-    pub fn of(test: &SelfTest, offered: &[Offered], mechanisms: &[Described]) -> Advice {
+    /// From the self-test and what was offered, for causes that are left or for others.
+    pub fn of(test: &SelfTest, offered: &[Offered], are_left: bool, mechanisms: &[Described]) -> Advice {
         let names = |causes: Vec<usize>| causes.into_iter().map(|cause| mechanisms[cause].name).collect();
         let rows = || test.rows.iter().filter_map(|row| Some((row.cause?, row)));
         let unseen = rows().filter(|(_, row)| (row.all.found as f64) < SEEN * row.all.campaigns as f64);
@@ -99,6 +102,7 @@ impl Advice {
             caught: caught.collect(),
             seen_in_part: in_part.collect(),
             next: next.collect(),
+            next_of_those_left: are_left,
         }
     }
 
@@ -133,8 +137,12 @@ impl Advice {
             }
         }
         if let Some(first) = self.next.first() {
+            let open = match self.next_of_those_left {
+                true => "that are open",
+                false => "that were, should what speaks against the others be chance",
+            };
             text.push_str(&format!(
-                "\nNext measurement (expected information about the cause, of {} bit that are open; hours of two people, our estimate)\n",
+                "\nNext measurement (expected information about the cause, of {} bit {open}; hours of two people, our estimate)\n",
                 significant(first.of_bits, 2)
             ));
             for own in &self.next {
@@ -153,6 +161,7 @@ impl Advice {
 /// What an offer is, with displacements that are read finely to `fine` (m).
 fn words(offer: Offer, fine: f64) -> String {
     let fine = significant(fine * 1e3, 2);
+    let fine = fine.trim_end_matches('0');
     match offer {
         Offer::Weights => "weigh a specimen of every family, to 0.5 %".into(),
         Offer::FixedTarget => format!("read a target that does not move, to {fine} mm"),

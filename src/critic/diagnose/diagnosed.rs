@@ -254,17 +254,21 @@ mod tests {
             |cause: usize, guard: Option<f64>| LookedAt { cause, guard, evidence: 0.3, draws: Vec::new() };
         let wrong = Wrong { excess: BTreeMap::new(), joints: Vec::new(), distance: 0.0 };
         let causes = [(Some(3), 0.5), (Some(1), 0.3), (Some(2), 0.1), (None, 0.1)];
-        let ranked = Ranked::new(causes.to_vec(), 0.0, vec![1, 3]);
-        let diagnosis = Diagnosis {
+        let ranked = Ranked::new(causes.to_vec(), 0.0, vec![1, 2, 3]);
+        let mut diagnosis = Diagnosis {
             seeming: Seeming { wrong, ranked, p_value: 0.001, looks: [0.001; 3] },
-            // The likeliest does not fit, and the last is not in the set.
+            // The likeliest does not fit.
             looked_at: vec![looked_at(3, Some(0.0)), looked_at(1, Some(0.4)), looked_at(2, None)],
             pairs: Vec::new(),
             form: Vec::new(),
             verdict: Verdict::Unexplained,
         };
-        assert_eq!(diagnosis.possible(), [(0.3, Vec::new())]);
-        assert_eq!(diagnosis.left_open(), [1]);
+        assert_eq!(diagnosis.possible(), (vec![(0.3, Vec::new()), (0.1, Vec::new())], true));
+        assert_eq!(diagnosis.left_open(), [1, 2]);
+        // One is left: the others were perhaps excluded by chance.
+        diagnosis.looked_at[2].guard = Some(0.0);
+        let all = vec![(0.5, Vec::new()), (0.3, Vec::new()), (0.1, Vec::new())];
+        assert_eq!(diagnosis.possible(), (all, false));
     }
 
     #[test]

@@ -80,11 +80,15 @@ impl Diagnosis {
         self.looked_at.iter().find(|own| own.cause == cause)
     }
 
-    /// The causes that were looked at closely and that nothing [speaks against](Self::excluded), each with its probability and draws
-    /// of what is true under it.
-    pub fn possible(&self) -> Vec<(f64, Vec<Truth>)> {
+    /// The causes that the next measurement should tell apart, each with its probability and draws of what is true under it: those
+    /// that were looked at closely and that nothing [speaks against](Self::excluded); where fewer than two are left, all that were
+    /// looked at closely, as what speaks against them may be chance. And whether they are left.
+    pub fn possible(&self) -> (Vec<(f64, Vec<Truth>)>, bool) {
+        let left: Vec<&LookedAt<usize>> =
+            self.looked_at.iter().filter(|own| self.excluded(own.cause).is_none()).collect();
+        let are_left = left.len() >= 2;
+        let all = if are_left { left } else { self.looked_at.iter().collect() };
         let probability = |own: &LookedAt<usize>| self.seeming.ranked.probability(own.cause);
-        let open = self.looked_at.iter().filter(|own| self.excluded(own.cause).is_none());
-        open.map(|own| (probability(own), own.draws.clone())).collect()
+        (all.into_iter().map(|own| (probability(own), own.draws.clone())).collect(), are_left)
     }
 }

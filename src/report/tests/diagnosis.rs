@@ -6,8 +6,8 @@ use std::path::Path;
 
 use super::figure::folder;
 use crate::critic::{
-    Baseline, Caught, Contrast, Counted, Design, Diagnosis, Feature, LookedAt, Made, Ranked, Seeming,
-    SelfTest, SelfTestRow, Truth, Unused, Verdict, Wrong, base_curves, cause_curves, made,
+    Baseline, Caught, Contrast, Counted, Design, Diagnosis, Feature, LookedAt, Made, Offer, Offered, Ranked,
+    Seeming, SelfTest, SelfTestRow, Truth, Unused, Verdict, Wrong, base_curves, cause_curves, made,
 };
 use crate::report::Advice;
 use crate::report::diagnosis::{
@@ -165,7 +165,7 @@ fn every_cause_is_caught_seen_in_part_or_hardly_seen() {
     let from = Caught { parameter: 0, score: None, below: false };
     let rows = vec![row("creep", 90, Some(from)), row("joint_closure", 49, None), row("cohesion", 12, None)];
     let test = SelfTest { rows, nameless: [Counted::default(); 2] };
-    let advice = Advice::of(&test, &[], &made.mechanisms);
+    let advice = Advice::of(&test, &[], true, &made.mechanisms);
     let text = advice.text();
     for part in [
         "hardly see: cohesion\n",
@@ -176,6 +176,12 @@ fn every_cause_is_caught_seen_in_part_or_hardly_seen() {
         assert!(text.contains(part), "no `{part}` in {text}");
     }
     assert_eq!((advice.caught.len(), advice.seen_in_part.len()), (1, 1));
+    assert!(!text.contains("Next measurement"));
+    let offered = [Offered { offer: Offer::FixedTarget, hours: 0.5, fine: 1e-4, bits: 0.25, of: 0.5 }];
+    let said = |are_left| Advice::of(&test, &offered, are_left, &made.mechanisms).text();
+    let (left, excluded) = (said(true), said(false));
+    assert!(left.contains("0.25 bit in 0.50 h  read a target that does not move, to 0.1 mm\n"), "{left}");
+    assert!(left.contains("0.50 bit that are open;") && excluded.contains("be chance;"), "{excluded}");
 }
 
 #[test]
