@@ -139,7 +139,7 @@ impl Advice {
         if let Some(first) = self.next.first() {
             let open = match self.next_of_those_left {
                 true => "that are open",
-                false => "that were, should what speaks against the others be chance",
+                false => "that would be open if the verdict excludes the others by chance",
             };
             text.push_str(&format!(
                 "\nNext measurement (expected information about the cause, of {} bit {open}; hours of two people, our estimate)\n",

@@ -365,7 +365,7 @@ mod tests {
         let made = made();
         let world = made.world();
         let mut study = made.study.clone();
-        // Read finely at three points, and as the difference of the ends; fewer walls.
+        // One wall, read finely at three points.
         let of_family = |m: &Measurement| m.specimen.ends_with('1') && m.tilt.is_some();
         let pattern = study.measured.iter().find(|m| of_family(m)).expect("it is read").clone();
         let tilts = [4.0, 8.0].map(radians);

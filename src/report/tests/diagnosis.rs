@@ -181,7 +181,7 @@ fn every_cause_is_caught_seen_in_part_or_hardly_seen() {
     let said = |are_left| Advice::of(&test, &offered, are_left, &made.mechanisms).text();
     let (left, excluded) = (said(true), said(false));
     assert!(left.contains("0.25 bit in 0.50 h  read a target that does not move, to 0.1 mm\n"), "{left}");
-    assert!(left.contains("0.50 bit that are open;") && excluded.contains("be chance;"), "{excluded}");
+    assert!(left.contains("0.50 bit that are open;") && excluded.contains("by chance;"), "{excluded}");
 }
 
 #[test]
