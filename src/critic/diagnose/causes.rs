@@ -15,6 +15,11 @@ impl Causes {
         self.0.into_iter().flatten()
     }
 
+    /// The cause, if it is one alone.
+    pub(super) fn single(self) -> Option<usize> {
+        self.0[0].filter(|_| self.0[1].is_none())
+    }
+
     /// A number of its own, by which random streams are told apart: 0 for the base model.
     pub(super) fn number(self) -> u64 {
         self.each().fold(0, |number, cause| (number << 16) + 1 + cause as u64)

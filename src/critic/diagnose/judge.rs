@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use crate::critic::diagnose::alarm::Alarm;
+use crate::critic::diagnose::alike::Alike;
 use crate::critic::diagnose::design::{Campaign, Design};
 use crate::critic::diagnose::limits::Limits;
 use crate::critic::diagnose::ranking::{Ranked, Ranking};
@@ -37,6 +38,7 @@ pub struct Judge<'w> {
     /// The causes as it can tell them apart.
     pub ranking: Ranking,
     alarm: Alarm,
+    pub(super) alike: Alike,
 }
 
 /// What is seen of a campaign before any cause is looked at closely.
@@ -79,7 +81,7 @@ impl<'w> Judge<'w> {
         };
         let campaigns: Vec<(Wrong, Ranked)> = (0..effort.reference).into_par_iter().map(one).collect();
         let alarm = Alarm::of(&campaigns);
-        Some(Judge { world, design: design.clone(), reference, ranking, alarm })
+        Some(Judge { world, design: design.clone(), reference, ranking, alarm, alike: Alike::default() })
     }
 
     /// How a campaign seems.

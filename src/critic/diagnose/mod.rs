@@ -2,6 +2,7 @@
 
 mod across;
 mod alarm;
+mod alike;
 mod asked;
 mod causes;
 mod design;
