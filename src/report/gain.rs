@@ -24,6 +24,8 @@ pub struct GainSummary {
 pub struct GainedEntry {
     /// Readings scored.
     pub readings: usize,
+    /// Of these so many with a value: bounds have neither a CRPS nor an error.
+    pub valued: usize,
     /// Specimens that they were read on.
     pub specimens: usize,
     /// The base model.
@@ -34,10 +36,10 @@ pub struct GainedEntry {
     pub ceiling: ScoresEntry,
     /// Gain in the logarithm of the probability, per reading.
     pub log_score: GainEntry,
-    /// Gain in the continuous ranked probability score.
-    pub crps: GainEntry,
-    /// Gain in the root of the mean square error.
-    pub rmse: GainEntry,
+    /// Gain in the continuous ranked probability score; null where all are bounds.
+    pub crps: Option<GainEntry>,
+    /// Gain in the root of the mean square error; null where all are bounds.
+    pub rmse: Option<GainEntry>,
 }
 
 /// Scores of a model.
@@ -45,10 +47,10 @@ pub struct GainedEntry {
 pub struct ScoresEntry {
     /// Mean logarithm of the probability (or its density) given to a reading; large is good.
     pub log_score: f64,
-    /// Mean continuous ranked probability score; small is good.
-    pub crps: f64,
-    /// Root of the mean square error of the predicted means; small is good.
-    pub rmse: f64,
+    /// Mean continuous ranked probability score; small is good. Null where all are bounds.
+    pub crps: Option<f64>,
+    /// Root of the mean square error of the predicted means; small is good. Null where all are bounds.
+    pub rmse: Option<f64>,
 }
 
 /// A gain; above 0 is better.
@@ -56,7 +58,8 @@ pub struct ScoresEntry {
 pub struct GainEntry {
     /// The gain.
     pub value: f64,
-    /// 95 % interval; campaigns without any effect lie wholly above 0 in no more than one case in twenty.
+    /// 95 % interval; campaigns without any effect lie wholly above 0 in no more than one case in twenty. Nulls where all
+    /// specimens gain the same, as those of one path do: they do not tell how sure it is.
     pub interval: [f64; 2],
 }
 
@@ -157,6 +160,17 @@ impl ChoiceEntry {
 }
 
 impl GainEntry {
+    /// The gain with its interval, and what that shows.
+    fn text(&self) -> String {
+        let number = |x: f64| significant(x, 3);
+        match self.interval.map(number) {
+            [low, high] if self.interval.iter().all(|end| end.is_finite()) => {
+                format!("{} [{low}, {high}], {}", number(self.value), self.claim())
+            }
+            _ => format!("{}, how sure cannot be told: all specimens gain the same", number(self.value)),
+        }
+    }
+
     /// What its interval shows.
     fn claim(&self) -> &'static str {
         match self.interval {
@@ -169,35 +183,42 @@ impl GainEntry {
 
 impl GainedEntry {
     fn of(gained: &Gained) -> GainedEntry {
-        let scores = |s: &Scores| ScoresEntry { log_score: s.log, crps: s.crps, rmse: s.rms };
+        let is_valued = gained.valued > 0;
+        let scores = |s: &Scores| ScoresEntry {
+            log_score: s.log,
+            crps: is_valued.then_some(s.crps),
+            rmse: is_valued.then_some(s.rms),
+        };
         let gain = |i: &Interval| GainEntry { value: i.value, interval: i.ends };
         GainedEntry {
             readings: gained.readings,
+            valued: gained.valued,
             specimens: gained.specimens,
             base: scores(&gained.base),
             extended: scores(&gained.extended),
             ceiling: scores(&gained.ceiling),
             log_score: gain(&gained.gain[0]),
-            crps: gain(&gained.gain[1]),
-            rmse: gain(&gained.gain[2]),
+            crps: is_valued.then(|| gain(&gained.gain[1])),
+            rmse: is_valued.then(|| gain(&gained.gain[2])),
         }
     }
 
     fn text(&self, what: &str) -> String {
         let number = |x: f64| significant(x, 3);
-        let gain = |gain: &GainEntry| {
-            let [low, high] = gain.interval.map(number);
-            format!("{} [{low}, {high}], {}", number(gain.value), gain.claim())
+        let line = |name: &str, of: fn(&ScoresEntry) -> Option<f64>, own: Option<GainEntry>| {
+            let models = [&self.base, &self.extended, &self.ceiling].map(of);
+            let ([Some(base), Some(extended), Some(ceiling)], Some(gain)) = (models, own) else {
+                return String::new();
+            };
+            let [base, extended, ceiling] = [base, extended, ceiling].map(number);
+            format!("    {name:<22} base {base}, extended {extended}, ceiling {ceiling}: {}\n", gain.text())
         };
-        let line = |name: &str, of: fn(&ScoresEntry) -> f64, own: &GainEntry| {
-            let [base, extended, ceiling] =
-                [&self.base, &self.extended, &self.ceiling].map(|s| number(of(s)));
-            format!("    {name:<22} base {base}, extended {extended}, ceiling {ceiling}: {}\n", gain(own))
-        };
-        format!("  {what}: {} readings of {} specimens\n", self.readings, self.specimens)
-            + &line("log score per reading", |s| s.log_score, &self.log_score)
-            + &line("CRPS (sd)", |s| s.crps, &self.crps)
-            + &line("RMSE (sd)", |s| s.rmse, &self.rmse)
+        let bounds = self.readings - self.valued;
+        let bounds = if bounds > 0 { format!(" ({bounds} of them bounds)") } else { String::new() };
+        format!("  {what}: {} readings{bounds} of {} specimens\n", self.readings, self.specimens)
+            + &line("log score per reading", |s| Some(s.log_score), Some(self.log_score))
+            + &line("CRPS (sd)", |s| s.crps, self.crps)
+            + &line("RMSE (sd)", |s| s.rmse, self.rmse)
     }
 }
 
@@ -210,5 +231,30 @@ mod tests {
         let claims = [[0.1, 0.3], [-0.1, 0.3], [-0.3, -0.1]]
             .map(|interval| GainEntry { value: 0.5 * (interval[0] + interval[1]), interval }.claim());
         assert_eq!(claims, ["better", "no gain shown", "worse"]);
+    }
+
+    #[test]
+    fn what_was_not_scored_and_what_cannot_be_told_is_not_shown_as_a_number() {
+        let scores = Scores { log: -1.5, crps: 0.0, rms: 0.0 };
+        let sure = Interval { value: 0.5, ends: [0.25, 0.75] };
+        let gained = |valued, log| {
+            let gain = [log, Interval { value: 0.0, ends: [0.0; 2] }, sure];
+            let (readings, specimens) = (4, 2);
+            let all =
+                Gained { readings, valued, specimens, base: scores, extended: scores, ceiling: scores, gain };
+            GainedEntry::of(&all).text("one")
+        };
+        assert_eq!(
+            gained(0, sure),
+            "  one: 4 readings (4 of them bounds) of 2 specimens\n    log score per reading  base -1.50, extended -1.50, ceiling \
+             -1.50: 0.500 [0.250, 0.750], better\n"
+        );
+        let unsure = Interval { value: 0.5, ends: [f64::NEG_INFINITY, f64::INFINITY] };
+        let text = gained(4, unsure);
+        assert!(text.contains("one: 4 readings of 2") && text.contains("RMSE"), "{text}");
+        assert!(
+            text.contains("ceiling -1.50: 0.500, how sure cannot be told: all specimens gain the same\n"),
+            "{text}"
+        );
     }
 }

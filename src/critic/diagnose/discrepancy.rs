@@ -64,13 +64,13 @@ pub struct Discrepancy<'d> {
 /// The parts of a discrepancy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lacking {
-    /// Of readings as they are.
+    /// Of readings as they are, whatever the order of the tests.
     Level,
     /// Of the left end less the right one.
     Twist,
     /// Of the centre less the mean of the ends, where these were read each.
     Bow,
-    /// From each test to the next.
+    /// Of a reading from each test to the next.
     Drift,
 }
 
@@ -79,10 +79,9 @@ pub enum Lacking {
 pub struct Bent {
     /// Which part.
     pub part: Lacking,
-    /// Index of the family's arm; none where all families share it.
-    pub family: Option<usize>,
-    /// What was read; of a twist the left end's displacement, of a bow the centre's, of a drift the first quantity that was read of
-    /// its kind.
+    /// Index of the family's arm.
+    pub family: usize,
+    /// What was read; of a twist the left end's displacement, of a bow the centre's.
     pub quantity: MeasuredQuantity,
     /// At which tilt (rad); `None` where the quantity has none of its own.
     pub tilt: Option<f64>,
@@ -175,53 +174,67 @@ impl<'d> Discrepancy<'d> {
         .collect()
     }
 
-    /// The discrepancy itself: its level once for each family, quantity and tilt that was read, its twist once for each family and
-    /// tilt at which both ends were, its bow at which the centre and an end were, and its drift once for each kind of quantity where
-    /// the order of the tests is known.
+    /// The discrepancy itself: of each quantity once for each family and tilt that was read, its twist once for each at which both
+    /// ends were, its bow at which the centre and an end were; and of each kind of quantity its drift at the first reading, where the
+    /// order of the tests is known. A drift goes as the readings' standard deviations do, and so is another one at another reading.
     pub fn form(&self) -> Vec<Bent> {
         let mut form: Vec<Bent> = Vec::new();
         for (k, at) in self.all.iter().enumerate().filter(|(_, at)| at.seen != Seen::Beyond) {
-            let mut add = |part: Lacking, family: Option<usize>, tilt: Option<f64>, by: f64| {
-                let quantity = at.m.quantity;
+            let (family, quantity, tilt) = (at.family, at.m.quantity, at.m.tilt);
+            let beside = |is: fn(&At<'_>) -> bool| {
+                self.all.iter().position(|other| {
+                    other.seen != Seen::Beyond
+                        && (other.family, other.m.tilt) == (family, tilt)
+                        && kind(other.m.quantity) == kind(quantity)
+                        && is(other)
+                })
+            };
+            let mut add = |part: Lacking, of: &[(usize, f64)]| {
                 let told = |bent: &Bent| {
-                    let same = match part {
-                        Lacking::Drift => kind(bent.quantity) == kind(quantity),
-                        _ => bent.quantity == quantity,
-                    };
-                    (bent.part, bent.family, bent.tilt) == (part, family, tilt) && same
+                    let same = (bent.family, bent.tilt, bent.quantity) == (family, tilt, quantity);
+                    bent.part == part
+                        && (same || part == Lacking::Drift && kind(bent.quantity) == kind(quantity))
                 };
                 if !form.iter().any(told) {
-                    let (value, sd) = self.lacking(part, k);
-                    form.push(Bent { part, family, quantity, tilt, value: by * value, sd: by.abs() * sd });
+                    let (value, sd) =
+                        self.lacking(if part == Lacking::Drift { &PARTS[3..] } else { &PARTS[..3] }, of);
+                    form.push(Bent { part, family, quantity, tilt, value, sd });
                 }
             };
-            add(Lacking::Level, Some(at.family), at.m.tilt, 1.0);
-            let beside = |other: &At<'_>| {
-                (other.family, other.m.tilt) == (at.family, at.m.tilt)
-                    && kind(other.m.quantity) == kind(at.m.quantity)
-            };
-            let is_read = |place: &dyn Fn(&At<'_>) -> bool| {
-                self.all.iter().any(|other| other.seen != Seen::Beyond && beside(other) && place(other))
-            };
-            if at.side > 0.0 && is_read(&|other| other.side < 0.0) {
-                add(Lacking::Twist, Some(at.family), at.m.tilt, 2.0);
-            }
-            if at.bow > 0.0 && is_read(&|other| other.bow < 0.0) {
-                add(Lacking::Bow, Some(at.family), at.m.tilt, 1.5);
+            add(Lacking::Level, &[(k, 1.0)]);
+            let ends: Vec<usize> = [beside(|other| other.side > 0.0), beside(|other| other.side < 0.0)]
+                .into_iter()
+                .flatten()
+                .collect();
+            match ends[..] {
+                [_, right] if at.side > 0.0 => add(Lacking::Twist, &[(k, 1.0), (right, -1.0)]),
+                [_, ..] if at.bow > 0.0 => {
+                    let share = -1.0 / ends.len() as f64;
+                    let ends = ends.iter().map(|end| (*end, share));
+                    add(Lacking::Bow, &std::iter::once((k, 1.0)).chain(ends).collect::<Vec<_>>());
+                }
+                _ => {}
             }
             if at.order.abs() == 1.0 && self.half > 0.0 {
-                add(Lacking::Drift, None, None, at.order / self.half);
+                add(Lacking::Drift, &[(k, at.order / self.half)]);
             }
         }
         form
     }
 
-    /// A part of the discrepancy at a reading and its standard deviation (SI).
-    fn lacking(&self, part: Lacking, k: usize) -> (f64, f64) {
-        let (smooth, unit) = (&self.smooth[part as usize], self.all[k].unit);
-        let told = self.told(smooth, k) * self.variance;
-        let variance = (self.variance * smooth[(k, k)] - told.dot(&self.factored.solve(&told))).max(0.0);
-        (unit * told.dot(&self.weights), unit * variance.sqrt())
+    /// Some parts of the discrepancy together, summed over readings that each count so often, and the sum's standard deviation (SI).
+    fn lacking(&self, parts: &[Lacking], of: &[(usize, f64)]) -> (f64, f64) {
+        let of: Vec<(usize, f64)> = of.iter().map(|(k, times)| (*k, times * self.all[*k].unit)).collect();
+        let with = |other: usize| {
+            let one = |(k, times): &(usize, f64)| {
+                times * parts.iter().fold(0.0, |sum, part| sum + self.smooth[*part as usize][(*k, other)])
+            };
+            self.variance * of.iter().fold(0.0, |sum, own| sum + one(own))
+        };
+        let told = DVector::from_fn(self.known.len(), |j, _| with(self.known[j]));
+        let before = of.iter().fold(0.0, |sum, (k, times)| sum + times * with(*k));
+        let variance = (before - told.dot(&self.factored.solve(&told))).max(0.0);
+        (told.dot(&self.weights), variance.sqrt())
     }
 
     /// Covariances of a reading with those that are known.
@@ -277,6 +290,16 @@ mod tests {
         design: &Design,
         off: &dyn Fn(Option<u32>, MeasuredQuantity) -> f64,
     ) -> Vec<Bent> {
+        form_in(world, design, off, &|_| 2e-3)
+    }
+
+    /// The same, the base model's standard deviations of displacements (m) being these.
+    fn form_in(
+        world: &World<'_>,
+        design: &Design,
+        off: &dyn Fn(Option<u32>, MeasuredQuantity) -> f64,
+        unit: &dyn Fn(MeasuredQuantity) -> f64,
+    ) -> Vec<Bent> {
         let joints = vec![0.0; world.inputs(None)];
         let truth = world.truth(None, &joints);
         let mut campaign = world.campaign(design, &truth, &Streams::new(71, 1));
@@ -293,7 +316,9 @@ mod tests {
         let units: Vec<Vec<f64>> = design
             .specimens
             .iter()
-            .map(|s| s.readings.iter().map(|m| if m.tilt.is_some() { 2e-3 } else { 0.01 }).collect())
+            .map(|s| {
+                s.readings.iter().map(|m| if m.tilt.is_some() { unit(m.quantity) } else { 0.01 }).collect()
+            })
             .collect();
         Discrepancy::new(design, &campaign, &known, &base, &units).expect("readings").form()
     }
@@ -307,7 +332,7 @@ mod tests {
         let made = made();
         let (world, (design, _)) = (made.world(), Design::of(&made.study));
         let bent = form(&world, &design, &|_, _| 8e-3);
-        let own: Vec<&Bent> = bent.iter().filter(|b| b.family == Some(1) && b.tilt.is_some()).collect();
+        let own: Vec<&Bent> = bent.iter().filter(|b| b.family == 1 && b.tilt.is_some()).collect();
         assert!(!own.is_empty() && own.iter().copied().filter(sure).count() == own.len(), "{own:?}");
         // Three readings of 1.7 mm each, and what a smooth curve shrinks it by.
         assert!(own.iter().all(|b| (b.value - 8e-3).abs() < 3e-3), "{own:?}");
@@ -352,7 +377,7 @@ mod tests {
         let drifting = |order: Option<u32>, _| 2e-3 * (f64::from(order.expect("numbered")) - 4.0);
         let of = |bent: &[Bent], part: Lacking| -> Vec<Bent> {
             bent.iter()
-                .filter(|b| b.part == part && b.family.is_none_or(|family| family == 1))
+                .filter(|b| b.part == part && (b.family == 1 || part == Lacking::Drift))
                 .copied()
                 .collect()
         };
@@ -367,6 +392,21 @@ mod tests {
         assert!(bows.len() == twists.len() && bows.iter().filter(sure).count() == bows.len(), "{bows:?}");
         assert!(bows.iter().all(|b| (b.value - 9e-3).abs() < 2e-3 && b.quantity == points[1]), "{bows:?}");
         assert_eq!(of(&bent, Lacking::Twist).iter().filter(sure).count(), 0, "{bent:?}");
+        // Every line is about the readings that it names, however differently they vary.
+        let vary = |quantity: MeasuredQuantity| if quantity == points[1] { 3e-3 } else { 1e-3 };
+        for off in [[-3e-3, 6e-3, -3e-3], [5e-3, 1e-3, -3e-3]] {
+            let bent = form_in(&world, &design, &of_points(off), &vary);
+            for (k, point) in points.into_iter().enumerate() {
+                let levels = of(&bent, Lacking::Level);
+                let own: Vec<&Bent> = levels.iter().filter(|b| b.quantity == point).collect();
+                assert!(!own.is_empty() && own.iter().all(|b| (b.value - off[k]).abs() < 2e-3), "{own:?}");
+            }
+            let [twist, bow] = [off[0] - off[2], off[1] - 0.5 * (off[0] + off[2])];
+            for (part, wanted) in [(Lacking::Twist, twist), (Lacking::Bow, bow)] {
+                let own = of(&bent, part);
+                assert!(!own.is_empty() && own.iter().all(|b| (b.value - wanted).abs() < 3e-3), "{own:?}");
+            }
+        }
         let bent = form(&world, &design, &drifting);
         let drifts: Vec<Bent> = of(&bent, Lacking::Drift);
         // Of the displacements, and of the collapse angles.

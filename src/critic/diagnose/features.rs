@@ -122,8 +122,10 @@ impl Usual {
     /// From what campaigns of the base model show (SI).
     fn of(m: &Measurement, told: &[f64]) -> Usual {
         let largest = told.iter().fold(m.value.abs(), |largest, x| largest.max(x.abs()));
-        let floor = m.error.max(LEAST_SHARE * largest);
         let error = reading_variance(m).sqrt();
+        // What is rounded to nothing in all of them, without any other error, varies by its rounding.
+        let floor = m.error.max(LEAST_SHARE * largest);
+        let floor = if floor > 0.0 { floor } else { error.max(f64::MIN_POSITIVE) };
         let bend = error.max(LEAST_SHARE * largest).max(f64::MIN_POSITIVE);
         let counted: Vec<f64> = told.iter().map(|x| asinh(x / bend)).collect();
         let mean = stats::mean(&counted).unwrap_or_else(|| asinh(m.value / bend));
@@ -342,5 +344,24 @@ mod tests {
         assert!((usual.error / moved - 1.0).abs() < 1e-3, "{moved}");
         // In metres it varies as it does.
         assert!((usual.sd - stats::sigma(&told).expect("many")).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_reading_that_is_rounded_to_nothing_in_all_campaigns_varies_by_its_rounding() {
+        let made = made();
+        let (design, _) = Design::of(&made.study);
+        let m = Measurement {
+            value: 0.0,
+            error: 0.0,
+            resolution: 1e-3,
+            ..design.specimens[0].readings[0].clone()
+        };
+        let usual = Usual::of(&m, &[0.0; 300]);
+        let of = |value: f64| usual.scaled(Seen::Value(value), &m).expect("it is seen");
+        assert_eq!(of(0.0), 0.0);
+        assert!(of(1e-3) > 1.0 && of(1e-3) < 10.0 && usual.sd > 0.0, "{} {}", of(1e-3), usual.sd);
+        let exact =
+            Usual::of(&Measurement { resolution: 0.0, kind: MeasuredKind::Exact, ..m.clone() }, &[0.0; 300]);
+        assert_eq!(exact.scaled(Seen::Value(0.0), &m), Some(0.0));
     }
 }

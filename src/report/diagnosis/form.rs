@@ -13,11 +13,12 @@ const SURE: f64 = 2.0;
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct BentEntry {
     /// What it is: `level` of the readings as they are, `twist` of the left end less the right one, `bow` of the centre less the
-    /// mean of the ends, `drift` from each test to the next.
+    /// mean of the ends, `drift` of a reading from each test to the next, which all readings of a kind share by their standard
+    /// deviations.
     pub part: &'static str,
-    /// The arm; null where all share it.
-    pub family: Option<String>,
-    /// What was measured; of a twist that of the left end, of a bow that of the centre, of a drift the first quantity of its kind.
+    /// The arm.
+    pub family: String,
+    /// What was measured; of a twist that of the left end, of a bow that of the centre.
     pub quantity: &'static str,
     /// At which tilt; null where the quantity has none of its own.
     pub tilt_deg: Option<f64>,
@@ -41,7 +42,7 @@ impl BentEntry {
                 Lacking::Bow => "bow",
                 Lacking::Drift => "drift",
             },
-            family: bent.family.map(|family| study.arms[family].name.clone()),
+            family: study.arms[bent.family].name.clone(),
             quantity: bent.quantity.name(),
             tilt_deg: bent.tilt.map(tidy_degrees),
             unit: unit(bent.quantity),
@@ -60,15 +61,10 @@ impl BentEntry {
         let quantity = match (self.part, self.quantity) {
             ("twist", _) => "left end less right end".to_owned(),
             ("bow", _) => "centre less mean of the ends".to_owned(),
-            ("drift", "collapse_angle") => "collapse angles from each test to the next".to_owned(),
-            ("drift", quantity) if at(quantity) == "after" => {
-                "what is left from each test to the next".to_owned()
-            }
-            ("drift", _) => "displacements from each test to the next".to_owned(),
             (_, quantity) => quantity.replace('_', " "),
         };
-        let family = self.family.as_deref().unwrap_or("all families");
-        format!("{family}: {quantity}{tilt}: {} [{low}, {high}] {unit}", number(self.value))
+        let by = if self.part == "drift" { ", from each test to the next" } else { "" };
+        format!("{}: {quantity}{tilt}{by}: {} [{low}, {high}] {unit}", self.family, number(self.value))
     }
 }
 
@@ -77,14 +73,25 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_drift_is_told_by_what_drifts() {
-        let drift = |quantity| {
-            let (part, unit, interval) = ("drift", "m", [1e-3, 3e-3]);
-            BentEntry { part, family: None, quantity, tilt_deg: None, unit, value: 2e-3, interval }.sentence()
+    fn a_line_says_what_is_lacking_where() {
+        let line = |part, quantity| {
+            let (family, unit, interval) = ("SBL".to_owned(), "m", [1e-3, 3e-3]);
+            let tilt_deg = Some(10.0);
+            BentEntry { part, family, quantity, tilt_deg, unit, value: 2e-3, interval }.sentence()
         };
-        let all = ["displacement_left", "remainder_left"].map(drift);
-        let told = ["displacements", "what is left"]
-            .map(|what| format!("all families: {what} from each test to the next: 2.0 [1.0, 3.0] mm"));
-        assert_eq!(all, told);
+        let all = [
+            ("level", "displacement_left"),
+            ("twist", "displacement_left"),
+            ("bow", "remainder_centre"),
+            ("drift", "displacement_left"),
+        ];
+        let told = [
+            "displacement left at 10 deg",
+            "left end less right end at 10 deg",
+            "centre less mean of the ends after 10 deg",
+            "displacement left at 10 deg, from each test to the next",
+        ];
+        let told = told.map(|what| format!("SBL: {what}: 2.0 [1.0, 3.0] mm"));
+        assert_eq!(all.map(|(part, quantity)| line(part, quantity)), told);
     }
 }

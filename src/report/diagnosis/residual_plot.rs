@@ -95,7 +95,9 @@ impl<'r> ResidualPlot<'r> {
         };
         let fell = |r: &ResidualEntry| {
             let angle = |a: &&ResidualEntry| {
-                a.quantity == "collapse_angle" && (&a.specimen, &a.family) == (&r.specimen, &r.family)
+                a.quantity == "collapse_angle"
+                    && !a.kind.is_censored()
+                    && (&a.specimen, &a.family) == (&r.specimen, &r.family)
             };
             self.readings.iter().find(angle).map(|a| a.measured)
         };

@@ -69,9 +69,9 @@ pub(super) const OFF: &str =
 pub(super) const CAUSE: &str = "Probability if all were equally likely before, by how each one's campaigns look and by the evidence together. \
     Something else: random forms of what walls do and gauges show, which are no cause's. \
     Evidence: its share of that of the causes looked at closely, which knows every reading, and is too sure of itself to be taken alone. \
-    Guard: share of the cause's own campaigns that fit worse. A dash: not asked";
+    Guard: share of the cause's own campaigns that fit worse, in the worse of two looks and doubled for these. A dash: not asked";
 /// What the numbers of a form are.
-pub(super) const FORM: &str = "Form of what is not explained (measured less base model with fitted joints, if it is smooth over the tilt, or goes with the order of the tests)";
+pub(super) const FORM: &str = "Form of what is not explained (measured less base model with fitted joints, if it is smooth over the tilt, or goes with the order of the tests; in brackets 95 %, if these joints and its size were known)";
 
 /// What is said where nothing of it is sure.
 pub(super) const NO_FORM: &str = "none that is sure";

@@ -62,6 +62,8 @@ fn together(groups: &[GroupEntry]) -> Line {
     let tilts: Vec<String> = groups.iter().filter_map(|g| g.tilt_deg).map(|tilt| tilt.to_string()).collect();
     let (last, others) = tilts.split_last().map_or(("", &[][..]), |(last, others)| (last.as_str(), others));
     let least = groups.iter().filter_map(|group| group.p_value).fold(1.0, f64::min);
+    let agreeing = groups.iter().filter_map(|group| group.agreeing_share).reduce(f64::min);
+    let fallen = groups.iter().map(|group| group.fallen_share).fold(0.0, f64::max);
     Line {
         what: format!("{} {} {} and {last} deg", name(&groups[0]), at(groups[0].quantity), others.join(", ")),
         measured: from_to(groups, measured),
@@ -69,7 +71,8 @@ fn together(groups: &[GroupEntry]) -> Line {
         finding: match least < 1.0 {
             true => format!("agrees (p {} or more)", significant(least, 2)),
             false => "agrees".to_string(),
-        },
+        } + &agreeing.map_or_else(String::new, |share| kept(share, " or more"))
+            + &gone(fallen, "up to "),
     }
 }
 
@@ -134,13 +137,22 @@ fn finding(group: &GroupEntry) -> String {
         "within" => format!("agrees ({p})"),
         side => format!("{} ({sd}{p})", amount(group, simulated, side == "above")),
     };
-    if let Some(share) = group.agreeing_share {
-        finding.push_str(&format!("; {:.0} % of simulated readings keep the bound", 100.0 * share));
-    }
-    if group.fallen_share > FALLEN {
-        finding.push_str(&format!("; {:.0} % of the simulated walls had fallen", 100.0 * group.fallen_share));
-    }
+    finding.push_str(&group.agreeing_share.map_or_else(String::new, |share| kept(share, "")));
+    finding.push_str(&gone(group.fallen_share, ""));
     finding
+}
+
+/// How many simulated readings lie on the bound's side.
+fn kept(share: f64, or_more: &str) -> String {
+    format!("; {:.0} %{or_more} of simulated readings keep the bound", 100.0 * share)
+}
+
+/// How many simulated walls show nothing, where that is worth saying.
+fn gone(share: f64, up_to: &str) -> String {
+    match share > FALLEN {
+        true => format!("; {up_to}{:.0} % of the simulated walls had fallen", 100.0 * share),
+        false => String::new(),
+    }
 }
 
 /// By how much a mean is off: as a ratio where both are surely positive, else as a difference; of bounds neither.

@@ -257,6 +257,17 @@ fn tilts_that_all_agree_share_a_line_and_others_do_not() {
         "sbl: displacement mean at 5, 7.5 and 10 deg: 1.00 mm to 2.00 mm measured, 3.10 [2.00, 5.50] simulated: agrees (p 0.20 or \
          more)"
     );
+    // What is left of the walls, and of the bounds, is told where it is worst.
+    let worse = |tilt: f64, share: f64| GroupEntry {
+        agreeing_share: Some(share),
+        fallen_share: 1.0 - share,
+        ..at(tilt, "within")
+    };
+    let finding = &lines(&[worse(5.0, 0.9), worse(10.0, 0.3)])[0].finding;
+    assert_eq!(
+        finding,
+        "agrees (p 0.20 or more); 30 % or more of simulated readings keep the bound; up to 70 % of the simulated walls had fallen"
+    );
     let other = GroupEntry { family: "cbl".into(), ..at(5.0, "within") };
     let mixed = lines(&[other, at(5.0, "within"), at(7.5, "above"), at(10.0, "within")]);
     assert_eq!(mixed.len(), 4);

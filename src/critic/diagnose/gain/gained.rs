@@ -7,6 +7,8 @@ use crate::stats;
 
 /// Probability up to the upper end of a plain 95 % interval.
 const PLAIN: f64 = 0.975;
+/// Gains that differ by no more than this share of them are the same, but for rounding.
+const SAME: f64 = 1e-9;
 /// Share of the campaigns without any effect that may claim a gain.
 const CLAIMED: f64 = 0.05;
 
@@ -41,7 +43,7 @@ pub struct Scores {
 pub struct Interval {
     /// The gain.
     pub value: f64,
-    /// Lower and upper end.
+    /// Lower and upper end; infinite where specimens that all gain the same do not tell.
     pub ends: [f64; 2],
 }
 
@@ -50,6 +52,8 @@ pub struct Interval {
 pub struct Gained {
     /// Readings scored.
     pub readings: usize,
+    /// Of these so many with a value; all but the logarithm is of these.
+    pub valued: usize,
     /// Specimens that they were read on.
     pub specimens: usize,
     /// The base model.
@@ -139,7 +143,10 @@ impl<'r> Sampled<'r> {
                     .map_or(f64::INFINITY, |sigma| sigma * sigma * (n - 1.0) * (n - 1.0) / n);
                 sum + part
             });
-            [whole[k], variance.sqrt()]
+            // Specimens that all gain the same are one path that was read several times: they do not tell how sure it is.
+            let error = variance.sqrt();
+            let is_told = error > SAME * whole[k].abs() || whole[k] == 0.0;
+            [whole[k], if is_told { error } else { f64::INFINITY }]
         })
     }
 
@@ -168,6 +175,7 @@ pub fn gained(rows: &[Row], nulls: &[[[f64; 2]; 3]]) -> Option<Gained> {
     });
     Some(Gained {
         readings: rows.len(),
+        valued: rows.iter().filter(|row| row.base.crps.is_some()).count(),
         specimens: sampled.specimens(),
         base: sampled.scores(|row| row.base, None),
         extended: sampled.scores(|row| row.extended, None),

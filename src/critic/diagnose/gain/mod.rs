@@ -169,7 +169,7 @@ impl<'j, 'w> Folds<'j, 'w> {
             tilts: of(Kind::Tilts),
             families,
             choices,
-            nulls: self.measuring.nulls,
+            nulls: nulls.len() as u64,
         })
     }
 

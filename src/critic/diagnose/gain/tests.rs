@@ -145,9 +145,15 @@ fn what_families_differ_by_is_no_chance() {
     let found = error(&[&[&[0.3], &[0.5]], &[&[7.0], &[6.0], &[6.4], &[7.8]]]);
     let (near, far) = (sigma(&[0.3, 0.5]), sigma(&[7.0, 6.0, 6.4, 7.8]));
     assert!((found - (near * near / 18.0 + far * far / 9.0).sqrt()).abs() < 1e-12, "{found}");
-    // However many readings there are of each: where the specimens of a family are alike there is no chance.
-    let alike = error(&[&[&[10.0], &[10.0; 5]], &[&[0.0; 3], &[0.0; 3]]]);
-    assert!(alike < 1e-12, "{alike}");
+    // However many readings there are of each: where the specimens of a family are nearly alike there is hardly any chance.
+    let nearly = error(&[&[&[10.0], &[10.1; 5]], &[&[0.0; 3], &[0.1; 3]]]);
+    assert!(nearly > 0.0 && nearly < 0.1, "{nearly}");
+    // Where all are alike they tell nothing of it, but where nothing is gained.
+    let alike = rows(&[&[&[10.1], &[10.1; 5]], &[&[0.0; 3], &[0.0; 3]]]);
+    assert_eq!(estimates(&alike)[0][1], f64::INFINITY);
+    let [log, _, rms] = gained(&alike, &[]).expect("four specimens").gain;
+    assert!(log.value > 1.0 && log.ends == [f64::NEG_INFINITY, f64::INFINITY], "{log:?}");
+    assert_eq!((rms.value, rms.ends), (0.0, [0.0; 2]));
     // Two families of two leave two degrees of freedom.
     let four = gained(&rows(&[&[&[0.3], &[0.5]], &[&[7.0], &[6.0]]]), &[]).expect("four specimens");
     let reach = (four.gain[0].value - four.gain[0].ends[0]) / error(&[&[&[0.3], &[0.5]], &[&[7.0], &[6.0]]]);
