@@ -7,8 +7,11 @@ use pirca::ensemble::replace_file;
 use serde::de::DeserializeOwned;
 
 /// Where a run lies.
+#[derive(Clone)]
 pub struct Folders {
     pub out: PathBuf,
+    /// Whether all that is asked for must lie there already.
+    pub is_whole: bool,
 }
 
 impl Folders {
@@ -17,6 +20,17 @@ impl Folders {
         let folder = self.out.join(kind);
         fs::create_dir_all(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
         folder
+    }
+
+    /// Whether nothing is said yet in one of its folders of some of these.
+    pub fn lacks(&self, kind: &str, names: &[impl AsRef<str>]) -> bool {
+        let folder = self.of(kind);
+        names.iter().any(|name| !folder.join(format!("{}.json", name.as_ref())).exists())
+    }
+
+    /// Something is to be found out as it does not lie there.
+    pub fn lack(&self, what: &str) {
+        assert!(!self.is_whole, "{} lacks {what}", self.out.display());
     }
 }
 

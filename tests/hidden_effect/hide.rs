@@ -6,7 +6,7 @@ use std::fs;
 use pirca::study::{Study, nuisances};
 use rayon::prelude::*;
 
-use crate::folders::{Folders, told, write};
+use crate::folders::{Folders, read, told, write};
 use crate::sealed::Sealed;
 use crate::truth::campaign::campaign;
 use crate::truth::label::Label;
@@ -20,6 +20,18 @@ const ROUNDS: usize = 20;
 /// What a campaign's folder holds besides its data, when these are whole.
 const SEAL: &str = "seal.txt";
 
+/// Seals labels, in their order.
+pub fn seals(folders: &Folders, labels: &[Label], secret: &str) -> Vec<Sealed> {
+    let folder = folders.of("sealed");
+    let seal = |label: &Label| {
+        let own = Sealed::new(secret, serde_json::to_string(label).expect("a label has string keys only"));
+        let text = serde_json::to_string(&own).expect("two texts");
+        write(&folder.join(format!("{}.json", own.name())), &text);
+        own
+    };
+    labels.iter().map(seal).collect()
+}
+
 /// Seals labels, and solves what has neither been solved nor judged yet. Gives the names of the campaigns that could be solved, which
 /// tell nothing, in an order that tells nothing and is the same for every secret; and how many of each kind could not.
 pub fn hidden(
@@ -28,19 +40,18 @@ pub fn hidden(
     labels: &[Label],
     secret: &str,
 ) -> (Vec<String>, BTreeMap<String, u64>) {
-    let (sealed, verdicts) = (folders.of("sealed"), folders.of("verdicts"));
+    let (folder, verdicts) = (folders.of("sealed"), folders.of("verdicts"));
+    let seals = seals(folders, labels, secret);
     let solved: Vec<Option<(u64, String)>> = labels
         .par_iter()
-        .map(|label| {
-            let own =
-                Sealed::new(secret, serde_json::to_string(label).expect("a label has string keys only"));
+        .zip(&seals)
+        .map(|(label, own)| {
             let name = own.name();
-            let unsolved = sealed.join(format!("{name}.unsolved"));
+            let unsolved = folder.join(format!("{name}.unsolved"));
             if unsolved.exists() {
                 return None;
             }
-            write(&sealed.join(format!("{name}.json")), &serde_json::to_string(&own).expect("two texts"));
-            if !verdicts.join(format!("{name}.json")).exists() && !solve(folders, study, label, &own) {
+            if !verdicts.join(format!("{name}.json")).exists() && !solve(folders, study, label, own) {
                 write(&unsolved, &format!("{label:?}\n"));
                 return None;
             }
@@ -62,6 +73,7 @@ fn solve(folders: &Folders, study: &Study, label: &Label, sealed: &Sealed) -> bo
     if folder.join(SEAL).exists() {
         return true;
     }
+    folders.lack(&format!("what was said of {}, and so its data", sealed.name()));
     let nuisances = nuisances(&root("distributions")).unwrap_or_else(|lacks| panic!("{lacks}"));
     let Some(files) = campaign(study, &nuisances, label) else { return false };
     fs::create_dir_all(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
@@ -109,6 +121,8 @@ pub fn opened(folders: &Folders, name: &str) -> Label {
 
 fn unsealed(folders: &Folders, name: &str) -> (Sealed, Label) {
     let sealed: Sealed = told(&folders.of("sealed").join(format!("{name}.json")));
+    let seal = folders.of("campaigns").join(name).join(SEAL);
+    assert!(!seal.exists() || read(&seal) == sealed.seal(), "{} is of another label", seal.display());
     let label = sealed.opened(name).unwrap_or_else(|why| panic!("{why}"));
     let label = serde_json::from_str(label).unwrap_or_else(|error| panic!("{name}: {error}"));
     (sealed, label)

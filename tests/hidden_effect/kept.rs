@@ -36,7 +36,8 @@ const KEPT: [(u64, [Word; PLAIN.len()]); 8] = [
 
 #[test]
 fn what_was_said_of_some_campaigns_of_nine_walls_is_still_said() {
-    let folders = Folders { out: Path::new(env!("CARGO_TARGET_TMPDIR")).join("kept-campaigns") };
+    let folders =
+        Folders { out: Path::new(env!("CARGO_TARGET_TMPDIR")).join("kept-campaigns"), is_whole: false };
     if folders.out.exists() {
         // Verdicts of another day are not today's.
         fs::remove_dir_all(&folders.out).expect("the folder is the test's own");
@@ -72,7 +73,7 @@ fn goes_on_elsewhere(
     verdicts: &[Verdicts],
 ) {
     let (elsewhere, record) =
-        (Folders { out: folders.out.join("elsewhere") }, folders.out.join("record.parquet"));
+        (Folders { out: folders.out.join("elsewhere"), is_whole: false }, folders.out.join("record.parquet"));
     record::pack(&folders.out, &record);
     record::unpack(&record, &elsewhere.out);
     assert_eq!(hidden(&elsewhere, &loaded().study, labels, "kept").0, names);

@@ -15,7 +15,8 @@ pub fn csv(lines: &[Line]) -> String {
         let [hits, trials] = line.counts.map_or([None; 2], |counts| counts.map(|count| Some(count as f64)));
         let [low, high] = interval(line).or(line.between).map_or([None; 2], |interval| interval.map(Some));
         let cells = [hits, trials, line.value, low, high].map(number).join(",");
-        writeln!(text, "{},\"{}\",{},{cells}", line.design, line.group, line.measure).expect("text can grow");
+        writeln!(text, "{},\"{}\",\"{}\",{cells}", line.design, line.group, line.measure)
+            .expect("text can grow");
     }
     text
 }
@@ -60,4 +61,29 @@ fn cell(line: &Line) -> String {
 pub fn interval(line: &Line) -> Option<[f64; 2]> {
     let [hits, trials] = line.counts.filter(|[_, trials]| *trials > 0)?;
     Some(clopper_pearson(hits, trials))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_row_of_the_file_has_a_cell_for_every_column() {
+        let counts = Some([1, 2]);
+        let line = Line {
+            design: "rich",
+            group: "pairs, all".to_owned(),
+            measure: "one, or both",
+            counts,
+            value: Some(0.5),
+            between: None,
+        };
+        let text = csv(&[line]);
+        let rows: Vec<&str> = text.lines().collect();
+        // Commas between quotes part nothing.
+        let cells =
+            |row: &str| row.split('"').step_by(2).map(|part| part.matches(',').count()).sum::<usize>();
+        assert_eq!((cells(rows[0]), cells(rows[1])), (7, 7), "{text}");
+        assert!(rows[1].starts_with(r#"rich,"pairs, all","one, or both",1,2,0.5,"#), "{text}");
+    }
 }

@@ -13,18 +13,18 @@ use pirca::study::{Loaded, Measurement, Study};
 use rayon::prelude::*;
 
 use crate::folders::{Folders, begun_with, read, told, write};
-use crate::hide::{hidden_share, opened, solved_again};
+use crate::hide::{MASTER, hidden_share, opened, seals, solved_again};
 use crate::inference::{Gains, Judge, Known, Said, Word};
 use crate::printed;
 use crate::record;
-use crate::sealed;
+use crate::sealed::{self, Sealed};
 use crate::shift::shift;
 use crate::table::{self, Judged};
 use crate::truth::campaign::planned;
 use crate::truth::designs::Design;
 use crate::truth::label::{Group, Label};
 use crate::truth::readings::csv;
-use crate::truth::roster::{catalogue, root};
+use crate::truth::roster::{catalogue, root, roster};
 use crate::wanted;
 
 /// The variant of the study whose walls are hidden in: the dips of its stones are drawn in [-20, 20] deg.
@@ -32,7 +32,12 @@ const VARIANT: &str = "random-dips";
 /// The bank of its walls.
 pub const BANK: &str = "studies/hidden-effects/bank.parquet";
 /// What was said of the published run's campaigns.
-const RECORD: &str = "studies/hidden-effects/record.parquet";
+pub const RECORD: &str = "studies/hidden-effects/record.parquet";
+/// Files that tell what a run was begun with: the secret of its seals, and its bank's design.
+pub const SECRET: &str = "secret.txt";
+const DESIGN: &str = "design.txt";
+/// What the published table begins with, before the share of the full sizes that it is of.
+pub const SHARE: &str = "Share of the full sizes: ";
 /// Points of the bank.
 const POINTS: u64 = 120;
 /// Mechanisms are taken out of the catalogue, and gains are measured, in these designs: two stones add nothing that could be held
@@ -82,33 +87,29 @@ fn measured(path: &Path) -> Vec<Measurement> {
 
 /// The secret of a run: that of an earlier one if it is named, or one of its own.
 fn secret(folders: &Folders) -> String {
-    let (file, named) = ("secret.txt", env::var("HIDDEN_EFFECT_SECRET").ok());
-    let path = folders.of("sealed").join(file);
+    let named = env::var("HIDDEN_EFFECT_SECRET").ok();
+    let path = folders.of("sealed").join(SECRET);
     let now = named.unwrap_or_else(|| if path.exists() { read(&path) } else { sealed::secret() });
-    begun_with(folders, file, now)
-}
-
-/// The bank that a run is judged with.
-fn design(folders: &Folders, known: &Known) -> String {
-    begun_with(folders, "design.txt", known.plan.study.hash.clone())
+    begun_with(folders, SECRET, now)
 }
 
 /// The judges of what is known, one for each design, from the first time on that it is asked: by one thread alone, as what
 /// trains it hands out work to all threads, which would wait for it.
 pub struct Judges<'k> {
-    plans: PathBuf,
+    folders: Folders,
     known: &'k Known,
     made: [OnceLock<Judge<'k>>; Design::ALL.len()],
 }
 
 impl<'k> Judges<'k> {
     pub fn new(folders: &Folders, known: &'k Known) -> Judges<'k> {
-        Judges { plans: folders.of("planned"), known, made: [const { OnceLock::new() }; Design::ALL.len()] }
+        Judges { folders: folders.clone(), known, made: [const { OnceLock::new() }; Design::ALL.len()] }
     }
 
     fn of(&self, design: Design) -> &Judge<'k> {
         self.made[design as usize].get_or_init(|| {
-            let path = self.plans.join(format!("{}.csv", design.name()));
+            self.folders.lack(&format!("something that was said in {}", design.name()));
+            let path = self.folders.of("planned").join(format!("{}.csv", design.name()));
             write(&path, &csv(&planned(&self.known.study, design)));
             Judge::new(self.known, measured(&path))
         })
@@ -143,14 +144,11 @@ pub fn judged(
     names.iter().map(|name| told(&path(name))).collect()
 }
 
-/// Judges a few campaigns again that were judged before, if possible some in which something was named: the verdicts must be the same.
+/// Judges a few campaigns again that were judged before, if possible some in which something was named: what is said must be the same.
 fn judged_again(folders: &Folders, judges: &Judges<'_>, names: &[String]) {
     let verdicts = folders.of("verdicts");
     let path = |name: &String| verdicts.join(format!("{name}.json"));
     let mut before: Vec<String> = names.iter().filter(|name| path(name).exists()).cloned().collect();
-    if before.is_empty() || before.len() == names.len() {
-        return;
-    }
     let said = |name: &String| told::<Verdicts>(&path(name));
     let speaks = |name: &String| said(name).values().any(|said| said.verdict == Word::Named);
     before.sort_by_key(|name| !speaks(name));
@@ -161,16 +159,46 @@ fn judged_again(folders: &Folders, judges: &Judges<'_>, names: &[String]) {
         for (design, first) in said(name) {
             let again = &again[&design];
             assert!(
-                (again.verdict, &again.names) == (first.verdict, &first.names),
-                "{name}, {design}: another inference has said {first:?}, this one says {again:?}: verdicts of the two do not mix"
+                *again == first,
+                "{name}, {design}: another inference has said {first:?}, this one says {again:?}: what the two say does not mix"
             );
         }
     }
 }
 
-/// Measures what a design's extended models gain on campaigns, where it has not been measured yet.
-fn gains(folders: &Folders, judges: &Judges<'_>, design: Design, names: &[&String]) -> Vec<Gains> {
-    let (campaigns, gains) = (folders.of("campaigns"), folders.of(&format!("gains/{}", design.name())));
+/// Campaigns of a mechanism that are judged by who has never heard of it.
+struct Without {
+    mechanism: usize,
+    kind: String,
+    names: Vec<String>,
+    labels: Vec<Label>,
+}
+
+impl Without {
+    /// The first so many of all.
+    fn of(mechanism: usize, names: &[String], labels: &[Label], count: usize) -> Without {
+        let name = catalogue()[mechanism].name;
+        let own = |(_, label): &(_, &Label)| label.group == Group::Mechanism && label.hidden[0].name == name;
+        let all = names.iter().zip(labels).filter(own).take(count);
+        let (names, labels) = all.map(|(name, label)| (name.clone(), label.clone())).unzip();
+        Without { mechanism, kind: format!("verdicts-without/{name}"), names, labels }
+    }
+
+    fn judged(&self, folders: &Folders, known: &Known) -> Vec<(String, Judged)> {
+        let known = known.without(self.mechanism);
+        let verdicts = judged(folders, &self.kind, &Judges::new(folders, &known), &PLAIN, &self.names);
+        together(&self.names, &self.labels, verdicts)
+    }
+}
+
+/// Measures what a design's extended models gain on campaigns, where it has not been measured yet; `None` where all must lie there
+/// already, and do not.
+fn gains(folders: &Folders, judges: &Judges<'_>, design: Design, names: &[&String]) -> Option<Vec<Gains>> {
+    let kind = format!("gains/{}", design.name());
+    if folders.is_whole && folders.lacks(&kind, names) {
+        return None;
+    }
+    let (campaigns, gains) = (folders.of("campaigns"), folders.of(&kind));
     let path = |name: &String| gains.join(format!("{name}.json"));
     let open: Vec<&String> = names.iter().copied().filter(|name| !path(name).exists()).collect();
     solved_again(folders, &judges.known.study, &open);
@@ -182,18 +210,18 @@ fn gains(folders: &Folders, judges: &Judges<'_>, design: Design, names: &[&Strin
         let found = judges.of(design).gains(&measured(&file));
         write(&path(name), &record::json(&found));
     });
-    names.iter().map(|name| told(&path(name))).collect()
+    Some(names.iter().map(|name| told(&path(name))).collect())
 }
 
 /// Adds the gains of some of the campaigns of a design: those in which a mechanism was hidden and something was named, and those in
-/// which nothing was hidden, so many of either.
+/// which nothing was hidden, so many of either. `false` where none can be added.
 fn gained(
     folders: &Folders,
     judges: &Judges<'_>,
     design: Design,
     all: &mut [(String, Judged)],
     count: usize,
-) {
+) -> bool {
     let mut left = [count; 2];
     let mut asked: Vec<&mut (String, Judged)> = all
         .iter_mut()
@@ -209,8 +237,9 @@ fn gained(
         })
         .collect();
     let names: Vec<&String> = asked.iter().map(|(name, _)| name).collect();
-    let found = gains(folders, judges, design, &names);
+    let Some(found) = gains(folders, judges, design, &names) else { return false };
     asked.iter_mut().zip(found).for_each(|((_, judged), gains)| judged.gains = Some(gains));
+    true
 }
 
 /// Adds how far hidden mechanisms of our code move what a design sees.
@@ -245,71 +274,85 @@ fn together(names: &[String], labels: &[Label], verdicts: Vec<Verdicts>) -> Vec<
     .collect()
 }
 
+/// A table with its head, as text, and its numbers as a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Printed {
+    pub text: String,
+    pub csv: String,
+}
+
+/// Where the table is published.
+pub const TABLES: [&str; 2] = ["studies/hidden-effects/table.md", "studies/hidden-effects/table.csv"];
+
 #[test]
 #[ignore = "the sealed test: hours; see studies/hidden-effects"]
 fn hidden_effect_campaigns_are_sealed_judged_and_opened() {
-    let folders = Folders { out: path("HIDDEN_EFFECT_OUT", "runs/hidden-effects") };
+    let folders = Folders { out: path("HIDDEN_EFFECT_OUT", "runs/hidden-effects"), is_whole: false };
     let record = path("HIDDEN_EFFECT_RECORD", RECORD);
     record::unpack(&record, &folders.out);
     let known = known(&path("HIDDEN_EFFECT_BANK", BANK));
-    let (share, secret, design) = (share(), secret(&folders), design(&folders, &known));
+    let (share, secret) = (share(), secret(&folders));
+    begun_with(&folders, DESIGN, known.plan.study.hash.clone());
+    let judges = Judges::new(&folders, &known);
+    let seals = seals(&folders, &roster(share, MASTER, &BTreeMap::new()), &secret);
+    judged_again(&folders, &judges, &seals.iter().map(Sealed::name).collect::<Vec<_>>());
     // What a run that was stopped has left.
     record::pack(&folders.out, &record);
-    let (names, unsolved) = hidden_share(&folders, &known.study, share, &secret);
-    let judges = Judges::new(&folders, &known);
-    judged_again(&folders, &judges, &names);
-    let verdicts = judged(&folders, "verdicts", &judges, &Design::ALL, &names);
+    stages(&folders, &judges, share, &secret, &mut |printed| {
+        record::pack(&folders.out, &record);
+        for (path, text) in TABLES.iter().zip([&printed.text, &printed.csv]) {
+            write(&root(path), text);
+        }
+    });
+}
+
+/// Leads through the stages. What comes of them is told again and again: each takes long.
+pub fn stages(
+    folders: &Folders,
+    judges: &Judges<'_>,
+    share: f64,
+    secret: &str,
+    tell: &mut dyn FnMut(&Printed),
+) {
+    let known = judges.known;
+    let (names, unsolved) = hidden_share(folders, &known.study, share, secret);
+    let verdicts = judged(folders, "verdicts", judges, &Design::ALL, &names);
     // All verdicts are written: the labels may be opened.
-    let labels: Vec<Label> = names.iter().map(|name| opened(&folders, name)).collect();
+    let labels: Vec<Label> = names.iter().map(|name| opened(folders, name)).collect();
     let mut all_judged = together(&names, &labels, verdicts);
     let unsolved: Vec<String> = unsolved.iter().map(|(kind, count)| format!("{kind} {count}")).collect();
     let head = format!(
-        "Share of the full sizes: {share}. Campaigns judged: {}; not solved, and others drawn in their place: {}. Bank: {POINTS} \
-         points, design {}. Secret of the seals: {}.\n\nWhat is as wanted is in bold; the README says how to read it.\n",
+        "{SHARE}{share}. Campaigns judged: {}; not solved, and others drawn in their place: {}. Bank: {POINTS} \
+         points, design {}. Secret of the seals: {secret}.\n\nWhat is as wanted is in bold; the README says how to read it.\n",
         names.len(),
         unsolved.join(", "),
-        &design[..12],
-        secret
+        &known.plan.study.hash[..12],
     );
-    let results = root("studies/hidden-effects");
-    let published = |all: &[(String, Judged)], removed: &[(String, Judged)]| {
-        record::pack(&folders.out, &record);
+    let mut tell = |all: &[(String, Judged)], removed: &[(String, Judged)]| {
         let [all, removed] =
             [all, removed].map(|some| some.iter().map(|(_, judged)| judged.clone()).collect::<Vec<_>>());
         let table = table::of(&all, &removed);
-        write(&results.join("table.csv"), &printed::csv(&table));
         let text =
             format!("{head}\n{}\n## All lines\n\n{}", wanted::markdown(&table), printed::markdown(&table));
-        write(&results.join("table.md"), &text);
+        tell(&Printed { text, csv: printed::csv(&table) });
     };
     for design in Design::ALL {
-        shifted(&folders, &judges, design, &mut all_judged);
+        shifted(folders, judges, design, &mut all_judged);
     }
-    // Mechanisms taken out of the catalogue, and gains, take as long again each: the rest is published before.
-    published(&all_judged, &[]);
+    // Mechanisms taken out of the catalogue, and gains, take as long again each: the rest is told before.
+    tell(&all_judged, &[]);
     let some = |full: f64| ((full * share).round() as usize).max(1);
-    let removed: Vec<(String, Judged)> = catalogue()
-        .iter()
-        .enumerate()
-        .flat_map(|(index, mechanism)| {
-            let own =
-                |label: &&Label| label.group == Group::Mechanism && label.hidden[0].name == mechanism.name;
-            let (names, labels): (Vec<String>, Vec<Label>) = names
-                .iter()
-                .cloned()
-                .zip(labels.iter().cloned())
-                .filter(|(_, label)| own(&label))
-                .take(some(WITHOUT))
-                .unzip();
-            let kind = format!("verdicts-without/{}", mechanism.name);
-            let known = known.without(index);
-            let verdicts = judged(&folders, &kind, &Judges::new(&folders, &known), &PLAIN, &names);
-            together(&names, &labels, verdicts)
-        })
-        .collect();
-    published(&all_judged, &removed);
+    let removed: Vec<Without> =
+        (0..catalogue().len()).map(|index| Without::of(index, &names, &labels, some(WITHOUT))).collect();
+    if folders.is_whole && removed.iter().any(|own| folders.lacks(&own.kind, &own.names)) {
+        return;
+    }
+    let removed: Vec<(String, Judged)> =
+        removed.into_iter().flat_map(|own| own.judged(folders, known)).collect();
+    tell(&all_judged, &removed);
     for design in PLAIN {
-        gained(&folders, &judges, design, &mut all_judged, some(GAINS));
-        published(&all_judged, &removed);
+        if gained(folders, judges, design, &mut all_judged, some(GAINS)) {
+            tell(&all_judged, &removed);
+        }
     }
 }

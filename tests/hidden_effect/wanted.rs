@@ -37,6 +37,7 @@ const WANTED: &[(&str, &str, &str, Option<Bounds>)] = &[
         "a name given is right",
         alike(AtLeast, 0.95, 0.97),
     ),
+    ("the same in all groups, as large as they are", "all groups", "a name given is right", None),
     (
         "strong effects named",
         "mechanism, strong",

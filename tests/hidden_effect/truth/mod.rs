@@ -1,7 +1,7 @@
 //! The truth: campaigns of walls with something hidden in them. Nothing here knows how they are judged.
 
 pub mod campaign;
-mod decoys;
+pub mod decoys;
 pub mod designs;
 mod effect;
 pub mod label;

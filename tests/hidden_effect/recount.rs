@@ -1,0 +1,32 @@
+//! The published table is what the record says, counted anew.
+
+use std::fs;
+use std::path::Path;
+
+use crate::folders::{Folders, read};
+use crate::record;
+use crate::run::{BANK, Judges, Printed, RECORD, SECRET, SHARE, TABLES, known, stages};
+use crate::truth::roster::root;
+
+#[test]
+fn the_published_table_is_what_the_record_says() {
+    let folders = Folders { out: Path::new(env!("CARGO_TARGET_TMPDIR")).join("recount"), is_whole: true };
+    if folders.out.exists() {
+        fs::remove_dir_all(&folders.out).expect("the folder is the test's own");
+    }
+    record::unpack(&root(RECORD), &folders.out);
+    let [text, csv] = TABLES.map(|path| read(&root(path)));
+    let share = text.strip_prefix(SHARE).and_then(|text| text.split(". ").next()?.parse().ok());
+    let share = share.unwrap_or_else(|| panic!("{} begins with its share", TABLES[0]));
+    let secret = read(&folders.of("sealed").join(SECRET));
+    let mut counted = None;
+    let known = known(&root(BANK));
+    stages(&folders, &Judges::new(&folders, &known), share, &secret, &mut |printed| {
+        counted = Some(printed.clone())
+    });
+    let (counted, published) = (counted.expect("it is told"), Printed { text, csv });
+    for (own, other) in [(&counted.text, &published.text), (&counted.csv, &published.csv)] {
+        own.lines().zip(other.lines()).for_each(|(own, other)| assert_eq!(own, other));
+    }
+    assert_eq!(counted, published);
+}
