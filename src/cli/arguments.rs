@@ -299,6 +299,9 @@ pub(crate) struct Bank {
     /// many with nothing hidden; 100 of each are judged by how they seem.
     #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u64).range(0..=20))]
     pub judged: u64,
+    /// Seed of the self-test instead of the study's: that of the diagnoses which it is kept for. The walls keep the study's.
+    #[arg(long, value_name = "S")]
+    pub seed: Option<u64>,
     /// Worker threads [default: one per processor]. No result depends on their number.
     #[arg(long, value_name = "T")]
     pub threads: Option<NonZero<usize>>,

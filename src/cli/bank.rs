@@ -37,10 +37,11 @@ fn made(arguments: &Bank) -> Result<(), Failure> {
     let walls = bank.paths.len();
     let mut said = format!("{walls} walls, {told} with a path to their collapse, in {}\n", out.display());
     // Few points make a bank that may grow, and nothing to judge by.
+    let seed = arguments.seed.unwrap_or(study.seed);
     if let Ok(world) = judge::world(&study, &mechanisms, &nuisances, &plan, &bank)
-        && let Ok(judge) = judge::judge(&world, &Design::of(&study).0, study.seed)
+        && let Ok(judge) = judge::judge(&world, &Design::of(&study).0, seed)
     {
-        judge::keep_self_test(&judge, &plan, study.seed, &out, arguments.judged)?;
+        judge::keep_self_test(&judge, &plan, seed, &out, arguments.judged)?;
         said.push_str(&foretold(&world));
     }
     output::print(&said)

@@ -2,7 +2,7 @@
 //! caught.
 
 use crate::critic::{CAUGHT, Offer, Offered, SelfTest};
-use crate::report::number::significant;
+use crate::report::number::{significant, with_interval};
 use crate::study::Described;
 
 /// A cause that is found in fewer of its campaigns than this is not seen at all.
@@ -15,7 +15,7 @@ pub struct Advice {
     pub look_alike: Vec<Vec<&'static str>>,
     /// Causes that data like these see in less than a fifth of cases.
     pub not_seen: Vec<&'static str>,
-    /// The smallest effects that data like these catch four times in five.
+    /// The smallest effects that data like these catch four times in five; a cause that goes both ways may have two.
     pub caught: Vec<CaughtEntry>,
     /// Causes that they see, but at no strength of one parameter so often.
     pub seen_in_part: Vec<PartEntry>,
@@ -61,6 +61,8 @@ pub struct NextEntry {
     pub hours: f64,
     /// Expected information about the cause (bit).
     pub bits: f64,
+    /// Its 95 % interval, of the campaigns that it was counted on.
+    pub interval: [f64; 2],
     /// What is not known of the cause before (bit).
     pub of_bits: f64,
 }
@@ -71,19 +73,20 @@ impl Advice {
         let names = |causes: Vec<usize>| causes.into_iter().map(|cause| mechanisms[cause].name).collect();
         let rows = || test.rows.iter().filter_map(|row| Some((row.cause?, row)));
         let unseen = rows().filter(|(_, row)| (row.all.found as f64) < SEEN * row.all.campaigns as f64);
-        let caught = rows().filter_map(|(cause, row)| {
-            let (mechanism, caught) = (&mechanisms[cause], row.caught?);
+        let caught = rows().flat_map(|(cause, row)| row.caught.iter().map(move |own| (cause, own)));
+        let caught = caught.map(|(cause, caught)| {
+            let mechanism = &mechanisms[cause];
             let parameter = &mechanism.parameters[caught.parameter];
-            Some(CaughtEntry {
+            CaughtEntry {
                 cause: mechanism.name,
                 parameter: parameter.key,
                 unit: parameter.unit,
                 value: caught.score.map(|score| parameter.prior.at_score(score)),
                 below: caught.below,
-            })
+            }
         });
         let in_part = rows().filter(|(_, row)| {
-            row.caught.is_none() && row.all.found as f64 >= SEEN * row.all.campaigns as f64
+            row.caught.is_empty() && row.all.found as f64 >= SEEN * row.all.campaigns as f64
         });
         let in_part = in_part.map(|(cause, row)| PartEntry {
             cause: mechanisms[cause].name,
@@ -94,6 +97,7 @@ impl Advice {
             what: words(own.offer, own.fine),
             hours: own.hours,
             bits: own.bits,
+            interval: own.interval,
             of_bits: own.of,
         });
         Advice {
@@ -142,13 +146,13 @@ impl Advice {
                 false => "that would be open if the verdict excludes the others by chance",
             };
             text.push_str(&format!(
-                "\nNext measurement (expected information about the cause, of {} bit {open}; hours of two people, our estimate)\n",
+                "\nNext measurement (expected information about the cause, of {} bit {open}, with 95 % intervals; hours of two people, our estimate)\n",
                 significant(first.of_bits, 2)
             ));
             for own in &self.next {
-                let bits = significant(own.bits, 2);
+                let bits = with_interval(Some(own.bits), Some(own.interval), 2);
                 text.push_str(&format!(
-                    "  {bits:>6} bit in {:>4} h  {}\n",
+                    "  {bits:<19} bit in {:>4} h  {}\n",
                     significant(own.hours, 2),
                     own.what
                 ));

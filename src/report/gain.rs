@@ -1,7 +1,7 @@
 //! What the extended model gains on readings that it has not seen, in the units and words of files.
 
 use crate::critic::{Design, Gain, Gained, HeldOut, Interval, Scores};
-use crate::report::number::significant;
+use crate::report::number::{significant, with_interval};
 use crate::study::{Described, Study};
 
 /// The gain.
@@ -40,6 +40,12 @@ pub struct GainedEntry {
     pub crps: Option<GainEntry>,
     /// Gain in the root of the mean square error; null where all are bounds.
     pub rmse: Option<GainEntry>,
+    /// What the free discrepancy gains, each as above; no cause is chosen for it, and its intervals are plain ones.
+    pub ceiling_log_score: GainEntry,
+    /// The same in the continuous ranked probability score.
+    pub ceiling_crps: Option<GainEntry>,
+    /// The same in the root of the mean square error.
+    pub ceiling_rmse: Option<GainEntry>,
 }
 
 /// Scores of a model.
@@ -162,13 +168,23 @@ impl ChoiceEntry {
 impl GainEntry {
     /// The gain with its interval, and what that shows.
     fn text(&self) -> String {
-        let number = |x: f64| significant(x, 3);
-        match self.interval.map(number) {
-            [low, high] if self.interval.iter().all(|end| end.is_finite()) => {
-                format!("{} [{low}, {high}], {}", number(self.value), self.claim())
-            }
-            _ => format!("{}, how sure cannot be told: all specimens gain the same", number(self.value)),
+        match self.told() {
+            Some(_) => format!("{}, {}", self.number(), self.claim()),
+            None => format!(
+                "{}, how sure cannot be told: all specimens gain the same",
+                significant(self.value, 3)
+            ),
         }
+    }
+
+    /// The gain with its interval.
+    fn number(&self) -> String {
+        with_interval(Some(self.value), self.told(), 3)
+    }
+
+    /// The interval, where there is one.
+    fn told(&self) -> Option<[f64; 2]> {
+        Some(self.interval).filter(|ends| ends.iter().all(|end| end.is_finite()))
     }
 
     /// What its interval shows.
@@ -200,25 +216,34 @@ impl GainedEntry {
             log_score: gain(&gained.gain[0]),
             crps: is_valued.then(|| gain(&gained.gain[1])),
             rmse: is_valued.then(|| gain(&gained.gain[2])),
+            ceiling_log_score: gain(&gained.ceiling_gain[0]),
+            ceiling_crps: is_valued.then(|| gain(&gained.ceiling_gain[1])),
+            ceiling_rmse: is_valued.then(|| gain(&gained.ceiling_gain[2])),
         }
     }
 
     fn text(&self, what: &str) -> String {
         let number = |x: f64| significant(x, 3);
-        let line = |name: &str, of: fn(&ScoresEntry) -> Option<f64>, own: Option<GainEntry>| {
+        let line = |name: &str, of: fn(&ScoresEntry) -> Option<f64>, gains: [Option<GainEntry>; 2]| {
             let models = [&self.base, &self.extended, &self.ceiling].map(of);
-            let ([Some(base), Some(extended), Some(ceiling)], Some(gain)) = (models, own) else {
+            let ([Some(base), Some(extended), Some(ceiling)], [Some(own), Some(most)]) = (models, gains)
+            else {
                 return String::new();
             };
             let [base, extended, ceiling] = [base, extended, ceiling].map(number);
-            format!("    {name:<22} base {base}, extended {extended}, ceiling {ceiling}: {}\n", gain.text())
+            let (own, most) = (own.text(), most.number());
+            format!("    {name:<22} base {base}; extended {extended}: {own}; ceiling {ceiling}: {most}\n")
         };
         let bounds = self.readings - self.valued;
         let bounds = if bounds > 0 { format!(" ({bounds} of them bounds)") } else { String::new() };
         format!("  {what}: {} readings{bounds} of {} specimens\n", self.readings, self.specimens)
-            + &line("log score per reading", |s| Some(s.log_score), Some(self.log_score))
-            + &line("CRPS (sd)", |s| s.crps, self.crps)
-            + &line("RMSE (sd)", |s| s.rmse, self.rmse)
+            + &line(
+                "log score per reading",
+                |s| Some(s.log_score),
+                [self.log_score, self.ceiling_log_score].map(Some),
+            )
+            + &line("CRPS (sd)", |s| s.crps, [self.crps, self.ceiling_crps])
+            + &line("RMSE (sd)", |s| s.rmse, [self.rmse, self.ceiling_rmse])
     }
 }
 
@@ -239,21 +264,23 @@ mod tests {
         let sure = Interval { value: 0.5, ends: [0.25, 0.75] };
         let gained = |valued, log| {
             let gain = [log, Interval { value: 0.0, ends: [0.0; 2] }, sure];
-            let (readings, specimens) = (4, 2);
-            let all =
-                Gained { readings, valued, specimens, base: scores, extended: scores, ceiling: scores, gain };
+            let (readings, specimens, base) = (4, 2, scores);
+            let (extended, ceiling, ceiling_gain) = (base, Scores { log: -1.0, ..base }, gain);
+            let all = Gained { readings, valued, specimens, base, extended, ceiling, gain, ceiling_gain };
             GainedEntry::of(&all).text("one")
         };
         assert_eq!(
             gained(0, sure),
-            "  one: 4 readings (4 of them bounds) of 2 specimens\n    log score per reading  base -1.50, extended -1.50, ceiling \
-             -1.50: 0.500 [0.250, 0.750], better\n"
+            "  one: 4 readings (4 of them bounds) of 2 specimens\n    log score per reading  base -1.50; extended -1.50: 0.500 [0.250, \
+             0.750], better; ceiling -1.00: 0.500 [0.250, 0.750]\n"
         );
         let unsure = Interval { value: 0.5, ends: [f64::NEG_INFINITY, f64::INFINITY] };
         let text = gained(4, unsure);
         assert!(text.contains("one: 4 readings of 2") && text.contains("RMSE"), "{text}");
         assert!(
-            text.contains("ceiling -1.50: 0.500, how sure cannot be told: all specimens gain the same\n"),
+            text.contains(
+                "extended -1.50: 0.500, how sure cannot be told: all specimens gain the same; ceiling -1.00: 0.500 [-]\n"
+            ),
             "{text}"
         );
     }

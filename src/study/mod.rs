@@ -47,7 +47,7 @@ pub use mechanism::{
 pub use nuisance::{NUISANCES, Nuisance, nuisances};
 pub use reference::key_reference;
 pub use stated::{Settings, Stated, WrittenVariant};
-pub use strength::Switched;
+pub use strength::{Stronger, Switched};
 
 #[cfg(test)]
 mod tests;

@@ -30,6 +30,27 @@ const STRONGER_BELOW: [(&str, &str); 11] = [
     ("platform_friction", "phi_deg"),
 ];
 
+/// Parameters that have no effect somewhere between the ends of their priors.
+const EITHER_WAY: [(&str, &str); 6] = [
+    ("friction", "factor"),
+    ("lean", "angle_deg"),
+    ("size_scatter", "factor"),
+    ("density", "factor"),
+    ("gauge_offset", "offset_m"),
+    ("gauge_scale", "factor"),
+];
+
+/// Where a mechanism is the stronger.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stronger {
+    /// At large values of a parameter.
+    Above,
+    /// At small ones.
+    Below,
+    /// At both, as it has no effect in between.
+    EitherWay,
+}
+
 /// A study with a mechanism switched on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Switched {
@@ -40,6 +61,16 @@ pub struct Switched {
 }
 
 impl Described {
+    /// Where it is the stronger, over a parameter.
+    pub fn stronger(&self, key: &str) -> Stronger {
+        let own = (self.name, key);
+        match (EITHER_WAY.contains(&own), STRONGER_BELOW.contains(&own)) {
+            (true, _) => Stronger::EitherWay,
+            (false, true) => Stronger::Below,
+            (false, false) => Stronger::Above,
+        }
+    }
+
     /// Its parameters at one strength, by key and in the key's unit: each at that quantile of its prior, counted from the end
     /// at which the mechanism is weak. Several parameters go together: their mechanism is rarer than one of them.
     pub fn at_strength(&self, quantile: f64) -> Vec<(&'static str, f64)> {
@@ -247,8 +278,23 @@ mod tests {
     }
 
     #[test]
-    fn every_parameter_that_works_downwards_is_one_of_the_keys() {
-        for (mechanism, key) in STRONGER_BELOW {
+    fn a_parameter_that_works_either_way_has_no_effect_within_its_prior() {
+        let distributions = Path::new(env!("CARGO_MANIFEST_DIR")).join("distributions");
+        let all = described(&distributions).unwrap_or_else(|lacks| panic!("{lacks}"));
+        let mut both = 0;
+        for (mechanism, p) in all.iter().flat_map(|m| m.parameters.iter().map(move |p| (m, p))) {
+            let none = if p.unit == "1" { 1.0 } else { 0.0 };
+            let is_within = (0.02..0.98).contains(&p.prior.cdf(none));
+            let either = mechanism.stronger(p.key) == Stronger::EitherWay;
+            assert_eq!(either, is_within, "{}.{}", mechanism.name, p.key);
+            both += usize::from(either);
+        }
+        assert_eq!(both, EITHER_WAY.len());
+    }
+
+    #[test]
+    fn every_parameter_that_works_downwards_or_either_way_is_one_of_the_keys() {
+        for (mechanism, key) in STRONGER_BELOW.into_iter().chain(EITHER_WAY) {
             let entry = INVENTORY.iter().find(|entry| entry.name == mechanism);
             let section = entry.and_then(|entry| entry.section()).unwrap_or_else(|| panic!("{mechanism}"));
             assert!(section.all().any(|k| k.name == key), "{mechanism}.{key}");

@@ -89,11 +89,12 @@ fn a_gauge_that_has_moved_is_named_from_a_csv_and_the_bank_is_made_once() {
 
 /// `bank` keeps the self-test, a diagnosis takes it from there, and only if it is of the same.
 fn the_self_test_is_kept_beside_the_bank(folder: &Folder, computed: &Value) {
-    let told = || -> Value {
+    let told_with = |seed: &[&str]| -> Value {
         let diagnose = ["diagnose", "studies/tiny", "--measured", "tests.csv", "--points", "60", "--no-gain"];
-        let json = ends_with(folder, 0, &[&diagnose[..], &["--json"]].concat()).stdout;
+        let json = ends_with(folder, 0, &[&diagnose[..], &["--json"], seed].concat()).stdout;
         serde_json::from_slice::<Value>(&json).unwrap()["self_test"].clone()
     };
+    let told = || told_with(&[]);
     let path = folder.path("runs/tiny-bank/self-test.json");
     assert!(!path.exists());
     let bank = ["bank", "studies/tiny", "--measured", "tests.csv", "--points", "60"];
@@ -126,6 +127,11 @@ fn the_self_test_is_kept_beside_the_bank(folder: &Folder, computed: &Value) {
     assert_eq!((&judged[0]["hidden"], &judged[0]["judged"]["campaigns"]), (&"nothing".into(), &5.into()));
     assert_eq!(judged[1]["judged"]["campaigns"], 1);
     assert_eq!(computed[1]["judged"]["campaigns"], 0);
+    // That of another seed is of diagnoses with that seed.
+    let seed = ["--seed", "5"];
+    ends_with(folder, 0, &[&bank[..], &["--judged", "1"], &seed].concat());
+    assert_eq!(&told(), computed);
+    assert_eq!(told_with(&seed)[1]["judged"]["campaigns"], 1);
 }
 
 /// What a named offset of the gauge writes: a study that is checked and run from any place. Its bytes.

@@ -29,6 +29,8 @@ const FINE: f64 = 0.3e-3;
 const OPEN: f64 = 0.01;
 /// Random error of a weight, as a share of it.
 const WEIGHED: f64 = 5e-3;
+/// Standard errors to either end of a 95 % interval of a mean over many campaigns.
+const NORMAL: f64 = 1.96;
 
 /// A measurement that could be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,6 +89,8 @@ pub struct Offered {
     pub fine: f64,
     /// Expected information about the cause (bit).
     pub bits: f64,
+    /// Its 95 % interval, of the campaigns that it was counted on.
+    pub interval: [f64; 2],
     /// What is not known of the cause before (bit).
     pub of: f64,
 }
@@ -112,7 +116,9 @@ pub fn offers(judge: &Judge<'_>, possible: &[(f64, Vec<Truth>)], seed: u64) -> V
                 Per::Specimen => design.specimens.len(),
             };
             let hours = hours * times as f64;
-            Some(Offered { offer, hours, fine, bits: told / ln(2.0), of: entropy / ln(2.0) })
+            let [bits, error, of] = [told.value, told.error, entropy].map(|nats| nats / ln(2.0));
+            let interval = [-NORMAL, NORMAL].map(|side| (bits + side * error).clamp(0.0, of));
+            Some(Offered { offer, hours, fine, bits: bits.clamp(0.0, of), interval, of })
         })
         .collect();
     offered.sort_by(|a, b| (b.bits / b.hours).total_cmp(&(a.bits / a.hours)));
@@ -218,7 +224,27 @@ fn planned(offer: Offer, judge: &Judge<'_>, fine: f64) -> Option<Design> {
     (!new.specimens.is_empty() || !new.apart.is_empty()).then_some(new)
 }
 
-/// Expected information (nat) of new readings about the cause: its entropy less the mean cross entropy of a Gaussian classifier on
+/// Expected information (nat), and its standard error.
+#[derive(Default)]
+struct Told {
+    value: f64,
+    error: f64,
+}
+
+impl Told {
+    /// An entropy less a cross entropy: `logs` are the logarithms of the probability of the right class, of campaigns of each.
+    fn of(entropy: f64, weights: &[f64], logs: &[Vec<f64>]) -> Told {
+        let (mut value, mut variance) = (entropy, 0.0);
+        for (weight, own) in weights.iter().zip(logs) {
+            value += weight * stats::mean(own).unwrap_or(0.0);
+            let sigma = weight * stats::sigma(own).unwrap_or(0.0);
+            variance += sigma * sigma / own.len() as f64;
+        }
+        Told { value, error: variance.sqrt() }
+    }
+}
+
+/// Expected information of new readings about the cause: its entropy less the mean cross entropy of a Gaussian classifier on
 /// campaigns that it has not seen, which can only be too little.
 fn information(
     judge: &Judge<'_>,
@@ -227,7 +253,7 @@ fn information(
     weights: &[f64],
     entropy: f64,
     seed: u64,
-) -> f64 {
+) -> Told {
     let shown = |truth: &Truth, k: u64| judge.world.campaign(design, truth, &Streams::new(seed, k));
     let scaling: Vec<_> = (0..SCALING)
         .map(|k| shown(&judge.world.drawn(None, &Streams::new(seed.wrapping_add(1), k)), k))
@@ -257,19 +283,18 @@ fn information(
     let normals: Vec<Normal> =
         points.iter().filter_map(|own| Normal::of(&own.iter().step_by(2).collect::<Vec<_>>())).collect();
     if normals.len() < points.len() {
-        return 0.0;
+        return Told::default();
     }
-    let mut cross = 0.0;
-    for (class, own) in points.iter().enumerate() {
+    let judged = |(class, own): (usize, &Vec<DVector<f64>>)| -> Vec<f64> {
         let logs = own.iter().skip(1).step_by(2).map(|point| {
             let joint: Vec<f64> =
                 normals.iter().zip(weights).map(|(normal, w)| normal.log(point) + ln(w.max(1e-12))).collect();
             // A classifier that is sure and wrong tells as little as one that knows nothing.
             ln(softmax(&joint, 1.0)[class]).max(ln(weights[class].max(1e-12)) - 1.0)
         });
-        cross -= weights[class] * stats::mean(&logs.collect::<Vec<_>>()).unwrap_or(0.0);
-    }
-    (entropy - cross).max(0.0)
+        logs.collect()
+    };
+    Told::of(entropy, weights, &points.iter().enumerate().map(judged).collect::<Vec<_>>())
 }
 
 /// A normal distribution of features.
@@ -354,10 +379,24 @@ mod tests {
             bits(&leans, Offer::TurnedWalls) > 0.1 && bits(&alike, Offer::TurnedWalls) < 0.05,
             "{leans:?}"
         );
+        // The interval holds the number, and is within what is open.
+        for own in [&offered, &alike, &weighed, &still, &back, &leans].into_iter().flatten() {
+            let [low, high] = own.interval;
+            assert!(0.0 <= low && low <= own.bits && own.bits <= high && high <= own.of, "{own:?}");
+        }
         // The most information per hour comes first.
         let worth: Vec<f64> = offered.iter().map(|own| own.bits / own.hours).collect();
         assert!(worth.windows(2).all(|pair| pair[0] >= pair[1]));
         assert_eq!(offers(&judge, &[draws("creep", 1.0)], 6), []);
+    }
+
+    #[test]
+    fn information_is_as_sure_as_its_campaigns_are_many_and_alike() {
+        // Means of -0.2 and -0.4; standard deviations of 0.1 root 2 over the root of two, and of 0.2 over the root of three.
+        let Told { value, error } = Told::of(0.6, &[0.25, 0.75], &[vec![-0.1, -0.3], vec![-0.2, -0.4, -0.6]]);
+        assert!((value - (0.6 - 0.25 * 0.2 - 0.75 * 0.4)).abs() < 1e-12, "{value}");
+        let squares = 0.25 * 0.25 * 0.01 + 0.75 * 0.75 * 0.04 / 3.0;
+        assert!((error * error - squares).abs() < 1e-12, "{error}");
     }
 
     #[test]

@@ -14,6 +14,7 @@ use crate::critic::diagnose::verdict::{Diagnosis, Verdict};
 use crate::critic::diagnose::world::Truth;
 use crate::random::Streams;
 use crate::stats;
+use crate::study::{Described, Stronger};
 
 /// Two causes look alike where so large a share of the sets of either hold the other.
 const ALIKE: f64 = 0.5;
@@ -51,8 +52,9 @@ pub struct SelfTestRow {
     pub set_size: f64,
     /// Of those found, in how many sets each cause is.
     pub with: BTreeMap<usize, u64>,
-    /// From where on its first parameter that matters is caught; `None` where no strength within the prior is.
-    pub caught: Option<Caught>,
+    /// From where on its first parameter that matters is caught: upwards, downwards or both; empty where no strength within the
+    /// prior is.
+    pub caught: Vec<Caught>,
 }
 
 /// What was said of campaigns.
@@ -101,7 +103,8 @@ impl Judge<'_> {
             let verdicts: Vec<Verdict> = closely
                 .map(|tested| self.diagnosed(&tested.campaign, limits, judging(seed)).verdict)
                 .collect();
-            row(*cause, &campaigns, &verdicts, limits)
+            let mechanism = cause.map(|cause| &self.world.mechanisms()[cause]);
+            row(*cause, mechanism, &campaigns, &verdicts, limits)
         };
         let rows = self.ranking.causes().par_iter().map(row).collect();
         SelfTest { rows, nameless: self.nameless_test(limits, count, MORE * judged, seed) }
@@ -191,7 +194,13 @@ fn named(verdict: &Verdict) -> Option<Vec<usize>> {
     }
 }
 
-fn row(cause: Option<usize>, campaigns: &[Tested], verdicts: &[Verdict], limits: &Limits) -> SelfTestRow {
+fn row(
+    cause: Option<usize>,
+    mechanism: Option<&Described>,
+    campaigns: &[Tested],
+    verdicts: &[Verdict],
+    limits: &Limits,
+) -> SelfTestRow {
     let is_found = |tested: &&Tested| tested.seeming.p_value < limits.found;
     let found: Vec<&Tested> = campaigns.iter().filter(is_found).collect();
     let seems = |tested: &&Tested| said(&tested.seeming, limits);
@@ -204,14 +213,12 @@ fn row(cause: Option<usize>, campaigns: &[Tested], verdicts: &[Verdict], limits:
         .iter()
         .flat_map(|tested| &tested.seeming.ranked.set)
         .for_each(|cause| *with.entry(*cause).or_default() += 1);
-    let parameters = campaigns.first().map_or(0, |tested| tested.truth.parameters.len());
     let shown = |parameter: usize| -> Vec<(f64, bool)> {
         campaigns.iter().map(|tested| (tested.truth.parameters[parameter], is_found(&tested))).collect()
     };
-    let caught = (0..parameters).find_map(|parameter| {
-        let (score, below) = caught(&shown(parameter))?;
-        Some(Caught { parameter, score, below })
-    });
+    let parameters = mechanism.iter().flat_map(|own| own.parameters.iter().map(|p| own.stronger(p.key)));
+    let mut caught =
+        parameters.enumerate().map(|(parameter, stronger)| caught(parameter, stronger, &shown(parameter)));
     SelfTestRow {
         cause,
         all: Counted::of(cause, by_size.iter().map(seems)),
@@ -220,34 +227,34 @@ fn row(cause: Option<usize>, campaigns: &[Tested], verdicts: &[Verdict], limits:
         covered: cause.map_or(0, |cause| with.get(&cause).copied().unwrap_or(0)),
         set_size: stats::mean(&sizes).unwrap_or(0.0),
         with,
-        caught,
+        caught: caught.find(|own| !own.is_empty()).unwrap_or_default(),
     }
 }
 
-/// The score from where on, upwards or (true) downwards, effects are caught; the side on which more are.
-fn caught(shown: &[(f64, bool)]) -> Option<(Option<f64>, bool)> {
-    let from = |sign: f64| {
+/// From which scores of a parameter on effects are caught, towards where they are the stronger; once where they are anywhere.
+fn caught(parameter: usize, stronger: Stronger, shown: &[(f64, bool)]) -> Vec<Caught> {
+    let from = |below: bool| {
+        let sign = if below { -1.0 } else { 1.0 };
         let mut order: Vec<(f64, bool)> = shown.iter().map(|(score, found)| (sign * score, *found)).collect();
         order.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let mut reached = None;
+        let enough = |window: &&[(f64, bool)]| {
+            window.iter().filter(|(_, found)| *found).count() as f64 >= CAUGHT * WINDOW as f64
+        };
         // From the strongest on, as long as the neighbours in strength are found.
-        for (k, window) in order.windows(WINDOW).enumerate() {
-            let found = window.iter().filter(|(_, found)| *found).count();
-            if (found as f64) < CAUGHT * WINDOW as f64 {
-                break;
-            }
-            let everywhere = k + WINDOW == order.len();
-            reached = Some((k, (!everywhere).then(|| sign * window[WINDOW / 2].0)));
-        }
-        reached
+        let (at, window) = order.windows(WINDOW).take_while(enough).enumerate().last()?;
+        let everywhere = at + WINDOW == order.len();
+        Some(Caught { parameter, score: (!everywhere).then(|| sign * window[WINDOW / 2].0), below })
     };
-    let (up, down) = (from(1.0), from(-1.0));
-    match (up, down) {
-        (Some((more, score)), Some((fewer, _))) if more >= fewer => Some((score, false)),
-        (_, Some((_, score))) => Some((score, true)),
-        (Some((_, score)), None) => Some((score, false)),
-        (None, None) => None,
+    let sides: &[bool] = match stronger {
+        Stronger::Above => &[false],
+        Stronger::Below => &[true],
+        Stronger::EitherWay => &[false, true],
+    };
+    let mut caught: Vec<Caught> = sides.iter().filter_map(|below| from(*below)).collect();
+    if caught.iter().any(|own| own.score.is_none()) {
+        caught.truncate(1);
     }
+    caught
 }
 
 impl SelfTest {
@@ -297,12 +304,25 @@ mod tests {
         let shown = |found: &dyn Fn(f64) -> bool| -> Vec<(f64, bool)> {
             (0..400).map(|k| 0.01 * f64::from(k) - 2.0).map(|score| (score, found(score))).collect()
         };
-        let (score, below) = caught(&shown(&|score| score > 1.0)).expect("it is found");
-        assert!(score.is_some_and(|score| (score - 1.0).abs() < 0.1) && !below, "{score:?}");
-        let (score, below) = caught(&shown(&|score| score < -1.0)).expect("it is found");
-        assert!(score.is_some_and(|score| (score + 1.0).abs() < 0.1) && below, "{score:?}");
-        assert_eq!(caught(&shown(&|_| true)), Some((None, false)));
-        assert_eq!(caught(&shown(&|_| false)), None);
+        let near = |own: &Caught, from: f64| own.score.is_some_and(|score| (score - from).abs() < 0.1);
+        let up = caught(3, Stronger::EitherWay, &shown(&|score| score > 1.0));
+        assert!(matches!(&up[..], [own] if near(own, 1.0) && !own.below && own.parameter == 3), "{up:?}");
+        let down = caught(3, Stronger::EitherWay, &shown(&|score| score < -1.0));
+        assert!(matches!(&down[..], [own] if near(own, -1.0) && own.below), "{down:?}");
+        let both = caught(3, Stronger::EitherWay, &shown(&|score| !(-1.5..=0.5).contains(&score)));
+        assert!(
+            matches!(&both[..], [up, down] if near(up, 0.5) && !up.below && near(down, -1.5) && down.below),
+            "{both:?}"
+        );
+        // Where an effect grows one way only, nothing is said of its weak end, chance as it may be that much is found there.
+        let grows = |stronger| caught(3, stronger, &shown(&|score| !(-1.5..=0.5).contains(&score)));
+        assert!(matches!(&grows(Stronger::Above)[..], [own] if near(own, 0.5) && !own.below));
+        assert!(matches!(&grows(Stronger::Below)[..], [own] if near(own, -1.5) && own.below));
+        assert_eq!(
+            caught(3, Stronger::EitherWay, &shown(&|_| true)),
+            [Caught { parameter: 3, score: None, below: false }]
+        );
+        assert_eq!(caught(3, Stronger::EitherWay, &shown(&|_| false)), []);
     }
 
     #[test]
@@ -315,7 +335,7 @@ mod tests {
             covered: 0,
             set_size: 0.0,
             with: with.iter().copied().collect(),
-            caught: None,
+            caught: Vec::new(),
         };
         // 1 and 2 look like each other, 3 like nothing; 4 looks like 1, but is never found.
         let test = SelfTest {

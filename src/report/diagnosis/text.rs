@@ -6,6 +6,7 @@ use crate::report::diagnosis::words::{lines, reading};
 use crate::report::gain::GainSummary;
 use crate::report::number::significant;
 use crate::report::table::wrapped;
+use crate::stats;
 
 /// What is off by less than this many standard deviations is not worth a line.
 const WORTH_SAYING: f64 = 2.0;
@@ -195,15 +196,14 @@ pub(super) fn reliability(summary: &DiagnosisSummary) -> String {
     let sum = |rows: &[&SelfTestEntry], of: fn(&SelfTestEntry) -> Counted| {
         rows.iter().map(|row| of(row)).sum::<Counted>()
     };
-    let share = |part: u64, whole: u64| if whole == 0 { 0.0 } else { 100.0 * part as f64 / whole as f64 };
     let (all, strong) = (sum(&hidden, |row| row.all), sum(&hidden, |row| row.strong));
     let (judged, closely) = (sum(&hidden, |row| row.judged), sum(&nothing, |row| row.judged));
     let (still, nameless) = (sum(&nothing, |row| row.all), summary.self_test_nameless.judged);
     let seeming = format!(
-        "With data like these, by simulation from the bank: an effect drawn from its prior is found in {:.0} % of campaigns, one of \
-         the third that moves most of what is read in {:.0} %; where nothing is hidden, something is found in {:.0} %. By looks alone, \
-         before evidence and guard, it is named in {:.0} % ({:.0} %), a name is wrong in {:.0} % of cases, and where nothing is hidden \
-         one is given in {:.1} %.",
+        "With data like these, by simulation from the bank (95 % intervals): an effect drawn from its prior is found in {} of campaigns, \
+         one of the third that moves most of what is read in {}; where nothing is hidden, something is found in {}. By looks alone, \
+         before evidence and guard, it is named in {}, one of that third in {}, a name is wrong in {} of cases, and where nothing is \
+         hidden one is given in {}.",
         share(all.found, all.campaigns),
         share(strong.found, strong.campaigns),
         share(still.found, still.campaigns),
@@ -212,21 +212,29 @@ pub(super) fn reliability(summary: &DiagnosisSummary) -> String {
         share(all.misnamed, all.named + all.misnamed),
         share(still.misnamed, still.campaigns),
     );
+    let counted = |part: u64, whole: u64| format!("{part} of {whole}, {}", share(part, whole));
     match judged.campaigns {
         0 => format!(
             "{seeming} How often by all that a diagnosis does, `pirca bank` finds out, with the same measurements (--measured) and the \
              bank's folder (--out), and keeps it beside the walls."
         ),
         _ => format!(
-            "{seeming} By all that a diagnosis does, {} of {} such effects are named and {} given another name; of {} campaigns with \
-             nothing hidden {}, and of {} with something in no catalogue {}.",
-            judged.named,
-            judged.campaigns,
-            judged.misnamed,
-            closely.campaigns,
-            closely.misnamed,
-            nameless.campaigns,
-            nameless.misnamed
+            "{seeming} By all that a diagnosis does such effects are named in {}, and given another name in {}; one is given in {} with \
+             nothing hidden, and in {} with something in no catalogue.",
+            counted(judged.named, judged.campaigns),
+            counted(judged.misnamed, judged.campaigns),
+            counted(closely.misnamed, closely.campaigns),
+            counted(nameless.misnamed, nameless.campaigns)
         ),
     }
+}
+
+/// A share with its 95 % interval; a dash of nothing.
+fn share(part: u64, whole: u64) -> String {
+    if whole == 0 {
+        return "-".to_owned();
+    }
+    let percent = |x: f64| format!("{:.0}", 100.0 * x);
+    let [low, high] = stats::clopper_pearson(part as usize, whole as usize).map(percent);
+    format!("{} % [{low}, {high}]", percent(part as f64 / whole as f64))
 }

@@ -70,7 +70,7 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>) {
         covered: 4,
         set_size: 1.5,
         with: BTreeMap::new(),
-        caught: None,
+        caught: Vec::new(),
     });
     let diagnosis = Diagnosis {
         seeming: Seeming {
@@ -152,7 +152,7 @@ fn what_is_not_explained_excludes_causes_and_says_why() {
 fn every_cause_is_caught_seen_in_part_or_hardly_seen() {
     let made = made();
     let cause = |name: &str| made.mechanisms.iter().position(|m| m.name == name).expect("in the catalogue");
-    let row = |name: &str, found: u64, caught: Option<Caught>| SelfTestRow {
+    let row = |name: &str, found: u64, caught: &[Caught]| SelfTestRow {
         cause: Some(cause(name)),
         all: Counted { campaigns: 100, found, named: 0, misnamed: 0 },
         strong: Counted { campaigns: 33, found: found / 3, named: 0, misnamed: 0 },
@@ -160,10 +160,16 @@ fn every_cause_is_caught_seen_in_part_or_hardly_seen() {
         covered: 0,
         set_size: 0.0,
         with: BTreeMap::new(),
-        caught,
+        caught: caught.to_vec(),
     };
-    let from = Caught { parameter: 0, score: None, below: false };
-    let rows = vec![row("creep", 90, Some(from)), row("joint_closure", 49, None), row("cohesion", 12, None)];
+    let from = |score, below| Caught { parameter: 0, score, below };
+    let both = [from(Some(1.0), false), from(Some(-1.0), true)];
+    let rows = vec![
+        row("creep", 90, &[from(None, false)]),
+        row("density", 60, &both),
+        row("joint_closure", 49, &[]),
+        row("cohesion", 12, &[]),
+    ];
     let test = SelfTest { rows, nameless: [Counted::default(); 2] };
     let advice = Advice::of(&test, &[], true, &made.mechanisms);
     let text = advice.text();
@@ -171,17 +177,29 @@ fn every_cause_is_caught_seen_in_part_or_hardly_seen() {
         "hardly see: cohesion\n",
         "creep              ",
         "anywhere in its prior",
+        "density            factor at least 1.0\n",
+        "density            factor at most 0.97\n",
         "joint_closure      in 49 of 100, and in 16 of 33\n",
     ] {
         assert!(text.contains(part), "no `{part}` in {text}");
     }
-    assert_eq!((advice.caught.len(), advice.seen_in_part.len()), (1, 1));
+    assert_eq!((advice.caught.len(), advice.seen_in_part.len()), (3, 1));
     assert!(!text.contains("Next measurement"));
-    let offered = [Offered { offer: Offer::FixedTarget, hours: 0.5, fine: 1e-4, bits: 0.25, of: 0.5 }];
+    let offered = [Offered {
+        offer: Offer::FixedTarget,
+        hours: 0.5,
+        fine: 1e-4,
+        bits: 0.25,
+        interval: [0.2, 0.3],
+        of: 0.5,
+    }];
     let said = |are_left| Advice::of(&test, &offered, are_left, &made.mechanisms).text();
     let (left, excluded) = (said(true), said(false));
-    assert!(left.contains("0.25 bit in 0.50 h  read a target that does not move, to 0.1 mm\n"), "{left}");
-    assert!(left.contains("0.50 bit that are open;") && excluded.contains("by chance;"), "{excluded}");
+    assert!(
+        left.contains("0.25 [0.20, 0.30]   bit in 0.50 h  read a target that does not move, to 0.1 mm\n"),
+        "{left}"
+    );
+    assert!(left.contains("0.50 bit that are open,") && excluded.contains("by chance,"), "{excluded}");
 }
 
 #[test]
@@ -290,7 +308,8 @@ fn the_text_the_page_and_the_files_show_what_was_measured_beside_what_was_simula
         "- sbl: displacement mean at 5 deg: 13.3 mm measured, ",
         "times too far",
         "something else 0.250 nothing 0.060",
-        "with nothing hidden 0, and of 5 with something in no catalogue 1.",
+        "named in 1 of 2, 50 % [1, 99], and given another name in 0 of 2, 0 % [0, 84]; one is given in 0 of 2",
+        "and in 1 of 5, 20 % [1, 72] with something in no catalogue.",
         "Not used of the measurements: lines 9, 7 (the weight of a single block); line 12 (read at a tilt",
     ] {
         assert!(words.contains(part), "no `{part}` in\n{text}");

@@ -64,6 +64,8 @@ pub struct Gained {
     pub ceiling: Scores,
     /// Gain in the logarithm, the ranked score and the root mean square.
     pub gain: [Interval; 3],
+    /// The same of the free discrepancy: no cause is chosen for it, and its intervals are plain ones.
+    pub ceiling_gain: [Interval; 3],
 }
 
 /// Rows by the specimens whose differences are chance.
@@ -120,20 +122,21 @@ impl<'r> Sampled<'r> {
         }
     }
 
-    fn gains(&self, without: Option<usize>) -> [f64; 3] {
-        let models: [fn(&Row) -> Score; 2] = [|row| row.base, |row| row.extended];
-        let [base, extended] = models.map(|of| self.scores(of, without));
-        [extended.log - base.log, base.crps - extended.crps, base.rms - extended.rms]
+    /// What a model gains over the base model.
+    fn gains(&self, model: fn(&Row) -> Score, without: Option<usize>) -> [f64; 3] {
+        let models: [fn(&Row) -> Score; 2] = [|row| row.base, model];
+        let [base, own] = models.map(|of| self.scores(of, without));
+        [own.log - base.log, base.crps - own.crps, base.rms - own.rms]
     }
 
-    /// The gains with their standard errors, by leaving out each specimen in turn: readings of a specimen stand together
+    /// The gains of a model with their standard errors, by leaving out each specimen in turn: readings of a specimen stand together
     /// (stratified jackknife, Wolter 2007, section 4.5).
-    fn estimates(&self) -> [[f64; 2]; 3] {
+    fn estimates(&self, model: fn(&Row) -> Score) -> [[f64; 2]; 3] {
         let left_out = |stratum: &BTreeSet<usize>| -> Vec<[f64; 3]> {
-            stratum.iter().map(|specimen| self.gains(Some(*specimen))).collect()
+            stratum.iter().map(|specimen| self.gains(model, Some(*specimen))).collect()
         };
         let left_out: Vec<Vec<[f64; 3]>> = self.strata.iter().map(left_out).collect();
-        let whole = self.gains(None);
+        let whole = self.gains(model, None);
         [0, 1, 2].map(|k| {
             let variance = left_out.iter().fold(0.0, |sum, stratum| {
                 let values: Vec<f64> = stratum.iter().map(|gains| gains[k]).collect();
@@ -150,15 +153,34 @@ impl<'r> Sampled<'r> {
         })
     }
 
+    /// The gains of a model with intervals that reach as many standard errors as is right for each, and no fewer than a plain one.
+    fn intervals(&self, model: fn(&Row) -> Score, reach: impl Fn(usize, f64) -> f64) -> [Interval; 3] {
+        let (estimates, plain) = (self.estimates(model), self.plain());
+        [0, 1, 2].map(|k| {
+            let [value, error] = estimates[k];
+            let reach = reach(k, plain) * error;
+            Interval { value, ends: [value - reach, value + reach] }
+        })
+    }
+
     /// How many standard errors a plain interval reaches, the least that any does.
     fn plain(&self) -> f64 {
         stats::student_quantile(PLAIN, (self.specimens() - self.strata.len()) as f64)
     }
 }
 
-/// The gains with their standard errors.
+fn extended(row: &Row) -> Score {
+    row.extended
+}
+
+/// Where a discrepancy has nothing to be free over, it is the base model.
+fn ceiling(row: &Row) -> Score {
+    row.ceiling.unwrap_or(row.base)
+}
+
+/// The gains of the extended model with their standard errors.
 pub fn estimates(rows: &[Row]) -> [[f64; 2]; 3] {
-    Sampled::of(rows).estimates()
+    Sampled::of(rows).estimates(extended)
 }
 
 /// Sums up rows; `nulls` are the estimates of campaigns without any effect. `None` without rows of two specimens.
@@ -167,20 +189,16 @@ pub fn gained(rows: &[Row], nulls: &[[[f64; 2]; 3]]) -> Option<Gained> {
     if sampled.specimens() < 2 {
         return None;
     }
-    let estimates = sampled.estimates();
-    let gain = [0, 1, 2].map(|k| {
-        let [value, error] = estimates[k];
-        let reach = reach(nulls.iter().map(|null| null[k]), sampled.plain()) * error;
-        Interval { value, ends: [value - reach, value + reach] }
-    });
+    let calibrated = |k: usize, plain: f64| reach(nulls.iter().map(|null| null[k]), plain);
     Some(Gained {
         readings: rows.len(),
         valued: rows.iter().filter(|row| row.base.crps.is_some()).count(),
         specimens: sampled.specimens(),
         base: sampled.scores(|row| row.base, None),
-        extended: sampled.scores(|row| row.extended, None),
-        ceiling: sampled.scores(|row| row.ceiling.unwrap_or(row.base), None),
-        gain,
+        extended: sampled.scores(extended, None),
+        ceiling: sampled.scores(ceiling, None),
+        gain: sampled.intervals(extended, calibrated),
+        ceiling_gain: sampled.intervals(ceiling, |_, plain| plain),
     })
 }
 

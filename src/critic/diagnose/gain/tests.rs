@@ -122,6 +122,11 @@ fn standard_errors_are_those_of_the_mean_over_specimens() {
     let wide = gained(&rows, &nulls).expect("four specimens");
     assert!((wide.gain[0].ends[0] - (log - 5.0 * error)).abs() < 1e-12);
     assert_eq!(gained(&rows[..1], &nulls), None);
+    // Nothing is chosen for a free discrepancy: what nulls claim says nothing of it, and without one nothing is gained.
+    let free: Vec<Row> = rows.iter().map(|row| Row { ceiling: Some(row.extended), ..*row }).collect();
+    let free = gained(&free, &nulls).expect("four specimens");
+    assert_eq!((free.ceiling_gain, free.gain), (plain.gain, wide.gain));
+    assert!(wide.ceiling_gain.iter().all(|own| (own.value, own.ends) == (0.0, [0.0; 2])));
 }
 
 #[test]
