@@ -72,9 +72,10 @@ pub(super) fn keep_self_test(
     Ok(replace_file(&folder.join(KEPT), &json)?)
 }
 
-/// What is kept in a folder, of whatever it is.
+/// What is kept in a folder, of whatever it is, if it can be a self-test.
 fn kept(folder: &Path) -> Option<Kept> {
-    serde_json::from_slice(&fs::read(folder.join(KEPT)).ok()?).ok()
+    let kept: Kept = serde_json::from_slice(&fs::read(folder.join(KEPT)).ok()?).ok()?;
+    Some(kept).filter(|kept| kept.test.is_sound())
 }
 
 /// A self-test with so many campaigns of each cause judged by all that a diagnosis does.

@@ -258,6 +258,12 @@ fn caught(parameter: usize, stronger: Stronger, shown: &[(f64, bool)]) -> Vec<Ca
 }
 
 impl SelfTest {
+    /// Whether its counts can be counts: of a file that was changed they may be anything.
+    pub fn is_sound(&self) -> bool {
+        let rows = self.rows.iter().flat_map(|row| [row.all, row.strong, row.judged]);
+        rows.chain(self.nameless).all(|own| own.found.max(own.named + own.misnamed) <= own.campaigns)
+    }
+
     /// Causes that the design cannot tell apart, in classes of two or more; `found` is the least share of campaigns in which a
     /// cause must be found to be in one.
     pub fn classes(&self, found: f64) -> Vec<Vec<usize>> {
