@@ -2,7 +2,7 @@
 //! caught.
 
 use crate::critic::{CAUGHT, Offer, Offered, SelfTest};
-use crate::report::number::{significant, with_interval};
+use crate::report::number::{or_dash, significant, with_interval};
 use crate::study::Described;
 
 /// A cause that is found in fewer of its campaigns than this is not seen at all.
@@ -37,6 +37,8 @@ pub struct CaughtEntry {
     pub unit: &'static str,
     /// From this value on; null where it is caught anywhere in its prior.
     pub value: Option<f64>,
+    /// The 95 % interval of this value, of the self-test's campaigns; null at an end that these do not bound.
+    pub interval: [Option<f64>; 2],
     /// Whether smaller values are caught, not larger ones.
     pub below: bool,
 }
@@ -77,11 +79,13 @@ impl Advice {
         let caught = caught.map(|(cause, caught)| {
             let mechanism = &mechanisms[cause];
             let parameter = &mechanism.parameters[caught.parameter];
+            let value = |score: Option<f64>| score.map(|score| parameter.prior.at_score(score));
             CaughtEntry {
                 cause: mechanism.name,
                 parameter: parameter.key,
                 unit: parameter.unit,
-                value: caught.score.map(|score| parameter.prior.at_score(score)),
+                value: value(caught.score),
+                interval: caught.interval.map(value),
                 below: caught.below,
             }
         });
@@ -121,14 +125,21 @@ impl Advice {
             text.push_str(&format!("\nData like these hardly see: {}\n", self.not_seen.join(", ")));
         }
         if !self.caught.is_empty() {
-            text.push_str(&format!("\nSmallest effects caught in {:.0} % of campaigns\n", 100.0 * CAUGHT));
+            text.push_str(&format!(
+                "\nSmallest effects caught in {:.0} % of campaigns (95 % intervals; a dash where the self-test does not bound them)\n",
+                100.0 * CAUGHT
+            ));
             for own in &self.caught {
                 let side = if own.below { "at most" } else { "at least" };
                 let unit = if own.unit == "1" { String::new() } else { format!(" {}", own.unit) };
                 let from = own.value.map_or("anywhere in its prior".to_string(), |value| {
-                    format!("{side} {}{unit}", significant(value, 2))
+                    format!("{side} {}", significant(value, 2))
                 });
-                text.push_str(&format!("  {:<18} {} {from}\n", own.cause, own.parameter));
+                let [low, high] = own.interval.map(|end| or_dash(end, 2));
+                text.push_str(&format!(
+                    "  {:<18} {} {from} [{low}, {high}]{unit}\n",
+                    own.cause, own.parameter
+                ));
             }
         }
         if !self.seen_in_part.is_empty() {

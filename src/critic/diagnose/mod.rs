@@ -4,6 +4,7 @@ mod across;
 mod alarm;
 mod alike;
 mod asked;
+mod caught;
 mod causes;
 mod design;
 mod diagnosed;
@@ -32,6 +33,7 @@ mod verdict;
 mod world;
 mod wrong;
 
+pub use caught::{CAUGHT, Caught};
 pub use causes::Causes;
 pub use design::{Campaign, Design, Seen, Specimen, Unused};
 pub use discrepancy::{Bent, Lacking};
@@ -51,7 +53,7 @@ pub use residual::{
     Band, Baseline, Curve, Expected, FamilyCurves, Group, Parts, Residual, Residuals, Side, base_curves,
     cause_curves,
 };
-pub use self_test::{CAUGHT, Caught, Counted, SelfTest, SelfTestRow};
+pub use self_test::{Counted, SelfTest, SelfTestRow};
 pub use verdict::{Diagnosis, LookedAt, Verdict};
 pub use world::{Truth, World};
 pub use wrong::{Reference, Wrong};

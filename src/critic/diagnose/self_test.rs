@@ -7,6 +7,7 @@ use std::iter::Sum;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use crate::critic::diagnose::caught::{Caught, caught};
 use crate::critic::diagnose::design::Campaign;
 use crate::critic::diagnose::judge::{Judge, Seeming};
 use crate::critic::diagnose::limits::Limits;
@@ -14,14 +15,10 @@ use crate::critic::diagnose::verdict::{Diagnosis, Verdict};
 use crate::critic::diagnose::world::Truth;
 use crate::random::Streams;
 use crate::stats;
-use crate::study::{Described, Stronger};
+use crate::study::Described;
 
 /// Two causes look alike where so large a share of the sets of either hold the other.
 const ALIKE: f64 = 0.5;
-/// An effect is caught where so large a share of its campaigns is found.
-pub const CAUGHT: f64 = 0.8;
-/// That share is taken over so many campaigns of neighbouring strengths.
-const WINDOW: usize = 15;
 /// So many times as many campaigns without any effect, and with nameless ones, are judged by all that a diagnosis does.
 const MORE: u64 = 5;
 
@@ -70,17 +67,6 @@ pub struct Counted {
     pub misnamed: u64,
 }
 
-/// Strengths from which on an effect is found four times in five.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Caught {
-    /// Index of the parameter.
-    pub parameter: usize,
-    /// Its score from where on; `None` where it is caught anywhere in its prior.
-    pub score: Option<f64>,
-    /// Whether smaller values are caught, not larger ones.
-    pub below: bool,
-}
-
 /// A campaign of the self-test.
 struct Tested {
     truth: Truth,
@@ -104,7 +90,7 @@ impl Judge<'_> {
                 .map(|tested| self.diagnosed(&tested.campaign, limits, judging(seed)).verdict)
                 .collect();
             let mechanism = cause.map(|cause| &self.world.mechanisms()[cause]);
-            row(*cause, mechanism, &campaigns, &verdicts, limits)
+            row(*cause, mechanism, &campaigns, &verdicts, limits, seed)
         };
         let rows = self.ranking.causes().par_iter().map(row).collect();
         SelfTest { rows, nameless: self.nameless_test(limits, count, MORE * judged, seed) }
@@ -200,6 +186,7 @@ fn row(
     campaigns: &[Tested],
     verdicts: &[Verdict],
     limits: &Limits,
+    seed: u64,
 ) -> SelfTestRow {
     let is_found = |tested: &&Tested| tested.seeming.p_value < limits.found;
     let found: Vec<&Tested> = campaigns.iter().filter(is_found).collect();
@@ -217,8 +204,10 @@ fn row(
         campaigns.iter().map(|tested| (tested.truth.parameters[parameter], is_found(&tested))).collect()
     };
     let parameters = mechanism.iter().flat_map(|own| own.parameters.iter().map(|p| own.stronger(p.key)));
-    let mut caught =
-        parameters.enumerate().map(|(parameter, stronger)| caught(parameter, stronger, &shown(parameter)));
+    let mut stream = Streams::new(seed, 0).of(&format!("caught {cause:?}"));
+    let mut caught = parameters
+        .enumerate()
+        .map(|(parameter, stronger)| caught(parameter, stronger, &shown(parameter), &mut stream));
     SelfTestRow {
         cause,
         all: Counted::of(cause, by_size.iter().map(seems)),
@@ -229,32 +218,6 @@ fn row(
         with,
         caught: caught.find(|own| !own.is_empty()).unwrap_or_default(),
     }
-}
-
-/// From which scores of a parameter on effects are caught, towards where they are the stronger; once where they are anywhere.
-fn caught(parameter: usize, stronger: Stronger, shown: &[(f64, bool)]) -> Vec<Caught> {
-    let from = |below: bool| {
-        let sign = if below { -1.0 } else { 1.0 };
-        let mut order: Vec<(f64, bool)> = shown.iter().map(|(score, found)| (sign * score, *found)).collect();
-        order.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let enough = |window: &&[(f64, bool)]| {
-            window.iter().filter(|(_, found)| *found).count() as f64 >= CAUGHT * WINDOW as f64
-        };
-        // From the strongest on, as long as the neighbours in strength are found.
-        let (at, window) = order.windows(WINDOW).take_while(enough).enumerate().last()?;
-        let everywhere = at + WINDOW == order.len();
-        Some(Caught { parameter, score: (!everywhere).then(|| sign * window[WINDOW / 2].0), below })
-    };
-    let sides: &[bool] = match stronger {
-        Stronger::Above => &[false],
-        Stronger::Below => &[true],
-        Stronger::EitherWay => &[false, true],
-    };
-    let mut caught: Vec<Caught> = sides.iter().filter_map(|below| from(*below)).collect();
-    if caught.iter().any(|own| own.score.is_none()) {
-        caught.truncate(1);
-    }
-    caught
 }
 
 impl SelfTest {
@@ -303,33 +266,6 @@ impl SelfTest {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn an_effect_is_caught_from_where_on_its_neighbours_are() {
-        // Found above 1, for sure; below not at all.
-        let shown = |found: &dyn Fn(f64) -> bool| -> Vec<(f64, bool)> {
-            (0..400).map(|k| 0.01 * f64::from(k) - 2.0).map(|score| (score, found(score))).collect()
-        };
-        let near = |own: &Caught, from: f64| own.score.is_some_and(|score| (score - from).abs() < 0.1);
-        let up = caught(3, Stronger::EitherWay, &shown(&|score| score > 1.0));
-        assert!(matches!(&up[..], [own] if near(own, 1.0) && !own.below && own.parameter == 3), "{up:?}");
-        let down = caught(3, Stronger::EitherWay, &shown(&|score| score < -1.0));
-        assert!(matches!(&down[..], [own] if near(own, -1.0) && own.below), "{down:?}");
-        let both = caught(3, Stronger::EitherWay, &shown(&|score| !(-1.5..=0.5).contains(&score)));
-        assert!(
-            matches!(&both[..], [up, down] if near(up, 0.5) && !up.below && near(down, -1.5) && down.below),
-            "{both:?}"
-        );
-        // Where an effect grows one way only, nothing is said of its weak end, chance as it may be that much is found there.
-        let grows = |stronger| caught(3, stronger, &shown(&|score| !(-1.5..=0.5).contains(&score)));
-        assert!(matches!(&grows(Stronger::Above)[..], [own] if near(own, 0.5) && !own.below));
-        assert!(matches!(&grows(Stronger::Below)[..], [own] if near(own, -1.5) && own.below));
-        assert_eq!(
-            caught(3, Stronger::EitherWay, &shown(&|_| true)),
-            [Caught { parameter: 3, score: None, below: false }]
-        );
-        assert_eq!(caught(3, Stronger::EitherWay, &shown(&|_| false)), []);
-    }
 
     #[test]
     fn causes_in_each_others_sets_make_a_class() {

@@ -15,6 +15,7 @@ use crate::report::diagnosis::{
     write_diagnosis,
 };
 use crate::report::draw::is_whole;
+use crate::study::MeasuredKind;
 
 /// A group of SBL at 5 deg: 3.1 mm simulated, nine in ten within 2.0 to 5.5 mm.
 fn group(measured: f64, stands: &'static str, p: f64, in_sd: f64) -> GroupEntry {
@@ -162,10 +163,10 @@ fn every_cause_is_caught_seen_in_part_or_hardly_seen() {
         with: BTreeMap::new(),
         caught: caught.to_vec(),
     };
-    let from = |score, below| Caught { parameter: 0, score, below };
-    let both = [from(Some(1.0), false), from(Some(-1.0), true)];
+    let from = |score, interval, below| Caught { parameter: 0, score, interval, below };
+    let both = [from(Some(1.0), [Some(0.0), None], false), from(Some(-1.0), [Some(-2.0), Some(0.0)], true)];
     let rows = vec![
-        row("creep", 90, &[from(None, false)]),
+        row("creep", 90, &[from(None, [None, Some(1.0)], false)]),
         row("density", 60, &both),
         row("joint_closure", 49, &[]),
         row("cohesion", 12, &[]),
@@ -176,9 +177,9 @@ fn every_cause_is_caught_seen_in_part_or_hardly_seen() {
     for part in [
         "hardly see: cohesion\n",
         "creep              ",
-        "anywhere in its prior",
-        "density            factor at least 1.0\n",
-        "density            factor at most 0.97\n",
+        "anywhere in its prior [-, ",
+        "density            factor at least 1.0 [1.0, -]\n",
+        "density            factor at most 0.97 [0.94, 1.0]\n",
         "joint_closure      in 49 of 100, and in 16 of 33\n",
     ] {
         assert!(text.contains(part), "no `{part}` in {text}");
@@ -385,6 +386,7 @@ fn figures_say_what_is_in_them_and_no_more() {
     for part in [
         "tilt of the reading (deg)",
         "place in the order of the tests",
+        "measured collapse angle of the specimen (deg)",
         "difference",
         "ends of the walls",
         "weight of a stone (N), in the mean",
@@ -412,8 +414,14 @@ fn figures_say_what_is_in_them_and_no_more() {
     for part in ["place in the order of the tests", "ends of the walls", "weight of a stone"] {
         assert!(!residuals.contains(part), "all are alike in `{part}`");
     }
+    assert!(residuals.contains("measured collapse angle"));
     let named = read(&place, "residuals.family.svg");
     assert!(named.contains("collapse angle") && !named.contains("if the cause is"));
+    // Where only bounds of the collapse angles are known there is no place to draw against these.
+    let collapses = bare.residuals.iter_mut().filter(|reading| reading.quantity == "collapse_angle");
+    collapses.for_each(|reading| reading.kind = MeasuredKind::Below);
+    write_diagnosis(&bare, &alone, &place).unwrap();
+    assert!(!read(&place, "residuals.svg").contains("measured collapse angle"));
     // Bounds alone leave nothing to draw.
     bare.residuals.retain(|reading| reading.in_sd.is_none());
     write_diagnosis(&bare, &[], &place).unwrap();
