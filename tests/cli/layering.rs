@@ -173,6 +173,18 @@ fn the_house_has_one_direction() {
 }
 
 #[test]
+fn the_readme_shows_every_module_in_the_order_of_the_house() {
+    let readme = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
+    let readme = fs::read_to_string(readme).expect("it is there");
+    let (_, table) = readme.split_once("| Module | What it does |").expect("the table of modules");
+    let (table, _) = table.split_once("\n\n").expect("it ends");
+    let first = |line: &str| line.split('|').nth(1).unwrap_or_default().replace('`', "");
+    let shown: Vec<String> = table.lines().skip(2).map(first).collect();
+    let rows: Vec<&str> = HOUSE.iter().map(|(row, _)| *row).collect();
+    assert_eq!(shown.join(",").replace(' ', ""), rows.join(","));
+}
+
+#[test]
 fn bad_imports_are_found() {
     let bad = [
         ("law/coulomb.rs", "use crate::model::Wall;", "law/coulomb.rs imports model"),
