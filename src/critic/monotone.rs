@@ -26,22 +26,57 @@ impl<S: AsRef<[f64]> + AsMut<[f64]> + Clone> Monotone<S> {
 
     /// Value at a place.
     pub fn at(&self, place: f64) -> f64 {
-        let (x, y, slopes) = (self.x.as_ref(), self.y.as_ref(), self.slopes.as_ref());
+        self.by(&Share::of(self.x.as_ref(), place))
+    }
+
+    /// Value at a place by what its points have of it.
+    pub fn by(&self, share: &Share) -> f64 {
+        let (y, slopes) = (self.y.as_ref(), self.slopes.as_ref());
+        match *share {
+            Share::One(i) => y[i],
+            Share::Two { first: i, width, values, slopes: [slope, next] } => {
+                let [value, next_value] = values;
+                value * y[i] + next_value * y[i + 1] + width * (slope * slopes[i] + next * slopes[i + 1])
+            }
+        }
+    }
+}
+
+/// What points have of a place: the same for all curves through points at the same `x`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Share {
+    /// One has all of it.
+    One(usize),
+    /// It lies between two.
+    Two {
+        /// The lower one.
+        first: usize,
+        /// How far they are apart.
+        width: f64,
+        /// What counts of the value at either.
+        values: [f64; 2],
+        /// What counts of the slope at either, over the width.
+        slopes: [f64; 2],
+    },
+}
+
+impl Share {
+    /// Of points at `x`, at least one, strictly ascending.
+    pub fn of(x: &[f64], place: f64) -> Share {
         let last = x.len() - 1;
         if place <= x[0] {
-            return y[0];
+            return Share::One(0);
         }
         if place >= x[last] {
-            return y[last];
+            return Share::One(last);
         }
-        let i = x.partition_point(|&known| known <= place) - 1;
-        let h = x[i + 1] - x[i];
-        let t = (place - x[i]) / h;
+        let first = x.partition_point(|&known| known <= place) - 1;
+        let width = x[first + 1] - x[first];
+        let t = (place - x[first]) / width;
         // Hermite's cubics.
         let (s, tt) = (1.0 - t, t * t);
-        let (value, slope) = ((1.0 + 2.0 * t) * s * s, t * s * s);
-        let (next_value, next_slope) = (tt * (3.0 - 2.0 * t), -tt * s);
-        value * y[i] + next_value * y[i + 1] + h * (slope * slopes[i] + next_slope * slopes[i + 1])
+        let values = [(1.0 + 2.0 * t) * s * s, tt * (3.0 - 2.0 * t)];
+        Share::Two { first, width, values, slopes: [t * s * s, -tt * s] }
     }
 }
 

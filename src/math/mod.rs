@@ -2,10 +2,12 @@
 //! and how far words are apart.
 
 mod elementary;
+mod exponentials;
 mod invariant;
 mod words;
 
 pub use elementary::*;
+pub use exponentials::exp_all;
 pub use words::edit_distance;
 
 /// A vector or a position in metres (or whatever unit the user of it states); x along the wall, y out of plane

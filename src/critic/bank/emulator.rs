@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use crate::critic::bank::path::{NUMBERS, NUMBERS_UP};
-use crate::math::{exp, ln};
+use crate::math::{exp, exp_all, ln};
 use crate::stats;
 
 /// Variance of the quadratic's coefficients.
@@ -151,8 +151,7 @@ impl Emulator {
                 own.dot(&(covariance * &own))
             }
             Known::Smooth { inverse, terms, weights } => {
-                let smooths: Vec<f64> =
-                    distances.iter().map(|square| self.shape.covariance(*square)).collect();
+                let smooths = self.shape.covariances(&distances);
                 smooths.iter().zip(weights).for_each(|(covariance, of)| add(*covariance, of));
                 let dot = |other: &[f64]| WIDE * own.iter().zip(other).fold(0.0, |sum, (a, b)| sum + a * b);
                 let covariances = smooths.iter().zip(terms).map(|(smooth, other)| smooth + dot(other));
@@ -219,6 +218,17 @@ impl Shape {
         let square = 5.0 * squared_distance;
         let root = square.sqrt();
         self.size * (1.0 + root + square / 3.0) * exp(-root)
+    }
+
+    /// Of many squared distances.
+    fn covariances(&self, squared_distances: &[f64]) -> Vec<f64> {
+        let roots = || squared_distances.iter().map(|of| (5.0 * of).sqrt());
+        let mut covariances: Vec<f64> = roots().map(|root| -root).collect();
+        exp_all(&mut covariances);
+        for ((covariance, root), of) in covariances.iter_mut().zip(roots()).zip(squared_distances) {
+            *covariance *= self.size * (1.0 + root + 5.0 * of / 3.0);
+        }
+        covariances
     }
 }
 

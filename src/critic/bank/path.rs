@@ -4,10 +4,10 @@
 //! the wall. Over `q = sqrt(1 - a/a_c)` it has none: the path is a smooth function from `q = 1` (upright) to 0 (falling), and the
 //! same few places tell it for all walls.
 
-use crate::critic::monotone::Monotone;
+use crate::critic::monotone::{Monotone, Share};
 use crate::critic::simulated::at_rest;
 use crate::ensemble::Row;
-use crate::math::{exp, ln, radians};
+use crate::math::{exp, exp_all, ln, radians};
 use crate::model::Outcome;
 
 /// Places `q` at which a path is told: at tilts of 98, 91, 75, 51, 28 and 0 % of the collapse angle.
@@ -21,6 +21,9 @@ pub const NUMBERS: usize = 1 + KINDS.len() * PLACES.len();
 pub const HALF_WAY: usize = 1 + 3;
 /// Those of the way up come first.
 pub const NUMBERS_UP: usize = 1 + 3 * PLACES.len();
+
+/// Displacements are told at so many tilts at once.
+const AT_ONCE: usize = 32;
 
 /// No wall that stands falls before this tilt (rad): the least that a bank's collapses are told apart by, some 0.06 deg.
 const LEAST: f64 = 1e-3;
@@ -129,10 +132,33 @@ impl Curves {
         if tilt > self.collapse {
             return None;
         }
-        let q = self.place(tilt);
-        let [bow, twist] = [1, 2].map(|kind| self.kinds[kind].at(q));
-        let mean = self.mean(q, tilt);
-        Some(points(1.0, bow, twist).map(|x| x * mean))
+        let mut displacements = [[0.0; 3]];
+        self.write_displacements(&[tilt], &mut displacements);
+        Some(displacements[0])
+    }
+
+    /// Displacements (m) of the left end, the centre and the right end at tilts (rad); where the wall has fallen, those at the fall.
+    pub fn last_displacements(&self, tilts: &[f64]) -> Vec<[f64; 3]> {
+        let mut displacements = vec![[0.0; 3]; tilts.len()];
+        let chunks = tilts.chunks(AT_ONCE).zip(displacements.chunks_mut(AT_ONCE));
+        chunks.for_each(|(tilts, displacements)| self.write_displacements(tilts, displacements));
+        displacements
+    }
+
+    /// No more than [`AT_ONCE`].
+    fn write_displacements(&self, tilts: &[f64], displacements: &mut [[f64; 3]]) {
+        let mut over_tilt = [0.0; AT_ONCE];
+        let over_tilt = &mut over_tilt[..tilts.len()];
+        for ((tilt, over_tilt), displacements) in tilts.iter().zip(&mut *over_tilt).zip(&mut *displacements) {
+            let share = Share::of(&PLACES, self.place(tilt.min(self.collapse)));
+            let [ln_mean, bow, twist] = [0, 1, 2].map(|kind| self.kinds[kind].by(&share));
+            (*over_tilt, *displacements) = (ln_mean, points(1.0, bow, twist));
+        }
+        exp_all(over_tilt);
+        for ((tilt, over_tilt), displacements) in tilts.iter().zip(over_tilt).zip(displacements) {
+            let mean = *over_tilt * tilt.min(self.collapse);
+            *displacements = displacements.map(|x| x * mean);
+        }
     }
 
     /// What is left of the displacements (m) of the left end, the centre and the right end when the platform goes back to the level
@@ -147,17 +173,12 @@ impl Curves {
                 std::array::from_fn(|place| self.back[kind * PLACES.len() + place]);
             Monotone::through(PLACES, own).at(q)
         };
-        let mean = self.mean(q, tilt);
+        let mean = exp(self.kinds[0].at(q)) * tilt;
         Some(points(of(0), of(1), of(2)).map(|x| x * mean))
     }
 
     fn place(&self, tilt: f64) -> f64 {
         (1.0 - tilt / self.collapse).max(0.0).sqrt()
-    }
-
-    /// Mean of the displacements at a tilt (m) and its place.
-    fn mean(&self, q: f64, tilt: f64) -> f64 {
-        exp(self.kinds[0].at(q)) * tilt
     }
 }
 

@@ -328,12 +328,15 @@ impl<'s> World<'s> {
             let left = std::array::from_fn(|k| own[k] + times * common[k]);
             let curves = Curves::of(&moved(&expected, &left));
             let last = curves.collapse();
-            let read = |points: Option<[f64; 3]>| points.unwrap_or_default().map(|x| gauge.reading(x));
-            let over = |of: &dyn Fn(f64) -> Option<[f64; 3]>| -> Vec<[f64; 3]> {
-                asked.tilts.iter().map(|tilt| read(of(tilt.min(last)))).collect()
-            };
-            let left = if asked.goes_back { over(&|tilt| curves.remainders(tilt)) } else { Vec::new() };
-            asked.shown(last, &over(&|tilt| curves.displacements(tilt)), &left)
+            let read = |points: &mut [f64; 3]| *points = points.map(|x| gauge.reading(x));
+            let mut points = curves.last_displacements(&asked.tilts);
+            points.iter_mut().for_each(read);
+            let mut left = Vec::new();
+            if asked.goes_back {
+                left.extend(asked.tilts.iter().filter_map(|tilt| curves.remainders(tilt.min(last))));
+                left.iter_mut().for_each(read);
+            }
+            asked.shown(last, &points, &left)
         };
         (own.iter().zip(apart).map(of).collect(), random)
     }
