@@ -3,17 +3,19 @@
 //! The operations of libm's `exp` (FreeBSD's `e_exp.c`) in the same order, so that bits are the same, but without a branch: the
 //! compiler works on several numbers at a time.
 
+use std::f64::consts::LOG2_E;
+
 use crate::math::exp;
 
-const LN2: [f64; 2] = [6.931_471_803_691_238_164_90e-1, 1.908_214_929_270_587_700_02e-10];
-const INVERSE_LN2: f64 = 1.442_695_040_888_963_387_00;
+/// In two parts: of the first whole multiples are exact.
+const LN2: [f64; 2] = [0.6931471803691238, 1.9082149292705877e-10];
 /// Of Remez, from the lowest power of the square.
 const P: [f64; 5] = [
-    1.666_666_666_666_660_190_37e-1,
-    -2.777_777_777_701_559_338_42e-3,
-    6.613_756_321_437_934_361_17e-5,
-    -1.653_390_220_546_525_153_90e-6,
-    4.138_136_797_057_238_460_39e-8,
+    0.16666666666666602,
+    -0.0027777777777015593,
+    6.613756321437934e-5,
+    -1.6533902205465252e-6,
+    4.1381367970572385e-8,
 ];
 /// 1.5 times 2^52: a number that is added to it has its whole part in the last bits of the sum.
 const SHIFT: f64 = 6_755_399_441_055_744.0;
@@ -33,7 +35,7 @@ pub fn exp_all(x: &mut [f64]) {
 #[inline(always)]
 fn usual(x: f64) -> f64 {
     // Towards zero, as from what is nearest.
-    let halves = INVERSE_LN2 * x + 0.5_f64.copysign(x);
+    let halves = LOG2_E * x + 0.5_f64.copysign(x);
     let nearest = (halves + SHIFT) - SHIFT;
     let back = if nearest.abs() > halves.abs() { 1.0_f64.copysign(x) } else { 0.0 };
     let k = if x.abs() < REDUCED { 0.0 } else { nearest - back };
@@ -64,7 +66,7 @@ mod tests {
         }
         // Where the whole part changes, and what is reduced.
         for k in -1021_i32..=1021 {
-            let edge = (2 * k + 1) as f64 * half_of_ln_2;
+            let edge = f64::from(2 * k + 1) * half_of_ln_2;
             x.extend((-300_i64..=300).map(|step| f64::from_bits((edge.to_bits() as i64 + step) as u64)));
         }
         let reduced = REDUCED.to_bits() as i64;

@@ -78,6 +78,18 @@ fn a_path_tells_what_was_read_between_its_steps() {
 }
 
 #[test]
+fn displacements_are_the_same_one_by_one_and_all_at_once_and_stay_those_of_the_fall() {
+    let path = Curves::of(&Path::of(&wall(14.0, 2.5)).expect("it fell").adding());
+    // More than are told at once, up to three degrees beyond the fall.
+    let tilts: Vec<f64> = (0..85).map(|k| radians(0.2 * f64::from(k))).collect();
+    assert!(path.displacements(tilts[71]).is_none() && path.displacements(tilts[69]).is_some());
+    for (tilt, all) in tilts.iter().zip(path.last_displacements(&tilts)) {
+        let alone = path.displacements(tilt.min(path.collapse()));
+        assert_eq!(alone.map(|points| points.map(f64::to_bits)), Some(all.map(f64::to_bits)), "{tilt}");
+    }
+}
+
+#[test]
 fn a_wall_that_should_not_stand_falls_right_after_its_zero_reading() {
     let mut adding = Path::of(&wall(15.0, 2.5)).expect("it fell").adding();
     assert!((adding[0] - radians(15.0)).abs() < 1e-12);
