@@ -216,19 +216,21 @@ impl Shape {
 
     fn covariance(&self, squared_distance: f64) -> f64 {
         let square = 5.0 * squared_distance;
-        let root = square.sqrt();
-        self.size * (1.0 + root + square / 3.0) * exp(-root)
+        self.smooth(square, exp(-square.sqrt()))
     }
 
     /// Of many squared distances.
     fn covariances(&self, squared_distances: &[f64]) -> Vec<f64> {
-        let roots = || squared_distances.iter().map(|of| (5.0 * of).sqrt());
-        let mut covariances: Vec<f64> = roots().map(|root| -root).collect();
+        let squares = || squared_distances.iter().map(|of| 5.0 * of);
+        let mut covariances: Vec<f64> = squares().map(|square| -square.sqrt()).collect();
         exp_all(&mut covariances);
-        for ((covariance, root), of) in covariances.iter_mut().zip(roots()).zip(squared_distances) {
-            *covariance *= self.size * (1.0 + root + 5.0 * of / 3.0);
-        }
+        covariances.iter_mut().zip(squares()).for_each(|(own, square)| *own = self.smooth(square, *own));
         covariances
+    }
+
+    /// By five times the squared distance, and how far it has died away at the root of that.
+    fn smooth(&self, square: f64, dying: f64) -> f64 {
+        self.size * (1.0 + square.sqrt() + square / 3.0) * dying
     }
 }
 
