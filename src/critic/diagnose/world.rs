@@ -333,7 +333,9 @@ impl<'s> World<'s> {
             points.iter_mut().for_each(read);
             let mut left = Vec::new();
             if asked.goes_back {
-                left.extend(asked.tilts.iter().filter_map(|tilt| curves.remainders(tilt.min(last))));
+                // One for each tilt.
+                let of = |tilt: &f64| curves.remainders(tilt.min(last)).unwrap_or_default();
+                left.extend(asked.tilts.iter().map(of));
                 left.iter_mut().for_each(read);
             }
             asked.shown(last, &points, &left)
