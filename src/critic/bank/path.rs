@@ -150,7 +150,7 @@ impl Curves {
         let mut over_tilt = [0.0; AT_ONCE];
         let over_tilt = &mut over_tilt[..tilts.len()];
         for ((tilt, over_tilt), displacements) in tilts.iter().zip(&mut *over_tilt).zip(&mut *displacements) {
-            let share = Share::of(&PLACES, self.place(tilt.min(self.collapse)));
+            let share = Share::of(&PLACES, self.place(*tilt));
             let [ln_mean, bow, twist] = [0, 1, 2].map(|kind| self.kinds[kind].by(&share));
             (*over_tilt, *displacements) = (ln_mean, points(1.0, bow, twist));
         }
