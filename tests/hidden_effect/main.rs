@@ -3,10 +3,11 @@
 //! `towers` does so in seconds on small walls, `kept` in a minute on a few of the campaigns of the sealed test. That test does so on
 //! the walls of `studies/tilting-table`, is run by hand, and is described in `studies/hidden-effects`: `run` leads through it, `truth`
 //! makes campaigns, `hide` seals what is hidden in them, `inference` judges what lies in the campaigns' folders and nothing else,
-//! `record` keeps what it said, `table` sets the two against each other, and `wanted` against what was asked of it beforehand;
+//! `gains` has it measure what its extended models gain, `record` keeps what it said, `table` sets the two against each other, and `wanted` against what was asked of it beforehand;
 //! `recount` counts the published table anew from the record.
 
 mod folders;
+mod gains;
 mod hide;
 mod inference;
 mod kept;

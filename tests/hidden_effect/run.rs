@@ -13,8 +13,9 @@ use pirca::study::{Loaded, Measurement, Study};
 use rayon::prelude::*;
 
 use crate::folders::{Folders, begun_with, read, told, write};
+use crate::gains::{self, GAINS};
 use crate::hide::{MASTER, hidden_share, opened, seals, solved_again};
-use crate::inference::{Gains, Judge, Known, Said, Word};
+use crate::inference::{Judge, Known, Said, Word};
 use crate::printed;
 use crate::record;
 use crate::sealed::{self, Sealed};
@@ -43,9 +44,6 @@ const POINTS: u64 = 120;
 /// Mechanisms are taken out of the catalogue, and gains are measured, in these designs: two stones add nothing that could be held
 /// out.
 pub const PLAIN: [Design; 2] = [Design::Paper, Design::Rich];
-/// Gains are measured in each on so many campaigns in which a mechanism was named, and on as many in which nothing is hidden: each
-/// takes minutes.
-const GAINS: f64 = 60.0;
 /// So many campaigns of each mechanism are judged again without it, whatever their strength.
 const WITHOUT: f64 = 60.0;
 
@@ -81,7 +79,7 @@ pub fn known(bank: &Path) -> Known {
     Known::new(loaded().study.clone(), POINTS, read)
 }
 
-fn measured(path: &Path) -> Vec<Measurement> {
+pub fn measured(path: &Path) -> Vec<Measurement> {
     loaded().clone().with_measured(path).unwrap_or_else(|faults| panic!("{faults}")).study.measured
 }
 
@@ -106,7 +104,12 @@ impl<'k> Judges<'k> {
         Judges { folders: folders.clone(), known, made: [const { OnceLock::new() }; Design::ALL.len()] }
     }
 
-    fn of(&self, design: Design) -> &Judge<'k> {
+    /// The study that they know.
+    pub fn study(&self) -> &'k Study {
+        &self.known.study
+    }
+
+    pub fn of(&self, design: Design) -> &Judge<'k> {
         self.made[design as usize].get_or_init(|| {
             self.folders.lack(&format!("something that was said in {}", design.name()));
             let path = self.folders.of("planned").join(format!("{}.csv", design.name()));
@@ -189,57 +192,6 @@ impl Without {
         let verdicts = judged(folders, &self.kind, &Judges::new(folders, &known), &PLAIN, &self.names);
         together(&self.names, &self.labels, verdicts)
     }
-}
-
-/// Measures what a design's extended models gain on campaigns, where it has not been measured yet; `None` where all must lie there
-/// already, and do not.
-fn gains(folders: &Folders, judges: &Judges<'_>, design: Design, names: &[&String]) -> Option<Vec<Gains>> {
-    let kind = format!("gains/{}", design.name());
-    if folders.is_whole && folders.lacks(&kind, names) {
-        return None;
-    }
-    let (campaigns, gains) = (folders.of("campaigns"), folders.of(&kind));
-    let path = |name: &String| gains.join(format!("{name}.json"));
-    let open: Vec<&String> = names.iter().copied().filter(|name| !path(name).exists()).collect();
-    solved_again(folders, &judges.known.study, &open);
-    if !open.is_empty() {
-        judges.of(design).folds();
-    }
-    open.into_par_iter().for_each(|name| {
-        let file = campaigns.join(name).join(format!("{}.csv", design.name()));
-        let found = judges.of(design).gains(&measured(&file));
-        write(&path(name), &record::json(&found));
-    });
-    Some(names.iter().map(|name| told(&path(name))).collect())
-}
-
-/// Adds the gains of some of the campaigns of a design: those in which a mechanism was hidden and something was named, and those in
-/// which nothing was hidden, so many of either. `false` where none can be added.
-fn gained(
-    folders: &Folders,
-    judges: &Judges<'_>,
-    design: Design,
-    all: &mut [(String, Judged)],
-    count: usize,
-) -> bool {
-    let mut left = [count; 2];
-    let mut asked: Vec<&mut (String, Judged)> = all
-        .iter_mut()
-        .filter(|(_, judged)| {
-            let kind = match judged.label.group {
-                Group::Mechanism if judged.said.verdict == Word::Named => 0,
-                Group::Nothing => 1,
-                _ => return false,
-            };
-            let own = judged.design == design.name() && left[kind] > 0;
-            left[kind] -= usize::from(own);
-            own
-        })
-        .collect();
-    let names: Vec<&String> = asked.iter().map(|(name, _)| name).collect();
-    let Some(found) = gains(folders, judges, design, &names) else { return false };
-    asked.iter_mut().zip(found).for_each(|((_, judged), gains)| judged.gains = Some(gains));
-    true
 }
 
 /// Adds how far hidden mechanisms of our code move what a design sees.
@@ -339,6 +291,9 @@ pub fn stages(
     for design in Design::ALL {
         shifted(folders, judges, design, &mut all_judged);
     }
+    for design in PLAIN {
+        gains::add(folders, design, &mut all_judged);
+    }
     // Mechanisms taken out of the catalogue, and gains, take as long again each: the rest is told before.
     tell(&all_judged, &[]);
     let some = |full: f64| ((full * share).round() as usize).max(1);
@@ -350,9 +305,19 @@ pub fn stages(
     let removed: Vec<(String, Judged)> =
         removed.into_iter().flat_map(|own| own.judged(folders, known)).collect();
     tell(&all_judged, &removed);
-    for design in PLAIN {
-        if gained(folders, judges, design, &mut all_judged, some(GAINS)) {
-            tell(&all_judged, &removed);
-        }
+    if folders.is_whole {
+        return;
+    }
+    // Designs take turns: a run that is stopped knows as much of each.
+    let mut open = PLAIN.to_vec();
+    while !open.is_empty() {
+        open.retain(|design| {
+            let more = gains::measure_more(folders, judges, *design, &all_judged, some(GAINS));
+            if more {
+                gains::add(folders, *design, &mut all_judged);
+                tell(&all_judged, &removed);
+            }
+            more
+        });
     }
 }

@@ -343,7 +343,7 @@ pub fn permuted(of: &[&Judged]) -> Vec<f64> {
 }
 
 #[cfg(test)]
-mod tests {
+pub mod tests {
     use std::collections::BTreeMap;
 
     use super::*;
@@ -352,7 +352,7 @@ mod tests {
 
     /// What somebody says who knows all labels, and gives no name where there is none. Strong effects of our code shift what is seen
     /// by 5, others by 1.
-    fn told() -> Vec<Judged> {
+    pub fn told() -> Vec<Judged> {
         let all = roster(0.2, 3, &BTreeMap::new()).into_iter();
         all.map(|label| {
             let name = label.hidden.first().map(|hidden| hidden.name.clone());
