@@ -53,6 +53,14 @@ pub fn write(path: &Path, text: &str) {
     replace_file(path, text.as_bytes()).unwrap_or_else(|error| panic!("{error}"));
 }
 
+/// Writes what can be had again in a moment. A run that is stopped leaves it whole or not at all, but it is not brought to the disk,
+/// which takes minutes for thousands of files.
+pub fn put(path: &Path, text: &str) {
+    let partial = path.with_extension("partial");
+    let written = fs::write(&partial, text).and_then(|()| fs::rename(&partial, path));
+    written.unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+}
+
 pub fn read(path: &Path) -> String {
     fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }

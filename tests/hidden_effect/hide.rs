@@ -6,7 +6,7 @@ use std::fs;
 use pirca::study::{Study, nuisances};
 use rayon::prelude::*;
 
-use crate::folders::{Folders, read, told, write};
+use crate::folders::{Folders, put, read, told, write};
 use crate::sealed::Sealed;
 use crate::truth::campaign::campaign;
 use crate::truth::label::Label;
@@ -26,7 +26,7 @@ pub fn seals(folders: &Folders, labels: &[Label], secret: &str) -> Vec<Sealed> {
     let seal = |label: &Label| {
         let own = Sealed::new(secret, serde_json::to_string(label).expect("a label has string keys only"));
         let text = serde_json::to_string(&own).expect("two texts");
-        write(&folder.join(format!("{}.json", own.name())), &text);
+        put(&folder.join(format!("{}.json", own.name())), &text);
         own
     };
     labels.iter().map(seal).collect()

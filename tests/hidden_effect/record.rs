@@ -13,8 +13,12 @@ use polars_io::prelude::{ParquetReader, ParquetWriter, SerReader};
 use serde::Serialize;
 use serde_json::{Number, Value};
 
+use crate::folders::put;
+
 /// Folders of a run that are kept, with those in them.
 const KEPT: [&str; 4] = ["verdicts", "verdicts-without", "shifts", "gains"];
+/// What was said, and no part of it that a run which was stopped has left.
+const SAID: [&str; 1] = ["json"];
 /// Where labels lie; of these the secret is kept, the bank's design, and which campaigns could not be solved.
 const SEALED: &str = "sealed";
 const SEALED_KEPT: [&str; 2] = ["txt", "unsolved"];
@@ -48,9 +52,9 @@ fn shorten(value: &mut Value) {
 pub fn pack(out: &Path, record: &Path) {
     let mut rows = Vec::new();
     for folder in KEPT {
-        collect(out, folder, &|_| true, &mut rows);
+        collect(out, folder, &SAID, &mut rows);
     }
-    collect(out, SEALED, &|extension| SEALED_KEPT.contains(&extension), &mut rows);
+    collect(out, SEALED, &SEALED_KEPT, &mut rows);
     rows.sort();
     let column = |k: usize| {
         let own: Vec<&str> = rows.iter().map(|row: &[String; 3]| row[k].as_str()).collect();
@@ -64,15 +68,15 @@ pub fn pack(out: &Path, record: &Path) {
 }
 
 /// Adds the files of a folder, and of those in it, whose extension is kept.
-fn collect(out: &Path, folder: &str, is_kept: &dyn Fn(&str) -> bool, rows: &mut Vec<[String; 3]>) {
+fn collect(out: &Path, folder: &str, kept: &[&str], rows: &mut Vec<[String; 3]>) {
     let Ok(entries) = fs::read_dir(out.join(folder)) else { return };
     for entry in entries {
         let path = entry.unwrap_or_else(|error| panic!("{folder}: {error}")).path();
         let name =
             path.file_name().and_then(|name| name.to_str()).expect("runs write plain names").to_owned();
         if path.is_dir() {
-            collect(out, &format!("{folder}/{name}"), is_kept, rows);
-        } else if is_kept(path.extension().and_then(|own| own.to_str()).unwrap_or_default()) {
+            collect(out, &format!("{folder}/{name}"), kept, rows);
+        } else if path.extension().and_then(|own| own.to_str()).is_some_and(|own| kept.contains(&own)) {
             let text =
                 fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
             rows.push([folder.to_owned(), name, text]);
@@ -88,7 +92,7 @@ pub fn unpack(record: &Path, out: &Path) {
         let folder = out.join(folder);
         if !folder.join(&file).exists() {
             fs::create_dir_all(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
-            replace_file(&folder.join(file), text.as_bytes()).unwrap_or_else(|error| panic!("{error}"));
+            put(&folder.join(file), &text);
         }
     }
 }
@@ -123,8 +127,12 @@ mod tests {
             ("sealed", "secret.txt", "never told"),
             ("sealed", "c.unsolved", "strong"),
         ];
-        let others =
-            [("sealed", "a.json", "a label"), ("campaigns/a", "rich.csv", "1"), ("again", "a.json", "{}")];
+        let others = [
+            ("sealed", "a.json", "a label"),
+            ("campaigns/a", "rich.csv", "1"),
+            ("again", "a.json", "{}"),
+            ("verdicts", "c.json.partial", "{"),
+        ];
         for (own, file, text) in said.iter().chain(&others) {
             fs::create_dir_all(first.join(own)).expect("it can be made");
             fs::write(first.join(own).join(file), text).expect("it can be written");
