@@ -109,6 +109,7 @@ impl<'k> Judges<'k> {
         &self.known.study
     }
 
+    /// The judge of a design.
     pub fn of(&self, design: Design) -> &Judge<'k> {
         self.made[design as usize].get_or_init(|| {
             self.folders.lack(&format!("something that was said in {}", design.name()));
