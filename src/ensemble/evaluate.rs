@@ -87,6 +87,9 @@ fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
             .bracket
             .filter(|_| last.is_some_and(|s| tilt(s.level).is_some()))
             .map(|[_, at]| degrees(at)),
+        first_stone_deg: run.events.first_stone.and_then(tilt),
+        part_deg: run.events.part.and_then(tilt),
+        most_deg: run.events.most.and_then(tilt),
         largest_tilt_deg: match run.outcome {
             Outcome::Equilibrium => last.and_then(|step| tilt(step.level)),
             _ => run.steps.iter().rev().nth(1).and_then(|step| tilt(step.level)),
@@ -134,6 +137,9 @@ fn unsolved(study: &Study, task: Task, outcome: Outcome) -> Row {
         top_displacement_m: None,
         collapse_angle_deg: None,
         fails_at_deg: None,
+        first_stone_deg: None,
+        part_deg: None,
+        most_deg: None,
         largest_tilt_deg: None,
         limit: None,
         mechanism: None,

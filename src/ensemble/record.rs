@@ -27,6 +27,15 @@ pub struct Row {
     pub collapse_angle_deg: Option<f64>,
     /// The lowest tilt at which it is known to fall (deg).
     pub fails_at_deg: Option<f64>,
+    /// Tilt at which its first stone fell (deg); `None` where none did or nothing tilts.
+    #[serde(default)]
+    pub first_stone_deg: Option<f64>,
+    /// The same for a part of its weight, see [`crate::protocol::EventShares`].
+    #[serde(default)]
+    pub part_deg: Option<f64>,
+    /// The same for most of its weight; `None` as well where the test ended with an earlier event.
+    #[serde(default)]
+    pub most_deg: Option<f64>,
     /// The largest tilt at which it came to rest (deg); `None` where nothing tilts, and for a wall that never stood.
     pub largest_tilt_deg: Option<f64>,
     /// Limit analysis of the same wall; `None` unless the study asks for it.

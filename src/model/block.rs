@@ -25,6 +25,8 @@ pub enum Support {
     Fixed,
     /// Cannot move out of plane (y) nor turn about x or z; free in the wall's plane.
     OutOfPlane,
+    /// Not there any more: a stone that has fallen out. It has neither weight nor joints; the others keep their ids.
+    Absent,
 }
 
 /// What a block is, for reports and for the rules that treat it.

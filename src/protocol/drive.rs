@@ -3,6 +3,7 @@
 
 use crate::model::{Level, Outcome};
 use crate::protocol::confirm::{Fall, Judge, Told};
+use crate::protocol::events::Events;
 use crate::protocol::mechanism::{Failure, failure, joint_states};
 use crate::protocol::pace::Pace;
 use crate::protocol::route::Route;
@@ -112,6 +113,7 @@ pub fn climb<'a, S: Equilibrate<'a>>(task: &Task<'a>, of: &dyn Fn(Assembly<'a>) 
         turns: turns(&assembly.bodies.all, &climber.built.bodies.all),
         joints,
         failure,
+        events: Events::default(),
         joint_states: joint_states(assembly, &at_rest),
     }
 }
@@ -447,6 +449,7 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
             turns: turns(&bodies, &self.built.bodies.all),
             joints,
             failure,
+            events: Events::default(),
             joint_states: Vec::new(),
         }
     }

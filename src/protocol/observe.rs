@@ -5,9 +5,9 @@ use crate::model::{Block, Support, Wall};
 use crate::protocol::Direction;
 use crate::solve::bodies::Bodies;
 
-/// The stones that can move: neither base nor ends, nor a block that is fixed for other reasons.
+/// The stones that can move: neither base nor ends, nor a block that is fixed for other reasons or has fallen out.
 pub fn movable(wall: &Wall) -> impl Iterator<Item = (usize, &Block)> {
-    wall.stones().filter(|(_, block)| block.support != Support::Fixed)
+    wall.stones().filter(|(_, block)| !matches!(block.support, Support::Fixed | Support::Absent))
 }
 
 /// Lowest and highest corner of the box around the stones that can move (m).

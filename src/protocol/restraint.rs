@@ -34,7 +34,8 @@ pub fn restrain(wall: &Wall, restraint: &Restraint, towards: Direction) -> Wall 
             let near = 1e-6 * (high.x - low.x);
             for block in assembly.blocks.iter_mut().take(wall.blocks.len()) {
                 let (from, to) = block.shape.bounds();
-                if from.x <= low.x + near || to.x >= high.x - near {
+                let at_an_end = from.x <= low.x + near || to.x >= high.x - near;
+                if at_an_end && block.support != Support::Absent {
                     block.support = Support::OutOfPlane;
                 }
             }

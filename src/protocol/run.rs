@@ -1,7 +1,8 @@
 //! A wall of a study through the study's protocol.
 
-use crate::model::{JointLaws, Wall};
+use crate::model::{JointLaws, Level, Support, Wall};
 use crate::protocol::drive::drive;
+use crate::protocol::events::in_parts;
 use crate::protocol::path::LoadPath;
 use crate::protocol::pressure::back_loads;
 use crate::protocol::stage::Stage;
@@ -38,12 +39,14 @@ pub fn run_changing(
     let (low, high) = wall.bounds();
     let thickness = high.y - low.y;
     let confirmation = Confirmation::for_thickness(thickness);
-    let task = |path, criterion| Task {
-        wall: &stage.assembly,
+    let is_there =
+        |wall: &Wall, id: usize| wall.blocks.get(id).is_none_or(|b| b.support != Support::Absent);
+    let task = |path, criterion, left| Task {
+        wall: left,
         laws: &stage.laws,
         contact: stage.contact,
         loads: Vec::new(),
-        ties: stage.ties.clone(),
+        ties: stage.ties.iter().filter(|tie| is_there(left, tie.body)).cloned().collect(),
         platform: stage.platform.clone(),
         changes: changes.clone(),
         path,
@@ -53,22 +56,25 @@ pub fn run_changing(
     let mut run = match protocol {
         Protocol::Lateral(lateral) => {
             let criterion = Criterion::Top(lateral.collapse_share * thickness);
-            let task = task(LoadPath::factor(lateral.steps), criterion);
+            let task = task(LoadPath::factor(lateral.steps), criterion, &stage.assembly);
             drive(&Task { loads: back_loads(wall, lateral), ..task }, solver)
         }
         Protocol::Tilting(tilting) => {
             let criterion = Criterion::AnyBlock(tilting.collapse_share * thickness);
-            let task = task(tilting.path(), criterion);
-            match tilting.rate {
-                Rate::Static => drive(&task, solver),
-                Rate::Dynamic(turning) => {
-                    let at_rest = match solver {
-                        Solver::Explicit(settings) => *settings,
-                        Solver::Implicit(_) => explicit::Settings::default(),
-                    };
-                    turn(&task, &turning, at_rest)
+            let level = Level::Tilt(0.0);
+            in_parts(&stage.assembly, &tilting.events, level, |left| {
+                let task = task(tilting.path(), criterion, left);
+                match tilting.rate {
+                    Rate::Static => drive(&task, solver),
+                    Rate::Dynamic(turning) => {
+                        let at_rest = match solver {
+                            Solver::Explicit(settings) => *settings,
+                            Solver::Implicit(_) => explicit::Settings::default(),
+                        };
+                        turn(&task, &turning, at_rest)
+                    }
                 }
-            }
+            })
         }
     };
     run.displacements.truncate(wall.blocks.len());

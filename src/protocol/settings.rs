@@ -1,6 +1,7 @@
 //! The protocols and their settings, as a study states them.
 
 use crate::math::Vec3;
+use crate::protocol::events::EventShares;
 
 /// How the ends of the wall (x = 0 and x = length) are held.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -159,6 +160,8 @@ pub struct Tilting {
     /// Whether the platform is let back to the level after every full step of tilt, and what is left of the displacements is read
     /// there. The test goes on from the tilt as if it had not; default no.
     pub remainders: bool,
+    /// Which parts of the wall are seen to fall, and which of them is its capacity.
+    pub events: EventShares,
 }
 
 /// What a test on a tilting table is about.
@@ -205,6 +208,7 @@ impl Default for Tilting {
             rate: Rate::Static,
             observes: Observes::CollapseAngle,
             remainders: false,
+            events: EventShares::default(),
         }
     }
 }

@@ -6,6 +6,7 @@ use crate::model::{JointLaws, Outcome, Support, Tag, Wall};
 use crate::protocol::Compliance;
 use crate::protocol::changes::Changes;
 use crate::protocol::confirm::Confirmation;
+use crate::protocol::events::Events;
 use crate::protocol::mechanism::{Failure, JointState};
 use crate::protocol::path::LoadPath;
 use crate::protocol::pressure::Load;
@@ -76,6 +77,8 @@ pub struct Run {
     pub joints: usize,
     /// The mechanism of a collapse.
     pub failure: Option<Failure>,
+    /// The loads at which parts of the wall fell; none for a run that ends with the first part.
+    pub events: Events,
     /// The joints at the last state at rest; empty if there was none.
     pub joint_states: Vec<JointState>,
 }

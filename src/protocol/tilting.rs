@@ -2,6 +2,7 @@
 
 use crate::math::Vec3;
 use crate::model::Outcome;
+use crate::protocol::events::Events;
 use crate::protocol::mechanism::joint_states;
 use crate::protocol::path::LoadPath;
 use crate::protocol::task::{displacements, turns};
@@ -44,6 +45,7 @@ pub fn turn(task: &Task<'_>, turning: &Turning, at_rest: Settings) -> Run {
         turns: turns(&assembly.bodies.all, &built.bodies.all),
         joints,
         failure: None,
+        events: Events::default(),
         joint_states: Vec::new(),
     };
     let at = task.path.level(0.0);

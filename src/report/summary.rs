@@ -151,7 +151,10 @@ pub(crate) fn describe(
     parameters: BTreeMap<String, serde_json::Value>,
 ) -> ArmSummary {
     let values = population.complete();
-    let statistics = stats::Summary::of(&values);
+    let statistics = match population.quantity {
+        Quantity::CollapseAngle => stats::Summary::of_positive(&values),
+        Quantity::TopDisplacement => stats::Summary::of(&values),
+    };
     let name = format!("{} {:e}", population.arm, population.kn);
     let [sigma_bootstrap, cov_bootstrap] = stats::spread_bootstrap(&values, REPLICATES, seed, &name);
     ArmSummary {

@@ -2,7 +2,7 @@
 
 use crate::contact;
 use crate::math::{Mat3, Vec3};
-use crate::model::{JointLaws, Wall};
+use crate::model::{JointLaws, Support, Wall};
 use crate::solve::bodies::{Bodies, Freedom};
 use crate::solve::joints::Joints;
 use crate::solve::mount::{Mount, Mounted};
@@ -60,6 +60,12 @@ impl<'a> Assembly<'a> {
             mounted: None,
             seen: Vec::new(),
         };
+        // Joints that are found from now on have none of these.
+        for (id, block) in wall.blocks.iter().enumerate() {
+            if block.support == Support::Absent {
+                assembly.joints.remove(id as u32);
+            }
+        }
         assembly.refresh();
         assembly
     }

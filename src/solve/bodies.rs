@@ -108,7 +108,7 @@ impl Freedom {
     fn of(support: Support) -> Freedom {
         match support {
             Support::Free => Freedom::Free,
-            Support::Fixed => Freedom::Fixed,
+            Support::Fixed | Support::Absent => Freedom::Fixed,
             Support::OutOfPlane => Freedom::InPlane,
         }
     }

@@ -1,6 +1,7 @@
 //! Mean, sigma and COV of one sample, each with its interval.
 
 use super::Estimate;
+use crate::math::exp;
 use super::moments::{cov, mean, sigma};
 use super::reference::{chi_square, student};
 
@@ -39,6 +40,31 @@ impl Summary {
             sigma: Estimate { value: sigma, interval: sigma.map(|s| sigma_interval(n, s)) },
             cov: Estimate { value: cov, interval: cov.and_then(|k| cov_interval(n, k)) },
         }
+    }
+}
+
+impl Summary {
+    /// The same with an interval of the mean that stays above 0, for a quantity that cannot be negative (an angle of collapse):
+    /// Student's on the logarithm of the mean, `m exp(-+ t sigma / (m sqrt(n)))`. To the first order in the half width it is
+    /// Student's own. Where the mean is not above 0 it is left as it is.
+    ///
+    /// ```
+    /// use pirca::stats::Summary;
+    /// let angles = [0.5, 2.0, 18.0, 14.5];
+    /// let [low, high] = Summary::of_positive(&angles).mean.interval.unwrap();
+    /// assert!(Summary::of(&angles).mean.interval.unwrap()[0] < 0.0 && 0.0 < low && low < 8.75 && high > 8.75);
+    /// let near = Summary::of_positive(&[14.0, 14.1, 14.2]).mean.interval.unwrap();
+    /// let student = Summary::of(&[14.0, 14.1, 14.2]).mean.interval.unwrap();
+    /// assert!((near[0] - student[0]).abs() < 3e-3 && (near[1] - student[1]).abs() < 3e-3);
+    /// ```
+    pub fn of_positive(values: &[f64]) -> Summary {
+        let summary = Summary::of(values);
+        let half = |mean: f64, [low, high]: [f64; 2]| (0.5 * (high - low)) / mean;
+        let interval = summary.mean.value.zip(summary.mean.interval).map(|(mean, interval)| match mean > 0.0 {
+            true => [mean * exp(-half(mean, interval)), mean * exp(half(mean, interval))],
+            false => interval,
+        });
+        Summary { mean: Estimate { interval, ..summary.mean }, ..summary }
     }
 }
 

@@ -1,7 +1,7 @@
 //! From the raw tree of study.toml to checked parts.
 
 use crate::math::radians;
-use crate::protocol::{Ends, Lateral, Protocol, Rate, Tilting, Turning};
+use crate::protocol::{Ends, EventShares, Lateral, Protocol, Rate, Tilting, Turning};
 use crate::solve::{Solver, explicit, implicit};
 use crate::study::arm;
 use crate::study::catalogue::Catalogue;
@@ -136,6 +136,7 @@ fn tilting(t: &mut Reader<'_>) -> Option<Tilting> {
     let towards = t.choice("towards");
     let reals = t.reals(["step_deg", "end_deg", "bracket_deg", "runaway_share"]);
     let (observes, remainders) = (t.choice("observes"), t.flag("remainders"));
+    let events = events(t);
     let turns = t.has("turning");
     let turning = t.table("turning").and_then(|mut t| {
         let [rate, damping, step_safety] = t.reals(["rate_deg_per_s", "damping", "step_safety"])?;
@@ -145,6 +146,7 @@ fn tilting(t: &mut Reader<'_>) -> Option<Tilting> {
     let rate = if turns { Rate::Dynamic(turning?) } else { Rate::Static };
     let (step, end, bracket) = (radians(step), radians(end), radians(bracket));
     let (towards, observes, remainders) = (towards?, observes?, remainders?);
+    let events = events?;
     if remainders && turns {
         t.fault(
             "remainders",
@@ -152,7 +154,20 @@ fn tilting(t: &mut Reader<'_>) -> Option<Tilting> {
             "remove one of the two",
         );
     }
-    Some(Tilting { towards, step, end, bracket, collapse_share, rate, observes, remainders })
+    Some(Tilting { towards, step, end, bracket, collapse_share, rate, observes, remainders, events })
+}
+
+/// The parts of a wall that are seen to fall; each has its default where the study says nothing.
+fn events(t: &mut Reader<'_>) -> Option<EventShares> {
+    let usual = EventShares::default();
+    let part = if t.has("part_share") { t.real("part_share")? } else { usual.part };
+    let most = if t.has("most_share") { t.real("most_share")? } else { usual.most };
+    let capacity = if t.has("capacity") { t.choice("capacity")? } else { usual.capacity };
+    if most < part {
+        t.fault("most_share", "at least part_share", "exchange the two");
+        return None;
+    }
+    Some(EventShares { part, most, capacity })
 }
 
 /// Reads the solver and its settings.

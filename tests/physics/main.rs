@@ -3,6 +3,7 @@
 mod agreement;
 mod dynamics;
 mod elastic;
+mod events;
 mod fixture;
 mod grains;
 mod holding;

@@ -66,7 +66,7 @@ fn residual(program: &Program, solved: &Solved) -> f64 {
     let left = |(block, sum): (&crate::solve::limit::interfaces::Rigid, &Wrench)| {
         let (f, m) = (sum.force, sum.moment / block.radius);
         match block.support {
-            Support::Fixed => 0.0,
+            Support::Fixed | Support::Absent => 0.0,
             Support::Free => f.norm().max(m.norm()),
             Support::OutOfPlane => f.x.abs().max(f.z.abs()).max(m.y.abs()),
         }

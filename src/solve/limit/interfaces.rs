@@ -62,7 +62,7 @@ pub(crate) struct Blocks {
 
 impl Rigid {
     pub fn moves(&self) -> bool {
-        self.support != Support::Fixed
+        !matches!(self.support, Support::Fixed | Support::Absent)
     }
 }
 
@@ -89,7 +89,8 @@ impl Blocks {
         let mut interfaces = Vec::new();
         for (a, b) in candidate_pairs(&shapes, 2.0 * contact.reach) {
             let (a, b) = (a as usize, b as usize);
-            if !rigid[a].moves() && !rigid[b].moves() {
+            let is_absent = [a, b].iter().any(|&block| rigid[block].support == Support::Absent);
+            if is_absent || (!rigid[a].moves() && !rigid[b].moves()) {
                 continue;
             }
             // As in the other solvers, what is fixed is the preferred reference.

@@ -102,7 +102,7 @@ fn first_rows(blocks: &Blocks) -> (Vec<Option<usize>>, usize) {
         .iter()
         .map(|block| {
             let rows = match block.support {
-                Support::Fixed => return None,
+                Support::Fixed | Support::Absent => return None,
                 Support::Free => 6,
                 Support::OutOfPlane => 3,
             };
@@ -117,7 +117,7 @@ fn first_rows(blocks: &Blocks) -> (Vec<Option<usize>>, usize) {
 fn components(support: Support, wrench: &Wrench, radius: f64) -> ([f64; 6], usize) {
     let (f, m) = (wrench.force, wrench.moment / radius);
     match support {
-        Support::Fixed => ([0.0; 6], 0),
+        Support::Fixed | Support::Absent => ([0.0; 6], 0),
         Support::Free => ([f.x, f.y, f.z, m.x, m.y, m.z], 6),
         Support::OutOfPlane => ([f.x, f.z, m.y, 0.0, 0.0, 0.0], 3),
     }
@@ -287,7 +287,7 @@ impl Program<'_> {
             let v = |k: usize| z[row + k] / unit;
             let w = |k: usize| z[row + k] / (unit * radius);
             match self.blocks.rigid[b].support {
-                Support::Fixed => Wrench::default(),
+                Support::Fixed | Support::Absent => Wrench::default(),
                 Support::Free => {
                     Wrench { force: Vec3::new(v(0), v(1), v(2)), moment: Vec3::new(w(3), w(4), w(5)) }
                 }

@@ -88,6 +88,28 @@ pub static LOAD: Section = Section {
         )
         .only(TILTING),
         Key::new(
+            "part_share",
+            real("1", Interval::above(0.0, 1.0)),
+            Optional,
+            "A part of the wall has fallen when this share of its weight has; 0.1 where it is not given.",
+        )
+        .only(TILTING),
+        Key::new(
+            "most_share",
+            real("1", Interval::above(0.0, 1.0)),
+            Optional,
+            "Most of the wall has fallen when this share of its weight has; 0.5 where it is not given.",
+        )
+        .only(TILTING),
+        Key::new(
+            "capacity",
+            Kind::Choice(&["first_stone", "part", "most"]),
+            Optional,
+            "Whose fall is the wall's collapse angle: that of its first stone, of part_share of its weight, or of most_share. \
+             The other two are columns of members.parquet. \"most\" where it is not given.",
+        )
+        .only(TILTING),
+        Key::new(
             "remainders",
             Kind::Flag,
             Default("false"),
