@@ -28,21 +28,23 @@ impl Place {
     /// Line (from 1) and column in characters (from 1) of the beginning, as an editor counts them: a byte order mark is no
     /// character, and a line ends with a line feed, a carriage return, or both.
     pub fn line_and_column(&self) -> (usize, usize) {
+        let (line, span) = self.line();
+        let before = self.source.text.get(span.start..self.start()).unwrap_or_default();
+        (line, before.chars().count() + 1)
+    }
+
+    /// Number (from 1) and stretch of the line of the beginning.
+    fn line(&self) -> (usize, Range<usize>) {
         let start = self.start();
-        let lines = lines(&self.source.text);
-        let line = lines.partition_point(|line| line.start <= start).max(1);
-        let begin = lines.get(line - 1).map_or(0, |line| line.start.min(start));
-        (line, self.source.text[begin..start].chars().count() + 1)
+        let lines = lines(&self.source.text).enumerate();
+        let found = lines.take_while(|(index, line)| *index == 0 || line.start <= start).last();
+        found.map_or((1, 0..0), |(index, line)| (index + 1, line))
     }
 
     /// The line of the beginning with carets under the stretch; a tab is shown as one blank, so that the carets stand right.
     fn excerpt(&self) -> String {
         let (line, column) = self.line_and_column();
-        let lines = lines(&self.source.text);
-        let Some(text) = lines.get(line - 1).and_then(|span| self.source.text.get(span.clone())) else {
-            return String::new();
-        };
-        let text = text.replace('\t', " ");
+        let text = self.source.text.get(self.line().1).unwrap_or_default().replace('\t', " ");
         let left = (text.chars().count() + 1).saturating_sub(column).max(1);
         let end = self.span.end.min(self.source.text.len());
         let wanted = self.source.text.get(self.start()..end).map_or(1, |s| s.chars().count());
@@ -64,21 +66,16 @@ impl Place {
 
 /// The lines of a text without their ends, at least one: a line feed, a carriage return or both end a line. The byte order mark
 /// that spreadsheets write is no part of the first.
-pub(super) fn lines(text: &str) -> Vec<Range<usize>> {
-    let mut lines = Vec::new();
-    let mut begin = text.find(|c| c != '\u{feff}').unwrap_or(text.len());
-    let bytes = text.as_bytes();
-    let ends = bytes
-        .iter()
-        .enumerate()
-        .filter(|(at, byte)| **byte == b'\n' || (**byte == b'\r' && bytes.get(at + 1) != Some(&b'\n')));
-    for (at, byte) in ends {
-        let returns = *byte == b'\n' && at > begin && bytes[at - 1] == b'\r';
-        lines.push(begin..at - usize::from(returns));
-        begin = at + 1;
-    }
-    lines.push(begin..text.len());
-    lines
+pub(super) fn lines(text: &str) -> impl Iterator<Item = Range<usize>> {
+    let begin = text.find(|c| c != '\u{feff}').unwrap_or(text.len());
+    let mut next = Some(begin);
+    std::iter::from_fn(move || {
+        let begin = next?;
+        let end = text[begin..].find(['\n', '\r']).map_or(text.len(), |length| begin + length);
+        let behind = if text[end..].starts_with("\r\n") { end + 2 } else { end + 1 };
+        next = (end < text.len()).then_some(behind);
+        Some(begin..end)
+    })
 }
 
 /// What was found at a key.

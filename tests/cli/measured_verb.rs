@@ -239,13 +239,14 @@ fn a_specimen_in_another_unit_is_told_by_its_fellows() {
         &multiplied(1e-3, |cells| ["T0", "T4"].contains(&cells[0]) && cells[3] != "collapse_angle"),
     );
     assert!(two.len() == 2 && two[1].starts_with("lines 67 to 81: T4 alone"), "{two:?}");
-    let fall = notes(
-        &folder,
-        &multiplied(1.0 / degrees(1.0), |cells| cells[0] == "T2" && cells[3] == "collapse_angle"),
-    );
+    // Where displacements are read as well, these are above such an angle, which is a fault.
+    let fell = |cells: &[&str]| cells[0] == "T2" && cells[3] == "collapse_angle";
+    let falls = multiplied(1.0 / degrees(1.0), fell);
+    let falls: Vec<&str> = falls.lines().filter(|line| !line.contains("displacement")).collect();
+    let fall = notes(&folder, &(falls.join("\n") + "\n"));
     assert!(
         fall.len() == 1
-            && fall[0].starts_with("line 34: T2 alone is off by a factor of about 57.3 on collapse_angle"),
+            && fall[0].starts_with("line 4: T2 alone is off by a factor of about 57.3 on collapse_angle"),
         "{fall:?}"
     );
     let column =

@@ -27,13 +27,8 @@ pub struct Line {
     pub cells: Vec<Cell>,
     /// The whole line.
     pub place: Place,
-}
-
-impl Line {
-    /// Number of the line, from 1.
-    pub fn number(&self) -> usize {
-        self.place.line_and_column().0
-    }
+    /// Its number, from 1.
+    pub number: usize,
 }
 
 /// A file cut into cells.
@@ -48,21 +43,21 @@ pub struct Table {
 /// many; a line that cannot be cut is noted and left out.
 pub fn table(source: &Arc<Source>, is_column: impl Fn(&str) -> bool, faults: &mut Vec<Fault>) -> Table {
     let text = |span: &Range<usize>| &source.text[span.clone()];
-    let mut spans = fault::lines(&source.text).into_iter().peekable();
-    let told = spans.next_if(|first| told_separator(text(first)).is_some());
-    let told = told.and_then(|first| told_separator(text(&first)));
-    let spans: Vec<Range<usize>> = spans.filter(|span| !is_without_cells(text(span))).collect();
+    let mut spans = (1..).zip(fault::lines(&source.text)).peekable();
+    let first = spans.next_if(|(_, first)| told_separator(text(first)).is_some());
+    let told = first.and_then(|(_, first)| told_separator(text(&first)));
+    let spans: Vec<(usize, Range<usize>)> = spans.filter(|(_, span)| !is_without_cells(text(span))).collect();
     let known = |separator: char| {
-        let header = spans.first().and_then(|span| cells(source, span.clone(), separator).ok());
+        let header = spans.first().and_then(|(_, span)| cells(source, span.clone(), separator).ok());
         header.map_or(0, |cells| cells.iter().filter(|cell| is_column(&cell.text)).count())
     };
     // The last of those that are best is taken.
     let preferred = SEPARATORS.into_iter().rev().chain(told);
     let separator = preferred.max_by_key(|separator| known(*separator)).unwrap_or(',');
     let mut lines = Vec::new();
-    for span in spans {
+    for (number, span) in spans {
         match cells(source, span.clone(), separator) {
-            Ok(cells) => lines.push(Line { cells, place: place(source, span) }),
+            Ok(cells) => lines.push(Line { cells, place: place(source, span), number }),
             Err(fault) => faults.push(*fault),
         }
     }

@@ -320,7 +320,7 @@ impl Header {
             let sharing = self.quantities.iter().filter(|q| self.said(**q, column) == Some(at));
             let differ =
                 sharing.filter_map(|q| self.own(*q, "value")).any(|other| self.unit_in(other) != of_value);
-            if (own.is_some() && own != of_value) || (is_shared && differ) {
+            if own.map_or(is_shared && differ, |_| own != of_value) {
                 let called = &self.slots[value].1.text;
                 fault(
                     at,

@@ -113,17 +113,18 @@ pub(super) fn read(source: &Arc<Source>, arms: Option<&[String]>) -> Result<Read
         decimal_comma: numbers.have_decimal_commas(),
         wide: header.is_wide(),
         units,
-        unfilled: unfilled.iter().map(|line| line.number()).collect(),
+        unfilled: unfilled.iter().map(|line| line.number).collect(),
     };
     Ok(Read { rows, written, warnings })
 }
 
-/// The fault of a row that has not as many cells as the header; what is empty at its end does not count.
+/// The fault of a row that has not as many cells as the header. What is empty at its end does not count, but for commas: one that
+/// stands for a decimal point would shift what is behind it.
 fn ill_sized(header: &Header, line: &Line, separator: char) -> Option<Fault> {
     let (cells, width) = (line.cells.len(), header.width());
     let surplus = line.cells.iter().skip(width).any(|cell| !cell.text.is_empty());
     let fix = match cells.cmp(&width) {
-        std::cmp::Ordering::Greater if surplus && separator == ',' => {
+        std::cmp::Ordering::Greater if separator == ',' => {
             "write decimals with a point, or separate the cells by semicolons; put quotes around a cell that holds a comma"
         }
         std::cmp::Ordering::Greater if surplus => "put quotes around a cell that holds the separator",

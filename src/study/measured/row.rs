@@ -72,7 +72,7 @@ impl Row<'_> {
             resolution,
             order: order?,
             stage: stage?.unwrap_or(0),
-            line: self.record.line.number(),
+            line: self.record.line.number,
         })
     }
 
@@ -241,7 +241,10 @@ impl Row<'_> {
             _ => quantity.dimension().si(number, unit),
         };
         if !within.contains(in_first) {
-            let told = format!("{}, which is {} {first}", cell.text, Short(in_first));
+            let told = match unit == first {
+                true => cell.text.clone(),
+                false => format!("{}, which is {} {first}", cell.text, Short(in_first)),
+            };
             self.refuse_as(told, &cell, "value", allowed, "mend the value or its unit");
             return None;
         }
