@@ -123,6 +123,10 @@ fn specimens(study: &Study) -> Vec<(&str, &str, usize)> {
     found
 }
 
+fn counted(n: usize, one: &str, several: &str) -> String {
+    format!("{n} {}", if n == 1 { one } else { several })
+}
+
 fn separator(how: &Written) -> String {
     match how.separator {
         ',' => "commas".to_owned(),
@@ -144,13 +148,13 @@ fn summary(study: &Study, how: &Written, file: &Path, notes: &[String]) -> Strin
     specimens.iter().for_each(|(name, family, _)| families.entry(family).or_default().push(name));
     let odd = match notes.len() {
         0 => "nothing looks odd".to_owned(),
-        1 => "1 note on what looks odd stands above".to_owned(),
-        n => format!("{n} notes on what looks odd stand above"),
+        n => format!("{} on standard error", counted(n, "note on what looks odd", "notes on what looks odd")),
     };
     let mut text = format!(
-        "{}: {readings} readings on {} specimens; {odd}\n  {}, separated by {}, decimals with a {}\n",
+        "{}: {} on {}; {odd}\n  {}, separated by {}, decimals with a {}\n",
         file.display(),
-        specimens.len(),
+        counted(readings, "reading", "readings"),
+        counted(specimens.len(), "specimen", "specimens"),
         if how.wide { "a row per tilt" } else { "a row per value" },
         separator(how),
         if how.decimal_comma { "comma" } else { "point" },

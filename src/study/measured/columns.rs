@@ -60,7 +60,7 @@ A wide table has a row per specimen and tilt and a column per quantity, in the p
 | any other quantity, with its unit behind it: `joint_phi_deg`, `remainder_mean_mm` | its value |
 | `unit` | unit of the lengths whose columns have none in their name; `left_mm` needs none |
 | `error`, `common_error`, `resolution`, `kind` | said of all lengths; `error_mm` where these are `left_mm` |
-| `mean_error`, `collapse_angle_kind` and so on | said of one quantity |
+| `mean_error`, `collapse_angle_kind` and so on | said of one quantity: a mean has another error than a point |
 
 An empty cell is no reading. Without a kind a reading is exact, or rounded where a resolution is given; `<5` is below, `>30` above.";
 
