@@ -62,7 +62,7 @@ impl Loaded {
         // As beside the study: a variant that evaluates fewer arms reads the same files.
         let arms = self.stated.arms();
         let read = measured::read(&file.source, arms.as_deref()).map_err(Faults::sorted)?;
-        (self.study.measured, self.written) = (read.rows, Some(read.written));
+        (self.study.measured, self.written) = (read.rows, read.written);
         let of_the_studys_own = |warning: &Fault| warning.file == measured::FILE;
         self.warnings.retain(|warning| !of_the_studys_own(warning));
         self.warnings.extend(read.warnings);
@@ -114,10 +114,7 @@ impl Study {
             Some(Reading { parts: Some(parts), root, notes, used }) if faults.is_empty() => {
                 let name = folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
                 let hash = hash_of(&notes.effective);
-                let (measured, written, odd) = match measured {
-                    Some(read) => (read.rows, Some(read.written), read.warnings),
-                    None => Default::default(),
-                };
+                let read = measured.unwrap_or_default();
                 let study = Study {
                     name,
                     question: parts.question,
@@ -128,16 +125,16 @@ impl Study {
                     solver: parts.solver,
                     agreement: parts.agreement,
                     published: claims,
-                    measured,
+                    measured: read.rows,
                     inputs,
                     effective: notes.effective,
                     hash,
                 };
                 let name_of = |v: &Variant| VariantName { name: v.name.clone(), why: v.why.clone() };
-                let warnings = Faults::sorted([notes.warnings, odd].concat()).faults;
+                let warnings = Faults::sorted([notes.warnings, read.warnings].concat()).faults;
                 let variants = variants.iter().map(name_of).collect();
                 let stated = Stated::of(root, &mut catalogue, published_text, measured_file);
-                Ok(Loaded { study, warnings, variants, used, stated, written })
+                Ok(Loaded { study, warnings, variants, used, stated, written: read.written })
             }
             _ => {
                 crate::check!(!faults.is_empty(), "the study was refused without a fault");

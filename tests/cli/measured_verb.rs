@@ -273,6 +273,20 @@ fn a_specimen_in_another_unit_is_told_by_its_fellows() {
             && one[0].starts_with("line 27: T1 is off by a factor of about 100 on displacement_right alone"),
         "{one:?}"
     );
+    // Three specimens with two readings each, one of them in mm where the others are in cm: the source paper's own table.
+    let tilting = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/tilting-table");
+    let table = fs::read_to_string(tilting.join("measured.csv")).unwrap();
+    let slip = table.replace("SBL2,SBL,5,displacement_mean,1.2,cm", "SBL2,SBL,5,displacement_mean,1.2,mm");
+    let slip = slip.replace("SBL2,SBL,10,displacement_mean,2.0,cm", "SBL2,SBL,10,displacement_mean,2.0,mm");
+    assert_ne!(slip, table);
+    fs::write(folder.path("slip.csv"), slip).unwrap();
+    let output = ends_with(&folder, 0, &["measured", tilting.to_str().unwrap(), "slip.csv", "--json"]);
+    let found = &json(&output)["notes"];
+    assert!(
+        found[0].as_str().unwrap().contains("SBL2 alone is off by a factor of about 10 on all 2 readings")
+            && found[1].is_null(),
+        "{found}"
+    );
     // Of two specimens neither is the odd one.
     let of_two: String = text
         .lines()

@@ -76,10 +76,8 @@ pub enum Doubt {
         factor: f64,
         /// How many readings.
         readings: usize,
-        /// Whether these are all of the specimen that can be compared.
-        whole: bool,
-        /// Whether it is told which specimen is odd: of two it is not.
-        alone: bool,
+        /// Of what these are the readings.
+        told: Told,
     },
     /// Read where simulated walls have fallen.
     Fallen {
@@ -99,6 +97,17 @@ pub enum Doubt {
         /// What it would be in another unit, if that lies there.
         fits: Option<f64>,
     },
+}
+
+/// Of what readings that are off are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Told {
+    /// Of one specimen alone, which has so many of the kind.
+    Whole(usize),
+    /// Of one of two specimens, which has so many of the kind: it is not told which is odd.
+    OfTwo(usize),
+    /// Of a specimen whose other readings are not off.
+    Part,
 }
 
 impl fmt::Display for Doubt {
@@ -139,22 +148,7 @@ impl fmt::Display for Doubt {
                 told(first),
                 shown(Dimension::Length, *thickness)
             ),
-            Doubt::Overturned { lines, first, most } => write!(
-                f,
-                "{}: {}, and a wall with free ends as the study draws it overturns as a whole at {}: check the angle, the \
-                 thickness and the height",
-                listed(lines),
-                told(first),
-                shown(Dimension::Angle, *most)
-            ),
-            Doubt::Contradicted { lines, first, told: points } => write!(
-                f,
-                "{}: {}, where left, centre and right make it {}: are these readings of one wall at one tilt, in one unit?",
-                listed(lines),
-                told(first),
-                shown(first.quantity.dimension(), *points)
-            ),
-            Doubt::OtherUnit { .. } => self.other_unit(f),
+            Doubt::Overturned { .. } | Doubt::Contradicted { .. } | Doubt::OtherUnit { .. } => self.of_the_table(f),
             Doubt::Fallen { lines, first } => write!(
                 f,
                 "{}: {}, where every simulated wall has fallen: only that the wall still stood there counts, as off; check the tilt",
@@ -176,27 +170,56 @@ impl fmt::Display for Doubt {
 }
 
 impl Doubt {
+    /// The words of a doubt that the measurements raise by themselves.
+    fn of_the_table(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Doubt::Overturned { lines, first, most } => write!(
+                f,
+                "{}: {}, and a wall with free ends as the study draws it overturns as a whole at {}: check the angle, the \
+                 thickness and the height",
+                listed(lines),
+                told(first),
+                shown(Dimension::Angle, *most)
+            ),
+            Doubt::Contradicted { lines, first, told: points } => write!(
+                f,
+                "{}: {}, where left, centre and right make it {}: are these readings of one wall at one tilt, in one unit?",
+                listed(lines),
+                told(first),
+                shown(first.quantity.dimension(), *points)
+            ),
+            _ => self.other_unit(f),
+        }
+    }
+
     /// The words of a specimen, or of a part of its readings, in another unit.
     fn other_unit(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Doubt::OtherUnit { lines, first, usual, factor, readings, whole, alone } = self else {
+        let Doubt::OtherUnit { lines, first, usual, factor, readings, told: of } = self else {
             return Ok(());
         };
         let name = &first.specimen;
         let (times, size) = if *factor < 1.0 { (1.0 / factor, "small") } else { (*factor, "large") };
         let times = format!("by a factor of about {}", (10.0 * times).round() / 10.0);
         let usual = shown(first.quantity.dimension(), *usual);
-        let (of, are) = match readings {
-            1 => (first.quantity.name().to_owned(), "is"),
-            n if *whole => (format!("all {n} readings"), "are"),
-            n => (format!("{n} readings"), "are"),
+        let compared = match of {
+            Told::Whole(all) | Told::OfTwo(all) if all > readings => " that can be compared",
+            _ => "",
+        };
+        let (these, are) = match (readings, of) {
+            (1, _) => (first.quantity.name().to_owned(), "is"),
+            (n, Told::Part) => (format!("{n} readings"), "are"),
+            (n, _) => (format!("all {n} readings{compared}"), "are"),
         };
         write!(f, "{}: ", listed(lines))?;
-        match (whole, alone) {
-            (true, true) => write!(f, "{name} alone is off {times} on {of}, which {are} too {size}")?,
-            (true, false) => {
-                write!(f, "{name} is off {times} from the other specimen on {of}, which {are} too {size}")?
+        match of {
+            Told::Whole(_) => write!(f, "{name} alone is off {times} on {these}, which {are} too {size}")?,
+            Told::OfTwo(_) => {
+                write!(
+                    f,
+                    "{name} is off {times} from the other specimen on {these}, which {are} too {size}"
+                )?;
             }
-            _ => write!(f, "{name} is off {times} on {of} alone, which {are} too {size}")?,
+            Told::Part => write!(f, "{name} is off {times} on {these} alone, which {are} too {size}")?,
         }
         write!(f, " ({}, where {usual} is usual): was it meant in another unit?", told(first))
     }

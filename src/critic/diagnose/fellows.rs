@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::critic::diagnose::design::Design;
-use crate::critic::diagnose::doubt::Doubt;
+use crate::critic::diagnose::doubt::{Doubt, Told};
 use crate::critic::diagnose::units::factors;
 use crate::math::ln;
 use crate::stats;
@@ -12,21 +12,28 @@ use crate::study::{MeasuredQuantity, Measurement};
 /// How far the ratio to the fellows may be from that of the units, as a factor: walls of one family move by half more or less, and
 /// the nearest two ratios of lengths, 10 and 25.4, are further apart than twice this.
 const NEAR: f64 = 1.5;
-/// How far the ratios of single readings may be from their median, and fellows from each other, as a factor: what is read near the
-/// error or with one digit is that far off.
+/// How far the ratios of single readings may be from their median, as a factor: what is read near the error or with one digit is
+/// that far off.
 const ALIKE: f64 = 2.0;
+/// How far fellows may be from what is usual, as a factor: of three walls of the source paper one moves 2.1 times as far as another.
+const FELLOWS: f64 = 3.0;
 /// Fellows show something where they show so many standard deviations of their error.
 const SHOWN: f64 = 3.0;
-/// A reading by itself is odd only where they show more: its own error must not make it a tenth.
+/// A reading alone is odd only where they show more: its own error must not make it a tenth.
 const SHOWN_ALONE: f64 = 10.0;
+/// Share of the fellows that must show what is usual: one of three others, or two of five, may be odd themselves. Where more differ,
+/// as at the end of a wall between ropes that moves hardly at all, a small reading is nothing odd.
+const AGREE: f64 = 0.6;
 
 /// A reading beside what the specimens of its family show there.
 struct Beside<'m> {
     reading: &'m Measurement,
     /// In the middle of all specimens, or on the other of two.
     usual: f64,
-    /// How many standard deviations that is.
-    shown: f64,
+    /// Share of the fellows that show it, within [`FELLOWS`].
+    agree: f64,
+    /// Whether all of them do within [`ALIKE`], and far beyond their error.
+    is_plain: bool,
 }
 
 impl Beside<'_> {
@@ -57,21 +64,16 @@ fn among(specimens: &BTreeMap<&str, Vec<&Measurement>>) -> Vec<Doubt> {
         .iter()
         .map(|(name, own)| own.iter().filter_map(|m| beside(name, m, specimens)).collect())
         .collect();
-    let middle = |own: &Vec<Beside<'_>>| median(&logs(own));
-    let middles: Vec<f64> = beside.iter().filter_map(middle).collect();
-    let usual = middles.iter().filter(|log| log.abs() < ln(ALIKE)).count();
     let of_two = specimens.len() == 2;
-    // Where most specimens differ there is none that is odd.
-    if !of_two && 2 * usual <= middles.len() {
-        return Vec::new();
-    }
     let mut found: Vec<Doubt> = Vec::new();
-    for own in &beside {
+    for (own, all) in beside.iter().zip(specimens.values()) {
         let whole: Vec<&Beside<'_>> = own.iter().collect();
-        let least = own.first().map_or(1, |b| if b.reading.quantity.has_tilt() { 3 } else { 1 });
         match factor(&whole) {
-            Some(factor) if whole.len() >= least => found.push(doubt(&whole, factor, true, !of_two)),
-            _ => found.extend(parts(own)),
+            Some(factor) => {
+                let of = if of_two { Told::OfTwo(all.len()) } else { Told::Whole(all.len()) };
+                found.push(doubt(&whole, factor, of));
+            }
+            None => found.extend(parts(own)),
         }
         // Of two, each is odd beside the other.
         if of_two && !found.is_empty() {
@@ -82,21 +84,39 @@ fn among(specimens: &BTreeMap<&str, Vec<&Measurement>>) -> Vec<Doubt> {
 }
 
 /// What the specimens show where one was read: in the middle of all, itself among them, so that one that is odd moves nothing; of
-/// two it is what the other shows. `None` where that is lost in its error.
+/// two it is what the other shows. `None` where that is lost in its error, or the others do not agree.
 fn beside<'m>(
     name: &str,
     m: &'m Measurement,
     specimens: &BTreeMap<&str, Vec<&Measurement>>,
 ) -> Option<Beside<'m>> {
-    let others = specimens.iter().filter(|(other, _)| specimens.len() > 2 || **other != name);
-    let shown: Vec<(f64, f64)> = others.filter_map(|(_, own)| at(own, m)).collect();
-    if shown.len() < if specimens.len() > 2 { 3 } else { 1 } {
+    let others = specimens.iter().filter(|(other, _)| **other != name);
+    let others: Vec<(f64, f64)> = others.filter_map(|(_, own)| at(own, m)).collect();
+    if others.len() < if specimens.len() > 2 { 2 } else { 1 } {
         return None;
     }
-    let middle = |of: fn(&(f64, f64)) -> f64| stats::quantile(&shown.iter().map(of).collect::<Vec<_>>(), 0.5);
+    let mut all = others.clone();
+    if specimens.len() > 2 {
+        all.push((m.value, error(m)));
+    }
+    let middle = |of: fn(&(f64, f64)) -> f64| median(&all.iter().map(of).collect::<Vec<_>>());
     let (usual, error) = (middle(|(value, _)| *value)?, middle(|(_, error)| *error)?);
-    let shown = usual.abs() / error.max(f64::MIN_POSITIVE);
-    (m.value != 0.0 && shown >= SHOWN).then_some(Beside { reading: m, usual, shown })
+    let within = |factor: f64| {
+        others.iter().filter(|(value, _)| value / usual > 1.0 / factor && value / usual < factor).count()
+    };
+    let (shown, agree) = (usual.abs() / error, within(FELLOWS) as f64 / others.len() as f64);
+    let is_plain = within(ALIKE) == others.len() && shown >= SHOWN_ALONE;
+    (m.value != 0.0 && shown >= SHOWN && agree >= AGREE).then_some(Beside {
+        reading: m,
+        usual,
+        agree,
+        is_plain,
+    })
+}
+
+/// Of a reading: its errors, and the rounding.
+fn error(m: &Measurement) -> f64 {
+    (m.error * m.error + m.common_error * m.common_error + m.resolution * m.resolution / 12.0).sqrt()
 }
 
 /// What a specimen shows of the quantity of a reading at its tilt, and the error there: between its own tilts in proportion, from
@@ -104,9 +124,6 @@ fn beside<'m>(
 fn at(own: &[&Measurement], m: &Measurement) -> Option<(f64, f64)> {
     let mut same: Vec<&&Measurement> = own.iter().filter(|other| other.quantity == m.quantity).collect();
     same.sort_by(|a, b| a.tilt.unwrap_or(0.0).total_cmp(&b.tilt.unwrap_or(0.0)));
-    let error = |m: &Measurement| {
-        (m.error * m.error + m.common_error * m.common_error + m.resolution * m.resolution / 12.0).sqrt()
-    };
     let Some(tilt) = m.tilt else { return same.first().map(|own| (own.value, error(own))) };
     let above = same.iter().position(|other| other.tilt.is_some_and(|own| own >= tilt - 1e-9))?;
     let (from, below) = match above.checked_sub(1).and_then(|below| same.get(below)) {
@@ -137,22 +154,20 @@ fn parts(own: &[Beside<'_>]) -> Vec<Doubt> {
             // What differs from its fellows must differ from the specimen's other readings, too.
             let is_usual = rest.len() >= 2 && median(&logs).is_some_and(|log| log.abs() < ln(ALIKE));
             let is_new = group.iter().all(|b| !told.contains(&std::ptr::from_ref(b.reading)));
-            let is_plain = group.len() > 1 || group.iter().all(|b| b.shown >= SHOWN_ALONE);
             if let Some(factor) = factor(&group)
                 && is_usual
                 && is_new
-                && is_plain
             {
                 told.extend(group.iter().map(|b| std::ptr::from_ref(b.reading)));
-                found.push(doubt(&group, factor, false, true));
+                found.push(doubt(&group, factor, Told::Part));
             }
         }
     }
     found
 }
 
-/// The ratio of two units by which all of these readings are off, below 1 where they are too small; `None` where they are not, or do
-/// not agree.
+/// The ratio of two units by which all of these readings are off, below 1 where they are too small; `None` where they are not, do
+/// not agree, or are too few to tell.
 fn factor(group: &[&Beside<'_>]) -> Option<f64> {
     let logs: Vec<f64> = group.iter().filter_map(|b| b.log()).collect();
     let middle = median(&logs).filter(|_| logs.len() == group.len())?;
@@ -160,22 +175,23 @@ fn factor(group: &[&Beside<'_>]) -> Option<f64> {
     let dimension = group.first()?.reading.quantity.dimension();
     let near =
         factors(dimension).into_iter().find(|factor| (middle.abs() - ln(*factor)).abs() <= ln(NEAR))?;
-    agree.then(|| if middle < 0.0 { 1.0 / near } else { near })
-}
-
-fn logs(own: &[Beside<'_>]) -> Vec<f64> {
-    own.iter().filter_map(Beside::log).collect()
+    // The fewer readings there are, the plainer the fellows must be.
+    let is_told = match group {
+        [alone] => alone.is_plain,
+        [_, _] => group.iter().all(|b| b.agree == 1.0),
+        _ => true,
+    };
+    (agree && is_told).then(|| if middle < 0.0 { 1.0 / near } else { near })
 }
 
 fn median(values: &[f64]) -> Option<f64> {
     stats::quantile(values, 0.5)
 }
 
-fn doubt(group: &[&Beside<'_>], factor: f64, whole: bool, alone: bool) -> Doubt {
+fn doubt(group: &[&Beside<'_>], factor: f64, told: Told) -> Doubt {
     let mut lines: Vec<usize> = group.iter().map(|b| b.reading.line).collect();
     lines.sort_unstable();
     lines.dedup();
-    let first = group[0];
-    let (readings, usual) = (group.len(), first.usual);
-    Doubt::OtherUnit { lines, first: Box::new(first.reading.clone()), usual, factor, readings, whole, alone }
+    let (first, usual) = (Box::new(group[0].reading.clone()), group[0].usual);
+    Doubt::OtherUnit { lines, first, usual, factor, readings: group.len(), told }
 }

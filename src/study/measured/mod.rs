@@ -47,13 +47,13 @@ pub struct Written {
     pub unfilled: Vec<usize>,
 }
 
-/// What was read from a file.
-#[derive(Clone, Debug, PartialEq)]
+/// What was read from a file; of none by default.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Read {
     /// The measurements.
     pub rows: Vec<Measurement>,
     /// How they are written.
-    pub written: Written,
+    pub written: Option<Written>,
     /// What is allowed and yet looks wrong.
     pub warnings: Vec<Fault>,
 }
@@ -115,7 +115,7 @@ pub(super) fn read(source: &Arc<Source>, arms: Option<&[String]>) -> Result<Read
         units,
         unfilled: unfilled.iter().map(|line| line.number).collect(),
     };
-    Ok(Read { rows, written, warnings })
+    Ok(Read { rows, written: Some(written), warnings })
 }
 
 /// The fault of a row that has not as many cells as the header. What is empty at its end does not count, but for commas: one that
