@@ -87,7 +87,7 @@ fn hidden_effects_are_not_taken_for_slips_of_the_pen() {
         let world = World::new(&study, &mechanisms, &nuisances, &plan, &bank).expect("it can be told");
         let (design, _) = Design::of(&study);
         let causes = std::iter::once(None).chain(world.causes().into_iter().map(Some));
-        for (cause, k) in causes.flat_map(|cause| (0..40).map(move |k| (cause, k))) {
+        for (cause, k) in causes.flat_map(|cause| (0..20).map(move |k| (cause, k))) {
             let streams = Streams::new(33, k);
             let campaign = world.campaign(&design, &world.drawn(cause, &streams), &streams);
             let readings = design.specimens.iter().zip(&campaign.specimens);
@@ -109,7 +109,7 @@ fn hidden_effects_are_not_taken_for_slips_of_the_pen() {
             );
         }
     }
-    assert!(judged > 1000, "{judged}");
+    assert!(judged > 600, "{judged}");
     assert!(odd.is_empty(), "{} in {judged}:\n{}", odd.len(), odd.join("\n"));
 }
 

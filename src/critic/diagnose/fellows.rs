@@ -25,6 +25,15 @@ const SHOWN_ALONE: f64 = 10.0;
 /// as at the end of a wall between ropes that moves hardly at all, a small reading is nothing odd.
 const AGREE: f64 = 0.6;
 
+/// Readings of one kind by specimen.
+type Specimens<'m> = BTreeMap<&'m str, Vec<&'m Measurement>>;
+
+/// A part of a specimen's readings is odd only where it stands off so many times as far as any of its fellows, of which there are
+/// [`OTHERS`] or more: the end of a wall between ropes may move by a tenth of what others do there, and others do by half.
+const OFF: f64 = 4.0;
+/// Of two fellows, both may be near the middle by chance.
+const OTHERS: usize = 3;
+
 /// A reading beside what the specimens of its family show there.
 struct Beside<'m> {
     reading: &'m Measurement,
@@ -34,6 +43,8 @@ struct Beside<'m> {
     agree: f64,
     /// Whether all of them do within [`ALIKE`], and far beyond their error.
     is_plain: bool,
+    /// Whether it stands off by [`OFF`] times what any of them does.
+    is_off: bool,
 }
 
 impl Beside<'_> {
@@ -46,8 +57,7 @@ impl Beside<'_> {
 
 /// Doubts about specimens, then about single readings of others, in the order of the design.
 pub fn odd_ones(design: &Design) -> Vec<Doubt> {
-    let mut groups: BTreeMap<(usize, Option<MeasuredQuantity>), BTreeMap<&str, Vec<&Measurement>>> =
-        BTreeMap::new();
+    let mut groups: BTreeMap<(usize, Option<MeasuredQuantity>), Specimens<'_>> = BTreeMap::new();
     for (family, m) in design.readings().filter(|(_, m)| !m.kind.is_censored()) {
         // Displacements of one specimen are read by one gauge; what a fixed target shows is no matter of the wall.
         let alone = (!m.quantity.has_tilt()).then_some(m.quantity);
@@ -59,7 +69,7 @@ pub fn odd_ones(design: &Design) -> Vec<Doubt> {
 }
 
 /// Doubts about readings of one kind in one family, by specimen.
-fn among(specimens: &BTreeMap<&str, Vec<&Measurement>>) -> Vec<Doubt> {
+fn among(specimens: &Specimens<'_>) -> Vec<Doubt> {
     let beside: Vec<Vec<Beside<'_>>> = specimens
         .iter()
         .map(|(name, own)| own.iter().filter_map(|m| beside(name, m, specimens)).collect())
@@ -85,11 +95,7 @@ fn among(specimens: &BTreeMap<&str, Vec<&Measurement>>) -> Vec<Doubt> {
 
 /// What the specimens show where one was read: in the middle of all, itself among them, so that one that is odd moves nothing; of
 /// two it is what the other shows. `None` where that is lost in its error, or the others do not agree.
-fn beside<'m>(
-    name: &str,
-    m: &'m Measurement,
-    specimens: &BTreeMap<&str, Vec<&Measurement>>,
-) -> Option<Beside<'m>> {
+fn beside<'m>(name: &str, m: &'m Measurement, specimens: &Specimens<'_>) -> Option<Beside<'m>> {
     let others = specimens.iter().filter(|(other, _)| **other != name);
     let others: Vec<(f64, f64)> = others.filter_map(|(_, own)| at(own, m)).collect();
     if others.len() < if specimens.len() > 2 { 2 } else { 1 } {
@@ -105,12 +111,15 @@ fn beside<'m>(
         others.iter().filter(|(value, _)| value / usual > 1.0 / factor && value / usual < factor).count()
     };
     let (shown, agree) = (usual.abs() / error, within(FELLOWS) as f64 / others.len() as f64);
+    let furthest = others.iter().map(|(value, _)| (value - usual).abs()).fold(0.0, f64::max);
+    let is_off = others.len() >= OTHERS && (m.value - usual).abs() > OFF * furthest;
     let is_plain = within(ALIKE) == others.len() && shown >= SHOWN_ALONE;
     (m.value != 0.0 && shown >= SHOWN && agree >= AGREE).then_some(Beside {
         reading: m,
         usual,
         agree,
         is_plain,
+        is_off,
     })
 }
 
@@ -154,8 +163,10 @@ fn parts(own: &[Beside<'_>]) -> Vec<Doubt> {
             // What differs from its fellows must differ from the specimen's other readings, too.
             let is_usual = rest.len() >= 2 && median(&logs).is_some_and(|log| log.abs() < ln(ALIKE));
             let is_new = group.iter().all(|b| !told.contains(&std::ptr::from_ref(b.reading)));
+            let is_off = group.iter().all(|b| b.is_off);
             if let Some(factor) = factor(&group)
                 && is_usual
+                && is_off
                 && is_new
             {
                 told.extend(group.iter().map(|b| std::ptr::from_ref(b.reading)));
