@@ -105,7 +105,7 @@ fn text_in_utf_16_is_read() {
 fn places_are_those_of_the_users_file() {
     for (text, line, column) in [
         (
-            "\u{feff}specimen;family;tilt_deg;quantity;value;unit;error;kind;sped\n".to_owned() + &"A;laid\n",
+            "\u{feff}specimen;family;tilt_deg;quantity;value;unit;error;kind;sped\n".to_owned() + "A;laid\n",
             1,
             57,
         ),
