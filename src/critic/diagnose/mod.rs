@@ -40,7 +40,7 @@ pub use caught::{CAUGHT, Caught};
 pub use causes::Causes;
 pub use design::{Campaign, Design, Seen, Specimen, Unused};
 pub use discrepancy::{Bent, Lacking};
-pub use doubt::Doubt;
+pub use doubt::{Doubt, Told};
 pub use doubts::{doubts, doubts_beside};
 pub use evidence::{Evidence, evidence};
 pub use excluded::Excluded;
