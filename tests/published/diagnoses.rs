@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use pirca::critic::{Bank, Design, Doubt, Plan, Seen, World, doubts};
+use pirca::critic::{Bank, Design, Doubt, Plan, Seen, Told, World, doubts};
 use pirca::math::radians;
 use pirca::random::Streams;
 use pirca::study::{MeasuredKind, MeasuredQuantity, Measurement, Study, described, nuisances};
@@ -69,7 +69,8 @@ fn the_example_names_joints_that_close_and_finds_their_parameters() {
 }
 
 /// Campaigns with every effect of the catalogue at every strength of its prior, on the nine walls as they were read and on fifteen that
-/// a gauge of 0.02 mm reads at three points: walls that differ are not taken for readings in another unit, or of no wall at all.
+/// a gauge of 0.02 mm reads at three points: no wall is taken for one in another unit or for none at all, and a part of its readings is
+/// in less than one campaign of twenty, as the ends of walls between ropes move by hardly more than the gauge's error.
 #[test]
 fn hidden_effects_are_not_taken_for_slips_of_the_pen() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -82,7 +83,7 @@ fn hidden_effects_are_not_taken_for_slips_of_the_pen() {
     let bank = Bank::read(&bank, &plan).expect("of this plan");
     let mut fine = study.clone();
     fine.measured = finely_read(&study.measured[0]);
-    let (mut judged, mut odd) = (0, Vec::new());
+    let (mut judged, mut odd, mut parts) = (0, Vec::new(), Vec::new());
     for study in [study, fine] {
         let world = World::new(&study, &mechanisms, &nuisances, &plan, &bank).expect("it can be told");
         let (design, _) = Design::of(&study);
@@ -103,14 +104,20 @@ fn hidden_effects_are_not_taken_for_slips_of_the_pen() {
             let campaign = Study { measured: shown.collect(), ..study.clone() };
             judged += 1;
             let found = doubts(&campaign, &Design::of(&campaign).0);
-            let found = found.into_iter().filter(|doubt| !matches!(doubt, Doubt::ThickerThanWall { .. }));
-            odd.extend(
-                found.map(|doubt| format!("{}: {doubt}", cause.map_or("nothing", |c| mechanisms[c].name))),
-            );
+            for doubt in found {
+                let words = format!("{}: {doubt}", cause.map_or("nothing", |c| mechanisms[c].name));
+                match doubt {
+                    // A strong effect may move a wall so far.
+                    Doubt::ThickerThanWall { .. } => {}
+                    Doubt::OtherUnit { told: Told::Part, .. } => parts.push(words),
+                    _ => odd.push(words),
+                }
+            }
         }
     }
     assert!(judged > 600, "{judged}");
     assert!(odd.is_empty(), "{} in {judged}:\n{}", odd.len(), odd.join("\n"));
+    assert!(20 * parts.len() < judged, "{} parts in {judged}:\n{}", parts.len(), parts.join("\n"));
 }
 
 /// Five walls of each family, read at the left, the centre and the right at five tilts.
