@@ -82,6 +82,14 @@ pub(crate) enum Verb {
          Every verdict (named, ambiguous, unexplained, nothing found) ends with 0."
     ))]
     Diagnose(Diagnose),
+    /// Write an empty table of measurements for a spreadsheet, or say what is read from a filled one and what looks odd about it.
+    #[command(after_help = format!(
+        "Example: pirca measured studies/tilting-table --template --wide --out my-tests.csv\n\
+         \x20        pirca measured studies/tilting-table my-tests.csv\n\n\
+         Commas, semicolons or tabs; decimals with a point, or with a comma where it does not separate; a row per value, or a row\n\
+         per tilt. `pirca check STUDY --keys` lists all columns and quantities. Every fault is told with its line.\n\n{CODES}"
+    ))]
+    Measured(Measured),
     /// Which mechanisms could the measured data see? What each of them changes in every quantity of measured.csv, in units of
     /// the quantity's error, for a study on the tilting table.
     #[command(after_help = format!(
@@ -248,6 +256,28 @@ pub(crate) struct Sensitivity {
     /// Worker threads [default: one per processor]. No result depends on their number.
     #[arg(long, value_name = "T")]
     pub threads: Option<NonZero<usize>>,
+}
+
+/// Arguments of `measured`.
+#[derive(Args, Debug)]
+pub(crate) struct Measured {
+    #[command(flatten)]
+    pub which: Which,
+    /// The table to check [default: the study's measured.csv].
+    #[arg(value_name = "FILE")]
+    pub file: Option<PathBuf>,
+    /// Write an empty table for the arms, the specimens and the tilts of the study instead.
+    #[arg(long, conflicts_with_all = ["file", "json"])]
+    pub template: bool,
+    /// A row per specimen and tilt, with a column per quantity, instead of a row per value.
+    #[arg(long, requires = "template")]
+    pub wide: bool,
+    /// Specimens of each arm in the empty table [default: 3].
+    #[arg(long, value_name = "N", requires = "template", default_value_t = 3, hide_default_value = true, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub specimens: u32,
+    /// File to write the empty table to, which must not be there [default: standard output].
+    #[arg(long, value_name = "FILE", requires = "template")]
+    pub out: Option<PathBuf>,
 }
 
 /// Arguments of `diagnose`.

@@ -7,7 +7,7 @@ use crate::cli::arguments::Which;
 use crate::cli::failure::Failure;
 use crate::cli::output;
 use crate::math::edit_distance;
-use crate::study::{ElementStudy, Loaded, Study, distributions_above};
+use crate::study::{ElementStudy, Fault, Loaded, Study, distributions_above};
 
 /// Loads the study that the arguments name, in the variant asked for, and passes its warnings on to standard error.
 pub(crate) fn study(which: &Which) -> Result<Loaded, Failure> {
@@ -18,10 +18,13 @@ pub(crate) fn study(which: &Which) -> Result<Loaded, Failure> {
         return Err(Failure::Input(text));
     }
     let loaded = Study::load(&folder, which.variant.as_deref())?;
-    for warning in &loaded.warnings {
-        output::note(&format!("warning: {warning}"));
-    }
+    loaded.warnings.iter().for_each(warn);
     Ok(loaded)
+}
+
+/// Says what is allowed and yet looks wrong on standard error.
+pub(crate) fn warn(warning: &Fault) {
+    output::note(&format!("warning: {warning}"));
 }
 
 /// The folder of a study, from the folder itself or from the study.toml in it.

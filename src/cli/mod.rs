@@ -10,6 +10,7 @@ mod failure;
 mod generate;
 mod judge;
 mod locate;
+mod measured;
 mod mechanisms;
 mod one_wall;
 mod output;
@@ -39,6 +40,7 @@ pub fn main() -> ExitCode {
         Verb::Check(arguments) => check::check(arguments),
         Verb::Diagnose(arguments) => diagnose::diagnose(arguments),
         Verb::Generate(arguments) => generate::generate(arguments),
+        Verb::Measured(arguments) => measured::measured(arguments),
         Verb::Mechanisms(arguments) => mechanisms::mechanisms(arguments),
         Verb::Picture(arguments) => picture::picture(arguments),
         Verb::Run(arguments) => run::run(arguments),

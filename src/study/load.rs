@@ -29,6 +29,8 @@ pub struct Loaded {
     pub used: Vec<Used>,
     /// What its files state, to be written as another study.
     pub stated: Stated,
+    /// How its measurements are written, if there are any.
+    pub written: Option<measured::Written>,
 }
 
 /// A variant that a study offers.
@@ -59,7 +61,11 @@ impl Loaded {
             files::read(path, &name, 0, measured::FORMAT).map_err(|fault| Faults::sorted(vec![*fault]))?;
         // As beside the study: a variant that evaluates fewer arms reads the same files.
         let arms = self.stated.arms();
-        self.study.measured = measured::read(&file.source, arms.as_deref()).map_err(Faults::sorted)?;
+        let read = measured::read(&file.source, arms.as_deref()).map_err(Faults::sorted)?;
+        (self.study.measured, self.written) = (read.rows, read.written);
+        let of_the_studys_own = |warning: &Fault| warning.file == measured::FILE;
+        self.warnings.retain(|warning| !of_the_studys_own(warning));
+        self.warnings.extend(read.warnings);
         self.study.inputs.retain(|input| input.path != Path::new(measured::FILE));
         self.study.inputs.push(InputFile { path: path.to_path_buf(), sha256: file.sha256.clone() });
         self.stated.measured = Some(file);
@@ -108,6 +114,7 @@ impl Study {
             Some(Reading { parts: Some(parts), root, notes, used }) if faults.is_empty() => {
                 let name = folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
                 let hash = hash_of(&notes.effective);
+                let read = measured.unwrap_or_default();
                 let study = Study {
                     name,
                     question: parts.question,
@@ -118,16 +125,16 @@ impl Study {
                     solver: parts.solver,
                     agreement: parts.agreement,
                     published: claims,
-                    measured: measured.unwrap_or_default(),
+                    measured: read.rows,
                     inputs,
                     effective: notes.effective,
                     hash,
                 };
                 let name_of = |v: &Variant| VariantName { name: v.name.clone(), why: v.why.clone() };
-                let warnings = Faults::sorted(notes.warnings).faults;
+                let warnings = Faults::sorted([notes.warnings, read.warnings].concat()).faults;
                 let variants = variants.iter().map(name_of).collect();
                 let stated = Stated::of(root, &mut catalogue, published_text, measured_file);
-                Ok(Loaded { study, warnings, variants, used, stated })
+                Ok(Loaded { study, warnings, variants, used, stated, written: read.written })
             }
             _ => {
                 crate::check!(!faults.is_empty(), "the study was refused without a fault");

@@ -17,6 +17,7 @@ mod load;
 pub mod measured;
 mod mechanism;
 mod nuisance;
+mod overturning;
 mod published;
 mod quantity;
 mod raw;
@@ -33,6 +34,7 @@ pub use checked::{Arm, Claim, ClaimTest, InputFile, Joint, NormalLawName, Study}
 pub use distributions::{NoDistributions, distributions_above};
 pub use elements::{ElementArm, ElementStudy, Reported};
 pub use extended::{Acting, Point};
+pub(crate) use fault::listed;
 pub use fault::{Fault, Faults, Found};
 pub(crate) use files::sha256;
 pub use inventory::{
@@ -40,7 +42,9 @@ pub use inventory::{
 };
 pub use joints::DrawnJoints;
 pub use load::{Loaded, VariantName};
-pub use measured::{FILE as MEASURED, MeasuredKind, MeasuredQuantity, Measurement};
+pub use measured::{
+    FILE as MEASURED, MeasuredKind, MeasuredQuantity, Measurement, Template, Written, template,
+};
 pub use mechanism::{
     EndRelease, FrictionChange, JointClosure, Mechanisms, SpecimenScatter, Unfit, WedgeLoss,
 };

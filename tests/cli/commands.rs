@@ -25,7 +25,7 @@ fn ends_with(folder: &Folder, code: i32, arguments: &[&str]) -> Output {
 #[test]
 fn every_verb_has_help_with_an_example_and_the_exit_codes() {
     let folder = Folder::with_study(STUDY);
-    for verb in ["bank", "check", "diagnose", "generate", "picture", "run", "sensitivity"] {
+    for verb in ["bank", "check", "diagnose", "generate", "measured", "picture", "run", "sensitivity"] {
         let help = stdout(&ends_with(&folder, 0, &[verb, "--help"]));
         for said in ["Usage: pirca", "Example: pirca", "Exit codes: 0", "--json", "--variant"] {
             assert!(help.contains(said), "{said} is missing in the help of {verb}: {help}");
@@ -53,6 +53,9 @@ fn arguments_that_make_no_sense_end_with_2() {
         (&["sensitivity", "studies/tiny", "--quantile", "-0.5"], "--quantile"),
         (&["bank", "studies/tiny", "--points", "3"], "--points"),
         (&["diagnose", "studies/tiny", "--seed", "x"], "--seed"),
+        (&["measured", "studies/tiny", "--wide"], "--template"),
+        (&["measured", "studies/tiny", "--template", "tests.csv"], "--template"),
+        (&["measured", "studies/tiny", "--template", "--specimens", "0"], "--specimens"),
         (&["generate", "studies/tiny"], "--out"),
         (&["generate", "studies/tiny", "--out", "wall.stl"], ".vtu, .obj or .json"),
         (&["generate", "studies/tiny", "--out", "wall"], ".vtu, .obj or .json"),

@@ -1,12 +1,13 @@
 //! A verdict as people read it on a terminal, and the sentences that the page has as well.
 
-use crate::critic::{Counted, Limits, MOST_AMBIGUOUS, listed};
+use crate::critic::{Counted, Limits, MOST_AMBIGUOUS};
 use crate::report::diagnosis::summary::{DiagnosisSummary, LooksEntry, OffEntry, SelfTestEntry};
 use crate::report::diagnosis::words::{lines, reading};
 use crate::report::gain::GainSummary;
 use crate::report::number::significant;
 use crate::report::table::wrapped;
 use crate::stats;
+use crate::study::listed;
 
 /// What is off by less than this many standard deviations is not worth a line.
 const WORTH_SAYING: f64 = 2.0;
