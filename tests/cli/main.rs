@@ -13,6 +13,7 @@ mod malformed;
 mod measured;
 mod mechanisms;
 mod mutated_walls;
+mod pages;
 mod picture;
 mod scratch;
 mod study;
