@@ -1,9 +1,11 @@
 //! What a run comes to, in at most five lines: the question, the walls, their quantity, the ratio of arms, and what was said before.
 
-use crate::report::number::{or_dash, stiffness, with_interval, with_interval_against};
+use std::collections::BTreeMap;
+
+use crate::report::number::{or_dash, shortened, stiffness, with_interval, with_interval_against};
 use crate::report::published::Verdict;
 use crate::report::summary::{ArmSummary, Summary};
-use crate::report::table::{WIDTH, wrapped};
+use crate::report::table::{LONGEST_NAME, WIDTH, wrapped};
 
 /// The conclusion, a line or two per sentence.
 pub(super) fn conclusion(summary: &Summary) -> String {
@@ -32,16 +34,27 @@ const MOST_LINES: usize = 5;
 fn walls(summary: &Summary) -> String {
     let sum = |of: fn(&ArmSummary) -> u64| summary.arms.iter().map(of).sum::<u64>();
     let (all, stood) = (sum(|arm| arm.members), sum(|arm| arm.stood_to_the_end));
+    // The same walls are solved at every stiffness.
+    let mut walls: BTreeMap<&str, u64> = BTreeMap::new();
+    summary.arms.iter().for_each(|arm| {
+        let most = walls.entry(&arm.arm).or_default();
+        *most = arm.members.max(*most);
+    });
+    let walls: u64 = walls.values().sum();
+    let solved = match walls == all {
+        true => format!("{walls} walls"),
+        false => format!("{walls} walls in {all} evaluations"),
+    };
     let failed = all.saturating_sub(sum(|arm| arm.in_mean) + stood);
     let failed = match failed {
         0 => "none failed".to_string(),
-        one_or_more => format!("{one_or_more} failed and are not in the means"),
+        some => format!("{some} failed, counted and not in the means"),
     };
     let stood = match stood {
         0 => String::new(),
         some => format!(", {some} stood to the end of the load path"),
     };
-    format!("{all} walls solved by the {} solver (seed {}), {failed}{stood}.", summary.solver, summary.seed)
+    format!("{solved}, {} solver, seed {}: {failed}{stood}.", summary.solver, summary.seed)
 }
 
 /// The mean of every arm at the first stiffness, as many as a line or two hold, and the COV of the random ones.
@@ -51,14 +64,14 @@ fn shown(summary: &Summary) -> Option<String> {
     let here: Vec<&ArmSummary> =
         summary.arms.iter().filter(|arm| arm.kn_pa_per_m == first.kn_pa_per_m).collect();
     let one = |arm: &&ArmSummary| {
-        let mean = arm.mean.map(|x| quantity.shown(x));
+        let (name, mean) = (shortened(&arm.arm, LONGEST_NAME), arm.mean.map(|x| quantity.shown(x)));
         let interval = arm.mean_ci.map(|ci| ci.map(|x| quantity.shown(x)));
         match arm.random {
             true => {
                 let cov = or_dash(arm.cov.map(|cov| 100.0 * cov), 2);
-                format!("{} {} (COV {cov} %)", arm.arm, with_interval(mean, interval, 3))
+                format!("{name} {} (COV {cov} %)", with_interval(mean, interval, 3))
             }
-            false => format!("{} {}", arm.arm, or_dash(mean, 3)),
+            false => format!("{name} {}", or_dash(mean, 3)),
         }
     };
     let what = match quantity.unit() {
@@ -73,7 +86,7 @@ fn shown(summary: &Summary) -> Option<String> {
     for part in ordered.iter().map(one) {
         let used: usize = head.len() + parts.iter().map(|p| p.len() + 2).sum::<usize>();
         if !parts.is_empty() && used + part.len() > 2 * WIDTH - 10 {
-            parts.push("...".to_string());
+            parts.push("others below".to_string());
             break;
         }
         parts.push(part);
@@ -98,7 +111,8 @@ fn ratios(summary: &Summary) -> Option<String> {
             },
         ),
     };
-    Some(format!("{} over {}: {ratio}{says}.", one.arm, one.over))
+    let [arm, over] = [&one.arm, &one.over].map(|name| shortened(name, LONGEST_NAME));
+    Some(format!("{arm} over {over}: {ratio}{says}."))
 }
 
 /// How many published statements come out.

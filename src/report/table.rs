@@ -153,7 +153,7 @@ fn published(summary: &Summary) -> String {
 }
 
 /// Names longer than this are cut in tables.
-const LONGEST_NAME: usize = 18;
+pub(super) const LONGEST_NAME: usize = 18;
 
 /// Rows as text: the first column to the left, numbers to the right, a rule below the first row.
 pub(super) fn aligned(mut rows: Vec<Vec<String>>) -> String {

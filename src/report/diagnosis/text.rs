@@ -51,18 +51,18 @@ pub fn diagnosis_text(summary: &DiagnosisSummary) -> String {
 
 /// The table of causes, the best pair, and why others are excluded.
 fn causes(summary: &DiagnosisSummary) -> String {
-    let row = |cells: [String; 4]| cells.to_vec();
-    let head = ["cause", "probability", "evidence", "predictive p"].map(String::from);
+    let row = |cells: [String; 5]| cells.to_vec();
+    let head = ["cause", "", "probability", "evidence", "predictive p"].map(String::from);
     let mut rows = vec![row(head)];
     for cause in summary.causes.iter().take(CAUSES) {
-        let mark = if cause.in_verdict { "* " } else { "  " };
+        let mark = if cause.in_verdict { "*" } else { "" };
         let [evidence, guard] = [cause.evidence, cause.guard_p_value].map(or_dash);
-        let name = format!("{mark}{}", cause.id);
-        rows.push(row([name, format!("{:.3}", cause.probability), evidence, guard]));
+        let [name, mark] = [cause.id, mark].map(String::from);
+        rows.push(row([name, mark, format!("{:.3}", cause.probability), evidence, guard]));
     }
     for (what, probability) in others(summary) {
         let dash = || "-".to_string();
-        rows.push(row([format!("  {what}"), format!("{probability:.3}"), dash(), dash()]));
+        rows.push(row([what.to_string(), String::new(), format!("{probability:.3}"), dash(), dash()]));
     }
     let mut text = format!("\nCauses (*: in the verdict)\n{}\n{}", wrapped("  ", CAUSE), aligned(rows));
     for cause in summary.causes.iter().filter(|cause| cause.in_verdict) {
@@ -82,7 +82,7 @@ pub(super) const OFF: &str =
 pub(super) const CAUSE: &str = "probability: posterior, all causes equally likely beforehand. \
     evidence: share of the marginal likelihood among the causes looked at closely; it is too sure of itself to be taken alone. \
     predictive p: share of the cause's own simulated campaigns that fit worse. A dash: not computed. \
-    outside the catalogue: smooth random effects that no cause here describes";
+    not in catalogue: smooth random effects that no cause here describes";
 /// What the numbers of a form are.
 pub(super) const FORM: &str = "Form of what is not explained (measured less base model with fitted joints, if it is smooth over the tilt or goes with the order of the tests; brackets: 95 %, for these joints)";
 
@@ -91,7 +91,7 @@ pub(super) const NO_FORM: &str = "none that is sure";
 
 /// What is likely besides the causes.
 pub(super) fn others(summary: &DiagnosisSummary) -> [(&'static str, f64); 2] {
-    [("outside the catalogue", summary.nameless_probability), ("base model", summary.base_probability)]
+    [("not in catalogue", summary.nameless_probability), ("base model", summary.base_probability)]
 }
 
 /// A share, or a dash where there is none.
