@@ -48,13 +48,13 @@ fn walls(summary: &Summary) -> String {
     let failed = all.saturating_sub(sum(|arm| arm.in_mean) + stood);
     let failed = match failed {
         0 => "none failed".to_string(),
-        some => format!("{some} failed, counted and not in the means"),
+        some => format!("{some} failed (not in the means)"),
     };
     let stood = match stood {
         0 => String::new(),
         some => format!(", {some} stood to the end of the load path"),
     };
-    format!("{solved}, {} solver, seed {}: {failed}{stood}.", summary.solver, summary.seed)
+    format!("{solved}, {failed}{stood}.")
 }
 
 /// The mean of every arm at the first stiffness, as many as a line or two hold, and the COV of the random ones.

@@ -23,7 +23,7 @@ fn explanation(quantity: Quantity) -> String {
 /// The summary as text for a terminal: the conclusion, then what it rests on under headings.
 pub fn terminal_table(summary: &Summary) -> String {
     let mut text = conclusion(summary);
-    text.push_str("\nResults\n");
+    text.push_str(&format!("\nResults ({} solver, seed {})\n", summary.solver, summary.seed));
     if let Some(arm) = summary.arms.first() {
         text.push_str(&wrapped("", &explanation(arm.shown)));
         text.push('\n');

@@ -345,7 +345,7 @@ fn the_text_the_page_and_the_files_show_what_was_measured_beside_what_was_simula
         "<h1>Diagnosis of study tilting-table",
         "creep (in the verdict)",
         "<td>sbl: collapse angle</td>",
-        "<td>something else</td><td>0.250</td>",
+        "<td>not in catalogue</td><td>0.250</td>",
         "lines 9, 7 (the weight of a single block); line 12 (read at a tilt that the wall had come to before)",
         "<p>Note: line 3: a doubt.</p>",
         "for pirca run: extended/creep.",
