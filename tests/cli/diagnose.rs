@@ -42,7 +42,7 @@ fn a_gauge_that_has_moved_is_named_from_a_csv_and_the_bank_is_made_once() {
     );
     let first = ends_with(&folder, 0, &diagnose);
     let text = String::from_utf8_lossy(&first.stdout).into_owned();
-    assert!(text.contains("NAMED: ") && text.contains("* gauge_offset"), "{text}");
+    assert!(text.contains("NAMED: ") && text.contains(": gauge_offset ("), "{text}");
     let verdict = fs::read(folder.path("runs/tiny-diagnosis/verdict.json")).unwrap();
     let json: Value = serde_json::from_slice(&verdict).unwrap();
     assert_eq!((&json["verdict"], &json["causes"][0]["id"]), (&"named".into(), &"gauge_offset".into()));

@@ -14,6 +14,7 @@ mod measured;
 mod measured_verb;
 mod mechanisms;
 mod mutated_walls;
+mod pages;
 mod picture;
 mod scratch;
 mod spreadsheets;
