@@ -41,7 +41,8 @@ pub struct Survey {
 /// `None` when the blocks are so entangled that looking on would take all memory or all day: more than 300 near pairs
 /// per block, or solids of many corners that overlap by the hundred.
 pub fn survey(wall: &Wall, settings: &Settings) -> Option<Survey> {
-    let shapes: Vec<Polyhedron> = wall.blocks.iter().map(|block| block.shape.clone()).collect();
+    let origin = wall.local_origin();
+    let shapes: Vec<Polyhedron> = wall.blocks.iter().map(|block| block.shape.translated(&-origin)).collect();
     let most = MOST_NEAR * shapes.len();
     let fixed = |i: usize| wall.blocks[i].support == Support::Fixed;
     let (mut survey, mut work) = (Survey::default(), 0usize);

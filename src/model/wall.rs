@@ -7,6 +7,8 @@ use crate::shape::Polyhedron;
 
 /// How far the base reaches beyond the wall on all sides, and its thickness (m).
 const BASE_MARGIN: f64 = 0.1;
+/// A wall so many of its extents away from the origin of the coordinates is far: its positions lose two digits there.
+const NEAR: f64 = 50.0;
 
 /// Any assembly of convex blocks. Axes: x along the wall, y out of plane (positive downhill), z up (m).
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -29,6 +31,32 @@ impl Wall {
             box_around = (box_around.0.inf(&low), box_around.1.sup(&high));
         }
         box_around
+    }
+
+    /// The point (m) that the solvers count from, so that a wall has the same answer wherever it stands: far from the origin
+    /// of the coordinates the last digit of a position is as coarse as joints close.
+    ///
+    /// It is the origin itself for a wall within fifty of its extents of it. Else it lies within four extents of the middle of
+    /// the blocks that can move, on a grid of a power of two, so that the difference to it is exact.
+    pub fn local_origin(&self) -> Vec3 {
+        let free = self.blocks.iter().filter(|block| block.support != Support::Fixed);
+        let (mut low, mut high) = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
+        for (from, to) in free.map(|block| block.shape.bounds()) {
+            (low, high) = (low.inf(&from), high.sup(&to));
+        }
+        let extent = (high - low).max();
+        let middle = (low + high) * 0.5;
+        if !(extent.is_finite() && extent > 0.0) || middle.amax() <= NEAR * extent {
+            return Vec3::zeros();
+        }
+        let mut grid = 1.0;
+        while grid < 4.0 * extent {
+            grid *= 2.0;
+        }
+        while grid >= 8.0 * extent {
+            grid *= 0.5;
+        }
+        middle.map(|x| (x / grid).round() * grid)
     }
 
     /// The same wall out of plumb: everything moved along y by `slope` times its height above z = 0, so that level beds stay

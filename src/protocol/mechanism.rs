@@ -209,7 +209,7 @@ pub fn joint_states(assembly: &Assembly<'_>, at_rest: &[Body]) -> Vec<JointState
             let relative = came(a) - came(b);
             JointState {
                 blocks: [lower, upper],
-                place,
+                place: place + assembly.bodies.origin,
                 area: joint.area(),
                 opening: joint.largest_gap(now).max(0.0),
                 slip: (relative - normal * relative.dot(&normal)).norm(),

@@ -4,6 +4,7 @@ mod bounds;
 mod changes;
 mod confirm;
 mod drive;
+mod kept;
 mod mechanism;
 mod observe;
 mod pace;

@@ -36,7 +36,7 @@ impl Point {
     /// A point of a block that has not moved yet.
     fn new(block: usize, built: Vec3, bodies: &Bodies) -> Point {
         let body = &bodies.all[block];
-        Point { block, built, own: body.rotation.tr_mul(&(built - body.position)) }
+        Point { block, built, own: body.rotation.tr_mul(&(built - bodies.origin - body.position)) }
     }
 
     /// A corner of a block, whose own coordinates need no rounding.
@@ -47,7 +47,7 @@ impl Point {
     /// Displacement (m) from where it was built.
     pub fn displacement(&self, bodies: &Bodies) -> Vec3 {
         let body = &bodies.all[self.block];
-        body.position + body.rotation * self.own - self.built
+        body.position + body.rotation * self.own - (self.built - bodies.origin)
     }
 }
 

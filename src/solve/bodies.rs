@@ -22,7 +22,7 @@ pub enum Freedom {
 /// A rigid body: state, accumulated loads, and constants in its principal axes.
 #[derive(Clone, Debug)]
 pub struct Body {
-    /// Centroid (m).
+    /// Centroid (m), from the [origin](Bodies::origin) of the bodies.
     pub position: Vec3,
     /// Attitude: principal axes to world axes.
     pub attitude: UnitQuaternion<f64>,
@@ -59,6 +59,8 @@ pub struct Bodies {
     pub shapes: Vec<Polyhedron>,
     /// The body that carries each shape: itself, or a platform that it is fixed to.
     pub carriers: Vec<usize>,
+    /// Where positions count from (m, in the wall's coordinates), see [`Wall::local_origin`].
+    pub origin: Vec3,
 }
 
 impl Bodies {
@@ -66,19 +68,21 @@ impl Bodies {
     pub fn from_wall(wall: &Wall) -> Self {
         let mut all = Vec::with_capacity(wall.blocks.len());
         let mut shapes = Vec::with_capacity(wall.blocks.len());
+        let origin = wall.local_origin();
         for block in &wall.blocks {
-            let properties = block.shape.mass_properties();
-            let centred = block.shape.translated(&-properties.centroid);
+            let shape = block.shape.translated(&-origin);
+            let properties = shape.mass_properties();
+            let centred = shape.translated(&-properties.centroid);
             let radius = centred.vertices.iter().map(|v| v.norm()).fold(0.0, f64::max);
             let body = Body::at_rest(&properties, block.density, block.support, radius);
             shapes.push(centred.moved(&body.rotation.transpose(), &Vec3::zeros()));
             all.push(body);
         }
         let carriers = (0..all.len()).collect();
-        Bodies { all, shapes, carriers }
+        Bodies { all, shapes, carriers, origin }
     }
 
-    /// The shape of a body where it is now, in world coordinates.
+    /// The shape of a body where it is now, from the origin of the bodies.
     pub fn world_shape(&self, body: usize) -> Polyhedron {
         let carrier = &self.all[self.carriers[body]];
         self.shapes[body].moved(&carrier.rotation, &carrier.position)

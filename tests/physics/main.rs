@@ -1,6 +1,8 @@
 //! Laws of physics and closed forms: every test holds its own answer.
 
 mod agreement;
+mod closed_form_cases;
+mod closed_forms;
 mod dynamics;
 mod elastic;
 mod fixture;

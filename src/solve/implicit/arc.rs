@@ -58,6 +58,15 @@ impl Newton<'_, '_> {
         let mut moved = vec![0.0; DOF * self.assembly.bodies.all.len()];
         let (mut gone, mut before, mut fresh) = (0.0, f64::INFINITY, self.system.is_factorised());
         let mut iterations = 0;
+        if !fresh && !along.is_empty() {
+            // Where nothing has moved yet every joint sticks: the matrix of one that slides is made where the step leads.
+            let step: Vec<f64> = along.iter().map(|x| x * length).collect();
+            let share = self.allowed(&step);
+            let start = self.assembly.bodies.all.clone();
+            self.place(&start, &step, share);
+            moved = step.iter().map(|x| share * x).collect();
+            gone = share * length;
+        }
         let ratio = loop {
             (self.assembly.gravity, self.assembly.load_factor) = loads(level);
             let residual = self.residual();

@@ -29,6 +29,12 @@ const LONGEST: f64 = 0.25;
 const ENOUGH: f64 = 0.2;
 /// Unbalanced force ratio on the way down, which only tells a fall from a jump.
 const ROUGH: f64 = 1e-5;
+/// Share of the bracket by which the level must rise or fall to be more than the scatter of states that were found: a wall that
+/// slides moves on and on under the same load.
+const FLAT: f64 = 0.05;
+/// A step lies on the path when the level changes by no more than so many times what the steeper of the slopes at its ends makes
+/// of its length, beside the way to the level asked for.
+const STEEPER: f64 = 2.0;
 /// After a peak that is not bracketed yet, steps are shortened to this share of the one that passed it.
 const SHORTER: f64 = 0.4;
 
@@ -56,12 +62,21 @@ impl<'a> Equilibrium<'a> {
         let longest = LONGEST * ahead.far;
         let mut length = (FIRST * (ahead.to - ahead.from) / highest.slope).min(longest);
         let mut state = highest.clone();
+        // The state from which on the path is flat.
+        let mut flat = highest.clone();
+        let scatter = FLAT * ahead.bracket;
         // The peak's upper bound, once the path has passed it.
         let mut above = None;
         for _ in 0..MOST_STEPS {
             let Some(next) = state.next(ahead, length, above.is_some()) else {
                 return Some(state.fallen(highest, above?, ENOUGH * ahead.far)?.since(self));
             };
+            if next.level > flat.level + scatter {
+                flat = next.clone();
+            } else if next.level >= flat.level - scatter && next.at.moved_since(&flat.at) > ahead.far {
+                let above = flat.level + scatter;
+                return Some(next.slid(flat, above).since(self));
+            }
             if next.level > highest.level && next.slope > 0.0 {
                 // One sign alone may come from a sub-contact at the corner of its law.
                 if !next.stable && !state.stable {
@@ -79,7 +94,7 @@ impl<'a> Equilibrium<'a> {
                     return Some(there.since(self));
                 }
             }
-            let is_past = next.slope <= 0.0 || next.level < state.level;
+            let is_past = next.slope <= 0.0 || next.level < state.level - scatter;
             if is_past && above.is_none() {
                 let peak = state.peak(&next);
                 if peak - highest.level > ahead.bracket {
@@ -118,15 +133,22 @@ impl<'a> Equilibrium<'a> {
         length: f64,
         rough: bool,
     ) -> Option<Arc> {
-        let (mut reached, mut anchors) = self.on_path(ahead, from, along, length, rough)?;
-        if self.assembly().has_moved() {
-            self.assembly_mut().refresh();
-            let (again, since) = self.on_path(ahead, reached.level, &reached.along, 0.0, rough)?;
-            anchors = since;
-            let iterations = reached.iterations + again.iterations;
-            reached = Reached { length: reached.length, iterations, ..again };
+        let (reached, anchors) = self.on_path(ahead, from, along, length, rough)?;
+        let arc = self.newton(&anchors).onward(ahead.loads, reached)?;
+        if !self.assembly().has_moved() {
+            return Some(arc);
         }
-        self.newton(&anchors).onward(ahead.loads, reached)
+        self.assembly_mut().refresh();
+        let (again, _) = self.on_path(ahead, arc.level, &arc.along, 0.0, rough)?;
+        // Seen from contacts that have just been found nothing has moved and every joint sticks: how the path goes on was
+        // told by those before, and such a matrix is of no use for the next step.
+        self.parts().1.forget();
+        Some(Arc {
+            level: again.level,
+            ratio: again.ratio,
+            iterations: arc.iterations + again.iterations,
+            ..arc
+        })
     }
 
     /// The state so far along the path, and what its joints started from.
@@ -183,7 +205,9 @@ impl<'a> State<'a> {
         at.set_loads(gravity, factor);
         let (solved, ratio) = at.solve();
         let steps = at.effort().steps;
-        solved.then_some(Followed { rest: at, level: ahead.to, ratio, steps, way: Way::Stands })
+        // No further than a step along the path goes: else it is another equilibrium.
+        let near = solved && at.moved_since(&self.at) <= LONGEST * ahead.far;
+        near.then_some(Followed { rest: at, level: ahead.to, ratio, steps, way: Way::Stands })
     }
 
     /// The fall that began at the highest state, seen as far as here; `None` where that is not far enough (m).
@@ -191,10 +215,15 @@ impl<'a> State<'a> {
         if self.level >= highest.level || self.at.moved_since(&highest.at) <= enough {
             return None;
         }
+        Some(self.slid(highest, above))
+    }
+
+    /// The fall of a wall that has slid as far as here, under the load of a state where that began.
+    fn slid(self, from: State<'a>, above: f64) -> Followed<Equilibrium<'a>> {
         let steps = self.at.effort().steps;
         let bodies = Box::new(self.at.into_assembly().bodies);
         let way = Way::Falls { above, at: self.level, ratio: self.ratio, bodies };
-        Some(Followed { steps, ..highest.ended(way) })
+        Followed { steps, ..from.ended(way) }
     }
 
     fn ended(self, way: Way) -> Followed<Equilibrium<'a>> {
@@ -215,11 +244,22 @@ impl<'a> State<'a> {
         (self.level + rise * meet).max(highest)
     }
 
+    /// Whether a state that was found lies on the path from here. A block that slides bears the same load wherever it is, and
+    /// so the level can come out as anything: a tilt by whole turns of the platform. Levels lie between none and the one that
+    /// is asked for, give or take the way to that.
+    fn leads_to(&self, found: &Arc, ahead: &Ahead<'_>) -> bool {
+        let way = ahead.to - ahead.from;
+        let steepest = f64::max(self.slope.abs(), found.slope.abs());
+        (-way..=ahead.to + way).contains(&found.level)
+            && (found.level - self.level).abs() <= STEEPER * steepest * found.length + way
+    }
+
     /// The next state along the path; a step that does not converge is halved.
     fn next(&self, ahead: &Ahead<'_>, mut length: f64, rough: bool) -> Option<Self> {
         for _ in 0..=MOST_HALVINGS {
             let mut at = self.at.clone();
-            if let Some(arc) = at.step_along(ahead, self.level, &self.along, length, rough) {
+            let found = at.step_along(ahead, self.level, &self.along, length, rough);
+            if let Some(arc) = found.filter(|arc| self.leads_to(arc, ahead)) {
                 return Some(State::of(at, arc));
             }
             length *= 0.5;

@@ -112,7 +112,7 @@ pub(crate) fn thrust(program: &Program, solved: &Solved) -> Vec<Thrust> {
         all.push(Thrust {
             blocks: (a as u32, b as u32),
             force: if joint.incident == b { sum } else { -sum },
-            at: carries.then(|| moment / pressure),
+            at: carries.then(|| moment / pressure + program.blocks.origin),
         });
     }
     all

@@ -52,6 +52,8 @@ pub(crate) struct Rope {
 /// The blocks of a wall, their joints and their ropes.
 #[derive(Clone, Debug)]
 pub(crate) struct Blocks {
+    /// Where positions count from (m, in the wall's coordinates), see [`Wall::local_origin`].
+    pub origin: Vec3,
     pub rigid: Vec<Rigid>,
     pub interfaces: Vec<Interface>,
     /// Ropes: a pull of any size.
@@ -69,13 +71,15 @@ impl Rigid {
 impl Blocks {
     /// The blocks where the wall has them, and the joints between those that touch within `closed_gap` (m).
     pub fn of(wall: &Wall, laws: &dyn JointLaws, contact: &contact::Settings, closed_gap: f64) -> Self {
+        let origin = wall.local_origin();
+        let shapes: Vec<Polyhedron> = wall.blocks.iter().map(|b| b.shape.translated(&-origin)).collect();
         let rigid: Vec<Rigid> = wall
             .blocks
             .iter()
-            .map(|block| {
-                let mass = block.shape.mass_properties();
-                let radius =
-                    block.shape.vertices.iter().map(|v| (v - mass.centroid).norm()).fold(0.0, f64::max);
+            .zip(&shapes)
+            .map(|(block, shape)| {
+                let mass = shape.mass_properties();
+                let radius = shape.vertices.iter().map(|v| (v - mass.centroid).norm()).fold(0.0, f64::max);
                 Rigid {
                     centroid: mass.centroid,
                     mass: block.density * mass.volume,
@@ -84,7 +88,6 @@ impl Blocks {
                 }
             })
             .collect();
-        let shapes: Vec<Polyhedron> = wall.blocks.iter().map(|b| b.shape.clone()).collect();
         let closed = closed_gap.max(contact.touch);
         let mut interfaces = Vec::new();
         for (a, b) in candidate_pairs(&shapes, 2.0 * contact.reach) {
@@ -107,7 +110,7 @@ impl Blocks {
         let moving: Vec<f64> = rigid.iter().filter(|r| r.moves()).map(|r| r.mass).collect();
         let mean = moving.iter().sum::<f64>() / moving.len().max(1) as f64;
         let unit = if mean > 0.0 { mean * crate::solve::STANDARD_GRAVITY } else { 1.0 };
-        Blocks { rigid, interfaces, ties: Vec::new(), unit }
+        Blocks { origin, rigid, interfaces, ties: Vec::new(), unit }
     }
 
     /// The dead or the live loads on every block.
@@ -119,7 +122,7 @@ impl Blocks {
             .map(|r| Wrench { force: acceleration * r.mass, moment: Vec3::zeros() })
             .collect();
         for load in loads.points.iter().filter(|p| p.when == when) {
-            wrenches[load.block].add(load.point - self.rigid[load.block].centroid, load.force);
+            wrenches[load.block].add(load.point - self.origin - self.rigid[load.block].centroid, load.force);
         }
         wrenches
     }
