@@ -10,10 +10,14 @@ use crate::solve::limit::interfaces::{Blocks, Rope};
 use crate::solve::limit::loads::{When, Wrench};
 use crate::solve::limit::program::{Program, Solved, axes};
 use crate::solve::limit::strength::Strength;
+use crate::solve::limit::interior;
 use crate::solve::limit::{Accuracy, BlockMotion, Cone, Flow, Limit, Loads, Settings, Thrust};
 
 /// A wall stands when it bears all but this share of its dead loads: the accuracy of the solver.
 const ALL: f64 = 1.0 - 1e-6;
+
+/// Miss of an answer with which no better one is looked for.
+const EXACT: f64 = 1e-8;
 
 /// An assembly of rigid blocks whose joints have been found: to be asked for many loads.
 ///
@@ -80,6 +84,17 @@ pub(crate) struct Answer {
 }
 
 impl Answer {
+    /// By how much forces and mechanism miss what they should be: the largest of the audit's relative numbers, those of
+    /// the mechanism only where there is one.
+    fn miss(&self) -> f64 {
+        let (a, solved) = (&self.accuracy, &self.solved);
+        let gap = a.gap.abs() / solved.multiplier.abs().max(1.0);
+        let all = [a.residual, a.excess, a.incompatibility, gap];
+        let counted = if self.capped { &all[..2] } else { &all[..] };
+        // What is no number is no answer.
+        counted.iter().fold(0.0, |most: f64, x| if x.is_nan() { f64::INFINITY } else { most.max(*x) })
+    }
+
     /// Whether forces and mechanism can be believed.
     pub fn is_good(&self) -> bool {
         if self.capped {
@@ -218,14 +233,13 @@ impl Analysis {
     /// The largest share of the dead loads, at most 1.
     pub(crate) fn at_rest(&self, applied: &Applied) -> Answer {
         let none = vec![Wrench::default(); applied.dead.len()];
-        let mut answer = self.solve(&none, &applied.dead, &applied.axes, &self.strengths, 1.0);
-        answer.capped = answer.solved.multiplier >= ALL;
-        answer
+        let program = self.program(&none, &applied.dead, &applied.axes, &self.strengths, 1.0);
+        self.answer(&Program { enough: true, ..program })
     }
 
     /// The largest multiplier up to a cap, for given strengths.
     pub(crate) fn largest(&self, applied: &Applied, strengths: &[Strength], cap: f64) -> Answer {
-        self.solve(&applied.dead, &applied.live, &applied.axes, strengths, cap)
+        self.answer(&self.program(&applied.dead, &applied.live, &applied.axes, strengths, cap))
     }
 
     /// Whether the live loads can grow without end: they can if they have an equilibrium of their own within the cones that
@@ -233,21 +247,22 @@ impl Analysis {
     fn beyond(&self, applied: &Applied) -> (Outcome, u32) {
         let none = vec![Wrench::default(); applied.live.len()];
         let cones: Vec<Strength> = self.strengths.iter().map(Strength::recession).collect();
-        let answer = self.solve(&none, &applied.live, &applied.axes, &cones, 1.0);
+        let program = self.program(&none, &applied.live, &applied.axes, &cones, 1.0);
+        let answer = self.answer(&Program { enough: true, ..program });
         let unbounded = answer.solved.multiplier >= ALL && answer.accuracy.accepts_state();
         let outcome = if unbounded { Outcome::Unbounded } else { Outcome::Equilibrium };
         (outcome, answer.solved.iterations)
     }
 
-    fn solve(
-        &self,
-        dead: &[Wrench],
-        live: &[Wrench],
-        axes: &[[Vec3; 2]],
-        strengths: &[Strength],
+    fn program<'p>(
+        &'p self,
+        dead: &'p [Wrench],
+        live: &'p [Wrench],
+        axes: &'p [[Vec3; 2]],
+        strengths: &'p [Strength],
         cap: f64,
-    ) -> Answer {
-        let program = Program {
+    ) -> Program<'p> {
+        Program {
             blocks: &self.blocks,
             axes,
             strengths,
@@ -256,14 +271,32 @@ impl Analysis {
             cap,
             cone: self.settings.cone,
             tolerance: self.settings.tolerance,
-        };
-        let solved = program.solve();
+            enough: false,
+            pressure: 0.0,
+            near: None,
+        }
+    }
+
+    /// The program's solution by the method made for it or, where that does not apply or is not exact, by clarabel: the
+    /// better of the two.
+    pub(crate) fn answer(&self, program: &Program) -> Answer {
+        let quick = interior::solve(program).map(|solved| self.audited(program, solved));
+        match quick {
+            Some(quick) if quick.miss() <= EXACT => quick,
+            quick => {
+                let slow = self.audited(program, program.solve());
+                quick.filter(|quick| quick.miss() < slow.miss()).unwrap_or(slow)
+            }
+        }
+    }
+
+    fn audited(&self, program: &Program, solved: Solved) -> Answer {
         Answer {
-            accuracy: audit(&program, &solved),
-            mechanism: mechanism(&program, &solved),
-            thrust: thrust(&program, &solved),
-            excess: crate::solve::limit::audit::excess(&self.strengths, &program, &solved),
-            capped: solved.multiplier >= cap * ALL,
+            accuracy: audit(program, &solved),
+            mechanism: mechanism(program, &solved),
+            thrust: thrust(program, &solved),
+            excess: crate::solve::limit::audit::excess(&self.strengths, program, &solved),
+            capped: solved.multiplier >= program.cap * ALL,
             solved,
         }
     }

@@ -46,6 +46,7 @@ mod audit;
 mod collapse;
 mod flow;
 mod interfaces;
+mod interior;
 mod loads;
 mod program;
 mod settings;
