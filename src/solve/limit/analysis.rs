@@ -284,8 +284,11 @@ impl Analysis {
         match quick {
             Some(quick) if quick.miss() <= EXACT => quick,
             quick => {
+                eprintln!("TEMP fallback {:?}", quick.as_ref().map(|q| (q.accuracy, q.solved.iterations, q.solved.multiplier, q.capped)));
                 let slow = self.audited(program, program.solve());
-                quick.filter(|quick| quick.miss() < slow.miss()).unwrap_or(slow)
+                // Clarabel alone can prove that there is no state at all.
+                let better = |quick: &Answer| quick.is_good() && quick.miss() < slow.miss();
+                quick.filter(better).unwrap_or(slow)
             }
         }
     }

@@ -87,7 +87,7 @@ impl Iterate {
         }
         let dual = scaling.solve(groups, normal, &costs)?;
         start.y = dual.y.clone();
-        (start.z, start.z_least, start.z_cap) = scaling.multipliers(groups, &dual, &costs);
+        (start.z, start.z_least, start.z_cap) = scaling.multipliers(groups, goal, &dual, &costs);
         into_the_cones(groups, &mut start.s, &mut start.s_least, &mut start.s_cap);
         into_the_cones(groups, &mut start.z, &mut start.z_least, &mut start.z_cap);
         Some(start)

@@ -60,6 +60,7 @@ pub(super) fn solve(program: &Program) -> Option<Solved> {
         } else {
             stalled += 1;
         }
+        if std::env::var("TEMP").is_ok() { eprintln!("  {iterations} lam {} state {:.1e} merit {merit:.1e} gap {:.1e}", now.lambda, residuals.state(), residuals.gap); }
         if merit <= program.tolerance || stalled >= STALLED || iterations >= PATIENCE {
             break;
         }
@@ -68,7 +69,7 @@ pub(super) fn solve(program: &Program) -> Option<Solved> {
         if !normal.factorise(&groups, &scaling.inverses) {
             break;
         }
-        let Some((direction, length)) = directions(&groups, &normal, &scaling, &now, &residuals) else { break };
+        let Some((direction, length)) = directions(&groups, &goal, &normal, &scaling, &now, &residuals) else { break };
         now.go(&direction, length);
     }
     let (merit, found) = best?;

@@ -53,6 +53,8 @@ pub(super) struct Scaling {
     /// `W` and `lambda` of the half-lines.
     least: Vec<[f64; 2]>,
     cap: [f64; 2],
+    /// What a group's normal force has in `M` beside the friction cone.
+    stiff: Vec<f64>,
     /// `M^-1` by group.
     pub inverses: Vec<[Triple; 3]>,
 }
@@ -95,12 +97,15 @@ impl Scaling {
     /// That does nothing.
     pub fn unit(groups: &Groups) -> Scaling {
         let n = groups.groups.len();
-        let inverse = |g: &Group| g.inverse(&Second::UNIT, if g.least.is_some() { 1.0 } else { 0.0 });
+        let stiff: Vec<f64> =
+            groups.groups.iter().map(|g| if g.least.is_some() { 1.0 } else { 0.0 }).collect();
+        let inverse = |(g, stiff): (&Group, &f64)| g.inverse(&Second::UNIT, *stiff);
         Scaling {
             cones: vec![Second::UNIT; n],
             least: vec![[1.0, 1.0]; n],
             cap: [1.0, 1.0],
-            inverses: groups.groups.iter().map(inverse).collect(),
+            inverses: groups.groups.iter().zip(&stiff).map(inverse).collect(),
+            stiff,
         }
     }
 
@@ -117,6 +122,7 @@ impl Scaling {
             if group.shears {
                 scaling.cones[k] = Second::of(at.s[k], at.z[k])?;
             }
+            scaling.stiff[k] = stiff;
             scaling.inverses[k] = group.inverse(&scaling.cones[k], stiff);
         }
         Some(scaling)
@@ -124,79 +130,102 @@ impl Scaling {
 
     /// Forces, multiplier and velocities of a direction; refined, as normal equations lose digits.
     pub fn solve(&self, groups: &Groups, normal: &Normal, right: &Right) -> Option<Direction> {
-        let mut u: Vec<Triple> = right.x.iter().map(|x| x.map(|x| -x)).collect();
-        for (k, group) in groups.groups.iter().enumerate() {
-            if group.shears {
-                let [q0, q1, q2] = self.cones[k].unscale_twice(right.q[k]);
-                u[k] = [u[k][0] + group.friction * q0, u[k][1] + q1, u[k][2] + q2];
-            }
-            if group.least.is_some() {
-                u[k][0] += right.q_least[k] / (self.least[k][0] * self.least[k][0]);
-            }
-        }
         let stiff = 1.0 / (self.cap[0] * self.cap[0]);
         let u_lambda = -right.x_lambda - stiff * right.q_cap;
         let full = normal.solve(&groups.live);
         let border = stiff + power(&groups.live, &full);
         let mut found = Direction {
-            f: vec![[0.0; 3]; u.len()],
+            f: (0..groups.groups.len()).map(|k| self.alone(k, &groups.groups[k], right)).collect(),
             y: vec![[0.0; SIX]; right.y.len()],
             ..Direction::default()
         };
         let asked = right.y.iter().flatten().fold(1e-300, |most: f64, x| most.max(x.abs()));
         for round in 0..=REFINED.0 {
-            // What is still missing of the groups' equations, of equilibrium and of the multiplier's equation.
+            // What is still missing of equilibrium.
             let mut missing = right.y.clone();
             for (sum, live) in missing.iter_mut().zip(&groups.live) {
                 sum.iter_mut().zip(live).for_each(|(sum, live)| *sum += found.lambda * live);
             }
-            let mut forces = Vec::with_capacity(u.len());
-            for (k, group) in groups.groups.iter().enumerate() {
-                let felt = group.feel(&found.y);
-                let left: Triple = std::array::from_fn(|i| u[k][i] - felt[i]);
-                let force = times(&self.inverses[k], left);
-                group.act(force, &mut missing);
-                forces.push(force);
-            }
-            found.f = forces;
+            groups.groups.iter().zip(&found.f).for_each(|(group, f)| group.act(*f, &mut missing));
             let worst = missing.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
             if !worst.is_finite() {
                 return None;
             }
-            if round == REFINED.0 || (round > 0 && worst <= REFINED.1 * asked) {
+            if round > 0 && worst <= REFINED.1 * asked {
                 break;
             }
-            let part = normal.solve(&missing);
-            let left = u_lambda - stiff * found.lambda - power(&groups.live, &found.y) - power(&groups.live, &part);
-            let more = left / border;
-            found.lambda += more;
-            for ((y, part), full) in found.y.iter_mut().zip(&part).zip(&full) {
-                (0..SIX).for_each(|k| y[k] += part[k] + more * full[k]);
+            let mut y = normal.solve(&missing);
+            let met = stiff * found.lambda + power(&groups.live, &found.y);
+            let lambda = (u_lambda - met - power(&groups.live, &y)) / border;
+            for (y, full) in y.iter_mut().zip(&full) {
+                y.iter_mut().zip(full).for_each(|(y, full)| *y += lambda * full);
             }
+            found.lambda += lambda;
+            for ((f, group), inverse) in found.f.iter_mut().zip(&groups.groups).zip(&self.inverses) {
+                let force = times(inverse, group.feel(&y));
+                (0..3).for_each(|i| f[i] -= force[i]);
+            }
+            found.y.as_flattened_mut().iter_mut().zip(y.as_flattened()).for_each(|(sum, y)| *sum += y);
         }
         Some(found)
     }
 
-    /// Multipliers that belong to a direction: `W^-2 (G dx + q)`.
-    pub fn multipliers(&self, groups: &Groups, d: &Direction, right: &Right) -> (Vec<Triple>, Vec<f64>, f64) {
+    /// The force of a group that no block moves: `M^-1 u`, written so that what is large in `u` never appears.
+    fn alone(&self, k: usize, group: &Group, right: &Right) -> Triple {
+        let (x, q, stiff) = (right.x[k], right.q[k], self.stiff[k]);
+        let least = if group.least.is_some() { right.q_least[k] / (self.least[k][0] * self.least[k][0]) } else { 0.0 };
+        if group.shears && group.friction > 0.0 {
+            let normal = q[0] / group.friction;
+            let rest = times(&self.inverses[k], [least - stiff * normal - x[0], -x[1], -x[2]]);
+            return [normal + rest[0], q[1] + rest[1], q[2] + rest[2]];
+        }
+        let mut force = times(&self.inverses[k], [least - x[0], -x[1], -x[2]]);
+        if group.shears {
+            let w = self.cones[k].w;
+            let bend = 2.0 * w[0] * q[0] / (2.0 * w[0] * w[0] - 1.0);
+            (1..3).for_each(|i| force[i] += q[i] - bend * w[i]);
+        }
+        force
+    }
+
+    /// Multipliers that belong to a direction. `W^-2 (G dx + q)` loses all digits where a contact slides, at the rim of its
+    /// cone; the flow rule gives them without loss, but for one component of cones that overlap.
+    pub fn multipliers(
+        &self,
+        groups: &Groups,
+        goal: &Goal,
+        d: &Direction,
+        right: &Right,
+    ) -> (Vec<Triple>, Vec<f64>, f64) {
         let n = groups.groups.len();
         let (mut z, mut z_least) = (vec![[0.0; 3]; n], vec![0.0; n]);
         for (k, group) in groups.groups.iter().enumerate() {
-            let (f, q) = (d.f[k], right.q[k]);
-            if group.shears {
-                z[k] = self.cones[k].unscale_twice([q[0] - group.friction * f[0], q[1] - f[1], q[2] - f[2]]);
-            }
+            let (f, q, felt) = (d.f[k], right.q[k], group.feel(&d.y));
+            let weight = if k < goal.near.len() { goal.weight } else { 0.0 };
+            let normal = right.x[k][0] + felt[0] + weight * f[0];
             if group.least.is_some() {
-                z_least[k] = (right.q_least[k] - f[0]) / (self.least[k][0] * self.least[k][0]);
+                z_least[k] = normal;
+            }
+            if !group.shears {
+                continue;
+            }
+            z[k] = [normal / group.friction, right.x[k][1] + felt[1], right.x[k][2] + felt[2]];
+            if group.friction == 0.0 {
+                z[k][0] = self.cones[k].unscale_twice([q[0], q[1] - f[1], q[2] - f[2]])[0];
+            } else if group.least.is_some() {
+                let [w, _] = self.least[k];
+                z_least[k] = (right.q_least[k] - f[0]) / (w * w);
+                z[k][0] = (normal - z_least[k]) / group.friction;
             }
         }
-        (z, z_least, (d.lambda + right.q_cap) / (self.cap[0] * self.cap[0]))
+        (z, z_least, -right.x_lambda - power(&groups.live, &d.y))
     }
 
     /// The direction whose products of slack and multiplier change by `products`.
     fn direction(
         &self,
         groups: &Groups,
+        goal: &Goal,
         normal: &Normal,
         residuals: &Residuals,
         products: &(Vec<Triple>, Vec<f64>, f64),
@@ -220,7 +249,7 @@ impl Scaling {
             right.q_least[k] = residuals.s_least[k] + w * products.1[k] / lambda;
         }
         let mut d = self.solve(groups, normal, &right)?;
-        (d.z, d.z_least, d.z_cap) = self.multipliers(groups, &d, &right);
+        (d.z, d.z_least, d.z_cap) = self.multipliers(groups, goal, &d, &right);
         d.s = vec![[0.0; 3]; n];
         d.s_least = vec![0.0; n];
         for (k, group) in groups.groups.iter().enumerate() {
@@ -284,17 +313,18 @@ impl Scaling {
 /// Predictor and corrector: the direction, and how far to go along it.
 pub(super) fn directions(
     groups: &Groups,
+    goal: &Goal,
     normal: &Normal,
     scaling: &Scaling,
     at: &Iterate,
     residuals: &Residuals,
 ) -> Option<(Direction, f64)> {
-    let predictor = scaling.direction(groups, normal, residuals, &scaling.products(groups, 0.0, None))?;
+    let predictor = scaling.direction(groups, goal, normal, residuals, &scaling.products(groups, 0.0, None))?;
     let reach = scaling.largest_step(groups, &predictor).min(1.0);
     let left = 1.0 - reach;
     let centre = left * left * left * residuals.gap / at.degree(groups);
     let products = scaling.products(groups, centre, Some(&predictor));
-    let direction = scaling.direction(groups, normal, residuals, &products)?;
+    let direction = scaling.direction(groups, goal, normal, residuals, &products)?;
     let length = (SHORT * scaling.largest_step(groups, &direction)).min(1.0);
     length.is_finite().then_some((direction, length))
 }
