@@ -102,6 +102,13 @@ impl Second {
         std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
     }
 
+    /// `W^-2 u` by its last two components: the first one is `first u_0 + rest . (W^-2 u)_(1, 2)`; gives `first` and `rest`.
+    pub fn first_by_rest(&self) -> (f64, [f64; 2]) {
+        let (w, size) = (self.w, 2.0 * self.w[0] * self.w[0] - 1.0);
+        let share = -2.0 * w[0] / size;
+        (1.0 / (self.eta * self.eta * size), [share * w[1], share * w[2]])
+    }
+
     /// The largest step along a scaled direction that stays in the cone.
     pub fn largest_step(&self, direction: Triple) -> f64 {
         let size = determinant(self.lambda).max(f64::MIN_POSITIVE).sqrt();
@@ -150,6 +157,8 @@ mod tests {
         let [_, a, b] = w.unscale_twice([0.0, 0.4, -0.9]);
         let back = w.sliding().map(|row| row[0] * a + row[1] * b);
         close([0.0, back[0], back[1]], [0.0, 0.4, -0.9]);
+        let (first, rest) = w.first_by_rest();
+        assert!((first * S[0] + rest[0] * Z[1] + rest[1] * Z[2] - Z[0]).abs() < 1e-13);
         assert!(Second::of([1.0, 1.0, 0.0], Z).is_none(), "on the rim");
     }
 

@@ -35,6 +35,8 @@ use crate::solve::limit::program::{Program, Solved};
 const PATIENCE: u32 = 80;
 /// Steps without progress after which the best state found is the answer.
 const STALLED: u32 = 6;
+/// So many times the tolerance are a solution, where rounding ends the search.
+const NEARLY: f64 = 100.0;
 /// Share of the way to the rim of the cones that a step goes.
 const SHORT: f64 = 0.99;
 
@@ -60,7 +62,6 @@ pub(super) fn solve(program: &Program) -> Option<Solved> {
         } else {
             stalled += 1;
         }
-        if std::env::var("TEMP").is_ok() { eprintln!("  {iterations} lam {} state {:.1e} merit {merit:.1e} gap {:.1e}", now.lambda, residuals.state(), residuals.gap); }
         if merit <= program.tolerance || stalled >= STALLED || iterations >= PATIENCE {
             break;
         }
@@ -121,6 +122,6 @@ fn solved(program: &Program, groups: &Groups, found: &Iterate, iterations: u32, 
         pulls: found.f[points..].iter().map(|f| f[0] * blocks.unit).collect(),
         velocities: blocks.rigid.iter().zip(&groups.moving).map(velocity).collect(),
         iterations,
-        status: if merit <= program.tolerance { SolverStatus::Solved } else { SolverStatus::AlmostSolved },
+        status: if merit <= NEARLY * program.tolerance { SolverStatus::Solved } else { SolverStatus::AlmostSolved },
     }
 }

@@ -189,7 +189,8 @@ impl Scaling {
     }
 
     /// Multipliers that belong to a direction. `W^-2 (G dx + q)` loses all digits where a contact slides, at the rim of its
-    /// cone; the flow rule gives them without loss, but for one component of cones that overlap.
+    /// cone; the flow rule gives them without loss. What it leaves open where the normal force has no cone or two is had
+    /// from the rest.
     pub fn multipliers(
         &self,
         groups: &Groups,
@@ -200,23 +201,28 @@ impl Scaling {
         let n = groups.groups.len();
         let (mut z, mut z_least) = (vec![[0.0; 3]; n], vec![0.0; n]);
         for (k, group) in groups.groups.iter().enumerate() {
-            let (f, q, felt) = (d.f[k], right.q[k], group.feel(&d.y));
+            let (mu, q, felt) = (group.friction, right.q[k], group.feel(&d.y));
+            let flow: Triple = std::array::from_fn(|i| right.x[k][i] + felt[i]);
             let weight = if k < goal.near.len() { goal.weight } else { 0.0 };
-            let normal = right.x[k][0] + felt[0] + weight * f[0];
-            if group.least.is_some() {
-                z_least[k] = normal;
-            }
+            let normal = flow[0] + weight * d.f[k][0];
             if !group.shears {
+                z_least[k] = normal;
                 continue;
             }
-            z[k] = [normal / group.friction, right.x[k][1] + felt[1], right.x[k][2] + felt[2]];
-            if group.friction == 0.0 {
-                z[k][0] = self.cones[k].unscale_twice([q[0], q[1] - f[1], q[2] - f[2]])[0];
-            } else if group.least.is_some() {
-                let [w, _] = self.least[k];
-                z_least[k] = (right.q_least[k] - f[0]) / (w * w);
-                z[k][0] = (normal - z_least[k]) / group.friction;
-            }
+            let (first, rest) = self.cones[k].first_by_rest();
+            let known = first * q[0] + rest[0] * flow[1] + rest[1] * flow[2];
+            let z0 = if mu == 0.0 {
+                z_least[k] = normal;
+                known
+            } else {
+                if group.least.is_some() {
+                    let (line, cone) = (1.0 / (self.least[k][0] * self.least[k][0]), mu * mu * first);
+                    let pressed = right.q_least[k] * (cone + weight) - mu * known + flow[0];
+                    z_least[k] = line * pressed / (cone + line + weight);
+                }
+                (normal - z_least[k]) / mu
+            };
+            z[k] = [z0, flow[1], flow[2]];
         }
         (z, z_least, -right.x_lambda - power(&groups.live, &d.y))
     }
