@@ -27,19 +27,20 @@ use crate::solve::limit::program::{Near, Program};
 use crate::solve::limit::strength::Strength;
 use crate::solve::limit::{FixedPoint, Flow, Limit};
 
-/// Weight of the newest state at first; the factor on it whenever the multiplier swings back, and its least.
-const RELAXATION: (f64, f64, f64) = (1.0, 0.7, 0.1);
+/// Weight of the newest state at first, which is the most; the factors on it where the multiplier swings back and where it
+/// does not, and its least.
+const RELAXATION: (f64, f64, f64, f64) = (1.0, 0.7, 1.2, 0.1);
 /// A change of the multiplier (relative) that is a swing.
 const SWING: f64 = 1e-6;
 /// What a distance of one block's weight in one normal force costs, in multipliers: little beside what matters of a
 /// multiplier, much beside the accuracy of the solver.
-const NEARNESS: f64 = 1e-4;
+const NEARNESS: f64 = 1e-5;
 /// Change of the multiplier (relative) at rest.
 const SAME_MULTIPLIER: f64 = 1e-5;
 /// Excess of a contact's shear over Coulomb's law at rest, over the blocks' mean weight.
 const SAME_STRENGTH: f64 = 1e-4;
 /// Programs that are solved at most, and how many of the last say between which multipliers a search without end goes.
-const PATIENCE: (u32, usize) = (200, 20);
+const PATIENCE: (u32, usize) = (400, 20);
 /// Shear strength (over the blocks' mean weight) of a contact without pressure: the cylinder needs an inside.
 const FLOOR: f64 = 1e-6;
 /// So many times the dead loads on the strength that they cause themselves are as good as any; and programs at most.
@@ -102,9 +103,9 @@ impl Analysis {
             }
             let size = next.solved.multiplier.abs().max(1e-3);
             let change = next.solved.multiplier - state.solved.multiplier;
-            if change * search.change < 0.0 && change.abs() > SWING * size {
-                weight = (weight * RELAXATION.1).max(RELAXATION.2);
-            }
+            let swings = change * search.change < 0.0 && change.abs() > SWING * size;
+            let factor = if swings { RELAXATION.1 } else { RELAXATION.2 };
+            weight = (weight * factor).clamp(RELAXATION.3, RELAXATION.0);
             found.push(next.solved.multiplier);
             state = self.between(applied, state, next, weight, cap);
             search = FixedPoint { iterations: search.iterations + 1, change, excess: state.excess, ..search };
