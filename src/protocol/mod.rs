@@ -10,6 +10,7 @@ mod pace;
 mod path;
 mod pressure;
 mod restraint;
+mod rigid;
 mod ropes;
 mod route;
 mod run;

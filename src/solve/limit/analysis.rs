@@ -9,10 +9,10 @@ use crate::solve::Tie;
 use crate::solve::limit::audit::audit;
 use crate::solve::limit::collapse::{mechanism, thrust};
 use crate::solve::limit::interfaces::{Blocks, Rope};
+use crate::solve::limit::interior;
 use crate::solve::limit::loads::{When, Wrench};
 use crate::solve::limit::program::{Program, Solved, axes};
 use crate::solve::limit::strength::Strength;
-use crate::solve::limit::interior;
 use crate::solve::limit::{Accuracy, BlockMotion, Cone, Flow, Limit, Loads, Settings, Thrust};
 
 /// A wall stands when it bears all but this share of its dead loads: the accuracy of the solver.
@@ -306,7 +306,6 @@ impl Analysis {
             // A state near another one is not the optimum of which the audit knows.
             Some(quick) if program.near.is_some() && quick.solved.status == SolverStatus::Solved => quick,
             quick => {
-                eprintln!("TEMP fallback {:?} {}", quick.as_ref().map(|q| (q.accuracy, q.solved.iterations, q.solved.multiplier, q.capped, q.solved.status)), program.near.is_some());
                 let slow = self.audited(program, program.solve());
                 // Clarabel alone can prove that there is no state at all.
                 let better = |quick: &Answer| quick.is_good() && quick.miss() < slow.miss();

@@ -54,7 +54,8 @@ impl Analysis {
         let (mut forces, mut last, mut spent) = (rest.solved.forces.clone(), 0.0, 0);
         for _ in 0..PLENTY.1 {
             let strengths = self.cylinders(&forces);
-            let answer = self.answer(&self.program(&none, &applied.dead, &applied.axes, &strengths, PLENTY.0));
+            let answer =
+                self.answer(&self.program(&none, &applied.dead, &applied.axes, &strengths, PLENTY.0));
             spent += answer.solved.iterations;
             let share = answer.solved.multiplier;
             if answer.capped || !answer.accuracy.accepts_state() || share <= 0.0 {

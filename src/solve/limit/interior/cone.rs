@@ -86,7 +86,13 @@ impl Second {
     pub fn squared(&self) -> [Triple; 3] {
         let (w, square) = (self.w, self.eta * self.eta);
         let entry = |i: usize, j: usize| {
-            let mirror = if i != j { 0.0 } else if i == 0 { 1.0 } else { -1.0 };
+            let mirror = if i != j {
+                0.0
+            } else if i == 0 {
+                1.0
+            } else {
+                -1.0
+            };
             square * (2.0 * w[i] * w[j] - mirror)
         };
         std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
@@ -96,9 +102,8 @@ impl Second {
     pub fn sliding(&self) -> [[f64; 2]; 2] {
         let (w, square) = (self.w, self.eta * self.eta);
         let bend = 2.0 / (2.0 * w[0] * w[0] - 1.0);
-        let entry = |i: usize, j: usize| {
-            square * (if i == j { 1.0 } else { 0.0 } - bend * w[1 + i] * w[1 + j])
-        };
+        let entry =
+            |i: usize, j: usize| square * (if i == j { 1.0 } else { 0.0 } - bend * w[1 + i] * w[1 + j]);
         std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)))
     }
 

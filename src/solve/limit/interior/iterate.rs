@@ -108,7 +108,8 @@ impl Iterate {
             let felt = group.feel(&self.y);
             x[k][0] = felt[0] + goal.slope(k, self.f[k][0]);
             if group.shears {
-                x[k] = [x[k][0] - group.friction * self.z[k][0], felt[1] - self.z[k][1], felt[2] - self.z[k][2]];
+                x[k] =
+                    [x[k][0] - group.friction * self.z[k][0], felt[1] - self.z[k][1], felt[2] - self.z[k][2]];
                 let slack = group.slack(self.f[k]);
                 s[k] = std::array::from_fn(|i| self.s[k][i] - slack[i]);
                 gap += dot(self.s[k], self.z[k]);
@@ -120,7 +121,8 @@ impl Iterate {
             }
             scale = scale.max(self.f[k][0].abs());
         }
-        let power = groups.live.iter().flatten().zip(self.y.iter().flatten()).map(|(l, v)| l * v).sum::<f64>();
+        let power =
+            groups.live.iter().flatten().zip(self.y.iter().flatten()).map(|(l, v)| l * v).sum::<f64>();
         Residuals {
             x,
             x_lambda: power - 1.0 + self.z_cap,

@@ -57,7 +57,8 @@ pub(super) fn solve(program: &Program) -> Option<Solved> {
         }
         if best.as_ref().is_none_or(|(least, _)| merit < *least) {
             // What gains less than a tenth is no progress.
-            stalled = if best.as_ref().is_some_and(|(least, _)| merit > 0.9 * least) { stalled + 1 } else { 0 };
+            stalled =
+                if best.as_ref().is_some_and(|(least, _)| merit > 0.9 * least) { stalled + 1 } else { 0 };
             best = Some((merit, now.clone()));
         } else {
             stalled += 1;
@@ -70,7 +71,10 @@ pub(super) fn solve(program: &Program) -> Option<Solved> {
         if !normal.factorise(&groups, &scaling.inverses) {
             break;
         }
-        let Some((direction, length)) = directions(&groups, &goal, &normal, &scaling, &now, &residuals) else { break };
+        let Some((direction, length)) = directions(&groups, &goal, &normal, &scaling, &now, &residuals)
+        else {
+            break;
+        };
         now.go(&direction, length);
     }
     let (merit, found) = best?;
@@ -122,6 +126,10 @@ fn solved(program: &Program, groups: &Groups, found: &Iterate, iterations: u32, 
         pulls: found.f[points..].iter().map(|f| f[0] * blocks.unit).collect(),
         velocities: blocks.rigid.iter().zip(&groups.moving).map(velocity).collect(),
         iterations,
-        status: if merit <= NEARLY * program.tolerance { SolverStatus::Solved } else { SolverStatus::AlmostSolved },
+        status: if merit <= NEARLY * program.tolerance {
+            SolverStatus::Solved
+        } else {
+            SolverStatus::AlmostSolved
+        },
     }
 }

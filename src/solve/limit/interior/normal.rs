@@ -109,7 +109,8 @@ impl Normal {
         for c in 0..SIX {
             let entries = &mut self.values[place + c * height..][..SIX];
             for (r, entry) in entries.iter_mut().enumerate() {
-                *entry += rows[0][r] * columns[0][c] + rows[1][r] * columns[1][c] + rows[2][r] * columns[2][c];
+                *entry +=
+                    rows[0][r] * columns[0][c] + rows[1][r] * columns[1][c] + rows[2][r] * columns[2][c];
             }
         }
     }
@@ -127,7 +128,9 @@ impl Normal {
 /// The columns times a symmetric matrix.
 fn weighted(columns: &[Six; 3], by: &[Triple; 3]) -> [Six; 3] {
     std::array::from_fn(|j| {
-        std::array::from_fn(|r| columns[0][r] * by[0][j] + columns[1][r] * by[1][j] + columns[2][r] * by[2][j])
+        std::array::from_fn(|r| {
+            columns[0][r] * by[0][j] + columns[1][r] * by[1][j] + columns[2][r] * by[2][j]
+        })
     })
 }
 

@@ -173,7 +173,11 @@ impl Scaling {
     /// The force of a group that no block moves: `M^-1 u`, written so that what is large in `u` never appears.
     fn alone(&self, k: usize, group: &Group, right: &Right) -> Triple {
         let (x, q, stiff) = (right.x[k], right.q[k], self.stiff[k]);
-        let least = if group.least.is_some() { right.q_least[k] / (self.least[k][0] * self.least[k][0]) } else { 0.0 };
+        let least = if group.least.is_some() {
+            right.q_least[k] / (self.least[k][0] * self.least[k][0])
+        } else {
+            0.0
+        };
         if group.shears && group.friction > 0.0 {
             let normal = q[0] / group.friction;
             let rest = times(&self.inverses[k], [least - stiff * normal - x[0], -x[1], -x[2]]);
@@ -292,7 +296,12 @@ impl Scaling {
     }
 
     /// What the products of slack and multiplier are to change by: to `centre`, past what the predictor does to them.
-    fn products(&self, groups: &Groups, centre: f64, predictor: Option<&Direction>) -> (Vec<Triple>, Vec<f64>, f64) {
+    fn products(
+        &self,
+        groups: &Groups,
+        centre: f64,
+        predictor: Option<&Direction>,
+    ) -> (Vec<Triple>, Vec<f64>, f64) {
         let half = |[w, lambda]: [f64; 2], d: Option<(f64, f64)>| {
             centre - lambda * lambda - d.map_or(0.0, |(s, z)| (s / w) * (z * w))
         };
@@ -325,7 +334,8 @@ pub(super) fn directions(
     at: &Iterate,
     residuals: &Residuals,
 ) -> Option<(Direction, f64)> {
-    let predictor = scaling.direction(groups, goal, normal, residuals, &scaling.products(groups, 0.0, None))?;
+    let predictor =
+        scaling.direction(groups, goal, normal, residuals, &scaling.products(groups, 0.0, None))?;
     let reach = scaling.largest_step(groups, &predictor).min(1.0);
     let left = 1.0 - reach;
     let centre = left * left * left * residuals.gap / at.degree(groups);
