@@ -12,6 +12,7 @@ mod limit_column;
 mod limit_flow;
 mod limit_known;
 mod limit_random;
+mod limit_self_stress;
 mod mechanisms_alike;
 mod mechanisms_joints;
 mod mechanisms_loading;

@@ -61,7 +61,7 @@ pub struct Standing {
     pub stands: Option<bool>,
     /// The largest share of the dead loads that can be borne, at most 1. Without cohesion 0 or 1.
     pub share: f64,
-    /// How the blocks start to move when they do not stand, see [`Limit::mechanism`].
+    /// How the blocks start to move when they do not stand, see [`Limit::mechanism`]; empty when they do.
     pub mechanism: Vec<BlockMotion>,
     /// The joint forces of one admissible state.
     pub thrust: Vec<Thrust>,
@@ -120,7 +120,11 @@ impl Answer {
     }
 
     /// The result with this outcome.
-    pub fn into_limit(self, outcome: Outcome, multiplier: f64, flow: Flow, before: u32) -> Limit {
+    pub fn into_limit(mut self, outcome: Outcome, multiplier: f64, flow: Flow, before: u32) -> Limit {
+        if matches!(outcome, Outcome::Equilibrium | Outcome::Unbounded) {
+            // What a solver leaves among its velocities where nothing collapses is no mechanism.
+            self.mechanism.fill(BlockMotion::default());
+        }
         Limit {
             outcome,
             multiplier,
@@ -181,7 +185,7 @@ impl Analysis {
         Standing {
             stands: answer.is_good().then_some(answer.capped),
             share: answer.solved.multiplier.clamp(0.0, 1.0),
-            mechanism: answer.mechanism,
+            mechanism: if answer.capped { Vec::new() } else { answer.mechanism },
             thrust: answer.thrust,
             accuracy: answer.accuracy,
             iterations: answer.solved.iterations,
@@ -303,8 +307,8 @@ impl Analysis {
         let quick = interior::solve(program).map(|solved| self.audited(program, solved));
         match quick {
             Some(quick) if quick.miss() <= EXACT => quick,
-            // A state near another one is not the optimum of which the audit knows.
-            Some(quick) if program.near.is_some() && quick.solved.status == SolverStatus::Solved => quick,
+            // The audit knows of the multiplier alone, not of what else is asked for.
+            Some(quick) if program.has_preference() && quick.solved.status == SolverStatus::Solved => quick,
             quick => {
                 let slow = self.audited(program, program.solve());
                 // Clarabel alone can prove that there is no state at all.

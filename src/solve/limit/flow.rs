@@ -142,7 +142,7 @@ impl Analysis {
     }
 
     /// The cylinders of all contacts under these forces.
-    fn cylinders(&self, forces: &[[f64; 3]]) -> Vec<Strength> {
+    pub(crate) fn cylinders(&self, forces: &[[f64; 3]]) -> Vec<Strength> {
         let of = |(own, force): (&Strength, &[f64; 3])| {
             if own.bonded || !own.shears() {
                 return *own;

@@ -49,6 +49,7 @@ mod interfaces;
 mod interior;
 mod loads;
 mod program;
+mod self_stress;
 mod settings;
 mod strength;
 mod tilt;

@@ -139,6 +139,11 @@ fn components(support: Support, wrench: &Wrench, radius: f64) -> ([f64; 6], usiz
 }
 
 impl Program<'_> {
+    /// Whether more than the multiplier is asked for.
+    pub fn has_preference(&self) -> bool {
+        self.near.is_some() || self.pressure > 0.0
+    }
+
     /// Solves the program as it stands, by clarabel.
     pub fn solve(&self) -> Solved {
         let (first, equations) = first_rows(self.blocks);
