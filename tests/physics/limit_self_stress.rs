@@ -36,7 +36,8 @@ fn held(wall: &Wall, phi: f64) -> Vec<usize> {
 /// A section in the plane of x and z, counter-clockwise seen from -y, drawn out from -half to half along y.
 fn prism(section: &[[f64; 2]], half: f64) -> pirca::model::Block {
     let n = section.len() as u32;
-    let vertices = [-half, half].iter().flat_map(|&y| section.iter().map(move |[x, z]| Vec3::new(*x, y, *z)));
+    let vertices =
+        [-half, half].into_iter().flat_map(|y| section.iter().map(move |[x, z]| Vec3::new(*x, y, *z)));
     let sides = (0..n).map(|i| vec![(i + 1) % n, i, i + n, (i + 1) % n + n]);
     let ends = [(0..n).collect(), (n..2 * n).rev().collect()];
     stone(Polyhedron { vertices: vertices.collect(), faces: ends.into_iter().chain(sides).collect() }, 2000.0)
@@ -48,10 +49,6 @@ fn arch() -> Wall {
     let (inner, outer) = (1.0, 1.3);
     let voussoir = |i| prism(&[at(inner, i), at(inner, i + 1), at(outer, i + 1), at(outer, i)], 0.2);
     let mut blocks: Vec<_> = (0..9).map(voussoir).collect();
-    // From the left over the crown the corners run clockwise.
-    for block in &mut blocks {
-        block.shape.faces.iter_mut().for_each(|face| face.reverse());
-    }
     blocks.push(fixed([-1.6, -0.4, -0.3], [-0.8, 0.4, 0.0]));
     blocks.push(fixed([0.8, -0.4, -0.3], [1.6, 0.4, 0.0]));
     blocks.iter().for_each(|block| block.shape.validate(1e-9).expect("a sound shape"));
@@ -128,7 +125,10 @@ fn a_prism_in_a_groove_steeper_than_its_friction_does_not_stand_without_dilatanc
     let of = |dip: f64, flow| {
         analysis(&groove(dip), &dry(1e9, 20.0), Settings { flow, ..Settings::default() }).tilt(Vec3::y(), &[])
     };
-    for dip in [27.5, 28.0, 35.0] {
+    // At 35 degrees dilatancy does not help either.
+    assert_eq!(of(35.0, Flow::Associative).outcome, Outcome::UnstableAtRest);
+    assert_eq!(of(35.0, Flow::NonAssociative).outcome, Outcome::UnstableAtRest);
+    for dip in [27.5, 28.0] {
         let limit = of(dip, Flow::NonAssociative);
         assert_eq!(limit.outcome, Outcome::UnstableAtRest, "{dip}");
         let share = pirca::math::tan(radians(20.0)) / (sin(radians(45.0)) * pirca::math::tan(radians(dip)));
