@@ -20,7 +20,7 @@ pub(crate) struct Answer {
     pub loose: Vec<usize>,
     /// Blocks that stand at rest only by forces that no weight causes.
     pub clamped: Vec<usize>,
-    /// Where a search did not converge: the least and the largest multiplier that it went through last.
+    /// Between which multipliers the answer is where the solver did not find it.
     pub between: Option<[f64; 2]>,
 }
 

@@ -118,10 +118,7 @@ fn by_limit_analysis(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit)
     let fastest = (0..found.mechanism.len()).map(speed).fold(0.0, f64::max);
     Answer {
         clamped: clamped(&analysis, wall, &found.outcome),
-        between: match (&found.outcome, found.fixed_point) {
-            (Outcome::NotConverged { .. }, Some(search)) => Some(search.range.map(|x| x.max(0.0))),
-            _ => None,
-        },
+        between: found.between,
         // What a solver leaves where nothing collapses is no mechanism.
         moving: match found.outcome {
             Outcome::Collapsed { .. } | Outcome::UnstableAtRest => {

@@ -125,7 +125,12 @@ impl Answer {
             // What a solver leaves among its velocities where nothing collapses is no mechanism.
             self.mechanism.fill(BlockMotion::default());
         }
+        let a = &self.accuracy;
+        let verified =
+            a.accepts_state() && a.incompatibility <= EXACT && a.kinematic >= self.solved.multiplier;
+        let lost = matches!(outcome, Outcome::NotConverged { .. });
         Limit {
+            between: (lost && verified).then(|| [self.solved.multiplier.max(0.0), a.kinematic]),
             outcome,
             multiplier,
             flow,

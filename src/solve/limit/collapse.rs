@@ -25,6 +25,10 @@ pub struct Limit {
     pub accuracy: Accuracy,
     /// Iterations of the conic solver, over all programs solved.
     pub iterations: u32,
+    /// What is known of the multiplier where it was not found: between these. With associative flow from a state in
+    /// equilibrium and a mechanism that agree too little, so that the true one is between; without dilatancy where the search
+    /// went last, which bounds nothing. `None` where even that is not known.
+    pub between: Option<[f64; 2]>,
     /// The search for a state without dilatancy, for [`Flow::NonAssociative`].
     pub fixed_point: Option<FixedPoint>,
 }

@@ -122,6 +122,9 @@ impl Analysis {
         // At rest the associative solution stood: what is below 0 by the search's own accuracy is 0.
         let multiplier = if at_rest { 0.0 } else { multiplier.max(0.0) };
         let mut limit = state.into_limit(outcome, multiplier, Flow::NonAssociative, spent);
+        if matches!(limit.outcome, Outcome::NotConverged { .. }) {
+            limit.between = Some(search.range.map(|x| x.max(0.0)));
+        }
         limit.fixed_point = Some(search);
         limit
     }
