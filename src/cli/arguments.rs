@@ -344,6 +344,8 @@ pub(crate) enum SolverName {
     Explicit,
     /// Newton's method from equilibrium to equilibrium.
     Implicit,
+    /// Limit analysis of rigid blocks: the collapse load alone.
+    Limit,
 }
 
 /// Arguments of `analyse`.

@@ -4,9 +4,10 @@ use crate::ensemble::{LimitAnalysis, Mechanism, Row, StepRow, Task};
 use crate::generate::{Generated, InvalidGeometry, generate};
 use crate::math::degrees;
 use crate::model::{Level, Outcome, Wall};
-use crate::protocol::{self, Bounds};
+use crate::protocol::{self, Agreement, Bounds};
 use crate::random::Streams;
-use crate::solve::STANDARD_GRAVITY;
+use crate::solve::limit::Flow;
+use crate::solve::{STANDARD_GRAVITY, Solver};
 use crate::stats;
 use crate::study::{Arm, DrawnJoints, Study};
 
@@ -91,7 +92,10 @@ fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
             Outcome::Equilibrium => last.and_then(|step| tilt(step.level)),
             _ => run.steps.iter().rev().nth(1).and_then(|step| tilt(step.level)),
         },
-        limit: study.agreement.then(|| limit(study, task, wall, &run)),
+        limit: match study.solver {
+            Solver::Limit(settings) => by_itself(&run, settings.flow),
+            _ => study.agreement.then(|| limit(study, task, wall, &run)),
+        },
         mechanism: run.failure.as_ref().map(|failure| Mechanism {
             mode: failure.mode,
             moving: failure.moving.len() as u32,
@@ -185,6 +189,27 @@ fn limit(study: &Study, task: Task, wall: &Wall, run: &protocol::Run) -> LimitAn
         agreement,
         ratio: borne.filter(|_| collapsed).zip(bounds.associative).map(|(borne, bound)| borne / bound),
     }
+}
+
+/// What limit analysis found as a study's own solver, in its own columns: a factor above 1 stands nowhere else.
+fn by_itself(run: &protocol::Run, flow: Flow) -> Option<LimitAnalysis> {
+    let borne = run.steps.get(1)?.level;
+    let found = match run.outcome {
+        Outcome::Collapsed { .. } => true,
+        // More than the full load is a capacity; the end of a tilt is not.
+        Outcome::Equilibrium => matches!(borne, Level::Factor(factor) if factor > 1.0),
+        _ => false,
+    };
+    let of = |own: Flow, x: Option<f64>| x.filter(|_| found && own == flow);
+    let factor = matches!(borne, Level::Factor(_)).then(|| borne.value());
+    Some(LimitAnalysis {
+        angle_deg: of(Flow::Associative, tilt(borne)),
+        non_associative_angle_deg: of(Flow::NonAssociative, tilt(borne)),
+        multiplier: of(Flow::Associative, factor),
+        non_associative_multiplier: of(Flow::NonAssociative, factor),
+        agreement: Agreement::WithinBound,
+        ratio: None,
+    })
 }
 
 /// A tilt (deg), if the level is one.

@@ -6,6 +6,7 @@ use crate::protocol::confirm::{Fall, Judge, Told};
 use crate::protocol::kept::keeps_contacts;
 use crate::protocol::mechanism::{Failure, failure, joint_states};
 use crate::protocol::pace::Pace;
+use crate::protocol::rigid::rigid;
 use crate::protocol::route::Route;
 use crate::protocol::task::{displacements, turns};
 use crate::protocol::watch::{Criterion, LoadStep, Watch};
@@ -27,6 +28,7 @@ pub fn drive(task: &Task<'_>, solver: &Solver) -> Run {
                 Equilibrium::of(assembly, implicit::Settings { max_halvings, ..*settings })
             })
         }
+        Solver::Limit(settings) => rigid(task, *settings),
     }
 }
 

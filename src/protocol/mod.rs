@@ -11,6 +11,7 @@ mod pace;
 mod path;
 mod pressure;
 mod restraint;
+mod rigid;
 mod ropes;
 mod route;
 mod run;

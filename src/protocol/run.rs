@@ -64,7 +64,7 @@ pub fn run_changing(
                 Rate::Dynamic(turning) => {
                     let at_rest = match solver {
                         Solver::Explicit(settings) => *settings,
-                        Solver::Implicit(_) => explicit::Settings::default(),
+                        Solver::Implicit(_) | Solver::Limit(_) => explicit::Settings::default(),
                     };
                     turn(&task, &turning, at_rest)
                 }

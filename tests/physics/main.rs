@@ -14,6 +14,8 @@ mod limit_column;
 mod limit_flow;
 mod limit_known;
 mod limit_random;
+mod limit_self_stress;
+mod limit_solver;
 mod mechanisms_alike;
 mod mechanisms_joints;
 mod mechanisms_loading;

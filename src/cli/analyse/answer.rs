@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use crate::cli::analyse::meetings::Fit;
 use crate::cli::arguments::{Analyse, LoadName};
 use crate::exchange::WallFile;
-use crate::math::degrees;
+use crate::math::{atan, degrees};
 use crate::model::{Level, Outcome};
 
 /// What came of a wall.
@@ -18,6 +18,10 @@ pub(crate) struct Answer {
     pub moving: Vec<usize>,
     /// Blocks that carry nothing and were held.
     pub loose: Vec<usize>,
+    /// Blocks that stand at rest only by forces that no weight causes.
+    pub clamped: Vec<usize>,
+    /// Between which multipliers the answer is where the solver did not find it.
+    pub between: Option<[f64; 2]>,
 }
 
 impl Answer {
@@ -33,6 +37,27 @@ impl Answer {
             Outcome::Collapsed { at: Level::Multiplier(multiplier) } => (None, Some(multiplier)),
             _ => (None, None),
         }
+    }
+
+    /// Multipliers as the load is stated: tilts (deg), or multipliers.
+    fn in_unit(&self, asked: &Analyse, ends: [f64; 2]) -> [f64; 2] {
+        match asked.load {
+            LoadName::Tilt => ends.map(|x| degrees(atan(x))),
+            LoadName::Lateral => ends,
+        }
+    }
+
+    /// The warning of a wall that stands by forces that no weight causes.
+    pub fn warning(&self, file: &WallFile) -> Option<String> {
+        let names: Vec<&str> = self.clamped.iter().take(10).map(|&i| file.names[i].as_str()).collect();
+        let dots = if self.clamped.len() > 10 { ", ..." } else { "" };
+        (!names.is_empty()).then(|| {
+            format!(
+                "stands at rest only by forces that no weight causes, as in a bar clamped between two walls: {}{dots}; \
+                 without such forces it falls: ask --solver implicit as well",
+                names.join(", ")
+            )
+        })
     }
 
     /// The one JSON object.
@@ -51,6 +76,7 @@ impl Answer {
             "reason": self.outcome.reason(),
             "collapse_angle_deg": angle,
             "multiplier": multiplier,
+            "between": self.between.map(|ends| self.in_unit(asked, ends)),
             "meaning": self.meaning,
             "solver": asked.solver.name(),
             "load": asked.load.name(),
@@ -93,6 +119,10 @@ impl Answer {
             asked.solver.name(),
             self.meaning
         ));
+        if let Some([low, high]) = self.between.map(|ends| self.in_unit(asked, ends)) {
+            let unit = if asked.load == LoadName::Tilt { "deg" } else { "of its weight" };
+            text.push_str(&format!("  between {low:.4} and {high:.4} {unit}\n"));
+        }
         for (blocks, what) in [(&self.moving, "moves at collapse"), (&self.loose, "loose, held lightly")] {
             if !blocks.is_empty() {
                 let names: Vec<&str> = blocks.iter().take(30).map(|&i| file.names[i].as_str()).collect();

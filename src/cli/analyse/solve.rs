@@ -6,7 +6,7 @@ use crate::cli::arguments::{Analyse, DirectionName, FlowName, LoadName, MethodNa
 use crate::contact;
 use crate::law::{CohesionAfterSlip, Coulomb, NormalLaw, Sampling};
 use crate::math::{radians, tan};
-use crate::model::Wall;
+use crate::model::{Outcome, Wall};
 use crate::protocol::{Changes, Confirmation, Criterion, Direction, LoadPath, Run, Task, drive};
 use crate::solve::explicit;
 use crate::solve::implicit::{self, Equilibrium};
@@ -86,6 +86,8 @@ fn task<'t>(arguments: &Analyse, wall: &'t Wall, law: &'t Coulomb, fit: &Fit) ->
 fn by_steps(run: Run) -> Answer {
     let bracket = run.bracket.map(|[low, high]| format!("; bracketed to {:.1e}", high - low));
     Answer {
+        clamped: Vec::new(),
+        between: None,
         moving: run.failure.map_or_else(Vec::new, |f| f.moving.iter().map(|&i| i as usize).collect()),
         loose: Vec::new(),
         meaning: format!(
@@ -115,11 +117,30 @@ fn by_limit_analysis(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit)
     };
     let fastest = (0..found.mechanism.len()).map(speed).fold(0.0, f64::max);
     Answer {
-        moving: (0..found.mechanism.len()).filter(|&i| speed(i) > MOVES * fastest).collect(),
+        clamped: clamped(&analysis, wall, &found.outcome),
+        between: found.between,
+        // What a solver leaves where nothing collapses is no mechanism.
+        moving: match found.outcome {
+            Outcome::Collapsed { .. } | Outcome::UnstableAtRest => {
+                (0..found.mechanism.len()).filter(|&i| speed(i) > MOVES * fastest).collect()
+            }
+            _ => Vec::new(),
+        },
         loose: Vec::new(),
         meaning: format!("{}: {}", arguments.flow.unwrap_or(FlowName::Associative).name(), flow.meaning()),
         outcome: found.outcome,
     }
+}
+
+/// The blocks that stand at rest only by forces that no weight causes.
+fn clamped(analysis: &limit::Analysis, wall: &Wall, outcome: &Outcome) -> Vec<usize> {
+    if *outcome == Outcome::UnstableAtRest {
+        return Vec::new();
+    }
+    let moves = analysis.self_stressed(&limit::Loads::weight()).unwrap_or_default();
+    let far =
+        |i: usize| moves[i].velocity.norm() + moves[i].spin.norm() * 0.5 * wall.blocks[i].shape.diameter();
+    (0..moves.len()).filter(|&i| far(i) > MOVES).collect()
 }
 
 fn direction(name: DirectionName) -> Direction {

@@ -38,6 +38,7 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
     warnings.extend(prestress(arguments, &file.wall, &fit));
     let law = law(arguments);
     let answer = solve(arguments, &file.wall, &law, &fit);
+    warnings.extend(answer.warning(&file));
     let seconds = begun.elapsed().as_secs_f64();
     if arguments.json {
         return output::print_json(&answer.object(arguments, &file, &fit, &warnings, seconds));

@@ -25,6 +25,10 @@ pub struct Limit {
     pub accuracy: Accuracy,
     /// Iterations of the conic solver, over all programs solved.
     pub iterations: u32,
+    /// What is known of the multiplier where it was not found: between these. With associative flow from a state in
+    /// equilibrium and a mechanism that agree too little, so that the true one is between; without dilatancy where the search
+    /// went last, which bounds nothing. `None` where even that is not known.
+    pub between: Option<[f64; 2]>,
     /// The search for a state without dilatancy, for [`Flow::NonAssociative`].
     pub fixed_point: Option<FixedPoint>,
 }
@@ -69,12 +73,14 @@ pub struct Accuracy {
 pub struct FixedPoint {
     /// Programs solved.
     pub iterations: u32,
-    /// Whether the multiplier came to rest, and the shear strengths with it or nearly so: see `excess`.
+    /// Whether the multiplier came to rest, and the shear strengths with it: see `excess`.
     pub converged: bool,
-    /// Change of the multiplier in the last iteration.
+    /// By how much the last program's multiplier is above that of the state found.
     pub change: f64,
     /// Largest excess of a contact's shear over Coulomb's law at the end, over the blocks' mean weight.
     pub excess: f64,
+    /// Least and largest multiplier of the last programs: what is known of a search that did not converge.
+    pub range: [f64; 2],
 }
 
 /// The mechanism of a solution, scaled to a largest velocity of 1 m/s at the contact points.
