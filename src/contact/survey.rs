@@ -143,6 +143,7 @@ mod tests {
             density: 2400.0,
             support: if i == 0 { Support::Fixed } else { Support::Free },
             tag: Tag::Stone,
+            group: None,
         };
         Wall { blocks: places.iter().enumerate().map(block).collect() }
     }

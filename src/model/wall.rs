@@ -1,5 +1,7 @@
 //! A wall: its blocks, and who gives a joint its law.
 
+use std::collections::BTreeMap;
+
 use crate::law::Coulomb;
 use crate::math::Vec3;
 use crate::model::{Block, Support, Tag};
@@ -19,6 +21,16 @@ impl Wall {
     /// The stones, without base and ends: what the wall weighs and what is observed.
     pub fn stones(&self) -> impl Iterator<Item = (usize, &Block)> {
         self.blocks.iter().enumerate().filter(|(_, b)| !matches!(b.tag, Tag::Base | Tag::End))
+    }
+
+    /// For every block the first one of its [group](Block::group), which stands for their common body; itself without one.
+    pub fn leads(&self) -> Vec<usize> {
+        let mut first: BTreeMap<&str, usize> = BTreeMap::new();
+        let mut leads = Vec::with_capacity(self.blocks.len());
+        for (id, block) in self.blocks.iter().enumerate() {
+            leads.push(block.group.as_deref().map_or(id, |group| *first.entry(group).or_insert(id)));
+        }
+        leads
     }
 
     /// Lowest and highest corner of the box around all blocks (m); infinite and inside out for a wall without blocks.
@@ -65,6 +77,7 @@ impl Wall {
             density,
             support: Support::Fixed,
             tag: Tag::Base,
+            group: None,
         });
         self
     }

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use pirca::contact::{Settings, survey};
 use pirca::exchange::{
-    ObjOptions, WallFaults, WallFile, read_obj, read_wall_json, write_obj, write_wall_json,
+    ReadOptions, WallFaults, WallFile, read_obj, read_wall_json, write_obj, write_wall_json,
 };
 use pirca::generate::canonical;
 use pirca::model::Support;
@@ -172,7 +172,7 @@ fn spoil(count: usize, seed: u64) -> usize {
             4 => (spoilt(&obj, &mut draws), true),
             _ => (made_up(&mut draws), false),
         };
-        let read = if is_obj { read_obj(&text, &ObjOptions::default()) } else { read_wall_json(&text) };
+        let read = if is_obj { read_obj(&text, &ReadOptions::default()) } else { read_wall_json(&text) };
         good += usize::from(must_be_good(read, &text));
     }
     good

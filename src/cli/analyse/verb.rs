@@ -9,7 +9,7 @@ use crate::cli::analyse::solve::{law, solve};
 use crate::cli::arguments::{Analyse, FlowName, LoadName, MethodName};
 use crate::cli::failure::Failure;
 use crate::cli::output;
-use crate::exchange::{ObjOptions, Unit, WallFaults, WallFile, read_wall};
+use crate::exchange::{ReadOptions, Unit, WallFaults, WallFile, read_wall};
 use crate::model::{Support, Wall};
 use crate::solve::STANDARD_GRAVITY;
 
@@ -48,7 +48,7 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
 /// The file, fit to be solved.
 fn read(arguments: &Analyse) -> Result<(WallFile, Fit), WallFaults> {
     let unit = arguments.unit.map(|unit| Unit::named(unit.name()).unwrap_or_default());
-    let options = ObjOptions { unit, density: arguments.density_kg_per_m3 };
+    let options = ReadOptions { unit, density: arguments.density_kg_per_m3, ..ReadOptions::default() };
     let file = read_wall(&arguments.wall, &options)?;
     let fit = look(&file, arguments.touch_tolerance, &arguments.wall.display().to_string())?;
     Ok((file, fit))
