@@ -20,6 +20,8 @@ const SLIVER: f64 = 1e-3;
 const SAME_SIDE: f64 = 0.5;
 /// A dent of so many times the usual flatness, 2 % of the block's size, may be a warped face; a deeper one is a shape.
 const NEARLY_CONVEX: f64 = 200.0;
+/// Most that faces may be warped, as a share of the block's size: a stone that is more so has another shape.
+const MOST_WARPED: f64 = 0.05;
 /// Most corners of a block after merging; the time of an overlap check grows with the cube of it.
 pub const MOST_CORNERS: usize = 200;
 
@@ -46,7 +48,7 @@ pub fn solid(
 ) -> Result<Solid, Vec<Fault>> {
     let size = diagonal(vertices);
     let flat = FLATNESS * size;
-    let allowed = flatness.map_or(flat, |asked| asked.max(flat));
+    let allowed = flatness.map_or(flat, |asked| asked.min(MOST_WARPED * size).max(flat));
     let closed = close(block, vertices, faces, size, allowed)?;
     let apart = closed.apart;
     let plane = plane_faced(block, &closed, flat);

@@ -33,6 +33,18 @@ impl Wall {
         leads
     }
 
+    /// The stones of several parts: the first part and all parts, itself among them.
+    pub fn parts(&self) -> BTreeMap<usize, Vec<usize>> {
+        let mut parts: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for (id, lead) in
+            self.leads().into_iter().enumerate().filter(|(id, _)| self.blocks[*id].group.is_some())
+        {
+            parts.entry(lead).or_default().push(id);
+        }
+        parts.retain(|_, parts| parts.len() > 1);
+        parts
+    }
+
     /// Lowest and highest corner of the box around all blocks (m); infinite and inside out for a wall without blocks.
     pub fn bounds(&self) -> (Vec3, Vec3) {
         let mut box_around = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));

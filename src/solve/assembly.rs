@@ -66,6 +66,7 @@ impl<'a> Assembly<'a> {
 
     /// Adds a force (N), at load factor 1, of fixed direction at a world point (m) that from now on moves with the block.
     pub fn add_load(&mut self, body: usize, point: Vec3, force: Vec3) {
+        let body = self.bodies.carriers[body];
         let b = &self.bodies.all[body];
         let lever = b.rotation.tr_mul(&(point - b.position));
         self.loads.push(DeadLoad { body, lever, force });
@@ -73,6 +74,7 @@ impl<'a> Assembly<'a> {
 
     /// Ties a body to its surroundings. Its point is where the body is now: bodies must not have moved yet.
     pub fn add_tie(&mut self, tie: Tie) {
+        let tie = Tie { body: self.bodies.carriers[tie.body], ..tie };
         self.ties.push(Held::new(tie, &self.bodies.all[tie.body]));
     }
 

@@ -57,12 +57,15 @@ pub struct Bodies {
     pub all: Vec<Body>,
     /// The shapes in the axes of what carries them.
     pub shapes: Vec<Polyhedron>,
-    /// The body that carries each shape: itself, or a platform that it is fixed to.
+    /// The body that carries each shape: itself, the first part of its stone, or a platform that it is fixed to.
     pub carriers: Vec<usize>,
+    /// Where each block's own centroid is in the axes of what carries it (m).
+    centroids: Vec<Vec3>,
 }
 
 impl Bodies {
-    /// Bodies at rest from the blocks of a wall.
+    /// Bodies at rest from the blocks of a wall. The first part of a stone of several carries the others: its body has the mass
+    /// of all, and theirs stay behind, fixed and without a part in anything.
     pub fn from_wall(wall: &Wall) -> Self {
         let mut all = Vec::with_capacity(wall.blocks.len());
         let mut shapes = Vec::with_capacity(wall.blocks.len());
@@ -74,8 +77,52 @@ impl Bodies {
             shapes.push(centred.moved(&body.rotation.transpose(), &Vec3::zeros()));
             all.push(body);
         }
-        let carriers = (0..all.len()).collect();
-        Bodies { all, shapes, carriers }
+        let (carriers, centroids) = ((0..all.len()).collect(), vec![Vec3::zeros(); all.len()]);
+        let mut bodies = Bodies { all, shapes, carriers, centroids };
+        for (lead, parts) in wall.parts() {
+            bodies.unite(wall, lead, &parts);
+        }
+        bodies
+    }
+
+    /// Makes one body of the parts of a stone, the first of which is `lead`.
+    fn unite(&mut self, wall: &Wall, lead: usize, parts: &[usize]) {
+        let own: Vec<MassProperties> = parts
+            .iter()
+            .map(|&part| wall.blocks[part].shape.mass_properties().times(wall.blocks[part].density))
+            .collect();
+        let whole = MassProperties::together(&own);
+        let far = |part: &usize| {
+            let vertices = wall.blocks[*part].shape.vertices.iter();
+            vertices.map(|v| (v - whole.centroid).norm()).fold(0.0, f64::max)
+        };
+        let radius = parts.iter().map(far).fold(0.0, f64::max);
+        // The masses are in the properties: the density is 1.
+        let body = Body::at_rest(&whole, 1.0, wall.blocks[lead].support, radius);
+        for (&part, own) in parts.iter().zip(&own) {
+            let shape = wall.blocks[part].shape.translated(&-body.position);
+            self.shapes[part] = shape.moved(&body.rotation.transpose(), &Vec3::zeros());
+            self.centroids[part] = body.rotation.tr_mul(&(own.centroid - body.position));
+            self.carriers[part] = lead;
+            self.all[part].freedom = Freedom::Fixed;
+        }
+        self.all[lead] = body;
+    }
+
+    /// Where a block's centroid is now (m).
+    pub fn centroid(&self, block: usize) -> Vec3 {
+        self.centroid_in(&self.all, block)
+    }
+
+    /// Where a block's centroid is in another state of these bodies (m).
+    pub fn centroid_in(&self, state: &[Body], block: usize) -> Vec3 {
+        let carrier = &state[self.carriers[block]];
+        carrier.position + carrier.rotation * self.centroids[block]
+    }
+
+    /// The body that carries a block.
+    pub fn carrier(&self, block: usize) -> &Body {
+        &self.all[self.carriers[block]]
     }
 
     /// The shape of a body where it is now, in world coordinates.
@@ -88,7 +135,9 @@ impl Bodies {
     pub fn fix_to(&mut self, body: usize, carrier: usize) {
         let by = &self.all[carrier];
         let shape = self.world_shape(body).translated(&-by.position);
+        let centroid = by.rotation.tr_mul(&(self.centroid(body) - by.position));
         self.shapes[body] = shape.moved(&by.rotation.transpose(), &Vec3::zeros());
+        self.centroids[body] = centroid;
         self.carriers[body] = carrier;
     }
 

@@ -154,7 +154,7 @@ fn must_be_good(read: Result<WallFile, WallFaults>, text: &str) -> bool {
         block.shape.validate(1.001e-4 * size.max(1e-3)).unwrap_or_else(|e| panic!("{e}: {text}"));
         assert!((1e-4..=250.0).contains(&size) && (10.0..=23_000.0).contains(&block.density), "{text}");
     }
-    let found = survey(&file.wall, &Settings::for_size(0.2, [2, 2]));
+    let found = survey(&file.wall, &Settings::for_size(0.2, [2, 2]), 0.02);
     assert!(found.is_none_or(|found| found.deepest.is_finite()), "{text}");
     true
 }
