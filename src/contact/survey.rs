@@ -55,15 +55,12 @@ pub fn survey(wall: &Wall, settings: &Settings, within: f64) -> Option<Survey> {
     let most = MOST_NEAR * shapes.len();
     let fixed = |i: usize| wall.blocks[i].support == Support::Fixed;
     let leads = wall.leads();
-    let (mut survey, mut work) = (Survey::default(), 0usize);
-    let (mut across, mut held) = (Vec::new(), Vec::new());
+    let (mut found, mut work) = (Found::default(), 0usize);
     for (a, b) in candidate_pairs_up_to(&shapes, within.max(2.0 * settings.reach), most)? {
         let (a, b) = (a as usize, b as usize);
-        let one_body = leads[a] == leads[b];
         if fixed(a) && fixed(b) {
             continue;
         }
-        let pair = |length: f64| Pair { blocks: (a, b), length };
         let meeting = meet(&shapes[a], &shapes[b], settings, within);
         if let Meeting::Overlap(_) = meeting {
             let corners = [shapes[a].vertices.len(), shapes[b].vertices.len()];
@@ -72,29 +69,13 @@ pub fn survey(wall: &Wall, settings: &Settings, within: f64) -> Option<Survey> {
                 return None;
             }
         }
-        match meeting {
-            Meeting::Apart => {}
-            Meeting::Gap(..) if one_body => {}
-            Meeting::Overlap(depth) if one_body => {
-                held.push((a, b));
-                survey.shared.push(pair(depth));
-            }
-            Meeting::Joint(..) if one_body => held.push((a, b)),
-            Meeting::Overlap(depth) => {
-                survey.joints.push((a, b));
-                survey.overlaps.push(pair(depth));
-                survey.deepest = survey.deepest.max(depth);
-            }
-            Meeting::Joint([narrowest, widest]) => {
-                survey.joints.push((a, b));
-                survey.deepest = survey.deepest.max(-narrowest);
-                if widest > settings.touch && widest <= within {
-                    survey.gaping.push(pair(widest));
-                }
-            }
-            Meeting::Gap(gap, patch) => across.push((pair(gap), patch)),
+        if leads[a] == leads[b] {
+            found.within_a_stone((a, b), &meeting);
+        } else {
+            found.between_stones((a, b), meeting, settings.touch, within);
         }
     }
+    let Found { mut survey, across, held } = found;
     let touching: Vec<(usize, usize)> = survey.joints.iter().chain(&held).copied().collect();
     let beside = neighbours(shapes.len(), &touching);
     let is_filled = |(pair, patch): &(Pair, Box<Patch>)| {
@@ -103,13 +84,53 @@ pub fn survey(wall: &Wall, settings: &Settings, within: f64) -> Option<Survey> {
     };
     survey.gaps = across.iter().filter(|gap| !is_filled(gap)).map(|(pair, _)| *pair).collect();
     // Parts that do not touch are one body all the same.
-    let tied = |id: usize| (leads[id], id);
-    let bound: Vec<_> = (0..shapes.len()).map(tied).filter(|(lead, id)| lead != id).collect();
-    let together: Vec<(usize, usize)> = survey.joints.iter().chain(&bound).copied().collect();
+    let bound = leads.iter().copied().zip(0..).filter(|(lead, id)| lead != id);
+    let together: Vec<(usize, usize)> = survey.joints.iter().copied().chain(bound).collect();
     survey.floating = groups(&neighbours(shapes.len(), &together));
     survey.floating.retain(|group| !group.iter().any(|&block| fixed(block)));
     survey.scattered = scattered(&leads, &groups(&neighbours(shapes.len(), &held)));
     Some(survey)
+}
+
+/// What is found pair by pair.
+#[derive(Default)]
+struct Found {
+    survey: Survey,
+    /// Gaps with the patch that there would be.
+    across: Vec<(Pair, Box<Patch>)>,
+    /// Parts of one stone that touch.
+    held: Vec<(usize, usize)>,
+}
+
+impl Found {
+    fn within_a_stone(&mut self, blocks: (usize, usize), meeting: &Meeting) {
+        if let Meeting::Overlap(length) = *meeting {
+            self.survey.shared.push(Pair { blocks, length });
+        }
+        if matches!(meeting, Meeting::Overlap(_) | Meeting::Joint(_)) {
+            self.held.push(blocks);
+        }
+    }
+
+    fn between_stones(&mut self, blocks: (usize, usize), meeting: Meeting, touch: f64, within: f64) {
+        let pair = |length: f64| Pair { blocks, length };
+        match meeting {
+            Meeting::Apart => {}
+            Meeting::Gap(gap, patch) => self.across.push((pair(gap), patch)),
+            Meeting::Overlap(depth) => {
+                self.survey.joints.push(blocks);
+                self.survey.overlaps.push(pair(depth));
+                self.survey.deepest = self.survey.deepest.max(depth);
+            }
+            Meeting::Joint([narrowest, widest]) => {
+                self.survey.joints.push(blocks);
+                self.survey.deepest = self.survey.deepest.max(-narrowest);
+                if widest > touch && widest <= within {
+                    self.survey.gaping.push(pair(widest));
+                }
+            }
+        }
+    }
 }
 
 enum Meeting {

@@ -23,8 +23,8 @@ const LIGHTEST: f64 = 10.0;
 const HEAVIEST: f64 = 23_000.0;
 /// What a fixed block without a density gets (kg/m^3); its weight acts on nothing.
 const FIXED_DENSITY: f64 = 2400.0;
-/// Corners that have been put together are told of from this share of their block on: less is rounding of nine digits.
-const TOLD_APART: f64 = 1e-7;
+/// Corners that have been put together are told of from this share of their block on: less is the rounding of single precision.
+const TOLD_APART: f64 = 1e-6;
 /// Blocks named of those whose faces have been made plane.
 const SHOWN: usize = 5;
 

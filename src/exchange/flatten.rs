@@ -15,6 +15,9 @@ use crate::shape::{Plane, Polyhedron};
 const MOST_MOVED: f64 = 10.0;
 /// Share of a block's size within which a corner lies on a plane that cuts it: rounding alone.
 const ON_PLANE: f64 = 1e-9;
+/// Share of a block's size within which the result must be plane and convex: some planes through nearly one point may each be off by
+/// [`ON_PLANE`].
+const SOUND: f64 = 1e-7;
 
 /// The convex solid behind the planes of the faces, and how far the farthest corner has moved (m).
 ///
@@ -63,6 +66,9 @@ pub fn flattened(
     let Some(shape) = behind(&planes, &used, size) else {
         return refused("the planes of its faces enclose nothing".to_owned(), "repair the block");
     };
+    if let Err(fault) = shape.validate(SOUND * size) {
+        return refused(format!("with plane faces the solid is degenerate: {fault}"), "repair the block");
+    }
     let moved = farthest(&used, &shape.vertices).max(farthest(&shape.vertices, &used));
     if moved > MOST_MOVED * allowed {
         return refused(
@@ -73,7 +79,7 @@ pub fn flattened(
     Ok((shape, moved))
 }
 
-/// What lies behind all planes.
+/// What lies behind all planes, in a box of the block's size around its corners.
 fn behind(planes: &[Plane], corners: &[Vec3], size: f64) -> Option<Polyhedron> {
     let (low, high) = Polyhedron { vertices: corners.to_vec(), faces: Vec::new() }.bounds();
     let around = Vec3::repeat(size);
