@@ -63,7 +63,7 @@ pub fn flattened(
         }
     }
     let used: Vec<Vec3> = corners.iter().map(|&v| vertices[v as usize]).collect();
-    let Some(shape) = behind(&planes, &used, size) else {
+    let Some(shape) = Polyhedron::behind(&planes, &used, size, ON_PLANE * size) else {
         return refused("the planes of its faces enclose nothing".to_owned(), "repair the block");
     };
     if let Err(fault) = shape.validate(SOUND * size) {
@@ -77,14 +77,6 @@ pub fn flattened(
         );
     }
     Ok((shape, moved))
-}
-
-/// What lies behind all planes, in a box of the block's size around its corners.
-fn behind(planes: &[Plane], corners: &[Vec3], size: f64) -> Option<Polyhedron> {
-    let (low, high) = Polyhedron { vertices: corners.to_vec(), faces: Vec::new() }.bounds();
-    let around = Vec3::repeat(size);
-    let start = Some(Polyhedron::cuboid(low - around, high + around));
-    planes.iter().fold(start, |rest, plane| rest?.cut(plane, ON_PLANE * size).0)
 }
 
 /// The farthest of some points from the nearest of others (m).

@@ -7,6 +7,7 @@ mod flatten;
 mod json;
 mod json_node;
 mod json_place;
+mod mended;
 mod obj;
 mod read;
 mod read_json;

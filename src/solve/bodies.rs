@@ -1,10 +1,12 @@
 //! Assembly: blocks turned into bodies, the arrays that the solvers work on.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion};
 
 use crate::math::{Mat3, Vec3, atan2};
 use crate::model::{Support, Wall};
-use crate::shape::{MassProperties, Polyhedron};
+use crate::shape::{MassProperties, Polyhedron, convex_union};
 
 /// What a body can do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,6 +61,11 @@ pub struct Bodies {
     pub shapes: Vec<Polyhedron>,
     /// The body that carries each shape: itself, the first part of its stone, or a platform that it is fixed to.
     pub carriers: Vec<usize>,
+    /// The solids that the parts of a stone make up where that is convex, by the first part, in the axes of the body: the stone
+    /// touches others as that solid, as if it had not been divided.
+    wholes: BTreeMap<usize, Polyhedron>,
+    /// The other parts of such stones.
+    merged: BTreeSet<usize>,
     /// Where each block's own centroid is in the axes of what carries it (m).
     centroids: Vec<Vec3>,
 }
@@ -78,7 +85,8 @@ impl Bodies {
             all.push(body);
         }
         let (carriers, centroids) = ((0..all.len()).collect(), vec![Vec3::zeros(); all.len()]);
-        let mut bodies = Bodies { all, shapes, carriers, centroids };
+        let (wholes, merged) = (BTreeMap::new(), BTreeSet::new());
+        let mut bodies = Bodies { all, shapes, carriers, wholes, merged, centroids };
         for (lead, parts) in wall.parts() {
             bodies.unite(wall, lead, &parts);
         }
@@ -106,7 +114,25 @@ impl Bodies {
             self.carriers[part] = lead;
             self.all[part].freedom = Freedom::Fixed;
         }
+        let shapes: Vec<&Polyhedron> = parts.iter().map(|&part| &wall.blocks[part].shape).collect();
+        if let Some(solid) = convex_union(&shapes) {
+            let solid = solid.translated(&-body.position).moved(&body.rotation.transpose(), &Vec3::zeros());
+            self.wholes.insert(lead, solid);
+            self.merged.extend(parts.iter().filter(|&&part| part != lead));
+        }
         self.all[lead] = body;
+    }
+
+    /// The solid in which a block touches others, where it is now, in world coordinates.
+    pub fn touching_shape(&self, block: usize) -> Polyhedron {
+        let carrier = &self.all[self.carriers[block]];
+        let shape = self.wholes.get(&block).unwrap_or(&self.shapes[block]);
+        shape.moved(&carrier.rotation, &carrier.position)
+    }
+
+    /// Whether a block touches others as a part of the solid of its stone's first part only.
+    pub fn is_merged(&self, block: usize) -> bool {
+        self.merged.contains(&block)
     }
 
     /// Where a block's centroid is now (m).

@@ -281,25 +281,25 @@ fn a_gap_is_told_up_to_a_tenth_of_a_stone_and_closed_by_a_length() {
         let size = format!("{} mm", 1e3 * gap);
         // Both stones stand on the ground: the joint between them is told to be none.
         wall(gap, 0.0);
-        let said = answer(&folder, "wall.json", &["--phi-deg", "30"]);
+        let said = answer(&folder, "wall.json", &["--phi-deg", "20"]);
         let told = format!("a gap of {size} between block 5 and block 6: they do not touch");
         assert!(warnings(&said).iter().any(|w| w.starts_with(&told)), "{gap}: {said}");
         // Nothing else holds the upper stone.
         wall(0.0, gap);
-        let output = folder.pirca(&["analyse", "wall.json", "--phi-deg", "30"]);
+        let output = folder.pirca(&["analyse", "wall.json", "--phi-deg", "20"]);
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         assert!(
             output.status.code() == Some(3)
                 && said.contains(&format!("block 1 and block 10, are {size} apart")),
             "{gap}: {said}"
         );
-        // Every stone slides at the friction angle.
+        // Every stone slides at the friction angle; two on one another topple at atan(0.16 / 0.32).
         let wider = format!("{} mm", 1e3 * gap + 0.1);
-        let said = answer(&folder, "wall.json", &["--phi-deg", "30", "--touch-tolerance", &wider]);
-        assert!((angle(&said) - 30.0).abs() < 1e-3, "{said}");
+        let said = answer(&folder, "wall.json", &["--phi-deg", "20", "--touch-tolerance", &wider]);
+        assert!((angle(&said) - 20.0).abs() < 1e-3, "{said}");
         assert!(!warnings(&said).iter().any(|w| w.contains("gap")), "{said}");
     }
-    let refused = folder.pirca(&["analyse", "wall.json", "--phi-deg", "30", "--touch-tolerance", "5cm"]);
+    let refused = folder.pirca(&["analyse", "wall.json", "--phi-deg", "20", "--touch-tolerance", "5cm"]);
     let refused = String::from_utf8_lossy(&refused.stderr).into_owned();
     assert!(refused.contains("--touch-tolerance is 50 mm; allowed is at most 32 mm"), "{refused}");
 }
@@ -407,7 +407,7 @@ fn warped_faces_are_made_plane_where_that_is_allowed_and_how_far_is_told() {
         (answer["multiplier"].as_f64().unwrap_or_else(|| panic!("{answer}")), answer)
     };
     let straight = multiplier(&skew_arch(15, 0.0, false), &[]).0;
-    let skew = skew_arch(15, radians(3.0), false);
+    let skew = skew_arch(15, radians(2.0), false);
     let refused = ask(&skew, &[]);
     let said = String::from_utf8_lossy(&refused.stdout).into_owned();
     assert!(
@@ -415,7 +415,7 @@ fn warped_faces_are_made_plane_where_that_is_allowed_and_how_far_is_told() {
         "{said}"
     );
     for in_triangles in [false, true] {
-        let text = skew_arch(15, radians(3.0), in_triangles);
+        let text = skew_arch(15, radians(2.0), in_triangles);
         let (found, answer) = multiplier(&text, &["--flatness", "10mm"]);
         // The skew shifts the joints by 2 cm of 19 at the edges, and by nothing in the middle.
         assert!((found / straight - 1.0).abs() < 0.1, "{found} against {straight}");
@@ -457,7 +457,8 @@ fn corners_rounded_to_a_millimetre_are_taken_with_a_flatness() {
         let file = read_wall_json_with(&text, Some(2e-3)).unwrap_or_else(|e| panic!("{e}"));
         let shape = &file.wall.blocks[0].shape;
         assert_eq!((shape.vertices.len(), shape.faces.len()), (8, 6));
-        shape.validate(1e-9).unwrap();
+        // Those that happen to be plane to 1e-4 of their size stay as they are.
+        shape.validate(6e-5).unwrap();
         assert!((shape.volume() / 0.024 - 1.0).abs() < 0.02, "{}", shape.volume());
         for corner in &corners {
             let nearest =

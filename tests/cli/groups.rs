@@ -129,34 +129,39 @@ fn blocks_cut_in_two_give_the_same_collapse_of_elastic_joints() {
     }
 }
 
-/// A stone with a tail that widens by 15 deg to each side, in a slot between two fixed jaws: seen from above
+/// A stone with a tail in a slot between two fixed jaws that widens by 15 deg to each side. Seen from above
 ///
 /// ```text
 ///   jaw  \  tail  /  jaw       y = 0
 ///  -----  |      |  -----
 ///       head of the stone      y+
 /// ```
-fn dovetail(is_locked: bool) -> Wall {
+///
+/// The tail has half widths (m) where it begins and where it ends; without it the head is alone.
+fn dovetail(tail: Option<[f64; 2]>) -> Wall {
     let prism = |outline: [[f64; 2]; 4]| {
         let at = |z: f64| outline.map(|[x, y]| Vec3::new(x, y, z));
         let ([a, b, c, d], [e, f, g, h]) = (at(0.0), at(0.2));
         Polyhedron::hexahedron([a, b, c, d, e, f, g, h])
     };
-    let wide = 0.1 + 0.2 * pirca::math::tan(pirca::math::radians(15.0));
+    let [neck, wide] = SLOT;
     let mut blocks = vec![
         fixed(cuboid([-1.0, -1.0, -0.2], [1.0, 1.0, 0.0])),
-        fixed(prism([[-0.6, -0.2], [-wide, -0.2], [-0.1, 0.0], [-0.6, 0.0]])),
-        fixed(prism([[wide, -0.2], [0.6, -0.2], [0.6, 0.0], [0.1, 0.0]])),
+        fixed(prism([[-0.6, -0.2], [-wide, -0.2], [-neck, 0.0], [-0.6, 0.0]])),
+        fixed(prism([[wide, -0.2], [0.6, -0.2], [0.6, 0.0], [neck, 0.0]])),
         block(cuboid([-0.3, 0.0, 0.0], [0.3, 0.4, 0.2]), "stone"),
     ];
-    if is_locked {
-        blocks.push(block(prism([[-wide, -0.2], [wide, -0.2], [0.1, 0.0], [-0.1, 0.0]]), "stone"));
+    if let Some([from, to]) = tail {
+        blocks.push(block(prism([[-to, -0.2], [to, -0.2], [from, 0.0], [-from, 0.0]]), "stone"));
     }
     Wall { blocks }
 }
 
-/// Without its tail the head slides at the friction angle, 25 deg. With it the stone leaves the slot upwards only: it topples over
-/// the front edge of the head, 0.4 m from the slot and 0.1 m below the centroid, beyond 60 deg.
+/// Half widths of the slot (m): 0.2 m further it is wider by 0.2 tan(15 deg).
+const SLOT: [f64; 2] = [0.1, 0.153_589_838_486_224_55];
+
+/// The head alone slides at the friction angle, 25 deg, and so does a stone with a straight tail that touches no jaw. A tail
+/// that widens lets the stone leave its slot upwards only: tipping over would move its upper half forwards, into the jaws.
 #[test]
 fn a_dovetail_does_not_pull_out() {
     for (solver, within) in [("limit", 1e-4), ("implicit", 0.02), ("explicit", 0.02)] {
@@ -164,13 +169,15 @@ fn a_dovetail_does_not_pull_out() {
         if solver != "limit" {
             asked.extend(["--kn", "1e9", "--step-deg", "5"]);
         }
-        let free = load(&analysed(&dovetail(false), &asked));
-        assert!((free - 25.0).abs() < within, "{solver}: {free}");
-        let locked = analysed(&dovetail(true), &asked);
-        assert!(locked["outcome"] == "stable" || load(&locked) > 60.0, "{solver}: {locked}");
-        // The other way the head rests against the jaws.
-        let lateral = analysed(&dovetail(true), &[&asked[..], &["--load", "lateral"]].concat());
-        assert!(lateral["outcome"] == "stable" || load(&lateral) > 1.7, "{solver}: {lateral}");
+        for slides in [None, Some([0.09, 0.09])] {
+            let found = load(&analysed(&dovetail(slides), &asked));
+            assert!((found - 25.0).abs() < within, "{solver} {slides:?}: {found}");
+        }
+        let locked = analysed(&dovetail(Some(SLOT)), &asked);
+        assert_eq!(locked["outcome"], "stable", "{solver}: {locked}");
+        let lateral = analysed(&dovetail(Some(SLOT)), &[&asked[..], &["--load", "lateral"]].concat());
+        let bears = lateral["outcome"].as_str().unwrap();
+        assert!(bears == "stable" || bears == "unbounded", "{solver}: {lateral}");
     }
 }
 

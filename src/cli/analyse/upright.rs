@@ -20,6 +20,10 @@ pub(crate) fn question(wall: &Wall, law: &Coulomb, fit: &Fit, up: UpName, is_obj
         let loads = limit::Loads { dead: -axis * STANDARD_GRAVITY, ..limit::Loads::default() };
         analysis.stands(&loads).stands == Some(true)
     };
+    // Springs that are too soft, and not the axis, bring down what stands as rigid blocks.
+    if stands(&Vec3::z()) {
+        return None;
+    }
     let (name, _) = axes.into_iter().find(|(_, axis)| stands(axis))?;
     let how = match (is_obj, name) {
         (true, "y" | "z") => format!("ask with --up {name}"),

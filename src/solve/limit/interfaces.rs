@@ -4,7 +4,7 @@ use crate::contact::{self, Feature, Patch, candidate_pairs, find_patch};
 use crate::law::{Coulomb, PATCHES_ALONG, Sampling};
 use crate::math::Vec3;
 use crate::model::{JointLaws, Support, Wall};
-use crate::shape::{MassProperties, Polygon, Polyhedron};
+use crate::shape::{MassProperties, Polygon, Polyhedron, convex_union};
 use crate::solve::limit::loads::{Loads, When, Wrench};
 
 /// A block as limit analysis sees it.
@@ -88,17 +88,25 @@ impl Blocks {
             })
             .collect();
         let leads = wall.leads();
+        let mut shapes: Vec<Polyhedron> = wall.blocks.iter().map(|b| b.shape.clone()).collect();
+        let mut merged = vec![false; shapes.len()];
         for (lead, parts) in wall.parts() {
             rigid[lead] = whole(wall, &parts);
-            parts.iter().filter(|&&part| part != lead).for_each(|&part| rigid[part].support = Support::Fixed);
+            let solids: Vec<&Polyhedron> = parts.iter().map(|&part| &wall.blocks[part].shape).collect();
+            // As in the other solvers, a stone that is convex as a whole touches as one.
+            let solid = convex_union(&solids);
+            for &part in parts.iter().filter(|&&part| part != lead) {
+                rigid[part].support = Support::Fixed;
+                merged[part] = solid.is_some();
+            }
+            shapes[lead] = solid.unwrap_or_else(|| wall.blocks[lead].shape.clone());
         }
-        let shapes: Vec<Polyhedron> = wall.blocks.iter().map(|b| b.shape.clone()).collect();
         let closed = closed_gap.max(contact.touch);
         let mut interfaces = Vec::new();
         for (a, b) in candidate_pairs(&shapes, 2.0 * contact.reach) {
             let (a, b) = (a as usize, b as usize);
             let moves = |block: usize| rigid[leads[block]].moves();
-            if leads[a] == leads[b] || (!moves(a) && !moves(b)) {
+            if leads[a] == leads[b] || merged[a] || merged[b] || (!moves(a) && !moves(b)) {
                 continue;
             }
             // As in the other solvers, what is fixed is the preferred reference.
