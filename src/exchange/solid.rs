@@ -156,9 +156,12 @@ pub fn bent_faces(block: &str, vertices: &[Vec3], faces: &[Face], flat: f64) -> 
 }
 
 /// Faces of one plane that share edges, put together; a group whose outline is no single loop stays in pieces. Within more than
-/// the usual flatness only triangles are: a polygon is a face as its maker wants it.
+/// the usual flatness only triangles are, a polygon being a face as its maker wants it, and only where all of their corners lie
+/// within that of their common plane: in a warped square, whose corners lie off its plane by turns above and below, one of them
+/// lies four times as far from the plane of the other three.
 fn merge(vertices: &[Vec3], faces: Vec<Face>, within: f64, flat: f64) -> Vec<Face> {
     let whole = polyhedron(vertices, &faces);
+    let reach = if within > flat { 4.0 * within } else { within };
     let areas: Vec<Vec3> = (0..faces.len()).map(|f| whole.face_area_vector(f)).collect();
     let owner: BTreeMap<(u32, u32), usize> =
         faces.iter().enumerate().flat_map(|(f, face)| edges(&face.corners).map(move |e| (e, f))).collect();
@@ -176,7 +179,7 @@ fn merge(vertices: &[Vec3], faces: Vec<Face>, within: f64, flat: f64) -> Vec<Fac
             let (area, sliver) = (areas[f].norm(), SLIVER * flat * flat);
             let same_side = areas[f].dot(&plane.normal) > SAME_SIDE * area || area < sliver;
             let a_piece = within <= flat || (faces[f].corners.len() == 3 && faces[seed].corners.len() == 3);
-            a_piece && same_side && whole.face_vertices(f).all(|v| plane.distance(&v).abs() <= within)
+            a_piece && same_side && whole.face_vertices(f).all(|v| plane.distance(&v).abs() <= reach)
         };
         group[seed] = Some(seed);
         let (mut members, mut next) = (vec![seed], 0);
@@ -191,8 +194,13 @@ fn merge(vertices: &[Vec3], faces: Vec<Face>, within: f64, flat: f64) -> Vec<Fac
             }
         }
         members.sort_unstable();
-        match outline(&faces, &members) {
-            Some(corners) => merged.push(Face { number: faces[members[0]].number, corners }),
+        let one = outline(&faces, &members)
+            .map(|corners| Face { number: faces[members[0]].number, corners })
+            .filter(|face| {
+                within <= flat || bent_faces("", vertices, std::slice::from_ref(face), within).is_empty()
+            });
+        match one {
+            Some(face) => merged.push(face),
             None => merged.extend(
                 members.iter().map(|&f| Face { number: faces[f].number, corners: faces[f].corners.clone() }),
             ),

@@ -458,7 +458,7 @@ fn corners_rounded_to_a_millimetre_are_taken_with_a_flatness() {
         let shape = &file.wall.blocks[0].shape;
         assert_eq!((shape.vertices.len(), shape.faces.len()), (8, 6));
         // Those that happen to be plane to 1e-4 of their size stay as they are.
-        shape.validate(6e-5).unwrap();
+        shape.validate(1e-4).unwrap();
         assert!((shape.volume() / 0.024 - 1.0).abs() < 0.02, "{}", shape.volume());
         for corner in &corners {
             let nearest =
@@ -467,5 +467,5 @@ fn corners_rounded_to_a_millimetre_are_taken_with_a_flatness() {
         }
     }
     // Most of them are warped by more than 1e-4 of their size; none is moved by more than its corners are off and as much again.
-    assert!(refused > 80 && moved_most < 2e-3, "{refused} refused, moved by {moved_most}");
+    assert!(refused > 50 && moved_most < 2e-3, "{refused} refused, moved by {moved_most}");
 }
