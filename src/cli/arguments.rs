@@ -15,14 +15,18 @@ Example: pirca analyse wall.json --phi-deg 30
          pirca analyse arch.obj --unit mm --density-kg-per-m3 2300 --phi-deg 35 --solver explicit --kn 1e9 --json
 
 wall.json: {\"unit\": \"m\", \"blocks\": [{\"id\": 0, \"vertices\": [[x, y, z], ...], \"faces\": [[i, j, k, ...], ...],
-\"density\": 2400, \"fixed\": false, \"tag\": \"stone\"}, ...]}. Convex blocks; faces count their block's vertices from 0,
-counter-clockwise seen from outside; z up. unit: m (default), cm, mm. density in kg/m^3, not needed where fixed is true.
-fixed (default false): a support. tag: stone, header, wedge, base, end; may be left out.
-OBJ: one object (o, or g without any o) per block, z up. A block is fixed when a word of its name is base, end, fixed,
-ground or support (base_0, Left_support.001). A comment \"# density 2400 kg/m^3\" holds for the next object.
-In both, triangles of one plane are merged into faces, and repeated vertices welded.
+\"density\": 2400, \"fixed\": false, \"tag\": \"stone\", \"group\": \"keystone\"}, ...]}. Convex blocks; faces count their block's vertices
+from 0, counter-clockwise seen from outside; z up. unit: m (default), cm, mm. density in kg/m^3, not needed where fixed is true.
+fixed (default false): a support. tag: stone, header, wedge, base, end or a word of your own; may be left out.
+group: blocks of the same group are one rigid body: divide a concave stone into convex parts. May be left out.
+OBJ: one object (o, or g without any o) per block, z up (or --up y). A name that comes again goes on with the same block, unless each
+piece is a closed solid. A block is fixed when a word of its name is base, end, fixed, ground or support (base_0, Left_support.001).
+Objects keystone.part1, keystone.part2, ... are one rigid body. A comment \"# density 2400 kg/m^3\" holds for the next object.
+In both, triangles of one plane are merged into faces; corners within 1e-4 of the block are one, also where each face has its own,
+and a corner may lie on the edge of another face.
 Joints have no tensile strength. Limits: 64 MiB, 50000 blocks, 2000 vertices and faces of a block in the file, 200 corners
-after merging; stones of 1 mm to 25 m; faces plane and convex to 1e-4 of the block; overlaps up to 1 % of the smaller block.";
+after merging; stones of 1 mm to 25 m; faces plane and convex to 1e-4 of the block (more with --flatness);
+overlaps up to 1 % of the smaller block, other than among the parts of a group.";
 
 /// Stochastic dry stone walls: generates them, solves them, and says how strong they are and how sure that is.
 #[derive(Debug, Parser)]
@@ -380,9 +384,17 @@ pub(crate) struct Analyse {
     /// Step of the tilt (deg) for implicit and explicit [default: 0.5]; with --load lateral its tangent is the step.
     #[arg(long, value_name = "F", value_parser = analyse::step, allow_negative_numbers = true)]
     pub step_deg: Option<f64>,
-    /// Blocks closer than this share of the wall's size touch; deeper overlaps and wider gaps are told.
-    #[arg(long, value_name = "F", default_value = "1e-6", value_parser = analyse::tolerance, allow_negative_numbers = true)]
-    pub touch_tolerance: f64,
+    /// Blocks closer than this touch: a length with its unit (2mm, 0.5cm, 0.002 m; at most a tenth of a stone), or a share of the
+    /// size of what moves, corner to corner (1e-12 to 0.001). Deeper overlaps are told, and wider gaps up to a tenth of a stone.
+    #[arg(long, value_name = "LENGTH", default_value = "1e-6", value_parser = analyse::tolerance, allow_negative_numbers = true)]
+    pub touch_tolerance: analyse::Tolerance,
+    /// Make faces plane whose corners lie up to this length off their plane (2mm), or 1/20 of their block if that is less; how far
+    /// corners were moved is told [default: 1e-4 of a block is allowed, and nothing is moved].
+    #[arg(long, value_name = "LENGTH", value_parser = analyse::length, allow_negative_numbers = true)]
+    pub flatness: Option<f64>,
+    /// Axis of an OBJ file that points up [default: z]. With y, its x, y, z become x, z, -y: its -z is out of plane, to the front.
+    #[arg(long, value_name = "NAME")]
+    pub up: Option<UpName>,
     /// Unit of the coordinates of an OBJ file [default: m].
     #[arg(long, value_name = "NAME")]
     pub unit: Option<UnitName>,
@@ -455,6 +467,16 @@ names! {
         Associative = "associative",
         /// Sliding does not dilate: neither a bound nor unique.
         NonAssociative = "non-associative",
+    }
+}
+
+names! {
+    /// Axes that may point up.
+    UpName {
+        /// The second one, as programs for pictures have it.
+        Y = "y",
+        /// The third one.
+        Z = "z",
     }
 }
 

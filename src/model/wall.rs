@@ -1,5 +1,7 @@
 //! A wall: its blocks, and who gives a joint its law.
 
+use std::collections::BTreeMap;
+
 use crate::law::Coulomb;
 use crate::math::Vec3;
 use crate::model::{Block, Support, Tag};
@@ -21,6 +23,28 @@ impl Wall {
     /// The stones, without base and ends: what the wall weighs and what is observed.
     pub fn stones(&self) -> impl Iterator<Item = (usize, &Block)> {
         self.blocks.iter().enumerate().filter(|(_, b)| !matches!(b.tag, Tag::Base | Tag::End))
+    }
+
+    /// For every block the first one of its [group](Block::group), which stands for their common body; itself without one.
+    pub fn leads(&self) -> Vec<usize> {
+        let mut first: BTreeMap<&str, usize> = BTreeMap::new();
+        let mut leads = Vec::with_capacity(self.blocks.len());
+        for (id, block) in self.blocks.iter().enumerate() {
+            leads.push(block.group.as_deref().map_or(id, |group| *first.entry(group).or_insert(id)));
+        }
+        leads
+    }
+
+    /// The stones of several parts: the first part and all parts, itself among them.
+    pub fn parts(&self) -> BTreeMap<usize, Vec<usize>> {
+        let mut parts: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for (id, lead) in
+            self.leads().into_iter().enumerate().filter(|(id, _)| self.blocks[*id].group.is_some())
+        {
+            parts.entry(lead).or_default().push(id);
+        }
+        parts.retain(|_, parts| parts.len() > 1);
+        parts
     }
 
     /// Lowest and highest corner of the box around all blocks (m); infinite and inside out for a wall without blocks.
@@ -59,6 +83,15 @@ impl Wall {
         middle.map(|x| (x / grid).round() * grid)
     }
 
+    /// [`Wall::local_origin`], and the wall with its positions counted from there.
+    pub fn about_local_origin(&self) -> (Vec3, Wall) {
+        let (origin, mut wall) = (self.local_origin(), self.clone());
+        for block in &mut wall.blocks {
+            block.shape = block.shape.translated(&-origin);
+        }
+        (origin, wall)
+    }
+
     /// The same wall out of plumb: everything moved along y by `slope` times its height above z = 0, so that level beds stay
     /// level.
     pub fn leaning(mut self, slope: f64) -> Wall {
@@ -93,6 +126,7 @@ impl Wall {
             density,
             support: Support::Fixed,
             tag: Tag::Base,
+            group: None,
         });
         self
     }

@@ -23,6 +23,7 @@ pub fn restrain(wall: &Wall, restraint: &Restraint, towards: Direction) -> Wall 
         density,
         support: Support::Fixed,
         tag,
+        group: None,
     };
     if let Some(height) = restraint.base.strip_height {
         let (from, to) = strip(wall, height, towards);

@@ -66,6 +66,7 @@ impl<'a> Assembly<'a> {
 
     /// Adds a force (N), at load factor 1, of fixed direction at a point (m, in the wall's coordinates) that from now on moves with the block.
     pub fn add_load(&mut self, body: usize, point: Vec3, force: Vec3) {
+        let body = self.bodies.carriers[body];
         let b = &self.bodies.all[body];
         let lever = b.rotation.tr_mul(&(point - self.bodies.origin - b.position));
         self.loads.push(DeadLoad { body, lever, force });
@@ -73,7 +74,8 @@ impl<'a> Assembly<'a> {
 
     /// Ties a body to its surroundings, at a point in the wall's coordinates. It is where the body is now: bodies must not have moved yet.
     pub fn add_tie(&mut self, tie: Tie) {
-        let tie = Tie { point: tie.point - self.bodies.origin, ..tie };
+        let (body, point) = (self.bodies.carriers[tie.body], tie.point - self.bodies.origin);
+        let tie = Tie { body, point, ..tie };
         self.ties.push(Held::new(tie, &self.bodies.all[tie.body]));
     }
 

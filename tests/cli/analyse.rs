@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Output;
 
 use pirca::ensemble::build;
-use pirca::exchange::{ObjOptions, Unit, read_obj, read_wall, read_wall_json, write_obj, write_wall_json};
+use pirca::exchange::{ReadOptions, Unit, read_obj, read_wall, read_wall_json, write_obj, write_wall_json};
 use pirca::generate::canonical;
 use pirca::math::{Vec3, atan, cos, degrees, radians, sin, tan};
 use pirca::model::Support;
@@ -102,7 +102,7 @@ fn an_arch_stands_if_it_is_thick_enough() {
 /// upper parts are less slender, and the lintel and the courses above load both piers alike.
 #[test]
 fn a_wall_with_an_opening_topples_as_a_whole() {
-    let file = read_wall(&example("opening.json"), &ObjOptions::default()).unwrap();
+    let file = read_wall(&example("opening.json"), &ReadOptions::default()).unwrap();
     let (mut volume, mut moment) = (0.0, 0.0);
     for block in file.wall.blocks.iter().filter(|b| b.support == Support::Free) {
         let mass = block.shape.mass_properties();
@@ -144,7 +144,7 @@ fn a_column_of_drums_is_the_same_in_triangles() {
             close(angle(name, &["--phi-deg", "40", "--direction", direction]), expected, EXACT);
         }
     }
-    let options = ObjOptions { unit: None, density: Some(2000.0) };
+    let options = ReadOptions { density: Some(2000.0), ..ReadOptions::default() };
     let [whole, pieces] =
         ["drums.obj", "drums-triangles.obj"].map(|n| read_wall(&example(n), &options).unwrap().wall);
     for (a, b) in whole.blocks.iter().zip(&pieces.blocks) {
@@ -165,7 +165,7 @@ fn walls_that_pirca_writes_are_read_back_to_the_bit() {
     let read = read_wall_json(&write_wall_json(&wall)).unwrap();
     assert!(read.wall == wall && read.warnings.is_empty(), "{:?}", read.warnings);
     assert_eq!(read.ids, (0..73).collect::<Vec<u64>>());
-    assert!(read_obj(&write_obj(&wall), &ObjOptions::default()).unwrap().wall == wall);
+    assert!(read_obj(&write_obj(&wall), &ReadOptions::default()).unwrap().wall == wall);
 }
 
 /// Dips, wedges and cuts turn and lean the stones of a study: corners of all angles, small faces, no round numbers.
@@ -179,7 +179,7 @@ fn the_walls_of_a_study_are_read_back_to_the_bit() {
                 let wall = build(&study, arm, member).unwrap().wall.with_base();
                 let read = read_wall_json(&write_wall_json(&wall)).unwrap_or_else(|e| panic!("{e}"));
                 assert!(read.wall == wall, "arm {arm}, member {member}");
-                assert!(read_obj(&write_obj(&wall), &ObjOptions::default()).unwrap().wall == wall);
+                assert!(read_obj(&write_obj(&wall), &ReadOptions::default()).unwrap().wall == wall);
             }
         }
     }
@@ -194,7 +194,8 @@ fn units_and_defaults_are_as_documented() {
     assert_eq!(name(&GOOD_JSON.replacen("\"unit\":\"m\",", "", 1)), metres.wall);
     let centimetres = name(&GOOD_JSON.replacen("\"unit\":\"m\"", "\"unit\":\"cm\"", 1));
     assert_eq!(centimetres.blocks[2].shape.vertices[1], Vec3::new(0.5 / 100.0, 0.0, 0.2 / 100.0));
-    let options = ObjOptions { unit: Some(Unit::Centimetre), density: Some(1900.0) };
+    let options =
+        ReadOptions { unit: Some(Unit::Centimetre), density: Some(1900.0), ..ReadOptions::default() };
     let obj = read_obj(GOOD_OBJ, &options).unwrap();
     assert_eq!(obj.names, ["block 0 (Base)", "block 1 (Stone)", "block 2 (Upper.001)"]);
     let densities: Vec<f64> = obj.wall.blocks.iter().map(|b| b.density).collect();
@@ -203,7 +204,7 @@ fn units_and_defaults_are_as_documented() {
     assert_eq!(obj.warnings, ["fixed by their names: block 0 (Base)"]);
     let groups = GOOD_OBJ.replace("o ", "g ");
     assert_eq!(read_obj(&groups, &options).unwrap().wall, obj.wall);
-    let assumed = read_obj(GOOD_OBJ, &ObjOptions::default()).unwrap();
+    let assumed = read_obj(GOOD_OBJ, &ReadOptions::default()).unwrap();
     assert!(
         assumed.warnings[0].contains("density of 1 object(s) not stated: 2400 kg/m^3 is taken"),
         "{:?}",

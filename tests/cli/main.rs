@@ -6,8 +6,10 @@ mod catalogue;
 mod commands;
 mod diagnose;
 mod extended;
+mod files_of_others;
 #[path = "../ensemble/fixture.rs"]
 mod fixture;
+mod groups;
 mod layering;
 mod malformed;
 mod measured;

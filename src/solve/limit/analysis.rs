@@ -165,9 +165,9 @@ impl Analysis {
     /// The same blocks with ties, which are ropes that do not stretch: each bears any pull. Stiffness, pretension and slack
     /// play no part; a rope that is slack at first holds as if it were taut, so that the multiplier stays an upper bound.
     pub fn with_ties(mut self, ties: &[Tie]) -> Self {
-        let origin = self.blocks.origin;
+        let (origin, leads) = (self.blocks.origin, &self.blocks.leads);
         let rope = |t: &Tie| Rope {
-            block: t.body,
+            block: leads[t.body],
             at: t.point - origin,
             direction: t.direction,
             two_sided: t.two_sided,

@@ -36,7 +36,7 @@ pub struct Limit {
 /// Velocity of a block in the mechanism.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BlockMotion {
-    /// Velocity of the centroid (m/s), world axes.
+    /// Velocity of the centroid (m/s), world axes; for a part of a stone that of the stone.
     pub velocity: Vec3,
     /// Angular velocity (rad/s), world axes.
     pub spin: Vec3,
@@ -45,7 +45,7 @@ pub struct BlockMotion {
 /// What a joint carries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Thrust {
-    /// The two blocks, lower id first.
+    /// The two blocks, lower id first; the first part of a stone for all of its parts.
     pub blocks: (u32, u32),
     /// Force (N) on the second block.
     pub force: Vec3,
@@ -94,11 +94,11 @@ pub(crate) fn mechanism(program: &Program, solved: &Solved) -> Vec<BlockMotion> 
         }
     }
     let scale = if fastest > 0.0 { 1.0 / fastest } else { 0.0 };
-    solved
-        .velocities
-        .iter()
-        .map(|v| BlockMotion { velocity: v.force * scale, spin: v.moment * scale })
-        .collect()
+    let motion = |&lead: &usize| {
+        let v = &solved.velocities[lead];
+        BlockMotion { velocity: v.force * scale, spin: v.moment * scale }
+    };
+    program.blocks.leads.iter().map(motion).collect()
 }
 
 /// The forces of a solution summed up by joint.
