@@ -14,6 +14,7 @@ mod measured;
 mod mechanisms;
 mod mutated_walls;
 mod picture;
+mod records;
 mod scratch;
 mod study;
 mod walls;
