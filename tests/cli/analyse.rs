@@ -359,24 +359,32 @@ fn a_stone_slides_at_its_friction_angle_whatever_its_shape() {
     }
 }
 
-/// Two solvers of the same joints find the same angle, below that of rigid blocks.
+/// Two solvers of the same joints find the same angle of an example, below that of rigid blocks.
+fn the_elastic_solvers_agree_on(name: &str, to: &str) {
+    let asked = ["--phi-deg", "40", "--direction", to];
+    let elastic = |solver| angle(name, &[&asked[..], &["--kn", "1e9", "--solver", solver]].concat());
+    let (implicit, explicit, rigid) = (elastic("implicit"), elastic("explicit"), angle(name, &asked));
+    close(implicit, explicit, 0.05);
+    assert!(implicit < rigid, "{name}: {implicit} against {rigid}");
+}
+
 #[test]
 fn the_elastic_solvers_agree_below_the_limit_of_rigid_blocks() {
-    for (name, to) in
-        [("leaning-tower.json", "x+"), ("arch.json", "x+"), ("drums.obj", "y+"), ("opening.json", "y+")]
-    {
-        let asked = ["--phi-deg", "40", "--direction", to];
-        let elastic = |solver| angle(name, &[&asked[..], &["--kn", "1e9", "--solver", solver]].concat());
-        let (implicit, explicit, rigid) = (elastic("implicit"), elastic("explicit"), angle(name, &asked));
-        close(implicit, explicit, 0.05);
-        assert!(implicit < rigid, "{name}: {implicit} against {rigid}");
-    }
+    the_elastic_solvers_agree_on("leaning-tower.json", "x+");
     let lateral = |solver: &str| {
         let asked =
             ["--phi-deg", "40", "--load", "lateral", "--kn", "1e9", "--step-deg", "2", "--solver", solver];
         analysed("leaning-tower.json", &asked)["multiplier"].as_f64().unwrap()
     };
     close(lateral("implicit"), lateral("explicit"), 1e-3);
+}
+
+#[test]
+#[ignore = "slow: three walls to their fall by the explicit solver, half a minute of processor time"]
+fn the_elastic_solvers_agree_on_an_arch_drums_and_an_opening() {
+    for (name, to) in [("arch.json", "x+"), ("drums.obj", "y+"), ("opening.json", "y+")] {
+        the_elastic_solvers_agree_on(name, to);
+    }
 }
 
 /// 0.2 mm of overlap at 1e10 Pa/m is 2000 kPa; 0.3998 m of 2400 kg/m^3 weigh 9.410 kPa. Rigid blocks take no notice.

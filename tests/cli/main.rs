@@ -18,6 +18,7 @@ mod mechanisms;
 mod mutated_walls;
 mod pages;
 mod picture;
+mod records;
 mod scratch;
 mod spreadsheets;
 mod study;
