@@ -8,6 +8,7 @@ mod diagnose;
 mod extended;
 #[path = "../ensemble/fixture.rs"]
 mod fixture;
+mod init;
 mod layering;
 mod malformed;
 mod measured;

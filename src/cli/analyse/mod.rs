@@ -6,5 +6,5 @@ mod numbers;
 mod solve;
 mod verb;
 
-pub(crate) use numbers::{cohesion, density, friction_angle, step, stiffness, tolerance};
+pub(crate) use numbers::{cohesion, density, direction, friction_angle, step, stiffness, tolerance};
 pub(crate) use verb::analyse;
