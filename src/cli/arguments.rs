@@ -22,7 +22,7 @@ const FILE: &str = "File";
 
 /// How strong is a dry stone wall whose every stone is different, and how sure is that?
 #[derive(Debug, Parser)]
-#[command(name = "pirca", version, after_help = WHOLE)]
+#[command(name = "pirca", version, subcommand_value_name = "VERB", after_help = WHOLE)]
 pub(crate) struct Arguments {
     /// What to do.
     #[command(subcommand)]

@@ -9,6 +9,8 @@ use console::Term;
 
 /// Longer lines are hard to read, however wide the terminal is.
 const WIDEST: usize = 100;
+/// Lines that begin with so many spaces are to be typed.
+const TYPED: usize = 8;
 /// Columns before what is said of an option, which stands below its name.
 const INDENT: usize = 10;
 
@@ -28,8 +30,9 @@ macro_rules! codes {
 /// Of the program.
 pub(super) const WHOLE: &str = concat!(
     "\
-Examples: pirca run studies/joint-arrangement
-          pirca analyse wall.json --phi-deg 35
+Examples: pirca analyse wall.json --phi-deg 35
+          pirca init my-wall
+          pirca run my-wall
 
 A study is a folder with a study.toml: which walls, under which load, by which solver. `pirca VERB --help` explains a verb. \
 With --json it prints one JSON object; warnings and progress go to standard error.
@@ -215,15 +218,19 @@ fn said(arg: Arg, columns: usize) -> Arg {
     arg.hide_default_value(true).hide_possible_values(true).long_help(text.clone()).help(text)
 }
 
-/// The text with its lines broken at spaces so that none is longer than so many columns, where a space comes early enough; what
-/// a line begins with stands before its continuations, as spaces.
+/// The text with its lines broken at spaces so that none is longer than so many columns, where a space comes early enough. What is
+/// to be typed stays whole: broken it would not work.
 fn lines(text: &str, columns: usize) -> String {
     let mut broken = Vec::new();
     for line in text.lines() {
         let words = line.trim_start();
         let own = line.len() - words.len();
+        if own >= TYPED || words.starts_with("Example") {
+            broken.push(line.to_owned());
+            continue;
+        }
         let indent = if words.starts_with("- ") { own + 2 } else { own };
-        let mut current = " ".repeat(own);
+        let mut current = line[..own].to_owned();
         let mut is_empty = true;
         for word in words.split(' ') {
             if !is_empty && current.chars().count() + 1 + word.chars().count() > columns {
@@ -292,6 +299,10 @@ mod tests {
     fn lines_are_broken_at_spaces_and_keep_their_indent() {
         assert_eq!(lines("a bb ccc\n\n  dd eee\n- ff ggg", 6), "a bb\nccc\n\n  dd\n  eee\n- ff\n  ggg");
         assert_eq!(lines("abcdefgh i", 4), "abcdefgh\ni");
+        assert_eq!(
+            lines("Example: pirca run x\n         pirca y z", 9),
+            "Example: pirca run x\n         pirca y z"
+        );
     }
 
     /// Whatever the terminal, and whether all or the short help is asked for.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::random::Family;
 use crate::study::checked::InputFile;
-use crate::study::distributions::{Distributions, Origin};
+use crate::study::distributions::{Distributions, Origin, is_prior};
 use crate::study::fault::{Fault, Faults, Found};
 use crate::study::keys;
 use crate::study::quantity::family;
@@ -111,8 +111,9 @@ impl Catalogue {
         }
         if self.distributions.find(file).is_none() {
             let known = self.distributions.names();
+            let listed: Vec<&str> = known.iter().map(String::as_str).filter(|name| !is_prior(name)).collect();
             return Err(fault(
-                format!("a file of `distributions`: {}", known.join(", ")),
+                format!("a file of `distributions`: {}; or a prior", listed.join(", ")),
                 suggestion(file, &known),
             ));
         }

@@ -62,7 +62,8 @@ impl Distributions {
             let own = DISTRIBUTIONS.iter().find(|(name, _)| *name == path).filter(|_| self.built_in);
             own.map(|(_, text)| Origin::BuiltIn(text))
         };
-        on_disk.into_iter().find(|path| path.is_file()).map(Origin::File).or_else(built_in)
+        // What stands there and is no file is a fault of that place, and not passed by.
+        on_disk.into_iter().find(|path| path.exists()).map(Origin::File).or_else(built_in)
     }
 
     /// Names of all files, as `block/size`, sorted.
@@ -99,19 +100,18 @@ impl Distributions {
 }
 
 impl Distributions {
-    /// What a study would miss that reads these files and looks elsewhere instead: the files of distributions among its inputs,
-    /// and all priors, that are not there or say something else; name, as `distributions/block/size.toml`, and text.
+    /// What a study would miss that takes the files of these names, as `block/size`, if it looked elsewhere instead: those, and
+    /// priors, that are not there or say something else; name, as `distributions/block/size.toml`, and text.
     ///
     /// # Errors
     /// The fault of a file that cannot be read.
     pub fn missing_from(
         &self,
         elsewhere: &Distributions,
-        inputs: &[InputFile],
+        mut names: Vec<String>,
     ) -> Result<Vec<(String, String)>, Faults> {
         let one = |fault: Box<Fault>| Faults::sorted(vec![*fault]);
-        let mut names: Vec<String> = inputs.iter().filter_map(|input| file_of(&input.path)).collect();
-        names.extend(self.names().into_iter().filter(|name| PRIORS.iter().any(|own| name.starts_with(own))));
+        names.extend(self.names().into_iter().filter(|name| is_prior(name)));
         names.sort();
         names.dedup();
         let mut missing = Vec::new();
@@ -164,7 +164,16 @@ impl fmt::Display for Distributions {
     }
 }
 
-/// The file of distributions, as `block/size`, that an input of a study is; `None` where it is another one.
+/// Whether a file holds a prior.
+pub(super) fn is_prior(file: &str) -> bool {
+    PRIORS.iter().any(|folder| file.starts_with(folder))
+}
+
+/// The files of distributions, as `block/size`, among the inputs of a study.
+pub fn distributions_among(inputs: &[InputFile]) -> Vec<String> {
+    inputs.iter().filter_map(|input| file_of(&input.path)).collect()
+}
+
 fn file_of(input: &Path) -> Option<String> {
     let name = input.to_string_lossy();
     let name = name.strip_prefix(BUILT_IN).unwrap_or(&name);

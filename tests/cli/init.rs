@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Output;
 
-use pirca::study::{ElementStudy, Study, built_in_studies};
+use pirca::study::{Distributions, ElementStudy, Study, built_in_studies};
 use serde_json::Value;
 
 use crate::fixture::{Folder, STUDY, stderr};
@@ -96,6 +96,33 @@ fn every_built_in_study_is_copied_as_it_is() {
         }
         assert!(!copy.join("distributions").exists(), "they are built in");
     }
+}
+
+/// What is built in is what lies in the repository's folders, and all of it.
+#[test]
+fn nothing_is_forgotten_that_should_be_built_in() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let (on_disk, built_in) =
+        (Distributions::only_in(&root.join("distributions")), Distributions::built_in());
+    assert_eq!(on_disk.names(), built_in.names());
+    let missing =
+        on_disk.missing_from(&built_in, on_disk.names()).unwrap_or_else(|faults| panic!("{faults}"));
+    assert_eq!(missing, []);
+    let read = ["measured.csv", "published.toml", "study.toml"];
+    let mut files: Vec<String> = fs::read_dir(root.join("studies"))
+        .expect("studies can be listed")
+        .flatten()
+        .filter(|entry| entry.path().join("study.toml").is_file())
+        .flat_map(|entry| {
+            let here = read.into_iter().filter(|name| entry.path().join(name).is_file()).collect::<Vec<_>>();
+            here.into_iter().map(move |name| format!("{}/{name}", entry.file_name().to_string_lossy()))
+        })
+        .collect();
+    files.sort();
+    let studies = built_in_studies();
+    let listed =
+        studies.iter().flat_map(|study| study.files.iter().map(|(file, _)| format!("{}/{file}", study.name)));
+    assert_eq!(listed.collect::<Vec<_>>(), files);
 }
 
 #[test]

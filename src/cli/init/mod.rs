@@ -10,7 +10,10 @@ use crate::cli::failure::Failure;
 use crate::cli::{locate, output};
 use crate::ensemble::replace_file;
 use crate::math::edit_distance;
-use crate::study::{BuiltInStudy, Distributions, ElementStudy, InputFile, MEASURED, Study, built_in_studies};
+use crate::study::{
+    BuiltInStudy, Distributions, ElementStudy, InputFile, MEASURED, Study, built_in_studies,
+    distributions_among,
+};
 
 /// The study that is written where no other one is named.
 const TEMPLATE: &str = include_str!("template.toml");
@@ -139,16 +142,17 @@ impl Origin {
         for (name, bytes) in self.files()? {
             put(name, &bytes)?;
         }
-        // What the copy would read otherwise, or not find at all, goes with it. A study from elsewhere may not load without.
-        let inputs = match self {
-            Origin::Folder(own) => inputs(own)?,
-            Origin::Template | Origin::BuiltIn(_) => inputs(folder)?,
+        // What the copy would read otherwise, or not find at all, goes with it; it may not load without.
+        let distributions = self.distributions();
+        let names = match self {
+            Origin::Folder(own) => distributions_among(&inputs(own)?),
+            Origin::Template | Origin::BuiltIn(_) => distributions.names(),
         };
-        for (name, text) in self.distributions().missing_from(&Distributions::of_study(folder), &inputs)? {
+        for (name, text) in distributions.missing_from(&Distributions::of_study(folder), names)? {
             put(name, text.as_bytes())?;
         }
         put("README.md".to_owned(), self.readme(folder, name).as_bytes())?;
-        self::inputs(folder)?;
+        inputs(folder)?;
         Ok(written)
     }
 
