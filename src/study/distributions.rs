@@ -1,6 +1,7 @@
 //! Where the distributions of a study lie: one place decides it for references, priors and messages.
 
 use std::fmt;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -15,6 +16,8 @@ pub const FOLDER: &str = "distributions";
 /// What stands before the name of a file that is built in.
 const BUILT_IN: &str = "built-in:";
 
+/// Folders and a file: as deep as `mechanism/creep/rate_per_deg`.
+const DEEPEST: usize = 3;
 /// Folders of the priors, which every diagnosis reads.
 const PRIORS: [&str; 2] = ["mechanism/", "nuisance/"];
 
@@ -62,8 +65,7 @@ impl Distributions {
             let own = DISTRIBUTIONS.iter().find(|(name, _)| *name == path).filter(|_| self.built_in);
             own.map(|(_, text)| Origin::BuiltIn(text))
         };
-        // What stands there and is no file is a fault of that place, and not passed by.
-        on_disk.into_iter().find(|path| path.exists()).map(Origin::File).or_else(built_in)
+        on_disk.into_iter().find(|path| stands_at(path)).map(Origin::File).or_else(built_in)
     }
 
     /// Names of all files, as `block/size`, sorted.
@@ -180,16 +182,28 @@ fn file_of(input: &Path) -> Option<String> {
     Some(name.strip_prefix(FOLDER)?.strip_prefix('/')?.strip_suffix(".toml")?.to_owned())
 }
 
+/// Whether something stands at a path, though it may be a folder or unreadable: a fault of that place, which is not passed by.
+fn stands_at(path: &Path) -> bool {
+    match path.symlink_metadata() {
+        Ok(_) => true,
+        Err(error) => !matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory),
+    }
+}
+
 /// Names of the files below a folder, as `block/size`.
 fn names_below(folder: &Path) -> Vec<String> {
-    let list = |folder: &Path| -> Vec<PathBuf> {
-        std::fs::read_dir(folder).map(|e| e.flatten().map(|e| e.path()).collect()).unwrap_or_default()
+    let list = |folder: &Path, depth: usize| -> Vec<(PathBuf, usize)> {
+        let entries = std::fs::read_dir(folder).map(|e| e.flatten().map(|e| (e.path(), depth)).collect());
+        entries.unwrap_or_default()
     };
-    let mut pending = list(folder);
+    let mut pending = list(folder, 1);
     let mut names = Vec::new();
-    while let Some(path) = pending.pop() {
+    while let Some((path, depth)) = pending.pop() {
         if path.is_dir() {
-            pending.extend(list(&path));
+            // A folder of that name further up may be anybody's, and hold anything.
+            if depth < DEEPEST {
+                pending.extend(list(&path, depth + 1));
+            }
         } else if path.extension().is_some_and(|e| e == "toml")
             && let Ok(inner) = path.strip_prefix(folder)
         {

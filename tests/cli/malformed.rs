@@ -286,14 +286,15 @@ fn faults_of_whole_files() {
             &["distributions/block/size.toml: is a folder"],
         ),
         (
-            "empty-distributions",
+            // What is built in serves where a study has none, and holds no such file.
+            "no-distributions",
             |s| {
                 fs::remove_dir_all(s.path("distributions")).expect("it was there");
-                fs::create_dir(s.path("distributions")).expect("a folder");
+                s.replace(STUDY, "block/size:length", "block/sizes:length");
             },
             &[
-                "arm.laid.length_m = \"block/size:length\": allowed is a file of ",
-                "which holds none; put the file there, or write the numbers here",
+                "arm.laid.length_m = \"block/sizes:length\": allowed is a file of `distributions`: block/density, ",
+                "joint/stiffness; or a prior; did you mean \"block/size\"?",
             ],
         ),
         (
