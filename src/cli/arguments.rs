@@ -41,7 +41,7 @@ pub(crate) enum Verb {
     /// List all faults of a study, or say that it has none; runs nothing.
     #[command(after_help = CHECK)]
     Check(Check),
-    /// Write one wall of a study to a file: for ParaView, as OBJ or as JSON.
+    /// Write one wall of a study to a file: VTU (ParaView), OBJ or JSON.
     #[command(after_help = GENERATE)]
     Generate(Generate),
     /// Draw how one wall of a study falls.
@@ -60,13 +60,13 @@ pub(crate) enum Verb {
     /// goes on where it stood.
     #[command(after_help = BANK)]
     Bank(Bank),
-    /// Say what the simulation gets wrong, and which mechanism explains it.
+    /// Say what the simulation gets wrong and what explains it.
     ///
     /// Sets the measurements beside what the simulation could have shown, given the instruments' errors, the scatter of stones
     /// and joints that nobody knows exactly. What is left is explained by a mechanism, by a few, or by none.
     #[command(after_help = DIAGNOSE)]
     Diagnose(Diagnose),
-    /// Say which mechanisms the measurements of a study could show at all.
+    /// Say which mechanisms the measurements of a study could show.
     ///
     /// What each mechanism changes in every quantity of measured.csv, in units of the quantity's error. For studies on the
     /// tilting table.

@@ -188,6 +188,9 @@ fn columns() -> usize {
 
 /// The command and its verbs with their texts in lines of so many columns.
 fn wrapped(mut command: Command, columns: usize) -> Command {
+    if let Some(about) = command.get_about().map(ToString::to_string) {
+        command = command.about(lines(&about, columns));
+    }
     if let Some(about) = command.get_long_about().or(command.get_about()).map(ToString::to_string) {
         command = command.long_about(lines(&about, columns));
     }
