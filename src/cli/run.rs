@@ -42,7 +42,7 @@ fn asked(mut study: Study, arguments: &Run) -> Result<Study, Failure> {
         study = study.with_seed(seed);
     }
     if let Some(members) = arguments.members {
-        study = study.with_members(members);
+        study = locate::with_members(study, members)?;
     }
     Ok(study)
 }

@@ -38,12 +38,13 @@ pub fn evaluate(study: &Study, task: Task) -> Row {
     }
 }
 
-/// Draws the joints of a member's wall and takes it through the study's protocol.
-pub fn solve(study: &Study, task: Task, wall: &Wall) -> protocol::Run {
+/// Draws the joints of a member's wall and takes it through the study's protocol; tells of every level at which it came to rest.
+pub fn solve(study: &Study, task: Task, wall: &Wall, tell: &dyn Fn(Level)) -> protocol::Run {
     let (arm, laws) = drawn(study, task, wall);
     let contacts = arm.mechanisms.contacts(arm.sub_contacts);
     let changes = arm.mechanisms.changes(wall, &Streams::new(study.seed, task.member));
-    protocol::run_changing(wall, &laws, &study.protocol, &arm.restraint, contacts, &changes, &study.solver)
+    let way = protocol::Way { changes: &changes, tell };
+    protocol::run_telling(wall, &laws, &study.protocol, &arm.restraint, contacts, way, &study.solver)
 }
 
 /// The arm of a task and the laws of its member's joints.
@@ -56,7 +57,7 @@ fn drawn<'s>(study: &'s Study, task: Task, wall: &Wall) -> (&'s Arm, DrawnJoints
 
 fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
     let wall = &generated.wall;
-    let run = solve(study, task, wall);
+    let run = solve(study, task, wall, &|_| {});
     let last = run.steps.last();
     let gauge = &study.arms[task.arm as usize].mechanisms;
     // The first reading is the zero reading.

@@ -18,15 +18,21 @@ use crate::solve::{Ahead, Assembly, Equilibrate, Followed, Solver, Status, Way};
 
 /// Takes an assembly along a load path with the solver asked for.
 pub fn drive(task: &Task<'_>, solver: &Solver) -> Run {
+    drive_telling(task, solver, &|_| {})
+}
+
+/// [`drive`], which tells of every level at which the wall came to rest; nothing that is done there can change the result.
+pub fn drive_telling(task: &Task<'_>, solver: &Solver, tell: &dyn Fn(Level)) -> Run {
     match solver {
-        Solver::Explicit(settings) => climb(task, &|assembly| Simulation::of(assembly, *settings)),
+        Solver::Explicit(settings) => {
+            climb_telling(task, &|assembly| Simulation::of(assembly, *settings), tell)
+        }
         Solver::Implicit(settings) => {
             // A path that brackets a collapse halves its steps itself; twice costs half as much again and gains nothing.
             let brackets = task.path.bracket.is_finite();
             let max_halvings = if brackets { 0 } else { settings.max_halvings };
-            climb(task, &|assembly| {
-                Equilibrium::of(assembly, implicit::Settings { max_halvings, ..*settings })
-            })
+            let of = |assembly| Equilibrium::of(assembly, implicit::Settings { max_halvings, ..*settings });
+            climb_telling(task, &of, tell)
         }
         Solver::Limit(settings) => rigid(task, *settings),
     }
@@ -41,6 +47,14 @@ pub fn drive(task: &Task<'_>, solver: &Solver) -> Run {
 /// relaxation is asked again, unless limit analysis has shown that the fall is near and the wall has become so soft that
 /// this is the limit point of its path; a doubt that stays widens the bracket up to where the fall is certain.
 pub fn climb<'a, S: Equilibrate<'a>>(task: &Task<'a>, of: &dyn Fn(Assembly<'a>) -> S) -> Run {
+    climb_telling(task, of, &|_| {})
+}
+
+fn climb_telling<'a, S: Equilibrate<'a>>(
+    task: &Task<'a>,
+    of: &dyn Fn(Assembly<'a>) -> S,
+    tell: &dyn Fn(Level),
+) -> Run {
     let built = task.assembled();
     let joints = built.joints.all.len();
     let watch = Watch::new(task.wall, &built.bodies, task.path.direction(), task.criterion);
@@ -49,6 +63,7 @@ pub fn climb<'a, S: Equilibrate<'a>>(task: &Task<'a>, of: &dyn Fn(Assembly<'a>) 
     let mut climber = Climber {
         task,
         of,
+        tell,
         watch,
         judge,
         built,
@@ -128,6 +143,8 @@ pub fn climb<'a, S: Equilibrate<'a>>(task: &Task<'a>, of: &dyn Fn(Assembly<'a>) 
 struct Climber<'c, 'a, S> {
     task: &'c Task<'a>,
     of: &'c dyn Fn(Assembly<'a>) -> S,
+    /// Is told of every level at which the wall came to rest.
+    tell: &'c dyn Fn(Level),
     watch: Watch,
     judge: Judge<'c, 'a>,
     /// The assembly as built, with its loads.
@@ -435,6 +452,7 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
 
     /// Notes what is read at a state at rest. Displacements of the first one are taken from there on.
     fn read(&mut self, state: S, level: f64, ratio: f64) -> S {
+        (self.tell)(self.task.path.level(level));
         let bodies = &state.assembly().bodies;
         if self.steps.is_empty() {
             self.watch.begins(bodies);

@@ -1,7 +1,7 @@
 //! A wall of a study through the study's protocol.
 
-use crate::model::{JointLaws, Wall};
-use crate::protocol::drive::drive;
+use crate::model::{JointLaws, Level, Wall};
+use crate::protocol::drive::drive_telling;
 use crate::protocol::path::LoadPath;
 use crate::protocol::pressure::back_loads;
 use crate::protocol::stage::Stage;
@@ -34,6 +34,28 @@ pub fn run_changing(
     changes: &Changes,
     solver: &Solver,
 ) -> Run {
+    run_telling(wall, laws, protocol, restraint, contacts, Way { changes, tell: &|_| {} }, solver)
+}
+
+/// What goes on while a wall is loaded.
+#[derive(Clone, Copy)]
+pub struct Way<'w> {
+    /// What changes it.
+    pub changes: &'w Changes,
+    /// Is told of every level at which it came to rest.
+    pub tell: &'w dyn Fn(Level),
+}
+
+/// [`run_changing`], which tells how far it is.
+pub fn run_telling(
+    wall: &Wall,
+    laws: &dyn JointLaws,
+    protocol: &Protocol,
+    restraint: &Restraint,
+    contacts: impl Into<Contacts>,
+    Way { changes, tell }: Way<'_>,
+    solver: &Solver,
+) -> Run {
     let stage = Stage::new(wall, laws, protocol, restraint, contacts.into());
     let (low, high) = wall.bounds();
     let thickness = high.y - low.y;
@@ -54,19 +76,19 @@ pub fn run_changing(
         Protocol::Lateral(lateral) => {
             let criterion = Criterion::Top(lateral.collapse_share * thickness);
             let task = task(LoadPath::factor(lateral.steps), criterion);
-            drive(&Task { loads: back_loads(wall, lateral), ..task }, solver)
+            drive_telling(&Task { loads: back_loads(wall, lateral), ..task }, solver, tell)
         }
         Protocol::Tilting(tilting) => {
             let criterion = Criterion::AnyBlock(tilting.collapse_share * thickness);
             let task = task(tilting.path(), criterion);
             match tilting.rate {
-                Rate::Static => drive(&task, solver),
+                Rate::Static => drive_telling(&task, solver, tell),
                 Rate::Dynamic(turning) => {
                     let at_rest = match solver {
                         Solver::Explicit(settings) => *settings,
                         Solver::Implicit(_) | Solver::Limit(_) => explicit::Settings::default(),
                     };
-                    turn(&task, &turning, at_rest)
+                    turn(&task, &turning, at_rest, tell)
                 }
             }
         }

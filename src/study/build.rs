@@ -1,7 +1,7 @@
 //! From the raw tree of study.toml to checked parts.
 
 use crate::math::radians;
-use crate::protocol::{Ends, Lateral, Observes, Protocol, Rate, Tilting, Turning};
+use crate::protocol::{Direction, Ends, Lateral, Observes, Protocol, Rate, Tilting, Turning};
 use crate::solve::{Solver, explicit, implicit, limit};
 use crate::study::arm;
 use crate::study::catalogue::Catalogue;
@@ -173,8 +173,20 @@ fn lateral(t: &mut Reader<'_>) -> Option<Lateral> {
     Some(Lateral { mean_pressure, base_over_top, steps: steps?, collapse_share })
 }
 
+/// The side that goes down, by its name or by its angle.
+fn towards(t: &mut Reader<'_>) -> Option<Direction> {
+    if !t.has("towards_deg") {
+        return t.choice_name("towards").and_then(Direction::named);
+    }
+    if t.has("towards") {
+        t.fault("towards_deg", "one of towards and towards_deg", "remove one of the two");
+        return None;
+    }
+    t.real("towards_deg").map(Direction::at)
+}
+
 fn tilting(t: &mut Reader<'_>) -> Option<Tilting> {
-    let towards = t.choice("towards");
+    let towards = towards(t);
     let reals = t.reals(["step_deg", "end_deg", "bracket_deg", "runaway_share"]);
     let (observes, remainders) = (t.choice("observes"), t.flag("remainders"));
     let turns = t.has("turning");

@@ -8,6 +8,7 @@ use crate::solve::Solver;
 use crate::study::build::{self, Parts};
 use crate::study::catalogue::{Catalogue, Used};
 use crate::study::checked::{Arm, InputFile, Study};
+use crate::study::distributions::Distributions;
 use crate::study::fault::{Fault, Faults, Source};
 use crate::study::files::TextFile;
 use crate::study::raw::{self, Node};
@@ -75,8 +76,8 @@ impl Loaded {
 }
 
 impl Study {
-    /// Loads and checks the study in `folder` (study.toml, published.toml and measured.csv if there are any, and the files that it refers
-    /// to below the nearest [`distributions`](crate::study::distributions_above)), as the variant of that name reads it.
+    /// Loads and checks the study in `folder` (study.toml, published.toml and measured.csv if there are any, and the files of its
+    /// [`Distributions`] that it refers to), as the variant of that name reads it.
     ///
     /// All variants are checked, whichever is asked for.
     ///
@@ -93,7 +94,7 @@ impl Study {
             None
         };
         let published_text = published_root.as_ref().map(|root| root.place.source.clone());
-        let mut catalogue = Catalogue::above(&folder);
+        let mut catalogue = Catalogue::of(Distributions::of_study(&folder));
         let mut notes = Notes::default();
         let variants = root.as_ref().map_or_else(Vec::new, |root| variant::read(root, &mut notes));
         let chosen = choose(variant, &variants, root.as_ref(), &mut notes.faults);

@@ -3,6 +3,7 @@
 mod altered;
 mod arm;
 mod build;
+mod built_in;
 mod catalogue;
 mod checked;
 mod distributions;
@@ -29,9 +30,10 @@ mod stated;
 mod strength;
 mod variant;
 
+pub use built_in::{BuiltInStudy, built_in_studies};
 pub use catalogue::{Distribution, DistributionFile, Used, load_distributions};
 pub use checked::{Arm, Claim, ClaimTest, InputFile, Joint, NormalLawName, Study};
-pub use distributions::{NoDistributions, distributions_above};
+pub use distributions::{Distributions, Origin, distributions_among};
 pub use elements::{ElementArm, ElementStudy, Reported};
 pub use extended::{Acting, Point};
 pub(crate) use fault::listed;

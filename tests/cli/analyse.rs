@@ -462,7 +462,8 @@ fn arguments_that_make_no_sense_are_refused_with_what_is_allowed() {
         (&["--phi-deg", "30", "--cohesion", "-1"], "0 to 1e9 Pa"),
         (&["--phi-deg", "30", "--step-deg", "0"], "0.01 to 45 degrees"),
         (&["--phi-deg", "30", "--touch-tolerance", "1"], "1e-12 to 0.001 of the wall's size"),
-        (&["--phi-deg", "30", "--direction", "z+"], "x+"),
+        (&["--phi-deg", "30", "--direction", "z+"], "or x+, x-, y+, y-"),
+        (&["--phi-deg", "30", "--direction", "400"], "-360 to 360 degrees"),
         (&["--phi-deg", "30", "--solver", "magic"], "limit"),
         (&["--phi-deg", "30", "--load", "seismic"], "lateral"),
         (&["--phi-deg", "30", "--solver", "implicit"], "--kn PA_PER_M is required for the implicit solver"),
@@ -485,6 +486,62 @@ fn arguments_that_make_no_sense_are_refused_with_what_is_allowed() {
         told.contains("--kn and --ks do not matter") && told.contains("--step-deg does not matter"),
         "{told}"
     );
+}
+
+/// A block of 0.4 m x 0.2 m x 0.6 m on the ground, both turned about the vertical.
+fn turned_block(turn_deg: f64) -> String {
+    let (c, s) = (cos(radians(turn_deg)), sin(radians(turn_deg)));
+    let corner = |x: f64, y: f64, z: f64| format!("[{:?}, {:?}, {z:?}]", c * x - s * y, s * x + c * y);
+    let block = |id: u32, [a, b]: [f64; 2], [low, high]: [f64; 2], more: &str| {
+        let around = [(-a, -b), (a, -b), (a, b), (-a, b)];
+        let corners: Vec<String> =
+            [low, high].iter().flat_map(|&z| around.map(|(x, y)| corner(x, y, z))).collect();
+        let faces = "[[3,2,1,0],[4,5,6,7],[0,1,5,4],[1,2,6,5],[2,3,7,6],[3,0,4,7]]";
+        format!("{{\"id\": {id}, {more}, \"vertices\": [{}], \"faces\": {faces}}}", corners.join(", "))
+    };
+    let ground = block(0, [1.0, 1.0], [-0.2, 0.0], "\"fixed\": true");
+    let stone = block(1, [0.2, 0.1], [0.0, 0.6], "\"density\": 2400");
+    format!("{{\"blocks\": [{ground}, {stone}]}}")
+}
+
+/// A block topples when the line of its weight leaves its base: the base reaches a / |cos| or b / |sin| in a direction, and the
+/// centroid stands 0.3 m above it. What is turned with the direction falls at the same tilt.
+#[test]
+fn a_wall_is_tilted_in_any_direction() {
+    let folder = Folder::new();
+    let falls = |turn: f64, more: &[&str]| {
+        fs::write(folder.path("block.json"), turned_block(turn)).unwrap();
+        let arguments = [&["analyse", "block.json", "--phi-deg", "60", "--json"], more].concat();
+        let output = folder.pirca(&arguments);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output));
+        let answer: Value = serde_json::from_slice(&output.stdout).expect("one JSON object");
+        let angle = answer["collapse_angle_deg"].as_f64().unwrap_or_else(|| panic!("{answer}"));
+        (angle, answer["direction"].clone(), answer["direction_deg"].clone())
+    };
+    for direction in [-120.0, 10.0, 60.0, 100.0, 200.5] {
+        let (c, s) = (cos(radians(direction)), sin(radians(direction)));
+        let reach = (0.2 / c.abs()).min(0.1 / s.abs());
+        let asked = format!("{direction}");
+        let (angle, name, told) = falls(0.0, &["--direction", &asked]);
+        close(angle, degrees(atan(reach / 0.3)), EXACT);
+        assert_eq!(name, format!("{} deg", (direction + 360.0) % 360.0));
+        // Degrees come back from radians, rounded by some units in the last place.
+        close(told.as_f64().unwrap(), (direction + 360.0) % 360.0, 1e-12);
+        close(falls(-direction, &["--direction", "x+"]).0, angle, EXACT);
+    }
+    // Elastic joints: the same block seen from its own axes, to the width of both brackets.
+    let elastic = ["--solver", "implicit", "--kn", "1e9"];
+    let aslant = falls(0.0, &[&elastic[..], &["--direction", "60"]].concat()).0;
+    close(falls(-60.0, &[&elastic[..], &["--direction", "0"]].concat()).0, aslant, 0.02);
+    // The angle of an axis is the axis, bit for bit.
+    for (angle, axis) in [("0", "x+"), ("90", "y+"), ("-180", "x-"), ("270", "y-")] {
+        for solver in [&[][..], &elastic] {
+            let [by_angle, by_name] =
+                [angle, axis].map(|to| falls(0.0, &[solver, &["--direction", to]].concat()));
+            assert_eq!(by_angle, by_name);
+            assert_eq!(by_angle.1, axis);
+        }
+    }
 }
 
 #[test]

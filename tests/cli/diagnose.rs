@@ -445,7 +445,8 @@ fn faulty_measurements_are_refused_with_their_lines() {
     assert!(!folder.path("runs").exists());
 }
 
-/// Studies in folders of their own take the nearest `distributions` above them, for references and for priors.
+/// Studies in folders of their own take each file from the nearest `distributions` above them that has it, else what is built in,
+/// for references and for priors.
 #[test]
 fn a_nested_study_finds_its_distributions_further_up() {
     let nested = folder(TOWERS);
@@ -457,26 +458,19 @@ fn a_nested_study_finds_its_distributions_further_up() {
     ends_with(&nested, 0, &["check", "studies/hidden-effects/example"]);
     let arguments = ["diagnose", "studies/hidden-effects/example", "--measured", "tests.csv", "--no-build"];
     assert!(stderr(&ends_with(&nested, 3, &arguments)).contains("walls are to be simulated first"));
-    // The nearer one counts.
-    fs::create_dir_all(nested.path("studies/distributions/block")).unwrap();
-    let refused = stderr(&ends_with(&nested, 3, &["check", "studies/hidden-effects/example"]));
-    assert!(refused.contains("studies/distributions, which holds none"), "{refused}");
+    // A prior that lies nearer counts, and a faulty one is refused.
+    let nearer = nested.path("studies/distributions/nuisance/kn_factor.toml");
+    fs::create_dir_all(nearer.parent().unwrap()).unwrap();
+    let prior = include_str!("../../distributions/nuisance/kn_factor.toml");
+    assert!(prior.contains("sd = 0.5"));
+    fs::write(&nearer, prior.replace("sd = 0.5", "sd = -0.5")).unwrap();
+    let refused = stderr(&ends_with(&nested, 3, &arguments));
+    assert!(refused.contains("kn_factor.toml") && refused.contains("sd = -0.5"), "{refused}");
     fs::remove_dir_all(nested.path("studies/distributions")).unwrap();
+    // Where there is no such folder, what is built in serves.
     fs::remove_file(nested.path("distributions")).unwrap();
-    let place = fs::canonicalize(nested.path("studies")).unwrap();
-    let wanted =
-        format!("a folder `distributions` in {} or in a folder above it, and there is none", place.display());
-    for arguments in [&["check", "studies/hidden-effects/example"][..], &arguments] {
-        let refused = stderr(&ends_with(&nested, 3, arguments));
-        assert!(
-            refused.contains(&wanted) && refused.contains("put the folder `distributions` beside"),
-            "{refused}"
-        );
-    }
-    // Where nothing is referred to, the priors alone are missing.
-    let wanted = "wanted is a folder `distributions` in ";
-    let refused = ends_with(&nested, 3, &["bank", "studies/tiny", "--measured", "tests.csv"]);
-    assert!(stderr(&refused).contains(wanted), "{}", stderr(&refused));
+    ends_with(&nested, 0, &["check", "studies/hidden-effects/example"]);
+    assert!(stderr(&ends_with(&nested, 3, &arguments)).contains("walls are to be simulated first"));
 }
 
 /// Readings and their groups in the text, in the JSON and in the figures.

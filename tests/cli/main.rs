@@ -10,6 +10,7 @@ mod files_of_others;
 #[path = "../ensemble/fixture.rs"]
 mod fixture;
 mod groups;
+mod init;
 mod layering;
 mod malformed;
 mod measured;

@@ -189,6 +189,34 @@ fn a_tilting_study_has_the_defaults_of_its_protocol() {
     );
 }
 
+/// The side that goes down by its angle; that of an axis is the axis.
+#[test]
+fn a_platform_goes_down_at_any_angle() {
+    use pirca::protocol::{Direction, Protocol};
+    let scratch = Scratch::new("towards");
+    let text = scratch.read(STUDY);
+    let (before, rest) = text.split_once("[load]").expect("the fixture has a load");
+    let (_, after) = rest.split_once("\n\n").expect("something follows it");
+    let with = |load: &str| {
+        scratch.write(STUDY, format!("{before}[load]\nprotocol = \"tilting\"\n{load}\n{after}").as_bytes());
+        scratch.load(None)
+    };
+    let towards = |load: &str| {
+        let study = with(load).unwrap_or_else(|faults| panic!("{faults}")).study;
+        let Protocol::Tilting(tilting) = study.protocol else { panic!("it tilts") };
+        (tilting.towards, study.effective)
+    };
+    let (aslant, effective) = towards("towards_deg = -60\n");
+    assert_eq!(aslant, Direction::at(300.0));
+    assert!(!effective.contains_key("load.towards"), "what is not used decides nothing");
+    assert_eq!(effective["load.towards_deg"], "-60.0");
+    assert_eq!(towards("towards_deg = 270\n").0, Direction::YMinus);
+    assert_eq!(towards("towards = \"x-\"\n").0, Direction::XMinus);
+    let refused =
+        with("towards = \"x-\"\ntowards_deg = 180\n").expect_err("they are two answers").to_string();
+    assert!(refused.contains("towards_deg = 180: allowed is one of towards and towards_deg"), "{refused}");
+}
+
 #[test]
 fn another_seed_or_size_is_another_study() {
     let scratch = Scratch::new("overrides");

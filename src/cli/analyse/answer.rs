@@ -80,7 +80,8 @@ impl Answer {
             "meaning": self.meaning,
             "solver": asked.solver.name(),
             "load": asked.load.name(),
-            "direction": asked.direction.name(),
+            "direction": asked.direction.to_string(),
+            "direction_deg": asked.direction.angle_deg(),
             "blocks": file.wall.blocks.len(),
             "joints": fit.joints,
             "mechanism": ids(&self.moving),
@@ -100,7 +101,7 @@ impl Answer {
         seconds: f64,
     ) -> String {
         let mut text: String = warnings.iter().map(|warning| format!("warning: {warning}\n")).collect();
-        let to = asked.direction.name();
+        let to = asked.direction;
         let said = match (&self.outcome, asked.load, self.collapse()) {
             (_, _, (Some(angle), _)) => format!("collapses at a tilt of {angle:.3} deg towards {to}"),
             (_, _, (_, Some(multiplier))) => {

@@ -7,5 +7,7 @@ mod solve;
 mod upright;
 mod verb;
 
-pub(crate) use numbers::{Tolerance, cohesion, density, friction_angle, length, step, stiffness, tolerance};
+pub(crate) use numbers::{
+    Tolerance, cohesion, density, direction, friction_angle, length, step, stiffness, tolerance,
+};
 pub(crate) use verb::analyse;

@@ -2,6 +2,8 @@
 
 use std::ops::RangeInclusive;
 
+use crate::protocol::Direction;
+
 /// Friction angle (deg): at 90 degrees friction would be infinite.
 pub(crate) fn friction_angle(text: &str) -> Result<f64, String> {
     within(text, 0.0..=89.0, "degrees")
@@ -60,8 +62,17 @@ pub(crate) fn length(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Horizontal direction: the name of an axis, or an angle (deg).
+pub(crate) fn direction(text: &str) -> Result<Direction, String> {
+    let named = Direction::named(text).map(Ok);
+    named
+        .unwrap_or_else(|| within(text, -360.0..=360.0, "degrees").map(Direction::at))
+        .map_err(|why| format!("{why}, counter-clockwise from x+ seen from above; or x+, x-, y+, y-"))
+}
+
 fn within(text: &str, range: RangeInclusive<f64>, unit: &str) -> Result<f64, String> {
-    let told = |x: f64| if x == 0.0 || (1e-3..1e6).contains(&x) { x.to_string() } else { format!("{x:e}") };
+    let told =
+        |x: f64| if x == 0.0 || (1e-3..1e6).contains(&x.abs()) { x.to_string() } else { format!("{x:e}") };
     let allowed = format!("{} to {} {unit}", told(*range.start()), told(*range.end()));
     match text.parse::<f64>() {
         Ok(x) if range.contains(&x) => Ok(x),
@@ -82,6 +93,11 @@ mod tests {
         }
         assert_eq!(stiffness("1e9"), Ok(1e9));
         assert!(stiffness("0").unwrap_err().contains("1000 to 1e16 Pa/m"));
+        assert_eq!(direction("y-"), Ok(Direction::YMinus));
+        assert_eq!(direction("90"), Ok(Direction::YPlus));
+        for text in ["z+", "361", "nan", ""] {
+            assert!(direction(text).unwrap_err().contains("-360 to 360 degrees"), "{text}");
+        }
         assert!(tolerance("0.1").unwrap_err().contains("1e-12 to 0.001"));
     }
 

@@ -59,6 +59,13 @@ pub static LOAD: Section = Section {
         )
         .only(TILTING),
         Key::new(
+            "towards_deg",
+            real("deg", Interval::closed(-360.0, 360.0)),
+            Optional,
+            "The same as an angle from x+, counter-clockwise seen from above (90 is y+), instead of towards.",
+        )
+        .only(TILTING),
+        Key::new(
             "step_deg",
             real("deg", Interval::above(0.0, 10.0)),
             Default("0.5"),
