@@ -18,20 +18,21 @@ impl Arm {
             BatteredFace::Back => 0.5 * (base - top),
             BatteredFace::Both => 0.0,
         };
-        let shift = match (towards, self.turned) {
-            (Direction::YPlus, false) | (Direction::YMinus, true) => front,
-            (Direction::YMinus, false) | (Direction::YPlus, true) => -front,
-            (Direction::XPlus | Direction::XMinus, _) => 0.0,
-        };
         let up = height / 3.0 * (base + 2.0 * top) / (base + top);
-        let along = shift * (base + 2.0 * top) / (3.0 * (base + top));
         let strip = self.restraint.base.strip_height.unwrap_or(0.0).min(height);
-        let edge = match towards {
-            Direction::XPlus | Direction::XMinus => 0.5 * outline.length,
-            // The face that goes down, at the height of the strip.
-            _ => 0.5 * base + (shift + 0.5 * (top - base)) * strip / height,
+        let unit = towards.unit();
+        // How far the weight is from the edge that it turns over along the wall, and out of plane.
+        let lengthwise = 0.5 * outline.length;
+        let shift = if (unit.y > 0.0) == self.turned { -front } else { front };
+        let along = shift * (base + 2.0 * top) / (3.0 * (base + top));
+        // The face that goes down, at the height of the strip.
+        let across = 0.5 * base + (shift + 0.5 * (top - base)) * strip / height - along;
+        // Askew it turns over the edge that its weight passes first.
+        let over = |distance: f64, share: f64| match share == 0.0 {
+            true => f64::INFINITY,
+            false => atan2(distance, (up - strip) * share.abs()),
         };
-        atan2(edge - along, up - strip)
+        over(lengthwise, unit.x).min(over(across, unit.y))
     }
 
     /// The tilt (rad) beyond which none of its walls stands, however it is built of stones that do not stick together; `None` where
