@@ -51,6 +51,14 @@ fn collapse(c: &mut Criterion) {
             });
         }
     }
+    // 2,000 stones, 1.67 m high: it topples at atan(0.114 / 1.667).
+    let great = canonical::running_bond(40, 49).with_base();
+    group.bench_function("wall_2000/tilt/socp", |b| {
+        b.iter(|| {
+            let limit = Analysis::new(&great, &law, contact, Settings::default()).tilt(Vec3::y(), &[]);
+            assert!((limit.multiplier - 0.0684).abs() < 1e-6, "{:?}", limit.outcome);
+        });
+    });
     group.finish();
 }
 
