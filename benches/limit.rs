@@ -60,5 +60,11 @@ fn main() {
             );
         }
     }
+    // 2,000 stones, 1.67 m high: it topples at atan(0.114 / 1.667).
+    let great = canonical::running_bond(40, 49).with_base();
+    bench.scene(["wall_2000", "limit analysis of the tilt"], None, || (), |()| {
+        let limit = Analysis::new(&great, &law, contact, Settings::default()).tilt(Vec3::y(), &[]);
+        assert!((limit.multiplier - 0.0684).abs() < 1e-6, "{:?}", limit.outcome);
+    });
     bench.finish();
 }

@@ -329,6 +329,39 @@ fn an_elastic_bed_costs_as_many_degrees_as_the_closed_form_says() {
     }
 }
 
+/// A bar clamped between two walls: any pressure between them holds it, none is caused by weight.
+#[test]
+fn a_bar_between_two_walls_moves_nowhere_and_is_warned_of() {
+    let folder = Folder::new();
+    let faces = "[[3,2,1,0],[4,5,6,7],[0,1,5,4],[1,2,6,5],[2,3,7,6],[3,0,4,7]]";
+    let block = |id: u32, x: [f64; 2], z: [f64; 2], fixed: bool| {
+        let corner = |i: usize, z: f64| {
+            let (right, back) = ([0, 1, 1, 0][i], [0, 0, 1, 1][i]);
+            format!("[{}, {}, {z}]", x[right], [-0.5, 0.5][back])
+        };
+        let corners: Vec<String> = (0..8).map(|i| corner(i % 4, z[i / 4])).collect();
+        format!(
+            "{{\"id\":{id},\"vertices\":[{}],\"faces\":{faces},\"density\":2000,\"fixed\":{fixed}}}",
+            corners.join(",")
+        )
+    };
+    let blocks = [
+        block(0, [-1.1, -0.9], [-1.0, 1.4], true),
+        block(1, [0.9, 1.1], [-1.0, 1.4], true),
+        block(2, [-0.9, 0.9], [0.0, 0.4], false),
+    ];
+    fs::write(folder.path("bar.json"), format!("{{\"blocks\":[{}]}}", blocks.join(","))).unwrap();
+    for flow in ["associative", "non-associative"] {
+        let output = folder.pirca(&["analyse", "bar.json", "--phi-deg", "40", "--flow", flow, "--json"]);
+        let answer: Value =
+            serde_json::from_slice(&output.stdout).unwrap_or_else(|e| panic!("{e}: {}", text(&output)));
+        assert_eq!((&answer["outcome"], &answer["mechanism"]), (&"stable".into(), &serde_json::json!([])));
+        assert!(answer["warnings"].to_string().contains("forces that no weight causes"), "{answer}");
+    }
+    let output = folder.pirca(&["analyse", "bar.json", "--phi-deg", "40"]);
+    assert!(!text(&output).contains("moves at collapse"), "{}", text(&output));
+}
+
 /// A stone on a three-cornered face slides at its friction angle wherever its weight acts on that face; 0.25 deg for friction
 /// at the middle of sub-contacts.
 #[test]
@@ -410,6 +443,7 @@ fn the_json_object_holds_what_is_promised() {
         "outcome",
         "collapse_angle_deg",
         "multiplier",
+        "between",
         "blocks",
         "joints",
         "seconds",
