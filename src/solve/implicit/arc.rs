@@ -6,6 +6,8 @@ use crate::solve::implicit::{DOF, held};
 
 /// Iterations of a step along the path of equilibria.
 const MOST_ARC_ITERATIONS: u32 = 15;
+/// A residual that grows so many times in an iteration is lost.
+const LOST: f64 = 30.0;
 /// What counts as no displacement at all (m): far below the rounding of a position.
 const NOWHERE: f64 = 1e-17;
 /// Change of the level (rad, or a factor) over which the growth of the loads is taken.
@@ -67,7 +69,9 @@ impl Newton<'_, '_> {
                 break ratio;
             }
             let now = norm(&residual, &self.assembly.bodies.all);
-            if iterations == MOST_ARC_ITERATIONS || along.is_empty() || !now.is_finite() {
+            // The first step leaves the balance that it starts from; a later one that leaves it further does not come back.
+            let lost = iterations > 1 && now > LOST * before;
+            if iterations == MOST_ARC_ITERATIONS || along.is_empty() || !now.is_finite() || lost {
                 return None;
             }
             if !fresh || now > GOOD_CONTRACTION * before {
