@@ -11,7 +11,7 @@ use crate::solve::joints::Anchor;
 /// A residual that falls to less than this share in a step needs no new matrix.
 pub(super) const GOOD_CONTRACTION: f64 = 0.3;
 /// A residual that does not even fall to this share with a matrix of its own counts as stuck.
-const POOR_CONTRACTION: f64 = 0.9;
+pub(super) const POOR_CONTRACTION: f64 = 0.9;
 /// Steps in a row that may be stuck.
 const MOST_STUCK: u32 = 3;
 /// What is added to a block's diagonal is at most this share of the stiffness that its weight takes off a wall that leans.
