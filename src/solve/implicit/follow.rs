@@ -34,6 +34,9 @@ const BELOW: [f64; 3] = [0.0, 0.25, 0.5];
 /// After a peak that is not bracketed yet, steps are shortened to this share of the one that passed it.
 const SHORTER: f64 = 0.4;
 
+/// States that prove unstable on the way up, before the search is given up.
+const MOST_DOUBTS: u32 = 4;
+
 /// A state on the path.
 #[derive(Clone)]
 struct State<'a> {
@@ -60,6 +63,7 @@ impl<'a> Equilibrium<'a> {
         let mut state = highest.clone();
         // The peak's upper bound, once the path has passed it.
         let mut above = None;
+        let mut doubts = 0;
         for _ in 0..MOST_STEPS {
             let Some(next) = state.next(ahead, length) else {
                 return Some(state.fallen(highest, ahead, above?, ENOUGH * ahead.far)?.since(self));
@@ -68,7 +72,13 @@ impl<'a> Equilibrium<'a> {
                 // One sign alone may come from a sub-contact at the corner of its law, and two from much that slips: whether
                 // it is stable is asked of the state at rest.
                 if !next.stable && !state.stable && next.at_rest_near(ahead, next.level).is_none() {
-                    return None;
+                    if doubts == MOST_DOUBTS {
+                        return None;
+                    }
+                    // A long step may have leapt over the peak.
+                    doubts += 1;
+                    length = SHORTER * next.length;
+                    continue;
                 }
                 // What had been passed before was a jump.
                 above = None;
