@@ -162,11 +162,9 @@ fn kept(bodies: &[Body], before: &[(Vec3, Vec3)], dt: f64) -> f64 {
         inertia += body.mass * body.inertia_scale * body.velocity.norm_squared()
             + body.angular_momentum.dot(&body.spin);
     }
-    if stiffness <= 0.0 || inertia <= 0.0 {
-        return 1.0;
-    }
     let share = APPROACH * dt * (stiffness / (inertia * dt)).sqrt();
-    ((1.0 - share) / (1.0 + share)).max(0.0)
+    // NaN where nothing moves, on the way down, and where the numbers have gone bad, which is for others to tell.
+    if share.is_finite() { ((1.0 - share) / (1.0 + share)).max(0.0) } else { 1.0 }
 }
 
 impl<'a> Equilibrate<'a> for Simulation<'a> {

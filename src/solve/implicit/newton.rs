@@ -2,7 +2,7 @@
 
 use crate::math::Vec3;
 use crate::solve::Assembly;
-use crate::solve::bodies::Body;
+use crate::solve::bodies::{Body, Freedom};
 use crate::solve::implicit::loose::is_singular;
 use crate::solve::implicit::system::{DOF, System, held};
 use crate::solve::implicit::{Kind, Settings};
@@ -243,7 +243,9 @@ impl Newton<'_, '_> {
             if from.moves() {
                 let shift = Vec3::from_column_slice(&u[..3]) * share;
                 let turn = Vec3::from_column_slice(&u[3..]) * share;
-                body.place(from, &screwed(&shift, &turn), &turn);
+                // A platform goes up and down alone.
+                let shift = if from.freedom == Freedom::Mounted { shift } else { screwed(&shift, &turn) };
+                body.place(from, &shift, &turn);
             }
         }
     }
