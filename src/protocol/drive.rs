@@ -17,7 +17,7 @@ use crate::solve::{Ahead, Assembly, Equilibrate, Followed, Solver, Status, Way};
 /// Takes an assembly along a load path with the solver asked for.
 pub fn drive(task: &Task<'_>, solver: &Solver) -> Run {
     match solver {
-        Solver::Explicit(settings) => climb(task, &|assembly| Simulation::approaching(assembly, *settings)),
+        Solver::Explicit(settings) => climb(task, &|assembly| Simulation::of(assembly, *settings)),
         Solver::Implicit(settings) => {
             // A path that brackets a collapse halves its steps itself; twice costs half as much again and gains nothing.
             let brackets = task.path.bracket.is_finite();

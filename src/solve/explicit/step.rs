@@ -1,15 +1,11 @@
 //! The time loop.
 
 use crate::contact;
-use crate::math::Vec3;
 use crate::model::{JointLaws, Wall};
-use crate::solve::bodies::{Bodies, Body};
+use crate::solve::bodies::Bodies;
 use crate::solve::explicit::{Settings, critical};
 use crate::solve::{Assembly, Equilibrate, Settled, Status};
 
-/// Share of the critical damping of the motion with which a rest is approached. What is seen of the motion is faster than the
-/// slowest part of it, for which the damping is to be right.
-const APPROACH: f64 = 0.5;
 /// Steps between two looks at the unbalanced force ratio.
 const STEPS_BETWEEN_LOOKS: u64 = 10;
 
@@ -25,10 +21,6 @@ pub struct Simulation<'a> {
     settings: Settings,
     /// Length of the step that led to the positions now (s); 0 before the first one.
     last_dt: f64,
-    /// Whether rests are approached with damping of the motion as a whole, before the settings' own has its say.
-    approaches: bool,
-    /// Force and moment on every body at the step before, while a rest is approached.
-    before: Vec<(Vec3, Vec3)>,
 }
 
 impl<'a> Simulation<'a> {
@@ -39,20 +31,9 @@ impl<'a> Simulation<'a> {
 
     /// Goes on from an assembly as it stands.
     pub fn of(assembly: Assembly<'a>, settings: Settings) -> Self {
-        let (approaches, before) = (false, Vec::new());
-        let mut simulation =
-            Simulation { assembly, dt: 1.0, steps: 0, settings, last_dt: 0.0, approaches, before };
+        let mut simulation = Simulation { assembly, dt: 1.0, steps: 0, settings, last_dt: 0.0 };
         simulation.adapt_step();
         simulation
-    }
-
-    /// The same for a wall that is only asked where it comes to rest. Local damping slows all motions alike, and a wall near its
-    /// limit moves slowly: it is damped as a whole instead, by what is critical for the frequency it moves with (P. A.
-    /// Cundall's adaptive global damping; P. Underwood, 1983), and has come to rest where it stays so under local damping.
-    /// With true inertia, or without damping, it is [`Simulation::of`].
-    pub fn approaching(assembly: Assembly<'a>, settings: Settings) -> Self {
-        let approaches = settings.scaled_inertia && settings.damping > 0.0;
-        Simulation { approaches, ..Simulation::of(assembly, settings) }
     }
 
     /// [`Equilibrate::settle`] with the status and the unbalanced force ratio alone.
@@ -64,21 +45,14 @@ impl<'a> Simulation<'a> {
     /// [`Equilibrate::settle`] with another limit of the unbalanced force ratio than the settings'.
     pub fn settle_below(&mut self, limit: f64, stop: &mut dyn FnMut(&Bodies) -> bool) -> Settled {
         let mut unbalanced_ratio = f64::INFINITY;
-        let mut approaches = self.approaches;
-        self.before.clear();
         for step in 1..=self.settings.max_steps {
-            self.step_damped(approaches);
+            self.step();
             if step % STEPS_BETWEEN_LOOKS == 0 || step == self.settings.max_steps {
                 let ended = |status, unbalanced_ratio| Settled { status, unbalanced_ratio, steps: step };
                 if !self.assembly.is_finite() {
                     return ended(Status::NonFinite, f64::NAN);
                 }
                 unbalanced_ratio = self.assembly.unbalanced_ratio();
-                if unbalanced_ratio < limit && approaches {
-                    approaches = false;
-                    continue;
-                }
-                approaches = self.approaches;
                 if unbalanced_ratio < limit {
                     return ended(Status::Equilibrium, unbalanced_ratio);
                 }
@@ -92,28 +66,11 @@ impl<'a> Simulation<'a> {
 
     /// One time step: forces at the positions now, then velocities at the half step, then new positions.
     pub fn step(&mut self) {
-        self.step_damped(false);
-    }
-
-    fn step_damped(&mut self, approaches: bool) {
         self.assembly.apply_loads();
         let Assembly { bodies, joints, .. } = &mut self.assembly;
         joints.apply(&mut bodies.all, self.last_dt);
-        let damping = if approaches {
-            let kept = kept(&bodies.all, &self.before, self.dt);
-            for body in &mut bodies.all {
-                body.velocity *= kept;
-                body.angular_momentum *= kept;
-            }
-            self.before.clear();
-            self.before.extend(bodies.all.iter().map(|body| (body.force, body.torque)));
-            0.0
-        } else {
-            self.before.clear();
-            self.settings.damping
-        };
         for body in &mut bodies.all {
-            body.advance(self.dt, damping);
+            body.advance(self.dt, self.settings.damping);
         }
         self.last_dt = self.dt;
         self.steps += 1;
@@ -150,21 +107,6 @@ impl<'a> Simulation<'a> {
             self.dt = self.settings.longest_step.min(safety * 2.0 / (2.0 * largest).sqrt());
         }
     }
-}
-
-/// The share of their velocities that bodies keep in a step, from the forces now and at the step before. Forces change by
-/// `-K v dt`, so `v K v / v M v` is the square of a frequency; where it is negative the wall is on its way down and nothing is
-/// damped.
-fn kept(bodies: &[Body], before: &[(Vec3, Vec3)], dt: f64) -> f64 {
-    let (mut stiffness, mut inertia) = (0.0, 0.0);
-    for (body, (force, torque)) in bodies.iter().zip(before).filter(|(body, _)| body.moves()) {
-        stiffness -= (body.force - force).dot(&body.velocity) + (body.torque - torque).dot(&body.spin);
-        inertia += body.mass * body.inertia_scale * body.velocity.norm_squared()
-            + body.angular_momentum.dot(&body.spin);
-    }
-    let share = APPROACH * dt * (stiffness / (inertia * dt)).sqrt();
-    // NaN where nothing moves, on the way down, and where the numbers have gone bad, which is for others to tell.
-    if share.is_finite() { ((1.0 - share) / (1.0 + share)).max(0.0) } else { 1.0 }
 }
 
 impl<'a> Equilibrate<'a> for Simulation<'a> {
