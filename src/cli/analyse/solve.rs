@@ -57,7 +57,7 @@ fn solve_telling(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit, tel
             let task = task(arguments, wall, law, fit);
             let mut at_rest = Equilibrium::new(wall, law, settings, task.contact);
             at_rest.settle(&mut |_| false);
-            let loose = at_rest.loose().iter().map(|&i| i as usize).collect();
+            let loose = Some(at_rest.loose().iter().map(|&i| i as usize).collect());
             Answer { loose, ..by_steps(drive_telling(&task, &Solver::Implicit(settings), tell)) }
         }
         MethodName::Explicit => {
@@ -90,17 +90,13 @@ fn task<'t>(arguments: &Analyse, wall: &'t Wall, law: &'t Coulomb, fit: &Fit) ->
 }
 
 fn by_steps(run: Run) -> Answer {
-    let bracket = run.bracket.map(|[low, high]| format!("; bracketed to {:.1e}", high - low));
     Answer {
         clamped: Vec::new(),
         between: None,
         moving: run.failure.map_or_else(Vec::new, |f| f.moving.iter().map(|&i| i as usize).collect()),
-        loose: Vec::new(),
-        meaning: format!(
-            "the largest load borne on the way, {} load steps{}",
-            run.steps.len(),
-            bracket.unwrap_or_default()
-        ),
+        loose: None,
+        bracket: run.bracket,
+        meaning: format!("the largest load borne on the way, {} load steps", run.steps.len()),
         outcome: run.outcome,
     }
 }
@@ -125,6 +121,7 @@ fn by_limit_analysis(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit)
     Answer {
         clamped: clamped(&analysis, wall, &found.outcome),
         between: found.between,
+        bracket: None,
         // What a solver leaves where nothing collapses is no mechanism.
         moving: match found.outcome {
             Outcome::Collapsed { .. } | Outcome::UnstableAtRest => {
@@ -132,7 +129,7 @@ fn by_limit_analysis(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit)
             }
             _ => Vec::new(),
         },
-        loose: Vec::new(),
+        loose: None,
         meaning: format!("{}: {}", arguments.flow.unwrap_or(FlowName::Associative).name(), flow.meaning()),
         outcome: found.outcome,
     }

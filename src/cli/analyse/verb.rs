@@ -54,7 +54,8 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
     if arguments.json {
         return output::print_json(&answer.object(arguments, &file, &fit, &warnings, seconds));
     }
-    output::print(&answer.text(arguments, &file, &fit, &warnings, seconds))
+    warnings.iter().for_each(|warning| output::note(&format!("warning: {warning}")));
+    output::print(&answer.text(arguments, &file, &fit, seconds))
 }
 
 /// The file, fit to be solved.
