@@ -121,11 +121,6 @@ impl System {
         !matches!(self.factor, Factor::None)
     }
 
-    /// From now on there is none.
-    pub fn forget(&mut self) {
-        self.factor = Factor::None;
-    }
-
     /// Sets the matrix to zero.
     pub fn clear(&mut self) {
         self.values.fill(0.0);
