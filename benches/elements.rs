@@ -1,10 +1,10 @@
 //! Types of elements on named scenes: cycles per second of the solver of grains and of the explicit solver of polyhedra,
 //! and the time to rest.
 //!
-//! `cargo bench --bench elements` prints criterion's medians; the throughput is in cycles per second. Records go to
-//! `benches/history/`.
+//! `cargo bench --bench elements`; see `benches/README.md`.
 
-use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
+mod record;
+
 use pirca::contact;
 use pirca::generate::elements::{Elements, Shapes};
 use pirca::law::{CohesionAfterSlip, Coulomb, Frictional, NormalLaw, Sampling};
@@ -14,11 +14,14 @@ use pirca::random::Streams;
 use pirca::solve::explicit;
 use pirca::solve::grains::{Settings, Simulation};
 
+use record::Bench;
+
 /// Side of the cube that the elements fill (m).
 const SIDE: f64 = 0.4;
 const DENSITY: f64 = 2400.0;
 /// Cycles of one iteration.
 const CYCLES: u64 = 1000;
+const CYCLES_PER_SECOND: &str = "cycles per second";
 
 fn fill(elements: &Elements) -> Shapes {
     elements.fill(SIDE, &Streams::new(1, 0)).expect("nothing here is random")
@@ -39,7 +42,8 @@ fn pushed(elements: &Elements, count: usize) -> Simulation {
 /// Polyhedra as they are laid, in true time.
 fn laid<'a>(elements: &Elements, law: &'a Coulomb) -> explicit::Simulation<'a> {
     let Shapes::Polyhedra(solids) = fill(elements) else { panic!("these scenes are made of polyhedra") };
-    let block = |shape| Block { shape, density: DENSITY, support: Support::Free, tag: Tag::Stone };
+    let block =
+        |shape| Block { shape, density: DENSITY, support: Support::Free, tag: Tag::Stone, group: None };
     let wall = Wall { blocks: solids.into_iter().map(block).collect() }.with_base();
     let settings = explicit::Settings {
         unbalanced_ratio: 1e-3,
@@ -65,51 +69,50 @@ fn law() -> Coulomb {
     }
 }
 
-fn cycles_of_grains(c: &mut Criterion) {
-    let mut group = c.benchmark_group("cycles_of_grains");
-    group.throughput(Throughput::Elements(CYCLES));
-    for (name, elements, count) in [
+fn cycles_of_grains(bench: &mut Bench) {
+    for (scene, elements, count) in [
         ("16 spheres", Elements::AlignedSpheres { along: [2, 2, 4] }, 16),
         ("16 clumps of 4", Elements::MeshClumps { along: [2, 2, 4], across: 2 }, 16),
         ("72 clumps of 8", Elements::CompactClumps { along: [6, 6, 6], across: 2 }, 72),
     ] {
+        if !bench.wants(scene, &[CYCLES_PER_SECOND]) {
+            continue;
+        }
         let simulation = pushed(&elements, count);
         assert_eq!(simulation.grains.bodies.len(), count);
-        group.bench_function(name, |b| {
-            b.iter_batched_ref(
-                || simulation.clone(),
-                |simulation| (0..CYCLES).for_each(|_| simulation.step()),
-                BatchSize::LargeInput,
-            );
-        });
+        bench.scene(
+            [scene, CYCLES_PER_SECOND],
+            Some(CYCLES),
+            || simulation.clone(),
+            |simulation| (0..CYCLES).for_each(|_| simulation.step()),
+        );
     }
-    group.finish();
 }
 
-fn polyhedra(c: &mut Criterion) {
+fn polyhedra(bench: &mut Bench) {
     let law = law();
     let simulation = laid(&Elements::Blocks { along: [2, 2, 4] }, &law);
-    let mut group = c.benchmark_group("16 polyhedra");
-    group.bench_function("to 0.1 % under gravity", |b| {
-        b.iter_batched_ref(
-            || simulation.clone(),
-            |simulation| simulation.relax(|_| false),
-            BatchSize::LargeInput,
-        );
-    });
+    let scene = "16 polyhedra";
+    bench.scene(
+        [scene, "time to 0.1 % unbalanced force under gravity"],
+        None,
+        || simulation.clone(),
+        |simulation| simulation.relax(|_| false),
+    );
     let mut pushed = simulation.clone();
     pushed.relax(|_| false);
     pushed.assembly.gravity.y = 1.0;
-    group.throughput(Throughput::Elements(CYCLES));
-    group.bench_function("cycles", |b| {
-        b.iter_batched_ref(
-            || pushed.clone(),
-            |simulation| (0..CYCLES).for_each(|_| simulation.step()),
-            BatchSize::LargeInput,
-        );
-    });
-    group.finish();
+    bench.scene(
+        [scene, CYCLES_PER_SECOND],
+        Some(CYCLES),
+        || pushed.clone(),
+        |simulation| (0..CYCLES).for_each(|_| simulation.step()),
+    );
 }
 
-criterion_group!(benches, cycles_of_grains, polyhedra);
-criterion_main!(benches);
+fn main() {
+    let mut bench = Bench::start();
+    cycles_of_grains(&mut bench);
+    polyhedra(&mut bench);
+    bench.finish();
+}

@@ -1,9 +1,9 @@
 //! The explicit solver on named scenes: time per block-step, and how it grows with the number of blocks.
 //!
-//! `cargo bench --bench explicit` prints criterion's medians; the throughput is in block-steps per second. Records go to
-//! `benches/history/`.
+//! `cargo bench --bench explicit`; see `benches/README.md`.
 
-use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
+mod record;
+
 use pirca::contact;
 use pirca::generate::canonical;
 use pirca::law::{CohesionAfterSlip, Coulomb, NormalLaw, Sampling};
@@ -11,6 +11,8 @@ use pirca::math::{Vec3, cos, radians, sin, tan};
 use pirca::model::Wall;
 use pirca::solve::STANDARD_GRAVITY;
 use pirca::solve::explicit::{Settings, Simulation};
+
+use record::Bench;
 
 /// Dry joints: kn 1e9 Pa/m, ks half of it, 30 degrees.
 fn law() -> Coulomb {
@@ -38,29 +40,28 @@ fn tilted_at_rest<'a>(wall: Wall, tilt_deg: f64, law: &'a Coulomb) -> Simulation
     simulation
 }
 
-fn block_steps(c: &mut Criterion) {
+fn main() {
+    let mut bench = Bench::start();
     let law = law();
-    let mut group = c.benchmark_group("block_steps");
     // At 8 degrees half of wall_72's bed joints are partly open; wall_4096 is 2.7 m high and falls at 2.4 degrees, so the
     // two scenes that are compared with each other stand at 0.5.
-    for (name, wall, tilt_deg, steps) in [
+    for (scene, wall, tilt_deg, steps) in [
         ("wall_72", canonical::wall_72(), 8.0, 200),
         ("wall_64", canonical::wall_64(), 0.5, 200),
         ("wall_4096", canonical::wall_4096(), 0.5, 40),
     ] {
-        let blocks = wall.blocks.len() as u64;
+        let quantity = "block-steps per second";
+        if !bench.wants(scene, &[quantity]) {
+            continue;
+        }
+        let pieces = wall.blocks.len() as u64 * steps;
         let simulation = tilted_at_rest(wall, tilt_deg, &law);
-        group.throughput(Throughput::Elements(blocks * steps));
-        group.bench_function(name, |b| {
-            b.iter_batched_ref(
-                || simulation.clone(),
-                |simulation| (0..steps).for_each(|_| simulation.step()),
-                BatchSize::LargeInput,
-            );
-        });
+        bench.scene(
+            [scene, quantity],
+            Some(pieces),
+            || simulation.clone(),
+            |simulation| (0..steps).for_each(|_| simulation.step()),
+        );
     }
-    group.finish();
+    bench.finish();
 }
-
-criterion_group!(benches, block_steps);
-criterion_main!(benches);

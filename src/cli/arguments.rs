@@ -1,105 +1,106 @@
-//! The arguments, as clap reads them; their docstrings are the help.
+//! The arguments, as clap reads them; their docstrings are the help. What frames the help is in `help`.
 
 use std::num::NonZero;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::cli::help::{
+    ANALYSE, BANK, CHECK, DIAGNOSE, GENERATE, INIT, MEASURED, MECHANISMS, PICTURE, RUN, SENSITIVITY, WHOLE,
+};
 use crate::cli::{analyse, sensitivity};
+use crate::protocol::Direction;
 
-const CODES: &str =
-    "Exit codes: 0 done; 1 the run or a file failed; 2 wrong arguments; 3 invalid study or wall.";
+/// Headings of the options that several verbs share.
+const STUDY: &str = "Study";
+const WALL: &str = "Wall";
+const SOLUTION: &str = "Solution";
+const OUTPUT: &str = "Output";
+const JOINTS: &str = "Joints";
+const LOAD: &str = "Load";
+const FILE: &str = "File";
 
-const WALLS: &str = "\
-Example: pirca analyse wall.json --phi-deg 30
-         pirca analyse arch.obj --unit mm --density-kg-per-m3 2300 --phi-deg 35 --solver explicit --kn 1e9 --json
-
-wall.json: {\"unit\": \"m\", \"blocks\": [{\"id\": 0, \"vertices\": [[x, y, z], ...], \"faces\": [[i, j, k, ...], ...],
-\"density\": 2400, \"fixed\": false, \"tag\": \"stone\"}, ...]}. Convex blocks; faces count their block's vertices from 0,
-counter-clockwise seen from outside; z up. unit: m (default), cm, mm. density in kg/m^3, not needed where fixed is true.
-fixed (default false): a support. tag: stone, header, wedge, base, end; may be left out.
-OBJ: one object (o, or g without any o) per block, z up. A block is fixed when a word of its name is base, end, fixed,
-ground or support (base_0, Left_support.001). A comment \"# density 2400 kg/m^3\" holds for the next object.
-In both, triangles of one plane are merged into faces, and repeated vertices welded.
-Joints have no tensile strength. Limits: 64 MiB, 50000 blocks, 2000 vertices and faces of a block in the file, 200 corners
-after merging; stones of 1 mm to 25 m; faces plane and convex to 1e-4 of the block; overlaps up to 1 % of the smaller block.";
-
-/// Stochastic dry stone walls: generates them, solves them, and says how strong they are and how sure that is.
+/// How strong is a dry stone wall whose every stone is different, and how sure is that?
 #[derive(Debug, Parser)]
-#[command(name = "pirca", version, after_help = CODES)]
+#[command(name = "pirca", version, subcommand_value_name = "VERB", after_help = WHOLE)]
 pub(crate) struct Arguments {
     /// What to do.
     #[command(subcommand)]
     pub verb: Verb,
 }
 
-/// The verbs.
+/// The verbs. The first line of each is its line in the list of verbs, where `help` groups them.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Verb {
-    /// Read a study and say everything that is wrong with it, without running it.
-    #[command(after_help = format!("Example: pirca check studies/joint-arrangement\n\n{CODES}"))]
+    /// Begin a study: a commented one that runs as it is, or a copy.
+    ///
+    /// Writes a new folder with study.toml and README.md; a copy brings published.toml, measured.csv and the distributions that it
+    /// would not find in its new place.
+    #[command(after_help = INIT)]
+    Init(Init),
+    /// List all faults of a study, or say that it has none; runs nothing.
+    #[command(after_help = CHECK)]
     Check(Check),
-    /// Write the wall of one member to a file.
-    #[command(after_help = format!(
-        "Example: pirca generate studies/joint-arrangement --arm irregular --member 17 --out wall.vtu\n\
-         \x20        pirca generate studies/tilting-block --with-base --out wall.json   (for pirca analyse)\n\n{CODES}\n\
-         A member whose wall is an invalid geometry ends with 1 and the reason."
-    ))]
+    /// Write one wall of a study to a file: VTU (ParaView), OBJ or JSON.
+    #[command(after_help = GENERATE)]
     Generate(Generate),
-    /// Solve the wall of one member and draw how it falls, with its joints coloured by opening or slip.
-    #[command(after_help = format!(
-        "Example: pirca picture studies/tilting-table --arm sbl --member 0 --out wall.svg\n\n\
-         The last state at rest is drawn in true size, the movement of the fall magnified; a wall that does not fall is drawn\n\
-         at rest, with its displacements magnified. Every way a wall can end is drawn, and ends with 0.\n\n{CODES}\n\
-         A member whose wall is an invalid geometry ends with 1 and the reason."
-    ))]
+    /// Draw how one wall of a study falls.
+    ///
+    /// Solves the wall first. Its joints are coloured by how far they open or slip.
+    #[command(after_help = PICTURE)]
     Picture(Picture),
-    /// Generate and solve every wall of a study; write tables, statistics and figures. Resumes by itself.
-    #[command(after_help = format!(
-        "Example: pirca run studies/joint-arrangement --members 5 --out runs/first-try\n\
-         \x20        pirca run studies/joint-arrangement --beside runs/joint-arrangement-explicit --out runs/both\n\n\
-         Killed and started again with the same arguments, it goes on where it stood and ends with the same files.\n\
-         A wall that falls or cannot be built is counted in the results; it is no error.\n\n{CODES}"
-    ))]
+    /// Build and solve all walls of a study: tables, statistics, figures.
+    ///
+    /// A run that was stopped goes on where it stood.
+    #[command(after_help = RUN)]
     Run(Run),
-    /// Simulate the walls that a diagnosis of a study's measurements rests on: every mechanism at many strengths, with joints that
-    /// are known as badly as they are. Resumes by itself.
-    #[command(after_help = format!(
-        "Example: pirca bank studies/tilting-table --points 120\n\n\
-         More points later leave the first ones as they are, in another folder. The priors are in mechanism and nuisance\n\
-         of the nearest folder distributions above the study.\n\n{CODES}"
-    ))]
+    /// Simulate the walls that a diagnosis rests on, once for its design.
+    ///
+    /// Every mechanism is simulated at many strengths, with joints that are known as badly as they are. A bank that was stopped
+    /// goes on where it stood.
+    #[command(after_help = BANK)]
     Bank(Bank),
-    /// What does the simulation get wrong beyond errors and natural scatter, and which mechanism explains it, or which few, or none?
-    #[command(after_help = format!(
-        "Example: pirca diagnose studies/tilting-table --measured my-tests.csv\n\n\
-         Writes verdict.html (a page with all of it), verdict.json, figures as SVG and PNG (one per family, and residuals) and, for\n\
-         each cause of the verdict, the study extended by it: extended/<cause>, an ordinary study at the medians of what is not\n\
-         known, with draws from it as variants (run extended/<cause> --variant draw-07).\n\
-         The walls it needs are simulated once for a design, which takes minutes to hours; see bank. What looks odd about the\n\
-         measurements (a value far beyond what is simulated, one specimen alone) is noted on standard error and judged all the\n\
-         same.\n\n{CODES}\n\
-         Every verdict (named, ambiguous, unexplained, nothing found) ends with 0."
-    ))]
+    /// Say what the simulation gets wrong and what explains it.
+    ///
+    /// Sets the measurements beside what the simulation could have shown, given the instruments' errors, the scatter of stones
+    /// and joints that nobody knows exactly. What is left is explained by a mechanism, by a few, or by none.
+    #[command(after_help = DIAGNOSE)]
     Diagnose(Diagnose),
-    /// Which mechanisms could the measured data see? What each of them changes in every quantity of measured.csv, in units of
-    /// the quantity's error, for a study on the tilting table.
-    #[command(after_help = format!(
-        "Example: pirca sensitivity studies/tilting-table --members 3 --out runs/sensitivity\n\n\
-         Writes sensitivity.csv, sensitivity.json, sensitivity.svg and sensitivity.png. The strength of each mechanism comes from\n\
-         the priors in distributions/mechanism, the nearest above the study.\n\n{CODES}"
-    ))]
+    /// Write an empty table of measurements, or check a filled one.
+    ///
+    /// The table is for a spreadsheet. Of a filled one it says what is read from it and what looks odd; it simulates nothing.
+    #[command(after_help = MEASURED)]
+    Measured(Measured),
+    /// Say which mechanisms the measurements of a study could show.
+    ///
+    /// What each mechanism changes in every quantity of measured.csv, in units of the quantity's error. For studies on the
+    /// tilting table.
+    #[command(after_help = SENSITIVITY)]
     Sensitivity(Sensitivity),
-    /// List the mechanisms that a study may switch on: what each is, where it acts, its parameters with their priors, whether its
-    /// effect goes when the wall is unloaded, what it is confounded with, and whether limit analysis honours it.
-    #[command(after_help = format!(
-        "Example: pirca mechanisms --json\n\n\
-         A table [mechanism.creep] in a study, with its keys, switches creep on; [arm.mechanism.creep] does for one arm.\n\n{CODES}"
-    ))]
+    /// List the mechanisms that a study may switch on, with their priors.
+    ///
+    /// What each one is, where it acts, its parameters with their priors, whether its effect goes when the wall is unloaded,
+    /// what it is confounded with, and whether limit analysis honours it.
+    #[command(after_help = MECHANISMS)]
     Mechanisms(Mechanisms),
-    /// Solve a wall that somebody else made, from a wall.json or an OBJ file: at which tilt or load does it fall?
-    #[command(after_help = format!("{WALLS}\n\n{CODES}\nEvery way a wall can end (stable, collapsed, unstable at rest, not converged) ends with 0."))]
+    /// Say at which tilt or horizontal load a wall from a file falls.
+    ///
+    /// The wall is a wall.json or an OBJ file that somebody else made.
+    #[command(after_help = ANALYSE)]
     Analyse(Analyse),
+}
+
+/// Arguments of `init`.
+#[derive(Args, Debug)]
+pub(crate) struct Init {
+    /// The new folder: a name here, or a path. Its last part is the study's name.
+    pub name: PathBuf,
+    /// Copy this study: the folder of one, or one that is built in.
+    #[arg(long, value_name = "STUDY", help_heading = STUDY)]
+    pub from: Option<PathBuf>,
+    /// Print one JSON object on standard output instead of text.
+    #[arg(long, help_heading = OUTPUT)]
+    pub json: bool,
 }
 
 /// Which study, in which reading.
@@ -107,20 +108,21 @@ pub(crate) enum Verb {
 pub(crate) struct Which {
     /// The study: its folder, or the study.toml in it.
     pub study: PathBuf,
-    /// A named variant of the study.
-    #[arg(long, value_name = "NAME")]
+    /// A named variant of the study; `pirca check` lists them.
+    #[arg(long, value_name = "NAME", help_heading = STUDY)]
     pub variant: Option<String>,
     /// Print one JSON object on standard output instead of text.
-    #[arg(long)]
+    #[arg(long, help_heading = OUTPUT)]
     pub json: bool,
 }
 
 /// Arguments of `mechanisms`.
 #[derive(Args, Debug)]
 pub(crate) struct Mechanisms {
-    /// Folder of the distributions, which holds the priors below `mechanism`.
-    #[arg(long, value_name = "DIR", default_value = "distributions")]
-    pub distributions: PathBuf,
+    /// Folder of the distributions, which holds the priors below `mechanism` [default: the nearest folder `distributions` here
+    /// or further up, else what is built in].
+    #[arg(long, value_name = "DIR")]
+    pub distributions: Option<PathBuf>,
     /// Print one JSON object on standard output instead of text.
     #[arg(long)]
     pub json: bool,
@@ -132,12 +134,13 @@ pub(crate) struct Check {
     #[command(flatten)]
     pub which: Which,
     /// List every key that a study, its published.toml and a distribution may hold: what is allowed, default, meaning.
-    #[arg(long, conflicts_with = "json")]
+    #[arg(long, conflicts_with = "json", help_heading = OUTPUT)]
     pub keys: bool,
 }
 
 /// Which wall of a study.
 #[derive(Args, Debug)]
+#[command(next_help_heading = WALL)]
 pub(crate) struct OneWall {
     /// Name of the arm; without it the first whose walls are random.
     #[arg(long, value_name = "ARM")]
@@ -145,9 +148,12 @@ pub(crate) struct OneWall {
     /// Number of the kn point, from 0. The stones are the same at every point.
     #[arg(long, value_name = "K", default_value_t = 0)]
     pub point: u32,
-    /// Number of the member, from 0.
+    /// Number of the wall in its arm, from 0.
     #[arg(long, value_name = "M", default_value_t = 0)]
     pub member: u64,
+    /// Number of walls in every random arm, instead of the study's, as in `run`.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    pub members: Option<u64>,
     /// Seed instead of the study's.
     #[arg(long, value_name = "S")]
     pub seed: Option<u64>,
@@ -161,13 +167,13 @@ pub(crate) struct Generate {
     #[command(flatten)]
     pub wall: OneWall,
     /// Solve the wall as `run` does, and write the displacement of every stone's centroid (m) into the .vtu.
-    #[arg(long)]
+    #[arg(long, help_heading = SOLUTION)]
     pub solved: bool,
     /// Add the ground: a fixed block under the wall, as `run` puts one there and `analyse` needs one.
-    #[arg(long, conflicts_with = "solved")]
+    #[arg(long, conflicts_with = "solved", help_heading = OUTPUT)]
     pub with_base: bool,
     /// File to write; its ending says the format: .vtu (ParaView), .obj or .json.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = OUTPUT)]
     pub out: PathBuf,
 }
 
@@ -179,13 +185,13 @@ pub(crate) struct Picture {
     #[command(flatten)]
     pub wall: OneWall,
     /// What joints are coloured by.
-    #[arg(long, value_name = "NAME", default_value = "opening")]
+    #[arg(long, value_name = "NAME", default_value = "opening", help_heading = OUTPUT)]
     pub colour: Measure,
     /// Magnification of the movement, above 0 [default: so that the largest one is a tenth of the wall's height].
-    #[arg(long, value_name = "X", value_parser = magnification, allow_negative_numbers = true)]
+    #[arg(long, value_name = "X", value_parser = magnification, allow_negative_numbers = true, help_heading = OUTPUT)]
     pub magnify: Option<f64>,
     /// File to write, an .svg.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = OUTPUT)]
     pub out: PathBuf,
 }
 
@@ -212,22 +218,22 @@ pub(crate) struct Run {
     #[command(flatten)]
     pub which: Which,
     /// Output folder [default: runs/<study>, with -<variant> behind it if one is named].
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub out: Option<PathBuf>,
     /// Number of walls in every random arm, instead of the study's.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000), help_heading = STUDY)]
     pub members: Option<u64>,
     /// Seed instead of the study's.
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", help_heading = STUDY)]
     pub seed: Option<u64>,
     /// Worker threads [default: one per processor]. No result depends on their number.
-    #[arg(long, value_name = "T")]
+    #[arg(long, value_name = "T", help_heading = SOLUTION)]
     pub threads: Option<NonZero<usize>>,
     /// Solver instead of the study's, with its defaults; the study's own settings if it is the study's own solver.
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", help_heading = SOLUTION)]
     pub solver: Option<SolverName>,
     /// Output folder of an earlier run of the same study, whose means are drawn into the figure as hollow markers.
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub beside: Option<PathBuf>,
 }
 
@@ -237,17 +243,39 @@ pub(crate) struct Sensitivity {
     #[command(flatten)]
     pub which: Which,
     /// Output folder [default: runs/<study>-sensitivity, with -<variant> in it if one is named].
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub out: Option<PathBuf>,
     /// Number of walls in every arm that was measured.
-    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u64).range(1..=10_000))]
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u64).range(1..=10_000), help_heading = STUDY)]
     pub members: u64,
     /// Quantile of the priors, counted from the end at which a mechanism is weak; 0.5 is the median.
-    #[arg(long, value_name = "Q", default_value = "0.84", value_parser = sensitivity::quantile, allow_negative_numbers = true)]
+    #[arg(long, value_name = "Q", default_value = "0.84", value_parser = sensitivity::quantile, allow_negative_numbers = true, help_heading = STUDY)]
     pub quantile: f64,
     /// Worker threads [default: one per processor]. No result depends on their number.
-    #[arg(long, value_name = "T")]
+    #[arg(long, value_name = "T", help_heading = SOLUTION)]
     pub threads: Option<NonZero<usize>>,
+}
+
+/// Arguments of `measured`.
+#[derive(Args, Debug)]
+pub(crate) struct Measured {
+    #[command(flatten)]
+    pub which: Which,
+    /// The table to check [default: the study's measured.csv].
+    #[arg(value_name = "FILE")]
+    pub file: Option<PathBuf>,
+    /// Write an empty table for the arms, the specimens and the tilts of the study instead.
+    #[arg(long, conflicts_with_all = ["file", "json"])]
+    pub template: bool,
+    /// A row per specimen and tilt, with a column per quantity, instead of a row per value.
+    #[arg(long, requires = "template")]
+    pub wide: bool,
+    /// Specimens of each arm in the empty table [default: 3].
+    #[arg(long, value_name = "N", requires = "template", default_value_t = 3, hide_default_value = true, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub specimens: u32,
+    /// File to write the empty table to, which must not be there [default: standard output].
+    #[arg(long, value_name = "FILE", requires = "template")]
+    pub out: Option<PathBuf>,
 }
 
 /// Arguments of `diagnose`.
@@ -256,28 +284,28 @@ pub(crate) struct Diagnose {
     #[command(flatten)]
     pub which: Which,
     /// What was measured [default: the study's measured.csv].
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = STUDY)]
     pub measured: Option<PathBuf>,
     /// Folder of the bank [default: runs/<study>-bank, with -<variant> in it if one is named; else the bank beside the study].
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", help_heading = SOLUTION)]
     pub bank: Option<PathBuf>,
     /// Points in the priors for each mechanism that the bank has.
-    #[arg(long, value_name = "N", default_value_t = 120, value_parser = clap::value_parser!(u64).range(10..=100_000))]
+    #[arg(long, value_name = "N", default_value_t = 120, value_parser = clap::value_parser!(u64).range(10..=100_000), help_heading = SOLUTION)]
     pub points: u64,
     /// Stop with the command to run, where there is no bank.
-    #[arg(long)]
+    #[arg(long, help_heading = SOLUTION)]
     pub no_build: bool,
     /// Do not measure what the extended model gains on readings held out: minutes on a large design.
-    #[arg(long)]
+    #[arg(long, help_heading = SOLUTION)]
     pub no_gain: bool,
     /// Output folder [default: runs/<study>-diagnosis, with -<variant> in it if one is named].
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub out: Option<PathBuf>,
     /// Seed of the diagnosis instead of the study's; the bank keeps the study's.
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", help_heading = STUDY)]
     pub seed: Option<u64>,
     /// Worker threads [default: one per processor]. No result depends on their number.
-    #[arg(long, value_name = "T")]
+    #[arg(long, value_name = "T", help_heading = SOLUTION)]
     pub threads: Option<NonZero<usize>>,
 }
 
@@ -287,23 +315,23 @@ pub(crate) struct Bank {
     #[command(flatten)]
     pub which: Which,
     /// What was measured [default: the study's measured.csv]; only the families in it matter.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help_heading = STUDY)]
     pub measured: Option<PathBuf>,
     /// Output folder [default: runs/<study>-bank, with -<variant> in it if one is named].
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub out: Option<PathBuf>,
     /// Points in the priors for each mechanism; twice as many for the base model.
-    #[arg(long, value_name = "N", default_value_t = 120, value_parser = clap::value_parser!(u64).range(10..=100_000))]
+    #[arg(long, value_name = "N", default_value_t = 120, value_parser = clap::value_parser!(u64).range(10..=100_000), help_heading = SOLUTION)]
     pub points: u64,
     /// Simulated campaigns of each mechanism that the self-test judges by all that a diagnosis does (seconds each), and five times as
     /// many with nothing hidden; 100 of each are judged by how they seem.
-    #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u64).range(0..=20))]
+    #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u64).range(0..=20), help_heading = SOLUTION)]
     pub judged: u64,
     /// Seed of the self-test instead of the study's: that of the diagnoses which it is kept for. The walls keep the study's.
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", help_heading = STUDY)]
     pub seed: Option<u64>,
     /// Worker threads [default: one per processor]. No result depends on their number.
-    #[arg(long, value_name = "T")]
+    #[arg(long, value_name = "T", help_heading = SOLUTION)]
     pub threads: Option<NonZero<usize>>,
 }
 
@@ -314,6 +342,8 @@ pub(crate) enum SolverName {
     Explicit,
     /// Newton's method from equilibrium to equilibrium.
     Implicit,
+    /// Limit analysis of rigid blocks: the collapse load alone.
+    Limit,
 }
 
 /// Arguments of `analyse`.
@@ -322,43 +352,58 @@ pub(crate) struct Analyse {
     /// The wall: a .json or .obj file.
     pub wall: PathBuf,
     /// Solver. Limit analysis takes rigid blocks and needs no stiffness.
-    #[arg(long, value_name = "NAME", default_value = "limit")]
+    #[arg(long, value_name = "NAME", default_value = "limit", help_heading = SOLUTION)]
     pub solver: MethodName,
     /// Load: gravity turns towards the direction (to at most 89 deg), or a multiple of the weight pushes there (to at most 10).
-    #[arg(long, value_name = "NAME", default_value = "tilt")]
+    #[arg(long, value_name = "NAME", default_value = "tilt", help_heading = LOAD)]
     pub load: LoadName,
-    /// Direction of the load.
-    #[arg(long, value_name = "NAME", default_value = "y+")]
-    pub direction: DirectionName,
+    /// Direction of the load: x+, x-, y+ or y-, or an angle in degrees from x+, counter-clockwise seen from above (90 is y+).
+    #[arg(
+        long,
+        value_name = "NAME|DEG",
+        default_value = "y+",
+        value_parser = analyse::direction,
+        allow_negative_numbers = true,
+        help_heading = LOAD
+    )]
+    pub direction: Direction,
     /// Friction angle of the joints (deg), 0 to 89.
-    #[arg(long, value_name = "F", value_parser = analyse::friction_angle, allow_negative_numbers = true)]
+    #[arg(long, value_name = "F", value_parser = analyse::friction_angle, allow_negative_numbers = true, help_heading = JOINTS)]
     pub phi_deg: f64,
     /// Normal stiffness of the joints per area (Pa/m); required for implicit and explicit.
-    #[arg(long, value_name = "PA_PER_M", value_parser = analyse::stiffness, allow_negative_numbers = true)]
+    #[arg(long, value_name = "PA_PER_M", value_parser = analyse::stiffness, allow_negative_numbers = true, help_heading = JOINTS)]
     pub kn: Option<f64>,
     /// Shear stiffness of the joints per area (Pa/m) [default: kn / 2].
-    #[arg(long, value_name = "PA_PER_M", value_parser = analyse::stiffness, allow_negative_numbers = true)]
+    #[arg(long, value_name = "PA_PER_M", value_parser = analyse::stiffness, allow_negative_numbers = true, help_heading = JOINTS)]
     pub ks: Option<f64>,
     /// Cohesion of the joints (Pa).
-    #[arg(long, value_name = "PA", default_value = "0", value_parser = analyse::cohesion, allow_negative_numbers = true)]
+    #[arg(long, value_name = "PA", default_value = "0", value_parser = analyse::cohesion, allow_negative_numbers = true, help_heading = JOINTS)]
     pub cohesion: f64,
     /// Whether joints dilate when they slide, for limit analysis [default: associative, an upper bound].
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", help_heading = SOLUTION)]
     pub flow: Option<FlowName>,
     /// Step of the tilt (deg) for implicit and explicit [default: 0.5]; with --load lateral its tangent is the step.
-    #[arg(long, value_name = "F", value_parser = analyse::step, allow_negative_numbers = true)]
+    #[arg(long, value_name = "F", value_parser = analyse::step, allow_negative_numbers = true, help_heading = LOAD)]
     pub step_deg: Option<f64>,
-    /// Blocks closer than this share of the wall's size touch; deeper overlaps and wider gaps are told.
-    #[arg(long, value_name = "F", default_value = "1e-6", value_parser = analyse::tolerance, allow_negative_numbers = true)]
-    pub touch_tolerance: f64,
+    /// Blocks closer than this touch: a length with its unit (2mm, 0.5cm, 0.002 m; at most a tenth of a stone), or a share of the
+    /// size of what moves, corner to corner (1e-12 to 0.001). Deeper overlaps are told, and wider gaps up to a tenth of a stone.
+    #[arg(long, value_name = "LENGTH", default_value = "1e-6", value_parser = analyse::tolerance, allow_negative_numbers = true, help_heading = FILE)]
+    pub touch_tolerance: analyse::Tolerance,
+    /// Make faces plane whose corners lie up to this length off their plane (2mm), or 1/20 of their block if that is less; how far
+    /// corners were moved is told [default: 1e-4 of a block is allowed, and nothing is moved].
+    #[arg(long, value_name = "LENGTH", value_parser = analyse::length, allow_negative_numbers = true, help_heading = FILE)]
+    pub flatness: Option<f64>,
+    /// Axis of an OBJ file that points up [default: z]. With y, its x, y, z become x, z, -y: its -z is out of plane, to the front.
+    #[arg(long, value_name = "NAME", help_heading = FILE)]
+    pub up: Option<UpName>,
     /// Unit of the coordinates of an OBJ file [default: m].
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", help_heading = FILE)]
     pub unit: Option<UnitName>,
     /// Density (kg/m^3) of the objects of an OBJ file that have no density comment [default: 2400, with a warning].
-    #[arg(long, value_name = "F", value_parser = analyse::density, allow_negative_numbers = true)]
+    #[arg(long, value_name = "F", value_parser = analyse::density, allow_negative_numbers = true, help_heading = FILE)]
     pub density_kg_per_m3: Option<f64>,
     /// Print one JSON object on standard output instead of text.
-    #[arg(long)]
+    #[arg(long, help_heading = OUTPUT)]
     pub json: bool,
 }
 
@@ -403,26 +448,22 @@ names! {
 }
 
 names! {
-    /// Horizontal directions.
-    DirectionName {
-        /// Along the wall.
-        XPlus = "x+",
-        /// Along the wall, backwards.
-        XMinus = "x-",
-        /// Out of plane, to the front.
-        YPlus = "y+",
-        /// Out of plane, to the back.
-        YMinus = "y-",
-    }
-}
-
-names! {
     /// Flow rules of limit analysis.
     FlowName {
         /// Sliding dilates by the friction angle: an upper bound.
         Associative = "associative",
         /// Sliding does not dilate: neither a bound nor unique.
         NonAssociative = "non-associative",
+    }
+}
+
+names! {
+    /// Axes that may point up.
+    UpName {
+        /// The second one, as programs for pictures have it.
+        Y = "y",
+        /// The third one.
+        Z = "z",
     }
 }
 

@@ -66,7 +66,12 @@ fn foretold(world: &World<'_>) -> String {
 pub(crate) fn measured(which: &Which, file: Option<&Path>) -> Result<Loaded, Failure> {
     let loaded = locate::study(which)?;
     match file {
-        Some(file) => Ok(loaded.with_measured(file)?),
+        Some(file) => {
+            let loaded = loaded.with_measured(file)?;
+            let own = file.display().to_string();
+            loaded.warnings.iter().filter(|warning| warning.file == own).for_each(locate::warn);
+            Ok(loaded)
+        }
         None => Ok(loaded),
     }
 }

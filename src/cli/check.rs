@@ -1,6 +1,7 @@
 //! `pirca check`: everything that is wrong with a study, without running it.
 
 use std::collections::BTreeSet;
+use std::path::Path;
 
 use serde_json::json;
 
@@ -8,7 +9,7 @@ use crate::cli::arguments::Check;
 use crate::cli::failure::Failure;
 use crate::cli::{elements, locate, output};
 use crate::ensemble;
-use crate::study::{Arm, ElementStudy, Loaded, Study, key_reference};
+use crate::study::{Arm, ElementStudy, Loaded, Study, Used, key_reference};
 
 /// Reads the study and says what it found.
 pub(crate) fn check(arguments: &Check) -> Result<(), Failure> {
@@ -93,8 +94,20 @@ fn summary(loaded: &Loaded) -> String {
     for variant in &loaded.variants {
         text.push_str(&format!("  variant {}: {}\n", variant.name, variant.why));
     }
+    text.push_str(&origins(&loaded.used));
     for used in loaded.used.iter().filter(|used| used.status == "assumed") {
         text.push_str(&format!("  assumed: {} = {} ({})\n", used.key, used.reference, used.source));
     }
     text
+}
+
+/// A line for each file of distributions that was taken: where it lies.
+pub(super) fn origins(used: &[Used]) -> String {
+    let here = std::env::current_dir().unwrap_or_default();
+    let line = |used: &Used| {
+        let file = used.reference.split(':').next().unwrap_or(&used.reference);
+        let from = Path::new(&used.from);
+        format!("  distribution: {file} from {}\n", from.strip_prefix(&here).unwrap_or(from).display())
+    };
+    used.iter().map(line).collect::<BTreeSet<_>>().into_iter().collect()
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::cli::arguments::Diagnose;
 use crate::cli::bank::{self, Prepared};
+use crate::cli::doing::doing;
 use crate::cli::failure::Failure;
 use crate::cli::judge::{self, SEEDS};
 use crate::cli::{locate, output, threads};
@@ -36,9 +37,13 @@ fn judged(arguments: &Diagnose) -> Result<(), Failure> {
     let seed = arguments.seed.unwrap_or(study.seed);
     notes.extend(bank::noted(&doubts_beside(&world, &design, &measured, seed.wrapping_add(5 * SEEDS))));
     let judge = judge::judge(&world, &design, seed)?;
-    let diagnosis = judge.diagnosed(&measured, &Limits::default(), seed.wrapping_add(SEEDS));
+    let diagnosis = doing("weighing the causes", |_| {
+        judge.diagnosed(&measured, &Limits::default(), seed.wrapping_add(SEEDS))
+    });
     let test = judge::self_test(&judge, &plan, seed, &folder);
-    let residuals = Baseline::new(&world, &design, seed.wrapping_add(6 * SEEDS)).residuals(&measured);
+    let residuals = doing("setting the readings beside the simulation", |_| {
+        Baseline::new(&world, &design, seed.wrapping_add(6 * SEEDS)).residuals(&measured)
+    });
     let mut summary =
         DiagnosisSummary::of(&study, seed, &plan.study.hash, &mechanisms, &design, &diagnosis, &test)
             .beside(&study, &residuals);
@@ -46,15 +51,19 @@ fn judged(arguments: &Diagnose) -> Result<(), Failure> {
     let file = arguments.measured.as_deref().unwrap_or(Path::new(MEASURED));
     summary.measured = stated.measured().map(|(_, sha256)| DataEntry::of(file, sha256));
     let (possible, are_left) = diagnosis.possible();
-    let offered = critic::offers(&judge, &possible, seed.wrapping_add(4 * SEEDS));
+    let offered = doing("looking for the next test worth making", |_| {
+        critic::offers(&judge, &possible, seed.wrapping_add(4 * SEEDS))
+    });
     summary.advice = Advice::of(&test, &offered, are_left, &mechanisms);
     if diagnosis.verdict != Verdict::NothingFound && !arguments.no_gain {
         let folds = Folds::new(&judge, Measuring::default(), seed.wrapping_add(3 * SEEDS));
-        summary.gain = folds.gain(&measured).map(|gain| GainSummary::of(&gain, &study, &design, &mechanisms));
+        let gain = doing("measuring what the extended model gains", |_| folds.gain(&measured));
+        summary.gain = gain.map(|gain| GainSummary::of(&gain, &study, &design, &mechanisms));
     }
     let drawn = seed.wrapping_add(7 * SEEDS);
-    let base = base_curves(&world, &design, drawn);
-    let causes = cause_curves(&world, &design, &diagnosis, drawn);
+    let (base, causes) = doing("simulating the curves of the figures", |_| {
+        (base_curves(&world, &design, drawn), cause_curves(&world, &design, &diagnosis, drawn))
+    });
     let families = FamilyFigure::all(&study, &mechanisms, &residuals, &base, &causes);
     let extensions: Vec<Extension> =
         diagnosis.explained_by().iter().filter_map(|(_, draws)| extension(&world, draws)).collect();

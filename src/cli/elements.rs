@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use crate::cli::arguments::{Check, Run};
+use crate::cli::doing::doing;
 use crate::cli::failure::Failure;
-use crate::cli::output;
+use crate::cli::{check, output};
 use crate::ensemble::{self, Settings};
 use crate::report;
 use crate::study::{ElementStudy, key_reference};
@@ -26,11 +27,19 @@ pub(super) fn run(folder: &Path, arguments: &Run) -> Result<(), Failure> {
         study = study.with_seed(seed);
     }
     if let Some(members) = arguments.members {
+        if members > 1 && study.arms.iter().all(|arm| arm.elements.is_fixed()) {
+            let text =
+                "nothing in the study is random, so that all assemblies would be the same: leave it out";
+            return Err(Failure::Usage(format!("--members {members}: {text}")));
+        }
         study = study.with_members(members);
     }
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("runs").join(&study.name));
     let settings = Settings { out: out.clone(), threads: arguments.threads };
-    let rows = ensemble::run_elements(&study, &settings)?;
+    let rows = doing(&format!("{}: filling and shoving", study.name), |doing| {
+        let told = |done, all| doing.say(format!("{done} of {all} assemblies done"));
+        ensemble::run_elements(&study, &settings, &told)
+    })?;
     let summary =
         report::write_elements(&study, &rows, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
     if arguments.which.json {
@@ -65,6 +74,7 @@ pub(super) fn check(folder: &Path, arguments: &Check) -> Result<(), Failure> {
                 "elements": study.arms.iter()
                     .map(|arm| json!({"element": arm.name, "members": arm.members, "random": !arm.elements.is_fixed()}))
                     .collect::<Vec<_>>(),
+                "distributions": study.used,
                 "faults": [],
                 "warnings": study.warnings,
             })),
@@ -79,10 +89,11 @@ pub(super) fn check(folder: &Path, arguments: &Check) -> Result<(), Failure> {
     let names: Vec<String> = study.arms.iter().map(|arm| format!("{} ({})", arm.name, arm.members)).collect();
     let keys = if arguments.keys { format!("\n{}", key_reference()) } else { String::new() };
     output::print(&format!(
-        "{}: valid\n  question: {}\n  elements (assemblies): {}\n  seed: {}\n{keys}",
+        "{}: valid\n  question: {}\n  elements (assemblies): {}\n  seed: {}\n{}{keys}",
         study.name,
         study.question,
         names.join(", "),
-        study.seed
+        study.seed,
+        check::origins(&study.used)
     ))
 }

@@ -6,6 +6,7 @@ use std::path::Path;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use crate::cli::doing::doing;
 use crate::cli::failure::Failure;
 use crate::critic::{Bank, Design, Diagnosis, Effort, Judge, Limits, Plan, SelfTest, World};
 use crate::ensemble::replace_file;
@@ -41,7 +42,10 @@ pub(super) fn world<'s>(
 
 /// Who judges campaigns of a design.
 pub(super) fn judge<'w>(world: &'w World<'w>, design: &Design, seed: u64) -> Result<Judge<'w>, Failure> {
-    Judge::trained(world, design, Effort::default(), seed).ok_or_else(|| {
+    let trained = doing("learning to tell the causes apart", |_| {
+        Judge::trained(world, design, Effort::default(), seed)
+    });
+    trained.ok_or_else(|| {
         Failure::Input(
             "none of the measurements can be set against a simulation: at their tilts simulated walls have fallen".to_owned(),
         )
@@ -80,7 +84,9 @@ fn kept(folder: &Path) -> Option<Kept> {
 
 /// A self-test with so many campaigns of each cause judged by all that a diagnosis does.
 fn computed(judge: &Judge<'_>, seed: u64, judged: u64) -> SelfTest {
-    judge.self_test(&Limits::default(), CAMPAIGNS, judged, tested(seed))
+    doing("testing how often such a diagnosis is right", |_| {
+        judge.self_test(&Limits::default(), CAMPAIGNS, judged, tested(seed))
+    })
 }
 
 /// Seed of its campaigns.

@@ -7,7 +7,7 @@ use crate::cli::arguments::Which;
 use crate::cli::failure::Failure;
 use crate::cli::output;
 use crate::math::edit_distance;
-use crate::study::{ElementStudy, Loaded, Study, distributions_above};
+use crate::study::{Distributions, ElementStudy, Fault, Loaded, Study, built_in_studies};
 
 /// Loads the study that the arguments name, in the variant asked for, and passes its warnings on to standard error.
 pub(crate) fn study(which: &Which) -> Result<Loaded, Failure> {
@@ -18,10 +18,24 @@ pub(crate) fn study(which: &Which) -> Result<Loaded, Failure> {
         return Err(Failure::Input(text));
     }
     let loaded = Study::load(&folder, which.variant.as_deref())?;
-    for warning in &loaded.warnings {
-        output::note(&format!("warning: {warning}"));
-    }
+    loaded.warnings.iter().for_each(warn);
     Ok(loaded)
+}
+
+/// Says what is allowed and yet looks wrong on standard error.
+pub(crate) fn warn(warning: &Fault) {
+    output::note(&format!("warning: {warning}"));
+}
+
+/// The study with another number of walls in every random arm, of which it must have one.
+pub(crate) fn with_members(study: Study, members: u64) -> Result<Study, Failure> {
+    if members > 1 && study.arms.iter().all(|arm| arm.members == 1) {
+        return Err(Failure::Usage(format!(
+            "--members {members}: every arm of {} has one wall; leave it out, or set members of a random arm in study.toml",
+            study.name
+        )));
+    }
+    Ok(study.with_members(members))
 }
 
 /// The folder of a study, from the folder itself or from the study.toml in it.
@@ -39,13 +53,9 @@ pub(crate) fn folder(path: &Path) -> Result<PathBuf, Failure> {
     Err(Failure::Input(format!("no study: {found}\n{}", known(path))))
 }
 
-/// The folder of distributions that the study takes its own from.
-pub(crate) fn distributions(which: &Which) -> Result<PathBuf, Failure> {
-    let folder = folder(&which.study)?;
-    distributions_above(&folder).map_err(|none| {
-        let fix = "put the folder `distributions` beside `studies`: the priors are in it";
-        Failure::Input(format!("{}: wanted is {none}; {fix}", folder.display()))
-    })
+/// Where the study that the arguments name takes its distributions from.
+pub(crate) fn distributions(which: &Which) -> Result<Distributions, Failure> {
+    Ok(Distributions::of_study(&folder(&which.study)?))
 }
 
 /// The studies in `studies/`, beside the path and in it, nearest names first.
@@ -64,13 +74,24 @@ fn known(path: &Path) -> String {
         .collect();
     found.sort();
     found.dedup();
+    let begin = begin(path, &wanted);
     match found.first() {
-        None => "a study is a folder with a study.toml; there is none in studies/ nor beside that path"
-            .to_string(),
+        None => format!(
+            "a study is a folder with a study.toml; there is none in studies/ nor beside that path\n{begin}"
+        ),
         Some(_) => {
             let names: Vec<_> =
                 found.iter().take(5).map(|(_, study)| format!("  {}", study.display())).collect();
-            format!("studies found, nearest name first:\n{}", names.join("\n"))
+            format!("studies found, nearest name first:\n{}\n{begin}", names.join("\n"))
         }
     }
+}
+
+/// How a study comes to lie at that path.
+fn begin(path: &Path, wanted: &str) -> String {
+    let built_in = built_in_studies();
+    let names: Vec<&str> = built_in.iter().map(|study| study.name).collect();
+    let from = names.iter().find(|name| **name == wanted);
+    let from = from.map_or_else(|| "STUDY".to_owned(), ToString::to_string);
+    format!("to begin one: pirca init {} --from {from} (built in: {})", path.display(), names.join(", "))
 }

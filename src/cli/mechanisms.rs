@@ -1,15 +1,27 @@
 //! `pirca mechanisms`: the catalogue of what the base model leaves out.
 
 use std::fmt::Write;
+use std::path::Path;
 
 use crate::cli::arguments::Mechanisms;
 use crate::cli::failure::Failure;
 use crate::cli::output;
-use crate::study::{Described, described};
+use crate::study::{Described, Distributions, described};
 
 /// Prints the catalogue.
 pub(crate) fn mechanisms(arguments: &Mechanisms) -> Result<(), Failure> {
-    let all = described(&arguments.distributions).map_err(Failure::Input)?;
+    let distributions = match &arguments.distributions {
+        Some(folder) if !folder.is_dir() => {
+            return Err(Failure::Input(format!(
+                "--distributions {}: there is no such folder; leave it out for the priors of the nearest folder \
+                 `distributions`, or else for those that are built in",
+                folder.display()
+            )));
+        }
+        Some(folder) => Distributions::only_in(folder),
+        None => Distributions::of_study(Path::new(".")),
+    };
+    let all = described(distributions).map_err(Failure::Input)?;
     if arguments.json {
         return output::print_json(&serde_json::json!({ "mechanisms": all }));
     }

@@ -5,11 +5,15 @@ mod arguments;
 mod bank;
 mod check;
 mod diagnose;
+mod doing;
 mod elements;
 mod failure;
 mod generate;
+mod help;
+mod init;
 mod judge;
 mod locate;
+mod measured;
 mod mechanisms;
 mod one_wall;
 mod output;
@@ -21,7 +25,7 @@ mod threads;
 
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{CommandFactory, FromArgMatches};
 
 use crate::cli::arguments::{Arguments, Verb};
 
@@ -29,7 +33,8 @@ use crate::cli::arguments::{Arguments, Verb};
 /// failed, 2 the arguments make no sense, 3 the study or the wall is invalid.
 pub fn main() -> ExitCode {
     output::report_full_files();
-    let arguments = match Arguments::try_parse() {
+    let matches = help::framed(Arguments::command()).try_get_matches();
+    let arguments = match matches.and_then(|matches| Arguments::from_arg_matches(&matches)) {
         Ok(arguments) => arguments,
         Err(error) => return output::usage(&error),
     };
@@ -39,6 +44,8 @@ pub fn main() -> ExitCode {
         Verb::Check(arguments) => check::check(arguments),
         Verb::Diagnose(arguments) => diagnose::diagnose(arguments),
         Verb::Generate(arguments) => generate::generate(arguments),
+        Verb::Measured(arguments) => measured::measured(arguments),
+        Verb::Init(arguments) => init::init(arguments),
         Verb::Mechanisms(arguments) => mechanisms::mechanisms(arguments),
         Verb::Picture(arguments) => picture::picture(arguments),
         Verb::Run(arguments) => run::run(arguments),

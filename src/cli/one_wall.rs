@@ -1,6 +1,7 @@
 //! The wall that a verb is about: a member of an arm at one stiffness of its joints, built.
 
 use crate::cli::arguments::{OneWall as Arguments, Which};
+use crate::cli::doing::doing;
 use crate::cli::failure::Failure;
 use crate::cli::locate;
 use crate::ensemble::{self, Generated, Task};
@@ -23,9 +24,13 @@ impl OneWall {
         if let Some(seed) = arguments.seed {
             study = study.with_seed(seed);
         }
+        if let Some(members) = arguments.members {
+            study = locate::with_members(study, members)?;
+        }
         let index = arm_index(&study, arguments.arm.as_deref())?;
         let (arm, member) = (&study.arms[index], arguments.member);
         let kn = kn(arm, arguments.point)?;
+        check_member(arm, member)?;
         let generated = ensemble::build(&study, index as u32, member)
             .map_err(|e| Failure::Run(format!("arm {}, member {member}: invalid geometry: {e}", arm.name)))?;
         let task = Task { arm: index as u32, point: arguments.point, member };
@@ -34,7 +39,10 @@ impl OneWall {
 
     /// Takes it through the study's protocol.
     pub fn solved(&self) -> Run {
-        ensemble::solve(&self.study, self.task, &self.generated.wall)
+        let Generated { wall, .. } = &self.generated;
+        let what =
+            format!("solving {} stones with the {} solver", wall.stones().count(), self.study.solver.name());
+        doing(&what, |doing| ensemble::solve(&self.study, self.task, wall, &|level| doing.at(level)))
     }
 }
 
@@ -53,7 +61,34 @@ fn arm_index(study: &Study, name: Option<&str>) -> Result<usize, Failure> {
 /// The joint stiffness (Pa/m) of an arm's point.
 fn kn(arm: &Arm, point: u32) -> Result<f64, Failure> {
     arm.kn_points.get(point as usize).copied().ok_or_else(|| {
-        let last = arm.kn_points.len() - 1;
-        Failure::Usage(format!("--point {point}: arm {} has points 0 to {last}", arm.name))
+        let points = numbered(arm.kn_points.len() as u64, "kn point");
+        Failure::Usage(format!(
+            "--point {point}: arm {} has {points}; choose one of them, or add to kn_pa_per_m in study.toml",
+            arm.name
+        ))
     })
+}
+
+/// That an arm has a member of that number.
+fn check_member(arm: &Arm, member: u64) -> Result<(), Failure> {
+    if member < arm.members {
+        return Ok(());
+    }
+    let fix = match (ensemble::is_random(arm), arm.members) {
+        (true, 1) => "leave --member out, or raise members in study.toml",
+        (true, _) => "choose one of them, or ask for more with --members or by members in study.toml",
+        (false, _) => {
+            "nothing in it is random, so that every wall would be the same: leave --member out, or choose another --arm"
+        }
+    };
+    let walls = numbered(arm.members, "wall");
+    Err(Failure::Usage(format!("--member {member}: arm {} has {walls}; {fix}", arm.name)))
+}
+
+/// So many things that are numbered from 0, in words.
+fn numbered(count: u64, thing: &str) -> String {
+    match count {
+        1 => format!("one {thing}, number 0"),
+        _ => format!("{count} {thing}s, numbers 0 to {}", count - 1),
+    }
 }

@@ -8,8 +8,50 @@ use std::process::ExitCode;
 use crate::cli::failure::Failure;
 use crate::study::Study;
 
-/// Writes text to standard output. A reader that has gone away (`pirca ... | head`) has read what it wanted.
+/// Writes text to standard output, its sentences broken to the width of a terminal.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    let terminal = console::Term::stdout();
+    match terminal.is_term() {
+        true => write(&fitted(text, usize::from(terminal.size().1))),
+        false => write(text),
+    }
+}
+
+/// The text with lines of at most so many characters; the rows of tables, whose columns stand two spaces apart, stay whole.
+fn fitted(text: &str, width: usize) -> String {
+    let mut fitted = String::with_capacity(text.len());
+    for line in text.split_inclusive('\n') {
+        let words = line.trim_start();
+        let indent = line.len() - words.len();
+        if line.trim_end().chars().count() <= width || words.trim_end().contains("  ") {
+            fitted.push_str(line);
+            continue;
+        }
+        let (mut used, mut first) = (0, true);
+        for word in words.split_whitespace() {
+            let length = word.chars().count();
+            if first || used + 1 + length > width {
+                let lead = if first { indent } else { indent + HANGING };
+                fitted.push_str(if first { "" } else { "\n" });
+                fitted.push_str(&" ".repeat(lead));
+                used = lead;
+            } else {
+                fitted.push(' ');
+                used += 1;
+            }
+            fitted.push_str(word);
+            (used, first) = (used + length, false);
+        }
+        fitted.push_str(if line.ends_with('\n') { "\n" } else { "" });
+    }
+    fitted
+}
+
+/// Spaces before the second line of a sentence, beyond those before its first.
+const HANGING: usize = 2;
+
+/// Writes text as it is. A reader that has gone away (`pirca ... | head`) has read what it wanted.
+fn write(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
@@ -23,7 +65,7 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
 pub(crate) fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
     let text =
         serde_json::to_string_pretty(value).map_err(|e| Failure::Run(format!("cannot write JSON: {e}")))?;
-    print(&format!("{text}\n"))
+    write(&format!("{text}\n"))
 }
 
 /// Where the results of a study are written by default: by its name and its variant's, so that no variant takes another's place.
@@ -71,5 +113,20 @@ pub(crate) fn report_full_files() {
         }
         // Safe: the C library's `signal` is called before any thread is started, with a handler that is no function.
         unsafe { signal(SIGXFSZ, SIG_IGN) };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::fitted;
+
+    #[test]
+    fn sentences_are_broken_and_tables_are_not() {
+        let text = "  one two three four\narm          mean   sigma  COV\nshort\n";
+        assert_eq!(
+            fitted(text, 12),
+            "  one two\n    three\n    four\narm          mean   sigma  COV\nshort\n"
+        );
+        assert_eq!(fitted(text, 80), text);
     }
 }

@@ -32,7 +32,7 @@ pub(crate) fn picture(arguments: &Arguments) -> Result<(), Failure> {
     let stones = stones(wall, &run);
     let magnification = arguments.magnify.unwrap_or_else(|| Picture::fitting(&stones));
     let seams = seams(wall, arm, &run.joint_states, arguments.colour);
-    let from_front = !matches!(direction(&study.protocol), Direction::YMinus);
+    let from_front = !direction(&study.protocol).is_backwards();
     let variant = study.variant.as_ref().map_or(String::new(), |name| format!(", variant {name}"));
     let ending = ending(&run);
     let mut remarks = vec![ending.clone(), drawing(&run, magnification, from_front)];

@@ -34,6 +34,7 @@ fn asked(mut study: Study, arguments: &Run) -> Result<Study, Failure> {
         let name = match name {
             SolverName::Explicit => "explicit",
             SolverName::Implicit => "implicit",
+            SolverName::Limit => "limit",
         };
         study = study.with_solver(name).map_err(|faults| Failure::Usage(faults.to_string()))?;
     }
@@ -41,7 +42,7 @@ fn asked(mut study: Study, arguments: &Run) -> Result<Study, Failure> {
         study = study.with_seed(seed);
     }
     if let Some(members) = arguments.members {
-        study = study.with_members(members);
+        study = locate::with_members(study, members)?;
     }
     Ok(study)
 }

@@ -81,7 +81,7 @@ fn grid(polygon: &Polygon, counts: [u32; 2], wanted: impl Fn([u32; 2]) -> bool) 
 }
 
 /// Whether a point lies in a counter-clockwise polygon.
-fn contains(polygon: &Polygon, point: &[f64; 2]) -> bool {
+pub fn contains(polygon: &Polygon, point: &[f64; 2]) -> bool {
     let corners = &polygon.vertices;
     (0..corners.len()).all(|k| {
         let (a, b) = (corners[k], corners[(k + 1) % corners.len()]);

@@ -10,8 +10,8 @@ mod survey;
 mod tests;
 
 pub use broad::{candidate_pairs, candidate_pairs_up_to};
-use cells::patches;
 pub use cells::{Cell, corners, divide};
-pub use patch::{Feature, Patch, Settings, find_patch};
+use cells::{contains, patches};
+pub use patch::{Feature, Patch, Settings, facing, find_patch};
 pub use separation::{EdgeAxis, FaceAxis, best_edge_axis, best_face_axis};
 pub use survey::{Pair, Survey, survey};

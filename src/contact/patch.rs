@@ -5,7 +5,7 @@
 //! polygon clipped by a straight line. Blocks that meet at a steep angle, edge to edge or corner to face touch in a
 //! patch of stated width instead: a strip along an edge, a square at a point.
 
-use crate::contact::{Cell, EdgeAxis, best_edge_axis, best_face_axis, patches};
+use crate::contact::{Cell, EdgeAxis, FaceAxis, best_edge_axis, best_face_axis, patches};
 use crate::math::Vec3;
 use crate::shape::{Frame, Plane, Polygon, Polyhedron};
 
@@ -104,20 +104,7 @@ impl Patch {
 /// `first` is the preferred reference block: it stays the reference unless the second's face separates clearly better.
 pub fn find_patch(first: &Polyhedron, second: &Polyhedron, settings: &Settings) -> Option<Patch> {
     let axis = best_face_axis(first, second, settings.reach, settings.preference())?;
-    let (reference, incident) = if axis.of_second { (second, first) } else { (first, second) };
-    let plane = reference.face_plane(axis.face);
-    let (opposite, cosine) = (0..incident.faces.len())
-        .map(|f| (f, -incident.face_plane(f).normal.dot(&plane.normal)))
-        .fold((0, f64::NEG_INFINITY), |best, next| if next.1 > best.1 { next } else { best });
-    let meeting = Meeting {
-        reference,
-        face: axis.face,
-        plane,
-        incident,
-        opposite,
-        reference_is_second: axis.of_second,
-        settings,
-    };
+    let (meeting, cosine) = Meeting::of(first, second, &axis, settings);
     // Faces that lie on one another are a face contact whatever their edges do: a joint that leans open has crossing
     // edges which separate better than either face.
     let faces_meet = cosine >= settings.face_cosine;
@@ -133,6 +120,17 @@ pub fn find_patch(first: &Polyhedron, second: &Polyhedron, settings: &Settings) 
         Some(edges) => edge_patch(first, second, edges, settings),
         None if faces_meet => None,
         None => meeting.steep_patch(),
+    }
+}
+
+/// The patch that two faces which look at each other across at most `within` (m) would share if they met, like that of
+/// [`find_patch`] on faces; `None` where none do.
+pub fn facing(first: &Polyhedron, second: &Polyhedron, within: f64, settings: &Settings) -> Option<Patch> {
+    let axis = best_face_axis(first, second, within, settings.preference())?;
+    let (meeting, cosine) = Meeting::of(first, second, &axis, settings);
+    match meeting.face_patch() {
+        Overlap::Patch(patch) if cosine >= settings.face_cosine => Some(*patch),
+        _ => None,
     }
 }
 
@@ -158,7 +156,24 @@ struct Meeting<'a> {
     settings: &'a Settings,
 }
 
-impl Meeting<'_> {
+impl<'a> Meeting<'a> {
+    /// The face that separates two blocks best, the face that looks at it most squarely, and the cosine of the angle between them.
+    fn of(
+        first: &'a Polyhedron,
+        second: &'a Polyhedron,
+        axis: &FaceAxis,
+        settings: &'a Settings,
+    ) -> (Self, f64) {
+        let (reference, incident) = if axis.of_second { (second, first) } else { (first, second) };
+        let plane = reference.face_plane(axis.face);
+        let (opposite, cosine) = (0..incident.faces.len())
+            .map(|f| (f, -incident.face_plane(f).normal.dot(&plane.normal)))
+            .fold((0, f64::NEG_INFINITY), |best, next| if next.1 > best.1 { next } else { best });
+        let reference_is_second = axis.of_second;
+        let face = axis.face;
+        (Meeting { reference, face, plane, incident, opposite, reference_is_second, settings }, cosine)
+    }
+
     /// The overlap of the two faces, each without its arrises.
     fn face_patch(&self) -> Overlap {
         let frame = face_frame(self.incident, self.opposite);

@@ -1,9 +1,12 @@
 //! What a wall that somebody else made is like where its blocks meet: which touch, which overlap, which just miss
 //! each other, and which hang in the air.
 
-use crate::contact::{Settings, candidate_pairs_up_to, find_patch};
+use std::collections::BTreeMap;
+
+use crate::contact::{Patch, Settings, candidate_pairs_up_to, contains, facing, find_patch};
+use crate::math::Vec3;
 use crate::model::{Support, Wall};
-use crate::shape::{Plane, Polyhedron, overlap_depth};
+use crate::shape::{Polyhedron, overlap_depth};
 
 /// Near pairs per block beyond which a wall is no wall but a tangle, whose search would fill the memory.
 const MOST_NEAR: usize = 300;
@@ -26,9 +29,15 @@ pub struct Survey {
     pub joints: Vec<(usize, usize)>,
     /// Pairs that overlap by more than the tolerance, with the depth.
     pub overlaps: Vec<Pair>,
-    /// Pairs whose faces look at each other across more than the tolerance and less than the reach, with the
-    /// narrowest gap.
+    /// Pairs whose faces look at each other across more than the tolerance and at most `within`, and other pairs that miss each
+    /// other by less than the reach, with the narrowest gap. A gap that a third block fills, touching both, is none.
     pub gaps: Vec<Pair>,
+    /// Pairs that touch on a part of a joint only, with the gap (m) on its far side, up to `within`.
+    pub gaping: Vec<Pair>,
+    /// Parts of one stone that overlap by more than the tolerance, with the depth.
+    pub shared: Vec<Pair>,
+    /// The first parts of stones whose parts do not all hang together.
+    pub scattered: Vec<usize>,
     /// Groups of blocks that touch one another but, in no chain of touching blocks, a fixed one.
     pub floating: Vec<Vec<usize>>,
     /// Deepest overlap of all joints (m), within the tolerance or not.
@@ -36,98 +45,168 @@ pub struct Survey {
 }
 
 /// Looks at every pair of blocks that may meet. `settings.touch` (m) is the tolerance: up to it, a gap is a joint and
-/// an overlap is rounding; gaps are listed up to `settings.reach`. Pairs of fixed blocks do not matter.
+/// an overlap is rounding; gaps between faces are listed up to `within` (m). Pairs of fixed blocks do not matter, and parts of
+/// one stone have no joint.
 ///
 /// `None` when the blocks are so entangled that looking on would take all memory or all day: more than 300 near pairs
 /// per block, or solids of many corners that overlap by the hundred.
-pub fn survey(wall: &Wall, settings: &Settings) -> Option<Survey> {
+pub fn survey(wall: &Wall, settings: &Settings, within: f64) -> Option<Survey> {
+    let (_, wall) = wall.about_local_origin();
     let shapes: Vec<Polyhedron> = wall.blocks.iter().map(|block| block.shape.clone()).collect();
     let most = MOST_NEAR * shapes.len();
     let fixed = |i: usize| wall.blocks[i].support == Support::Fixed;
-    let (mut survey, mut work) = (Survey::default(), 0usize);
-    for (a, b) in candidate_pairs_up_to(&shapes, 2.0 * settings.reach, most)? {
+    let leads = wall.leads();
+    let (mut found, mut work) = (Found::default(), 0usize);
+    for (a, b) in candidate_pairs_up_to(&shapes, within.max(2.0 * settings.reach), most)? {
         let (a, b) = (a as usize, b as usize);
         if fixed(a) && fixed(b) {
             continue;
         }
-        match meet(&shapes[a], &shapes[b], settings) {
-            Meeting::Overlap(length) => {
-                let corners = [shapes[a].vertices.len(), shapes[b].vertices.len()];
-                work += corners[0] * corners[1] * (corners[0] + corners[1]) / 2;
-                if work > MOST_WORK {
-                    return None;
-                }
-                survey.joints.push((a, b));
-                survey.overlaps.push(Pair { blocks: (a, b), length });
-                survey.deepest = survey.deepest.max(length);
+        let meeting = meet(&shapes[a], &shapes[b], settings, within);
+        if let Meeting::Overlap(_) = meeting {
+            let corners = [shapes[a].vertices.len(), shapes[b].vertices.len()];
+            work += corners[0] * corners[1] * (corners[0] + corners[1]) / 2;
+            if work > MOST_WORK {
+                return None;
             }
-            Meeting::Joint(depth) => {
-                survey.joints.push((a, b));
-                survey.deepest = survey.deepest.max(depth);
-            }
-            Meeting::Gap(length) => survey.gaps.push(Pair { blocks: (a, b), length }),
-            Meeting::Apart => {}
+        }
+        if leads[a] == leads[b] {
+            found.within_a_stone((a, b), &meeting);
+        } else {
+            found.between_stones((a, b), meeting, settings.touch, within);
         }
     }
-    survey.floating = floating(wall.blocks.len(), fixed, &survey.joints);
+    let Found { mut survey, across, held } = found;
+    let touching: Vec<(usize, usize)> = survey.joints.iter().chain(&held).copied().collect();
+    let beside = neighbours(shapes.len(), &touching);
+    let is_filled = |(pair, patch): &(Pair, Box<Patch>)| {
+        let (a, b) = pair.blocks;
+        beside[a].iter().any(|third| beside[b].contains(third) && lies_between(&shapes[*third], patch))
+    };
+    survey.gaps = across.iter().filter(|gap| !is_filled(gap)).map(|(pair, _)| *pair).collect();
+    // Parts that do not touch are one body all the same.
+    let bound = leads.iter().copied().zip(0..).filter(|(lead, id)| lead != id);
+    let together: Vec<(usize, usize)> = survey.joints.iter().copied().chain(bound).collect();
+    survey.floating = groups(&neighbours(shapes.len(), &together));
+    survey.floating.retain(|group| !group.iter().any(|&block| fixed(block)));
+    survey.scattered = scattered(&leads, &groups(&neighbours(shapes.len(), &held)));
     Some(survey)
 }
 
+/// What is found pair by pair.
+#[derive(Default)]
+struct Found {
+    survey: Survey,
+    /// Gaps with the patch that there would be.
+    across: Vec<(Pair, Box<Patch>)>,
+    /// Parts of one stone that touch.
+    held: Vec<(usize, usize)>,
+}
+
+impl Found {
+    fn within_a_stone(&mut self, blocks: (usize, usize), meeting: &Meeting) {
+        if let Meeting::Overlap(length) = *meeting {
+            self.survey.shared.push(Pair { blocks, length });
+        }
+        if matches!(meeting, Meeting::Overlap(_) | Meeting::Joint(_)) {
+            self.held.push(blocks);
+        }
+    }
+
+    fn between_stones(&mut self, blocks: (usize, usize), meeting: Meeting, touch: f64, within: f64) {
+        let pair = |length: f64| Pair { blocks, length };
+        match meeting {
+            Meeting::Apart => {}
+            Meeting::Gap(gap, patch) => self.across.push((pair(gap), patch)),
+            Meeting::Overlap(depth) => {
+                self.survey.joints.push(blocks);
+                self.survey.overlaps.push(pair(depth));
+                self.survey.deepest = self.survey.deepest.max(depth);
+            }
+            Meeting::Joint([narrowest, widest]) => {
+                self.survey.joints.push(blocks);
+                self.survey.deepest = self.survey.deepest.max(-narrowest);
+                if widest > touch && widest <= within {
+                    self.survey.gaping.push(pair(widest));
+                }
+            }
+        }
+    }
+}
+
 enum Meeting {
+    /// How deep.
     Overlap(f64),
-    Joint(f64),
-    Gap(f64),
+    /// Where it gapes least, negative where it overlaps, and most.
+    Joint([f64; 2]),
+    /// How wide it is at its narrowest, and the patch that there would be.
+    Gap(f64, Box<Patch>),
     Apart,
 }
 
-fn meet(a: &Polyhedron, b: &Polyhedron, settings: &Settings) -> Meeting {
+fn meet(a: &Polyhedron, b: &Polyhedron, settings: &Settings, within: f64) -> Meeting {
     if let Some(depth) = overlap_depth(a, b, settings.touch) {
         return Meeting::Overlap(depth);
     }
-    let Some(patch) = find_patch(a, b, settings) else { return Meeting::Apart };
-    // The gap is affine over the patch: it is narrowest at a corner.
-    let gap = narrowest(&patch.plane, patch.polygon.vertices.iter().map(|st| patch.frame.lift(*st)));
-    if gap > settings.touch { Meeting::Gap(gap) } else { Meeting::Joint(-gap) }
-}
-
-fn narrowest(plane: &Plane, points: impl Iterator<Item = crate::math::Vec3>) -> f64 {
-    points.map(|p| plane.distance(&p)).fold(f64::INFINITY, f64::min)
-}
-
-/// Groups of blocks that hold together by joints and reach no fixed block, lowest index first.
-fn floating(count: usize, fixed: impl Fn(usize) -> bool, joints: &[(usize, usize)]) -> Vec<Vec<usize>> {
-    let mut touching: Vec<Vec<usize>> = vec![Vec::new(); count];
-    for &(a, b) in joints {
-        touching[a].push(b);
-        touching[b].push(a);
+    let patch = find_patch(a, b, settings).or_else(|| facing(a, b, within, settings));
+    let Some(patch) = patch else { return Meeting::Apart };
+    // The gap is affine over the patch: it is narrowest and widest at a corner.
+    let gaps = patch.polygon.vertices.iter().map(|st| patch.plane.distance(&patch.frame.lift(*st)));
+    let [narrowest, widest] =
+        gaps.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], gap| [low.min(gap), high.max(gap)]);
+    if narrowest > settings.touch {
+        Meeting::Gap(narrowest, Box::new(patch))
+    } else {
+        Meeting::Joint([narrowest, widest])
     }
-    let mut seen = vec![false; count];
-    let mut group_of = |start: usize| {
+}
+
+/// Whether the middle of a block lies in the gap over a patch.
+fn lies_between(block: &Polyhedron, patch: &Patch) -> bool {
+    let middle = block.vertices.iter().sum::<Vec3>() / block.vertices.len() as f64;
+    let (beyond, before) =
+        (patch.plane.distance(&middle), patch.frame.normal.dot(&(middle - patch.frame.origin)));
+    beyond > 0.0 && before > 0.0 && contains(&patch.polygon, &patch.frame.project(&middle))
+}
+
+/// The blocks that each one is paired with.
+fn neighbours(count: usize, pairs: &[(usize, usize)]) -> Vec<Vec<usize>> {
+    let mut beside: Vec<Vec<usize>> = vec![Vec::new(); count];
+    for &(a, b) in pairs {
+        beside[a].push(b);
+        beside[b].push(a);
+    }
+    beside
+}
+
+/// Blocks that hang together, lowest index first.
+fn groups(beside: &[Vec<usize>]) -> Vec<Vec<usize>> {
+    let mut seen = vec![false; beside.len()];
+    let mut groups = Vec::new();
+    for start in 0..beside.len() {
+        if std::mem::replace(&mut seen[start], true) {
+            continue;
+        }
         let (mut group, mut next) = (vec![start], 0);
-        seen[start] = true;
         while let Some(&block) = group.get(next) {
             next += 1;
-            for &other in &touching[block] {
+            for &other in &beside[block] {
                 if !std::mem::replace(&mut seen[other], true) {
                     group.push(other);
                 }
             }
         }
         group.sort_unstable();
-        group
-    };
-    let mut groups = Vec::new();
-    let mut reached = vec![false; count];
-    for start in 0..count {
-        if !reached[start] {
-            let group = group_of(start);
-            group.iter().for_each(|&block| reached[block] = true);
-            if !group.iter().any(|&block| fixed(block)) {
-                groups.push(group);
-            }
-        }
+        groups.push(group);
     }
     groups
+}
+
+/// The first parts of stones of which there are parts in several of the groups.
+fn scattered(leads: &[usize], groups: &[Vec<usize>]) -> Vec<usize> {
+    let mut pieces: BTreeMap<usize, usize> = BTreeMap::new();
+    groups.iter().for_each(|group| *pieces.entry(leads[group[0]]).or_default() += 1);
+    pieces.into_iter().filter(|(_, count)| *count > 1).map(|(lead, _)| lead).collect()
 }
 
 #[cfg(test)]
@@ -143,18 +222,20 @@ mod tests {
             density: 2400.0,
             support: if i == 0 { Support::Fixed } else { Support::Free },
             tag: Tag::Stone,
+            group: None,
         };
         Wall { blocks: places.iter().enumerate().map(block).collect() }
     }
 
     fn surveyed(places: &[f64]) -> Survey {
-        survey(&row(places), &Settings { touch: 1e-6, ..Settings::for_size(1.0, [2, 2]) }).unwrap()
+        let settings = Settings { touch: 1e-6, ..Settings::for_size(1.0, [2, 2]) };
+        survey(&row(places), &settings, 0.1).unwrap()
     }
 
     #[test]
     fn touching_overlapping_and_parted_blocks_are_told_apart_with_their_lengths() {
-        // Touching; a gap of half the tolerance; an overlap of 1 mm; a gap of 2 mm; a gap beyond the reach of 5 mm.
-        let found = surveyed(&[0.0, 1.0, 2.000_000_5, 2.999_000_5, 4.001_000_5, 5.1]);
+        // Touching; a gap of half the tolerance; an overlap of 1 mm; a gap of 2 mm; one beyond a tenth of a stone.
+        let found = surveyed(&[0.0, 1.0, 2.000_000_5, 2.999_000_5, 4.001_000_5, 5.102]);
         assert_eq!(found.joints, [(0, 1), (1, 2), (2, 3)]);
         let close = |pairs: &[Pair], blocks, length: f64| {
             assert_eq!(pairs.len(), 1, "{pairs:?}");
@@ -168,6 +249,58 @@ mod tests {
     }
 
     #[test]
+    fn a_gap_is_told_up_to_a_tenth_of_a_stone_whatever_the_reach() {
+        // The reach is 5 mm.
+        for gap in [1.6e-3, 4e-3, 6e-3, 0.02, 0.099] {
+            let found = surveyed(&[0.0, 1.0 + gap]);
+            assert_eq!((found.gaps.len(), found.joints.len()), (1, 0), "{gap}");
+            assert!((found.gaps[0].length - gap).abs() < 1e-12, "{:?}", found.gaps);
+        }
+        assert_eq!(surveyed(&[0.0, 1.101]).gaps, []);
+    }
+
+    #[test]
+    fn a_gap_that_a_block_fills_is_none() {
+        let mut wall = row(&[0.0, 1.02]);
+        let shim = Polyhedron::cuboid(Vec3::new(1.0, 0.1, 0.1), Vec3::new(1.02, 0.9, 0.9));
+        wall.blocks.push(Block { shape: shim.clone(), ..wall.blocks[1].clone() });
+        let found = |wall: &Wall| survey(wall, &Settings::for_size(1.0, [2, 2]), 0.1).unwrap();
+        assert_eq!((found(&wall).gaps, found(&wall).joints.len()), (vec![], 2));
+        // Beside the gap it fills nothing.
+        wall.blocks[2].shape = shim.translated(&Vec3::new(0.0, 1.0, 0.0));
+        assert_eq!(found(&wall).gaps.len(), 1);
+    }
+
+    #[test]
+    fn a_joint_that_leans_open_is_told_with_its_far_side() {
+        let mut wall = row(&[0.0, 1.0]);
+        for v in wall.blocks[1].shape.vertices.iter_mut().filter(|v| v.z > 0.5) {
+            v.x += 3e-3;
+        }
+        let found = survey(&wall, &Settings::for_size(1.0, [2, 2]), 0.1).unwrap();
+        assert_eq!((found.joints.len(), found.gaps.len(), found.gaping.len()), (1, 0, 1));
+        // Measured square to the face that leans.
+        assert!((found.gaping[0].length - 3e-3).abs() < 1e-5, "{:?}", found.gaping);
+    }
+
+    #[test]
+    fn parts_of_one_stone_have_no_joint_and_float_or_stand_together() {
+        let grouped = |places: &[f64]| {
+            let mut wall = row(places);
+            wall.blocks[1..3].iter_mut().for_each(|block| block.group = Some("L".to_owned()));
+            survey(&wall, &Settings::for_size(1.0, [2, 2]), 0.1).unwrap()
+        };
+        let found = grouped(&[0.0, 1.0, 2.0]);
+        assert_eq!((found.joints.len(), found.shared.len(), found.scattered.len()), (1, 0, 0));
+        assert!(found.floating.is_empty());
+        let overlapping = grouped(&[0.0, 1.0, 1.75]);
+        assert!((overlapping.shared[0].length - 0.25).abs() < 1e-12 && overlapping.overlaps.is_empty());
+        let apart = grouped(&[0.0, 1.0, 2.05]);
+        assert_eq!((apart.gaps.len(), apart.scattered, apart.floating.len()), (0, vec![1], 0));
+        assert_eq!(grouped(&[0.0, 3.0, 4.0]).floating, [vec![1, 2]]);
+    }
+
+    #[test]
     fn blocks_that_float_together_are_one_group() {
         let found = surveyed(&[0.0, 3.0, 1.0, 4.0]);
         assert_eq!(found.floating, [vec![1, 3]]);
@@ -178,13 +311,13 @@ mod tests {
     fn blocks_that_share_an_edge_only_make_no_joint() {
         let mut wall = row(&[0.0, 1.0]);
         wall.blocks[1].shape = wall.blocks[1].shape.translated(&Vec3::new(0.0, 0.0, 1.0));
-        let found = survey(&wall, &Settings::for_size(1.0, [2, 2])).unwrap();
+        let found = survey(&wall, &Settings::for_size(1.0, [2, 2]), 0.1).unwrap();
         assert_eq!((found.joints.len(), found.gaps.len()), (0, 0));
     }
 
     #[test]
     fn a_tangle_is_refused_instead_of_listed() {
         let wall = row(&vec![0.0; 700]);
-        assert_eq!(survey(&wall, &Settings::for_size(1.0, [2, 2])), None);
+        assert_eq!(survey(&wall, &Settings::for_size(1.0, [2, 2]), 0.1), None);
     }
 }

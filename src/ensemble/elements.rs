@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::num::NonZero;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use rayon::prelude::*;
@@ -60,11 +61,16 @@ impl ElementRow {
 /// A row, and the time it took to compute (s), which depends on the machine.
 pub type Timed = (ElementRow, f64);
 
-/// Evaluates every type of element and writes `elements.csv`, which is the same in every run, and `timing.csv`.
+/// Evaluates every type of element and writes `elements.csv`, which is the same in every run, and `timing.csv`. `finished` is told,
+/// from the worker threads, of how many assemblies so many are done.
 ///
 /// # Errors
 /// [`RunError`] when the folder or a file cannot be written.
-pub fn run_elements(study: &ElementStudy, settings: &Settings) -> Result<Vec<Timed>, RunError> {
+pub fn run_elements(
+    study: &ElementStudy,
+    settings: &Settings,
+    finished: &(dyn Fn(usize, usize) + Sync),
+) -> Result<Vec<Timed>, RunError> {
     let out = &settings.out;
     fs::create_dir_all(out).map_err(|e| RunError::file("create the folder", out, e))?;
     let threads =
@@ -72,9 +78,11 @@ pub fn run_elements(study: &ElementStudy, settings: &Settings) -> Result<Vec<Tim
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
     let tasks: Vec<(&ElementArm, u64)> =
         study.arms.iter().flat_map(|arm| (0..arm.members).map(move |member| (arm, member))).collect();
+    let done = AtomicUsize::new(0);
     let timed = |&(arm, member): &(&ElementArm, u64)| {
         let begun = Instant::now();
         let row = evaluate_element(study, arm, member);
+        finished(done.fetch_add(1, Ordering::Relaxed) + 1, tasks.len());
         (row, begun.elapsed().as_secs_f64())
     };
     let rows: Vec<Timed> = pool.install(|| tasks.par_iter().with_max_len(1).map(timed).collect());
@@ -107,7 +115,8 @@ pub fn evaluate_element(study: &ElementStudy, arm: &ElementArm, member: u64) -> 
         }
         Ok(Shapes::Polyhedra(solids)) => {
             let density = study.polyhedron_density;
-            let block = |shape| Block { shape, density, support: Support::Free, tag: Tag::Stone };
+            let block =
+                |shape| Block { shape, density, support: Support::Free, tag: Tag::Stone, group: None };
             let wall = Wall { blocks: solids.into_iter().map(block).collect() }.with_base();
             filled(empty, shove_wall(&wall, &study.joint, study.sub_contacts, study.explicit, &study.shove))
         }

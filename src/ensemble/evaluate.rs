@@ -4,9 +4,10 @@ use crate::ensemble::{LimitAnalysis, Mechanism, Row, StepRow, Task};
 use crate::generate::{Generated, InvalidGeometry, generate};
 use crate::math::degrees;
 use crate::model::{Level, Outcome, Wall};
-use crate::protocol::{self, Bounds};
+use crate::protocol::{self, Agreement, Bounds};
 use crate::random::Streams;
-use crate::solve::STANDARD_GRAVITY;
+use crate::solve::limit::Flow;
+use crate::solve::{STANDARD_GRAVITY, Solver};
 use crate::stats;
 use crate::study::{Arm, DrawnJoints, Study};
 
@@ -37,12 +38,13 @@ pub fn evaluate(study: &Study, task: Task) -> Row {
     }
 }
 
-/// Draws the joints of a member's wall and takes it through the study's protocol.
-pub fn solve(study: &Study, task: Task, wall: &Wall) -> protocol::Run {
+/// Draws the joints of a member's wall and takes it through the study's protocol; tells of every level at which it came to rest.
+pub fn solve(study: &Study, task: Task, wall: &Wall, tell: &dyn Fn(Level)) -> protocol::Run {
     let (arm, laws) = drawn(study, task, wall);
     let contacts = arm.mechanisms.contacts(arm.sub_contacts);
     let changes = arm.mechanisms.changes(wall, &Streams::new(study.seed, task.member));
-    protocol::run_changing(wall, &laws, &study.protocol, &arm.restraint, contacts, &changes, &study.solver)
+    let way = protocol::Way { changes: &changes, tell };
+    protocol::run_telling(wall, &laws, &study.protocol, &arm.restraint, contacts, way, &study.solver)
 }
 
 /// The arm of a task and the laws of its member's joints.
@@ -55,7 +57,7 @@ fn drawn<'s>(study: &'s Study, task: Task, wall: &Wall) -> (&'s Arm, DrawnJoints
 
 fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
     let wall = &generated.wall;
-    let run = solve(study, task, wall);
+    let run = solve(study, task, wall, &|_| {});
     let last = run.steps.last();
     let gauge = &study.arms[task.arm as usize].mechanisms;
     // The first reading is the zero reading.
@@ -94,7 +96,10 @@ fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
             Outcome::Equilibrium => last.and_then(|step| tilt(step.level)),
             _ => run.steps.iter().rev().nth(1).and_then(|step| tilt(step.level)),
         },
-        limit: study.agreement.then(|| limit(study, task, wall, &run)),
+        limit: match study.solver {
+            Solver::Limit(settings) => by_itself(&run, settings.flow),
+            _ => study.agreement.then(|| limit(study, task, wall, &run)),
+        },
         mechanism: run.failure.as_ref().map(|failure| Mechanism {
             mode: failure.mode,
             moving: failure.moving.len() as u32,
@@ -191,6 +196,27 @@ fn limit(study: &Study, task: Task, wall: &Wall, run: &protocol::Run) -> LimitAn
         agreement,
         ratio: borne.filter(|_| collapsed).zip(bounds.associative).map(|(borne, bound)| borne / bound),
     }
+}
+
+/// What limit analysis found as a study's own solver, in its own columns: a factor above 1 stands nowhere else.
+fn by_itself(run: &protocol::Run, flow: Flow) -> Option<LimitAnalysis> {
+    let borne = run.steps.get(1)?.level;
+    let found = match run.outcome {
+        Outcome::Collapsed { .. } => true,
+        // More than the full load is a capacity; the end of a tilt is not.
+        Outcome::Equilibrium => matches!(borne, Level::Factor(factor) if factor > 1.0),
+        _ => false,
+    };
+    let of = |own: Flow, x: Option<f64>| x.filter(|_| found && own == flow);
+    let factor = matches!(borne, Level::Factor(_)).then(|| borne.value());
+    Some(LimitAnalysis {
+        angle_deg: of(Flow::Associative, tilt(borne)),
+        non_associative_angle_deg: of(Flow::NonAssociative, tilt(borne)),
+        multiplier: of(Flow::Associative, factor),
+        non_associative_multiplier: of(Flow::NonAssociative, factor),
+        agreement: Agreement::WithinBound,
+        ratio: None,
+    })
 }
 
 /// A tilt (deg), if the level is one.

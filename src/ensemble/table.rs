@@ -8,7 +8,7 @@ use crate::ensemble::{Row, RunError, StepRow};
 
 /// One row per member, in the order given; a value that a member does not have is null.
 pub(crate) fn members(rows: &[Row]) -> Result<Vec<u8>, RunError> {
-    let text = |name: &str, of: fn(&Row) -> String| {
+    let text = |name: &str, of: fn(&Row) -> Option<String>| {
         Column::from(Series::new(name.into(), rows.iter().map(of).collect::<Vec<_>>()))
     };
     let count = |name: &str, of: fn(&Row) -> u64| {
@@ -18,12 +18,12 @@ pub(crate) fn members(rows: &[Row]) -> Result<Vec<u8>, RunError> {
         Column::from(Series::new(name.into(), rows.iter().map(of).collect::<Vec<_>>()))
     };
     let columns = vec![
-        text("arm", |r| r.arm.clone()),
+        text("arm", |r| Some(r.arm.clone())),
         count("point", |r| r.point.into()),
         real("kn_pa_per_m", |r| Some(r.kn_pa_per_m)),
         count("member", |r| r.member),
-        text("outcome", |r| r.outcome.name().to_string()),
-        text("reason", |r| r.outcome.reason()),
+        text("outcome", |r| Some(r.outcome.name().to_string())),
+        text("reason", |r| Some(r.outcome.reason()).filter(|reason| !reason.is_empty())),
         real("top_displacement_m", |r| r.top_displacement_m),
         real("collapse_angle_deg", |r| r.collapse_angle_deg),
         real("fails_at_deg", |r| r.fails_at_deg),
@@ -35,9 +35,9 @@ pub(crate) fn members(rows: &[Row]) -> Result<Vec<u8>, RunError> {
         real("limit_angle_non_associative_deg", |r| r.limit.and_then(|l| l.non_associative_angle_deg)),
         real("limit_multiplier", |r| r.limit.and_then(|l| l.multiplier)),
         real("limit_multiplier_non_associative", |r| r.limit.and_then(|l| l.non_associative_multiplier)),
-        text("agreement", |r| r.limit.map_or("", |l| l.agreement.name()).to_string()),
+        text("agreement", |r| r.limit.map(|l| l.agreement.name().to_string())),
         real("capacity_over_limit", |r| r.limit.and_then(|l| l.ratio)),
-        text("failure_mode", |r| r.mechanism.map_or("", |m| m.mode.name()).to_string()),
+        text("failure_mode", |r| r.mechanism.map(|m| m.mode.name().to_string())),
         real("moving_stones", |r| r.mechanism.map(|m| m.moving.into())),
         real("moving_weight_share", |r| r.mechanism.map(|m| m.weight_share)),
         real("moving_length_share", |r| r.mechanism.map(|m| m.length_share)),

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::exchange::Unit;
 use crate::exchange::fault::{Fault, WallFaults};
+use crate::exchange::mended::Mended;
 use crate::exchange::solid::{diagonal, solid};
 use crate::math::Vec3;
 use crate::model::{Block, Support, Tag, Wall};
@@ -43,6 +44,8 @@ pub struct Draft {
     pub fixed: bool,
     /// What it is.
     pub tag: Tag,
+    /// The stone that it is a part of.
+    pub group: Option<String>,
     /// Whether the file's text about it could be read; if not, its faults have been told.
     pub readable: bool,
 }
@@ -60,10 +63,12 @@ pub struct WallFile {
     pub warnings: Vec<String>,
 }
 
-/// Checks every block and puts the wall together; `faults` holds what the reading has found already.
+/// Checks every block and puts the wall together; `faults` holds what the reading has found already, `flatness` (m) is what
+/// faces may be warped by beyond the usual.
 pub fn build(
     drafts: Vec<Draft>,
     unit: Unit,
+    flatness: Option<f64>,
     mut faults: WallFaults,
     mut warnings: Vec<String>,
 ) -> Result<WallFile, WallFaults> {
@@ -77,11 +82,13 @@ pub fn build(
     }
     same_ids(&drafts, &mut faults);
     supports(&drafts, &mut faults);
+    groups(&drafts, &mut faults, &mut warnings);
+    let mut mended = Mended::default();
     let mut file =
         WallFile { wall: Wall::default(), ids: Vec::new(), names: Vec::new(), warnings: Vec::new() };
     for draft in drafts.into_iter().filter(|draft| draft.readable) {
         let line = draft.line;
-        let found = match checked(&draft, unit, &mut warnings) {
+        let found = match checked(&draft, unit, flatness, &mut mended, &mut warnings) {
             Ok(block) => {
                 file.wall.blocks.push(block);
                 file.ids.push(draft.id.unwrap_or(0));
@@ -95,6 +102,7 @@ pub fn build(
             faults.push(fault.at(line, 0));
         }
     }
+    warnings.extend(mended.told(flatness));
     file.warnings = warnings;
     if faults.is_empty() { Ok(file) } else { Err(faults) }
 }
@@ -134,8 +142,38 @@ fn supports(drafts: &[Draft], faults: &mut WallFaults) {
     }
 }
 
+/// The parts of a stone are held alike.
+fn groups(drafts: &[Draft], faults: &mut WallFaults, warnings: &mut Vec<String>) {
+    let mut of: BTreeMap<&str, Vec<&Draft>> = BTreeMap::new();
+    for draft in drafts.iter().filter(|draft| draft.readable) {
+        if let Some(group) = &draft.group {
+            of.entry(group).or_default().push(draft);
+        }
+    }
+    for (group, parts) in of {
+        if let [only] = parts[..] {
+            warnings.push(format!("{} is the only part of group \"{group}\"", only.name));
+        }
+        if let Some(other) = parts.iter().find(|part| part.fixed != parts[0].fixed) {
+            let (free, fixed) = if other.fixed { (parts[0], *other) } else { (*other, parts[0]) };
+            faults.push(Fault::of(
+                &free.name,
+                format!("it is free and {} is fixed, and both are parts of group \"{group}\"", fixed.name),
+                "all parts of a group fixed or none, as they are one body",
+                "set the same \"fixed\" for all of them",
+            ));
+        }
+    }
+}
+
 /// The block, or all its faults.
-fn checked(draft: &Draft, unit: Unit, warnings: &mut Vec<String>) -> Result<Block, Vec<Fault>> {
+fn checked(
+    draft: &Draft,
+    unit: Unit,
+    flatness: Option<f64>,
+    mended: &mut Mended,
+    warnings: &mut Vec<String>,
+) -> Result<Block, Vec<Fault>> {
     let vertices: Vec<Vec3> = draft.vertices.iter().map(|v| v / unit.per_metre()).collect();
     let mut faults = density(draft);
     let mut numbers = counts(draft);
@@ -148,21 +186,23 @@ fn checked(draft: &Draft, unit: Unit, warnings: &mut Vec<String>) -> Result<Bloc
         return Err(faults);
     }
     faults.extend(size(draft, &vertices, unit));
-    let shape = solid(&draft.name, &vertices, &faces);
-    let (Ok(shape), true) = (&shape, faults.is_empty()) else {
-        faults.extend(shape.err().unwrap_or_default());
+    let solid = solid(&draft.name, &vertices, &faces, flatness);
+    let (Ok(solid), true) = (&solid, faults.is_empty()) else {
+        faults.extend(solid.err().unwrap_or_default());
         return Err(faults);
     };
+    mended.note(&draft.name, solid, diagonal(&vertices));
     let used: BTreeSet<&u32> = faces.iter().flatten().collect();
     if used.len() < vertices.len() {
         let idle = vertices.len() - used.len();
         warnings.push(format!("{}: {idle} vertices belong to no face and are dropped", draft.name));
     }
     Ok(Block {
-        shape: shape.clone(),
+        shape: solid.shape.clone(),
         density: draft.density.unwrap_or(FIXED_DENSITY),
         support: if draft.fixed { Support::Fixed } else { Support::Free },
-        tag: draft.tag,
+        tag: draft.tag.clone(),
+        group: draft.group.clone(),
     })
 }
 

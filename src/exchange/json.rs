@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::math::Vec3;
-use crate::model::{Support, Tag, Wall};
+use crate::model::{Support, Wall};
 
 /// One block as the file states it.
 #[derive(Serialize)]
@@ -13,11 +13,13 @@ struct Entry<'a> {
     faces: &'a [Vec<u32>],
     density: f64,
     fixed: bool,
-    tag: Tag,
+    tag: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    group: Option<&'a str>,
 }
 
 /// The wall as `wall.json`: `{"unit":"m","blocks":[{"id","vertices":[[x,y,z],...],"faces":[[i,j,k,...],...],"density",
-/// "fixed","tag"},...]}`.
+/// "fixed","tag","group"},...]}`; `group` for the parts of a stone only.
 ///
 /// Axes: x along the wall, y out of plane (positive downhill), z up. Faces run counter-clockwise seen from outside
 /// and count their block's vertices from 0; densities are in kg/m^3. One block per line; every number is the
@@ -42,7 +44,8 @@ pub fn write_wall_json(wall: &Wall) -> String {
                 faces: &block.shape.faces,
                 density: block.density,
                 fixed: block.support == Support::Fixed,
-                tag: block.tag,
+                tag: block.tag.name(),
+                group: block.group.as_deref(),
             })
             .expect("numbers, lists and names always have a JSON form")
         })
@@ -55,7 +58,7 @@ mod tests {
     use serde_json::Value;
 
     use super::*;
-    use crate::model::Block;
+    use crate::model::{Block, Tag};
     use crate::shape::Polyhedron;
 
     fn wall() -> Wall {
@@ -64,6 +67,7 @@ mod tests {
             density: 2400.0,
             support: Support::Free,
             tag: Tag::Header,
+            group: None,
         };
         Wall { blocks: vec![stone] }.with_base()
     }

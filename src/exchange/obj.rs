@@ -2,9 +2,12 @@
 
 use std::fmt::Write;
 
-use crate::model::{Tag, Wall};
+use crate::exchange::read_obj::is_support;
+use crate::model::{Block, Support, Tag, Wall};
 
-/// The wall as Wavefront OBJ: one object per block, named by tag and id (`stone_12`), in metres, z up.
+/// The wall as Wavefront OBJ: one object per block, named by tag and id (`stone_12`), in metres, z up. A fixed block has the word
+/// `fixed`, `base` or `end` in its name and no other block has; the parts of a stone are named after the first of them
+/// (`stone_12.part1`, `stone_12.part2`). A tag of the owner's own is `stone`.
 ///
 /// Faces are polygons, counter-clockwise seen from outside; their indices count the vertices of the whole file from
 /// 1, as the format wants it. OBJ has no density: it stands in a comment above the block. Every number is the
@@ -17,12 +20,20 @@ use crate::model::{Tag, Wall};
 pub fn write_obj(wall: &Wall) -> String {
     let mut text = String::from("# unit m; x along the wall, y out of plane, z up\n");
     let mut first = 1;
+    let (leads, mut parts) = (wall.leads(), vec![0; wall.blocks.len()]);
     for (id, block) in wall.blocks.iter().enumerate() {
         let mut line = |arguments: std::fmt::Arguments| {
             writeln!(text, "{arguments}").expect("a string takes every text");
         };
         line(format_args!("# density {} kg/m^3", block.density));
-        line(format_args!("o {}_{id}", object_name(block.tag)));
+        match block.group {
+            None => line(format_args!("o {}_{id}", object_name(block))),
+            Some(_) => {
+                let lead = leads[id];
+                parts[lead] += 1;
+                line(format_args!("o {}_{lead}.part{}", object_name(block), parts[lead]));
+            }
+        }
         for v in &block.shape.vertices {
             line(format_args!("v {} {} {}", v.x, v.y, v.z));
         }
@@ -35,13 +46,17 @@ pub fn write_obj(wall: &Wall) -> String {
     text
 }
 
-fn object_name(tag: Tag) -> &'static str {
-    match tag {
-        Tag::Stone => "stone",
-        Tag::Header => "header",
-        Tag::Wedge => "wedge",
-        Tag::Base => "base",
-        Tag::End => "end",
+/// What a block is and whether it is fixed, as the reader of OBJ understands it.
+fn object_name(block: &Block) -> String {
+    let fixed = block.support == Support::Fixed;
+    let name = match &block.tag {
+        Tag::Other(_) => "stone",
+        known => known.name(),
+    };
+    match (fixed, is_support(name)) {
+        (true, false) => format!("{name}_fixed"),
+        (false, true) => "stone".to_owned(),
+        _ => name.to_owned(),
     }
 }
 
@@ -49,7 +64,6 @@ fn object_name(tag: Tag) -> &'static str {
 mod tests {
     use super::*;
     use crate::math::Vec3;
-    use crate::model::{Block, Support};
     use crate::shape::Polyhedron;
 
     #[test]
@@ -59,6 +73,7 @@ mod tests {
             density: 2400.0,
             support: Support::Free,
             tag: Tag::Stone,
+            group: None,
         };
         let wall = Wall { blocks: vec![solid(0.0), solid(0.1 + 0.2)] };
         let (mut vertices, mut solids): (Vec<Vec3>, Vec<(String, Polyhedron)>) = (vec![], vec![]);

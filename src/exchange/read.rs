@@ -6,8 +6,9 @@ use std::path::Path;
 
 use crate::exchange::draft::WallFile;
 use crate::exchange::fault::{Fault, WallFaults};
-use crate::exchange::read_json::read_wall_json;
+use crate::exchange::read_json::read_wall_json_with;
 use crate::exchange::read_obj::read_obj;
+use crate::math::Vec3;
 
 /// Largest file that is read (bytes).
 pub const LARGEST_FILE: u64 = 64 << 20;
@@ -49,20 +50,46 @@ impl Unit {
     }
 }
 
-/// What an OBJ file does not say about itself.
+/// The axis of a file that points up.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Up {
+    /// The second one, as programs for pictures have it: the file's x, y, z become x, z, -y of the wall.
+    Y,
+    /// The third one.
+    #[default]
+    Z,
+}
+
+impl Up {
+    /// A point of the file in the wall's axes.
+    pub fn of_wall(&self, point: &Vec3) -> Vec3 {
+        match self {
+            Up::Y => Vec3::new(point.x, -point.z, point.y),
+            Up::Z => *point,
+        }
+    }
+}
+
+/// What a file does not say about itself, and what is allowed of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ObjOptions {
-    /// Unit of the coordinates; metres without it.
+pub struct ReadOptions {
+    /// Unit of the coordinates of an OBJ file; metres without it.
     pub unit: Option<Unit>,
-    /// Density (kg/m^3) of the objects without a density comment; 2400 with a warning without it.
+    /// Density (kg/m^3) of the objects of an OBJ file without a density comment; 2400 with a warning without it.
     pub density: Option<f64>,
+    /// The axis of an OBJ file that points up; the third one unless it is changed.
+    pub up: Up,
+    /// How far (m) corners may lie off the plane of their face, or outside the plane of another one: such faces are made plane,
+    /// and how far corners were moved is told. Without it, or where it is less, 1e-4 of the block's size is allowed, and
+    /// nothing is moved.
+    pub flatness: Option<f64>,
 }
 
 /// Reads a wall from a `.json` or `.obj` file.
 ///
 /// # Errors
 /// Everything that is wrong with the file, block by block; see [`WallFaults`].
-pub fn read_wall(path: &Path, options: &ObjOptions) -> Result<WallFile, WallFaults> {
+pub fn read_wall(path: &Path, options: &ReadOptions) -> Result<WallFile, WallFaults> {
     let name = path.display().to_string();
     let ending = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
     let refused = |fault: Fault| {
@@ -88,6 +115,9 @@ pub fn read_wall(path: &Path, options: &ObjOptions) -> Result<WallFile, WallFaul
         return refused(Fault::of("", "the file is no text", "UTF-8 text", "save it as UTF-8"));
     };
     let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
-    let read = if ending.as_deref() == Some("obj") { read_obj(text, options) } else { read_wall_json(text) };
+    let read = match ending.as_deref() {
+        Some("obj") => read_obj(text, options),
+        _ => read_wall_json_with(text, options.flatness),
+    };
     read.map_err(|faults| WallFaults { file: name, ..faults })
 }

@@ -14,13 +14,15 @@ use crate::math::{Vec3, edit_distance};
 use crate::model::Tag;
 
 const KEYS: [&str; 2] = ["unit", "blocks"];
-const BLOCK_KEYS: [&str; 6] = ["id", "vertices", "faces", "density", "fixed", "tag"];
+const BLOCK_KEYS: [&str; 7] = ["id", "vertices", "faces", "density", "fixed", "tag", "group"];
 
 /// A wall from the text of a `wall.json` (see [`crate::exchange::write_wall_json`]).
 ///
 /// `unit` is `m` (default), `cm` or `mm`. Every block has `id` (whole, unique), `vertices` and `faces`; `density`
-/// (kg/m^3) unless it is fixed; `fixed` (default false) and `tag` (default `stone`, or `base` where fixed). Other keys are refused. Repeated
-/// vertices are welded and coplanar faces merged.
+/// (kg/m^3) unless it is fixed; `fixed` (default false) and `tag` (default `stone`, or `base` where fixed): `stone`, `header`,
+/// `wedge`, `base`, `end` or a word of one's own, which is a stone. Blocks with the same `group` (a name) are the convex parts of
+/// one rigid stone. Other keys are refused. Corners of neighbouring faces within 1e-4 of the block are one, also where a corner
+/// of one face lies on the edge of another; coplanar faces are merged.
 ///
 /// # Errors
 /// Everything that is wrong with the text; a fault of the JSON itself stands alone, with its line and column.
@@ -31,6 +33,14 @@ const BLOCK_KEYS: [&str; 6] = ["id", "vertices", "faces", "density", "fixed", "t
 /// assert_eq!(read.wall.blocks.len(), 73);
 /// ```
 pub fn read_wall_json(text: &str) -> Result<WallFile, WallFaults> {
+    read_wall_json_with(text, None)
+}
+
+/// The same with warped faces made plane, see [`crate::exchange::ReadOptions::flatness`] (m).
+///
+/// # Errors
+/// As [`read_wall_json`].
+pub fn read_wall_json_with(text: &str, flatness: Option<f64>) -> Result<WallFile, WallFaults> {
     let mut faults = WallFaults::new("wall.json");
     if text.trim().is_empty() {
         let fix = "see `pirca analyse --help` for an example";
@@ -45,7 +55,7 @@ pub fn read_wall_json(text: &str) -> Result<WallFile, WallFaults> {
     });
     let mut faults = reading.faults.into_inner();
     match read {
-        Ok((unit, drafts)) => build(drafts, unit, faults, Vec::new()),
+        Ok((unit, drafts)) => build(drafts, unit, flatness, faults, Vec::new()),
         Err(error) => {
             faults.push_last(syntax_fault(text, &error));
             Err(faults)
@@ -189,6 +199,7 @@ fn draft(reading: &Reading, place: usize, node: Node) -> Draft {
         density: None,
         fixed: false,
         tag: Tag::Stone,
+        group: None,
         readable: true,
         name: name.clone(),
     };
@@ -205,27 +216,21 @@ fn draft(reading: &Reading, place: usize, node: Node) -> Draft {
         None => {}
     }
     match get("tag") {
-        Some(Node::Text(name)) if tag(name).is_some() => block.tag = tag(name).unwrap_or(Tag::Stone),
+        Some(Node::Text(name)) => block.tag = Tag::named(name),
         Some(node) => {
-            wrong("tag", node, "stone, header, wedge, base or end", "write one of them, or leave it out")
+            wrong("tag", node, "a word: stone, header, wedge, base, end or your own", "write it in quotes")
         }
         // What is fixed and not named otherwise is the ground.
         None if block.fixed => block.tag = Tag::Base,
         None => {}
     }
+    match get("group") {
+        Some(Node::Text(name)) if !name.is_empty() => block.group = Some(name.clone()),
+        Some(node) => wrong("group", node, "a name that all parts of a stone have", "write it in quotes"),
+        None => {}
+    }
     block.readable = reading.faults.borrow().count() == before;
     block
-}
-
-fn tag(name: &str) -> Option<Tag> {
-    Some(match name {
-        "stone" => Tag::Stone,
-        "header" => Tag::Header,
-        "wedge" => Tag::Wedge,
-        "base" => Tag::Base,
-        "end" => Tag::End,
-        _ => return None,
-    })
 }
 
 /// Unknown, repeated and missing keys.
@@ -267,7 +272,12 @@ fn vertices(reading: &Reading, name: &str, node: &Node) -> Vec<Vec3> {
                 _ => {
                     let parts: Vec<String> = c.iter().take(5).map(Node::told).collect();
                     let found = format!("vertex {i} is [{}] ({} values)", parts.join(", "), c.len());
-                    reading.fault(name, found, allowed, "give it three numbers");
+                    let commas = c.len() > 3 && c.iter().all(|node| matches!(node, Node::Number(_)));
+                    let fix = match commas {
+                        true => "give it three numbers; decimal commas? Write 0.5 for 0,5",
+                        false => "give it three numbers",
+                    };
+                    reading.fault(name, found, allowed, fix);
                 }
             },
             other => reading.fault(

@@ -2,9 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use crate::exchange::closing::closes;
 use crate::exchange::draft::{Draft, MOST_BLOCKS, MOST_VERTICES, WallFile, build};
 use crate::exchange::fault::{Fault, WallFaults};
-use crate::exchange::{ObjOptions, Unit};
+use crate::exchange::solid::{FLATNESS, diagonal};
+use crate::exchange::{ReadOptions, Unit};
 use crate::math::Vec3;
 use crate::model::Tag;
 
@@ -12,26 +14,30 @@ use crate::model::Tag;
 const USUAL_DENSITY: f64 = 2400.0;
 /// Words in an object's name that make it a support.
 const FIXED_WORDS: [&str; 5] = ["base", "end", "fixed", "ground", "support"];
+/// What the name of a part of a stone ends in, before its number.
+const PART: &str = ".part";
 /// What a file of polygons may hold besides them, and what does not matter here.
 const IGNORED: [&str; 11] = ["vn", "vt", "vp", "s", "l", "p", "mtllib", "usemtl", "usemap", "maplib", "lod"];
 
-/// A wall from the text of an OBJ file: one object (`o`, or `g` where there is no `o`) per block, z up.
+/// A wall from the text of an OBJ file: one object (`o`, or `g` where there is no `o`) per block, z up unless
+/// [`ReadOptions::up`] says otherwise. A name that comes again goes on with its block, unless each of the pieces is a closed solid.
 ///
 /// Polygons of any number of corners; texture and normal numbers are read over, negative numbers count back from the
 /// last vertex. A block is fixed when a word of its name is `base`, `end`, `fixed`, `ground` or `support`, in any
 /// case (`base_72`, `Left_support.001`). A comment `# density 2400 kg/m^3`, as [`crate::exchange::write_obj`] writes
-/// it, holds for the object after it. Repeated vertices are welded and coplanar faces merged. Ids are the places of
-/// the objects, from 0.
+/// it, holds for the object after it. Objects `name.part1`, `name.part2` and so on are the convex parts of one rigid stone.
+/// Corners are put together and coplanar faces merged as in [`crate::exchange::read_wall_json`]. Ids are the places of the
+/// objects, from 0.
 ///
 /// # Errors
 /// Everything that is wrong with the text, with lines.
 ///
 /// ```
-/// use pirca::exchange::{ObjOptions, read_obj, write_obj};
+/// use pirca::exchange::{ReadOptions, read_obj, write_obj};
 /// let wall = pirca::generate::canonical::wall_72().with_base();
-/// assert_eq!(read_obj(&write_obj(&wall), &ObjOptions::default()).unwrap().wall, wall);
+/// assert_eq!(read_obj(&write_obj(&wall), &ReadOptions::default()).unwrap().wall, wall);
 /// ```
-pub fn read_obj(text: &str, options: &ObjOptions) -> Result<WallFile, WallFaults> {
+pub fn read_obj(text: &str, options: &ReadOptions) -> Result<WallFile, WallFaults> {
     let mut reader = Reader {
         faults: WallFaults::new("wall.obj"),
         vertices: Vec::new(),
@@ -80,6 +86,51 @@ impl Object {
     fn is_block(&self) -> bool {
         !self.faces.is_empty() || !self.readable
     }
+
+    /// The vertices in use, in the order of the file, and the faces by them.
+    fn own(&self, vertices: &[Vec3]) -> (Vec<Vec3>, Vec<Vec<u32>>) {
+        let mut used: Vec<usize> = self.faces.iter().flatten().copied().collect();
+        used.sort_unstable();
+        used.dedup();
+        let number: BTreeMap<usize, u32> = used.iter().enumerate().map(|(i, &v)| (v, i as u32)).collect();
+        let faces = self.faces.iter().map(|face| face.iter().map(|v| number[v]).collect()).collect();
+        (used.iter().map(|&v| vertices[v]).collect(), faces)
+    }
+
+    /// Whether its faces close by themselves; `allowed` as in [`closes`], in the file's unit.
+    fn is_solid(&self, vertices: &[Vec3], allowed: f64) -> bool {
+        let (own, faces) = self.own(vertices);
+        let size = diagonal(&own);
+        self.faces.len() >= 4 && closes(&own, &faces, size, allowed.max(FLATNESS * size))
+    }
+}
+
+/// The blocks: objects of one name are pieces of one, in the place of the first, unless each is a solid of its own.
+fn put_together(objects: Vec<Object>, vertices: &[Vec3], allowed: f64) -> Vec<Object> {
+    let mut named: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+    for (i, object) in objects.iter().enumerate().filter(|(_, object)| !object.name.is_empty()) {
+        named.entry(&object.name).or_default().push(i);
+    }
+    let mut first: Vec<usize> = (0..objects.len()).collect();
+    for pieces in named.values().filter(|pieces| pieces.len() > 1) {
+        if !pieces.iter().all(|&i| objects[i].is_solid(vertices, allowed)) {
+            pieces.iter().for_each(|&i| first[i] = pieces[0]);
+        }
+    }
+    let mut blocks: BTreeMap<usize, Object> = BTreeMap::new();
+    for (object, first) in objects.into_iter().zip(first) {
+        match blocks.get_mut(&first) {
+            Some(block) => {
+                block.faces.extend(object.faces);
+                block.density = block.density.or(object.density);
+                block.readable &= object.readable;
+            }
+            None => {
+                blocks.insert(first, object);
+            }
+        }
+    }
+    blocks.into_values().collect()
 }
 
 struct Reader {
@@ -154,7 +205,10 @@ impl Reader {
             }
             _ => {
                 let found = format!("\"v {}\" is no vertex", cut(words));
-                self.fault(line, found, "three finite numbers after v", "correct the line");
+                let commas =
+                    words.iter().any(|w| w.contains(',') && w.replace(',', ".").parse::<f64>().is_ok());
+                let fix = if commas { "decimal commas? Write 0.5 for 0,5" } else { "correct the line" };
+                self.fault(line, found, "three finite numbers after v", fix);
                 // Numbers of later faces still mean what they meant.
                 self.vertices.push(Vec3::zeros());
             }
@@ -207,28 +261,26 @@ impl Reader {
     }
 
     /// The objects as drafts, each with its own vertices in the order of the file.
-    fn into_wall(self, options: &ObjOptions) -> Result<WallFile, WallFaults> {
+    fn into_wall(self, options: &ReadOptions) -> Result<WallFile, WallFaults> {
         let Reader { faults, vertices, mut objects, .. } = self;
         objects.retain(Object::is_block);
+        let allowed = options.flatness.map_or(0.0, |m| m * options.unit.unwrap_or_default().per_metre());
+        let objects = put_together(objects, &vertices, allowed);
         let (mut assumed, mut fixed) = (0, Vec::new());
         let mut drafts = Vec::with_capacity(objects.len());
         for (place, object) in objects.into_iter().enumerate() {
-            let own: BTreeMap<usize, i64> = {
-                let mut used: Vec<usize> = object.faces.iter().flatten().copied().collect();
-                used.sort_unstable();
-                used.dedup();
-                used.into_iter().enumerate().map(|(i, v)| (v, i as i64)).collect()
-            };
-            let fixed_by_name = words(&object.name).any(|word| FIXED_WORDS.contains(&word.as_str()));
+            let (own, faces) = object.own(&vertices);
+            let fixed_by_name = is_support(&object.name);
             let draft = Draft {
                 name: title(place, &object.name),
                 id: Some(place as u64),
                 line: object.line,
-                vertices: own.keys().map(|&v| vertices[v]).collect(),
-                faces: object.faces.iter().map(|face| face.iter().map(|v| own[v]).collect()).collect(),
+                vertices: own.iter().map(|v| options.up.of_wall(v)).collect(),
+                faces: faces.iter().map(|face| face.iter().map(|&v| i64::from(v)).collect()).collect(),
                 density: object.density.or(options.density).or(Some(USUAL_DENSITY)),
                 fixed: fixed_by_name,
                 tag: tag(&object.name).unwrap_or(if fixed_by_name { Tag::Base } else { Tag::Stone }),
+                group: whole(&object.name).map(str::to_owned),
                 readable: object.readable,
             };
             if draft.fixed {
@@ -249,7 +301,7 @@ impl Reader {
             let rest = if fixed.len() > 5 { format!(" and {} more", fixed.len() - 5) } else { String::new() };
             warnings.push(format!("fixed by their names: {shown}{rest}"));
         }
-        build(drafts, options.unit.unwrap_or(Unit::Metre), faults, warnings)
+        build(drafts, options.unit.unwrap_or(Unit::Metre), options.flatness, faults, warnings)
     }
 }
 
@@ -270,16 +322,23 @@ fn words(name: &str) -> impl Iterator<Item = String> + '_ {
     name.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty()).map(str::to_lowercase)
 }
 
+/// Whether a word of an object's name makes it a support.
+pub fn is_support(name: &str) -> bool {
+    words(name).any(|word| FIXED_WORDS.contains(&word.as_str()))
+}
+
+/// The name of the stone that an object is a part of, by the end `.part` and a number of its own.
+fn whole(name: &str) -> Option<&str> {
+    let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    let whole =
+        stem.len().checked_sub(PART.len()).filter(|&at| stem.is_char_boundary(at) && stem.len() < name.len());
+    let (whole, end) = stem.split_at(whole?);
+    (!whole.is_empty() && end.eq_ignore_ascii_case(PART)).then_some(whole)
+}
+
 /// What an object is, by the first word of its name.
 fn tag(name: &str) -> Option<Tag> {
-    match words(name).next()?.as_str() {
-        "stone" => Some(Tag::Stone),
-        "header" => Some(Tag::Header),
-        "wedge" => Some(Tag::Wedge),
-        "base" => Some(Tag::Base),
-        "end" => Some(Tag::End),
-        _ => None,
-    }
+    Some(Tag::named(&words(name).next()?)).filter(|tag| !matches!(tag, Tag::Other(_)))
 }
 
 /// The density (kg/m^3) in a comment `# density 2400 kg/m^3`.

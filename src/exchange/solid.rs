@@ -1,50 +1,99 @@
-//! From the vertices and faces of a file to a convex solid: repeated vertices welded, coplanar faces merged.
+//! From the vertices and faces of a file to a convex solid: corners put together, coplanar faces merged, and where it is allowed
+//! warped faces made plane.
 //!
 //! Programs for drawing write a plane face as triangles and a corner once per face. A joint is the overlap of two
 //! whole faces, so the pieces are put together again before the solid is checked.
 
 use std::collections::BTreeMap;
 
+use crate::exchange::closing::{Closed, Face, close, edges};
 use crate::exchange::fault::Fault;
+use crate::exchange::flatten::flattened;
 use crate::math::Vec3;
 use crate::shape::{Polyhedron, ShapeFault};
 
-/// Share of a block's size within which its faces must be plane and convex; rounded coordinates must pass.
+/// Share of a block's size within which its faces must close, be plane and convex; rounded coordinates must pass.
 pub const FLATNESS: f64 = 1e-4;
-/// Share of a block's size within which vertices are one and the same.
-const WELD: f64 = 1e-7;
+/// A face with less area than this share of `FLATNESS` squared of the block's size squared has no direction.
+const SLIVER: f64 = 1e-3;
 /// Faces of one plane look the same way: cosine of 60 degrees. Only faces of a very thin block come near it.
 const SAME_SIDE: f64 = 0.5;
+/// A dent of so many times the usual flatness, 2 % of the block's size, may be a warped face; a deeper one is a shape.
+const NEARLY_CONVEX: f64 = 200.0;
+/// Most that faces may be warped, as a share of the block's size: a stone that is more so has another shape.
+const MOST_WARPED: f64 = 0.05;
 /// Most corners of a block after merging; the time of an overlap check grows with the cube of it.
 pub const MOST_CORNERS: usize = 200;
 
-/// A face under construction, with its number in the file.
-struct Face {
-    number: usize,
-    corners: Vec<u32>,
+/// A solid, and what was done to the file's corners for it.
+#[derive(Clone, Debug)]
+pub struct Solid {
+    /// Its shape (m).
+    pub shape: Polyhedron,
+    /// How far apart (m) corners were that have been put together.
+    pub apart: f64,
+    /// How far (m) corners have been moved to make warped faces plane; `None` where they were plane.
+    pub moved: Option<f64>,
 }
 
 /// The solid with these vertices (m) and faces, or everything that is wrong with it.
 ///
-/// `faces` name existing vertices, each at most once per face. A solid in which nothing is repeated or in pieces
-/// comes back as it is, to the bit.
-pub fn solid(block: &str, vertices: &[Vec3], faces: &[Vec<u32>]) -> Result<Polyhedron, Vec<Fault>> {
+/// `faces` name existing vertices, each at most once per face. A solid in which nothing is repeated, in pieces or warped
+/// comes back as it is, to the bit. `flatness` (m) allows more than the usual [`FLATNESS`].
+pub fn solid(
+    block: &str,
+    vertices: &[Vec3],
+    faces: &[Vec<u32>],
+    flatness: Option<f64>,
+) -> Result<Solid, Vec<Fault>> {
     let size = diagonal(vertices);
     let flat = FLATNESS * size;
-    let welded = weld(vertices, WELD * size);
-    let faces: Vec<Face> = faces
-        .iter()
-        .enumerate()
-        .map(|(number, face)| Face { number, corners: without_repeats(face, &welded) })
-        .filter(|face| face.corners.len() >= 3)
-        .collect();
-    let mut faults = unpaired_edges(block, vertices, &faces);
-    faults.extend(bent_faces(block, vertices, &faces, flat));
+    let allowed = flatness.map_or(flat, |asked| asked.min(MOST_WARPED * size).max(flat));
+    let closed = close(block, vertices, faces, size, allowed)?;
+    let apart = closed.apart;
+    let plane = plane_faced(block, &closed, flat);
+    let (shape, moved) = match (plane, warped(&closed, flat, allowed)) {
+        (Ok(shape), None) => (shape, None),
+        (Err(faults), None) => return Err(faults),
+        (_, Some(faces)) => {
+            let (shape, moved) = flattened(block, &closed.vertices, &faces, size, allowed)?;
+            (shape, Some(moved))
+        }
+    };
+    sound(block, &shape, size, flat)?;
+    Ok(Solid { shape, apart, moved })
+}
+
+/// The faces to be made plane; `None` where no more than the usual is allowed, or where that leaves them as they are: so a face
+/// that two stones share becomes the same plane for both, whether it is convex or concave for a stone.
+fn warped(closed: &Closed, flat: f64, allowed: f64) -> Option<Vec<Face>> {
+    let vertices = &closed.vertices;
+    let usual = merge(vertices, closed.faces.clone(), flat, flat);
+    let pieces = usual.len();
+    let bent = |faces: &[Face]| !bent_faces("", vertices, faces, flat).is_empty();
+    let merged = (allowed > flat).then(|| merge(vertices, usual, allowed, flat))?;
+    let is_warped = merged.len() < pieces || bent(&merged) || plane_faced("", closed, flat).is_err();
+    is_warped.then(|| without_straight_corners(vertices, merged, flat))
+}
+
+/// The solid whose faces are plane as they are.
+fn plane_faced(block: &str, closed: &Closed, flat: f64) -> Result<Polyhedron, Vec<Fault>> {
+    let vertices = &closed.vertices;
+    let faults = bent_faces(block, vertices, &closed.faces, flat);
     if !faults.is_empty() {
         return Err(faults);
     }
-    let merged = without_straight_corners(vertices, merge(vertices, faces, flat), flat);
+    let merged = without_straight_corners(vertices, merge(vertices, closed.faces.clone(), flat, flat), flat);
     let (shape, of_file) = compact(vertices, &merged);
+    let numbers: Vec<usize> = merged.iter().map(|face| face.number).collect();
+    if shape.vertices.len() <= MOST_CORNERS {
+        shape.validate(flat).map_err(|fault| vec![told(block, &shape, &numbers, &of_file, &fault, flat)])?;
+    }
+    Ok(shape)
+}
+
+/// Not too many corners and thick enough.
+fn sound(block: &str, shape: &Polyhedron, size: f64, flat: f64) -> Result<(), Vec<Fault>> {
     if shape.vertices.len() > MOST_CORNERS {
         return Err(vec![Fault::of(
             block,
@@ -53,8 +102,6 @@ pub fn solid(block: &str, vertices: &[Vec3], faces: &[Vec<u32>]) -> Result<Polyh
             "simplify the stone's surface",
         )]);
     }
-    let numbers: Vec<usize> = merged.iter().map(|face| face.number).collect();
-    shape.validate(flat).map_err(|fault| vec![told(block, &shape, &numbers, &of_file, &fault, flat)])?;
     let width = shape.smallest_width();
     if width <= 2.0 * flat {
         return Err(vec![Fault::of(
@@ -64,7 +111,7 @@ pub fn solid(block: &str, vertices: &[Vec3], faces: &[Vec<u32>]) -> Result<Polyh
             "give it a thickness, or remove it",
         )]);
     }
-    Ok(shape)
+    Ok(())
 }
 
 /// Diagonal of the box around the vertices (m).
@@ -73,102 +120,13 @@ pub fn diagonal(vertices: &[Vec3]) -> f64 {
     (high - low).norm()
 }
 
-/// For every vertex the one that stands for it: itself, or one of lower number in the same place.
-fn weld(vertices: &[Vec3], tolerance: f64) -> Vec<u32> {
-    let mut stands: Vec<u32> = (0..vertices.len() as u32).collect();
-    let mut order: Vec<usize> = (0..vertices.len()).collect();
-    order.sort_by(|&a, &b| vertices[a].x.total_cmp(&vertices[b].x).then(a.cmp(&b)));
-    for (k, &a) in order.iter().enumerate() {
-        for &b in order[k + 1..].iter().take_while(|&&b| vertices[b].x - vertices[a].x <= tolerance) {
-            if (vertices[b] - vertices[a]).norm() <= tolerance {
-                let lowest = stands[a].min(stands[b]);
-                stands[a] = lowest;
-                stands[b] = lowest;
-            }
-        }
-    }
-    // Those that stand for others come first, so that one pass leads everyone to the last of the chain.
-    for v in 0..stands.len() {
-        stands[v] = stands[stands[v] as usize];
-    }
-    stands
-}
-
-/// The face by the vertices that stand for its own; an edge that has shrunk to nothing is gone.
-fn without_repeats(face: &[u32], stands: &[u32]) -> Vec<u32> {
-    let mut corners: Vec<u32> = face.iter().map(|&v| stands[v as usize]).collect();
-    corners.dedup();
-    while corners.len() > 1 && corners.first() == corners.last() {
-        corners.pop();
-    }
-    corners
-}
-
-fn edges(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> + '_ {
-    (0..corners.len()).map(|i| (corners[i], corners[(i + 1) % corners.len()]))
-}
-
-fn polyhedron(vertices: &[Vec3], faces: &[Face]) -> Polyhedron {
+/// The surface of all vertices and these faces.
+pub fn polyhedron(vertices: &[Vec3], faces: &[Face]) -> Polyhedron {
     Polyhedron { vertices: vertices.to_vec(), faces: faces.iter().map(|face| face.corners.clone()).collect() }
 }
 
-/// Edges that do not have exactly one neighbour running the other way: the solid is open or a face is turned over.
-fn unpaired_edges(block: &str, vertices: &[Vec3], faces: &[Face]) -> Vec<Fault> {
-    let mut users: BTreeMap<(u32, u32), Vec<usize>> = BTreeMap::new();
-    for face in faces {
-        for edge in edges(&face.corners) {
-            users.entry(edge).or_default().push(face.number);
-        }
-    }
-    let place = |v: u32| {
-        let p = vertices[v as usize];
-        format!("({}, {}, {}) m", p.x, p.y, p.z)
-    };
-    let (mut open, mut turned) = (Vec::new(), Vec::new());
-    for (&(from, to), own) in &users {
-        if own.len() > 1 {
-            turned.push((from, to, own.clone()));
-        } else if !users.contains_key(&(to, from)) {
-            open.push((from, to, own[0]));
-        }
-    }
-    let allowed = "a closed solid: every edge shared by two faces that run it in opposite ways";
-    let mut faults = Vec::new();
-    let severalfold = turned
-        .iter()
-        .find(|(from, to, own)| users.get(&(*to, *from)).is_some_and(|other| other.len() == own.len()));
-    if let Some((from, to, own)) = severalfold {
-        faults.push(Fault::of(
-            block,
-            format!("{} faces meet at the edge {from}-{to}", 2 * own.len()),
-            allowed,
-            "several solids in one block? Write one block (in OBJ: one object) per solid",
-        ));
-    } else if let Some((from, to, own)) = turned.first() {
-        faults.push(Fault::of(
-            block,
-            format!("faces {} and {} run the edge {from}-{to} the same way", own[0], own[1]),
-            allowed,
-            format!("face {} or {} is inside out (or there twice): list its vertices counter-clockwise seen from outside", own[0], own[1]),
-        ));
-    } else if let Some(&(from, to, face)) = open.first() {
-        faults.push(Fault::of(
-            block,
-            format!(
-                "the solid is open: {} edges have no neighbour, first the edge {from}-{to} of face {face} from {} to {}",
-                open.len(),
-                place(from),
-                place(to)
-            ),
-            allowed,
-            "add the missing face, or let both faces use the same two vertices",
-        ));
-    }
-    faults
-}
-
-/// Faces of the file whose vertices do not lie in a plane.
-fn bent_faces(block: &str, vertices: &[Vec3], faces: &[Face], flat: f64) -> Vec<Fault> {
+/// Faces whose vertices do not lie in a plane, to so much (m).
+pub fn bent_faces(block: &str, vertices: &[Vec3], faces: &[Face], flat: f64) -> Vec<Fault> {
     let whole = polyhedron(vertices, faces);
     let mut faults = Vec::new();
     for (f, face) in faces.iter().enumerate().filter(|(_, face)| face.corners.len() > 3) {
@@ -186,17 +144,24 @@ fn bent_faces(block: &str, vertices: &[Vec3], faces: &[Face], flat: f64) -> Vec<
                     "face {} is not plane: vertex {} lies {:.3e} m off it",
                     face.number, worst.0, worst.1
                 ),
-                format!("at most {flat:.1e} m, {FLATNESS:e} of the block's size"),
-                "move the vertex into the plane, or split the face into triangles if the solid stays convex",
+                format!("at most {flat:.1e} m ({FLATNESS:e} of the block's size, or what --flatness allows)"),
+                format!(
+                    "move the vertex into the plane, or let warped faces be made plane: --flatness {:.3}mm",
+                    1.1e3 * worst.1
+                ),
             ));
         }
     }
     faults
 }
 
-/// Faces of one plane that share edges, put together; a group whose outline is no single loop stays in pieces.
-fn merge(vertices: &[Vec3], faces: Vec<Face>, flat: f64) -> Vec<Face> {
+/// Faces of one plane that share edges, put together; a group whose outline is no single loop stays in pieces. Within more than
+/// the usual flatness only triangles are, a polygon being a face as its maker wants it, and only where all of their corners lie
+/// within that of their common plane: in a warped square, whose corners lie off its plane by turns above and below, one of them
+/// lies four times as far from the plane of the other three.
+fn merge(vertices: &[Vec3], faces: Vec<Face>, within: f64, flat: f64) -> Vec<Face> {
     let whole = polyhedron(vertices, &faces);
+    let reach = if within > flat { 4.0 * within } else { within };
     let areas: Vec<Vec3> = (0..faces.len()).map(|f| whole.face_area_vector(f)).collect();
     let owner: BTreeMap<(u32, u32), usize> =
         faces.iter().enumerate().flat_map(|(f, face)| edges(&face.corners).map(move |e| (e, f))).collect();
@@ -211,9 +176,10 @@ fn merge(vertices: &[Vec3], faces: Vec<Face>, flat: f64) -> Vec<Face> {
         }
         let plane = whole.face_plane(seed);
         let fits = |f: usize| {
-            let (area, sliver) = (areas[f].norm(), WELD / FLATNESS * flat * flat);
+            let (area, sliver) = (areas[f].norm(), SLIVER * flat * flat);
             let same_side = areas[f].dot(&plane.normal) > SAME_SIDE * area || area < sliver;
-            same_side && whole.face_vertices(f).all(|v| plane.distance(&v).abs() <= flat)
+            let a_piece = within <= flat || (faces[f].corners.len() == 3 && faces[seed].corners.len() == 3);
+            a_piece && same_side && whole.face_vertices(f).all(|v| plane.distance(&v).abs() <= reach)
         };
         group[seed] = Some(seed);
         let (mut members, mut next) = (vec![seed], 0);
@@ -228,8 +194,13 @@ fn merge(vertices: &[Vec3], faces: Vec<Face>, flat: f64) -> Vec<Face> {
             }
         }
         members.sort_unstable();
-        match outline(&faces, &members) {
-            Some(corners) => merged.push(Face { number: faces[members[0]].number, corners }),
+        let one = outline(&faces, &members)
+            .map(|corners| Face { number: faces[members[0]].number, corners })
+            .filter(|face| {
+                within <= flat || bent_faces("", vertices, std::slice::from_ref(face), within).is_empty()
+            });
+        match one {
+            Some(face) => merged.push(face),
             None => merged.extend(
                 members.iter().map(|&f| Face { number: faces[f].number, corners: faces[f].corners.clone() }),
             ),
@@ -339,7 +310,11 @@ fn told(
                     of_file[vertex], p.x, p.y, p.z, numbers[face]
                 ),
                 format!("convex solids, to {flat:.1e} m ({FLATNESS:e} of the block's size)"),
-                "divide the block into convex ones, one per object",
+                if distance < NEARLY_CONVEX * flat {
+                    format!("let warped faces be made plane: --flatness {:.3}mm", 1.1e3 * distance)
+                } else {
+                    "divide the block into convex parts of one group: \"group\" in a wall.json, objects name.part1, name.part2 in OBJ".to_owned()
+                },
             )
         }
         ref other => Fault::of(

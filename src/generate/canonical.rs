@@ -68,6 +68,7 @@ pub fn running_bond(courses: usize, whole: usize) -> Wall {
                 density: DENSITY,
                 support: Support::Free,
                 tag: Tag::Stone,
+                group: None,
             });
         }
     }
@@ -121,7 +122,7 @@ mod tests {
     fn the_base_lies_under_the_whole_wall() {
         let wall = wall_72().with_base();
         let base = &wall.blocks[72];
-        assert_eq!((base.support, base.tag), (Support::Fixed, Tag::Base));
+        assert_eq!((base.support, &base.tag), (Support::Fixed, &Tag::Base));
         let (low, high) = base.shape.bounds();
         assert_relative_eq!(low, Vec3::new(-0.1, -0.157, -0.1), epsilon = 1e-14);
         assert_relative_eq!(high, Vec3::new(1.6, 0.157, 0.0), epsilon = 1e-14);

@@ -133,6 +133,7 @@ fn finish(draft: Draft, stones: Vec<Stone>, attempts: u32) -> Generated {
                 shape: stone.shape,
                 support: Support::Free,
                 tag: stone.tag,
+                group: None,
             }
         })
         .collect();

@@ -13,6 +13,10 @@ pub struct Block {
     pub support: Support,
     /// What it is.
     pub tag: Tag,
+    /// The stone that it is a part of: all blocks of one group are one rigid body, held as the first of them is, so that
+    /// convex parts make a concave stone. They may touch and overlap without a joint; what they share weighs twice.
+    /// `None` (usual): a body of its own.
+    pub group: Option<String>,
 }
 
 /// How a block is held.
@@ -30,7 +34,7 @@ pub enum Support {
 }
 
 /// What a block is, for reports and for the rules that treat it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Tag {
     /// A stone of the wall.
@@ -43,4 +47,33 @@ pub enum Tag {
     Base,
     /// A block that restrains an end of the wall.
     End,
+    /// A stone that its owner calls something else, for example a keystone.
+    #[serde(untagged)]
+    Other(String),
+}
+
+impl Tag {
+    /// By its name in files; a name that is none of the known ones is the owner's own.
+    pub fn named(name: &str) -> Tag {
+        match name {
+            "stone" => Tag::Stone,
+            "header" => Tag::Header,
+            "wedge" => Tag::Wedge,
+            "base" => Tag::Base,
+            "end" => Tag::End,
+            other => Tag::Other(other.to_owned()),
+        }
+    }
+
+    /// Its name in files.
+    pub fn name(&self) -> &str {
+        match self {
+            Tag::Stone => "stone",
+            Tag::Header => "header",
+            Tag::Wedge => "wedge",
+            Tag::Base => "base",
+            Tag::End => "end",
+            Tag::Other(name) => name,
+        }
+    }
 }

@@ -1,5 +1,7 @@
 //! A wall: its blocks, and who gives a joint its law.
 
+use std::collections::BTreeMap;
+
 use crate::law::Coulomb;
 use crate::math::Vec3;
 use crate::model::{Block, Support, Tag};
@@ -7,6 +9,8 @@ use crate::shape::Polyhedron;
 
 /// How far the base reaches beyond the wall on all sides, and its thickness (m).
 const BASE_MARGIN: f64 = 0.1;
+/// A wall so many of its extents away from the origin of the coordinates is far: its positions lose two digits there.
+const NEAR: f64 = 50.0;
 
 /// Any assembly of convex blocks. Axes: x along the wall, y out of plane (positive downhill), z up (m).
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -21,6 +25,28 @@ impl Wall {
         self.blocks.iter().enumerate().filter(|(_, b)| !matches!(b.tag, Tag::Base | Tag::End))
     }
 
+    /// For every block the first one of its [group](Block::group), which stands for their common body; itself without one.
+    pub fn leads(&self) -> Vec<usize> {
+        let mut first: BTreeMap<&str, usize> = BTreeMap::new();
+        let mut leads = Vec::with_capacity(self.blocks.len());
+        for (id, block) in self.blocks.iter().enumerate() {
+            leads.push(block.group.as_deref().map_or(id, |group| *first.entry(group).or_insert(id)));
+        }
+        leads
+    }
+
+    /// The stones of several parts: the first part and all parts, itself among them.
+    pub fn parts(&self) -> BTreeMap<usize, Vec<usize>> {
+        let mut parts: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for (id, lead) in
+            self.leads().into_iter().enumerate().filter(|(id, _)| self.blocks[*id].group.is_some())
+        {
+            parts.entry(lead).or_default().push(id);
+        }
+        parts.retain(|_, parts| parts.len() > 1);
+        parts
+    }
+
     /// Lowest and highest corner of the box around all blocks (m); infinite and inside out for a wall without blocks.
     pub fn bounds(&self) -> (Vec3, Vec3) {
         let mut box_around = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
@@ -29,6 +55,41 @@ impl Wall {
             box_around = (box_around.0.inf(&low), box_around.1.sup(&high));
         }
         box_around
+    }
+
+    /// The point (m) that the solvers count from, so that a wall has the same answer wherever it stands: far from the origin
+    /// of the coordinates the last digit of a position is as coarse as joints close.
+    ///
+    /// It is the origin itself for a wall within fifty of its extents of it. Else it lies within four extents of the middle of
+    /// the blocks that can move, on a grid of a power of two, so that the difference to it is exact.
+    pub fn local_origin(&self) -> Vec3 {
+        let free = self.blocks.iter().filter(|block| block.support != Support::Fixed);
+        let (mut low, mut high) = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
+        for (from, to) in free.map(|block| block.shape.bounds()) {
+            (low, high) = (low.inf(&from), high.sup(&to));
+        }
+        let extent = (high - low).max();
+        let middle = (low + high) * 0.5;
+        if !(extent.is_finite() && extent > 0.0) || middle.amax() <= NEAR * extent {
+            return Vec3::zeros();
+        }
+        let mut grid = 1.0;
+        while grid < 4.0 * extent {
+            grid *= 2.0;
+        }
+        while grid >= 8.0 * extent {
+            grid *= 0.5;
+        }
+        middle.map(|x| (x / grid).round() * grid)
+    }
+
+    /// [`Wall::local_origin`], and the wall with its positions counted from there.
+    pub fn about_local_origin(&self) -> (Vec3, Wall) {
+        let (origin, mut wall) = (self.local_origin(), self.clone());
+        for block in &mut wall.blocks {
+            block.shape = block.shape.translated(&-origin);
+        }
+        (origin, wall)
     }
 
     /// The same wall out of plumb: everything moved along y by `slope` times its height above z = 0, so that level beds stay
@@ -65,6 +126,7 @@ impl Wall {
             density,
             support: Support::Fixed,
             tag: Tag::Base,
+            group: None,
         });
         self
     }

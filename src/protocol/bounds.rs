@@ -1,12 +1,13 @@
 //! Limit analysis beside a load path: what rigid blocks on the same joints can bear, and whether a solver's answer is
 //! compatible with that.
 
-use crate::math::Vec3;
-use crate::model::{JointLaws, Level, Outcome, Wall};
+use crate::model::{JointLaws, Outcome, Wall};
+use crate::protocol::path::Growing;
 use crate::protocol::pressure::back_loads;
+use crate::protocol::rigid::{Rigid, level};
 use crate::protocol::stage::Stage;
 use crate::protocol::{Contacts, Protocol, Restraint};
-use crate::solve::limit::{Analysis, Flow, Limit, Loads, PointLoad, Settings, When};
+use crate::solve::limit::{Flow, Settings};
 
 /// What limit analysis says of a wall under a protocol's loads: a tilt (rad), or a factor on the protocol's load.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,27 +58,19 @@ impl Bounds {
         contacts: impl Into<Contacts>,
     ) -> Bounds {
         let stage = Stage::new(wall, laws, protocol, restraint, contacts.into());
-        let asked = |flow| {
-            let settings = Settings { flow, ..Settings::default() };
-            let analysis =
-                Analysis::new(&stage.assembly, &stage.laws, stage.contact, settings).with_ties(&stage.ties);
-            match protocol {
-                Protocol::Tilting(_) => analysis.tilt(stage.towards.unit(), &[]),
-                Protocol::Lateral(lateral) => {
-                    let points = back_loads(wall, lateral).into_iter().map(|load| PointLoad {
-                        block: load.block,
-                        point: load.point,
-                        force: load.force,
-                        when: When::Live,
-                    });
-                    analysis.multiplier(&Loads {
-                        points: points.collect(),
-                        live: Vec3::zeros(),
-                        ..Loads::weight()
-                    })
-                }
-            }
+        let (growing, loads) = match protocol {
+            Protocol::Tilting(_) => (Growing::Tilt(stage.towards), Vec::new()),
+            Protocol::Lateral(lateral) => (Growing::Factor, back_loads(wall, lateral)),
         };
+        let rigid = Rigid {
+            wall: &stage.assembly,
+            laws: &stage.laws,
+            contact: stage.contact,
+            ties: &stage.ties,
+            loads: &loads,
+            growing,
+        };
+        let asked = |flow| rigid.ask(Settings { flow, ..Settings::default() }).0;
         let associative = asked(Flow::Associative);
         let stands = match associative.outcome {
             Outcome::UnstableAtRest => Some(false),
@@ -108,17 +101,10 @@ impl Bounds {
     }
 }
 
-/// The level of collapse that an analysis found.
-fn level(limit: &Limit) -> Option<f64> {
-    match limit.outcome {
-        Outcome::Collapsed { at: Level::Tilt(x) | Level::Multiplier(x) | Level::Factor(x) } => Some(x),
-        _ => None,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::Level;
 
     #[test]
     fn each_way_to_disagree_is_named() {

@@ -148,7 +148,7 @@ impl<'t, 'a> Judge<'t, 'a> {
     }
 
     /// How the wall falls at a level where limit analysis finds that it cannot stand.
-    fn cannot_stand(&self, from: &Assembly<'a>, level: f64, watch: &Watch) -> Option<Fall<'a>> {
+    pub(super) fn cannot_stand(&self, from: &Assembly<'a>, level: f64, watch: &Watch) -> Option<Fall<'a>> {
         let stands = |analysis: &Analysis, level: f64| analysis.stands(&self.loads(level));
         let rigid = self.rigid.get_or_init(|| {
             let Task { wall, laws, contact, .. } = *self.task;

@@ -4,8 +4,10 @@
 use crate::model::{Level, Outcome};
 use crate::protocol::confirm::{Fall, Judge, Told};
 use crate::protocol::events::Events;
+use crate::protocol::kept::keeps_contacts;
 use crate::protocol::mechanism::{Failure, failure, joint_states};
 use crate::protocol::pace::Pace;
+use crate::protocol::rigid::rigid;
 use crate::protocol::route::Route;
 use crate::protocol::task::{displacements, turns};
 use crate::protocol::watch::{Criterion, LoadStep, Watch};
@@ -17,16 +19,23 @@ use crate::solve::{Ahead, Assembly, Equilibrate, Followed, Solver, Status, Way};
 
 /// Takes an assembly along a load path with the solver asked for.
 pub fn drive(task: &Task<'_>, solver: &Solver) -> Run {
+    drive_telling(task, solver, &|_| {})
+}
+
+/// [`drive`], which tells of every level at which the wall came to rest; nothing that is done there can change the result.
+pub fn drive_telling(task: &Task<'_>, solver: &Solver, tell: &dyn Fn(Level)) -> Run {
     match solver {
-        Solver::Explicit(settings) => climb(task, &|assembly| Simulation::of(assembly, *settings)),
+        Solver::Explicit(settings) => {
+            climb_telling(task, &|assembly| Simulation::of(assembly, *settings), tell)
+        }
         Solver::Implicit(settings) => {
             // A path that brackets a collapse halves its steps itself; twice costs half as much again and gains nothing.
             let brackets = task.path.bracket.is_finite();
             let max_halvings = if brackets { 0 } else { settings.max_halvings };
-            climb(task, &|assembly| {
-                Equilibrium::of(assembly, implicit::Settings { max_halvings, ..*settings })
-            })
+            let of = |assembly| Equilibrium::of(assembly, implicit::Settings { max_halvings, ..*settings });
+            climb_telling(task, &of, tell)
         }
+        Solver::Limit(settings) => rigid(task, *settings),
     }
 }
 
@@ -39,6 +48,14 @@ pub fn drive(task: &Task<'_>, solver: &Solver) -> Run {
 /// relaxation is asked again, unless limit analysis has shown that the fall is near and the wall has become so soft that
 /// this is the limit point of its path; a doubt that stays widens the bracket up to where the fall is certain.
 pub fn climb<'a, S: Equilibrate<'a>>(task: &Task<'a>, of: &dyn Fn(Assembly<'a>) -> S) -> Run {
+    climb_telling(task, of, &|_| {})
+}
+
+fn climb_telling<'a, S: Equilibrate<'a>>(
+    task: &Task<'a>,
+    of: &dyn Fn(Assembly<'a>) -> S,
+    tell: &dyn Fn(Level),
+) -> Run {
     let built = task.assembled();
     let joints = built.joints.all.len();
     let watch = Watch::new(task.wall, &built.bodies, task.path.direction(), task.criterion);
@@ -47,12 +64,14 @@ pub fn climb<'a, S: Equilibrate<'a>>(task: &Task<'a>, of: &dyn Fn(Assembly<'a>) 
     let mut climber = Climber {
         task,
         of,
+        tell,
         watch,
         judge,
         built,
         steps,
         spent: 0,
-        wrong: 0,
+        relaxed: 0,
+        doubted: false,
         followed: 0,
         certain: None,
         pace: Pace::default(),
@@ -104,13 +123,18 @@ pub fn climb<'a, S: Equilibrate<'a>>(task: &Task<'a>, of: &dyn Fn(Assembly<'a>) 
             }
         }
     }
+    if outcome == Outcome::Equilibrium && climber.bears_too_much(&rest) {
+        let at = task.path.level(climber.last_borne());
+        let why = "the solver let it stand there, where limit analysis finds that rigid blocks on these joints fall";
+        outcome = Outcome::NotConverged { at, unbalanced_ratio: f64::NAN, why: why.to_string() };
+    }
     let assembly = rest.assembly();
     Run {
         outcome,
         bracket,
         steps: climber.steps,
-        displacements: displacements(&assembly.bodies.all, &climber.built.bodies.all),
-        turns: turns(&assembly.bodies.all, &climber.built.bodies.all),
+        displacements: displacements(&assembly.bodies.all, &climber.built.bodies.all, &climber.built.bodies),
+        turns: turns(&assembly.bodies.all, &climber.built.bodies.all, &climber.built.bodies),
         joints,
         failure,
         events: Events::default(),
@@ -121,6 +145,8 @@ pub fn climb<'a, S: Equilibrate<'a>>(task: &Task<'a>, of: &dyn Fn(Assembly<'a>) 
 struct Climber<'c, 'a, S> {
     task: &'c Task<'a>,
     of: &'c dyn Fn(Assembly<'a>) -> S,
+    /// Is told of every level at which the wall came to rest.
+    tell: &'c dyn Fn(Level),
     watch: Watch,
     judge: Judge<'c, 'a>,
     /// The assembly as built, with its loads.
@@ -128,8 +154,10 @@ struct Climber<'c, 'a, S> {
     steps: Vec<LoadStep>,
     /// Solver steps since the last entry of `steps`.
     spent: u64,
-    /// Suspicions that proved wrong.
-    wrong: u32,
+    /// Time steps spent on suspicions that proved wrong.
+    relaxed: u64,
+    /// Whether a level was borne that the solver had not found by itself.
+    doubted: bool,
     /// How often the path has been followed.
     followed: u32,
     /// The lowest level at which the wall is certain to fall.
@@ -157,16 +185,21 @@ enum Verdict<S> {
     End(Box<End>),
 }
 
-/// Suspicions that may prove wrong before the solver is called lost.
-const MOST_WRONG: u32 = 20;
+/// Time steps of a block that may be spent on suspicions that prove wrong before the solver is called lost: of a wall of 72
+/// stones, twenty relaxations to their last step.
+const MOST_RELAXED: u64 = 30_000_000;
+/// A wall that bears so much of its weight sideways (rad of tilt, or a multiplier) is rare enough for limit analysis to be asked.
+const RARE: f64 = 0.5;
 /// The path of equilibria is followed so often: where it is lost, it is so again from nearby.
 const MOST_FOLLOWED: u32 = 3;
 /// A step back to level 0 is halved down to this share of a full one.
 const SHORTEST_BACK: f64 = 0.125;
 /// A fall is followed for this share of how far a wall goes that runs away.
 const FOLLOWED: f64 = 0.5;
-/// So many full steps above a suspicion a fall is looked for, when it cannot be told there.
-const STEPS_ABOVE: u32 = 6;
+/// So many full steps above a suspicion a fall is looked for, when it cannot be told there; and up to which of them a wall that
+/// comes to rest there is taken to stand.
+const STEPS_ABOVE: [u32; 7] = [0, 1, 2, 4, 8, 16, 32];
+const STANDS_ABOVE: u32 = 4;
 
 /// Why the climb ends below the end of the path.
 struct End {
@@ -205,7 +238,9 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
         let settled = next.settle(&mut |bodies| self.watch.runs_away(bodies));
         self.spent += settled.steps;
         let ratio = settled.unbalanced_ratio;
+        let is_doubtful = settled.status == Status::Equilibrium && self.is_doubtful(from, &next, level);
         match settled.status {
+            Status::Equilibrium if is_doubtful => Tried::Lost(next, ratio, Status::NoEquilibrium),
             Status::Equilibrium => Tried::Rest(next, ratio),
             Status::Stopped => Tried::Away(next, ratio),
             Status::StepsSpent | Status::NoEquilibrium => Tried::Lost(next, ratio, settled.status),
@@ -252,7 +287,10 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
         if status == Status::StepsSpent && self.task.path.bracket.is_infinite() {
             return lost(self, "a service load is no question of collapse");
         }
-        if self.wrong >= MOST_WRONG {
+        let blocks = next.assembly().bodies.all.len() as u64;
+        let is_lost = self.relaxed * blocks >= MOST_RELAXED
+            && self.judge.cannot_stand(from.assembly(), level, &self.watch).is_none();
+        if is_lost {
             return lost(self, "the wall kept coming to rest where the solver had lost it");
         }
         if self.task.path.bracket.is_finite()
@@ -270,8 +308,8 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
         if self.pace.is_at_limit() && self.certain.as_ref().is_some_and(|fall| fall.by_bound) {
             return self.fell(level, ratio);
         }
-        let above = if first { STEPS_ABOVE } else { 0 };
-        for further in 0..=above {
+        let before = self.spent;
+        for further in STEPS_ABOVE.into_iter().take(if first { STEPS_ABOVE.len() } else { 1 }) {
             let at = self.task.path.higher(level, further);
             let way = (self.last_borne(), at);
             match self.judge.told(from.assembly(), way, &self.watch, is_final, &mut self.spent) {
@@ -282,8 +320,19 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
                         false => Verdict::GoBack,
                     };
                 }
+                // Where it has come to rest beyond the criterion, or elsewhere, it has fallen there.
+                Told::Rests(assembly, ratio) if !self.comes_to(from, &assembly) => {
+                    let fall = self.judge.fall(from.assembly(), *assembly, &self.watch, at, ratio);
+                    self.certain = Some(fall);
+                    return match is_final {
+                        true => self.fell(at, ratio),
+                        false => Verdict::GoBack,
+                    };
+                }
+                Told::Rests(..) if further > STANDS_ABOVE => {}
                 Told::Rests(assembly, ratio) => {
-                    self.wrong += 1;
+                    self.relaxed += self.spent - before;
+                    self.doubted = true;
                     let next = (self.of)(*assembly);
                     return Verdict::Rest(self.read(next, at, ratio), f64::from(further));
                 }
@@ -298,6 +347,32 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
             Some(fall) => self.fell(fall.level, ratio),
             None => lost(self, "neither limit analysis nor relaxation told whether it stands"),
         }
+    }
+
+    /// Whether a state at rest may be another equilibrium than the one that the wall comes to: a block has lost its contacts, or
+    /// moved further than contacts are looked for and far out of pace.
+    fn is_doubtful(&self, from: &S, next: &S, level: f64) -> bool {
+        let moved = self.watch.moved(&next.assembly().bodies);
+        let leapt = moved > self.task.contact.reach && self.pace.is_leap(level, moved);
+        let loses = self.task.changes.loses(self.last_borne(), level);
+        (leapt && !loses) || !keeps_contacts(from.assembly(), next.assembly())
+    }
+
+    /// Whether a state at rest is one that the wall comes to from the last one: no block has moved past the criterion, none has
+    /// lost its contacts.
+    fn comes_to(&self, from: &S, rest: &Assembly<'_>) -> bool {
+        !self.watch.runs_away(&rest.bodies) && keeps_contacts(from.assembly(), rest)
+    }
+
+    /// Whether a wall that has borne the whole path has borne more than limit analysis says that it can: asked where the solver
+    /// was in doubt on the way, or where few walls come.
+    fn bears_too_much(&self, rest: &S) -> bool {
+        let path = self.task.path;
+        // Below by the width of a bracket: at the limit itself rounding decides.
+        let level = self.last_borne() - path.bracket;
+        (self.doubted || level > RARE)
+            && level > 0.0
+            && self.judge.cannot_stand(rest.assembly(), level, &self.watch).is_some()
     }
 
     /// What following the path of equilibria from the last state at rest tells of a level where none was found: it may reach
@@ -329,7 +404,11 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
         let Followed { rest, level: highest, ratio, steps, way } = from.follow(&ahead)?;
         self.spent += steps;
         match way {
+            // More than rigid blocks on these joints bear, or a state that this wall does not come to: the path was lost.
+            Way::Stands if !self.comes_to(from, rest.assembly()) => None,
+            Way::Stands if self.judge.cannot_stand(from.assembly(), highest, &self.watch).is_some() => None,
             Way::Stands => {
+                self.doubted = true;
                 let further = (highest - level) / path.higher(0.0, 1);
                 Some(Verdict::Rest(self.read(rest, highest, ratio), further))
             }
@@ -375,6 +454,7 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
 
     /// Notes what is read at a state at rest. Displacements of the first one are taken from there on.
     fn read(&mut self, state: S, level: f64, ratio: f64) -> S {
+        (self.tell)(self.task.path.level(level));
         let bodies = &state.assembly().bodies;
         if self.steps.is_empty() {
             self.watch.begins(bodies);
@@ -445,8 +525,8 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
             outcome,
             bracket: None,
             steps: self.steps,
-            displacements: displacements(&bodies, &self.built.bodies.all),
-            turns: turns(&bodies, &self.built.bodies.all),
+            displacements: displacements(&bodies, &self.built.bodies.all, &self.built.bodies),
+            turns: turns(&bodies, &self.built.bodies.all, &self.built.bodies),
             joints,
             failure,
             events: Events::default(),

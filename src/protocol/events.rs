@@ -122,7 +122,8 @@ fn after(before: Run, next: Run, none: Level) -> Run {
     let mut steps = before.steps;
     // The last of a wall that fell is the level at which it did.
     steps.pop();
-    let went_on: Vec<_> = next.steps.iter().filter(|step| steps.is_empty() || step.level.value() > from).cloned().collect();
+    let went_on: Vec<_> =
+        next.steps.iter().filter(|step| steps.is_empty() || step.level.value() > from).cloned().collect();
     match (went_on.is_empty(), next.steps.last()) {
         (true, Some(last)) => steps.push(last.clone()),
         _ => steps.extend(went_on),
@@ -145,7 +146,10 @@ mod tests {
         events.reach(0.3, tilt(10.0), &shares);
         assert_eq!((events.part, events.most), (Some(tilt(9.0)), None));
         events.reach(1.0, tilt(12.0), &shares);
-        assert_eq!([Event::FirstStone, Event::Part, Event::Most].map(|e| events.of(e)), [0.0, 9.0, 12.0].map(|d| Some(tilt(d))));
+        assert_eq!(
+            [Event::FirstStone, Event::Part, Event::Most].map(|e| events.of(e)),
+            [0.0, 9.0, 12.0].map(|d| Some(tilt(d)))
+        );
         let mut at_once = Events::default();
         at_once.reach(0.5, tilt(3.0), &shares);
         assert_eq!(at_once.most, Some(tilt(3.0)));

@@ -88,17 +88,27 @@ pub fn failure(
     towards: Direction,
 ) -> Failure {
     let furthest_corner = |id: usize| {
-        let (from, to) = (&before[id], &after.all[id]);
+        let body = after.carriers[id];
+        let (from, to) = (&before[body], &after.all[body]);
         let corners = after.shapes[id].vertices.iter();
         corners
             .map(|v| (to.position + to.rotation * v - from.position - from.rotation * v).norm())
             .fold(0.0, f64::max)
     };
-    let reach: Vec<(u32, f64)> = movable(wall).map(|(id, _)| (id as u32, furthest_corner(id))).collect();
-    let largest = reach.iter().fold(0.0, |a: f64, (_, r)| a.max(*r));
-    let moving: Vec<u32> = reach.iter().filter(|(_, r)| *r > MOVES * largest).map(|(id, _)| *id).collect();
-    let motion = displacements(&after.all, before);
-    let weight = |ids: &mut dyn Iterator<Item = usize>| ids.map(|id| before[id].mass).fold(0.0, |a, m| a + m);
+    // The parts of a stone move as far as the one of them that moves furthest.
+    let mut reach = vec![0.0; before.len()];
+    for (id, _) in movable(wall) {
+        let body = after.carriers[id];
+        reach[body] = f64::max(reach[body], furthest_corner(id));
+    }
+    let largest = reach.iter().fold(0.0, |a: f64, r| a.max(*r));
+    let moves = |id: usize| reach[after.carriers[id]] > MOVES * largest;
+    let moving: Vec<u32> =
+        movable(wall).map(|(id, _)| id).filter(|&id| moves(id)).map(|id| id as u32).collect();
+    let motion = displacements(&after.all, before, after);
+    // The body of a stone's first part has the mass of all.
+    let mass = |id: usize| if after.carriers[id] == id { before[id].mass } else { 0.0 };
+    let weight = |ids: &mut dyn Iterator<Item = usize>| ids.map(mass).fold(0.0, |a, m| a + m);
     let all = weight(&mut movable(wall).map(|(id, _)| id));
     let turning_share = turning_share(assembly, before, &after.all, &moving);
     let [length_share, place] = along_the_wall(wall, &motion);
@@ -113,7 +123,7 @@ pub fn failure(
             .fold(f64::INFINITY, f64::min)
             - extent(wall).0.z,
         turning_share,
-        turns: turns(&after.all, before),
+        turns: turns(&after.all, before, after),
         moving,
         motion,
     }
@@ -209,7 +219,7 @@ pub fn joint_states(assembly: &Assembly<'_>, at_rest: &[Body]) -> Vec<JointState
             let relative = came(a) - came(b);
             JointState {
                 blocks: [lower, upper],
-                place,
+                place: place + assembly.bodies.origin,
                 area: joint.area(),
                 opening: joint.largest_gap(now).max(0.0),
                 slip: (relative - normal * relative.dot(&normal)).norm(),

@@ -3,14 +3,17 @@
 mod bounds;
 mod changes;
 mod confirm;
+mod direction;
 mod drive;
 mod events;
+mod kept;
 mod mechanism;
 mod observe;
 mod pace;
 mod path;
 mod pressure;
 mod restraint;
+mod rigid;
 mod ropes;
 mod route;
 mod run;
@@ -24,16 +27,16 @@ mod watch;
 pub use bounds::{Agreement, Bounds};
 pub use changes::{Changes, Creep, Loss};
 pub use confirm::Confirmation;
-pub use drive::{climb, drive};
+pub use direction::Direction;
+pub use drive::{climb, drive, drive_telling};
 pub use events::{Event, EventShares, Events};
 pub use mechanism::{Failure, FailureMode, JointState};
 pub use path::{Growing, LoadPath};
 pub use pressure::{Load, back_loads};
 pub use ropes::ropes;
-pub use run::{run, run_changing};
+pub use run::{Way, run, run_changing, run_telling};
 pub use settings::{
-    Base, Compliance, Contacts, Direction, Ends, Lateral, Observes, Protocol, Rate, Restraint, Rope, Tilting,
-    Turning,
+    Base, Compliance, Contacts, Ends, Lateral, Observes, Protocol, Rate, Restraint, Rope, Tilting, Turning,
 };
 pub use shove::{Phase, Shove, Shoved, Stand, shove_heap, shove_wall};
 pub use stage::{Stage, typical_size};

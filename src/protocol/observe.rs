@@ -28,26 +28,26 @@ pub struct Point {
     pub block: usize,
     /// Where it was built (m).
     pub built: Vec3,
-    /// The same in the block's own axes, from its centroid (m).
+    /// The same in the axes of the block's body, from its centroid (m).
     own: Vec3,
 }
 
 impl Point {
     /// A point of a block that has not moved yet.
     fn new(block: usize, built: Vec3, bodies: &Bodies) -> Point {
-        let body = &bodies.all[block];
-        Point { block, built, own: body.rotation.tr_mul(&(built - body.position)) }
+        let body = bodies.carrier(block);
+        Point { block, built, own: body.rotation.tr_mul(&(built - bodies.origin - body.position)) }
     }
 
-    /// A corner of a block, whose own coordinates need no rounding.
+    /// A corner of a block, whose coordinates in the axes of its body need no rounding.
     fn corner(block: usize, corner: usize, built: Vec3, bodies: &Bodies) -> Point {
         Point { block, built, own: bodies.shapes[block].vertices[corner] }
     }
 
     /// Displacement (m) from where it was built.
     pub fn displacement(&self, bodies: &Bodies) -> Vec3 {
-        let body = &bodies.all[self.block];
-        body.position + body.rotation * self.own - self.built
+        let body = bodies.carrier(self.block);
+        body.position + body.rotation * self.own - (self.built - bodies.origin)
     }
 }
 

@@ -7,6 +7,10 @@ const SOFTENED: f64 = 10.0;
 /// stops where nothing grows.
 const QUICKENED: f64 = 2.0;
 
+/// A wall that comes to rest so many times further away than its last pace says has leapt to another equilibrium, or near its
+/// limit point: an equilibrium far from the last one is no proof that the wall stands.
+const LEAPT: f64 = 20.0;
+
 /// How fast the wall moves along its path, from rest to rest.
 #[derive(Default)]
 pub(super) struct Pace {
@@ -30,6 +34,11 @@ impl Pace {
             }
             self.level = level;
         }
+    }
+
+    /// Whether a wall that has moved so far (m) to a level has leapt there.
+    pub(super) fn is_leap(&self, level: f64, moved: f64) -> bool {
+        self.first.is_some() && moved > LEAPT * self.last * (level - self.level)
     }
 
     /// Whether the wall has become so much softer that the path is at its limit point, where its pace grows beyond all

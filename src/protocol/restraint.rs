@@ -23,6 +23,7 @@ pub fn restrain(wall: &Wall, restraint: &Restraint, towards: Direction) -> Wall 
         density,
         support: Support::Fixed,
         tag,
+        group: None,
     };
     if let Some(height) = restraint.base.strip_height {
         let (from, to) = strip(wall, height, towards);
@@ -53,12 +54,12 @@ pub fn restrain(wall: &Wall, restraint: &Restraint, towards: Direction) -> Wall 
     assembly
 }
 
-/// Lowest and highest corner of the strip at the wall's foot on its downhill side, as long as the wall. The foot is where
+/// Lowest and highest corner of the strip at the wall's foot on the side that goes down most, as long as the wall. The foot is where
 /// the corners of stones within a millionth of the wall's height of its lowest point are.
 fn strip(wall: &Wall, height: f64, towards: Direction) -> (Vec3, Vec3) {
     let (low, high) = wall.bounds();
     let highest = low.z + 1e-6 * (high.z - low.z);
-    let unit = towards.unit();
+    let unit = towards.nearest_axis().unit();
     let corners = wall.stones().flat_map(|(_, b)| &b.shape.vertices).filter(|v| v.z <= highest);
     let foot = corners.map(|v| v.dot(&unit)).fold(f64::NEG_INFINITY, f64::max);
     // The wall's box, cut down to what lies beyond the foot.

@@ -10,10 +10,7 @@ use crate::solve::Tie;
 /// The ties of a wall of stones: at each end, every stone whose face the rope crosses. Ropes hold out of plane; on a
 /// platform that goes down along the wall they are on its front.
 pub fn ropes(wall: &Wall, rope: &Rope, towards: Direction) -> Vec<Tie> {
-    let direction = match towards {
-        Direction::YMinus => -Vec3::y(),
-        Direction::YPlus | Direction::XPlus | Direction::XMinus => Vec3::y(),
-    };
+    let direction = if towards.is_backwards() { -Vec3::y() } else { Vec3::y() };
     let (low, high) = wall.bounds();
     let mut ties = Vec::new();
     for x in [low.x + rope.from_end, high.x - rope.from_end] {

@@ -1,7 +1,7 @@
 //! A wall of a study through the study's protocol.
 
 use crate::model::{JointLaws, Level, Support, Wall};
-use crate::protocol::drive::drive;
+use crate::protocol::drive::drive_telling;
 use crate::protocol::events::in_parts;
 use crate::protocol::path::LoadPath;
 use crate::protocol::pressure::back_loads;
@@ -35,43 +35,51 @@ pub fn run_changing(
     changes: &Changes,
     solver: &Solver,
 ) -> Run {
+    run_telling(wall, laws, protocol, restraint, contacts, Way { changes, tell: &|_| {} }, solver)
+}
+
+/// What goes on while a wall is loaded.
+#[derive(Clone, Copy)]
+pub struct Way<'w> {
+    /// What changes it.
+    pub changes: &'w Changes,
+    /// Is told of every level at which it came to rest.
+    pub tell: &'w dyn Fn(Level),
+}
+
+/// [`run_changing`], which tells how far it is.
+pub fn run_telling(
+    wall: &Wall,
+    laws: &dyn JointLaws,
+    protocol: &Protocol,
+    restraint: &Restraint,
+    contacts: impl Into<Contacts>,
+    Way { changes, tell }: Way<'_>,
+    solver: &Solver,
+) -> Run {
     let stage = Stage::new(wall, laws, protocol, restraint, contacts.into());
     let (low, high) = wall.bounds();
     let thickness = high.y - low.y;
-    let confirmation = Confirmation::for_thickness(thickness);
-    let is_there =
-        |wall: &Wall, id: usize| wall.blocks.get(id).is_none_or(|b| b.support != Support::Absent);
-    let task = |path, criterion, left| Task {
-        wall: left,
-        laws: &stage.laws,
-        contact: stage.contact,
-        loads: Vec::new(),
-        ties: stage.ties.iter().filter(|tie| is_there(left, tie.body)).cloned().collect(),
-        platform: stage.platform.clone(),
-        changes: changes.clone(),
-        path,
-        criterion,
-        confirmation,
-    };
     let mut run = match protocol {
         Protocol::Lateral(lateral) => {
             let criterion = Criterion::Top(lateral.collapse_share * thickness);
-            let task = task(LoadPath::factor(lateral.steps), criterion, &stage.assembly);
-            drive(&Task { loads: back_loads(wall, lateral), ..task }, solver)
+            let task = task(&stage, &stage.assembly, LoadPath::factor(lateral.steps), criterion, thickness);
+            let task = Task { loads: back_loads(wall, lateral), changes: changes.clone(), ..task };
+            drive_telling(&task, solver, tell)
         }
         Protocol::Tilting(tilting) => {
             let criterion = Criterion::AnyBlock(tilting.collapse_share * thickness);
-            let level = Level::Tilt(0.0);
-            in_parts(&stage.assembly, &tilting.events, level, |left| {
-                let task = task(tilting.path(), criterion, left);
+            in_parts(&stage.assembly, &tilting.events, Level::Tilt(0.0), |left| {
+                let task = task(&stage, left, tilting.path(), criterion, thickness);
+                let task = Task { changes: changes.clone(), ..task };
                 match tilting.rate {
-                    Rate::Static => drive(&task, solver),
+                    Rate::Static => drive_telling(&task, solver, tell),
                     Rate::Dynamic(turning) => {
                         let at_rest = match solver {
                             Solver::Explicit(settings) => *settings,
-                            Solver::Implicit(_) => explicit::Settings::default(),
+                            Solver::Implicit(_) | Solver::Limit(_) => explicit::Settings::default(),
                         };
-                        turn(&task, &turning, at_rest)
+                        turn(&task, &turning, at_rest, tell)
                     }
                 }
             })
@@ -80,4 +88,27 @@ pub fn run_changing(
     run.displacements.truncate(wall.blocks.len());
     run.turns.truncate(wall.blocks.len());
     run
+}
+
+/// What is left of a wall in its surroundings, with its joints as built.
+fn task<'t>(
+    stage: &'t Stage<'_>,
+    left: &'t Wall,
+    path: LoadPath,
+    criterion: Criterion,
+    thickness: f64,
+) -> Task<'t> {
+    let is_there = |id: usize| left.blocks[id].support != Support::Absent;
+    Task {
+        wall: left,
+        laws: &stage.laws,
+        contact: stage.contact,
+        loads: Vec::new(),
+        ties: stage.ties.iter().filter(|tie| is_there(tie.body)).cloned().collect(),
+        platform: stage.platform.clone(),
+        changes: Changes::default(),
+        path,
+        criterion,
+        confirmation: Confirmation::for_thickness(thickness),
+    }
 }

@@ -1,6 +1,6 @@
 //! The protocols and their settings, as a study states them.
 
-use crate::math::Vec3;
+use crate::protocol::direction::Direction;
 use crate::protocol::events::EventShares;
 
 /// How the ends of the wall (x = 0 and x = length) are held.
@@ -93,35 +93,6 @@ impl Restraint {
     /// On a platform with the wall's own friction and without strips.
     pub fn at_ends(ends: Ends) -> Restraint {
         Restraint { base: Base::default(), ends }
-    }
-}
-
-/// A horizontal direction of the platform.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-pub enum Direction {
-    /// Along the wall.
-    #[serde(rename = "x+")]
-    XPlus,
-    /// Along the wall, backwards.
-    #[serde(rename = "x-")]
-    XMinus,
-    /// Out of plane, towards the wall's front.
-    #[serde(rename = "y+")]
-    YPlus,
-    /// Out of plane, towards the wall's back.
-    #[serde(rename = "y-")]
-    YMinus,
-}
-
-impl Direction {
-    /// The unit vector.
-    pub fn unit(&self) -> Vec3 {
-        match self {
-            Direction::XPlus => Vec3::x(),
-            Direction::XMinus => -Vec3::x(),
-            Direction::YPlus => Vec3::y(),
-            Direction::YMinus => -Vec3::y(),
-        }
     }
 }
 

@@ -11,7 +11,7 @@ use crate::protocol::mechanism::{Failure, JointState};
 use crate::protocol::path::LoadPath;
 use crate::protocol::pressure::Load;
 use crate::protocol::watch::{Criterion, LoadStep};
-use crate::solve::bodies::Body;
+use crate::solve::bodies::{Bodies, Body};
 use crate::solve::{Assembly, Mount, Tie};
 
 /// A wall with all that surrounds it, its loads, and how far it is to be taken.
@@ -98,12 +98,12 @@ impl<'t> Task<'t> {
     }
 }
 
-/// Displacement of every body's centroid (m).
-pub(crate) fn displacements(now: &[Body], built: &[Body]) -> Vec<Vec3> {
-    now.iter().zip(built).map(|(now, built)| now.position - built.position).collect()
+/// Displacement of every block's centroid (m) between two states of bodies; `carried` says which body each block belongs to.
+pub(crate) fn displacements(now: &[Body], built: &[Body], carried: &Bodies) -> Vec<Vec3> {
+    (0..now.len()).map(|block| carried.centroid_in(now, block) - carried.centroid_in(built, block)).collect()
 }
 
-/// Rotation vector of every body (rad, world axes).
-pub(crate) fn turns(now: &[Body], built: &[Body]) -> Vec<Vec3> {
-    now.iter().zip(built).map(|(now, built)| now.turn_since(built)).collect()
+/// Rotation vector of every block (rad, world axes); arguments as for [`displacements`].
+pub(crate) fn turns(now: &[Body], built: &[Body], carried: &Bodies) -> Vec<Vec3> {
+    carried.carriers.iter().map(|&carrier| now[carrier].turn_since(&built[carrier])).collect()
 }

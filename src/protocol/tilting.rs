@@ -1,7 +1,7 @@
 //! The tilting table: the platform turns about its edge towards a side, in steps or steadily.
 
 use crate::math::Vec3;
-use crate::model::Outcome;
+use crate::model::{Level, Outcome};
 use crate::protocol::events::Events;
 use crate::protocol::mechanism::joint_states;
 use crate::protocol::path::LoadPath;
@@ -30,7 +30,8 @@ impl Tilting {
 /// the last reading; the collapse angle is the tilt at which it had gone a tenth of that way, and the bracket runs from
 /// there to the tilt at which it had passed. A wall that takes its time to fall has been tilted further meanwhile: the
 /// angle of a dynamic test lags behind the static one, the more so the faster the platform turns.
-pub fn turn(task: &Task<'_>, turning: &Turning, at_rest: Settings) -> Run {
+/// `tell` is told of every reading.
+pub fn turn(task: &Task<'_>, turning: &Turning, at_rest: Settings, tell: &dyn Fn(Level)) -> Run {
     let built = task.assembled();
     let joints = built.joints.all.len();
     let towards = task.path.direction();
@@ -41,8 +42,8 @@ pub fn turn(task: &Task<'_>, turning: &Turning, at_rest: Settings) -> Run {
         outcome,
         bracket: None,
         steps,
-        displacements: displacements(&assembly.bodies.all, &built.bodies.all),
-        turns: turns(&assembly.bodies.all, &built.bodies.all),
+        displacements: displacements(&assembly.bodies.all, &built.bodies.all, &built.bodies),
+        turns: turns(&assembly.bodies.all, &built.bodies.all, &built.bodies),
         joints,
         failure: None,
         events: Events::default(),
@@ -66,7 +67,7 @@ pub fn turn(task: &Task<'_>, turning: &Turning, at_rest: Settings) -> Run {
     if !stands {
         return run(outcome, vec![first], &level.assembly);
     }
-    let turned = Turned::new(task, turning, watch, &level.assembly).until_the_end(vec![first]);
+    let turned = Turned::new(task, turning, watch, &level.assembly).until_the_end(vec![first], tell);
     let mut ended = run(turned.outcome, turned.steps, &turned.last);
     ended.joint_states = joint_states(&turned.last, &level.assembly.bodies.all);
     ended.bracket = turned.bracket;
@@ -126,7 +127,7 @@ impl<'t, 'a> Turned<'t, 'a> {
         }
     }
 
-    fn until_the_end(mut self, steps: Vec<LoadStep>) -> Self {
+    fn until_the_end(mut self, steps: Vec<LoadStep>, tell: &dyn Fn(Level)) -> Self {
         self.steps = steps;
         self.watch.rests(&self.simulation.assembly.bodies);
         let path = self.task.path;
@@ -153,6 +154,7 @@ impl<'t, 'a> Turned<'t, 'a> {
             begun = (self.watch.moved(bodies) > self.begins).then(|| begun.unwrap_or(tilt));
             let away = self.watch.runs_away(bodies);
             if away || tilt >= path.after(readings) {
+                tell(level);
                 let ratio = self.simulation.assembly.unbalanced_ratio();
                 self.steps.push(self.watch.read(bodies, level, ratio, std::mem::take(&mut since)));
                 if away {

@@ -3,6 +3,7 @@
 
 use crate::critic::{CAUGHT, Offer, Offered, SelfTest};
 use crate::report::number::{or_dash, significant, with_interval};
+use crate::report::table::wrapped;
 use crate::study::Described;
 
 /// A cause that is found in fewer of its campaigns than this is not seen at all.
@@ -119,14 +120,19 @@ impl Advice {
         let mut text = String::new();
         if !self.look_alike.is_empty() {
             let classes: Vec<String> = self.look_alike.iter().map(|class| class.join(", ")).collect();
-            text.push_str(&format!("\nData like these cannot tell apart: {}\n", classes.join("; ")));
+            text.push('\n');
+            text.push_str(&wrapped(
+                "",
+                &format!("Data like these cannot tell apart: {}", classes.join("; ")),
+            ));
         }
         if !self.not_seen.is_empty() {
-            text.push_str(&format!("\nData like these hardly see: {}\n", self.not_seen.join(", ")));
+            text.push('\n');
+            text.push_str(&wrapped("", &format!("Data like these hardly see: {}", self.not_seen.join(", "))));
         }
         if !self.caught.is_empty() {
             text.push_str(&format!(
-                "\nSmallest effects caught in {:.0} % of campaigns (95 % intervals; a dash where the self-test does not bound them)\n",
+                "\nSmallest effects found in {:.0} % of simulated campaigns (95 % intervals; a dash: not bounded)\n",
                 100.0 * CAUGHT
             ));
             for own in &self.caught {
@@ -144,7 +150,7 @@ impl Advice {
         }
         if !self.seen_in_part.is_empty() {
             text.push_str(
-                "\nSeen, but not so often at any strength (in all, and in the third that moves most)\n",
+                "\nFound less often at any strength (in all, and in the third that moves the readings most)\n",
             );
             for PartEntry { cause, found: [found, all], strong_found: [strong, third] } in &self.seen_in_part
             {
@@ -153,11 +159,11 @@ impl Advice {
         }
         if let Some(first) = self.next.first() {
             let open = match self.next_of_those_left {
-                true => "that are open",
-                false => "that would be open if the verdict excludes the others by chance",
+                true => "open",
+                false => "open if the exclusions are chance",
             };
             text.push_str(&format!(
-                "\nNext measurement (expected information about the cause, of {} bit {open}, with 95 % intervals; hours of two people, our estimate)\n",
+                "\nNext measurement (expected information about the cause, of {} bit {open}; hours of two people, our estimate)\n",
                 significant(first.of_bits, 2)
             ));
             for own in &self.next {

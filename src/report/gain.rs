@@ -2,6 +2,7 @@
 
 use crate::critic::{Design, Gain, Gained, HeldOut, Interval, Scores};
 use crate::report::number::{significant, with_interval};
+use crate::report::table::wrapped;
 use crate::study::{Described, Study};
 
 /// The gain.
@@ -32,7 +33,7 @@ pub struct GainedEntry {
     pub base: ScoresEntry,
     /// The extended model.
     pub extended: ScoresEntry,
-    /// The base model with a discrepancy that is free to be anything smooth: what there is to be gained.
+    /// The base model with a discrepancy that is free to be anything smooth: what there is to be gained ("free discrepancy").
     pub ceiling: ScoresEntry,
     /// Gain in the logarithm of the probability, per reading.
     pub log_score: GainEntry,
@@ -126,7 +127,7 @@ impl GainSummary {
 
     /// The gain as people read it.
     pub fn text(&self) -> String {
-        let mut text = "\nGain on readings that were not known (extended less base model; 95 % intervals, calibrated on campaigns without effect)\n".to_string();
+        let mut text = "\nGain on held-out readings (extended less base model; 95 % intervals, calibrated on campaigns without effect)\n".to_string();
         let parts = [
             ("each specimen left out in turn", "it takes two specimens", &self.specimens_left_out),
             (
@@ -146,7 +147,7 @@ impl GainSummary {
         }
         let chosen: Vec<String> =
             self.choices.iter().map(|choice| format!("{} {}", choice.left_out, choice.text())).collect();
-        text.push_str(&format!("  chosen without them: {}\n", chosen.join(", ")));
+        text.push_str(&wrapped("  ", &format!("chosen without them: {}", chosen.join(", "))));
         text
     }
 }
@@ -167,7 +168,7 @@ impl ChoiceEntry {
 
 impl GainEntry {
     /// The gain with its interval, and what that shows.
-    fn text(&self) -> String {
+    pub(super) fn text(&self) -> String {
         match self.told() {
             Some(_) => format!("{}, {}", self.number(), self.claim()),
             None => format!(
@@ -232,7 +233,8 @@ impl GainedEntry {
             };
             let [base, extended, ceiling] = [base, extended, ceiling].map(number);
             let (own, most) = (own.text(), most.number());
-            format!("    {name:<22} base {base}; extended {extended}: {own}; ceiling {ceiling}: {most}\n")
+            format!("    {name:<22} base {base}; extended {extended}: {own}\n")
+                + &format!("    {:<22} free discrepancy {ceiling}: {most}\n", "")
         };
         let bounds = self.readings - self.valued;
         let bounds = if bounds > 0 { format!(" ({bounds} of them bounds)") } else { String::new() };
@@ -272,15 +274,13 @@ mod tests {
         assert_eq!(
             gained(0, sure),
             "  one: 4 readings (4 of them bounds) of 2 specimens\n    log score per reading  base -1.50; extended -1.50: 0.500 [0.250, \
-             0.750], better; ceiling -1.00: 0.500 [0.250, 0.750]\n"
+             0.750], better\n                           free discrepancy -1.00: 0.500 [0.250, 0.750]\n"
         );
         let unsure = Interval { value: 0.5, ends: [f64::NEG_INFINITY, f64::INFINITY] };
         let text = gained(4, unsure);
         assert!(text.contains("one: 4 readings of 2") && text.contains("RMSE"), "{text}");
         assert!(
-            text.contains(
-                "extended -1.50: 0.500, how sure cannot be told: all specimens gain the same; ceiling -1.00: 0.500 [-]\n"
-            ),
+            text.contains("extended -1.50: 0.500, how sure cannot be told: all specimens gain the same\n"),
             "{text}"
         );
     }

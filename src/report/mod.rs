@@ -4,6 +4,7 @@
 mod advice;
 mod beside;
 mod compare;
+mod conclusion;
 mod csv;
 mod diagnosis;
 mod draw;

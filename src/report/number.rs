@@ -35,9 +35,41 @@ pub fn with_interval(value: Option<f64>, interval: Option<[f64; 2]>, digits: usi
     }
 }
 
+/// A value with its interval as [`with_interval`], with as many more digits as show on which side of `against` each end
+/// lies: 0.9963 beside 1 is not written as 1.00. At most [`MOST_DIGITS`].
+pub fn with_interval_against(
+    value: Option<f64>,
+    interval: Option<[f64; 2]>,
+    digits: usize,
+    against: f64,
+) -> String {
+    let hidden = |digits: usize| {
+        value.into_iter().chain(interval.into_iter().flatten()).any(|x| {
+            // What is printed, read back.
+            x != against && significant(x, digits).parse::<f64>().is_ok_and(|shown| shown == against)
+        })
+    };
+    let shown = (digits..MOST_DIGITS).find(|digits| !hidden(*digits)).unwrap_or(MOST_DIGITS);
+    with_interval(value, interval, shown)
+}
+
+/// So many digits are printed at most: beyond them lies the solvers' own accuracy.
+const MOST_DIGITS: usize = 7;
+
 /// A stiffness as engineers write it: `7.5e7 Pa/m`.
 pub fn stiffness(kn: f64) -> String {
-    format!("{kn:e} Pa/m")
+    format!("{} Pa/m", compact(kn))
+}
+
+/// A number in at most four digits, with an exponent and without zeros behind the point: `7.5e7`, `9.875e8`, `1e12`.
+pub fn compact(x: f64) -> String {
+    let text = format!("{x:.3e}");
+    match text.split_once('e') {
+        Some((digits, exponent)) if digits.contains('.') => {
+            format!("{}e{exponent}", digits.trim_end_matches('0').trim_end_matches('.'))
+        }
+        _ => text,
+    }
 }
 
 /// Lowest and highest of some numbers; `None` when there are none.
@@ -53,5 +85,25 @@ pub fn shortened(name: &str, longest: usize) -> String {
     match name.chars().count() > longest {
         true => name.chars().take(longest - 1).chain(['\u{2026}']).collect(),
         false => name.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_end_beside_one_keeps_the_digit_that_tells_its_side() {
+        let ratio = |low, high| with_interval_against(Some(0.99), Some([low, high]), 3, 1.0);
+        assert_eq!(ratio(0.983, 0.9963), "0.990 [0.983, 0.996]");
+        assert_eq!(ratio(0.983, 0.99963), "0.9900 [0.9830, 0.9996]");
+        assert_eq!(ratio(0.98, 1.0), "0.990 [0.980, 1.00]");
+        assert_eq!(with_interval_against(Some(1.0004), None, 3, 1.0), "1.0004 [-]");
+    }
+
+    #[test]
+    fn a_stiffness_shows_no_rounding_of_its_computation() {
+        let shown = [7.5e7, 95000000.00000001, 1e12, 2.8166e7].map(stiffness);
+        assert_eq!(shown, ["7.5e7 Pa/m", "9.5e7 Pa/m", "1e12 Pa/m", "2.817e7 Pa/m"]);
     }
 }

@@ -1,44 +1,38 @@
-//! The table that `run` prints: arms, ratios, published statements. At most 110 columns wide.
+//! The table that `run` prints: arms, ratios, published statements. At most 100 columns wide.
 
 use crate::ensemble::Quantity;
+use crate::report::conclusion::conclusion;
 use crate::report::measured;
-use crate::report::number::{or_dash, shortened, with_interval};
+use crate::report::number::{compact, or_dash, shortened, stiffness, with_interval, with_interval_against};
 use crate::report::summary::{ArmSummary, Summary};
 
-const WIDTH: usize = 110;
+/// Widest line of text and of tables that are split.
+pub(super) const WIDTH: usize = 100;
 
 /// What the table shows, in words.
 fn explanation(quantity: Quantity) -> String {
     format!(
-        "Each line is one arm of the study at one normal stiffness kn of the joints. The quantity is {}. Numbers in \
-         brackets are 95 % intervals; a dash means not defined (one wall has no sigma). Failed walls ({}) are counted \
-         and are not in the mean. sigma: standard deviation between walls; COV: sigma over mean.",
+        "Each line is one arm (kind of wall) at one normal stiffness kn of the joints. The quantity is {}. Brackets hold \
+         95 % intervals. A dash: not defined (one wall has no sigma). Failed walls ({}) are counted and are not in the \
+         mean. sigma: standard deviation between walls; COV: sigma over mean.",
         quantity.words(),
         quantity.failed_words()
     )
 }
 
-/// The summary as text for a terminal, with a line at its head that explains it.
+/// The summary as text for a terminal: the conclusion, then what it rests on under headings.
 pub fn terminal_table(summary: &Summary) -> String {
-    let mut text = wrapped("", &heading(summary));
-    if !summary.question.is_empty() {
-        text.push_str(&wrapped("", &summary.question));
-    }
-    text.push('\n');
+    let mut text = conclusion(summary);
+    text.push_str(&format!("\nResults ({} solver, seed {})\n", summary.solver, summary.seed));
     if let Some(arm) = summary.arms.first() {
         text.push_str(&wrapped("", &explanation(arm.shown)));
+        text.push('\n');
     }
-    text.push('\n');
     text.push_str(&arms(&summary.arms));
     text.push_str(&ratios(summary));
     text.push_str(&measured::text(summary.measured.as_ref()));
     text.push_str(&published(summary));
     text
-}
-
-fn heading(summary: &Summary) -> String {
-    let variant = summary.variant.as_ref().map_or_else(String::new, |variant| format!(", variant {variant}"));
-    format!("Study {}{variant}, seed {}", summary.study, summary.seed)
 }
 
 /// One line per arm and kn, and the notes below.
@@ -56,7 +50,7 @@ fn arms(arms: &[ArmSummary]) -> String {
         };
         rows.push(vec![
             arm.arm.clone(),
-            format!("{:e}", arm.kn_pa_per_m),
+            compact(arm.kn_pa_per_m),
             arm.members.to_string(),
             (arm.members - (arm.in_mean + arm.stood_to_the_end).min(arm.members)).to_string(),
             mean,
@@ -67,7 +61,10 @@ fn arms(arms: &[ArmSummary]) -> String {
     let mut text = aligned(rows);
     for arm in arms {
         if let Some(note) = &arm.note {
-            text.push_str(&wrapped("! ", &format!("{} at kn {:e} Pa/m: {note}", arm.arm, arm.kn_pa_per_m)));
+            text.push_str(&wrapped(
+                "! ",
+                &format!("{} at kn {}: {note}", arm.arm, stiffness(arm.kn_pa_per_m)),
+            ));
         }
     }
     text
@@ -95,27 +92,29 @@ fn ratios(summary: &Summary) -> String {
         let exact = comparison.ratio_ci.is_some_and(|[low, high]| low == high);
         columns[index].push(match exact {
             true => or_dash(comparison.ratio, 3),
-            false => with_interval(comparison.ratio, comparison.ratio_ci, 3),
+            false => with_interval_against(comparison.ratio, comparison.ratio_ci, 3, 1.0),
         });
     }
     if columns.is_empty() {
         return String::new();
     }
     let first: Vec<String> =
-        std::iter::once("kn Pa/m".to_string()).chain(kns.iter().map(|kn| format!("{kn:e}"))).collect();
+        std::iter::once("kn Pa/m".to_string()).chain(kns.iter().copied().map(compact)).collect();
     let mut text = "\nRatios of means (without brackets: neither arm is random)\n".to_string();
-    for group in fitting(&first, &columns) {
-        let rows = (0..first.len())
-            .map(|row| {
-                std::iter::once(&first)
-                    .chain(group)
-                    .map(|column| column.get(row).cloned().unwrap_or_default())
-                    .collect()
-            })
-            .collect();
-        text.push_str(&aligned(rows));
-    }
+    text.push_str(&side_by_side(&first, &columns));
     text
+}
+
+/// Columns behind a first one, heads included, in as many tables as the width needs.
+pub(super) fn side_by_side(first: &[String], columns: &[Vec<String>]) -> String {
+    let table = |group: &[Vec<String>]| {
+        let row = |row: usize| {
+            let cells = std::iter::once(first).chain(group.iter().map(Vec::as_slice));
+            cells.map(|column| column.get(row).cloned().unwrap_or_default()).collect()
+        };
+        aligned((0..first.len()).map(row).collect())
+    };
+    fitting(first, columns).into_iter().map(table).collect::<Vec<_>>().join("\n")
 }
 
 /// Splits columns into groups that fit the width beside the first column.
@@ -157,7 +156,7 @@ fn published(summary: &Summary) -> String {
 }
 
 /// Names longer than this are cut in tables.
-const LONGEST_NAME: usize = 18;
+pub(super) const LONGEST_NAME: usize = 18;
 
 /// Rows as text: the first column to the left, numbers to the right, a rule below the first row.
 pub(super) fn aligned(mut rows: Vec<Vec<String>>) -> String {

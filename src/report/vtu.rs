@@ -10,7 +10,7 @@ const POLYHEDRON: u8 = 42;
 
 /// The wall as an ASCII `.vtu` file: one polyhedral cell per block, in the order of the blocks.
 ///
-/// Cell data: `block` (id), `tag` (0 stone, 1 header, 2 wedge, 3 base, 4 end), `density` (kg/m^3), `volume` (m^3) and,
+/// Cell data: `block` (id), `tag` (0 stone, 1 header, 2 wedge, 3 base, 4 end, 5 another), `density` (kg/m^3), `volume` (m^3) and,
 /// if given, `displacement` (m, one vector per block: that of its centroid). Every number is the shortest one that
 /// reads back to the same bits.
 ///
@@ -35,7 +35,7 @@ pub fn write_vtu(wall: &Wall, displacement: Option<&[Vec3]>) -> String {
     cells(&mut text, wall);
     text.push_str("<CellData>\n");
     array(&mut text, "Int64", "block", 1, 0..blocks.len());
-    array(&mut text, "UInt8", "tag", 1, blocks.iter().map(|b| tag_number(b.tag)));
+    array(&mut text, "UInt8", "tag", 1, blocks.iter().map(|b| tag_number(&b.tag)));
     array(&mut text, "Float64", "density", 1, blocks.iter().map(|b| b.density));
     array(&mut text, "Float64", "volume", 1, blocks.iter().map(|b| b.shape.volume()));
     if let Some(displacement) = displacement {
@@ -104,13 +104,14 @@ fn vector(v: &Vec3) -> String {
     format!("{} {} {}", v.x, v.y, v.z)
 }
 
-fn tag_number(tag: Tag) -> u8 {
+fn tag_number(tag: &Tag) -> u8 {
     match tag {
         Tag::Stone => 0,
         Tag::Header => 1,
         Tag::Wedge => 2,
         Tag::Base => 3,
         Tag::End => 4,
+        Tag::Other(_) => 5,
     }
 }
 
@@ -124,8 +125,13 @@ mod tests {
     fn wall() -> Wall {
         let solid = Polyhedron::cuboid(Vec3::zeros(), Vec3::new(1.0, 1.0, 1.0));
         let (half, _) = solid.cut(&Plane::through(Vec3::zeros(), Vec3::new(1.0, -1.0, 0.0)), 1e-9);
-        let block =
-            |shape: Polyhedron, tag: Tag| Block { shape, density: 2400.0, support: Support::Free, tag };
+        let block = |shape: Polyhedron, tag: Tag| Block {
+            shape,
+            density: 2400.0,
+            support: Support::Free,
+            tag,
+            group: None,
+        };
         let aside = solid.translated(&Vec3::new(2.0, 0.0, 0.0));
         Wall { blocks: vec![block(half.unwrap(), Tag::Wedge), block(aside, Tag::Stone)] }
     }

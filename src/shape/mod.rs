@@ -7,9 +7,11 @@ mod polygon;
 mod polyhedron;
 #[cfg(test)]
 mod tests;
+mod union;
 
 pub use balls::{Ball, union_of_balls};
 pub use overlap::overlap_depth;
 pub use plane::{Frame, Plane};
 pub use polygon::{Moments, Polygon};
 pub use polyhedron::{MassProperties, Polyhedron, ShapeFault};
+pub use union::convex_union;

@@ -25,6 +25,29 @@ pub struct MassProperties {
     pub inertia: Mat3,
 }
 
+impl MassProperties {
+    /// The same at another density (kg/m^3): volume becomes mass, and inertia kg m^2.
+    pub fn times(&self, density: f64) -> MassProperties {
+        MassProperties {
+            volume: self.volume * density,
+            centroid: self.centroid,
+            inertia: self.inertia * density,
+        }
+    }
+
+    /// Those of several solids as one; where two of them share a place it counts twice. Undefined for none.
+    pub fn together(parts: &[MassProperties]) -> MassProperties {
+        let volume: f64 = parts.iter().map(|part| part.volume).sum();
+        let centroid = parts.iter().map(|part| part.centroid * part.volume).sum::<Vec3>() / volume;
+        let inertia = parts.iter().fold(Mat3::zeros(), |sum, part| {
+            // Huygens and Steiner.
+            let d = part.centroid - centroid;
+            sum + part.inertia + (Mat3::identity() * d.norm_squared() - d * d.transpose()) * part.volume
+        });
+        MassProperties { volume, centroid, inertia }
+    }
+}
+
 /// What makes a polyhedron unfit to be a block.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ShapeFault {

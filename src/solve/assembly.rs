@@ -70,15 +70,18 @@ impl<'a> Assembly<'a> {
         assembly
     }
 
-    /// Adds a force (N), at load factor 1, of fixed direction at a world point (m) that from now on moves with the block.
+    /// Adds a force (N), at load factor 1, of fixed direction at a point (m, in the wall's coordinates) that from now on moves with the block.
     pub fn add_load(&mut self, body: usize, point: Vec3, force: Vec3) {
+        let body = self.bodies.carriers[body];
         let b = &self.bodies.all[body];
-        let lever = b.rotation.tr_mul(&(point - b.position));
+        let lever = b.rotation.tr_mul(&(point - self.bodies.origin - b.position));
         self.loads.push(DeadLoad { body, lever, force });
     }
 
-    /// Ties a body to its surroundings. Its point is where the body is now: bodies must not have moved yet.
+    /// Ties a body to its surroundings, at a point in the wall's coordinates. It is where the body is now: bodies must not have moved yet.
     pub fn add_tie(&mut self, tie: Tie) {
+        let (body, point) = (self.bodies.carriers[tie.body], tie.point - self.bodies.origin);
+        let tie = Tie { body, point, ..tie };
         self.ties.push(Held::new(tie, &self.bodies.all[tie.body]));
     }
 

@@ -1,10 +1,12 @@
 //! Assembly: blocks turned into bodies, the arrays that the solvers work on.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion};
 
 use crate::math::{Mat3, Vec3, atan2};
 use crate::model::{Support, Wall};
-use crate::shape::{MassProperties, Polyhedron};
+use crate::shape::{MassProperties, Polyhedron, convex_union};
 
 /// What a body can do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,7 +24,7 @@ pub enum Freedom {
 /// A rigid body: state, accumulated loads, and constants in its principal axes.
 #[derive(Clone, Debug)]
 pub struct Body {
-    /// Centroid (m).
+    /// Centroid (m), from the [origin](Bodies::origin) of the bodies.
     pub position: Vec3,
     /// Attitude: principal axes to world axes.
     pub attitude: UnitQuaternion<f64>,
@@ -57,15 +59,26 @@ pub struct Bodies {
     pub all: Vec<Body>,
     /// The shapes in the axes of what carries them.
     pub shapes: Vec<Polyhedron>,
-    /// The body that carries each shape: itself, or a platform that it is fixed to.
+    /// The body that carries each shape: itself, the first part of its stone, or a platform that it is fixed to.
     pub carriers: Vec<usize>,
+    /// Where positions count from (m, in the wall's coordinates), see [`Wall::local_origin`].
+    pub origin: Vec3,
+    /// The solids that the parts of a stone make up where that is convex, by the first part, in the axes of the body: the stone
+    /// touches others as that solid, as if it had not been divided.
+    wholes: BTreeMap<usize, Polyhedron>,
+    /// The other parts of such stones.
+    merged: BTreeSet<usize>,
+    /// Where each block's own centroid is in the axes of what carries it (m).
+    centroids: Vec<Vec3>,
 }
 
 impl Bodies {
-    /// Bodies at rest from the blocks of a wall.
+    /// Bodies at rest from the blocks of a wall. The first part of a stone of several carries the others: its body has the mass
+    /// of all, and theirs stay behind, fixed and without a part in anything.
     pub fn from_wall(wall: &Wall) -> Self {
         let mut all = Vec::with_capacity(wall.blocks.len());
         let mut shapes = Vec::with_capacity(wall.blocks.len());
+        let (origin, wall) = wall.about_local_origin();
         for block in &wall.blocks {
             let properties = block.shape.mass_properties();
             let centred = block.shape.translated(&-properties.centroid);
@@ -74,11 +87,74 @@ impl Bodies {
             shapes.push(centred.moved(&body.rotation.transpose(), &Vec3::zeros()));
             all.push(body);
         }
-        let carriers = (0..all.len()).collect();
-        Bodies { all, shapes, carriers }
+        let (carriers, centroids) = ((0..all.len()).collect(), vec![Vec3::zeros(); all.len()]);
+        let (wholes, merged) = (BTreeMap::new(), BTreeSet::new());
+        let mut bodies = Bodies { all, shapes, carriers, origin, wholes, merged, centroids };
+        for (lead, parts) in wall.parts() {
+            bodies.unite(&wall, lead, &parts);
+        }
+        bodies
     }
 
-    /// The shape of a body where it is now, in world coordinates.
+    /// Makes one body of the parts of a stone, the first of which is `lead`.
+    fn unite(&mut self, wall: &Wall, lead: usize, parts: &[usize]) {
+        let own: Vec<MassProperties> = parts
+            .iter()
+            .map(|&part| wall.blocks[part].shape.mass_properties().times(wall.blocks[part].density))
+            .collect();
+        let whole = MassProperties::together(&own);
+        let far = |part: &usize| {
+            let vertices = wall.blocks[*part].shape.vertices.iter();
+            vertices.map(|v| (v - whole.centroid).norm()).fold(0.0, f64::max)
+        };
+        let radius = parts.iter().map(far).fold(0.0, f64::max);
+        // The masses are in the properties: the density is 1.
+        let body = Body::at_rest(&whole, 1.0, wall.blocks[lead].support, radius);
+        for (&part, own) in parts.iter().zip(&own) {
+            let shape = wall.blocks[part].shape.translated(&-body.position);
+            self.shapes[part] = shape.moved(&body.rotation.transpose(), &Vec3::zeros());
+            self.centroids[part] = body.rotation.tr_mul(&(own.centroid - body.position));
+            self.carriers[part] = lead;
+            self.all[part].freedom = Freedom::Fixed;
+        }
+        let shapes: Vec<&Polyhedron> = parts.iter().map(|&part| &wall.blocks[part].shape).collect();
+        if let Some(solid) = convex_union(&shapes) {
+            let solid = solid.translated(&-body.position).moved(&body.rotation.transpose(), &Vec3::zeros());
+            self.wholes.insert(lead, solid);
+            self.merged.extend(parts.iter().filter(|&&part| part != lead));
+        }
+        self.all[lead] = body;
+    }
+
+    /// The solid in which a block touches others, where it is now, in world coordinates.
+    pub fn touching_shape(&self, block: usize) -> Polyhedron {
+        let carrier = &self.all[self.carriers[block]];
+        let shape = self.wholes.get(&block).unwrap_or(&self.shapes[block]);
+        shape.moved(&carrier.rotation, &carrier.position)
+    }
+
+    /// Whether a block touches others as a part of the solid of its stone's first part only.
+    pub fn is_merged(&self, block: usize) -> bool {
+        self.merged.contains(&block)
+    }
+
+    /// Where a block's centroid is now (m).
+    pub fn centroid(&self, block: usize) -> Vec3 {
+        self.centroid_in(&self.all, block)
+    }
+
+    /// Where a block's centroid is in another state of these bodies (m).
+    pub fn centroid_in(&self, state: &[Body], block: usize) -> Vec3 {
+        let carrier = &state[self.carriers[block]];
+        carrier.position + carrier.rotation * self.centroids[block]
+    }
+
+    /// The body that carries a block.
+    pub fn carrier(&self, block: usize) -> &Body {
+        &self.all[self.carriers[block]]
+    }
+
+    /// The shape of a body where it is now, from the origin of the bodies.
     pub fn world_shape(&self, body: usize) -> Polyhedron {
         let carrier = &self.all[self.carriers[body]];
         self.shapes[body].moved(&carrier.rotation, &carrier.position)
@@ -88,7 +164,9 @@ impl Bodies {
     pub fn fix_to(&mut self, body: usize, carrier: usize) {
         let by = &self.all[carrier];
         let shape = self.world_shape(body).translated(&-by.position);
+        let centroid = by.rotation.tr_mul(&(self.centroid(body) - by.position));
         self.shapes[body] = shape.moved(&by.rotation.transpose(), &Vec3::zeros());
+        self.centroids[body] = centroid;
         self.carriers[body] = carrier;
     }
 

@@ -24,6 +24,8 @@ pub enum Solver {
     Explicit(explicit::Settings),
     /// Newton's method from equilibrium to equilibrium; what it cannot find is confirmed by the explicit solver.
     Implicit(implicit::Settings),
+    /// Limit analysis: the load at which rigid blocks fall, without steps and without displacements.
+    Limit(limit::Settings),
 }
 
 impl Solver {
@@ -32,6 +34,7 @@ impl Solver {
         match self {
             Solver::Explicit(_) => "explicit",
             Solver::Implicit(_) => "implicit",
+            Solver::Limit(_) => "limit",
         }
     }
 }

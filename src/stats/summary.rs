@@ -1,9 +1,9 @@
 //! Mean, sigma and COV of one sample, each with its interval.
 
 use super::Estimate;
-use crate::math::exp;
 use super::moments::{cov, mean, sigma};
 use super::reference::{chi_square, student};
+use crate::math::exp;
 
 /// Mean, sigma and COV of a sample, with 95 % intervals that are exact (mean, sigma) or nearly so (COV) when the values
 /// are independent and normal.
@@ -60,10 +60,11 @@ impl Summary {
     pub fn of_positive(values: &[f64]) -> Summary {
         let summary = Summary::of(values);
         let half = |mean: f64, [low, high]: [f64; 2]| (0.5 * (high - low)) / mean;
-        let interval = summary.mean.value.zip(summary.mean.interval).map(|(mean, interval)| match mean > 0.0 {
-            true => [mean * exp(-half(mean, interval)), mean * exp(half(mean, interval))],
-            false => interval,
-        });
+        let interval =
+            summary.mean.value.zip(summary.mean.interval).map(|(mean, interval)| match mean > 0.0 {
+                true => [mean * exp(-half(mean, interval)), mean * exp(half(mean, interval))],
+                false => interval,
+            });
         Summary { mean: Estimate { interval, ..summary.mean }, ..summary }
     }
 }

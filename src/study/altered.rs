@@ -5,7 +5,7 @@ use crate::generate::Layout;
 use crate::law::{Coulomb, NormalLaw, PATCHES_ALONG, Sampling, Weakening};
 use crate::math::tan;
 use crate::model::{Tag, Wall};
-use crate::protocol::{Changes, Contacts, Direction, Ends, Loss, Protocol, Restraint};
+use crate::protocol::{Changes, Contacts, Ends, Loss, Protocol, Restraint};
 use crate::random::{Family, Stream, Streams};
 use crate::study::mechanism::{EndRelease, Mechanisms};
 
@@ -39,7 +39,7 @@ impl Mechanisms {
     pub fn built(&self, wall: Wall, protocol: &Protocol) -> Wall {
         match (self.lean, protocol) {
             (None, _) => wall,
-            (Some(angle), Protocol::Tilting(tilting)) if tilting.towards == Direction::YMinus => {
+            (Some(angle), Protocol::Tilting(tilting)) if tilting.towards.is_backwards() => {
                 wall.leaning(-tan(angle))
             }
             (Some(angle), _) => wall.leaning(tan(angle)),

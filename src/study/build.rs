@@ -1,12 +1,12 @@
 //! From the raw tree of study.toml to checked parts.
 
 use crate::math::radians;
-use crate::protocol::{Ends, EventShares, Lateral, Protocol, Rate, Tilting, Turning};
-use crate::solve::{Solver, explicit, implicit};
+use crate::protocol::{Direction, Ends, EventShares, Lateral, Observes, Protocol, Rate, Tilting, Turning};
+use crate::solve::{Solver, explicit, implicit, limit};
 use crate::study::arm;
 use crate::study::catalogue::Catalogue;
 use crate::study::checked::Arm;
-use crate::study::fault::{Fault, Found};
+use crate::study::fault::{Fault, Found, Place};
 use crate::study::keys;
 use crate::study::mechanism::Mechanisms;
 use crate::study::raw::Node;
@@ -47,7 +47,48 @@ pub fn parts(root: &Node, notes: &mut Notes, catalogue: &mut Catalogue) -> Optio
     };
     let protocol = protocol?;
     check_mechanisms(&mut top, &arms, &protocol, agreement)?;
+    if matches!(solver, Solver::Limit(_)) {
+        for unfit in unfit_for_limit(&arms, &protocol, agreement) {
+            let place = top.place_of("solver").clone();
+            top.notes.faults.push(beyond_limit(&place, unfit));
+        }
+    }
     Some(Parts { question, seed, arms, protocol, solver, agreement })
+}
+
+/// What a study asks for that rigid blocks do not have, in words.
+pub fn unfit_for_limit(arms: &[Arm], protocol: &Protocol, agreement: bool) -> Vec<String> {
+    let mechanisms = arms.iter().flat_map(|arm| arm.mechanisms.unfit_for_limit_analysis());
+    let mut unfit: Vec<String> = mechanisms.map(|unfit| unfit.to_string()).collect();
+    unfit.sort();
+    unfit.dedup();
+    if let Protocol::Tilting(tilting) = protocol {
+        let asked = [
+            (matches!(tilting.rate, Rate::Dynamic(_)), "load.turning: limit analysis knows no time"),
+            (
+                tilting.observes == Observes::Displacement,
+                "load.observes = \"displacement\": rigid blocks do not move before they fall",
+            ),
+            (tilting.remainders, "load.remainders: rigid blocks do not move before they fall"),
+        ];
+        unfit.extend(asked.iter().filter(|(asked, _)| *asked).map(|(_, words)| (*words).to_owned()));
+    }
+    if agreement {
+        unfit.push("solver.agreement: it would be compared with itself".to_owned());
+    }
+    unfit
+}
+
+/// The fault of a study that asks limit analysis for what it does not have.
+pub fn beyond_limit(place: &Place, unfit: String) -> Fault {
+    let found = Found::Words(format!("is \"limit\", which does not go with {unfit}"));
+    Fault::at(
+        place,
+        "solver.name",
+        found,
+        "explicit or implicit for that",
+        "take another solver, or remove it",
+    )
 }
 
 /// The arms of these names, in the order of the names. What the others say decides nothing.
@@ -132,8 +173,20 @@ fn lateral(t: &mut Reader<'_>) -> Option<Lateral> {
     Some(Lateral { mean_pressure, base_over_top, steps: steps?, collapse_share })
 }
 
+/// The side that goes down, by its name or by its angle.
+fn towards(t: &mut Reader<'_>) -> Option<Direction> {
+    if !t.has("towards_deg") {
+        return t.choice_name("towards").and_then(Direction::named);
+    }
+    if t.has("towards") {
+        t.fault("towards_deg", "one of towards and towards_deg", "remove one of the two");
+        return None;
+    }
+    t.real("towards_deg").map(Direction::at)
+}
+
 fn tilting(t: &mut Reader<'_>) -> Option<Tilting> {
-    let towards = t.choice("towards");
+    let towards = towards(t);
     let reals = t.reals(["step_deg", "end_deg", "bracket_deg", "runaway_share"]);
     let (observes, remainders) = (t.choice("observes"), t.flag("remainders"));
     let events = events(t);
@@ -174,6 +227,10 @@ fn events(t: &mut Reader<'_>) -> Option<EventShares> {
 pub fn solver(t: &mut Reader<'_>) -> Option<Solver> {
     match t.chosen()? {
         "explicit" => explicit(t).map(Solver::Explicit),
+        "limit" => {
+            let flow = t.choice("flow")?;
+            Some(Solver::Limit(limit::Settings { flow, ..limit::Settings::default() }))
+        }
         _ => implicit(t).map(Solver::Implicit),
     }
 }

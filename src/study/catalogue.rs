@@ -5,13 +5,13 @@ use std::path::{Path, PathBuf};
 
 use crate::random::Family;
 use crate::study::checked::InputFile;
-use crate::study::distributions::{NoDistributions, distributions_above};
+use crate::study::distributions::{Distributions, Origin, is_prior};
 use crate::study::fault::{Fault, Faults, Found};
+use crate::study::keys;
 use crate::study::quantity::family;
 use crate::study::raw::{self, Entry, Node, Table, Value};
 use crate::study::reader::{Notes, Reader, is_name};
 use crate::study::schema::suggestion;
-use crate::study::{files, keys};
 
 /// A file below `distributions`.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,12 +52,14 @@ pub struct Used {
     pub status: String,
     /// Paper and table, or who assumed it and why.
     pub source: String,
+    /// Where its file lies: a path, or `built-in:distributions/block/dip.toml`.
+    pub from: String,
 }
 
 /// Reads files below `distributions` when they are first referred to.
 pub struct Catalogue {
-    folder: Result<PathBuf, NoDistributions>,
-    files: BTreeMap<String, Option<(DistributionFile, Vec<String>)>>,
+    distributions: Distributions,
+    files: BTreeMap<String, Option<Held>>,
     /// Faults of the files read.
     pub faults: Vec<Fault>,
     /// The files read, in that order.
@@ -66,14 +68,24 @@ pub struct Catalogue {
     pub used: Vec<Used>,
 }
 
-impl Catalogue {
-    /// The catalogue above the folder of a study.
-    pub fn above(study: &Path) -> Catalogue {
-        Catalogue::new(distributions_above(study))
-    }
+/// A file that was read.
+struct Held {
+    file: DistributionFile,
+    /// Names of its faulty entries.
+    faulty: Vec<String>,
+    origin: Origin,
+}
 
-    fn new(folder: Result<PathBuf, NoDistributions>) -> Catalogue {
-        Catalogue { folder, files: BTreeMap::new(), faults: Vec::new(), inputs: Vec::new(), used: Vec::new() }
+impl Catalogue {
+    /// The catalogue of what is found there.
+    pub fn of(distributions: Distributions) -> Catalogue {
+        Catalogue {
+            distributions,
+            files: BTreeMap::new(),
+            faults: Vec::new(),
+            inputs: Vec::new(),
+            used: Vec::new(),
+        }
     }
 
     /// The distribution that a reference names, in the unit wanted; `None` when its entry is faulty itself.
@@ -97,41 +109,32 @@ impl Catalogue {
         if !file.split('/').all(is_name) || !is_name(entry) {
             return Err(fault(form.to_owned(), "use lower-case letters, digits, - and _".to_owned()));
         }
-        let folder = self.folder.clone().map_err(|none| {
-            let fix = "put the folder `distributions` beside `studies`, or write the numbers here";
-            fault(format!("a file of {none}"), fix.to_owned())
-        })?;
-        if !self.files.contains_key(file) && !path_of(&folder, file).exists() {
-            let known = names_below(&folder);
-            if known.is_empty() {
-                let wanted = format!("a file of {}, which holds none", folder.display());
-                return Err(fault(wanted, "put the file there, or write the numbers here".to_owned()));
-            }
+        if self.distributions.find(file).is_none() {
+            let known = self.distributions.names();
+            let listed: Vec<&str> = known.iter().map(String::as_str).filter(|name| !is_prior(name)).collect();
             return Err(fault(
-                format!("a file of `distributions`: {}", known.join(", ")),
+                format!("a file of `distributions`: {}; or a prior", listed.join(", ")),
                 suggestion(file, &known),
             ));
         }
-        let Some((held, faulty)) = self.file(&folder, file) else { return Ok(None) };
+        let Some(Held { file: held, faulty, origin }) = self.file(file) else { return Ok(None) };
         if faulty.iter().any(|f| f == entry) {
             return Ok(None);
         }
+        let name = origin.name(file);
         let Some(found) = held.entries.get(entry).cloned() else {
             let names: Vec<&String> = held.entries.keys().collect();
-            return Err(fault(format!("an entry of distributions/{file}.toml"), suggestion(entry, &names)));
+            return Err(fault(format!("an entry of {name}"), suggestion(entry, &names)));
         };
         if held.unit != unit {
-            let has = held.unit.clone();
-            return Err(fault(
-                format!("a quantity in {unit}"),
-                format!("distributions/{file}.toml is in {has}"),
-            ));
+            return Err(fault(format!("a quantity in {unit}"), format!("{name} is in {}", held.unit)));
         }
         let used = Used {
             key: path.to_owned(),
             reference: reference.to_owned(),
             status: found.status,
             source: found.source,
+            from: origin.place(file),
         };
         if !self.used.contains(&used) {
             self.used.push(used);
@@ -139,24 +142,25 @@ impl Catalogue {
         Ok(Some(found.family))
     }
 
-    /// The file of that name and the names of its faulty entries, read once.
-    fn file(&mut self, folder: &Path, file: &str) -> Option<&(DistributionFile, Vec<String>)> {
+    /// The file of that name, read once; `None` where there is none or it is faulty.
+    fn file(&mut self, file: &str) -> Option<&Held> {
         if !self.files.contains_key(file) {
-            let read = self.read(folder, file);
+            let read = self.read(file);
             self.files.insert(file.to_owned(), read);
         }
         self.files.get(file).and_then(Option::as_ref)
     }
 
-    fn read(&mut self, folder: &Path, file: &str) -> Option<(DistributionFile, Vec<String>)> {
-        let name = format!("distributions/{file}.toml");
-        let parsed =
-            files::read(&path_of(folder, file), &name, 3 + self.files.len(), raw::FORMAT).and_then(|text| {
-                self.inputs.push(InputFile { path: PathBuf::from(&name), sha256: text.sha256.clone() });
-                raw::parse(&text.source)
-            });
-        let root = match parsed {
-            Ok(root) => root,
+    fn read(&mut self, file: &str) -> Option<Held> {
+        let read = self.distributions.read(file, 3 + self.files.len());
+        let parsed = read.and_then(|found| {
+            let Some((text, origin)) = found else { return Ok(None) };
+            let path = PathBuf::from(&text.source.name);
+            self.inputs.push(InputFile { path, sha256: text.sha256.clone() });
+            Ok(Some((raw::parse(&text.source)?, origin)))
+        });
+        let (root, origin) = match parsed {
+            Ok(found) => found?,
             Err(fault) => {
                 self.faults.push(*fault);
                 return None;
@@ -165,12 +169,8 @@ impl Catalogue {
         let mut notes = Notes::default();
         let read = read_file(&root, &mut notes);
         self.faults.append(&mut notes.faults);
-        read
+        read.map(|(file, faulty)| Held { file, faulty, origin })
     }
-}
-
-fn path_of(folder: &Path, file: &str) -> PathBuf {
-    folder.join(format!("{file}.toml"))
 }
 
 /// Head and entries of a file, with the names of the faulty entries.
@@ -213,26 +213,22 @@ fn read_entry(name: &str, node: &Node, notes: &mut Notes) -> Option<Distribution
     (notes.faults.len() == before).then_some(entry)
 }
 
-/// Names of the files below a folder, as `block/size`, sorted.
-fn names_below(folder: &Path) -> Vec<String> {
-    let list = |folder: &Path| -> Vec<PathBuf> {
-        std::fs::read_dir(folder).map(|e| e.flatten().map(|e| e.path()).collect()).unwrap_or_default()
-    };
-    let mut pending = list(folder);
-    let mut names = Vec::new();
-    while let Some(path) = pending.pop() {
-        if path.is_dir() {
-            pending.extend(list(&path));
-        } else if path.extension().is_some_and(|e| e == "toml")
-            && let Ok(inner) = path.strip_prefix(folder)
-        {
-            let parts: Vec<_> =
-                inner.with_extension("").iter().map(|p| p.to_string_lossy().into_owned()).collect();
-            names.push(parts.join("/"));
+/// Reads and checks the files of these names, as `block/size`, as far as there are such files.
+///
+/// # Errors
+/// All faults of all files.
+pub fn read_distributions<S: AsRef<str>>(
+    distributions: &Distributions,
+    names: &[S],
+) -> Result<BTreeMap<String, DistributionFile>, Faults> {
+    let mut catalogue = Catalogue::of(distributions.clone());
+    let mut read = BTreeMap::new();
+    for name in names.iter().map(AsRef::as_ref) {
+        if let Some(held) = catalogue.file(name) {
+            read.insert(name.to_owned(), held.file.clone());
         }
     }
-    names.sort();
-    names
+    if catalogue.faults.is_empty() { Ok(read) } else { Err(Faults::sorted(catalogue.faults)) }
 }
 
 /// Reads and checks every file below a `distributions` folder, by name as `block/size`.
@@ -240,12 +236,6 @@ fn names_below(folder: &Path) -> Vec<String> {
 /// # Errors
 /// All faults of all files.
 pub fn load_distributions(folder: &Path) -> Result<BTreeMap<String, DistributionFile>, Faults> {
-    let mut catalogue = Catalogue::new(Ok(folder.to_owned()));
-    let mut read = BTreeMap::new();
-    for name in names_below(folder) {
-        if let Some((file, _)) = catalogue.file(folder, &name) {
-            read.insert(name, file.clone());
-        }
-    }
-    if catalogue.faults.is_empty() { Ok(read) } else { Err(Faults::sorted(catalogue.faults)) }
+    let distributions = Distributions::only_in(folder);
+    read_distributions(&distributions, &distributions.names())
 }

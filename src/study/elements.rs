@@ -8,8 +8,9 @@ use crate::law::{CohesionAfterSlip, Coulomb, Frictional, NormalLaw, Sampling};
 use crate::math::{radians, tan};
 use crate::protocol::Shove;
 use crate::solve::{explicit, grains};
-use crate::study::catalogue::Catalogue;
+use crate::study::catalogue::{Catalogue, Used};
 use crate::study::checked::InputFile;
+use crate::study::distributions::Distributions;
 use crate::study::fault::{Fault, Faults};
 use crate::study::load::{existing, hash_of, parsed};
 use crate::study::quantity::quantity;
@@ -53,6 +54,8 @@ pub struct ElementStudy {
     pub warnings: Vec<Fault>,
     /// Every input file with its SHA-256, in the order read.
     pub inputs: Vec<InputFile>,
+    /// The entries of `distributions` that it takes, with their provenance.
+    pub used: Vec<Used>,
     /// SHA-256 (hex) over every value that decides a result.
     pub hash: String,
 }
@@ -111,7 +114,7 @@ impl ElementStudy {
             true => parsed(&folder, "published.toml", 1, &mut inputs, &mut faults),
             false => None,
         };
-        let mut catalogue = Catalogue::above(&folder);
+        let mut catalogue = Catalogue::of(Distributions::of_study(&folder));
         let study = root.and_then(|root| study(&root, &mut notes, &mut catalogue));
         // What others report decides no result.
         let effective = std::mem::take(&mut notes.effective);
@@ -126,7 +129,8 @@ impl ElementStudy {
             Some(study) if faults.is_empty() => {
                 let name = folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
                 let warnings = Faults::sorted(notes.warnings).faults;
-                Ok(ElementStudy { name, published, warnings, inputs, hash: hash_of(&effective), ..study })
+                let (used, hash) = (catalogue.used, hash_of(&effective));
+                Ok(ElementStudy { name, published, warnings, inputs, used, hash, ..study })
             }
             _ => {
                 crate::check!(!faults.is_empty(), "the study was refused without a fault");
@@ -189,6 +193,7 @@ fn study(root: &Node, notes: &mut Notes, catalogue: &mut Catalogue) -> Option<El
         published: Vec::new(),
         warnings: Vec::new(),
         inputs: Vec::new(),
+        used: Vec::new(),
         hash: String::new(),
     })
 }

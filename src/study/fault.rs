@@ -25,18 +25,26 @@ pub struct Place {
 }
 
 impl Place {
-    /// Line (from 1) and column in characters (from 1) of the beginning.
+    /// Line (from 1) and column in characters (from 1) of the beginning, as an editor counts them: a byte order mark is no
+    /// character, and a line ends with a line feed, a carriage return, or both.
     pub fn line_and_column(&self) -> (usize, usize) {
-        let before = &self.source.text[..self.start()];
-        let line_start = before.rfind('\n').map_or(0, |i| i + 1);
-        (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+        let (line, span) = self.line();
+        let before = self.source.text.get(span.start..self.start()).unwrap_or_default();
+        (line, before.chars().count() + 1)
     }
 
-    /// The line of the beginning with carets under the stretch.
+    /// Number (from 1) and stretch of the line of the beginning.
+    fn line(&self) -> (usize, Range<usize>) {
+        let start = self.start();
+        let lines = lines(&self.source.text).enumerate();
+        let found = lines.take_while(|(index, line)| *index == 0 || line.start <= start).last();
+        found.map_or((1, 0..0), |(index, line)| (index + 1, line))
+    }
+
+    /// The line of the beginning with carets under the stretch; a tab is shown as one blank, so that the carets stand right.
     fn excerpt(&self) -> String {
         let (line, column) = self.line_and_column();
-        let Some(text) = self.source.text.split('\n').nth(line - 1) else { return String::new() };
-        let text = text.trim_end_matches('\r');
+        let text = self.source.text.get(self.line().1).unwrap_or_default().replace('\t', " ");
         let left = (text.chars().count() + 1).saturating_sub(column).max(1);
         let end = self.span.end.min(self.source.text.len());
         let wanted = self.source.text.get(self.start()..end).map_or(1, |s| s.chars().count());
@@ -54,6 +62,20 @@ impl Place {
         }
         start
     }
+}
+
+/// The lines of a text without their ends, at least one: a line feed, a carriage return or both end a line. The byte order mark
+/// that spreadsheets write is no part of the first.
+pub(super) fn lines(text: &str) -> impl Iterator<Item = Range<usize>> {
+    let begin = text.find(|c| c != '\u{feff}').unwrap_or(text.len());
+    let mut next = Some(begin);
+    std::iter::from_fn(move || {
+        let begin = next?;
+        let end = text[begin..].find(['\n', '\r']).map_or(text.len(), |length| begin + length);
+        let behind = if text[end..].starts_with("\r\n") { end + 2 } else { end + 1 };
+        next = (end < text.len()).then_some(behind);
+        Some(begin..end)
+    })
 }
 
 /// What was found at a key.
@@ -87,6 +109,8 @@ pub struct Fault {
     pub fix: String,
     /// The line with carets below; empty for the file as a whole.
     pub excerpt: String,
+    /// Lines with more faults of the same key that are mended alike, ascending.
+    pub more_lines: Vec<usize>,
     #[serde(skip)]
     order: (usize, usize),
 }
@@ -110,6 +134,7 @@ impl Fault {
             allowed: allowed.into(),
             fix: fix.into(),
             excerpt: place.excerpt(),
+            more_lines: Vec::new(),
             order: (place.source.rank, place.span.start),
         }
     }
@@ -125,6 +150,7 @@ impl Fault {
             allowed: allowed.to_owned(),
             fix: fix.into(),
             excerpt: String::new(),
+            more_lines: Vec::new(),
             order: (rank, 0),
         }
     }
@@ -145,6 +171,27 @@ impl Fault {
         let both_missing = self.found == Found::Missing && laid.found == Found::Missing;
         let key = laid.key.rsplit('.').next().unwrap_or_default();
         self.is_at_the_place_of(laid) || (both_missing && self.key == format!("{name}.{key}"))
+    }
+
+    /// Faults in the order of their places, those of one key that are mended alike as one with the lines of the others: whoever has
+    /// one wrong unit in forty rows has one thing to mend.
+    pub(super) fn gathered(mut faults: Vec<Fault>) -> Vec<Fault> {
+        faults.sort_by_key(|fault| fault.order);
+        let mut kept: Vec<Fault> = Vec::new();
+        for fault in faults {
+            let alike = |own: &Fault| {
+                own.file == fault.file
+                    && own.key == fault.key
+                    && std::mem::discriminant(&own.found) == std::mem::discriminant(&fault.found)
+                    && (&own.allowed, &own.fix) == (&fault.allowed, &fault.fix)
+            };
+            match kept.iter_mut().find(|own| alike(own)) {
+                None => kept.push(fault),
+                Some(own) if own.line == fault.line || own.more_lines.last() == Some(&fault.line) => {}
+                Some(own) => own.more_lines.push(fault.line),
+            }
+        }
+        kept
     }
 
     /// Whether both say the same about the same place.
@@ -172,11 +219,36 @@ impl fmt::Display for Fault {
             Found::Words(words) => write!(f, " {words}")?,
         }
         write!(f, ": allowed is {}; {}", self.allowed, self.fix)?;
+        if !self.more_lines.is_empty() {
+            write!(f, " (so in {} as well)", listed(&self.more_lines))?;
+        }
         if !self.excerpt.is_empty() {
             write!(f, "\n{}", self.excerpt)?;
         }
         Ok(())
     }
+}
+
+/// Lines of a file in words, long runs of them by their ends.
+pub(crate) fn listed(lines: &[usize]) -> String {
+    let mut runs: Vec<Range<usize>> = Vec::new();
+    for &line in lines {
+        match runs.last_mut() {
+            Some(run) if run.end == line => run.end += 1,
+            Some(run) if run.contains(&line) => {}
+            _ => runs.push(line..line + 1),
+        }
+    }
+    let alone = runs.iter().map(Range::len).sum::<usize>() == 1;
+    let words: Vec<String> = runs
+        .into_iter()
+        .flat_map(|run| match run.len() {
+            // Short runs are easier to look up one by one.
+            0..=3 => run.map(|line| line.to_string()).collect(),
+            _ => vec![format!("{} to {}", run.start, run.end - 1)],
+        })
+        .collect();
+    format!("line{} {}", if alone { "" } else { "s" }, words.join(", "))
 }
 
 /// All faults of a study and of the files it refers to, in the order of files and lines.

@@ -25,7 +25,7 @@ pub fn sha256(bytes: &[u8]) -> String {
 /// Reads a file that is shown as `name` and is meant to be `wanted` ("a text file in TOML").
 ///
 /// # Errors
-/// A fault when it is missing, a folder, unreadable, not UTF-8 or empty.
+/// A fault when it is missing, a folder, unreadable, neither UTF-8 nor marked as UTF-16, or empty.
 pub fn read(path: &Path, name: &str, rank: usize, wanted: &str) -> Result<TextFile, Box<Fault>> {
     let whole = |found: &str, fix: &str| Box::new(Fault::of_file(name, rank, found, wanted, fix));
     if path.is_dir() {
@@ -39,7 +39,7 @@ pub fn read(path: &Path, name: &str, rank: usize, wanted: &str) -> Result<TextFi
         Err(error) => return Err(whole(&format!("cannot be read: {error}"), "check its permissions")),
     };
     let sha256 = sha256(&bytes);
-    let text = String::from_utf8(bytes).map_err(|error| {
+    let text = String::from_utf8(from_utf16(&bytes).unwrap_or(bytes)).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         let text = String::from_utf8_lossy(&error.as_bytes()[..valid]).into_owned();
         let place =
@@ -49,13 +49,26 @@ pub fn read(path: &Path, name: &str, rank: usize, wanted: &str) -> Result<TextFi
             "",
             Found::Words("is not UTF-8".to_owned()),
             "UTF-8 text",
-            "save it as UTF-8",
+            "save it as UTF-8 (spreadsheets call it CSV UTF-8)",
         ))
     })?;
     if text.trim().is_empty() {
         return Err(whole("is empty", "fill it, or take it away if it is not needed"));
     }
     Ok(TextFile { source: Arc::new(Source { name: name.to_owned(), rank, text }), sha256 })
+}
+
+/// The UTF-8 of a text that says by its byte order mark that it is UTF-16, as spreadsheets write what they call Unicode text; `None`
+/// of any other, and of what is none after all.
+fn from_utf16(bytes: &[u8]) -> Option<Vec<u8>> {
+    let unit: fn([u8; 2]) -> u16 = match bytes.get(..2)? {
+        [0xff, 0xfe] => u16::from_le_bytes,
+        [0xfe, 0xff] => u16::from_be_bytes,
+        _ => return None,
+    };
+    let (pairs, odd) = bytes[2..].as_chunks::<2>();
+    let text = char::decode_utf16(pairs.iter().map(|pair| unit(*pair))).collect::<Result<String, _>>();
+    text.ok().filter(|_| odd.is_empty()).map(String::into_bytes)
 }
 
 /// How to mend a path that does not exist: its nearest neighbour in the same folder.

@@ -2,10 +2,10 @@
 //! effect goes when the wall is unloaded, and how limit analysis takes it.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use crate::random::Family;
-use crate::study::catalogue::{DistributionFile, load_distributions};
+use crate::study::catalogue::{DistributionFile, read_distributions};
+use crate::study::distributions::Distributions;
 use crate::study::keys::MECHANISM;
 use crate::study::schema::{Key, Kind, Presence, Section};
 
@@ -186,12 +186,25 @@ pub struct Parameter {
     pub note: Option<String>,
 }
 
-/// All mechanisms with their priors, the entry `prior` of `mechanism/<name>/<key>.toml` below a `distributions` folder.
+/// The keys of all mechanisms, as the name of the mechanism and the key.
+fn keys() -> impl Iterator<Item = (&'static str, &'static Key)> {
+    let of = |entry: &'static Entry| entry.section().into_iter().flat_map(Section::all);
+    INVENTORY.iter().flat_map(move |entry| of(entry).map(move |key| (entry.name, key)))
+}
+
+/// Name of the file with the prior of a mechanism's key.
+fn prior_file(mechanism: &str, key: &Key) -> String {
+    format!("mechanism/{mechanism}/{}", key.name)
+}
+
+/// All mechanisms with their priors, the entry `prior` of `mechanism/<name>/<key>.toml` in a folder or where a study looks.
 ///
 /// # Errors
-/// The faults of the folder's files; or the priors that are not there or in another unit, in words.
-pub fn described(distributions: &Path) -> Result<Vec<Described>, String> {
-    let files = load_distributions(distributions).map_err(|faults| faults.to_string())?;
+/// The faults of these files; or the priors that are not there or in another unit, in words.
+pub fn described(distributions: impl Into<Distributions>) -> Result<Vec<Described>, String> {
+    let distributions = distributions.into();
+    let names: Vec<String> = keys().map(|(mechanism, key)| prior_file(mechanism, key)).collect();
+    let files = read_distributions(&distributions, &names).map_err(|faults| faults.to_string())?;
     let mut missing = Vec::new();
     let described = INVENTORY
         .iter()
@@ -201,7 +214,7 @@ pub fn described(distributions: &Path) -> Result<Vec<Described>, String> {
             let parameters = keys.filter_map(|key| {
                 let found = parameter(entry.name, key, &files);
                 if found.is_none() {
-                    missing.push(format!("mechanism/{}/{}.toml: [prior]", entry.name, key.name));
+                    missing.push(format!("{}.toml: [prior]", prior_file(entry.name, key)));
                 }
                 found
             });
@@ -219,7 +232,7 @@ pub fn described(distributions: &Path) -> Result<Vec<Described>, String> {
     if missing.is_empty() {
         return Ok(described);
     }
-    Err(format!("{} lacks, in the unit of its key:\n  {}", distributions.display(), missing.join("\n  ")))
+    Err(format!("{distributions} lacks, in the unit of its key:\n  {}", missing.join("\n  ")))
 }
 
 fn parameter(
@@ -228,7 +241,7 @@ fn parameter(
     files: &BTreeMap<String, DistributionFile>,
 ) -> Option<Parameter> {
     let Kind::Real { unit, .. } = key.kind else { return None };
-    let file = files.get(&format!("mechanism/{mechanism}/{}", key.name)).filter(|file| file.unit == unit)?;
+    let file = files.get(&prior_file(mechanism, key)).filter(|file| file.unit == unit)?;
     let prior = file.entries.get("prior")?.clone();
     let default = if let Presence::Default(text) = key.presence { Some(text) } else { None };
     Some(Parameter {

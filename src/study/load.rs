@@ -4,9 +4,11 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use crate::solve::Solver;
 use crate::study::build::{self, Parts};
 use crate::study::catalogue::{Catalogue, Used};
 use crate::study::checked::{Arm, InputFile, Study};
+use crate::study::distributions::Distributions;
 use crate::study::fault::{Fault, Faults, Source};
 use crate::study::files::TextFile;
 use crate::study::raw::{self, Node};
@@ -29,6 +31,8 @@ pub struct Loaded {
     pub used: Vec<Used>,
     /// What its files state, to be written as another study.
     pub stated: Stated,
+    /// How its measurements are written, if there are any.
+    pub written: Option<measured::Written>,
 }
 
 /// A variant that a study offers.
@@ -59,7 +63,11 @@ impl Loaded {
             files::read(path, &name, 0, measured::FORMAT).map_err(|fault| Faults::sorted(vec![*fault]))?;
         // As beside the study: a variant that evaluates fewer arms reads the same files.
         let arms = self.stated.arms();
-        self.study.measured = measured::read(&file.source, arms.as_deref()).map_err(Faults::sorted)?;
+        let read = measured::read(&file.source, arms.as_deref()).map_err(Faults::sorted)?;
+        (self.study.measured, self.written) = (read.rows, read.written);
+        let of_the_studys_own = |warning: &Fault| warning.file == measured::FILE;
+        self.warnings.retain(|warning| !of_the_studys_own(warning));
+        self.warnings.extend(read.warnings);
         self.study.inputs.retain(|input| input.path != Path::new(measured::FILE));
         self.study.inputs.push(InputFile { path: path.to_path_buf(), sha256: file.sha256.clone() });
         self.stated.measured = Some(file);
@@ -68,8 +76,8 @@ impl Loaded {
 }
 
 impl Study {
-    /// Loads and checks the study in `folder` (study.toml, published.toml and measured.csv if there are any, and the files that it refers
-    /// to below the nearest [`distributions`](crate::study::distributions_above)), as the variant of that name reads it.
+    /// Loads and checks the study in `folder` (study.toml, published.toml and measured.csv if there are any, and the files of its
+    /// [`Distributions`] that it refers to), as the variant of that name reads it.
     ///
     /// All variants are checked, whichever is asked for.
     ///
@@ -86,7 +94,7 @@ impl Study {
             None
         };
         let published_text = published_root.as_ref().map(|root| root.place.source.clone());
-        let mut catalogue = Catalogue::above(&folder);
+        let mut catalogue = Catalogue::of(Distributions::of_study(&folder));
         let mut notes = Notes::default();
         let variants = root.as_ref().map_or_else(Vec::new, |root| variant::read(root, &mut notes));
         let chosen = choose(variant, &variants, root.as_ref(), &mut notes.faults);
@@ -108,6 +116,7 @@ impl Study {
             Some(Reading { parts: Some(parts), root, notes, used }) if faults.is_empty() => {
                 let name = folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
                 let hash = hash_of(&notes.effective);
+                let read = measured.unwrap_or_default();
                 let study = Study {
                     name,
                     question: parts.question,
@@ -118,16 +127,16 @@ impl Study {
                     solver: parts.solver,
                     agreement: parts.agreement,
                     published: claims,
-                    measured: measured.unwrap_or_default(),
+                    measured: read.rows,
                     inputs,
                     effective: notes.effective,
                     hash,
                 };
                 let name_of = |v: &Variant| VariantName { name: v.name.clone(), why: v.why.clone() };
-                let warnings = Faults::sorted(notes.warnings).faults;
+                let warnings = Faults::sorted([notes.warnings, read.warnings].concat()).faults;
                 let variants = variants.iter().map(name_of).collect();
                 let stated = Stated::of(root, &mut catalogue, published_text, measured_file);
-                Ok(Loaded { study, warnings, variants, used, stated })
+                Ok(Loaded { study, warnings, variants, used, stated, written: read.written })
             }
             _ => {
                 crate::check!(!faults.is_empty(), "the study was refused without a fault");
@@ -144,11 +153,11 @@ impl Study {
         self
     }
 
-    /// The same study with the solver of that name, `explicit` or `implicit`: with the study's own settings if it is the
+    /// The same study with the solver of that name, `explicit`, `implicit` or `limit`: with the study's own settings if it is the
     /// study's own solver, else with that solver's defaults.
     ///
     /// # Errors
-    /// The fault, where no solver has that name.
+    /// The fault, where no solver has that name, or where limit analysis does not go with what the study asks for.
     pub fn with_solver(mut self, name: &str) -> Result<Study, Faults> {
         if self.effective.get("solver.name").is_some_and(|own| own == name) {
             return Ok(self);
@@ -160,6 +169,14 @@ impl Study {
         let solver =
             Reader::open(&node, "solver", &keys::SOLVER, &mut notes).and_then(|mut t| build::solver(&mut t));
         let Some(solver) = solver else { return Err(Faults::sorted(notes.faults)) };
+        if matches!(solver, Solver::Limit(_)) {
+            let unfit = build::unfit_for_limit(&self.arms, &self.protocol, self.agreement);
+            let faults: Vec<Fault> =
+                unfit.into_iter().map(|unfit| build::beyond_limit(&node.place, unfit)).collect();
+            if !faults.is_empty() {
+                return Err(Faults::sorted(faults));
+            }
+        }
         self.solver = solver;
         self.effective.retain(|key, _| !key.starts_with("solver.") || key == "solver.agreement");
         self.effective.append(&mut notes.effective);

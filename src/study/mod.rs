@@ -3,6 +3,7 @@
 mod altered;
 mod arm;
 mod build;
+mod built_in;
 mod catalogue;
 mod checked;
 mod distributions;
@@ -17,6 +18,7 @@ mod load;
 pub mod measured;
 mod mechanism;
 mod nuisance;
+mod overturning;
 mod published;
 mod quantity;
 mod raw;
@@ -28,11 +30,13 @@ mod stated;
 mod strength;
 mod variant;
 
+pub use built_in::{BuiltInStudy, built_in_studies};
 pub use catalogue::{Distribution, DistributionFile, Used, load_distributions};
 pub use checked::{Arm, Claim, ClaimTest, InputFile, Joint, NormalLawName, Study};
-pub use distributions::{NoDistributions, distributions_above};
+pub use distributions::{Distributions, Origin, distributions_among};
 pub use elements::{ElementArm, ElementStudy, Reported};
 pub use extended::{Acting, Point};
+pub(crate) use fault::listed;
 pub use fault::{Fault, Faults, Found};
 pub(crate) use files::sha256;
 pub use inventory::{
@@ -40,7 +44,9 @@ pub use inventory::{
 };
 pub use joints::DrawnJoints;
 pub use load::{Loaded, VariantName};
-pub use measured::{FILE as MEASURED, MeasuredKind, MeasuredQuantity, Measurement};
+pub use measured::{
+    FILE as MEASURED, MeasuredKind, MeasuredQuantity, Measurement, Template, Written, template,
+};
 pub use mechanism::{
     EndRelease, FrictionChange, JointClosure, Mechanisms, SpecimenScatter, Unfit, WedgeLoss,
 };

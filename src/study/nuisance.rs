@@ -1,9 +1,8 @@
 //! What nobody knows exactly of the base model itself, mechanisms aside: the properties of a family's joints.
 
-use std::path::Path;
-
 use crate::random::Family;
-use crate::study::catalogue::load_distributions;
+use crate::study::catalogue::read_distributions;
+use crate::study::distributions::Distributions;
 use crate::study::{Arm, Joint};
 
 /// An uncertain property of the joints: a factor on what the study states.
@@ -18,21 +17,23 @@ pub struct Nuisance {
 /// Factors on kn, on the friction angle, and on kn over ks, in this order.
 pub const NUISANCES: [&str; 3] = ["kn_factor", "phi_factor", "kn_over_ks_factor"];
 
-/// The priors, the entries `prior` of `nuisance/<name>.toml` below a `distributions` folder.
+/// The priors, the entries `prior` of `nuisance/<name>.toml` in a folder or where a study looks.
 ///
 /// # Errors
-/// The faults of the folder's files, or the priors that are not there, in words.
-pub fn nuisances(distributions: &Path) -> Result<[Nuisance; 3], String> {
-    let files = load_distributions(distributions).map_err(|faults| faults.to_string())?;
+/// The faults of these files, or the priors that are not there, in words.
+pub fn nuisances(distributions: impl Into<Distributions>) -> Result<[Nuisance; 3], String> {
+    let distributions = distributions.into();
+    let named = |name: &str| format!("nuisance/{name}");
+    let files =
+        read_distributions(&distributions, &NUISANCES.map(named)).map_err(|faults| faults.to_string())?;
     let prior = |name: &'static str| {
-        let file = files.get(&format!("nuisance/{name}")).filter(|file| file.unit == "1");
+        let file = files.get(&named(name)).filter(|file| file.unit == "1");
         let entry = file.and_then(|file| file.entries.get("prior"));
         let prior = entry.map(|entry| entry.family.clone());
         prior.map(|prior| Nuisance { name, prior }).ok_or(name)
     };
     let [kn, phi, ratio] = NUISANCES.map(prior);
-    let lacks =
-        |name| format!("{} lacks nuisance/{name}.toml: [prior] with the unit \"1\"", distributions.display());
+    let lacks = |name| format!("{distributions} lacks nuisance/{name}.toml: [prior] with the unit \"1\"");
     Ok([kn.map_err(lacks)?, phi.map_err(lacks)?, ratio.map_err(lacks)?])
 }
 

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::study::keys;
-use crate::study::measured::{COLUMNS, MeasuredKind, MeasuredQuantity};
+use crate::study::measured::{COLUMNS, FORMS, MeasuredKind, MeasuredQuantity};
 use crate::study::schema::{Key, Kind, Presence, Section, quoted};
 
 /// Every key of every input file with what is allowed, its default and its meaning, as Markdown.
@@ -28,13 +28,14 @@ pub fn key_reference() -> String {
 fn describe_measured(text: &mut String) {
     let _ = writeln!(
         text,
-        "## `measured.csv`\n\nWhat was measured on specimens of the arms: a row per value, `#` for comments.\n"
+        "## `measured.csv`\n\nWhat was measured on specimens of the arms: a row per value, or a wide table (below).\n"
     );
     let _ = writeln!(text, "| column | must be there | in its cells |\n|---|---|---|");
     for column in COLUMNS {
         let must = if column.required { "yes" } else { "no" };
         let _ = writeln!(text, "| `{}` | {must} | {} |", column.name, column.doc);
     }
+    let _ = writeln!(text, "\n{FORMS}");
     let _ =
         writeln!(text, "\nkind: one of {}.\n\n| quantity | units |\n|---|---|", quoted(&MeasuredKind::NAMES));
     for quantity in MeasuredQuantity::ALL {

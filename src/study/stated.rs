@@ -8,6 +8,7 @@ use serde::{Serialize, Serializer};
 
 use crate::random::Family;
 use crate::study::catalogue::{Catalogue, Used};
+use crate::study::distributions::Distributions;
 use crate::study::fault::{Faults, Source};
 use crate::study::files::TextFile;
 use crate::study::raw::{self, Entry, Node, Value};
@@ -101,7 +102,8 @@ impl Stated {
         let mut faults = notes.faults;
         let variants: Vec<_> = read.collect();
         // No reference is left that would be looked up.
-        load::read_all(&self.root, &variants, None, &mut Catalogue::above(Path::new("")), &mut faults);
+        let mut catalogue = Catalogue::of(Distributions::of_study(Path::new("")));
+        load::read_all(&self.root, &variants, None, &mut catalogue, &mut faults);
         if faults.is_empty() { Ok(self) } else { Err(Faults::sorted(faults)) }
     }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Output;
 
 use pirca::ensemble::build;
-use pirca::exchange::{ObjOptions, Unit, read_obj, read_wall, read_wall_json, write_obj, write_wall_json};
+use pirca::exchange::{ReadOptions, Unit, read_obj, read_wall, read_wall_json, write_obj, write_wall_json};
 use pirca::generate::canonical;
 use pirca::math::{Vec3, atan, cos, degrees, radians, sin, tan};
 use pirca::model::Support;
@@ -102,7 +102,7 @@ fn an_arch_stands_if_it_is_thick_enough() {
 /// upper parts are less slender, and the lintel and the courses above load both piers alike.
 #[test]
 fn a_wall_with_an_opening_topples_as_a_whole() {
-    let file = read_wall(&example("opening.json"), &ObjOptions::default()).unwrap();
+    let file = read_wall(&example("opening.json"), &ReadOptions::default()).unwrap();
     let (mut volume, mut moment) = (0.0, 0.0);
     for block in file.wall.blocks.iter().filter(|b| b.support == Support::Free) {
         let mass = block.shape.mass_properties();
@@ -144,7 +144,7 @@ fn a_column_of_drums_is_the_same_in_triangles() {
             close(angle(name, &["--phi-deg", "40", "--direction", direction]), expected, EXACT);
         }
     }
-    let options = ObjOptions { unit: None, density: Some(2000.0) };
+    let options = ReadOptions { density: Some(2000.0), ..ReadOptions::default() };
     let [whole, pieces] =
         ["drums.obj", "drums-triangles.obj"].map(|n| read_wall(&example(n), &options).unwrap().wall);
     for (a, b) in whole.blocks.iter().zip(&pieces.blocks) {
@@ -165,7 +165,7 @@ fn walls_that_pirca_writes_are_read_back_to_the_bit() {
     let read = read_wall_json(&write_wall_json(&wall)).unwrap();
     assert!(read.wall == wall && read.warnings.is_empty(), "{:?}", read.warnings);
     assert_eq!(read.ids, (0..73).collect::<Vec<u64>>());
-    assert!(read_obj(&write_obj(&wall), &ObjOptions::default()).unwrap().wall == wall);
+    assert!(read_obj(&write_obj(&wall), &ReadOptions::default()).unwrap().wall == wall);
 }
 
 /// Dips, wedges and cuts turn and lean the stones of a study: corners of all angles, small faces, no round numbers.
@@ -179,7 +179,7 @@ fn the_walls_of_a_study_are_read_back_to_the_bit() {
                 let wall = build(&study, arm, member).unwrap().wall.with_base();
                 let read = read_wall_json(&write_wall_json(&wall)).unwrap_or_else(|e| panic!("{e}"));
                 assert!(read.wall == wall, "arm {arm}, member {member}");
-                assert!(read_obj(&write_obj(&wall), &ObjOptions::default()).unwrap().wall == wall);
+                assert!(read_obj(&write_obj(&wall), &ReadOptions::default()).unwrap().wall == wall);
             }
         }
     }
@@ -194,7 +194,8 @@ fn units_and_defaults_are_as_documented() {
     assert_eq!(name(&GOOD_JSON.replacen("\"unit\":\"m\",", "", 1)), metres.wall);
     let centimetres = name(&GOOD_JSON.replacen("\"unit\":\"m\"", "\"unit\":\"cm\"", 1));
     assert_eq!(centimetres.blocks[2].shape.vertices[1], Vec3::new(0.5 / 100.0, 0.0, 0.2 / 100.0));
-    let options = ObjOptions { unit: Some(Unit::Centimetre), density: Some(1900.0) };
+    let options =
+        ReadOptions { unit: Some(Unit::Centimetre), density: Some(1900.0), ..ReadOptions::default() };
     let obj = read_obj(GOOD_OBJ, &options).unwrap();
     assert_eq!(obj.names, ["block 0 (Base)", "block 1 (Stone)", "block 2 (Upper.001)"]);
     let densities: Vec<f64> = obj.wall.blocks.iter().map(|b| b.density).collect();
@@ -203,7 +204,7 @@ fn units_and_defaults_are_as_documented() {
     assert_eq!(obj.warnings, ["fixed by their names: block 0 (Base)"]);
     let groups = GOOD_OBJ.replace("o ", "g ");
     assert_eq!(read_obj(&groups, &options).unwrap().wall, obj.wall);
-    let assumed = read_obj(GOOD_OBJ, &ObjOptions::default()).unwrap();
+    let assumed = read_obj(GOOD_OBJ, &ReadOptions::default()).unwrap();
     assert!(
         assumed.warnings[0].contains("density of 1 object(s) not stated: 2400 kg/m^3 is taken"),
         "{:?}",
@@ -328,6 +329,39 @@ fn an_elastic_bed_costs_as_many_degrees_as_the_closed_form_says() {
     }
 }
 
+/// A bar clamped between two walls: any pressure between them holds it, none is caused by weight.
+#[test]
+fn a_bar_between_two_walls_moves_nowhere_and_is_warned_of() {
+    let folder = Folder::new();
+    let faces = "[[3,2,1,0],[4,5,6,7],[0,1,5,4],[1,2,6,5],[2,3,7,6],[3,0,4,7]]";
+    let block = |id: u32, x: [f64; 2], z: [f64; 2], fixed: bool| {
+        let corner = |i: usize, z: f64| {
+            let (right, back) = ([0, 1, 1, 0][i], [0, 0, 1, 1][i]);
+            format!("[{}, {}, {z}]", x[right], [-0.5, 0.5][back])
+        };
+        let corners: Vec<String> = (0..8).map(|i| corner(i % 4, z[i / 4])).collect();
+        format!(
+            "{{\"id\":{id},\"vertices\":[{}],\"faces\":{faces},\"density\":2000,\"fixed\":{fixed}}}",
+            corners.join(",")
+        )
+    };
+    let blocks = [
+        block(0, [-1.1, -0.9], [-1.0, 1.4], true),
+        block(1, [0.9, 1.1], [-1.0, 1.4], true),
+        block(2, [-0.9, 0.9], [0.0, 0.4], false),
+    ];
+    fs::write(folder.path("bar.json"), format!("{{\"blocks\":[{}]}}", blocks.join(","))).unwrap();
+    for flow in ["associative", "non-associative"] {
+        let output = folder.pirca(&["analyse", "bar.json", "--phi-deg", "40", "--flow", flow, "--json"]);
+        let answer: Value =
+            serde_json::from_slice(&output.stdout).unwrap_or_else(|e| panic!("{e}: {}", text(&output)));
+        assert_eq!((&answer["outcome"], &answer["mechanism"]), (&"stable".into(), &serde_json::json!([])));
+        assert!(answer["warnings"].to_string().contains("forces that no weight causes"), "{answer}");
+    }
+    let output = folder.pirca(&["analyse", "bar.json", "--phi-deg", "40"]);
+    assert!(!text(&output).contains("moves at collapse"), "{}", text(&output));
+}
+
 /// A stone on a three-cornered face slides at its friction angle wherever its weight acts on that face; 0.25 deg for friction
 /// at the middle of sub-contacts.
 #[test]
@@ -358,24 +392,32 @@ fn a_stone_slides_at_its_friction_angle_whatever_its_shape() {
     }
 }
 
-/// Two solvers of the same joints find the same angle, below that of rigid blocks.
+/// Two solvers of the same joints find the same angle of an example, below that of rigid blocks.
+fn the_elastic_solvers_agree_on(name: &str, to: &str) {
+    let asked = ["--phi-deg", "40", "--direction", to];
+    let elastic = |solver| angle(name, &[&asked[..], &["--kn", "1e9", "--solver", solver]].concat());
+    let (implicit, explicit, rigid) = (elastic("implicit"), elastic("explicit"), angle(name, &asked));
+    close(implicit, explicit, 0.05);
+    assert!(implicit < rigid, "{name}: {implicit} against {rigid}");
+}
+
 #[test]
 fn the_elastic_solvers_agree_below_the_limit_of_rigid_blocks() {
-    for (name, to) in
-        [("leaning-tower.json", "x+"), ("arch.json", "x+"), ("drums.obj", "y+"), ("opening.json", "y+")]
-    {
-        let asked = ["--phi-deg", "40", "--direction", to];
-        let elastic = |solver| angle(name, &[&asked[..], &["--kn", "1e9", "--solver", solver]].concat());
-        let (implicit, explicit, rigid) = (elastic("implicit"), elastic("explicit"), angle(name, &asked));
-        close(implicit, explicit, 0.05);
-        assert!(implicit < rigid, "{name}: {implicit} against {rigid}");
-    }
+    the_elastic_solvers_agree_on("leaning-tower.json", "x+");
     let lateral = |solver: &str| {
         let asked =
             ["--phi-deg", "40", "--load", "lateral", "--kn", "1e9", "--step-deg", "2", "--solver", solver];
         analysed("leaning-tower.json", &asked)["multiplier"].as_f64().unwrap()
     };
     close(lateral("implicit"), lateral("explicit"), 1e-3);
+}
+
+#[test]
+#[ignore = "slow: three walls to their fall by the explicit solver, half a minute of processor time"]
+fn the_elastic_solvers_agree_on_an_arch_drums_and_an_opening() {
+    for (name, to) in [("arch.json", "x+"), ("drums.obj", "y+"), ("opening.json", "y+")] {
+        the_elastic_solvers_agree_on(name, to);
+    }
 }
 
 /// 0.2 mm of overlap at 1e10 Pa/m is 2000 kPa; 0.3998 m of 2400 kg/m^3 weigh 9.410 kPa. Rigid blocks take no notice.
@@ -401,6 +443,7 @@ fn the_json_object_holds_what_is_promised() {
         "outcome",
         "collapse_angle_deg",
         "multiplier",
+        "between",
         "blocks",
         "joints",
         "seconds",
@@ -453,7 +496,8 @@ fn arguments_that_make_no_sense_are_refused_with_what_is_allowed() {
         (&["--phi-deg", "30", "--cohesion", "-1"], "0 to 1e9 Pa"),
         (&["--phi-deg", "30", "--step-deg", "0"], "0.01 to 45 degrees"),
         (&["--phi-deg", "30", "--touch-tolerance", "1"], "1e-12 to 0.001 of the wall's size"),
-        (&["--phi-deg", "30", "--direction", "z+"], "x+"),
+        (&["--phi-deg", "30", "--direction", "z+"], "or x+, x-, y+, y-"),
+        (&["--phi-deg", "30", "--direction", "400"], "-360 to 360 degrees"),
         (&["--phi-deg", "30", "--solver", "magic"], "limit"),
         (&["--phi-deg", "30", "--load", "seismic"], "lateral"),
         (&["--phi-deg", "30", "--solver", "implicit"], "--kn PA_PER_M is required for the implicit solver"),
@@ -476,6 +520,62 @@ fn arguments_that_make_no_sense_are_refused_with_what_is_allowed() {
         told.contains("--kn and --ks do not matter") && told.contains("--step-deg does not matter"),
         "{told}"
     );
+}
+
+/// A block of 0.4 m x 0.2 m x 0.6 m on the ground, both turned about the vertical.
+fn turned_block(turn_deg: f64) -> String {
+    let (c, s) = (cos(radians(turn_deg)), sin(radians(turn_deg)));
+    let corner = |x: f64, y: f64, z: f64| format!("[{:?}, {:?}, {z:?}]", c * x - s * y, s * x + c * y);
+    let block = |id: u32, [a, b]: [f64; 2], [low, high]: [f64; 2], more: &str| {
+        let around = [(-a, -b), (a, -b), (a, b), (-a, b)];
+        let corners: Vec<String> =
+            [low, high].iter().flat_map(|&z| around.map(|(x, y)| corner(x, y, z))).collect();
+        let faces = "[[3,2,1,0],[4,5,6,7],[0,1,5,4],[1,2,6,5],[2,3,7,6],[3,0,4,7]]";
+        format!("{{\"id\": {id}, {more}, \"vertices\": [{}], \"faces\": {faces}}}", corners.join(", "))
+    };
+    let ground = block(0, [1.0, 1.0], [-0.2, 0.0], "\"fixed\": true");
+    let stone = block(1, [0.2, 0.1], [0.0, 0.6], "\"density\": 2400");
+    format!("{{\"blocks\": [{ground}, {stone}]}}")
+}
+
+/// A block topples when the line of its weight leaves its base: the base reaches a / |cos| or b / |sin| in a direction, and the
+/// centroid stands 0.3 m above it. What is turned with the direction falls at the same tilt.
+#[test]
+fn a_wall_is_tilted_in_any_direction() {
+    let folder = Folder::new();
+    let falls = |turn: f64, more: &[&str]| {
+        fs::write(folder.path("block.json"), turned_block(turn)).unwrap();
+        let arguments = [&["analyse", "block.json", "--phi-deg", "60", "--json"], more].concat();
+        let output = folder.pirca(&arguments);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output));
+        let answer: Value = serde_json::from_slice(&output.stdout).expect("one JSON object");
+        let angle = answer["collapse_angle_deg"].as_f64().unwrap_or_else(|| panic!("{answer}"));
+        (angle, answer["direction"].clone(), answer["direction_deg"].clone())
+    };
+    for direction in [-120.0, 10.0, 60.0, 100.0, 200.5] {
+        let (c, s) = (cos(radians(direction)), sin(radians(direction)));
+        let reach = (0.2 / c.abs()).min(0.1 / s.abs());
+        let asked = format!("{direction}");
+        let (angle, name, told) = falls(0.0, &["--direction", &asked]);
+        close(angle, degrees(atan(reach / 0.3)), EXACT);
+        assert_eq!(name, format!("{} deg", (direction + 360.0) % 360.0));
+        // Degrees come back from radians, rounded by some units in the last place.
+        close(told.as_f64().unwrap(), (direction + 360.0) % 360.0, 1e-12);
+        close(falls(-direction, &["--direction", "x+"]).0, angle, EXACT);
+    }
+    // Elastic joints: the same block seen from its own axes, to the width of both brackets.
+    let elastic = ["--solver", "implicit", "--kn", "1e9"];
+    let aslant = falls(0.0, &[&elastic[..], &["--direction", "60"]].concat()).0;
+    close(falls(-60.0, &[&elastic[..], &["--direction", "0"]].concat()).0, aslant, 0.02);
+    // The angle of an axis is the axis, bit for bit.
+    for (angle, axis) in [("0", "x+"), ("90", "y+"), ("-180", "x-"), ("270", "y-")] {
+        for solver in [&[][..], &elastic] {
+            let [by_angle, by_name] =
+                [angle, axis].map(|to| falls(0.0, &[solver, &["--direction", to]].concat()));
+            assert_eq!(by_angle, by_name);
+            assert_eq!(by_angle.1, axis);
+        }
+    }
 }
 
 #[test]

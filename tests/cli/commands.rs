@@ -25,17 +25,39 @@ fn ends_with(folder: &Folder, code: i32, arguments: &[&str]) -> Output {
 #[test]
 fn every_verb_has_help_with_an_example_and_the_exit_codes() {
     let folder = Folder::with_study(STUDY);
-    for verb in ["bank", "check", "diagnose", "generate", "picture", "run", "sensitivity"] {
+    let whole = stdout(&ends_with(&folder, 0, &["--help"]));
+    for group in ["One wall:", "Many walls:", "Measured walls:"] {
+        assert!(whole.contains(group), "{group} is missing in: {whole}");
+    }
+    let verbs: Vec<&str> =
+        whole.lines().filter_map(|line| line.strip_prefix("  ")?.split("  ").next()).collect();
+    let of_a_study = ["bank", "check", "diagnose", "generate", "measured", "picture", "run", "sensitivity"];
+    for verb in ["analyse", "init", "mechanisms"].iter().chain(&of_a_study) {
+        assert!(verbs.contains(verb), "{verb} is missing in: {whole}");
         let help = stdout(&ends_with(&folder, 0, &[verb, "--help"]));
-        for said in ["Usage: pirca", "Example: pirca", "Exit codes: 0", "--json", "--variant"] {
+        for said in ["Usage: pirca", "Example: pirca", "Exit codes: 0", "--json"] {
             assert!(help.contains(said), "{said} is missing in the help of {verb}: {help}");
         }
-        assert!(stdout(&ends_with(&folder, 0, &["--help"])).contains(verb));
+        assert_eq!(help.contains("--variant"), of_a_study.contains(verb), "{verb}");
     }
     assert_eq!(
         stdout(&ends_with(&folder, 0, &["--version"])),
         format!("pirca {}\n", env!("CARGO_PKG_VERSION"))
     );
+}
+
+/// Help fills the columns that there are, up to 100.
+#[test]
+fn help_is_wrapped() {
+    let folder = Folder::with_study(STUDY);
+    for (columns, most) in [("60", 60), ("90", 90), ("200", 100)] {
+        let help = folder.command(&["run", "--help"]).env("COLUMNS", columns).output().unwrap();
+        let longest =
+            stdout(&help).lines().filter(|l| !l.contains("pirca ")).map(|l| l.chars().count()).max();
+        let longest = longest.unwrap_or_default();
+        // Words are shorter than 15 letters, so that a long paragraph comes so near.
+        assert!(longest <= most && longest > most - 15, "{columns}: {longest} in {}", stdout(&help));
+    }
 }
 
 #[test]
@@ -53,16 +75,35 @@ fn arguments_that_make_no_sense_end_with_2() {
         (&["sensitivity", "studies/tiny", "--quantile", "-0.5"], "--quantile"),
         (&["bank", "studies/tiny", "--points", "3"], "--points"),
         (&["diagnose", "studies/tiny", "--seed", "x"], "--seed"),
+        (&["measured", "studies/tiny", "--wide"], "--template"),
+        (&["measured", "studies/tiny", "--template", "tests.csv"], "--template"),
+        (&["measured", "studies/tiny", "--template", "--specimens", "0"], "--specimens"),
         (&["generate", "studies/tiny"], "--out"),
         (&["generate", "studies/tiny", "--out", "wall.stl"], ".vtu, .obj or .json"),
         (&["generate", "studies/tiny", "--out", "wall"], ".vtu, .obj or .json"),
         (&["generate", "studies/tiny", "--out", "wall.obj", "--arm", "randon"], "it has stack, random"),
-        (&["generate", "studies/tiny", "--out", "wall.obj", "--point", "2"], "points 0 to 1"),
+        (&["generate", "studies/tiny", "--out", "wall.obj", "--point", "2"], "2 kn points, numbers 0 to 1"),
         (&["picture", "studies/tiny"], "--out"),
         (&["picture", "studies/tiny", "--out", "wall.png"], "must end in .svg"),
         (&["picture", "studies/tiny", "--out", "wall.svg", "--arm", "randon"], "it has stack, random"),
-        (&["picture", "studies/tiny", "--out", "wall.svg", "--point", "2"], "points 0 to 1"),
+        (&["picture", "studies/tiny", "--out", "wall.svg", "--point", "2"], "2 kn points, numbers 0 to 1"),
         (&["picture", "studies/tiny", "--out", "wall.svg", "--member", "-1"], "-1"),
+        (
+            &["picture", "studies/tiny", "--out", "wall.svg", "--member", "8"],
+            "arm random has 8 walls, numbers 0 to 7",
+        ),
+        (
+            &["generate", "studies/tiny", "--out", "wall.obj", "--member", "99"],
+            "arm random has 8 walls, numbers 0 to 7",
+        ),
+        (
+            &["generate", "studies/tiny", "--out", "wall.obj", "--member", "8", "--members", "8"],
+            "arm random has 8 walls, numbers 0 to 7",
+        ),
+        (
+            &["generate", "studies/tiny", "--out", "wall.obj", "--arm", "stack", "--member", "1"],
+            "arm stack has one wall, number 0; nothing in it is random",
+        ),
         (&["picture", "studies/tiny", "--out", "wall.svg", "--magnify", "0"], "a number above 0"),
         (&["picture", "studies/tiny", "--out", "wall.svg", "--colour", "red"], "opening"),
     ] {
@@ -183,6 +224,22 @@ fn generate_writes_the_format_that_the_ending_says() {
         "3 courses of 4 stones"
     );
     assert_eq!(told["kn_pa_per_m"], 1.75e8);
+}
+
+/// As many walls as a run is asked for have a number; a number of walls that would change nothing is refused.
+#[test]
+fn a_number_of_walls_is_heeded_or_refused() {
+    let folder = Folder::with_study(STUDY);
+    let ninth = ["generate", "studies/tiny", "--member", "8", "--members", "9", "--out", "wall.json"];
+    assert!(stdout(&ends_with(&folder, 0, &ninth)).contains("arm random, member 8"));
+    folder.write_study(&STUDY.replace("members = 8", "members = 1"));
+    for verb in [&["run", "studies/tiny"][..], &["generate", "studies/tiny", "--out", "wall.json"]] {
+        let error = stderr(&ends_with(&folder, 2, &[verb, &["--members", "9"]].concat()));
+        assert!(error.contains("--members 9: every arm of tiny has one wall"), "{error}");
+    }
+    let second = ["generate", "studies/tiny", "--member", "1", "--out", "wall.json"];
+    let error = stderr(&ends_with(&folder, 2, &second));
+    assert!(error.contains("arm random has one wall, number 0; leave --member out"), "{error}");
 }
 
 #[test]

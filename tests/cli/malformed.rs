@@ -114,7 +114,7 @@ const CASES: &[Case] = &[
     (STUDY, "mean = 1.0, sd = 0.1", "mean = 1.0, sd = -0.1", &["@ joint.kn_factor.sd = -0.1: allowed is a value that must be between"]),
     // references
     (STUDY, "block/size:length", "block/size:lenght", &["@ arm.laid.length_m = \"block/size:lenght\": allowed is an entry of distributions/block/size.toml", "did you mean \"length\"?"]),
-    (STUDY, "block/size:length", "block/sise:length", &["@ arm.laid.length_m = \"block/sise:length\": allowed is a file of `distributions`: block/dip, block/size", "did you mean \"block/size\"?"]),
+    (STUDY, "block/size:length", "block/sise:length", &["@ arm.laid.length_m = \"block/sise:length\": allowed is a file of `distributions`: block/density, block/dip, block/size, ", "; or a prior; did you mean \"block/size\"?"]),
     (STUDY, "block/size:length", "block/size", &["@ arm.laid.length_m = \"block/size\": allowed is a reference file:entry"]),
     (STUDY, "block/size:length", "../size:length", &["@ arm.laid.length_m = \"../size:length\": allowed is a reference"]),
     (STUDY, "block/size:length", "block/dip:steep", &["@ arm.laid.length_m = \"block/dip:steep\": allowed is a quantity in m; distributions/block/dip.toml is in deg"]),
@@ -286,14 +286,15 @@ fn faults_of_whole_files() {
             &["distributions/block/size.toml: is a folder"],
         ),
         (
-            "empty-distributions",
+            // What is built in serves where a study has none, and holds no such file.
+            "no-distributions",
             |s| {
                 fs::remove_dir_all(s.path("distributions")).expect("it was there");
-                fs::create_dir(s.path("distributions")).expect("a folder");
+                s.replace(STUDY, "block/size:length", "block/sizes:length");
             },
             &[
-                "arm.laid.length_m = \"block/size:length\": allowed is a file of ",
-                "which holds none; put the file there, or write the numbers here",
+                "arm.laid.length_m = \"block/sizes:length\": allowed is a file of `distributions`: block/density, ",
+                "joint/stiffness; or a prior; did you mean \"block/size\"?",
             ],
         ),
         (

@@ -4,7 +4,8 @@ use std::time::Instant;
 
 use pirca::contact::{Settings, survey};
 use pirca::exchange::{
-    ObjOptions, WallFaults, WallFile, read_obj, read_wall_json, write_obj, write_wall_json,
+    ReadOptions, Up, WallFaults, WallFile, read_obj, read_wall_json, read_wall_json_with, write_obj,
+    write_wall_json,
 };
 use pirca::generate::canonical;
 use pirca::model::Support;
@@ -154,7 +155,10 @@ fn must_be_good(read: Result<WallFile, WallFaults>, text: &str) -> bool {
         block.shape.validate(1.001e-4 * size.max(1e-3)).unwrap_or_else(|e| panic!("{e}: {text}"));
         assert!((1e-4..=250.0).contains(&size) && (10.0..=23_000.0).contains(&block.density), "{text}");
     }
-    let found = survey(&file.wall, &Settings::for_size(0.2, [2, 2]));
+    let leads = file.wall.leads();
+    assert!(leads.iter().enumerate().all(|(id, &lead)| lead <= id && leads[lead] == lead), "{text}");
+    assert!(leads.iter().enumerate().all(|(id, &lead)| blocks[id].support == blocks[lead].support), "{text}");
+    let found = survey(&file.wall, &Settings::for_size(0.2, [2, 2]), 0.02);
     assert!(found.is_none_or(|found| found.deepest.is_finite()), "{text}");
     true
 }
@@ -172,16 +176,20 @@ fn spoil(count: usize, seed: u64) -> usize {
             4 => (spoilt(&obj, &mut draws), true),
             _ => (made_up(&mut draws), false),
         };
-        let read = if is_obj { read_obj(&text, &ObjOptions::default()) } else { read_wall_json(&text) };
+        let flatness = [None, Some(1e-3), Some(0.05)][i % 3];
+        let up = if i % 5 == 0 { Up::Y } else { Up::Z };
+        let options = ReadOptions { flatness, up, ..ReadOptions::default() };
+        let read = if is_obj { read_obj(&text, &options) } else { read_wall_json_with(&text, flatness) };
         good += usize::from(must_be_good(read, &text));
     }
     good
 }
 
-/// The lowest stones of the 72-block wall, on their base.
+/// The lowest stones of the 72-block wall, two of them one body, on their base.
 fn small() -> pirca::model::Wall {
     let mut wall = canonical::wall_72();
     wall.blocks.truncate(3);
+    wall.blocks[1..].iter_mut().for_each(|block| block.group = Some("pair".to_owned()));
     wall.with_base()
 }
 

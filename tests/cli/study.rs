@@ -118,8 +118,38 @@ fn a_solver_that_is_named_and_not_described_has_its_own_defaults() {
         own.with_solver("magic")
             .unwrap_err()
             .to_string()
-            .contains("allowed is one of \"explicit\", \"implicit\"")
+            .contains("allowed is one of \"explicit\", \"implicit\", \"limit\"")
     );
+}
+
+#[test]
+fn limit_analysis_is_a_solver_with_a_flow_and_refuses_what_rigid_blocks_do_not_have() {
+    use pirca::solve::limit::{Flow, Settings};
+    let scratch = Scratch::new("limit-solver");
+    let own = scratch.load(None).expect("sound").study;
+    let text = scratch.read(STUDY);
+    let (before, rest) = text.split_once("[solver]").expect("the fixture has a solver");
+    let (_, after) = rest.split_once("\n\n").expect("something follows it");
+    let with = |solver: &str, more: &str| {
+        let text = format!("{before}[solver]\nname = \"limit\"\n{solver}\n\n{after}\n{more}\n");
+        scratch.write(STUDY, text.as_bytes());
+        scratch.load(None).map(|loaded| loaded.study)
+    };
+    let limit = with("", "").unwrap_or_else(|faults| panic!("{faults}"));
+    assert_eq!(limit.solver, Solver::Limit(Settings::default()));
+    assert_eq!(limit.effective["solver.flow"], "associative");
+    assert_eq!(own.with_solver("limit").unwrap().hash, limit.hash);
+    let flows = with("flow = \"non-associative\"", "").unwrap_or_else(|faults| panic!("{faults}"));
+    assert_eq!(flows.solver, Solver::Limit(Settings { flow: Flow::NonAssociative, ..Settings::default() }));
+    let closing = "[mechanism.joint_closure]\ninitial_pa_per_m = 1e8\nclosure_m = 1e-4";
+    for (solver, more, words) in [
+        ("agreement = true", "", "compared with itself"),
+        ("", closing, "rigid blocks have joints without closure"),
+        ("damping = 0.5", "", "damping"),
+    ] {
+        let faults = with(solver, more).expect_err(words).to_string();
+        assert!(faults.contains(words), "{faults}");
+    }
 }
 
 #[test]
@@ -157,6 +187,34 @@ fn a_tilting_study_has_the_defaults_of_its_protocol() {
         strip.arms[0].restraint.base,
         Base { tan_phi: Some(tan(radians(20.0))), strip_height: Some(0.02), compliance: None }
     );
+}
+
+/// The side that goes down by its angle; that of an axis is the axis.
+#[test]
+fn a_platform_goes_down_at_any_angle() {
+    use pirca::protocol::{Direction, Protocol};
+    let scratch = Scratch::new("towards");
+    let text = scratch.read(STUDY);
+    let (before, rest) = text.split_once("[load]").expect("the fixture has a load");
+    let (_, after) = rest.split_once("\n\n").expect("something follows it");
+    let with = |load: &str| {
+        scratch.write(STUDY, format!("{before}[load]\nprotocol = \"tilting\"\n{load}\n{after}").as_bytes());
+        scratch.load(None)
+    };
+    let towards = |load: &str| {
+        let study = with(load).unwrap_or_else(|faults| panic!("{faults}")).study;
+        let Protocol::Tilting(tilting) = study.protocol else { panic!("it tilts") };
+        (tilting.towards, study.effective)
+    };
+    let (aslant, effective) = towards("towards_deg = -60\n");
+    assert_eq!(aslant, Direction::at(300.0));
+    assert!(!effective.contains_key("load.towards"), "what is not used decides nothing");
+    assert_eq!(effective["load.towards_deg"], "-60.0");
+    assert_eq!(towards("towards_deg = 270\n").0, Direction::YMinus);
+    assert_eq!(towards("towards = \"x-\"\n").0, Direction::XMinus);
+    let refused =
+        with("towards = \"x-\"\ntowards_deg = 180\n").expect_err("they are two answers").to_string();
+    assert!(refused.contains("towards_deg = 180: allowed is one of towards and towards_deg"), "{refused}");
 }
 
 #[test]

@@ -35,6 +35,7 @@ const KEPT: [(u64, [Word; PLAIN.len()]); 8] = [
 ];
 
 #[test]
+#[ignore = "slow: eight campaigns of nine walls are solved and judged, a minute of processor time and more"]
 fn what_was_said_of_some_campaigns_of_nine_walls_is_still_said() {
     let folders =
         Folders { out: Path::new(env!("CARGO_TARGET_TMPDIR")).join("kept-campaigns"), is_whole: false };

@@ -1,6 +1,6 @@
 //! Effects are hidden in campaigns of real walls, and must be found; where nothing is hidden, nothing may be found.
 //!
-//! `towers` does so in seconds on small walls, `kept` in a minute on a few of the campaigns of the sealed test. That test does so on
+//! `towers` does so on small walls, `kept`, a slow test, on a few of the campaigns of the sealed test. That test does so on
 //! the walls of `studies/tilting-table`, is run by hand, and is described in `studies/hidden-effects`: `run` leads through it, `truth`
 //! makes campaigns, `hide` seals what is hidden in them, `inference` judges what lies in the campaigns' folders and nothing else,
 //! `gains` has it measure what its extended models gain, `record` keeps what it said, `table` sets the two against each other, and `wanted` against what was asked of it beforehand;

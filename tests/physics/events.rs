@@ -25,7 +25,8 @@ fn wall(small_on_a_wedge: bool) -> Wall {
         Polyhedron::cuboid(Vec3::new(x, 0.0, z), Vec3::new(x + length, 1.0, z + 0.1))
     };
     let mut small = stone(flat(0.0, 0.003 * 4.0, 0.0), 2400.0);
-    let mut blocks = vec![stone(flat(1.0, 0.2 * 4.0, 0.0), 2400.0), stone(flat(2.0, 0.797 * 4.0, 0.0), 2400.0)];
+    let mut blocks =
+        vec![stone(flat(1.0, 0.2 * 4.0, 0.0), 2400.0), stone(flat(2.0, 0.797 * 4.0, 0.0), 2400.0)];
     if small_on_a_wedge {
         // 20 deg down towards y+, the stone on it by as much.
         let slope = tan(radians(20.0));
@@ -35,7 +36,8 @@ fn wall(small_on_a_wedge: bool) -> Wall {
         for v in &mut wedge.vertices {
             v.z = if v.z > 0.0 { slope * (1.0 - v.y) + 0.05 } else { 0.0 };
         }
-        let fixed = Block { shape: wedge, density: 2400.0, support: Support::Fixed, tag: Tag::Base };
+        let fixed =
+            Block { shape: wedge, density: 2400.0, support: Support::Fixed, tag: Tag::Base, group: None };
         blocks.insert(0, small);
         blocks.push(fixed);
     } else {

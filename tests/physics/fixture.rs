@@ -32,7 +32,7 @@ pub fn dry(kn: f64, phi_deg: f64) -> Coulomb {
 
 /// A free stone.
 pub fn stone(shape: Polyhedron, density: f64) -> Block {
-    Block { shape, density, support: Support::Free, tag: Tag::Stone }
+    Block { shape, density, support: Support::Free, tag: Tag::Stone, group: None }
 }
 
 /// A box of the given size resting on z = 0, centred on x = y = 0.

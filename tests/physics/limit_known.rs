@@ -217,3 +217,43 @@ fn a_wedge_stays_while_its_half_angle_is_at_most_the_friction_angle() {
         }
     }
 }
+
+/// A wall of stones of 2 : 1 in running bond, 2 m high and 0.1 m thick: it topples as one at atan(0.1 / 2).
+fn tall(courses: usize, stones: usize) -> Wall {
+    let height = 2.0 / courses as f64;
+    let mut blocks = Vec::new();
+    for course in 0..courses {
+        let shift = if course % 2 == 0 { 0.0 } else { 0.5 };
+        let end = stones as f64;
+        let mut joints: Vec<f64> = (0..=stones).map(|i| i as f64 + shift).filter(|x| *x < end).collect();
+        if shift > 0.0 {
+            joints.insert(0, 0.0);
+        }
+        joints.push(end);
+        for ends in joints.windows(2) {
+            let [from, to] = [ends[0], ends[1]].map(|x| 2.0 * height * x);
+            let (bottom, top) = (course as f64 * height, (course + 1) as f64 * height);
+            let shape = Polyhedron::cuboid(Vec3::new(from, -0.05, bottom), Vec3::new(to, 0.05, top));
+            blocks.push(stone(shape, 2000.0));
+        }
+    }
+    on_floor(blocks)
+}
+
+#[test]
+fn a_great_wall_topples_as_exactly_as_a_small_one() {
+    // Of its bending stiffness a wall of n courses has n^4 between its stiffest and its softest shape, and its lowest joints
+    // carry n stones: what is lost of ten digits to that must not reach the fourth decimal of a degree.
+    for (courses, stones) in [(10, 5), (40, 50), (200, 1)] {
+        let wall = tall(courses, stones);
+        let limit = analysis(&wall, &dry(1e9, 30.0), Settings::default()).tilt(Vec3::y(), &[]);
+        let angle = degrees(atan(collapse(&limit)));
+        println!(
+            "{} blocks: {angle}, {} iterations, {:?}",
+            wall.blocks.len() - 1,
+            limit.iterations,
+            limit.accuracy
+        );
+        assert!((angle - degrees(atan(0.05))).abs() < 1e-6, "{courses} courses: {angle}");
+    }
+}

@@ -1,6 +1,8 @@
 //! Laws of physics and closed forms: every test holds its own answer.
 
 mod agreement;
+mod closed_form_cases;
+mod closed_forms;
 mod dynamics;
 mod elastic;
 mod events;
@@ -13,6 +15,8 @@ mod limit_column;
 mod limit_flow;
 mod limit_known;
 mod limit_random;
+mod limit_self_stress;
+mod limit_solver;
 mod mechanisms_alike;
 mod mechanisms_joints;
 mod mechanisms_loading;

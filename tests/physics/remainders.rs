@@ -57,7 +57,7 @@ fn where_a_joint_has_opened_both_solvers_leave_the_same() {
         let tilt = degrees(a.level.value());
         let [whole, a, b] =
             [a.points, a.remainders, b.remainders].map(|points| points.expect("it stands")[1]);
-        if tilt < 7.1 {
+        if tilt < 7.3 {
             closed += 1;
             assert!(a.abs() < 1e-9 && b.abs() < 1e-9, "{tilt}: {a:e} {b:e}");
         } else {
@@ -67,7 +67,7 @@ fn where_a_joint_has_opened_both_solvers_leave_the_same() {
             assert!(tilt < 12.0 || (a / b - 1.0).abs() < 0.1, "{tilt}: {a:e} {b:e}");
         }
     }
-    assert_eq!((closed, opened), (28, 36));
+    assert_eq!((closed, opened), (29, 35));
 }
 
 #[test]

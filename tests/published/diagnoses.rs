@@ -4,6 +4,10 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
+use pirca::critic::{Bank, Design, Doubt, Plan, Seen, Told, World, doubts};
+use pirca::math::radians;
+use pirca::random::Streams;
+use pirca::study::{MeasuredKind, MeasuredQuantity, Measurement, Study, described, nuisances};
 use serde_json::Value;
 
 /// The verdict on a study's measurements, with a bank in this folder.
@@ -46,6 +50,7 @@ fn the_nine_walls_stay_unexplained_as_sbl_moves_too_far() {
 
 /// `studies/hidden-effects/example`: 6e6 Pa/m at first and 0.3 mm in all were hidden.
 #[test]
+#[ignore = "slow: a bank and a diagnosis, fifty seconds of processor time"]
 fn the_example_names_joints_that_close_and_finds_their_parameters() {
     let bank = Path::new(env!("CARGO_TARGET_TMPDIR")).join("example-bank");
     // Walls of an earlier state would be taken for this one's.
@@ -62,4 +67,84 @@ fn the_example_names_joints_that_close_and_finds_their_parameters() {
         // Nine in ten such intervals hold what was hidden, and these do.
         assert!(low < hidden && hidden < high, "{key}: [{low}, {high}]");
     }
+}
+
+/// Campaigns with every effect of the catalogue at every strength of its prior, on the nine walls as they were read and on fifteen that
+/// a gauge of 0.02 mm reads at three points: no wall is taken for one in another unit or for none at all, and a part of its readings is
+/// in less than one campaign of twenty, as the ends of walls between ropes move by hardly more than the gauge's error.
+#[test]
+fn hidden_effects_are_not_taken_for_slips_of_the_pen() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let loaded = Study::load(&root.join("studies/tilting-table"), None);
+    let study = loaded.unwrap_or_else(|faults| panic!("{faults}")).study;
+    let mechanisms = described(&root.join("distributions")).expect("sound");
+    let nuisances = nuisances(&root.join("distributions")).expect("sound");
+    let plan = Plan::new(&study, &mechanisms, &nuisances, 120).expect("allowed");
+    let bank = fs::read(root.join("studies/tilting-table/bank.parquet")).expect("it is there");
+    let bank = Bank::read(&bank, &plan).expect("of this plan");
+    let mut fine = study.clone();
+    fine.measured = finely_read(&study.measured[0]);
+    let (mut judged, mut odd, mut parts) = (0, Vec::new(), Vec::new());
+    for study in [study, fine] {
+        let world = World::new(&study, &mechanisms, &nuisances, &plan, &bank).expect("it can be told");
+        let (design, _) = Design::of(&study);
+        let causes = std::iter::once(None).chain(world.causes().into_iter().map(Some));
+        for (cause, k) in causes.flat_map(|cause| (0..20).map(move |k| (cause, k))) {
+            let streams = Streams::new(33, k);
+            let campaign = world.campaign(&design, &world.drawn(cause, &streams), &streams);
+            let readings = design.specimens.iter().zip(&campaign.specimens);
+            let readings = readings.flat_map(|(specimen, seen)| specimen.readings.iter().zip(seen));
+            let shown = readings.filter_map(|(m, seen)| match seen {
+                Seen::Value(value) if m.kind.is_censored() => {
+                    Some(Measurement { value: *value, kind: MeasuredKind::Exact, ..m.clone() })
+                }
+                Seen::Value(value) => Some(Measurement { value: *value, ..m.clone() }),
+                Seen::Beyond => Some(m.clone()),
+                Seen::Nothing => None,
+            });
+            let campaign = Study { measured: shown.collect(), ..study.clone() };
+            judged += 1;
+            let found = doubts(&campaign, &Design::of(&campaign).0);
+            for doubt in found {
+                let words = format!("{}: {doubt}", cause.map_or("nothing", |c| mechanisms[c].name));
+                match doubt {
+                    // A strong effect may move a wall so far.
+                    Doubt::ThickerThanWall { .. } => {}
+                    Doubt::OtherUnit { told: Told::Part, .. } => parts.push(words),
+                    _ => odd.push(words),
+                }
+            }
+        }
+    }
+    assert!(judged > 600, "{judged}");
+    assert!(odd.is_empty(), "{} in {judged}:\n{}", odd.len(), odd.join("\n"));
+    assert!(20 * parts.len() < judged, "{} parts in {judged}:\n{}", parts.len(), parts.join("\n"));
+}
+
+/// Five walls of each family, read at the left, the centre and the right at five tilts.
+fn finely_read(of: &Measurement) -> Vec<Measurement> {
+    use MeasuredQuantity as Q;
+    let read = |family: &str, k: usize, quantity: Q, tilt: Option<f64>| {
+        let error = if tilt.is_some() { 2e-5 } else { radians(0.1) };
+        let (specimen, kind) = (format!("{family}{k}"), MeasuredKind::Exact);
+        Measurement {
+            specimen,
+            family: family.to_owned(),
+            quantity,
+            tilt,
+            kind,
+            error,
+            resolution: 0.0,
+            ..of.clone()
+        }
+    };
+    let mut found = Vec::new();
+    for (family, k) in ["cbl", "sbl", "sbr"].into_iter().flat_map(|family| (0..5).map(move |k| (family, k))) {
+        found.push(read(family, k, Q::CollapseAngle, None));
+        for tilt in [2.5, 5.0, 7.5, 10.0, 12.5].map(radians) {
+            let points = [Q::DisplacementLeft, Q::DisplacementCentre, Q::DisplacementRight];
+            found.extend(points.map(|point| read(family, k, point, Some(tilt))));
+        }
+    }
+    (2..).zip(found).map(|(line, m)| Measurement { line, ..m }).collect()
 }

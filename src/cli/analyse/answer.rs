@@ -5,8 +5,8 @@ use serde_json::{Value, json};
 use crate::cli::analyse::meetings::Fit;
 use crate::cli::arguments::{Analyse, LoadName};
 use crate::exchange::WallFile;
-use crate::math::degrees;
-use crate::model::{Level, Outcome};
+use crate::math::{atan, degrees, radians, tan};
+use crate::model::{Block, Level, Outcome, Support};
 
 /// What came of a wall.
 pub(crate) struct Answer {
@@ -16,8 +16,14 @@ pub(crate) struct Answer {
     pub meaning: String,
     /// The blocks of the collapse mechanism.
     pub moving: Vec<usize>,
-    /// Blocks that carry nothing and were held.
-    pub loose: Vec<usize>,
+    /// Blocks that carry nothing and were held; `None` where the solver does not ask.
+    pub loose: Option<Vec<usize>>,
+    /// Blocks that stand at rest only by forces that no weight causes.
+    pub clamped: Vec<usize>,
+    /// Between which multipliers the answer is where the solver did not find it.
+    pub between: Option<[f64; 2]>,
+    /// The last load borne and the lowest at which it falls (rad or multipliers), of a solver that goes by steps.
+    pub bracket: Option<[f64; 2]>,
 }
 
 impl Answer {
@@ -33,6 +39,46 @@ impl Answer {
             Outcome::Collapsed { at: Level::Multiplier(multiplier) } => (None, Some(multiplier)),
             _ => (None, None),
         }
+    }
+
+    /// The bracket in the unit of the load: degrees, or multipliers.
+    fn shown_bracket(&self, asked: &Analyse) -> Option<[f64; 2]> {
+        self.bracket.map(|ends| match asked.load {
+            LoadName::Tilt => ends.map(degrees),
+            LoadName::Lateral => ends,
+        })
+    }
+
+    /// The share of the weight that moves at collapse.
+    fn moving_share(&self, file: &WallFile) -> f64 {
+        let weight = |block: &Block| match block.support {
+            Support::Fixed => 0.0,
+            _ => block.density * block.shape.volume(),
+        };
+        let blocks = &file.wall.blocks;
+        let all = blocks.iter().map(weight).fold(0.0, |sum, w| sum + w);
+        self.moving.iter().map(|&i| weight(&blocks[i])).fold(0.0, |sum, w| sum + w) / all
+    }
+
+    /// Multipliers as the load is stated: tilts (deg), or multipliers.
+    fn in_unit(&self, asked: &Analyse, ends: [f64; 2]) -> [f64; 2] {
+        match asked.load {
+            LoadName::Tilt => ends.map(|x| degrees(atan(x))),
+            LoadName::Lateral => ends,
+        }
+    }
+
+    /// The warning of a wall that stands by forces that no weight causes.
+    pub fn warning(&self, file: &WallFile) -> Option<String> {
+        let names: Vec<&str> = self.clamped.iter().take(10).map(|&i| file.names[i].as_str()).collect();
+        let dots = if self.clamped.len() > 10 { ", ..." } else { "" };
+        (!names.is_empty()).then(|| {
+            format!(
+                "stands at rest only by forces that no weight causes, as in a bar clamped between two walls: {}{dots}; \
+                 without such forces it falls: ask --solver implicit as well",
+                names.join(", ")
+            )
+        })
     }
 
     /// The one JSON object.
@@ -51,56 +97,63 @@ impl Answer {
             "reason": self.outcome.reason(),
             "collapse_angle_deg": angle,
             "multiplier": multiplier,
+            "between": self.between.map(|ends| self.in_unit(asked, ends)),
+            "bracket": self.shown_bracket(asked),
+            "bracket_unit": self.bracket.map(|_| if asked.load == LoadName::Tilt { "deg" } else { "1" }),
             "meaning": self.meaning,
             "solver": asked.solver.name(),
             "load": asked.load.name(),
-            "direction": asked.direction.name(),
+            "direction": asked.direction.to_string(),
+            "direction_deg": asked.direction.angle_deg(),
             "blocks": file.wall.blocks.len(),
             "joints": fit.joints,
             "mechanism": ids(&self.moving),
-            "loose": ids(&self.loose),
+            "moving_weight_share": (!self.moving.is_empty()).then(|| self.moving_share(file)),
+            "loose": self.loose.as_deref().map(ids),
             "seconds": seconds,
             "warnings": warnings,
         })
     }
 
-    /// The same for people.
-    pub fn text(
-        &self,
-        asked: &Analyse,
-        file: &WallFile,
-        fit: &Fit,
-        warnings: &[String],
-        seconds: f64,
-    ) -> String {
-        let mut text: String = warnings.iter().map(|warning| format!("warning: {warning}\n")).collect();
-        let to = asked.direction.name();
+    /// The same for people: what came out, what that number is, what moves, and then the rest.
+    pub fn text(&self, asked: &Analyse, file: &WallFile, fit: &Fit, seconds: f64) -> String {
+        let to = asked.direction;
         let said = match (&self.outcome, asked.load, self.collapse()) {
-            (_, _, (Some(angle), _)) => format!("collapses at a tilt of {angle:.3} deg towards {to}"),
+            (_, _, (Some(angle), _)) => {
+                let multiplier = tan(radians(angle));
+                format!(
+                    "collapses at a tilt of {angle:.3} deg towards {to} (collapse multiplier {multiplier:.4})"
+                )
+            }
             (_, _, (_, Some(multiplier))) => {
-                format!("collapses at {multiplier:.5} of its weight towards {to}")
+                format!("collapses at {multiplier:.5} of its weight towards {to} (collapse multiplier, a0/g)")
             }
             (Outcome::Equilibrium, LoadName::Tilt, _) => format!("stands to the largest tilt towards {to}"),
             (Outcome::Equilibrium, LoadName::Lateral, _) => {
                 format!("stands to the largest horizontal load towards {to}")
             }
-            (other, ..) => format!("{}: {}", self.name().replace('_', " "), other.reason()),
+            (other, ..) => format!("is {}: {}", self.name().replace('_', " "), other.reason()),
         };
-        text.push_str(&format!(
-            "{} blocks, {} joints: {said}\n  {} solver: {}\n",
-            file.wall.blocks.len(),
-            fit.joints,
-            asked.solver.name(),
-            self.meaning
-        ));
-        for (blocks, what) in [(&self.moving, "moves at collapse"), (&self.loose, "loose, held lightly")] {
+        let mut text = format!("The wall {said}.\n  {} solver: {}\n", asked.solver.name(), self.meaning);
+        if let Some([low, high]) = self.shown_bracket(asked) {
+            let unit = if asked.load == LoadName::Tilt { "deg" } else { "of its weight" };
+            text.push_str(&format!("  bracket: {low:.4} to {high:.4} {unit}\n"));
+        }
+        if let Some([low, high]) = self.between.map(|ends| self.in_unit(asked, ends)) {
+            let unit = if asked.load == LoadName::Tilt { "deg" } else { "of its weight" };
+            text.push_str(&format!("  between {low:.4} and {high:.4} {unit}\n"));
+        }
+        let moves = format!("moves at collapse ({:.1} % of the weight)", 100.0 * self.moving_share(file));
+        let loose = self.loose.as_deref().unwrap_or_default();
+        for (blocks, what) in [(&self.moving[..], moves.as_str()), (loose, "loose, held lightly")] {
             if !blocks.is_empty() {
                 let names: Vec<&str> = blocks.iter().take(30).map(|&i| file.names[i].as_str()).collect();
                 let dots = if blocks.len() > 30 { ", ..." } else { "" };
                 text.push_str(&format!("  {what}: {}{dots}\n", names.join(", ")));
             }
         }
-        text.push_str(&format!("  {seconds:.3} s\n"));
+        let blocks = file.wall.blocks.len();
+        text.push_str(&format!("  {blocks} blocks, {} joints; {seconds:.3} s\n", fit.joints));
         text
     }
 }

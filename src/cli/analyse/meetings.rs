@@ -1,5 +1,6 @@
 //! Where the blocks of a wall from elsewhere meet: what makes the wall unfit, and what its user should know.
 
+use crate::cli::analyse::numbers::Tolerance;
 use crate::contact::{self, Pair, Survey, survey};
 use crate::exchange::{Fault, WallFaults, WallFile};
 use crate::math::{Vec3, cbrt};
@@ -10,6 +11,12 @@ use crate::shape::Polyhedron;
 const DEEPEST: f64 = 0.01;
 /// Overlaps and gaps listed one by one.
 const LISTED: usize = 20;
+/// Faces that look at each other across at most this share of a stone's size are told of: they may be meant as a joint.
+const TOLD_WITHIN: f64 = 0.1;
+/// A gap that is to be a joint needs a tolerance above it by this factor.
+const ABOVE: f64 = 1.1;
+/// Contacts are looked for up to so many tolerances, so that what touches is well within.
+const REACHES: f64 = 2.0;
 /// Sub-contacts along the longer and the shorter side of a joint. Friction acts at the middle of a sub-contact and not where
 /// the pressure is, which turns a block that slides under an eccentric load: on a joint of any shape 2 x 2 cost up to 1.2 deg.
 const SUB_CONTACTS: [u32; 2] = [4, 4];
@@ -30,14 +37,28 @@ pub(crate) struct Fit {
     pub warnings: Vec<String>,
 }
 
-/// Looks where the blocks meet; `tolerance` is a share of the size of the part that can move.
-pub(crate) fn look(file: &WallFile, tolerance: f64, path: &str) -> Result<Fit, WallFaults> {
+/// Looks where the blocks meet.
+pub(crate) fn look(file: &WallFile, tolerance: Tolerance, path: &str) -> Result<Fit, WallFaults> {
     let mut faults = WallFaults::new(path);
-    let standard = contact::Settings::for_size(stone_size(&file.wall), SUB_CONTACTS);
+    let size = stone_size(&file.wall);
+    let standard = contact::Settings::for_size(size, SUB_CONTACTS);
     let (low, high) = bounds(&file.wall);
-    let touch = tolerance * (high - low).norm();
-    let contact = contact::Settings { touch, reach: standard.reach.max(10.0 * touch), ..standard };
-    let Some(found) = survey(&file.wall, &contact) else {
+    let touch = match tolerance {
+        Tolerance::Share(share) => share * (high - low).norm(),
+        Tolerance::Length(length) => length,
+    };
+    let within = TOLD_WITHIN * size;
+    if touch > within {
+        faults.push(Fault::of(
+            "",
+            format!("--touch-tolerance is {}", length(touch)),
+            format!("at most {}, a tenth of a stone", length(within)),
+            "give a shorter one, or close the gaps in the file",
+        ));
+        return Err(faults);
+    }
+    let contact = contact::Settings { touch, reach: standard.reach.max(REACHES * touch), ..standard };
+    let Some(found) = survey(&file.wall, &contact, within) else {
         faults.push(Fault::of(
             "",
             "the blocks are entangled: far too many of them overlap or nearly touch",
@@ -46,7 +67,9 @@ pub(crate) fn look(file: &WallFile, tolerance: f64, path: &str) -> Result<Fit, W
         ));
         return Err(faults);
     };
-    for pair in &found.overlaps {
+    let mut deepest_first: Vec<&Pair> = found.overlaps.iter().collect();
+    deepest_first.sort_by(|a, b| b.length.total_cmp(&a.length));
+    for pair in deepest_first {
         let depth_allowed = deepest_allowed(&file.wall, pair);
         if pair.length > depth_allowed {
             faults.push(Fault::of(
@@ -97,27 +120,56 @@ fn floating(file: &WallFile, group: &[usize], found: &Survey) -> Fault {
     Fault::of(&whom, what, "a chain of touching blocks from every block to a fixed one", fix)
 }
 
-/// Overlaps and gaps, the largest first.
+/// Overlaps, the deepest first, and gaps, the narrowest first.
 fn told(file: &WallFile, found: &Survey, touch: f64) -> Vec<String> {
+    let names = |pair: &Pair| (file.names[pair.blocks.0].as_str(), file.names[pair.blocks.1].as_str());
     let mut warnings = Vec::new();
-    let mut list = |pairs: &[Pair], said: &dyn Fn(&str, &str, String) -> String, what: &str| {
-        let mut pairs = pairs.to_vec();
-        pairs.sort_by(|a, b| b.length.total_cmp(&a.length));
+    let mut list = |pairs: &[Pair], said: &dyn Fn(&Pair) -> String, what: &str| {
         for pair in pairs.iter().take(LISTED) {
-            let (a, b) = (&file.names[pair.blocks.0], &file.names[pair.blocks.1]);
-            warnings.push(said(a, b, length(pair.length)));
+            warnings.push(said(pair));
         }
-        if pairs.len() > LISTED {
-            warnings.push(format!("... and {} more {what}", pairs.len() - LISTED));
+        if let (more @ 1.., Some(last)) = (pairs.len().saturating_sub(LISTED), pairs.last()) {
+            warnings.push(format!("... and {more} more {what} to {}", length(last.length)));
         }
     };
-    list(&found.overlaps, &|a, b, depth| format!("{a} and {b} overlap by {depth}"), "overlaps");
-    let tolerance = length(touch);
-    list(
-        &found.gaps,
-        &|a, b, gap| format!("a gap of {gap} between {a} and {b}: they do not touch (tolerance {tolerance})"),
-        "gaps",
-    );
+    let sorted = |pairs: &[Pair], sign: f64| {
+        let mut pairs = pairs.to_vec();
+        pairs.sort_by(|a, b| (sign * a.length).total_cmp(&(sign * b.length)));
+        pairs
+    };
+    let overlap = |pair: &Pair| {
+        let (a, b) = names(pair);
+        format!("{a} and {b} overlap by {}", length(pair.length))
+    };
+    list(&sorted(&found.overlaps, -1.0), &overlap, "overlaps, down");
+    let shared = |pair: &Pair| {
+        let group = file.wall.blocks[pair.blocks.0].group.as_deref().unwrap_or_default();
+        format!("{}: parts of group \"{group}\": what they share weighs twice", overlap(pair))
+    };
+    list(&sorted(&found.shared, -1.0), &shared, "overlaps of parts, down");
+    let (tolerance, gaps) = (length(touch), sorted(&found.gaps, 1.0));
+    let gap = |pair: &Pair| {
+        let ((a, b), wide) = (names(pair), length(pair.length));
+        format!("a gap of {wide} between {a} and {b}: they do not touch (tolerance {tolerance})")
+    };
+    list(&gaps, &gap, "gaps, up");
+    let gaping = |pair: &Pair| {
+        let ((a, b), wide) = (names(pair), length(pair.length));
+        format!("the joint between {a} and {b} gapes by up to {wide}: it carries only where it touches")
+    };
+    list(&sorted(&found.gaping, 1.0), &gaping, "joints that gape, up");
+    if let Some(narrowest) = gaps.first() {
+        warnings.push(format!(
+            "gaps carry nothing; for those that are meant as joints raise the tolerance, as --touch-tolerance {:.3}mm does for the narrowest",
+            1e3 * ABOVE * narrowest.length
+        ));
+    }
+    for lead in &found.scattered {
+        let group = file.wall.blocks[*lead].group.as_deref().unwrap_or_default();
+        warnings.push(format!(
+            "the parts of group \"{group}\" do not all touch one another; they are one body all the same"
+        ));
+    }
     warnings
 }
 
@@ -142,8 +194,11 @@ pub(crate) fn bounds(wall: &Wall) -> (Vec3, Vec3) {
     Polyhedron { vertices: corners, faces: Vec::new() }.bounds()
 }
 
-/// Edge of the cube with the mean volume of the blocks that move (m).
+/// Edge of the cube with the mean volume of the stones that move (m), the parts of one taken together.
 fn stone_size(wall: &Wall) -> f64 {
-    let (count, volume) = free(wall).fold((0u32, 0.0), |(n, v), shape| (n + 1, v + shape.volume()));
-    cbrt(volume / f64::from(count.max(1)))
+    let leads = wall.leads();
+    let bodies =
+        wall.blocks.iter().enumerate().filter(|(id, b)| b.support != Support::Fixed && leads[*id] == *id);
+    let volume: f64 = free(wall).map(Polyhedron::volume).sum();
+    cbrt(volume / bodies.count().max(1) as f64)
 }

@@ -4,7 +4,10 @@ mod answer;
 mod meetings;
 mod numbers;
 mod solve;
+mod upright;
 mod verb;
 
-pub(crate) use numbers::{cohesion, density, friction_angle, step, stiffness, tolerance};
+pub(crate) use numbers::{
+    Tolerance, cohesion, density, direction, friction_angle, length, step, stiffness, tolerance,
+};
 pub(crate) use verb::analyse;

@@ -2,6 +2,8 @@
 
 use std::ops::RangeInclusive;
 
+use crate::protocol::Direction;
+
 /// Friction angle (deg): at 90 degrees friction would be infinite.
 pub(crate) fn friction_angle(text: &str) -> Result<f64, String> {
     within(text, 0.0..=89.0, "degrees")
@@ -27,13 +29,50 @@ pub(crate) fn density(text: &str) -> Result<f64, String> {
     within(text, 10.0..=23_000.0, "kg/m^3")
 }
 
-/// Share of the wall's size.
-pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
+/// How far apart blocks may be that touch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Tolerance {
+    /// Share of the size of the part that moves, corner to corner.
+    Share(f64),
+    /// Length (m).
+    Length(f64),
+}
+
+/// A length with its unit, or a share of the wall's size.
+pub(crate) fn tolerance(text: &str) -> Result<Tolerance, String> {
+    if text.trim_end().ends_with('m') {
+        return length(text).map(Tolerance::Length);
+    }
     within(text, 1e-12..=1e-3, "of the wall's size")
+        .map(Tolerance::Share)
+        .map_err(|error| format!("{error}, or a length with its unit, as 2mm"))
+}
+
+/// A length (m) from a number with its unit.
+pub(crate) fn length(text: &str) -> Result<f64, String> {
+    let allowed = "allowed is a length with its unit above 0, up to 1 m: 2mm, 0.5cm, 0.002 m";
+    let units = [("mm", 1000.0), ("cm", 100.0), ("m", 1.0)];
+    let (number, per_metre) = units
+        .into_iter()
+        .find_map(|(unit, per_metre)| Some((text.trim().strip_suffix(unit)?, per_metre)))
+        .ok_or(allowed)?;
+    match number.trim().parse::<f64>().map(|x| x / per_metre) {
+        Ok(metres) if metres > 0.0 && metres <= 1.0 => Ok(metres),
+        _ => Err(allowed.to_owned()),
+    }
+}
+
+/// Horizontal direction: the name of an axis, or an angle (deg).
+pub(crate) fn direction(text: &str) -> Result<Direction, String> {
+    let named = Direction::named(text).map(Ok);
+    named
+        .unwrap_or_else(|| within(text, -360.0..=360.0, "degrees").map(Direction::at))
+        .map_err(|why| format!("{why}, counter-clockwise from x+ seen from above; or x+, x-, y+, y-"))
 }
 
 fn within(text: &str, range: RangeInclusive<f64>, unit: &str) -> Result<f64, String> {
-    let told = |x: f64| if x == 0.0 || (1e-3..1e6).contains(&x) { x.to_string() } else { format!("{x:e}") };
+    let told =
+        |x: f64| if x == 0.0 || (1e-3..1e6).contains(&x.abs()) { x.to_string() } else { format!("{x:e}") };
     let allowed = format!("{} to {} {unit}", told(*range.start()), told(*range.end()));
     match text.parse::<f64>() {
         Ok(x) if range.contains(&x) => Ok(x),
@@ -54,6 +93,23 @@ mod tests {
         }
         assert_eq!(stiffness("1e9"), Ok(1e9));
         assert!(stiffness("0").unwrap_err().contains("1000 to 1e16 Pa/m"));
+        assert_eq!(direction("y-"), Ok(Direction::YMinus));
+        assert_eq!(direction("90"), Ok(Direction::YPlus));
+        for text in ["z+", "361", "nan", ""] {
+            assert!(direction(text).unwrap_err().contains("-360 to 360 degrees"), "{text}");
+        }
         assert!(tolerance("0.1").unwrap_err().contains("1e-12 to 0.001"));
+    }
+
+    #[test]
+    fn a_tolerance_is_a_length_with_its_unit_or_a_share() {
+        for text in ["2mm", "0.2cm", "0.002 m", "2e-3m", " 2 mm "] {
+            assert_eq!(tolerance(text), Ok(Tolerance::Length(0.002)), "{text}");
+        }
+        assert_eq!(tolerance("1e-6"), Ok(Tolerance::Share(1e-6)));
+        for text in ["0mm", "-2mm", "2 km", "mm", "nanm", "infm", "1e9mm", "2in", "2"] {
+            assert!(tolerance(text).unwrap_err().contains("2mm"), "{text}");
+        }
+        assert!(length("2").unwrap_err().contains("with its unit"));
     }
 }

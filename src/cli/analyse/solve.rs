@@ -2,12 +2,13 @@
 
 use crate::cli::analyse::answer::Answer;
 use crate::cli::analyse::meetings::Fit;
-use crate::cli::arguments::{Analyse, DirectionName, FlowName, LoadName, MethodName};
+use crate::cli::arguments::{Analyse, FlowName, LoadName, MethodName};
+use crate::cli::doing::doing;
 use crate::contact;
 use crate::law::{CohesionAfterSlip, Coulomb, NormalLaw, Sampling};
 use crate::math::{radians, tan};
-use crate::model::Wall;
-use crate::protocol::{Changes, Confirmation, Criterion, Direction, LoadPath, Run, Task, drive};
+use crate::model::{Level, Outcome, Wall};
+use crate::protocol::{Changes, Confirmation, Criterion, LoadPath, Run, Task, drive_telling};
 use crate::solve::explicit;
 use crate::solve::implicit::{self, Equilibrium};
 use crate::solve::{Equilibrate, Solver, limit};
@@ -44,6 +45,11 @@ pub(crate) fn law(arguments: &Analyse) -> Coulomb {
 
 /// Solves the wall as asked.
 pub(crate) fn solve(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit) -> Answer {
+    let what = format!("solving {} blocks by the {} solver", wall.blocks.len(), arguments.solver.name());
+    doing(&what, |doing| solve_telling(arguments, wall, law, fit, &|level| doing.at(level)))
+}
+
+fn solve_telling(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit, tell: &dyn Fn(Level)) -> Answer {
     match arguments.solver {
         MethodName::Limit => by_limit_analysis(arguments, wall, law, fit),
         MethodName::Implicit => {
@@ -51,19 +57,19 @@ pub(crate) fn solve(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit) 
             let task = task(arguments, wall, law, fit);
             let mut at_rest = Equilibrium::new(wall, law, settings, task.contact);
             at_rest.settle(&mut |_| false);
-            let loose = at_rest.loose().iter().map(|&i| i as usize).collect();
-            Answer { loose, ..by_steps(drive(&task, &Solver::Implicit(settings))) }
+            let loose = Some(at_rest.loose().iter().map(|&i| i as usize).collect());
+            Answer { loose, ..by_steps(drive_telling(&task, &Solver::Implicit(settings), tell)) }
         }
         MethodName::Explicit => {
             let solver = Solver::Explicit(explicit::Settings::default());
-            by_steps(drive(&task(arguments, wall, law, fit), &solver))
+            by_steps(drive_telling(&task(arguments, wall, law, fit), &solver, tell))
         }
     }
 }
 
 /// The load path of the elastic solvers.
 fn task<'t>(arguments: &Analyse, wall: &'t Wall, law: &'t Coulomb, fit: &Fit) -> Task<'t> {
-    let (towards, step) = (direction(arguments.direction), radians(arguments.step_deg.unwrap_or(STEP_DEG)));
+    let (towards, step) = (arguments.direction, radians(arguments.step_deg.unwrap_or(STEP_DEG)));
     let path = match arguments.load {
         LoadName::Tilt => LoadPath::tilt(towards, step, radians(LARGEST_TILT_DEG), radians(BRACKET_DEG)),
         LoadName::Lateral => LoadPath::multiplier(towards, tan(step), LARGEST_MULTIPLIER, BRACKET),
@@ -84,15 +90,13 @@ fn task<'t>(arguments: &Analyse, wall: &'t Wall, law: &'t Coulomb, fit: &Fit) ->
 }
 
 fn by_steps(run: Run) -> Answer {
-    let bracket = run.bracket.map(|[low, high]| format!("; bracketed to {:.1e}", high - low));
     Answer {
+        clamped: Vec::new(),
+        between: None,
         moving: run.failure.map_or_else(Vec::new, |f| f.moving.iter().map(|&i| i as usize).collect()),
-        loose: Vec::new(),
-        meaning: format!(
-            "the largest load borne on the way, {} load steps{}",
-            run.steps.len(),
-            bracket.unwrap_or_default()
-        ),
+        loose: None,
+        bracket: run.bracket,
+        meaning: format!("the largest load borne on the way, {} load steps", run.steps.len()),
         outcome: run.outcome,
     }
 }
@@ -104,7 +108,7 @@ fn by_limit_analysis(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit)
     };
     let settings = limit::Settings { flow, closed_gap: fit.contact.touch, ..limit::Settings::default() };
     let analysis = limit::Analysis::new(wall, law, fit.contact, settings);
-    let direction = direction(arguments.direction).unit();
+    let direction = arguments.direction.unit();
     let found = match arguments.load {
         LoadName::Tilt => analysis.tilt(direction, &[]),
         LoadName::Lateral => analysis.multiplier(&limit::Loads::lateral(direction)),
@@ -115,18 +119,29 @@ fn by_limit_analysis(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit)
     };
     let fastest = (0..found.mechanism.len()).map(speed).fold(0.0, f64::max);
     Answer {
-        moving: (0..found.mechanism.len()).filter(|&i| speed(i) > MOVES * fastest).collect(),
-        loose: Vec::new(),
+        clamped: clamped(&analysis, wall, &found.outcome),
+        between: found.between,
+        bracket: None,
+        // What a solver leaves where nothing collapses is no mechanism.
+        moving: match found.outcome {
+            Outcome::Collapsed { .. } | Outcome::UnstableAtRest => {
+                (0..found.mechanism.len()).filter(|&i| speed(i) > MOVES * fastest).collect()
+            }
+            _ => Vec::new(),
+        },
+        loose: None,
         meaning: format!("{}: {}", arguments.flow.unwrap_or(FlowName::Associative).name(), flow.meaning()),
         outcome: found.outcome,
     }
 }
 
-fn direction(name: DirectionName) -> Direction {
-    match name {
-        DirectionName::XPlus => Direction::XPlus,
-        DirectionName::XMinus => Direction::XMinus,
-        DirectionName::YPlus => Direction::YPlus,
-        DirectionName::YMinus => Direction::YMinus,
+/// The blocks that stand at rest only by forces that no weight causes.
+fn clamped(analysis: &limit::Analysis, wall: &Wall, outcome: &Outcome) -> Vec<usize> {
+    if *outcome == Outcome::UnstableAtRest {
+        return Vec::new();
     }
+    let moves = analysis.self_stressed(&limit::Loads::weight()).unwrap_or_default();
+    let far =
+        |i: usize| moves[i].velocity.norm() + moves[i].spin.norm() * 0.5 * wall.blocks[i].shape.diameter();
+    (0..moves.len()).filter(|&i| far(i) > MOVES).collect()
 }

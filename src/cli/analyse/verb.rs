@@ -6,11 +6,13 @@ use serde_json::json;
 
 use crate::cli::analyse::meetings::{Fit, bounds, look};
 use crate::cli::analyse::solve::{law, solve};
+use crate::cli::analyse::upright;
+use crate::cli::arguments::UpName;
 use crate::cli::arguments::{Analyse, FlowName, LoadName, MethodName};
 use crate::cli::failure::Failure;
 use crate::cli::output;
-use crate::exchange::{ObjOptions, Unit, WallFaults, WallFile, read_wall};
-use crate::model::{Support, Wall};
+use crate::exchange::{ReadOptions, Unit, Up, WallFaults, WallFile, read_wall};
+use crate::model::{Outcome, Support, Wall};
 use crate::solve::STANDARD_GRAVITY;
 
 /// A prestress above this share of the pressure under the wall's own weight is worth a warning.
@@ -38,31 +40,53 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
     warnings.extend(prestress(arguments, &file.wall, &fit));
     let law = law(arguments);
     let answer = solve(arguments, &file.wall, &law, &fit);
+    warnings.extend(answer.warning(&file));
+    if answer.outcome == Outcome::UnstableAtRest {
+        warnings.extend(upright::question(
+            &file.wall,
+            &law,
+            &fit,
+            arguments.up.unwrap_or(UpName::Z),
+            is_obj(arguments),
+        ));
+    }
     let seconds = begun.elapsed().as_secs_f64();
     if arguments.json {
         return output::print_json(&answer.object(arguments, &file, &fit, &warnings, seconds));
     }
-    output::print(&answer.text(arguments, &file, &fit, &warnings, seconds))
+    warnings.iter().for_each(|warning| output::note(&format!("warning: {warning}")));
+    output::print(&answer.text(arguments, &file, &fit, seconds))
 }
 
 /// The file, fit to be solved.
 fn read(arguments: &Analyse) -> Result<(WallFile, Fit), WallFaults> {
     let unit = arguments.unit.map(|unit| Unit::named(unit.name()).unwrap_or_default());
-    let options = ObjOptions { unit, density: arguments.density_kg_per_m3 };
+    let options = ReadOptions {
+        unit,
+        density: arguments.density_kg_per_m3,
+        up: arguments.up.map_or(Up::Z, |up| if up == UpName::Y { Up::Y } else { Up::Z }),
+        flatness: arguments.flatness,
+    };
     let file = read_wall(&arguments.wall, &options)?;
     let fit = look(&file, arguments.touch_tolerance, &arguments.wall.display().to_string())?;
     Ok((file, fit))
+}
+
+fn is_obj(arguments: &Analyse) -> bool {
+    arguments.wall.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj"))
 }
 
 /// Arguments that are missing, and warnings of those that mean nothing for what is asked.
 fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
     let solver = arguments.solver.name();
     let mut warnings = Vec::new();
-    let is_obj = arguments.wall.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj"));
-    if !is_obj && (arguments.unit.is_some() || arguments.density_kg_per_m3.is_some()) {
+    if !is_obj(arguments) && (arguments.unit.is_some() || arguments.density_kg_per_m3.is_some()) {
         return Err(Failure::Usage(
             "--unit and --density-kg-per-m3 are for .obj files; a wall.json states both itself".to_owned(),
         ));
+    }
+    if !is_obj(arguments) && arguments.up.is_some() {
+        return Err(Failure::Usage("--up is for .obj files; in a wall.json z points up".to_owned()));
     }
     if arguments.solver == MethodName::Limit {
         if arguments.kn.is_some() || arguments.ks.is_some() {

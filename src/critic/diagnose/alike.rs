@@ -124,20 +124,18 @@ fn misfit(one: &Looks, pool: &[Looks], but: Option<usize>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::critic::diagnose::judge::Judge;
-    use crate::critic::diagnose::tests::{EFFORT, made};
+    use crate::critic::diagnose::tests::judged;
 
     #[test]
     fn a_cause_that_was_asked_about_before_is_answered_for_as_if_it_had_not_been() {
-        let made = made();
-        let (world, (design, _)) = (made.world(), Design::of(&made.study));
-        let judge = Judge::trained(&world, &design, EFFORT, 5).expect("it can be told");
+        let (made, judge) = judged();
+        let (world, design) = (judge.world, &judge.design);
         let [creep, lean] = ["creep", "lean"].map(|cause| made.cause(cause));
         let shown = |k: u64| {
-            world.campaign(&design, &world.drawn(Some(creep), &Streams::new(24, k)), &Streams::new(24, k))
+            world.campaign(design, &world.drawn(Some(creep), &Streams::new(24, k)), &Streams::new(24, k))
         };
         let share = |alike: &Alike, (causes, seed): (Causes, u64), k: u64| {
-            alike.share(&world, &design, &judge.reference, (causes, seed), &shown(k))
+            alike.share(world, design, &judge.reference, (causes, seed), &shown(k))
         };
         let (all, [one, other]) = (Alike::default(), [creep, lean].map(|cause| Causes::from(Some(cause))));
         let asked = [(one, 3), (other, 3), (one, 4), (one, 3), (Causes::pair(creep, lean), 3), (one, 3)];

@@ -3,8 +3,8 @@
 use std::fmt;
 
 use crate::math::degrees;
-use crate::study::Measurement;
 use crate::study::measured::Dimension;
+use crate::study::{Measurement, listed};
 
 /// A doubt about lines of the measurements. SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +46,39 @@ pub enum Doubt {
         /// Thickness of the wall at the base (m).
         thickness: f64,
     },
+    /// Said to stand where the wall overturns as one rigid body.
+    Overturned {
+        /// The lines.
+        lines: Vec<usize>,
+        /// The first of the readings.
+        first: Box<Measurement>,
+        /// The tilt at which it overturns (rad).
+        most: f64,
+    },
+    /// A mean, or a difference of centre and ends, that is not that of the points read beside it.
+    Contradicted {
+        /// The lines.
+        lines: Vec<usize>,
+        /// The mean or the difference.
+        first: Box<Measurement>,
+        /// What the points come to.
+        told: f64,
+    },
+    /// Off from what its fellows show by the ratio of two units.
+    OtherUnit {
+        /// The lines.
+        lines: Vec<usize>,
+        /// The first of the readings.
+        first: Box<Measurement>,
+        /// What the specimens show there.
+        usual: f64,
+        /// The ratio of the units, below 1 where the readings are too small.
+        factor: f64,
+        /// How many readings.
+        readings: usize,
+        /// Of what these are the readings.
+        told: Told,
+    },
     /// Read where simulated walls have fallen.
     Fallen {
         /// The lines.
@@ -64,6 +97,17 @@ pub enum Doubt {
         /// What it would be in another unit, if that lies there.
         fits: Option<f64>,
     },
+}
+
+/// Of what readings that are off are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Told {
+    /// Of one specimen alone, which has so many of the kind.
+    Whole(usize),
+    /// Of one of two specimens, which has so many of the kind: it is not told which is odd.
+    OfTwo(usize),
+    /// Of a specimen whose other readings are not off.
+    Part,
 }
 
 impl fmt::Display for Doubt {
@@ -104,6 +148,7 @@ impl fmt::Display for Doubt {
                 told(first),
                 shown(Dimension::Length, *thickness)
             ),
+            Doubt::Overturned { .. } | Doubt::Contradicted { .. } | Doubt::OtherUnit { .. } => self.of_the_table(f),
             Doubt::Fallen { lines, first } => write!(
                 f,
                 "{}: {}, where every simulated wall has fallen: only that the wall still stood there counts, as off; check the tilt",
@@ -124,10 +169,60 @@ impl fmt::Display for Doubt {
     }
 }
 
-/// Lines of a file in words.
-pub fn listed(lines: &[usize]) -> String {
-    let words: Vec<String> = lines.iter().map(ToString::to_string).collect();
-    if let [line] = &words[..] { format!("line {line}") } else { format!("lines {}", words.join(", ")) }
+impl Doubt {
+    /// The words of a doubt that the measurements raise by themselves.
+    fn of_the_table(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Doubt::Overturned { lines, first, most } => write!(
+                f,
+                "{}: {}, and a wall with free ends as the study draws it overturns as a whole at {}: check the angle, the \
+                 thickness and the height",
+                listed(lines),
+                told(first),
+                shown(Dimension::Angle, *most)
+            ),
+            Doubt::Contradicted { lines, first, told: points } => write!(
+                f,
+                "{}: {}, where left, centre and right make it {}: are these readings of one wall at one tilt, in one unit?",
+                listed(lines),
+                told(first),
+                shown(first.quantity.dimension(), *points)
+            ),
+            _ => self.other_unit(f),
+        }
+    }
+
+    /// The words of a specimen, or of a part of its readings, in another unit.
+    fn other_unit(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Doubt::OtherUnit { lines, first, usual, factor, readings, told: of } = self else {
+            return Ok(());
+        };
+        let name = &first.specimen;
+        let (times, size) = if *factor < 1.0 { (1.0 / factor, "small") } else { (*factor, "large") };
+        let times = format!("by a factor of about {}", (10.0 * times).round() / 10.0);
+        let usual = shown(first.quantity.dimension(), *usual);
+        let compared = match of {
+            Told::Whole(all) | Told::OfTwo(all) if all > readings => " that can be compared",
+            _ => "",
+        };
+        let (these, are) = match (readings, of) {
+            (1, _) => (first.quantity.name().to_owned(), "is"),
+            (n, Told::Part) => (format!("{n} readings"), "are"),
+            (n, _) => (format!("all {n} readings{compared}"), "are"),
+        };
+        write!(f, "{}: ", listed(lines))?;
+        match of {
+            Told::Whole(_) => write!(f, "{name} alone is off {times} on {these}, which {are} too {size}")?,
+            Told::OfTwo(_) => {
+                write!(
+                    f,
+                    "{name} is off {times} from the other specimen on {these}, which {are} too {size}"
+                )?;
+            }
+            Told::Part => write!(f, "{name} is off {times} on {these} alone, which {are} too {size}")?,
+        }
+        write!(f, " ({}, where {usual} is usual): was it meant in another unit?", told(first))
+    }
 }
 
 /// A reading in words.

@@ -4,8 +4,10 @@ use std::collections::BTreeMap;
 
 use crate::critic::diagnose::design::{Campaign, Design, Seen, Unused};
 use crate::critic::diagnose::doubt::Doubt;
+use crate::critic::diagnose::fellows::odd_ones;
+use crate::critic::diagnose::impossible::{contradicted, overturned};
+use crate::critic::diagnose::units::ratios;
 use crate::critic::diagnose::world::World;
-use crate::math::ln;
 use crate::protocol::Protocol;
 use crate::random::Streams;
 use crate::stats;
@@ -55,6 +57,9 @@ pub fn doubts(study: &Study, design: &Design) -> Vec<Doubt> {
     found.extend(grouped(&further, |m| (m.quantity, m.family.clone())).into_iter().map(|(first, lines)| {
         Doubt::ThickerThanWall { lines, first: Box::new(first.clone()), thickness: thickness(first) }
     }));
+    found.extend(overturned(study, design));
+    found.extend(contradicted(design));
+    found.extend(odd_ones(design));
     found
 }
 
@@ -110,7 +115,7 @@ pub fn doubts_beside(world: &World<'_>, design: &Design, measured: &Campaign, se
     );
     let readings: Vec<&Measurement> = out.iter().map(|(m, ..)| *m).collect();
     let of = |m: &Measurement| {
-        out.iter().find(|(own, ..)| own.line == m.line).map(|(_, range, fits)| (*range, *fits))
+        out.iter().find(|(own, ..)| std::ptr::eq(*own, m)).map(|(_, range, fits)| (*range, *fits))
     };
     let kind =
         |m: &Measurement| (m.quantity, m.family.clone(), of(m).is_some_and(|(_, fits)| fits.is_some()));
@@ -131,13 +136,4 @@ fn grouped<'m, K: Ord>(
         groups.entry(kind(m)).or_insert((m, Vec::new())).1.push(m.line);
     }
     groups.into_values().collect()
-}
-
-/// What a value is multiplied by when its number was meant in another unit, the nearest to 1 first.
-fn ratios(dimension: Dimension) -> Vec<f64> {
-    let si: Vec<f64> = dimension.units().iter().map(|unit| dimension.si(1.0, unit)).collect();
-    let pairs = si.iter().flat_map(|meant| si.iter().map(move |written| meant / written));
-    let mut ratios: Vec<f64> = pairs.filter(|ratio| (ratio - 1.0).abs() > 1e-9).collect();
-    ratios.sort_by(|a, b| ln(*a).abs().total_cmp(&ln(*b).abs()));
-    ratios
 }

@@ -108,17 +108,16 @@ fn predicted(judge: &Judge<'_>, draws: &[Truth], campaign: &Campaign, seed: u64)
 mod tests {
     use super::*;
     use crate::critic::diagnose::design::Seen;
-    use crate::critic::diagnose::tests::{EFFORT, made};
+    use crate::critic::diagnose::tests::judged;
 
     #[test]
     fn what_a_cause_does_not_predict_is_seen_and_its_own_campaigns_are_not() {
-        let made = made();
-        let (world, (design, _)) = (made.world(), Design::of(&made.study));
-        let judge = Judge::trained(&world, &design, EFFORT, 5).expect("it can be told");
+        let (made, judge) = judged();
+        let (world, design) = (judge.world, &judge.design);
         let truth = world.drawn(Some(made.cause("creep")), &Streams::new(23, 1));
         let draws = vec![truth.clone(); 20];
-        let shown = |k: u64| world.campaign(&design, &truth, &Streams::new(24, k));
-        let few = (0..40).filter(|&k| predicted(&judge, &draws, &shown(k), 3) < 0.1).count();
+        let shown = |k: u64| world.campaign(design, &truth, &Streams::new(24, k));
+        let few = (0..40).filter(|&k| predicted(judge, &draws, &shown(k), 3) < 0.1).count();
         // One in ten, of forty: 4 +- 1.9.
         assert!(few <= 9, "{few}");
         // The second specimen of the stones moves 2 cm further from one tilt on.
@@ -130,7 +129,7 @@ mod tests {
                     *value += if tilt > 0.1 { 20e-3 } else { 0.0 };
                 }
             }
-            predicted(&judge, &draws, &campaign, 3) < 0.02
+            predicted(judge, &draws, &campaign, 3) < 0.02
         });
         let further = further.count();
         assert!(further >= 8, "{further} of 10");

@@ -332,13 +332,12 @@ impl Normal {
 mod tests {
     use super::*;
     use crate::critic::diagnose::Design;
-    use crate::critic::diagnose::tests::{EFFORT, made};
+    use crate::critic::diagnose::tests::{EFFORT, judged, made};
 
     #[test]
     fn a_measurement_that_tells_causes_apart_brings_what_is_open_and_others_bring_nothing() {
-        let made = made();
-        let (world, (design, _)) = (made.world(), Design::of(&made.study));
-        let judge = Judge::trained(&world, &design, EFFORT, 5).expect("it can be told");
+        let (made, judge) = judged();
+        let world = judge.world;
         let draws = |name: &str, score: f64| -> (f64, Vec<Truth>) {
             let cause = Some(made.cause(name));
             let one = |k: u64| {
@@ -349,32 +348,32 @@ mod tests {
             (0.5, (0..100).map(one).collect())
         };
         // In the made-up bank creep moves every wall, cohesion none, and two stones show neither.
-        let offered = offers(&judge, &[draws("creep", 1.5), draws("cohesion", 0.0)], 6);
+        let offered = offers(judge, &[draws("creep", 1.5), draws("cohesion", 0.0)], 6);
         let of = |wanted: Offer| offered.iter().find(|own| own.offer == wanted).expect("in the menu");
         println!("{offered:?}");
         assert!((of(Offer::FinerReadings).of - 1.0).abs() < 1e-9);
         assert!(of(Offer::FinerReadings).bits > 0.8 && of(Offer::TwoStones).bits < 0.1);
-        let alike = offers(&judge, &[draws("end_release", 1.0), draws("cohesion", 1.0)], 6);
+        let alike = offers(judge, &[draws("end_release", 1.0), draws("cohesion", 1.0)], 6);
         assert!(alike.iter().all(|own| own.bits < 0.15), "{alike:?}");
         // Nor does density move any, but it weighs.
-        let weighed = offers(&judge, &[draws("density", 1.0), draws("cohesion", 1.0)], 6);
+        let weighed = offers(judge, &[draws("density", 1.0), draws("cohesion", 1.0)], 6);
         assert!(weighed[0].offer == Offer::Weights && weighed[0].bits > 0.9, "{weighed:?}");
         assert!(weighed[1..].iter().all(|own| own.bits < 0.15), "{weighed:?}");
         // A gauge that has moved by 5 mm shows it on what stands still, which a wall that leans does not.
-        let still = offers(&judge, &[draws("gauge_offset", 1.0), draws("lean", 0.0)], 6);
+        let still = offers(judge, &[draws("gauge_offset", 1.0), draws("lean", 0.0)], 6);
         assert!(still[0].offer == Offer::FixedTarget && still[0].bits > 0.9, "{still:?}");
         assert!(weighed.iter().all(|own| own.offer != Offer::FixedTarget || own.bits < 0.05), "{weighed:?}");
         // What has crept does not come back.
         let bits = |offered: &[Offered], wanted: Offer| {
             offered.iter().find(|own| own.offer == wanted).expect("in the menu").bits
         };
-        let back = offers(&judge, &[draws("creep", 1.5), draws("cohesion", 1.5)], 6);
+        let back = offers(judge, &[draws("creep", 1.5), draws("cohesion", 1.5)], 6);
         assert!(bits(&back, Offer::Remainders) > 0.8 && bits(&alike, Offer::Remainders) < 0.15, "{back:?}");
-        let turned = planned(Offer::TurnedWalls, &judge, FINE).expect("they can be turned");
+        let turned = planned(Offer::TurnedWalls, judge, FINE).expect("they can be turned");
         assert!(turned.specimens.len() == 9 && turned.specimens.iter().all(|own| own.turned));
         assert!(turned.specimens.iter().flat_map(|own| &own.readings).all(|m| m.tilt.is_some()));
         // A wall that leans moves a little further before its fall, turned round a little less.
-        let leans = offers(&judge, &[draws("lean", 1.5), draws("lean", -1.5)], 6);
+        let leans = offers(judge, &[draws("lean", 1.5), draws("lean", -1.5)], 6);
         assert!(
             bits(&leans, Offer::TurnedWalls) > 0.1 && bits(&alike, Offer::TurnedWalls) < 0.05,
             "{leans:?}"
@@ -387,7 +386,7 @@ mod tests {
         // The most information per hour comes first.
         let worth: Vec<f64> = offered.iter().map(|own| own.bits / own.hours).collect();
         assert!(worth.windows(2).all(|pair| pair[0] >= pair[1]));
-        assert_eq!(offers(&judge, &[draws("creep", 1.0)], 6), []);
+        assert_eq!(offers(judge, &[draws("creep", 1.0)], 6), []);
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! Campaigns of walls whose formula is known: what is found of what is hidden in them, and whether anything is where nothing is.
 
+use std::sync::OnceLock;
+
 use crate::critic::bank::tests::shipped;
 use crate::critic::bank::{Bank, Path, Plan};
 use crate::critic::diagnose::{
@@ -78,6 +80,17 @@ impl Made {
 /// Enough for a made-up bank of few ways to differ.
 pub(super) const EFFORT: Effort = Effort { reference: 1000, training: 300 };
 
+/// The nine walls and who judges campaigns of the paper's design: he is trained once for all tests that ask him.
+pub(super) fn judged() -> (&'static Made, &'static Judge<'static>) {
+    static MADE: OnceLock<Made> = OnceLock::new();
+    static WORLD: OnceLock<World<'static>> = OnceLock::new();
+    static JUDGE: OnceLock<Judge<'static>> = OnceLock::new();
+    let made = MADE.get_or_init(made);
+    let world = WORLD.get_or_init(|| made.world());
+    let (design, _) = Design::of(&made.study);
+    (made, JUDGE.get_or_init(|| Judge::trained(world, &design, EFFORT, 5).expect("it can be told")))
+}
+
 #[test]
 fn little_is_found_where_nothing_is_hidden_also_with_joints_far_out_in_their_priors() {
     let made = made();
@@ -133,9 +146,7 @@ fn a_family_that_moves_four_times_too_far_is_found_and_said_to() {
 
 #[test]
 fn strong_causes_are_named_and_those_that_do_nothing_are_not() {
-    let made = made();
-    let (world, (design, _)) = (made.world(), Design::of(&made.study));
-    let judge = Judge::trained(&world, &design, EFFORT, 5).expect("it can be told");
+    let (made, judge) = judged();
     let test = judge.self_test(&Limits::default(), 100, 4, 6);
     let of = |name: &str| {
         let row =
@@ -168,9 +179,8 @@ fn strong_causes_are_named_and_those_that_do_nothing_are_not() {
 
 #[test]
 fn what_is_like_no_cause_is_seen_to_be_nameless() {
-    let made = made();
-    let (world, (design, _)) = (made.world(), Design::of(&made.study));
-    let judge = Judge::trained(&world, &design, EFFORT, 5).expect("it can be told");
+    let (made, judge) = judged();
+    let (world, design) = (judge.world, &judge.design);
     let creep = Some(made.cause("creep"));
     // Mean probability over the campaigns, drawn with another seed than the judge's, in which something is found.
     let nameless = |campaign: &dyn Fn(&Streams) -> Campaign| {
@@ -185,8 +195,8 @@ fn what_is_like_no_cause_is_seen_to_be_nameless() {
             .collect();
         stats::mean(&found).expect("some are found")
     };
-    let own = nameless(&|streams| world.campaign(&design, &world.drawn(creep, streams), streams));
-    let others = nameless(&|streams| world.nameless(&design, streams));
+    let own = nameless(&|streams| world.campaign(design, &world.drawn(creep, streams), streams));
+    let others = nameless(&|streams| world.nameless(design, streams));
     println!("{own} of creep, {others} of others");
     // 0.06 and 0.30: the paper's few readings leave it mostly open what they show.
     assert!(own < 0.12 && others > 0.2, "{own} {others}");
@@ -194,9 +204,8 @@ fn what_is_like_no_cause_is_seen_to_be_nameless() {
 
 #[test]
 fn a_cause_outside_the_catalogue_is_not_given_the_name_of_one_inside() {
-    let made = made();
-    let (world, (design, _)) = (made.world(), Design::of(&made.study));
-    let judge = Judge::trained(&world, &design, EFFORT, 5).expect("it can be told");
+    let (made, judge) = judged();
+    let (world, design) = (judge.world, &judge.design);
     let limits = Limits::default();
     let creep = made.cause("creep");
     let (mut right, mut wrongly, mut unexplained) = (0, 0, 0);
@@ -204,11 +213,11 @@ fn a_cause_outside_the_catalogue_is_not_given_the_name_of_one_inside() {
         let streams = Streams::new(31, k);
         let mut truth = world.drawn(Some(creep), &streams);
         truth.parameters[0] = 1.5;
-        let shown = world.campaign(&design, &truth, &streams);
+        let shown = world.campaign(design, &truth, &streams);
         right += usize::from(judge.diagnosed(&shown, &limits, 1).verdict == Verdict::Named(creep));
         // One specimen of each family moves, and far; creep would move all of them.
         let base = world.drawn(None, &streams);
-        let mut other = world.campaign(&design, &base, &streams);
+        let mut other = world.campaign(design, &base, &streams);
         for (specimen, seen) in design.specimens.iter().zip(&mut other.specimens) {
             for (m, seen) in specimen.readings.iter().zip(seen).filter(|(m, _)| m.tilt.is_some()) {
                 if let (true, Seen::Value(value)) = (specimen.name.ends_with('1'), &*seen) {
@@ -230,9 +239,8 @@ fn a_cause_outside_the_catalogue_is_not_given_the_name_of_one_inside() {
 
 #[test]
 fn two_causes_that_act_together_are_named_together_and_one_alone_is_not() {
-    let made = made();
-    let (world, (design, _)) = (made.world(), Design::of(&made.study));
-    let judge = Judge::trained(&world, &design, EFFORT, 5).expect("it can be told");
+    let (made, judge) = judged();
+    let (world, design) = (judge.world, &judge.design);
     let (creep, lean) = (made.cause("creep"), made.cause("lean"));
     let pair = Causes::pair(creep, lean);
     assert_eq!((pair, pair.each().collect::<Vec<_>>()), (Causes::pair(lean, creep), vec![lean, creep]));
@@ -242,7 +250,7 @@ fn two_causes_that_act_together_are_named_together_and_one_alone_is_not() {
         let mut truth = world.drawn(pair, &streams);
         // The wall leans downhill, and creeps: it moves far and falls early.
         truth.parameters[..2].copy_from_slice(&[1.5, 1.5]);
-        let shown = world.campaign(&design, &truth, &streams);
+        let shown = world.campaign(design, &truth, &streams);
         let found = judge.diagnosed(&shown, &Limits::default(), 1);
         println!("{:?} {:?}", found.verdict, found.pairs.first().map(|pair| (pair.evidence, pair.guard)));
         // Where one of the two explains all that can be told, it is named alone.
@@ -258,7 +266,7 @@ fn two_causes_that_act_together_are_named_together_and_one_alone_is_not() {
             );
         }
         let one = world.campaign(
-            &design,
+            design,
             &Truth { causes: Some(creep).into(), parameters: truth.parameters[1..].to_vec(), ..truth },
             &streams,
         );

@@ -45,7 +45,7 @@ fn wedges_switched_on_change_no_other_draw() {
             assert_eq!(stones.len(), without.wall.blocks.len());
             let mut untouched = 0;
             for (old, new) in without.wall.blocks.iter().zip(stones) {
-                assert_eq!((old.density, old.tag), (new.density, new.tag));
+                assert_eq!((old.density, &old.tag), (new.density, &new.tag));
                 untouched += u32::from(old.shape == new.shape);
             }
             assert_eq!(untouched + b.wedges, without.wall.blocks.len() as u32);

@@ -1,5 +1,6 @@
 //! The verdict on a base model: `verdict.json`, the figures, the page that shows them, and what is printed.
 
+mod conclusion;
 mod family;
 mod family_plot;
 mod form;

@@ -1,9 +1,10 @@
 //! A verdict as a page: one file of plain HTML with its figures in it, for any browser and for print.
 
+use crate::report::diagnosis::conclusion::conclusion;
 use crate::report::diagnosis::summary::{CauseEntry, DataEntry, DiagnosisSummary};
 use crate::report::diagnosis::text::{
     CAUSE, CAUSES, FORM, NO_FORM, OFF, by_chance, excluded, not_used, or_dash, others, pairs, reliability,
-    verdict, worth_saying,
+    worth_saying,
 };
 use crate::report::diagnosis::words::{lines, reading};
 use crate::report::gain::GainSummary;
@@ -32,8 +33,12 @@ pub fn page(summary: &DiagnosisSummary, drawings: &[Drawing]) -> String {
     let variant = summary.variant.as_ref().map_or_else(String::new, |variant| format!(", variant {variant}"));
     let title = format!("Diagnosis of study {}{variant}", summary.study);
     let mut body = format!("<h1>{}</h1>\n", escaped(&title));
-    body.push_str(&format!("<p class=\"verdict\">{}</p>\n", escaped(&sentence(summary))));
-    body.push_str(&by_chance(summary).map_or_else(String::new, |words| paragraph(&words)));
+    for (place, sentence) in conclusion(summary).iter().enumerate() {
+        body.push_str(&match place {
+            0 => format!("<p class=\"verdict\">{}</p>\n", escaped(sentence)),
+            _ => paragraph(sentence),
+        });
+    }
     summary.notes.iter().for_each(|note| body.push_str(&paragraph(&format!("Note: {note}."))));
     if !summary.extended.is_empty() {
         let folders = summary.extended.join(", ");
@@ -49,6 +54,7 @@ pub fn page(summary: &DiagnosisSummary, drawings: &[Drawing]) -> String {
     }
     body.push_str("<h2>What is off once joints are fitted</h2>\n");
     body.push_str(&paragraph(&format!("{OFF}.")));
+    body.push_str(&by_chance(summary).map_or_else(String::new, |words| paragraph(&words)));
     let off = worth_saying(summary).into_iter();
     let rows: Vec<_> = off.map(|off| vec![off.what.clone(), format!("{:+.1}", off.in_sd)]).collect();
     body.push_str(&match rows.is_empty() {
@@ -61,7 +67,7 @@ pub fn page(summary: &DiagnosisSummary, drawings: &[Drawing]) -> String {
         rows.push([what, &format!("{probability:.3}"), "", "", ""].map(String::from).to_vec());
     }
     body.push_str(&table(
-        &["cause", "probability", "evidence", "guard", "parameters: median and nine in ten"],
+        &["cause", "probability", "evidence", "predictive p", "parameters: median and 90 % interval"],
         rows,
     ));
     body.push_str(&pairs(summary).map_or_else(String::new, |words| paragraph(&words)));
@@ -74,14 +80,16 @@ pub fn page(summary: &DiagnosisSummary, drawings: &[Drawing]) -> String {
     }
     excluded(summary).iter().for_each(|words| body.push_str(&paragraph(words)));
     let gain = summary.gain.as_ref().map_or_else(String::new, GainSummary::text);
-    for (title, text) in
-        [("What is gained", gain), ("What the data cannot tell, and what would", summary.advice.text())]
-    {
+    for (title, text) in [
+        ("Gain on held-out readings", gain),
+        ("What such data can see, and what to measure next", summary.advice.text()),
+    ] {
         if !text.is_empty() {
             body.push_str(&format!("<h2>{title}</h2>\n<pre>{}</pre>\n", escaped(text.trim())));
         }
     }
-    body.push_str(&format!("<h2>How reliable is this?</h2>\n{}", paragraph(&reliability(summary))));
+    body.push_str("<h2>How often such verdicts are right</h2>\n");
+    reliability(summary).iter().for_each(|sentence| body.push_str(&paragraph(sentence)));
     body.push_str(&not_used(summary).map_or_else(String::new, |words| paragraph(&format!("{words}."))));
     if let Some(DataEntry { file, sha256 }) = &summary.measured {
         body.push_str(&paragraph(&format!("Measured: {file}, SHA-256 {sha256}.")));
@@ -92,16 +100,6 @@ pub fn page(summary: &DiagnosisSummary, drawings: &[Drawing]) -> String {
          </head>\n<body>\n{body}</body>\n</html>\n",
         escaped(&title)
     )
-}
-
-/// The verdict with the causes that it speaks of.
-fn sentence(summary: &DiagnosisSummary) -> String {
-    let spoken: Vec<&str> =
-        summary.causes.iter().filter(|cause| cause.in_verdict).map(|cause| cause.id).collect();
-    match spoken.is_empty() {
-        true => verdict(summary),
-        false => verdict(summary).replacen(':', &format!(" ({}):", spoken.join(", ")), 1),
-    }
 }
 
 fn cause(cause: &CauseEntry) -> Vec<String> {

@@ -155,7 +155,8 @@ impl ParameterEntry {
     /// In words: key, median, interval and unit.
     pub(super) fn words(&self) -> String {
         let ParameterEntry { key, unit, median, interval } = self;
-        format!("{key} {} {unit}", with_interval(Some(*median), Some(*interval), 3))
+        let unit = if *unit == "1" { String::new() } else { format!(" {unit}") };
+        format!("{key} {}{unit}", with_interval(Some(*median), Some(*interval), 3))
     }
 }
 

@@ -7,7 +7,7 @@ use crate::critic::End;
 use crate::report::draw::Figure;
 use crate::report::marker::{colour, filled};
 use crate::report::measured::panel::{Panel, PanelPoint};
-use crate::report::number::{range, shortened};
+use crate::report::number::{compact, range, shortened};
 use crate::report::pen::{Drawn, LINE, Pen};
 use crate::report::plot::{BAND_ALPHA, WIDTH, decimals};
 
@@ -165,7 +165,7 @@ fn heights(panel: &Panel) -> [f64; 2] {
 
 /// The label of a tick on the logarithmic axis: 1, 2 and 5 of every decade; all nine would run into one another.
 fn stiffness_label(kn: &f64) -> String {
-    let text = format!("{kn:e}");
+    let text = compact(*kn);
     if ["1e", "2e", "5e"].iter().any(|start| text.starts_with(start)) { text } else { String::new() }
 }
 

@@ -1,7 +1,7 @@
 //! What `run` prints of measured beside simulated.
 
 use crate::report::measured::{CalibrationEntry, ComparisonEntry, MeasuredSummary};
-use crate::report::number::{or_dash, significant, stiffness, with_interval};
+use crate::report::number::{compact, or_dash, significant, stiffness, with_interval};
 use crate::report::table::{aligned, wrapped};
 use crate::stats::sigma_factors;
 
@@ -53,7 +53,7 @@ fn rows(entries: &[&ComparisonEntry]) -> Vec<Vec<String>> {
         rows.push(vec![
             entry.family.clone(),
             what(entry),
-            entry.kn_pa_per_m.map_or_else(|| "-".to_string(), |kn| format!("{kn:e}")),
+            entry.kn_pa_per_m.map_or_else(|| "-".to_string(), compact),
             entry.measured.n.to_string(),
             or_dash(entry.measured.mean.map(shown), 3),
             with_interval(
@@ -112,7 +112,7 @@ fn bounds(entries: &[ComparisonEntry]) -> String {
             what(entry),
             if known == 1 { "" } else { "s" }
         );
-        let part = format!("{:.0} % at kn {kn:e}", 100.0 * share);
+        let part = format!("{:.0} % at kn {}", 100.0 * share, compact(kn));
         match lines.last_mut() {
             Some((last, parts)) if *last == head => parts.push(part),
             _ => lines.push((head, vec![part])),

@@ -3,7 +3,7 @@
 use crate::critic::Sight;
 use crate::report::sensitivity::SensitivitySummary;
 use crate::report::sensitivity::entry::{MechanismEntry, ObservableEntry};
-use crate::report::table::{aligned, wrapped};
+use crate::report::table::{side_by_side, wrapped};
 
 /// How the signs of the table are read.
 pub(super) const SIGNS: &str = "~: the interval includes 0; falls: collapsed before the reading; fallen: also without the \
@@ -13,22 +13,58 @@ pub(super) const SIGNS: &str = "~: the interval includes 0; falls: collapsed bef
 /// The map for a terminal.
 pub fn sensitivity_text(summary: &SensitivitySummary) -> String {
     let variant = summary.variant.as_ref().map_or_else(String::new, |variant| format!(", variant {variant}"));
-    let head = format!(
-        "Study {}{variant}, seed {}: what each mechanism changes, at the {} quantile of its priors from the weak end, {} walls \
-         per family",
-        summary.study, summary.seed, summary.quantile, summary.members
-    );
-    let mut text = wrapped("", &head);
-    text.push_str(&wrapped("", &format!("In units of the error. {}. {SIGNS}.", capital(summary.definition))));
+    let mut text = conclusion(summary, &variant);
+    text.push_str("\nChange of every measured quantity, in units of its error\n");
+    text.push_str(&wrapped("", &format!("{}. {SIGNS}.", capital(summary.definition))));
     text.push('\n');
     for family in families(summary) {
         text.push_str(&table(summary, family));
         text.push('\n');
     }
+    text.push_str("What each mechanism was\n");
     for row in &summary.mechanisms {
-        text.push_str(&wrapped("  ", &sentence(row, &summary.observables)));
+        text.push_str(&wrapped("  ", &format!("{}: {}", row.mechanism, row.strength())));
     }
     text
+}
+
+/// Which mechanisms the data could see, which perhaps, which not.
+fn conclusion(summary: &SensitivitySummary, variant: &str) -> String {
+    let sees = |row: &&MechanismEntry, sight: Sight| row.cells.iter().any(|cell| cell.sight == sight);
+    let rows = || summary.mechanisms.iter();
+    let seen: Vec<&MechanismEntry> = rows().filter(|row| sees(row, Sight::Seen)).collect();
+    let perhaps: Vec<&MechanismEntry> =
+        rows().filter(|row| !sees(row, Sight::Seen) && sees(row, Sight::Perhaps)).collect();
+    let unseen: Vec<&MechanismEntry> =
+        rows().filter(|row| !sees(row, Sight::Seen) && !sees(row, Sight::Perhaps)).collect();
+    let list = |found: &[&MechanismEntry]| match found {
+        [] => "none".to_string(),
+        some => some.iter().map(|row| named(row)).collect::<Vec<_>>().join(", "),
+    };
+    let head = format!(
+        "{}{variant}: data like these could see {} of {} mechanisms, each at the {} quantile of its priors ({} walls per family, \
+         seed {}).",
+        summary.study,
+        seen.len(),
+        summary.mechanisms.len(),
+        summary.quantile,
+        summary.members,
+        summary.seed
+    );
+    [
+        head,
+        format!("Seen: {}.", list(&seen)),
+        format!("Perhaps: {}.", list(&perhaps)),
+        format!("Not seen: {}.", list(&unseen)),
+    ]
+    .iter()
+    .map(|line| wrapped("", line))
+    .collect()
+}
+
+/// A mechanism with the largest change it makes, in errors.
+fn named(row: &MechanismEntry) -> String {
+    largest(row).map_or_else(|| row.mechanism.to_string(), |most| format!("{} ({most:.1})", row.mechanism))
 }
 
 fn families(summary: &SensitivitySummary) -> Vec<&str> {
@@ -41,19 +77,18 @@ fn families(summary: &SensitivitySummary) -> Vec<&str> {
     names
 }
 
-/// A line per mechanism and a column per observable of a family.
+/// A line per mechanism and a column per observable of a family, in as many tables as the width needs.
 fn table(summary: &SensitivitySummary, family: &str) -> String {
-    let columns: Vec<usize> =
-        (0..summary.observables.len()).filter(|&k| summary.observables[k].family == family).collect();
-    let mut header = vec![family.to_string()];
-    header.extend(columns.iter().map(|&k| heading(&summary.observables[k]).join(" ")));
-    let mut rows = vec![header];
-    for row in &summary.mechanisms {
-        let mut line = vec![row.mechanism.to_string()];
-        line.extend(columns.iter().map(|&k| row.cells[k].shown()));
-        rows.push(line);
-    }
-    aligned(rows)
+    let own = (0..summary.observables.len()).filter(|&k| summary.observables[k].family == family);
+    let columns: Vec<Vec<String>> = own
+        .map(|k| {
+            let head = heading(&summary.observables[k]).join(" ");
+            std::iter::once(head).chain(summary.mechanisms.iter().map(|row| row.cells[k].shown())).collect()
+        })
+        .collect();
+    let names = summary.mechanisms.iter().map(|row| row.mechanism.to_string());
+    let first: Vec<String> = std::iter::once(family.to_string()).chain(names).collect();
+    side_by_side(&first, &columns)
 }
 
 /// The head of a column, in two lines.
@@ -61,27 +96,6 @@ pub(super) fn heading(observable: &ObservableEntry) -> [String; 2] {
     let bound = if observable.bounds_only { " *" } else { "" };
     let tilt = observable.tilt_deg.map(|tilt| format!("{tilt} deg")).unwrap_or_default();
     [observable.short().to_string(), format!("{tilt}{bound}")]
-}
-
-/// Which of the data could see a mechanism.
-fn sentence(row: &MechanismEntry, observables: &[ObservableEntry]) -> String {
-    let list = |sight: Sight| {
-        let found = row.cells.iter().zip(observables).filter(|(cell, _)| cell.sight == sight);
-        found.map(|(cell, one)| format!("{} ({})", one.words(), cell.shown())).collect::<Vec<_>>()
-    };
-    let (seen, perhaps) = (list(Sight::Seen), list(Sight::Perhaps));
-    let said = match (seen.is_empty(), perhaps.is_empty()) {
-        (true, true) => match largest(row) {
-            Some(most) => format!("none of the data could see it (at most {most:.1} errors)"),
-            None => "none of the data could see it".to_string(),
-        },
-        (true, false) => format!("the data could perhaps see it in {}", perhaps.join(", ")),
-        (false, true) => format!("the data could see it in {}", seen.join(", ")),
-        (false, false) => {
-            format!("the data could see it in {}, and perhaps in {}", seen.join(", "), perhaps.join(", "))
-        }
-    };
-    format!("{} ({}): {said}.", row.mechanism, row.strength())
 }
 
 /// The largest change in errors, either way.

@@ -1,11 +1,13 @@
 //! Newton's method along the path of equilibria, with the level of the load among the unknowns; see [`super::follow`].
 
 use crate::math::Vec3;
-use crate::solve::implicit::newton::{GOOD_CONTRACTION, Newton, dot, norm};
+use crate::solve::implicit::newton::{GOOD_CONTRACTION, Newton, POOR_CONTRACTION, dot, norm};
 use crate::solve::implicit::{DOF, held};
 
 /// Iterations of a step along the path of equilibria.
-const MOST_ARC_ITERATIONS: u32 = 15;
+const MOST_ARC_ITERATIONS: u32 = 10;
+/// A residual that grows so many times in an iteration is lost.
+const LOST: f64 = 30.0;
 /// What counts as no displacement at all (m): far below the rounding of a position.
 const NOWHERE: f64 = 1e-17;
 /// Change of the level (rad, or a factor) over which the growth of the loads is taken.
@@ -58,6 +60,15 @@ impl Newton<'_, '_> {
         let mut moved = vec![0.0; DOF * self.assembly.bodies.all.len()];
         let (mut gone, mut before, mut fresh) = (0.0, f64::INFINITY, self.system.is_factorised());
         let mut iterations = 0;
+        if !fresh && !along.is_empty() {
+            // Where nothing has moved yet every joint sticks: the matrix of one that slides is made where the step leads.
+            let step: Vec<f64> = along.iter().map(|x| x * length).collect();
+            let share = self.allowed(&step);
+            let start = self.assembly.bodies.all.clone();
+            self.place(&start, &step, share);
+            moved = step.iter().map(|x| share * x).collect();
+            gone = share * length;
+        }
         let ratio = loop {
             (self.assembly.gravity, self.assembly.load_factor) = loads(level);
             let residual = self.residual();
@@ -67,14 +78,15 @@ impl Newton<'_, '_> {
                 break ratio;
             }
             let now = norm(&residual, &self.assembly.bodies.all);
-            if iterations == MOST_ARC_ITERATIONS || along.is_empty() || !now.is_finite() {
+            // The first step leaves the balance that it starts from; a later one that leaves it further does not come back.
+            let lost = iterations > 1 && now > LOST * before;
+            if iterations == MOST_ARC_ITERATIONS || along.is_empty() || !now.is_finite() || lost {
                 return None;
             }
             if !fresh || now > GOOD_CONTRACTION * before {
                 self.factorise()?;
             }
             fresh = true;
-            before = now;
             let loading = self.per_level(loads, level);
             let (a, b) = (self.system.solve(&residual), self.system.solve(&loading));
             let growth = (length - gone - self.product(along, &a)) / self.product(along, &b);
@@ -82,12 +94,15 @@ impl Newton<'_, '_> {
             if !step.iter().all(|x| x.is_finite()) {
                 return None;
             }
-            let share = self.allowed(&step);
+            // Between two sides of a corner of the law, where sub-contacts stick and slip in turn, it goes half of the way.
+            let turns = iterations > 1 && now > POOR_CONTRACTION * before;
+            let share = self.allowed(&step) * if turns { 0.5 } else { 1.0 };
             let start = self.assembly.bodies.all.clone();
             self.place(&start, &step, share);
             moved.iter_mut().zip(&step).for_each(|(m, s)| *m += share * s);
             gone += share * self.product(along, &step);
             level += share * growth;
+            before = now;
             self.effort.steps += 1;
             iterations += 1;
         };

@@ -2,7 +2,7 @@
 
 use crate::math::Vec3;
 use crate::solve::Assembly;
-use crate::solve::bodies::Body;
+use crate::solve::bodies::{Body, Freedom};
 use crate::solve::implicit::loose::is_singular;
 use crate::solve::implicit::system::{DOF, System, held};
 use crate::solve::implicit::{Kind, Settings};
@@ -11,9 +11,11 @@ use crate::solve::joints::Anchor;
 /// A residual that falls to less than this share in a step needs no new matrix.
 pub(super) const GOOD_CONTRACTION: f64 = 0.3;
 /// A residual that does not even fall to this share with a matrix of its own counts as stuck.
-const POOR_CONTRACTION: f64 = 0.9;
+pub(super) const POOR_CONTRACTION: f64 = 0.9;
 /// Steps in a row that may be stuck.
 const MOST_STUCK: u32 = 3;
+/// What is added to a block's diagonal is at most this share of the stiffness that its weight takes off a wall that leans.
+const HELD_BY_WEIGHT: f64 = 1e-4;
 /// Largest unbalanced force ratio that passes for rounding: the explicit solver's own limit.
 const MOST_ROUNDING: f64 = 1e-5;
 /// Trial steps of a line search.
@@ -127,7 +129,12 @@ impl Newton<'_, '_> {
             let largest = (0..3).fold(0.0, |m: f64, k| m.max(block[k][k]));
             // A block that has lost all its joints moves by half the reach under its weight.
             let fall = body.mass * gravity.norm() / (0.5 * contact.reach);
-            let k = if largest > 0.0 { self.settings.stabilisation * largest } else { fall.max(1.0) };
+            // Stiff joints make a share of their stiffness outweigh what the wall itself loses of it by leaning.
+            let leaning = HELD_BY_WEIGHT * body.mass * gravity.norm() / body.radius;
+            let k = match largest > 0.0 {
+                true => (self.settings.stabilisation * largest).min(leaning),
+                false => fall.max(1.0),
+            };
             let turning = k * body.gyration() * body.gyration();
             self.system.add_diagonal(index, [k, k, k, turning, turning, turning]);
         }
@@ -228,16 +235,27 @@ impl Newton<'_, '_> {
         self.residual()
     }
 
-    /// Puts every body where a share of a step takes it.
+    /// Puts every body where a share of a step takes it: along a screw, so that bodies that turn about one axis do not part.
+    /// Straight shifts would tear them apart by half the square of the turn, which stiff joints answer by many times the
+    /// weight.
     pub(super) fn place(&mut self, start: &[Body], step: &[f64], share: f64) {
         for ((body, from), u) in self.assembly.bodies.all.iter_mut().zip(start).zip(step.chunks_exact(DOF)) {
             if from.moves() {
                 let shift = Vec3::from_column_slice(&u[..3]) * share;
                 let turn = Vec3::from_column_slice(&u[3..]) * share;
+                // A platform goes up and down alone.
+                let shift = if from.freedom == Freedom::Mounted { shift } else { screwed(&shift, &turn) };
                 body.place(from, &shift, &turn);
             }
         }
     }
+}
+
+/// The shift of a body whose centroid begins with a shift and turns with it: Cayley's transform of the screw, as
+/// [`Body::place`] takes that of the turn, `(1 - [turn / 2])^-1 shift`.
+fn screwed(shift: &Vec3, turn: &Vec3) -> Vec3 {
+    let half = turn * 0.5;
+    (shift + half.cross(shift) + half * half.dot(shift)) / (1.0 + half.norm_squared())
 }
 
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {

@@ -53,12 +53,13 @@ impl Joints {
         settings: &contact::Settings,
         moved: &[bool],
     ) {
-        let shapes: Vec<_> = (0..bodies.all.len()).map(|i| bodies.world_shape(i)).collect();
+        let shapes: Vec<_> = (0..bodies.all.len()).map(|i| bodies.touching_shape(i)).collect();
         let mut old: BTreeMap<(u32, u32), Joint> = self.all.drain(..).map(|j| (j.pair(), j)).collect();
         for (a, b) in candidate_pairs(&shapes, 2.0 * settings.reach) {
             let carrier = |block: u32| bodies.carriers[block as usize];
             let moves = |block: u32| bodies.all[carrier(block)].moves();
-            let gone = self.removed.contains(&a) || self.removed.contains(&b);
+            let gone = |block: u32| self.removed.contains(&block) || bodies.is_merged(block as usize);
+            let gone = gone(a) || gone(b);
             if gone || carrier(a) == carrier(b) || !(moves(a) || moves(b)) {
                 continue;
             }

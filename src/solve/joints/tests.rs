@@ -27,6 +27,7 @@ fn pair(law: &Coulomb) -> Assembly<'_> {
         density: 2400.0,
         support: Support::Free,
         tag: Tag::Stone,
+        group: None,
     };
     let wall = Wall {
         blocks: vec![block([0.0, 0.0, 0.0], [0.4, 0.3, 0.1]), block([0.15, 0.05, 0.1], [0.5, 0.25, 0.25])],

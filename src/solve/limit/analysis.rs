@@ -1,5 +1,7 @@
 //! The questions that limit analysis answers: does it stand, and how much can it bear?
 
+use clarabel::solver::SolverStatus;
+
 use crate::contact;
 use crate::math::Vec3;
 use crate::model::{JointLaws, Level, Outcome, Wall};
@@ -7,6 +9,7 @@ use crate::solve::Tie;
 use crate::solve::limit::audit::audit;
 use crate::solve::limit::collapse::{mechanism, thrust};
 use crate::solve::limit::interfaces::{Blocks, Rope};
+use crate::solve::limit::interior;
 use crate::solve::limit::loads::{When, Wrench};
 use crate::solve::limit::program::{Program, Solved, axes};
 use crate::solve::limit::strength::Strength;
@@ -14,6 +17,9 @@ use crate::solve::limit::{Accuracy, BlockMotion, Cone, Flow, Limit, Loads, Setti
 
 /// A wall stands when it bears all but this share of its dead loads: the accuracy of the solver.
 const ALL: f64 = 1.0 - 1e-6;
+
+/// Miss of an answer with which no better one is looked for.
+const EXACT: f64 = 1e-8;
 
 /// An assembly of rigid blocks whose joints have been found: to be asked for many loads.
 ///
@@ -55,7 +61,7 @@ pub struct Standing {
     pub stands: Option<bool>,
     /// The largest share of the dead loads that can be borne, at most 1. Without cohesion 0 or 1.
     pub share: f64,
-    /// How the blocks start to move when they do not stand, see [`Limit::mechanism`].
+    /// How the blocks start to move when they do not stand, see [`Limit::mechanism`]; empty when they do.
     pub mechanism: Vec<BlockMotion>,
     /// The joint forces of one admissible state.
     pub thrust: Vec<Thrust>,
@@ -80,6 +86,17 @@ pub(crate) struct Answer {
 }
 
 impl Answer {
+    /// By how much forces and mechanism miss what they should be: the largest of the audit's relative numbers, those of
+    /// the mechanism only where there is one.
+    fn miss(&self) -> f64 {
+        let (a, solved) = (&self.accuracy, &self.solved);
+        let gap = a.gap.abs() / solved.multiplier.abs().max(1.0);
+        let all = [a.residual, a.excess, a.incompatibility, gap];
+        let counted = if self.capped { &all[..2] } else { &all[..] };
+        // What is no number is no answer.
+        counted.iter().fold(0.0, |most: f64, x| if x.is_nan() { f64::INFINITY } else { most.max(*x) })
+    }
+
     /// Whether forces and mechanism can be believed.
     pub fn is_good(&self) -> bool {
         if self.capped {
@@ -103,8 +120,17 @@ impl Answer {
     }
 
     /// The result with this outcome.
-    pub fn into_limit(self, outcome: Outcome, multiplier: f64, flow: Flow, before: u32) -> Limit {
+    pub fn into_limit(mut self, outcome: Outcome, multiplier: f64, flow: Flow, before: u32) -> Limit {
+        if matches!(outcome, Outcome::Equilibrium | Outcome::Unbounded) {
+            // What a solver leaves among its velocities where nothing collapses is no mechanism.
+            self.mechanism.fill(BlockMotion::default());
+        }
+        let a = &self.accuracy;
+        let verified =
+            a.accepts_state() && a.incompatibility <= EXACT && a.kinematic >= self.solved.multiplier;
+        let lost = matches!(outcome, Outcome::NotConverged { .. });
         Limit {
+            between: (lost && verified).then(|| [self.solved.multiplier.max(0.0), a.kinematic]),
             outcome,
             multiplier,
             flow,
@@ -139,8 +165,13 @@ impl Analysis {
     /// The same blocks with ties, which are ropes that do not stretch: each bears any pull. Stiffness, pretension and slack
     /// play no part; a rope that is slack at first holds as if it were taut, so that the multiplier stays an upper bound.
     pub fn with_ties(mut self, ties: &[Tie]) -> Self {
-        let rope =
-            |t: &Tie| Rope { block: t.body, at: t.point, direction: t.direction, two_sided: t.two_sided };
+        let (origin, leads) = (self.blocks.origin, &self.blocks.leads);
+        let rope = |t: &Tie| Rope {
+            block: leads[t.body],
+            at: t.point - origin,
+            direction: t.direction,
+            two_sided: t.two_sided,
+        };
         self.blocks.ties = ties.iter().map(rope).collect();
         self
     }
@@ -164,7 +195,7 @@ impl Analysis {
         Standing {
             stands: answer.is_good().then_some(answer.capped),
             share: answer.solved.multiplier.clamp(0.0, 1.0),
-            mechanism: answer.mechanism,
+            mechanism: if answer.capped { Vec::new() } else { answer.mechanism },
             thrust: answer.thrust,
             accuracy: answer.accuracy,
             iterations: answer.solved.iterations,
@@ -176,19 +207,14 @@ impl Analysis {
     pub fn multiplier(&self, loads: &Loads) -> Limit {
         let applied = self.applied(loads);
         let flow = self.settings.flow;
-        let rest = self.at_rest(&applied);
-        if !rest.is_good() {
-            let (outcome, share) = (rest.not_converged(Level::Multiplier(0.0)), rest.solved.multiplier);
-            return rest.into_limit(outcome, share, flow, 0);
-        }
-        if !rest.capped {
-            let share = rest.solved.multiplier;
-            return rest.into_limit(Outcome::UnstableAtRest, share, flow, 0);
-        }
-        let before = rest.solved.iterations;
+        let before = match self.stands_at_rest(&applied, Level::Multiplier(0.0)) {
+            Ok(spent) => spent,
+            Err(limit) => return *limit,
+        };
         let cap = self.settings.largest_multiplier;
         let answer = self.largest(&applied, &self.strengths, cap);
-        let found = answer.solved.multiplier;
+        // It stands at rest: what is below 0 is so by the solver's accuracy.
+        let found = answer.solved.multiplier.max(0.0);
         if !answer.is_good() {
             let outcome = answer.not_converged(Level::Multiplier(found));
             return answer.into_limit(outcome, found, flow, before);
@@ -215,17 +241,39 @@ impl Analysis {
         }
     }
 
+    /// The iterations that it took to find that the wall stands under the dead loads; else how it does not.
+    pub(crate) fn stands_at_rest(&self, applied: &Applied, at: Level) -> Result<u32, Box<Limit>> {
+        let flow = self.settings.flow;
+        let rest = self.at_rest(applied);
+        let share = rest.solved.multiplier.clamp(0.0, 1.0);
+        if !rest.is_good() {
+            let outcome = rest.not_converged(at);
+            return Err(Box::new(rest.into_limit(outcome, share, flow, 0)));
+        }
+        if !rest.capped {
+            return Err(Box::new(rest.into_limit(Outcome::UnstableAtRest, share, flow, 0)));
+        }
+        let spent = rest.solved.iterations;
+        if flow == Flow::Associative {
+            return Ok(spent);
+        }
+        let (share, more) = self.share_without_dilatancy(applied, &rest);
+        if share < 1.0 {
+            return Err(Box::new(rest.into_limit(Outcome::UnstableAtRest, share, flow, more)));
+        }
+        Ok(spent + more)
+    }
+
     /// The largest share of the dead loads, at most 1.
     pub(crate) fn at_rest(&self, applied: &Applied) -> Answer {
         let none = vec![Wrench::default(); applied.dead.len()];
-        let mut answer = self.solve(&none, &applied.dead, &applied.axes, &self.strengths, 1.0);
-        answer.capped = answer.solved.multiplier >= ALL;
-        answer
+        let program = self.program(&none, &applied.dead, &applied.axes, &self.strengths, 1.0);
+        self.answer(&Program { enough: true, ..program })
     }
 
     /// The largest multiplier up to a cap, for given strengths.
     pub(crate) fn largest(&self, applied: &Applied, strengths: &[Strength], cap: f64) -> Answer {
-        self.solve(&applied.dead, &applied.live, &applied.axes, strengths, cap)
+        self.answer(&self.program(&applied.dead, &applied.live, &applied.axes, strengths, cap))
     }
 
     /// Whether the live loads can grow without end: they can if they have an equilibrium of their own within the cones that
@@ -233,21 +281,22 @@ impl Analysis {
     fn beyond(&self, applied: &Applied) -> (Outcome, u32) {
         let none = vec![Wrench::default(); applied.live.len()];
         let cones: Vec<Strength> = self.strengths.iter().map(Strength::recession).collect();
-        let answer = self.solve(&none, &applied.live, &applied.axes, &cones, 1.0);
+        let program = self.program(&none, &applied.live, &applied.axes, &cones, 1.0);
+        let answer = self.answer(&Program { enough: true, ..program });
         let unbounded = answer.solved.multiplier >= ALL && answer.accuracy.accepts_state();
         let outcome = if unbounded { Outcome::Unbounded } else { Outcome::Equilibrium };
         (outcome, answer.solved.iterations)
     }
 
-    fn solve(
-        &self,
-        dead: &[Wrench],
-        live: &[Wrench],
-        axes: &[[Vec3; 2]],
-        strengths: &[Strength],
+    pub(crate) fn program<'p>(
+        &'p self,
+        dead: &'p [Wrench],
+        live: &'p [Wrench],
+        axes: &'p [[Vec3; 2]],
+        strengths: &'p [Strength],
         cap: f64,
-    ) -> Answer {
-        let program = Program {
+    ) -> Program<'p> {
+        Program {
             blocks: &self.blocks,
             axes,
             strengths,
@@ -256,14 +305,36 @@ impl Analysis {
             cap,
             cone: self.settings.cone,
             tolerance: self.settings.tolerance,
-        };
-        let solved = program.solve();
+            enough: false,
+            pressure: 0.0,
+            near: None,
+        }
+    }
+
+    /// The program's solution by the method made for it or, where that does not apply or is not exact, by clarabel: the
+    /// better of the two.
+    pub(crate) fn answer(&self, program: &Program) -> Answer {
+        let quick = interior::solve(program).map(|solved| self.audited(program, solved));
+        match quick {
+            Some(quick) if quick.miss() <= EXACT => quick,
+            // The audit knows of the multiplier alone, not of what else is asked for.
+            Some(quick) if program.has_preference() && quick.solved.status == SolverStatus::Solved => quick,
+            quick => {
+                let slow = self.audited(program, program.solve());
+                // Clarabel alone can prove that there is no state at all.
+                let better = |quick: &Answer| quick.is_good() && quick.miss() < slow.miss();
+                quick.filter(better).unwrap_or(slow)
+            }
+        }
+    }
+
+    pub(crate) fn audited(&self, program: &Program, solved: Solved) -> Answer {
         Answer {
-            accuracy: audit(&program, &solved),
-            mechanism: mechanism(&program, &solved),
-            thrust: thrust(&program, &solved),
-            excess: crate::solve::limit::audit::excess(&self.strengths, &program, &solved),
-            capped: solved.multiplier >= cap * ALL,
+            accuracy: audit(program, &solved),
+            mechanism: mechanism(program, &solved),
+            thrust: thrust(program, &solved),
+            excess: crate::solve::limit::audit::excess(&self.strengths, program, &solved),
+            capped: solved.multiplier >= program.cap * ALL,
             solved,
         }
     }

@@ -25,6 +25,10 @@ pub struct Limit {
     pub accuracy: Accuracy,
     /// Iterations of the conic solver, over all programs solved.
     pub iterations: u32,
+    /// What is known of the multiplier where it was not found: between these. With associative flow from a state in
+    /// equilibrium and a mechanism that agree too little, so that the true one is between; without dilatancy where the search
+    /// went last, which bounds nothing. `None` where even that is not known.
+    pub between: Option<[f64; 2]>,
     /// The search for a state without dilatancy, for [`Flow::NonAssociative`].
     pub fixed_point: Option<FixedPoint>,
 }
@@ -32,7 +36,7 @@ pub struct Limit {
 /// Velocity of a block in the mechanism.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BlockMotion {
-    /// Velocity of the centroid (m/s), world axes.
+    /// Velocity of the centroid (m/s), world axes; for a part of a stone that of the stone.
     pub velocity: Vec3,
     /// Angular velocity (rad/s), world axes.
     pub spin: Vec3,
@@ -41,7 +45,7 @@ pub struct BlockMotion {
 /// What a joint carries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Thrust {
-    /// The two blocks, lower id first.
+    /// The two blocks, lower id first; the first part of a stone for all of its parts.
     pub blocks: (u32, u32),
     /// Force (N) on the second block.
     pub force: Vec3,
@@ -69,12 +73,14 @@ pub struct Accuracy {
 pub struct FixedPoint {
     /// Programs solved.
     pub iterations: u32,
-    /// Whether the multiplier came to rest, and the shear strengths with it or nearly so: see `excess`.
+    /// Whether the multiplier came to rest, and the shear strengths with it: see `excess`.
     pub converged: bool,
-    /// Change of the multiplier in the last iteration.
+    /// By how much the last program's multiplier is above that of the state found.
     pub change: f64,
     /// Largest excess of a contact's shear over Coulomb's law at the end, over the blocks' mean weight.
     pub excess: f64,
+    /// Least and largest multiplier of the last programs: what is known of a search that did not converge.
+    pub range: [f64; 2],
 }
 
 /// The mechanism of a solution, scaled to a largest velocity of 1 m/s at the contact points.
@@ -88,11 +94,11 @@ pub(crate) fn mechanism(program: &Program, solved: &Solved) -> Vec<BlockMotion> 
         }
     }
     let scale = if fastest > 0.0 { 1.0 / fastest } else { 0.0 };
-    solved
-        .velocities
-        .iter()
-        .map(|v| BlockMotion { velocity: v.force * scale, spin: v.moment * scale })
-        .collect()
+    let motion = |&lead: &usize| {
+        let v = &solved.velocities[lead];
+        BlockMotion { velocity: v.force * scale, spin: v.moment * scale }
+    };
+    program.blocks.leads.iter().map(motion).collect()
 }
 
 /// The forces of a solution summed up by joint.
@@ -112,7 +118,7 @@ pub(crate) fn thrust(program: &Program, solved: &Solved) -> Vec<Thrust> {
         all.push(Thrust {
             blocks: (a as u32, b as u32),
             force: if joint.incident == b { sum } else { -sum },
-            at: carries.then(|| moment / pressure),
+            at: carries.then(|| moment / pressure + program.blocks.origin),
         });
     }
     all

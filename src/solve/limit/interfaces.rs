@@ -4,7 +4,7 @@ use crate::contact::{self, Feature, Patch, candidate_pairs, find_patch};
 use crate::law::{Coulomb, PATCHES_ALONG, Sampling};
 use crate::math::Vec3;
 use crate::model::{JointLaws, Support, Wall};
-use crate::shape::{Polygon, Polyhedron};
+use crate::shape::{MassProperties, Polygon, Polyhedron, convex_union};
 use crate::solve::limit::loads::{Loads, When, Wrench};
 
 /// A block as limit analysis sees it.
@@ -21,7 +21,7 @@ pub(crate) struct Rigid {
 /// A joint: who presses on whom, and where.
 #[derive(Clone, Debug)]
 pub(crate) struct Interface {
-    /// Block whose face carries the polygon.
+    /// Block whose face carries the polygon; here and in the next the first part of a stone for all of its parts.
     pub incident: usize,
     /// Block whose plane gives the direction of the pressure.
     pub reference: usize,
@@ -52,7 +52,12 @@ pub(crate) struct Rope {
 /// The blocks of a wall, their joints and their ropes.
 #[derive(Clone, Debug)]
 pub(crate) struct Blocks {
+    /// Where positions count from (m, in the wall's coordinates), see [`Wall::local_origin`].
+    pub origin: Vec3,
+    /// By block. The first part of a stone of several is the whole of it; the others are fixed and have no part in anything.
     pub rigid: Vec<Rigid>,
+    /// For every block the one that stands for its body, see [`Wall::leads`].
+    pub leads: Vec<usize>,
     pub interfaces: Vec<Interface>,
     /// Ropes: a pull of any size.
     pub ties: Vec<Rope>,
@@ -69,7 +74,8 @@ impl Rigid {
 impl Blocks {
     /// The blocks where the wall has them, and the joints between those that touch within `closed_gap` (m).
     pub fn of(wall: &Wall, laws: &dyn JointLaws, contact: &contact::Settings, closed_gap: f64) -> Self {
-        let rigid: Vec<Rigid> = wall
+        let (origin, wall) = wall.about_local_origin();
+        let mut rigid: Vec<Rigid> = wall
             .blocks
             .iter()
             .map(|block| {
@@ -84,17 +90,32 @@ impl Blocks {
                 }
             })
             .collect();
-        let shapes: Vec<Polyhedron> = wall.blocks.iter().map(|b| b.shape.clone()).collect();
+        let leads = wall.leads();
+        let mut shapes: Vec<Polyhedron> = wall.blocks.iter().map(|b| b.shape.clone()).collect();
+        let mut merged = vec![false; shapes.len()];
+        for (lead, parts) in wall.parts() {
+            rigid[lead] = whole(&wall, &parts);
+            let solids: Vec<&Polyhedron> = parts.iter().map(|&part| &wall.blocks[part].shape).collect();
+            // As in the other solvers, a stone that is convex as a whole touches as one.
+            let solid = convex_union(&solids);
+            for &part in parts.iter().filter(|&&part| part != lead) {
+                rigid[part].support = Support::Fixed;
+                merged[part] = solid.is_some();
+            }
+            shapes[lead] = solid.unwrap_or_else(|| wall.blocks[lead].shape.clone());
+        }
         let closed = closed_gap.max(contact.touch);
         let mut interfaces = Vec::new();
         for (a, b) in candidate_pairs(&shapes, 2.0 * contact.reach) {
             let (a, b) = (a as usize, b as usize);
+            let moves = |block: usize| rigid[leads[block]].moves();
             let is_absent = [a, b].iter().any(|&block| rigid[block].support == Support::Absent);
-            if is_absent || (!rigid[a].moves() && !rigid[b].moves()) {
+            let is_one = leads[a] == leads[b] || merged[a] || merged[b];
+            if is_absent || is_one || (!moves(a) && !moves(b)) {
                 continue;
             }
             // As in the other solvers, what is fixed is the preferred reference.
-            let (first, second) = if rigid[b].moves() { (a, b) } else { (b, a) };
+            let (first, second) = if moves(b) { (a, b) } else { (b, a) };
             let Some(patch) = find_patch(&shapes[first], &shapes[second], contact) else { continue };
             let law = laws.of(a as u32, b as u32);
             let points = contact_points(&patch, closed, law.sampling);
@@ -103,12 +124,13 @@ impl Blocks {
             }
             let (incident, reference) =
                 if patch.reference_is_second { (first, second) } else { (second, first) };
+            let (incident, reference) = (leads[incident], leads[reference]);
             interfaces.push(Interface { incident, reference, normal: patch.plane.normal, law, points });
         }
         let moving: Vec<f64> = rigid.iter().filter(|r| r.moves()).map(|r| r.mass).collect();
         let mean = moving.iter().sum::<f64>() / moving.len().max(1) as f64;
         let unit = if mean > 0.0 { mean * crate::solve::STANDARD_GRAVITY } else { 1.0 };
-        Blocks { rigid, interfaces, ties: Vec::new(), unit }
+        Blocks { origin, rigid, leads, interfaces, ties: Vec::new(), unit }
     }
 
     /// The dead or the live loads on every block.
@@ -120,7 +142,8 @@ impl Blocks {
             .map(|r| Wrench { force: acceleration * r.mass, moment: Vec3::zeros() })
             .collect();
         for load in loads.points.iter().filter(|p| p.when == when) {
-            wrenches[load.block].add(load.point - self.rigid[load.block].centroid, load.force);
+            let body = self.leads[load.block];
+            wrenches[body].add(load.point - self.origin - self.rigid[body].centroid, load.force);
         }
         wrenches
     }
@@ -129,6 +152,17 @@ impl Blocks {
     pub fn points(&self) -> impl Iterator<Item = (&Interface, &ContactPoint)> {
         self.interfaces.iter().flat_map(|joint| joint.points.iter().map(move |point| (joint, point)))
     }
+}
+
+/// The parts of a stone as one.
+fn whole(wall: &Wall, parts: &[usize]) -> Rigid {
+    let blocks = || parts.iter().map(|&part| &wall.blocks[part]);
+    let masses: Vec<MassProperties> =
+        blocks().map(|block| block.shape.mass_properties().times(block.density)).collect();
+    let MassProperties { volume: mass, centroid, .. } = MassProperties::together(&masses);
+    let corners = blocks().flat_map(|block| &block.shape.vertices);
+    let radius = corners.map(|v| (v - centroid).norm()).fold(0.0, f64::max);
+    Rigid { centroid, mass, radius, support: wall.blocks[parts[0]].support }
 }
 
 /// The vertices of the part of a patch where the gap is at most `closed`, with their shares of its area.

@@ -16,6 +16,9 @@
 //! limited by the tensile strength `T` and by the envelope's apex `c / tan(phi)`, whichever is less. A bonded joint
 //! carries anything.
 //!
+//! An interior-point method made for this program solves it (`interior`); clarabel solves what that one does not: pyramids,
+//! forces without a cone, and a state that does not exist.
+//!
 //! The cone is kept as it is (a second-order cone), or replaced by the pyramid **inscribed** in it, whose first edge lies
 //! along the load's projection on the joint: a statically admissible state of the pyramid is one of the cone, so its
 //! multiplier is never larger, and it is equal where the shear runs along an edge, as in a wall loaded in its plane.
@@ -31,7 +34,7 @@
 //! ```
 //!
 //! It is recomputed here from the velocities, as the equilibrium residual is from the forces: gap and residual do not rest
-//! on the solver's word. Real joints dilate less, so **the associative multiplier is an upper bound on what a wall
+//! on a solver's word, whichever it was. Real joints dilate less, so **the associative multiplier is an upper bound on what a wall
 //! with Coulomb joints can bear** under any flow rule (Radenkovic 1961), and so is `atan(lambda)` on the angle.
 //! [`Flow::NonAssociative`] looks for a state with zero dilatancy, see `flow`; its multiplier is **neither a bound nor
 //! unique**, but never above the associative one.
@@ -46,8 +49,10 @@ mod audit;
 mod collapse;
 mod flow;
 mod interfaces;
+mod interior;
 mod loads;
 mod program;
+mod self_stress;
 mod settings;
 mod strength;
 mod tilt;

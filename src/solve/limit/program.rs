@@ -29,6 +29,21 @@ pub(crate) struct Program<'a> {
     pub cap: f64,
     pub cone: Cone,
     pub tolerance: f64,
+    /// Whether a state that reaches the cap is all that is asked. All loads are live then, and no load at all is borne.
+    pub enough: bool,
+    /// What a normal force of one unit of force costs, in multipliers.
+    pub pressure: f64,
+    /// Normal forces that the solution is to be near.
+    pub near: Option<Near<'a>>,
+}
+
+/// A preference among the states that bear as much: half of the weight times the squares of the distances, over the unit
+/// of force, is taken off the multiplier.
+#[derive(Clone, Copy)]
+pub(crate) struct Near<'a> {
+    pub weight: f64,
+    /// Normal force (N) at every contact point.
+    pub normal: &'a [f64],
 }
 
 /// What the solver gave; nothing of it is believed before it has been audited.
@@ -124,7 +139,12 @@ fn components(support: Support, wrench: &Wrench, radius: f64) -> ([f64; 6], usiz
 }
 
 impl Program<'_> {
-    /// Solves the program.
+    /// Whether more than the multiplier is asked for.
+    pub fn has_preference(&self) -> bool {
+        self.near.is_some() || self.pressure > 0.0
+    }
+
+    /// Solves the program as it stands, by clarabel.
     pub fn solve(&self) -> Solved {
         let (first, equations) = first_rows(self.blocks);
         let columns = self.columns();
@@ -133,11 +153,9 @@ impl Program<'_> {
         let mut matrix = self.equilibrium(&first, equations, &columns);
         self.pull(&mut matrix, &first, ropes);
         let cones = self.strength(&mut matrix, &columns, equations, ropes);
-        let mut objective = vec![0.0; unknowns];
-        objective[0] = -1.0;
+        let (objective, quadratic) = self.objective(&columns, unknowns);
         let Matrix { rows, columns: at, values, right } = matrix;
         let constraints = CscMatrix::new_from_triplets(right.len(), unknowns, rows, at, values);
-        let quadratic = CscMatrix::zeros((unknowns, unknowns));
         let mut solver =
             DefaultSolver::new(&quadratic, &objective, &constraints, &right, &cones, self.settings())
                 .expect("the program's dimensions agree");
@@ -151,6 +169,22 @@ impl Program<'_> {
             iterations: solver.solution.iterations,
             status: solver.solution.status,
         }
+    }
+
+    /// Slopes and curvatures of what is minimised.
+    fn objective(&self, columns: &[(usize, usize)], unknowns: usize) -> (Vec<f64>, CscMatrix<f64>) {
+        let (mut slopes, mut curvatures) = (vec![0.0; unknowns], vec![0.0; unknowns]);
+        slopes[0] = -1.0;
+        for (k, &(column, _)) in columns.iter().enumerate() {
+            slopes[column] = self.pressure;
+            if let Some(near) = self.near {
+                slopes[column] -= near.weight * near.normal[k] / self.blocks.unit;
+                curvatures[column] = near.weight;
+            }
+        }
+        let curved: Vec<usize> = (0..unknowns).filter(|&k| curvatures[k] > 0.0).collect();
+        let values = curved.iter().map(|&k| curvatures[k]).collect();
+        (slopes, CscMatrix::new_from_triplets(unknowns, unknowns, curved.clone(), curved, values))
     }
 
     fn settings(&self) -> DefaultSettings<f64> {
@@ -179,13 +213,13 @@ impl Program<'_> {
     }
 
     /// Directions of the unit forces of a joint's contact points.
-    fn directions(&self, joint: usize) -> [Vec3; 3] {
+    pub(super) fn directions(&self, joint: usize) -> [Vec3; 3] {
         let [e1, e2] = self.axes[joint];
         [self.blocks.interfaces[joint].normal, e1, e2]
     }
 
     /// Every contact point as (joint, interface, position).
-    fn points(&self) -> impl Iterator<Item = (usize, &Interface, Vec3)> {
+    pub(super) fn points(&self) -> impl Iterator<Item = (usize, &Interface, Vec3)> {
         let joints = self.blocks.interfaces.iter().enumerate();
         joints.flat_map(|(j, interface)| interface.points.iter().map(move |p| (j, interface, p.at)))
     }

@@ -14,7 +14,8 @@ pub enum Cone {
 }
 
 /// How joints dilate when they slide.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Flow {
     /// Sliding dilates by the friction angle: the multiplier is an upper bound on any real capacity.
     Associative,

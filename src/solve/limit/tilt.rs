@@ -37,18 +37,10 @@ impl Analysis {
     pub fn tilt(&self, direction: Vec3, dead: &[PointLoad]) -> Limit {
         let mut loads = Loads::lateral(direction);
         loads.points = dead.to_vec();
-        let flow = self.settings.flow;
-        let applied = self.applied(&loads);
-        let rest = self.at_rest(&applied);
-        if !rest.is_good() {
-            let (outcome, share) = (rest.not_converged(Level::Tilt(0.0)), rest.solved.multiplier);
-            return rest.into_limit(outcome, share, flow, 0);
-        }
-        if !rest.capped {
-            let share = rest.solved.multiplier;
-            return rest.into_limit(Outcome::UnstableAtRest, share, flow, 0);
-        }
-        let spent = rest.solved.iterations;
+        let spent = match self.stands_at_rest(&self.applied(&loads), Level::Tilt(0.0)) {
+            Ok(spent) => spent,
+            Err(limit) => return *limit,
+        };
         let tried = self.try_angle(0.0, &loads);
         if self.strengths.iter().all(Strength::is_cone) && dead.is_empty() {
             return self.finish(tried, spent, FRAC_PI_2);
@@ -112,7 +104,8 @@ impl Analysis {
     fn finish(&self, tried: Tried, spent: u32, most: f64) -> Limit {
         let Tried { answer, applied, .. } = tried;
         let flow = self.settings.flow;
-        let found = answer.solved.multiplier.min(tan(most));
+        // It stands at rest: what is below 0 is so by the solver's accuracy.
+        let found = answer.solved.multiplier.min(tan(most)).max(0.0);
         let level: fn(f64) -> Level = |lambda| Level::Tilt(atan(lambda));
         if !answer.is_good() {
             let outcome = answer.not_converged(level(found));

@@ -8,6 +8,7 @@ const LATERAL: &[&str] = &["lateral"];
 const TILTING: &[&str] = &["tilting"];
 const EXPLICIT: &[&str] = &["explicit"];
 const IMPLICIT: &[&str] = &["implicit"];
+const LIMIT: &[&str] = &["limit"];
 const RATIO_OF_FORCES: Kind = Kind::Real { unit: "1", within: Interval::open(0.0, 1.0) };
 const AT_REST: &str = "At rest when the unbalanced force ratio falls below this.";
 
@@ -55,6 +56,13 @@ pub static LOAD: Section = Section {
             Kind::Choice(&["x+", "x-", "y+", "y-"]),
             Default("\"y+\""),
             "The side of the platform that goes down; y+ is the wall's front.",
+        )
+        .only(TILTING),
+        Key::new(
+            "towards_deg",
+            real("deg", Interval::closed(-360.0, 360.0)),
+            Optional,
+            "The same as an angle from x+, counter-clockwise seen from above (90 is y+), instead of towards.",
         )
         .only(TILTING),
         Key::new(
@@ -225,10 +233,19 @@ pub static SOLVER: Section = Section {
     keys: &[&[
         Key::new(
             "name",
-            Kind::Choice(&["explicit", "implicit"]),
+            Kind::Choice(&["explicit", "implicit", "limit"]),
             Default("\"explicit\""),
-            "Central differences with local damping; or Newton's method from equilibrium to equilibrium.",
+            "Central differences with local damping; Newton's method from equilibrium to equilibrium; or limit analysis of \
+             rigid blocks, which gives the collapse load and no displacements.",
         ),
+        Key::new(
+            "flow",
+            Kind::Choice(&["associative", "non-associative"]),
+            Default("\"associative\""),
+            "Whether joints dilate when they slide: an upper bound on the capacity; or a state without dilatancy, neither a \
+             bound nor unique.",
+        )
+        .only(LIMIT),
         Key::new(
             "agreement",
             Kind::Flag,

@@ -1,13 +1,16 @@
-//! The lines of a CSV file as cells with their places (RFC 4180, with comments).
+//! The lines of a table as cells with their places (RFC 4180, with comments), as people and spreadsheets write them.
 //!
-//! Cells are separated by commas; quotes around a cell let it hold commas, and a doubled quote in it is one quote. A cell
-//! ends on its line. Lines that are blank, and those that begin with `#`, are skipped. The byte order mark that
-//! spreadsheets write, and the carriage return before a line's end, are no part of a cell.
+//! Cells are separated by commas, semicolons or tabs; quotes around a cell let it hold the separator, and a doubled quote in it is
+//! one quote. A cell ends on its line. Lines that are blank, rows of nothing but separators, and lines that begin with `#`, are
+//! skipped, and so is a first line `sep=;`, by which a spreadsheet is told the separator.
 
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::study::fault::{Fault, Found, Place, Source};
+use crate::study::fault::{self, Fault, Found, Place, Source};
+
+/// Separators in the order in which they are preferred where nothing tells.
+const SEPARATORS: [char; 3] = [',', ';', '\t'];
 
 /// A cell.
 #[derive(Clone, Debug)]
@@ -24,25 +27,56 @@ pub struct Line {
     pub cells: Vec<Cell>,
     /// The whole line.
     pub place: Place,
+    /// Its number, from 1.
+    pub number: usize,
 }
 
-/// Every line that holds cells, first the header; a line that cannot be cut into cells is noted and left out.
-pub fn lines(source: &Arc<Source>, faults: &mut Vec<Fault>) -> Vec<Line> {
+/// A file cut into cells.
+pub struct Table {
+    /// What stands between them.
+    pub separator: char,
+    /// Every line that holds cells, first the header.
+    pub lines: Vec<Line>,
+}
+
+/// Cuts a file by the separator that makes the most known columns of its first line that holds cells, by `sep=` where two make as
+/// many; a line that cannot be cut is noted and left out.
+pub fn table(source: &Arc<Source>, is_column: impl Fn(&str) -> bool, faults: &mut Vec<Fault>) -> Table {
+    let text = |span: &Range<usize>| &source.text[span.clone()];
+    let mut spans = (1..).zip(fault::lines(&source.text)).peekable();
+    let first = spans.next_if(|(_, first)| told_separator(text(first)).is_some());
+    let told = first.and_then(|(_, first)| told_separator(text(&first)));
+    let spans: Vec<(usize, Range<usize>)> = spans.filter(|(_, span)| !is_without_cells(text(span))).collect();
+    let known = |separator: char| {
+        let header = spans.first().and_then(|(_, span)| cells(source, span.clone(), separator).ok());
+        header.map_or(0, |cells| cells.iter().filter(|cell| is_column(&cell.text)).count())
+    };
+    // The last of those that are best is taken.
+    let preferred = SEPARATORS.into_iter().rev().chain(told);
+    let separator = preferred.max_by_key(|separator| known(*separator)).unwrap_or(',');
     let mut lines = Vec::new();
-    let mut start = source.text.find(|c| c != '\u{feff}').unwrap_or(0);
-    for line in source.text[start..].split_inclusive('\n') {
-        let text = line.trim_end_matches(['\n', '\r']);
-        let from = start;
-        start += line.len();
-        if text.trim().is_empty() || text.trim_start().starts_with('#') {
-            continue;
-        }
-        match cells(source, from..from + text.len()) {
-            Ok(cells) => lines.push(Line { cells, place: place(source, from..from + text.len()) }),
+    for (number, span) in spans {
+        match cells(source, span.clone(), separator) {
+            Ok(cells) => lines.push(Line { cells, place: place(source, span), number }),
             Err(fault) => faults.push(*fault),
         }
     }
-    lines
+    Table { separator, lines }
+}
+
+/// The separator that a line `sep=;` tells; `None` of any other line. A spreadsheet that takes it for a row adds empty cells.
+fn told_separator(line: &str) -> Option<char> {
+    let line = line.trim_matches([' ', '"']);
+    let told = line.get(..4).filter(|start| start.eq_ignore_ascii_case("sep=")).and(line.get(4..))?;
+    let separator = told.chars().next().filter(|c| !c.is_alphanumeric() && *c != '"')?;
+    told.chars().all(|c| c == separator || c == '"' || SEPARATORS.contains(&c)).then_some(separator)
+}
+
+/// Whether a line is blank, a comment, or a row of nothing but separators.
+fn is_without_cells(line: &str) -> bool {
+    let written = line.trim().trim_start_matches('"').trim_start();
+    written.starts_with('#')
+        || line.chars().all(|c| c.is_whitespace() || c == '"' || c == '|' || SEPARATORS.contains(&c))
 }
 
 fn place(source: &Arc<Source>, span: Range<usize>) -> Place {
@@ -50,20 +84,22 @@ fn place(source: &Arc<Source>, span: Range<usize>) -> Place {
 }
 
 /// Cuts one line.
-fn cells(source: &Arc<Source>, line: Range<usize>) -> Result<Vec<Cell>, Box<Fault>> {
+fn cells(source: &Arc<Source>, line: Range<usize>, separator: char) -> Result<Vec<Cell>, Box<Fault>> {
+    // A tab is a blank unless it separates.
+    let is_blank = |c: char| c.is_whitespace() && c != separator;
     let mut cells = Vec::new();
     let mut from = line.start;
     loop {
         let rest = &source.text[from..line.end];
-        let blank = rest.len() - rest.trim_start().len();
+        let blank = rest.len() - rest.trim_start_matches(is_blank).len();
         let length = if rest[blank..].starts_with('"') {
-            quoted_length(&rest[blank..]).map(|length| blank + length)
+            quoted_length(&rest[blank..], separator).map(|length| blank + length)
         } else {
-            Ok(rest.find(',').unwrap_or(rest.len()))
+            Ok(rest.find(separator).unwrap_or(rest.len()))
         };
         let length = length.map_err(|words| {
             let at = place(source, from + blank..line.end);
-            let allowed = "a cell of which the quotes come in pairs, with a comma behind it";
+            let allowed = "a cell of which the quotes come in pairs, with a separator behind it";
             Box::new(Fault::at(
                 &at,
                 "",
@@ -83,12 +119,12 @@ fn cells(source: &Arc<Source>, line: Range<usize>) -> Result<Vec<Cell>, Box<Faul
         if from >= line.end {
             return Ok(cells);
         }
-        from += 1;
+        from += separator.len_utf8();
     }
 }
 
-/// Bytes up to the comma or the end behind a cell that begins with a quote.
-fn quoted_length(text: &str) -> Result<usize, &'static str> {
+/// Bytes up to the separator or the end behind a cell that begins with a quote.
+fn quoted_length(text: &str, separator: char) -> Result<usize, &'static str> {
     let bytes = text.as_bytes();
     let mut at = 1;
     loop {
@@ -100,10 +136,10 @@ fn quoted_length(text: &str) -> Result<usize, &'static str> {
         }
     }
     let behind = &text[at + 1..];
-    let blank = behind.len() - behind.trim_start().len();
+    let blank = behind.len() - behind.trim_start_matches(|c: char| c.is_whitespace() && c != separator).len();
     match behind[blank..].chars().next() {
         None => Ok(text.len()),
-        Some(',') => Ok(at + 1 + blank),
+        Some(c) if c == separator => Ok(at + 1 + blank),
         Some(_) => Err("goes on behind a closing quote"),
     }
 }

@@ -1,10 +1,8 @@
-//! The columns of measured.csv: one table from which the header is checked and the reference of columns is printed.
+//! The columns of a long table, a row per value: one table from which the header is checked and the reference of columns is printed.
 
 use std::sync::Arc;
 
-use crate::study::fault::{Fault, Found, Source};
-use crate::study::measured::cells::{Cell, Line};
-use crate::study::schema::suggestion;
+use crate::study::fault::{Fault, Source};
 
 /// A column.
 #[derive(Debug)]
@@ -45,6 +43,27 @@ pub const COLUMNS: &[Column] = &[
     ),
 ];
 
+/// How a table may be written, for the reference of columns.
+pub const FORMS: &str = "\
+As spreadsheets write it: cells separated by commas, semicolons or tabs (the header tells which; a first line `sep=;` may); decimals
+with a point, or with a comma where commas do not separate, the same in the whole file; any line ends; a byte order mark. Lines that
+begin with `#` and rows of nothing but separators are read over. So are rows without a value: a warning names them, unless the
+specimen had fallen at a smaller tilt. Names of columns may be in capitals, and have their unit in brackets: `Left (mm)`.
+
+A wide table has a row per specimen and tilt and a column per quantity, in the place of quantity and value:
+
+| column of a wide table | in its cells |
+|---|---|
+| `specimen`, `family`, `tilt_deg`, `order`, `stage` | as above |
+| `left`, `centre`, `right`, `mean`, `centre_minus_ends` | a displacement; `displacement_left` and so on are the same |
+| `collapse_angle_deg` | the collapse angle, in any one row of its specimen or the same in all; its own `collapse_angle_error` (deg) is needed |
+| any other quantity, with its unit behind it: `joint_phi_deg`, `remainder_mean_mm` | its value |
+| `unit` | unit of the lengths whose columns have none in their name; `left_mm` needs none |
+| `error`, `common_error`, `resolution`, `kind` | said of all lengths; `error_mm` where these are `left_mm` |
+| `mean_error`, `collapse_angle_kind` and so on | said of one quantity: a mean has another error than a point |
+
+An empty cell is no reading. Without a kind a reading is exact, or rounded where a resolution is given; `<5` is below, `>30` above.";
+
 const fn required(name: &'static str, doc: &'static str) -> Column {
     Column { name, required: true, doc }
 }
@@ -53,70 +72,16 @@ const fn optional(name: &'static str, doc: &'static str) -> Column {
     Column { name, required: false, doc }
 }
 
-/// Which column stands where.
-pub struct Header {
-    /// Index into [`COLUMNS`], cell by cell.
-    columns: Vec<usize>,
+/// The column of a long table of that name.
+pub fn named(name: &str) -> Option<&'static Column> {
+    COLUMNS.iter().find(|column| column.name == name)
 }
 
-impl Header {
-    /// Number of cells of a row.
-    pub fn width(&self) -> usize {
-        self.columns.len()
-    }
-
-    /// The cell of a column; `None` when the file does not have the column.
-    pub fn cell<'l>(&self, line: &'l Line, name: &str) -> Option<&'l Cell> {
-        let at = self.columns.iter().position(|&column| COLUMNS[column].name == name)?;
-        line.cells.get(at)
-    }
-}
-
-/// Reads the header; `None` when rows cannot be read by it, and the faults then say why.
-pub fn header(line: &Line, faults: &mut Vec<Fault>) -> Option<Header> {
-    let before = faults.len();
-    let names: Vec<&str> = COLUMNS.iter().map(|column| column.name).collect();
-    let allowed = format!("each of the columns {} at most once", names.join(", "));
-    let mut columns: Vec<usize> = Vec::new();
-    for cell in &line.cells {
-        let mut fault = |words: &str, fix: String| {
-            let found = Found::Words(words.to_owned());
-            faults.push(Fault::at(&cell.place, &cell.text, found, allowed.clone(), fix));
-        };
-        match names.iter().position(|name| *name == cell.text) {
-            Some(column) if columns.contains(&column) => {
-                fault("is a column twice", "remove one of them".to_owned())
-            }
-            Some(column) => columns.push(column),
-            None if cell.text.contains([';', '\t']) => {
-                fault("is not a known column", "separate the cells by commas".to_owned());
-            }
-            None if cell.text.is_empty() => {
-                fault("a column without a name", "name it or remove it".to_owned())
-            }
-            None => {
-                let longer = names.iter().find(|name| name.starts_with(&format!("{}_", cell.text)));
-                let fix = longer.map_or_else(
-                    || suggestion(&cell.text, &names),
-                    |name| format!("did you mean \"{name}\"?"),
-                );
-                fault("is not a known column", fix);
-            }
-        }
-    }
-    for (index, column) in COLUMNS.iter().enumerate() {
-        if column.required && !columns.contains(&index) {
-            let fix = "add it to the header and to every row";
-            faults.push(Fault::at(
-                &line.place,
-                column.name,
-                Found::Missing,
-                format!("a column: {}", column.doc),
-                fix,
-            ));
-        }
-    }
-    (faults.len() == before).then_some(Header { columns })
+/// A name as it is compared: in small letters, a unit in brackets behind an underscore, as all others are.
+pub fn compared(written: &str) -> String {
+    let opened = written.to_ascii_lowercase().replace([' ', '(', '['], "_");
+    let closed = opened.trim_end_matches([')', ']']);
+    closed.split('_').filter(|part| !part.is_empty()).collect::<Vec<_>>().join("_")
 }
 
 /// The fault of a file of comments and blanks.
@@ -126,8 +91,14 @@ pub fn no_header(source: &Arc<Source>) -> Fault {
     Fault::of_file(&source.name, source.rank, "has no header", "a line with the names of the columns", fix)
 }
 
-/// The fault of a file that is a header alone.
+/// The fault of a file without a value: a header alone, or a template that nobody filled in.
 pub fn no_rows(source: &Arc<Source>) -> Fault {
-    let fix = "add a row, or take the file away if nothing was measured";
-    Fault::of_file(&source.name, source.rank, "has no rows", "a header and at least one measurement", fix)
+    let fix = "fill in a row, or take the file away if nothing was measured";
+    Fault::of_file(
+        &source.name,
+        source.rank,
+        "has no rows with a value",
+        "a header and at least one measurement",
+        fix,
+    )
 }

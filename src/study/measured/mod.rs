@@ -2,48 +2,149 @@
 
 mod cells;
 mod columns;
+mod header;
 mod measurement;
+mod numbers;
+mod record;
 mod returned;
 mod row;
+mod template;
 mod together;
+mod unfilled;
 mod unit;
+mod wide;
 
-pub(super) use columns::COLUMNS;
+pub(super) use columns::{COLUMNS, FORMS};
 pub use measurement::{MeasuredKind, MeasuredQuantity, Measurement};
+pub use template::{Template, template};
 pub use unit::Dimension;
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use crate::study::fault::{Fault, Source};
+use crate::study::fault::{Fault, Found, Place, Source};
+use crate::study::measured::cells::Line;
+use crate::study::measured::header::Header;
+use crate::study::measured::numbers::Numbers;
 
 /// Name of the file, beside study.toml.
 pub const FILE: &str = "measured.csv";
 /// What it is meant to be.
-pub(super) const FORMAT: &str = "a text file of values separated by commas";
+pub(super) const FORMAT: &str = "a text file of values separated by commas, semicolons or tabs";
+
+/// How a file of measurements is written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Written {
+    /// What separates its cells.
+    pub separator: char,
+    /// Whether decimals follow a comma.
+    pub decimal_comma: bool,
+    /// Whether a row holds several quantities.
+    pub wide: bool,
+    /// The units that its values are in.
+    pub units: BTreeMap<MeasuredQuantity, BTreeSet<String>>,
+    /// Lines of rows without a value.
+    pub unfilled: Vec<usize>,
+}
+
+/// What was read from a file; of none by default.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Read {
+    /// The measurements.
+    pub rows: Vec<Measurement>,
+    /// How they are written.
+    pub written: Option<Written>,
+    /// What is allowed and yet looks wrong.
+    pub warnings: Vec<Fault>,
+}
 
 /// Reads all measurements of a file; `arms` is `None` when the study's arms are faulty themselves.
 ///
 /// # Errors
 /// All faults of the file: of its cells, its header, its rows, and of rows against one another.
-pub(super) fn read(source: &Arc<Source>, arms: Option<&[String]>) -> Result<Vec<Measurement>, Vec<Fault>> {
+pub(super) fn read(source: &Arc<Source>, arms: Option<&[String]>) -> Result<Read, Vec<Fault>> {
     let mut faults = Vec::new();
-    let lines = cells::lines(source, &mut faults);
-    let Some((header, rows)) = lines.split_first() else {
+    let table = cells::table(source, header::is_column, &mut faults);
+    let Some((first, lines)) = table.lines.split_first() else {
         faults.push(columns::no_header(source));
         return Err(faults);
     };
-    let header = columns::header(header, &mut faults);
-    if rows.is_empty() {
+    let header = header::header(first, lines, &mut faults);
+    if lines.is_empty() {
         faults.push(columns::no_rows(source));
     }
-    let Some(header) = header else { return Err(faults) };
-    let read: Vec<_> = rows.iter().filter_map(|cells| row::read(&header, cells, arms, &mut faults)).collect();
-    together::check(&read, &mut faults);
-    if faults.is_empty() {
-        let mut rows: Vec<Measurement> = read.into_iter().map(|(measurement, _)| measurement).collect();
-        returned::name_remainders(&mut rows);
-        Ok(rows)
-    } else {
-        Err(faults)
+    let Some(header) = header else { return Err(Fault::gathered(faults)) };
+    let mut numbers = Numbers::new(table.separator);
+    let mut units: BTreeMap<MeasuredQuantity, BTreeSet<String>> = BTreeMap::new();
+    let mut read: Vec<(Measurement, Place)> = Vec::new();
+    let mut unfilled: Vec<&Line> = Vec::new();
+    for line in lines {
+        if let Some(fault) = ill_sized(&header, line, table.separator) {
+            faults.push(fault);
+            continue;
+        }
+        let records = header.records(line);
+        if records.is_empty() {
+            unfilled.push(line);
+        }
+        for record in records {
+            let Some((m, place)) = row::read(&record, arms, &mut numbers, &mut faults) else { continue };
+            let unit = record.given("unit").map(|cell| cell.text.clone());
+            units.entry(m.quantity).or_default().extend(unit);
+            if !(header.is_wide() && said_before(&mut read, &m)) {
+                read.push((m, place));
+            }
+        }
     }
+    if !lines.is_empty() && unfilled.len() == lines.len() {
+        faults.push(columns::no_rows(source));
+    }
+    faults.extend(numbers.mixed());
+    together::check(&read, &mut faults);
+    if !faults.is_empty() {
+        return Err(Fault::gathered(faults));
+    }
+    let mut rows: Vec<Measurement> = read.into_iter().map(|(measurement, _)| measurement).collect();
+    let odd = unfilled.iter().filter(|line| !unfilled::had_fallen(&header, line, &rows, &mut numbers));
+    let warnings = Fault::gathered(odd.map(|line| unfilled::warning(line)).collect());
+    returned::name_remainders(&mut rows);
+    let written = Written {
+        separator: table.separator,
+        decimal_comma: numbers.have_decimal_commas(),
+        wide: header.is_wide(),
+        units,
+        unfilled: unfilled.iter().map(|line| line.number).collect(),
+    };
+    Ok(Read { rows, written: Some(written), warnings })
+}
+
+/// The fault of a row that has not as many cells as the header. What is empty at its end does not count, but for commas: one that
+/// stands for a decimal point would shift what is behind it.
+fn ill_sized(header: &Header, line: &Line, separator: char) -> Option<Fault> {
+    let (cells, width) = (line.cells.len(), header.width());
+    let surplus = line.cells.iter().skip(width).any(|cell| !cell.text.is_empty());
+    let fix = match cells.cmp(&width) {
+        std::cmp::Ordering::Greater if separator == ',' => {
+            "write decimals with a point, or separate the cells by semicolons; put quotes around a cell that holds a comma"
+        }
+        std::cmp::Ordering::Greater if surplus => "put quotes around a cell that holds the separator",
+        std::cmp::Ordering::Less if !header.may_end_behind(cells) => {
+            "add the missing ones; an empty cell has its separator as well"
+        }
+        _ => return None,
+    };
+    let found = Found::Words(format!("has {cells} cell{}", if cells == 1 { "" } else { "s" }));
+    let allowed = format!("{width}, as in the header");
+    Some(Fault::at(&line.place, "", found, allowed, fix))
+}
+
+/// Whether a row of a wide table repeats what a wall has but once, as its collapse angle; it then counts where it stands last in the
+/// sequence on the specimen.
+fn said_before(read: &mut [(Measurement, Place)], m: &Measurement) -> bool {
+    if m.quantity.has_tilt() {
+        return false;
+    }
+    let same = |own: &Measurement| Measurement { line: m.line, stage: m.stage, ..own.clone() } == *m;
+    let before = read.iter_mut().map(|(own, _)| own).find(|own| same(own));
+    before.map(|own| own.stage = own.stage.max(m.stage)).is_some()
 }

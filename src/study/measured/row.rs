@@ -1,10 +1,11 @@
-//! One row of measured.csv to one measurement.
+//! The cells of one reading to one measurement.
 
 use crate::math::{degrees, radians};
 use crate::study::fault::{Fault, Found, Place};
-use crate::study::measured::cells::{Cell, Line};
-use crate::study::measured::columns::Header;
+use crate::study::measured::cells::Cell;
 use crate::study::measured::measurement::{MeasuredKind, MeasuredQuantity, Measurement};
+use crate::study::measured::numbers::Numbers;
+use crate::study::measured::record::Record;
 use crate::study::measured::unit::Dimension;
 use crate::study::schema::{Interval, Short, quoted, suggestion};
 
@@ -13,25 +14,15 @@ const LONGEST_NAME: usize = 64;
 /// How far a rounded value may be from a multiple of its resolution, as a share of it: decimals are not exact in binary.
 const OFF_GRID: f64 = 1e-6;
 
-/// Reads a row; `None` when it is faulty, and the faults then say why. The place is that of the row.
+/// Reads a reading; `None` when it is faulty, and the faults then say why. The place is that of the row.
 pub fn read(
-    header: &Header,
-    line: &Line,
+    record: &Record<'_>,
     arms: Option<&[String]>,
+    numbers: &mut Numbers,
     faults: &mut Vec<Fault>,
 ) -> Option<(Measurement, Place)> {
-    if line.cells.len() != header.width() {
-        let fix = if line.cells.len() > header.width() {
-            "write decimals with a point, and quotes around a cell that holds a comma"
-        } else {
-            "add the missing ones; an empty cell has its comma as well"
-        };
-        let found = Found::Words(format!("has {} cells", line.cells.len()));
-        let allowed = format!("{}, as in the header", header.width());
-        faults.push(Fault::at(&line.place, "", found, allowed, fix));
-        return None;
-    }
-    Row { header, line, faults }.measurement(arms).map(|measurement| (measurement, line.place.clone()))
+    let place = record.line.place.clone();
+    Row { record, numbers, faults }.measurement(arms).map(|measurement| (measurement, place))
 }
 
 /// A common error of which nobody knows how much of the error it is.
@@ -48,10 +39,10 @@ fn limits(quantity: MeasuredQuantity) -> Interval {
     }
 }
 
-/// A row of the right width.
+/// A reading's cells.
 struct Row<'r> {
-    header: &'r Header,
-    line: &'r Line,
+    record: &'r Record<'r>,
+    numbers: &'r mut Numbers,
     faults: &'r mut Vec<Fault>,
 }
 
@@ -81,28 +72,40 @@ impl Row<'_> {
             resolution,
             order: order?,
             stage: stage?.unwrap_or(0),
-            line: self.line.place.line_and_column().0,
+            line: self.record.line.number,
         })
     }
 
     /// The cell of a column, if the file has it and it is not empty.
     fn given(&self, column: &str) -> Option<Cell> {
-        self.header.cell(self.line, column).filter(|cell| !cell.text.is_empty()).cloned()
+        self.record.given(column).cloned()
     }
 
     /// The cell of a column that must not be empty.
     fn needed(&mut self, column: &str, allowed: impl Into<String>, fix: &str) -> Option<Cell> {
         let cell = self.given(column);
         if cell.is_none() {
-            let place = self.header.cell(self.line, column).map_or(&self.line.place, |cell| &cell.place);
-            self.faults.push(Fault::at(place, column, Found::Missing, allowed, fix));
+            let (place, name) = (self.record.place(column), self.record.name(column));
+            self.faults.push(Fault::at(place, name, Found::Missing, allowed, fix));
         }
         cell
     }
 
     fn refuse(&mut self, cell: &Cell, column: &str, allowed: impl Into<String>, fix: impl Into<String>) {
-        let found = Found::Value(cell.text.clone());
-        self.faults.push(Fault::at(&cell.place, column, found, allowed, fix));
+        self.refuse_as(cell.text.clone(), cell, column, allowed, fix);
+    }
+
+    /// Refuses a cell whose text is told with what it comes to.
+    fn refuse_as(
+        &mut self,
+        told: String,
+        cell: &Cell,
+        column: &str,
+        allowed: impl Into<String>,
+        fix: impl Into<String>,
+    ) {
+        let name = self.record.name(column);
+        self.faults.push(Fault::at(&cell.place, name, Found::Value(told), allowed, fix));
     }
 
     fn specimen(&mut self) -> Option<String> {
@@ -238,8 +241,11 @@ impl Row<'_> {
             _ => quantity.dimension().si(number, unit),
         };
         if !within.contains(in_first) {
-            let fix = format!("it is {} {first}: mend the value or its unit", Short(in_first));
-            self.refuse(&cell, "value", allowed, fix);
+            let told = match unit == first {
+                true => cell.text.clone(),
+                false => format!("{}, which is {} {first}", cell.text, Short(in_first)),
+            };
+            self.refuse_as(told, &cell, "value", allowed, "mend the value or its unit");
             return None;
         }
         Some(number)
@@ -272,15 +278,12 @@ impl Row<'_> {
     }
 
     fn number(&mut self, cell: &Cell, column: &str, within: Interval, allowed: &str) -> Option<f64> {
-        let fix = match cell.text.parse::<f64>() {
+        let fix = match self.numbers.read(cell) {
             Ok(number) if within.contains(number) => return Some(number),
             Ok(number) if !number.is_finite() => "a finite number is needed",
             Ok(number) if number < within.low || (within.open_low && number == within.low) => "raise it",
             Ok(_) => "reduce it",
-            Err(_) if cell.text.replace(',', ".").parse::<f64>().is_ok() => {
-                "write a point for the decimal comma"
-            }
-            Err(_) => "write the number alone",
+            Err(fix) => fix,
         };
         self.refuse(cell, column, allowed, fix);
         None

@@ -1,13 +1,15 @@
 //! Scores against closed forms, and gains where there is one to be had and where there is none.
 
+use std::sync::OnceLock;
+
 use crate::critic::diagnose::gain::fold::{Fold, HeldOut};
 use crate::critic::diagnose::gain::gained::{Row, estimates, gained};
 use crate::critic::diagnose::gain::{Folds, Kind, Measuring, mixed, mixture};
 use crate::critic::diagnose::limits::MOST_AMBIGUOUS;
 use crate::critic::diagnose::predicted::{Predicted, Score, normal_score};
 use crate::critic::diagnose::ranking::Ranked;
-use crate::critic::diagnose::tests::{EFFORT, made};
-use crate::critic::diagnose::{Design, Judge, Seen, Truth};
+use crate::critic::diagnose::tests::{EFFORT, judged, made};
+use crate::critic::diagnose::{Campaign, Design, Seen, Truth};
 use crate::random::Streams;
 use crate::random::standard_normal::quantile;
 use crate::stats;
@@ -15,6 +17,21 @@ use crate::study::MeasuredKind;
 
 fn measuring() -> Measuring {
     Measuring { effort: EFFORT, nulls: 10, ..Measuring::default() }
+}
+
+/// Who measures gains of campaigns of the nine walls, once for all tests.
+fn folds() -> &'static Folds<'static, 'static> {
+    static FOLDS: OnceLock<Folds<'static, 'static>> = OnceLock::new();
+    FOLDS.get_or_init(|| Folds::new(judged().1, measuring(), 9))
+}
+
+/// A campaign in which all walls creep much.
+fn crept() -> Campaign {
+    let (made, judge) = judged();
+    let streams = Streams::new(61, 1);
+    let mut truth = judge.world.drawn(Some(made.cause("creep")), &streams);
+    truth.parameters[0] = 1.5;
+    judge.world.campaign(&judge.design, &truth, &streams)
 }
 
 #[test]
@@ -177,16 +194,10 @@ fn families_of_one_specimen_are_taken_together() {
 
 #[test]
 fn a_strong_effect_is_a_gain_and_its_absence_is_none() {
-    let made = made();
-    let (world, (design, _)) = (made.world(), Design::of(&made.study));
-    let judge = Judge::trained(&world, &design, EFFORT, 5).expect("it can be told");
-    let creep = made.cause("creep");
-    let streams = Streams::new(61, 1);
-    let mut truth = world.drawn(Some(creep), &streams);
-    truth.parameters[0] = 1.5;
-    let shown = world.campaign(&design, &truth, &streams);
-    let folds = Folds::new(&judge, measuring(), 9);
-    let found = folds.gain(&shown).expect("nine specimens");
+    let (made, judge) = judged();
+    let (world, design) = (judge.world, &judge.design);
+    let (creep, folds) = (made.cause("creep"), folds());
+    let found = folds.gain(&crept()).expect("nine specimens");
     assert!(found.choices.iter().all(|choice| choice.causes == [(creep, 1.0)]), "{:?}", found.choices);
     let specimens = found.specimens.as_ref().expect("nine specimens");
     println!("{specimens:?}\n{:?}", found.tilts);
@@ -194,10 +205,9 @@ fn a_strong_effect_is_a_gain_and_its_absence_is_none() {
     assert_eq!(found.families.iter().map(|(family, _)| *family).collect::<Vec<_>>(), [0, 1, 2]);
     // A free discrepancy finds some of it, too.
     assert!(specimens.ceiling.log > specimens.base.log);
-    assert_eq!(Folds::new(&judge, measuring(), 9).gain(&shown), Some(found));
     // Nothing hidden, nothing chosen: both models are the same.
     let nothing =
-        world.campaign(&design, &world.truth(None, &vec![0.0; world.inputs(None)]), &Streams::new(61, 2));
+        world.campaign(design, &world.truth(None, &vec![0.0; world.inputs(None)]), &Streams::new(61, 2));
     let none = folds.gain(&nothing).expect("nine specimens");
     assert!(none.choices.iter().all(|choice| choice.causes.is_empty()), "{:?}", none.choices);
     let specimens = none.specimens.expect("nine specimens");
@@ -205,13 +215,19 @@ fn a_strong_effect_is_a_gain_and_its_absence_is_none() {
 }
 
 #[test]
+#[ignore = "slow: folds are learnt a second time, twenty seconds of processor time"]
+fn a_gain_comes_out_the_same_when_all_is_learnt_again() {
+    let again = Folds::new(judged().1, measuring(), 9).gain(&crept());
+    assert!(again.is_some() && again == folds().gain(&crept()));
+}
+
+#[test]
 fn where_nothing_was_chosen_nothing_is_gained_and_nothing_need_be_predicted() {
-    let made = made();
-    let (world, (design, _)) = (made.world(), Design::of(&made.study));
-    let judge = Judge::trained(&world, &design, EFFORT, 5).expect("it can be told");
+    let (made, judge) = judged();
+    let (world, design) = (judge.world, &judge.design);
     let streams = Streams::new(61, 3);
-    let shown = world.campaign(&design, &world.drawn(None, &streams), &streams);
-    let folds = Folds::new(&judge, measuring(), 9);
+    let shown = world.campaign(design, &world.drawn(None, &streams), &streams);
+    let folds = folds();
     let tilts = |(fold, _): &(Fold, usize)| match fold.held_out {
         HeldOut::LargestTilts => vec![(made.cause("creep"), 1.0)],
         _ => Vec::new(),

@@ -1,0 +1,125 @@
+//! A load path by limit analysis alone: no steps, no displacements, the load at which rigid blocks fall and how.
+
+use crate::contact;
+use crate::math::Vec3;
+use crate::model::{JointLaws, Level, Outcome, Wall};
+use crate::protocol::events::Events;
+use crate::protocol::mechanism::{Failure, failure};
+use crate::protocol::path::Growing;
+use crate::protocol::pressure::Load;
+use crate::protocol::watch::LoadStep;
+use crate::protocol::{Run, Task};
+use crate::solve::limit::{Analysis, BlockMotion, Limit, Loads, PointLoad, Settings, When};
+use crate::solve::{Assembly, Tie};
+
+/// How far (share of the wall's thickness) the fastest corner is moved along the mechanism for its shape to be read off.
+const SHOWN: f64 = 0.01;
+
+/// What limit analysis is asked about.
+pub(super) struct Rigid<'q> {
+    pub wall: &'q Wall,
+    pub laws: &'q dyn JointLaws,
+    pub contact: contact::Settings,
+    pub ties: &'q [Tie],
+    pub loads: &'q [Load],
+    pub growing: Growing,
+}
+
+impl Rigid<'_> {
+    /// What the wall bears, and how many joints were found.
+    pub fn ask(&self, settings: Settings) -> (Limit, usize) {
+        let analysis = Analysis::new(self.wall, self.laws, self.contact, settings).with_ties(self.ties);
+        let points = |when| {
+            let of =
+                |load: &Load| PointLoad { block: load.block, point: load.point, force: load.force, when };
+            self.loads.iter().map(of).collect::<Vec<_>>()
+        };
+        let limit = match self.growing {
+            Growing::Tilt(towards) => analysis.tilt(towards.unit(), &points(When::Dead)),
+            Growing::Factor => analysis.multiplier(&Loads {
+                points: points(When::Live),
+                live: Vec3::zeros(),
+                ..Loads::weight()
+            }),
+            Growing::Multiplier(towards) => {
+                analysis.multiplier(&Loads { points: points(When::Dead), ..Loads::lateral(towards.unit()) })
+            }
+        };
+        (limit, analysis.joints())
+    }
+}
+
+/// Takes a wall along a load path by limit analysis. What bears more than the path's end stands to the end; the last step's
+/// level is then the end or, for a factor, what the wall bears. What rigid blocks do not have (displacements, remainders) is
+/// NaN. The wall is taken as built: no change on the way is made.
+pub(super) fn rigid(task: &Task<'_>, settings: Settings) -> Run {
+    let Task { wall, laws, contact, path, .. } = *task;
+    let settings = match path.growing {
+        Growing::Tilt(_) => Settings { largest_tilt: path.end.min(settings.largest_tilt), ..settings },
+        Growing::Multiplier(_) => Settings { largest_multiplier: path.end, ..settings },
+        Growing::Factor => settings,
+    };
+    let asked = Rigid { wall, laws, contact, ties: &task.ties, loads: &task.loads, growing: path.growing };
+    let (limit, joints) = asked.ask(settings);
+    let (outcome, last) = match limit.outcome.clone() {
+        Outcome::Collapsed { at } if path.growing == Growing::Factor && at.value() >= path.end => {
+            (Outcome::Equilibrium, Some(at.value()))
+        }
+        Outcome::Collapsed { at } => (Outcome::Collapsed { at: path.level(at.value()) }, Some(at.value())),
+        Outcome::NotConverged { at, unbalanced_ratio, why } => {
+            (Outcome::NotConverged { at: path.level(at.value()), unbalanced_ratio, why }, None)
+        }
+        // What nothing brings down stands to the end.
+        Outcome::Equilibrium | Outcome::Unbounded => (Outcome::Equilibrium, Some(path.end)),
+        other => (other, None),
+    };
+    let falls = matches!(outcome, Outcome::Collapsed { .. });
+    let step = |level: f64, solver_steps: u32| LoadStep {
+        level: path.level(level),
+        top_displacement: f64::NAN,
+        points: None,
+        remainders: None,
+        unbalanced_ratio: limit.accuracy.residual,
+        solver_steps: u64::from(solver_steps),
+    };
+    let mut steps = vec![step(0.0, limit.iterations)];
+    steps.extend(last.map(|at| step(at, 0)));
+    // As with the other solvers, the last step of a wall that falls is the one that it does not bear.
+    steps.extend(last.filter(|_| falls).map(|at| step(at, 0)));
+    let fell = falls || outcome == Outcome::UnstableAtRest;
+    Run {
+        bracket: last.filter(|_| falls).map(|at| [at; 2]),
+        failure: fell.then(|| failure_by(task, &limit.mechanism)).flatten(),
+        outcome,
+        steps,
+        displacements: vec![Vec3::zeros(); wall.blocks.len()],
+        turns: vec![Vec3::zeros(); wall.blocks.len()],
+        joints,
+        events: Events::default(),
+        joint_states: Vec::new(),
+    }
+}
+
+/// How the wall falls, read off its mechanism; `None` where there is none.
+fn failure_by(task: &Task<'_>, mechanism: &[BlockMotion]) -> Option<Failure> {
+    if mechanism.iter().all(|motion| motion.velocity.norm() == 0.0 && motion.spin.norm() == 0.0) {
+        return None;
+    }
+    let built = Assembly::new(task.wall, task.laws, task.contact);
+    let (low, high) = task.wall.bounds();
+    let mut away = built.clone();
+    for (body, motion) in away.bodies.all.iter_mut().zip(mechanism) {
+        let far = SHOWN * (high.y - low.y);
+        let here = body.clone();
+        body.place(&here, &(motion.velocity * far), &(motion.spin * far));
+    }
+    Some(failure(task.wall, &built, &built.bodies.all, &away.bodies, task.path.direction()))
+}
+
+/// The level of collapse that an analysis found.
+pub(super) fn level(limit: &Limit) -> Option<f64> {
+    match limit.outcome {
+        Outcome::Collapsed { at: Level::Tilt(x) | Level::Multiplier(x) | Level::Factor(x) } => Some(x),
+        _ => None,
+    }
+}

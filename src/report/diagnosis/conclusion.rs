@@ -1,0 +1,92 @@
+//! What a diagnosis comes to, in at most five sentences.
+
+use crate::critic::MOST_AMBIGUOUS;
+use crate::report::diagnosis::summary::DiagnosisSummary;
+use crate::report::diagnosis::text::worth_saying;
+use crate::report::number::significant;
+
+/// The verdict, how surely something is wrong, the parameters of the causes, the gain, and what to measure next.
+pub(super) fn conclusion(summary: &DiagnosisSummary) -> Vec<String> {
+    let sentences =
+        [Some(verdict(summary)), wrong(summary), parameters(summary), gain(summary), next(summary)];
+    sentences.into_iter().flatten().collect()
+}
+
+/// The verdict in a sentence, with the causes that it speaks of.
+pub(super) fn verdict(summary: &DiagnosisSummary) -> String {
+    let spoken: Vec<String> = summary
+        .causes
+        .iter()
+        .filter(|cause| cause.in_verdict)
+        .map(|cause| format!("{} ({})", cause.id, significant(cause.probability, 2)))
+        .collect();
+    let spoken = spoken.join(", ");
+    match summary.verdict {
+        "nothing_found" => "NOTHING FOUND: errors, scatter and joints within their priors account for the readings.".to_string(),
+        "named" if summary.pairs.iter().any(|pair| pair.in_verdict) => {
+            format!("NAMED: two causes together explain the readings: {spoken}.")
+        }
+        "named" => format!("NAMED: one cause explains the readings, with this probability: {spoken}."),
+        "ambiguous" if summary.causes.iter().filter(|cause| cause.in_verdict).count() == 1 => {
+            format!("AMBIGUOUS: this cause explains the readings, but not surely enough to be named: {spoken}.")
+        }
+        "ambiguous" => format!("AMBIGUOUS: the readings cannot tell between these causes: {spoken}."),
+        _ => match summary.causes.iter().filter(|cause| cause.excluded_by.is_none()).count() {
+            0 => "UNEXPLAINED: something is wrong, and no cause of the catalogue explains it within its prior; no pair is named."
+                .to_string(),
+            open => {
+                let many = if open > MOST_AMBIGUOUS { ": more than these data can tell apart" } else { "" };
+                format!(
+                    "UNEXPLAINED: something is wrong, and no cause explains it surely; {open} of the catalogue cannot be excluded{many}."
+                )
+            }
+        },
+    }
+}
+
+/// That the base model is off, and where most; or how likely what is seen is by chance.
+fn wrong(summary: &DiagnosisSummary) -> Option<String> {
+    let p = significant(summary.p_value, 2);
+    if summary.verdict == "nothing_found" {
+        return Some(format!("As far off are {p} of simulated campaigns without any effect (p-value)."));
+    }
+    let furthest = worth_saying(summary).first().map_or_else(
+        || "No single number is off by two standard deviations; the readings together are.".to_string(),
+        |off| format!("Furthest off: {} ({:+.1} sd).", off.what, off.in_sd),
+    );
+    Some(format!("The base model is off beyond chance (p {p}). {furthest}"))
+}
+
+/// The parameters of the causes in the verdict.
+fn parameters(summary: &DiagnosisSummary) -> Option<String> {
+    let spoken = summary.causes.iter().filter(|cause| cause.in_verdict);
+    let all: Vec<String> = spoken
+        .flat_map(|cause| cause.parameters.iter().map(move |own| format!("{}.{}", cause.id, own.words())))
+        .collect();
+    (!all.is_empty()).then(|| format!("Found (median, 90 % interval): {}.", all.join("; ")))
+}
+
+/// Whether the extended model predicts specimens better that it has not seen.
+fn gain(summary: &DiagnosisSummary) -> Option<String> {
+    let entry = summary.gain.as_ref()?.specimens_left_out.as_ref()?;
+    let rmse = entry.base.rmse.zip(entry.extended.rmse).map_or_else(String::new, |(base, extended)| {
+        format!(", RMSE {} to {} sd", significant(base, 2), significant(extended, 2))
+    });
+    Some(format!(
+        "On held-out specimens the extended model gains {} in log score per reading{rmse}.",
+        entry.log_score.text()
+    ))
+}
+
+/// The measurement that would tell most per hour.
+fn next(summary: &DiagnosisSummary) -> Option<String> {
+    let rate = |bits: f64, hours: f64| bits / hours.max(1e-3);
+    let best =
+        summary.advice.next.iter().max_by(|a, b| rate(a.bits, a.hours).total_cmp(&rate(b.bits, b.hours)))?;
+    Some(format!(
+        "Next, the most information per hour: {} ({} bit in {} h).",
+        best.what,
+        significant(best.bits, 2),
+        significant(best.hours, 2)
+    ))
+}
