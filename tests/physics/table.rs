@@ -5,8 +5,8 @@ use pirca::law::Coulomb;
 use pirca::math::{Vec3, atan, degrees, radians};
 use pirca::model::{Block, Level, Outcome, Support, Wall};
 use pirca::protocol::{
-    Base, Changes, Confirmation, Criterion, Direction, Ends, FailureMode, LoadPath, Protocol, Rate,
-    Restraint, Run, Task, Tilting, Turning, drive, run,
+    Base, Changes, Confirmation, Criterion, Direction, Ends, Event, EventShares, FailureMode, LoadPath,
+    Protocol, Rate, Restraint, Run, Task, Tilting, Turning, drive, run,
 };
 use pirca::shape::Polyhedron;
 use pirca::solve::Solver;
@@ -21,6 +21,12 @@ fn explicit() -> Solver {
 
 fn tilting(step_deg: f64, bracket_deg: f64) -> Tilting {
     Tilting { step: radians(step_deg), bracket: radians(bracket_deg), ..Tilting::default() }
+}
+
+/// The test ends with the first stone that falls.
+fn to_the_first_stone(tilting: Tilting) -> Tilting {
+    let events = EventShares { capacity: Event::FirstStone, ..EventShares::default() };
+    Tilting { events, ..tilting }
 }
 
 fn table(wall: &Wall, law: &Coulomb, tilting: Tilting, base: Base) -> Run {
@@ -127,7 +133,7 @@ fn a_single_stone_that_slides_out_is_found_and_named() {
     };
     let laws = SlipperyBelow(dry(1e9, 35.0));
     let restraint = Restraint::at_ends(Ends::Free);
-    let protocol = Protocol::Tilting(tilting(1.0, 0.05));
+    let protocol = Protocol::Tilting(to_the_first_stone(tilting(1.0, 0.05)));
     let run = run(&wall, &laws, &protocol, &restraint, [2, 2], &explicit());
     let [low, high] = bracket(&run);
     let slides = degrees(atan(0.2));
@@ -196,7 +202,7 @@ fn a_wall_that_does_not_stand_is_unstable_at_rest() {
     let wall = Wall {
         blocks: vec![cuboid([0.0, 0.0, 0.0], [0.4, 0.4, 0.4]), cuboid([0.0, 0.24, 0.4], [0.4, 0.64, 0.5])],
     };
-    let run = table(&wall, &dry(1e9, 40.0), tilting(1.0, 0.1), Base::default());
+    let run = table(&wall, &dry(1e9, 40.0), to_the_first_stone(tilting(1.0, 0.1)), Base::default());
     assert_eq!(run.outcome, Outcome::UnstableAtRest);
     assert_eq!((run.bracket, run.steps.len()), (None, 1));
     assert_eq!(run.failure.expect("it was watched").moving, vec![1]);
