@@ -471,7 +471,13 @@ fn sensitivity_writes_the_map_and_names_what_has_no_number() {
     assert!(!text.contains("NaN") && !text.contains("inf"));
     // Two walls, which are the same: one alone gives no interval.
     let table = stdout(&ends_with(&folder, 0, &["sensitivity", "studies/tiny", "--members", "2"]));
-    for said in ["the data could see it in stack mean at 5 deg", "n/a", "runs/tiny-sensitivity"] {
+    for said in [
+        "tiny: data like these could see 5 of 17 mechanisms",
+        "Seen: contact_inset (",
+        "Not seen: ",
+        "n/a",
+        "runs/tiny-sensitivity",
+    ] {
         assert!(table.contains(said), "{said} in: {table}");
     }
 }

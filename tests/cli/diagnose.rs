@@ -504,7 +504,8 @@ fn what_is_wrong_is_shown(folder: &Folder, text: &str, json: &Value) {
         assert!(folder.path("runs/tiny-diagnosis").join(name).is_file(), "{name}");
     }
     let page = fs::read_to_string(folder.path("runs/tiny-diagnosis/verdict.html")).unwrap();
-    for part in ["(gauge_offset)", "median if the cause is gauge_offset", "<td>tower: collapse angle</td>"] {
+    for part in [": gauge_offset (", "median if the cause is gauge_offset", "<td>tower: collapse angle</td>"]
+    {
         assert!(page.contains(part), "no `{part}` in the page");
     }
 }

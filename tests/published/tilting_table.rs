@@ -59,7 +59,8 @@ fn a_third_of_the_joints_in_contact_gives_table_7() {
 fn free_walls_do_not_depend_on_phi_above_30_deg_and_restrained_ones_do() {
     let study = study(Some("table-7-contact-area"));
     let at = |arm: &str| angle(&study, arm, 0);
-    // The bracket.
-    assert!((at("free-30") - at("free-60")).abs() < 0.07);
+    // With a bracket of 0.005 deg and steps of 2.5 or 0.5 deg they differ by 0.069 deg, by slip at the edges of the joints; half of the
+    // study's bracket of 0.06 comes on top.
+    assert!((at("free-30") - at("free-60")).abs() < 0.1);
     assert!(at("restrained-60") - at("restrained-30") > 1.5);
 }
