@@ -122,7 +122,7 @@ fn root() -> PathBuf {
 
 /// `canonical::wall_72`, by half degrees, at 10^`power` Pa/m.
 fn of_stiffness(power: i32) -> Kind {
-    let kn = 10f64.powi(power);
+    let kn = pirca::math::pow(10.0, f64::from(power));
     Kind {
         name: format!("wall_72, kn 1e{power}"),
         test: Box::new(move |_| Some(canonical_wall(kn, Solver::Implicit(implicit::Settings::default())))),
@@ -221,7 +221,7 @@ fn wide(prior: &Family, share: f64, wider: f64) -> f64 {
 fn member(study: &Study, arm: u32, point: u32, member: u64) -> Option<Told> {
     let task = Task { arm, point, member };
     let wall = build(study, arm, member).ok()?.wall;
-    let (seconds, run) = timed(|| solve(study, task, &wall));
+    let (seconds, run) = timed(|| solve(study, task, &wall, &|_| {}));
     let stones = wall.stones().count();
     Some(Told { seconds, run, of: format!("point {point}, member {member}, {stones} stones") })
 }

@@ -248,7 +248,7 @@ fn an_empty_folder_is_enough() {
     assert_eq!(names, ["built-in:distributions/block/size.toml", "study.toml"]);
     // The hash of the file in the repository.
     let text = fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("distributions/block/size.toml")).unwrap();
-    let told = format!("{}", inputs["built-in:distributions/block/size.toml"].as_str().unwrap());
+    let told = inputs["built-in:distributions/block/size.toml"].as_str().unwrap().to_string();
     assert_eq!(told.len(), 64);
     fs::create_dir_all(folder.path("distributions/block")).unwrap();
     fs::write(folder.path("distributions/block/size.toml"), text).unwrap();

@@ -43,8 +43,11 @@ pub struct Case {
     pub begins_later: bool,
 }
 
+/// Draws a case; `None` where its closed form does not hold.
+type Family = fn(&mut Draw) -> Option<Case>;
+
 /// The families, and how many of 20 cases belong to each.
-const FAMILIES: [(fn(&mut Draw) -> Option<Case>, usize); 7] =
+const FAMILIES: [(Family, usize); 7] =
     [(block, 5), (row, 3), (stack, 3), (wedge, 3), (turned_wedge, 1), (groove, 3), (toppling, 2)];
 
 /// A random case, the same for the same member.

@@ -18,7 +18,7 @@ pub(super) fn verdict(summary: &DiagnosisSummary) -> String {
         .causes
         .iter()
         .filter(|cause| cause.in_verdict)
-        .map(|cause| format!("{} ({})", cause.id, significant(cause.probability, 2)))
+        .map(|cause| format!("{} ({:.3})", cause.id, cause.probability))
         .collect();
     let spoken = spoken.join(", ");
     match summary.verdict {
@@ -69,13 +69,10 @@ fn parameters(summary: &DiagnosisSummary) -> Option<String> {
 /// Whether the extended model predicts specimens better that it has not seen.
 fn gain(summary: &DiagnosisSummary) -> Option<String> {
     let entry = summary.gain.as_ref()?.specimens_left_out.as_ref()?;
-    let rmse = entry.base.rmse.zip(entry.extended.rmse).map_or_else(String::new, |(base, extended)| {
-        format!(", RMSE {} to {} sd", significant(base, 2), significant(extended, 2))
+    let errors = entry.base.rmse.zip(entry.extended.rmse).map_or_else(String::new, |(base, extended)| {
+        format!("; their errors go from {} to {} sd", significant(base, 2), significant(extended, 2))
     });
-    Some(format!(
-        "On held-out specimens the extended model gains {} in log score per reading{rmse}.",
-        entry.log_score.text()
-    ))
+    Some(format!("Held-out specimens: gain in log score per reading {}{errors}.", entry.log_score.text()))
 }
 
 /// The measurement that would tell most per hour.

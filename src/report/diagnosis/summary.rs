@@ -10,7 +10,7 @@ use crate::report::advice::Advice;
 use crate::report::diagnosis::form::BentEntry;
 use crate::report::diagnosis::residual::{GroupEntry, ResidualEntry};
 use crate::report::gain::GainSummary;
-use crate::report::number::with_interval;
+use crate::report::number::{compact, significant};
 use crate::stats;
 use crate::study::{Described, MeasuredQuantity, Study};
 
@@ -156,7 +156,9 @@ impl ParameterEntry {
     pub(super) fn words(&self) -> String {
         let ParameterEntry { key, unit, median, interval } = self;
         let unit = if *unit == "1" { String::new() } else { format!(" {unit}") };
-        format!("{key} {}{unit}", with_interval(Some(*median), Some(*interval), 3))
+        // A stiffness is written as people write it, not by digits that nobody knows.
+        let number = |x: f64| if x.abs() >= 1e5 { compact(x) } else { significant(x, 3) };
+        format!("{key} {} [{}, {}]{unit}", number(*median), number(interval[0]), number(interval[1]))
     }
 }
 

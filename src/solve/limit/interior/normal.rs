@@ -106,11 +106,11 @@ impl Normal {
 
     /// Adds `rows columns'` to six by six entries.
     fn add(&mut self, place: usize, height: usize, rows: &[Six; 3], columns: &[Six; 3]) {
-        for c in 0..SIX {
+        let [first, second, third] = columns;
+        for (c, ((x, y), z)) in first.iter().zip(second).zip(third).enumerate() {
             let entries = &mut self.values[place + c * height..][..SIX];
             for (r, entry) in entries.iter_mut().enumerate() {
-                *entry +=
-                    rows[0][r] * columns[0][c] + rows[1][r] * columns[1][c] + rows[2][r] * columns[2][c];
+                *entry += rows[0][r] * x + rows[1][r] * y + rows[2][r] * z;
             }
         }
     }
