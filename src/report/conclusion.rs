@@ -28,7 +28,7 @@ pub(super) fn conclusion(summary: &Summary) -> String {
 }
 
 /// So many lines say what came out.
-const MOST_LINES: usize = 5;
+pub(super) const MOST_LINES: usize = 5;
 
 /// How many walls were solved, and how many brought no value.
 fn walls(summary: &Summary) -> String {

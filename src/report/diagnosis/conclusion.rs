@@ -1,7 +1,7 @@
 //! What a diagnosis comes to, in at most five sentences.
 
 use crate::critic::MOST_AMBIGUOUS;
-use crate::report::diagnosis::summary::DiagnosisSummary;
+use crate::report::diagnosis::summary::{CauseEntry, DiagnosisSummary};
 use crate::report::diagnosis::text::worth_saying;
 use crate::report::number::significant;
 
@@ -59,9 +59,15 @@ fn wrong(summary: &DiagnosisSummary) -> Option<String> {
 
 /// The parameters of the causes in the verdict.
 fn parameters(summary: &DiagnosisSummary) -> Option<String> {
-    let spoken = summary.causes.iter().filter(|cause| cause.in_verdict);
+    let spoken: Vec<&CauseEntry> = summary.causes.iter().filter(|cause| cause.in_verdict).collect();
+    // Of one cause the verdict has just told the name.
+    let named = |cause: &CauseEntry, words: String| match spoken.len() {
+        1 => words,
+        _ => format!("{}.{words}", cause.id),
+    };
     let all: Vec<String> = spoken
-        .flat_map(|cause| cause.parameters.iter().map(move |own| format!("{}.{}", cause.id, own.words())))
+        .iter()
+        .flat_map(|cause| cause.parameters.iter().map(|own| named(cause, own.words())))
         .collect();
     (!all.is_empty()).then(|| format!("Found (median, 90 % interval): {}.", all.join("; ")))
 }
@@ -70,9 +76,9 @@ fn parameters(summary: &DiagnosisSummary) -> Option<String> {
 fn gain(summary: &DiagnosisSummary) -> Option<String> {
     let entry = summary.gain.as_ref()?.specimens_left_out.as_ref()?;
     let errors = entry.base.rmse.zip(entry.extended.rmse).map_or_else(String::new, |(base, extended)| {
-        format!("; their errors go from {} to {} sd", significant(base, 2), significant(extended, 2))
+        format!("; errors {} to {} sd", significant(base, 2), significant(extended, 2))
     });
-    Some(format!("Held-out specimens: gain in log score per reading {}{errors}.", entry.log_score.text()))
+    Some(format!("Held-out specimens: gain in log score {}{errors}.", entry.log_score.text()))
 }
 
 /// The measurement that would tell most per hour.

@@ -1,6 +1,7 @@
 //! A verdict as people read it on a terminal, and the sentences that the page has as well.
 
 use crate::critic::{Counted, Limits};
+use crate::report::conclusion::MOST_LINES;
 use crate::report::diagnosis::conclusion::conclusion;
 use crate::report::diagnosis::summary::{DiagnosisSummary, LooksEntry, OffEntry, SelfTestEntry};
 use crate::report::diagnosis::words::{lines, reading};
@@ -17,7 +18,14 @@ pub(super) const CAUSES: usize = 6;
 
 /// The verdict for a terminal: the conclusion, then what it rests on under headings.
 pub fn diagnosis_text(summary: &DiagnosisSummary) -> String {
-    let mut text: String = conclusion(summary).iter().map(|line| wrapped("", line)).collect();
+    // At most five lines: what would make more stands below as well.
+    let mut text = String::new();
+    for sentence in conclusion(summary).iter().map(|sentence| wrapped("", sentence)) {
+        if text.lines().count() + sentence.lines().count() > MOST_LINES {
+            break;
+        }
+        text.push_str(&sentence);
+    }
     text.push_str(&format!("\n{OFF}\n"));
     text.push_str(&by_chance(summary).map_or_else(String::new, |words| wrapped("  ", &words)));
     let worth = worth_saying(summary);
