@@ -118,7 +118,8 @@ fn hidden_effects_are_not_taken_for_slips_of_the_pen() {
     }
     assert!(judged > 600, "{judged}");
     assert!(odd.is_empty(), "{} in {judged}:\n{}", odd.len(), odd.join("\n"));
-    assert!(20 * parts.len() < judged, "{} parts in {judged}:\n{}", parts.len(), parts.join("\n"));
+    // Ends that ropes hold move by hundredths of a millimetre: two of 720 look like inches.
+    assert!(100 * parts.len() < judged, "{} parts in {judged}:\n{}", parts.len(), parts.join("\n"));
 }
 
 /// Five walls of each family, read at the left, the centre and the right at five tilts.
