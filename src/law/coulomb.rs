@@ -53,12 +53,12 @@ pub enum Sampling {
     Patches(u64),
 }
 
-/// What a sub-contact remembers.
+/// What a point of a sub-contact remembers. A sub-contact that is integrated over its area has four, others one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SubContact {
     /// Shear traction on the incident block (Pa), in the joint's in-plane axes.
     pub tau: [f64; 2],
-    /// Area in contact when it was last looked at (m^2).
+    /// Its area in contact when it was last looked at (m^2).
     pub area: f64,
     /// Whether it has been pulled harder than the tensile strength.
     pub broken: bool,
@@ -68,14 +68,14 @@ pub struct SubContact {
     pub slip: f64,
 }
 
-/// What presses on a sub-contact at this moment.
+/// What presses at a point of a sub-contact at this moment.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pressed {
-    /// Centroid of the part in contact, in the joint's plane coordinates (m).
+    /// Where it lies in the joint's plane coordinates (m).
     pub at: [f64; 2],
-    /// Area in contact (m^2), the A_c of the source paper.
+    /// Its share of the area in contact (m^2), the A_c of the source paper.
     pub area: f64,
-    /// Normal force on it (N), compression positive.
+    /// Its share of the normal force (N), compression positive.
     pub force: f64,
 }
 
@@ -104,7 +104,7 @@ pub struct ShearSum {
 
 impl Motion {
     /// The increment (m) at a point of the joint.
-    fn at(&self, [s, t]: [f64; 2]) -> [f64; 2] {
+    pub(super) fn at(&self, [s, t]: [f64; 2]) -> [f64; 2] {
         let component = |k: usize| self.base[k] + s * self.by_s[k] + t * self.by_t[k];
         [component(0), component(1)]
     }
@@ -122,7 +122,7 @@ impl ShearSum {
 }
 
 impl SubContact {
-    /// An open sub-contact carries no shear, and starts from none when it closes again.
+    /// An open point carries no shear, and starts from none when it closes again.
     pub fn forget_shear(&mut self) {
         self.tau = [0.0; 2];
         self.area = 0.0;
@@ -130,10 +130,10 @@ impl SubContact {
 }
 
 impl Coulomb {
-    /// The loop over the sub-contacts of a joint: elastic shear increments limited by Coulomb's envelope.
+    /// The loop over the points of a joint's sub-contacts: elastic shear increments limited by Coulomb's envelope.
     ///
-    /// Per sub-contact, `dF_s = -ks dU_s A_c` (Eq. 2) with `|F_s| <= c A_c + F_n tan(phi)` (Eq. 3); beyond that the
-    /// traction slides back radially onto the envelope. A sub-contact without area in contact forgets its shear.
+    /// Per point, `dF_s = -ks dU_s A_c` (Eq. 2) with `|F_s| <= c A_c + F_n tan(phi)` (Eq. 3); beyond that the
+    /// traction slides back radially onto the envelope. A point without area in contact forgets its shear.
     pub fn shear(&self, states: &mut [SubContact], pressed: &[Pressed], motion: &Motion) -> ShearSum {
         let mut sum = ShearSum::default();
         for (state, load) in states.iter_mut().zip(pressed) {
@@ -141,12 +141,8 @@ impl Coulomb {
                 state.forget_shear();
                 continue;
             }
-            // Area that comes into contact brings no shear with it, area that is lost takes its share away.
-            let kept = if load.area > state.area { state.area / load.area } else { 1.0 };
+            state.tau = self.elastic(state, load, motion);
             state.area = load.area;
-            let increment = motion.at(load.at);
-            let elastic = |k: usize| state.tau[k] * kept - self.ks * increment[k];
-            state.tau = [elastic(0), elastic(1)];
             if !self.bonded {
                 let (cohesion, stress) = (self.cohesion_of(state), load.force / load.area);
                 let limit = (cohesion + stress * self.tan_phi_after(state.slip)).max(0.0);
@@ -170,6 +166,22 @@ impl Coulomb {
             sum.add(load.at, [state.tau[0] * load.area, state.tau[1] * load.area]);
         }
         sum
+    }
+
+    /// Whether a point that presses bears the shear of this motion without slipping.
+    pub fn sticks(&self, state: &SubContact, load: &Pressed, motion: &Motion) -> bool {
+        let tau = self.elastic(state, load, motion);
+        let limit =
+            (self.cohesion_of(state) + load.force / load.area * self.tan_phi_after(state.slip)).max(0.0);
+        self.bonded || tau[0] * tau[0] + tau[1] * tau[1] <= limit * limit
+    }
+
+    /// The traction (Pa) of a point that does not slip. Area that comes into contact brings no shear with it, area that is lost
+    /// takes its share away.
+    fn elastic(&self, state: &SubContact, load: &Pressed, motion: &Motion) -> [f64; 2] {
+        let kept = if load.area > state.area { state.area / load.area } else { 1.0 };
+        let increment = motion.at(load.at);
+        [0, 1].map(|k| state.tau[k] * kept - self.ks * increment[k])
     }
 
     /// The cohesion (Pa) that a sub-contact still has.

@@ -1,4 +1,4 @@
-//! Derivatives of Coulomb's law at a sub-contact, for solvers that need a tangent.
+//! Derivatives of Coulomb's law at a point of a sub-contact, for solvers that need a tangent.
 
 use crate::law::coulomb::{Coulomb, Motion, Pressed, SubContact};
 use crate::law::weakening::Slipping;
@@ -7,11 +7,13 @@ use crate::law::weakening::Slipping;
 /// `base, by_s, by_t`, two components each.
 pub const INPUTS: usize = 9;
 
-/// Derivatives of what presses on a sub-contact with respect to the gap `g0, gs, gt`.
+/// Derivatives of a [`Pressed`] with respect to the gap `g0, gs, gt`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PressedSlopes {
-    /// Of the area in contact and of its first moments in s and t.
-    pub area: [[f64; 3]; 3],
+    /// Of the place, by its two coordinates.
+    pub at: [[f64; 3]; 2],
+    /// Of the area in contact.
+    pub area: [f64; 3],
     /// Of the normal force.
     pub force: [f64; 3],
 }
@@ -19,143 +21,117 @@ pub struct PressedSlopes {
 /// Derivatives of a [`crate::law::ShearSum`]: rows are its force, by_s and by_t, two components each.
 pub type ShearSlopes = [[f64; INPUTS]; 6];
 
-/// One quantity with its derivatives.
-#[derive(Clone, Copy)]
-struct Dual {
+/// The strength that a traction goes back onto, and how it changes with the stress and with the traction's size.
+struct Limit {
     value: f64,
-    slope: [f64; INPUTS],
-}
-
-impl Dual {
-    fn constant(value: f64) -> Dual {
-        Dual { value, slope: [0.0; INPUTS] }
-    }
-
-    fn input(value: f64, index: usize) -> Dual {
-        let mut slope = [0.0; INPUTS];
-        slope[index] = 1.0;
-        Dual { value, slope }
-    }
-
-    fn of_gap(value: f64, by_gap: [f64; 3]) -> Dual {
-        let mut slope = [0.0; INPUTS];
-        slope[..3].copy_from_slice(&by_gap);
-        Dual { value, slope }
-    }
-
-    /// `value` with `a` times the slopes of `self` plus `b` times those of `other`.
-    fn combined(&self, a: f64, other: &Dual, b: f64, value: f64) -> Dual {
-        let mut slope = [0.0; INPUTS];
-        for (k, s) in slope.iter_mut().enumerate() {
-            *s = a * self.slope[k] + b * other.slope[k];
-        }
-        Dual { value, slope }
-    }
-
-    fn plus(&self, other: &Dual) -> Dual {
-        self.combined(1.0, other, 1.0, self.value + other.value)
-    }
-
-    fn times(&self, other: &Dual) -> Dual {
-        self.combined(other.value, other, self.value, self.value * other.value)
-    }
-
-    fn over(&self, other: &Dual) -> Dual {
-        let quotient = self.value / other.value;
-        self.combined(1.0 / other.value, other, -quotient / other.value, quotient)
-    }
-
-    fn scaled(&self, factor: f64) -> Dual {
-        self.combined(factor, self, 0.0, factor * self.value)
-    }
+    by_stress: f64,
+    by_size: f64,
 }
 
 impl Coulomb {
-    /// Adds the derivatives of one sub-contact's share of [`Coulomb::shear`] to `sum`, at the same arguments:
+    /// Adds the derivatives of one point's share of [`Coulomb::shear`] to `sum`, at the same arguments:
     /// `state` is what it remembered before. Says whether it slips.
     ///
-    /// Where nothing presses yet the strength is zero and the law has a corner; a pressure up to `least` (Pa) counts as
-    /// sticking, so that an assembly without load has a stiffness to start from.
+    /// Where nothing presses yet the strength is zero and the law has a corner; what is `unloaded` counts as sticking, so
+    /// that an assembly without load has a stiffness to start from.
     pub fn add_shear_slopes(
         &self,
         state: &SubContact,
         pressed: &Pressed,
         slopes: &PressedSlopes,
         motion: &Motion,
-        least: f64,
+        unloaded: bool,
         sum: &mut ShearSlopes,
     ) -> bool {
-        if pressed.area <= 0.0 {
+        let Pressed { at, area, force } = *pressed;
+        if area <= 0.0 {
             return false;
         }
-        let area = Dual::of_gap(pressed.area, slopes.area[0]);
-        let first = |k: usize| Dual::of_gap(pressed.at[k] * pressed.area, slopes.area[k + 1]);
-        let at = [first(0).over(&area), first(1).over(&area)];
-        let kept = match pressed.area > state.area {
-            true => Dual::constant(state.area).over(&area),
-            false => Dual::constant(1.0),
-        };
-        let elastic = |k: usize| {
-            let [base, by_s, by_t] = [
-                Dual::input(motion.base[k], 3 + k),
-                Dual::input(motion.by_s[k], 5 + k),
-                Dual::input(motion.by_t[k], 7 + k),
-            ];
-            let increment = base.plus(&at[0].times(&by_s)).plus(&at[1].times(&by_t));
-            kept.scaled(state.tau[k]).plus(&increment.scaled(-self.ks))
-        };
-        let mut tau = [elastic(0), elastic(1)];
-        let slips = !self.bonded && pressed.force > least * pressed.area && {
-            let stress = Dual::of_gap(pressed.force, slopes.force).over(&area);
-            let tan_phi = self.tan_phi_after(state.slip);
-            let strength = self.cohesion_of(state) + stress.value * tan_phi;
-            let limit = if strength > 0.0 {
-                stress.combined(tan_phi, &stress, 0.0, strength)
-            } else {
-                Dual::constant(0.0)
-            };
-            let size2 = tau[0].value * tau[0].value + tau[1].value * tau[1].value;
-            let slips = size2 > limit.value * limit.value;
+        let grows = area > state.area;
+        let kept = if grows { state.area / area } else { 1.0 };
+        let increment = motion.at(at);
+        let mut tau = [0, 1].map(|k| state.tau[k] * kept - self.ks * increment[k]);
+        // By the gap, which moves the point and changes the area; by the motion, the traction of a point changes by -ks (1, s, t)
+        // times `by_motion`.
+        let mut by_gap = [0, 1].map(|k| {
+            std::array::from_fn::<f64, 3, _>(|g| {
+                let lost = if grows { -kept / area * slopes.area[g] } else { 0.0 };
+                let moved = slopes.at[0][g] * motion.by_s[k] + slopes.at[1][g] * motion.by_t[k];
+                state.tau[k] * lost - self.ks * moved
+            })
+        });
+        let mut by_motion = [[1.0, 0.0], [0.0, 1.0]];
+        let size = (tau[0] * tau[0] + tau[1] * tau[1]).sqrt();
+        let stress = force / area;
+        let slips = !self.bonded && !unloaded && {
+            let limit = self.limit(state, stress, size);
+            let slips = size > (self.cohesion_of(state) + stress * self.tan_phi_after(state.slip)).max(0.0);
             if slips {
-                let size = size2.sqrt();
-                let size = tau[0].combined(tau[0].value / size, &tau[1], tau[1].value / size, size);
-                let limit = self.limit_after_slip(state, &stress, &limit, &size);
-                let back = limit.over(&size);
-                tau = [tau[0].times(&back), tau[1].times(&back)];
+                let (n, back) = (tau.map(|x| x / size), limit.value / size);
+                by_motion = [0, 1].map(|a| {
+                    [0, 1].map(|b| {
+                        let across = if a == b { 1.0 } else { 0.0 } - n[a] * n[b];
+                        back * across + limit.by_size * n[a] * n[b]
+                    })
+                });
+                by_gap = [0, 1].map(|a| {
+                    std::array::from_fn(|g| {
+                        let d_stress = (slopes.force[g] - stress * slopes.area[g]) / area;
+                        by_motion[a][0] * by_gap[0][g]
+                            + by_motion[a][1] * by_gap[1][g]
+                            + n[a] * limit.by_stress * d_stress
+                    })
+                });
+                tau = tau.map(|x| x * back);
             }
             slips
         };
-        for (k, tau) in tau.iter().enumerate() {
-            let force = tau.times(&area);
-            for (row, moment) in [(k, force), (2 + k, force.times(&at[0])), (4 + k, force.times(&at[1]))] {
-                for (total, slope) in sum[row].iter_mut().zip(moment.slope) {
-                    *total += slope;
+        let of = [1.0, at[0], at[1]];
+        let d_of = [[0.0; 3], slopes.at[0], slopes.at[1]];
+        for k in 0..2 {
+            for (moment, (arm, d_arm)) in of.iter().zip(d_of).enumerate() {
+                let row = &mut sum[2 * moment + k];
+                for g in 0..3 {
+                    let d_force = by_gap[k][g] * area + tau[k] * slopes.area[g];
+                    row[g] += arm * d_force + d_arm[g] * tau[k] * area;
+                }
+                for (j, by) in by_motion[k].iter().enumerate() {
+                    for (m, x) in of.iter().enumerate() {
+                        row[3 + 2 * m + j] -= self.ks * area * by * arm * x;
+                    }
                 }
             }
         }
         slips
     }
 
-    /// The strength onto which an elastic traction goes back, from that before: see [`Coulomb::weakened`].
-    fn limit_after_slip(&self, state: &SubContact, stress: &Dual, before: &Dual, size: &Dual) -> Dual {
-        let Some(weakening) = &self.weakening else { return *before };
-        let at = Slipping { cohesion: self.cohesion_of(state), stress: stress.value, slip: state.slip };
-        let [limit, _] = self.weakened(weakening, &at, size.value);
-        if limit == 0.0 {
-            return Dual::constant(0.0);
+    /// The strength at a point whose elastic traction has this size; see [`Coulomb::weakened`].
+    fn limit(&self, state: &SubContact, stress: f64, size: f64) -> Limit {
+        let cohesion = self.cohesion_of(state);
+        let tan_phi = self.tan_phi_after(state.slip);
+        let peak = cohesion + stress * tan_phi;
+        let Some(weakening) = &self.weakening else {
+            let carries = peak > 0.0;
+            return Limit {
+                value: peak.max(0.0),
+                by_stress: if carries { tan_phi } else { 0.0 },
+                by_size: 0.0,
+            };
+        };
+        let at = Slipping { cohesion, stress, slip: state.slip };
+        let [value, slip] = self.weakened(weakening, &at, size);
+        if value == 0.0 {
+            return Limit { value, by_stress: 0.0, by_size: 0.0 };
         }
-        match self.softening(weakening, &at, size.value) {
+        match self.softening(weakening, &at, size) {
+            // peak - h slip with slip = (size - peak) / (ks - h), where h grows with the stress at a rate.
             Some(h) => {
                 let rate = self.tan_phi * (1.0 - weakening.residual) / weakening.distance;
-                let h = stress.combined(rate, stress, 0.0, h);
-                let unloads = h.combined(-1.0, &h, 0.0, self.ks - h.value);
-                let slip = size.plus(&before.scaled(-1.0)).over(&unloads);
-                before.plus(&h.times(&slip).scaled(-1.0))
+                let unloads = self.ks - h;
+                let by_stress = tan_phi - rate * slip - h * (slip * rate - tan_phi) / unloads;
+                Limit { value, by_stress, by_size: -h / unloads }
             }
-            None => {
-                let residual = self.tan_phi * weakening.residual;
-                stress.combined(residual, stress, 0.0, limit)
-            }
+            None => Limit { value, by_stress: self.tan_phi * weakening.residual, by_size: 0.0 },
         }
     }
 }

@@ -90,16 +90,21 @@ fn implicit_and_explicit_move_random_walls_alike() {
 fn implicit_and_explicit_see_random_walls_fall_at_the_same_angle() {
     let law = dry(2e8, 32.0);
     let (implicit, explicit) =
-        (Solver::Implicit(implicit::Settings::default()), Solver::Explicit(explicit_settings(0.3)));
+        (Solver::Implicit(implicit::Settings::default()), Solver::Explicit(explicit_settings(0.8)));
     let ends: Vec<_> = walls()
         .par_iter()
-        .map(|wall| (tilt(wall, &law, &implicit, 2.0, 0.05), tilt(wall, &law, &explicit, 2.0, 0.05)))
+        .map(|wall| (tilt(wall, &law, &implicit, 2.0, 0.05), tilt(wall, &law, &explicit, 1.0, 0.05)))
         .collect();
     for (member, (a, b)) in ends.iter().enumerate() {
-        println!("wall {member}: {:?} {:?}", angle(&a.outcome), angle(&b.outcome));
         assert_eq!(a.outcome.name(), b.outcome.name(), "wall {member}");
         let (x, y) = (angle(&a.outcome).expect("it falls"), angle(&b.outcome).expect("it falls"));
-        assert!((x - y).abs() < 0.25, "wall {member}: {x} against {y} deg");
+        let slid = a.displacements.iter().map(Vec3::norm).fold(0.0, f64::max);
+        println!("wall {member}: {x:.3} and {y:.3} deg, slid by {slid:.1e} m before");
+        // A stone that slides by millimetres before the wall falls does so at a friction that just holds it: a wall that swings
+        // about each rest state takes it further, and never less far. Explicit steps of 0.02 deg end at 27.85 deg where those
+        // of 1 deg end at 27.78 and the implicit ones at 28.08.
+        let allowed = if slid > 5e-3 { -0.35..0.1 } else { -0.1..0.1 };
+        assert!(allowed.contains(&(y - x)), "wall {member}: {x} against {y} deg");
     }
 }
 

@@ -166,9 +166,9 @@ fn more_sub_contacts_change_less_and_less() {
     let start = wall.blocks[18].shape.mass_properties().centroid;
     let size = (eight - start).norm();
     println!("2 x 2: {:e}, 4 x 4: {:e} of {size:e}", (two - eight).norm(), (four - eight).norm());
-    // Where joints open, shear moves to the cells that stay closed.
-    assert!((two - eight).norm() < 2e-2 * size);
-    assert!((four - eight).norm() < 0.5 * (two - eight).norm());
+    // Four points of each part follow shear that is affine over it, so that even 2 x 2 leave next to nothing to gain.
+    assert!((two - eight).norm() < 5e-3 * size);
+    assert!((four - eight).norm() < (two - eight).norm());
 }
 
 #[test]

@@ -47,9 +47,10 @@ fn a_turned_and_moved_wall_answers_the_same() {
     let law = Coulomb { tension: 1e9, cohesion: 1e9, ..dry(1e8, 30.0) };
     for turn in [Rotation3::identity(), Rotation3::from_euler_angles(0.7, -0.4, 1.9)] {
         let (largest, difference) = compare(&law, 10.0, turn);
-        // Both stop at 1e-9 of unbalanced force, and leaning is about a thousand times softer than what carries that
-        // force: 1e-6 of the displacement is how far the stop itself reaches; a mere shift differs as much.
-        assert!(difference < 5e-6 * largest, "{difference:e}");
+        // Gravity comes at once, and the bounds by which inertia is scaled depend on the axes: the two swing to rest in
+        // different ways. Shear is added up along the way, and what differs are squares of turns: 6e-6 of the displacement,
+        // whether they stop at 1e-9 or 1e-10 of unbalanced force.
+        assert!(difference < 1e-5 * largest, "{difference:e}");
     }
 }
 

@@ -3,8 +3,10 @@
 use crate::contact::Cell;
 use crate::law::{Coulomb, Motion, NormalLaw, Pressed, Sampling, ShearSum, SubContact};
 use crate::math::Vec3;
+use crate::shape::Moments;
 use crate::solve::bodies::Body;
 use crate::solve::joints::joint::{Gap, Pose};
+use crate::solve::joints::points::{POINTS, Spread};
 use crate::solve::joints::pressure::{PressureSum, closure_energy, compressed, linear, pressure};
 use crate::solve::joints::{Anchor, Joint};
 
@@ -91,6 +93,7 @@ impl Joint {
     /// Integrates the pressure, and lists what presses on each sub-contact.
     pub(super) fn press(&mut self, gap: &Gap, pressed: &mut Vec<Pressed>) -> PressureSum {
         pressed.clear();
+        let each = self.points_each();
         let highest = self.polygon.vertices.iter().map(|v| gap.at(v)).fold(f64::NEG_INFINITY, f64::max);
         let closed = highest <= 0.0;
         let mut sum = PressureSum::default();
@@ -99,34 +102,50 @@ impl Joint {
         {
             // All in compression: the whole polygon at once, and each cell's share.
             sum = linear(kn, &self.whole, gap);
-            for cell in &self.cells {
-                let at = cell.moments.centroid();
-                let force = kn * -gap.at(&at) * cell.moments.area;
-                pressed.push(Pressed { at, area: cell.moments.area, force });
+            for (index, cell) in self.cells.iter().enumerate() {
+                self.spread(index, &cell.moments, &linear(kn, &cell.moments, gap), pressed);
             }
             return sum;
         }
-        for (cell, state) in self.cells.iter().zip(&mut self.states) {
-            if self.law.holds(state) && !self.law.bonded && tears(&self.law, cell, gap) {
-                state.broken = true;
+        for (index, cell) in self.cells.iter().enumerate() {
+            let states = &mut self.states[each * index..each * (index + 1)];
+            if self.law.holds(&states[0]) && !self.law.bonded && tears(&self.law, cell, gap) {
+                states.iter_mut().for_each(|state| state.broken = true);
             }
-            let holds = self.law.holds(state);
+            let holds = self.law.holds(&states[0]);
             let part = if holds { cell.moments } else { compressed(cell, gap) };
             let share = pressure(&self.law.normal, cell, &part, gap, holds);
-            pressed.push(Pressed { at: part.centroid(), area: part.area, force: share.force });
+            self.spread(index, &part, &share, pressed);
             sum.add(&share);
         }
         sum
     }
 
+    /// Lists what presses at the points of a part of a sub-contact.
+    fn spread(&self, index: usize, part: &Moments, share: &PressureSum, pressed: &mut Vec<Pressed>) {
+        match self.points_each() {
+            POINTS if part.area <= 0.0 => pressed.extend([Pressed::default(); POINTS]),
+            POINTS => pressed.extend(self.spread_of(index, part).pressed(part.area, share)),
+            _ => pressed.push(Pressed { at: part.centroid(), area: part.area, force: share.force }),
+        }
+    }
+
+    /// Where the points of a part of a sub-contact lie; for all of it that is known.
+    pub(super) fn spread_of(&self, index: usize, part: &Moments) -> Spread {
+        match part.area < self.cells[index].moments.area {
+            true => Spread::new(part),
+            false => self.spreads[index],
+        }
+    }
+
     pub(super) fn closure_energy(&self, bodies: &[Body]) -> f64 {
         let gap = self.pose(bodies).gap;
-        let of = |(cell, state): (&Cell, &SubContact)| {
-            let holds = self.law.holds(state);
+        let of = |(cell, states): (&Cell, &[SubContact])| {
+            let holds = self.law.holds(&states[0]);
             let part = if holds { cell.moments } else { compressed(cell, &gap) };
             closure_energy(&self.law.normal, cell, &part, &gap, holds)
         };
-        self.cells.iter().zip(&self.states).map(of).sum()
+        self.cells.iter().zip(self.states.chunks_exact(self.points_each())).map(of).sum()
     }
 }
 

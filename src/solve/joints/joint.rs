@@ -5,6 +5,7 @@ use crate::law::{Coulomb, PATCHES_ALONG, Sampling, SubContact};
 use crate::math::Vec3;
 use crate::shape::{Moments, Polygon};
 use crate::solve::bodies::{Bodies, Body};
+use crate::solve::joints::points::{POINTS, Spread};
 
 /// A joint between two bodies, its geometry stored in the bodies' own axes.
 #[derive(Clone, Debug)]
@@ -29,8 +30,9 @@ pub struct Joint {
     /// The polygon, and the integrals over it or over the patches of it that can touch.
     pub(super) polygon: Polygon,
     pub(super) whole: Moments,
-    /// Sub-contacts, and what they remember.
+    /// Sub-contacts, where the points of each lie when it is closed, and what they remember: so many in a row for each.
     pub(super) cells: Vec<Cell>,
+    pub(super) spreads: Vec<Spread>,
     pub(super) states: Vec<SubContact>,
     /// Size of the force at the last evaluation (N).
     pub force: f64,
@@ -102,7 +104,8 @@ impl Joint {
             touch: settings.touch,
             whole,
             polygon: patch.polygon.clone(),
-            states: vec![SubContact::default(); cells.len()],
+            states: vec![SubContact::default(); cells.len() * points_of(&law)],
+            spreads: cells.iter().map(|cell| Spread::new(&cell.moments)).collect(),
             cells,
             force: 0.0,
         }
@@ -121,19 +124,33 @@ impl Joint {
         self.blocks
     }
 
-    /// Takes over the history of the same pair's former joint, by nearness of the sub-contacts.
+    /// Points of each sub-contact.
+    pub(super) fn points_each(&self) -> usize {
+        points_of(&self.law)
+    }
+
+    /// The points of all sub-contacts when they are closed: places in the plane and areas.
+    fn closed_points(&self) -> Vec<([f64; 2], f64)> {
+        let mut all = Vec::with_capacity(self.states.len());
+        for (cell, spread) in self.cells.iter().zip(&self.spreads) {
+            match self.points_each() {
+                POINTS => all.extend(spread.places().map(|at| (at, 0.25 * cell.moments.area))),
+                _ => all.push((cell.moments.centroid(), cell.moments.area)),
+            }
+        }
+        all
+    }
+
+    /// Takes over the history of the same pair's former joint, by nearness of the points.
     pub(super) fn inherit(&mut self, before: &Joint, bodies: &Bodies) {
         self.force = before.force;
         let (now, then) = (self.pose(&bodies.all), before.pose(&bodies.all));
         // Traction is kept for the incident body; when the roles have changed, its reaction acts there.
         let sign = if self.incident == before.incident { 1.0 } else { -1.0 };
-        let place = |pose: &Pose, cell: &Cell| {
-            let [s, t] = cell.moments.centroid();
-            pose.origin + pose.s * s + pose.t * t
-        };
-        let old: Vec<Vec3> = before.cells.iter().map(|c| place(&then, c)).collect();
-        for (cell, state) in self.cells.iter().zip(&mut self.states) {
-            let here = place(&now, cell);
+        let place = |pose: &Pose, [s, t]: [f64; 2]| pose.origin + pose.s * s + pose.t * t;
+        let old: Vec<Vec3> = before.closed_points().into_iter().map(|(at, _)| place(&then, at)).collect();
+        for ((at, whole), state) in self.closed_points().into_iter().zip(&mut self.states) {
+            let here = place(&now, at);
             let nearest = old
                 .iter()
                 .enumerate()
@@ -142,7 +159,7 @@ impl Joint {
                 .0;
             if let Some(from) = before.states.get(nearest) {
                 let traction = (then.e1 * from.tau[0] + then.e2 * from.tau[1]) * sign;
-                let area = if from.area > 0.0 { cell.moments.area } else { 0.0 };
+                let area = if from.area > 0.0 { whole } else { 0.0 };
                 *state = SubContact { tau: [traction.dot(&now.e1), traction.dot(&now.e2)], area, ..*from };
             }
         }
@@ -177,6 +194,11 @@ impl Joint {
         !self.is_wide_open(&self.pose(bodies).gap)
     }
 
+    /// Whether it carries no more than the trace of pressure with which faces that just touch begin.
+    pub(super) fn is_unloaded(&self) -> bool {
+        self.force <= 2.0 * self.law.normal.first_stiffness() * self.touch * self.whole.area
+    }
+
     /// The area of the joint (m^2): of its polygon, or of the patches that can touch.
     pub fn area(&self) -> f64 {
         self.whole.area
@@ -204,6 +226,14 @@ impl Joint {
         let across = if first > 0.0 { st / m.area / first } else { 0.0 };
         let second = (tt / m.area - across * across).max(0.0).sqrt();
         [(pose.s * first + pose.t * across, pose.e1), (pose.t * second, pose.e2)]
+    }
+}
+
+/// Points of a sub-contact at which shear is followed: small patches and corners have one.
+fn points_of(law: &Coulomb) -> usize {
+    match law.sampling {
+        Sampling::Area => POINTS,
+        Sampling::Vertices | Sampling::Patches(_) => 1,
     }
 }
 

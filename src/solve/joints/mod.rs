@@ -2,6 +2,7 @@
 
 mod force;
 mod joint;
+mod points;
 mod pressure;
 mod slopes;
 #[cfg(test)]
@@ -139,8 +140,9 @@ impl Joints {
     /// Hands out every joint's [`Slopes`] for a step that started at the anchors, by index; a joint without force has
     /// none. What the joints remember stays as it is.
     pub fn each_slope(&mut self, bodies: &[Body], anchors: &[Anchor], mut take: impl FnMut(usize, &Slopes)) {
+        let unloaded = self.all.iter().all(Joint::is_unloaded);
         for (index, (joint, anchor)) in self.all.iter().zip(anchors).enumerate() {
-            if let Some(slopes) = joint.slopes(bodies, anchor, &mut self.scratch) {
+            if let Some(slopes) = joint.slopes(bodies, anchor, unloaded, &mut self.scratch) {
                 take(index, &slopes);
             }
         }

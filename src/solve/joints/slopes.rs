@@ -11,9 +11,11 @@
 use crate::contact::Cell;
 use crate::law::{Motion, Pressed, PressedSlopes, ShearSlopes, SubContact};
 use crate::math::Vec3;
+use crate::shape::Moments;
 use crate::solve::bodies::Body;
 use crate::solve::joints::force::Sums;
 use crate::solve::joints::joint::{Gap, Pose};
+use crate::solve::joints::points::{MomentSlopes, POINTS, centre_slopes};
 use crate::solve::joints::pressure::{compressed, pressure, pressure_slopes};
 use crate::solve::joints::{Anchor, Joint};
 
@@ -60,11 +62,12 @@ impl Twist {
 
 impl Joint {
     /// The tangent at the bodies' positions for a step that started at the anchor, after the forces have been
-    /// applied there; `None` where the joint has no force.
+    /// applied there; `None` where the joint has no force. In an assembly that is `unloaded` every joint sticks.
     pub(super) fn slopes(
         &self,
         bodies: &[Body],
         anchor: &Anchor,
+        unloaded: bool,
         pressed: &mut Vec<Pressed>,
     ) -> Option<Slopes> {
         let pose = self.pose(bodies);
@@ -73,7 +76,7 @@ impl Joint {
         }
         let (i, r) = (&bodies[self.incident as usize], &bodies[self.reference as usize]);
         let motion = pose.motion_since(anchor, r);
-        let (sums, slopes) = self.sum_slopes(&pose.gap, &motion, anchor, pressed);
+        let (sums, slopes) = self.sum_slopes(&pose.gap, &motion, anchor, unloaded, pressed);
         let carried = [anchor.origin, anchor.s, anchor.t].map(|v| r.rotation * v);
         let geometry = Geometry { pose: &pose, incident: i, reference: r, carried, sums: &sums };
         let shifts = AXES.map(|shift| geometry.change(&Twist { shift, ..Twist::NONE }, &slopes));
@@ -111,13 +114,16 @@ impl Joint {
         gap: &Gap,
         motion: &Motion,
         anchor: &Anchor,
+        unloaded: bool,
         pressed: &mut Vec<Pressed>,
     ) -> (Sums, SumSlopes) {
         let (mut sums, mut slopes) = (Sums::default(), SumSlopes::default());
         pressed.clear();
-        let mut before = Vec::with_capacity(self.cells.len());
-        for ((cell, state), earlier) in self.cells.iter().zip(&self.states).zip(&anchor.states) {
-            let holds = self.law.holds(state);
+        let each = self.points_each();
+        let mut before = Vec::with_capacity(self.states.len());
+        let histories = self.states.chunks_exact(each).zip(anchor.states.chunks_exact(each));
+        for (index, (cell, (states, earlier))) in self.cells.iter().zip(histories).enumerate() {
+            let holds = self.law.holds(&states[0]);
             let part = if holds { cell.moments } else { compressed(cell, gap) };
             let share = pressure(&self.law.normal, cell, &part, gap, holds);
             sums.pressure.add(&share);
@@ -125,22 +131,44 @@ impl Joint {
             for (total, row) in slopes.pressure.iter_mut().zip(rows) {
                 total.iter_mut().zip(row).for_each(|(sum, slope)| *sum -= slope);
             }
-            let load = Pressed { at: part.centroid(), area: part.area, force: share.force };
-            let cut = part.area < cell.moments.area && part.area > 0.0;
-            let area = if cut { cut_moments(cell, gap) } else { [[0.0; 3]; 3] };
-            let by_gap = PressedSlopes { area, force: rows[0].map(|slope| -slope) };
-            let was = SubContact { broken: state.broken, ..*earlier };
-            slopes.slips |= self.law.add_shear_slopes(
-                &was,
-                &load,
-                &by_gap,
-                motion,
-                2.0 * self.law.normal.first_stiffness() * self.touch,
-                &mut slopes.shear,
+            let first = before.len();
+            before.extend(
+                earlier.iter().zip(states).map(|(was, now)| SubContact { broken: now.broken, ..*was }),
             );
+            let was = &before[first..];
+            if part.area <= 0.0 {
+                pressed.extend(was.iter().map(|_| Pressed::default()));
+                continue;
+            }
+            let cut = part.area < cell.moments.area;
             slopes.opens |= cut;
-            pressed.push(load);
-            before.push(was);
+            let by_gap = if cut { cut_moments(cell, gap) } else { MomentSlopes::default() };
+            let mut add = |was: &SubContact, load: Pressed, by_gap: &PressedSlopes| {
+                slopes.slips |=
+                    self.law.add_shear_slopes(was, &load, by_gap, motion, unloaded, &mut slopes.shear);
+                pressed.push(load);
+            };
+            if each < POINTS {
+                let (load, by_gap) = centre_slopes(&part, &share, &by_gap, &rows);
+                add(&was[0], load, &by_gap);
+                continue;
+            }
+            let spread = self.spread_of(index, &part);
+            let loads = spread.pressed(part.area, &share);
+            if !cut
+                && (unloaded || was.iter().zip(&loads).all(|(was, load)| self.law.sticks(was, load, motion)))
+            {
+                add_sticking(self.law.ks, &part, &mut slopes.shear);
+                pressed.extend(loads);
+                continue;
+            }
+            let by_gap = match cut {
+                true => spread.slopes(&part, &share, &by_gap, &rows),
+                false => spread.fixed_slopes(&rows),
+            };
+            for ((was, load), by_gap) in was.iter().zip(loads).zip(&by_gap) {
+                add(was, load, by_gap);
+            }
         }
         sums.shear = self.law.shear(&mut before, pressed, motion);
         (sums, slopes)
@@ -207,9 +235,21 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).fold(0.0, |sum, (x, y)| sum + x * y)
 }
 
-/// How the area in contact of a cell and its first moments (rows) change with the gap `g0, gs, gt` (columns): minus
-/// the integral of (1, s, t) times (1, s, t) along the cut, over the size of the gap's gradient.
-fn cut_moments(cell: &Cell, gap: &Gap) -> [[f64; 3]; 3] {
+/// Adds the slopes of points that all stick on a part that does not change with the gap: they have its moments.
+fn add_sticking(ks: f64, part: &Moments, sum: &mut ShearSlopes) {
+    let Moments { area, s, t, ss, st, tt } = *part;
+    for (moment, row) in [[area, s, t], [s, ss, st], [t, st, tt]].into_iter().enumerate() {
+        for (m, x) in row.into_iter().enumerate() {
+            for k in 0..2 {
+                sum[2 * moment + k][3 + 2 * m + k] -= ks * x;
+            }
+        }
+    }
+}
+
+/// How the integrals 1, s, t, s^2, s t, t^2 over the compressed part of a cell change with the gap: minus those of them times
+/// (1, s, t) along the cut, over the size of the gap's gradient.
+fn cut_moments(cell: &Cell, gap: &Gap) -> MomentSlopes {
     let mut ends = [[0.0; 2]; 2];
     let mut found = 0;
     let corners = &cell.outline.vertices;
@@ -223,15 +263,15 @@ fn cut_moments(cell: &Cell, gap: &Gap) -> [[f64; 3]; 3] {
         }
     }
     if found < 2 {
-        return [[0.0; 3]; 3];
+        return MomentSlopes::default();
     }
     let [p, q] = ends;
     let length = ((q[0] - p[0]) * (q[0] - p[0]) + (q[1] - p[1]) * (q[1] - p[1])).sqrt();
     let weight = -length / (6.0 * (gap.gs * gap.gs + gap.gt * gap.gt).sqrt());
-    let of = |[s, t]: [f64; 2]| [1.0, s, t];
+    let of = |[s, t]: [f64; 2]| [1.0, s, t, s * s, s * t, t * t];
     let middle = of([0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])]);
     let (p, q) = (of(p), of(q));
-    // Simpson's rule is exact for products of two affine functions.
+    // Simpson's rule is exact for cubic functions.
     std::array::from_fn(|row| {
         std::array::from_fn(|column| {
             weight * (p[row] * p[column] + 4.0 * middle[row] * middle[column] + q[row] * q[column])
