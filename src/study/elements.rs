@@ -12,7 +12,7 @@ use crate::study::catalogue::{Catalogue, Used};
 use crate::study::checked::InputFile;
 use crate::study::distributions::Distributions;
 use crate::study::fault::{Fault, Faults};
-use crate::study::load::{existing, hash_of, parsed};
+use crate::study::load::{existing, hash_of, parsed, record_revision};
 use crate::study::quantity::quantity;
 use crate::study::raw::{Node, Value};
 use crate::study::reader::{Notes, Reader};
@@ -117,7 +117,8 @@ impl ElementStudy {
         let mut catalogue = Catalogue::of(Distributions::of_study(&folder));
         let study = root.and_then(|root| study(&root, &mut notes, &mut catalogue));
         // What others report decides no result.
-        let effective = std::mem::take(&mut notes.effective);
+        let mut effective = std::mem::take(&mut notes.effective);
+        record_revision(&mut effective);
         let names: Option<Vec<&str>> =
             study.as_ref().map(|s| s.arms.iter().map(|arm| arm.name.as_str()).collect());
         let published =

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::solve::Solver;
+use crate::solve::{REVISION, Solver};
 use crate::study::build::{self, Parts};
 use crate::study::catalogue::{Catalogue, Used};
 use crate::study::checked::{Arm, InputFile, Study};
@@ -115,7 +115,9 @@ impl Study {
         match reading {
             Some(Reading { parts: Some(parts), root, notes, used }) if faults.is_empty() => {
                 let name = folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-                let hash = hash_of(&notes.effective);
+                let mut effective = notes.effective;
+                record_revision(&mut effective);
+                let hash = hash_of(&effective);
                 let read = measured.unwrap_or_default();
                 let study = Study {
                     name,
@@ -129,7 +131,7 @@ impl Study {
                     published: claims,
                     measured: read.rows,
                     inputs,
-                    effective: notes.effective,
+                    effective,
                     hash,
                 };
                 let name_of = |v: &Variant| VariantName { name: v.name.clone(), why: v.why.clone() };
@@ -210,6 +212,11 @@ impl Study {
         self.hash = hash_of(&self.effective);
         self
     }
+}
+
+/// Puts the state of laws and solvers among the values that decide a result.
+pub(super) fn record_revision(effective: &mut BTreeMap<String, String>) {
+    effective.insert("revision of laws and solvers".to_owned(), REVISION.to_string());
 }
 
 /// SHA-256 (hex) over the effective values in the order of their keys, one line each.
