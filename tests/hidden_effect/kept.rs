@@ -35,7 +35,7 @@ const KEPT: [(u64, [Word; PLAIN.len()]); 8] = [
 ];
 
 #[test]
-#[ignore = "slow: eight campaigns of nine walls are solved and judged, a minute of processor time and more"]
+#[ignore = "by hand, with the bank of studies/hidden-effects: eight campaigns of nine walls are solved and judged"]
 fn what_was_said_of_some_campaigns_of_nine_walls_is_still_said() {
     let folders =
         Folders { out: Path::new(env!("CARGO_TARGET_TMPDIR")).join("kept-campaigns"), is_whole: false };

