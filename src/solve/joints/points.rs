@@ -144,20 +144,20 @@ pub(super) fn centre_slopes(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::Streams;
+    use crate::math::{cos, sin};
     use crate::shape::Polygon;
     use crate::solve::joints::joint::Gap;
     use crate::solve::joints::pressure::linear;
     use approx::assert_relative_eq;
 
-    /// A square cut off at random; thin strips and small corners among them.
+    /// A square cut along many lines; thin strips and small corners among its parts.
     fn parts() -> Vec<Polygon> {
         let square = Polygon { vertices: vec![[0.3, 0.1], [0.5, 0.1], [0.5, 0.3], [0.3, 0.3]] };
-        let mut stream = Streams::new(7, 0).of("parts");
-        let cut = |_| {
-            let [s, t] = [0, 1].map(|_| 2.0 * stream.uniform() - 1.0);
-            let at = [0.3 + 0.2 * stream.uniform(), 0.1 + 0.2 * stream.uniform()];
-            square.clip(-s * at[0] - t * at[1], s, t)
+        let cut = |k: u32| {
+            // Turned by the golden angle each time, 0 to 0.14 m from the centre.
+            let turned = 2.399_963 * f64::from(k);
+            let [s, t] = [cos(turned), sin(turned)];
+            square.clip(-s * 0.4 - t * 0.2 - 0.14 * f64::from(k) / 500.0, s, t)
         };
         (0..500).map(cut).filter(|part| part.vertices.len() > 2 && part.moments().area > 1e-9).collect()
     }
