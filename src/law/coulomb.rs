@@ -104,7 +104,7 @@ pub struct ShearSum {
 
 impl Motion {
     /// The increment (m) at a point of the joint.
-    pub(super) fn at(&self, [s, t]: [f64; 2]) -> [f64; 2] {
+    fn at(&self, [s, t]: [f64; 2]) -> [f64; 2] {
         let component = |k: usize| self.base[k] + s * self.by_s[k] + t * self.by_t[k];
         [component(0), component(1)]
     }
@@ -144,13 +144,13 @@ impl Coulomb {
             state.tau = self.elastic(state, load, motion);
             state.area = load.area;
             if !self.bonded {
-                let (cohesion, stress) = (self.cohesion_of(state), load.force / load.area);
-                let limit = (cohesion + stress * self.tan_phi_after(state.slip)).max(0.0);
+                let limit = self.strength(state, load);
                 let size2 = state.tau[0] * state.tau[0] + state.tau[1] * state.tau[1];
                 if size2 > limit * limit {
                     let size = size2.sqrt();
                     let limit = match &self.weakening {
                         Some(weakening) => {
+                            let (cohesion, stress) = (self.cohesion_of(state), load.force / load.area);
                             let at = Slipping { cohesion, stress, slip: state.slip };
                             let [limit, slip] = self.weakened(weakening, &at, size);
                             state.slip += slip;
@@ -170,18 +170,21 @@ impl Coulomb {
 
     /// Whether a point that presses bears the shear of this motion without slipping.
     pub fn sticks(&self, state: &SubContact, load: &Pressed, motion: &Motion) -> bool {
-        let tau = self.elastic(state, load, motion);
-        let limit =
-            (self.cohesion_of(state) + load.force / load.area * self.tan_phi_after(state.slip)).max(0.0);
+        let (tau, limit) = (self.elastic(state, load, motion), self.strength(state, load));
         self.bonded || tau[0] * tau[0] + tau[1] * tau[1] <= limit * limit
     }
 
     /// The traction (Pa) of a point that does not slip. Area that comes into contact brings no shear with it, area that is lost
     /// takes its share away.
-    fn elastic(&self, state: &SubContact, load: &Pressed, motion: &Motion) -> [f64; 2] {
+    pub(super) fn elastic(&self, state: &SubContact, load: &Pressed, motion: &Motion) -> [f64; 2] {
         let kept = if load.area > state.area { state.area / load.area } else { 1.0 };
         let increment = motion.at(load.at);
         [0, 1].map(|k| state.tau[k] * kept - self.ks * increment[k])
+    }
+
+    /// The strength (Pa) of a point before it slips on.
+    pub(super) fn strength(&self, state: &SubContact, load: &Pressed) -> f64 {
+        (self.cohesion_of(state) + load.force / load.area * self.tan_phi_after(state.slip)).max(0.0)
     }
 
     /// The cohesion (Pa) that a sub-contact still has.

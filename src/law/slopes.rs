@@ -48,14 +48,12 @@ impl Coulomb {
             return false;
         }
         let grows = area > state.area;
-        let kept = if grows { state.area / area } else { 1.0 };
-        let increment = motion.at(at);
-        let mut tau = [0, 1].map(|k| state.tau[k] * kept - self.ks * increment[k]);
+        let mut tau = self.elastic(state, pressed, motion);
         // By the gap, which moves the point and changes the area; by the motion, the traction of a point changes by -ks (1, s, t)
         // times `by_motion`.
         let mut by_gap = [0, 1].map(|k| {
             std::array::from_fn::<f64, 3, _>(|g| {
-                let lost = if grows { -kept / area * slopes.area[g] } else { 0.0 };
+                let lost = if grows { -(state.area / area) / area * slopes.area[g] } else { 0.0 };
                 let moved = slopes.at[0][g] * motion.by_s[k] + slopes.at[1][g] * motion.by_t[k];
                 state.tau[k] * lost - self.ks * moved
             })
@@ -65,7 +63,7 @@ impl Coulomb {
         let stress = force / area;
         let slips = !self.bonded && !unloaded && {
             let limit = self.limit(state, stress, size);
-            let slips = size > (self.cohesion_of(state) + stress * self.tan_phi_after(state.slip)).max(0.0);
+            let slips = size > self.strength(state, pressed);
             if slips {
                 let (n, back) = (tau.map(|x| x / size), limit.value / size);
                 by_motion = [0, 1].map(|a| {

@@ -3,8 +3,8 @@
 use pirca::generate::{Arrangement, DipAbout};
 use pirca::law::Sampling;
 use pirca::protocol::Ends;
-use pirca::solve::Solver;
 use pirca::solve::explicit::Settings;
+use pirca::solve::{REVISION, Solver};
 use pirca::study::{Study, key_reference};
 
 use crate::scratch::{PUBLISHED, SIZE, STUDY, Scratch};
@@ -228,6 +228,17 @@ fn another_seed_or_size_is_another_study() {
     assert_eq!(more.arms.iter().map(|a| a.members).collect::<Vec<_>>(), [1, 1, 12, 12]);
     assert_ne!(more.hash, base.hash);
     assert_eq!(more.with_members(3).hash, base.hash);
+}
+
+/// What another state of laws and solvers computed is another study's result, whichever solver is asked for.
+#[test]
+fn the_revision_of_laws_and_solvers_decides_a_result() {
+    let scratch = Scratch::new("revision");
+    let study = scratch.load(None).expect("sound").study;
+    for study in [study.clone().with_solver("implicit"), study.with_solver("explicit")] {
+        let effective = study.expect("both go").effective;
+        assert_eq!(effective["revision of laws and solvers"], REVISION.to_string());
+    }
 }
 
 /// Every key that decides a result is in the effective values: none is parsed and then forgotten.

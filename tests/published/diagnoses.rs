@@ -112,7 +112,11 @@ fn hidden_effects_are_not_taken_for_slips_of_the_pen() {
                     Doubt::ThickerThanWall { .. } => {}
                     Doubt::OtherUnit { told: Told::Part, .. } => parts.push(words),
                     // What stands on once a part has fallen is stockier than the whole wall.
-                    Doubt::Overturned { .. } if words.starts_with("end_release") => overturned.push(words),
+                    Doubt::Overturned { .. }
+                        if cause.is_some_and(|c| mechanisms[c].name == "end_release") =>
+                    {
+                        overturned.push(words)
+                    }
                     _ => odd.push(words),
                 }
             }

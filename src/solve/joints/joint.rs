@@ -30,9 +30,11 @@ pub struct Joint {
     /// The polygon, and the integrals over it or over the patches of it that can touch.
     pub(super) polygon: Polygon,
     pub(super) whole: Moments,
-    /// Sub-contacts, where the points of each lie when it is closed, and what they remember: so many in a row for each.
+    /// Sub-contacts.
     pub(super) cells: Vec<Cell>,
+    /// Where the points of each lie when it is closed.
     pub(super) spreads: Vec<Spread>,
+    /// What the points remember: [`Joint::points_each`] in a row for each sub-contact.
     pub(super) states: Vec<SubContact>,
     /// Size of the force at the last evaluation (N).
     pub force: f64,
