@@ -6,7 +6,8 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::cli::help::{
-    ANALYSE, BANK, CHECK, DIAGNOSE, GENERATE, INIT, MEASURED, MECHANISMS, PICTURE, RUN, SENSITIVITY, WHOLE,
+    ANALYSE, BANK, CHECK, DIAGNOSE, GENERATE, INIT, MEASURED, MECHANISMS, PICTURE, READINGS, RUN,
+    SENSITIVITY, WHOLE,
 };
 use crate::cli::{analyse, sensitivity};
 use crate::protocol::Direction;
@@ -54,6 +55,11 @@ pub(crate) enum Verb {
     /// A run that was stopped goes on where it stood.
     #[command(after_help = RUN)]
     Run(Run),
+    /// Search the variants of a study, alone and together, for what was published.
+    ///
+    /// Where a source does not say all that it did, its statements may tell which of the possible readings is meant.
+    #[command(after_help = READINGS)]
+    Readings(Readings),
     /// Simulate the walls that a diagnosis rests on, once for its design.
     ///
     /// Every mechanism is simulated at many strengths, with joints that are known as badly as they are. A bank that was stopped
@@ -235,6 +241,31 @@ pub(crate) struct Run {
     /// Output folder of an earlier run of the same study, whose means are drawn into the figure as hollow markers.
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub beside: Option<PathBuf>,
+}
+
+/// Arguments of `readings`.
+#[derive(Args, Debug)]
+pub(crate) struct Readings {
+    /// The study: its folder, or the study.toml in it.
+    pub study: PathBuf,
+    /// Print one JSON object on standard output instead of text.
+    #[arg(long, help_heading = OUTPUT)]
+    pub json: bool,
+    /// Output folder [default: runs/<study>-readings].
+    #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
+    pub out: Option<PathBuf>,
+    /// Most variants that are read together.
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u64).range(1..=6), help_heading = STUDY)]
+    pub departures: u64,
+    /// Number of walls in every random arm, instead of the study's.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000), help_heading = STUDY)]
+    pub members: Option<u64>,
+    /// Seed instead of the study's.
+    #[arg(long, value_name = "S", help_heading = STUDY)]
+    pub seed: Option<u64>,
+    /// Worker threads [default: one per processor]. No result depends on their number.
+    #[arg(long, value_name = "T", help_heading = SOLUTION)]
+    pub threads: Option<NonZero<usize>>,
 }
 
 /// Arguments of `sensitivity`.

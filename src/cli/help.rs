@@ -17,7 +17,7 @@ const INDENT: usize = 10;
 /// The verbs in the order in which they are met, under what they are about.
 const GROUPS: [(&str, &[&str]); 3] = [
     ("One wall", &["analyse", "generate", "picture"]),
-    ("Many walls", &["init", "check", "run"]),
+    ("Many walls", &["init", "check", "run", "readings"]),
     ("Measured walls", &["measured", "sensitivity", "bank", "diagnose", "mechanisms"]),
 ];
 
@@ -93,6 +93,20 @@ Example: pirca run studies/joint-arrangement --members 5 --out runs/first-try
 
 Stopped and started again with the same arguments, it goes on where it stood and ends with the same files. A wall that falls or \
 cannot be built is counted in the results; it is no error.
+
+",
+    codes!()
+);
+
+/// Of `readings`.
+pub(super) const READINGS: &str = concat!(
+    "\
+Example: pirca readings studies/joint-arrangement
+         pirca run studies/joint-arrangement --variant mean-size-varies+unequal-courses
+
+A reading is the study with some of its variants, which must change different keys; variants of the solver are left out. Every \
+reading is judged by the statements in published.toml. One that refutes two of them with its first walls at the ends of kn is \
+dropped; the others are evaluated in full. It writes readings.csv, readings.json, readings.svg and readings.png.
 
 ",
     codes!()

@@ -19,6 +19,7 @@ mod one_wall;
 mod output;
 mod picture;
 mod progress;
+mod readings;
 mod run;
 mod sensitivity;
 mod threads;
@@ -48,6 +49,7 @@ pub fn main() -> ExitCode {
         Verb::Init(arguments) => init::init(arguments),
         Verb::Mechanisms(arguments) => mechanisms::mechanisms(arguments),
         Verb::Picture(arguments) => picture::picture(arguments),
+        Verb::Readings(arguments) => readings::readings(arguments),
         Verb::Run(arguments) => run::run(arguments),
         Verb::Sensitivity(arguments) => sensitivity::sensitivity(arguments),
     };

@@ -13,6 +13,7 @@ use crate::study::fault::{Fault, Faults, Source};
 use crate::study::files::TextFile;
 use crate::study::raw::{self, Node};
 use crate::study::reader::{Notes, Reader, table_name};
+use crate::study::readings::reading_name;
 use crate::study::schema::suggestion;
 use crate::study::stated::Stated;
 use crate::study::variant::{self, Variant};
@@ -42,6 +43,8 @@ pub struct VariantName {
     pub name: String,
     /// Why somebody would read the study so.
     pub why: String,
+    /// The paths of the keys that it sets or takes away.
+    pub keys: Vec<String>,
 }
 
 /// One reading of the study: the base or a variant.
@@ -77,7 +80,8 @@ impl Loaded {
 
 impl Study {
     /// Loads and checks the study in `folder` (study.toml, published.toml and measured.csv if there are any, and the files of its
-    /// [`Distributions`] that it refers to), as the variant of that name reads it.
+    /// [`Distributions`] that it refers to), as the variant of that name reads it; as several do together, if their names are
+    /// joined by a plus.
     ///
     /// All variants are checked, whichever is asked for.
     ///
@@ -99,7 +103,7 @@ impl Study {
         let variants = root.as_ref().map_or_else(Vec::new, |root| variant::read(root, &mut notes));
         let chosen = choose(variant, &variants, root.as_ref(), &mut notes.faults);
         let reading =
-            root.as_ref().map(|root| read_all(root, &variants, chosen, &mut catalogue, &mut notes.faults));
+            root.as_ref().map(|root| read_all(root, &variants, &chosen, &mut catalogue, &mut notes.faults));
         let arms = root.as_ref().and_then(arm_names);
         let claims = published_root
             .map(|root| published::read(&root, arms.as_deref(), &mut notes))
@@ -123,7 +127,7 @@ impl Study {
                     name,
                     question: parts.question,
                     seed: parts.seed,
-                    variant: chosen.map(|v| v.name.clone()),
+                    variant: joined(&chosen),
                     arms: parts.arms,
                     protocol: parts.protocol,
                     solver: parts.solver,
@@ -134,7 +138,8 @@ impl Study {
                     effective,
                     hash,
                 };
-                let name_of = |v: &Variant| VariantName { name: v.name.clone(), why: v.why.clone() };
+                let name_of =
+                    |v: &Variant| VariantName { name: v.name.clone(), why: v.why.clone(), keys: v.keys() };
                 let warnings = Faults::sorted([notes.warnings, read.warnings].concat()).faults;
                 let variants = variants.iter().map(name_of).collect();
                 let stated = Stated::of(root, &mut catalogue, published_text, measured_file);
@@ -266,53 +271,93 @@ fn measurements(folder: &Path, inputs: &mut Vec<InputFile>, faults: &mut Vec<Fau
     Some(file)
 }
 
-/// The variant asked for.
+/// The variants asked for, in the order of the file.
 fn choose<'v>(
     wanted: Option<&str>,
     variants: &'v [Variant],
     root: Option<&Node>,
     faults: &mut Vec<Fault>,
-) -> Option<&'v Variant> {
-    let wanted = wanted?;
-    let found = variants.iter().find(|v| v.name == wanted);
-    if found.is_none() && root.is_some() {
-        let names: Vec<&str> = variants.iter().map(|v| v.name.as_str()).collect();
-        let words = format!("has no variant \"{wanted}\"");
+) -> Vec<&'v Variant> {
+    let Some(wanted) = wanted.filter(|_| root.is_some()) else { return Vec::new() };
+    let names: Vec<&str> = variants.iter().map(|v| v.name.as_str()).collect();
+    let wanted: Vec<&str> = wanted.split(variant::TOGETHER).collect();
+    for unknown in wanted.iter().filter(|name| !names.contains(name)) {
+        let words = format!("has no variant \"{unknown}\"");
         let allowed = if names.is_empty() {
             "no variant at all".to_owned()
         } else {
             format!("one of {}", names.join(", "))
         };
-        faults.push(Fault::of_file("study.toml", 0, &words, &allowed, suggestion(wanted, &names)));
+        faults.push(Fault::of_file("study.toml", 0, &words, &allowed, suggestion(unknown, &names)));
     }
-    found
+    let chosen: Vec<&Variant> = variants.iter().filter(|v| wanted.contains(&v.name.as_str())).collect();
+    for (index, one) in chosen.iter().enumerate() {
+        for other in &chosen[..index] {
+            if let Some(key) = variant::shared_key(&one.keys(), &other.keys()) {
+                let words = format!("changes {key} in both {} and {}", other.name, one.name);
+                let fix = "read one of them alone".to_owned();
+                faults.push(Fault::of_file(
+                    "study.toml",
+                    0,
+                    &words,
+                    "variants that change different keys",
+                    fix,
+                ));
+            }
+        }
+    }
+    chosen
+}
+
+/// The name of variants that are read together; `None` of the base.
+fn joined(chosen: &[&Variant]) -> Option<String> {
+    let names: Vec<String> = chosen.iter().map(|variant| variant.name.clone()).collect();
+    reading_name(&names)
 }
 
 /// Reads the base and every variant, and answers with the reading asked for.
 pub(super) fn read_all(
     root: &Node,
     variants: &[Variant],
-    chosen: Option<&Variant>,
+    chosen: &[&Variant],
     catalogue: &mut Catalogue,
     faults: &mut Vec<Fault>,
 ) -> Reading {
     let mut answer = read_one(root, catalogue);
     faults.append(&mut answer.notes.faults.clone());
     for variant in variants {
-        let mut notes = Notes::default();
-        let changed = variant.apply(root, &mut notes);
-        faults.append(&mut notes.faults);
-        let mut reading = read_one(&changed, catalogue);
-        for fault in reading.notes.faults.drain(..) {
-            if !faults.iter().any(|f| f.repeats(&fault)) {
-                faults.push(fault.in_variant(&variant.name));
-            }
-        }
-        if chosen.is_some_and(|c| c.name == variant.name) {
+        let reading = read_changed(root, &[variant], catalogue, faults);
+        if let [alone] = chosen
+            && alone.name == variant.name
+        {
             answer = reading;
         }
     }
+    // Variants that are sound alone may still not go together.
+    if chosen.len() > 1 && faults.is_empty() {
+        answer = read_changed(root, chosen, catalogue, faults);
+    }
     answer
+}
+
+/// The reading of variants together; faults that are not there yet are put to the others.
+fn read_changed(
+    root: &Node,
+    variants: &[&Variant],
+    catalogue: &mut Catalogue,
+    faults: &mut Vec<Fault>,
+) -> Reading {
+    let mut notes = Notes::default();
+    let changed = variants.iter().fold(root.clone(), |root, variant| variant.apply(&root, &mut notes));
+    faults.append(&mut notes.faults);
+    let mut reading = read_one(&changed, catalogue);
+    let name = joined(variants).unwrap_or_default();
+    for fault in reading.notes.faults.drain(..) {
+        if !faults.iter().any(|f| f.repeats(&fault)) {
+            faults.push(fault.in_variant(&name));
+        }
+    }
+    reading
 }
 
 fn read_one(root: &Node, catalogue: &mut Catalogue) -> Reading {

@@ -23,6 +23,7 @@ mod published;
 mod quantity;
 mod raw;
 mod reader;
+mod readings;
 mod reference;
 mod schema;
 mod setting;
@@ -51,6 +52,7 @@ pub use mechanism::{
     EndRelease, FrictionChange, JointClosure, Mechanisms, SpecimenScatter, Unfit, WedgeLoss,
 };
 pub use nuisance::{NUISANCES, Nuisance, nuisances};
+pub use readings::{Reading, reading_name, readings};
 pub use reference::key_reference;
 pub use stated::{Settings, Stated, WrittenVariant};
 pub use strength::{Stronger, Switched};

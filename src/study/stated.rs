@@ -103,7 +103,7 @@ impl Stated {
         let variants: Vec<_> = read.collect();
         // No reference is left that would be looked up.
         let mut catalogue = Catalogue::of(Distributions::of_study(Path::new("")));
-        load::read_all(&self.root, &variants, None, &mut catalogue, &mut faults);
+        load::read_all(&self.root, &variants, &[], &mut catalogue, &mut faults);
         if faults.is_empty() { Ok(self) } else { Err(Faults::sorted(faults)) }
     }
 

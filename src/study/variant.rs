@@ -6,6 +6,9 @@ use crate::study::raw::{Entry, Node, Table, Value};
 use crate::study::reader::{Notes, Reader, table_name};
 use crate::study::schema::{Kind, Section, suggestion};
 
+/// What stands between the names of variants that are read together.
+pub const TOGETHER: char = '+';
+
 /// A variant as the file states it.
 #[derive(Clone, Debug)]
 pub struct Variant {
@@ -97,6 +100,11 @@ fn unsets(reader: &mut Reader<'_>) -> Vec<Edit> {
 }
 
 impl Variant {
+    /// The paths of the keys that it sets or takes away.
+    pub fn keys(&self) -> Vec<String> {
+        self.edits.iter().map(|edit| edit.path.join(".")).collect()
+    }
+
     /// The study's raw tree with the variant's changes made; what cannot be made is noted.
     pub fn apply(&self, root: &Node, notes: &mut Notes) -> Node {
         let mut changed = root.clone();
@@ -120,6 +128,14 @@ impl Variant {
         }
         changed
     }
+}
+
+/// The first key of one variant that a second one changes as well, itself or as a part or the whole of it: read together, which
+/// of them holds would depend on their order.
+pub fn shared_key<'k>(one: &'k [String], other: &[String]) -> Option<&'k str> {
+    let below =
+        |a: &str, b: &str| a.strip_prefix(b).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
+    one.iter().find(|a| other.iter().any(|b| below(a, b) || below(b, a))).map(String::as_str)
 }
 
 /// Walks down `path` by the key table and changes what stands at its end.

@@ -32,13 +32,13 @@ fn every_verb_has_help_with_an_example_and_the_exit_codes() {
     let verbs: Vec<&str> =
         whole.lines().filter_map(|line| line.strip_prefix("  ")?.split("  ").next()).collect();
     let of_a_study = ["bank", "check", "diagnose", "generate", "measured", "picture", "run", "sensitivity"];
-    for verb in ["analyse", "init", "mechanisms"].iter().chain(&of_a_study) {
+    for verb in ["analyse", "init", "mechanisms", "readings"].iter().chain(&of_a_study) {
         assert!(verbs.contains(verb), "{verb} is missing in: {whole}");
         let help = stdout(&ends_with(&folder, 0, &[verb, "--help"]));
         for said in ["Usage: pirca", "Example: pirca", "Exit codes: 0", "--json"] {
             assert!(help.contains(said), "{said} is missing in the help of {verb}: {help}");
         }
-        assert_eq!(help.contains("--variant"), of_a_study.contains(verb), "{verb}");
+        assert_eq!(help.contains("--variant <"), of_a_study.contains(verb), "{verb}");
     }
     assert_eq!(
         stdout(&ends_with(&folder, 0, &["--version"])),

@@ -19,6 +19,7 @@ mod mechanisms;
 mod mutated_walls;
 mod pages;
 mod picture;
+mod readings;
 mod records;
 mod scratch;
 mod spreadsheets;

@@ -91,3 +91,13 @@ fn halving_the_unbalanced_ratio_changes_no_displacement() {
         assert!(largest < allowed, "{variant:?}: {largest}");
     }
 }
+
+/// README.md says of this reading that it reproduces all five statements with 300 irregular walls; with 30 the COV's interval is
+/// too wide to say so.
+#[test]
+fn three_departures_together_contradict_no_statement() {
+    let summary = summary(&study(Some("mean-size-varies+unequal-courses+cut"), 30));
+    let verdicts: Vec<&Verdict> = summary.published.iter().map(|p| &p.verdict).collect();
+    use Verdict::{CannotJudge, Reproduced};
+    assert_eq!(verdicts, [&Reproduced, &Reproduced, &Reproduced, &CannotJudge, &Reproduced]);
+}
