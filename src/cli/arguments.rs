@@ -55,9 +55,10 @@ pub(crate) enum Verb {
     /// A run that was stopped goes on where it stood.
     #[command(after_help = RUN)]
     Run(Run),
-    /// Search the variants of a study, alone and together, for what was published.
+    /// Say which readings of a study explain what was published.
     ///
-    /// Where a source does not say all that it did, its statements may tell which of the possible readings is meant.
+    /// Where a source does not say all that it did, its statements may tell which of the possible readings is meant: the study's
+    /// variants are searched, alone and together.
     #[command(after_help = READINGS)]
     Readings(Readings),
     /// Simulate the walls that a diagnosis rests on, once for its design.
