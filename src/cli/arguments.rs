@@ -123,6 +123,17 @@ pub(crate) struct Which {
     pub json: bool,
 }
 
+/// Another ensemble than the study's.
+#[derive(Args, Debug)]
+pub(crate) struct Ensemble {
+    /// Number of walls in every random arm, instead of the study's.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000), help_heading = STUDY)]
+    pub members: Option<u64>,
+    /// Seed instead of the study's.
+    #[arg(long, value_name = "S", help_heading = STUDY)]
+    pub seed: Option<u64>,
+}
+
 /// Arguments of `mechanisms`.
 #[derive(Args, Debug)]
 pub(crate) struct Mechanisms {
@@ -227,12 +238,8 @@ pub(crate) struct Run {
     /// Output folder [default: runs/<study>, with -<variant> behind it if one is named].
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub out: Option<PathBuf>,
-    /// Number of walls in every random arm, instead of the study's.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000), help_heading = STUDY)]
-    pub members: Option<u64>,
-    /// Seed instead of the study's.
-    #[arg(long, value_name = "S", help_heading = STUDY)]
-    pub seed: Option<u64>,
+    #[command(flatten)]
+    pub ensemble: Ensemble,
     /// Worker threads [default: one per processor]. No result depends on their number.
     #[arg(long, value_name = "T", help_heading = SOLUTION)]
     pub threads: Option<NonZero<usize>>,
@@ -258,12 +265,8 @@ pub(crate) struct Readings {
     /// Most variants that are read together.
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u64).range(1..=6), help_heading = STUDY)]
     pub departures: u64,
-    /// Number of walls in every random arm, instead of the study's.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000), help_heading = STUDY)]
-    pub members: Option<u64>,
-    /// Seed instead of the study's.
-    #[arg(long, value_name = "S", help_heading = STUDY)]
-    pub seed: Option<u64>,
+    #[command(flatten)]
+    pub ensemble: Ensemble,
     /// Worker threads [default: one per processor]. No result depends on their number.
     #[arg(long, value_name = "T", help_heading = SOLUTION)]
     pub threads: Option<NonZero<usize>>,

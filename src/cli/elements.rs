@@ -23,10 +23,10 @@ pub(super) fn run(folder: &Path, arguments: &Run) -> Result<(), Failure> {
         return Err(Failure::Usage(format!("{} compares types of elements; {why}", folder.display())));
     }
     let mut study = load(folder)?;
-    if let Some(seed) = arguments.seed {
+    if let Some(seed) = arguments.ensemble.seed {
         study = study.with_seed(seed);
     }
-    if let Some(members) = arguments.members {
+    if let Some(members) = arguments.ensemble.members {
         if members > 1 && study.arms.iter().all(|arm| arm.elements.is_fixed()) {
             let text =
                 "nothing in the study is random, so that all assemblies would be the same: leave it out";

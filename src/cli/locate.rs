@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::cli::arguments::Which;
+use crate::cli::arguments::{Ensemble, Which};
 use crate::cli::failure::Failure;
 use crate::cli::output;
 use crate::math::edit_distance;
@@ -36,6 +36,18 @@ pub(crate) fn with_members(study: Study, members: u64) -> Result<Study, Failure>
         )));
     }
     Ok(study.with_members(members))
+}
+
+/// The study with the seed and the number of walls that are asked for.
+pub(crate) fn with_ensemble(study: Study, asked: &Ensemble) -> Result<Study, Failure> {
+    let study = match asked.seed {
+        Some(seed) => study.with_seed(seed),
+        None => study,
+    };
+    match asked.members {
+        Some(members) => with_members(study, members),
+        None => Ok(study),
+    }
 }
 
 /// The folder of a study, from the folder itself or from the study.toml in it.

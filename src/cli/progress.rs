@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::io::IsTerminal;
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -154,4 +155,38 @@ impl Progress for Lines {
 /// A panic of one member while it was shown must not silence the others.
 fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
+}
+
+/// A line on standard error at every tenth of walls that have no mean to show together: of several mechanisms, or readings.
+pub(crate) struct Tenths {
+    /// What the walls are simulated for.
+    what: &'static str,
+    total: AtomicUsize,
+    done: AtomicUsize,
+}
+
+impl Tenths {
+    /// Nothing done yet.
+    pub(crate) fn of(what: &'static str) -> Tenths {
+        Tenths { what, total: AtomicUsize::new(0), done: AtomicUsize::new(0) }
+    }
+}
+
+impl Progress for Tenths {
+    fn begin(&self, total: usize, _recorded: &[&Row]) {
+        self.total.store(total, Ordering::Relaxed);
+        self.done.store(0, Ordering::Relaxed);
+        output::note(&format!("{}: {total} walls", self.what));
+    }
+
+    fn finished(&self, _row: &Row) {
+        let (total, done) = (self.total.load(Ordering::Relaxed), self.done.fetch_add(1, Ordering::Relaxed));
+        if 10 * (done + 1) / total > 10 * done / total {
+            output::note(&format!("{}: {}/{total} walls done", self.what, done + 1));
+        }
+    }
+
+    fn broken(&self, _task: Task) {}
+
+    fn end(&self) {}
 }

@@ -1,20 +1,20 @@
 //! `pirca readings`: which variants of a study, alone or together, explain what was published?
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::path::Path;
 
 use rayon::prelude::*;
 
 use crate::cli::arguments::Readings;
 use crate::cli::failure::Failure;
+use crate::cli::progress::Tenths;
 use crate::cli::{locate, output, threads};
-use crate::ensemble::{Row, Task, evaluate, plan};
-use crate::report::{
-    Extent, ReadingEntry, ReadingsSummary, readings_text, refuted, summarise, write_readings,
-};
+use crate::ensemble::{Progress, Row, Task, evaluate, plan};
+use crate::report::{Extent, ReadingEntry, ReadingsSummary, readings_text, write_readings};
 use crate::study::{Study, reading_name, readings as readings_of};
 
+/// What the folder and the lines on standard error are named by.
+const READINGS: &str = "readings";
 /// So many walls of each arm are evaluated first, at the lowest and the highest kn.
 const FIRST_WALLS: u64 = 6;
 /// A reading that refutes more statements with them is dropped: all but one of the statements are asked for.
@@ -25,7 +25,7 @@ pub(crate) fn readings(arguments: &Readings) -> Result<(), Failure> {
     let folder = locate::folder(&arguments.study)?;
     let loaded = Study::load(&folder, None)?;
     loaded.warnings.iter().for_each(locate::warn);
-    let base = asked(loaded.study, arguments)?;
+    let base = locate::with_ensemble(loaded.study, &arguments.ensemble)?;
     if base.published.is_empty() {
         return Err(Failure::Input(format!("{} has no published.toml: nothing to search for", base.name)));
     }
@@ -36,10 +36,7 @@ pub(crate) fn readings(arguments: &Readings) -> Result<(), Failure> {
             base.name
         )));
     }
-    let out = arguments
-        .out
-        .clone()
-        .unwrap_or_else(|| PathBuf::from("runs").join(format!("{}-readings", base.name)));
+    let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&base, READINGS));
     output::folder(&out)?;
     threads::on(arguments.threads, || {
         let entries = searched(&folder, &named, arguments)?;
@@ -52,18 +49,6 @@ pub(crate) fn readings(arguments: &Readings) -> Result<(), Failure> {
     })
 }
 
-/// A study with the seed and the number of walls that are asked for.
-fn asked(study: Study, arguments: &Readings) -> Result<Study, Failure> {
-    let study = match arguments.seed {
-        Some(seed) => study.with_seed(seed),
-        None => study,
-    };
-    match arguments.members {
-        Some(members) => locate::with_members(study, members),
-        None => Ok(study),
-    }
-}
-
 /// What every reading gives: the base and those that pass with their first walls on all of them.
 fn searched(
     folder: &Path,
@@ -73,42 +58,38 @@ fn searched(
     let mut studies = Vec::with_capacity(named.len());
     for reading in named {
         studies.push(match Study::load(folder, reading_name(reading).as_deref()) {
-            Ok(loaded) => Ok(asked(loaded.study, arguments)?),
+            Ok(loaded) => Ok(locate::with_ensemble(loaded.study, &arguments.ensemble)?),
             Err(faults) => Err(faults.to_string()),
         });
     }
-    let sound = || studies.iter().enumerate().filter_map(|(k, study)| Some((k, study.as_ref().ok()?)));
-    output::note(&format!("readings: {} to be tried with their first walls", sound().count()));
+    let progress = Tenths::of(READINGS);
     let mut rows: Vec<BTreeMap<Task, Row>> = vec![BTreeMap::new(); studies.len()];
-    let first = sound().flat_map(|(k, study)| {
-        plan(study).into_iter().filter(|task| is_first(study, *task)).map(move |task| (k, study, task))
-    });
-    evaluated(first.collect(), &mut rows);
-    let judged = |k: usize, study: &Study, rows: &[BTreeMap<Task, Row>]| {
-        summarise(study, &rows[k].values().cloned().collect::<Vec<_>>()).published
+    let judged = |k: usize, extent, study: &Study, rows: &[BTreeMap<Task, Row>]| {
+        ReadingEntry::judged(&named[k], extent, study, &rows[k].values().cloned().collect::<Vec<_>>())
     };
-    let passes: Vec<(usize, &Study)> = sound()
-        .filter(|&(k, study)| named[k].is_empty() || refuted(&judged(k, study, &rows)) <= MOST_REFUTED)
-        .collect();
-    output::note(&format!("readings: {} to be evaluated in full", passes.len()));
-    let rest = passes.iter().flat_map(|&(k, study)| {
-        let missing = |task: &Task| !rows[k].contains_key(task);
-        plan(study).into_iter().filter(missing).map(move |task| (k, study, task)).collect::<Vec<_>>()
-    });
-    let rest = rest.collect();
-    evaluated(rest, &mut rows);
-    Ok(studies
+    let sound = || studies.iter().enumerate().filter_map(|(k, study)| Some((k, study.as_ref().ok()?)));
+    let of = |(k, study)| plan(study).into_iter().map(move |task| (k, study, task));
+    output::note(&format!("{READINGS}: {} to be tried with their first walls", sound().count()));
+    let first = sound().flat_map(of).filter(|(_, study, task)| is_first(study, *task));
+    evaluated(first.collect(), &mut rows, &progress);
+    let mut entries: Vec<ReadingEntry> = studies
         .iter()
         .enumerate()
         .map(|(k, study)| match study {
+            Ok(study) => judged(k, Extent::FirstWalls, study, &rows),
             Err(why) => ReadingEntry::refused(&named[k], why),
-            Ok(study) => {
-                let in_full = passes.iter().any(|(passed, _)| *passed == k);
-                let extent = if in_full { Extent::Full } else { Extent::FirstWalls };
-                ReadingEntry::of(&named[k], extent, judged(k, study, &rows))
-            }
         })
-        .collect())
+        .collect();
+    let passes = |k: usize| named[k].is_empty() || entries[k].refuted <= MOST_REFUTED;
+    let passes: Vec<(usize, &Study)> = sound().filter(|(k, _)| passes(*k)).collect();
+    output::note(&format!("{READINGS}: {} to be evaluated in full", passes.len()));
+    let rest = passes.iter().copied().flat_map(of).filter(|(k, _, task)| !rows[*k].contains_key(task));
+    let rest = rest.collect();
+    evaluated(rest, &mut rows, &progress);
+    for (k, study) in passes {
+        entries[k] = judged(k, Extent::Full, study, &rows);
+    }
+    Ok(entries)
 }
 
 /// Whether a task is among the first walls at one of the ends of kn.
@@ -117,21 +98,16 @@ fn is_first(study: &Study, task: Task) -> bool {
     task.member < FIRST_WALLS && (task.point == 0 || task.point as usize == last)
 }
 
-/// Evaluates tasks of readings in parallel and puts the rows to the others; says on standard error how far it is.
-fn evaluated(tasks: Vec<(usize, &Study, Task)>, rows: &mut [BTreeMap<Task, Row>]) {
-    let (total, done) = (tasks.len(), AtomicUsize::new(0));
-    let evaluated: Vec<(usize, Task, Row)> = tasks
-        .into_par_iter()
-        .with_max_len(1)
-        .map(|(k, study, task)| {
-            let row = evaluate(study, task);
-            let done = done.fetch_add(1, Ordering::Relaxed);
-            if 10 * (done + 1) / total > 10 * done / total {
-                output::note(&format!("readings: {}/{total} walls done", done + 1));
-            }
-            (k, task, row)
-        })
-        .collect();
+/// Evaluates tasks of readings in parallel and puts the rows to the others.
+fn evaluated(tasks: Vec<(usize, &Study, Task)>, rows: &mut [BTreeMap<Task, Row>], progress: &dyn Progress) {
+    progress.begin(tasks.len(), &[]);
+    let one = |(k, study, task): (usize, &Study, Task)| {
+        let row = evaluate(study, task);
+        progress.finished(&row);
+        (k, task, row)
+    };
+    let evaluated: Vec<_> = tasks.into_par_iter().with_max_len(1).map(one).collect();
+    progress.end();
     for (k, task, row) in evaluated {
         rows[k].insert(task, row);
     }

@@ -38,11 +38,5 @@ fn asked(mut study: Study, arguments: &Run) -> Result<Study, Failure> {
         };
         study = study.with_solver(name).map_err(|faults| Failure::Usage(faults.to_string()))?;
     }
-    if let Some(seed) = arguments.seed {
-        study = study.with_seed(seed);
-    }
-    if let Some(members) = arguments.members {
-        study = locate::with_members(study, members)?;
-    }
-    Ok(study)
+    locate::with_ensemble(study, &arguments.ensemble)
 }

@@ -1,12 +1,10 @@
 //! `pirca sensitivity`: which mechanisms could the measured data see?
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-
 use crate::cli::arguments::Sensitivity;
 use crate::cli::failure::Failure;
+use crate::cli::progress::Tenths;
 use crate::cli::{locate, output};
 use crate::critic::{NoSensitivity, SensitivitySettings, sensitivity as map_of};
-use crate::ensemble::{Progress, Row, Task};
 use crate::report::{self, SensitivitySummary};
 use crate::study::described;
 
@@ -20,7 +18,7 @@ pub(crate) fn sensitivity(arguments: &Sensitivity) -> Result<(), Failure> {
         quantile: arguments.quantile,
         threads: arguments.threads,
     };
-    let progress = Tenths { total: AtomicUsize::new(0), done: AtomicUsize::new(0) };
+    let progress = Tenths::of("sensitivity");
     let map = map_of(&study, &mechanisms, &settings, &progress).map_err(failure)?;
     let summary = SensitivitySummary::of(&study, &mechanisms, &settings, &map);
     let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, "sensitivity"));
@@ -45,28 +43,4 @@ pub(crate) fn quantile(text: &str) -> Result<f64, String> {
         Ok(u) if u > 0.0 && u < 1.0 => Ok(u),
         _ => Err("a number above 0 and below 1 is needed".to_string()),
     }
-}
-
-/// A line on standard error at every tenth; walls of different mechanisms have no mean to show.
-struct Tenths {
-    total: AtomicUsize,
-    done: AtomicUsize,
-}
-
-impl Progress for Tenths {
-    fn begin(&self, total: usize, _recorded: &[&Row]) {
-        self.total.store(total, Ordering::Relaxed);
-        output::note(&format!("sensitivity: {total} walls"));
-    }
-
-    fn finished(&self, _row: &Row) {
-        let (total, done) = (self.total.load(Ordering::Relaxed), self.done.fetch_add(1, Ordering::Relaxed));
-        if 10 * (done + 1) / total > 10 * done / total {
-            output::note(&format!("sensitivity: {}/{total} walls done", done + 1));
-        }
-    }
-
-    fn broken(&self, _task: Task) {}
-
-    fn end(&self) {}
 }

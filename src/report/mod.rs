@@ -45,7 +45,7 @@ pub use gain::GainSummary;
 pub use measured::{CalibrationEntry, ComparisonEntry, MeasuredSummary};
 pub use picture::{Movement, Picture, Seam, Stone};
 pub use published::{Published, Verdict};
-pub use readings::{Extent, ReadingEntry, ReadingsSummary, readings_text, refuted, write_readings};
+pub use readings::{Extent, ReadingEntry, ReadingsSummary, readings_text, write_readings};
 pub use sensitivity::{SensitivitySummary, sensitivity_text, write_sensitivity};
 pub use summary::{ArmSummary, QuantileEntry, Summary, summarise};
 pub use table::terminal_table;

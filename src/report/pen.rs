@@ -31,6 +31,11 @@ impl Pen {
         length * self.scale as i32
     }
 
+    /// A point in pixels.
+    pub fn at(&self, x: i32, y: i32) -> (i32, i32) {
+        (self.px(x), self.px(y))
+    }
+
     /// Black letters of a size.
     pub fn font(&self, size: i32) -> TextStyle<'static> {
         TextStyle::from((FONT_NAME, self.px(size))).color(&BLACK)

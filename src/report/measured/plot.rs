@@ -85,16 +85,14 @@ impl<'c> CalibrationPlot<'c> {
         // An end that is open goes on: an arrow.
         for (end, kn, tip) in [(panel.within_95[0], low, -14), (panel.within_95[1], high, 14)] {
             if !matches!(end, End::At(_)) {
-                let head = Polygon::new(
-                    [(0, -6), (tip, 0), (0, 6)].map(|(x, y)| (self.pen.px(x), self.pen.px(y))),
-                    BLACK.filled(),
-                );
+                let head =
+                    Polygon::new([(0, -6), (tip, 0), (0, 6)].map(|(x, y)| self.pen.at(x, y)), BLACK.filled());
                 chart.draw_series([EmptyElement::at((kn, foot)) + head])?;
             }
         }
         if let End::At(kn) = panel.best {
             let mark = Polygon::new(
-                [(0, -8), (7, 0), (0, 8), (-7, 0)].map(|(x, y)| (self.pen.px(x), self.pen.px(y))),
+                [(0, -8), (7, 0), (0, 8), (-7, 0)].map(|(x, y)| self.pen.at(x, y)),
                 BLACK.filled(),
             );
             chart.draw_series([EmptyElement::at((kn, foot)) + mark])?;

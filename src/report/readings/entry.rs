@@ -1,6 +1,8 @@
 //! What a reading gives: every statement with its verdict.
 
-use crate::report::published::{Published, Verdict};
+use crate::ensemble::Row;
+use crate::report::population::populations;
+use crate::report::published::{Published, Verdict, judge_all};
 use crate::study::Study;
 
 /// The readings of a study and what each of them explains.
@@ -64,14 +66,18 @@ pub struct ReadingEntry {
 }
 
 impl ReadingEntry {
-    /// A reading whose statements have been judged.
-    pub fn of(variants: &[String], extent: Extent, statements: Vec<Published>) -> Self {
-        let reproduced = statements.iter().filter(|one| one.verdict == Verdict::Reproduced).count();
+    /// A reading judged by the walls that have been evaluated.
+    pub fn judged(variants: &[String], extent: Extent, study: &Study, rows: &[Row]) -> Self {
+        ReadingEntry::of(variants, extent, judge_all(&study.published, &populations(study, rows)))
+    }
+
+    fn of(variants: &[String], extent: Extent, statements: Vec<Published>) -> Self {
+        let with = |verdict| statements.iter().filter(|one| one.verdict == verdict).count();
         ReadingEntry {
             variants: variants.to_vec(),
             extent,
-            reproduced: (extent == Extent::Full).then_some(reproduced),
-            refuted: refuted(&statements),
+            reproduced: (extent == Extent::Full).then_some(with(Verdict::Reproduced)),
+            refuted: with(Verdict::NotReproduced),
             statements,
             why: None,
         }
@@ -87,11 +93,6 @@ impl ReadingEntry {
     pub fn name(&self) -> String {
         if self.variants.is_empty() { "main reading".to_string() } else { self.variants.join("+") }
     }
-}
-
-/// How many statements are not reproduced.
-pub fn refuted(statements: &[Published]) -> usize {
-    statements.iter().filter(|one| one.verdict == Verdict::NotReproduced).count()
 }
 
 impl ReadingsSummary {

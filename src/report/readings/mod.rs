@@ -9,7 +9,7 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 
-pub use entry::{Extent, ReadingEntry, ReadingsSummary, refuted};
+pub use entry::{Extent, ReadingEntry, ReadingsSummary};
 pub use text::readings_text;
 
 use crate::ensemble::replace_file;

@@ -38,17 +38,13 @@ impl<'s> Grid<'s> {
         Grid { summary, rows, pen: Pen { scale } }
     }
 
-    fn at(&self, x: i32, y: i32) -> (i32, i32) {
-        (self.pen.px(x), self.pen.px(y))
-    }
-
     fn heads<DB: DrawingBackend>(&self, root: &DrawingArea<DB, Shift>) -> Drawn<DB> {
         let title = format!("{}: which reading explains what was published", self.summary.study);
-        root.draw(&Text::new(title, self.at(16, 14), self.pen.font(22)))?;
+        root.draw(&Text::new(title, self.pen.at(16, 14), self.pen.font(22)))?;
         for column in 0..self.summary.statements.len() as i32 {
             let style = self.pen.font(17).pos(centred());
             let x = LEFT + CELL[0] * column + CELL[0] / 2;
-            root.draw(&Text::new((column + 1).to_string(), self.at(x, HEAD - 16), style))?;
+            root.draw(&Text::new((column + 1).to_string(), self.pen.at(x, HEAD - 16), style))?;
         }
         Ok(())
     }
@@ -57,7 +53,7 @@ impl<'s> Grid<'s> {
         let name = self.pen.font(15).pos(Pos::new(HPos::Right, VPos::Center));
         for (line, row) in self.rows.iter().enumerate() {
             let y = HEAD + CELL[1] * line as i32;
-            root.draw(&Text::new(row.name(), self.at(LEFT - 8, y + CELL[1] / 2), name.clone()))?;
+            root.draw(&Text::new(row.name(), self.pen.at(LEFT - 8, y + CELL[1] / 2), name.clone()))?;
             for (column, statement) in row.statements.iter().enumerate() {
                 let x = LEFT + CELL[0] * column as i32;
                 let (colour, ink, word) = match statement.verdict {
@@ -65,10 +61,10 @@ impl<'s> Grid<'s> {
                     Verdict::NotReproduced => (REFUTED, &BLACK, "no"),
                     Verdict::CannotJudge => (OPEN, &BLACK, "open"),
                 };
-                let corners = [self.at(x, y), self.at(x + CELL[0] - 1, y + CELL[1] - 1)];
+                let corners = [self.pen.at(x, y), self.pen.at(x + CELL[0] - 1, y + CELL[1] - 1)];
                 root.draw(&Rectangle::new(corners, colour.filled()))?;
                 let style = self.pen.font(15).color(ink).pos(centred());
-                root.draw(&Text::new(word, self.at(x + CELL[0] / 2, y + CELL[1] / 2), style))?;
+                root.draw(&Text::new(word, self.pen.at(x + CELL[0] / 2, y + CELL[1] / 2), style))?;
             }
         }
         Ok(())
@@ -78,7 +74,7 @@ impl<'s> Grid<'s> {
         let top = HEAD + CELL[1] * self.rows.len() as i32 + 24;
         for (line, statement) in self.summary.statements.iter().enumerate() {
             let text = format!("{}  {statement}", line + 1);
-            let at = self.at(16, top + (LINE as i32 - 4) * line as i32);
+            let at = self.pen.at(16, top + (LINE as i32 - 4) * line as i32);
             root.draw(&Text::new(text, at, self.pen.font(15).pos(left())))?;
         }
         Ok(())

@@ -40,7 +40,7 @@ impl<'s> HeatMap<'s> {
     fn heads<DB: DrawingBackend>(&self, root: &DrawingArea<DB, Shift>) -> Drawn<DB> {
         let variant = self.summary.variant.as_ref().map(|v| format!(", variant {v}")).unwrap_or_default();
         let title = format!("{}{variant}: change per mechanism in errors of the data", self.summary.study);
-        root.draw(&Text::new(title, self.at(16, 14), self.pen.font(22)))?;
+        root.draw(&Text::new(title, self.pen.at(16, 14), self.pen.font(22)))?;
         let middle = self.pen.font(15).pos(centred());
         let mut last: Option<&str> = None;
         for (column, observable) in self.summary.observables.iter().enumerate() {
@@ -48,11 +48,11 @@ impl<'s> HeatMap<'s> {
             if last != Some(observable.family.as_str()) {
                 let family = self.pen.font(17).pos(left());
                 let name = observable.family.clone();
-                root.draw(&Text::new(name, self.at(x - CELL[0] / 2 + 4, 60), family))?;
+                root.draw(&Text::new(name, self.pen.at(x - CELL[0] / 2 + 4, 60), family))?;
                 last = Some(&observable.family);
             }
             for (line, text) in heading(observable).into_iter().enumerate() {
-                root.draw(&Text::new(text, self.at(x, 84 + 20 * line as i32), middle.clone()))?;
+                root.draw(&Text::new(text, self.pen.at(x, 84 + 20 * line as i32), middle.clone()))?;
             }
         }
         Ok(())
@@ -63,16 +63,16 @@ impl<'s> HeatMap<'s> {
         let middle = centred();
         for (line, row) in self.summary.mechanisms.iter().enumerate() {
             let y = HEAD + CELL[1] * line as i32;
-            root.draw(&Text::new(row.mechanism, self.at(LEFT - 8, y + CELL[1] / 2), name.clone()))?;
+            root.draw(&Text::new(row.mechanism, self.pen.at(LEFT - 8, y + CELL[1] / 2), name.clone()))?;
             for (column, cell) in row.cells.iter().enumerate() {
                 let x = LEFT + CELL[0] * column as i32;
                 let colour = cell.in_errors.map_or(NAMED, shade);
-                let corners = [self.at(x, y), self.at(x + CELL[0] - 1, y + CELL[1] - 1)];
+                let corners = [self.pen.at(x, y), self.pen.at(x + CELL[0] - 1, y + CELL[1] - 1)];
                 root.draw(&Rectangle::new(corners, colour.filled()))?;
                 let strong = cell.in_errors.is_some_and(|errors| errors.abs() > 0.7 * FULL);
                 let ink = if strong { &WHITE } else { &BLACK };
                 let style = self.pen.font(15).color(ink).pos(middle);
-                root.draw(&Text::new(cell.shown(), self.at(x + CELL[0] / 2, y + CELL[1] / 2), style))?;
+                root.draw(&Text::new(cell.shown(), self.pen.at(x + CELL[0] / 2, y + CELL[1] / 2), style))?;
             }
         }
         Ok(())
@@ -84,18 +84,22 @@ impl<'s> HeatMap<'s> {
         let middle = self.pen.font(14).pos(centred());
         for step in -6..=6 {
             let x = LEFT + 36 * (step + 6);
-            let corners = [self.at(x, top), self.at(x + 36, top + 18)];
+            let corners = [self.pen.at(x, top), self.pen.at(x + 36, top + 18)];
             root.draw(&Rectangle::new(corners, shade(f64::from(step) * FULL / 6.0).filled()))?;
             if step % 2 == 0 {
                 let number = format!("{:+.0}", f64::from(step) * FULL / 6.0).replace("+0", "0");
-                root.draw(&Text::new(number, self.at(x + 18, top + 28), middle.clone()))?;
+                root.draw(&Text::new(number, self.pen.at(x + 18, top + 28), middle.clone()))?;
             }
         }
         let beside = format!("errors; full colour from {FULL} on; the data can see 2 and more");
-        root.draw(&Text::new(beside, self.at(LEFT + 36 * 13 + 12, top + 9), self.pen.font(15).pos(left())))?;
+        root.draw(&Text::new(
+            beside,
+            self.pen.at(LEFT + 36 * 13 + 12, top + 9),
+            self.pen.font(15).pos(left()),
+        ))?;
         for (line, text) in self.notes().into_iter().enumerate() {
             let y = top + 52 + (LINE as i32 - 4) * line as i32;
-            root.draw(&Text::new(text, self.at(16, y), self.pen.font(14).pos(left())))?;
+            root.draw(&Text::new(text, self.pen.at(16, y), self.pen.font(14).pos(left())))?;
         }
         Ok(())
     }
@@ -109,10 +113,6 @@ impl<'s> HeatMap<'s> {
             "~: 95 % interval of the paired change includes 0. falls: collapsed before the reading. fallen: also without it.".to_string(),
             "stands: reaches the reading only with it. n/a: cannot act on these walls. end: stood to the end. lost: not solved. -: no error is known.".to_string(),
         ]
-    }
-
-    fn at(&self, x: i32, y: i32) -> (i32, i32) {
-        (self.pen.px(x), self.pen.px(y))
     }
 }
 
