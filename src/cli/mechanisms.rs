@@ -49,6 +49,8 @@ fn describe(mechanism: &Described, text: &mut String) {
         let prior = serde_json::to_string(&p.prior).unwrap_or_default();
         let note = p.note.as_ref().map(|note| format!(" {note}")).unwrap_or_default();
         let _ = writeln!(text, "    prior ({}): {prior}; {}{note}", p.status, p.source);
+        let search = serde_json::to_string(&p.search).unwrap_or_default();
+        let _ = writeln!(text, "    a diagnosis searches: {search}");
     }
     text.push('\n');
 }

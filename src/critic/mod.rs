@@ -27,7 +27,8 @@ pub use diagnose::{
     Gain, Gained, Group, HeldOut, Interval, Judge, Known, Lacking, Limits, LookedAt, MOST_AMBIGUOUS,
     Measuring, Offer, Offered, PairLimits, Parts, Ranked, Ranking, Reference, Residual, Residuals, Scale,
     Scores, Seeming, Seen, SelfTest, SelfTestRow, Side, Specimen, Told, Truth, Unused, Verdict, World, Wrong,
-    base_curves, cause_curves, doubts, doubts_beside, evidence, extension, features, guarded, offers,
+    base_curves, cause_curves, doubts, doubts_beside, evidence, extension, features, guarded, log_weight,
+    offers,
 };
 pub use likelihood::log_likelihood;
 pub use monotone::Monotone;

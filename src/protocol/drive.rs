@@ -123,11 +123,6 @@ fn climb_telling<'a, S: Equilibrate<'a>>(
             }
         }
     }
-    if outcome == Outcome::Equilibrium && climber.bears_too_much(&rest) {
-        let at = task.path.level(climber.last_borne());
-        let why = "the solver let it stand there, where limit analysis finds that rigid blocks on these joints fall";
-        outcome = Outcome::NotConverged { at, unbalanced_ratio: f64::NAN, why: why.to_string() };
-    }
     let assembly = rest.assembly();
     Run {
         outcome,
@@ -238,7 +233,8 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
         let settled = next.settle(&mut |bodies| self.watch.runs_away(bodies));
         self.spent += settled.steps;
         let ratio = settled.unbalanced_ratio;
-        let is_doubtful = settled.status == Status::Equilibrium && self.is_doubtful(from, &next, level);
+        let is_doubtful = settled.status == Status::Equilibrium
+            && (self.is_doubtful(from, &next, level) || self.bears_too_much(from, level));
         match settled.status {
             Status::Equilibrium if is_doubtful => Tried::Lost(next, ratio, Status::NoEquilibrium),
             Status::Equilibrium => Tried::Rest(next, ratio),
@@ -364,15 +360,14 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
         !self.watch.runs_away(&rest.bodies) && keeps_contacts(from.assembly(), rest)
     }
 
-    /// Whether a wall that has borne the whole path has borne more than limit analysis says that it can: asked where the solver
-    /// was in doubt on the way, or where few walls come.
-    fn bears_too_much(&self, rest: &S) -> bool {
-        let path = self.task.path;
+    /// Whether a wall at rest at a level bears more there than limit analysis says that it can: asked where the solver was in
+    /// doubt on the way, or where few walls come.
+    fn bears_too_much(&self, from: &S, level: f64) -> bool {
         // Below by the width of a bracket: at the limit itself rounding decides.
-        let level = self.last_borne() - path.bracket;
+        let below = level - self.task.path.bracket;
         (self.doubted || level > RARE)
-            && level > 0.0
-            && self.judge.cannot_stand(rest.assembly(), level, &self.watch).is_some()
+            && below > 0.0
+            && self.judge.cannot_stand(from.assembly(), below, &self.watch).is_some()
     }
 
     /// What following the path of equilibria from the last state at rest tells of a level where none was found: it may reach

@@ -5,7 +5,8 @@ use super::discrete::{Constant, Empirical};
 use super::flat::{Triangular, Uniform};
 use super::gaussian::{Lognormal, Normal};
 use super::standard_normal::cdf;
-use super::truncated::TruncatedNormal;
+use super::truncated::{TruncatedLognormal, TruncatedNormal};
+use crate::math::{exp, ln};
 
 /// A distribution of one real variable. The parameters have the unit of the variable.
 ///
@@ -49,6 +50,17 @@ pub enum Family {
         mean: f64,
         /// Standard deviation of the variable itself.
         sd: f64,
+    },
+    /// A lognormal variable known to lie between two bounds.
+    TruncatedLognormal {
+        /// Median before truncation.
+        median: f64,
+        /// Standard deviation of the logarithm before truncation.
+        log_sd: f64,
+        /// Lower bound, above 0.
+        low: f64,
+        /// Upper bound.
+        high: f64,
     },
     /// Density rising linearly from `low` to `mode` and falling linearly to `high`.
     Triangular {
@@ -135,6 +147,12 @@ impl Family {
                 high: high * factor,
             },
             Family::Lognormal { mean, sd } => Family::Lognormal { mean: mean * factor, sd: sd * factor },
+            Family::TruncatedLognormal { median, log_sd, low, high } => Family::TruncatedLognormal {
+                median: median * factor,
+                log_sd,
+                low: low * factor,
+                high: high * factor,
+            },
             Family::Triangular { low, mode, high } => {
                 Family::Triangular { low: low * factor, mode: mode * factor, high: high * factor }
             }
@@ -145,7 +163,8 @@ impl Family {
     }
 
     /// The distribution with deviations from the mean that are `factor` times as large, for the same uniforms; `factor` is
-    /// above 0. A lognormal keeps its mean and its family, and has a standard deviation so many times as large.
+    /// above 0. A lognormal keeps its mean and its family, and has a standard deviation so many times as large; a
+    /// truncated one keeps its median, and its logarithm is widened.
     pub fn widened(self, factor: f64) -> Family {
         crate::check!(factor > 0.0, "a distribution was widened by {factor}, which is not above 0");
         let centre = self.mean();
@@ -158,6 +177,10 @@ impl Family {
                 Family::TruncatedNormal { mean: out(mean), sd: sd * factor, low: out(low), high: out(high) }
             }
             Family::Lognormal { mean, sd } => Family::Lognormal { mean, sd: sd * factor },
+            Family::TruncatedLognormal { median, log_sd, low, high } => {
+                let out = |x: f64| median * exp(factor * ln(x / median));
+                Family::TruncatedLognormal { median, log_sd: log_sd * factor, low: out(low), high: out(high) }
+            }
             Family::Triangular { low, mode, high } => {
                 Family::Triangular { low: out(low), mode: out(mode), high: out(high) }
             }
@@ -176,6 +199,9 @@ impl Family {
                 question(&TruncatedNormal::new(mean, sd, low, high))
             }
             Family::Lognormal { mean, sd } => question(&Lognormal::new(mean, sd)),
+            Family::TruncatedLognormal { median, log_sd, low, high } => {
+                question(&TruncatedLognormal::new(median, log_sd, low, high))
+            }
             Family::Triangular { low, mode, high } => question(&Triangular { low, mode, high }),
             Family::Empirical { ref values } => question(&Empirical { values }),
         }

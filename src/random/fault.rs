@@ -2,6 +2,7 @@
 
 use super::Family;
 use super::truncated::TruncatedNormal;
+use crate::math::ln;
 
 /// Largest magnitude of a parameter: far beyond any use, and far enough from overflow that no product of two
 /// parameters reaches it.
@@ -46,6 +47,9 @@ impl Family {
             }
             Family::TruncatedNormal { mean, sd, low, high } => faults.truncated(*mean, *sd, *low, *high),
             Family::Lognormal { mean, sd } => faults.lognormal(*mean, *sd),
+            Family::TruncatedLognormal { median, log_sd, low, high } => {
+                faults.truncated_lognormal(*median, *log_sd, *low, *high);
+            }
             Family::Triangular { low, mode, high } => faults.triangular(*low, *mode, *high),
             Family::Empirical { values } => {
                 faults.list(values);
@@ -98,13 +102,39 @@ impl Faults {
         }
         // Below this width the interval's probability is a difference of nearly equal numbers.
         let wide = (high - low) / sd >= 1e-6;
-        if !self.require(wide, "high", high, "must be above low by at least 1e-6 sd") {
+        if self.require(wide, "high", high, "must be above low by at least 1e-6 sd") {
+            self.left_of_parent(&TruncatedNormal::new(mean, sd, low, high), (low, high), low > mean);
+        }
+    }
+
+    /// Below this probability the normal CDF leaves the normal range of double precision.
+    fn left_of_parent(&mut self, cut: &TruncatedNormal, (low, high): (f64, f64), lies_above: bool) {
+        let (name, bound) = if lies_above { ("low", low) } else { ("high", high) };
+        let allowed = "must not cut off all but 1e-300 of the parent's probability";
+        self.require(cut.mass() >= 1e-300, name, bound, allowed);
+    }
+
+    fn truncated_lognormal(&mut self, median: f64, log_sd: f64, low: f64, high: f64) {
+        let in_range = (SMALLEST..=LARGEST).contains(&median);
+        let parent = self.require(in_range, "median", median, "must be between 1e-100 and 1e100")
+            & self.require(
+                (1e-12..=10.0).contains(&log_sd),
+                "log_sd",
+                log_sd,
+                "must be between 1e-12 and 10",
+            );
+        let bounds = self.bounds(low, high)
+            && self.require(low > 0.0, "low", low, "must be above 0")
+            // Squares of the values must not overflow.
+            && self.require(high / low <= 1e100, "high", high, "must be at most 1e100 times low");
+        if !(parent && bounds) {
             return;
         }
-        // Below this probability the normal CDF leaves the normal range of double precision.
-        let holds = TruncatedNormal::new(mean, sd, low, high).mass() >= 1e-300;
-        let (name, bound) = if low > mean { ("low", low) } else { ("high", high) };
-        self.require(holds, name, bound, "must not cut off all but 1e-300 of the normal's probability");
+        let (mean, from, to) = (ln(median), ln(low), ln(high));
+        let wide = (to - from) / log_sd >= 1e-6;
+        if self.require(wide, "high", high, "must be above low by at least 1e-6 log_sd in its logarithm") {
+            self.left_of_parent(&TruncatedNormal::new(mean, log_sd, from, to), (low, high), from > mean);
+        }
     }
 
     fn lognormal(&mut self, mean: f64, sd: f64) {

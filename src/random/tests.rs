@@ -212,6 +212,14 @@ fn every_bad_parameter_is_named() {
         (Lognormal { mean: nan, sd: 1.0 }, vec!["mean"]),
         (Lognormal { mean: 1.0, sd: 1e-13 }, vec!["sd"]),
         (Lognormal { mean: 1e-10, sd: 1e41 }, vec!["sd"]),
+        (
+            TruncatedLognormal { median: 0.0, log_sd: 0.0, low: nan, high: 1.0 },
+            vec!["median", "log_sd", "low"],
+        ),
+        (TruncatedLognormal { median: 1.0, log_sd: 1.0, low: 0.0, high: 1.0 }, vec!["low"]),
+        (TruncatedLognormal { median: 1.0, log_sd: 1.0, low: 1e-60, high: 1e60 }, vec!["high"]),
+        (TruncatedLognormal { median: 1.0, log_sd: 1.0, low: 1.0, high: 1.0 + 1e-7 }, vec!["high"]),
+        (TruncatedLognormal { median: 1.0, log_sd: 0.1, low: 100.0, high: 200.0 }, vec!["low"]),
         (Triangular { low: 0.0, mode: 2.0, high: 1.0 }, vec!["mode"]),
         (Triangular { low: 0.0, mode: -0.1, high: 1.0 }, vec!["mode"]),
         (Triangular { low: 1.0, mode: 1.0, high: 1.0 }, vec!["high"]),
@@ -236,6 +244,8 @@ fn extreme_but_accepted_parameters_stay_finite() {
         Family::TruncatedNormal { mean: 0.0, sd: 1e-100, low: -1e100, high: 1e100 },
         Family::TruncatedNormal { mean: 0.0, sd: 1e100, low: 0.0, high: 1e95 },
         Family::TruncatedNormal { mean: 0.0, sd: 1.0, low: 37.0, high: 1e100 },
+        Family::TruncatedLognormal { median: 1e100, log_sd: 1e-12, low: 1e50, high: 1e100 },
+        Family::TruncatedLognormal { median: 1.0, log_sd: 10.0, low: 1e-50, high: 1e50 },
     ];
     for family in families {
         let family = family.checked().expect("accepted");

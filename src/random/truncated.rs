@@ -1,8 +1,8 @@
-//! The truncated normal family, accurate also when the interval lies far in a tail.
+//! The truncated normal and lognormal families, accurate also when the interval lies far in a tail.
 
 use super::family::Distribution;
 use super::standard_normal::{between, cdf, density, quantile};
-use crate::math::exp;
+use crate::math::{exp, ln};
 
 /// A normal variable known to lie in [low, high].
 pub(super) struct TruncatedNormal {
@@ -77,6 +77,61 @@ impl Distribution for TruncatedNormal {
     }
     fn sd(&self) -> f64 {
         self.sd * self.moments().sd
+    }
+    fn support(&self) -> (f64, f64) {
+        (self.low, self.high)
+    }
+}
+
+/// A lognormal variable known to lie in [low, high]: its logarithm is the truncated normal variable `log`.
+pub(super) struct TruncatedLognormal {
+    low: f64,
+    high: f64,
+    log: TruncatedNormal,
+}
+
+impl TruncatedLognormal {
+    pub(super) fn new(median: f64, log_sd: f64, low: f64, high: f64) -> Self {
+        TruncatedLognormal { low, high, log: TruncatedNormal::new(ln(median), log_sd, ln(low), ln(high)) }
+    }
+
+    /// Mean and variance in units of the most likely value of the parent within the interval, and that value. The integrals run
+    /// over standard deviations of the logarithm.
+    fn moments(&self) -> (f64, f64, f64) {
+        let TruncatedNormal { a, b, sd, mean, .. } = self.log;
+        let mode = 0.0_f64.clamp(a, b);
+        // Squares of the variable weigh what lies 2 sd further up.
+        let reach = (mode * mode + 100.0).sqrt();
+        let (start, end) = (a.max(-reach), b.min(reach + 2.0 * sd));
+        let g = |z: f64| exp(-0.5 * (z - mode) * (z + mode));
+        let x = |z: f64| exp(sd * (z - mode));
+        let mass = integral(start, end, g);
+        let first = integral(start, end, |z| x(z) * g(z)) / mass;
+        let variance = integral(start, end, |z| (x(z) - first) * (x(z) - first) * g(z)) / mass;
+        (first, variance, exp(mean + sd * mode))
+    }
+}
+
+impl Distribution for TruncatedLognormal {
+    fn quantile(&self, u: f64) -> f64 {
+        exp(self.log.quantile(u)).clamp(self.low, self.high)
+    }
+    fn density(&self, x: f64) -> Option<f64> {
+        if x <= 0.0 {
+            return Some(0.0);
+        }
+        self.log.density(ln(x)).map(|of_the_log| of_the_log / x)
+    }
+    fn cdf(&self, x: f64) -> f64 {
+        if x <= 0.0 { 0.0 } else { self.log.cdf(ln(x)) }
+    }
+    fn mean(&self) -> f64 {
+        let (mean, _, unit) = self.moments();
+        mean * unit
+    }
+    fn sd(&self) -> f64 {
+        let (_, variance, unit) = self.moments();
+        variance.sqrt() * unit
     }
     fn support(&self) -> (f64, f64) {
         (self.low, self.high)

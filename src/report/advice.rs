@@ -36,7 +36,7 @@ pub struct CaughtEntry {
     pub parameter: &'static str,
     /// Unit of the parameter.
     pub unit: &'static str,
-    /// From this value on; null where it is caught anywhere in its prior.
+    /// From this value on; null where it is caught anywhere in its search prior.
     pub value: Option<f64>,
     /// The 95 % interval of this value, of the self-test's campaigns; null at an end that these do not bound.
     pub interval: [Option<f64>; 2],
@@ -80,7 +80,7 @@ impl Advice {
         let caught = caught.map(|(cause, caught)| {
             let mechanism = &mechanisms[cause];
             let parameter = &mechanism.parameters[caught.parameter];
-            let value = |score: Option<f64>| score.map(|score| parameter.prior.at_score(score));
+            let value = |score: Option<f64>| score.map(|score| parameter.search.at_score(score));
             CaughtEntry {
                 cause: mechanism.name,
                 parameter: parameter.key,
@@ -138,7 +138,7 @@ impl Advice {
             for own in &self.caught {
                 let side = if own.below { "at most" } else { "at least" };
                 let unit = if own.unit == "1" { String::new() } else { format!(" {}", own.unit) };
-                let from = own.value.map_or("anywhere in its prior".to_string(), |value| {
+                let from = own.value.map_or("anywhere in its search prior".to_string(), |value| {
                     format!("{side} {}", significant(value, 2))
                 });
                 let [low, high] = own.interval.map(|end| or_dash(end, 2));

@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::math::ln;
 use crate::random::Family;
 use crate::study::catalogue::{DistributionFile, read_distributions};
 use crate::study::distributions::Distributions;
@@ -176,14 +177,34 @@ pub struct Parameter {
     pub meaning: &'static str,
     /// What it has where it is left out, written in TOML.
     pub default: Option<&'static str>,
-    /// What it may be, before anything has been measured.
+    /// What it may be, before anything has been measured: the physical prior.
     pub prior: Family,
+    /// Where a diagnosis looks for it: the same centre and four times the spread (of the logarithm where it is positive), cut only
+    /// by physics. A cause that is stronger than anybody expected is found, and said to be.
+    pub search: Family,
     /// measured, literature, calibrated or assumed.
     pub status: String,
     /// Paper and table, or who assumed it and why.
     pub source: String,
     /// What a user should know.
     pub note: Option<String>,
+}
+
+/// The search prior of a parameter is so many times as wide as its physical one.
+pub const WIDER: f64 = 4.0;
+
+impl Parameter {
+    /// How many standard deviations of its physical prior a value lies above the centre; of the logarithm where it is searched by
+    /// that. `None` for a constant.
+    pub fn spreads_out(&self, value: f64) -> Option<f64> {
+        match (&self.prior, &self.search) {
+            (Family::Constant { .. }, _) => None,
+            (_, Family::TruncatedLognormal { median, log_sd, .. }) => {
+                Some(WIDER * ln(value / median) / log_sd)
+            }
+            (prior, _) => Some((value - prior.mean()) / prior.sd()),
+        }
+    }
 }
 
 /// The keys of all mechanisms, as the name of the mechanism and the key.
@@ -197,7 +218,8 @@ fn prior_file(mechanism: &str, key: &Key) -> String {
     format!("mechanism/{mechanism}/{}", key.name)
 }
 
-/// All mechanisms with their priors, the entry `prior` of `mechanism/<name>/<key>.toml` in a folder or where a study looks.
+/// All mechanisms with their priors, the entries `prior` and `search` of `mechanism/<name>/<key>.toml` in a folder or where a study
+/// looks.
 ///
 /// # Errors
 /// The faults of these files; or the priors that are not there or in another unit, in words.
@@ -214,7 +236,7 @@ pub fn described(distributions: impl Into<Distributions>) -> Result<Vec<Describe
             let parameters = keys.filter_map(|key| {
                 let found = parameter(entry.name, key, &files);
                 if found.is_none() {
-                    missing.push(format!("{}.toml: [prior]", prior_file(entry.name, key)));
+                    missing.push(format!("{}.toml: [prior] and [search]", prior_file(entry.name, key)));
                 }
                 found
             });
@@ -243,6 +265,7 @@ fn parameter(
     let Kind::Real { unit, .. } = key.kind else { return None };
     let file = files.get(&prior_file(mechanism, key)).filter(|file| file.unit == unit)?;
     let prior = file.entries.get("prior")?.clone();
+    let search = file.entries.get("search")?.family.clone();
     let default = if let Presence::Default(text) = key.presence { Some(text) } else { None };
     Some(Parameter {
         key: key.name,
@@ -250,8 +273,71 @@ fn parameter(
         meaning: key.doc,
         default,
         prior: prior.family,
+        search,
         status: prior.status,
         source: prior.source,
         note: prior.note,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    /// Standard deviation of the logarithm, from quantiles: rounded ends of a uniform prior have no closed form.
+    fn log_sd(prior: &Family) -> f64 {
+        let values: Vec<f64> = (0..400).map(|k| ln(prior.quantile((f64::from(k) + 0.5) / 400.0))).collect();
+        crate::stats::sigma(&values).expect("many")
+    }
+
+    #[test]
+    fn search_priors_have_the_centre_of_the_physical_ones_and_four_times_their_spread() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("distributions");
+        let all = described(&folder).unwrap_or_else(|lacks| panic!("{lacks}"));
+        for (m, p) in all.iter().flat_map(|m| m.parameters.iter().map(move |p| (m, p))) {
+            let what = format!("{}.{}: {:?} and {:?}", m.name, p.key, p.prior, p.search);
+            // Written with two digits.
+            let near = |a: f64, b: f64| (a / b - 1.0).abs() < 0.08;
+            match &p.search {
+                Family::Constant { .. } => assert_eq!(p.prior, p.search, "{what}"),
+                Family::TruncatedLognormal { median, log_sd: own, .. } => {
+                    assert!(
+                        near(*median, p.prior.quantile(0.5)) && near(*own, WIDER * log_sd(&p.prior)),
+                        "{what}"
+                    );
+                }
+                Family::TruncatedNormal { mean, sd, .. } | Family::Normal { mean, sd } => {
+                    let centred = (mean - p.prior.mean()).abs() < 0.05 * p.prior.sd();
+                    assert!(centred && near(*sd, WIDER * p.prior.sd()), "{what}");
+                }
+                // Of effects that are none at the mode.
+                Family::Triangular { low, mode, .. } => {
+                    assert_eq!((*low, *mode), (0.0, 0.0), "{what}");
+                    assert!(near(p.search.sd(), WIDER * p.prior.sd()), "{what}");
+                }
+                other => panic!("{what}: {other:?}"),
+            }
+            // What the physical prior expects is searched.
+            let (low, high) = p.search.support();
+            assert!(p.prior.cdf(high) - p.prior.cdf(low) > 0.999 || p.prior == p.search, "{what}");
+        }
+    }
+
+    #[test]
+    fn how_far_out_a_value_lies_is_counted_in_spreads_of_the_physical_prior() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("distributions");
+        let all = described(&folder).unwrap_or_else(|lacks| panic!("{lacks}"));
+        let of = |mechanism: &str, key: &str, value: f64| {
+            let parameters = &all.iter().find(|m| m.name == mechanism).expect("known").parameters;
+            parameters.iter().find(|p| p.key == key).expect("known").spreads_out(value)
+        };
+        assert_eq!(of("lean", "angle_deg", 1.5), Some(3.0));
+        // Lognormal with a COV of 1: a standard deviation of the logarithm is the root of ln 2.
+        let out =
+            of("joint_closure", "initial_pa_per_m", 2e7 / (2.0_f64.sqrt() * 10.0)).expect("no constant");
+        assert!((out + std::f64::consts::LN_10 / std::f64::consts::LN_2.sqrt()).abs() < 0.02, "{out}");
+        assert_eq!(of("creep", "hold_every_deg", 5.0), None);
+    }
 }

@@ -41,7 +41,8 @@ pub(crate) use fault::listed;
 pub use fault::{Fault, Faults, Found};
 pub(crate) use files::sha256;
 pub use inventory::{
-    Acts, Described, Entry as InventoryEntry, INVENTORY, InLimitAnalysis, Parameter, Unloading, described,
+    Acts, Described, Entry as InventoryEntry, INVENTORY, InLimitAnalysis, Parameter, Unloading, WIDER,
+    described,
 };
 pub use joints::DrawnJoints;
 pub use load::{Loaded, VariantName};

@@ -64,6 +64,9 @@ pub fn family(reader: &mut Reader<'_>) -> Option<Family> {
                 .reals(["mean", "sd", "low", "high"])
                 .map(|[mean, sd, low, high]| Family::TruncatedNormal { mean, sd, low, high }),
             "lognormal" => reader.reals(["mean", "sd"]).map(|[mean, sd]| Family::Lognormal { mean, sd }),
+            "truncated_lognormal" => reader
+                .reals(["median", "log_sd", "low", "high"])
+                .map(|[median, log_sd, low, high]| Family::TruncatedLognormal { median, log_sd, low, high }),
             "triangular" => reader
                 .reals(["low", "mode", "high"])
                 .map(|[low, mode, high]| Family::Triangular { low, mode, high }),

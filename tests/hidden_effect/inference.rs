@@ -139,7 +139,7 @@ impl<'k> Judge<'k> {
         let name = |cause: &usize| self.known.mechanisms[*cause].name.to_owned();
         let (verdict, names) = match &found.verdict {
             Verdict::NothingFound => (Word::NothingFound, Vec::new()),
-            Verdict::Named(cause) => (Word::Named, vec![name(cause)]),
+            Verdict::Named(cause) | Verdict::NamedOutsidePrior(cause) => (Word::Named, vec![name(cause)]),
             Verdict::NamedPair(causes) => (Word::Named, causes.iter().map(name).collect()),
             Verdict::Ambiguous(causes) => (Word::Ambiguous, causes.iter().map(name).collect()),
             Verdict::Unexplained => (Word::Unexplained, Vec::new()),

@@ -63,3 +63,14 @@ fn every_variant_runs_and_both_solvers_find_the_same_angle() {
     // keep on any wall, this one keeps a tenth of it.
     assert!((one - other).abs() < 0.025, "implicit {one}, explicit {other}");
 }
+
+/// Member 21 at 1e9 Pa/m bulges by 16 mm between its held ends. The solver let it stand there 0.9 deg above the limit; now the limit is
+/// asked of every state at rest on the way up. The bound holds within a bracket, and the angle within another.
+#[test]
+fn a_wall_between_held_ends_loses_no_stone_above_its_limit() {
+    let study = study(Some("restrained-ends"), 22);
+    let row = evaluate(&study, Task { arm: 2, point: 2, member: 21 });
+    let (first, limit) =
+        (row.first_stone_deg.expect("it falls"), row.limit.expect("asked").angle_deg.expect("bounded"));
+    assert!(first > 30.0 && first < limit + 0.02, "{first} {limit}");
+}

@@ -60,6 +60,9 @@ fn continuous() -> Vec<Family> {
         Family::TruncatedNormal { mean: 0.0, sd: 2.0, low: -1.0, high: 5.0 },
         Family::TruncatedNormal { mean: 1.0, sd: 0.1, low: 1.2, high: 1.3 },
         Family::TruncatedNormal { mean: 1.0, sd: 0.1, low: 0.0, high: 0.8 },
+        Family::TruncatedLognormal { median: 0.2, log_sd: 0.5, low: 0.05, high: 1.0 },
+        Family::TruncatedLognormal { median: 0.2, log_sd: 0.5, low: 0.5, high: 3.0 },
+        Family::TruncatedLognormal { median: 2.0, log_sd: 1.5, low: 0.02, high: 1.0 },
     ]
 }
 

@@ -79,7 +79,7 @@ impl Plan {
                         |p: &Parameter| streams.of(&format!("bank {}.{}", mechanism.name, p.key)).uniform();
                     quantiles = mechanism.parameters.iter().map(quantile).collect();
                     let at = mechanism.parameters.iter().zip(&quantiles);
-                    let values: Vec<_> = at.map(|(p, &u)| (p.key, p.prior.quantile(u))).collect();
+                    let values: Vec<_> = at.map(|(p, &u)| (p.key, p.search.quantile(u))).collect();
                     let switched = base.with_mechanism(mechanism.name, &values)?;
                     (on, idle) = (Some(switched.study), switched.idle);
                 }
@@ -108,7 +108,7 @@ impl Plan {
         let parameters = mechanisms.iter().flat_map(|m| {
             m.parameters
                 .iter()
-                .map(|p| (format!("bank.mechanism.{}.{}", m.name, p.key), format!("{:?}", p.prior)))
+                .map(|p| (format!("bank.mechanism.{}.{}", m.name, p.key), format!("{:?}", p.search)))
         });
         let mut decided: BTreeMap<String, String> = priors.chain(parameters).collect();
         decided.insert("bank.points".to_owned(), points.to_string());

@@ -4,6 +4,7 @@
 use rayon::prelude::*;
 
 use crate::critic::diagnose::causes::Causes;
+use crate::critic::diagnose::conflict::PriorPredictive;
 use crate::critic::diagnose::design::Campaign;
 use crate::critic::diagnose::discrepancy::{Bent, Discrepancy};
 use crate::critic::diagnose::evidence::{Evidence, evidence, rough_evidence};
@@ -76,6 +77,7 @@ impl Judge<'_> {
             .map(|(&cause, (found, share))| LookedAt {
                 cause,
                 guard: in_question(&cause).then(|| guarded(self, Some(cause), &found.draws, campaign, seed)),
+                conflict: None,
                 evidence: *share,
                 draws: found.draws,
             })
@@ -106,7 +108,28 @@ impl Judge<'_> {
             let named = diagnosis.pairs.iter().find(fits).filter(|_| diagnosis.seeming.allows_pair(limits));
             diagnosis.verdict = named.map_or(Verdict::Unexplained, |pair| Verdict::NamedPair(pair.cause));
         }
+        self.set_beside_priors(&mut diagnosis, campaign, limits, seed.wrapping_add(3));
         diagnosis
+    }
+
+    /// Asks of every cause that the verdict speaks of whether it acts as its physical prior expects.
+    fn set_beside_priors(&self, diagnosis: &mut Diagnosis, campaign: &Campaign, limits: &Limits, seed: u64) {
+        let conflict = |causes: Causes| PriorPredictive::of(self, causes, seed).p_value(self, campaign);
+        match diagnosis.verdict.clone() {
+            Verdict::NamedPair(pair) => {
+                let own = diagnosis.pairs.iter_mut().filter(|own| own.cause == pair);
+                own.for_each(|own| own.conflict = Some(conflict(Causes::pair(pair[0], pair[1]))));
+            }
+            verdict => {
+                let own = diagnosis.looked_at.iter_mut().filter(|own| verdict.causes().contains(&own.cause));
+                own.for_each(|own| own.conflict = Some(conflict(Some(own.cause).into())));
+            }
+        }
+        if let Verdict::Named(cause) = diagnosis.verdict
+            && diagnosis.looked_at(cause).and_then(|own| own.conflict).is_some_and(|p| p < limits.conflict)
+        {
+            diagnosis.verdict = Verdict::NamedOutsidePrior(cause);
+        }
     }
 
     fn evidences(&self, campaign: &Campaign, models: &[Causes], seed: u64) -> Vec<Evidence> {
@@ -168,6 +191,7 @@ impl Judge<'_> {
                 cause,
                 guard: (evidence >= limits.pair.named)
                     .then(|| guarded(self, Causes::pair(cause[0], cause[1]), &found.draws, campaign, seed)),
+                conflict: None,
                 evidence,
                 draws: found.draws,
             })
@@ -250,8 +274,13 @@ mod tests {
 
     #[test]
     fn what_is_possible_is_what_nothing_speaks_against() {
-        let looked_at =
-            |cause: usize, guard: Option<f64>| LookedAt { cause, guard, evidence: 0.3, draws: Vec::new() };
+        let looked_at = |cause: usize, guard: Option<f64>| LookedAt {
+            cause,
+            guard,
+            conflict: None,
+            evidence: 0.3,
+            draws: Vec::new(),
+        };
         let wrong = Wrong { excess: BTreeMap::new(), joints: Vec::new(), distance: 0.0 };
         let causes = [(Some(3), 0.5), (Some(1), 0.3), (Some(2), 0.1), (None, 0.1)];
         let ranked = Ranked::new(causes.to_vec(), 0.0, vec![1, 2, 3]);

@@ -16,6 +16,8 @@ pub struct Limits {
     pub sure: f64,
     /// A cause that fits a campaign worse than all but so large a share of its own does not explain it.
     pub guard: f64,
+    /// A cause acts outside its physical prior below this p-value.
+    pub conflict: f64,
     /// The same two limits of a pair: the best of many pairs fits much that it has no part in, so that it must fit better.
     pub pair: PairLimits,
 }
@@ -39,6 +41,7 @@ impl Default for Limits {
             named: 0.8,
             sure: 0.01,
             guard: 0.05,
+            conflict: 0.05,
             pair: PairLimits { named: 0.99, guard: 0.25, nameless: 0.05 },
         }
     }

@@ -6,6 +6,7 @@ mod alike;
 mod asked;
 mod caught;
 mod causes;
+mod conflict;
 mod design;
 mod diagnosed;
 mod discrepancy;
@@ -58,5 +59,5 @@ pub use residual::{
 };
 pub use self_test::{Counted, SelfTest, SelfTestRow};
 pub use verdict::{Diagnosis, LookedAt, Verdict};
-pub use world::{Truth, World};
+pub use world::{Truth, World, log_weight};
 pub use wrong::{Reference, Wrong};

@@ -175,7 +175,9 @@ fn said(seeming: &Seeming, limits: &Limits) -> Option<Vec<usize>> {
 fn named(verdict: &Verdict) -> Option<Vec<usize>> {
     match verdict {
         Verdict::NothingFound => None,
-        Verdict::Named(_) | Verdict::NamedPair(_) => Some(verdict.causes().to_vec()),
+        Verdict::Named(_) | Verdict::NamedOutsidePrior(_) | Verdict::NamedPair(_) => {
+            Some(verdict.causes().to_vec())
+        }
         Verdict::Ambiguous(_) | Verdict::Unexplained => Some(Vec::new()),
     }
 }

@@ -12,6 +12,8 @@ pub enum Verdict {
     NothingFound,
     /// Something is wrong, and this cause explains it.
     Named(usize),
+    /// Something is wrong, and this cause explains it, at a strength that its physical prior does not expect.
+    NamedOutsidePrior(usize),
     /// Something is wrong, no one cause explains it, and these two together do.
     NamedPair([usize; 2]),
     /// Something is wrong, and each of these, at most [`MOST_AMBIGUOUS`](crate::critic::MOST_AMBIGUOUS), explains it.
@@ -21,10 +23,18 @@ pub enum Verdict {
 }
 
 impl Verdict {
+    /// The causes that it names, one alone or two together.
+    pub fn named(&self) -> &[usize] {
+        match self {
+            Verdict::Ambiguous(_) => &[],
+            verdict => verdict.causes(),
+        }
+    }
+
     /// The causes that it speaks of.
     pub fn causes(&self) -> &[usize] {
         match self {
-            Verdict::Named(cause) => std::slice::from_ref(cause),
+            Verdict::Named(cause) | Verdict::NamedOutsidePrior(cause) => std::slice::from_ref(cause),
             Verdict::NamedPair(causes) => causes,
             Verdict::Ambiguous(causes) => causes,
             Verdict::NothingFound | Verdict::Unexplained => &[],
@@ -54,6 +64,9 @@ pub struct LookedAt<C> {
     pub cause: C,
     /// Share of its own campaigns that fit no better; `None` where the guard was not asked, as it was not in question.
     pub guard: Option<f64>,
+    /// Share of the campaigns that the physical priors predict which are as far out, along what the data pin down; `None` where it
+    /// was not asked, as the verdict does not speak of it.
+    pub conflict: Option<f64>,
     /// Its share of the evidence: a cause's of all causes looked at and of the base model, a pair's of these and of all pairs.
     pub evidence: f64,
     /// What its parameters and the joints may be: draws, equally likely.

@@ -1,9 +1,12 @@
 //! Campaigns that could have been measured, from a bank: truth in, readings out.
 
+mod expected;
 #[cfg(test)]
 mod tests;
 
 use std::collections::{BTreeMap, BTreeSet};
+
+pub use expected::log_weight;
 
 use crate::critic::bank::{Bank, Curves, DOUBT, Emulator, HALF_WAY, NUMBERS, Path, Plan, Told};
 use crate::critic::diagnose::asked::Asked;
@@ -346,7 +349,7 @@ impl<'s> World<'s> {
     /// The parameters of the causes of a truth, each in its order and in the units of their keys.
     pub fn parameters(&self, truth: &Truth) -> Vec<f64> {
         let parameters = truth.causes.each().flat_map(|cause| &self.mechanisms[cause].parameters);
-        parameters.zip(&truth.parameters).map(|(p, score)| p.prior.at_score(*score)).collect()
+        parameters.zip(&truth.parameters).map(|(p, score)| p.search.at_score(*score)).collect()
     }
 
     /// Each cause of a truth with the scores of its parameters.
@@ -382,7 +385,7 @@ impl<'s> World<'s> {
             self.parts(truth).find(|(cause, _)| self.mechanisms[*cause].name == mechanism)?;
         let parameters = &self.mechanisms[cause].parameters;
         let at = parameters.iter().position(|p| p.key == key)?;
-        Some(parameters[at].prior.at_score(scores[at]))
+        Some(parameters[at].search.at_score(scores[at]))
     }
 
     /// What gauges make of the displacements.
@@ -468,7 +471,7 @@ fn moved(expected: &[f64; NUMBERS], left: &[f64; NUMBERS]) -> [f64; NUMBERS] {
 fn varying(mechanisms: &[Described], cause: Option<usize>, scores: impl Iterator<Item = f64>) -> Vec<f64> {
     let parameters = cause.map_or(&[][..], |index| &mechanisms[index].parameters);
     let varies = |prior: &Family| !matches!(prior, Family::Constant { .. });
-    parameters.iter().zip(scores).filter(|(p, _)| varies(&p.prior)).map(|(_, score)| score).collect()
+    parameters.iter().zip(scores).filter(|(p, _)| varies(&p.search)).map(|(_, score)| score).collect()
 }
 
 /// Numbers the kinds of joints.

@@ -27,12 +27,16 @@ pub(super) fn verdict(summary: &DiagnosisSummary) -> String {
             format!("NAMED: two causes together explain the readings: {spoken}.")
         }
         "named" => format!("NAMED: one cause explains the readings, with this probability: {spoken}."),
+        "named_outside_prior" => format!(
+            "NAMED, OUTSIDE ITS PRIOR: one cause explains the readings, at a strength that its prior does not expect: {spoken}."
+        ),
         "ambiguous" if summary.causes.iter().filter(|cause| cause.in_verdict).count() == 1 => {
             format!("AMBIGUOUS: this cause explains the readings, but not surely enough to be named: {spoken}.")
         }
         "ambiguous" => format!("AMBIGUOUS: the readings cannot tell between these causes: {spoken}."),
         _ => match summary.causes.iter().filter(|cause| cause.excluded_by.is_none()).count() {
-            0 => "UNEXPLAINED: something is wrong, and no cause of the catalogue explains it within its prior; no pair is named."
+            0 => "UNEXPLAINED: something is wrong, and no cause of the catalogue explains it, even at four times \
+                  the spread of its prior; no pair is named."
                 .to_string(),
             open => {
                 let many = if open > MOST_AMBIGUOUS { ": more than these data can tell apart" } else { "" };

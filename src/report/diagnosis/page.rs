@@ -3,8 +3,8 @@
 use crate::report::diagnosis::conclusion::conclusion;
 use crate::report::diagnosis::summary::{CauseEntry, DataEntry, DiagnosisSummary};
 use crate::report::diagnosis::text::{
-    CAUSE, CAUSES, FORM, NO_FORM, OFF, by_chance, excluded, not_used, or_dash, others, pairs, reliability,
-    worth_saying,
+    CAUSE, CAUSES, FORM, NO_FORM, OFF, beside_prior, by_chance, excluded, not_used, or_dash, others, pairs,
+    reliability, worth_saying,
 };
 use crate::report::diagnosis::words::{lines, reading};
 use crate::report::gain::GainSummary;
@@ -70,6 +70,9 @@ pub fn page(summary: &DiagnosisSummary, drawings: &[Drawing]) -> String {
         &["cause", "probability", "evidence", "predictive p", "parameters: median and 90 % interval"],
         rows,
     ));
+    for cause in summary.causes.iter().filter(|cause| cause.in_verdict) {
+        beside_prior(cause).iter().for_each(|words| body.push_str(&paragraph(words)));
+    }
     body.push_str(&pairs(summary).map_or_else(String::new, |words| paragraph(&words)));
     if summary.verdict == "unexplained" {
         let mut sentences: Vec<Vec<String>> = summary.form.iter().map(|bent| vec![bent.sentence()]).collect();

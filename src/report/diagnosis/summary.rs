@@ -5,14 +5,16 @@ use std::path::Path;
 
 use crate::critic::{
     Contrast, Counted, Design, Diagnosis, Excluded, Feature, Residuals, SelfTest, Truth, Unused, Verdict,
+    log_weight,
 };
+use crate::math::exp;
 use crate::report::advice::Advice;
 use crate::report::diagnosis::form::BentEntry;
 use crate::report::diagnosis::residual::{GroupEntry, ResidualEntry};
 use crate::report::gain::GainSummary;
 use crate::report::number::{compact, significant};
 use crate::stats;
-use crate::study::{Described, MeasuredQuantity, Study};
+use crate::study::{Described, MeasuredQuantity, Parameter, Study};
 
 /// Quantiles of a parameter.
 const INTERVAL: [f64; 2] = [0.05, 0.95];
@@ -30,7 +32,7 @@ pub struct DiagnosisSummary {
     pub bank: String,
     /// What was measured; null where it is part of the study in memory.
     pub measured: Option<DataEntry>,
-    /// named, ambiguous, unexplained or nothing_found.
+    /// named, named_outside_prior, ambiguous, unexplained or nothing_found.
     pub verdict: &'static str,
     /// The causes that the verdict speaks of, then all others; probabilities when all are equally likely beforehand.
     pub causes: Vec<CauseEntry>,
@@ -112,6 +114,9 @@ pub struct CauseEntry {
     pub excluded_by: Option<&'static str>,
     /// Share of its own campaigns that fit the readings no better; null where the guard was not asked.
     pub guard_p_value: Option<f64>,
+    /// Share of the campaigns that its physical prior predicts which are as far out, along what the data pin down; null where the
+    /// verdict does not speak of it.
+    pub conflict_p_value: Option<f64>,
     /// Its parameters, as far as the data tell them; empty where it was not looked at closely.
     pub parameters: Vec<ParameterEntry>,
 }
@@ -136,6 +141,8 @@ pub struct PairEntry {
     pub in_verdict: bool,
     /// Share of its own campaigns that fit the readings no better; null where the guard was not asked.
     pub guard_p_value: Option<f64>,
+    /// Share of the campaigns that the physical priors of both predict which are as far out; null where the verdict does not name it.
+    pub conflict_p_value: Option<f64>,
 }
 
 /// A parameter of a cause.
@@ -145,6 +152,21 @@ pub struct ParameterEntry {
     pub key: &'static str,
     /// Its unit.
     pub unit: &'static str,
+    /// Median, with the search prior.
+    pub median: f64,
+    /// 5 and 95 % quantile, with the search prior.
+    pub interval: [f64; 2],
+    /// 5 and 95 % quantile of its physical prior.
+    pub prior_interval: [f64; 2],
+    /// How many standard deviations of the physical prior the median lies from its centre; null for a constant.
+    pub prior_sd: Option<f64>,
+    /// What the physical prior makes of it; null where that leaves hardly any of the draws.
+    pub within_prior: Option<WithinPrior>,
+}
+
+/// A parameter with its physical prior.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct WithinPrior {
     /// Median.
     pub median: f64,
     /// 5 and 95 % quantile.
@@ -154,12 +176,37 @@ pub struct ParameterEntry {
 impl ParameterEntry {
     /// In words: key, median, interval and unit.
     pub(super) fn words(&self) -> String {
-        let ParameterEntry { key, unit, median, interval } = self;
-        let unit = if *unit == "1" { String::new() } else { format!(" {unit}") };
-        // A stiffness is written as people write it, not by digits that nobody knows.
-        let number = |x: f64| if x.abs() >= 1e5 { compact(x) } else { significant(x, 3) };
-        format!("{key} {} [{}, {}]{unit}", number(*median), number(interval[0]), number(interval[1]))
+        let ParameterEntry { key, unit, median, interval, .. } = self;
+        format!("{key} {}", amount(*median, *interval, unit))
     }
+
+    /// Where it lies in its physical prior, and what that makes of it; `None` for a constant.
+    pub(super) fn beside_prior(&self) -> Option<String> {
+        let ParameterEntry { key, unit, prior_interval, prior_sd, within_prior, .. } = self;
+        let sd = (*prior_sd)?;
+        let side = if sd < 0.0 { "below" } else { "above" };
+        let within = within_prior.map_or_else(
+            || "with that prior hardly any of the posterior is left".to_owned(),
+            |own| format!("with that prior {}", amount(own.median, own.interval, unit)),
+        );
+        let [low, high] = prior_interval.map(number);
+        Some(format!(
+            "{key}: {} sd {side} the centre of its prior [{low}, {high}]; {within}.",
+            significant(sd.abs(), 2)
+        ))
+    }
+}
+
+/// A median with its interval and unit.
+fn amount(median: f64, interval: [f64; 2], unit: &str) -> String {
+    let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
+    let [low, high] = interval.map(number);
+    format!("{} [{low}, {high}]{unit}", number(median))
+}
+
+/// A stiffness is written as people write it, not by digits that nobody knows.
+fn number(x: f64) -> String {
+    if x.abs() >= 1e5 { compact(x) } else { significant(x, 3) }
 }
 
 /// Something that is off.
@@ -209,6 +256,7 @@ impl DiagnosisSummary {
         let (verdict, spoken): (&'static str, Vec<usize>) = match &diagnosis.verdict {
             Verdict::NothingFound => ("nothing_found", Vec::new()),
             Verdict::Named(cause) => ("named", vec![*cause]),
+            Verdict::NamedOutsidePrior(cause) => ("named_outside_prior", vec![*cause]),
             Verdict::NamedPair(causes) => ("named", causes.to_vec()),
             Verdict::Ambiguous(causes) => ("ambiguous", causes.clone()),
             Verdict::Unexplained => ("unexplained", Vec::new()),
@@ -219,7 +267,7 @@ impl DiagnosisSummary {
             let parameters = |causes: &[usize], draws: &[Truth]| {
                 let before = causes.iter().take_while(|other| **other != cause);
                 let first = before.map(|other| mechanisms[*other].parameters.len()).sum();
-                parameters(&mechanisms[cause], first, draws)
+                parameters(mechanisms, &mechanisms[cause], first, draws)
             };
             match (own, diagnosis.looked_at(cause)) {
                 (Some((causes, draws)), _) => parameters(causes, draws),
@@ -232,6 +280,7 @@ impl DiagnosisSummary {
             evidence: own.evidence,
             in_verdict: diagnosis.verdict == Verdict::NamedPair(own.cause),
             guard_p_value: own.guard,
+            conflict_p_value: own.conflict,
         });
         let ranked = &diagnosis.seeming.ranked;
         let mut causes: Vec<CauseEntry> = ranked
@@ -251,6 +300,7 @@ impl DiagnosisSummary {
                         Excluded::ByEvidence => "evidence",
                     }),
                     guard_p_value: closely.and_then(|own| own.guard),
+                    conflict_p_value: closely.and_then(|own| own.conflict),
                     parameters: drawn(cause),
                 })
             })
@@ -325,20 +375,65 @@ fn unused(design: &Design) -> Vec<UnusedEntry> {
     by_reason.into_iter().map(entry).collect()
 }
 
+/// Draws that count with the physical prior must be worth so many at least, or nothing is said of it.
+const LEAST_DRAWS: f64 = 8.0;
+
 /// What the posterior says of a cause's parameters; `first` is the place of its first one in the draws.
-fn parameters(mechanism: &Described, first: usize, draws: &[Truth]) -> Vec<ParameterEntry> {
-    let entry = |(k, parameter): (usize, &crate::study::Parameter)| {
+fn parameters(
+    mechanisms: &[Described],
+    mechanism: &Described,
+    first: usize,
+    draws: &[Truth],
+) -> Vec<ParameterEntry> {
+    let weights = physical_weights(mechanisms, draws);
+    let entry = |(k, parameter): (usize, &Parameter)| {
         let values: Vec<f64> =
-            draws.iter().map(|truth| parameter.prior.at_score(truth.parameters[first + k])).collect();
+            draws.iter().map(|truth| parameter.search.at_score(truth.parameters[first + k])).collect();
         let at = |p: f64| stats::quantile(&values, p);
+        let median = at(0.5)?;
+        let weighed = weights.as_ref().map(|weights| {
+            let at = |p: f64| weighted_quantile(&values, weights, p);
+            WithinPrior { median: at(0.5), interval: INTERVAL.map(at) }
+        });
         Some(ParameterEntry {
             key: parameter.key,
             unit: parameter.unit,
-            median: at(0.5)?,
+            median,
             interval: [at(INTERVAL[0])?, at(INTERVAL[1])?],
+            prior_interval: INTERVAL.map(|p| parameter.prior.quantile(p)),
+            prior_sd: parameter.spreads_out(median),
+            within_prior: weighed,
         })
     };
     mechanism.parameters.iter().enumerate().filter_map(entry).collect()
+}
+
+/// Weights of draws from the posterior of the search prior, of sum 1, under the physical prior; `None` where they leave too few.
+fn physical_weights(mechanisms: &[Described], draws: &[Truth]) -> Option<Vec<f64>> {
+    let logs: Vec<f64> = draws.iter().map(|truth| log_weight(mechanisms, truth)).collect();
+    let largest = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    if !largest.is_finite() {
+        return None;
+    }
+    let raw: Vec<f64> = logs.iter().map(|log| exp(log - largest)).collect();
+    let sum = stats::sum(&raw);
+    let weights: Vec<f64> = raw.iter().map(|w| w / sum).collect();
+    let squares: Vec<f64> = weights.iter().map(|w| w * w).collect();
+    (1.0 / stats::sum(&squares) >= LEAST_DRAWS).then_some(weights)
+}
+
+/// The smallest value up to which the weights reach a share.
+fn weighted_quantile(values: &[f64], weights: &[f64], share: f64) -> f64 {
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
+    let mut reached = 0.0;
+    for &k in &order {
+        reached += weights[k];
+        if reached >= share {
+            return values[k];
+        }
+    }
+    order.last().map_or(f64::NAN, |&k| values[k])
 }
 
 fn words(study: &Study, feature: Feature) -> String {

@@ -3,7 +3,7 @@
 use crate::critic::{Counted, Limits};
 use crate::report::conclusion::MOST_LINES;
 use crate::report::diagnosis::conclusion::conclusion;
-use crate::report::diagnosis::summary::{DiagnosisSummary, LooksEntry, OffEntry, SelfTestEntry};
+use crate::report::diagnosis::summary::{CauseEntry, DiagnosisSummary, LooksEntry, OffEntry, SelfTestEntry};
 use crate::report::diagnosis::words::{lines, reading};
 use crate::report::gain::GainSummary;
 use crate::report::number::significant;
@@ -78,10 +78,28 @@ fn causes(summary: &DiagnosisSummary) -> String {
         for parameter in &cause.parameters {
             text.push_str(&wrapped("  ", &format!("{}: {}", cause.id, parameter.words())));
         }
+        beside_prior(cause).iter().for_each(|words| text.push_str(&wrapped("  ", words)));
     }
     text.push_str(&pairs(summary).map_or_else(String::new, |words| wrapped("  ", &words)));
     excluded(summary).iter().for_each(|words| text.push_str(&wrapped("  - ", words)));
     text
+}
+
+/// Whether a cause acts as its physical prior expects, and where each parameter lies in it.
+pub(super) fn beside_prior(cause: &CauseEntry) -> Vec<String> {
+    let Some(p) = cause.conflict_p_value else { return Vec::new() };
+    let verdict = match p < Limits::default().conflict {
+        true => "it acts outside its physical prior",
+        false => "it may act within its physical prior",
+    };
+    let first = format!(
+        "{}: {verdict} (conflict p {}: share of the campaigns predicted with that prior which lie as far out, along what the data \
+         pin down).",
+        cause.id,
+        significant(p, 2)
+    );
+    let parameters = cause.parameters.iter().filter_map(|own| Some(own.beside_prior()?));
+    std::iter::once(first).chain(parameters).collect()
 }
 
 /// What the numbers of what is off are.
@@ -91,6 +109,7 @@ pub(super) const OFF: &str =
 pub(super) const CAUSE: &str = "probability: posterior, all causes equally likely beforehand. \
     evidence: share of the marginal likelihood among the causes looked at closely; it is too sure of itself to be taken alone. \
     predictive p: share of the cause's own simulated campaigns that fit worse. A dash: not computed. \
+    search prior: four times the spread of the documented prior. \
     not in catalogue: smooth random effects that no cause here describes";
 /// What the numbers of a form are.
 pub(super) const FORM: &str = "Form of what is not explained (measured less base model with fitted joints, if it is smooth over the tilt or goes with the order of the tests; brackets: 95 %, for these joints)";
@@ -156,12 +175,12 @@ pub(super) fn excluded(summary: &DiagnosisSummary) -> Vec<String> {
         summary.causes.iter().filter(|cause| cause.excluded_by == why).map(|cause| cause.id).collect()
     };
     [
-        ("Excluded within its prior by the posterior predictive check", by(Some("readings"))),
+        ("Excluded within its search prior by the posterior predictive check", by(Some("readings"))),
         (
-            "Excluded within its prior by the ranking (nine in ten of its own campaigns rank it higher)",
+            "Excluded within its search prior by the ranking (nine in ten of its own campaigns rank it higher)",
             by(Some("looks")),
         ),
-        ("Excluded within its prior by the evidence (below one in a hundred)", by(Some("evidence"))),
+        ("Excluded within its search prior by the evidence (below one in a hundred)", by(Some("evidence"))),
         ("Not excluded", by(None)),
     ]
     .into_iter()

@@ -60,7 +60,7 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>) {
         let parameters = vec![0.5; made.mechanisms[cause].parameters.len()];
         let joints = vec![[0.0; 3]; world.joint_kinds()];
         let draws = vec![Truth { causes: Some(cause).into(), parameters, joints }];
-        LookedAt { cause, guard: Some(0.4), evidence: 0.45, draws }
+        LookedAt { cause, guard: Some(0.4), conflict: Some(0.3), evidence: 0.45, draws }
     };
     let causes = [cause("creep"), cause("gauge_offset")];
     let rows = [None, Some(causes[0])].map(|cause| SelfTestRow {
@@ -130,9 +130,9 @@ fn what_is_not_explained_excludes_causes_and_says_why() {
     let text = diagnosis_text(&summary).split_whitespace().collect::<Vec<_>>().join(" ");
     for sentence in [
         "no cause explains it surely; 1 of the catalogue cannot be excluded.",
-        "Excluded within its prior by the posterior predictive check: creep.",
-        "Excluded within its prior by the ranking (nine in ten of its own campaigns rank it higher): lean.",
-        "Excluded within its prior by the evidence (below one in a hundred): density.",
+        "Excluded within its search prior by the posterior predictive check: creep.",
+        "Excluded within its search prior by the ranking (nine in ten of its own campaigns rank it higher): lean.",
+        "Excluded within its search prior by the evidence (below one in a hundred): density.",
         "Not excluded: gauge_offset.",
     ] {
         assert!(text.contains(sentence), "{text}");
@@ -145,7 +145,7 @@ fn what_is_not_explained_excludes_causes_and_says_why() {
     assert!(
         diagnosis_text(&summary)
             .replace('\n', " ")
-            .contains("no cause of the catalogue explains it within its prior; no pair is named.")
+            .contains("even at four times the spread of its prior; no pair is named.")
     );
     (summary.verdict, summary.causes[0].in_verdict) = ("ambiguous", true);
     summary.causes[1..].iter_mut().for_each(|cause| cause.in_verdict = false);
@@ -183,9 +183,9 @@ fn every_cause_is_caught_seen_in_part_or_hardly_seen() {
     for part in [
         "hardly see: cohesion\n",
         "creep              ",
-        "anywhere in its prior [-, ",
-        "density            factor at least 1.0 [1.0, -]\n",
-        "density            factor at most 0.97 [0.94, 1.0]\n",
+        "anywhere in its search prior [-, ",
+        "density            factor at least 1.1 [1.0, -]\n",
+        "density            factor at most 0.89 [0.79, 1.0]\n",
         "joint_closure      in 49 of 100, and in 16 of 33\n",
     ] {
         assert!(text.contains(part), "no `{part}` in {text}");

@@ -39,6 +39,8 @@ const STEEPER: f64 = 2.0;
 const BELOW: [f64; 3] = [0.0, 0.25, 0.5];
 /// After a peak that is not bracketed yet, steps are shortened to this share of the one that passed it.
 const SHORTER: f64 = 0.4;
+/// A peak is bracketed to this share of the bracket, so that the levels below the highest state lie within it.
+const PEAKED: f64 = 0.5;
 
 /// States that prove unstable on the way up, before the search is given up.
 const MOST_DOUBTS: u32 = 4;
@@ -109,7 +111,7 @@ impl<'a> Equilibrium<'a> {
             let is_past = next.slope <= 0.0 || next.level < state.level - scatter;
             if is_past && above.is_none() {
                 let peak = state.peak(&next);
-                if peak - highest.level > ahead.bracket {
+                if peak - highest.level > PEAKED * ahead.bracket {
                     // Once more from before the peak, in shorter steps.
                     length = SHORTER * next.length;
                     state = highest.clone();

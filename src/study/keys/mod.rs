@@ -338,6 +338,7 @@ const FAMILY_KEYS: &[Key] = &[
             "normal",
             "truncated_normal",
             "lognormal",
+            "truncated_lognormal",
             "triangular",
             "empirical",
         ]),
@@ -359,15 +360,21 @@ const FAMILY_KEYS: &[Key] = &[
         "Standard deviation; of the parent where the family is truncated.",
     )
     .only(&["normal", "truncated_normal", "lognormal"]),
+    Key::new("median", real("", Interval::any()), Required, "Median of the parent.")
+        .only(&["truncated_lognormal"]),
+    Key::new("log_sd", real("", Interval::any()), Required, "Standard deviation of the parent's logarithm.")
+        .only(&["truncated_lognormal"]),
     Key::new("low", real("", Interval::any()), Required, "Smallest value.").only(&[
         "uniform",
         "truncated_normal",
+        "truncated_lognormal",
         "triangular",
     ]),
     Key::new("mode", real("", Interval::any()), Required, "Most frequent value.").only(&["triangular"]),
     Key::new("high", real("", Interval::any()), Required, "Largest value.").only(&[
         "uniform",
         "truncated_normal",
+        "truncated_lognormal",
         "triangular",
     ]),
     Key::new(

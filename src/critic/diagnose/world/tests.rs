@@ -134,7 +134,7 @@ fn a_weight_tells_of_the_density_and_of_nothing_else() {
     // Table 1 of the source paper: 1371 N.
     let stated = world.values_apart(&design, &base)[0];
     assert!((stated - 1371.0).abs() < 0.1, "{stated}");
-    let factor = made.mechanisms[made.cause("density")].parameters[0].prior.at_score(-1.0);
+    let factor = made.mechanisms[made.cause("density")].parameters[0].search.at_score(-1.0);
     assert!((weight("density") / stated - factor).abs() < 1e-12 && factor < 1.0);
     assert_eq!([weight("lean"), weight("contact_area")], [stated; 2]);
 }
@@ -312,7 +312,7 @@ fn a_fixed_target_tells_of_the_gauge_and_of_nothing_else() {
             Truth { causes: Some(cause).into(), parameters, ..world.drawn(None, &Streams::new(9, 0)) };
         world.values_apart(&design, &truth)[0]
     };
-    let offset = made.mechanisms[made.cause("gauge_offset")].parameters[0].prior.at_score(1.0);
+    let offset = made.mechanisms[made.cause("gauge_offset")].parameters[0].search.at_score(1.0);
     assert_eq!((shown("gauge_offset"), shown("gauge_scale"), shown("creep")), (offset, 0.0, 0.0));
 }
 
@@ -397,7 +397,7 @@ fn what_is_left_after_going_back_tells_of_creep_and_of_the_gauge() {
         assert!((value - mean).abs() < 4.0 * sigma + 1e-12, "{name}: {value:e} of {mean:e} +- {sigma:e}");
         value
     };
-    let offset = made.mechanisms[made.cause("gauge_offset")].parameters[0].prior.at_score(1.0);
+    let offset = made.mechanisms[made.cause("gauge_offset")].parameters[0].search.at_score(1.0);
     assert_eq!(shown("cohesion"), 0.0);
     assert!((shown("gauge_offset") - offset).abs() < 1e-15);
     // Of a wall of which so large a share of all movement creeps.
