@@ -22,6 +22,7 @@ fn law() -> Coulomb {
         tan_phi: tan(radians(30.0)),
         cohesion: 0.0,
         tension: 0.0,
+        compressive_strength: None,
         cohesion_after_slip: CohesionAfterSlip::Kept,
         weakening: None,
         sampling: Sampling::Area,

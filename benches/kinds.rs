@@ -145,6 +145,7 @@ fn canonical_wall(kn: f64, solver: Solver) -> Told {
         tan_phi: tan(radians(35.0)),
         cohesion: 0.0,
         tension: 0.0,
+        compressive_strength: None,
         cohesion_after_slip: CohesionAfterSlip::Kept,
         weakening: None,
         sampling: Sampling::Area,

@@ -34,6 +34,7 @@ fn law(kn: f64) -> Coulomb {
         tan_phi: tan(radians(PHI_DEG)),
         cohesion: 0.0,
         tension: 0.0,
+        compressive_strength: None,
         cohesion_after_slip: CohesionAfterSlip::Kept,
         weakening: None,
         sampling: Sampling::Area,

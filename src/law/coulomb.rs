@@ -17,6 +17,8 @@ pub struct Coulomb {
     /// Tensile strength (Pa): a sub-contact that has been pulled harder than this is open for good and carries
     /// compression and friction only.
     pub tension: f64,
+    /// Compressive strength (Pa), at which the stress stays as the joint closes on; `None` where it bears any pressure.
+    pub compressive_strength: Option<f64>,
     /// What happens to the cohesion of a sub-contact once it has slipped.
     pub cohesion_after_slip: CohesionAfterSlip,
     /// How friction weakens with slip; `None` where it does not.
@@ -211,6 +213,7 @@ mod tests {
             tan_phi: 0.5,
             cohesion: 1e3,
             tension: 0.0,
+            compressive_strength: None,
             cohesion_after_slip: CohesionAfterSlip::Kept,
             weakening: None,
             sampling: Sampling::Area,

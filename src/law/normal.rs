@@ -1,5 +1,6 @@
 //! Normal laws: compressive stress of a joint as a function of its closure.
 
+use crate::law::{ClosureTable, Stiffening};
 use crate::math::ln;
 
 /// The normal law of a joint. Closure `u` (m) is positive where the faces overlap.
@@ -22,6 +23,10 @@ pub enum NormalLaw {
         /// Maximum closure `Vm` of the hyperbola (m).
         closure: f64,
     },
+    /// Stiffness that grows as a power of the stress.
+    Stiffening(Stiffening),
+    /// A free law through knots.
+    Table(ClosureTable),
 }
 
 impl NormalLaw {
@@ -37,6 +42,8 @@ impl NormalLaw {
                 let root = (b * b + 4.0 * c).sqrt();
                 if b > 0.0 { 0.5 * (b + root) } else { 2.0 * c / (root - b) }
             }
+            NormalLaw::Stiffening(law) => law.stress(u),
+            NormalLaw::Table(law) => law.stress(u),
         }
     }
 
@@ -50,6 +57,8 @@ impl NormalLaw {
                 let above = knee + self.stress(u);
                 1.0 / (1.0 / kn + closure * knee / (above * above))
             }
+            NormalLaw::Stiffening(law) => law.stiffness(u),
+            NormalLaw::Table(law) => law.stiffness(u),
         }
     }
 
@@ -58,6 +67,8 @@ impl NormalLaw {
         match *self {
             NormalLaw::Linear { kn } => kn,
             NormalLaw::Hyperbolic { kn, initial, .. } => kn * initial / (kn + initial),
+            NormalLaw::Stiffening(law) => law.first_stiffness(),
+            NormalLaw::Table(law) => law.first_stiffness(),
         }
     }
 
@@ -65,6 +76,8 @@ impl NormalLaw {
     pub fn largest_stiffness(&self) -> f64 {
         match *self {
             NormalLaw::Linear { kn } | NormalLaw::Hyperbolic { kn, .. } => kn,
+            NormalLaw::Stiffening(law) => law.largest_stiffness(),
+            NormalLaw::Table(law) => law.largest_stiffness(),
         }
     }
 
@@ -81,6 +94,33 @@ impl NormalLaw {
                 let ratio = (knee + sigma) / knee;
                 0.5 * sigma * sigma / kn + closure * knee * (ln(ratio) + 1.0 / ratio - 1.0)
             }
+            NormalLaw::Stiffening(law) => law.energy(u),
+            NormalLaw::Table(law) => law.energy(u),
+        }
+    }
+
+    /// Closure (m) at a compressive stress (Pa), the inverse of [`NormalLaw::stress`]; below 0 that of its tension branch.
+    pub fn closure(&self, stress: f64) -> f64 {
+        match *self {
+            _ if stress <= 0.0 => stress / self.first_stiffness(),
+            NormalLaw::Linear { kn } => stress / kn,
+            NormalLaw::Hyperbolic { kn, initial, closure } => {
+                stress / kn + closure * stress / (initial * closure + stress)
+            }
+            NormalLaw::Stiffening(law) => law.closure(stress),
+            NormalLaw::Table(law) => law.closure(stress),
+        }
+    }
+
+    /// The law with so many times the stress at any closure.
+    pub fn scaled(&self, factor: f64) -> NormalLaw {
+        match *self {
+            NormalLaw::Linear { kn } => NormalLaw::Linear { kn: kn * factor },
+            NormalLaw::Hyperbolic { kn, initial, closure } => {
+                NormalLaw::Hyperbolic { kn: kn * factor, initial: initial * factor, closure }
+            }
+            NormalLaw::Stiffening(law) => NormalLaw::Stiffening(law.scaled(factor)),
+            NormalLaw::Table(law) => NormalLaw::Table(law.scaled(factor)),
         }
     }
 }
@@ -98,23 +138,32 @@ mod tests {
             let u = sigma / 5e7 + 2e-4 * sigma / (2e3 + sigma);
             // Rounding of a square root.
             assert_relative_eq!(SOFT.stress(u), sigma, max_relative = 1e-12);
+            assert_relative_eq!(SOFT.closure(sigma), u, max_relative = 1e-14);
         }
         assert_relative_eq!(SOFT.stress(-1e-5), -1e-5 * 5e7 / 6.0, max_relative = 1e-14);
         assert_eq!(SOFT.stress(0.0), 0.0);
     }
 
+    /// Powers of a third, a half and one.
+    fn powers() -> [NormalLaw; 3] {
+        [(3e8, 1.0 / 3.0), (7e8, 0.5), (1e10, 1.0)]
+            .map(|(at_1_mpa, exponent)| NormalLaw::Stiffening(Stiffening::new(5e7, at_1_mpa, exponent, 1e6)))
+    }
+
     #[test]
     fn slope_and_energy_are_the_derivative_and_the_integral_of_the_stress() {
-        for u in [-1e-4, 1e-6, 5e-5, 2e-4, 1e-3] {
+        let table = ClosureTable::through(&[2e-5, 1e-4, 3e-4], &[5e2, 4e3, 3e4]).expect("it rises");
+        let all = [SOFT, NormalLaw::Table(table)].into_iter().chain(powers());
+        for (law, u) in all.flat_map(|law| [-1e-4, 1e-6, 5e-5, 2e-4, 1e-3].map(|u| (law, u))) {
             let h = 1e-9;
-            let slope = (SOFT.stress(u + h) - SOFT.stress(u - h)) / (2.0 * h);
+            let slope = (law.stress(u + h) - law.stress(u - h)) / (2.0 * h);
             // Third differences and the rounding of 1e4 Pa over 1e-9 m.
-            assert_relative_eq!(SOFT.stiffness(u), slope, max_relative = 1e-6);
-            let n = 10_000;
-            let middle = |k: i32| SOFT.stress(u * (f64::from(k) + 0.5) / f64::from(n));
+            assert_relative_eq!(law.stiffness(u), slope, max_relative = 2e-6);
+            let n = 100_000;
+            let middle = |k: i32| law.stress(u * (f64::from(k) + 0.5) / f64::from(n));
             let work = (0..n).map(middle).sum::<f64>() * u / f64::from(n);
-            // The midpoint rule with 1e4 strips: 1e-8 of the curvature.
-            assert_relative_eq!(SOFT.energy(u), work, max_relative = 1e-7);
+            // The midpoint rule with 1e5 strips, across knees of the slope.
+            assert_relative_eq!(law.energy(u), work, max_relative = 1e-7);
         }
         assert_relative_eq!(SOFT.stiffness(0.0), 5e7 / 6.0, max_relative = 1e-14);
         assert!(SOFT.stiffness(1.0) < SOFT.largest_stiffness() && SOFT.stiffness(1.0) > 4.999e7);

@@ -4,10 +4,12 @@
 mod elementary;
 mod exponentials;
 mod invariant;
+mod monotone;
 mod words;
 
 pub use elementary::*;
 pub use exponentials::exp_all;
+pub use monotone::monotone_slopes;
 pub use words::edit_distance;
 
 /// A vector or a position in metres (or whatever unit the user of it states); x along the wall, y out of plane

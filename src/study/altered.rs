@@ -2,12 +2,12 @@
 //! what is read off it.
 
 use crate::generate::Layout;
-use crate::law::{Coulomb, NormalLaw, PATCHES_ALONG, Sampling, Weakening};
+use crate::law::{Coulomb, NormalLaw, PATCHES_ALONG, Sampling, Stiffening, Weakening};
 use crate::math::tan;
 use crate::model::{Tag, Wall};
 use crate::protocol::{Changes, Contacts, Ends, Loss, Protocol, Restraint};
 use crate::random::{Family, Stream, Streams};
-use crate::study::mechanism::{EndRelease, Mechanisms};
+use crate::study::mechanism::{EndRelease, Mechanisms, StressStiffening};
 
 /// Patches along each side of a joint, see [`Sampling::Patches`], and parts of four patches each.
 const SIDE: u32 = PATCHES_ALONG;
@@ -101,13 +101,23 @@ impl AlteredJoints {
     /// The law of the joint of two blocks, from that of the base model.
     pub fn law(&self, mut law: Coulomb, streams: &Streams, a: u32, b: u32) -> Coulomb {
         let Mechanisms {
-            joint_closure, contact_area, friction, cohesion, specimen_scatter, end_release, ..
+            joint_closure,
+            stress_stiffening,
+            contact_area,
+            friction,
+            cohesion,
+            specimen_scatter,
+            end_release,
+            ..
         } = &self.mechanisms;
-        let mut kn = law.normal.largest_stiffness();
         if specimen_scatter.is_some() {
             let [stiffness, tan_phi] = self.specimen;
-            (kn, law.ks, law.tan_phi) = (kn * stiffness, law.ks * stiffness, law.tan_phi * tan_phi);
-            law.normal = NormalLaw::Linear { kn };
+            (law.ks, law.tan_phi) = (law.ks * stiffness, law.tan_phi * tan_phi);
+            law.normal = law.normal.scaled(stiffness);
+        }
+        let kn = law.normal.largest_stiffness();
+        if let Some(StressStiffening { at_1_mpa, exponent, floor }) = *stress_stiffening {
+            law.normal = NormalLaw::Stiffening(Stiffening::new(kn, at_1_mpa, exponent, floor));
         }
         if let Some(joint) = joint_closure {
             law.normal = NormalLaw::Hyperbolic { kn, initial: joint.initial, closure: joint.closure };

@@ -5,7 +5,7 @@ use crate::law::Sampling;
 use crate::math::radians;
 use crate::random::Family;
 use crate::study::catalogue::Catalogue;
-use crate::study::checked::{Arm, Joint};
+use crate::study::checked::{Arm, Joint, StatedLaw};
 use crate::study::fault::{Fault, Found};
 use crate::study::keys;
 use crate::study::mechanism::Mechanisms;
@@ -295,6 +295,20 @@ fn check_mechanisms(
     if mechanisms.contact_area.is_some() && joint.sampling == Sampling::Vertices {
         let found = "does not go with joint.sampling = \"vertices\"".to_owned();
         refuse("contact_area", found, "joints that are sampled over their area", "remove one of the two");
+    }
+    if mechanisms.joint_closure.is_some() && mechanisms.stress_stiffening.is_some() {
+        let found = "does not go with mechanism.joint_closure".to_owned();
+        refuse("stress_stiffening", found, "one law for the closure of a joint", "remove one of the two");
+    }
+    if matches!(joint.normal_law, StatedLaw::Table(_)) {
+        let laws = [
+            ("joint_closure", mechanisms.joint_closure.is_some()),
+            ("stress_stiffening", mechanisms.stress_stiffening.is_some()),
+        ];
+        for (name, _) in laws.into_iter().filter(|(_, is_on)| *is_on) {
+            let found = "does not go with joint.normal_law = \"table\"".to_owned();
+            refuse(name, found, "one law for the closure of a joint", "remove one of the two");
+        }
     }
     if let Some(factor) = mechanisms.size_scatter
         && let Arrangement::Coursed { length, height, .. } | Arrangement::Cut { length, height, .. } =

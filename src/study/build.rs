@@ -58,7 +58,7 @@ pub fn parts(root: &Node, notes: &mut Notes, catalogue: &mut Catalogue) -> Optio
 
 /// What a study asks for that rigid blocks do not have, in words.
 pub fn unfit_for_limit(arms: &[Arm], protocol: &Protocol, agreement: bool) -> Vec<String> {
-    let mechanisms = arms.iter().flat_map(|arm| arm.mechanisms.unfit_for_limit_analysis());
+    let mechanisms = arms.iter().flat_map(Arm::unfit_for_limit_analysis);
     let mut unfit: Vec<String> = mechanisms.map(|unfit| unfit.to_string()).collect();
     unfit.sort();
     unfit.dedup();
@@ -142,19 +142,16 @@ fn check_mechanisms(top: &mut Reader<'_>, arms: &[Arm], protocol: &Protocol, agr
         "an arm with wedges, and a platform that tilts",
     );
     needs("creep", asked(|m| m.creep.is_some()), tilts, "a platform that tilts");
-    let mut unfit: Vec<String> = arms
-        .iter()
-        .flat_map(|arm| arm.mechanisms.unfit_for_limit_analysis())
-        .map(|u| u.to_string())
-        .collect();
+    let mut unfit: Vec<String> =
+        arms.iter().flat_map(Arm::unfit_for_limit_analysis).map(|u| u.to_string()).collect();
     unfit.sort();
     unfit.dedup();
     if agreement && !unfit.is_empty() {
         let key = "solver.agreement";
         let found = Found::Words(format!("asks limit analysis about {}", unfit.join("; ")));
-        let fix = "set it to false, or remove the mechanism";
+        let fix = "set it to false, or remove them";
         let place = top.place_of("solver").clone();
-        top.notes.faults.push(Fault::at(&place, key, found, "mechanisms that rigid blocks can have", fix));
+        top.notes.faults.push(Fault::at(&place, key, found, "what rigid blocks can have", fix));
     }
     (top.notes.faults.len() == before).then_some(())
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use crate::generate::{BatteredFace, Layout};
-use crate::law::{CohesionAfterSlip, Sampling};
+use crate::law::{ClosureTable, CohesionAfterSlip, Sampling};
 use crate::protocol::{FailureMode, Protocol, Restraint};
 use crate::random::Family;
 use crate::solve::Solver;
@@ -103,20 +103,33 @@ pub struct Joint {
     pub cohesion: Family,
     /// Tensile strength (Pa).
     pub tension: f64,
+    /// Compressive strength (Pa), if any.
+    pub compressive_strength: Option<f64>,
     /// What happens to the cohesion of a sub-contact once it has slipped.
     pub cohesion_after_slip: CohesionAfterSlip,
-    /// Form of the normal law.
-    pub normal_law: NormalLawName,
+    /// The normal law.
+    pub normal_law: StatedLaw,
     /// Where stress is sampled.
     pub sampling: Sampling,
 }
 
-/// Form of the normal law; its stiffness is the point's kn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum NormalLawName {
-    /// [`crate::law::NormalLaw::Linear`].
+/// The normal law as a study states it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StatedLaw {
+    /// [`NormalLaw::Linear`](crate::law::NormalLaw::Linear); its stiffness is the point's kn.
     Linear,
+    /// [`NormalLaw::Table`](crate::law::NormalLaw::Table); the point's kn gives the shear stiffness alone.
+    Table(Box<ClosureTable>),
+}
+
+impl StatedLaw {
+    /// The law of joints that are so many times as stiff as stated; what hangs on kn goes with kn.
+    pub fn scaled(&self, factor: f64) -> StatedLaw {
+        match self {
+            StatedLaw::Linear => StatedLaw::Linear,
+            StatedLaw::Table(table) => StatedLaw::Table(Box::new(table.scaled(factor))),
+        }
+    }
 }
 
 /// A statement of somebody else's about the quantity that the study computes.

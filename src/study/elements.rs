@@ -215,6 +215,7 @@ fn polyhedra(t: &mut Reader<'_>) -> Option<(Coulomb, f64, [u32; 2])> {
         tan_phi: tan(radians(phi)),
         cohesion: 0.0,
         tension: 0.0,
+        compressive_strength: None,
         cohesion_after_slip: CohesionAfterSlip::Kept,
         weakening: None,
         sampling: Sampling::Area,

@@ -1,6 +1,6 @@
 //! A study with one or two more mechanisms and with other joints: at one point of what may be, and at others as its variants.
 
-use crate::study::checked::{Arm, Study};
+use crate::study::checked::{Arm, StatedLaw, Study};
 use crate::study::fault::Faults;
 use crate::study::inventory::{INVENTORY, InLimitAnalysis};
 use crate::study::stated::{Settings, Stated, WrittenVariant, family_value};
@@ -109,6 +109,10 @@ impl Study {
             joint("kn_pa_per_m", with.kn_points.clone().into());
             joint("phi_deg", family_value(&with.joint.phi_deg));
             joint("kn_over_ks", with.joint.kn_over_ks.into());
+            if let StatedLaw::Table(table) = &with.joint.normal_law {
+                let [_, stresses] = table.knots();
+                joint("table_stress_pa", stresses.to_vec().into());
+            }
         }
         Ok(set)
     }

@@ -77,13 +77,14 @@ const fn entry(
 
 /// All mechanisms, in the order of their keys.
 #[rustfmt::skip]
-pub static INVENTORY: [Entry; 17] = {
+pub static INVENTORY: [Entry; 18] = {
     use Acts::{Joints, Loading, Readings, Restraint, Wall};
     use InLimitAnalysis::{Honoured, NoBearing, Refused};
     use Unloading::{AsWithout, Irreversible, Reversible};
     [
         entry("contact_inset", Joints, AsWithout, Honoured, &["joint.kn_pa_per_m", "restraint.strip_height_m", "lean", "contact_area"]),
-        entry("joint_closure", Joints, Reversible, Refused, &["joint.kn_pa_per_m", "contact_area", "base_compliance", "gauge_scale", "gauge_offset"]),
+        entry("joint_closure", Joints, Reversible, Refused, &["joint.kn_pa_per_m", "stress_stiffening", "contact_area", "base_compliance", "gauge_scale", "gauge_offset"]),
+        entry("stress_stiffening", Joints, Reversible, Refused, &["joint.kn_pa_per_m", "joint_closure"]),
         entry("contact_area", Joints, AsWithout, Honoured, &["joint.kn_pa_per_m", "contact_inset", "joint_closure", "size_scatter", "specimen_scatter", "wedge_loss"]),
         entry("friction", Joints, Irreversible, Honoured, &["joint.phi_deg", "cohesion", "end_release", "creep"]),
         entry("cohesion", Joints, AsWithout, Honoured, &["friction", "density"]),

@@ -5,7 +5,7 @@ use crate::math::{radians, tan};
 use crate::model::{JointLaws, Wall};
 use crate::random::{Family, Streams};
 use crate::study::altered::AlteredJoints;
-use crate::study::checked::{Joint, NormalLawName};
+use crate::study::checked::{Joint, StatedLaw};
 use crate::study::mechanism::Mechanisms;
 
 /// Gives the joints of one member at one kn their laws.
@@ -48,15 +48,18 @@ impl Joint {
             Family::Constant { value } => *value,
             _ => family.sample(&mut streams.of(&format!("joint {quantity} {a}-{b}"))),
         };
-        let kn = kn * draw(&self.kn_factor, "kn_factor");
+        let factor = draw(&self.kn_factor, "kn_factor");
+        let kn = kn * factor;
         Coulomb {
-            normal: match self.normal_law {
-                NormalLawName::Linear => NormalLaw::Linear { kn },
+            normal: match &self.normal_law {
+                StatedLaw::Linear => NormalLaw::Linear { kn },
+                StatedLaw::Table(table) => NormalLaw::Table(table.scaled(factor)),
             },
             ks: kn / self.kn_over_ks,
             tan_phi: tan(radians(draw(&self.phi_deg, "phi"))),
             cohesion: draw(&self.cohesion, "cohesion"),
             tension: self.tension,
+            compressive_strength: self.compressive_strength,
             cohesion_after_slip: self.cohesion_after_slip,
             weakening: None,
             sampling: self.sampling,

@@ -2,6 +2,7 @@
 
 use crate::math::{degrees, radians, tan};
 use crate::protocol::{Compliance, Creep};
+use crate::study::checked::{Arm, StatedLaw};
 use crate::study::inventory::INVENTORY;
 use crate::study::reader::Reader;
 
@@ -12,6 +13,8 @@ pub struct Mechanisms {
     pub contact_inset: Option<f64>,
     /// Hyperbolic closure of the joints.
     pub joint_closure: Option<JointClosure>,
+    /// Stiffness of the joints that grows with the stress.
+    pub stress_stiffening: Option<StressStiffening>,
     /// Share of each joint in contact.
     pub contact_area: Option<f64>,
     /// Another friction.
@@ -51,6 +54,17 @@ pub struct JointClosure {
     pub initial: f64,
     /// Maximum closure (m).
     pub closure: f64,
+}
+
+/// Stiffness that grows as a power of the stress, between a floor and kn; see [`crate::law::Stiffening`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StressStiffening {
+    /// Stiffness (Pa/m) of the power law at 1 MPa.
+    pub at_1_mpa: f64,
+    /// Exponent.
+    pub exponent: f64,
+    /// Smallest stiffness (Pa/m).
+    pub floor: f64,
 }
 
 /// Another friction of the stones' joints; see [`crate::law::Weakening`].
@@ -93,12 +107,15 @@ pub struct EndRelease {
     pub stiffness: f64,
 }
 
-/// A mechanism that rigid blocks cannot have: why limit analysis refuses it.
+/// What rigid blocks cannot have: why limit analysis refuses it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Unfit {
     /// Rigid blocks have no closure.
     #[error("joint_closure: rigid blocks have joints without closure")]
     JointClosure,
+    /// Nor has it a stiffness.
+    #[error("stress_stiffening: rigid blocks have joints without closure")]
+    StressStiffening,
     /// Nor has their ground.
     #[error("base_compliance: rigid blocks stand on rigid ground")]
     BaseCompliance,
@@ -108,6 +125,12 @@ pub enum Unfit {
     /// It knows no history.
     #[error("creep: limit analysis knows no history")]
     Creep,
+    /// Nor has it any closure but by kn, which it leaves aside.
+    #[error("joint.normal_law = \"table\": rigid blocks have joints without closure")]
+    Table,
+    /// It looks at forces at corners, not at stresses.
+    #[error("joint.compressive_strength_pa: limit analysis takes joints to bear any pressure")]
+    Crushing,
 }
 
 impl Mechanisms {
@@ -135,6 +158,11 @@ impl Mechanisms {
             "joint_closure" => {
                 let [initial, closure] = t.reals(["initial_pa_per_m", "closure_m"])?;
                 self.joint_closure = Some(JointClosure { initial, closure });
+            }
+            "stress_stiffening" => {
+                let [at_1_mpa, exponent, floor] =
+                    t.reals(["at_1_mpa_pa_per_m", "exponent", "floor_pa_per_m"])?;
+                self.stress_stiffening = Some(StressStiffening { at_1_mpa, exponent, floor });
             }
             "contact_area" => self.contact_area = Some(t.real("share")?),
             "friction" => {
@@ -180,13 +208,26 @@ impl Mechanisms {
     }
 
     /// What limit analysis refuses among them.
-    pub fn unfit_for_limit_analysis(&self) -> Vec<Unfit> {
+    fn unfit_for_limit_analysis(&self) -> Vec<Unfit> {
         let asked = [
             self.joint_closure.map(|_| Unfit::JointClosure),
+            self.stress_stiffening.map(|_| Unfit::StressStiffening),
             self.base_compliance.map(|_| Unfit::BaseCompliance),
             self.wedge_loss.map(|_| Unfit::WedgeLoss),
             self.creep.map(|_| Unfit::Creep),
         ];
         asked.into_iter().flatten().collect()
+    }
+}
+
+impl Arm {
+    /// What limit analysis refuses of its joints and mechanisms.
+    pub fn unfit_for_limit_analysis(&self) -> Vec<Unfit> {
+        let asked = [
+            matches!(self.joint.normal_law, StatedLaw::Table(_)).then_some(Unfit::Table),
+            self.joint.compressive_strength.map(|_| Unfit::Crushing),
+        ];
+        let mechanisms = self.mechanisms.unfit_for_limit_analysis();
+        mechanisms.into_iter().chain(asked.into_iter().flatten()).collect()
     }
 }

@@ -33,7 +33,7 @@ mod variant;
 
 pub use built_in::{BuiltInStudy, built_in_studies};
 pub use catalogue::{Distribution, DistributionFile, Used, load_distributions};
-pub use checked::{Arm, Claim, ClaimTest, InputFile, Joint, NormalLawName, Study};
+pub use checked::{Arm, Claim, ClaimTest, InputFile, Joint, StatedLaw, Study};
 pub use distributions::{Distributions, Origin, distributions_among};
 pub use elements::{ElementArm, ElementStudy, Reported};
 pub use extended::{Acting, Point};
@@ -50,7 +50,7 @@ pub use measured::{
     FILE as MEASURED, MeasuredKind, MeasuredQuantity, Measurement, Template, Written, template,
 };
 pub use mechanism::{
-    EndRelease, FrictionChange, JointClosure, Mechanisms, SpecimenScatter, Unfit, WedgeLoss,
+    EndRelease, FrictionChange, JointClosure, Mechanisms, SpecimenScatter, StressStiffening, Unfit, WedgeLoss,
 };
 pub use nuisance::{NUISANCES, Nuisance, nuisances};
 pub use readings::{Reading, reading_name, readings};

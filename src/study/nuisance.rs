@@ -43,6 +43,7 @@ impl Arm {
         let joint = Joint {
             phi_deg: self.joint.phi_deg.clone().scaled(phi_factor),
             kn_over_ks: self.joint.kn_over_ks * ratio_factor,
+            normal_law: self.joint.normal_law.scaled(kn_factor),
             ..self.joint.clone()
         };
         Arm { kn_points: vec![kn * kn_factor], joint, ..self.clone() }

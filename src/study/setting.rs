@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use crate::law::{ClosureTable, LEAST_KNOTS, MOST_KNOTS};
 use crate::math::{radians, tan};
 use crate::protocol::{Base, Ends, Restraint, Rope};
 use crate::random::Family;
 use crate::study::arm::{WallKeys, wall};
 use crate::study::catalogue::Catalogue;
-use crate::study::checked::Joint;
+use crate::study::checked::{Joint, StatedLaw};
 use crate::study::mechanism::Mechanisms;
 use crate::study::quantity::quantity;
 use crate::study::raw::{Node, Value};
@@ -132,7 +133,12 @@ fn joints(t: &mut Reader<'_>, catalogue: &mut Catalogue) -> Option<Joints> {
     let cohesion = quantity(t, "cohesion_pa", catalogue);
     let reals = t.reals(["kn_over_ks", "tension_pa"]);
     let cohesion_after_slip = t.choice("cohesion_after_slip");
-    let normal_law = t.choice("normal_law");
+    let compressive_strength = if t.has("compressive_strength_pa") {
+        t.real("compressive_strength_pa").map(Some)
+    } else {
+        Some(None)
+    };
+    let normal_law = normal_law(t);
     let sampling = t.choice("sampling");
     let sub_contacts = t.pair("sub_contacts");
     let [kn_over_ks, tension] = reals?;
@@ -142,11 +148,33 @@ fn joints(t: &mut Reader<'_>, catalogue: &mut Catalogue) -> Option<Joints> {
         phi_deg: phi_deg?,
         cohesion: cohesion?,
         tension,
+        compressive_strength: compressive_strength?,
         cohesion_after_slip: cohesion_after_slip?,
         normal_law: normal_law?,
         sampling: sampling?,
     };
     Some(Joints { joint, kn_points: kn_points?, sub_contacts: sub_contacts? })
+}
+
+fn normal_law(t: &mut Reader<'_>) -> Option<StatedLaw> {
+    if t.chosen()? != "table" {
+        return Some(StatedLaw::Linear);
+    }
+    let (closures, stresses) = (t.list("table_closure_m"), t.list("table_stress_pa"));
+    let (closures, stresses) = (closures?, stresses?);
+    if closures.len() < LEAST_KNOTS {
+        let allowed = format!("{LEAST_KNOTS} to {MOST_KNOTS} knots");
+        t.fault("table_closure_m", allowed, "add knots; one is a linear law, which kn_pa_per_m states");
+        return None;
+    }
+    if closures.len() != stresses.len() {
+        let allowed = format!("{} stresses, one for each closure", closures.len());
+        t.fault("table_stress_pa", allowed, format!("it has {}", stresses.len()));
+        return None;
+    }
+    let table = ClosureTable::through(&closures, &stresses);
+    crate::check!(table.is_some(), "lists that ascend make no table: {closures:?} {stresses:?}");
+    table.map(Box::new).map(StatedLaw::Table)
 }
 
 fn restraint(t: &mut Reader<'_>) -> Option<Restraint> {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::generate::{Arrangement, Layout};
 use crate::law::Sampling;
 use crate::protocol::{Ends, Protocol};
-use crate::study::checked::{Arm, Study};
+use crate::study::checked::{Arm, StatedLaw, Study};
 use crate::study::fault::{Faults, Source};
 use crate::study::inventory::Described;
 use crate::study::keys;
@@ -16,8 +16,10 @@ use crate::study::reader::{Notes, Reader};
 
 /// Parameters whose mechanism is the stronger, the smaller they are; of every other it is the stronger, the larger they are.
 /// Factors that go either way count as stronger where they weaken the wall.
-const STRONGER_BELOW: [(&str, &str); 11] = [
+const STRONGER_BELOW: [(&str, &str); 13] = [
     ("joint_closure", "initial_pa_per_m"),
+    ("stress_stiffening", "at_1_mpa_pa_per_m"),
+    ("stress_stiffening", "floor_pa_per_m"),
     ("contact_area", "share"),
     ("friction", "factor"),
     ("friction", "residual_share"),
@@ -39,6 +41,9 @@ const EITHER_WAY: [(&str, &str); 6] = [
     ("gauge_offset", "offset_m"),
     ("gauge_scale", "factor"),
 ];
+
+/// Mechanisms that say the same of a joint, each in its own way: one of them at most can be on.
+const ONE_OF: [&str; 2] = ["joint_closure", "stress_stiffening"];
 
 /// Where a mechanism is the stronger.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,6 +74,11 @@ impl Described {
             (false, true) => Stronger::Below,
             (false, false) => Stronger::Above,
         }
+    }
+
+    /// Whether it and another one can be on together.
+    pub fn goes_with(&self, other: &str) -> bool {
+        self.name != other && !(ONE_OF.contains(&self.name) && ONE_OF.contains(&other))
     }
 
     /// Its parameters at one strength, by key and in the key's unit: each at that quantile of its prior, counted from the end
@@ -163,6 +173,7 @@ impl Mechanisms {
         Mechanisms {
             contact_inset: self.contact_inset.or(other.contact_inset),
             joint_closure: self.joint_closure.or(other.joint_closure),
+            stress_stiffening: self.stress_stiffening.or(other.stress_stiffening),
             contact_area: self.contact_area.or(other.contact_area),
             friction: self.friction.or(other.friction),
             cohesion: self.cohesion.or(other.cohesion),
@@ -194,6 +205,16 @@ impl Mechanisms {
             (
                 self.size_scatter.is_some_and(|factor| !stays_above_0(&arm.layout, factor)),
                 "sizes that scatter so much would be below 0",
+            ),
+            (
+                self.joint_closure.and(arm.mechanisms.stress_stiffening).is_some()
+                    || self.stress_stiffening.and(arm.mechanisms.joint_closure).is_some(),
+                "its joints close along another law",
+            ),
+            (
+                matches!(arm.joint.normal_law, StatedLaw::Table(_))
+                    && (self.joint_closure.is_some() || self.stress_stiffening.is_some()),
+                "its joints close along a table",
             ),
             (
                 self.contact_area.is_some() && arm.joint.sampling == Sampling::Vertices,

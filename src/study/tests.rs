@@ -7,7 +7,7 @@ use crate::random::{Family, Streams};
 use crate::study::keys;
 use crate::study::schema::{Interval, Key, Kind, Section, nearest};
 use crate::study::{
-    DrawnJoints, EndRelease, FrictionChange, Joint, JointClosure, Mechanisms, NormalLawName, SpecimenScatter,
+    DrawnJoints, EndRelease, FrictionChange, Joint, JointClosure, Mechanisms, SpecimenScatter, StatedLaw,
 };
 
 fn keys_below(section: &'static Section, found: &mut Vec<&'static Key>) {
@@ -82,8 +82,9 @@ fn joint() -> Joint {
         phi_deg: Family::Constant { value: 45.0 },
         cohesion: Family::Uniform { low: 0.0, high: 1e4 },
         tension: 10.0,
+        compressive_strength: None,
         cohesion_after_slip: CohesionAfterSlip::Lost,
-        normal_law: NormalLawName::Linear,
+        normal_law: StatedLaw::Linear,
         sampling: Sampling::Vertices,
     }
 }

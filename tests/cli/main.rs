@@ -11,6 +11,7 @@ mod files_of_others;
 mod fixture;
 mod groups;
 mod init;
+mod joint_laws;
 mod layering;
 mod malformed;
 mod measured;

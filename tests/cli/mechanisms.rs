@@ -8,7 +8,7 @@ use pirca::math::{radians, tan};
 use pirca::protocol::{Compliance, Creep};
 use pirca::study::{
     Acts, EndRelease, FrictionChange, INVENTORY, InLimitAnalysis, JointClosure, Mechanisms, SpecimenScatter,
-    Unloading, WedgeLoss, described, key_reference, load_distributions,
+    StressStiffening, Unloading, WedgeLoss, described, key_reference, load_distributions,
 };
 
 use crate::scratch::{STUDY, Scratch};
@@ -49,8 +49,11 @@ fn the_table_the_keys_and_the_priors_agree() {
         files.keys().filter(|name| name.starts_with("mechanism/")).cloned().collect();
     assert_eq!(there, priors);
     // Every prior lies where its key allows values: a study of its mean and of its quartiles is sound.
-    for at in [0.25, 0.5, 0.75] {
-        let tables = all.iter().map(|m| {
+    for (at, other) in
+        [0.25, 0.5, 0.75].into_iter().zip(["joint_closure", "stress_stiffening"].into_iter().cycle())
+    {
+        // One law for the closure of a joint at a time.
+        let tables = all.iter().filter(|m| m.name != other).map(|m| {
             let value = |p: &pirca::study::Parameter| {
                 let x = if p.prior.sd() == 0.0 { p.prior.mean() } else { p.prior.quantile(at) };
                 format!("{} = {x:?}\n", p.key)
@@ -142,6 +145,7 @@ fn a_study_switches_all_of_them_on() {
     let expected = Mechanisms {
         contact_inset: Some(0.003),
         joint_closure: Some(JointClosure { initial: 1e7, closure: 1e-4 }),
+        stress_stiffening: None,
         contact_area: Some(0.5),
         friction: Some(FrictionChange { factor: 0.9, residual: 0.8, distance: 0.001 }),
         cohesion: Some(100.0),
@@ -168,6 +172,16 @@ fn a_study_switches_all_of_them_on() {
         panic!("the ends are ropes")
     };
     assert_eq!(rope.slack, 0.002);
+}
+
+#[test]
+fn stiffness_that_grows_with_the_stress_has_a_floor_of_its_own() {
+    let scratch = tilting("stiffening");
+    append(&scratch, "[mechanism.stress_stiffening]\nat_1_mpa_pa_per_m = 2e9\nexponent = 0.5\n");
+    let study = scratch.load(None).unwrap_or_else(|faults| panic!("{faults}")).study;
+    let stress_stiffening = Some(StressStiffening { at_1_mpa: 2e9, exponent: 0.5, floor: 1e6 });
+    let expected = Mechanisms { stress_stiffening, ..Mechanisms::default() };
+    assert!(study.arms.iter().all(|arm| arm.mechanisms == expected), "{:?}", study.arms[0].mechanisms);
 }
 
 #[test]
@@ -201,6 +215,24 @@ fn what_does_not_go_together_is_refused_by_name() {
             "solver.agreement asks limit analysis about base_compliance: rigid blocks stand on rigid ground; creep: limit \
              analysis knows no history; joint_closure: rigid blocks have joints without closure",
         ),
+        (
+            "[mechanism.stress_stiffening]\nat_1_mpa_pa_per_m = 1e9\nexponent = 0.5\n",
+            "agreement = false",
+            "agreement = true",
+            "solver.agreement asks limit analysis about stress_stiffening: rigid blocks have joints without closure",
+        ),
+        (
+            "[mechanism.stress_stiffening]\nat_1_mpa_pa_per_m = 1e9\nexponent = 0.5\n[mechanism.joint_closure]\ninitial_pa_per_m = 1e7\nclosure_m = 1e-4\n",
+            "seed = 7",
+            "seed = 8",
+            "mechanism.stress_stiffening does not go with mechanism.joint_closure",
+        ),
+        (
+            "[mechanism.stress_stiffening]\nat_1_mpa_pa_per_m = 1e9\nexponent = 1.5\n",
+            "seed = 7",
+            "seed = 8",
+            "mechanism.stress_stiffening.exponent = 1.5: allowed is a number within 0.1 to 1",
+        ),
         ("[mechanism.rope_slack]\nadded_m = 0.001\n", "ends = \"ropes\"\n\n[restraint.rope]\nstiffness_n_per_m = 1e6\n", "ends = \"free\"\n", "mechanism.rope_slack has nothing to act on: allowed is an arm whose ends are ropes"),
         ("[mechanism.creep]\nrate_per_deg = 0.1\n", "protocol = \"tilting\"", "protocol = \"lateral\"\nmean_pressure_pa = 1\nbase_over_top = 1", "mechanism.creep has nothing to act on: allowed is a platform that tilts"),
         ("[mechanism.size_scatter]\nfactor = 50\n", "seed = 7", "seed = 8", "mechanism.size_scatter widens"),
@@ -225,7 +257,7 @@ fn what_does_not_go_together_is_refused_by_name() {
         entry.is_some_and(|entry| entry.limit != InLimitAnalysis::Refused)
     });
     let tables: String = honoured.map(|table| format!("[mechanism.{table}")).collect();
-    assert_eq!(tables.matches("[mechanism.").count(), INVENTORY.len() - 4);
+    assert_eq!(tables.matches("[mechanism.").count(), INVENTORY.len() - 5);
     append(&scratch, &tables);
     scratch.replace(STUDY, "agreement = false", "agreement = true");
     scratch.load(None).unwrap_or_else(|faults| panic!("{faults}"));

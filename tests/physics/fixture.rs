@@ -23,6 +23,7 @@ pub fn dry(kn: f64, phi_deg: f64) -> Coulomb {
         tan_phi: tan(radians(phi_deg)),
         cohesion: 0.0,
         tension: 0.0,
+        compressive_strength: None,
         cohesion_after_slip: CohesionAfterSlip::Kept,
         weakening: None,
         sampling: Sampling::Area,

@@ -3,6 +3,7 @@
 mod agreement;
 mod closed_form_cases;
 mod closed_forms;
+mod crushing;
 mod dynamics;
 mod elastic;
 mod events;

@@ -12,8 +12,8 @@ use pirca::solve::explicit::{self, Simulation};
 use pirca::solve::implicit::{self, Equilibrium};
 use pirca::solve::{Equilibrate, STANDARD_GRAVITY, Status};
 use pirca::study::{
-    DrawnJoints, EndRelease, FrictionChange, INVENTORY, Joint, JointClosure, Mechanisms, NormalLawName,
-    SpecimenScatter, WedgeLoss,
+    DrawnJoints, EndRelease, FrictionChange, INVENTORY, Joint, JointClosure, Mechanisms, SpecimenScatter,
+    StatedLaw, StressStiffening, WedgeLoss,
 };
 use rayon::prelude::*;
 
@@ -59,8 +59,9 @@ fn joint() -> Joint {
         phi_deg: Family::Constant { value: 22.0 },
         cohesion: Family::Constant { value: 0.0 },
         tension: 0.0,
+        compressive_strength: None,
         cohesion_after_slip: CohesionAfterSlip::Kept,
-        normal_law: NormalLawName::Linear,
+        normal_law: StatedLaw::Linear,
         sampling: Sampling::Area,
     }
 }
@@ -121,6 +122,7 @@ fn moved(mechanisms: &Mechanisms) -> [Vec<[f64; 3]>; 2] {
 fn cases() -> Vec<(&'static str, Mechanisms)> {
     let none = Mechanisms::default;
     let closure = Some(JointClosure { initial: 2e7, closure: 1e-4 });
+    let stiffening = Some(StressStiffening { at_1_mpa: 1e9, exponent: 0.5, floor: 1e7 });
     let friction = Some(FrictionChange { factor: 0.7, residual: 0.8, distance: 1e-3 });
     let compliance = Some(Compliance { settlement: 5e6, rotation: 5e4 });
     let loss = Some(WedgeLoss { share: 0.6, beyond: radians(3.0) });
@@ -130,6 +132,7 @@ fn cases() -> Vec<(&'static str, Mechanisms)> {
     vec![
         ("contact_inset", Mechanisms { contact_inset: Some(8e-3), ..none() }),
         ("joint_closure", Mechanisms { joint_closure: closure, ..none() }),
+        ("stress_stiffening", Mechanisms { stress_stiffening: stiffening, ..none() }),
         ("contact_area", Mechanisms { contact_area: Some(0.4), ..none() }),
         ("friction", Mechanisms { friction, ..none() }),
         ("cohesion", Mechanisms { cohesion: Some(500.0), ..none() }),

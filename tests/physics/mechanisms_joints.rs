@@ -1,9 +1,9 @@
-//! Mechanisms of the joints against closed forms: hyperbolic closure, patches, rounded arrises, friction that weakens.
+//! Mechanisms of the joints against closed forms: hyperbolic closure, stiffness that grows with the stress, patches, rounded arrises, friction that weakens.
 
 use pirca::contact;
-use pirca::law::{Coulomb, NormalLaw, Sampling, Weakening};
-use pirca::math::{Vec3, atan, cos, degrees, radians, sin};
-use pirca::model::Wall;
+use pirca::law::{ClosureTable, Coulomb, NormalLaw, Sampling, Stiffening, Weakening};
+use pirca::math::{Vec3, atan, cos, degrees, ln, pow, radians, sin};
+use pirca::model::{Block, Wall};
 use pirca::protocol::{Bounds, Contacts, Ends, Protocol, Restraint, Tilting};
 use pirca::solve::explicit::{self, Simulation};
 use pirca::solve::implicit::{self, Equilibrium};
@@ -17,16 +17,20 @@ const WEIGHT: f64 = AREA * 0.2 * 2400.0 * G;
 
 /// Takes a block by both solvers through the loads and gives its places.
 fn places(law: &Coulomb, tie: Option<Tie>, loads: &[Vec3]) -> [Vec3; 2] {
-    fn led<'a>(mut solver: impl Equilibrate<'a>, loads: &[Vec3]) -> Vec3 {
+    led_to(&on_floor(vec![resting(SIZE, 2400.0)]), law, tie, loads).map(|places| places[0])
+}
+
+/// Takes a wall by both solvers through the loads and gives the places of its blocks.
+fn led_to(wall: &Wall, law: &Coulomb, tie: Option<Tie>, loads: &[Vec3]) -> [Vec<Vec3>; 2] {
+    fn led<'a>(mut solver: impl Equilibrate<'a>, loads: &[Vec3]) -> Vec<Vec3> {
         for load in loads {
             solver.set_loads(*load, 1.0);
             let settled = solver.settle(&mut |_| false);
             assert_eq!(settled.status, Status::Equilibrium, "{settled:?}");
         }
-        solver.assembly().bodies.all[0].position
+        solver.assembly().bodies.all.iter().map(|body| body.position).collect()
     }
-    let wall = on_floor(vec![resting(SIZE, 2400.0)]);
-    let mut assembly = Assembly::new(&wall, law, contact::Settings::for_size(0.2, [2, 2]));
+    let mut assembly = Assembly::new(wall, law, contact::Settings::for_size(0.2, [2, 2]));
     tie.iter().for_each(|tie| assembly.add_tie(*tie));
     let exact = implicit::Settings { unbalanced_ratio: 1e-10, ..implicit::Settings::default() };
     let slow = explicit::Settings { unbalanced_ratio: 1e-9, ..explicit::Settings::default() };
@@ -59,6 +63,85 @@ fn a_block_settles_along_the_hyperbola() {
     for (a, b) in places(&soft, None, &[tilted(5.0)]).iter().zip(places(&linear, None, &[tilted(5.0)])) {
         // The closure itself, over settlements of 5e-5.
         assert!((a - b).norm() < 1e-10, "{:e}", (a - b).norm());
+    }
+}
+
+/// A joint of the power `m` of the stress, between a floor of 1e6 Pa/m and a ceiling `kn`.
+fn power(kn: f64, at_1_mpa: f64, m: f64) -> Coulomb {
+    Coulomb { normal: NormalLaw::Stiffening(Stiffening::new(kn, at_1_mpa, m, 1e6)), ..dry(kn, 40.0) }
+}
+
+/// Closure (m) under a stress between the knees of [`power`]: the compliance over the floor, and above it.
+fn closed_by(stress: f64, at_1_mpa: f64, m: f64) -> f64 {
+    let leaves = 1e6 * pow(1e6 / at_1_mpa, 1.0 / m);
+    let rest = 1.0 - m;
+    let grown =
+        if rest == 0.0 { ln(stress / leaves) } else { (pow(stress, rest) - pow(leaves, rest)) / rest };
+    leaves / 1e6 + pow(1e6, m) / at_1_mpa * grown
+}
+
+#[test]
+fn a_stack_under_its_weight_closes_by_the_power_of_the_stress() {
+    let course = |k: u32| {
+        let block = resting(SIZE, 2400.0);
+        Block { shape: block.shape.translated(&Vec3::new(0.0, 0.0, 0.2 * f64::from(k))), ..block }
+    };
+    let wall = on_floor((0..4).map(course).collect());
+    for (at_1_mpa, m) in [(3e8, 1.0 / 3.0), (7e8, 0.5), (5e9, 1.0)] {
+        // The ceiling is out of reach.
+        let law = power(1e9, at_1_mpa, m);
+        for places in led_to(&wall, &law, None, &[tilted(0.0)]) {
+            let mut below = 0.0;
+            for (k, position) in places[..4].iter().enumerate() {
+                let stress = WEIGHT / AREA * (4 - k) as f64;
+                let closure = 0.1 + 0.2 * k as f64 - position.z - below;
+                let exact = closed_by(stress, at_1_mpa, m);
+                println!("m {m:.2}, {stress:.0} Pa: {closure:e} against {exact:e}");
+                assert!((closure / exact - 1.0).abs() < 1e-5, "m {m}, {stress} Pa: {closure:e}, {exact:e}");
+                below += closure;
+            }
+        }
+    }
+}
+
+#[test]
+fn a_block_on_stiff_joints_is_as_on_linear_ones_where_the_power_law_has_reached_its_ceiling() {
+    // 47 Pa at the ceiling, and 4.7 kPa on it: what is lost before is known in closed form.
+    let law = power(1e7, 1.46e9, 0.5);
+    let knee = 1e6 * pow(1e7 / 1.46e9, 2.0);
+    for place in places(&law, None, &[tilted(0.0)]) {
+        let (found, exact) = (0.1 - place.z, closed_by(knee, 1.46e9, 0.5) + (WEIGHT / AREA - knee) / 1e7);
+        assert!((found / exact - 1.0).abs() < 1e-6, "{found:e} against {exact:e}");
+    }
+}
+
+#[test]
+fn a_stack_closes_along_the_table_that_it_is_given() {
+    let course = |k: u32| {
+        let block = resting(SIZE, 2400.0);
+        Block { shape: block.shape.translated(&Vec3::new(0.0, 0.0, 0.2 * f64::from(k))), ..block }
+    };
+    let wall = on_floor((0..4).map(course).collect());
+    let closures = [2e-4, 3e-4, 3.5e-4, 3.7e-4];
+    let table = |stresses: [f64; 4]| Coulomb {
+        normal: NormalLaw::Table(ClosureTable::through(&closures, &stresses).expect("it rises")),
+        ..dry(1e8, 40.0)
+    };
+    // The bed under the k-th block from above is pressed by k of them: at a knot.
+    let law = table([1.0, 2.0, 3.0, 4.0].map(|k| k * WEIGHT / AREA));
+    for places in led_to(&wall, &law, None, &[tilted(0.0)]) {
+        let mut below = 0.0;
+        for (k, position) in places[..4].iter().enumerate() {
+            let closure = 0.1 + 0.2 * k as f64 - position.z - below;
+            assert!((closure / closures[3 - k] - 1.0).abs() < 1e-6, "{k}: {closure:e}");
+            below += closure;
+        }
+    }
+    // A straight one is the linear law.
+    let straight = table(closures.map(|u| 5e7 * u));
+    let (straight, linear) = (Coulomb { ks: 2.5e7, ..straight }, dry(5e7, 40.0));
+    for (a, b) in places(&straight, None, &[tilted(5.0)]).iter().zip(places(&linear, None, &[tilted(5.0)])) {
+        assert!((a - b).norm() < 1e-9, "{:e}", (a - b).norm());
     }
 }
 

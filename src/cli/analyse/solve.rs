@@ -36,6 +36,7 @@ pub(crate) fn law(arguments: &Analyse) -> Coulomb {
         tan_phi: tan(radians(arguments.phi_deg)),
         cohesion: arguments.cohesion,
         tension: 0.0,
+        compressive_strength: None,
         cohesion_after_slip: CohesionAfterSlip::Kept,
         weakening: None,
         sampling: Sampling::Area,

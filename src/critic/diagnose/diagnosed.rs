@@ -173,7 +173,10 @@ impl Judge<'_> {
             return Vec::new();
         };
         let causes = self.world.causes();
-        let others = causes.iter().filter(|other| **other != best);
+        let mechanisms = self.world.mechanisms();
+        let others = causes
+            .iter()
+            .filter(|other| **other != best && mechanisms[best].goes_with(mechanisms[**other].name));
         let pairs: Vec<[usize; 2]> = others.map(|&other| [best.min(other), best.max(other)]).collect();
         let models = pairs.iter().map(|&[one, other]| Causes::pair(one, other));
         let rough = self.rough(campaign, models, seed);

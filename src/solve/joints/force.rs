@@ -7,7 +7,7 @@ use crate::shape::Moments;
 use crate::solve::bodies::Body;
 use crate::solve::joints::joint::{Gap, Pose};
 use crate::solve::joints::points::{POINTS, Spread};
-use crate::solve::joints::pressure::{PressureSum, closure_energy, compressed, linear, pressure};
+use crate::solve::joints::pressure::{Bearing, PressureSum, closure_energy, compressed, linear, pressure};
 use crate::solve::joints::{Anchor, Joint};
 
 /// Pressure and shear summed over a joint: forces and their first moments in the plane.
@@ -97,8 +97,9 @@ impl Joint {
         let highest = self.polygon.vertices.iter().map(|v| gap.at(v)).fold(f64::NEG_INFINITY, f64::max);
         let closed = highest <= 0.0;
         let mut sum = PressureSum::default();
-        if let (true, NormalLaw::Linear { kn }) =
-            (closed && self.law.sampling != Sampling::Vertices, self.law.normal)
+        let bearing = Bearing::of(&self.law, &self.polygon, gap);
+        if let (true, NormalLaw::Linear { kn }, None) =
+            (closed && self.law.sampling != Sampling::Vertices, self.law.normal, bearing.crushing)
         {
             // All in compression: the whole polygon at once, and each cell's share.
             sum = linear(kn, &self.whole, gap);
@@ -114,7 +115,7 @@ impl Joint {
             }
             let holds = self.law.holds(&states[0]);
             let part = if holds { cell.moments } else { compressed(cell, gap) };
-            let share = pressure(&self.law.normal, cell, &part, gap, holds);
+            let share = pressure(&bearing, cell, &part, gap, holds);
             self.spread(index, &part, &share, pressed);
             sum.add(&share);
         }
@@ -140,10 +141,11 @@ impl Joint {
 
     pub(super) fn closure_energy(&self, bodies: &[Body]) -> f64 {
         let gap = self.pose(bodies).gap;
+        let bearing = Bearing::of(&self.law, &self.polygon, &gap);
         let of = |(cell, states): (&Cell, &[SubContact])| {
             let holds = self.law.holds(&states[0]);
             let part = if holds { cell.moments } else { compressed(cell, &gap) };
-            closure_energy(&self.law.normal, cell, &part, &gap, holds)
+            closure_energy(&bearing, cell, &part, &gap, holds)
         };
         self.cells.iter().zip(self.states.chunks_exact(self.points_each())).map(of).sum()
     }

@@ -148,8 +148,8 @@ impl Joints {
         }
     }
 
-    /// Elastic energy stored in the closure of all joints (J), for linear joints that are in contact or not as they
-    /// stand now.
+    /// Elastic energy stored in the closure of all joints (J) that are in contact or not as they stand now; with it the work that
+    /// crushed them.
     pub fn closure_energy(&self, bodies: &[Body]) -> f64 {
         self.all.iter().map(|j| j.closure_energy(bodies)).sum()
     }

@@ -16,7 +16,7 @@ use crate::solve::bodies::Body;
 use crate::solve::joints::force::Sums;
 use crate::solve::joints::joint::{Gap, Pose};
 use crate::solve::joints::points::{MomentSlopes, POINTS, centre_slopes};
-use crate::solve::joints::pressure::{compressed, pressure, pressure_slopes};
+use crate::solve::joints::pressure::{Bearing, compressed, pressure, pressure_slopes};
 use crate::solve::joints::{Anchor, Joint};
 
 /// The negative derivatives of force and moment on the incident body and on the reference body (rows) with respect
@@ -120,14 +120,15 @@ impl Joint {
         let (mut sums, mut slopes) = (Sums::default(), SumSlopes::default());
         pressed.clear();
         let each = self.points_each();
+        let bearing = Bearing::of(&self.law, &self.polygon, gap);
         let mut before = Vec::with_capacity(self.states.len());
         let histories = self.states.chunks_exact(each).zip(anchor.states.chunks_exact(each));
         for (index, (cell, (states, earlier))) in self.cells.iter().zip(histories).enumerate() {
             let holds = self.law.holds(&states[0]);
             let part = if holds { cell.moments } else { compressed(cell, gap) };
-            let share = pressure(&self.law.normal, cell, &part, gap, holds);
+            let share = pressure(&bearing, cell, &part, gap, holds);
             sums.pressure.add(&share);
-            let rows = pressure_slopes(&self.law.normal, cell, &part, gap, holds);
+            let rows = pressure_slopes(&bearing, cell, &part, gap, holds);
             for (total, row) in slopes.pressure.iter_mut().zip(rows) {
                 total.iter_mut().zip(row).for_each(|(sum, slope)| *sum -= slope);
             }

@@ -36,6 +36,7 @@ const EXACT: f64 = 1e-8;
 ///     tan_phi: 0.6,
 ///     cohesion: 0.0,
 ///     tension: 0.0,
+///     compressive_strength: None,
 ///     cohesion_after_slip: CohesionAfterSlip::Kept,
 ///     weakening: None,
 ///     sampling: Sampling::Area,

@@ -7,6 +7,8 @@ use crate::study::schema::{Interval, Key, Kind, Section};
 const FACTOR: Interval = Interval::above(0.0, 100.0);
 const POSITIVE_SHARE: Interval = Interval::above(0.0, 1.0);
 const STIFFNESS: Interval = Interval::above(0.0, 1e15);
+/// Ratios of two of these are still numbers when they are taken to the power of ten.
+const POWER_STIFFNESS: Interval = Interval::closed(1e3, 1e15);
 
 const fn switched(name: &'static str, section: &'static Section) -> Key {
     Key::new(name, Kind::Table(section), Optional, section.doc)
@@ -25,6 +27,7 @@ pub static MECHANISM: Section = Section {
     keys: &[&[
         switched("contact_inset", &CONTACT_INSET),
         switched("joint_closure", &JOINT_CLOSURE),
+        switched("stress_stiffening", &STRESS_STIFFENING),
         switched("contact_area", &CONTACT_AREA),
         switched("friction", &FRICTION),
         switched("cohesion", &COHESION),
@@ -71,6 +74,26 @@ static JOINT_CLOSURE: Section = mechanism(
         ),
     ]],
     "Joints that close along a hyperbola in series with kn: soft where little presses.",
+);
+
+static STRESS_STIFFENING: Section = mechanism(
+    "[mechanism.stress_stiffening]",
+    &[&[
+        Key::new(
+            "at_1_mpa_pa_per_m",
+            real("Pa/m", POWER_STIFFNESS),
+            Required,
+            "Stiffness k1 that the power law has at a stress of 1 MPa.",
+        ),
+        Key::new("exponent", real("1", Interval::closed(0.1, 1.0)), Required, "Exponent m of the stress."),
+        Key::new(
+            "floor_pa_per_m",
+            real("Pa/m", POWER_STIFFNESS),
+            Default("1e6"),
+            "Smallest stiffness, in tension as well.",
+        ),
+    ]],
+    "Joints whose stiffness grows with the stress as k1 (stress / 1 MPa)^m, between a floor and kn.",
 );
 
 static CONTACT_AREA: Section = mechanism(

@@ -11,6 +11,7 @@ pub use mechanism::MECHANISM;
 pub use published::{CLAIM, PUBLISHED};
 pub use run::SOLVER;
 
+use crate::law::MOST_KNOTS;
 use crate::study::keys::run::{LOAD, RESTRAINT};
 use crate::study::schema::Presence::{Default, Optional, Required};
 use crate::study::schema::{Interval, Key, Kind, Section};
@@ -124,16 +125,18 @@ static BLOCK: Section = Section {
     .usual(Interval::closed(500.0, 8000.0))]],
 };
 
+const TABLE: &[&str] = &["table"];
+
 static JOINT: Section = Section {
     title: "[joint]",
     doc: "The joints' properties, per area of joint; those that may be random are drawn once per joint.",
-    chooser: None,
+    chooser: Some("normal_law"),
     keys: &[&[
         Key::new(
             "kn_pa_per_m",
             Kind::Reals { unit: "Pa/m", within: POSITIVE, at_most: 50, ascending: true },
             Required,
-            "Normal stiffnesses: the points at which every arm is evaluated.",
+            "Normal stiffnesses: the points at which every arm is evaluated. Where normal_law is a table they give the shear stiffness alone.",
         )
         .usual(Interval::closed(1e6, 1e12)),
         Key::new("kn_factor", quantity("1", POSITIVE), Default("1"), "Factor on kn from joint to joint."),
@@ -147,6 +150,13 @@ static JOINT: Section = Section {
             "Tensile strength.",
         ),
         Key::new(
+            "compressive_strength_pa",
+            real("Pa", POSITIVE),
+            Optional,
+            "Stress at which a joint is crushed: it closes on and bears no more; without it it bears any pressure.",
+        )
+        .usual(Interval::closed(1e4, 1e9)),
+        Key::new(
             "cohesion_after_slip",
             Kind::Choice(&["kept", "lost"]),
             Default("\"kept\""),
@@ -154,10 +164,25 @@ static JOINT: Section = Section {
         ),
         Key::new(
             "normal_law",
-            Kind::Choice(&["linear"]),
+            Kind::Choice(&["linear", "table"]),
             Default("\"linear\""),
-            "Stress as a function of closure.",
+            "Stress as a function of closure: kn times it, or through the knots of a table.",
         ),
+        Key::new(
+            "table_closure_m",
+            Kind::Reals { unit: "m", within: Interval::above(0.0, 0.1), at_most: MOST_KNOTS, ascending: true },
+            Required,
+            "Closures of the knots, two at least; the law begins at 0. Between knots a monotone cubic, beyond the last one straight on.",
+        )
+        .only(TABLE),
+        Key::new(
+            "table_stress_pa",
+            Kind::Reals { unit: "Pa", within: POSITIVE, at_most: MOST_KNOTS, ascending: true },
+            Required,
+            "Stresses of the knots, as many.",
+        )
+        .only(TABLE)
+        .usual(Interval::closed(1.0, 1e9)),
         Key::new(
             "sampling",
             Kind::Choice(&["area", "vertices"]),

@@ -1,6 +1,6 @@
 //! Effects outside the catalogue that act on walls.
 
-use pirca::law::{Coulomb, NormalLaw};
+use pirca::law::Coulomb;
 use pirca::math::{Vec3, cos, exp, radians, sin};
 use pirca::model::Wall;
 use pirca::protocol::{Ends, Restraint};
@@ -15,13 +15,7 @@ const COURSE: f64 = 0.05;
 
 /// The law with another stiffness, in shear as well.
 fn scaled(law: Coulomb, factor: f64) -> Coulomb {
-    let normal = match law.normal {
-        NormalLaw::Linear { kn } => NormalLaw::Linear { kn: factor * kn },
-        NormalLaw::Hyperbolic { kn, initial, closure } => {
-            NormalLaw::Hyperbolic { kn: factor * kn, initial: factor * initial, closure }
-        }
-    };
-    Coulomb { normal, ks: factor * law.ks, ..law }
+    Coulomb { normal: law.normal.scaled(factor), ks: factor * law.ks, ..law }
 }
 
 pub struct SoftCourse {

@@ -169,6 +169,7 @@ mod tests {
             tan_phi: 0.6,
             cohesion: 0.0,
             tension: 0.0,
+            compressive_strength: None,
             cohesion_after_slip: CohesionAfterSlip::Kept,
             weakening: None,
             sampling: Sampling::Area,
