@@ -224,11 +224,11 @@ fn bands_over_the_tilt_go_to_where_half_have_fallen_and_show_a_cause() {
     }
     let offset = made.mechanisms.iter().position(|m| m.name == "gauge_offset").expect("in the catalogue");
     let mut moved = truths.clone();
-    // 5 mm is one standard deviation of the prior.
+    // 20 mm is one standard deviation of the search prior.
     moved.iter_mut().for_each(|truth| (truth.causes, truth.parameters) = (Some(offset).into(), vec![1.0]));
     let with = over_the_tilt(&world, &design, &moved, 9);
     assert_eq!(with[SBL].collapse, base[SBL].collapse);
     for ((tilt, with), (_, base)) in with[SBL].curves[0].bands.iter().zip(&base[SBL].curves[0].bands) {
-        assert!((with.median - base.median - 5e-3).abs() < 1e-9, "{tilt}: {with:?} {base:?}");
+        assert!((with.median - base.median - 20e-3).abs() < 1e-9, "{tilt}: {with:?} {base:?}");
     }
 }
