@@ -14,7 +14,7 @@ use crate::critic::{
     cause_curves, doubts_beside, extension,
 };
 use crate::report::{self, Advice, DataEntry, DiagnosisSummary, EXTENDED, FamilyFigure, GainSummary, Origin};
-use crate::study::{Loaded, MEASURED, Study};
+use crate::study::{Loaded, MEASURED, Nuisance, Study};
 
 /// Diagnoses the measurements of a study.
 pub(crate) fn diagnose(arguments: &Diagnose) -> Result<(), Failure> {
@@ -72,11 +72,39 @@ fn judged(arguments: &Diagnose) -> Result<(), Failure> {
     report::write_diagnosis(&summary, &families, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
     let origin = Origin { study: &study, stated: &stated, seed, bank: &plan.study.hash };
     let extended = extended(&origin, &world, &extensions, &out)?;
+    let is_unexplained = diagnosis.verdict == Verdict::Unexplained;
+    let law = learnt(&origin, &nuisances, is_unexplained, arguments.law, &out)?;
     if arguments.which.json {
         return output::print_json(&summary);
     }
     let text = report::diagnosis_text(&summary);
-    output::print(&format!("{text}\nwritten to {}\n{extended}", out.display()))
+    output::print(&format!("{text}{law}\nwritten to {}\n{extended}", out.display()))
+}
+
+/// Learns a law of the joints where no cause explains the readings and it is asked for, writes it, and says what it is; else what can be
+/// asked for.
+fn learnt(
+    origin: &Origin<'_>,
+    nuisances: &[Nuisance; 3],
+    is_unexplained: bool,
+    is_asked: bool,
+    out: &Path,
+) -> Result<String, Failure> {
+    report::remove_law(out);
+    if !is_unexplained {
+        return Ok(String::new());
+    }
+    if !is_asked {
+        return Ok("\nA free law of the joints may say more: add --law to learn it.\n".to_owned());
+    }
+    match doing("learning a law of the joints", |_| critic::learnt_law(origin.study, nuisances)) {
+        Err(why) => Ok(format!("\nNo law of the joints was learnt: {why}.\n")),
+        Ok(law) => {
+            let written = report::write_law(origin, &law, out);
+            let summary = written.map_err(|error| Failure::Run(format!("{error:#}")))?;
+            Ok(format!("\n{}", report::law_text(&summary)))
+        }
+    }
 }
 
 /// Writes the study that each cause of the verdict, or its pair, extends, in the place of those of an earlier verdict; says so in

@@ -5,6 +5,7 @@ mod bank;
 mod calibrate;
 mod compare;
 mod diagnose;
+mod joint_law;
 mod likelihood;
 mod monotone;
 mod neighbours;
@@ -30,6 +31,7 @@ pub use diagnose::{
     base_curves, cause_curves, doubts, doubts_beside, evidence, extension, features, guarded, log_weight,
     offers,
 };
+pub use joint_law::{Bend, KnownLaw, LawGain, LearntLaw, NamedForm, Nearness, NotLearnt, learnt_law};
 pub use likelihood::log_likelihood;
 pub use monotone::Monotone;
 pub use neighbours::{OtherPhi, other_friction};

@@ -6,6 +6,7 @@ mod build;
 mod built_in;
 mod catalogue;
 mod checked;
+mod closing;
 mod distributions;
 mod elements;
 mod extended;

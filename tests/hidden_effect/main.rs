@@ -10,6 +10,7 @@ mod folders;
 mod gains;
 mod hide;
 mod inference;
+mod joint_law;
 mod kept;
 mod printed;
 mod record;

@@ -29,7 +29,7 @@ const ERRORS: [f64; 2] = [0.1, 2e-5];
 /// Points of the bank.
 const POINTS: u64 = 60;
 
-fn towers() -> Study {
+pub fn towers() -> Study {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/hidden-effects/example");
     Study::load(&folder, None).unwrap_or_else(|faults| panic!("{faults}")).study
 }
@@ -53,13 +53,13 @@ fn bank(plan: &Plan) -> Bank {
 
 /// What is hidden in a campaign.
 #[derive(Clone, Copy, Default)]
-struct Hidden {
+pub struct Hidden {
     /// A mechanism with its parameters.
-    mechanism: Option<(&'static str, &'static [(&'static str, f64)])>,
+    pub mechanism: Option<(&'static str, &'static [(&'static str, f64)])>,
     /// Scores of kn and of the friction angle in their priors, where they are not drawn.
-    joints: Option<[f64; 2]>,
+    pub joints: Option<[f64; 2]>,
     /// Whether the platform goes back to the level from one of the tilts for a reading of what is left.
-    goes_back: bool,
+    pub goes_back: bool,
 }
 
 /// A mechanism, with joints drawn from their priors.
@@ -68,7 +68,7 @@ fn hiding(name: &'static str, parameters: &'static [(&'static str, f64)]) -> Hid
 }
 
 /// What is read on walls of the solver. The seed is that of walls, joints and errors.
-fn campaign(study: &Study, hidden: &Hidden, seed: u64) -> Vec<Measurement> {
+pub fn campaign(study: &Study, hidden: &Hidden, seed: u64) -> Vec<Measurement> {
     let mut draws = Streams::new(seed, 0).of("hidden");
     let mut normal = || quantile(draws.uniform());
     let drawn = [normal(), normal()];
