@@ -325,7 +325,7 @@ pub(crate) struct Diagnose {
     #[arg(long, value_name = "DIR", help_heading = SOLUTION)]
     pub bank: Option<PathBuf>,
     /// Points in the priors for each mechanism that the bank has.
-    #[arg(long, value_name = "N", default_value_t = 40, value_parser = clap::value_parser!(u64).range(10..=100_000), help_heading = SOLUTION)]
+    #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u64).range(10..=100_000), help_heading = SOLUTION)]
     pub points: u64,
     /// Stop with the command to run, where there is no bank.
     #[arg(long, help_heading = SOLUTION)]
@@ -359,7 +359,7 @@ pub(crate) struct Bank {
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub out: Option<PathBuf>,
     /// Points in the priors for each mechanism; twice as many for the base model.
-    #[arg(long, value_name = "N", default_value_t = 40, value_parser = clap::value_parser!(u64).range(10..=100_000), help_heading = SOLUTION)]
+    #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u64).range(10..=100_000), help_heading = SOLUTION)]
     pub points: u64,
     /// Simulated campaigns of each mechanism that the self-test judges by all that a diagnosis does (seconds each), and five times as
     /// many with nothing hidden; 100 of each are judged by how they seem.

@@ -456,7 +456,7 @@ fn sensitivity_writes_the_map_and_names_what_has_no_number() {
         assert_eq!(read("a"), read("b"), "{name}");
     }
     let rows = told["mechanisms"].as_array().unwrap();
-    assert_eq!(rows.len(), 17);
+    assert_eq!(rows.len(), 18);
     let cells = |name: &str| rows.iter().find(|row| row["mechanism"] == name).unwrap()["cells"].clone();
     assert_eq!(cells("rope_slack")[0]["outcome"], "not applicable");
     assert_eq!(cells("wedge_loss")[1]["note"], "there are no wedges");

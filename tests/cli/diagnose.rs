@@ -97,7 +97,7 @@ fn a_diagnosis_that_may_build_no_bank_says_how_to_make_it() {
     let refused = ends_with(&folder, 3, &[&DIAGNOSE[..], &["--no-build"]].concat());
     assert!(
         stderr(&refused).contains(
-            "900 walls are to be simulated first, by\n  pirca bank studies/tiny --measured tests.csv"
+            "960 walls are to be simulated first, by\n  pirca bank studies/tiny --measured tests.csv"
         ),
         "{}",
         stderr(&refused)
@@ -195,9 +195,9 @@ fn extended_by_an_offset(folder: &Folder) -> Vec<u8> {
     let text = fs::read_to_string(written.join("study.toml")).unwrap();
     for part in [
         "# Made by `pirca diagnose` from the study \"tiny\", seed 7.\n",
-        "#   mechanism.gauge_offset.offset_m  0.00299",
+        "#   mechanism.gauge_offset.offset_m  0.003000 [0.00299",
         "#   arm.tower.joint.kn_pa_per_m",
-        "\n[mechanism.gauge_offset]\noffset_m = 0.00299",
+        "\n[mechanism.gauge_offset]\noffset_m = 0.002999",
         "\nname = \"draw-20\"\n",
     ] {
         assert!(text.contains(part), "{part} in: {text}");
@@ -224,7 +224,7 @@ fn variants_have_banks_and_diagnoses_of_their_own() {
     ));
     let soft = ["studies/tiny", "--variant", "soft", "--measured", "tests.csv", "--points", "12"];
     let refused = ends_with(&folder, 3, &[&["diagnose", "--no-build"], &soft[..]].concat());
-    let wanted = "there is no runs/tiny-soft-bank/bank.parquet: 180 walls are to be simulated first, by\n  \
+    let wanted = "there is no runs/tiny-soft-bank/bank.parquet: 192 walls are to be simulated first, by\n  \
                   pirca bank studies/tiny --variant soft --measured tests.csv --points 12";
     assert!(stderr(&refused).contains(wanted), "{}", stderr(&refused));
     ends_with(&folder, 0, &[&["diagnose", "--no-gain"], &soft[..]].concat());
@@ -266,7 +266,7 @@ fn odd() -> [(&'static str, String, &'static str); 6] {
         (
             "unit",
             MEASURED.replacen("3.228331,mm", "3.228331,cm", 1),
-            "line 3: displacement_left of s0 is 32.28 mm at 2.5 deg, where 99.9 % of simulated readings lie within ",
+            "line 3: s0 is off by a factor of about 10 on displacement_left alone, which is too large (displacement_left of s0 is 32.28 mm",
         ),
         (
             "thick",
@@ -323,7 +323,8 @@ fn what_looks_odd_is_noted_and_judged() {
         |note: &str| notes.iter().find(|own| own.starts_with(note)).unwrap_or_else(|| panic!("{notes:?}"));
     about(steep.2);
     about("line 98: a displacement at 0 deg is 0");
-    assert!(about(unit.2).ends_with("; 3.228 mm would: was it meant in another unit?"), "{notes:?}");
+    // Far beyond its fellows; a strong cause of the search prior may move a wall so far.
+    assert!(about(unit.2).ends_with("where 3.215 mm is usual): was it meant in another unit?"), "{notes:?}");
 }
 
 #[test]
@@ -335,7 +336,7 @@ fn each_oddity_alone_is_noted_and_judged() {
         assert!(notes.iter().any(|own| own.starts_with(note)), "{name}: {notes:?}");
         assert!(
             name != "unit"
-                || notes.iter().any(|own| own.ends_with("; 3.228 mm would: was it meant in another unit?")),
+                || notes.iter().any(|own| own.ends_with("): was it meant in another unit?")),
             "{notes:?}"
         );
     }

@@ -25,7 +25,7 @@ use crate::truth::campaign::planned;
 use crate::truth::designs::Design;
 use crate::truth::label::{Group, Label};
 use crate::truth::readings::csv;
-use crate::truth::roster::{catalogue, root, roster};
+use crate::truth::roster::{LATER, catalogue, root, roster};
 use crate::wanted;
 
 /// The variant of the study whose walls are hidden in: the dips of its stones are drawn in [-20, 20] deg.
@@ -76,7 +76,7 @@ pub fn loaded() -> &'static Loaded {
 pub fn known(bank: &Path) -> Known {
     let bytes = fs::read(bank).unwrap_or_else(|error| panic!("{}: {error}", bank.display()));
     let read = |plan: &Plan| Bank::read(&bytes, plan).unwrap_or_else(|error| panic!("{error}"));
-    Known::new(loaded().study.clone(), POINTS, read)
+    as_recorded(Known::new(loaded().study.clone(), POINTS, read))
 }
 
 /// The same without walls: enough to count what has been judged.
@@ -85,7 +85,15 @@ pub fn known_without_walls() -> Known {
         let walls = plan.places.len();
         Bank { paths: vec![None; walls], endings: vec![String::new(); walls] }
     };
-    Known::new(loaded().study.clone(), POINTS, none)
+    as_recorded(Known::new(loaded().study.clone(), POINTS, none))
+}
+
+/// With the catalogue of the record.
+fn as_recorded(known: Known) -> Known {
+    match known.mechanisms.iter().position(|mechanism| mechanism.name == LATER) {
+        Some(later) => known.without(later),
+        None => known,
+    }
 }
 
 pub fn measured(path: &Path) -> Vec<Measurement> {

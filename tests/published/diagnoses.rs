@@ -79,7 +79,7 @@ fn hidden_effects_are_not_taken_for_slips_of_the_pen() {
     let study = loaded.unwrap_or_else(|faults| panic!("{faults}")).study;
     let mechanisms = described(&root.join("distributions")).expect("sound");
     let nuisances = nuisances(&root.join("distributions")).expect("sound");
-    let plan = Plan::new(&study, &mechanisms, &nuisances, 40).expect("allowed");
+    let plan = Plan::new(&study, &mechanisms, &nuisances, 60).expect("allowed");
     let bank = fs::read(root.join("studies/tilting-table/bank.parquet")).expect("it is there");
     let bank = Bank::read(&bank, &plan).expect("of this plan");
     let mut fine = study.clone();

@@ -26,7 +26,6 @@ enum Away {
 /// All parameters that a mechanism does not grow with.
 const AWAY: &[(&str, &str, Away)] = &[
     ("joint_closure", "initial_pa_per_m", Away::Down),
-    ("stress_stiffening", "at_1_mpa_pa_per_m", Away::Down),
     ("contact_area", "share", Away::Down),
     ("friction", "factor", Away::From(1.0)),
     ("friction", "residual_share", Away::Down),
