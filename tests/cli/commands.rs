@@ -465,14 +465,14 @@ fn sensitivity_writes_the_map_and_names_what_has_no_number() {
     let errors = cells("gauge_offset")[1]["in_measurement_errors"].as_f64().unwrap();
     assert!((errors - 9.9446).abs() < 1e-3, "{errors}");
     let text = fs::read_to_string(folder.path("a/sensitivity.csv")).unwrap();
-    assert_eq!(text.lines().count(), 1 + 17 * 3);
+    assert_eq!(text.lines().count(), 1 + 18 * 3);
     let columns = text.lines().next().unwrap().split(',').count();
     assert!(text.lines().filter(|line| !line.contains('"')).all(|line| line.split(',').count() == columns));
     assert!(!text.contains("NaN") && !text.contains("inf"));
     // Two walls, which are the same: one alone gives no interval.
     let table = stdout(&ends_with(&folder, 0, &["sensitivity", "studies/tiny", "--members", "2"]));
     for said in [
-        "tiny: data like these could see 7 of 17 mechanisms",
+        "tiny: data like these could see 7 of 18 mechanisms",
         "Seen: contact_inset (",
         "Not seen: ",
         "n/a",

@@ -335,8 +335,7 @@ fn each_oddity_alone_is_noted_and_judged() {
         let notes = noted(&folder, &text);
         assert!(notes.iter().any(|own| own.starts_with(note)), "{name}: {notes:?}");
         assert!(
-            name != "unit"
-                || notes.iter().any(|own| own.ends_with("): was it meant in another unit?")),
+            name != "unit" || notes.iter().any(|own| own.ends_with("): was it meant in another unit?")),
             "{notes:?}"
         );
     }

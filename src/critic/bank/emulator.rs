@@ -1,13 +1,14 @@
-//! What the walls of a bank would have done between its points: a Gaussian process with a quadratic mean over the scores of the
+//! What the walls of a bank would have done between its points: a Gaussian process with a polynomial mean over the scores of the
 //! inputs for every number of a path (Rasmussen and Williams 2006, chapter 2), and what it leaves. In units of the variance that it
 //! leaves its covariance is
 //!
 //! ```text
-//! k(z, z') = [z = z'] + WIDE t(z) . t(z') + s m(r)        t: 1, each score, each product of two
+//! k(z, z') = [z = z'] + WIDE t(z) . t(z') + s m(r)        t: 1; each score as well; each product of two as well
 //! m(r) = (1 + sqrt(5) r + 5/3 r^2) exp(-sqrt(5) r)         r^2 = sum of ((z_k - z'_k) / l_k)^2  (Matern, 5/2)
 //! ```
 //!
-//! with the size `s` and the lengths `l` that tell walls best that they do not know.
+//! with the terms `t`, the size `s` and the lengths `l` that tell walls best that they do not know. What a wall's own stones decide
+//! (which wedge is lost, which stones are small) hangs on no score: there a constant tells more than a quadratic.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -16,7 +17,7 @@ use crate::critic::bank::path::{NUMBERS, NUMBERS_UP};
 use crate::math::{exp, exp_all, ln};
 use crate::stats;
 
-/// Variance of the quadratic's coefficients.
+/// Variance of the polynomial's coefficients.
 const WIDE: f64 = 10.0;
 /// Scores beyond this are taken to be there: few walls tell of the far ends of their inputs.
 const FURTHEST: f64 = 2.5;
@@ -24,13 +25,17 @@ const FURTHEST: f64 = 2.5;
 const JOINTS: usize = 3;
 /// Length over which they do (in scores).
 const SMOOTH: f64 = 5.0;
-/// Lengths that are tried for the other inputs, and sizes of what a quadratic misses; none at all is tried as well.
+/// Lengths that are tried for the other inputs, and sizes of what a polynomial misses; none at all is tried as well.
 const LENGTHS: [f64; 3] = [0.7, 1.5, 3.0];
 const SIZES: [f64; 3] = [3.0, 30.0, 300.0];
 
-/// What is smooth beside the quadratic.
+/// Degrees of the polynomial.
+const DEGREES: [usize; 3] = [2, 1, 0];
+
+/// A polynomial and what is smooth beside it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Shape {
+    degree: usize,
     size: f64,
     length: f64,
 }
@@ -42,7 +47,7 @@ pub struct Emulator {
     shape: Shape,
     /// Means of the numbers, from which all else counts.
     middle: [f64; NUMBERS],
-    /// Coefficients of the quadratic, by term and number.
+    /// Coefficients of the polynomial, by term and number.
     coefficients: Vec<[f64; NUMBERS]>,
     /// What tells how well the curve is known.
     known: Known,
@@ -57,13 +62,13 @@ pub struct Emulator {
 /// How well a curve is known by the walls of the bank (sections 2.1.2 and 2.2).
 #[derive(Clone, Debug)]
 enum Known {
-    /// A quadratic alone: the covariance of its coefficients.
-    Quadratic(DMatrix<f64>),
-    /// A quadratic with what is smooth beside it.
+    /// A polynomial alone: the covariance of its coefficients.
+    Polynomial(DMatrix<f64>),
+    /// A polynomial with what is smooth beside it.
     Smooth {
         /// Of the covariance of the walls.
         inverse: DMatrix<f64>,
-        /// Terms of the quadratic, by wall.
+        /// Terms of the polynomial, by wall.
         terms: Vec<Vec<f64>>,
         /// Weights of the walls in what is smooth, by wall and number.
         weights: Vec<[f64; NUMBERS]>,
@@ -83,6 +88,8 @@ pub struct Told<'e> {
 
 /// What a shape makes of the walls.
 struct Fitted {
+    /// Terms by wall.
+    design: DMatrix<f64>,
     inverse: DMatrix<f64>,
     weights: DMatrix<f64>,
     /// By wall and number.
@@ -95,24 +102,20 @@ impl Emulator {
     pub fn fit(scores: &[Vec<f64>], walls: &[[f64; NUMBERS]]) -> Option<Emulator> {
         let inputs = scores.first()?.len();
         let scores: Vec<Vec<f64>> = scores.iter().map(|z| held(z)).collect();
-        let terms: Vec<Vec<f64>> = scores.iter().map(|z| terms(z)).collect();
-        let (n, p) = (terms.len(), terms[0].len());
-        if n < 2 * p {
+        let n = scores.len();
+        if n < 2 * terms(&scores[0], DEGREES[0]).len() {
             return None;
         }
-        let design = DMatrix::from_fn(n, p, |row, column| terms[row][column]);
         let mean = |number: usize| stats::mean(&walls.iter().map(|wall| wall[number]).collect::<Vec<_>>());
         let middle: [f64; NUMBERS] = std::array::from_fn(|number| mean(number).unwrap_or(0.0));
         let wanted = DMatrix::from_fn(n, NUMBERS, |row, number| walls[row][number] - middle[number]);
-        let plain = Shape { size: 0.0, length: 1.0 };
-        let others = SIZES.iter().flat_map(|&size| LENGTHS.map(|length| Shape { size, length }));
-        let tried: Vec<Shape> = std::iter::once(plain).chain(others.filter(|_| inputs > JOINTS)).collect();
+        let tried: Vec<Shape> = DEGREES.iter().flat_map(|&degree| Shape::tried(degree, inputs)).collect();
         let fitted: Vec<(Shape, Fitted)> = tried
             .into_par_iter()
-            .filter_map(|shape| Some((shape, Fitted::of(shape, &scores, &design, &wanted)?)))
+            .filter_map(|shape| Some((shape, Fitted::of(shape, &scores, &wanted)?)))
             .collect();
         let best = fitted.into_iter().map(|(shape, fitted)| (fitted.misses(), shape, fitted));
-        let (_, shape, Fitted { inverse, weights, left }) =
+        let (_, shape, Fitted { design, inverse, weights, left }) =
             best.reduce(|best, own| if own.0 < best.0 { own } else { best })?;
         let left = by_row(&left);
         let explained = std::array::from_fn(|number| {
@@ -124,10 +127,12 @@ impl Emulator {
         });
         let coefficients = by_row(&(design.transpose() * &weights * WIDE));
         let known = if shape.size > 0.0 {
+            let terms = scores.iter().map(|z| terms(z, shape.degree)).collect();
             Known::Smooth { inverse, terms, weights: by_row(&weights) }
         } else {
+            let p = design.ncols();
             let information = DMatrix::identity(p, p) / WIDE + design.tr_mul(&design);
-            Known::Quadratic(information.cholesky()?.inverse())
+            Known::Polynomial(information.cholesky()?.inverse())
         };
         Some(Emulator { inputs, shape, middle, coefficients, known, scores, left, explained })
     }
@@ -136,7 +141,7 @@ impl Emulator {
     pub fn told(&self, scores: &[f64], count: usize) -> Told<'_> {
         crate::check!(scores.len() == self.inputs, "{} scores for {} inputs", scores.len(), self.inputs);
         let scores = held(scores);
-        let own = terms(&scores);
+        let own = terms(&scores, self.shape.degree);
         let distances: Vec<f64> =
             self.scores.iter().map(|wall| self.shape.squared_distance(&scores, wall)).collect();
         let mut numbers = self.middle;
@@ -146,7 +151,7 @@ impl Emulator {
         own.iter().zip(&self.coefficients).for_each(|(term, of)| add(*term, of));
         // What the walls of the bank do not tell of the curve, in units of what the stones leave.
         let unknown = match &self.known {
-            Known::Quadratic(covariance) => {
+            Known::Polynomial(covariance) => {
                 let own = DVector::from_vec(own);
                 own.dot(&(covariance * &own))
             }
@@ -168,6 +173,15 @@ impl Emulator {
         }
     }
 
+    /// Whether one of other walls (by their scores, as [`Self::fit`] has them) lies nearer to some scores than every wall that it was
+    /// fitted through.
+    pub fn is_beyond(&self, scores: &[f64], others: &[Vec<f64>]) -> bool {
+        let scores = held(scores);
+        let apart = |wall: &[f64]| self.shape.squared_distance(&scores, wall);
+        let own = self.scores.iter().map(|wall| apart(wall)).fold(f64::INFINITY, f64::min);
+        others.iter().any(|wall| apart(&held(wall)) < own)
+    }
+
     /// Share of the variance of each number that is told beforehand for a wall that the curve does not know.
     pub fn explained(&self) -> &[f64; NUMBERS] {
         &self.explained
@@ -177,9 +191,11 @@ impl Emulator {
 impl Fitted {
     /// The weights, and what leaving out each wall in turn leaves of it (section 5.4.2): its weight over the diagonal of the
     /// inverse covariance.
-    fn of(shape: Shape, scores: &[Vec<f64>], design: &DMatrix<f64>, wanted: &DMatrix<f64>) -> Option<Fitted> {
+    fn of(shape: Shape, scores: &[Vec<f64>], wanted: &DMatrix<f64>) -> Option<Fitted> {
         let n = scores.len();
-        let mut covariance = design * design.transpose() * WIDE;
+        let terms: Vec<Vec<f64>> = scores.iter().map(|z| terms(z, shape.degree)).collect();
+        let design = DMatrix::from_fn(n, terms[0].len(), |row, column| terms[row][column]);
+        let mut covariance = &design * design.transpose() * WIDE;
         for (row, one) in scores.iter().enumerate() {
             for (column, other) in scores[..row].iter().enumerate() {
                 let own = shape.covariance(shape.squared_distance(one, other));
@@ -192,7 +208,7 @@ impl Fitted {
         let weights = &inverse * wanted;
         let left =
             DMatrix::from_fn(n, NUMBERS, |wall, number| weights[(wall, number)] / inverse[(wall, wall)]);
-        Some(Fitted { inverse, weights, left })
+        Some(Fitted { design, inverse, weights, left })
     }
 
     /// How far off it is of walls that it does not know: mean logarithm over the numbers that vary on the way up. What is left on
@@ -205,6 +221,13 @@ impl Fitted {
 }
 
 impl Shape {
+    /// Those with a polynomial of a degree; what a cause does not change is smooth.
+    fn tried(degree: usize, inputs: usize) -> Vec<Shape> {
+        let alone = Shape { degree, size: 0.0, length: 1.0 };
+        let beside = SIZES.iter().flat_map(|&size| LENGTHS.map(|length| Shape { degree, size, length }));
+        std::iter::once(alone).chain(beside.filter(|_| inputs > JOINTS)).collect()
+    }
+
     fn squared_distance(&self, one: &[f64], other: &[f64]) -> f64 {
         let pairs = one.iter().zip(other).enumerate();
         pairs.fold(0.0, |sum, (k, (a, b))| {
@@ -244,12 +267,16 @@ fn held(scores: &[f64]) -> Vec<f64> {
     scores.iter().map(|score| score.clamp(-FURTHEST, FURTHEST)).collect()
 }
 
-/// One, each score, and each product of two.
-fn terms(z: &[f64]) -> Vec<f64> {
+/// One; of the first degree each score as well; of the second each product of two as well.
+fn terms(z: &[f64], degree: usize) -> Vec<f64> {
     let mut terms = vec![1.0];
-    terms.extend(z);
-    for (k, a) in z.iter().enumerate() {
-        terms.extend(z[k..].iter().map(|b| a * b));
+    if degree > 0 {
+        terms.extend(z);
+    }
+    if degree > 1 {
+        for (k, a) in z.iter().enumerate() {
+            terms.extend(z[k..].iter().map(|b| a * b));
+        }
     }
     terms
 }

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::critic::diagnose::causes::Causes;
 use crate::critic::diagnose::design::{Campaign, Design};
 use crate::critic::diagnose::likelihood::Likelihood;
-use crate::critic::diagnose::world::{Truth, World};
+use crate::critic::diagnose::world::{Truth, World, standing};
 use crate::math::{exp, ln};
 use crate::random::standard_normal::quantile;
 use crate::random::{Stream, Streams};
@@ -82,11 +82,16 @@ fn told(
     let likelihood = Likelihood::new(world, design, campaign);
     let inputs = world.inputs(causes);
     let dimensions = inputs + likelihood.common_errors();
-    let log = |scores: &[f64]| likelihood.log(&world.truth(causes, &scores[..inputs]), &scores[inputs..]);
+    // The prior is that of walls that stand: others have no readings.
+    let log = |scores: &[f64]| {
+        let truth = world.truth(causes, &scores[..inputs]);
+        if world.stands(&truth) { likelihood.log(&truth, &scores[inputs..]) } else { f64::NEG_INFINITY }
+    };
     let mut draws = Streams::new(seed, causes.number()).of("evidence");
     let mut particles: Vec<Particle> = (0..swarm.particles)
         .map(|_| {
-            let scores: Vec<f64> = (0..dimensions).map(|_| quantile(draws.uniform())).collect();
+            let next = || -> Vec<f64> { (0..dimensions).map(|_| quantile(draws.uniform())).collect() };
+            let scores = standing(next, |scores| world.stands(&world.truth(causes, &scores[..inputs])));
             Particle { log: log(&scores), scores }
         })
         .collect();

@@ -16,6 +16,7 @@ use crate::critic::diagnose::nameless::Nameless;
 use crate::critic::simulated::of_points;
 use crate::ensemble::{build, is_random, weight};
 use crate::math::{atan, radians, tan};
+use crate::model::Outcome;
 use crate::protocol::Ends;
 use crate::random::standard_normal::quantile;
 use crate::random::{Family, Streams};
@@ -32,6 +33,10 @@ const SIDED: &str = "lean";
 
 /// So many walls of a family are tried for one that can be built and weighed.
 const BUILT: u64 = 20;
+
+/// So many truths are drawn at most for one under which walls stand at rest. A cause under which few do has too few walls in the bank
+/// to be searched for.
+const DRAWN: usize = 100;
 
 /// What is true of a simulated campaign. Scores are standard normal: where a quantity lies in its prior.
 #[derive(Clone, Debug, PartialEq)]
@@ -89,6 +94,8 @@ pub struct World<'s> {
     /// What a cause changes, by family and cause. A point of the bank has the same stones and joints under every cause: the
     /// difference that a cause makes is known far better than either wall, and dies away with the cause.
     changes: BTreeMap<(usize, usize), Walls>,
+    /// Scores of the walls of the bank that do not stand at rest, by family and cause.
+    fallen: BTreeMap<(usize, Option<usize>), Vec<Vec<f64>>>,
     /// Causes that were to have walls in the bank.
     planned: BTreeSet<usize>,
     /// Weight of a wall as it is stated, and of its stones in the mean (N), by family.
@@ -112,14 +119,22 @@ impl<'s> World<'s> {
             unchanged.extend(path.as_ref().map(|path| ((place.family, place.point), path)));
         }
         let mut grouped: BTreeMap<(usize, Option<usize>), Learnt> = BTreeMap::new();
-        for ((place, path), arm) in plan.places.iter().zip(&bank.paths).zip(&plan.study.arms) {
+        let mut fallen: BTreeMap<(usize, Option<usize>), Vec<Vec<f64>>> = BTreeMap::new();
+        let walls = plan.places.iter().zip(&plan.study.arms);
+        for ((place, arm), (path, ending)) in walls.zip(bank.paths.iter().zip(&bank.endings)) {
             let told = grouped.entry((place.family, place.cause)).or_default();
             told.random |= is_random(arm);
-            let Some(path) = path else { continue };
-            let Some(before) = unchanged.get(&(place.family, place.point)) else { continue };
             let joints = place.joints.into_iter().map(|score| score / DOUBT);
             let parameters = place.parameters.iter().copied().map(quantile);
-            told.scores.push(joints.chain(varying(mechanisms, place.cause, parameters)).collect());
+            let scores: Vec<f64> = joints.chain(varying(mechanisms, place.cause, parameters)).collect();
+            let Some(path) = path else {
+                if *ending == Outcome::UnstableAtRest.name() {
+                    fallen.entry((place.family, place.cause)).or_default().push(scores);
+                }
+                continue;
+            };
+            let Some(before) = unchanged.get(&(place.family, place.point)) else { continue };
+            told.scores.push(scores);
             let (own, before) = (path.adding(), before.adding());
             told.walls.push(match place.cause {
                 None => own,
@@ -147,6 +162,7 @@ impl<'s> World<'s> {
             nuisances,
             base,
             changes,
+            fallen,
             planned,
             weights,
             kinds: kinds(&study.arms),
@@ -158,12 +174,42 @@ impl<'s> World<'s> {
         self.kinds.iter().max().map_or(0, |last| last + 1)
     }
 
-    /// The truth with these causes, drawn from the priors, those of the joints wider by [`DOUBT`].
+    /// The truth with these causes, drawn from the search priors, those of the joints wider by [`DOUBT`], such that walls
+    /// [stand](Self::stands).
     pub fn drawn(&self, causes: impl Into<Causes>, streams: &Streams) -> Truth {
-        let causes = causes.into();
-        let mut scores = streams.of("truth");
-        let scores: Vec<f64> = (0..self.inputs(causes)).map(|_| quantile(scores.uniform())).collect();
-        self.truth(causes, &scores)
+        self.drawn_as(causes.into(), streams, |truth| truth)
+    }
+
+    /// The same with what is made of each truth before it is asked whether walls stand.
+    fn drawn_as(&self, causes: Causes, streams: &Streams, made: impl Fn(Truth) -> Truth) -> Truth {
+        let mut draws = streams.of("truth");
+        let inputs = self.inputs(causes);
+        let next = || {
+            let scores: Vec<f64> = (0..inputs).map(|_| quantile(draws.uniform())).collect();
+            made(self.truth(causes, &scores))
+        };
+        standing(next, |truth| self.stands(truth))
+    }
+
+    /// Whether walls stand at rest under a truth, before they are loaded: nobody measures walls that do not. As the nearest wall of
+    /// the bank does, for each family and cause.
+    pub fn stands(&self, truth: &Truth) -> bool {
+        let falls = |(&(family, cause), fallen): (&(usize, Option<usize>), &Vec<Vec<f64>>)| {
+            let joints = truth.joints[self.kinds[family]].map(|score| score / DOUBT);
+            let (walls, parameters) = match cause {
+                None => (self.base.get(&family), &[][..]),
+                Some(cause) => {
+                    let Some((_, own)) = self.parts(truth).find(|(own, _)| *own == cause) else {
+                        return false;
+                    };
+                    (self.changes.get(&(family, cause)), own)
+                }
+            };
+            let varying = varying(self.mechanisms, cause, parameters.iter().copied());
+            let scores: Vec<f64> = joints.into_iter().chain(varying).collect();
+            walls.is_some_and(|walls| walls.emulator.is_beyond(&scores, fallen))
+        };
+        !self.fallen.iter().any(falls)
     }
 
     /// The truth of the base model, drawn from the priors as they are stated.
@@ -428,6 +474,18 @@ impl<'s> World<'s> {
     fn has_walls(&self, cause: usize) -> bool {
         self.changes.keys().any(|(_, own)| *own == cause)
     }
+}
+
+/// The first draw under which walls stand, or the last of [`DRAWN`] ones.
+pub(super) fn standing<T>(mut next: impl FnMut() -> T, stands: impl Fn(&T) -> bool) -> T {
+    let mut drawn = next();
+    for _ in 1..DRAWN {
+        if stands(&drawn) {
+            break;
+        }
+        drawn = next();
+    }
+    drawn
 }
 
 /// What a wall shows of a reading before its errors; `None` where it has fallen. `seen` is what gauges make of the three points at a

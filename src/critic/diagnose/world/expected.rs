@@ -11,20 +11,21 @@ use crate::study::{Described, Parameter};
 const FURTHEST: f64 = 5.0;
 
 impl World<'_> {
-    /// The truth with these causes, their parameters drawn from their physical priors; joints as [`Self::drawn`] has them with the
-    /// same streams.
+    /// The truth with these causes, their parameters drawn from their physical priors, such that walls [stand](Self::stands); joints
+    /// as [`Self::drawn`] has them with the same streams, where walls stand under both.
     pub fn expected(&self, causes: impl Into<Causes>, streams: &Streams) -> Truth {
-        let mut truth = self.drawn(causes, streams);
-        let parameters = truth.causes.each().flat_map(|cause| &self.mechanisms[cause].parameters);
-        let mapped = parameters.zip(&truth.parameters).map(|(p, score)| {
-            if is_constant(p) {
-                return *score;
-            }
-            let value = p.prior.at_score(*score);
-            quantile(p.search.cdf(value).clamp(cdf(-FURTHEST), cdf(FURTHEST)))
-        });
-        truth.parameters = mapped.collect();
-        truth
+        self.drawn_as(causes.into(), streams, |mut truth| {
+            let parameters = truth.causes.each().flat_map(|cause| &self.mechanisms[cause].parameters);
+            let mapped = parameters.zip(&truth.parameters).map(|(p, score)| {
+                if is_constant(p) {
+                    return *score;
+                }
+                let value = p.prior.at_score(*score);
+                quantile(p.search.cdf(value).clamp(cdf(-FURTHEST), cdf(FURTHEST)))
+            });
+            truth.parameters = mapped.collect();
+            truth
+        })
     }
 }
 
