@@ -209,8 +209,8 @@ pub(super) fn reliability(summary: &DiagnosisSummary) -> Vec<String> {
     let counted = |part: u64, whole: u64| format!("{part} of {whole}, {}", share(part, whole));
     let mut sentences = vec![
         format!(
-            "Power (simulated campaigns read like these, 95 % intervals): an effect drawn from its prior is found in {}, one of \
-             the third that moves the readings most in {}.",
+            "Power (simulated campaigns read like these, 95 % intervals): an effect drawn from its search prior is found in {}, \
+             one of the third that moves the readings most in {}.",
             share(all.found, all.campaigns),
             share(strong.found, strong.campaigns),
         ),
