@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::cli::doing::doing;
 use crate::cli::failure::Failure;
+use crate::cli::fingerprint;
 use crate::critic::{Bank, Design, Diagnosis, Effort, Judge, Limits, Plan, SelfTest, World};
 use crate::ensemble::replace_file;
 use crate::study::{Described, Nuisance, Study, sha256};
@@ -105,7 +106,8 @@ fn identity(judge: &Judge<'_>, plan: &Plan, seed: u64) -> String {
         .par_iter()
         .map(|cause| judge.said_of(*cause, &limits, tested(seed), CAMPAIGNS))
         .collect();
-    sha256(format!("{hash} {CAMPAIGNS} {seed} {limits:?} {measured:?} {said:?}").as_bytes())
+    let (limits, said) = (fingerprint::limits(&limits), fingerprint::diagnoses(&said));
+    sha256(format!("{hash} {CAMPAIGNS} {seed} {limits} {measured:?} {said}").as_bytes())
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ mod diagnose;
 mod doing;
 mod elements;
 mod failure;
+mod fingerprint;
 mod generate;
 mod help;
 mod init;

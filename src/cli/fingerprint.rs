@@ -1,0 +1,78 @@
+//! What a judge says, as a text that a kept self-test is recognised by.
+//!
+//! The words are those of the first self-tests that were kept. They are part of the file: other words would make every kept
+//! self-test one of another judge. So they are written out here, whatever the types and their fields are called.
+
+use crate::critic::{Bent, Diagnosis, Limits, LookedAt, Ranked, Seeming};
+
+/// The limits of a verdict.
+pub(super) fn limits(of: &Limits) -> String {
+    let pair = format!(
+        "PairLimits {{ named: {:?}, guard: {:?}, nameless: {:?} }}",
+        of.pair.named, of.pair.guard, of.pair.nameless
+    );
+    format!(
+        "Limits {{ found: {:?}, named: {:?}, sure: {:?}, guard: {:?}, conflict: {:?}, pair: {pair} }}",
+        of.found, of.named, of.sure, of.guard, of.conflict
+    )
+}
+
+/// What was said of several campaigns.
+pub(super) fn diagnoses(all: &[Diagnosis]) -> String {
+    listed(all, diagnosis)
+}
+
+fn diagnosis(of: &Diagnosis) -> String {
+    format!(
+        "Diagnosis {{ seeming: {}, looked_at: {}, pairs: {}, form: {}, verdict: {:?} }}",
+        seeming(&of.seeming),
+        listed(&of.looked_at, looked_at),
+        listed(&of.pairs, looked_at),
+        listed(&of.form, bent),
+        of.verdict
+    )
+}
+
+fn seeming(of: &Seeming) -> String {
+    let wrong = format!(
+        "Wrong {{ excess: {:?}, joints: {:?}, distance: {:?} }}",
+        of.wrong.excess, of.wrong.joints, of.wrong.distance
+    );
+    let Ranked { causes, nameless, set } = &of.ranked;
+    let ranked = format!("Ranked {{ causes: {causes:?}, nameless: {nameless:?}, set: {set:?} }}");
+    format!(
+        "Seeming {{ wrong: {wrong}, ranked: {ranked}, p_value: {:?}, looks: {:?} }}",
+        of.p_value, of.looks
+    )
+}
+
+fn looked_at<C: std::fmt::Debug>(of: &LookedAt<C>) -> String {
+    format!(
+        "LookedAt {{ cause: {:?}, guard: {:?}, conflict: {:?}, evidence: {:?}, draws: {:?} }}",
+        of.cause, of.guard, of.conflict, of.evidence, of.draws
+    )
+}
+
+fn bent(of: &Bent) -> String {
+    format!(
+        "Bent {{ part: {:?}, family: {:?}, quantity: {:?}, tilt: {:?}, value: {:?}, sd: {:?} }}",
+        of.part, of.family, of.quantity, of.tilt, of.value, of.sd
+    )
+}
+
+fn listed<T>(all: &[T], one: impl Fn(&T) -> String) -> String {
+    format!("[{}]", all.iter().map(one).collect::<Vec<_>>().join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_words_of_kept_self_tests_stay() {
+        let said = limits(&Limits::default());
+        let kept = "Limits { found: 0.05, named: 0.8, sure: 0.01, guard: 0.05, conflict: 0.05, pair: PairLimits { named: 0.99, \
+                    guard: 0.25, nameless: 0.05 } }";
+        assert_eq!(said, kept);
+    }
+}
