@@ -2,9 +2,9 @@
 
 use rayon::prelude::*;
 
-use crate::critic::diagnose::{Design, Specimen};
+use crate::critic::compare::{Simulated, at_rest, simulated};
 use crate::critic::joint_law::form::Knots;
-use crate::critic::simulated::{Simulated, at_rest, simulated};
+use crate::critic::simulate::{Design, Specimen};
 use crate::ensemble::{Row, Task, build, evaluate, is_random, weight};
 use crate::math::{atan, cos, ln, radians, tan};
 use crate::protocol::Protocol;

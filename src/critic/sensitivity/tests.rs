@@ -3,11 +3,14 @@
 use std::num::NonZero;
 use std::path::Path;
 
+use super::map::cell;
+use super::observable::observables;
 use super::*;
+use crate::critic::compare::Simulated;
 use crate::critic::tests::{measurement, study};
 use crate::ensemble::Silent;
 use crate::math::{degrees, radians};
-use crate::study::{MeasuredKind, MeasuredQuantity, Measurement, described};
+use crate::study::{Described, MeasuredKind, MeasuredQuantity, Measurement, Study, described};
 
 fn mechanisms(names: &[&str]) -> Vec<Described> {
     let distributions = Path::new(env!("CARGO_MANIFEST_DIR")).join("distributions");

@@ -1,0 +1,11 @@
+//! What a design can tell, and which measurement would tell more.
+
+mod detection_limit;
+mod next;
+mod self_test;
+#[cfg(test)]
+mod tests;
+
+pub use detection_limit::{CAUGHT, Caught};
+pub use next::{Offer, Offered, offers};
+pub use self_test::{Counted, SelfTest, SelfTestRow};

@@ -1,0 +1,419 @@
+//! A discrepancy that is free to be anything smooth (Kennedy and O'Hagan 2001): Gaussian processes over the tilt for every quantity
+//! and for what the left end has more than the right and the centre more than the ends, in part common to all families, and a straight
+//! line over the order of the tests. It says which form something has that no cause explains, and how much there is to be gained.
+
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+use crate::critic::compare::reading_variance;
+use crate::critic::discrepancy::predicted::{Predicted, Score, normal_score};
+use crate::critic::simulate::{Campaign, Design, Seen};
+use crate::math::{degrees, exp, ln};
+use crate::stats;
+use crate::study::{MeasuredQuantity, Measurement};
+
+/// Over so many degrees of tilt a discrepancy changes.
+const LENGTH_DEG: f64 = 5.0;
+/// Share of its variance that is common to all families.
+const COMMON: f64 = 0.5;
+/// Variance of the left end less that of the middle, of the centre less that of the mean, and of the last test less that of a middle
+/// one, in that of a reading's level.
+const TWISTING: f64 = 0.5;
+const BENDING: f64 = 0.5;
+const DRIFTING: f64 = 0.5;
+/// Standard deviations of the discrepancy that are tried, in those of the base model's readings; the likeliest is taken.
+const TRIED: [f64; 7] = [0.0, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0];
+/// Variance (in those units) that no reading is without, so that covariances can be factored.
+const NUGGET: f64 = 1e-6;
+
+/// A reading that was seen.
+struct At<'d> {
+    place: (usize, usize),
+    family: usize,
+    m: &'d Measurement,
+    seen: Seen,
+    /// The base model's standard deviation of it.
+    unit: f64,
+    /// What the base model expects.
+    mean: f64,
+    known: bool,
+    /// 1 for the left end, -1 for the right one.
+    side: f64,
+    /// What a bow moves it by: 1 at the centre, -1/2 at the ends.
+    bow: f64,
+    /// Where the test lies in the order of all: -1 the first, 1 the last; 0 where that is not known.
+    order: f64,
+}
+
+/// The discrepancy as far as the known readings tell it.
+pub struct Discrepancy<'d> {
+    all: Vec<At<'d>>,
+    known: Vec<usize>,
+    /// Covariances of the discrepancy at all readings, part by part, in units of its variance.
+    smooth: [DMatrix<f64>; 4],
+    /// That variance, in the readings' units.
+    variance: f64,
+    /// Covariance of the readings.
+    whole: DMatrix<f64>,
+    factored: Cholesky<f64, Dyn>,
+    /// Inverse covariance of the known readings times what they are off by.
+    weights: DVector<f64>,
+    /// From the middle of the tests to the last (tests).
+    half: f64,
+}
+
+/// The parts of a discrepancy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lacking {
+    /// Of readings as they are, whatever the order of the tests.
+    Level,
+    /// Of the left end less the right one.
+    Twist,
+    /// Of the centre less the mean of the ends, where these were read each.
+    Bow,
+    /// Of a reading from each test to the next.
+    Drift,
+}
+
+/// A part of the discrepancy at a reading of a family.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bent {
+    /// Which part.
+    pub part: Lacking,
+    /// Index of the family's arm.
+    pub family: usize,
+    /// What was read; of a twist the left end's displacement, of a bow the centre's.
+    pub quantity: MeasuredQuantity,
+    /// At which tilt (rad); `None` where the quantity has none of its own.
+    pub tilt: Option<f64>,
+    /// Measured less base model (SI).
+    pub value: f64,
+    /// Its standard deviation (SI).
+    pub sd: f64,
+}
+
+impl<'d> Discrepancy<'d> {
+    /// From the known readings of a campaign, what the base model expects of all of them, and its standard deviations of the
+    /// readings. A bound tells it nothing. `None` where nothing is known.
+    pub fn new(
+        design: &'d Design,
+        campaign: &Campaign,
+        known: &[Vec<bool>],
+        base: &Predicted,
+        units: &[Vec<f64>],
+    ) -> Option<Discrepancy<'d>> {
+        let mut all: Vec<At<'d>> = Vec::new();
+        let orders = || design.specimens.iter().filter_map(|specimen| specimen.order).map(f64::from);
+        let (first, last) = (orders().fold(f64::INFINITY, f64::min), orders().fold(0.0, f64::max));
+        let half = 0.5 * (last - first).max(0.0);
+        for (specimen, own) in design.specimens.iter().enumerate() {
+            for (reading, m) in own.readings.iter().enumerate() {
+                let seen = campaign.specimens[specimen][reading];
+                if seen == Seen::Nothing {
+                    continue;
+                }
+                let mean = stats::mean(&base.reading(specimen, reading))?;
+                let (unit, told) = (units[specimen][reading], seen != Seen::Beyond);
+                let known = known[specimen][reading] && told;
+                let (side, bow) = match m.quantity {
+                    MeasuredQuantity::DisplacementLeft | MeasuredQuantity::RemainderLeft => (1.0, -0.5),
+                    MeasuredQuantity::DisplacementRight | MeasuredQuantity::RemainderRight => (-1.0, -0.5),
+                    MeasuredQuantity::DisplacementCentre | MeasuredQuantity::RemainderCentre => (0.0, 1.0),
+                    _ => (0.0, 0.0),
+                };
+                let order = own.order.map_or(0.0, |order| (f64::from(order) - first) / half.max(0.5) - 1.0);
+                let place = (specimen, reading);
+                all.push(At { place, family: own.family, m, seen, unit, mean, known, side, bow, order });
+            }
+        }
+        let columns = DMatrix::from_fn(base.walls.len(), all.len(), |draw, k| {
+            let (specimen, reading) = all[k].place;
+            (base.walls[draw][specimen][reading] - all[k].mean) / all[k].unit
+        });
+        let mut walls = columns.transpose() * &columns / (base.walls.len() as f64 - 1.0);
+        for (k, at) in all.iter().enumerate() {
+            walls[(k, k)] += reading_variance(at.m) / (at.unit * at.unit) + NUGGET;
+            let alike = |other: &At<'_>| other.m.quantity.instrument() == at.m.quantity.instrument();
+            for (j, other) in all.iter().enumerate().filter(|(_, other)| alike(other)) {
+                walls[(k, j)] += at.m.common_error / at.unit * (other.m.common_error / other.unit);
+            }
+        }
+        let places: Vec<usize> = (0..all.len()).filter(|&k| all[k].known).collect();
+        if places.is_empty() {
+            return None;
+        }
+        let smooth =
+            PARTS.map(|part| DMatrix::from_fn(all.len(), all.len(), |a, b| alike(part, &all[a], &all[b])));
+        let off = DVector::from_fn(places.len(), |k, _| {
+            let at = &all[places[k]];
+            (at.seen.told(at.m).unwrap_or(at.mean) - at.mean) / at.unit
+        });
+        let tried = TRIED.into_iter().filter_map(|sigma| {
+            let variance = sigma * sigma;
+            let whole = smooth.iter().fold(walls.clone(), |whole, part| whole + part * variance);
+            let factored = part(&whole, &places, &places).cholesky()?;
+            let half = (0..places.len()).fold(0.0, |sum, k| sum + ln(factored.l_dirty()[(k, k)]));
+            let weights = factored.solve(&off);
+            Some((-0.5 * off.dot(&weights) - half, variance, whole, factored, weights))
+        });
+        let (_, variance, whole, factored, weights) = tried.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some(Discrepancy { all, known: places, smooth, variance, whole, factored, weights, half })
+    }
+
+    /// How the readings that were not known are predicted, by specimen and reading.
+    pub fn scores(&self) -> Vec<((usize, usize), Score)> {
+        // Bounds that were known are among them: they were not used.
+        let out = (0..self.all.len()).filter(|&k| !self.all[k].known);
+        out.filter_map(|k| {
+            let at = &self.all[k];
+            let told = self.told(&self.whole, k);
+            let variance = (self.whole[(k, k)] - told.dot(&self.factored.solve(&told))).max(NUGGET);
+            let mean = at.mean + at.unit * told.dot(&self.weights);
+            let score = normal_score(at.m, at.seen, mean, at.unit * variance.sqrt(), at.unit)?;
+            Some((at.place, score))
+        })
+        .collect()
+    }
+
+    /// The discrepancy itself: of each quantity once for each family and tilt that was read, its twist once for each at which both
+    /// ends were, its bow at which the centre and an end were; and of each kind of quantity its drift at the first reading, where the
+    /// order of the tests is known. A drift goes as the readings' standard deviations do, and so is another one at another reading.
+    pub fn form(&self) -> Vec<Bent> {
+        let mut form: Vec<Bent> = Vec::new();
+        for (k, at) in self.all.iter().enumerate().filter(|(_, at)| at.seen != Seen::Beyond) {
+            let (family, quantity, tilt) = (at.family, at.m.quantity, at.m.tilt);
+            let beside = |is: fn(&At<'_>) -> bool| {
+                self.all.iter().position(|other| {
+                    other.seen != Seen::Beyond
+                        && (other.family, other.m.tilt) == (family, tilt)
+                        && kind(other.m.quantity) == kind(quantity)
+                        && is(other)
+                })
+            };
+            let mut add = |part: Lacking, of: &[(usize, f64)]| {
+                let told = |bent: &Bent| {
+                    let same = (bent.family, bent.tilt, bent.quantity) == (family, tilt, quantity);
+                    bent.part == part
+                        && (same || part == Lacking::Drift && kind(bent.quantity) == kind(quantity))
+                };
+                if !form.iter().any(told) {
+                    let (value, sd) =
+                        self.lacking(if part == Lacking::Drift { &PARTS[3..] } else { &PARTS[..3] }, of);
+                    form.push(Bent { part, family, quantity, tilt, value, sd });
+                }
+            };
+            add(Lacking::Level, &[(k, 1.0)]);
+            let ends: Vec<usize> = [beside(|other| other.side > 0.0), beside(|other| other.side < 0.0)]
+                .into_iter()
+                .flatten()
+                .collect();
+            match ends[..] {
+                [_, right] if at.side > 0.0 => add(Lacking::Twist, &[(k, 1.0), (right, -1.0)]),
+                [_, ..] if at.bow > 0.0 => {
+                    let share = -1.0 / ends.len() as f64;
+                    let ends = ends.iter().map(|end| (*end, share));
+                    add(Lacking::Bow, &std::iter::once((k, 1.0)).chain(ends).collect::<Vec<_>>());
+                }
+                _ => {}
+            }
+            if at.order.abs() == 1.0 && self.half > 0.0 {
+                add(Lacking::Drift, &[(k, at.order / self.half)]);
+            }
+        }
+        form
+    }
+
+    /// Some parts of the discrepancy together, summed over readings that each count so often, and the sum's standard deviation (SI).
+    fn lacking(&self, parts: &[Lacking], of: &[(usize, f64)]) -> (f64, f64) {
+        let of: Vec<(usize, f64)> = of.iter().map(|(k, times)| (*k, times * self.all[*k].unit)).collect();
+        let with = |other: usize| {
+            let one = |(k, times): &(usize, f64)| {
+                times * parts.iter().fold(0.0, |sum, part| sum + self.smooth[*part as usize][(*k, other)])
+            };
+            self.variance * of.iter().fold(0.0, |sum, own| sum + one(own))
+        };
+        let told = DVector::from_fn(self.known.len(), |j, _| with(self.known[j]));
+        let before = of.iter().fold(0.0, |sum, (k, times)| sum + times * with(*k));
+        let variance = (before - told.dot(&self.factored.solve(&told))).max(0.0);
+        (told.dot(&self.weights), variance.sqrt())
+    }
+
+    /// Covariances of a reading with those that are known.
+    fn told(&self, covariance: &DMatrix<f64>, k: usize) -> DVector<f64> {
+        DVector::from_fn(self.known.len(), |j, _| covariance[(k, self.known[j])])
+    }
+}
+
+/// All of them, as they are numbered.
+const PARTS: [Lacking; 4] = [Lacking::Level, Lacking::Twist, Lacking::Bow, Lacking::Drift];
+
+/// Quantities of different kinds have nothing in common.
+fn kind(quantity: MeasuredQuantity) -> u8 {
+    match quantity {
+        MeasuredQuantity::CollapseAngle => 0,
+        MeasuredQuantity::DisplacementCentreMinusEnds => 1,
+        MeasuredQuantity::RemainderCentreMinusEnds => 2,
+        other if other.is_remainder() => 3,
+        _ => 4,
+    }
+}
+
+/// Covariance of a part of the discrepancies of two readings, in the variance of a level.
+fn alike(part: Lacking, a: &At<'_>, b: &At<'_>) -> f64 {
+    if kind(a.m.quantity) != kind(b.m.quantity) {
+        return 0.0;
+    }
+    let apart = degrees(a.m.tilt.unwrap_or(0.0) - b.m.tilt.unwrap_or(0.0)) / LENGTH_DEG;
+    let families = if a.family == b.family { 1.0 } else { COMMON };
+    let over_the_tilt = families * exp(-0.5 * apart * apart);
+    match part {
+        Lacking::Level => over_the_tilt,
+        Lacking::Twist => TWISTING * a.side * b.side * over_the_tilt,
+        Lacking::Bow => BENDING * a.bow * b.bow * over_the_tilt,
+        Lacking::Drift => DRIFTING * a.order * b.order,
+    }
+}
+
+fn part(whole: &DMatrix<f64>, rows: &[usize], columns: &[usize]) -> DMatrix<f64> {
+    DMatrix::from_fn(rows.len(), columns.len(), |a, b| whole[(rows[a], columns[b])])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::critic::fixture::made;
+    use crate::critic::simulate::{Truth, World};
+    use crate::random::Streams;
+
+    /// The form of a campaign of a design whose readings of stones are off by so much (m), by their specimen's order and quantity.
+    fn form(
+        world: &World<'_>,
+        design: &Design,
+        off: &dyn Fn(Option<u32>, MeasuredQuantity) -> f64,
+    ) -> Vec<Bent> {
+        form_in(world, design, off, &|_| 2e-3)
+    }
+
+    /// The same, the base model's standard deviations of displacements (m) being these.
+    fn form_in(
+        world: &World<'_>,
+        design: &Design,
+        off: &dyn Fn(Option<u32>, MeasuredQuantity) -> f64,
+        unit: &dyn Fn(MeasuredQuantity) -> f64,
+    ) -> Vec<Bent> {
+        let joints = vec![0.0; world.inputs(None)];
+        let truth = world.truth(None, &joints);
+        let mut campaign = world.campaign(design, &truth, &Streams::new(71, 1));
+        for (specimen, seen) in design.specimens.iter().zip(&mut campaign.specimens) {
+            for (m, seen) in specimen.readings.iter().zip(seen) {
+                if let (1, Some(_), Seen::Value(value)) = (specimen.family, m.tilt, &*seen) {
+                    *seen = Seen::Value(value + off(specimen.order, m.quantity));
+                }
+            }
+        }
+        let draws: Vec<Truth> = vec![truth; 40];
+        let base = Predicted::of(world, design, &draws, 72);
+        let known: Vec<Vec<bool>> = design.specimens.iter().map(|s| vec![true; s.readings.len()]).collect();
+        let units: Vec<Vec<f64>> = design
+            .specimens
+            .iter()
+            .map(|s| {
+                s.readings.iter().map(|m| if m.tilt.is_some() { unit(m.quantity) } else { 0.01 }).collect()
+            })
+            .collect();
+        Discrepancy::new(design, &campaign, &known, &base, &units).expect("readings").form()
+    }
+
+    fn sure(bent: &&Bent) -> bool {
+        bent.value.abs() > 2.0 * bent.sd
+    }
+
+    #[test]
+    fn what_is_lacking_is_found_where_it_is_and_with_its_size() {
+        let made = made();
+        let (world, (design, _)) = (made.world(), Design::of(&made.study));
+        let bent = form(&world, &design, &|_, _| 8e-3);
+        let own: Vec<&Bent> = bent.iter().filter(|b| b.family == 1 && b.tilt.is_some()).collect();
+        assert!(!own.is_empty() && own.iter().copied().filter(sure).count() == own.len(), "{own:?}");
+        // Three readings of 1.7 mm each, and what a smooth curve shrinks it by.
+        assert!(own.iter().all(|b| (b.value - 8e-3).abs() < 3e-3), "{own:?}");
+        assert!(bent.iter().filter(|b| b.tilt.is_none()).filter(sure).count() == 0, "{bent:?}");
+        assert!(form(&world, &design, &|_, _| 0.0).iter().filter(sure).count() == 0);
+        // Who reads one point of a wall, in an order that nobody wrote down, sees no twist and no drift.
+        assert!(bent.iter().all(|b| b.part == Lacking::Level), "{bent:?}");
+    }
+
+    #[test]
+    fn a_twist_a_bow_and_a_drift_are_told_from_a_level() {
+        let made = made();
+        let (world, (mut design, _)) = (made.world(), Design::of(&made.study));
+        // Three points read to 0.3 mm, and the tests of the stones numbered 1, 4 and 7.
+        let points = [
+            MeasuredQuantity::DisplacementLeft,
+            MeasuredQuantity::DisplacementCentre,
+            MeasuredQuantity::DisplacementRight,
+        ];
+        for (index, specimen) in design.specimens.iter_mut().enumerate() {
+            specimen.order = Some((index % 3 * 3 + index / 3) as u32);
+            let readings = specimen.readings.iter().flat_map(|m| match m.tilt {
+                Some(_) => points
+                    .map(|quantity| Measurement {
+                        quantity,
+                        error: 3e-4,
+                        kind: crate::study::MeasuredKind::Exact,
+                        resolution: 0.0,
+                        ..m.clone()
+                    })
+                    .to_vec(),
+                None => vec![m.clone()],
+            });
+            specimen.readings = readings.collect();
+        }
+        let of_points = |off: [f64; 3]| {
+            move |_: Option<u32>, quantity| {
+                let at = points.iter().position(|point| *point == quantity);
+                off[at.expect("one of the three")]
+            }
+        };
+        let drifting = |order: Option<u32>, _| 2e-3 * (f64::from(order.expect("numbered")) - 4.0);
+        let of = |bent: &[Bent], part: Lacking| -> Vec<Bent> {
+            bent.iter()
+                .filter(|b| b.part == part && (b.family == 1 || part == Lacking::Drift))
+                .copied()
+                .collect()
+        };
+        let bent = form(&world, &design, &of_points([4e-3, 0.0, -4e-3]));
+        let twists = of(&bent, Lacking::Twist);
+        assert!(!twists.is_empty() && twists.iter().filter(sure).count() == twists.len(), "{twists:?}");
+        assert!(twists.iter().all(|b| (b.value - 8e-3).abs() < 2e-3), "{twists:?}");
+        assert_eq!(of(&bent, Lacking::Drift).iter().filter(sure).count(), 0, "{bent:?}");
+        assert_eq!(of(&bent, Lacking::Bow).iter().filter(sure).count(), 0, "{bent:?}");
+        let bent = form(&world, &design, &of_points([-3e-3, 6e-3, -3e-3]));
+        let bows = of(&bent, Lacking::Bow);
+        assert!(bows.len() == twists.len() && bows.iter().filter(sure).count() == bows.len(), "{bows:?}");
+        assert!(bows.iter().all(|b| (b.value - 9e-3).abs() < 2e-3 && b.quantity == points[1]), "{bows:?}");
+        assert_eq!(of(&bent, Lacking::Twist).iter().filter(sure).count(), 0, "{bent:?}");
+        // Every line is about the readings that it names, however differently they vary.
+        let vary = |quantity: MeasuredQuantity| if quantity == points[1] { 3e-3 } else { 1e-3 };
+        for off in [[-3e-3, 6e-3, -3e-3], [5e-3, 1e-3, -3e-3]] {
+            let bent = form_in(&world, &design, &of_points(off), &vary);
+            for (k, point) in points.into_iter().enumerate() {
+                let levels = of(&bent, Lacking::Level);
+                let own: Vec<&Bent> = levels.iter().filter(|b| b.quantity == point).collect();
+                assert!(!own.is_empty() && own.iter().all(|b| (b.value - off[k]).abs() < 2e-3), "{own:?}");
+            }
+            let [twist, bow] = [off[0] - off[2], off[1] - 0.5 * (off[0] + off[2])];
+            for (part, wanted) in [(Lacking::Twist, twist), (Lacking::Bow, bow)] {
+                let own = of(&bent, part);
+                assert!(!own.is_empty() && own.iter().all(|b| (b.value - wanted).abs() < 3e-3), "{own:?}");
+            }
+        }
+        let bent = form(&world, &design, &drifting);
+        let drifts: Vec<Bent> = of(&bent, Lacking::Drift);
+        // Of the displacements, and of the collapse angles.
+        assert_eq!((drifts.len(), drifts.iter().filter(sure).count()), (2, 1), "{drifts:?}");
+        let own = drifts.iter().find(|b| b.quantity != MeasuredQuantity::CollapseAngle).expect("it was read");
+        // One family in three drifts.
+        assert!(own.value > 0.3e-3 && own.value < 2.5e-3, "{own:?}");
+        assert_eq!(of(&bent, Lacking::Twist).iter().filter(sure).count(), 0, "{bent:?}");
+    }
+}

@@ -1,0 +1,15 @@
+//! Campaigns as they could have been measured: a bank of simulated walls, emulators between its points, and what is read of the
+//! walls of a design.
+
+pub mod bank;
+mod causes;
+mod design;
+mod queries;
+mod unmodelled;
+mod world;
+
+pub use bank::{BANK, Bank, DOUBT, Emulator, Held, NotThisBank, Path, Place, Plan};
+pub use causes::Causes;
+pub use design::{Campaign, Design, Seen, Specimen, Unused};
+pub use queries::Asked;
+pub use world::{Truth, World};

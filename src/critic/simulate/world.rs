@@ -1,0 +1,486 @@
+//! Campaigns that could have been measured, from a bank: truth in, readings out.
+
+#[cfg(test)]
+mod tests;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::critic::compare::of_points;
+use crate::critic::simulate::bank::{Bank, Curves, DOUBT, Emulator, HALF_WAY, NUMBERS, Path, Plan, Told};
+use crate::critic::simulate::causes::Causes;
+use crate::critic::simulate::design::{Campaign, Design};
+use crate::critic::simulate::queries::Asked;
+use crate::critic::simulate::unmodelled::Nameless;
+use crate::ensemble::{build, is_random, weight};
+use crate::math::{atan, radians, tan};
+use crate::protocol::Ends;
+use crate::random::standard_normal::quantile;
+use crate::random::{Family, Streams};
+use crate::study::{Acts, Arm, Described, MeasuredQuantity, Measurement, Mechanisms, Nuisance, Study};
+
+/// A wall differs from the expected path as one of so many of its nearest neighbours in the bank does.
+const NEIGHBOURS: usize = 20;
+
+/// What walls share is set beside what the wall so far down the list of the nearest has of its own.
+const COMMON_APART: usize = 3;
+
+/// The mechanism that has a side, uphill or downhill.
+const SIDED: &str = "lean";
+
+/// So many walls of a family are tried for one that can be built and weighed.
+const BUILT: u64 = 20;
+
+/// What is true of a simulated campaign. Scores are standard normal: where a quantity lies in its prior.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Truth {
+    /// What is wrong.
+    pub causes: Causes,
+    /// The parameters of the causes, each in its order.
+    pub parameters: Vec<f64>,
+    /// The factors on the joints in the order of [`NUISANCES`](crate::study::NUISANCES), for each kind of joint.
+    pub joints: Vec<[f64; 3]>,
+}
+
+impl Truth {
+    /// The same joints without any cause.
+    pub(in crate::critic) fn still(&self) -> Truth {
+        Truth { causes: None.into(), parameters: Vec::new(), joints: self.joints.clone() }
+    }
+}
+
+/// The walls of a family: in the base model, or what a cause changes of them.
+#[derive(Debug)]
+struct Walls {
+    emulator: Emulator,
+    /// Whether walls of one family differ.
+    random: bool,
+}
+
+/// What is known of the walls of a family before they are built.
+struct Likely {
+    /// The numbers of a path to be expected, see [`Path::adding`].
+    expected: [f64; NUMBERS],
+    /// What each may differ by, each equally likely.
+    own: Vec<[f64; NUMBERS]>,
+    /// And what all of them may besides, by the emulators' errors, each equally likely.
+    common: Vec<[f64; NUMBERS]>,
+    random: bool,
+}
+
+/// The walls of a bank that an emulator is fitted through.
+#[derive(Default)]
+struct Learnt {
+    scores: Vec<Vec<f64>>,
+    walls: Vec<[f64; NUMBERS]>,
+    random: bool,
+}
+
+/// All that campaigns of a study are simulated from.
+#[derive(Debug)]
+pub struct World<'s> {
+    study: &'s Study,
+    mechanisms: &'s [Described],
+    nuisances: &'s [Nuisance; 3],
+    /// The base model, by family.
+    base: BTreeMap<usize, Walls>,
+    /// What a cause changes, by family and cause. A point of the bank has the same stones and joints under every cause: the
+    /// difference that a cause makes is known far better than either wall, and dies away with the cause.
+    changes: BTreeMap<(usize, usize), Walls>,
+    /// Causes that were to have walls in the bank.
+    planned: BTreeSet<usize>,
+    /// Weight of a wall as it is stated, and of its stones in the mean (N), by family.
+    weights: BTreeMap<usize, [f64; 2]>,
+    /// Kind of joint of each arm: arms whose joints are stated alike have the same.
+    kinds: Vec<usize>,
+}
+
+impl<'s> World<'s> {
+    /// From a bank; `None` where a family's base model has too few walls to tell others from them. A cause that has too few, or
+    /// cannot act on a family, has there the walls of the base model.
+    pub fn new(
+        study: &'s Study,
+        mechanisms: &'s [Described],
+        nuisances: &'s [Nuisance; 3],
+        plan: &Plan,
+        bank: &Bank,
+    ) -> Option<World<'s>> {
+        let mut unchanged: BTreeMap<(usize, u64), &Path> = BTreeMap::new();
+        for (place, path) in plan.places.iter().zip(&bank.paths).filter(|(place, _)| place.cause.is_none()) {
+            unchanged.extend(path.as_ref().map(|path| ((place.family, place.point), path)));
+        }
+        let mut grouped: BTreeMap<(usize, Option<usize>), Learnt> = BTreeMap::new();
+        for ((place, path), arm) in plan.places.iter().zip(&bank.paths).zip(&plan.study.arms) {
+            let told = grouped.entry((place.family, place.cause)).or_default();
+            told.random |= is_random(arm);
+            let Some(path) = path else { continue };
+            let Some(before) = unchanged.get(&(place.family, place.point)) else { continue };
+            let joints = place.joints.into_iter().map(|score| score / DOUBT);
+            let parameters = place.parameters.iter().copied().map(quantile);
+            told.scores.push(joints.chain(varying(mechanisms, place.cause, parameters)).collect());
+            let (own, before) = (path.adding(), before.adding());
+            told.walls.push(match place.cause {
+                None => own,
+                Some(_) => std::array::from_fn(|k| own[k] - before[k]),
+            });
+        }
+        let planned: BTreeSet<usize> = grouped.keys().filter_map(|(_, cause)| *cause).collect();
+        let (mut base, mut changes) = (BTreeMap::new(), BTreeMap::new());
+        for ((family, cause), Learnt { scores, walls, random }) in grouped {
+            let walls = Emulator::fit(&scores, &walls).map(|emulator| Walls { emulator, random });
+            match cause {
+                None => drop(base.insert(family, walls?)),
+                Some(cause) => changes.extend(walls.map(|walls| ((family, cause), walls))),
+            }
+        }
+        let weighed = |family: usize| {
+            let wall = (0..BUILT).find_map(|member| build(study, family as u32, member).ok())?.wall;
+            let whole = weight(&wall);
+            Some((family, [whole, whole / wall.stones().count() as f64]))
+        };
+        let weights = base.keys().map(|&family| weighed(family)).collect::<Option<BTreeMap<_, _>>>()?;
+        Some(World {
+            study,
+            mechanisms,
+            nuisances,
+            base,
+            changes,
+            planned,
+            weights,
+            kinds: kinds(&study.arms),
+        })
+    }
+
+    /// Kinds of joints that differ in what is stated of them.
+    pub fn joint_kinds(&self) -> usize {
+        self.kinds.iter().max().map_or(0, |last| last + 1)
+    }
+
+    /// The truth with these causes, drawn from the priors, those of the joints wider by [`DOUBT`].
+    pub fn drawn(&self, causes: impl Into<Causes>, streams: &Streams) -> Truth {
+        let causes = causes.into();
+        let mut scores = streams.of("truth");
+        let scores: Vec<f64> = (0..self.inputs(causes)).map(|_| quantile(scores.uniform())).collect();
+        self.truth(causes, &scores)
+    }
+
+    /// The truth of the base model, drawn from the priors as they are stated.
+    pub fn stated(&self, streams: &Streams) -> Truth {
+        let mut truth = self.drawn(None, streams);
+        truth.joints.iter_mut().flatten().for_each(|score| *score /= DOUBT);
+        truth
+    }
+
+    /// Scores that a truth with these causes has: three for each kind of joint, then one for each parameter.
+    pub fn inputs(&self, causes: impl Into<Causes>) -> usize {
+        let parameters = causes.into().each().map(|cause| self.mechanisms[cause].parameters.len());
+        3 * self.joint_kinds() + parameters.sum::<usize>()
+    }
+
+    /// The truth with these causes and these scores; those of the joints count [`DOUBT`] times.
+    pub fn truth(&self, causes: impl Into<Causes>, scores: &[f64]) -> Truth {
+        let causes = causes.into();
+        crate::check!(scores.len() == self.inputs(causes), "{} scores for {causes:?}", scores.len());
+        let (joints, parameters) = scores.split_at(3 * self.joint_kinds());
+        let joints = joints.chunks_exact(3).map(|c| [DOUBT * c[0], DOUBT * c[1], DOUBT * c[2]]).collect();
+        Truth { causes, parameters: parameters.to_vec(), joints }
+    }
+
+    /// A campaign of a design under a truth: a pure function of these and the streams.
+    pub fn campaign(&self, design: &Design, truth: &Truth, streams: &Streams) -> Campaign {
+        let values = self.values(design, truth, streams);
+        Campaign::read(design, &values, &self.values_apart(design, truth), streams)
+    }
+
+    /// A campaign in which something is off that is in no catalogue, with joints drawn from their priors: a pure function of the
+    /// design and the streams.
+    pub fn nameless(&self, design: &Design, streams: &Streams) -> Campaign {
+        let truth = self.drawn(None, streams);
+        let values = self.values_with(design, &truth, &Nameless::drawn(design, streams), streams);
+        Campaign::read(design, &values, &self.values_apart(design, &truth), streams)
+    }
+
+    /// What the specimens of a campaign show of each reading (SI, gauges included) before the readings' errors; `None` where the
+    /// wall has fallen. The walls are those of [`Self::campaign`] with the same streams.
+    pub fn values(&self, design: &Design, truth: &Truth, streams: &Streams) -> Vec<Vec<Option<f64>>> {
+        self.values_with(design, truth, &Nameless::default(), streams)
+    }
+
+    fn values_with(
+        &self,
+        design: &Design,
+        truth: &Truth,
+        nameless: &Nameless,
+        streams: &Streams,
+    ) -> Vec<Vec<Option<f64>>> {
+        let gauge = self.gauge(truth);
+        let specimens = design.specimens.iter().enumerate();
+        specimens
+            .map(|(index, specimen)| {
+                let truth = if specimen.turned { &self.turned(truth) } else { truth };
+                let mut numbers = self.wall(specimen.family, truth, index, streams);
+                nameless.act(index, &mut numbers);
+                let curves = Curves::of(&numbers);
+                let seen = |tilt: f64, points: [f64; 3]| {
+                    nameless.shown(index, tilt, points.map(|x| gauge.reading(x)))
+                };
+                specimen.readings.iter().map(|m| shown(&curves, m, &seen)).collect()
+            })
+            .collect()
+    }
+
+    /// What is measured apart before its errors.
+    pub fn values_apart(&self, design: &Design, truth: &Truth) -> Vec<f64> {
+        design.apart.iter().map(|(family, m)| self.apart(*family, m, truth)).collect()
+    }
+
+    /// Whether walls of a family differ in the base model. Where they do not, simulated ones differ by the emulator's error alone.
+    pub fn is_random(&self, family: usize) -> bool {
+        self.base.get(&family).is_some_and(|walls| walls.random)
+    }
+
+    /// What the emulators tell of walls of the base model that they do not know, by family: share of the variance of the collapse
+    /// angle, and of (the logarithm of) how far a wall has moved half way up to it. The rest is the stones' own and the emulator's
+    /// error.
+    pub fn foretold(&self) -> Vec<(usize, [f64; 2])> {
+        let shares = |walls: &Walls| [0, HALF_WAY].map(|number| walls.emulator.explained()[number]);
+        self.base.iter().map(|(family, walls)| (*family, shares(walls))).collect()
+    }
+
+    /// Whether the ends of a family's walls are held.
+    pub fn is_held(&self, family: usize) -> bool {
+        self.study.arms[family].restraint.ends != Ends::Free
+    }
+
+    /// Weight of a stone of a family as it is stated, in the mean over a wall (N).
+    pub fn stone_weight(&self, family: usize) -> f64 {
+        self.weights[&family][1]
+    }
+
+    /// Whether a wall that is turned round stands as another one of its family does, but for a lean.
+    pub fn can_turn(&self, family: usize) -> bool {
+        self.study.arms[family].is_alike_from_both_sides()
+    }
+
+    /// What is true of a wall that is turned round: it leans the other way. The prior of that is the same for both.
+    fn turned(&self, truth: &Truth) -> Truth {
+        let sides = truth.causes.each().flat_map(|cause| {
+            let Described { name, parameters, .. } = &self.mechanisms[cause];
+            parameters.iter().map(move |_| if *name == SIDED { -1.0 } else { 1.0 })
+        });
+        let parameters = truth.parameters.iter().zip(sides).map(|(score, side)| side * score).collect();
+        Truth { parameters, ..truth.clone() }
+    }
+
+    /// The numbers of a specimen's path: one of those that a wall may have.
+    fn wall(&self, family: usize, truth: &Truth, specimen: usize, streams: &Streams) -> [f64; NUMBERS] {
+        let Likely { expected, own, common, random } = self.likely(family, truth);
+        // Walls in which nothing is drawn are alike: what is left is the emulator's error, and they share it.
+        let name = match random {
+            true => format!("stones {specimen}"),
+            false => format!("stones of family {family}"),
+        };
+        let alone = moved(&expected, &own[streams.of(&name).below(own.len())]);
+        let shared = streams.of(&format!("emulator of family {family}")).below(common.len());
+        moved(&alone, &common[shared])
+    }
+
+    /// The paths that the walls of a family may have under a truth.
+    fn likely(&self, family: usize, truth: &Truth) -> Likely {
+        let Walls { emulator, random } = &self.base[&family];
+        let joints = truth.joints[self.kinds[family]].map(|score| score / DOUBT);
+        let base = emulator.told(&joints, NEIGHBOURS);
+        let mut likely = Likely {
+            expected: base.numbers,
+            own: vec![[0.0; NUMBERS]; base.left.len()],
+            common: vec![[0.0; NUMBERS]; base.left.len()],
+            random: *random,
+        };
+        likely.leave(&base, 0);
+        for (place, (cause, parameters)) in self.parts(truth).enumerate() {
+            let Some(change) = self.changes.get(&(family, cause)) else { continue };
+            let parameters = varying(self.mechanisms, Some(cause), parameters.iter().copied());
+            let scores: Vec<f64> = joints.into_iter().chain(parameters).collect();
+            let told = change.emulator.told(&scores, NEIGHBOURS);
+            likely.expected = moved(&likely.expected, &told.numbers);
+            // The stones of the nearest wall with what the effect on a wall half way down the list is left with (a second effect: a
+            // quarter), and so on round: what is nearest in the one has no part in what is nearest in the other.
+            likely.leave(&told, told.left.len() >> (1 + place));
+            likely.random |= change.random;
+        }
+        likely
+    }
+
+    /// What the paths that a wall of a family may have under a truth, equally likely, show before errors of what is asked, path by
+    /// path; and whether walls of the family differ, or share one path. Taken for independent of each other, the mean of so many
+    /// `walls` scatters as it does where they share the emulators' errors. A wall that has fallen shows what it did last.
+    pub(in crate::critic) fn may_show(
+        &self,
+        family: usize,
+        asked: &Asked,
+        truth: &Truth,
+        walls: usize,
+    ) -> (Vec<Vec<f64>>, bool) {
+        let Likely { expected, own, common, random } = self.likely(family, truth);
+        let gauge = self.gauge(truth);
+        let times = if random { (walls as f64).sqrt() } else { 1.0 };
+        let apart = common.iter().cycle().skip(COMMON_APART);
+        let of = |(own, common): (&[f64; NUMBERS], &[f64; NUMBERS])| {
+            let left = std::array::from_fn(|k| own[k] + times * common[k]);
+            let curves = Curves::of(&moved(&expected, &left));
+            let last = curves.collapse();
+            let read = |points: &mut [f64; 3]| *points = points.map(|x| gauge.reading(x));
+            let mut points = curves.last_displacements(&asked.tilts);
+            points.iter_mut().for_each(read);
+            let mut left = Vec::new();
+            if asked.goes_back {
+                // One for each tilt.
+                let of = |tilt: &f64| curves.remainders(tilt.min(last)).unwrap_or_default();
+                left.extend(asked.tilts.iter().map(of));
+                left.iter_mut().for_each(read);
+            }
+            asked.shown(last, &points, &left)
+        };
+        (own.iter().zip(apart).map(of).collect(), random)
+    }
+
+    /// The parameters of the causes of a truth, each in its order and in the units of their keys.
+    pub fn parameters(&self, truth: &Truth) -> Vec<f64> {
+        let parameters = truth.causes.each().flat_map(|cause| &self.mechanisms[cause].parameters);
+        parameters.zip(&truth.parameters).map(|(p, score)| p.search.at_score(*score)).collect()
+    }
+
+    /// Each cause of a truth with the scores of its parameters.
+    fn parts<'t>(&self, truth: &'t Truth) -> impl Iterator<Item = (usize, &'t [f64])> {
+        let mut left = &truth.parameters[..];
+        truth.causes.each().map(move |cause| {
+            let (own, others) = left.split_at(self.mechanisms[cause].parameters.len());
+            left = others;
+            (cause, own)
+        })
+    }
+
+    /// Factors on the joints of a family (its arm's index) under a truth, in the order of
+    /// [`NUISANCES`](crate::study::NUISANCES).
+    pub fn factors(&self, truth: &Truth, family: usize) -> [f64; 3] {
+        let scores = truth.joints[self.kinds[family]];
+        std::array::from_fn(|k| self.nuisances[k].prior.at_score(scores[k]))
+    }
+
+    /// The study whose campaigns these are.
+    pub fn study(&self) -> &'s Study {
+        self.study
+    }
+
+    /// The mechanisms that its causes are indices of.
+    pub fn mechanisms(&self) -> &'s [Described] {
+        self.mechanisms
+    }
+
+    /// A parameter of a mechanism (in its key's unit), if it is among the causes.
+    fn parameter(&self, truth: &Truth, mechanism: &str, key: &str) -> Option<f64> {
+        let (cause, scores) =
+            self.parts(truth).find(|(cause, _)| self.mechanisms[*cause].name == mechanism)?;
+        let parameters = &self.mechanisms[cause].parameters;
+        let at = parameters.iter().position(|p| p.key == key)?;
+        Some(parameters[at].search.at_score(scores[at]))
+    }
+
+    /// What gauges make of the displacements.
+    fn gauge(&self, truth: &Truth) -> Mechanisms {
+        Mechanisms {
+            gauge_scale: self.parameter(truth, "gauge_scale", "factor"),
+            gauge_offset: self.parameter(truth, "gauge_offset", "offset_m"),
+            ..Mechanisms::default()
+        }
+    }
+
+    /// What is measured of a family apart from tilting: in a test on two stones the stiffness over the whole joint, and the
+    /// friction angle before it weakens; the weight of a specimen; what the gauge shows of a target that does not move.
+    pub(in crate::critic) fn apart(&self, family: usize, m: &Measurement, truth: &Truth) -> f64 {
+        let arm = &self.study.arms[family];
+        let factors = self.factors(truth, family);
+        let by = |mechanism: &str, key: &str| self.parameter(truth, mechanism, key).unwrap_or(1.0);
+        match m.quantity {
+            MeasuredQuantity::JointKn => {
+                arm.kn_points[arm.middle_point()] * factors[0] * by("contact_area", "share")
+            }
+            MeasuredQuantity::SpecimenWeight => self.weights[&family][0] * by("density", "factor"),
+            MeasuredQuantity::FixedTarget => self.gauge(truth).reading(0.0),
+            _ => atan(tan(radians(arm.joint.phi_deg.mean() * factors[1])) * by("friction", "factor")),
+        }
+    }
+
+    /// Causes that cannot be told of, as too few of their walls in the bank came to a fall.
+    pub fn too_few(&self) -> Vec<usize> {
+        self.planned.iter().copied().filter(|cause| !self.has_walls(*cause)).collect()
+    }
+
+    /// The causes that a diagnosis can tell of: those with walls of their own in some family, and those that act on readings.
+    pub fn causes(&self) -> Vec<usize> {
+        let told = |(index, m): &(usize, &Described)| m.acts == Acts::Readings || self.has_walls(*index);
+        self.mechanisms.iter().enumerate().filter(told).map(|(index, _)| index).collect()
+    }
+
+    /// Whether the walls that a cause changes are known in some family.
+    fn has_walls(&self, cause: usize) -> bool {
+        self.changes.keys().any(|(_, own)| *own == cause)
+    }
+}
+
+/// What a wall shows of a reading before its errors; `None` where it has fallen. `seen` is what gauges make of the three points at a
+/// tilt.
+fn shown(wall: &Curves, m: &Measurement, seen: &impl Fn(f64, [f64; 3]) -> [f64; 3]) -> Option<f64> {
+    if m.quantity == MeasuredQuantity::CollapseAngle {
+        return Some(wall.collapse());
+    }
+    let tilt = m.tilt?;
+    let points = match m.quantity.is_remainder() {
+        false => wall.displacements(tilt),
+        true => wall.remainders(tilt),
+    };
+    of_points(m.quantity, seen(tilt, points?))
+}
+
+impl Likely {
+    /// Adds what an emulator leaves, from the wall at `first` on.
+    fn leave(&mut self, told: &Told<'_>, first: usize) {
+        let count = told.left.len() as f64;
+        let mean: [f64; NUMBERS] =
+            std::array::from_fn(|k| told.left.iter().fold(0.0, |sum, left| sum + left[k]) / count);
+        let [alone, shared] = [(1.0 - told.common).sqrt(), told.common.sqrt()];
+        let left = told.left.iter().cycle().skip(first);
+        for ((own, common), left) in self.own.iter_mut().zip(&mut self.common).zip(left) {
+            for k in 0..NUMBERS {
+                let off = left[k] - mean[k];
+                own[k] += mean[k] + alone * off;
+                common[k] += shared * off;
+            }
+        }
+    }
+}
+
+/// What is expected of a wall and what it differs by.
+fn moved(expected: &[f64; NUMBERS], left: &[f64; NUMBERS]) -> [f64; NUMBERS] {
+    std::array::from_fn(|k| expected[k] + left[k])
+}
+
+/// Scores of the parameters that vary.
+fn varying(mechanisms: &[Described], cause: Option<usize>, scores: impl Iterator<Item = f64>) -> Vec<f64> {
+    let parameters = cause.map_or(&[][..], |index| &mechanisms[index].parameters);
+    let varies = |prior: &Family| !matches!(prior, Family::Constant { .. });
+    parameters.iter().zip(scores).filter(|(p, _)| varies(&p.search)).map(|(_, score)| score).collect()
+}
+
+/// Numbers the kinds of joints.
+fn kinds(arms: &[Arm]) -> Vec<usize> {
+    let mut seen: Vec<&Arm> = Vec::new();
+    arms.iter()
+        .map(|arm| {
+            let alike = |other: &&Arm| other.joint == arm.joint && other.kn_points == arm.kn_points;
+            seen.iter().position(alike).unwrap_or_else(|| {
+                seen.push(arm);
+                seen.len() - 1
+            })
+        })
+        .collect()
+}

@@ -1,0 +1,98 @@
+//! Who judges campaigns of one design: all that is learnt from simulation beforehand, whatever was measured.
+
+use rayon::prelude::*;
+
+use crate::critic::causes::{Ranked, Ranking};
+use crate::critic::check::{Alike, Check};
+use crate::critic::discrepancy::{Reference, Wrong};
+use crate::critic::simulate::{Campaign, Design, World};
+use crate::critic::verdict::detection::Alarm;
+use crate::critic::verdict::limits::Limits;
+use crate::random::Streams;
+
+/// Campaigns that are simulated to learn from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Effort {
+    /// Of the base model, for what is wrong and once more for how often that is so by chance.
+    pub reference: u64,
+    /// Of each cause and of nameless effects, for the ranking.
+    pub training: u64,
+}
+
+impl Default for Effort {
+    fn default() -> Self {
+        Effort { reference: 2000, training: 2400 }
+    }
+}
+
+/// All that a design's campaigns are judged by.
+#[derive(Debug)]
+pub struct Judge<'w> {
+    /// What campaigns are simulated from.
+    pub world: &'w World<'w>,
+    /// What is read.
+    pub design: Design,
+    /// The base model as the design sees it.
+    pub reference: Reference,
+    /// The causes as it can tell them apart.
+    pub ranking: Ranking,
+    alarm: Alarm,
+    alike: Alike,
+}
+
+/// What is seen of a campaign before any cause is looked at closely.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Seeming {
+    /// What is off.
+    pub wrong: Wrong,
+    /// The causes with their probabilities.
+    pub ranked: Ranked,
+    /// Share of campaigns without any effect that surprise as much.
+    pub p_value: f64,
+    /// The same of each way of looking alone: the furthest single number, all numbers together, likeness to a cause.
+    pub looks: [f64; 3],
+}
+
+impl Seeming {
+    /// The cause that would be named if nothing else spoke against it.
+    pub fn named(&self, limits: &Limits) -> Option<usize> {
+        self.ranked.named(limits.named).filter(|_| self.p_value < limits.sure)
+    }
+
+    /// Whether a pair of causes may be named at all.
+    pub(super) fn allows_pair(&self, limits: &Limits) -> bool {
+        self.p_value < limits.sure && self.ranked.nameless <= limits.pair.nameless
+    }
+}
+
+impl<'w> Judge<'w> {
+    /// Learns from simulated campaigns; a pure function of its arguments. `None` where nothing can be told.
+    pub fn trained(world: &'w World<'w>, design: &Design, effort: Effort, seed: u64) -> Option<Judge<'w>> {
+        let reference = Reference::new(world, design, effort.reference, seed)?;
+        let ranking = Ranking::trained(world, design, &reference, effort.training, seed.wrapping_add(1));
+        let chance = seed.wrapping_add(2);
+        let one = |k: u64| {
+            let streams = Streams::new(chance, k);
+            let campaign = world.campaign(design, &world.drawn(None, &streams), &streams);
+            let wrong = reference.judge(design, &campaign);
+            let ranked = ranking.of(&wrong);
+            (wrong, ranked)
+        };
+        let campaigns: Vec<(Wrong, Ranked)> = (0..effort.reference).into_par_iter().map(one).collect();
+        let alarm = Alarm::of(&campaigns);
+        Some(Judge { world, design: design.clone(), reference, ranking, alarm, alike: Alike::default() })
+    }
+
+    /// The posterior predictive check of causes on the design's campaigns.
+    pub(in crate::critic) fn check(&self) -> Check<'_> {
+        Check { world: self.world, design: &self.design, reference: &self.reference, alike: &self.alike }
+    }
+
+    /// How a campaign seems.
+    pub fn seeming(&self, campaign: &Campaign) -> Seeming {
+        let wrong = self.reference.judge(&self.design, campaign);
+        let ranked = self.ranking.of(&wrong);
+        let (p_value, looks) = self.alarm.p_values(&wrong, &ranked);
+        Seeming { wrong, ranked, p_value, looks }
+    }
+}

@@ -1,0 +1,15 @@
+//! What is said of a campaign, and what that rests on.
+
+mod detection;
+mod diagnosis;
+mod examine;
+mod excluded;
+mod judge;
+mod limits;
+#[cfg(test)]
+mod tests;
+
+pub use diagnosis::{Diagnosis, LookedAt, Verdict};
+pub use excluded::Excluded;
+pub use judge::{Effort, Judge, Seeming};
+pub use limits::{Limits, MOST_AMBIGUOUS, PairLimits};
