@@ -3,7 +3,7 @@
 //! The words are those of the first self-tests that were kept. They are part of the file: other words would make every kept
 //! self-test one of another judge. So they are written out here, whatever the types and their fields are called.
 
-use crate::critic::{Bent, Diagnosis, Limits, LookedAt, Ranked, Seeming};
+use crate::critic::{ComponentEstimate, Diagnosis, Limits, LookedAt, Ranked, Seeming};
 
 /// The limits of a verdict.
 pub(super) fn limits(of: &Limits) -> String {
@@ -28,20 +28,20 @@ fn diagnosis(of: &Diagnosis) -> String {
         seeming(&of.seeming),
         listed(&of.looked_at, looked_at),
         listed(&of.pairs, looked_at),
-        listed(&of.form, bent),
+        listed(&of.components, estimate),
         of.verdict
     )
 }
 
 fn seeming(of: &Seeming) -> String {
-    let wrong = format!(
+    let discrepancy = format!(
         "Wrong {{ excess: {:?}, joints: {:?}, distance: {:?} }}",
-        of.wrong.excess, of.wrong.joints, of.wrong.distance
+        of.discrepancy.excess, of.discrepancy.joints, of.discrepancy.distance
     );
     let Ranked { causes, nameless, set } = &of.ranked;
     let ranked = format!("Ranked {{ causes: {causes:?}, nameless: {nameless:?}, set: {set:?} }}");
     format!(
-        "Seeming {{ wrong: {wrong}, ranked: {ranked}, p_value: {:?}, looks: {:?} }}",
+        "Seeming {{ wrong: {discrepancy}, ranked: {ranked}, p_value: {:?}, looks: {:?} }}",
         of.p_value, of.looks
     )
 }
@@ -53,7 +53,7 @@ fn looked_at<C: std::fmt::Debug>(of: &LookedAt<C>) -> String {
     )
 }
 
-fn bent(of: &Bent) -> String {
+fn estimate(of: &ComponentEstimate) -> String {
     format!(
         "Bent {{ part: {:?}, family: {:?}, quantity: {:?}, tilt: {:?}, value: {:?}, sd: {:?} }}",
         of.part, of.family, of.quantity, of.tilt, of.value, of.sd

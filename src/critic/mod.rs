@@ -29,8 +29,8 @@ pub use causes::{COVERED, Evidence, Ranked, Ranking, evidence};
 pub use compare::{Beside, Difference, Measured, Ours, Simulated, Walls, compare, log_likelihood, simulated};
 pub use conflict::log_weight;
 pub use discrepancy::{
-    Band, Baseline, Bent, Contrast, Expected, Feature, Group, Lacking, Parts, Reference, Residual, Residuals,
-    Scale, Side, Wrong, features,
+    Band, Baseline, Component, ComponentEstimate, Contrast, Discrepancy, Expected, Feature, Group, Parts,
+    Reference, Residual, Residuals, Scale, Side, features,
 };
 pub use extend::{Curve, DRAWS, Extension, FamilyCurves, Known, base_curves, cause_curves, extension};
 #[cfg(test)]

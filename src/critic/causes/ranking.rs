@@ -1,4 +1,4 @@
-//! Which cause explains what is wrong? Networks trained on campaigns that the causes would have shown, and that [nameless] effects
+//! Which cause explains the discrepancy? Networks trained on campaigns that the causes would have shown, and that [nameless] effects
 //! would, and sets of causes that hold the true one nine times in ten, whichever it is.
 //!
 //! [nameless]: crate::critic::World::nameless
@@ -6,7 +6,7 @@
 use rayon::prelude::*;
 
 use crate::critic::causes::network::{Example, Network};
-use crate::critic::discrepancy::{Reference, Wrong};
+use crate::critic::discrepancy::{Discrepancy, Reference};
 use crate::critic::simulate::{Design, World};
 use crate::math::ln;
 use crate::random::Streams;
@@ -43,7 +43,7 @@ pub struct Ranked {
     /// Probability of something that is in no catalogue, with which all are 1.
     pub nameless: f64,
     /// The causes that cannot be put aside: for each cause, [`COVERED`] of its campaigns have it in here. The base model is not
-    /// asked: whether anything is wrong is judged apart.
+    /// in it: whether there is a discrepancy is tested apart.
     pub set: Vec<usize>,
 }
 
@@ -65,7 +65,7 @@ impl Ranking {
             let streams = Streams::new(seed, k);
             let of = |cause: &Option<usize>| world.campaign(design, &world.drawn(*cause, &streams), &streams);
             let all = causes.iter().map(of).chain(std::iter::once(world.nameless(design, &streams)));
-            all.map(|campaign| inputs(&reference.judge(design, &campaign))).zip(0..).collect()
+            all.map(|campaign| inputs(&reference.discrepancy(design, &campaign))).zip(0..).collect()
         };
         let all: Vec<Vec<Example>> = (0..count).into_par_iter().map(shown).collect();
         let (mut examples, mut held, mut kept): (Vec<Example>, Vec<Example>, Vec<Example>) =
@@ -103,9 +103,9 @@ impl Ranking {
         &self.causes
     }
 
-    /// Ranks the causes of what is wrong with a campaign.
-    pub fn of(&self, wrong: &Wrong) -> Ranked {
-        let (shares, nameless) = self.shares(&inputs(wrong));
+    /// Ranks the causes of a discrepancy.
+    pub fn of(&self, discrepancy: &Discrepancy) -> Ranked {
+        let (shares, nameless) = self.shares(&inputs(discrepancy));
         let inside = self.causes.iter().zip(&shares).zip(&self.least);
         let set = inside.filter(|((_, share), least)| share >= least).filter_map(|((cause, _), _)| *cause);
         let set = set.collect();
@@ -159,8 +159,8 @@ impl Ranked {
 }
 
 /// What the network sees: every excess and the scores of the joints, large ones by their logarithm.
-pub fn inputs(wrong: &Wrong) -> Vec<f64> {
+pub fn inputs(discrepancy: &Discrepancy) -> Vec<f64> {
     let tamed = |x: f64| x.signum() * ln(1.0 + x.abs());
-    let excess = wrong.excess.values().map(|x| tamed(x.unwrap_or(0.0)));
-    excess.chain(wrong.joints.iter().flatten().map(|x| tamed(*x))).collect()
+    let excess = discrepancy.excess.values().map(|x| tamed(x.unwrap_or(0.0)));
+    excess.chain(discrepancy.joints.iter().flatten().map(|x| tamed(*x))).collect()
 }

@@ -91,7 +91,7 @@ impl Own {
 impl Looks {
     fn of(design: &Design, reference: &Reference, campaign: &Campaign) -> Looks {
         Looks {
-            inputs: inputs(&reference.judge(design, campaign)),
+            inputs: inputs(&reference.discrepancy(design, campaign)),
             readings: reference.scale.readings(design, campaign),
         }
     }

@@ -84,7 +84,7 @@ impl<'d> PriorPredictive<'d> {
 
 /// What the ranking sees of a campaign.
 fn features(design: &Design, reference: &Reference, campaign: &Campaign) -> DVector<f64> {
-    DVector::from_vec(inputs(&reference.judge(design, campaign)))
+    DVector::from_vec(inputs(&reference.discrepancy(design, campaign)))
 }
 
 fn moments(seen: &[DVector<f64>]) -> (DVector<f64>, DMatrix<f64>) {

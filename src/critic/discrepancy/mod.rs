@@ -13,6 +13,6 @@ pub use features::{Contrast, Feature, Scale, features};
 #[cfg(test)]
 pub use predicted::normal_score;
 pub use predicted::{Predicted, Score};
-pub use reference::{Reference, Wrong};
+pub use reference::{Discrepancy, Reference};
 pub use residual::{Band, Baseline, Expected, Group, Parts, Residual, Residuals, Side};
-pub use smooth::{Bent, Discrepancy, Lacking};
+pub use smooth::{Component, ComponentEstimate, SmoothDiscrepancy};

@@ -1,4 +1,4 @@
-//! What is wrong beyond error and natural scatter: the features that joints within their priors do not explain.
+//! The discrepancy beyond error and natural scatter: the features that joints within their priors do not explain.
 
 use std::collections::BTreeMap;
 
@@ -40,7 +40,7 @@ const LEAST_SPREAD: f64 = 0.3;
 
 /// What is off in a campaign.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Wrong {
+pub struct Discrepancy {
     /// The excess of every feature over what the best joints explain, in standard deviations of campaigns without effect; `None`
     /// where the campaign does not show the feature.
     pub excess: BTreeMap<Feature, Option<f64>>,
@@ -50,7 +50,7 @@ pub struct Wrong {
     pub distance: f64,
 }
 
-impl Wrong {
+impl Discrepancy {
     /// The largest excess, without its sign.
     pub fn largest(&self) -> f64 {
         self.excess.values().flatten().fold(0.0, |largest, x| largest.max(x.abs()))
@@ -59,7 +59,7 @@ impl Wrong {
 
 impl Reference {
     /// From `count` campaigns of the base model with the joints drawn from their priors; a pure function of the world, the design
-    /// and the seed. `None` where nothing can be told.
+    /// and the seed. `None` where most campaigns show no feature.
     pub fn new(world: &World<'_>, design: &Design, count: u64, seed: u64) -> Option<Reference> {
         let one = |campaign: u64| -> (Truth, Campaign) {
             let streams = Streams::new(seed, campaign);
@@ -117,10 +117,10 @@ impl Reference {
         Some(reference)
     }
 
-    /// What is wrong with a campaign of the same design.
-    pub fn judge(&self, design: &Design, campaign: &Campaign) -> Wrong {
+    /// How far a campaign of the same design is off.
+    pub fn discrepancy(&self, design: &Design, campaign: &Campaign) -> Discrepancy {
         let Excess { by_feature, scores, distance } = self.excess(&features(design, &self.scale, campaign));
-        Wrong {
+        Discrepancy {
             excess: self
                 .features
                 .iter()

@@ -1,6 +1,6 @@
-//! A discrepancy that is free to be anything smooth (Kennedy and O'Hagan 2001): Gaussian processes over the tilt for every quantity
+//! A model discrepancy that may be anything smooth (Kennedy and O'Hagan 2001): Gaussian processes over the tilt for every quantity
 //! and for what the left end has more than the right and the centre more than the ends, in part common to all families, and a straight
-//! line over the order of the tests. It says which form something has that no cause explains, and how much there is to be gained.
+//! line over the order of the tests. It shows the components of what no cause explains, and how much there is to be gained.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
@@ -44,8 +44,8 @@ struct At<'d> {
     order: f64,
 }
 
-/// The discrepancy as far as the known readings tell it.
-pub struct Discrepancy<'d> {
+/// The discrepancy, given the known readings.
+pub struct SmoothDiscrepancy<'d> {
     all: Vec<At<'d>>,
     known: Vec<usize>,
     /// Covariances of the discrepancy at all readings, part by part, in units of its variance.
@@ -61,9 +61,9 @@ pub struct Discrepancy<'d> {
     half: f64,
 }
 
-/// The parts of a discrepancy.
+/// The components of a discrepancy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Lacking {
+pub enum Component {
     /// Of readings as they are, whatever the order of the tests.
     Level,
     /// Of the left end less the right one.
@@ -74,11 +74,11 @@ pub enum Lacking {
     Drift,
 }
 
-/// A part of the discrepancy at a reading of a family.
+/// A component of the discrepancy at a reading of a family.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bent {
-    /// Which part.
-    pub part: Lacking,
+pub struct ComponentEstimate {
+    /// Which component.
+    pub part: Component,
     /// Index of the family's arm.
     pub family: usize,
     /// What was read; of a twist the left end's displacement, of a bow the centre's.
@@ -91,16 +91,16 @@ pub struct Bent {
     pub sd: f64,
 }
 
-impl<'d> Discrepancy<'d> {
+impl<'d> SmoothDiscrepancy<'d> {
     /// From the known readings of a campaign, what the base model expects of all of them, and its standard deviations of the
-    /// readings. A bound tells it nothing. `None` where nothing is known.
+    /// readings. A bound adds nothing. `None` where nothing is known.
     pub fn new(
         design: &'d Design,
         campaign: &Campaign,
         known: &[Vec<bool>],
         base: &Predicted,
         units: &[Vec<f64>],
-    ) -> Option<Discrepancy<'d>> {
+    ) -> Option<SmoothDiscrepancy<'d>> {
         let mut all: Vec<At<'d>> = Vec::new();
         let orders = || design.specimens.iter().filter_map(|specimen| specimen.order).map(f64::from);
         let (first, last) = (orders().fold(f64::INFINITY, f64::min), orders().fold(0.0, f64::max));
@@ -112,8 +112,8 @@ impl<'d> Discrepancy<'d> {
                     continue;
                 }
                 let mean = stats::mean(&base.reading(specimen, reading))?;
-                let (unit, told) = (units[specimen][reading], seen != Seen::Beyond);
-                let known = known[specimen][reading] && told;
+                let (unit, is_value) = (units[specimen][reading], seen != Seen::Beyond);
+                let known = known[specimen][reading] && is_value;
                 let (side, bow) = match m.quantity {
                     MeasuredQuantity::DisplacementLeft | MeasuredQuantity::RemainderLeft => (1.0, -0.5),
                     MeasuredQuantity::DisplacementRight | MeasuredQuantity::RemainderRight => (-1.0, -0.5),
@@ -132,8 +132,8 @@ impl<'d> Discrepancy<'d> {
         let mut walls = columns.transpose() * &columns / (base.walls.len() as f64 - 1.0);
         for (k, at) in all.iter().enumerate() {
             walls[(k, k)] += reading_variance(at.m) / (at.unit * at.unit) + NUGGET;
-            let alike = |other: &At<'_>| other.m.quantity.instrument() == at.m.quantity.instrument();
-            for (j, other) in all.iter().enumerate().filter(|(_, other)| alike(other)) {
+            let shares_error = |other: &At<'_>| other.m.quantity.instrument() == at.m.quantity.instrument();
+            for (j, other) in all.iter().enumerate().filter(|(_, other)| shares_error(other)) {
                 walls[(k, j)] += at.m.common_error / at.unit * (other.m.common_error / other.unit);
             }
         }
@@ -141,8 +141,8 @@ impl<'d> Discrepancy<'d> {
         if places.is_empty() {
             return None;
         }
-        let smooth =
-            PARTS.map(|part| DMatrix::from_fn(all.len(), all.len(), |a, b| alike(part, &all[a], &all[b])));
+        let smooth = PARTS
+            .map(|part| DMatrix::from_fn(all.len(), all.len(), |a, b| covariance(part, &all[a], &all[b])));
         let off = DVector::from_fn(places.len(), |k, _| {
             let at = &all[places[k]];
             (at.seen.told(at.m).unwrap_or(at.mean) - at.mean) / at.unit
@@ -156,7 +156,7 @@ impl<'d> Discrepancy<'d> {
             Some((-0.5 * off.dot(&weights) - half, variance, whole, factored, weights))
         });
         let (_, variance, whole, factored, weights) = tried.max_by(|a, b| a.0.total_cmp(&b.0))?;
-        Some(Discrepancy { all, known: places, smooth, variance, whole, factored, weights, half })
+        Some(SmoothDiscrepancy { all, known: places, smooth, variance, whole, factored, weights, half })
     }
 
     /// How the readings that were not known are predicted, by specimen and reading.
@@ -165,9 +165,10 @@ impl<'d> Discrepancy<'d> {
         let out = (0..self.all.len()).filter(|&k| !self.all[k].known);
         out.filter_map(|k| {
             let at = &self.all[k];
-            let told = self.told(&self.whole, k);
-            let variance = (self.whole[(k, k)] - told.dot(&self.factored.solve(&told))).max(NUGGET);
-            let mean = at.mean + at.unit * told.dot(&self.weights);
+            let with_known = self.with_known(&self.whole, k);
+            let variance =
+                (self.whole[(k, k)] - with_known.dot(&self.factored.solve(&with_known))).max(NUGGET);
+            let mean = at.mean + at.unit * with_known.dot(&self.weights);
             let score = normal_score(at.m, at.seen, mean, at.unit * variance.sqrt(), at.unit)?;
             Some((at.place, score))
         })
@@ -177,8 +178,8 @@ impl<'d> Discrepancy<'d> {
     /// The discrepancy itself: of each quantity once for each family and tilt that was read, its twist once for each at which both
     /// ends were, its bow at which the centre and an end were; and of each kind of quantity its drift at the first reading, where the
     /// order of the tests is known. A drift goes as the readings' standard deviations do, and so is another one at another reading.
-    pub fn form(&self) -> Vec<Bent> {
-        let mut form: Vec<Bent> = Vec::new();
+    pub fn components(&self) -> Vec<ComponentEstimate> {
+        let mut components: Vec<ComponentEstimate> = Vec::new();
         for (k, at) in self.all.iter().enumerate().filter(|(_, at)| at.seen != Seen::Beyond) {
             let (family, quantity, tilt) = (at.family, at.m.quantity, at.m.tilt);
             let beside = |is: fn(&At<'_>) -> bool| {
@@ -189,41 +190,42 @@ impl<'d> Discrepancy<'d> {
                         && is(other)
                 })
             };
-            let mut add = |part: Lacking, of: &[(usize, f64)]| {
-                let told = |bent: &Bent| {
-                    let same = (bent.family, bent.tilt, bent.quantity) == (family, tilt, quantity);
-                    bent.part == part
-                        && (same || part == Lacking::Drift && kind(bent.quantity) == kind(quantity))
+            let mut add = |part: Component, of: &[(usize, f64)]| {
+                let is_there = |estimate: &ComponentEstimate| {
+                    let same =
+                        (estimate.family, estimate.tilt, estimate.quantity) == (family, tilt, quantity);
+                    estimate.part == part
+                        && (same || part == Component::Drift && kind(estimate.quantity) == kind(quantity))
                 };
-                if !form.iter().any(told) {
+                if !components.iter().any(is_there) {
                     let (value, sd) =
-                        self.lacking(if part == Lacking::Drift { &PARTS[3..] } else { &PARTS[..3] }, of);
-                    form.push(Bent { part, family, quantity, tilt, value, sd });
+                        self.estimate(if part == Component::Drift { &PARTS[3..] } else { &PARTS[..3] }, of);
+                    components.push(ComponentEstimate { part, family, quantity, tilt, value, sd });
                 }
             };
-            add(Lacking::Level, &[(k, 1.0)]);
+            add(Component::Level, &[(k, 1.0)]);
             let ends: Vec<usize> = [beside(|other| other.side > 0.0), beside(|other| other.side < 0.0)]
                 .into_iter()
                 .flatten()
                 .collect();
             match ends[..] {
-                [_, right] if at.side > 0.0 => add(Lacking::Twist, &[(k, 1.0), (right, -1.0)]),
+                [_, right] if at.side > 0.0 => add(Component::Twist, &[(k, 1.0), (right, -1.0)]),
                 [_, ..] if at.bow > 0.0 => {
                     let share = -1.0 / ends.len() as f64;
                     let ends = ends.iter().map(|end| (*end, share));
-                    add(Lacking::Bow, &std::iter::once((k, 1.0)).chain(ends).collect::<Vec<_>>());
+                    add(Component::Bow, &std::iter::once((k, 1.0)).chain(ends).collect::<Vec<_>>());
                 }
                 _ => {}
             }
             if at.order.abs() == 1.0 && self.half > 0.0 {
-                add(Lacking::Drift, &[(k, at.order / self.half)]);
+                add(Component::Drift, &[(k, at.order / self.half)]);
             }
         }
-        form
+        components
     }
 
-    /// Some parts of the discrepancy together, summed over readings that each count so often, and the sum's standard deviation (SI).
-    fn lacking(&self, parts: &[Lacking], of: &[(usize, f64)]) -> (f64, f64) {
+    /// Some components of the discrepancy together, summed over readings that each count so often, and the sum's standard deviation (SI).
+    fn estimate(&self, parts: &[Component], of: &[(usize, f64)]) -> (f64, f64) {
         let of: Vec<(usize, f64)> = of.iter().map(|(k, times)| (*k, times * self.all[*k].unit)).collect();
         let with = |other: usize| {
             let one = |(k, times): &(usize, f64)| {
@@ -231,20 +233,20 @@ impl<'d> Discrepancy<'d> {
             };
             self.variance * of.iter().fold(0.0, |sum, own| sum + one(own))
         };
-        let told = DVector::from_fn(self.known.len(), |j, _| with(self.known[j]));
+        let with_known = DVector::from_fn(self.known.len(), |j, _| with(self.known[j]));
         let before = of.iter().fold(0.0, |sum, (k, times)| sum + times * with(*k));
-        let variance = (before - told.dot(&self.factored.solve(&told))).max(0.0);
-        (told.dot(&self.weights), variance.sqrt())
+        let variance = (before - with_known.dot(&self.factored.solve(&with_known))).max(0.0);
+        (with_known.dot(&self.weights), variance.sqrt())
     }
 
     /// Covariances of a reading with those that are known.
-    fn told(&self, covariance: &DMatrix<f64>, k: usize) -> DVector<f64> {
+    fn with_known(&self, covariance: &DMatrix<f64>, k: usize) -> DVector<f64> {
         DVector::from_fn(self.known.len(), |j, _| covariance[(k, self.known[j])])
     }
 }
 
 /// All of them, as they are numbered.
-const PARTS: [Lacking; 4] = [Lacking::Level, Lacking::Twist, Lacking::Bow, Lacking::Drift];
+const PARTS: [Component; 4] = [Component::Level, Component::Twist, Component::Bow, Component::Drift];
 
 /// Quantities of different kinds have nothing in common.
 fn kind(quantity: MeasuredQuantity) -> u8 {
@@ -257,8 +259,8 @@ fn kind(quantity: MeasuredQuantity) -> u8 {
     }
 }
 
-/// Covariance of a part of the discrepancies of two readings, in the variance of a level.
-fn alike(part: Lacking, a: &At<'_>, b: &At<'_>) -> f64 {
+/// Covariance of a component of the discrepancies of two readings, in the variance of a level.
+fn covariance(part: Component, a: &At<'_>, b: &At<'_>) -> f64 {
     if kind(a.m.quantity) != kind(b.m.quantity) {
         return 0.0;
     }
@@ -266,10 +268,10 @@ fn alike(part: Lacking, a: &At<'_>, b: &At<'_>) -> f64 {
     let families = if a.family == b.family { 1.0 } else { COMMON };
     let over_the_tilt = families * exp(-0.5 * apart * apart);
     match part {
-        Lacking::Level => over_the_tilt,
-        Lacking::Twist => TWISTING * a.side * b.side * over_the_tilt,
-        Lacking::Bow => BENDING * a.bow * b.bow * over_the_tilt,
-        Lacking::Drift => DRIFTING * a.order * b.order,
+        Component::Level => over_the_tilt,
+        Component::Twist => TWISTING * a.side * b.side * over_the_tilt,
+        Component::Bow => BENDING * a.bow * b.bow * over_the_tilt,
+        Component::Drift => DRIFTING * a.order * b.order,
     }
 }
 
@@ -285,21 +287,21 @@ mod tests {
     use crate::random::Streams;
 
     /// The form of a campaign of a design whose readings of stones are off by so much (m), by their specimen's order and quantity.
-    fn form(
+    fn components(
         world: &World<'_>,
         design: &Design,
         off: &dyn Fn(Option<u32>, MeasuredQuantity) -> f64,
-    ) -> Vec<Bent> {
-        form_in(world, design, off, &|_| 2e-3)
+    ) -> Vec<ComponentEstimate> {
+        components_in(world, design, off, &|_| 2e-3)
     }
 
     /// The same, the base model's standard deviations of displacements (m) being these.
-    fn form_in(
+    fn components_in(
         world: &World<'_>,
         design: &Design,
         off: &dyn Fn(Option<u32>, MeasuredQuantity) -> f64,
         unit: &dyn Fn(MeasuredQuantity) -> f64,
-    ) -> Vec<Bent> {
+    ) -> Vec<ComponentEstimate> {
         let joints = vec![0.0; world.inputs(None)];
         let truth = world.truth(None, &joints);
         let mut campaign = world.campaign(design, &truth, &Streams::new(71, 1));
@@ -320,26 +322,27 @@ mod tests {
                 s.readings.iter().map(|m| if m.tilt.is_some() { unit(m.quantity) } else { 0.01 }).collect()
             })
             .collect();
-        Discrepancy::new(design, &campaign, &known, &base, &units).expect("readings").form()
+        SmoothDiscrepancy::new(design, &campaign, &known, &base, &units).expect("readings").components()
     }
 
-    fn sure(bent: &&Bent) -> bool {
-        bent.value.abs() > 2.0 * bent.sd
+    fn sure(estimate: &&ComponentEstimate) -> bool {
+        estimate.value.abs() > 2.0 * estimate.sd
     }
 
     #[test]
     fn what_is_lacking_is_found_where_it_is_and_with_its_size() {
         let made = made();
         let (world, (design, _)) = (made.world(), Design::of(&made.study));
-        let bent = form(&world, &design, &|_, _| 8e-3);
-        let own: Vec<&Bent> = bent.iter().filter(|b| b.family == 1 && b.tilt.is_some()).collect();
+        let estimates = components(&world, &design, &|_, _| 8e-3);
+        let own: Vec<&ComponentEstimate> =
+            estimates.iter().filter(|b| b.family == 1 && b.tilt.is_some()).collect();
         assert!(!own.is_empty() && own.iter().copied().filter(sure).count() == own.len(), "{own:?}");
         // Three readings of 1.7 mm each, and what a smooth curve shrinks it by.
         assert!(own.iter().all(|b| (b.value - 8e-3).abs() < 3e-3), "{own:?}");
-        assert!(bent.iter().filter(|b| b.tilt.is_none()).filter(sure).count() == 0, "{bent:?}");
-        assert!(form(&world, &design, &|_, _| 0.0).iter().filter(sure).count() == 0);
+        assert!(estimates.iter().filter(|b| b.tilt.is_none()).filter(sure).count() == 0, "{estimates:?}");
+        assert!(components(&world, &design, &|_, _| 0.0).iter().filter(sure).count() == 0);
         // Who reads one point of a wall, in an order that nobody wrote down, sees no twist and no drift.
-        assert!(bent.iter().all(|b| b.part == Lacking::Level), "{bent:?}");
+        assert!(estimates.iter().all(|b| b.part == Component::Level), "{estimates:?}");
     }
 
     #[test]
@@ -375,45 +378,46 @@ mod tests {
             }
         };
         let drifting = |order: Option<u32>, _| 2e-3 * (f64::from(order.expect("numbered")) - 4.0);
-        let of = |bent: &[Bent], part: Lacking| -> Vec<Bent> {
-            bent.iter()
-                .filter(|b| b.part == part && (b.family == 1 || part == Lacking::Drift))
+        let of = |estimates: &[ComponentEstimate], part: Component| -> Vec<ComponentEstimate> {
+            estimates
+                .iter()
+                .filter(|b| b.part == part && (b.family == 1 || part == Component::Drift))
                 .copied()
                 .collect()
         };
-        let bent = form(&world, &design, &of_points([4e-3, 0.0, -4e-3]));
-        let twists = of(&bent, Lacking::Twist);
+        let estimates = components(&world, &design, &of_points([4e-3, 0.0, -4e-3]));
+        let twists = of(&estimates, Component::Twist);
         assert!(!twists.is_empty() && twists.iter().filter(sure).count() == twists.len(), "{twists:?}");
         assert!(twists.iter().all(|b| (b.value - 8e-3).abs() < 2e-3), "{twists:?}");
-        assert_eq!(of(&bent, Lacking::Drift).iter().filter(sure).count(), 0, "{bent:?}");
-        assert_eq!(of(&bent, Lacking::Bow).iter().filter(sure).count(), 0, "{bent:?}");
-        let bent = form(&world, &design, &of_points([-3e-3, 6e-3, -3e-3]));
-        let bows = of(&bent, Lacking::Bow);
+        assert_eq!(of(&estimates, Component::Drift).iter().filter(sure).count(), 0, "{estimates:?}");
+        assert_eq!(of(&estimates, Component::Bow).iter().filter(sure).count(), 0, "{estimates:?}");
+        let estimates = components(&world, &design, &of_points([-3e-3, 6e-3, -3e-3]));
+        let bows = of(&estimates, Component::Bow);
         assert!(bows.len() == twists.len() && bows.iter().filter(sure).count() == bows.len(), "{bows:?}");
         assert!(bows.iter().all(|b| (b.value - 9e-3).abs() < 2e-3 && b.quantity == points[1]), "{bows:?}");
-        assert_eq!(of(&bent, Lacking::Twist).iter().filter(sure).count(), 0, "{bent:?}");
+        assert_eq!(of(&estimates, Component::Twist).iter().filter(sure).count(), 0, "{estimates:?}");
         // Every line is about the readings that it names, however differently they vary.
         let vary = |quantity: MeasuredQuantity| if quantity == points[1] { 3e-3 } else { 1e-3 };
         for off in [[-3e-3, 6e-3, -3e-3], [5e-3, 1e-3, -3e-3]] {
-            let bent = form_in(&world, &design, &of_points(off), &vary);
+            let estimates = components_in(&world, &design, &of_points(off), &vary);
             for (k, point) in points.into_iter().enumerate() {
-                let levels = of(&bent, Lacking::Level);
-                let own: Vec<&Bent> = levels.iter().filter(|b| b.quantity == point).collect();
+                let levels = of(&estimates, Component::Level);
+                let own: Vec<&ComponentEstimate> = levels.iter().filter(|b| b.quantity == point).collect();
                 assert!(!own.is_empty() && own.iter().all(|b| (b.value - off[k]).abs() < 2e-3), "{own:?}");
             }
             let [twist, bow] = [off[0] - off[2], off[1] - 0.5 * (off[0] + off[2])];
-            for (part, wanted) in [(Lacking::Twist, twist), (Lacking::Bow, bow)] {
-                let own = of(&bent, part);
+            for (part, wanted) in [(Component::Twist, twist), (Component::Bow, bow)] {
+                let own = of(&estimates, part);
                 assert!(!own.is_empty() && own.iter().all(|b| (b.value - wanted).abs() < 3e-3), "{own:?}");
             }
         }
-        let bent = form(&world, &design, &drifting);
-        let drifts: Vec<Bent> = of(&bent, Lacking::Drift);
+        let estimates = components(&world, &design, &drifting);
+        let drifts: Vec<ComponentEstimate> = of(&estimates, Component::Drift);
         // Of the displacements, and of the collapse angles.
         assert_eq!((drifts.len(), drifts.iter().filter(sure).count()), (2, 1), "{drifts:?}");
         let own = drifts.iter().find(|b| b.quantity != MeasuredQuantity::CollapseAngle).expect("it was read");
         // One family in three drifts.
         assert!(own.value > 0.3e-3 && own.value < 2.5e-3, "{own:?}");
-        assert_eq!(of(&bent, Lacking::Twist).iter().filter(sure).count(), 0, "{bent:?}");
+        assert_eq!(of(&estimates, Component::Twist).iter().filter(sure).count(), 0, "{estimates:?}");
     }
 }

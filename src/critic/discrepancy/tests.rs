@@ -19,10 +19,10 @@ fn a_family_that_moves_four_times_too_far_is_found_and_said_to() {
             }
         }
     }
-    let wrong = reference.judge(&design, &campaign);
+    let discrepancy = reference.discrepancy(&design, &campaign);
     // One in 100,000 by chance for one feature, of some thirty.
-    assert!(wrong.largest() > 4.5, "{}", wrong.largest());
-    let worst = wrong
+    assert!(discrepancy.largest() > 4.5, "{}", discrepancy.largest());
+    let worst = discrepancy
         .excess
         .iter()
         .filter_map(|(f, x)| Some((*f, (*x)?)))

@@ -14,7 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use rayon::prelude::*;
 
 use crate::critic::causes::{Ranked, evidence};
-use crate::critic::discrepancy::{Discrepancy, Predicted};
+use crate::critic::discrepancy::{Predicted, SmoothDiscrepancy};
 use crate::critic::simulate::{Campaign, Design, Truth};
 use crate::critic::verdict::{Effort, Judge, Limits, MOST_AMBIGUOUS};
 use crate::random::Streams;
@@ -205,7 +205,7 @@ impl<'j, 'w> Folds<'j, 'w> {
             let parts = choice.iter().map(|(cause, share)| (draws(Some(*cause)), *share)).collect::<Vec<_>>();
             let extended = (!parts.is_empty()).then(|| walls(&mixture(parts)));
             let free = with_ceiling
-                .then(|| Discrepancy::new(&judge.design, campaign, &fold.known, &base, &units))
+                .then(|| SmoothDiscrepancy::new(&judge.design, campaign, &fold.known, &base, &units))
                 .flatten();
             let ceilings = free.map_or_else(Vec::new, |free| free.scores());
             let mut rows = Vec::new();

@@ -1,4 +1,4 @@
-//! What is wrong in a model: nothing, one cause, or two of them together.
+//! The causes that act in a model: none, one, or two of them together.
 
 /// The causes of a model, as indices of mechanisms; none in the base model.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]

@@ -33,7 +33,7 @@ const BUILT: u64 = 20;
 /// What is true of a simulated campaign. Scores are standard normal: where a quantity lies in its prior.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truth {
-    /// What is wrong.
+    /// What acts.
     pub causes: Causes,
     /// The parameters of the causes, each in its order.
     pub parameters: Vec<f64>,

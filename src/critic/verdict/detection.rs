@@ -4,7 +4,7 @@
 //! three, its choice accounted for (the smallest of several p-values, judged by simulation as in Westfall and Young 1993).
 
 use crate::critic::causes::Ranked;
-use crate::critic::discrepancy::Wrong;
+use crate::critic::discrepancy::Discrepancy;
 
 /// What campaigns without any effect show.
 #[derive(Clone, Debug)]
@@ -15,8 +15,8 @@ pub struct Alarm {
     smallest: Vec<f64>,
 }
 
-fn looks(wrong: &Wrong, ranked: &Ranked) -> [f64; 3] {
-    [wrong.largest(), wrong.distance, ranked.odds()]
+fn looks(discrepancy: &Discrepancy, ranked: &Ranked) -> [f64; 3] {
+    [discrepancy.largest(), discrepancy.distance, ranked.odds()]
 }
 
 /// Share of the values that are at least as large, the one asked about among them.
@@ -31,8 +31,9 @@ fn smallest(shares: [f64; 3]) -> f64 {
 
 impl Alarm {
     /// From campaigns of the base model, at least one.
-    pub fn of(campaigns: &[(Wrong, Ranked)]) -> Alarm {
-        let shown: Vec<[f64; 3]> = campaigns.iter().map(|(wrong, ranked)| looks(wrong, ranked)).collect();
+    pub fn of(campaigns: &[(Discrepancy, Ranked)]) -> Alarm {
+        let shown: Vec<[f64; 3]> =
+            campaigns.iter().map(|(discrepancy, ranked)| looks(discrepancy, ranked)).collect();
         let sorted = |k: usize| {
             let mut values: Vec<f64> = shown.iter().map(|looks| looks[k]).collect();
             values.sort_by(f64::total_cmp);
@@ -51,8 +52,8 @@ impl Alarm {
 
     /// Share of campaigns without any effect that surprise as much in any way, and in each way alone: with `n` campaigns at least
     /// 1/(n + 1).
-    pub fn p_values(&self, wrong: &Wrong, ranked: &Ranked) -> (f64, [f64; 3]) {
-        let shares = self.shares(&looks(wrong, ranked));
+    pub fn p_values(&self, discrepancy: &Discrepancy, ranked: &Ranked) -> (f64, [f64; 3]) {
+        let shares = self.shares(&looks(discrepancy, ranked));
         let as_small = self.smallest.partition_point(|x| *x <= smallest(shares));
         ((as_small + 1) as f64 / (self.smallest.len() + 1) as f64, shares)
     }

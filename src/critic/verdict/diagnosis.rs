@@ -1,24 +1,24 @@
 //! What is said of a campaign: nothing found, one cause or a pair named, a few that cannot be told apart, or something that no known
 //! cause explains; and what that rests on.
 
-use crate::critic::discrepancy::Bent;
+use crate::critic::discrepancy::ComponentEstimate;
 use crate::critic::simulate::Truth;
 use crate::critic::verdict::judge::Seeming;
 
 /// What a campaign says of the base model.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// Nothing is wrong beyond error and natural scatter, or nothing that these data can see.
+    /// No discrepancy beyond error and natural scatter, or none that these data can see.
     NothingFound,
-    /// Something is wrong, and this cause explains it.
+    /// There is a discrepancy, and this cause explains it.
     Named(usize),
-    /// Something is wrong, and this cause explains it, at a strength that its physical prior does not expect.
+    /// There is a discrepancy, and this cause explains it, at a strength that its physical prior does not expect.
     NamedOutsidePrior(usize),
-    /// Something is wrong, no one cause explains it, and these two together do.
+    /// There is a discrepancy, no one cause explains it, and these two together do.
     NamedPair([usize; 2]),
-    /// Something is wrong, and each of these, at most [`MOST_AMBIGUOUS`](crate::critic::MOST_AMBIGUOUS), explains it.
+    /// There is a discrepancy, and each of these, at most [`MOST_AMBIGUOUS`](crate::critic::MOST_AMBIGUOUS), explains it.
     Ambiguous(Vec<usize>),
-    /// Something is wrong, and no cause of the catalogue explains it, or too many do.
+    /// There is a discrepancy, and no cause of the catalogue explains it, or too many do.
     Unexplained,
 }
 
@@ -49,10 +49,10 @@ pub struct Diagnosis {
     pub seeming: Seeming,
     /// The causes that were looked at closely, most likely first; none where nothing was found.
     pub looked_at: Vec<LookedAt<usize>>,
-    /// Pairs of causes that were looked at as no one explains what is wrong, that with most of the evidence first.
+    /// Pairs of causes that were looked at as no one explains the discrepancy, that with most of the evidence first.
     pub pairs: Vec<LookedAt<[usize; 2]>>,
-    /// What the base model, its joints fitted, lacks, if it is anything smooth; empty where nothing was found.
-    pub form: Vec<Bent>,
+    /// What the base model with fitted joints misses, as components of a smooth discrepancy; empty where nothing was found.
+    pub components: Vec<ComponentEstimate>,
     /// The verdict.
     pub verdict: Verdict,
 }

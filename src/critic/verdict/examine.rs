@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use crate::critic::causes::{Evidence, Ranked, evidence, heard, rough_evidence, softmax, weighed};
 use crate::critic::conflict::PriorPredictive;
-use crate::critic::discrepancy::{Bent, Discrepancy, Predicted};
+use crate::critic::discrepancy::{ComponentEstimate, Predicted, SmoothDiscrepancy};
 use crate::critic::simulate::{Campaign, Causes, Truth};
 use crate::critic::verdict::diagnosis::{Diagnosis, LookedAt, Verdict};
 use crate::critic::verdict::judge::{Judge, Seeming};
@@ -32,7 +32,7 @@ impl Judge<'_> {
                 seeming,
                 looked_at: Vec::new(),
                 pairs: Vec::new(),
-                form: Vec::new(),
+                components: Vec::new(),
                 verdict: Verdict::NothingFound,
             };
         }
@@ -48,7 +48,7 @@ impl Judge<'_> {
         let evidences = self.evidences(campaign, &models.collect::<Vec<_>>(), seed);
         let logs: Vec<f64> = evidences.iter().map(|evidence| evidence.log).collect();
         let shares = softmax(&logs, 1.0);
-        let form = self.form(campaign, &evidences[0].draws, seed.wrapping_add(2));
+        let components = self.components(campaign, &evidences[0].draws, seed.wrapping_add(2));
         let ranked = heard(&seeming.ranked, &closely, &logs);
         let seeming = Seeming { ranked, ..seeming };
         let named = seeming.named(limits);
@@ -89,7 +89,7 @@ impl Judge<'_> {
             None if named.is_some_and(|cause| !explain.contains(&cause)) || !few => Verdict::Unexplained,
             None => unnamed(&seeming.ranked, explain),
         };
-        let mut diagnosis = Diagnosis { seeming, looked_at, pairs: Vec::new(), form, verdict };
+        let mut diagnosis = Diagnosis { seeming, looked_at, pairs: Vec::new(), components, verdict };
         if diagnosis.verdict == Verdict::Unexplained {
             diagnosis.pairs = self.pairs(campaign, &closely, &logs, limits, seed);
             let fits = |pair: &&LookedAt<[usize; 2]>| pair.guard.is_some_and(|p| p >= limits.pair.guard);
@@ -190,14 +190,14 @@ impl Judge<'_> {
         pairs
     }
 
-    /// What the base model lacks with these joints.
-    fn form(&self, campaign: &Campaign, joints: &[Truth], seed: u64) -> Vec<Bent> {
+    /// What the base model with these joints misses.
+    fn components(&self, campaign: &Campaign, joints: &[Truth], seed: u64) -> Vec<ComponentEstimate> {
         let base = Predicted::of(self.world, &self.design, joints, seed);
         let known: Vec<Vec<bool>> =
             self.design.specimens.iter().map(|specimen| vec![true; specimen.readings.len()]).collect();
         let units = self.reference.scale.units();
-        Discrepancy::new(&self.design, campaign, &known, &base, &units)
-            .map_or_else(Vec::new, |free| free.form())
+        SmoothDiscrepancy::new(&self.design, campaign, &known, &base, &units)
+            .map_or_else(Vec::new, |free| free.components())
     }
 }
 
@@ -217,7 +217,7 @@ mod tests {
     use std::collections::BTreeMap;
 
     use super::*;
-    use crate::critic::discrepancy::Wrong;
+    use crate::critic::discrepancy::Discrepancy;
 
     #[test]
     fn few_causes_are_left_open_if_the_likely_ones_are_among_them() {
@@ -238,9 +238,9 @@ mod tests {
     fn what_is_perhaps_nameless_or_chance_is_no_pair() {
         let limits = Limits::default();
         let allows = |p_value: f64, nameless: f64| {
-            let wrong = Wrong { excess: BTreeMap::new(), joints: Vec::new(), distance: 0.0 };
+            let discrepancy = Discrepancy { excess: BTreeMap::new(), joints: Vec::new(), distance: 0.0 };
             let ranked = Ranked::new(vec![(Some(3), 1.0), (None, 0.0)], nameless, vec![3]);
-            Seeming { wrong, ranked, p_value, looks: [p_value; 3] }.allows_pair(&limits)
+            Seeming { discrepancy, ranked, p_value, looks: [p_value; 3] }.allows_pair(&limits)
         };
         assert!(allows(0.001, 0.04) && !allows(0.001, 0.06) && !allows(0.02, 0.04));
     }
@@ -254,15 +254,15 @@ mod tests {
             evidence: 0.3,
             draws: Vec::new(),
         };
-        let wrong = Wrong { excess: BTreeMap::new(), joints: Vec::new(), distance: 0.0 };
+        let discrepancy = Discrepancy { excess: BTreeMap::new(), joints: Vec::new(), distance: 0.0 };
         let causes = [(Some(3), 0.5), (Some(1), 0.3), (Some(2), 0.1), (None, 0.1)];
         let ranked = Ranked::new(causes.to_vec(), 0.0, vec![1, 2, 3]);
         let mut diagnosis = Diagnosis {
-            seeming: Seeming { wrong, ranked, p_value: 0.001, looks: [0.001; 3] },
+            seeming: Seeming { discrepancy, ranked, p_value: 0.001, looks: [0.001; 3] },
             // The likeliest does not fit.
             looked_at: vec![looked_at(3, Some(0.0)), looked_at(1, Some(0.4)), looked_at(2, None)],
             pairs: Vec::new(),
-            form: Vec::new(),
+            components: Vec::new(),
             verdict: Verdict::Unexplained,
         };
         assert_eq!(diagnosis.possible(), (vec![(0.3, Vec::new()), (0.1, Vec::new())], true));

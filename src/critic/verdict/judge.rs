@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::critic::causes::{Ranked, Ranking};
 use crate::critic::check::{Alike, Check};
-use crate::critic::discrepancy::{Reference, Wrong};
+use crate::critic::discrepancy::{Discrepancy, Reference};
 use crate::critic::simulate::{Campaign, Design, World};
 use crate::critic::verdict::detection::Alarm;
 use crate::critic::verdict::limits::Limits;
@@ -13,7 +13,7 @@ use crate::random::Streams;
 /// Campaigns that are simulated to learn from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Effort {
-    /// Of the base model, for what is wrong and once more for how often that is so by chance.
+    /// Of the base model, for the discrepancy and once more for how large it is by chance.
     pub reference: u64,
     /// Of each cause and of nameless effects, for the ranking.
     pub training: u64,
@@ -44,7 +44,7 @@ pub struct Judge<'w> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seeming {
     /// What is off.
-    pub wrong: Wrong,
+    pub discrepancy: Discrepancy,
     /// The causes with their probabilities.
     pub ranked: Ranked,
     /// Share of campaigns without any effect that surprise as much.
@@ -74,11 +74,11 @@ impl<'w> Judge<'w> {
         let one = |k: u64| {
             let streams = Streams::new(chance, k);
             let campaign = world.campaign(design, &world.drawn(None, &streams), &streams);
-            let wrong = reference.judge(design, &campaign);
-            let ranked = ranking.of(&wrong);
-            (wrong, ranked)
+            let discrepancy = reference.discrepancy(design, &campaign);
+            let ranked = ranking.of(&discrepancy);
+            (discrepancy, ranked)
         };
-        let campaigns: Vec<(Wrong, Ranked)> = (0..effort.reference).into_par_iter().map(one).collect();
+        let campaigns: Vec<(Discrepancy, Ranked)> = (0..effort.reference).into_par_iter().map(one).collect();
         let alarm = Alarm::of(&campaigns);
         Some(Judge { world, design: design.clone(), reference, ranking, alarm, alike: Alike::default() })
     }
@@ -90,9 +90,9 @@ impl<'w> Judge<'w> {
 
     /// How a campaign seems.
     pub fn seeming(&self, campaign: &Campaign) -> Seeming {
-        let wrong = self.reference.judge(&self.design, campaign);
-        let ranked = self.ranking.of(&wrong);
-        let (p_value, looks) = self.alarm.p_values(&wrong, &ranked);
-        Seeming { wrong, ranked, p_value, looks }
+        let discrepancy = self.reference.discrepancy(&self.design, campaign);
+        let ranked = self.ranking.of(&discrepancy);
+        let (p_value, looks) = self.alarm.p_values(&discrepancy, &ranked);
+        Seeming { discrepancy, ranked, p_value, looks }
     }
 }

@@ -8,7 +8,7 @@ pub const POSSIBLE: f64 = 0.01;
 /// The limits of a verdict.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// Something is wrong below this p-value.
+    /// There is a discrepancy below this p-value.
     pub found: f64,
     /// A cause is named at this probability or above.
     pub named: f64,

@@ -75,7 +75,7 @@ pub fn page(summary: &DiagnosisSummary, drawings: &[Drawing]) -> String {
     }
     body.push_str(&pairs(summary).map_or_else(String::new, |words| paragraph(&words)));
     if summary.verdict == "unexplained" {
-        let mut sentences: Vec<Vec<String>> = summary.form.iter().map(|bent| vec![bent.sentence()]).collect();
+        let mut sentences: Vec<Vec<String>> = summary.form.iter().map(|own| vec![own.sentence()]).collect();
         if sentences.is_empty() {
             sentences.push(vec![NO_FORM.to_owned()]);
         }

@@ -9,7 +9,7 @@ use crate::critic::{
 };
 use crate::math::exp;
 use crate::report::advice::Advice;
-use crate::report::diagnosis::form::BentEntry;
+use crate::report::diagnosis::components::ComponentEntry;
 use crate::report::diagnosis::residual::{GroupEntry, ResidualEntry};
 use crate::report::gain::GainSummary;
 use crate::report::number::{compact, significant};
@@ -36,7 +36,7 @@ pub struct DiagnosisSummary {
     pub verdict: &'static str,
     /// The causes that the verdict speaks of, then all others; probabilities when all are equally likely beforehand.
     pub causes: Vec<CauseEntry>,
-    /// Pairs of causes that were looked at because no one explains what is wrong, that with most of the evidence first.
+    /// Pairs of causes that were looked at because no one explains the discrepancy, that with most of the evidence first.
     pub pairs: Vec<PairEntry>,
     /// Probability of the base model among them.
     pub base_probability: f64,
@@ -52,8 +52,8 @@ pub struct DiagnosisSummary {
     pub residuals: Vec<ResidualEntry>,
     /// The same of the means over the specimens, by family, quantity and tilt.
     pub groups: Vec<GroupEntry>,
-    /// Where the base model with fitted joints surely lacks something, if that is smooth over the tilt.
-    pub form: Vec<BentEntry>,
+    /// Where the base model with fitted joints surely misses something that is smooth over the tilt.
+    pub form: Vec<ComponentEntry>,
     /// What was not used of the measurements.
     pub unused: Vec<UnusedEntry>,
     /// What looks odd about the measurements and was judged all the same.
@@ -308,7 +308,7 @@ impl DiagnosisSummary {
         causes.sort_by_key(|cause| !cause.in_verdict);
         let mut off: Vec<OffEntry> = diagnosis
             .seeming
-            .wrong
+            .discrepancy
             .excess
             .iter()
             .filter_map(|(feature, excess)| {
@@ -340,7 +340,7 @@ impl DiagnosisSummary {
             off,
             residuals: Vec::new(),
             groups: Vec::new(),
-            form: diagnosis.form.iter().filter_map(|bent| BentEntry::of(study, bent)).collect(),
+            form: diagnosis.components.iter().filter_map(|own| ComponentEntry::of(study, own)).collect(),
             unused: unused(design),
             notes: Vec::new(),
             self_test: tested.collect(),

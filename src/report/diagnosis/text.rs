@@ -45,7 +45,7 @@ pub fn diagnosis_text(summary: &DiagnosisSummary) -> String {
     text.push_str(&causes(summary));
     if summary.verdict == "unexplained" {
         text.push_str(&format!("\n{}", wrapped("", FORM)));
-        summary.form.iter().for_each(|bent| text.push_str(&wrapped("  - ", &bent.sentence())));
+        summary.form.iter().for_each(|own| text.push_str(&wrapped("  - ", &own.sentence())));
         if summary.form.is_empty() {
             text.push_str(&format!("  {NO_FORM}\n"));
         }

@@ -6,8 +6,8 @@ use std::path::Path;
 
 use super::figure::folder;
 use crate::critic::{
-    Baseline, Caught, Contrast, Counted, Design, Diagnosis, Feature, LookedAt, Made, Offer, Offered, Ranked,
-    Seeming, SelfTest, SelfTestRow, Truth, Unused, Verdict, Wrong, base_curves, cause_curves, made,
+    Baseline, Caught, Contrast, Counted, Design, Diagnosis, Discrepancy, Feature, LookedAt, Made, Offer,
+    Offered, Ranked, Seeming, SelfTest, SelfTestRow, Truth, Unused, Verdict, base_curves, cause_curves, made,
 };
 use crate::report::Advice;
 use crate::report::diagnosis::{
@@ -77,7 +77,7 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>) {
         seeming: Seeming {
             p_value: 0.001,
             looks: [0.004, 0.001, 0.02],
-            wrong: Wrong {
+            discrepancy: Discrepancy {
                 excess: BTreeMap::from([(Feature::Mean(1, Contrast::Level), Some(4.2))]),
                 joints: vec![[0.0; 3]],
                 distance: 30.0,
@@ -96,7 +96,7 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>) {
         },
         looked_at: causes.map(guard).to_vec(),
         pairs: Vec::new(),
-        form: Vec::new(),
+        components: Vec::new(),
         verdict: Verdict::Ambiguous(causes.to_vec()),
     };
     let residuals = Baseline::new(&world, &design, 2).residuals(&measured);

@@ -1,17 +1,17 @@
-//! What the base model lacks where no cause explains it.
+//! What the base model misses where no cause explains it.
 
-use crate::critic::{Bent, Lacking};
+use crate::critic::{Component, ComponentEstimate};
 use crate::report::diagnosis::words::at;
 use crate::report::measured::{in_unit, tidy_degrees, unit};
 use crate::report::number::significant;
 use crate::study::Study;
 
-/// A discrepancy is told where it is larger than so many of its standard deviations.
+/// A discrepancy is reported where it is larger than so many of its standard deviations.
 const SURE: f64 = 2.0;
 
-/// What is lacking at a tilt, or from test to test.
+/// A component of the discrepancy at a tilt, or from test to test.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
-pub struct BentEntry {
+pub struct ComponentEntry {
     /// What it is: `level` of the readings as they are, `twist` of the left end less the right one, `bow` of the centre less the
     /// mean of the ends, `drift` of a reading from each test to the next, which all readings of a kind share by their standard
     /// deviations.
@@ -30,24 +30,24 @@ pub struct BentEntry {
     pub interval: [f64; 2],
 }
 
-impl BentEntry {
+impl ComponentEntry {
     /// From a discrepancy; `None` where it may be nothing.
-    pub fn of(study: &Study, bent: &Bent) -> Option<BentEntry> {
-        let told = |x: f64| in_unit(bent.quantity, x);
-        let reach = SURE * bent.sd;
-        (bent.value.abs() > reach && bent.value != 0.0).then(|| BentEntry {
-            part: match bent.part {
-                Lacking::Level => "level",
-                Lacking::Twist => "twist",
-                Lacking::Bow => "bow",
-                Lacking::Drift => "drift",
+    pub fn of(study: &Study, estimate: &ComponentEstimate) -> Option<ComponentEntry> {
+        let told = |x: f64| in_unit(estimate.quantity, x);
+        let reach = SURE * estimate.sd;
+        (estimate.value.abs() > reach && estimate.value != 0.0).then(|| ComponentEntry {
+            part: match estimate.part {
+                Component::Level => "level",
+                Component::Twist => "twist",
+                Component::Bow => "bow",
+                Component::Drift => "drift",
             },
-            family: study.arms[bent.family].name.clone(),
-            quantity: bent.quantity.name(),
-            tilt_deg: bent.tilt.map(tidy_degrees),
-            unit: unit(bent.quantity),
-            value: told(bent.value),
-            interval: [told(bent.value - reach), told(bent.value + reach)],
+            family: study.arms[estimate.family].name.clone(),
+            quantity: estimate.quantity.name(),
+            tilt_deg: estimate.tilt.map(tidy_degrees),
+            unit: unit(estimate.quantity),
+            value: told(estimate.value),
+            interval: [told(estimate.value - reach), told(estimate.value + reach)],
         })
     }
 
@@ -77,7 +77,7 @@ mod tests {
         let line = |part, quantity| {
             let (family, unit, interval) = ("SBL".to_owned(), "m", [1e-3, 3e-3]);
             let tilt_deg = Some(10.0);
-            BentEntry { part, family, quantity, tilt_deg, unit, value: 2e-3, interval }.sentence()
+            ComponentEntry { part, family, quantity, tilt_deg, unit, value: 2e-3, interval }.sentence()
         };
         let all = [
             ("level", "displacement_left"),
