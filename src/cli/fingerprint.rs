@@ -42,7 +42,7 @@ fn seeming(of: &Seeming) -> String {
     let ranked = format!("Ranked {{ causes: {causes:?}, nameless: {nameless:?}, set: {set:?} }}");
     format!(
         "Seeming {{ wrong: {discrepancy}, ranked: {ranked}, p_value: {:?}, looks: {:?} }}",
-        of.p_value, of.looks
+        of.p_value, of.p_by_statistic
     )
 }
 

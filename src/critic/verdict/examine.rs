@@ -240,7 +240,7 @@ mod tests {
         let allows = |p_value: f64, nameless: f64| {
             let discrepancy = Discrepancy { excess: BTreeMap::new(), joints: Vec::new(), distance: 0.0 };
             let ranked = Ranked::new(vec![(Some(3), 1.0), (None, 0.0)], nameless, vec![3]);
-            Seeming { discrepancy, ranked, p_value, looks: [p_value; 3] }.allows_pair(&limits)
+            Seeming { discrepancy, ranked, p_value, p_by_statistic: [p_value; 3] }.allows_pair(&limits)
         };
         assert!(allows(0.001, 0.04) && !allows(0.001, 0.06) && !allows(0.02, 0.04));
     }
@@ -258,7 +258,7 @@ mod tests {
         let causes = [(Some(3), 0.5), (Some(1), 0.3), (Some(2), 0.1), (None, 0.1)];
         let ranked = Ranked::new(causes.to_vec(), 0.0, vec![1, 2, 3]);
         let mut diagnosis = Diagnosis {
-            seeming: Seeming { discrepancy, ranked, p_value: 0.001, looks: [0.001; 3] },
+            seeming: Seeming { discrepancy, ranked, p_value: 0.001, p_by_statistic: [0.001; 3] },
             // The likeliest does not fit.
             looked_at: vec![looked_at(3, Some(0.0)), looked_at(1, Some(0.4)), looked_at(2, None)],
             pairs: Vec::new(),

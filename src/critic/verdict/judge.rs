@@ -6,7 +6,7 @@ use crate::critic::causes::{Ranked, Ranking};
 use crate::critic::check::{Alike, Check};
 use crate::critic::discrepancy::{Discrepancy, Reference};
 use crate::critic::simulate::{Campaign, Design, World};
-use crate::critic::verdict::detection::Alarm;
+use crate::critic::verdict::detection::Detection;
 use crate::critic::verdict::limits::Limits;
 use crate::random::Streams;
 
@@ -36,7 +36,7 @@ pub struct Judge<'w> {
     pub reference: Reference,
     /// The causes as it can tell them apart.
     pub ranking: Ranking,
-    alarm: Alarm,
+    detection: Detection,
     alike: Alike,
 }
 
@@ -47,10 +47,10 @@ pub struct Seeming {
     pub discrepancy: Discrepancy,
     /// The causes with their probabilities.
     pub ranked: Ranked,
-    /// Share of campaigns without any effect that surprise as much.
+    /// Share of campaigns without any effect that are as far off.
     pub p_value: f64,
-    /// The same of each way of looking alone: the furthest single number, all numbers together, likeness to a cause.
-    pub looks: [f64; 3],
+    /// The same by each statistic alone: the furthest single number, all numbers together, likeness to a cause.
+    pub p_by_statistic: [f64; 3],
 }
 
 impl Seeming {
@@ -79,8 +79,8 @@ impl<'w> Judge<'w> {
             (discrepancy, ranked)
         };
         let campaigns: Vec<(Discrepancy, Ranked)> = (0..effort.reference).into_par_iter().map(one).collect();
-        let alarm = Alarm::of(&campaigns);
-        Some(Judge { world, design: design.clone(), reference, ranking, alarm, alike: Alike::default() })
+        let detection = Detection::of(&campaigns);
+        Some(Judge { world, design: design.clone(), reference, ranking, detection, alike: Alike::default() })
     }
 
     /// The posterior predictive check of causes on the design's campaigns.
@@ -92,7 +92,7 @@ impl<'w> Judge<'w> {
     pub fn seeming(&self, campaign: &Campaign) -> Seeming {
         let discrepancy = self.reference.discrepancy(&self.design, campaign);
         let ranked = self.ranking.of(&discrepancy);
-        let (p_value, looks) = self.alarm.p_values(&discrepancy, &ranked);
-        Seeming { discrepancy, ranked, p_value, looks }
+        let (p_value, p_by_statistic) = self.detection.p_values(&discrepancy, &ranked);
+        Seeming { discrepancy, ranked, p_value, p_by_statistic }
     }
 }

@@ -44,7 +44,7 @@ pub struct DiagnosisSummary {
     pub nameless_probability: f64,
     /// Share of campaigns without any effect in which something is as far off.
     pub p_value: f64,
-    /// The same of each way of looking alone.
+    /// The same by each statistic alone.
     pub looks: LooksEntry,
     /// What is off, the furthest first.
     pub off: Vec<OffEntry>,
@@ -87,7 +87,7 @@ impl DataEntry {
     }
 }
 
-/// Shares of campaigns without any effect that surprise as much, by the way of looking.
+/// Shares of campaigns without any effect that are as far off, by each statistic.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct LooksEntry {
     /// By the number that is furthest off.
@@ -317,7 +317,7 @@ impl DiagnosisSummary {
             .collect();
         off.sort_by(|a, b| b.in_sd.abs().total_cmp(&a.in_sd.abs()));
         let base = ranked.causes.iter().find(|(cause, _)| cause.is_none());
-        let [furthest, together, likeness] = diagnosis.seeming.looks;
+        let [furthest, together, likeness] = diagnosis.seeming.p_by_statistic;
         let tested = self_test.rows.iter().map(|row| SelfTestEntry {
             hidden: row.cause.map_or("nothing", |cause| mechanisms[cause].name),
             all: row.all,

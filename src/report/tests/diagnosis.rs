@@ -76,7 +76,7 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>) {
     let diagnosis = Diagnosis {
         seeming: Seeming {
             p_value: 0.001,
-            looks: [0.004, 0.001, 0.02],
+            p_by_statistic: [0.004, 0.001, 0.02],
             discrepancy: Discrepancy {
                 excess: BTreeMap::from([(Feature::Mean(1, Contrast::Level), Some(4.2))]),
                 joints: vec![[0.0; 3]],
