@@ -14,8 +14,8 @@ use crate::random::Streams;
 use crate::stats;
 use crate::study::Described;
 
-/// Two causes look alike where so large a share of the sets of either hold the other.
-const ALIKE: f64 = 0.5;
+/// Two causes are confused where so large a share of the sets of either hold the other.
+const CONFUSED: f64 = 0.5;
 /// So many times as many campaigns without any effect, and with nameless ones, are judged by all that a diagnosis does.
 const MORE: u64 = 5;
 
@@ -244,10 +244,10 @@ impl SelfTest {
         };
         let mut classes: Vec<Vec<&SelfTestRow>> = Vec::new();
         for row in seen {
-            let alike = |class: &Vec<&SelfTestRow>| {
-                class.iter().any(|other| holds(row, other) >= ALIKE && holds(other, row) >= ALIKE)
+            let confused = |class: &Vec<&SelfTestRow>| {
+                class.iter().any(|other| holds(row, other) >= CONFUSED && holds(other, row) >= CONFUSED)
             };
-            let (mut joined, apart): (Vec<_>, Vec<_>) = classes.into_iter().partition(alike);
+            let (mut joined, apart): (Vec<_>, Vec<_>) = classes.into_iter().partition(confused);
             let mut class = joined.drain(..).flatten().collect::<Vec<_>>();
             class.push(row);
             classes = apart;

@@ -31,12 +31,12 @@ pub fn other_friction(study: &Study, index: usize, rows: &[Row]) -> Vec<OtherPhi
 }
 
 fn differs_in_friction_alone(own: &Arm, other: &Arm) -> bool {
-    let alike = Arm {
+    let otherwise_same = Arm {
         name: own.name.clone(),
         members: own.members,
         kn_points: own.kn_points.clone(),
         joint: Joint { phi_deg: own.joint.phi_deg.clone(), ..other.joint.clone() },
         ..other.clone()
     };
-    own.joint.phi_deg != other.joint.phi_deg && alike == *own
+    own.joint.phi_deg != other.joint.phi_deg && otherwise_same == *own
 }

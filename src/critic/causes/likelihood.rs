@@ -63,8 +63,8 @@ struct Wall<'c> {
     values: Vec<(usize, &'c Measurement, f64)>,
     /// Readings of which only the bound's side is known.
     bounds: Vec<(usize, &'c Measurement)>,
-    /// The first wall of the family on which the same has a value, with the same errors.
-    alike: usize,
+    /// The first wall of the family on which the same has a value, with the same errors; they share a density.
+    same_as: usize,
 }
 
 impl<'c> Likelihood<'c> {
@@ -106,11 +106,11 @@ impl<'c> Likelihood<'c> {
             let paths = Paths::of(shown);
             let walls = if random { &each[..] } else { &all[..] };
             let first = |(k, wall): (usize, &Wall<'_>)| {
-                (wall.alike == k).then(|| Density::of(wall, &paths, &errors))?
+                (wall.same_as == k).then(|| Density::of(wall, &paths, &errors))?
             };
             let densities: Vec<Option<Density>> = walls.iter().enumerate().map(first).collect();
             for wall in walls {
-                let density = densities[wall.alike].as_ref();
+                let density = densities[wall.same_as].as_ref();
                 log += density.map_or(f64::NEG_INFINITY, |density| density.log(wall, &paths, &errors));
                 log += wall.bounds_log(&paths, &errors);
             }
@@ -148,7 +148,7 @@ impl<'c> Family<'c> {
             }
             all.values.extend(&wall.values);
             all.bounds.extend(&wall.bounds);
-            wall.alike = each.iter().position(|other| other.is_like(&wall)).unwrap_or(each.len());
+            wall.same_as = each.iter().position(|other| other.has_readings_of(&wall)).unwrap_or(each.len());
             each.push(wall);
         }
         Family { family, asked, each, all: [all] }
@@ -161,7 +161,7 @@ impl<'c> Wall<'c> {
         self.values.iter().map(|(_, m, _)| *m).chain(self.bounds.iter().map(|(_, m)| *m))
     }
 
-    fn is_like(&self, other: &Wall<'_>) -> bool {
+    fn has_readings_of(&self, other: &Wall<'_>) -> bool {
         let read = |(column, m, _): &(usize, &Measurement, f64)| {
             (*column, m.quantity, reading_variance(m), m.common_error)
         };
@@ -258,7 +258,7 @@ impl Density {
         Some(Density { freedom, sd, spread, inner, top: top - half_log_determinant })
     }
 
-    /// Its logarithm, of a wall that is [alike](Wall::alike).
+    /// Its logarithm, of a wall that is the [same](Wall::same_as).
     fn log(&self, wall: &Wall<'_>, paths: &Paths, errors: &Errors<'_>) -> f64 {
         let off = wall.values.iter().zip(&self.sd);
         let off =

@@ -3,5 +3,5 @@
 mod nearest;
 mod posterior;
 
-pub use nearest::Alike;
+pub use nearest::Nearest;
 pub use posterior::Check;

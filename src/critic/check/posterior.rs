@@ -1,13 +1,15 @@
 //! Does a cause explain all that was seen, or only what it was chosen by? A cause outside the catalogue fits the few numbers that
-//! the network sees better than it fits all others. Two looks: single readings against those of the cause's own campaigns that look
-//! most alike; and parts of the campaign, from the coarse to the fine, against what the cause predicts with the parameters and the
-//! joints that the campaign itself speaks for (a posterior predictive check, Gelman, Meng and Stern 1996).
+//! the network sees better than it fits all others.
+//!
+//! Two statistics are looked at. One sets single readings against those of the [nearest](super::nearest) of the cause's own
+//! campaigns. The other sets parts of the campaign, from the coarse to the fine, against what the cause predicts with the parameters
+//! and the joints that the campaign itself speaks for (a posterior predictive check, Gelman, Meng and Stern 1996).
 
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use crate::critic::check::nearest::Alike;
+use crate::critic::check::nearest::Nearest;
 use crate::critic::discrepancy::{Feature, Reference, Scale, features};
 use crate::critic::simulate::{Campaign, Causes, Design, Truth, World};
 use crate::random::Streams;
@@ -21,8 +23,8 @@ const COMMON: f64 = 0.5;
 /// No part is predicted better than this, in standard deviations of independent readings: where hardly anything varies, walls that
 /// differ by a step of a protractor would be off beyond all measure.
 const LEAST: f64 = 0.1;
-/// Number of looks.
-const LOOKS: f64 = 2.0;
+/// Number of statistics.
+const STATISTICS: f64 = 2.0;
 
 /// The check of causes on campaigns of a design.
 #[derive(Clone, Copy, Debug)]
@@ -34,17 +36,17 @@ pub struct Check<'d> {
     /// The base model as the design sees it.
     pub reference: &'d Reference,
     /// Campaigns of the causes, as far as they have been simulated.
-    pub alike: &'d Alike,
+    pub nearest: &'d Nearest,
 }
 
 impl Check<'_> {
-    /// Share of the causes' own campaigns that fit them no better than this one does, in the worse of the two looks, their number
+    /// Share of the causes' own campaigns that fit them no better than this one does, by the worse of the two statistics, their number
     /// accounted for; `draws` are what the campaign speaks for under the causes. A pure function of its arguments.
     pub fn p_value(&self, causes: impl Into<Causes>, draws: &[Truth], campaign: &Campaign, seed: u64) -> f64 {
-        let Check { world, design, reference, alike } = self;
-        let alike = alike.share(world, design, reference, (causes.into(), seed), campaign);
-        let looks = [alike, self.predicted(draws, campaign, seed)];
-        (LOOKS * looks[0].min(looks[1])).min(1.0)
+        let Check { world, design, reference, nearest } = self;
+        let of_nearest = nearest.share(world, design, reference, (causes.into(), seed), campaign);
+        let shares = [of_nearest, self.predicted(draws, campaign, seed)];
+        (STATISTICS * shares[0].min(shares[1])).min(1.0)
     }
 
     /// Share of the campaigns that draws predict which are as far off in any part.

@@ -110,7 +110,7 @@ impl<'j, 'w> Folds<'j, 'w> {
         let (mut folds, mut judges): (Vec<(Fold, usize)>, Vec<Judge<'w>>) = (Vec::new(), Vec::new());
         for fold in Fold::all(&judge.design) {
             let part = fold.design(&judge.design);
-            let known = judges.iter().position(|judge| alike(&judge.design, &part));
+            let known = judges.iter().position(|judge| same_readings(&judge.design, &part));
             let index = known.or_else(|| {
                 judges.push(Judge::trained(judge.world, &part, measuring.effort, seed)?);
                 Some(judges.len() - 1)
@@ -254,7 +254,7 @@ impl Kind {
 }
 
 /// Whether the same is read in both, whatever the specimens are called.
-fn alike(one: &Design, other: &Design) -> bool {
+fn same_readings(one: &Design, other: &Design) -> bool {
     let plain = |design: &Design| {
         let mut design = design.clone();
         for specimen in &mut design.specimens {

@@ -71,10 +71,10 @@ impl<'s> Tested<'s> {
             return None;
         }
         let arms = &study.arms;
-        let alike = |family: &usize| {
+        let same_joints = |family: &usize| {
             arms[*family].joint == arms[first].joint && arms[*family].kn_points == arms[first].kn_points
         };
-        let families: Vec<usize> = families.into_iter().filter(alike).collect();
+        let families: Vec<usize> = families.into_iter().filter(same_joints).collect();
         families.iter().all(|&family| arms[family].is_free_to_close()).then_some(())?;
         let specimens: Vec<Specimen> =
             design.specimens.iter().filter(|specimen| families.contains(&specimen.family)).cloned().collect();

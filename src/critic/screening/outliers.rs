@@ -14,7 +14,7 @@ use crate::study::{MeasuredQuantity, Measurement};
 const NEAR: f64 = 1.5;
 /// How far the ratios of single readings may be from their median, as a factor: what is read near the error or with one digit is
 /// that far off.
-const ALIKE: f64 = 2.0;
+const CONSISTENT: f64 = 2.0;
 /// How far fellows may be from what is usual, as a factor: of three walls of the source paper one moves 2.1 times as far as another.
 const FELLOWS: f64 = 3.0;
 /// Fellows show something where they show so many standard deviations of their error.
@@ -41,7 +41,7 @@ struct Beside<'m> {
     usual: f64,
     /// Share of the fellows that show it, within [`FELLOWS`].
     agree: f64,
-    /// Whether all of them do within [`ALIKE`], and far beyond their error.
+    /// Whether all of them do within [`CONSISTENT`], and far beyond their error.
     is_plain: bool,
     /// Whether it stands off by [`OFF`] times what any of them does.
     is_off: bool,
@@ -113,7 +113,7 @@ fn beside<'m>(name: &str, m: &'m Measurement, specimens: &Specimens<'_>) -> Opti
     let (shown, agree) = (usual.abs() / error, within(FELLOWS) as f64 / others.len() as f64);
     let furthest = others.iter().map(|(value, _)| (value - usual).abs()).fold(0.0, f64::max);
     let is_off = others.len() >= OTHERS && (m.value - usual).abs() > OFF * furthest;
-    let is_plain = within(ALIKE) == others.len() && shown >= SHOWN_ALONE;
+    let is_plain = within(CONSISTENT) == others.len() && shown >= SHOWN_ALONE;
     (m.value != 0.0 && shown >= SHOWN && agree >= AGREE).then_some(Beside {
         reading: m,
         usual,
@@ -161,7 +161,7 @@ fn parts(own: &[Beside<'_>]) -> Vec<Doubt> {
             let rest: Vec<&Beside<'_>> = own.iter().filter(|b| key(b) != own_key).collect();
             let logs: Vec<f64> = rest.iter().filter_map(|b| b.log()).collect();
             // What differs from its fellows must differ from the specimen's other readings, too.
-            let is_usual = rest.len() >= 2 && median(&logs).is_some_and(|log| log.abs() < ln(ALIKE));
+            let is_usual = rest.len() >= 2 && median(&logs).is_some_and(|log| log.abs() < ln(CONSISTENT));
             let is_new = group.iter().all(|b| !told.contains(&std::ptr::from_ref(b.reading)));
             let is_off = group.iter().all(|b| b.is_off);
             if let Some(factor) = factor(&group)
@@ -182,7 +182,7 @@ fn parts(own: &[Beside<'_>]) -> Vec<Doubt> {
 fn factor(group: &[&Beside<'_>]) -> Option<f64> {
     let logs: Vec<f64> = group.iter().filter_map(|b| b.log()).collect();
     let middle = median(&logs).filter(|_| logs.len() == group.len())?;
-    let agree = logs.iter().all(|log| (log - middle).abs() <= ln(ALIKE));
+    let agree = logs.iter().all(|log| (log - middle).abs() <= ln(CONSISTENT));
     let dimension = group.first()?.reading.quantity.dimension();
     let near =
         factors(dimension).into_iter().find(|factor| (middle.abs() - ln(*factor)).abs() <= ln(NEAR))?;

@@ -476,8 +476,8 @@ fn kinds(arms: &[Arm]) -> Vec<usize> {
     let mut seen: Vec<&Arm> = Vec::new();
     arms.iter()
         .map(|arm| {
-            let alike = |other: &&Arm| other.joint == arm.joint && other.kn_points == arm.kn_points;
-            seen.iter().position(alike).unwrap_or_else(|| {
+            let same_joints = |other: &&Arm| other.joint == arm.joint && other.kn_points == arm.kn_points;
+            seen.iter().position(same_joints).unwrap_or_else(|| {
                 seen.push(arm);
                 seen.len() - 1
             })

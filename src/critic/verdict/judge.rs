@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::critic::causes::{Ranked, Ranking};
-use crate::critic::check::{Alike, Check};
+use crate::critic::check::{Check, Nearest};
 use crate::critic::discrepancy::{Discrepancy, Reference};
 use crate::critic::simulate::{Campaign, Design, World};
 use crate::critic::verdict::detection::Detection;
@@ -37,7 +37,7 @@ pub struct Judge<'w> {
     /// The causes as it can tell them apart.
     pub ranking: Ranking,
     detection: Detection,
-    alike: Alike,
+    nearest: Nearest,
 }
 
 /// What is seen of a campaign before any cause is looked at closely.
@@ -80,12 +80,19 @@ impl<'w> Judge<'w> {
         };
         let campaigns: Vec<(Discrepancy, Ranked)> = (0..effort.reference).into_par_iter().map(one).collect();
         let detection = Detection::of(&campaigns);
-        Some(Judge { world, design: design.clone(), reference, ranking, detection, alike: Alike::default() })
+        Some(Judge {
+            world,
+            design: design.clone(),
+            reference,
+            ranking,
+            detection,
+            nearest: Nearest::default(),
+        })
     }
 
     /// The posterior predictive check of causes on the design's campaigns.
     pub(in crate::critic) fn check(&self) -> Check<'_> {
-        Check { world: self.world, design: &self.design, reference: &self.reference, alike: &self.alike }
+        Check { world: self.world, design: &self.design, reference: &self.reference, nearest: &self.nearest }
     }
 
     /// How a campaign seems.
