@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::cli::arguments::{Bank, Which};
 use crate::cli::failure::Failure;
 use crate::cli::{judge, locate, output, progress, threads};
-use crate::critic::{self, BANK, Design, Doubt, NotThisBank, Plan, World, doubts};
+use crate::critic::{self, BANK, DataNote, Design, NotThisBank, Plan, World, data_notes};
 use crate::ensemble::{Settings, replace_file, run_with};
 use crate::protocol::Protocol;
 use crate::study::{Described, Loaded, Nuisance, Study, described, nuisances};
@@ -98,7 +98,7 @@ pub(crate) fn prepared(study: &Study, which: &Which, points: u64) -> Result<Prep
             arms.join(", ")
         )));
     }
-    let notes = noted(&doubts(study, &design));
+    let notes = noted(&data_notes(study, &design));
     let distributions = locate::distributions(which)?;
     let mechanisms = described(&distributions).map_err(Failure::Input)?;
     let nuisances = nuisances(&distributions).map_err(Failure::Input)?;
@@ -106,9 +106,9 @@ pub(crate) fn prepared(study: &Study, which: &Which, points: u64) -> Result<Prep
     Ok(Prepared { mechanisms, nuisances, plan, notes })
 }
 
-/// Says doubts on standard error, and gives their words.
-pub(crate) fn noted(doubts: &[Doubt]) -> Vec<String> {
-    let words: Vec<String> = doubts.iter().map(ToString::to_string).collect();
+/// Prints notes on the data on standard error, and gives their words.
+pub(crate) fn noted(notes: &[DataNote]) -> Vec<String> {
+    let words: Vec<String> = notes.iter().map(ToString::to_string).collect();
     words.iter().for_each(|words| output::note(&format!("note: {words}")));
     words
 }

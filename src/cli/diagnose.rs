@@ -11,7 +11,7 @@ use crate::cli::judge::{self, SEEDS};
 use crate::cli::{locate, output, threads};
 use crate::critic::{
     self, BANK, Baseline, Design, Extension, Folds, Limits, Measuring, Verdict, World, base_curves,
-    cause_curves, doubts_beside, extension,
+    cause_curves, data_notes_by_simulation, extension,
 };
 use crate::report::{self, Advice, DataEntry, DiagnosisSummary, EXTENDED, FamilyFigure, GainSummary, Origin};
 use crate::study::{Loaded, MEASURED, Nuisance, Study};
@@ -35,7 +35,12 @@ fn judged(arguments: &Diagnose) -> Result<(), Failure> {
     let (design, measured) = Design::of(&study);
     // The bank keeps the study's own seed.
     let seed = arguments.seed.unwrap_or(study.seed);
-    notes.extend(bank::noted(&doubts_beside(&world, &design, &measured, seed.wrapping_add(5 * SEEDS))));
+    notes.extend(bank::noted(&data_notes_by_simulation(
+        &world,
+        &design,
+        &measured,
+        seed.wrapping_add(5 * SEEDS),
+    )));
     let judge = judge::judge(&world, &design, seed)?;
     let diagnosis = doing("weighing the causes", |_| {
         judge.diagnosed(&measured, &Limits::default(), seed.wrapping_add(SEEDS))

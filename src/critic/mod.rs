@@ -37,14 +37,14 @@ pub use extend::{Curve, DRAWS, Extension, FamilyCurves, Known, base_curves, caus
 pub(crate) use fixture::{Made, made};
 pub use gain::{Choice, Folds, Gain, Gained, HeldOut, Interval, Measuring, Scores};
 pub use joint_law::{Bend, KnownLaw, LawGain, LearntLaw, NamedForm, Nearness, NotLearnt, learnt_law};
-pub use screening::{Doubt, Told, doubts, doubts_beside};
+pub use screening::{DataNote, Extent, data_notes, data_notes_by_simulation};
 pub use sensitivity::{
     Cell, Change, Effect, NoSensitivity, Observable, SEEN, Sensitivity, SensitivitySettings, Sight,
     sensitivity,
 };
 pub use simulate::{
-    BANK, Bank, Campaign, Causes, DOUBT, Design, Emulator, Held, NotThisBank, Path, Place, Plan, Seen,
-    Specimen, Truth, Unused, World,
+    BANK, Bank, Campaign, Causes, Design, Emulator, Held, NotThisBank, PRIOR_WIDENING, Path, Place, Plan,
+    Seen, Specimen, Truth, Unused, World,
 };
 pub use verdict::{
     Diagnosis, Effort, Excluded, Judge, Limits, LookedAt, MOST_AMBIGUOUS, PairLimits, Seeming, Verdict,

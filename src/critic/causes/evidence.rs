@@ -26,7 +26,7 @@ const COUNTING: f64 = 0.5;
 /// and Gilks 1997).
 const STEP: f64 = 2.38;
 /// Scores beyond this, one in two million of their prior, are as good as impossible; the joints' count
-/// [`DOUBT`](crate::critic::DOUBT) times, and are numbers that a quantile still tells from infinity.
+/// [`PRIOR_WIDENING`](crate::critic::PRIOR_WIDENING) times, and are numbers that a quantile still tells from infinity.
 const FURTHEST: f64 = 5.0;
 /// No more temperatures than this.
 const TEMPERATURES: usize = 60;

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use crate::critic::discrepancy::across::across;
 use crate::critic::discrepancy::features::{Feature, Scale, features};
-use crate::critic::simulate::{Campaign, DOUBT, Design, Truth, World};
+use crate::critic::simulate::{Campaign, Design, PRIOR_WIDENING, Truth, World};
 use crate::random::Streams;
 use crate::stats;
 
@@ -74,7 +74,7 @@ impl Reference {
             .map(|k| {
                 let (truth, campaign) = one(k);
                 (
-                    truth.joints.concat().iter().map(|z| z / DOUBT).collect(),
+                    truth.joints.concat().iter().map(|z| z / PRIOR_WIDENING).collect(),
                     features(design, &scale, &campaign),
                 )
             })
@@ -128,7 +128,10 @@ impl Reference {
                 .copied()
                 .zip(by_feature)
                 .collect(),
-            joints: scores.chunks_exact(3).map(|c| [DOUBT * c[0], DOUBT * c[1], DOUBT * c[2]]).collect(),
+            joints: scores
+                .chunks_exact(3)
+                .map(|c| [PRIOR_WIDENING * c[0], PRIOR_WIDENING * c[1], PRIOR_WIDENING * c[2]])
+                .collect(),
             distance,
         }
     }

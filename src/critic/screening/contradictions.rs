@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::critic::screening::note::Doubt;
+use crate::critic::screening::note::DataNote;
 use crate::critic::simulate::Design;
 use crate::protocol::Protocol;
 use crate::study::{MeasuredKind, MeasuredQuantity, Measurement, Study};
@@ -15,7 +15,7 @@ const APART: f64 = 5.0;
 const ROUNDING: f64 = 0.1;
 
 /// Walls said to stand at a tilt where the arm's wall overturns as one rigid body; by family.
-pub fn overturned(study: &Study, design: &Design) -> Vec<Doubt> {
+pub fn overturned(study: &Study, design: &Design) -> Vec<DataNote> {
     let Protocol::Tilting(tilting) = &study.protocol else { return Vec::new() };
     let mut found: BTreeMap<usize, (Vec<usize>, &Measurement, f64)> = BTreeMap::new();
     for (family, m) in design.readings() {
@@ -31,15 +31,15 @@ pub fn overturned(study: &Study, design: &Design) -> Vec<Doubt> {
             found.entry(family).or_insert((Vec::new(), m, most)).0.push(m.line);
         }
     }
-    let doubts = found.into_values();
-    doubts
-        .map(|(lines, first, most)| Doubt::Overturned { lines, first: Box::new(first.clone()), most })
+    found
+        .into_values()
+        .map(|(lines, first, most)| DataNote::Overturned { lines, first: Box::new(first.clone()), most })
         .collect()
 }
 
 /// Readings of the left, the centre and the right of a specimen with which its mean, or its difference of centre and ends, does not
 /// agree at the same tilt.
-pub fn contradicted(design: &Design) -> Vec<Doubt> {
+pub fn contradicted(design: &Design) -> Vec<DataNote> {
     use MeasuredQuantity as Q;
     let mut found = Vec::new();
     for specimen in &design.specimens {
@@ -66,16 +66,16 @@ pub fn contradicted(design: &Design) -> Vec<Doubt> {
             };
             let [Some(left), Some(centre), Some(right)] = points.map(at) else { continue };
             let read = [left, centre, right];
-            let told: f64 = read.iter().zip(weights).map(|(own, weight)| weight * own.value).sum();
+            let computed: f64 = read.iter().zip(weights).map(|(own, weight)| weight * own.value).sum();
             let parts: f64 =
                 read.iter().zip(weights).map(|(own, weight)| weight * weight * variance(own)).sum();
             let largest = read.iter().map(|own| own.value.abs()).fold(m.value.abs(), f64::max);
-            let off = (m.value - told).abs();
+            let off = (m.value - computed).abs();
             if off > APART * (variance(m) + parts).sqrt() && off > ROUNDING * largest {
                 let mut lines: Vec<usize> = read.iter().map(|own| own.line).chain([m.line]).collect();
                 lines.sort_unstable();
                 lines.dedup();
-                found.push(Doubt::Contradicted { lines, first: Box::new(m.clone()), told });
+                found.push(DataNote::Contradicted { lines, first: Box::new(m.clone()), computed });
             }
         }
     }

@@ -8,5 +8,5 @@ mod outliers;
 mod tests;
 mod units;
 
-pub use note::{Doubt, Told};
-pub use notes::{doubts, doubts_beside};
+pub use note::{DataNote, Extent};
+pub use notes::{data_notes, data_notes_by_simulation};

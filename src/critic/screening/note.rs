@@ -1,4 +1,4 @@
-//! A doubt about measurements that are judged all the same, and its words.
+//! A note on measurements that look odd and are judged all the same, and its words.
 
 use std::fmt;
 
@@ -6,9 +6,9 @@ use crate::math::degrees;
 use crate::study::measured::Dimension;
 use crate::study::{Measurement, listed};
 
-/// A doubt about lines of the measurements. SI units.
+/// A note on lines of the measurements. SI units.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Doubt {
+pub enum DataNote {
     /// There is but one specimen.
     OneSpecimen,
     /// The bank has too few walls of some mechanisms.
@@ -61,8 +61,8 @@ pub enum Doubt {
         lines: Vec<usize>,
         /// The mean or the difference.
         first: Box<Measurement>,
-        /// What the points come to.
-        told: f64,
+        /// What follows from the points.
+        computed: f64,
     },
     /// Off from what its fellows show by the ratio of two units.
     OtherUnit {
@@ -76,8 +76,8 @@ pub enum Doubt {
         factor: f64,
         /// How many readings.
         readings: usize,
-        /// Of what these are the readings.
-        told: Told,
+        /// How much of the specimen these are.
+        extent: Extent,
     },
     /// Read where simulated walls have fallen.
     Fallen {
@@ -99,66 +99,66 @@ pub enum Doubt {
     },
 }
 
-/// Of what readings that are off are.
+/// How much of a specimen is off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Told {
+pub enum Extent {
     /// Of one specimen alone, which has so many of the kind.
     Whole(usize),
-    /// Of one of two specimens, which has so many of the kind: it is not told which is odd.
+    /// Of one of two specimens, which has so many of the kind: either may be the odd one.
     OfTwo(usize),
     /// Of a specimen whose other readings are not off.
     Part,
 }
 
-impl fmt::Display for Doubt {
+impl fmt::Display for DataNote {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Doubt::OneSpecimen => f.write_str(
+            DataNote::OneSpecimen => f.write_str(
                 "there is one specimen: the scatter between specimens cannot be judged, and none can be held out to see how \
                  well it is predicted",
             ),
-            Doubt::NotConsidered { mechanisms } => write!(
+            DataNote::NotConsidered { mechanisms } => write!(
                 f,
                 "too few walls of the bank came to a fall under {}: these are not considered, and another cause may be named in \
                  their place; ask for more --points",
                 mechanisms.join(", ")
             ),
-            Doubt::Level { lines } => write!(
+            DataNote::Level { lines } => write!(
                 f,
                 "{}: a displacement at 0 deg is 0, as readings are relative to the one at rest at 0 deg, and is not used: if it is what \
                  was left after going back, number the readings in the column stage",
                 listed(lines)
             ),
-            Doubt::NotEvaluated { family, lines } => write!(
+            DataNote::NotEvaluated { family, lines } => write!(
                 f,
                 "{}: {family} is an arm that the study does not evaluate here (study.arms): not used",
                 listed(lines)
             ),
-            Doubt::BeyondPlatform { lines, tilt, end } => write!(
+            DataNote::BeyondPlatform { lines, tilt, end } => write!(
                 f,
                 "{}: read at up to {}, and the study's platform goes to {}: check the tilts, or set load.end_deg",
                 listed(lines),
                 shown(Dimension::Angle, *tilt),
                 shown(Dimension::Angle, *end),
             ),
-            Doubt::ThickerThanWall { lines, first, thickness } => write!(
+            DataNote::ThickerThanWall { lines, first, thickness } => write!(
                 f,
                 "{}: {}, more than the wall's thickness of {}: is the unit right?",
                 listed(lines),
-                told(first),
+                described(first),
                 shown(Dimension::Length, *thickness)
             ),
-            Doubt::Overturned { .. } | Doubt::Contradicted { .. } | Doubt::OtherUnit { .. } => self.of_the_table(f),
-            Doubt::Fallen { lines, first } => write!(
+            DataNote::Overturned { .. } | DataNote::Contradicted { .. } | DataNote::OtherUnit { .. } => self.of_the_table(f),
+            DataNote::Fallen { lines, first } => write!(
                 f,
                 "{}: {}, where every simulated wall has fallen: only that the wall still stood there counts, as off; check the tilt",
                 listed(lines),
-                told(first)
+                described(first)
             ),
-            Doubt::OutOfRange { lines, first, range: [low, high], fits } => {
+            DataNote::OutOfRange { lines, first, range: [low, high], fits } => {
                 let dimension = first.quantity.dimension();
                 let [low, high] = [*low, *high].map(|x| shown(dimension, x));
-                let of = format!("{}: {}", listed(lines), told(first));
+                let of = format!("{}: {}", listed(lines), described(first));
                 write!(f, "{of}, where 99.9 % of simulated readings lie within {low} to {high}")?;
                 match fits {
                     Some(fits) => write!(f, "; {} would: was it meant in another unit?", shown(dimension, *fits)),
@@ -169,24 +169,24 @@ impl fmt::Display for Doubt {
     }
 }
 
-impl Doubt {
-    /// The words of a doubt that the measurements raise by themselves.
+impl DataNote {
+    /// The words of a note that the measurements give rise to by themselves.
     fn of_the_table(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Doubt::Overturned { lines, first, most } => write!(
+            DataNote::Overturned { lines, first, most } => write!(
                 f,
                 "{}: {}, and a wall with free ends as the study draws it overturns as a whole at {}: check the angle, the \
                  thickness and the height",
                 listed(lines),
-                told(first),
+                described(first),
                 shown(Dimension::Angle, *most)
             ),
-            Doubt::Contradicted { lines, first, told: points } => write!(
+            DataNote::Contradicted { lines, first, computed } => write!(
                 f,
                 "{}: {}, where left, centre and right make it {}: are these readings of one wall at one tilt, in one unit?",
                 listed(lines),
-                told(first),
-                shown(first.quantity.dimension(), *points)
+                described(first),
+                shown(first.quantity.dimension(), *computed)
             ),
             _ => self.other_unit(f),
         }
@@ -194,39 +194,39 @@ impl Doubt {
 
     /// The words of a specimen, or of a part of its readings, in another unit.
     fn other_unit(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Doubt::OtherUnit { lines, first, usual, factor, readings, told: of } = self else {
+        let DataNote::OtherUnit { lines, first, usual, factor, readings, extent } = self else {
             return Ok(());
         };
         let name = &first.specimen;
         let (times, size) = if *factor < 1.0 { (1.0 / factor, "small") } else { (*factor, "large") };
         let times = format!("by a factor of about {}", (10.0 * times).round() / 10.0);
         let usual = shown(first.quantity.dimension(), *usual);
-        let compared = match of {
-            Told::Whole(all) | Told::OfTwo(all) if all > readings => " that can be compared",
+        let compared = match extent {
+            Extent::Whole(all) | Extent::OfTwo(all) if all > readings => " that can be compared",
             _ => "",
         };
-        let (these, are) = match (readings, of) {
+        let (these, are) = match (readings, extent) {
             (1, _) => (first.quantity.name().to_owned(), "is"),
-            (n, Told::Part) => (format!("{n} readings"), "are"),
+            (n, Extent::Part) => (format!("{n} readings"), "are"),
             (n, _) => (format!("all {n} readings{compared}"), "are"),
         };
         write!(f, "{}: ", listed(lines))?;
-        match of {
-            Told::Whole(_) => write!(f, "{name} alone is off {times} on {these}, which {are} too {size}")?,
-            Told::OfTwo(_) => {
+        match extent {
+            Extent::Whole(_) => write!(f, "{name} alone is off {times} on {these}, which {are} too {size}")?,
+            Extent::OfTwo(_) => {
                 write!(
                     f,
                     "{name} is off {times} from the other specimen on {these}, which {are} too {size}"
                 )?;
             }
-            Told::Part => write!(f, "{name} is off {times} on {these} alone, which {are} too {size}")?,
+            Extent::Part => write!(f, "{name} is off {times} on {these} alone, which {are} too {size}")?,
         }
-        write!(f, " ({}, where {usual} is usual): was it meant in another unit?", told(first))
+        write!(f, " ({}, where {usual} is usual): was it meant in another unit?", described(first))
     }
 }
 
 /// A reading in words.
-fn told(m: &Measurement) -> String {
+fn described(m: &Measurement) -> String {
     let value = shown(m.quantity.dimension(), m.value);
     let at = m.quantity.at_or_after();
     let tilt = m.tilt.map(|tilt| format!(" {at} {}", shown(Dimension::Angle, tilt))).unwrap_or_default();

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use crate::critic::screening::contradictions::{contradicted, overturned};
-use crate::critic::screening::note::Doubt;
-use crate::critic::screening::outliers::odd_ones;
+use crate::critic::screening::note::DataNote;
+use crate::critic::screening::outliers::unit_outliers;
 use crate::critic::screening::units::ratios;
 use crate::critic::simulate::{Campaign, Design, Seen, Unused, World};
 use crate::protocol::Protocol;
@@ -20,11 +20,11 @@ const TAIL: f64 = 0.0005;
 /// A range comes from so many campaigns in which the wall still stood.
 const STANDING: usize = 100;
 
-/// The doubts that need no simulation.
-pub fn doubts(study: &Study, design: &Design) -> Vec<Doubt> {
+/// The notes that need no simulation.
+pub fn data_notes(study: &Study, design: &Design) -> Vec<DataNote> {
     let mut found = Vec::new();
     if design.specimens.len() == 1 {
-        found.push(Doubt::OneSpecimen);
+        found.push(DataNote::OneSpecimen);
     }
     let arm = |m: &Measurement| study.arms.iter().find(|arm| arm.name == m.family);
     let mut elsewhere: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
@@ -32,20 +32,22 @@ pub fn doubts(study: &Study, design: &Design) -> Vec<Doubt> {
         elsewhere.entry(&m.family).or_default().push(m.line);
     }
     found.extend(
-        elsewhere.into_iter().map(|(family, lines)| Doubt::NotEvaluated { family: family.to_owned(), lines }),
+        elsewhere
+            .into_iter()
+            .map(|(family, lines)| DataNote::NotEvaluated { family: family.to_owned(), lines }),
     );
     let readings = || design.specimens.iter().flat_map(|specimen| &specimen.readings);
     let level = design.unused.iter().filter(|(why, _)| *why == Unused::AtLevel);
     let level: Vec<usize> = level.map(|(_, line)| *line).collect();
     if !level.is_empty() {
-        found.push(Doubt::Level { lines: level });
+        found.push(DataNote::Level { lines: level });
     }
     if let Protocol::Tilting(tilting) = &study.protocol {
         let beyond = readings().filter_map(|m| Some((m.line, m.tilt.filter(|tilt| *tilt > tilting.end)?)));
         let (lines, tilts): (Vec<usize>, Vec<f64>) = beyond.unzip();
         if !lines.is_empty() {
             let tilt = tilts.into_iter().fold(0.0, f64::max);
-            found.push(Doubt::BeyondPlatform { lines, tilt, end: tilting.end });
+            found.push(DataNote::BeyondPlatform { lines, tilt, end: tilting.end });
         }
     }
     let thickness = |m: &Measurement| arm(m).map_or(f64::INFINITY, |arm| arm.layout.outline.base_thickness);
@@ -54,16 +56,21 @@ pub fn doubts(study: &Study, design: &Design) -> Vec<Doubt> {
     let moved = moved.filter(|m| m.kind != MeasuredKind::Below);
     let further: Vec<&Measurement> = moved.filter(|m| m.value.abs() > thickness(m)).collect();
     found.extend(grouped(&further, |m| (m.quantity, m.family.clone())).into_iter().map(|(first, lines)| {
-        Doubt::ThickerThanWall { lines, first: Box::new(first.clone()), thickness: thickness(first) }
+        DataNote::ThickerThanWall { lines, first: Box::new(first.clone()), thickness: thickness(first) }
     }));
     found.extend(overturned(study, design));
     found.extend(contradicted(design));
-    found.extend(odd_ones(design));
+    found.extend(unit_outliers(design));
     found
 }
 
-/// The doubts that come from campaigns of a world, those of every cause among them; a pure function of its arguments.
-pub fn doubts_beside(world: &World<'_>, design: &Design, measured: &Campaign, seed: u64) -> Vec<Doubt> {
+/// The notes that come from campaigns of a world, those of every cause among them; a pure function of its arguments.
+pub fn data_notes_by_simulation(
+    world: &World<'_>,
+    design: &Design,
+    measured: &Campaign,
+    seed: u64,
+) -> Vec<DataNote> {
     let causes = std::iter::once(None).chain(world.causes().into_iter().map(Some));
     let simulated: Vec<Campaign> = causes
         .flat_map(|cause| (0..CAMPAIGNS).map(move |k| (cause, k)))
@@ -105,12 +112,12 @@ pub fn doubts_beside(world: &World<'_>, design: &Design, measured: &Campaign, se
     let lacking = world.too_few().into_iter().map(|cause| world.mechanisms()[cause].name);
     let mechanisms: Vec<&'static str> = lacking.collect();
     if !mechanisms.is_empty() {
-        found.push(Doubt::NotConsidered { mechanisms });
+        found.push(DataNote::NotConsidered { mechanisms });
     }
     found.extend(
         grouped(&fallen, |m| (m.quantity, m.family.clone()))
             .into_iter()
-            .map(|(first, lines)| Doubt::Fallen { lines, first: Box::new(first.clone()) }),
+            .map(|(first, lines)| DataNote::Fallen { lines, first: Box::new(first.clone()) }),
     );
     let readings: Vec<&Measurement> = out.iter().map(|(m, ..)| *m).collect();
     let of = |m: &Measurement| {
@@ -120,7 +127,7 @@ pub fn doubts_beside(world: &World<'_>, design: &Design, measured: &Campaign, se
         |m: &Measurement| (m.quantity, m.family.clone(), of(m).is_some_and(|(_, fits)| fits.is_some()));
     for (first, lines) in grouped(&readings, kind) {
         let Some((range, fits)) = of(first) else { continue };
-        found.push(Doubt::OutOfRange { lines, first: Box::new(first.clone()), range, fits });
+        found.push(DataNote::OutOfRange { lines, first: Box::new(first.clone()), range, fits });
     }
     found
 }

@@ -1,8 +1,8 @@
-//! A specimen that is odd against its fellows: its readings are theirs times the ratio of two units.
+//! A specimen that is an outlier among those of its family: its readings are theirs times the ratio of two units.
 
 use std::collections::BTreeMap;
 
-use crate::critic::screening::note::{Doubt, Told};
+use crate::critic::screening::note::{DataNote, Extent};
 use crate::critic::screening::units::factors;
 use crate::critic::simulate::Design;
 use crate::math::ln;
@@ -55,8 +55,8 @@ impl Beside<'_> {
     }
 }
 
-/// Doubts about specimens, then about single readings of others, in the order of the design.
-pub fn odd_ones(design: &Design) -> Vec<Doubt> {
+/// Notes on specimens, then on single readings of others, in the order of the design.
+pub fn unit_outliers(design: &Design) -> Vec<DataNote> {
     let mut groups: BTreeMap<(usize, Option<MeasuredQuantity>), Specimens<'_>> = BTreeMap::new();
     for (family, m) in design.readings().filter(|(_, m)| !m.kind.is_censored()) {
         // Displacements of one specimen are read by one gauge; what a fixed target shows is no matter of the wall.
@@ -68,20 +68,20 @@ pub fn odd_ones(design: &Design) -> Vec<Doubt> {
     groups.values().flat_map(among).collect()
 }
 
-/// Doubts about readings of one kind in one family, by specimen.
-fn among(specimens: &Specimens<'_>) -> Vec<Doubt> {
+/// Notes on readings of one kind in one family, by specimen.
+fn among(specimens: &Specimens<'_>) -> Vec<DataNote> {
     let beside: Vec<Vec<Beside<'_>>> = specimens
         .iter()
         .map(|(name, own)| own.iter().filter_map(|m| beside(name, m, specimens)).collect())
         .collect();
     let of_two = specimens.len() == 2;
-    let mut found: Vec<Doubt> = Vec::new();
+    let mut found: Vec<DataNote> = Vec::new();
     for (own, all) in beside.iter().zip(specimens.values()) {
         let whole: Vec<&Beside<'_>> = own.iter().collect();
         match factor(&whole) {
             Some(factor) => {
-                let of = if of_two { Told::OfTwo(all.len()) } else { Told::Whole(all.len()) };
-                found.push(doubt(&whole, factor, of));
+                let of = if of_two { Extent::OfTwo(all.len()) } else { Extent::Whole(all.len()) };
+                found.push(note(&whole, factor, of));
             }
             None => found.extend(parts(own)),
         }
@@ -145,13 +145,13 @@ fn at(own: &[&Measurement], m: &Measurement) -> Option<(f64, f64)> {
 }
 
 /// Readings of a specimen that are odd among its own: all of a quantity, all at a tilt, or one.
-fn parts(own: &[Beside<'_>]) -> Vec<Doubt> {
+fn parts(own: &[Beside<'_>]) -> Vec<DataNote> {
     let quantity = |b: &Beside<'_>| (Some(b.reading.quantity), None, 0_usize);
     let tilt = |b: &Beside<'_>| (None, b.reading.tilt.map(f64::to_bits), 0_usize);
     let single =
         |b: &Beside<'_>| (Some(b.reading.quantity), b.reading.tilt.map(f64::to_bits), b.reading.line);
-    let mut found: Vec<Doubt> = Vec::new();
-    let mut told: Vec<*const Measurement> = Vec::new();
+    let mut found: Vec<DataNote> = Vec::new();
+    let mut noted: Vec<*const Measurement> = Vec::new();
     for key in
         [&quantity as &dyn Fn(&Beside<'_>) -> (Option<MeasuredQuantity>, Option<u64>, usize), &tilt, &single]
     {
@@ -162,15 +162,15 @@ fn parts(own: &[Beside<'_>]) -> Vec<Doubt> {
             let logs: Vec<f64> = rest.iter().filter_map(|b| b.log()).collect();
             // What differs from its fellows must differ from the specimen's other readings, too.
             let is_usual = rest.len() >= 2 && median(&logs).is_some_and(|log| log.abs() < ln(CONSISTENT));
-            let is_new = group.iter().all(|b| !told.contains(&std::ptr::from_ref(b.reading)));
+            let is_new = group.iter().all(|b| !noted.contains(&std::ptr::from_ref(b.reading)));
             let is_off = group.iter().all(|b| b.is_off);
             if let Some(factor) = factor(&group)
                 && is_usual
                 && is_off
                 && is_new
             {
-                told.extend(group.iter().map(|b| std::ptr::from_ref(b.reading)));
-                found.push(doubt(&group, factor, Told::Part));
+                noted.extend(group.iter().map(|b| std::ptr::from_ref(b.reading)));
+                found.push(note(&group, factor, Extent::Part));
             }
         }
     }
@@ -187,22 +187,22 @@ fn factor(group: &[&Beside<'_>]) -> Option<f64> {
     let near =
         factors(dimension).into_iter().find(|factor| (middle.abs() - ln(*factor)).abs() <= ln(NEAR))?;
     // The fewer readings there are, the plainer the fellows must be.
-    let is_told = match group {
+    let is_plain = match group {
         [alone] => alone.is_plain,
         [_, _] => group.iter().all(|b| b.agree == 1.0),
         _ => true,
     };
-    (agree && is_told).then(|| if middle < 0.0 { 1.0 / near } else { near })
+    (agree && is_plain).then(|| if middle < 0.0 { 1.0 / near } else { near })
 }
 
 fn median(values: &[f64]) -> Option<f64> {
     stats::quantile(values, 0.5)
 }
 
-fn doubt(group: &[&Beside<'_>], factor: f64, told: Told) -> Doubt {
+fn note(group: &[&Beside<'_>], factor: f64, extent: Extent) -> DataNote {
     let mut lines: Vec<usize> = group.iter().map(|b| b.reading.line).collect();
     lines.sort_unstable();
     lines.dedup();
     let (first, usual) = (Box::new(group[0].reading.clone()), group[0].usual);
-    Doubt::OtherUnit { lines, first, usual, factor, readings: group.len(), told }
+    DataNote::OtherUnit { lines, first, usual, factor, readings: group.len(), extent }
 }

@@ -8,7 +8,7 @@ mod queries;
 mod unmodelled;
 mod world;
 
-pub use bank::{BANK, Bank, DOUBT, Emulator, Held, NotThisBank, Path, Place, Plan};
+pub use bank::{BANK, Bank, Emulator, Held, NotThisBank, PRIOR_WIDENING, Path, Place, Plan};
 pub use causes::Causes;
 pub use design::{Campaign, Design, Seen, Specimen, Unused};
 pub use queries::Asked;

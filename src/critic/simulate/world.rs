@@ -6,7 +6,9 @@ mod tests;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::critic::compare::of_points;
-use crate::critic::simulate::bank::{Bank, Curves, DOUBT, Emulator, HALF_WAY, NUMBERS, Path, Plan, Told};
+use crate::critic::simulate::bank::{
+    Bank, Curves, Emulator, HALF_WAY, NUMBERS, PRIOR_WIDENING, Path, Plan, Told,
+};
 use crate::critic::simulate::causes::Causes;
 use crate::critic::simulate::design::{Campaign, Design};
 use crate::critic::simulate::queries::Asked;
@@ -114,7 +116,7 @@ impl<'s> World<'s> {
             told.random |= is_random(arm);
             let Some(path) = path else { continue };
             let Some(before) = unchanged.get(&(place.family, place.point)) else { continue };
-            let joints = place.joints.into_iter().map(|score| score / DOUBT);
+            let joints = place.joints.into_iter().map(|score| score / PRIOR_WIDENING);
             let parameters = place.parameters.iter().copied().map(quantile);
             told.scores.push(joints.chain(varying(mechanisms, place.cause, parameters)).collect());
             let (own, before) = (path.adding(), before.adding());
@@ -155,7 +157,7 @@ impl<'s> World<'s> {
         self.kinds.iter().max().map_or(0, |last| last + 1)
     }
 
-    /// The truth with these causes, drawn from the priors, those of the joints wider by [`DOUBT`].
+    /// The truth with these causes, drawn from the priors, those of the joints wider by [`PRIOR_WIDENING`].
     pub fn drawn(&self, causes: impl Into<Causes>, streams: &Streams) -> Truth {
         let causes = causes.into();
         let mut scores = streams.of("truth");
@@ -166,7 +168,7 @@ impl<'s> World<'s> {
     /// The truth of the base model, drawn from the priors as they are stated.
     pub fn stated(&self, streams: &Streams) -> Truth {
         let mut truth = self.drawn(None, streams);
-        truth.joints.iter_mut().flatten().for_each(|score| *score /= DOUBT);
+        truth.joints.iter_mut().flatten().for_each(|score| *score /= PRIOR_WIDENING);
         truth
     }
 
@@ -176,12 +178,15 @@ impl<'s> World<'s> {
         3 * self.joint_kinds() + parameters.sum::<usize>()
     }
 
-    /// The truth with these causes and these scores; those of the joints count [`DOUBT`] times.
+    /// The truth with these causes and these scores; those of the joints count [`PRIOR_WIDENING`] times.
     pub fn truth(&self, causes: impl Into<Causes>, scores: &[f64]) -> Truth {
         let causes = causes.into();
         crate::check!(scores.len() == self.inputs(causes), "{} scores for {causes:?}", scores.len());
         let (joints, parameters) = scores.split_at(3 * self.joint_kinds());
-        let joints = joints.chunks_exact(3).map(|c| [DOUBT * c[0], DOUBT * c[1], DOUBT * c[2]]).collect();
+        let joints = joints
+            .chunks_exact(3)
+            .map(|c| [PRIOR_WIDENING * c[0], PRIOR_WIDENING * c[1], PRIOR_WIDENING * c[2]])
+            .collect();
         Truth { causes, parameters: parameters.to_vec(), joints }
     }
 
@@ -287,7 +292,7 @@ impl<'s> World<'s> {
     /// The paths that the walls of a family may have under a truth.
     fn likely(&self, family: usize, truth: &Truth) -> Likely {
         let Walls { emulator, random } = &self.base[&family];
-        let joints = truth.joints[self.kinds[family]].map(|score| score / DOUBT);
+        let joints = truth.joints[self.kinds[family]].map(|score| score / PRIOR_WIDENING);
         let base = emulator.told(&joints, NEIGHBOURS);
         let mut likely = Likely {
             expected: base.numbers,

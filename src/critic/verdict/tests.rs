@@ -23,7 +23,7 @@ fn little_is_found_where_nothing_is_hidden_also_with_joints_far_out_in_their_pri
     let (within, beyond) = (found(0.0, 78), found(2.0, 79));
     println!("{within} and {beyond} of 300");
     // 5 % of 300 are 15 +- 3.8; three sigma of it, and of the 1,000 that set the limit. With joints as they are stated, and
-    // doubted further than that, it is less.
+    // their priors widened further than that, it is less.
     assert!(within <= 28, "{within}");
     // kn lies two of its standard deviations from where it is thought to be: the joints take it up.
     assert!(beyond <= 40, "{beyond}");

@@ -10,5 +10,5 @@ pub mod tests;
 
 pub use emulator::{Emulator, Told};
 pub use path::{Curves, HALF_WAY, NUMBERS, PLACES, Path};
-pub use plan::{DOUBT, Place, Plan};
+pub use plan::{PRIOR_WIDENING, Place, Plan};
 pub use store::{BANK, Bank, Held, NotThisBank};

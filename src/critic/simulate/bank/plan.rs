@@ -10,9 +10,9 @@ use crate::study::{Acts, Described, Faults, Nuisance, Parameter, Study};
 /// So many times as many points without any cause: all others are compared with them.
 pub(super) const BASE: u64 = 2;
 
-/// Joints are taken to be so much less known than their priors say: a prior that is off by two of its standard deviations is no
+/// Priors of the joints are widened by this factor: a prior that is off by two of its standard deviations is no
 /// effect to be found.
-pub const DOUBT: f64 = 1.5;
+pub const PRIOR_WIDENING: f64 = 1.5;
 
 /// A wall of a bank: which family, which cause, where in the priors.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +24,7 @@ pub struct Place {
     /// Number of the point. The same point has the same stones and joints' scores under every cause.
     pub point: u64,
     /// Where the factors on the joints lie in their priors (standard normal scores), in the order of
-    /// [`NUISANCES`](crate::study::NUISANCES); [`DOUBT`] times as far out as the priors say.
+    /// [`NUISANCES`](crate::study::NUISANCES); [`PRIOR_WIDENING`] times as far out as the priors say.
     pub joints: [f64; 3],
     /// The parameters of the cause, in its order, as quantiles of their priors.
     pub parameters: Vec<f64>,
@@ -90,7 +90,7 @@ impl Plan {
                     }
                     let joints = [0, 1, 2].map(|k| {
                         let mut stream = streams.of(&format!("bank {} {}", arm.name, nuisances[k].name));
-                        DOUBT * quantile(stream.uniform())
+                        PRIOR_WIDENING * quantile(stream.uniform())
                     });
                     let factors = [0, 1, 2].map(|k| nuisances[k].prior.at_score(joints[k]));
                     let kn = arm.kn_points[arm.middle_point()];
@@ -112,7 +112,8 @@ impl Plan {
         });
         let mut decided: BTreeMap<String, String> = priors.chain(parameters).collect();
         decided.insert("bank.points".to_owned(), points.to_string());
-        decided.insert("bank.doubt".to_owned(), DOUBT.to_string());
+        // The key is part of the hash of every bank that is kept.
+        decided.insert("bank.doubt".to_owned(), PRIOR_WIDENING.to_string());
         let named: Vec<&str> = families.iter().map(|&family| study.arms[family].name.as_str()).collect();
         decided.insert("bank.families".to_owned(), named.join(", "));
         let name = format!("{}-bank", study.name);
@@ -176,7 +177,11 @@ mod tests {
         let scores: Vec<f64> = base.flat_map(|place| place.joints).collect();
         let sigma = crate::stats::sigma(&scores).expect("many");
         // 720 scores tell a standard deviation to 2.6 %.
-        assert!(scores.len() == 720 && (sigma / DOUBT - 1.0).abs() < 0.08, "{} {sigma}", scores.len());
+        assert!(
+            scores.len() == 720 && (sigma / PRIOR_WIDENING - 1.0).abs() < 0.08,
+            "{} {sigma}",
+            scores.len()
+        );
     }
 
     #[test]
