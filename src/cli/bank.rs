@@ -42,17 +42,17 @@ fn made(arguments: &Bank) -> Result<(), Failure> {
         && let Ok(judge) = judge::judge(&world, &Design::of(&study).0, seed)
     {
         judge::keep_self_test(&judge, &plan, seed, &out, arguments.judged)?;
-        said.push_str(&foretold(&world));
+        said.push_str(&explained(&world));
     }
     output::print(&said)
 }
 
 /// How much of what walls do the emulators know beforehand.
-fn foretold(world: &World<'_>) -> String {
+fn explained(world: &World<'_>) -> String {
     let mut text = "Told beforehand of walls that were left out, of the variance in a family (the rest is stones and emulator, and \
                     is reckoned with)\n"
         .to_string();
-    for (family, shares) in world.foretold() {
+    for (family, shares) in world.explained() {
         let [collapse, moved] = shares.map(|share| 100.0 * share.max(0.0));
         let name = &world.study().arms[family].name;
         text.push_str(&format!(

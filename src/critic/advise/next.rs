@@ -1,4 +1,4 @@
-//! Which measurement would tell apart what these data cannot: each of a menu is simulated under every cause that is still possible,
+//! Which measurement would separate what these data cannot: each of a menu is simulated under every cause that is still possible,
 //! and judged by the information about the cause that it brings, and what it costs.
 
 use std::collections::BTreeMap;
@@ -76,7 +76,7 @@ const MENU: [(Offer, f64, Per); 9] = [
     (Offer::MoreSpecimens, 4.5, Per::Specimen),
 ];
 
-/// What an offer would tell.
+/// What an offer is worth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Offered {
     /// The measurement.
@@ -108,14 +108,14 @@ pub fn offers(judge: &Judge<'_>, possible: &[(f64, Vec<Truth>)], seed: u64) -> V
         .par_iter()
         .filter_map(|&(offer, hours, per)| {
             let design = planned(offer, judge, fine)?;
-            let told = information(judge, &design, possible, &weights, entropy, seed);
+            let found = information(judge, &design, possible, &weights, entropy, seed);
             let times = match per {
                 Per::Campaign => 1,
                 Per::Family => judge.design.families().len(),
                 Per::Specimen => design.specimens.len(),
             };
             let hours = hours * times as f64;
-            let [bits, error, of] = [told.value, told.error, entropy].map(|nats| nats / ln(2.0));
+            let [bits, error, of] = [found.value, found.error, entropy].map(|nats| nats / ln(2.0));
             let interval = [-NORMAL, NORMAL].map(|side| (bits + side * error).clamp(0.0, of));
             Some(Offered { offer, hours, fine, bits: bits.clamp(0.0, of), interval, of })
         })
@@ -225,21 +225,21 @@ fn planned(offer: Offer, judge: &Judge<'_>, fine: f64) -> Option<Design> {
 
 /// Expected information (nat), and its standard error.
 #[derive(Default)]
-struct Told {
+struct Information {
     value: f64,
     error: f64,
 }
 
-impl Told {
+impl Information {
     /// An entropy less a cross entropy: `logs` are the logarithms of the probability of the right class, of campaigns of each.
-    fn of(entropy: f64, weights: &[f64], logs: &[Vec<f64>]) -> Told {
+    fn of(entropy: f64, weights: &[f64], logs: &[Vec<f64>]) -> Information {
         let (mut value, mut variance) = (entropy, 0.0);
         for (weight, own) in weights.iter().zip(logs) {
             value += weight * stats::mean(own).unwrap_or(0.0);
             let sigma = weight * stats::sigma(own).unwrap_or(0.0);
             variance += sigma * sigma / own.len() as f64;
         }
-        Told { value, error: variance.sqrt() }
+        Information { value, error: variance.sqrt() }
     }
 }
 
@@ -252,13 +252,13 @@ fn information(
     weights: &[f64],
     entropy: f64,
     seed: u64,
-) -> Told {
+) -> Information {
     let shown = |truth: &Truth, k: u64| judge.world.campaign(design, truth, &Streams::new(seed, k));
     let scaling: Vec<_> = (0..SCALING)
         .map(|k| shown(&judge.world.drawn(None, &Streams::new(seed.wrapping_add(1), k)), k))
         .collect();
     let scale = Scale::of(design, &scaling);
-    let told: Vec<Vec<BTreeMap<Feature, f64>>> = possible
+    let seen: Vec<Vec<BTreeMap<Feature, f64>>> = possible
         .iter()
         .enumerate()
         .map(|(class, (_, draws))| {
@@ -267,7 +267,7 @@ fn information(
             (0..SIMULATED).map(|k| features(design, &scale, &shown(draw(k), first + k))).collect()
         })
         .collect();
-    let mut names: Vec<Feature> = told.iter().flatten().flat_map(|found| found.keys().copied()).collect();
+    let mut names: Vec<Feature> = seen.iter().flatten().flat_map(|found| found.keys().copied()).collect();
     names.sort();
     names.dedup();
     let vector = |found: &BTreeMap<Feature, f64>| {
@@ -277,12 +277,12 @@ fn information(
             names.iter().map(|name| tamed(found.get(name).copied().unwrap_or(0.0))),
         )
     };
-    let points: Vec<Vec<DVector<f64>>> = told.iter().map(|own| own.iter().map(vector).collect()).collect();
+    let points: Vec<Vec<DVector<f64>>> = seen.iter().map(|own| own.iter().map(vector).collect()).collect();
     // Learnt from the even campaigns, judged on the odd ones.
     let normals: Vec<Normal> =
         points.iter().filter_map(|own| Normal::of(&own.iter().step_by(2).collect::<Vec<_>>())).collect();
     if normals.len() < points.len() {
-        return Told::default();
+        return Information::default();
     }
     let judged = |(class, own): (usize, &Vec<DVector<f64>>)| -> Vec<f64> {
         let logs = own.iter().skip(1).step_by(2).map(|point| {
@@ -293,7 +293,7 @@ fn information(
         });
         logs.collect()
     };
-    Told::of(entropy, weights, &points.iter().enumerate().map(judged).collect::<Vec<_>>())
+    Information::of(entropy, weights, &points.iter().enumerate().map(judged).collect::<Vec<_>>())
 }
 
 /// A normal distribution of features.
@@ -391,7 +391,8 @@ mod tests {
     #[test]
     fn information_is_as_sure_as_its_campaigns_are_many_and_alike() {
         // Means of -0.2 and -0.4; standard deviations of 0.1 root 2 over the root of two, and of 0.2 over the root of three.
-        let Told { value, error } = Told::of(0.6, &[0.25, 0.75], &[vec![-0.1, -0.3], vec![-0.2, -0.4, -0.6]]);
+        let Information { value, error } =
+            Information::of(0.6, &[0.25, 0.75], &[vec![-0.1, -0.3], vec![-0.2, -0.4, -0.6]]);
         assert!((value - (0.6 - 0.25 * 0.2 - 0.75 * 0.4)).abs() < 1e-12, "{value}");
         let squares = 0.25 * 0.25 * 0.01 + 0.75 * 0.75 * 0.04 / 3.0;
         assert!((error * error - squares).abs() < 1e-12, "{error}");

@@ -16,9 +16,9 @@ struct Swarm {
     moves: usize,
 }
 
-/// What evidence is told by.
+/// What evidence is computed by.
 const WHOLE: Swarm = Swarm { particles: 160, moves: 3 };
-/// What tells which of many are worth a whole one, for a seventh of its cost; it is off by one or two (in the logarithm).
+/// What shows which of many are worth a whole one, for a seventh of its cost; it is off by one or two (in the logarithm).
 const SCOUTS: Swarm = Swarm { particles: 48, moves: 1 };
 /// A temperature falls until so large a share of the particles still counts.
 const COUNTING: f64 = 0.5;
@@ -55,7 +55,7 @@ pub fn evidence(
     causes: impl Into<Causes>,
     seed: u64,
 ) -> Evidence {
-    told(world, design, campaign, causes.into(), &WHOLE, seed)
+    sampled(world, design, campaign, causes.into(), &WHOLE, seed)
 }
 
 /// The logarithm of the evidence of causes, roughly.
@@ -66,10 +66,10 @@ pub fn rough_evidence(
     causes: Causes,
     seed: u64,
 ) -> f64 {
-    told(world, design, campaign, causes, &SCOUTS, seed).log
+    sampled(world, design, campaign, causes, &SCOUTS, seed).log
 }
 
-fn told(
+fn sampled(
     world: &World<'_>,
     design: &Design,
     campaign: &Campaign,

@@ -84,21 +84,21 @@ impl Ranking {
         };
         let networks = (0..NETWORKS).into_par_iter().map(network).collect();
         let mut ranking = Ranking { causes, networks, least: Vec::new() };
-        let told: Vec<(Vec<f64>, usize)> =
+        let given: Vec<(Vec<f64>, usize)> =
             kept.into_par_iter().map(|(inputs, class)| (ranking.shares(&inputs).0, class)).collect();
         let least = (0..ranking.causes.len()).map(|class| {
-            let own = told.iter().filter(|(_, own)| *own == class);
-            let mut given: Vec<f64> = own.map(|(shares, _)| shares[class]).collect();
-            given.sort_by(f64::total_cmp);
+            let own = given.iter().filter(|(_, own)| *own == class);
+            let mut shares: Vec<f64> = own.map(|(shares, _)| shares[class]).collect();
+            shares.sort_by(f64::total_cmp);
             // With n campaigns the share that lies at or above the k-th smallest is at least 1 - k/(n + 1).
-            let rank = ((1.0 - COVERED) * (given.len() + 1) as f64).floor() as usize;
-            rank.checked_sub(1).map_or(0.0, |k| given[k])
+            let rank = ((1.0 - COVERED) * (shares.len() + 1) as f64).floor() as usize;
+            rank.checked_sub(1).map_or(0.0, |k| shares[k])
         });
         ranking.least = least.collect();
         ranking
     }
 
-    /// The causes that are told apart, the base model first.
+    /// The causes that are ranked, the base model first.
     pub fn causes(&self) -> &[Option<usize>] {
         &self.causes
     }

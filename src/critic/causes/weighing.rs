@@ -9,11 +9,11 @@ use crate::math::ln;
 /// evidence is too sure of itself by far: it leans on a normal law and on few particles.
 const HEARD: [f64; 2] = [0.7, 0.2];
 /// Power in which the evidence of those that are looked at closely counts besides, found in the same way on 56 campaigns: it is far
-/// better told, and sure of itself by as much as its law is not that of the walls.
+/// more exact, and sure of itself by as much as its law is not that of the walls.
 const HEARD_CLOSELY: f64 = 0.2;
 
 /// The causes with their probabilities, once the evidence has been heard as well: the ranking knows how campaigns of a cause look
-/// and has seen thousands of them, the evidence knows every reading of this one. A roughly told one counts little. What is nameless
+/// and has seen thousands of them, the evidence knows every reading of this one. A rough one counts little. What is nameless
 /// has no evidence, and keeps its probability. `logs` are the logarithms of the evidence, in the order of the causes.
 pub fn weighed(ranked: &Ranked, logs: &[f64]) -> Ranked {
     let both =
@@ -34,8 +34,8 @@ pub fn heard(ranked: &Ranked, closely: &[usize], logs: &[f64]) -> Ranked {
     let whole = looked_at.iter().fold(0.0, |sum, (_, p)| sum + p);
     let both = looked_at.iter().filter_map(|(cause, p)| Some(ln(p.max(1e-12)) + HEARD_CLOSELY * log(cause)?));
     let shares = softmax(&both.collect::<Vec<_>>(), 1.0);
-    let told = looked_at.iter().zip(shares).map(|((cause, _), share)| (*cause, whole * share));
-    let shares = told.chain(others).map(|(cause, p)| (cause, p / (1.0 - ranked.nameless))).collect();
+    let moved = looked_at.iter().zip(shares).map(|((cause, _), share)| (*cause, whole * share));
+    let shares = moved.chain(others).map(|(cause, p)| (cause, p / (1.0 - ranked.nameless))).collect();
     Ranked::new(shares, ranked.nameless, ranked.set.clone())
 }
 

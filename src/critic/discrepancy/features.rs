@@ -89,8 +89,8 @@ impl Scale {
     /// From campaigns of the base model.
     pub fn of(design: &Design, campaigns: &[Campaign]) -> Scale {
         let over = |m: &Measurement, seen: &dyn Fn(&Campaign) -> Seen| {
-            let told: Vec<f64> = campaigns.iter().filter_map(|campaign| seen(campaign).told(m)).collect();
-            Usual::of(m, &told)
+            let shown: Vec<f64> = campaigns.iter().filter_map(|campaign| seen(campaign).number(m)).collect();
+            Usual::of(m, &shown)
         };
         let specimens = design.specimens.iter().enumerate().map(|(index, specimen)| {
             let readings = specimen.readings.iter().enumerate();
@@ -120,20 +120,20 @@ impl Scale {
 
 impl Usual {
     /// From what campaigns of the base model show (SI).
-    fn of(m: &Measurement, told: &[f64]) -> Usual {
-        let largest = told.iter().fold(m.value.abs(), |largest, x| largest.max(x.abs()));
+    fn of(m: &Measurement, shown: &[f64]) -> Usual {
+        let largest = shown.iter().fold(m.value.abs(), |largest, x| largest.max(x.abs()));
         let error = reading_variance(m).sqrt();
         // What is rounded to nothing in all of them, without any other error, varies by its rounding.
         let floor = m.error.max(LEAST_SHARE * largest);
         let floor = if floor > 0.0 { floor } else { error.max(f64::MIN_POSITIVE) };
         let bend = error.max(LEAST_SHARE * largest).max(f64::MIN_POSITIVE);
-        let counted: Vec<f64> = told.iter().map(|x| asinh(x / bend)).collect();
+        let counted: Vec<f64> = shown.iter().map(|x| asinh(x / bend)).collect();
         let mean = stats::mean(&counted).unwrap_or_else(|| asinh(m.value / bend));
         // What makes it count one more there.
         let step = bend * cosh(mean);
         let sd = stats::sigma(&counted).unwrap_or(0.0).max(floor / step);
         Usual {
-            sd: stats::sigma(told).unwrap_or(0.0).max(floor),
+            sd: stats::sigma(shown).unwrap_or(0.0).max(floor),
             bend,
             counted: [mean, sd],
             error: error / (step * sd),
@@ -143,7 +143,7 @@ impl Usual {
     /// A reading against its mean and in its standard deviation; `None` where nothing was seen.
     fn scaled(&self, seen: Seen, m: &Measurement) -> Option<f64> {
         let [mean, sd] = self.counted;
-        seen.told(m).map(|told| (asinh(told / self.bend) - mean) / sd)
+        seen.number(m).map(|number| (asinh(number / self.bend) - mean) / sd)
     }
 }
 
@@ -329,8 +329,8 @@ mod tests {
             ..design.specimens[0].readings[0].clone()
         };
         // From ten to a thousand times the error, a factor apart each.
-        let told: Vec<f64> = (0..101).map(|k| error * exp(ln(10.0) * (1.0 + 0.02 * f64::from(k)))).collect();
-        let usual = Usual::of(&m, &told);
+        let shown: Vec<f64> = (0..101).map(|k| error * exp(ln(10.0) * (1.0 + 0.02 * f64::from(k)))).collect();
+        let usual = Usual::of(&m, &shown);
         let of = |value: f64| usual.scaled(Seen::Value(value), &m).expect("it is seen");
         // What stiffer joints do to all displacements is the same step for small and for large ones.
         let (small, large) = (of(0.04) - of(0.02), of(0.8) - of(0.4));
@@ -343,7 +343,7 @@ mod tests {
         let moved = of(middle + 0.5 * error) - of(middle - 0.5 * error);
         assert!((usual.error / moved - 1.0).abs() < 1e-3, "{moved}");
         // In metres it varies as it does.
-        assert!((usual.sd - stats::sigma(&told).expect("many")).abs() < 1e-12);
+        assert!((usual.sd - stats::sigma(&shown).expect("many")).abs() < 1e-12);
     }
 
     #[test]

@@ -145,7 +145,7 @@ impl<'d> SmoothDiscrepancy<'d> {
             .map(|part| DMatrix::from_fn(all.len(), all.len(), |a, b| covariance(part, &all[a], &all[b])));
         let off = DVector::from_fn(places.len(), |k, _| {
             let at = &all[places[k]];
-            (at.seen.told(at.m).unwrap_or(at.mean) - at.mean) / at.unit
+            (at.seen.number(at.m).unwrap_or(at.mean) - at.mean) / at.unit
         });
         let tried = TRIED.into_iter().filter_map(|sigma| {
             let variance = sigma * sigma;

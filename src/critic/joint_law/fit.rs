@@ -52,7 +52,7 @@ pub struct Fit {
 }
 
 impl Fit {
-    /// Of some of the specimens, from a first guess; `None` where no walls can be told of.
+    /// Of some of the specimens, from a first guess; `None` where no walls can be simulated.
     pub fn of(
         tested: &Tested<'_>,
         freedom: Freedom,
@@ -112,7 +112,7 @@ impl Fit {
     }
 
     /// The logarithm of the density that it gives to the readings of a specimen that it has not seen; `None` where it cannot tell.
-    pub fn foretells(&self, tested: &Tested<'_>, specimen: usize) -> Option<f64> {
+    pub fn predicts(&self, tested: &Tested<'_>, specimen: usize) -> Option<f64> {
         let said = said(tested, self.freedom, &[specimen], &self.unknowns)?.pop()?;
         let covariance = &said.covariance + &said.slopes * &self.covariance * said.slopes.transpose();
         let root = covariance.cholesky()?;

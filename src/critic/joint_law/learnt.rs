@@ -164,7 +164,7 @@ impl LearntLaw {
         }
     }
 
-    /// Whether it is taken on: it foretells what it has not seen.
+    /// Whether it is taken on: it predicts what it has not seen.
     pub fn is_accepted(&self) -> bool {
         self.gain.as_ref().is_some_and(|gain| gain.is_accepted)
     }

@@ -46,7 +46,7 @@ pub struct Tested<'s> {
     pub families: Vec<usize>,
     /// The specimens.
     pub specimens: Vec<Specimen>,
-    /// The knots that a law is told by.
+    /// The knots of a law.
     pub knots: Knots,
     /// Stresses (Pa) that press on the beds of these walls: a quarter of the mean on the lowest one, and that under the toe at the
     /// largest tilt at which a wall was seen.

@@ -84,7 +84,7 @@ pub fn data_notes_by_simulation(
         readings.map(move |(k, m)| (m, move |campaign: &Campaign| campaign.specimens[index][k]))
     });
     let read = |m: &Measurement, of: &dyn Fn(&Campaign) -> Seen| -> (Seen, Vec<f64>) {
-        (of(measured), simulated.iter().filter_map(|campaign| of(campaign).told(m)).collect())
+        (of(measured), simulated.iter().filter_map(|campaign| of(campaign).number(m)).collect())
     };
     let specimens = specimens.map(|(m, of)| (m, read(m, &of)));
     let apart = design.apart.iter().enumerate();
@@ -96,7 +96,7 @@ pub fn data_notes_by_simulation(
             fallen.push(m);
         }
         let range = stats::quantile(&shown, TAIL).zip(stats::quantile(&shown, 1.0 - TAIL));
-        let (Some((low, high)), Some(value)) = (range, seen.told(m)) else { continue };
+        let (Some((low, high)), Some(value)) = (range, seen.number(m)) else { continue };
         let slack = 0.5 * m.resolution + 1e-9 * value.abs();
         // A bound may lie anywhere on its other side.
         let inside = |x: f64| {

@@ -12,7 +12,7 @@ pub fn ratios(dimension: Dimension) -> Vec<f64> {
     ratios
 }
 
-/// Ratios above 1 by which one specimen is told from another, ascending: of units that may be written, and of those that people
+/// Ratios above 1 by which one specimen is off from another, ascending: of units that may be written, and of those that people
 /// have beside them. An inch called a centimetre is left out: a softer joint does as much; so is a tenth of a joint's stiffness.
 pub fn factors(dimension: Dimension) -> Vec<f64> {
     let foreign: &[f64] = match dimension {

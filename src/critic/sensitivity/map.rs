@@ -77,15 +77,15 @@ pub enum Cell {
 pub struct Change {
     /// Mean over the walls that have a value with and without the mechanism.
     pub value: Estimate,
-    /// The part that the readings can tell, see [`Observable::bounds_only`]; otherwise the same.
-    pub told: Estimate,
+    /// The part that the readings resolve, see [`Observable::bounds_only`]; otherwise the same.
+    pub resolved: Estimate,
     /// Number of these walls.
     pub pairs: u64,
     /// Walls that fall before the reading with the mechanism and not without.
     pub fell_before: u64,
-    /// [`Change::told`] over the error of the readings alone; `None` where that is 0.
+    /// [`Change::resolved`] over the error of the readings alone; `None` where that is 0.
     pub in_measurement_errors: Option<Estimate>,
-    /// [`Change::told`] over [`Observable::error`]; `None` where that is 0.
+    /// [`Change::resolved`] over [`Observable::error`]; `None` where that is 0.
     pub in_errors: Option<Estimate>,
 }
 
@@ -247,14 +247,14 @@ fn change(observable: &Observable, pairs: &[(f64, f64)], fell_before: u64) -> Ch
     let mean = |of: &dyn Fn(f64) -> f64| {
         Summary::of(&pairs.iter().map(|&(without, with)| of(with) - of(without)).collect::<Vec<_>>()).mean
     };
-    let told = mean(&|x| observable.told(x));
+    let resolved = mean(&|x| observable.resolved(x));
     Change {
         value: mean(&|x| x),
-        told,
+        resolved,
         pairs: pairs.len() as u64,
         fell_before,
-        in_measurement_errors: in_units_of(told, observable.measurement),
-        in_errors: in_units_of(told, observable.error()),
+        in_measurement_errors: in_units_of(resolved, observable.measurement),
+        in_errors: in_units_of(resolved, observable.error()),
     }
 }
 
@@ -281,7 +281,7 @@ impl Cell {
 impl Change {
     /// Whether the interval of the change includes 0; also where one wall gives none.
     pub fn includes_0(&self) -> bool {
-        self.told.interval.is_none_or(|[low, high]| low <= 0.0 && high >= 0.0)
+        self.resolved.interval.is_none_or(|[low, high]| low <= 0.0 && high >= 0.0)
     }
 }
 

@@ -38,8 +38,8 @@ impl Observable {
         (self.measurement * self.measurement + self.scatter * self.scatter).sqrt()
     }
 
-    /// What of a wall's value the readings can tell: all of it, or where only bounds are known what lies beyond them.
-    pub(super) fn told(&self, value: f64) -> f64 {
+    /// What of a wall's value the readings resolve: all of it, or where only bounds are known what lies beyond them.
+    pub(super) fn resolved(&self, value: f64) -> f64 {
         if self.bounds.is_empty() {
             return value;
         }
@@ -56,10 +56,10 @@ impl Observable {
 /// The observables of a study, in the order of the arms, quantities and tilts, without what no simulation gives; `rows` are
 /// those of an arm in the base model, whose scatter enters the errors.
 pub(super) fn observables<'r>(study: &Study, rows: impl Fn(usize) -> Vec<&'r Row>) -> Vec<Observable> {
-    let told = |quantity: MeasuredQuantity| study.goes_back() || !quantity.is_remainder();
-    let groups = groups(study)
-        .into_iter()
-        .filter(|((arm, quantity, _, rising), _)| *rising && *arm < study.arms.len() && told(*quantity));
+    let is_simulated = |quantity: MeasuredQuantity| study.goes_back() || !quantity.is_remainder();
+    let groups = groups(study).into_iter().filter(|((arm, quantity, _, rising), _)| {
+        *rising && *arm < study.arms.len() && is_simulated(*quantity)
+    });
     groups.filter_map(|((arm, ..), group)| observable(arm, &group, &rows(arm))).collect()
 }
 

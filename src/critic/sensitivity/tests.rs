@@ -89,8 +89,8 @@ fn each_mechanism_changes_what_it_can_change() {
     // Of a reading that is only known to be below 2 mm, what lies above 2 mm counts.
     let bound = value(&map, "gauge_offset", Q::DisplacementCentre);
     let beyond = base(Q::DisplacementCentre) + offset - 2e-3;
-    assert!((bound.told.value.expect("two walls") - beyond).abs() < 1e-12, "{bound:?} {beyond}");
-    assert_eq!(value(&map, "gauge_scale", Q::DisplacementCentre).told.value, Some(0.0));
+    assert!((bound.resolved.value.expect("two walls") - beyond).abs() < 1e-12, "{bound:?} {beyond}");
+    assert_eq!(value(&map, "gauge_scale", Q::DisplacementCentre).resolved.value, Some(0.0));
     // What has no number has a name.
     let late =
         map.observables.iter().position(|o| o.tilt.is_some_and(|t| degrees(t) > 30.0)).expect("measured");

@@ -20,7 +20,7 @@ impl Causes {
         self.0[0].filter(|_| self.0[1].is_none())
     }
 
-    /// A number of its own, by which random streams are told apart: 0 for the base model.
+    /// A number of its own, by which random streams are kept apart: 0 for the base model.
     pub(in crate::critic) fn number(self) -> u64 {
         self.each().fold(0, |number, cause| (number << 16) + 1 + cause as u64)
     }

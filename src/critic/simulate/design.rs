@@ -189,7 +189,7 @@ impl Seen {
     }
 
     /// As a number: what lies beyond a bound counts as lying on it. `None` where nothing was seen.
-    pub(in crate::critic) fn told(self, m: &Measurement) -> Option<f64> {
+    pub(in crate::critic) fn number(self, m: &Measurement) -> Option<f64> {
         match self {
             Seen::Value(value) => Some(value),
             Seen::Beyond => Some(m.value),

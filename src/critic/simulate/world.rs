@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::critic::compare::of_points;
 use crate::critic::simulate::bank::{
-    Bank, Curves, Emulator, HALF_WAY, NUMBERS, PRIOR_WIDENING, Path, Plan, Told,
+    Bank, Curves, Emulated, Emulator, HALF_WAY, NUMBERS, PRIOR_WIDENING, Path, Plan,
 };
 use crate::critic::simulate::causes::Causes;
 use crate::critic::simulate::design::{Campaign, Design};
@@ -97,7 +97,7 @@ pub struct World<'s> {
 }
 
 impl<'s> World<'s> {
-    /// From a bank; `None` where a family's base model has too few walls to tell others from them. A cause that has too few, or
+    /// From a bank; `None` where a family's base model has too few walls to emulate others from them. A cause that has too few, or
     /// cannot act on a family, has there the walls of the base model.
     pub fn new(
         study: &'s Study,
@@ -112,15 +112,15 @@ impl<'s> World<'s> {
         }
         let mut grouped: BTreeMap<(usize, Option<usize>), Learnt> = BTreeMap::new();
         for ((place, path), arm) in plan.places.iter().zip(&bank.paths).zip(&plan.study.arms) {
-            let told = grouped.entry((place.family, place.cause)).or_default();
-            told.random |= is_random(arm);
+            let learnt = grouped.entry((place.family, place.cause)).or_default();
+            learnt.random |= is_random(arm);
             let Some(path) = path else { continue };
             let Some(before) = unchanged.get(&(place.family, place.point)) else { continue };
             let joints = place.joints.into_iter().map(|score| score / PRIOR_WIDENING);
             let parameters = place.parameters.iter().copied().map(quantile);
-            told.scores.push(joints.chain(varying(mechanisms, place.cause, parameters)).collect());
+            learnt.scores.push(joints.chain(varying(mechanisms, place.cause, parameters)).collect());
             let (own, before) = (path.adding(), before.adding());
-            told.walls.push(match place.cause {
+            learnt.walls.push(match place.cause {
                 None => own,
                 Some(_) => std::array::from_fn(|k| own[k] - before[k]),
             });
@@ -243,10 +243,10 @@ impl<'s> World<'s> {
         self.base.get(&family).is_some_and(|walls| walls.random)
     }
 
-    /// What the emulators tell of walls of the base model that they do not know, by family: share of the variance of the collapse
+    /// What the emulators explain of walls of the base model that they do not know, by family: share of the variance of the collapse
     /// angle, and of (the logarithm of) how far a wall has moved half way up to it. The rest is the stones' own and the emulator's
     /// error.
-    pub fn foretold(&self) -> Vec<(usize, [f64; 2])> {
+    pub fn explained(&self) -> Vec<(usize, [f64; 2])> {
         let shares = |walls: &Walls| [0, HALF_WAY].map(|number| walls.emulator.explained()[number]);
         self.base.iter().map(|(family, walls)| (*family, shares(walls))).collect()
     }
@@ -293,7 +293,7 @@ impl<'s> World<'s> {
     fn likely(&self, family: usize, truth: &Truth) -> Likely {
         let Walls { emulator, random } = &self.base[&family];
         let joints = truth.joints[self.kinds[family]].map(|score| score / PRIOR_WIDENING);
-        let base = emulator.told(&joints, NEIGHBOURS);
+        let base = emulator.emulated(&joints, NEIGHBOURS);
         let mut likely = Likely {
             expected: base.numbers,
             own: vec![[0.0; NUMBERS]; base.left.len()],
@@ -305,11 +305,11 @@ impl<'s> World<'s> {
             let Some(change) = self.changes.get(&(family, cause)) else { continue };
             let parameters = varying(self.mechanisms, Some(cause), parameters.iter().copied());
             let scores: Vec<f64> = joints.into_iter().chain(parameters).collect();
-            let told = change.emulator.told(&scores, NEIGHBOURS);
-            likely.expected = moved(&likely.expected, &told.numbers);
+            let emulated = change.emulator.emulated(&scores, NEIGHBOURS);
+            likely.expected = moved(&likely.expected, &emulated.numbers);
             // The stones of the nearest wall with what the effect on a wall half way down the list is left with (a second effect: a
             // quarter), and so on round: what is nearest in the one has no part in what is nearest in the other.
-            likely.leave(&told, told.left.len() >> (1 + place));
+            likely.leave(&emulated, emulated.left.len() >> (1 + place));
             likely.random |= change.random;
         }
         likely
@@ -415,15 +415,15 @@ impl<'s> World<'s> {
         }
     }
 
-    /// Causes that cannot be told of, as too few of their walls in the bank came to a fall.
+    /// Causes that cannot be diagnosed, as too few of their walls in the bank came to a fall.
     pub fn too_few(&self) -> Vec<usize> {
         self.planned.iter().copied().filter(|cause| !self.has_walls(*cause)).collect()
     }
 
-    /// The causes that a diagnosis can tell of: those with walls of their own in some family, and those that act on readings.
+    /// The causes that a diagnosis considers: those with walls of their own in some family, and those that act on readings.
     pub fn causes(&self) -> Vec<usize> {
-        let told = |(index, m): &(usize, &Described)| m.acts == Acts::Readings || self.has_walls(*index);
-        self.mechanisms.iter().enumerate().filter(told).map(|(index, _)| index).collect()
+        let is_known = |(index, m): &(usize, &Described)| m.acts == Acts::Readings || self.has_walls(*index);
+        self.mechanisms.iter().enumerate().filter(is_known).map(|(index, _)| index).collect()
     }
 
     /// Whether the walls that a cause changes are known in some family.
@@ -448,12 +448,12 @@ fn shown(wall: &Curves, m: &Measurement, seen: &impl Fn(f64, [f64; 3]) -> [f64; 
 
 impl Likely {
     /// Adds what an emulator leaves, from the wall at `first` on.
-    fn leave(&mut self, told: &Told<'_>, first: usize) {
-        let count = told.left.len() as f64;
+    fn leave(&mut self, emulated: &Emulated<'_>, first: usize) {
+        let count = emulated.left.len() as f64;
         let mean: [f64; NUMBERS] =
-            std::array::from_fn(|k| told.left.iter().fold(0.0, |sum, left| sum + left[k]) / count);
-        let [alone, shared] = [(1.0 - told.common).sqrt(), told.common.sqrt()];
-        let left = told.left.iter().cycle().skip(first);
+            std::array::from_fn(|k| emulated.left.iter().fold(0.0, |sum, left| sum + left[k]) / count);
+        let [alone, shared] = [(1.0 - emulated.common).sqrt(), emulated.common.sqrt()];
+        let left = emulated.left.iter().cycle().skip(first);
         for ((own, common), left) in self.own.iter_mut().zip(&mut self.common).zip(left) {
             for k in 0..NUMBERS {
                 let off = left[k] - mean[k];

@@ -1,4 +1,4 @@
-//! What is said of a campaign: nothing found, one cause or a pair named, a few that cannot be told apart, or something that no known
+//! What is said of a campaign: nothing found, one cause or a pair named, a few that cannot be separated, or something that no known
 //! cause explains; and what that rests on.
 
 use crate::critic::discrepancy::ComponentEstimate;

@@ -129,7 +129,7 @@ impl Judge<'_> {
     }
 
     /// The causes with their probabilities, once the evidence has been heard as well: the ranking knows how campaigns of a cause
-    /// look and has seen thousands of them, the evidence knows every reading of this one. A roughly told one counts little. What is
+    /// look and has seen thousands of them, the evidence knows every reading of this one. A rough one counts little. What is
     /// nameless has no evidence, and keeps its probability.
     pub(in crate::critic) fn weighed(&self, ranked: &Ranked, campaign: &Campaign, seed: u64) -> Ranked {
         let logs = self.rough(campaign, ranked.causes.iter().map(|(cause, _)| Causes::from(*cause)), seed);

@@ -66,7 +66,7 @@ impl Seeming {
 }
 
 impl<'w> Judge<'w> {
-    /// Learns from simulated campaigns; a pure function of its arguments. `None` where nothing can be told.
+    /// Learns from simulated campaigns; a pure function of its arguments. `None` where the readings say nothing.
     pub fn trained(world: &'w World<'w>, design: &Design, effort: Effort, seed: u64) -> Option<Judge<'w>> {
         let reference = Reference::new(world, design, effort.reference, seed)?;
         let ranking = Ranking::trained(world, design, &reference, effort.training, seed.wrapping_add(1));

@@ -33,7 +33,7 @@ pub struct ComponentEntry {
 impl ComponentEntry {
     /// From a discrepancy; `None` where it may be nothing.
     pub fn of(study: &Study, estimate: &ComponentEstimate) -> Option<ComponentEntry> {
-        let told = |x: f64| in_unit(estimate.quantity, x);
+        let in_units = |x: f64| in_unit(estimate.quantity, x);
         let reach = SURE * estimate.sd;
         (estimate.value.abs() > reach && estimate.value != 0.0).then(|| ComponentEntry {
             part: match estimate.part {
@@ -46,8 +46,8 @@ impl ComponentEntry {
             quantity: estimate.quantity.name(),
             tilt_deg: estimate.tilt.map(tidy_degrees),
             unit: unit(estimate.quantity),
-            value: told(estimate.value),
-            interval: [told(estimate.value - reach), told(estimate.value + reach)],
+            value: in_units(estimate.value),
+            interval: [in_units(estimate.value - reach), in_units(estimate.value + reach)],
         })
     }
 
@@ -85,13 +85,13 @@ mod tests {
             ("bow", "remainder_centre"),
             ("drift", "displacement_left"),
         ];
-        let told = [
+        let wanted = [
             "displacement left at 10 deg",
             "left end less right end at 10 deg",
             "centre less mean of the ends after 10 deg",
             "displacement left at 10 deg, from each test to the next",
         ];
-        let told = told.map(|what| format!("SBL: {what}: 2.0 [1.0, 3.0] mm"));
-        assert_eq!(all.map(|(part, quantity)| line(part, quantity)), told);
+        let wanted = wanted.map(|what| format!("SBL: {what}: 2.0 [1.0, 3.0] mm"));
+        assert_eq!(all.map(|(part, quantity)| line(part, quantity)), wanted);
     }
 }

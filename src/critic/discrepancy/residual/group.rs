@@ -85,8 +85,8 @@ impl GroupBase {
         let expected = Band::of(&nested.all(|shown| over(&shown.read)))
             .and_then(|band| Expected::of(&by_truth, error_of_mean(&readings), random, band));
         let read = nested.all(|shown| {
-            let told = |(place, m): &(usize, &Measurement)| Seen::of(shown.read[*place]?, m).told(m);
-            stats::mean(&members.iter().filter_map(told).collect::<Vec<_>>())
+            let number = |(place, m): &(usize, &Measurement)| Seen::of(shown.read[*place]?, m).number(m);
+            stats::mean(&members.iter().filter_map(number).collect::<Vec<_>>())
         });
         let standing = members.iter().map(|(place, _)| nested.all(|shown| shown.values[*place]).len());
         let bounds: Vec<_> = members.iter().copied().filter(|(_, m)| m.kind.is_censored()).collect();
@@ -115,14 +115,14 @@ impl GroupBase {
     /// With what was seen, in the order of the design's readings.
     pub fn with(&self, seen: &[Seen]) -> Group {
         let own = || self.members.iter().map(|(place, m)| (seen[*place], m));
-        let told: Vec<f64> = own().filter_map(|(seen, m)| seen.told(m)).collect();
+        let numbers: Vec<f64> = own().filter_map(|(seen, m)| seen.number(m)).collect();
         let beyond = |kind| own().filter(|(seen, m)| *seen == Seen::Beyond && m.kind == kind).count();
         let (below, above) = (beyond(MeasuredKind::Below), beyond(MeasuredKind::Above));
-        let measured = stats::mean(&told);
+        let measured = stats::mean(&numbers);
         let judged = measured.filter(|_| self.group.expected.is_some()).map(|mean| self.judged(mean));
         let in_sd = measured.filter(|_| below + above == 0).and_then(|mean| self.group.expected?.in_sd(mean));
         Group {
-            seen: told.len(),
+            seen: numbers.len(),
             below,
             above,
             measured,

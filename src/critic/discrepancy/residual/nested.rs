@@ -4,7 +4,7 @@ use crate::critic::simulate::{Campaign, Design, Seen, World};
 use crate::random::Streams;
 use crate::study::MeasuredKind;
 
-/// Truths. Many, with few sets of stones under each: what joints do is told by truths alone, what stones do by all sets.
+/// Truths. Many, with few sets of stones under each: what joints do is known by truths alone, what stones do by all sets.
 const TRUTHS: u64 = 1000;
 /// Sets of stones under every truth.
 const SETS: u64 = 2;

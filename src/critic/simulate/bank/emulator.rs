@@ -7,7 +7,7 @@
 //! m(r) = (1 + sqrt(5) r + 5/3 r^2) exp(-sqrt(5) r)         r^2 = sum of ((z_k - z'_k) / l_k)^2  (Matern, 5/2)
 //! ```
 //!
-//! with the size `s` and the lengths `l` that tell walls best that they do not know.
+//! with the size `s` and the lengths `l` that predict walls best that they do not know.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -35,7 +35,7 @@ struct Shape {
     length: f64,
 }
 
-/// The walls of a family under one cause, told by few numbers.
+/// The walls of a family under one cause, in few numbers.
 #[derive(Clone, Debug)]
 pub struct Emulator {
     inputs: usize,
@@ -44,7 +44,7 @@ pub struct Emulator {
     middle: [f64; NUMBERS],
     /// Coefficients of the quadratic, by term and number.
     coefficients: Vec<[f64; NUMBERS]>,
-    /// What tells how well the curve is known.
+    /// How well the curve is known.
     known: Known,
     /// Where the walls of the bank lie, in scores that are [`held`].
     scores: Vec<Vec<f64>>,
@@ -70,8 +70,8 @@ enum Known {
     },
 }
 
-/// What an emulator tells of walls at some scores.
-pub struct Told<'e> {
+/// What an emulator predicts of walls at some scores.
+pub struct Emulated<'e> {
     /// The numbers to be expected.
     pub numbers: [f64; NUMBERS],
     /// What the walls of the bank that lie nearest are left with, nearest first: a wall differs from what is expected by one of
@@ -132,8 +132,8 @@ impl Emulator {
         Some(Emulator { inputs, shape, middle, coefficients, known, scores, left, explained })
     }
 
-    /// What it tells of walls at these scores (one per input), with what so many walls of the bank are left with.
-    pub fn told(&self, scores: &[f64], count: usize) -> Told<'_> {
+    /// What it predicts of walls at these scores (one per input), with what so many walls of the bank are left with.
+    pub fn emulated(&self, scores: &[f64], count: usize) -> Emulated<'_> {
         crate::check!(scores.len() == self.inputs, "{} scores for {} inputs", scores.len(), self.inputs);
         let scores = held(scores);
         let own = terms(&scores);
@@ -161,14 +161,14 @@ impl Emulator {
             }
         };
         let nearest = stats::smallest(distances.into_iter().zip(0..), count);
-        Told {
+        Emulated {
             numbers,
             left: nearest.into_iter().map(|wall| &self.left[wall]).collect(),
             common: unknown / (1.0 + unknown),
         }
     }
 
-    /// Share of the variance of each number that is told beforehand for a wall that the curve does not know.
+    /// Share of the variance of each number that is explained for a wall that the curve does not know.
     pub fn explained(&self) -> &[f64; NUMBERS] {
         &self.explained
     }

@@ -8,7 +8,7 @@ mod store;
 #[cfg(test)]
 pub mod tests;
 
-pub use emulator::{Emulator, Told};
+pub use emulator::{Emulated, Emulator};
 pub use path::{Curves, HALF_WAY, NUMBERS, PLACES, Path};
 pub use plan::{PRIOR_WIDENING, Place, Plan};
 pub use store::{BANK, Bank, Held, NotThisBank};

@@ -9,9 +9,9 @@ use crate::ensemble::Row;
 use crate::math::{Monotone, Share, exp, exp_all, ln, radians};
 use crate::model::Outcome;
 
-/// Places `q` at which a path is told: at tilts of 98, 91, 75, 51, 28 and 0 % of the collapse angle.
+/// Places `q` at which a path is given: at tilts of 98, 91, 75, 51, 28 and 0 % of the collapse angle.
 pub const PLACES: [f64; 6] = [0.15, 0.3, 0.5, 0.7, 0.85, 1.0];
-/// What is told at every place: three of the displacement, three of what is left of it at the level.
+/// What is given at every place: three of the displacement, three of what is left of it at the level.
 pub const KINDS: [&str; 6] =
     ["ln_mean_m_per_rad", "bow", "twist", "mean_remainder", "bow_remainder", "twist_remainder"];
 /// Numbers of a path: the collapse angle, and one of every kind at every place.
@@ -21,7 +21,7 @@ pub const HALF_WAY: usize = 1 + 3;
 /// Those of the way up come first.
 pub const NUMBERS_UP: usize = 1 + 3 * PLACES.len();
 
-/// Displacements are told at so many tilts at once.
+/// Displacements are computed at so many tilts at once.
 const AT_ONCE: usize = 32;
 
 /// No wall that stands falls before this tilt (rad): the least that a bank's collapses are told apart by, some 0.06 deg.

@@ -80,7 +80,7 @@ fn a_path_tells_what_was_read_between_its_steps() {
 #[test]
 fn displacements_are_the_same_one_by_one_and_all_at_once_and_stay_those_of_the_fall() {
     let path = Curves::of(&Path::of(&wall(14.0, 2.5)).expect("it fell").adding());
-    // More than are told at once, up to three degrees beyond the fall.
+    // More than are computed at once, up to three degrees beyond the fall.
     let tilts: Vec<f64> = (0..85).map(|k| radians(0.2 * f64::from(k))).collect();
     assert!(path.displacements(tilts[71]).is_none() && path.displacements(tilts[69]).is_some());
     for (tilt, all) in tilts.iter().zip(path.last_displacements(&tilts)) {
@@ -147,7 +147,7 @@ fn an_emulator_finds_the_curve_and_knows_what_it_does_not_tell() {
     let (scores, walls) = bank(200);
     let emulator = Emulator::fit(&scores, &walls).expect("twenty walls per term");
     let at = [0.7, -1.1, 0.4];
-    let (found, exact) = (emulator.told(&at, 0).numbers, quadratic(&at));
+    let (found, exact) = (emulator.emulated(&at, 0).numbers, quadratic(&at));
     // The penalty takes a thousandth; the noise of 0.1 leaves a mean over 200 walls with ten terms some 0.02.
     assert!((found[0] - exact).abs() < 2e-3, "{} against {exact}", found[0]);
     assert!((found[1] - exact).abs() < 0.06, "{} against {exact}", found[1]);
@@ -158,7 +158,7 @@ fn an_emulator_finds_the_curve_and_knows_what_it_does_not_tell() {
     assert!((explained[1] - 0.305 / 0.315).abs() < 0.02, "{explained:?}");
     // A curve through noise alone explains less than nothing of a wall that it does not know.
     assert!(explained[2..].iter().all(|share| *share < 0.05), "{explained:?}");
-    let left: Vec<f64> = emulator.told(&at, 50).left.iter().map(|left| left[1]).collect();
+    let left: Vec<f64> = emulator.emulated(&at, 50).left.iter().map(|left| left[1]).collect();
     let sigma = crate::stats::sigma(&left).expect("fifty");
     // 0.1, from 50 values and with the error of a curve that does not know the wall: within 3 sigma of sigma.
     assert!((sigma - 0.1).abs() < 0.03, "{sigma}");
@@ -178,10 +178,10 @@ fn an_emulator_follows_what_begins_in_the_middle_of_a_prior() {
     let emulator = Emulator::fit(&scores, &walls).expect("four walls per term");
     for fourth in [-1.5, -0.8, -0.3, 0.5, 1.0, 1.6] {
         let at = [0.2, -0.4, 0.5, fourth];
-        let found = emulator.told(&at, 0).numbers[3];
+        let found = emulator.emulated(&at, 0).numbers[3];
         assert!((found - begins(fourth)).abs() < 0.04, "{fourth}: {found}");
         // What is nearest lies on the same side, and is left with no more than it is off.
-        let left: Vec<f64> = emulator.told(&at, 20).left.iter().map(|left| left[3]).collect();
+        let left: Vec<f64> = emulator.emulated(&at, 20).left.iter().map(|left| left[3]).collect();
         assert!(crate::stats::sigma(&left).expect("twenty") < 0.05, "{fourth}: {left:?}");
     }
 }
@@ -204,11 +204,11 @@ fn what_an_emulator_does_not_know_of_its_curve_is_that_of_a_regression() {
     for at in [[0.0, 0.0, 0.0], [1.0, -0.5, 0.3], [2.0, 2.0, -2.0]] {
         let t = terms(&at);
         let unknown = t.dot(&(&covariance * &t));
-        let common = emulator.told(&at, 0).common;
+        let common = emulator.emulated(&at, 0).common;
         assert!((common - unknown / (1.0 + unknown)).abs() < 1e-9, "{at:?}: {common} against {unknown}");
     }
     // Ten terms of sixty walls leave a sixth of the noise in the mean over the walls, and far more in a corner.
-    let [middle, corner] = [[0.0; 3], [2.0, 2.0, -2.0]].map(|at| emulator.told(&at, 0).common);
+    let [middle, corner] = [[0.0; 3], [2.0, 2.0, -2.0]].map(|at| emulator.emulated(&at, 0).common);
     assert!(middle < 0.1 && corner > 0.4, "{middle} {corner}");
 }
 
@@ -225,11 +225,11 @@ fn the_nearest_walls_come_first() {
     let (scores, walls) = bank(40);
     let emulator = Emulator::fit(&scores, &walls).expect("enough");
     let at = scores[7].clone();
-    let whole = emulator.told(&at, 40).left;
+    let whole = emulator.emulated(&at, 40).left;
     assert_eq!(whole.len(), 40);
-    assert_eq!(emulator.told(&at, 1).left, whole[..1]);
+    assert_eq!(emulator.emulated(&at, 1).left, whole[..1]);
     // What the wall itself is left with: its own number less the curve's, and further by its own pull.
-    let own = walls[7][1] - emulator.told(&at, 0).numbers[1];
+    let own = walls[7][1] - emulator.emulated(&at, 0).numbers[1];
     let ratio = whole[0][1] / own;
     assert!(ratio > 1.0 && ratio < 3.0, "{ratio}");
 }

@@ -41,7 +41,7 @@ fn a_campaign_has_the_errors_and_the_rounding_of_its_readings() {
     }
     // The first reading of SBL2: 1.7 mm of error and the stones' own; in steps of 1 mm.
     let read: Vec<f64> =
-        shown.iter().filter_map(|c| c.specimens[sbl][1].told(&design.specimens[sbl].readings[1])).collect();
+        shown.iter().filter_map(|c| c.specimens[sbl][1].number(&design.specimens[sbl].readings[1])).collect();
     let sigma = crate::stats::sigma(&read).expect("many");
     assert!(sigma > 1.6e-3 && sigma < 2.1e-3, "{sigma}");
     // CBL stays below 5 mm at 5 deg in nearly every campaign: 2 mm and an error of 1.7.
@@ -75,13 +75,13 @@ fn walls_of_a_family_share_the_emulators_error_and_their_mean_scatters_by_it() {
     // Far out the curve through 90 walls is known badly.
     let mut truth = world.truth(None, &vec![0.0; world.inputs(None)]);
     truth.joints = vec![[3.0, -3.0, 3.0]; world.joint_kinds()];
-    let told = world.base[&1].emulator.told(&[2.0, -2.0, 2.0], NEIGHBOURS);
+    let emulated = world.base[&1].emulator.emulated(&[2.0, -2.0, 2.0], NEIGHBOURS);
     let variance = |values: &[f64]| {
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         values.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / values.len() as f64
     };
-    let left = variance(&told.left.iter().map(|left| left[0]).collect::<Vec<_>>());
-    assert!(told.common > 0.2 && told.common < 0.8, "{}", told.common);
+    let left = variance(&emulated.left.iter().map(|left| left[0]).collect::<Vec<_>>());
+    assert!(emulated.common > 0.2 && emulated.common < 0.8, "{}", emulated.common);
     let drawn: Vec<[f64; 3]> = (0..4000)
         .map(|k| [0, 1, 2].map(|specimen| world.wall(1, &truth, specimen, &Streams::new(31, k))[0]))
         .collect();
@@ -90,7 +90,7 @@ fn walls_of_a_family_share_the_emulators_error_and_their_mean_scatters_by_it() {
     let alone = of(&|walls| walls[0]) / left;
     assert!((alone - 1.0).abs() < 0.1, "{alone}");
     let mean = of(&|walls| (walls[0] + walls[1] + walls[2]) / 3.0) / left;
-    let expected = told.common + (1.0 - told.common) / 3.0;
+    let expected = emulated.common + (1.0 - emulated.common) / 3.0;
     assert!((mean / expected - 1.0).abs() < 0.1, "{mean} {expected}");
     // As independent walls they are shown wider, so that the mean of three scatters so much.
     let (design, _) = Design::of(&made.study);
