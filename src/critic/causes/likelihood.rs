@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use crate::critic::compare::reading_variance;
-use crate::critic::simulate::{Asked, Campaign, Design, Seen, Truth, World};
+use crate::critic::simulate::{Campaign, Design, Queries, Seen, Truth, World};
 use crate::math::{ln, ln_gamma};
 use crate::random::standard_normal::cdf;
 use crate::study::{MeasuredKind, MeasuredQuantity, Measurement};
@@ -49,14 +49,14 @@ impl Errors<'_> {
 /// What was read on the specimens of a family.
 struct Family<'c> {
     family: usize,
-    asked: Asked,
+    queries: Queries,
     /// By specimen, where every one is a wall of its own.
     each: Vec<Wall<'c>>,
     /// All as if they had been read on one wall, where walls do not differ.
     all: [Wall<'c>; 1],
 }
 
-/// What was read on a wall. Columns are those of [`Asked`].
+/// What was read on a wall. Columns are those of [`Queries`].
 #[derive(Clone, Default)]
 struct Wall<'c> {
     /// Readings with a value, by column.
@@ -101,8 +101,8 @@ impl<'c> Likelihood<'c> {
     pub fn log(&self, truth: &Truth, common: &[f64]) -> f64 {
         let errors = Errors { of: self, scores: common };
         let mut log = 0.0;
-        for Family { family, asked, each, all } in &self.families {
-            let (shown, random) = self.world.may_show(*family, asked, truth, each.len());
+        for Family { family, queries, each, all } in &self.families {
+            let (shown, random) = self.world.may_show(*family, queries, truth, each.len());
             let paths = Paths::of(shown);
             let walls = if random { &each[..] } else { &all[..] };
             let first = |(k, wall): (usize, &Wall<'_>)| {
@@ -134,8 +134,8 @@ impl<'c> Family<'c> {
     /// Of what was planned and seen, specimen by specimen.
     fn new(family: usize, specimens: Vec<(&'c [Measurement], &[Seen])>) -> Family<'c> {
         let readings: Vec<&Measurement> = specimens.iter().flat_map(|(readings, _)| *readings).collect();
-        let asked = Asked::by(&readings);
-        let mut columns = asked.by_reading.iter().copied();
+        let queries = Queries::by(&readings);
+        let mut columns = queries.by_reading.iter().copied();
         let (mut each, mut all): (Vec<Wall<'c>>, Wall<'c>) = (Vec::new(), Wall::default());
         for (readings, seen) in specimens {
             let mut wall = Wall::default();
@@ -151,7 +151,7 @@ impl<'c> Family<'c> {
             wall.same_as = each.iter().position(|other| other.has_readings_of(&wall)).unwrap_or(each.len());
             each.push(wall);
         }
-        Family { family, asked, each, all: [all] }
+        Family { family, queries, each, all: [all] }
     }
 }
 

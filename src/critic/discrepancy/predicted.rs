@@ -2,7 +2,7 @@
 //! continuous ranked probability score, and the square of its error (Gneiting and Raftery 2007).
 
 use crate::critic::compare::log_likelihood;
-use crate::critic::simulate::{Asked, Design, Seen, Specimen, Truth, World};
+use crate::critic::simulate::{Design, Queries, Seen, Specimen, Truth, World};
 use crate::math::{exp, ln};
 use crate::random::Streams;
 use crate::random::standard_normal::{cdf, density, quantile};
@@ -46,9 +46,9 @@ impl Predicted {
                 .map(|family| {
                     let own = design.specimens.iter().filter(|specimen| specimen.family == family);
                     let readings: Vec<&Measurement> = own.flat_map(|specimen| &specimen.readings).collect();
-                    let asked = Asked::by(&readings);
-                    let (shown, random) = world.may_show(family, &asked, truth, 1);
-                    let all = |path: Vec<f64>| asked.by_reading.iter().map(|&at| path[at]).collect();
+                    let queries = Queries::by(&readings);
+                    let (shown, random) = world.may_show(family, &queries, truth, 1);
+                    let all = |path: Vec<f64>| queries.by_reading.iter().map(|&at| path[at]).collect();
                     (family, shown.into_iter().map(all).collect(), random)
                 })
                 .collect();

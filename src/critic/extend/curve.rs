@@ -45,8 +45,8 @@ pub fn cause_curves(
     diagnosis: &Diagnosis,
     seed: u64,
 ) -> Vec<(Vec<usize>, Vec<FamilyCurves>)> {
-    let asked = diagnosis.explained_by().into_iter();
-    asked.map(|(causes, draws)| (causes, over_the_tilt(world, design, draws, seed))).collect()
+    let explained = diagnosis.explained_by().into_iter();
+    explained.map(|(causes, draws)| (causes, over_the_tilt(world, design, draws, seed))).collect()
 }
 
 /// Bands over all given truths.

@@ -227,8 +227,8 @@ impl<'j, 'w> Folds<'j, 'w> {
         let chosen = self.folds.iter().zip(choices).filter(|(_, choice)| !choice.is_empty());
         let chosen: BTreeSet<Kind> = chosen.map(|(fold, _)| kind(fold)).collect();
         let all = self.folds.par_iter().zip(choices);
-        let asked = all.filter(|(fold, _)| with_ceiling || chosen.contains(&kind(fold)));
-        let all: Vec<(Kind, Vec<Row>)> = asked.map(of).collect();
+        let scored = all.filter(|(fold, _)| with_ceiling || chosen.contains(&kind(fold)));
+        let all: Vec<(Kind, Vec<Row>)> = scored.map(of).collect();
         let mut by_kind: BTreeMap<Kind, Vec<Row>> = BTreeMap::new();
         all.into_iter().for_each(|(kind, rows)| by_kind.entry(kind).or_default().extend(rows));
         by_kind

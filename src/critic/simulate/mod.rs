@@ -11,5 +11,5 @@ mod world;
 pub use bank::{BANK, Bank, Emulator, Held, NotThisBank, PRIOR_WIDENING, Path, Place, Plan};
 pub use causes::Causes;
 pub use design::{Campaign, Design, Seen, Specimen, Unused};
-pub use queries::Asked;
+pub use queries::Queries;
 pub use world::{Truth, World};

@@ -1,24 +1,24 @@
-//! What is asked of the walls of a family: each quantity at each tilt once, however many readings ask for it.
+//! The queries of the bank: each quantity of a family at each tilt once, however many readings are of it.
 
 use crate::critic::compare::of_points;
 use crate::critic::simulate::design::tilts;
 use crate::study::{MeasuredQuantity, Measurement};
 
-/// What readings ask of a wall.
-pub struct Asked {
+/// The quantities that readings are of.
+pub struct Queries {
     /// Tilts (rad), ascending.
     pub tilts: Vec<f64>,
-    /// What is asked: a quantity, with the place of its tilt where it has one.
+    /// Each query: a quantity, with the place of its tilt where it has one.
     what: Vec<(MeasuredQuantity, Option<usize>)>,
-    /// Which of these each reading asks for.
+    /// Which of these each reading is of.
     pub by_reading: Vec<usize>,
-    /// Whether any asks for what is left after the platform has gone back.
+    /// Whether any is of what is left after the platform has gone back.
     pub goes_back: bool,
 }
 
-impl Asked {
+impl Queries {
     /// By readings of one family.
-    pub fn by(readings: &[&Measurement]) -> Asked {
+    pub fn by(readings: &[&Measurement]) -> Queries {
         let tilts = tilts(readings.iter().copied());
         let place = |tilt: f64| tilts.partition_point(|known| *known < tilt);
         let all: Vec<_> = readings.iter().map(|m| (m.quantity, m.tilt.map(place))).collect();
@@ -27,7 +27,7 @@ impl Asked {
         what.dedup();
         let by_reading = all.iter().map(|one| what.partition_point(|known| known < one)).collect();
         let goes_back = what.iter().any(|(quantity, _)| quantity.is_remainder());
-        Asked { tilts, what, by_reading, goes_back }
+        Queries { tilts, what, by_reading, goes_back }
     }
 
     /// What a wall shows that falls at this tilt and moves left, centre and right by so much at each of the tilts; if any

@@ -11,7 +11,7 @@ use crate::critic::simulate::bank::{
 };
 use crate::critic::simulate::causes::Causes;
 use crate::critic::simulate::design::{Campaign, Design};
-use crate::critic::simulate::queries::Asked;
+use crate::critic::simulate::queries::Queries;
 use crate::critic::simulate::unmodelled::Nameless;
 use crate::ensemble::{build, is_random, weight};
 use crate::math::{atan, radians, tan};
@@ -315,13 +315,12 @@ impl<'s> World<'s> {
         likely
     }
 
-    /// What the paths that a wall of a family may have under a truth, equally likely, show before errors of what is asked, path by
-    /// path; and whether walls of the family differ, or share one path. Taken for independent of each other, the mean of so many
+    /// What the paths that a wall of a family may have under a truth, equally likely, show before errors of the queries, path by path ; and whether walls of the family differ, or share one path. Taken for independent of each other, the mean of so many
     /// `walls` scatters as it does where they share the emulators' errors. A wall that has fallen shows what it did last.
     pub(in crate::critic) fn may_show(
         &self,
         family: usize,
-        asked: &Asked,
+        queries: &Queries,
         truth: &Truth,
         walls: usize,
     ) -> (Vec<Vec<f64>>, bool) {
@@ -334,16 +333,16 @@ impl<'s> World<'s> {
             let curves = Curves::of(&moved(&expected, &left));
             let last = curves.collapse();
             let read = |points: &mut [f64; 3]| *points = points.map(|x| gauge.reading(x));
-            let mut points = curves.last_displacements(&asked.tilts);
+            let mut points = curves.last_displacements(&queries.tilts);
             points.iter_mut().for_each(read);
             let mut left = Vec::new();
-            if asked.goes_back {
+            if queries.goes_back {
                 // One for each tilt.
                 let of = |tilt: &f64| curves.remainders(tilt.min(last)).unwrap_or_default();
-                left.extend(asked.tilts.iter().map(of));
+                left.extend(queries.tilts.iter().map(of));
                 left.iter_mut().for_each(read);
             }
-            asked.shown(last, &points, &left)
+            queries.shown(last, &points, &left)
         };
         (own.iter().zip(apart).map(of).collect(), random)
     }

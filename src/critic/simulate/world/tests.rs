@@ -2,7 +2,7 @@
 
 use super::NEIGHBOURS;
 use crate::critic::fixture::made;
-use crate::critic::simulate::queries::Asked;
+use crate::critic::simulate::queries::Queries;
 use crate::critic::simulate::{Campaign, Design, Seen, Truth};
 use crate::math::radians;
 use crate::random::Streams;
@@ -101,9 +101,9 @@ fn walls_of_a_family_share_the_emulators_error_and_their_mean_scatters_by_it() {
         .flat_map(|specimen| &specimen.readings)
         .filter(|m| m.quantity == MeasuredQuantity::CollapseAngle)
         .collect();
-    let asked = Asked::by(&falls);
+    let queries = Queries::by(&falls);
     let shown = |walls: usize| {
-        let (paths, random) = world.may_show(1, &asked, &truth, walls);
+        let (paths, random) = world.may_show(1, &queries, &truth, walls);
         assert!(random);
         variance(&paths.iter().map(|path| path[0]).collect::<Vec<_>>()) / left
     };
@@ -389,8 +389,8 @@ fn what_is_left_after_going_back_tells_of_creep_and_of_the_gauge() {
         let truth = Truth { causes: cause.into(), parameters, ..base.clone() };
         let values = world.values(&design, &truth, &Streams::new(9, 1));
         // What the likelihood takes for possible lies around it.
-        let asked = Asked::by(&[&left]);
-        let (paths, _) = world.may_show(1, &asked, &truth, 1);
+        let queries = Queries::by(&[&left]);
+        let (paths, _) = world.may_show(1, &queries, &truth, 1);
         let possible: Vec<f64> = paths.iter().map(|path| path[0]).collect();
         let value = values[sbl][last].expect("it stands");
         let (mean, sigma) = (stats::mean(&possible).expect("many"), stats::sigma(&possible).expect("many"));
