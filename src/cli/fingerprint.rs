@@ -3,7 +3,7 @@
 //! The words are those of the first self-tests that were kept. They are part of the file: other words would make every kept
 //! self-test one of another judge. So they are written out here, whatever the types and their fields are called.
 
-use crate::critic::{ComponentEstimate, Diagnosis, Limits, LookedAt, Ranked, Seeming};
+use crate::critic::{ComponentEstimate, Diagnosis, Finding, Limits, LookedAt, Ranked};
 
 /// The limits of a verdict.
 pub(super) fn limits(of: &Limits) -> String {
@@ -25,7 +25,7 @@ pub(super) fn diagnoses(all: &[Diagnosis]) -> String {
 fn diagnosis(of: &Diagnosis) -> String {
     format!(
         "Diagnosis {{ seeming: {}, looked_at: {}, pairs: {}, form: {}, verdict: {:?} }}",
-        seeming(&of.seeming),
+        finding(&of.finding),
         listed(&of.looked_at, looked_at),
         listed(&of.pairs, looked_at),
         listed(&of.components, estimate),
@@ -33,7 +33,7 @@ fn diagnosis(of: &Diagnosis) -> String {
     )
 }
 
-fn seeming(of: &Seeming) -> String {
+fn finding(of: &Finding) -> String {
     let discrepancy = format!(
         "Wrong {{ excess: {:?}, joints: {:?}, distance: {:?} }}",
         of.discrepancy.excess, of.discrepancy.joints, of.discrepancy.distance

@@ -47,5 +47,5 @@ pub use simulate::{
     Seen, Specimen, Truth, Unused, World,
 };
 pub use verdict::{
-    Diagnosis, Effort, Excluded, Judge, Limits, LookedAt, MOST_AMBIGUOUS, PairLimits, Seeming, Verdict,
+    Diagnosis, Effort, Excluded, Finding, Judge, Limits, LookedAt, MOST_AMBIGUOUS, PairLimits, Verdict,
 };

@@ -144,7 +144,7 @@ impl<'k> Judge<'k> {
             Verdict::Ambiguous(causes) => (Word::Ambiguous, causes.iter().map(name).collect()),
             Verdict::Unexplained => (Word::Unexplained, Vec::new()),
         };
-        let ranked = &found.seeming.ranked;
+        let ranked = &found.finding.ranked;
         let mut causes = ranked.causes.iter();
         let likeliest = causes.find_map(|(cause, p)| Some((name(&(*cause)?), *p))).expect("a catalogue");
         let set = ranked.set.iter().map(name).collect();
@@ -154,7 +154,7 @@ impl<'k> Judge<'k> {
         let evidence = found.looked_at.iter().map(|own| (name(&own.cause), own.evidence)).collect();
         let best = found.pairs.first();
         let pair = best.map(|own| ([0, 1].map(|k| name(&own.cause[k])), own.evidence, own.guard));
-        Said { p_value: found.seeming.p_value, verdict, names, set, open, likeliest, guard, evidence, pair }
+        Said { p_value: found.finding.p_value, verdict, names, set, open, likeliest, guard, evidence, pair }
     }
 }
 

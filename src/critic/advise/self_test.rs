@@ -9,14 +9,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::critic::advise::detection_limit::{Caught, caught};
 use crate::critic::simulate::{Campaign, Truth};
-use crate::critic::verdict::{Diagnosis, Judge, Limits, Seeming, Verdict};
+use crate::critic::verdict::{Diagnosis, Finding, Judge, Limits, Verdict};
 use crate::random::Streams;
 use crate::stats;
 use crate::study::Described;
 
 /// Two causes are confused where so large a share of the sets of either hold the other.
 const CONFUSED: f64 = 0.5;
-/// So many times as many campaigns without any effect, and with nameless ones, are judged by all that a diagnosis does.
+/// So many times as many campaigns without any effect, and with nameless ones, are judged by the whole diagnosis.
 const MORE: u64 = 5;
 
 /// How often diagnoses of a design find and name what is hidden, by simulation.
@@ -24,8 +24,7 @@ const MORE: u64 = 5;
 pub struct SelfTest {
     /// For the base model (first) and each cause.
     pub rows: Vec<SelfTestRow>,
-    /// Campaigns of [nameless](crate::critic::World::nameless) effects, by how they seem, and some of them by all that a diagnosis
-    /// does: any name is a wrong one.
+    /// Campaigns of [nameless](crate::critic::World::nameless) effects, by the ranking alone, and some of them by the whole diagnosis: any name is a wrong one.
     pub nameless: [Counted; 2],
 }
 
@@ -34,11 +33,11 @@ pub struct SelfTest {
 pub struct SelfTestRow {
     /// What was hidden; none where nothing was.
     pub cause: Option<usize>,
-    /// Campaigns, by how they seem.
+    /// Campaigns, by the ranking alone.
     pub all: Counted,
     /// The third of them in which the cause moves most of what is read; none where nothing was hidden.
     pub strong: Counted,
-    /// Some of them by all that a diagnosis does: the evidence, the guard and pairs besides how they seem.
+    /// Some of them by the whole diagnosis: with the evidence, the check and pairs.
     pub judged: Counted,
     /// Of those found, whose set holds the cause.
     pub covered: u64,
@@ -68,15 +67,15 @@ pub struct Counted {
 struct Tested {
     truth: Truth,
     campaign: Campaign,
-    seeming: Seeming,
+    finding: Finding,
     /// How far the cause moved what is read: root of the sum of squares, in standard deviations of the base model's readings.
     moved: f64,
 }
 
 impl Judge<'_> {
     /// Judges `count` campaigns of every cause and of the base model, drawn from the priors with another seed than the training's,
-    /// by how they seem, and as many of nameless effects; of these `judged` of each cause, and five times as many of the base model
-    /// and of nameless effects, by all that a diagnosis does.
+    /// by the ranking alone, and as many of nameless effects; of these `judged` of each cause, and five times as many of the base model
+    /// and of nameless effects, by the whole diagnosis.
     pub fn self_test(&self, limits: &Limits, count: u64, judged: u64, seed: u64) -> SelfTest {
         let row = |cause: &Option<usize>| {
             let campaigns: Vec<Tested> =
@@ -93,19 +92,19 @@ impl Judge<'_> {
         SelfTest { rows, nameless: self.nameless_test(limits, count, MORE * judged, seed) }
     }
 
-    /// What is said of campaigns of nameless effects: by how they seem, and of some by all that a diagnosis does.
+    /// What is said of campaigns of nameless effects, by the ranking alone and of some by the whole diagnosis.
     fn nameless_test(&self, limits: &Limits, count: u64, judged: u64, seed: u64) -> [Counted; 2] {
         let campaigns: Vec<Campaign> =
             (0..count).map(|k| self.world.nameless(&self.design, &Streams::new(seed, k))).collect();
-        let seem = |campaign: &Campaign| said(&self.seeming(campaign), limits);
-        let seeming: Vec<Option<Vec<usize>>> = campaigns.par_iter().map(seem).collect();
+        let by_ranking = |campaign: &Campaign| said(&self.finding(campaign), limits);
+        let ranked: Vec<Option<Vec<usize>>> = campaigns.par_iter().map(by_ranking).collect();
         let closely = campaigns.par_iter().take(judged as usize);
         let judged: Vec<Option<Vec<usize>>> =
             closely.map(|campaign| named(&self.diagnosed(campaign, limits, judging(seed)).verdict)).collect();
-        [seeming, judged].map(|said| Counted::of(None, said.into_iter()))
+        [ranked, judged].map(|said| Counted::of(None, said.into_iter()))
     }
 
-    /// What is said of a campaign of a cause, by how it seems and by all that a diagnosis does: a fingerprint of a judge.
+    /// What is said of a campaign of a cause, by the whole diagnosis: a fingerprint of a judge.
     pub fn said_of(&self, cause: Option<usize>, limits: &Limits, seed: u64, number: u64) -> Diagnosis {
         let tested = self.tested(cause, seed, number);
         self.diagnosed(&tested.campaign, limits, judging(seed))
@@ -115,9 +114,9 @@ impl Judge<'_> {
         let streams = Streams::new(seed, number);
         let truth = self.world.drawn(cause, &streams);
         let campaign = self.world.campaign(&self.design, &truth, &streams);
-        let seeming = self.seeming(&campaign);
+        let finding = self.finding(&campaign);
         let moved = cause.map_or(0.0, |_| self.moved(&truth, &campaign, &streams));
-        Tested { truth, campaign, seeming, moved }
+        Tested { truth, campaign, finding, moved }
     }
 
     /// How far what is read in a campaign of a truth is from that of the same stones, joints and errors without any cause.
@@ -163,9 +162,9 @@ impl Sum for Counted {
     }
 }
 
-/// What would be named by how a campaign seems; none where nothing is found.
-fn said(seeming: &Seeming, limits: &Limits) -> Option<Vec<usize>> {
-    (seeming.p_value < limits.found).then(|| seeming.named(limits).into_iter().collect())
+/// What would be named by the ranking alone; none where nothing is found.
+fn said(finding: &Finding, limits: &Limits) -> Option<Vec<usize>> {
+    (finding.p_value < limits.found).then(|| finding.named(limits).into_iter().collect())
 }
 
 /// What a verdict names; none where nothing was found.
@@ -187,17 +186,17 @@ fn row(
     limits: &Limits,
     seed: u64,
 ) -> SelfTestRow {
-    let is_found = |tested: &&Tested| tested.seeming.p_value < limits.found;
+    let is_found = |tested: &&Tested| tested.finding.p_value < limits.found;
     let found: Vec<&Tested> = campaigns.iter().filter(is_found).collect();
-    let seems = |tested: &&Tested| said(&tested.seeming, limits);
+    let by_ranking = |tested: &&Tested| said(&tested.finding, limits);
     let mut by_size: Vec<&Tested> = campaigns.iter().collect();
     by_size.sort_by(|a, b| b.moved.total_cmp(&a.moved));
     let strong = &by_size[..if cause.is_some() { campaigns.len() / 3 } else { 0 }];
-    let sizes: Vec<f64> = found.iter().map(|tested| tested.seeming.ranked.set.len() as f64).collect();
+    let sizes: Vec<f64> = found.iter().map(|tested| tested.finding.ranked.set.len() as f64).collect();
     let mut with: BTreeMap<usize, u64> = BTreeMap::new();
     found
         .iter()
-        .flat_map(|tested| &tested.seeming.ranked.set)
+        .flat_map(|tested| &tested.finding.ranked.set)
         .for_each(|cause| *with.entry(*cause).or_default() += 1);
     let shown = |parameter: usize| -> Vec<(f64, bool)> {
         campaigns.iter().map(|tested| (tested.truth.parameters[parameter], is_found(&tested))).collect()
@@ -209,8 +208,8 @@ fn row(
         .map(|(parameter, stronger)| caught(parameter, stronger, &shown(parameter), &mut stream));
     SelfTestRow {
         cause,
-        all: Counted::of(cause, by_size.iter().map(seems)),
-        strong: Counted::of(cause, strong.iter().map(seems)),
+        all: Counted::of(cause, by_size.iter().map(by_ranking)),
+        strong: Counted::of(cause, strong.iter().map(by_ranking)),
         judged: Counted::of(cause, verdicts.iter().map(named)),
         covered: cause.map_or(0, |cause| with.get(&cause).copied().unwrap_or(0)),
         set_size: stats::mean(&sizes).unwrap_or(0.0),

@@ -27,11 +27,14 @@ fn strong_causes_are_named_and_those_that_do_nothing_are_not() {
     assert!(nothing.all.found < 15 && nothing.all.named == 0 && nothing.all.misnamed < 5, "{nothing:?}");
     assert!(test.rows[0].cause.is_none() && test.rows[0].all.found < 15 && test.rows[0].all.misnamed < 3);
     // What has no name is not given one, by looks or by all that a diagnosis does.
-    let [seem, judged] = test.nameless;
-    println!("nameless: {seem:?} {judged:?}");
-    assert_eq!((seem.campaigns, judged.campaigns), (100, 20));
+    let [by_ranking, judged] = test.nameless;
+    println!("nameless: {by_ranking:?} {judged:?}");
+    assert_eq!((by_ranking.campaigns, judged.campaigns), (100, 20));
     // The paper's few readings show a third of it.
-    assert!(seem.found > 15 && seem.misnamed < 6 && judged.misnamed < 3, "{seem:?} {judged:?}");
+    assert!(
+        by_ranking.found > 15 && by_ranking.misnamed < 6 && judged.misnamed < 3,
+        "{by_ranking:?} {judged:?}"
+    );
     // Nine in ten of the sets hold the cause; 95 % of 100 such counts are above 84, and those found are a choice of them.
     assert!(creep.covered as f64 > 0.8 * creep.all.found as f64, "{creep:?}");
 }

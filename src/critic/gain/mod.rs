@@ -124,11 +124,11 @@ impl<'j, 'w> Folds<'j, 'w> {
     fn choices(&self, campaign: &Campaign) -> Vec<Vec<(usize, f64)>> {
         let choice = |(fold, judge): &(Fold, usize)| {
             let (judge, known) = (&self.judges[*judge], fold.campaign(campaign));
-            let seeming = judge.seeming(&known);
-            if seeming.p_value >= self.measuring.limits.found {
+            let finding = judge.finding(&known);
+            if finding.p_value >= self.measuring.limits.found {
                 return Vec::new();
             }
-            mixed(&judge.weighed(&seeming.ranked, &known, self.seed), self.measuring.limits.named)
+            mixed(&judge.weighed(&finding.ranked, &known, self.seed), self.measuring.limits.named)
         };
         self.folds.iter().map(choice).collect()
     }

@@ -3,7 +3,7 @@
 
 use crate::critic::discrepancy::ComponentEstimate;
 use crate::critic::simulate::Truth;
-use crate::critic::verdict::judge::Seeming;
+use crate::critic::verdict::judge::Finding;
 
 /// What a campaign says of the base model.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -46,7 +46,7 @@ impl Verdict {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnosis {
     /// What is off, and how likely that is by chance.
-    pub seeming: Seeming,
+    pub finding: Finding,
     /// The causes that were looked at closely, most likely first; none where nothing was found.
     pub looked_at: Vec<LookedAt<usize>>,
     /// Pairs of causes that were looked at as no one explains the discrepancy, that with most of the evidence first.
@@ -101,7 +101,7 @@ impl Diagnosis {
             self.looked_at.iter().filter(|own| self.excluded(own.cause).is_none()).collect();
         let are_left = left.len() >= 2;
         let all = if are_left { left } else { self.looked_at.iter().collect() };
-        let probability = |own: &LookedAt<usize>| self.seeming.ranked.probability(own.cause);
+        let probability = |own: &LookedAt<usize>| self.finding.ranked.probability(own.cause);
         (all.into_iter().map(|own| (probability(own), own.draws.clone())).collect(), are_left)
     }
 }

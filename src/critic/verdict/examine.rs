@@ -8,7 +8,7 @@ use crate::critic::conflict::PriorPredictive;
 use crate::critic::discrepancy::{ComponentEstimate, Predicted, SmoothDiscrepancy};
 use crate::critic::simulate::{Campaign, Causes, Truth};
 use crate::critic::verdict::diagnosis::{Diagnosis, LookedAt, Verdict};
-use crate::critic::verdict::judge::{Judge, Seeming};
+use crate::critic::verdict::judge::{Finding, Judge};
 use crate::critic::verdict::limits::{Limits, MOST_AMBIGUOUS, POSSIBLE};
 use crate::math::ln;
 use crate::stats;
@@ -26,19 +26,19 @@ const MOST: f64 = 0.5;
 impl Judge<'_> {
     /// Judges a campaign; a pure function of the judge and the arguments.
     pub fn diagnosed(&self, campaign: &Campaign, limits: &Limits, seed: u64) -> Diagnosis {
-        let seeming = self.seeming(campaign);
-        if seeming.p_value >= limits.found {
+        let finding = self.finding(campaign);
+        if finding.p_value >= limits.found {
             return Diagnosis {
-                seeming,
+                finding,
                 looked_at: Vec::new(),
                 pairs: Vec::new(),
                 components: Vec::new(),
                 verdict: Verdict::NothingFound,
             };
         }
-        let seeming = Seeming { ranked: self.weighed(&seeming.ranked, campaign, seed), ..seeming };
-        let likely: Vec<usize> = seeming.ranked.causes.iter().filter_map(|(cause, _)| *cause).collect();
-        let set = seeming.ranked.set.clone();
+        let finding = Finding { ranked: self.weighed(&finding.ranked, campaign, seed), ..finding };
+        let likely: Vec<usize> = finding.ranked.causes.iter().filter_map(|(cause, _)| *cause).collect();
+        let set = finding.ranked.set.clone();
         // The guard of many would choose among them by chance.
         let few = set.len() <= 2 * MOST_AMBIGUOUS;
         let open = |cause: &usize| few && set.contains(cause);
@@ -49,12 +49,12 @@ impl Judge<'_> {
         let logs: Vec<f64> = evidences.iter().map(|evidence| evidence.log).collect();
         let shares = softmax(&logs, 1.0);
         let components = self.components(campaign, &evidences[0].draws, seed.wrapping_add(2));
-        let ranked = heard(&seeming.ranked, &closely, &logs);
-        let seeming = Seeming { ranked, ..seeming };
-        let named = seeming.named(limits);
+        let ranked = heard(&finding.ranked, &closely, &logs);
+        let finding = Finding { ranked, ..finding };
+        let named = finding.named(limits);
         // What all readings make likely is asked about, however it looks.
         let possible = |cause: &usize| {
-            let p = seeming.ranked.probability(*cause);
+            let p = finding.ranked.probability(*cause);
             few && p >= if set.contains(cause) { POSSIBLE } else { LIKELY }
         };
         let check = self.check();
@@ -71,7 +71,7 @@ impl Judge<'_> {
             })
             .collect();
         let place = |own: &LookedAt<usize>| {
-            seeming.ranked.causes.iter().position(|(cause, _)| *cause == Some(own.cause))
+            finding.ranked.causes.iter().position(|(cause, _)| *cause == Some(own.cause))
         };
         looked_at.sort_by_key(place);
         let fits = |own: &&LookedAt<usize>| own.guard.is_some_and(|p| p >= limits.guard);
@@ -87,13 +87,13 @@ impl Judge<'_> {
             Some(cause) => Verdict::Named(cause),
             // What was as good as certain, and does not fit, speaks against the catalogue.
             None if named.is_some_and(|cause| !explain.contains(&cause)) || !few => Verdict::Unexplained,
-            None => unnamed(&seeming.ranked, explain),
+            None => unnamed(&finding.ranked, explain),
         };
-        let mut diagnosis = Diagnosis { seeming, looked_at, pairs: Vec::new(), components, verdict };
+        let mut diagnosis = Diagnosis { finding, looked_at, pairs: Vec::new(), components, verdict };
         if diagnosis.verdict == Verdict::Unexplained {
             diagnosis.pairs = self.pairs(campaign, &closely, &logs, limits, seed);
             let fits = |pair: &&LookedAt<[usize; 2]>| pair.guard.is_some_and(|p| p >= limits.pair.guard);
-            let named = diagnosis.pairs.iter().find(fits).filter(|_| diagnosis.seeming.allows_pair(limits));
+            let named = diagnosis.pairs.iter().find(fits).filter(|_| diagnosis.finding.allows_pair(limits));
             diagnosis.verdict = named.map_or(Verdict::Unexplained, |pair| Verdict::NamedPair(pair.cause));
         }
         self.set_beside_priors(&mut diagnosis, campaign, limits, seed.wrapping_add(3));
@@ -240,7 +240,7 @@ mod tests {
         let allows = |p_value: f64, nameless: f64| {
             let discrepancy = Discrepancy { excess: BTreeMap::new(), joints: Vec::new(), distance: 0.0 };
             let ranked = Ranked::new(vec![(Some(3), 1.0), (None, 0.0)], nameless, vec![3]);
-            Seeming { discrepancy, ranked, p_value, p_by_statistic: [p_value; 3] }.allows_pair(&limits)
+            Finding { discrepancy, ranked, p_value, p_by_statistic: [p_value; 3] }.allows_pair(&limits)
         };
         assert!(allows(0.001, 0.04) && !allows(0.001, 0.06) && !allows(0.02, 0.04));
     }
@@ -258,7 +258,7 @@ mod tests {
         let causes = [(Some(3), 0.5), (Some(1), 0.3), (Some(2), 0.1), (None, 0.1)];
         let ranked = Ranked::new(causes.to_vec(), 0.0, vec![1, 2, 3]);
         let mut diagnosis = Diagnosis {
-            seeming: Seeming { discrepancy, ranked, p_value: 0.001, p_by_statistic: [0.001; 3] },
+            finding: Finding { discrepancy, ranked, p_value: 0.001, p_by_statistic: [0.001; 3] },
             // The likeliest does not fit.
             looked_at: vec![looked_at(3, Some(0.0)), looked_at(1, Some(0.4)), looked_at(2, None)],
             pairs: Vec::new(),

@@ -20,7 +20,7 @@ impl Diagnosis {
         if self.verdict == Verdict::NothingFound {
             return None;
         }
-        let ranked = &self.seeming.ranked;
+        let ranked = &self.finding.ranked;
         match self.looked_at(cause).and_then(|own| own.guard) {
             Some(p) if p < Limits::default().guard => Some(Excluded::ByReadings),
             Some(_) => None,
@@ -33,7 +33,7 @@ impl Diagnosis {
     /// The causes that nothing speaks against, most likely first. Where nothing is explained, and these are many, the data
     /// separate too little; where there are none, it lies outside the catalogue.
     pub fn left_open(&self) -> Vec<usize> {
-        let causes = self.seeming.ranked.causes.iter().filter_map(|(cause, _)| *cause);
+        let causes = self.finding.ranked.causes.iter().filter_map(|(cause, _)| *cause);
         causes.filter(|&cause| self.excluded(cause).is_none()).collect()
     }
 }

@@ -40,9 +40,9 @@ pub struct Judge<'w> {
     nearest: Nearest,
 }
 
-/// What is seen of a campaign before any cause is looked at closely.
+/// What is found in a campaign: its discrepancy, how likely that is by chance, and the ranking of the causes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Seeming {
+pub struct Finding {
     /// What is off.
     pub discrepancy: Discrepancy,
     /// The causes with their probabilities.
@@ -53,7 +53,7 @@ pub struct Seeming {
     pub p_by_statistic: [f64; 3],
 }
 
-impl Seeming {
+impl Finding {
     /// The cause that would be named if nothing else spoke against it.
     pub fn named(&self, limits: &Limits) -> Option<usize> {
         self.ranked.named(limits.named).filter(|_| self.p_value < limits.sure)
@@ -95,11 +95,11 @@ impl<'w> Judge<'w> {
         Check { world: self.world, design: &self.design, reference: &self.reference, nearest: &self.nearest }
     }
 
-    /// How a campaign seems.
-    pub fn seeming(&self, campaign: &Campaign) -> Seeming {
+    /// The finding of a campaign by the ranking alone.
+    pub fn finding(&self, campaign: &Campaign) -> Finding {
         let discrepancy = self.reference.discrepancy(&self.design, campaign);
         let ranked = self.ranking.of(&discrepancy);
         let (p_value, p_by_statistic) = self.detection.p_values(&discrepancy, &ranked);
-        Seeming { discrepancy, ranked, p_value, p_by_statistic }
+        Finding { discrepancy, ranked, p_value, p_by_statistic }
     }
 }

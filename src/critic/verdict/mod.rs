@@ -11,5 +11,5 @@ mod tests;
 
 pub use diagnosis::{Diagnosis, LookedAt, Verdict};
 pub use excluded::Excluded;
-pub use judge::{Effort, Judge, Seeming};
+pub use judge::{Effort, Finding, Judge};
 pub use limits::{Limits, MOST_AMBIGUOUS, PairLimits};

@@ -221,10 +221,10 @@ pub struct OffEntry {
 /// What the self-test says of effects that are in no catalogue.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct NamelessEntry {
-    /// Campaigns, by how they seem: before evidence and guard.
+    /// Campaigns, by the ranking alone: before evidence and check.
     #[serde(flatten)]
     pub all: Counted,
-    /// Some of them by all that a diagnosis does.
+    /// Some of them by the whole diagnosis.
     pub judged: Counted,
 }
 
@@ -233,12 +233,12 @@ pub struct NamelessEntry {
 pub struct SelfTestEntry {
     /// What was hidden; "nothing" where nothing was.
     pub hidden: &'static str,
-    /// Campaigns, by how they seem: before evidence and guard.
+    /// Campaigns, by the ranking alone: before evidence and check.
     #[serde(flatten)]
     pub all: Counted,
     /// The third of them that the cause moves most.
     pub strong: Counted,
-    /// Some of them by all that a diagnosis does.
+    /// Some of them by the whole diagnosis.
     pub judged: Counted,
 }
 
@@ -282,7 +282,7 @@ impl DiagnosisSummary {
             guard_p_value: own.guard,
             conflict_p_value: own.conflict,
         });
-        let ranked = &diagnosis.seeming.ranked;
+        let ranked = &diagnosis.finding.ranked;
         let mut causes: Vec<CauseEntry> = ranked
             .causes
             .iter()
@@ -307,7 +307,7 @@ impl DiagnosisSummary {
             .collect();
         causes.sort_by_key(|cause| !cause.in_verdict);
         let mut off: Vec<OffEntry> = diagnosis
-            .seeming
+            .finding
             .discrepancy
             .excess
             .iter()
@@ -317,7 +317,7 @@ impl DiagnosisSummary {
             .collect();
         off.sort_by(|a, b| b.in_sd.abs().total_cmp(&a.in_sd.abs()));
         let base = ranked.causes.iter().find(|(cause, _)| cause.is_none());
-        let [furthest, together, likeness] = diagnosis.seeming.p_by_statistic;
+        let [furthest, together, likeness] = diagnosis.finding.p_by_statistic;
         let tested = self_test.rows.iter().map(|row| SelfTestEntry {
             hidden: row.cause.map_or("nothing", |cause| mechanisms[cause].name),
             all: row.all,
@@ -335,7 +335,7 @@ impl DiagnosisSummary {
             pairs: pairs.collect(),
             base_probability: base.map_or(0.0, |(_, probability)| *probability),
             nameless_probability: ranked.nameless,
-            p_value: diagnosis.seeming.p_value,
+            p_value: diagnosis.finding.p_value,
             looks: LooksEntry { furthest, together, likeness },
             off,
             residuals: Vec::new(),

@@ -6,8 +6,8 @@ use std::path::Path;
 
 use super::figure::folder;
 use crate::critic::{
-    Baseline, Caught, Contrast, Counted, Design, Diagnosis, Discrepancy, Feature, LookedAt, Made, Offer,
-    Offered, Ranked, Seeming, SelfTest, SelfTestRow, Truth, Unused, Verdict, base_curves, cause_curves, made,
+    Baseline, Caught, Contrast, Counted, Design, Diagnosis, Discrepancy, Feature, Finding, LookedAt, Made,
+    Offer, Offered, Ranked, SelfTest, SelfTestRow, Truth, Unused, Verdict, base_curves, cause_curves, made,
 };
 use crate::report::Advice;
 use crate::report::diagnosis::{
@@ -74,7 +74,7 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>) {
         caught: Vec::new(),
     });
     let diagnosis = Diagnosis {
-        seeming: Seeming {
+        finding: Finding {
             p_value: 0.001,
             p_by_statistic: [0.004, 0.001, 0.02],
             discrepancy: Discrepancy {
