@@ -9,7 +9,7 @@ use crate::critic::{ComponentEstimate, Diagnosis, Finding, Limits, LookedAt, Ran
 pub(super) fn limits(of: &Limits) -> String {
     let pair = format!(
         "PairLimits {{ named: {:?}, guard: {:?}, nameless: {:?} }}",
-        of.pair.named, of.pair.guard, of.pair.nameless
+        of.pair.named, of.pair.guard, of.pair.unmodelled
     );
     format!(
         "Limits {{ found: {:?}, named: {:?}, sure: {:?}, guard: {:?}, conflict: {:?}, pair: {pair} }}",
@@ -38,8 +38,8 @@ fn finding(of: &Finding) -> String {
         "Wrong {{ excess: {:?}, joints: {:?}, distance: {:?} }}",
         of.discrepancy.excess, of.discrepancy.joints, of.discrepancy.distance
     );
-    let Ranked { causes, nameless, set } = &of.ranked;
-    let ranked = format!("Ranked {{ causes: {causes:?}, nameless: {nameless:?}, set: {set:?} }}");
+    let Ranked { causes, unmodelled, set } = &of.ranked;
+    let ranked = format!("Ranked {{ causes: {causes:?}, nameless: {unmodelled:?}, set: {set:?} }}");
     format!(
         "Seeming {{ wrong: {discrepancy}, ranked: {ranked}, p_value: {:?}, looks: {:?} }}",
         of.p_value, of.p_by_statistic

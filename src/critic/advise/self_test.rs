@@ -16,7 +16,7 @@ use crate::study::Described;
 
 /// Two causes are confused where so large a share of the sets of either hold the other.
 const CONFUSED: f64 = 0.5;
-/// So many times as many campaigns without any effect, and with nameless ones, are judged by the whole diagnosis.
+/// So many times as many campaigns without any effect, and with unmodelled ones, are judged by the whole diagnosis.
 const MORE: u64 = 5;
 
 /// How often diagnoses of a design find and name what is hidden, by simulation.
@@ -24,8 +24,9 @@ const MORE: u64 = 5;
 pub struct SelfTest {
     /// For the base model (first) and each cause.
     pub rows: Vec<SelfTestRow>,
-    /// Campaigns of [nameless](crate::critic::World::nameless) effects, by the ranking alone, and some of them by the whole diagnosis: any name is a wrong one.
-    pub nameless: [Counted; 2],
+    /// Campaigns of [unmodelled](crate::critic::World::unmodelled) effects, by the ranking alone, and some of them by the whole diagnosis: any name is a wrong one.
+    #[serde(rename = "nameless")]
+    pub unmodelled: [Counted; 2],
 }
 
 /// A line of the self-test.
@@ -74,8 +75,8 @@ struct Tested {
 
 impl Judge<'_> {
     /// Judges `count` campaigns of every cause and of the base model, drawn from the priors with another seed than the training's,
-    /// by the ranking alone, and as many of nameless effects; of these `judged` of each cause, and five times as many of the base model
-    /// and of nameless effects, by the whole diagnosis.
+    /// by the ranking alone, and as many of unmodelled effects; of these `judged` of each cause, and five times as many of the base model
+    /// and of unmodelled effects, by the whole diagnosis.
     pub fn self_test(&self, limits: &Limits, count: u64, judged: u64, seed: u64) -> SelfTest {
         let row = |cause: &Option<usize>| {
             let campaigns: Vec<Tested> =
@@ -89,13 +90,13 @@ impl Judge<'_> {
             row(*cause, mechanism, &campaigns, &verdicts, limits, seed)
         };
         let rows = self.ranking.causes().par_iter().map(row).collect();
-        SelfTest { rows, nameless: self.nameless_test(limits, count, MORE * judged, seed) }
+        SelfTest { rows, unmodelled: self.unmodelled_test(limits, count, MORE * judged, seed) }
     }
 
-    /// What is said of campaigns of nameless effects, by the ranking alone and of some by the whole diagnosis.
-    fn nameless_test(&self, limits: &Limits, count: u64, judged: u64, seed: u64) -> [Counted; 2] {
+    /// What is said of campaigns of unmodelled effects, by the ranking alone and of some by the whole diagnosis.
+    fn unmodelled_test(&self, limits: &Limits, count: u64, judged: u64, seed: u64) -> [Counted; 2] {
         let campaigns: Vec<Campaign> =
-            (0..count).map(|k| self.world.nameless(&self.design, &Streams::new(seed, k))).collect();
+            (0..count).map(|k| self.world.unmodelled(&self.design, &Streams::new(seed, k))).collect();
         let by_ranking = |campaign: &Campaign| said(&self.finding(campaign), limits);
         let ranked: Vec<Option<Vec<usize>>> = campaigns.par_iter().map(by_ranking).collect();
         let closely = campaigns.par_iter().take(judged as usize);
@@ -222,7 +223,7 @@ impl SelfTest {
     /// Whether its counts can be counts: of a file that was changed they may be anything.
     pub fn is_sound(&self) -> bool {
         let rows = self.rows.iter().flat_map(|row| [row.all, row.strong, row.judged]);
-        rows.chain(self.nameless).all(|own| own.found.max(own.named + own.misnamed) <= own.campaigns)
+        rows.chain(self.unmodelled).all(|own| own.found.max(own.named + own.misnamed) <= own.campaigns)
     }
 
     /// Causes that the design cannot tell apart, in classes of two or more; `found` is the least share of campaigns in which a
@@ -279,7 +280,7 @@ mod tests {
         };
         // 1 and 2 look like each other, 3 like nothing; 4 looks like 1, but is never found.
         let test = SelfTest {
-            nameless: [Counted::default(); 2],
+            unmodelled: [Counted::default(); 2],
             rows: vec![
                 row(1, 80, &[(1, 80), (2, 60)]),
                 row(2, 50, &[(1, 30), (2, 50)]),

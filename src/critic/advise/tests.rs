@@ -27,8 +27,8 @@ fn strong_causes_are_named_and_those_that_do_nothing_are_not() {
     assert!(nothing.all.found < 15 && nothing.all.named == 0 && nothing.all.misnamed < 5, "{nothing:?}");
     assert!(test.rows[0].cause.is_none() && test.rows[0].all.found < 15 && test.rows[0].all.misnamed < 3);
     // What has no name is not given one, by looks or by all that a diagnosis does.
-    let [by_ranking, judged] = test.nameless;
-    println!("nameless: {by_ranking:?} {judged:?}");
+    let [by_ranking, judged] = test.unmodelled;
+    println!("unmodelled: {by_ranking:?} {judged:?}");
     assert_eq!((by_ranking.campaigns, judged.campaigns), (100, 20));
     // The paper's few readings show a third of it.
     assert!(

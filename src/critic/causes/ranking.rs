@@ -1,7 +1,7 @@
-//! Which cause explains the discrepancy? Networks trained on campaigns that the causes would have shown, and that [nameless] effects
+//! Which cause explains the discrepancy? Networks trained on campaigns that the causes would have shown, and that [unmodelled] effects
 //! would, and sets of causes that hold the true one nine times in ten, whichever it is.
 //!
-//! [nameless]: crate::critic::World::nameless
+//! [unmodelled]: crate::critic::World::unmodelled
 
 use rayon::prelude::*;
 
@@ -21,16 +21,16 @@ const HELD: u64 = 8;
 /// learnt from 2,400 campaigns of each cause tell more of new ones than one that has learnt from 3,600.
 const NETWORKS: u64 = 2;
 
-/// No more than this is ever nameless: what causes share of the rest stays a number.
+/// No more than this is ever unmodelled: what causes share of the rest stays a number.
 const SUREST: f64 = 1.0 - 1e-9;
 
 /// The causes of a world as a design can tell them apart.
 #[derive(Clone, Debug)]
 pub struct Ranking {
-    /// The cause of each class; the base model is the first. Nameless effects are one more class, the last.
+    /// The cause of each class; the base model is the first. Unmodelled effects are one more class, the last.
     causes: Vec<Option<usize>>,
     networks: Vec<Network>,
-    /// The least share of what nameless effects leave with which a cause is in the set.
+    /// The least share of what unmodelled effects leave with which a cause is in the set.
     least: Vec<f64>,
 }
 
@@ -38,17 +38,17 @@ pub struct Ranking {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ranked {
     /// Each cause with its probability, the base model among them; most likely first. Beforehand all causes are equally likely,
-    /// and something nameless is as likely as one of them.
+    /// and something unmodelled is as likely as one of them.
     pub causes: Vec<(Option<usize>, f64)>,
     /// Probability of something that is in no catalogue, with which all are 1.
-    pub nameless: f64,
+    pub unmodelled: f64,
     /// The causes that cannot be put aside: for each cause, [`COVERED`] of its campaigns have it in here. The base model is not
     /// in it: whether there is a discrepancy is tested apart.
     pub set: Vec<usize>,
 }
 
 impl Ranking {
-    /// Trained on `count` campaigns of every cause, of the base model and of nameless effects, drawn from the priors; a pure
+    /// Trained on `count` campaigns of every cause, of the base model and of unmodelled effects, drawn from the priors; a pure
     /// function of its arguments.
     pub fn trained(
         world: &World<'_>,
@@ -64,7 +64,7 @@ impl Ranking {
             // The same stones and errors under every cause.
             let streams = Streams::new(seed, k);
             let of = |cause: &Option<usize>| world.campaign(design, &world.drawn(*cause, &streams), &streams);
-            let all = causes.iter().map(of).chain(std::iter::once(world.nameless(design, &streams)));
+            let all = causes.iter().map(of).chain(std::iter::once(world.unmodelled(design, &streams)));
             all.map(|campaign| inputs(&reference.discrepancy(design, &campaign))).zip(0..).collect()
         };
         let all: Vec<Vec<Example>> = (0..count).into_par_iter().map(shown).collect();
@@ -105,36 +105,36 @@ impl Ranking {
 
     /// Ranks the causes of a discrepancy.
     pub fn of(&self, discrepancy: &Discrepancy) -> Ranked {
-        let (shares, nameless) = self.shares(&inputs(discrepancy));
+        let (shares, unmodelled) = self.shares(&inputs(discrepancy));
         let inside = self.causes.iter().zip(&shares).zip(&self.least);
         let set = inside.filter(|((_, share), least)| share >= least).filter_map(|((cause, _), _)| *cause);
         let set = set.collect();
-        Ranked::new(self.causes.iter().copied().zip(shares).collect(), nameless, set)
+        Ranked::new(self.causes.iter().copied().zip(shares).collect(), unmodelled, set)
     }
 
-    /// The share of each cause in what nameless effects leave of the probability, and theirs.
+    /// The share of each cause in what unmodelled effects leave of the probability, and theirs.
     fn shares(&self, inputs: &[f64]) -> (Vec<f64>, f64) {
         let mut sums = vec![0.0; self.causes.len() + 1];
         for network in &self.networks {
             sums.iter_mut().zip(network.probabilities(inputs)).for_each(|(sum, p)| *sum += p);
         }
-        let nameless = sums.pop().unwrap_or(0.0) / self.networks.len() as f64;
+        let unmodelled = sums.pop().unwrap_or(0.0) / self.networks.len() as f64;
         let rest = sums.iter().sum::<f64>().max(f64::MIN_POSITIVE);
-        (sums.into_iter().map(|sum| sum / rest).collect(), nameless)
+        (sums.into_iter().map(|sum| sum / rest).collect(), unmodelled)
     }
 }
 
 impl Ranked {
-    /// Of causes with their shares, of sum 1, in what nameless effects leave of the probability, in any order.
+    /// Of causes with their shares, of sum 1, in what unmodelled effects leave of the probability, in any order.
     pub(in crate::critic) fn new(
         mut causes: Vec<(Option<usize>, f64)>,
-        nameless: f64,
+        unmodelled: f64,
         set: Vec<usize>,
     ) -> Ranked {
         causes.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
-        let nameless = nameless.min(SUREST);
-        causes.iter_mut().for_each(|(_, p)| *p *= 1.0 - nameless);
-        Ranked { causes, nameless, set }
+        let unmodelled = unmodelled.min(SUREST);
+        causes.iter_mut().for_each(|(_, p)| *p *= 1.0 - unmodelled);
+        Ranked { causes, unmodelled, set }
     }
 
     /// How much more likely it is that something is off, by any cause or none that has a name, than the base model (logarithm of

@@ -13,14 +13,14 @@ const HEARD: [f64; 2] = [0.7, 0.2];
 const HEARD_CLOSELY: f64 = 0.2;
 
 /// The causes with their probabilities, once the evidence has been heard as well: the ranking knows how campaigns of a cause look
-/// and has seen thousands of them, the evidence knows every reading of this one. A rough one counts little. What is nameless
+/// and has seen thousands of them, the evidence knows every reading of this one. A rough one counts little. What is unmodelled
 /// has no evidence, and keeps its probability. `logs` are the logarithms of the evidence, in the order of the causes.
 pub fn weighed(ranked: &Ranked, logs: &[f64]) -> Ranked {
     let both =
         ranked.causes.iter().zip(logs).map(|((_, p), log)| HEARD[0] * ln(p.max(1e-12)) + HEARD[1] * log);
     let probabilities = softmax(&both.collect::<Vec<_>>(), 1.0);
     let causes = ranked.causes.iter().map(|(cause, _)| *cause);
-    Ranked::new(causes.zip(probabilities).collect(), ranked.nameless, ranked.set.clone())
+    Ranked::new(causes.zip(probabilities).collect(), ranked.unmodelled, ranked.set.clone())
 }
 
 /// The causes with their probabilities, once the evidence of those looked at closely has been heard as well; `logs` are its logarithms,
@@ -35,8 +35,8 @@ pub fn heard(ranked: &Ranked, closely: &[usize], logs: &[f64]) -> Ranked {
     let both = looked_at.iter().filter_map(|(cause, p)| Some(ln(p.max(1e-12)) + HEARD_CLOSELY * log(cause)?));
     let shares = softmax(&both.collect::<Vec<_>>(), 1.0);
     let moved = looked_at.iter().zip(shares).map(|((cause, _), share)| (*cause, whole * share));
-    let shares = moved.chain(others).map(|(cause, p)| (cause, p / (1.0 - ranked.nameless))).collect();
-    Ranked::new(shares, ranked.nameless, ranked.set.clone())
+    let shares = moved.chain(others).map(|(cause, p)| (cause, p / (1.0 - ranked.unmodelled))).collect();
+    Ranked::new(shares, ranked.unmodelled, ranked.set.clone())
 }
 
 #[cfg(test)]
@@ -60,9 +60,9 @@ mod tests {
         }
         // What was not looked at keeps its part, and so does what has no name.
         assert!((of(Some(2)) - 0.8 * 0.1).abs() < 1e-12);
-        assert_eq!(found.nameless, 0.2);
+        assert_eq!(found.unmodelled, 0.2);
         assert_eq!((found.causes[0].0, &found.set[..]), (Some(1), &[1, 3][..]));
-        // What is surely nameless leaves causes little, and that is a number.
+        // What is surely unmodelled leaves causes little, and that is a number.
         let sure = heard(&Ranked::new(ranked.causes.clone(), 1.0, vec![1, 3]), &[3, 1], &[-20.0, -10.0, 0.0]);
         assert!(sure.causes.iter().all(|(_, p)| *p > 0.0 && *p < 1e-8), "{sure:?}");
     }

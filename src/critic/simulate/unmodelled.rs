@@ -1,4 +1,4 @@
-//! Effects that nobody has thought of: random forms of what walls do and of what gauges show. Campaigns with such forms teach the
+//! Effects in no catalogue: random forms of what walls do and of what gauges show. Campaigns with such forms teach the
 //! ranking how the ones look that are like none of its causes: of a cause's own it sees thousands, and of all others it would
 //! otherwise know nothing (outlier exposure: Hendrycks, Mazeika and Dietterich 2019).
 
@@ -57,14 +57,15 @@ struct Form {
 
 /// What is off in a campaign; by default nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Nameless(Vec<Form>);
+pub struct Unmodelled(Vec<Form>);
 
-impl Nameless {
+impl Unmodelled {
     /// One to three forms; a pure function of the design and the streams.
-    pub fn drawn(design: &Design, streams: &Streams) -> Nameless {
+    pub fn drawn(design: &Design, streams: &Streams) -> Unmodelled {
+        // The name of the stream is part of every draw.
         let mut draws = streams.of("nameless");
         let count = 1 + draws.below(MOST);
-        Nameless((0..count).map(|_| Form::drawn(design, &mut draws)).collect())
+        Unmodelled((0..count).map(|_| Form::drawn(design, &mut draws)).collect())
     }
 
     /// Changes the [adding](crate::critic::Path::adding) numbers of a specimen's path.
@@ -166,14 +167,14 @@ mod tests {
     use crate::critic::fixture::made;
 
     /// One form of this size on all specimens.
-    fn one(on: On, growth: Growth, size: f64) -> Nameless {
-        Nameless(vec![Form { on, growth, sizes: vec![size; 9] }])
+    fn one(on: On, growth: Growth, size: f64) -> Unmodelled {
+        Unmodelled(vec![Form { on, growth, sizes: vec![size; 9] }])
     }
 
     #[test]
     fn each_form_changes_what_it_acts_on_and_nothing_else() {
         let numbers: [f64; NUMBERS] = std::array::from_fn(|k| 0.1 + k as f64);
-        let changed = |of: &Nameless| {
+        let changed = |of: &Unmodelled| {
             let mut own = numbers;
             of.act(0, &mut own);
             let changed = own.iter().zip(&numbers).enumerate();
@@ -197,14 +198,15 @@ mod tests {
         let knock = one(On::Shift([0.0, 1.0, 0.0]), Growth::Step(0.5), 1e-3);
         assert_eq!(knock.shown(0, 0.1, points), points);
         assert_eq!(knock.shown(0, 0.2, points), [1e-3, 3e-3, 3e-3]);
-        assert_eq!(changed(&Nameless::default()), []);
+        assert_eq!(changed(&Unmodelled::default()), []);
     }
 
     #[test]
     fn forms_of_all_kinds_are_drawn_on_one_family_and_on_all_and_by_the_order_of_the_tests() {
         let made = made();
         let (design, _) = Design::of(&made.study);
-        let all: Vec<Form> = (0..300).flat_map(|k| Nameless::drawn(&design, &Streams::new(5, k)).0).collect();
+        let all: Vec<Form> =
+            (0..300).flat_map(|k| Unmodelled::drawn(&design, &Streams::new(5, k)).0).collect();
         assert!(all.len() > 450 && all.len() < 750, "{}", all.len());
         for is in [
             |form: &Form| form.on == On::Fall,
@@ -220,8 +222,8 @@ mod tests {
             assert!(count > 5, "{count}");
         }
         assert_eq!(
-            Nameless::drawn(&design, &Streams::new(5, 7)),
-            Nameless::drawn(&design, &Streams::new(5, 7))
+            Unmodelled::drawn(&design, &Streams::new(5, 7)),
+            Unmodelled::drawn(&design, &Streams::new(5, 7))
         );
     }
 }

@@ -12,7 +12,7 @@ use crate::critic::simulate::bank::{
 use crate::critic::simulate::causes::Causes;
 use crate::critic::simulate::design::{Campaign, Design};
 use crate::critic::simulate::queries::Queries;
-use crate::critic::simulate::unmodelled::Nameless;
+use crate::critic::simulate::unmodelled::Unmodelled;
 use crate::ensemble::{build, is_random, weight};
 use crate::math::{atan, radians, tan};
 use crate::protocol::Ends;
@@ -198,23 +198,23 @@ impl<'s> World<'s> {
 
     /// A campaign in which something is off that is in no catalogue, with joints drawn from their priors: a pure function of the
     /// design and the streams.
-    pub fn nameless(&self, design: &Design, streams: &Streams) -> Campaign {
+    pub fn unmodelled(&self, design: &Design, streams: &Streams) -> Campaign {
         let truth = self.drawn(None, streams);
-        let values = self.values_with(design, &truth, &Nameless::drawn(design, streams), streams);
+        let values = self.values_with(design, &truth, &Unmodelled::drawn(design, streams), streams);
         Campaign::read(design, &values, &self.values_apart(design, &truth), streams)
     }
 
     /// What the specimens of a campaign show of each reading (SI, gauges included) before the readings' errors; `None` where the
     /// wall has fallen. The walls are those of [`Self::campaign`] with the same streams.
     pub fn values(&self, design: &Design, truth: &Truth, streams: &Streams) -> Vec<Vec<Option<f64>>> {
-        self.values_with(design, truth, &Nameless::default(), streams)
+        self.values_with(design, truth, &Unmodelled::default(), streams)
     }
 
     fn values_with(
         &self,
         design: &Design,
         truth: &Truth,
-        nameless: &Nameless,
+        unmodelled: &Unmodelled,
         streams: &Streams,
     ) -> Vec<Vec<Option<f64>>> {
         let gauge = self.gauge(truth);
@@ -223,10 +223,10 @@ impl<'s> World<'s> {
             .map(|(index, specimen)| {
                 let truth = if specimen.turned { &self.turned(truth) } else { truth };
                 let mut numbers = self.wall(specimen.family, truth, index, streams);
-                nameless.act(index, &mut numbers);
+                unmodelled.act(index, &mut numbers);
                 let curves = Curves::of(&numbers);
                 let seen = |tilt: f64, points: [f64; 3]| {
-                    nameless.shown(index, tilt, points.map(|x| gauge.reading(x)))
+                    unmodelled.shown(index, tilt, points.map(|x| gauge.reading(x)))
                 };
                 specimen.readings.iter().map(|m| shown(&curves, m, &seen)).collect()
             })

@@ -20,7 +20,7 @@ const PAIRS: usize = 4;
 /// A cause that the ranking puts aside is not put aside where the evidence leaves it this probability or more.
 const LIKELY: f64 = 0.1;
 /// Causes are left open only where those that fit have together so large a share of the probability that something is off: where the
-/// likely ones are refused, and an unlikely one is not, or where it is likely nameless, none explains it.
+/// likely ones are refused, and an unlikely one is not, or where it is likely unmodelled, none explains it.
 const MOST: f64 = 0.5;
 
 impl Judge<'_> {
@@ -130,7 +130,7 @@ impl Judge<'_> {
 
     /// The causes with their probabilities, once the evidence has been heard as well: the ranking knows how campaigns of a cause
     /// look and has seen thousands of them, the evidence knows every reading of this one. A rough one counts little. What is
-    /// nameless has no evidence, and keeps its probability.
+    /// unmodelled has no evidence, and keeps its probability.
     pub(in crate::critic) fn weighed(&self, ranked: &Ranked, campaign: &Campaign, seed: u64) -> Ranked {
         let logs = self.rough(campaign, ranked.causes.iter().map(|(cause, _)| Causes::from(*cause)), seed);
         weighed(ranked, &logs)
@@ -204,7 +204,7 @@ impl Judge<'_> {
 /// The verdict where none can be named, and these causes fit.
 fn unnamed(ranked: &Ranked, fit: Vec<usize>) -> Verdict {
     let causes = ranked.causes.iter().filter(|(cause, _)| cause.is_some());
-    let whole = causes.fold(ranked.nameless, |sum, (_, p)| sum + p);
+    let whole = causes.fold(ranked.unmodelled, |sum, (_, p)| sum + p);
     let theirs = fit.iter().fold(0.0, |sum, cause| sum + ranked.probability(*cause));
     match fit.len() {
         1..=MOST_AMBIGUOUS if theirs >= MOST * whole => Verdict::Ambiguous(fit),
@@ -229,17 +229,17 @@ mod tests {
         assert_eq!(unnamed(&ranked, vec![1, 2]), Verdict::Unexplained);
         assert_eq!(unnamed(&ranked, vec![3, 1, 2, 4]), Verdict::Unexplained);
         assert_eq!(unnamed(&ranked, Vec::new()), Verdict::Unexplained);
-        // Half of it is nameless: the same causes have less than half of what is off.
+        // Half of it is unmodelled: the same causes have less than half of what is off.
         let ranked = Ranked::new(causes.to_vec(), 0.5, vec![1, 2, 3]);
         assert_eq!(unnamed(&ranked, vec![3, 1, 2]), Verdict::Unexplained);
     }
 
     #[test]
-    fn what_is_perhaps_nameless_or_chance_is_no_pair() {
+    fn what_is_perhaps_unmodelled_or_chance_is_no_pair() {
         let limits = Limits::default();
-        let allows = |p_value: f64, nameless: f64| {
+        let allows = |p_value: f64, unmodelled: f64| {
             let discrepancy = Discrepancy { excess: BTreeMap::new(), joints: Vec::new(), distance: 0.0 };
-            let ranked = Ranked::new(vec![(Some(3), 1.0), (None, 0.0)], nameless, vec![3]);
+            let ranked = Ranked::new(vec![(Some(3), 1.0), (None, 0.0)], unmodelled, vec![3]);
             Finding { discrepancy, ranked, p_value, p_by_statistic: [p_value; 3] }.allows_pair(&limits)
         };
         assert!(allows(0.001, 0.04) && !allows(0.001, 0.06) && !allows(0.02, 0.04));

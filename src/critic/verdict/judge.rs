@@ -15,7 +15,7 @@ use crate::random::Streams;
 pub struct Effort {
     /// Of the base model, for the discrepancy and once more for how large it is by chance.
     pub reference: u64,
-    /// Of each cause and of nameless effects, for the ranking.
+    /// Of each cause and of unmodelled effects, for the ranking.
     pub training: u64,
 }
 
@@ -61,7 +61,7 @@ impl Finding {
 
     /// Whether a pair of causes may be named at all.
     pub(super) fn allows_pair(&self, limits: &Limits) -> bool {
-        self.p_value < limits.sure && self.ranked.nameless <= limits.pair.nameless
+        self.p_value < limits.sure && self.ranked.unmodelled <= limits.pair.unmodelled
     }
 }
 

@@ -29,9 +29,9 @@ pub struct PairLimits {
     pub named: f64,
     /// Share of its own campaigns that must fit no better.
     pub guard: f64,
-    /// The largest probability of something nameless. Two causes in one campaign look like one of them, hardly ever like none; and
+    /// The largest probability of something unmodelled. Two causes in one campaign look like one of them, hardly ever like none; and
     /// what is like none fits the best of many pairs now and then.
-    pub nameless: f64,
+    pub unmodelled: f64,
 }
 
 impl Default for Limits {
@@ -42,7 +42,7 @@ impl Default for Limits {
             sure: 0.01,
             guard: 0.05,
             conflict: 0.05,
-            pair: PairLimits { named: 0.99, guard: 0.25, nameless: 0.05 },
+            pair: PairLimits { named: 0.99, guard: 0.25, unmodelled: 0.05 },
         }
     }
 }

@@ -30,25 +30,25 @@ fn little_is_found_where_nothing_is_hidden_also_with_joints_far_out_in_their_pri
 }
 
 #[test]
-fn what_is_like_no_cause_is_seen_to_be_nameless() {
+fn what_is_like_no_cause_is_seen_to_be_unmodelled() {
     let (made, judge) = judged();
     let (world, design) = (judge.world, &judge.design);
     let creep = Some(made.cause("creep"));
     // Mean probability over the campaigns, drawn with another seed than the judge's, in which something is found.
-    let nameless = |campaign: &dyn Fn(&Streams) -> Campaign| {
+    let unmodelled = |campaign: &dyn Fn(&Streams) -> Campaign| {
         let findings = (0..100).map(|k| judge.finding(&campaign(&Streams::new(43, k))));
         let found: Vec<f64> = findings
             .filter(|finding| finding.p_value < 0.05)
             .map(|finding| {
-                let sum = finding.ranked.causes.iter().fold(finding.ranked.nameless, |sum, (_, p)| sum + p);
+                let sum = finding.ranked.causes.iter().fold(finding.ranked.unmodelled, |sum, (_, p)| sum + p);
                 assert!((sum - 1.0).abs() < 1e-9, "{sum}");
-                finding.ranked.nameless
+                finding.ranked.unmodelled
             })
             .collect();
         stats::mean(&found).expect("some are found")
     };
-    let own = nameless(&|streams| world.campaign(design, &world.drawn(creep, streams), streams));
-    let others = nameless(&|streams| world.nameless(design, streams));
+    let own = unmodelled(&|streams| world.campaign(design, &world.drawn(creep, streams), streams));
+    let others = unmodelled(&|streams| world.unmodelled(design, streams));
     println!("{own} of creep, {others} of others");
     // 0.06 and 0.30: the paper's few readings leave it mostly open what they show.
     assert!(own < 0.12 && others > 0.2, "{own} {others}");

@@ -61,7 +61,7 @@ pub struct DiagnosisSummary {
     /// How reliable verdicts on such data are.
     pub self_test: Vec<SelfTestEntry>,
     /// The same where something is off that is in no catalogue: any name is a wrong one.
-    pub self_test_nameless: NamelessEntry,
+    pub self_test_nameless: UnmodelledEntry,
     /// What the data cannot tell, and what would.
     pub advice: Advice,
     /// Folders of the extended studies, beside this file: one for each cause that the verdict speaks of, or for its pair.
@@ -220,7 +220,7 @@ pub struct OffEntry {
 
 /// What the self-test says of effects that are in no catalogue.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-pub struct NamelessEntry {
+pub struct UnmodelledEntry {
     /// Campaigns, by the ranking alone: before evidence and check.
     #[serde(flatten)]
     pub all: Counted,
@@ -334,7 +334,7 @@ impl DiagnosisSummary {
             causes,
             pairs: pairs.collect(),
             base_probability: base.map_or(0.0, |(_, probability)| *probability),
-            nameless_probability: ranked.nameless,
+            nameless_probability: ranked.unmodelled,
             p_value: diagnosis.finding.p_value,
             looks: LooksEntry { furthest, together, likeness },
             off,
@@ -344,7 +344,10 @@ impl DiagnosisSummary {
             unused: unused(design),
             notes: Vec::new(),
             self_test: tested.collect(),
-            self_test_nameless: NamelessEntry { all: self_test.nameless[0], judged: self_test.nameless[1] },
+            self_test_nameless: UnmodelledEntry {
+                all: self_test.unmodelled[0],
+                judged: self_test.unmodelled[1],
+            },
             advice: Advice::default(),
             extended: Vec::new(),
             gain: None,

@@ -161,7 +161,7 @@ pub(super) fn pairs(summary: &DiagnosisSummary) -> Option<String> {
         or_dash(pair.guard_p_value),
         limits.pair.named,
         limits.pair.guard,
-        limits.pair.nameless,
+        limits.pair.unmodelled,
         limits.sure
     ))
 }
@@ -205,7 +205,7 @@ pub(super) fn reliability(summary: &DiagnosisSummary) -> Vec<String> {
     };
     let (all, strong) = (sum(&hidden, |row| row.all), sum(&hidden, |row| row.strong));
     let (judged, closely) = (sum(&hidden, |row| row.judged), sum(&nothing, |row| row.judged));
-    let (still, nameless) = (sum(&nothing, |row| row.all), summary.self_test_nameless.judged);
+    let (still, unmodelled) = (sum(&nothing, |row| row.all), summary.self_test_nameless.judged);
     let counted = |part: u64, whole: u64| format!("{part} of {whole}, {}", share(part, whole));
     let mut sentences = vec![
         format!(
@@ -236,7 +236,7 @@ pub(super) fn reliability(summary: &DiagnosisSummary) -> Vec<String> {
             counted(judged.named, judged.campaigns),
             counted(judged.misnamed, judged.campaigns),
             counted(closely.misnamed, closely.campaigns),
-            counted(nameless.misnamed, nameless.campaigns)
+            counted(unmodelled.misnamed, unmodelled.campaigns)
         ),
     });
     sentences

@@ -90,7 +90,7 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>) {
                     (Some(cause("lean")), 0.036),
                     (Some(cause("density")), 0.004),
                 ],
-                nameless: 0.25,
+                unmodelled: 0.25,
                 set: vec![causes[0], causes[1], cause("density")],
             },
         },
@@ -100,8 +100,8 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>) {
         verdict: Verdict::Ambiguous(causes.to_vec()),
     };
     let residuals = Baseline::new(&world, &design, 2).residuals(&measured);
-    let nameless = [10, 5].map(|campaigns| Counted { campaigns, found: 3, named: 0, misnamed: 1 });
-    let test = SelfTest { rows: rows.to_vec(), nameless };
+    let unmodelled = [10, 5].map(|campaigns| Counted { campaigns, found: 3, named: 0, misnamed: 1 });
+    let test = SelfTest { rows: rows.to_vec(), unmodelled };
     let summary = DiagnosisSummary::of(&made.study, 3, "00ff", &made.mechanisms, &design, &diagnosis, &test)
         .beside(&made.study, &residuals);
     let (base, under) = (base_curves(&world, &design, 4), cause_curves(&world, &design, &diagnosis, 4));
@@ -177,7 +177,7 @@ fn every_cause_is_caught_seen_in_part_or_hardly_seen() {
         row("joint_closure", 49, &[]),
         row("cohesion", 12, &[]),
     ];
-    let test = SelfTest { rows, nameless: [Counted::default(); 2] };
+    let test = SelfTest { rows, unmodelled: [Counted::default(); 2] };
     let advice = Advice::of(&test, &[], true, &made.mechanisms);
     let text = advice.text();
     for part in [
