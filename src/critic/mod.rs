@@ -20,7 +20,7 @@ mod simulate;
 pub(crate) mod tests;
 mod verdict;
 
-pub use advise::{CAUGHT, Caught, Counted, Offer, Offered, SelfTest, SelfTestRow, offers};
+pub use advise::{Counted, DETECTION_POWER, DetectionLimit, Offer, Offered, SelfTest, SelfTestRow, offers};
 pub use calibrate::{
     AnglePoint, Calibration, CurvePoint, End, LEAST_POINTS, LeftOut, OtherPhi, angles_of, calibrate,
     calibrate_family, other_friction, points_of,

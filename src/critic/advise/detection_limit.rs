@@ -1,12 +1,12 @@
-//! How large an effect must be to be caught.
+//! The detection limit: how large an effect must be to be detected.
 
 use serde::{Deserialize, Serialize};
 
 use crate::random::Stream;
 use crate::study::Stronger;
 
-/// An effect is caught where so large a share of its campaigns is found.
-pub const CAUGHT: f64 = 0.8;
+/// The power at the detection limit: an effect is detected where so large a share of its campaigns is found.
+pub const DETECTION_POWER: f64 = 0.8;
 /// That share is taken over so large a share of the campaigns, of neighbouring strengths, but over no fewer than so many. Of more
 /// campaigns as few would have some chance anywhere to hold too few that are found.
 const WINDOW: f64 = 0.15;
@@ -16,28 +16,28 @@ const REPLICATES: usize = 999;
 /// Of these lie beyond either end of a 95 % interval.
 const BEYOND: usize = 24;
 
-/// Strengths from which on an effect is found four times in five.
+/// The strength from which on an effect is found four times in five.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Caught {
+pub struct DetectionLimit {
     /// Index of the parameter.
     pub parameter: usize,
-    /// Its score from where on; `None` where it is caught anywhere in its prior.
+    /// Its score from where on; `None` where it is detected anywhere in its prior.
     pub score: Option<f64>,
     /// The 95 % interval of this score, ascending: percentiles over resampled campaigns. `None` at an end where these do not bound
-    /// it: it may be caught at any weaker effect, or at none so strong as the prior holds.
+    /// it: it may be detected at any weaker effect, or at none so strong as the prior holds.
     pub interval: [Option<f64>; 2],
-    /// Whether smaller values are caught, not larger ones.
+    /// Whether smaller values are detected, not larger ones.
     pub below: bool,
 }
 
-/// From which scores of a parameter on effects are caught, towards where they are the stronger; once where they are anywhere. Shown
+/// From which scores of a parameter on effects are detected, towards where they are the stronger; once where they are anywhere. Shown
 /// are the scores of campaigns and whether they were found.
-pub fn caught(
+pub fn detection_limits(
     parameter: usize,
     stronger: Stronger,
     shown: &[(f64, bool)],
     stream: &mut Stream,
-) -> Vec<Caught> {
+) -> Vec<DetectionLimit> {
     let sides: &[bool] = match stronger {
         Stronger::Above => &[false],
         Stronger::Below => &[true],
@@ -56,13 +56,13 @@ pub fn caught(
         if below {
             interval.reverse();
         }
-        Some(Caught { parameter, score: score(from), interval, below })
+        Some(DetectionLimit { parameter, score: score(from), interval, below })
     };
-    let mut caught: Vec<Caught> = sides.iter().filter_map(|below| side(*below)).collect();
-    if caught.iter().any(|own| own.score.is_none()) {
-        caught.truncate(1);
+    let mut detection_limits: Vec<DetectionLimit> = sides.iter().filter_map(|below| side(*below)).collect();
+    if detection_limits.iter().any(|own| own.score.is_none()) {
+        detection_limits.truncate(1);
     }
-    caught
+    detection_limits
 }
 
 /// From which strength on campaigns are found; minus infinity where they are at any, plus infinity where at none.
@@ -70,7 +70,7 @@ fn least(mut order: Vec<(f64, bool)>) -> f64 {
     order.sort_by(|a, b| b.0.total_cmp(&a.0));
     let width = FEWEST.max((WINDOW * order.len() as f64).round() as usize);
     let enough = |window: &&[(f64, bool)]| {
-        window.iter().filter(|(_, found)| *found).count() as f64 >= CAUGHT * width as f64
+        window.iter().filter(|(_, found)| *found).count() as f64 >= DETECTION_POWER * width as f64
     };
     // From the strongest on, as long as the neighbours in strength are found.
     match order.windows(width).take_while(enough).enumerate().last() {
@@ -95,18 +95,18 @@ mod tests {
     use crate::random::standard_normal::{cdf, quantile};
 
     #[test]
-    fn an_effect_is_caught_from_where_on_its_neighbours_are() {
+    fn an_effect_is_detected_from_where_on_its_neighbours_are() {
         // Found above 1, for sure; below not at all.
         let shown = |found: &dyn Fn(f64) -> bool| -> Vec<(f64, bool)> {
             (0..400).map(|k| 0.01 * f64::from(k) - 2.0).map(|score| (score, found(score))).collect()
         };
         let of = |stronger, found: &dyn Fn(f64) -> bool| {
-            caught(3, stronger, &shown(found), &mut Streams::new(1, 0).of("caught"))
+            detection_limits(3, stronger, &shown(found), &mut Streams::new(1, 0).of("caught"))
         };
         // Where a fifth of the window's 60 is no longer found the window's middle is 18 strengths above; resamples hold some of
         // them twice.
-        let near = |own: &Caught, from: f64| {
-            let Caught { score: Some(score), interval: [Some(low), Some(high)], .. } = *own else {
+        let near = |own: &DetectionLimit, from: f64| {
+            let DetectionLimit { score: Some(score), interval: [Some(low), Some(high)], .. } = *own else {
                 return false;
             };
             let off = if own.below { from - score } else { score - from };
@@ -127,7 +127,7 @@ mod tests {
         assert!(matches!(&grows(Stronger::Below)[..], [own] if near(own, -1.3) && own.below));
         assert_eq!(
             of(Stronger::EitherWay, &|_| true),
-            [Caught { parameter: 3, score: None, interval: [None, None], below: false }]
+            [DetectionLimit { parameter: 3, score: None, interval: [None, None], below: false }]
         );
         assert_eq!(of(Stronger::EitherWay, &|_| false), []);
     }
@@ -136,7 +136,7 @@ mod tests {
     fn an_interval_holds_the_true_strength_nineteen_times_in_twenty() {
         // The probability to be found rises with the strength, more or less steeply, and is four in five there.
         let missed = |campaigns: usize, middle: f64, width: f64| {
-            let from = middle + width * quantile(CAUGHT);
+            let from = middle + width * quantile(DETECTION_POWER);
             let misses = (0..150).filter(|&run| {
                 let mut stream = Streams::new(9, run).of("campaigns");
                 let shown: Vec<(f64, bool)> = (0..campaigns)
@@ -164,7 +164,7 @@ mod tests {
         let of = |stronger, sign: f64, from: f64| {
             let scores = (0..400).map(|k| 0.01 * f64::from(k) - 2.0);
             let shown: Vec<(f64, bool)> = scores.map(|score| (sign * score, score > from)).collect();
-            let all = caught(0, stronger, &shown, &mut Streams::new(1, 0).of("caught"));
+            let all = detection_limits(0, stronger, &shown, &mut Streams::new(1, 0).of("caught"));
             assert_eq!(all.len(), 1);
             (all[0].score.is_some(), all[0].interval.map(|end| end.is_some()))
         };

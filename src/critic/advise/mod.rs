@@ -6,6 +6,6 @@ mod self_test;
 #[cfg(test)]
 mod tests;
 
-pub use detection_limit::{CAUGHT, Caught};
+pub use detection_limit::{DETECTION_POWER, DetectionLimit};
 pub use next::{Offer, Offered, offers};
 pub use self_test::{Counted, SelfTest, SelfTestRow};

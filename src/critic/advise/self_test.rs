@@ -1,5 +1,5 @@
 //! How often diagnoses of a design find and name what is hidden, by simulation from the bank; which causes it cannot tell apart,
-//! and how large an effect must be to be caught.
+//! and how large an effect must be to be detected.
 
 use std::collections::BTreeMap;
 use std::iter::Sum;
@@ -7,7 +7,7 @@ use std::iter::Sum;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::critic::advise::detection_limit::{Caught, caught};
+use crate::critic::advise::detection_limit::{DetectionLimit, detection_limits};
 use crate::critic::simulate::{Campaign, Truth};
 use crate::critic::verdict::{Diagnosis, Finding, Judge, Limits, Verdict};
 use crate::random::Streams;
@@ -46,9 +46,10 @@ pub struct SelfTestRow {
     pub set_size: f64,
     /// Of those found, in how many sets each cause is.
     pub with: BTreeMap<usize, u64>,
-    /// From where on its first parameter that matters is caught: upwards, downwards or both; empty where no strength within the
+    /// From where on its first parameter that matters is detected: upwards, downwards or both; empty where no strength within the
     /// prior is.
-    pub caught: Vec<Caught>,
+    #[serde(rename = "caught")]
+    pub detection_limits: Vec<DetectionLimit>,
 }
 
 /// What was said of campaigns.
@@ -203,10 +204,11 @@ fn row(
         campaigns.iter().map(|tested| (tested.truth.parameters[parameter], is_found(&tested))).collect()
     };
     let parameters = mechanism.iter().flat_map(|own| own.parameters.iter().map(|p| own.stronger(p.key)));
+    // The name of the stream is part of every draw.
     let mut stream = Streams::new(seed, 0).of(&format!("caught {cause:?}"));
-    let mut caught = parameters
+    let mut detection_limits = parameters
         .enumerate()
-        .map(|(parameter, stronger)| caught(parameter, stronger, &shown(parameter), &mut stream));
+        .map(|(parameter, stronger)| detection_limits(parameter, stronger, &shown(parameter), &mut stream));
     SelfTestRow {
         cause,
         all: Counted::of(cause, by_size.iter().map(by_ranking)),
@@ -215,7 +217,7 @@ fn row(
         covered: cause.map_or(0, |cause| with.get(&cause).copied().unwrap_or(0)),
         set_size: stats::mean(&sizes).unwrap_or(0.0),
         with,
-        caught: caught.find(|own| !own.is_empty()).unwrap_or_default(),
+        detection_limits: detection_limits.find(|own| !own.is_empty()).unwrap_or_default(),
     }
 }
 
@@ -276,7 +278,7 @@ mod tests {
             covered: 0,
             set_size: 0.0,
             with: with.iter().copied().collect(),
-            caught: Vec::new(),
+            detection_limits: Vec::new(),
         };
         // 1 and 2 look like each other, 3 like nothing; 4 looks like 1, but is never found.
         let test = SelfTest {

@@ -6,8 +6,9 @@ use std::path::Path;
 
 use super::figure::folder;
 use crate::critic::{
-    Baseline, Caught, Contrast, Counted, Design, Diagnosis, Discrepancy, Feature, Finding, LookedAt, Made,
-    Offer, Offered, Ranked, SelfTest, SelfTestRow, Truth, Unused, Verdict, base_curves, cause_curves, made,
+    Baseline, Contrast, Counted, Design, DetectionLimit, Diagnosis, Discrepancy, Feature, Finding, LookedAt,
+    Made, Offer, Offered, Ranked, SelfTest, SelfTestRow, Truth, Unused, Verdict, base_curves, cause_curves,
+    made,
 };
 use crate::report::Advice;
 use crate::report::diagnosis::{
@@ -71,7 +72,7 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>) {
         covered: 4,
         set_size: 1.5,
         with: BTreeMap::new(),
-        caught: Vec::new(),
+        detection_limits: Vec::new(),
     });
     let diagnosis = Diagnosis {
         finding: Finding {
@@ -156,10 +157,10 @@ fn what_is_not_explained_excludes_causes_and_says_why() {
 }
 
 #[test]
-fn every_cause_is_caught_seen_in_part_or_hardly_seen() {
+fn every_cause_is_detected_seen_in_part_or_hardly_seen() {
     let made = made();
     let cause = |name: &str| made.mechanisms.iter().position(|m| m.name == name).expect("in the catalogue");
-    let row = |name: &str, found: u64, caught: &[Caught]| SelfTestRow {
+    let row = |name: &str, found: u64, limits: &[DetectionLimit]| SelfTestRow {
         cause: Some(cause(name)),
         all: Counted { campaigns: 100, found, named: 0, misnamed: 0 },
         strong: Counted { campaigns: 33, found: found / 3, named: 0, misnamed: 0 },
@@ -167,9 +168,9 @@ fn every_cause_is_caught_seen_in_part_or_hardly_seen() {
         covered: 0,
         set_size: 0.0,
         with: BTreeMap::new(),
-        caught: caught.to_vec(),
+        detection_limits: limits.to_vec(),
     };
-    let from = |score, interval, below| Caught { parameter: 0, score, interval, below };
+    let from = |score, interval, below| DetectionLimit { parameter: 0, score, interval, below };
     let both = [from(Some(1.0), [Some(0.0), None], false), from(Some(-1.0), [Some(-2.0), Some(0.0)], true)];
     let rows = vec![
         row("creep", 90, &[from(None, [None, Some(1.0)], false)]),
