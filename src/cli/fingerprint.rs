@@ -3,17 +3,17 @@
 //! The words are those of the first self-tests that were kept. They are part of the file: other words would make every kept
 //! self-test one of another judge. So they are written out here, whatever the types and their fields are called.
 
-use crate::critic::{ComponentEstimate, Diagnosis, Finding, Limits, LookedAt, Ranked};
+use crate::critic::{ComponentEstimate, Diagnosis, Examined, Finding, Limits, Ranked};
 
 /// The limits of a verdict.
 pub(super) fn limits(of: &Limits) -> String {
     let pair = format!(
         "PairLimits {{ named: {:?}, guard: {:?}, nameless: {:?} }}",
-        of.pair.named, of.pair.guard, of.pair.unmodelled
+        of.pair.named, of.pair.check, of.pair.unmodelled
     );
     format!(
         "Limits {{ found: {:?}, named: {:?}, sure: {:?}, guard: {:?}, conflict: {:?}, pair: {pair} }}",
-        of.found, of.named, of.sure, of.guard, of.conflict
+        of.found, of.named, of.sure, of.check, of.conflict
     )
 }
 
@@ -26,8 +26,8 @@ fn diagnosis(of: &Diagnosis) -> String {
     format!(
         "Diagnosis {{ seeming: {}, looked_at: {}, pairs: {}, form: {}, verdict: {:?} }}",
         finding(&of.finding),
-        listed(&of.looked_at, looked_at),
-        listed(&of.pairs, looked_at),
+        listed(&of.examined, examined),
+        listed(&of.pairs, examined),
         listed(&of.components, estimate),
         of.verdict
     )
@@ -46,10 +46,10 @@ fn finding(of: &Finding) -> String {
     )
 }
 
-fn looked_at<C: std::fmt::Debug>(of: &LookedAt<C>) -> String {
+fn examined<C: std::fmt::Debug>(of: &Examined<C>) -> String {
     format!(
         "LookedAt {{ cause: {:?}, guard: {:?}, conflict: {:?}, evidence: {:?}, draws: {:?} }}",
-        of.cause, of.guard, of.conflict, of.evidence, of.draws
+        of.cause, of.check, of.conflict, of.evidence, of.draws
     )
 }
 

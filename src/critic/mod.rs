@@ -47,5 +47,5 @@ pub use simulate::{
     Seen, Specimen, Truth, Unused, World,
 };
 pub use verdict::{
-    Diagnosis, Effort, Excluded, Finding, Judge, Limits, LookedAt, MOST_AMBIGUOUS, PairLimits, Verdict,
+    Diagnosis, Effort, Examined, Excluded, Finding, Judge, Limits, MOST_AMBIGUOUS, PairLimits, Verdict,
 };

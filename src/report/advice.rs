@@ -22,8 +22,7 @@ pub struct Advice {
     pub seen_in_part: Vec<PartEntry>,
     /// Measurements that would tell the possible causes apart, the most information per hour first; empty where nothing was found.
     pub next: Vec<NextEntry>,
-    /// Whether these tell apart the causes that nothing speaks against; or, where fewer than two are left, all that were looked at
-    /// closely.
+    /// Whether these tell apart the causes that nothing speaks against; or, where fewer than two are left, all that were examined.
     pub next_of_those_left: bool,
 }
 

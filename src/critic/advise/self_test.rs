@@ -83,10 +83,9 @@ impl Judge<'_> {
             let campaigns: Vec<Tested> =
                 (0..count).into_par_iter().map(|k| self.tested(*cause, seed, k)).collect();
             let judged = if cause.is_none() { MORE * judged } else { judged };
-            let closely = campaigns.par_iter().take(judged as usize);
-            let verdicts: Vec<Verdict> = closely
-                .map(|tested| self.diagnosed(&tested.campaign, limits, judging(seed)).verdict)
-                .collect();
+            let whole = campaigns.par_iter().take(judged as usize);
+            let verdicts: Vec<Verdict> =
+                whole.map(|tested| self.diagnosed(&tested.campaign, limits, judging(seed)).verdict).collect();
             let mechanism = cause.map(|cause| &self.world.mechanisms()[cause]);
             row(*cause, mechanism, &campaigns, &verdicts, limits, seed)
         };
@@ -100,9 +99,9 @@ impl Judge<'_> {
             (0..count).map(|k| self.world.unmodelled(&self.design, &Streams::new(seed, k))).collect();
         let by_ranking = |campaign: &Campaign| said(&self.finding(campaign), limits);
         let ranked: Vec<Option<Vec<usize>>> = campaigns.par_iter().map(by_ranking).collect();
-        let closely = campaigns.par_iter().take(judged as usize);
+        let whole = campaigns.par_iter().take(judged as usize);
         let judged: Vec<Option<Vec<usize>>> =
-            closely.map(|campaign| named(&self.diagnosed(campaign, limits, judging(seed)).verdict)).collect();
+            whole.map(|campaign| named(&self.diagnosed(campaign, limits, judging(seed)).verdict)).collect();
         [ranked, judged].map(|said| Counted::of(None, said.into_iter()))
     }
 
@@ -131,8 +130,8 @@ impl Judge<'_> {
     }
 }
 
-/// Seed of the judging of campaigns that were drawn with another: the guard simulates some of its own, and one of these would
-/// otherwise be the very campaign that it is asked about.
+/// Seed of the judging of campaigns that were drawn with another: the check simulates some of its own, and one of these would
+/// otherwise be the very campaign that it checks.
 fn judging(seed: u64) -> u64 {
     seed.wrapping_add(1)
 }

@@ -9,4 +9,4 @@ mod weighing;
 pub use evidence::{Evidence, evidence, rough_evidence};
 pub use network::softmax;
 pub use ranking::{COVERED, Ranked, Ranking, inputs};
-pub use weighing::{heard, weighed};
+pub use weighing::{reweighed, weighed};

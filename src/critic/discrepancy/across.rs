@@ -7,15 +7,15 @@ use crate::critic::simulate::World;
 use crate::math::ln;
 use crate::stats;
 
-/// What is looked at across families.
-const LOOKED_AT: [Contrast; 4] = [Contrast::Collapse, Contrast::Level, Contrast::Growth, Contrast::Curvature];
+/// The contrasts across families.
+const CONTRASTS: [Contrast; 4] = [Contrast::Collapse, Contrast::Level, Contrast::Growth, Contrast::Curvature];
 /// Stones of families whose mean weights differ by less than this factor are of one size.
 const SAME_SIZE: f64 = 1.1;
 
 /// Numbers that follow from others: each with the weights of those (by their places) that it is the sum of.
 pub fn across(world: &World<'_>, features: &[Feature]) -> Vec<(Feature, Vec<(usize, f64)>)> {
     let mut found = Vec::new();
-    for contrast in LOOKED_AT {
+    for contrast in CONTRASTS {
         let of_families: BTreeMap<usize, usize> = features
             .iter()
             .enumerate()

@@ -13,7 +13,7 @@ use crate::math::{asinh, cosh, ln};
 use crate::stats;
 use crate::study::{MeasuredQuantity, Measurement};
 
-/// What is looked at on a specimen.
+/// The contrasts of a specimen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Contrast {
     /// The collapse angle.

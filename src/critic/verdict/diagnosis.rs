@@ -47,27 +47,27 @@ impl Verdict {
 pub struct Diagnosis {
     /// What is off, and how likely that is by chance.
     pub finding: Finding,
-    /// The causes that were looked at closely, most likely first; none where nothing was found.
-    pub looked_at: Vec<LookedAt<usize>>,
-    /// Pairs of causes that were looked at as no one explains the discrepancy, that with most of the evidence first.
-    pub pairs: Vec<LookedAt<[usize; 2]>>,
+    /// The causes that were examined, most likely first; none where nothing was found.
+    pub examined: Vec<Examined<usize>>,
+    /// Pairs of causes that were examined as no one explains the discrepancy, that with most of the evidence first.
+    pub pairs: Vec<Examined<[usize; 2]>>,
     /// What the base model with fitted joints misses, as components of a smooth discrepancy; empty where nothing was found.
     pub components: Vec<ComponentEstimate>,
     /// The verdict.
     pub verdict: Verdict,
 }
 
-/// A cause, or two together, that was looked at closely.
+/// A cause, or two together, that was examined.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LookedAt<C> {
+pub struct Examined<C> {
     /// Index of the mechanism; of both, ascending.
     pub cause: C,
-    /// Share of its own campaigns that fit no better; `None` where the guard was not asked, as it was not in question.
-    pub guard: Option<f64>,
+    /// Share of its own campaigns that fit no better; `None` where it was not checked, as it was not in question.
+    pub check: Option<f64>,
     /// Share of the campaigns that the physical priors predict which are as far out, along what the data pin down; `None` where it
-    /// was not asked, as the verdict does not speak of it.
+    /// was not tested, as the verdict does not speak of it.
     pub conflict: Option<f64>,
-    /// Its share of the evidence: a cause's of all causes looked at and of the base model, a pair's of these and of all pairs.
+    /// Its share of the evidence: a cause's of all causes examined and of the base model, a pair's of these and of all pairs.
     pub evidence: f64,
     /// What its parameters and the joints may be: draws, equally likely.
     pub draws: Vec<Truth>,
@@ -82,26 +82,26 @@ impl Diagnosis {
                 own.map(|own| (pair.to_vec(), &own.draws[..])).collect()
             }
             verdict => {
-                let own = verdict.causes().iter().filter_map(|&cause| self.looked_at(cause));
+                let own = verdict.causes().iter().filter_map(|&cause| self.examined(cause));
                 own.map(|own| (vec![own.cause], &own.draws[..])).collect()
             }
         }
     }
 
-    /// What was seen of a cause that was looked at closely.
-    pub fn looked_at(&self, cause: usize) -> Option<&LookedAt<usize>> {
-        self.looked_at.iter().find(|own| own.cause == cause)
+    /// What was seen of a cause that was examined.
+    pub fn examined(&self, cause: usize) -> Option<&Examined<usize>> {
+        self.examined.iter().find(|own| own.cause == cause)
     }
 
     /// The causes that the next measurement should tell apart, each with its probability and draws of what is true under it: those
-    /// that were looked at closely and that nothing [speaks against](Self::excluded); where fewer than two are left, all that were
-    /// looked at closely, as what speaks against them may be chance. And whether they are left.
+    /// that were examined and that nothing [speaks against](Self::excluded); where fewer than two are left, all that were
+    /// examined, as what speaks against them may be chance. And whether they are left.
     pub fn possible(&self) -> (Vec<(f64, Vec<Truth>)>, bool) {
-        let left: Vec<&LookedAt<usize>> =
-            self.looked_at.iter().filter(|own| self.excluded(own.cause).is_none()).collect();
+        let left: Vec<&Examined<usize>> =
+            self.examined.iter().filter(|own| self.excluded(own.cause).is_none()).collect();
         let are_left = left.len() >= 2;
-        let all = if are_left { left } else { self.looked_at.iter().collect() };
-        let probability = |own: &LookedAt<usize>| self.finding.ranked.probability(own.cause);
+        let all = if are_left { left } else { self.examined.iter().collect() };
+        let probability = |own: &Examined<usize>| self.finding.ranked.probability(own.cause);
         (all.into_iter().map(|own| (probability(own), own.draws.clone())).collect(), are_left)
     }
 }

@@ -1,21 +1,21 @@
-//! How a verdict is come to: what is wrong is ranked by its looks, the likely causes are looked at closely, the evidence is heard, and
-//! the guard is asked.
+//! How a verdict is come to: the causes of a finding are ranked, the likely ones are examined by the evidence of all readings, and
+//! those in question are checked.
 
 use rayon::prelude::*;
 
-use crate::critic::causes::{Evidence, Ranked, evidence, heard, rough_evidence, softmax, weighed};
+use crate::critic::causes::{Evidence, Ranked, evidence, reweighed, rough_evidence, softmax, weighed};
 use crate::critic::conflict::PriorPredictive;
 use crate::critic::discrepancy::{ComponentEstimate, Predicted, SmoothDiscrepancy};
 use crate::critic::simulate::{Campaign, Causes, Truth};
-use crate::critic::verdict::diagnosis::{Diagnosis, LookedAt, Verdict};
+use crate::critic::verdict::diagnosis::{Diagnosis, Examined, Verdict};
 use crate::critic::verdict::judge::{Finding, Judge};
 use crate::critic::verdict::limits::{Limits, MOST_AMBIGUOUS, POSSIBLE};
 use crate::math::ln;
 use crate::stats;
 
-/// So many causes, the most likely, are looked at closely.
-const CLOSELY: usize = 5;
-/// And so many pairs, those that a rough look promises most of.
+/// So many causes, the most likely, are examined.
+const SHORTLIST: usize = 5;
+/// And so many pairs, those that have most of the rough evidence.
 const PAIRS: usize = 4;
 /// A cause that the ranking puts aside is not put aside where the evidence leaves it this probability or more.
 const LIKELY: f64 = 0.1;
@@ -30,7 +30,7 @@ impl Judge<'_> {
         if finding.p_value >= limits.found {
             return Diagnosis {
                 finding,
-                looked_at: Vec::new(),
+                examined: Vec::new(),
                 pairs: Vec::new(),
                 components: Vec::new(),
                 verdict: Verdict::NothingFound,
@@ -39,44 +39,44 @@ impl Judge<'_> {
         let finding = Finding { ranked: self.weighed(&finding.ranked, campaign, seed), ..finding };
         let likely: Vec<usize> = finding.ranked.causes.iter().filter_map(|(cause, _)| *cause).collect();
         let set = finding.ranked.set.clone();
-        // The guard of many would choose among them by chance.
+        // The check of many would choose among them by chance.
         let few = set.len() <= 2 * MOST_AMBIGUOUS;
         let open = |cause: &usize| few && set.contains(cause);
-        let closely = likely.iter().enumerate().filter(|(rank, cause)| *rank < CLOSELY || open(cause));
-        let closely: Vec<usize> = closely.map(|(_, cause)| *cause).collect();
-        let models = std::iter::once(None).chain(closely.iter().copied().map(Some)).map(Causes::from);
+        let shortlist = likely.iter().enumerate().filter(|(rank, cause)| *rank < SHORTLIST || open(cause));
+        let shortlist: Vec<usize> = shortlist.map(|(_, cause)| *cause).collect();
+        let models = std::iter::once(None).chain(shortlist.iter().copied().map(Some)).map(Causes::from);
         let evidences = self.evidences(campaign, &models.collect::<Vec<_>>(), seed);
         let logs: Vec<f64> = evidences.iter().map(|evidence| evidence.log).collect();
         let shares = softmax(&logs, 1.0);
         let components = self.components(campaign, &evidences[0].draws, seed.wrapping_add(2));
-        let ranked = heard(&finding.ranked, &closely, &logs);
+        let ranked = reweighed(&finding.ranked, &shortlist, &logs);
         let finding = Finding { ranked, ..finding };
         let named = finding.named(limits);
-        // What all readings make likely is asked about, however it looks.
+        // What all readings make likely is checked, however the ranking sees it.
         let possible = |cause: &usize| {
             let p = finding.ranked.probability(*cause);
             few && p >= if set.contains(cause) { POSSIBLE } else { LIKELY }
         };
         let check = self.check();
         let in_question = |cause: &usize| named == Some(*cause) || possible(cause);
-        let mut looked_at: Vec<LookedAt<usize>> = closely
+        let mut examined: Vec<Examined<usize>> = shortlist
             .iter()
             .zip(evidences.into_iter().zip(&shares).skip(1))
-            .map(|(&cause, (found, share))| LookedAt {
+            .map(|(&cause, (found, share))| Examined {
                 cause,
-                guard: in_question(&cause).then(|| check.p_value(Some(cause), &found.draws, campaign, seed)),
+                check: in_question(&cause).then(|| check.p_value(Some(cause), &found.draws, campaign, seed)),
                 conflict: None,
                 evidence: *share,
                 draws: found.draws,
             })
             .collect();
-        let place = |own: &LookedAt<usize>| {
+        let place = |own: &Examined<usize>| {
             finding.ranked.causes.iter().position(|(cause, _)| *cause == Some(own.cause))
         };
-        looked_at.sort_by_key(place);
-        let fits = |own: &&LookedAt<usize>| own.guard.is_some_and(|p| p >= limits.guard);
-        let explain: Vec<usize> = looked_at.iter().filter(fits).map(|own| own.cause).collect();
-        let first = looked_at.iter().fold(None, |first: Option<&LookedAt<usize>>, own| match first {
+        examined.sort_by_key(place);
+        let fits = |own: &&Examined<usize>| own.check.is_some_and(|p| p >= limits.check);
+        let explain: Vec<usize> = examined.iter().filter(fits).map(|own| own.cause).collect();
+        let first = examined.iter().fold(None, |first: Option<&Examined<usize>>, own| match first {
             Some(first) if first.evidence >= own.evidence => Some(first),
             _ => Some(own),
         });
@@ -89,10 +89,10 @@ impl Judge<'_> {
             None if named.is_some_and(|cause| !explain.contains(&cause)) || !few => Verdict::Unexplained,
             None => unnamed(&finding.ranked, explain),
         };
-        let mut diagnosis = Diagnosis { finding, looked_at, pairs: Vec::new(), components, verdict };
+        let mut diagnosis = Diagnosis { finding, examined, pairs: Vec::new(), components, verdict };
         if diagnosis.verdict == Verdict::Unexplained {
-            diagnosis.pairs = self.pairs(campaign, &closely, &logs, limits, seed);
-            let fits = |pair: &&LookedAt<[usize; 2]>| pair.guard.is_some_and(|p| p >= limits.pair.guard);
+            diagnosis.pairs = self.pairs(campaign, &shortlist, &logs, limits, seed);
+            let fits = |pair: &&Examined<[usize; 2]>| pair.check.is_some_and(|p| p >= limits.pair.check);
             let named = diagnosis.pairs.iter().find(fits).filter(|_| diagnosis.finding.allows_pair(limits));
             diagnosis.verdict = named.map_or(Verdict::Unexplained, |pair| Verdict::NamedPair(pair.cause));
         }
@@ -100,7 +100,7 @@ impl Judge<'_> {
         diagnosis
     }
 
-    /// Asks of every cause that the verdict speaks of whether it acts as its physical prior expects.
+    /// Tests of every cause that the verdict speaks of whether it acts as its physical prior expects.
     fn set_beside_priors(&self, diagnosis: &mut Diagnosis, campaign: &Campaign, limits: &Limits, seed: u64) {
         let conflict = |causes: Causes| {
             PriorPredictive::of(self.world, &self.design, &self.reference, causes, seed).p_value(campaign)
@@ -111,12 +111,12 @@ impl Judge<'_> {
                 own.for_each(|own| own.conflict = Some(conflict(Causes::pair(pair[0], pair[1]))));
             }
             verdict => {
-                let own = diagnosis.looked_at.iter_mut().filter(|own| verdict.causes().contains(&own.cause));
+                let own = diagnosis.examined.iter_mut().filter(|own| verdict.causes().contains(&own.cause));
                 own.for_each(|own| own.conflict = Some(conflict(Some(own.cause).into())));
             }
         }
         if let Verdict::Named(cause) = diagnosis.verdict
-            && diagnosis.looked_at(cause).and_then(|own| own.conflict).is_some_and(|p| p < limits.conflict)
+            && diagnosis.examined(cause).and_then(|own| own.conflict).is_some_and(|p| p < limits.conflict)
         {
             diagnosis.verdict = Verdict::NamedOutsidePrior(cause);
         }
@@ -128,7 +128,7 @@ impl Judge<'_> {
         models.par_iter().map(of).collect()
     }
 
-    /// The causes with their probabilities, once the evidence has been heard as well: the ranking knows how campaigns of a cause
+    /// The causes with their probabilities, weighed by the evidence as well: the ranking knows how campaigns of a cause
     /// look and has seen thousands of them, the evidence knows every reading of this one. A rough one counts little. What is
     /// unmodelled has no evidence, and keeps its probability.
     pub(in crate::critic) fn weighed(&self, ranked: &Ranked, campaign: &Campaign, seed: u64) -> Ranked {
@@ -144,17 +144,17 @@ impl Judge<'_> {
     }
 
     /// The most promising pairs of the cause that has most of the evidence with another, where none explains a campaign alone;
-    /// `logs` are the logarithms of the evidence of the base model and of each cause looked at closely. A second cause is as likely
-    /// beforehand as one in all that there are. The guard is asked of a pair that has nearly all of the evidence.
+    /// `logs` are the logarithms of the evidence of the base model and of each cause examined. A second cause is as likely
+    /// beforehand as one in all that there are. A pair that has nearly all of the evidence is checked.
     fn pairs(
         &self,
         campaign: &Campaign,
-        closely: &[usize],
+        shortlist: &[usize],
         logs: &[f64],
         limits: &Limits,
         seed: u64,
-    ) -> Vec<LookedAt<[usize; 2]>> {
-        let singles = logs[1..].iter().zip(closely);
+    ) -> Vec<Examined<[usize; 2]>> {
+        let singles = logs[1..].iter().zip(shortlist);
         let Some((_, &best)) = singles.reduce(|best, own| if own.0 > best.0 { own } else { best }) else {
             return Vec::new();
         };
@@ -176,10 +176,10 @@ impl Judge<'_> {
         let shares = softmax(&all, 1.0);
         let check = self.check();
         let rows = pairs.into_iter().zip(evidences).zip(&shares[logs.len()..]);
-        let mut pairs: Vec<LookedAt<[usize; 2]>> = rows
-            .map(|((cause, found), &evidence)| LookedAt {
+        let mut pairs: Vec<Examined<[usize; 2]>> = rows
+            .map(|((cause, found), &evidence)| Examined {
                 cause,
-                guard: (evidence >= limits.pair.named)
+                check: (evidence >= limits.pair.named)
                     .then(|| check.p_value(Causes::pair(cause[0], cause[1]), &found.draws, campaign, seed)),
                 conflict: None,
                 evidence,
@@ -247,9 +247,9 @@ mod tests {
 
     #[test]
     fn what_is_possible_is_what_nothing_speaks_against() {
-        let looked_at = |cause: usize, guard: Option<f64>| LookedAt {
+        let examined = |cause: usize, check: Option<f64>| Examined {
             cause,
-            guard,
+            check,
             conflict: None,
             evidence: 0.3,
             draws: Vec::new(),
@@ -260,7 +260,7 @@ mod tests {
         let mut diagnosis = Diagnosis {
             finding: Finding { discrepancy, ranked, p_value: 0.001, p_by_statistic: [0.001; 3] },
             // The likeliest does not fit.
-            looked_at: vec![looked_at(3, Some(0.0)), looked_at(1, Some(0.4)), looked_at(2, None)],
+            examined: vec![examined(3, Some(0.0)), examined(1, Some(0.4)), examined(2, None)],
             pairs: Vec::new(),
             components: Vec::new(),
             verdict: Verdict::Unexplained,
@@ -268,7 +268,7 @@ mod tests {
         assert_eq!(diagnosis.possible(), (vec![(0.3, Vec::new()), (0.1, Vec::new())], true));
         assert_eq!(diagnosis.left_open(), [1, 2]);
         // One is left: the others were perhaps excluded by chance.
-        diagnosis.looked_at[2].guard = Some(0.0);
+        diagnosis.examined[2].check = Some(0.0);
         let all = vec![(0.5, Vec::new()), (0.3, Vec::new()), (0.1, Vec::new())];
         assert_eq!(diagnosis.possible(), (all, false));
     }

@@ -6,10 +6,10 @@ use crate::critic::verdict::limits::{Limits, POSSIBLE};
 /// What speaks against a cause.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Excluded {
-    /// It fits the readings worse than nearly all of its own campaigns: the guard.
-    ByReadings,
-    /// Nine in ten of its campaigns look more like it: the ranking.
-    ByLooks,
+    /// It fits the readings worse than nearly all of its own campaigns: the check.
+    ByCheck,
+    /// Nine in ten of its campaigns rank it higher: the ranking.
+    ByRanking,
     /// All readings together leave it hardly any probability.
     ByEvidence,
 }
@@ -21,10 +21,10 @@ impl Diagnosis {
             return None;
         }
         let ranked = &self.finding.ranked;
-        match self.looked_at(cause).and_then(|own| own.guard) {
-            Some(p) if p < Limits::default().guard => Some(Excluded::ByReadings),
+        match self.examined(cause).and_then(|own| own.check) {
+            Some(p) if p < Limits::default().check => Some(Excluded::ByCheck),
             Some(_) => None,
-            None if !ranked.set.contains(&cause) => Some(Excluded::ByLooks),
+            None if !ranked.set.contains(&cause) => Some(Excluded::ByRanking),
             None if ranked.probability(cause) < POSSIBLE => Some(Excluded::ByEvidence),
             None => None,
         }

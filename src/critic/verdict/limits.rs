@@ -15,7 +15,7 @@ pub struct Limits {
     /// And below this p-value: where nothing is hidden a name is given in no larger a share of campaigns.
     pub sure: f64,
     /// A cause that fits a campaign worse than all but so large a share of its own does not explain it.
-    pub guard: f64,
+    pub check: f64,
     /// A cause acts outside its physical prior below this p-value.
     pub conflict: f64,
     /// The same two limits of a pair: the best of many pairs fits much that it has no part in, so that it must fit better.
@@ -28,7 +28,7 @@ pub struct PairLimits {
     /// Share of the evidence at which it is named.
     pub named: f64,
     /// Share of its own campaigns that must fit no better.
-    pub guard: f64,
+    pub check: f64,
     /// The largest probability of something unmodelled. Two causes in one campaign look like one of them, hardly ever like none; and
     /// what is like none fits the best of many pairs now and then.
     pub unmodelled: f64,
@@ -40,9 +40,9 @@ impl Default for Limits {
             found: 0.05,
             named: 0.8,
             sure: 0.01,
-            guard: 0.05,
+            check: 0.05,
             conflict: 0.05,
-            pair: PairLimits { named: 0.99, guard: 0.25, unmodelled: 0.05 },
+            pair: PairLimits { named: 0.99, check: 0.25, unmodelled: 0.05 },
         }
     }
 }

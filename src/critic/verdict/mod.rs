@@ -9,7 +9,7 @@ mod limits;
 #[cfg(test)]
 mod tests;
 
-pub use diagnosis::{Diagnosis, LookedAt, Verdict};
+pub use diagnosis::{Diagnosis, Examined, Verdict};
 pub use excluded::Excluded;
 pub use judge::{Effort, Finding, Judge};
 pub use limits::{Limits, MOST_AMBIGUOUS, PairLimits};

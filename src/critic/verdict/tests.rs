@@ -104,7 +104,7 @@ fn two_causes_that_act_together_are_named_together_and_one_alone_is_not() {
         truth.parameters[..2].copy_from_slice(&[1.5, 1.5]);
         let shown = world.campaign(design, &truth, &streams);
         let found = judge.diagnosed(&shown, &Limits::default(), 1);
-        println!("{:?} {:?}", found.verdict, found.pairs.first().map(|pair| (pair.evidence, pair.guard)));
+        println!("{:?} {:?}", found.verdict, found.pairs.first().map(|pair| (pair.evidence, pair.check)));
         // Where one of the two explains all that is seen, it is named alone.
         let best = found.pairs.first().map(|best| best.cause);
         together += usize::from(best.map_or(found.verdict.named() == [creep], |best| best == [lean, creep]));

@@ -36,7 +36,7 @@ pub struct DiagnosisSummary {
     pub verdict: &'static str,
     /// The causes that the verdict speaks of, then all others; probabilities when all are equally likely beforehand.
     pub causes: Vec<CauseEntry>,
-    /// Pairs of causes that were looked at because no one explains the discrepancy, that with most of the evidence first.
+    /// Pairs of causes that were examined because no one explains the discrepancy, that with most of the evidence first.
     pub pairs: Vec<PairEntry>,
     /// Probability of the base model among them.
     pub base_probability: f64,
@@ -105,19 +105,19 @@ pub struct CauseEntry {
     pub id: &'static str,
     /// Its probability.
     pub probability: f64,
-    /// Its share of the evidence of the causes that were looked at closely and of the base model; null for the others.
+    /// Its share of the evidence of the causes that were examined and of the base model; null for the others.
     pub evidence: Option<f64>,
     /// Whether the verdict speaks of it.
     pub in_verdict: bool,
     /// What speaks against it: `readings` where it fits them worse than nearly all of its own campaigns, `looks` where nine in
     /// ten of its campaigns look more like it, `evidence` where that leaves it hardly any probability; null where nothing does.
     pub excluded_by: Option<&'static str>,
-    /// Share of its own campaigns that fit the readings no better; null where the guard was not asked.
+    /// Share of its own campaigns that fit the readings no better; null where it was not checked.
     pub guard_p_value: Option<f64>,
     /// Share of the campaigns that its physical prior predicts which are as far out, along what the data pin down; null where the
     /// verdict does not speak of it.
     pub conflict_p_value: Option<f64>,
-    /// Its parameters, as far as the data tell them; empty where it was not looked at closely.
+    /// Its parameters, as far as the data tell them; empty where it was not examined.
     pub parameters: Vec<ParameterEntry>,
 }
 
@@ -135,11 +135,11 @@ pub struct UnusedEntry {
 pub struct PairEntry {
     /// Names of the mechanisms.
     pub ids: [&'static str; 2],
-    /// Share of the evidence of all pairs, of the causes that were looked at closely and of the base model.
+    /// Share of the evidence of all pairs, of the causes that were examined and of the base model.
     pub evidence: f64,
     /// Whether the verdict names the pair.
     pub in_verdict: bool,
-    /// Share of its own campaigns that fit the readings no better; null where the guard was not asked.
+    /// Share of its own campaigns that fit the readings no better; null where it was not checked.
     pub guard_p_value: Option<f64>,
     /// Share of the campaigns that the physical priors of both predict which are as far out; null where the verdict does not name it.
     pub conflict_p_value: Option<f64>,
@@ -269,7 +269,7 @@ impl DiagnosisSummary {
                 let first = before.map(|other| mechanisms[*other].parameters.len()).sum();
                 parameters(mechanisms, &mechanisms[cause], first, draws)
             };
-            match (own, diagnosis.looked_at(cause)) {
+            match (own, diagnosis.examined(cause)) {
                 (Some((causes, draws)), _) => parameters(causes, draws),
                 (None, Some(own)) => parameters(&[cause], &own.draws),
                 (None, None) => Vec::new(),
@@ -279,7 +279,7 @@ impl DiagnosisSummary {
             ids: own.cause.map(|cause| mechanisms[cause].name),
             evidence: own.evidence,
             in_verdict: diagnosis.verdict == Verdict::NamedPair(own.cause),
-            guard_p_value: own.guard,
+            guard_p_value: own.check,
             conflict_p_value: own.conflict,
         });
         let ranked = &diagnosis.finding.ranked;
@@ -288,19 +288,19 @@ impl DiagnosisSummary {
             .iter()
             .filter_map(|&(cause, probability)| {
                 let cause = cause?;
-                let closely = diagnosis.looked_at(cause);
+                let examined = diagnosis.examined(cause);
                 Some(CauseEntry {
                     id: mechanisms[cause].name,
                     probability,
-                    evidence: closely.map(|own| own.evidence),
+                    evidence: examined.map(|own| own.evidence),
                     in_verdict: spoken.contains(&cause),
                     excluded_by: diagnosis.excluded(cause).map(|by| match by {
-                        Excluded::ByReadings => "readings",
-                        Excluded::ByLooks => "looks",
+                        Excluded::ByCheck => "readings",
+                        Excluded::ByRanking => "looks",
                         Excluded::ByEvidence => "evidence",
                     }),
-                    guard_p_value: closely.and_then(|own| own.guard),
-                    conflict_p_value: closely.and_then(|own| own.conflict),
+                    guard_p_value: examined.and_then(|own| own.check),
+                    conflict_p_value: examined.and_then(|own| own.conflict),
                     parameters: drawn(cause),
                 })
             })

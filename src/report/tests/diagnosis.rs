@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::figure::folder;
 use crate::critic::{
-    Baseline, Contrast, Counted, Design, DetectionLimit, Diagnosis, Discrepancy, Feature, Finding, LookedAt,
+    Baseline, Contrast, Counted, Design, DetectionLimit, Diagnosis, Discrepancy, Examined, Feature, Finding,
     Made, Offer, Offered, Ranked, SelfTest, SelfTestRow, Truth, Unused, Verdict, base_curves, cause_curves,
     made,
 };
@@ -57,11 +57,11 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>) {
         reading.order = Some(place as u32 % 9 + 1);
     }
     let cause = |name: &str| made.mechanisms.iter().position(|m| m.name == name).expect("in the catalogue");
-    let guard = |cause: usize| {
+    let examined = |cause: usize| {
         let parameters = vec![0.5; made.mechanisms[cause].parameters.len()];
         let joints = vec![[0.0; 3]; world.joint_kinds()];
         let draws = vec![Truth { causes: Some(cause).into(), parameters, joints }];
-        LookedAt { cause, guard: Some(0.4), conflict: Some(0.3), evidence: 0.45, draws }
+        Examined { cause, check: Some(0.4), conflict: Some(0.3), evidence: 0.45, draws }
     };
     let causes = [cause("creep"), cause("gauge_offset")];
     let rows = [None, Some(causes[0])].map(|cause| SelfTestRow {
@@ -95,7 +95,7 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>) {
                 set: vec![causes[0], causes[1], cause("density")],
             },
         },
-        looked_at: causes.map(guard).to_vec(),
+        examined: causes.map(examined).to_vec(),
         pairs: Vec::new(),
         components: Vec::new(),
         verdict: Verdict::Ambiguous(causes.to_vec()),
