@@ -1,5 +1,6 @@
 //! Measured beside simulated: how far they are apart, which joint stiffness the measurements speak for, which mechanisms they
-//! could see, and which cause explains what the base model does not. Every stage is a folder, and imports from earlier ones alone.
+//! could see, and which cause explains what the base model does not. Every stage is a folder,
+//! and imports from earlier ones alone; [`diagnose`] is the method from the first to the last.
 
 mod advise;
 mod calibrate;
@@ -13,6 +14,7 @@ mod extend;
 mod fixture;
 mod gain;
 mod joint_law;
+mod method;
 mod screening;
 mod sensitivity;
 mod simulate;
@@ -37,6 +39,7 @@ pub use extend::{Curve, DRAWS, Extension, FamilyCurves, Known, base_curves, caus
 pub(crate) use fixture::{Made, made};
 pub use gain::{Choice, Folds, Gain, Gained, HeldOut, Interval, Measuring, Scores};
 pub use joint_law::{Bend, KnownLaw, LawGain, LearntLaw, NamedForm, Nearness, NotLearnt, learnt_law};
+pub use method::{Analysis, SEEDS, Step, Steps, Task, diagnose};
 pub use screening::{DataNote, Extent, data_notes, data_notes_by_simulation};
 pub use sensitivity::{
     Cell, Change, Effect, NoSensitivity, Observable, SEEN, Sensitivity, SensitivitySettings, Sight,
@@ -47,5 +50,6 @@ pub use simulate::{
     Seen, Specimen, Truth, Unused, World,
 };
 pub use verdict::{
-    Diagnosis, Effort, Examined, Excluded, Finding, Judge, Limits, MOST_AMBIGUOUS, PairLimits, Verdict,
+    Diagnosis, Effort, Examination, Examined, Excluded, Finding, Judge, Limits, MOST_AMBIGUOUS, PairLimits,
+    Verdict,
 };

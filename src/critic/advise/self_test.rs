@@ -97,7 +97,7 @@ impl Judge<'_> {
     fn unmodelled_test(&self, limits: &Limits, count: u64, judged: u64, seed: u64) -> [Counted; 2] {
         let campaigns: Vec<Campaign> =
             (0..count).map(|k| self.world.unmodelled(&self.design, &Streams::new(seed, k))).collect();
-        let by_ranking = |campaign: &Campaign| said(&self.finding(campaign), limits);
+        let by_ranking = |campaign: &Campaign| said(&self.compare(campaign), limits);
         let ranked: Vec<Option<Vec<usize>>> = campaigns.par_iter().map(by_ranking).collect();
         let whole = campaigns.par_iter().take(judged as usize);
         let judged: Vec<Option<Vec<usize>>> =
@@ -115,7 +115,7 @@ impl Judge<'_> {
         let streams = Streams::new(seed, number);
         let truth = self.world.drawn(cause, &streams);
         let campaign = self.world.campaign(&self.design, &truth, &streams);
-        let finding = self.finding(&campaign);
+        let finding = self.compare(&campaign);
         let moved = cause.map_or(0.0, |_| self.moved(&truth, &campaign, &streams));
         Tested { truth, campaign, finding, moved }
     }

@@ -126,7 +126,7 @@ mod tests {
         let truth = world.drawn(Some(made.cause("creep")), &Streams::new(23, 1));
         let draws = vec![truth.clone(); 20];
         let shown = |k: u64| world.campaign(design, &truth, &Streams::new(24, k));
-        let few = (0..40).filter(|&k| judge.check().predicted(&draws, &shown(k), 3) < 0.1).count();
+        let few = (0..40).filter(|&k| judge.posterior_check().predicted(&draws, &shown(k), 3) < 0.1).count();
         // One in ten, of forty: 4 +- 1.9.
         assert!(few <= 9, "{few}");
         // The second specimen of the stones moves 2 cm further from one tilt on.
@@ -138,7 +138,7 @@ mod tests {
                     *value += if tilt > 0.1 { 20e-3 } else { 0.0 };
                 }
             }
-            judge.check().predicted(&draws, &campaign, 3) < 0.02
+            judge.posterior_check().predicted(&draws, &campaign, 3) < 0.02
         });
         let further = further.count();
         assert!(further >= 8, "{further} of 10");

@@ -124,7 +124,7 @@ impl<'j, 'w> Folds<'j, 'w> {
     fn choices(&self, campaign: &Campaign) -> Vec<Vec<(usize, f64)>> {
         let choice = |(fold, judge): &(Fold, usize)| {
             let (judge, known) = (&self.judges[*judge], fold.campaign(campaign));
-            let finding = judge.finding(&known);
+            let finding = judge.compare(&known);
             if finding.p_value >= self.measuring.limits.found {
                 return Vec::new();
             }

@@ -7,7 +7,7 @@ use crate::critic::check::{Check, Nearest};
 use crate::critic::discrepancy::{Discrepancy, Reference};
 use crate::critic::simulate::{Campaign, Design, World};
 use crate::critic::verdict::detection::Detection;
-use crate::critic::verdict::limits::Limits;
+use crate::critic::verdict::limits::{Limits, MOST_AMBIGUOUS};
 use crate::random::Streams;
 
 /// Campaigns that are simulated to learn from.
@@ -59,6 +59,11 @@ impl Finding {
         self.ranked.named(limits.named).filter(|_| self.p_value < limits.sure)
     }
 
+    /// Whether the causes that the ranking cannot put aside are few. Of many, the check would choose some by chance.
+    pub(super) fn leaves_few(&self) -> bool {
+        self.ranked.set.len() <= 2 * MOST_AMBIGUOUS
+    }
+
     /// Whether a pair of causes may be named at all.
     pub(super) fn allows_pair(&self, limits: &Limits) -> bool {
         self.p_value < limits.sure && self.ranked.unmodelled <= limits.pair.unmodelled
@@ -91,12 +96,12 @@ impl<'w> Judge<'w> {
     }
 
     /// The posterior predictive check of causes on the design's campaigns.
-    pub(in crate::critic) fn check(&self) -> Check<'_> {
+    pub(in crate::critic) fn posterior_check(&self) -> Check<'_> {
         Check { world: self.world, design: &self.design, reference: &self.reference, nearest: &self.nearest }
     }
 
-    /// The finding of a campaign by the ranking alone.
-    pub fn finding(&self, campaign: &Campaign) -> Finding {
+    /// Compares a campaign with those of the base model, and ranks the causes by how it looks.
+    pub fn compare(&self, campaign: &Campaign) -> Finding {
         let discrepancy = self.reference.discrepancy(&self.design, campaign);
         let ranked = self.ranking.of(&discrepancy);
         let (p_value, p_by_statistic) = self.detection.p_values(&discrepancy, &ranked);

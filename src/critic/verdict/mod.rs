@@ -1,5 +1,6 @@
 //! What is said of a campaign, and what that rests on.
 
+mod decide;
 mod detection;
 mod diagnosis;
 mod examine;
@@ -10,6 +11,7 @@ mod limits;
 mod tests;
 
 pub use diagnosis::{Diagnosis, Examined, Verdict};
+pub use examine::Examination;
 pub use excluded::Excluded;
 pub use judge::{Effort, Finding, Judge};
 pub use limits::{Limits, MOST_AMBIGUOUS, PairLimits};

@@ -16,7 +16,7 @@ fn little_is_found_where_nothing_is_hidden_also_with_joints_far_out_in_their_pri
             let streams = Streams::new(seed, k);
             let mut truth = world.stated(&streams);
             truth.joints.iter_mut().filter(|_| far > 0.0).for_each(|joints| joints[0] = far);
-            judge.finding(&world.campaign(&design, &truth, &streams)).p_value < 0.05
+            judge.compare(&world.campaign(&design, &truth, &streams)).p_value < 0.05
         };
         (0..300).filter(|&k| wrong(k)).count()
     };
@@ -36,7 +36,7 @@ fn what_is_like_no_cause_is_seen_to_be_unmodelled() {
     let creep = Some(made.cause("creep"));
     // Mean probability over the campaigns, drawn with another seed than the judge's, in which something is found.
     let unmodelled = |campaign: &dyn Fn(&Streams) -> Campaign| {
-        let findings = (0..100).map(|k| judge.finding(&campaign(&Streams::new(43, k))));
+        let findings = (0..100).map(|k| judge.compare(&campaign(&Streams::new(43, k))));
         let found: Vec<f64> = findings
             .filter(|finding| finding.p_value < 0.05)
             .map(|finding| {
