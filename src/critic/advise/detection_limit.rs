@@ -30,8 +30,8 @@ pub struct DetectionLimit {
     pub below: bool,
 }
 
-/// From which scores of a parameter on effects are detected, towards where they are the stronger; once where they are anywhere. Shown
-/// are the scores of campaigns and whether they were found.
+/// From which scores of a parameter on effects are detected, towards where they are the stronger; once where they are anywhere.
+/// Shown are the scores of campaigns and whether they were found.
 pub fn detection_limits(
     parameter: usize,
     stronger: Stronger,

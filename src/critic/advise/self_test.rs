@@ -24,7 +24,8 @@ const MORE: u64 = 5;
 pub struct SelfTest {
     /// For the base model (first) and each cause.
     pub rows: Vec<SelfTestRow>,
-    /// Campaigns of [unmodelled](crate::critic::World::unmodelled) effects, by the ranking alone, and some of them by the whole diagnosis: any name is a wrong one.
+    /// Campaigns of [unmodelled](crate::critic::World::unmodelled) effects, by the ranking alone, and some of them by the whole
+    /// diagnosis: any name is a wrong one.
     #[serde(rename = "nameless")]
     pub unmodelled: [Counted; 2],
 }
@@ -76,8 +77,8 @@ struct Tested {
 
 impl Judge<'_> {
     /// Judges `count` campaigns of every cause and of the base model, drawn from the priors with another seed than the training's,
-    /// by the ranking alone, and as many of unmodelled effects; of these `judged` of each cause, and five times as many of the base model
-    /// and of unmodelled effects, by the whole diagnosis.
+    /// by the ranking alone, and as many of unmodelled effects; of these `judged` of each cause, and five times as many of the
+    /// base model and of unmodelled effects, by the whole diagnosis.
     pub fn self_test(&self, limits: &Limits, count: u64, judged: u64, seed: u64) -> SelfTest {
         let row = |cause: &Option<usize>| {
             let campaigns: Vec<Tested> =

@@ -276,9 +276,9 @@ mod tests {
         let mut truth = world.drawn(creep, &Streams::new(41, 7));
         truth.parameters[0] = 1.0;
         let shown = world.campaign(&design, &truth, &Streams::new(41, 7));
-        let [base, right, wrong] =
+        let [base, right, other] =
             [None, creep, lean].map(|cause| evidence(&world, &design, &shown, cause, 3).log);
-        assert!(right > base + 5.0 && right > wrong + 5.0, "{base} {right} {wrong}");
+        assert!(right > base + 5.0 && right > other + 5.0, "{base} {right} {other}");
         // Where nothing acted a cause has no more than the base model, and less where it would have shown.
         let (_, nothing) = campaign(&world, &design, None, 8);
         let [base, creep] = [None, creep].map(|cause| evidence(&world, &design, &nothing, cause, 3).log);

@@ -1,5 +1,5 @@
-//! Which cause explains the discrepancy? Networks trained on campaigns that the causes would have shown, and that [unmodelled] effects
-//! would, and sets of causes that hold the true one nine times in ten, whichever it is.
+//! Which cause explains the discrepancy? Networks learn it from campaigns that the causes would have shown, and that [unmodelled]
+//! effects would. Sets of causes hold the true one nine times in ten, whichever it is.
 //!
 //! [unmodelled]: crate::critic::World::unmodelled
 

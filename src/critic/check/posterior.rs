@@ -1,9 +1,9 @@
 //! Does a cause explain all that was seen, or only what it was chosen by? A cause outside the catalogue fits the few numbers that
 //! the network sees better than it fits all others.
 //!
-//! There are two statistics. One sets single readings against those of the [nearest](super::nearest) of the cause's own
-//! campaigns. The other sets parts of the campaign, from the coarse to the fine, against what the cause predicts with the parameters
-//! and the joints that the campaign itself speaks for (a posterior predictive check, Gelman, Meng and Stern 1996).
+//! There are two statistics. One sets single readings against those of the [nearest](super::nearest) of the cause's own campaigns.
+//! The other sets parts of the campaign, from the coarse to the fine, against what the cause predicts with the parameters and the
+//! joints that the campaign itself speaks for (a posterior predictive check, Gelman, Meng and Stern 1996).
 
 use std::collections::BTreeMap;
 

@@ -224,7 +224,8 @@ impl<'d> SmoothDiscrepancy<'d> {
         components
     }
 
-    /// Some components of the discrepancy together, summed over readings that each count so often, and the sum's standard deviation (SI).
+    /// Some components of the discrepancy together, summed over readings that each count so often, and the sum's standard
+    /// deviation (SI).
     fn estimate(&self, parts: &[Component], of: &[(usize, f64)]) -> (f64, f64) {
         let of: Vec<(usize, f64)> = of.iter().map(|(k, times)| (*k, times * self.all[*k].unit)).collect();
         let with = |other: usize| {

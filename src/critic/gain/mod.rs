@@ -95,7 +95,7 @@ impl Default for Measuring {
     }
 }
 
-/// Who measures the gain on campaigns of a design: the folds, with a judge for all whose known parts are alike.
+/// Who measures the gain on campaigns of a design: the folds, with a judge for all whose known parts are read the same.
 pub struct Folds<'j, 'w> {
     judge: &'j Judge<'w>,
     measuring: Measuring,

@@ -171,9 +171,9 @@ fn what_families_differ_by_is_no_chance() {
     let nearly = error(&[&[&[10.0], &[10.1; 5]], &[&[0.0; 3], &[0.1; 3]]]);
     assert!(nearly > 0.0 && nearly < 0.1, "{nearly}");
     // Where all are alike they tell nothing of it, but where nothing is gained.
-    let alike = rows(&[&[&[10.1], &[10.1; 5]], &[&[0.0; 3], &[0.0; 3]]]);
-    assert_eq!(estimates(&alike)[0][1], f64::INFINITY);
-    let [log, _, rms] = gained(&alike, &[]).expect("four specimens").gain;
+    let same = rows(&[&[&[10.1], &[10.1; 5]], &[&[0.0; 3], &[0.0; 3]]]);
+    assert_eq!(estimates(&same)[0][1], f64::INFINITY);
+    let [log, _, rms] = gained(&same, &[]).expect("four specimens").gain;
     assert!(log.value > 1.0 && log.ends == [f64::NEG_INFINITY, f64::INFINITY], "{log:?}");
     assert_eq!((rms.value, rms.ends), (0.0, [0.0; 2]));
     // Two families of two leave two degrees of freedom.

@@ -240,15 +240,15 @@ fn said(
     Some(specimens.iter().map(of).collect())
 }
 
-/// What a specimen's readings lack of what its walls show; 0 of a bound that is kept.
+/// What a specimen's readings are below what its walls show; 0 of a bound that is kept.
 fn off(tested: &Tested<'_>, specimen: usize, shown: &Shown) -> Vec<f64> {
     let readings = tested.specimens[specimen].readings.iter().zip(&shown.means);
-    let lacks = readings.map(|(m, mean)| match m.kind {
+    let below = readings.map(|(m, mean)| match m.kind {
         MeasuredKind::Below if *mean < m.value => 0.0,
         MeasuredKind::Above if *mean > m.value => 0.0,
         _ => m.value - mean,
     });
-    lacks.collect()
+    below.collect()
 }
 
 /// What all specimens know, and towards where they pull.

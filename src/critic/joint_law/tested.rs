@@ -38,7 +38,7 @@ pub struct Shown {
     pub apart: Vec<Vec<f64>>,
 }
 
-/// Specimens whose joints are stated alike, and the study that simulates them.
+/// Specimens whose joints are stated the same, and the study that simulates them.
 pub struct Tested<'s> {
     study: Study,
     nuisances: &'s [Nuisance; 3],

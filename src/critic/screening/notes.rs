@@ -109,8 +109,8 @@ pub fn data_notes_by_simulation(
         }
     }
     let mut found = Vec::new();
-    let lacking = world.too_few().into_iter().map(|cause| world.mechanisms()[cause].name);
-    let mechanisms: Vec<&'static str> = lacking.collect();
+    let too_few = world.too_few().into_iter().map(|cause| world.mechanisms()[cause].name);
+    let mechanisms: Vec<&'static str> = too_few.collect();
     if !mechanisms.is_empty() {
         found.push(DataNote::NotConsidered { mechanisms });
     }

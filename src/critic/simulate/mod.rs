@@ -5,6 +5,7 @@ pub mod bank;
 mod causes;
 mod design;
 mod queries;
+mod truth;
 mod unmodelled;
 mod world;
 
@@ -12,4 +13,5 @@ pub use bank::{BANK, Bank, Emulator, Held, NotThisBank, PRIOR_WIDENING, Path, Pl
 pub use causes::Causes;
 pub use design::{Campaign, Design, Seen, Specimen, Unused};
 pub use queries::Queries;
-pub use world::{Truth, World};
+pub use truth::Truth;
+pub use world::World;

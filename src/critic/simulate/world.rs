@@ -1,17 +1,16 @@
 //! Campaigns that could have been measured, from a bank: truth in, readings out.
 
+mod likely;
 #[cfg(test)]
 mod tests;
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::critic::compare::of_points;
-use crate::critic::simulate::bank::{
-    Bank, Curves, Emulated, Emulator, HALF_WAY, NUMBERS, PRIOR_WIDENING, Path, Plan,
-};
+use crate::critic::simulate::bank::{Bank, Curves, Emulator, HALF_WAY, NUMBERS, PRIOR_WIDENING, Path, Plan};
 use crate::critic::simulate::causes::Causes;
 use crate::critic::simulate::design::{Campaign, Design};
-use crate::critic::simulate::queries::Queries;
+use crate::critic::simulate::truth::Truth;
 use crate::critic::simulate::unmodelled::Unmodelled;
 use crate::ensemble::{build, is_random, weight};
 use crate::math::{atan, radians, tan};
@@ -20,52 +19,17 @@ use crate::random::standard_normal::quantile;
 use crate::random::{Family, Streams};
 use crate::study::{Acts, Arm, Described, MeasuredQuantity, Measurement, Mechanisms, Nuisance, Study};
 
-/// A wall differs from the expected path as one of so many of its nearest neighbours in the bank does.
-const NEIGHBOURS: usize = 20;
-
-/// What walls share is set beside what the wall so far down the list of the nearest has of its own.
-const COMMON_APART: usize = 3;
-
 /// The mechanism that has a side, uphill or downhill.
 const SIDED: &str = "lean";
 
 /// So many walls of a family are tried for one that can be built and weighed.
 const BUILT: u64 = 20;
 
-/// What is true of a simulated campaign. Scores are standard normal: where a quantity lies in its prior.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Truth {
-    /// What acts.
-    pub causes: Causes,
-    /// The parameters of the causes, each in its order.
-    pub parameters: Vec<f64>,
-    /// The factors on the joints in the order of [`NUISANCES`](crate::study::NUISANCES), for each kind of joint.
-    pub joints: Vec<[f64; 3]>,
-}
-
-impl Truth {
-    /// The same joints without any cause.
-    pub(in crate::critic) fn still(&self) -> Truth {
-        Truth { causes: None.into(), parameters: Vec::new(), joints: self.joints.clone() }
-    }
-}
-
 /// The walls of a family: in the base model, or what a cause changes of them.
 #[derive(Debug)]
 struct Walls {
     emulator: Emulator,
     /// Whether walls of one family differ.
-    random: bool,
-}
-
-/// What is known of the walls of a family before they are built.
-struct Likely {
-    /// The numbers of a path to be expected, see [`Path::adding`].
-    expected: [f64; NUMBERS],
-    /// What each may differ by, each equally likely.
-    own: Vec<[f64; NUMBERS]>,
-    /// And what all of them may besides, by the emulators' errors, each equally likely.
-    common: Vec<[f64; NUMBERS]>,
     random: bool,
 }
 
@@ -92,7 +56,7 @@ pub struct World<'s> {
     planned: BTreeSet<usize>,
     /// Weight of a wall as it is stated, and of its stones in the mean (N), by family.
     weights: BTreeMap<usize, [f64; 2]>,
-    /// Kind of joint of each arm: arms whose joints are stated alike have the same.
+    /// Kind of joint of each arm: arms whose joints are stated the same share one.
     kinds: Vec<usize>,
 }
 
@@ -276,77 +240,6 @@ impl<'s> World<'s> {
         Truth { parameters, ..truth.clone() }
     }
 
-    /// The numbers of a specimen's path: one of those that a wall may have.
-    fn wall(&self, family: usize, truth: &Truth, specimen: usize, streams: &Streams) -> [f64; NUMBERS] {
-        let Likely { expected, own, common, random } = self.likely(family, truth);
-        // Walls in which nothing is drawn are alike: what is left is the emulator's error, and they share it.
-        let name = match random {
-            true => format!("stones {specimen}"),
-            false => format!("stones of family {family}"),
-        };
-        let alone = moved(&expected, &own[streams.of(&name).below(own.len())]);
-        let shared = streams.of(&format!("emulator of family {family}")).below(common.len());
-        moved(&alone, &common[shared])
-    }
-
-    /// The paths that the walls of a family may have under a truth.
-    fn likely(&self, family: usize, truth: &Truth) -> Likely {
-        let Walls { emulator, random } = &self.base[&family];
-        let joints = truth.joints[self.kinds[family]].map(|score| score / PRIOR_WIDENING);
-        let base = emulator.emulated(&joints, NEIGHBOURS);
-        let mut likely = Likely {
-            expected: base.numbers,
-            own: vec![[0.0; NUMBERS]; base.left.len()],
-            common: vec![[0.0; NUMBERS]; base.left.len()],
-            random: *random,
-        };
-        likely.leave(&base, 0);
-        for (place, (cause, parameters)) in self.parts(truth).enumerate() {
-            let Some(change) = self.changes.get(&(family, cause)) else { continue };
-            let parameters = varying(self.mechanisms, Some(cause), parameters.iter().copied());
-            let scores: Vec<f64> = joints.into_iter().chain(parameters).collect();
-            let emulated = change.emulator.emulated(&scores, NEIGHBOURS);
-            likely.expected = moved(&likely.expected, &emulated.numbers);
-            // The stones of the nearest wall with what the effect on a wall half way down the list is left with (a second effect: a
-            // quarter), and so on round: what is nearest in the one has no part in what is nearest in the other.
-            likely.leave(&emulated, emulated.left.len() >> (1 + place));
-            likely.random |= change.random;
-        }
-        likely
-    }
-
-    /// What the paths that a wall of a family may have under a truth, equally likely, show before errors of the queries, path by path ; and whether walls of the family differ, or share one path. Taken for independent of each other, the mean of so many
-    /// `walls` scatters as it does where they share the emulators' errors. A wall that has fallen shows what it did last.
-    pub(in crate::critic) fn may_show(
-        &self,
-        family: usize,
-        queries: &Queries,
-        truth: &Truth,
-        walls: usize,
-    ) -> (Vec<Vec<f64>>, bool) {
-        let Likely { expected, own, common, random } = self.likely(family, truth);
-        let gauge = self.gauge(truth);
-        let times = if random { (walls as f64).sqrt() } else { 1.0 };
-        let apart = common.iter().cycle().skip(COMMON_APART);
-        let of = |(own, common): (&[f64; NUMBERS], &[f64; NUMBERS])| {
-            let left = std::array::from_fn(|k| own[k] + times * common[k]);
-            let curves = Curves::of(&moved(&expected, &left));
-            let last = curves.collapse();
-            let read = |points: &mut [f64; 3]| *points = points.map(|x| gauge.reading(x));
-            let mut points = curves.last_displacements(&queries.tilts);
-            points.iter_mut().for_each(read);
-            let mut left = Vec::new();
-            if queries.goes_back {
-                // One for each tilt.
-                let of = |tilt: &f64| curves.remainders(tilt.min(last)).unwrap_or_default();
-                left.extend(queries.tilts.iter().map(of));
-                left.iter_mut().for_each(read);
-            }
-            queries.shown(last, &points, &left)
-        };
-        (own.iter().zip(apart).map(of).collect(), random)
-    }
-
     /// The parameters of the causes of a truth, each in its order and in the units of their keys.
     pub fn parameters(&self, truth: &Truth) -> Vec<f64> {
         let parameters = truth.causes.each().flat_map(|cause| &self.mechanisms[cause].parameters);
@@ -443,29 +336,6 @@ fn shown(wall: &Curves, m: &Measurement, seen: &impl Fn(f64, [f64; 3]) -> [f64; 
         true => wall.remainders(tilt),
     };
     of_points(m.quantity, seen(tilt, points?))
-}
-
-impl Likely {
-    /// Adds what an emulator leaves, from the wall at `first` on.
-    fn leave(&mut self, emulated: &Emulated<'_>, first: usize) {
-        let count = emulated.left.len() as f64;
-        let mean: [f64; NUMBERS] =
-            std::array::from_fn(|k| emulated.left.iter().fold(0.0, |sum, left| sum + left[k]) / count);
-        let [alone, shared] = [(1.0 - emulated.common).sqrt(), emulated.common.sqrt()];
-        let left = emulated.left.iter().cycle().skip(first);
-        for ((own, common), left) in self.own.iter_mut().zip(&mut self.common).zip(left) {
-            for k in 0..NUMBERS {
-                let off = left[k] - mean[k];
-                own[k] += mean[k] + alone * off;
-                common[k] += shared * off;
-            }
-        }
-    }
-}
-
-/// What is expected of a wall and what it differs by.
-fn moved(expected: &[f64; NUMBERS], left: &[f64; NUMBERS]) -> [f64; NUMBERS] {
-    std::array::from_fn(|k| expected[k] + left[k])
 }
 
 /// Scores of the parameters that vary.

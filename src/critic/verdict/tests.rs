@@ -12,13 +12,13 @@ fn little_is_found_where_nothing_is_hidden_also_with_joints_far_out_in_their_pri
     let (world, (design, _)) = (made.world(), Design::of(&made.study));
     let judge = Judge::trained(&world, &design, EFFORT, 77).expect("it can be told");
     let found = |far: f64, seed: u64| {
-        let wrong = |k: u64| {
+        let is_found = |k: u64| {
             let streams = Streams::new(seed, k);
             let mut truth = world.stated(&streams);
             truth.joints.iter_mut().filter(|_| far > 0.0).for_each(|joints| joints[0] = far);
             judge.compare(&world.campaign(&design, &truth, &streams)).p_value < 0.05
         };
-        (0..300).filter(|&k| wrong(k)).count()
+        (0..300).filter(|&k| is_found(k)).count()
     };
     let (within, beyond) = (found(0.0, 78), found(2.0, 79));
     println!("{within} and {beyond} of 300");

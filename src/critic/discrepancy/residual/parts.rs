@@ -60,7 +60,7 @@ impl Expected {
         let within = if n > truths { (whole - apart).max(0.0) / (n - truths) } else { 0.0 };
         let size = (n - sum(&|(size, _)| size * size) / n) / (truths - 1.0).max(1.0);
         let between = if size > 0.0 { ((across - within) / size).max(0.0) } else { 0.0 };
-        // Walls that are all alike differ by the error of the emulator, which is knowledge that is missing.
+        // Walls that are all the same differ by the error of the emulator, which is knowledge that is missing.
         let (scatter, unknown) = if random { (within, 0.0) } else { (0.0, within) };
         let parameters = (between + unknown + across / n).sqrt();
         Some(Expected { mean, parts: Parts { measurement, scatter: scatter.sqrt(), parameters }, band })

@@ -57,11 +57,10 @@ fn the_parts_of_a_residual_are_those_that_made_it() {
     let Seen::Value(value) = single.seen else { panic!("it was read") };
     let expected = single.expected.expect("walls stand");
     near(single.in_sd.expect("a value"), (value - expected.mean) / parts.sd());
-    // Walls that are all alike do not scatter: the error of the emulator is a want of knowledge.
-    let alike =
-        group(&found, CBL, MeasuredQuantity::CollapseAngle, None).expected.expect("walls stand").parts;
-    assert_eq!(alike.scatter, 0.0);
-    near(degrees(alike.parameters), 19.0 * 0.0026_f64.sqrt());
+    // Walls that are all the same do not scatter: the error of the emulator is a want of knowledge.
+    let same = group(&found, CBL, MeasuredQuantity::CollapseAngle, None).expected.expect("walls stand").parts;
+    assert_eq!(same.scatter, 0.0);
+    near(degrees(same.parameters), 19.0 * 0.0026_f64.sqrt());
 }
 
 #[test]

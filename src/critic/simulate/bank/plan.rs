@@ -10,8 +10,8 @@ use crate::study::{Acts, Described, Faults, Nuisance, Parameter, Study};
 /// So many times as many points without any cause: all others are compared with them.
 pub(super) const BASE: u64 = 2;
 
-/// Priors of the joints are widened by this factor: a prior that is off by two of its standard deviations is no
-/// effect to be found.
+/// Priors of the joints are widened by this factor: a prior that is off by two of its standard deviations is no effect to be
+/// found.
 pub const PRIOR_WIDENING: f64 = 1.5;
 
 /// A wall of a bank: which family, which cause, where in the priors.

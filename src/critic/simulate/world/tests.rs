@@ -1,6 +1,6 @@
 //! Campaigns of walls whose formula is known: what is seen of them.
 
-use super::NEIGHBOURS;
+use super::likely::NEIGHBOURS;
 use crate::critic::fixture::made;
 use crate::critic::simulate::queries::Queries;
 use crate::critic::simulate::{Campaign, Design, Seen, Truth};
