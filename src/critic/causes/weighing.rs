@@ -12,9 +12,9 @@ const POWERS: [f64; 2] = [0.7, 0.2];
 /// more exact, and sure of itself by as much as its law is not that of the walls.
 const POWER_EXAMINED: f64 = 0.2;
 
-/// The causes with their probabilities, weighed by the evidence as well: the ranking knows how campaigns of a cause look
-/// and has seen thousands of them, the evidence knows every reading of this one. A rough one counts little. What is unmodelled
-/// has no evidence, and keeps its probability. `logs` are the logarithms of the evidence, in the order of the causes.
+/// The causes with their probabilities, weighed by rough evidence. The ranking knows how campaigns of a cause look and has seen
+/// thousands of them; the evidence knows every reading of this one. What is unmodelled has no evidence, and keeps its probability.
+/// `logs` are the logarithms of the evidence, in the order of the causes.
 pub fn weighed(ranked: &Ranked, logs: &[f64]) -> Ranked {
     let both =
         ranked.causes.iter().zip(logs).map(|((_, p), log)| POWERS[0] * ln(p.max(1e-12)) + POWERS[1] * log);
@@ -23,8 +23,8 @@ pub fn weighed(ranked: &Ranked, logs: &[f64]) -> Ranked {
     Ranked::new(causes.zip(probabilities).collect(), ranked.unmodelled, ranked.set.clone())
 }
 
-/// The causes with their probabilities, weighed by the evidence of those examined as well; `logs` are its logarithms,
-/// that of the base model first. What these and the base model have together stays theirs.
+/// The causes with their probabilities, weighed by the evidence of those examined as well. `logs` are its logarithms, that of the
+/// base model first. What these and the base model have together stays theirs.
 pub fn reweighed(ranked: &Ranked, shortlist: &[usize], logs: &[f64]) -> Ranked {
     let models = std::iter::once(None).chain(shortlist.iter().copied().map(Some));
     let known: Vec<(Option<usize>, f64)> = models.zip(logs.iter().copied()).collect();

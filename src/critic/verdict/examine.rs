@@ -59,9 +59,7 @@ impl Judge<'_> {
         models.par_iter().map(of).collect()
     }
 
-    /// The causes with their probabilities, weighed by the evidence as well: the ranking knows how campaigns of a cause
-    /// look and has seen thousands of them, the evidence knows every reading of this one. A rough one counts little. What is
-    /// unmodelled has no evidence, and keeps its probability.
+    /// A ranking weighed by the rough evidence of every cause.
     pub(in crate::critic) fn weighed(&self, ranked: &Ranked, campaign: &Campaign, seed: u64) -> Ranked {
         let logs = self.rough(campaign, ranked.causes.iter().map(|(cause, _)| Causes::from(*cause)), seed);
         weighed(ranked, &logs)

@@ -14,7 +14,7 @@ const COMMON_APART: usize = 3;
 
 /// What is known of the walls of a family before they are built.
 struct Likely {
-    /// The numbers of a path to be expected, see [`Path::adding`].
+    /// The numbers of a path to be expected, see [`Path::adding`](crate::critic::Path::adding).
     expected: [f64; NUMBERS],
     /// What each may differ by, each equally likely.
     own: Vec<[f64; NUMBERS]>,
