@@ -66,13 +66,50 @@ fn listed<T>(all: &[T], one: impl Fn(&T) -> String) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeMap;
+
     use super::*;
+    use crate::critic::{Component, Contrast, Discrepancy, Examined, Feature, Finding, Truth, Verdict};
+    use crate::study::MeasuredQuantity;
 
     #[test]
     fn the_words_of_kept_self_tests_stay() {
-        let said = limits(&Limits::default());
         let kept = "Limits { found: 0.05, named: 0.8, sure: 0.01, guard: 0.05, conflict: 0.05, pair: PairLimits { named: 0.99, \
                     guard: 0.25, nameless: 0.05 } }";
-        assert_eq!(said, kept);
+        assert_eq!(limits(&Limits::default()), kept);
+        let draws = vec![Truth { causes: Some(3).into(), parameters: vec![0.5], joints: vec![[0.0; 3]] }];
+        let finding = Finding {
+            discrepancy: Discrepancy {
+                excess: BTreeMap::from([(Feature::Mean(1, Contrast::Level), Some(4.2))]),
+                joints: vec![[0.0; 3]],
+                distance: 30.0,
+            },
+            ranked: Ranked { causes: vec![(Some(3), 0.8), (None, 0.2)], unmodelled: 0.25, set: vec![3] },
+            p_value: 0.001,
+            p_by_statistic: [0.004, 0.001, 0.02],
+        };
+        let component = ComponentEstimate {
+            part: Component::Level,
+            family: 1,
+            quantity: MeasuredQuantity::DisplacementMean,
+            tilt: None,
+            value: 0.002,
+            sd: 0.001,
+        };
+        let own = Examined { cause: 3, check: Some(0.4), conflict: None, evidence: 0.45, draws };
+        let said = Diagnosis {
+            finding,
+            examined: vec![own],
+            pairs: Vec::new(),
+            components: vec![component],
+            verdict: Verdict::Named(3),
+        };
+        let kept = "[Diagnosis { seeming: Seeming { wrong: Wrong { excess: {Mean(1, Level): Some(4.2)}, joints: [[0.0, 0.0, 0.0]], \
+                    distance: 30.0 }, ranked: Ranked { causes: [(Some(3), 0.8), (None, 0.2)], nameless: 0.25, set: [3] }, \
+                    p_value: 0.001, looks: [0.004, 0.001, 0.02] }, looked_at: [LookedAt { cause: 3, guard: Some(0.4), \
+                    conflict: None, evidence: 0.45, draws: [Truth { causes: Causes([Some(3), None]), parameters: [0.5], \
+                    joints: [[0.0, 0.0, 0.0]] }] }], pairs: [], form: [Bent { part: Level, family: 1, quantity: \
+                    DisplacementMean, tilt: None, value: 0.002, sd: 0.001 }], verdict: Named(3) }]";
+        assert_eq!(diagnoses(&[said]), kept);
     }
 }

@@ -1,6 +1,7 @@
 //! Measured beside simulated: how far they are apart, which joint stiffness the measurements speak for, which mechanisms they
-//! could see, and which cause explains what the base model does not. Every stage is a folder,
-//! and imports from earlier ones alone; [`diagnose`] is the method from the first to the last.
+//! could see, and which cause explains what the base model does not.
+//!
+//! Every stage is a folder, and imports from earlier ones alone. [`diagnose`] is the method from the first stage to the last.
 
 mod advise;
 mod calibrate;
