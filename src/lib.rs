@@ -97,7 +97,8 @@
 //!
 //! Imports go one way, down this list to what stands above; a test holds the table. Six loops, six files:
 //! realisations `ensemble/run.rs`, load steps `protocol/drive.rs`, time steps `solve/explicit/step.rs`, Newton's iterations
-//! `solve/implicit/newton.rs`, contacts `solve/joints/mod.rs`, sub-contacts `law/coulomb.rs`. Papers are listed in `src/references.md`.
+//! `solve/implicit/newton.rs`, contacts `solve/joints/mod.rs`, sub-contacts `law/coulomb.rs`. A diagnosis reads from top to bottom in
+//! `critic/method.rs`. Papers are listed in `src/references.md`.
 
 pub mod cli;
 pub mod contact;

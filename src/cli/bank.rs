@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::cli::arguments::{Bank, Which};
 use crate::cli::failure::Failure;
 use crate::cli::{judge, locate, output, progress, threads};
-use crate::critic::{self, BANK, Design, Doubt, NotThisBank, Plan, World, doubts};
+use crate::critic::{self, BANK, DataNote, Design, NotThisBank, Plan, World, data_notes};
 use crate::ensemble::{Settings, replace_file, run_with};
 use crate::protocol::Protocol;
 use crate::study::{Described, Loaded, Nuisance, Study, described, nuisances};
@@ -42,17 +42,17 @@ fn made(arguments: &Bank) -> Result<(), Failure> {
         && let Ok(judge) = judge::judge(&world, &Design::of(&study).0, seed)
     {
         judge::keep_self_test(&judge, &plan, seed, &out, arguments.judged)?;
-        said.push_str(&foretold(&world));
+        said.push_str(&explained(&world));
     }
     output::print(&said)
 }
 
 /// How much of what walls do the emulators know beforehand.
-fn foretold(world: &World<'_>) -> String {
+fn explained(world: &World<'_>) -> String {
     let mut text = "Told beforehand of walls that were left out, of the variance in a family (the rest is stones and emulator, and \
                     is reckoned with)\n"
         .to_string();
-    for (family, shares) in world.foretold() {
+    for (family, shares) in world.explained() {
         let [collapse, moved] = shares.map(|share| 100.0 * share.max(0.0));
         let name = &world.study().arms[family].name;
         text.push_str(&format!(
@@ -98,7 +98,7 @@ pub(crate) fn prepared(study: &Study, which: &Which, points: u64) -> Result<Prep
             arms.join(", ")
         )));
     }
-    let notes = noted(&doubts(study, &design));
+    let notes = noted(&data_notes(study, &design));
     let distributions = locate::distributions(which)?;
     let mechanisms = described(&distributions).map_err(Failure::Input)?;
     let nuisances = nuisances(&distributions).map_err(Failure::Input)?;
@@ -106,9 +106,9 @@ pub(crate) fn prepared(study: &Study, which: &Which, points: u64) -> Result<Prep
     Ok(Prepared { mechanisms, nuisances, plan, notes })
 }
 
-/// Says doubts on standard error, and gives their words.
-pub(crate) fn noted(doubts: &[Doubt]) -> Vec<String> {
-    let words: Vec<String> = doubts.iter().map(ToString::to_string).collect();
+/// Prints notes on the data on standard error, and gives their words.
+pub(crate) fn noted(notes: &[DataNote]) -> Vec<String> {
+    let words: Vec<String> = notes.iter().map(ToString::to_string).collect();
     words.iter().for_each(|words| output::note(&format!("note: {words}")));
     words
 }

@@ -7,11 +7,10 @@ use crate::cli::arguments::Diagnose;
 use crate::cli::bank::{self, Prepared};
 use crate::cli::doing::doing;
 use crate::cli::failure::Failure;
-use crate::cli::judge::{self, SEEDS};
-use crate::cli::{locate, output, threads};
+use crate::cli::{judge, locate, output, threads};
 use crate::critic::{
-    self, BANK, Baseline, Design, Extension, Folds, Limits, Measuring, Verdict, World, base_curves,
-    cause_curves, doubts_beside, extension,
+    self, Analysis, BANK, Design, Extension, Judge, SEEDS, Step, Steps, Task, Verdict, World, base_curves,
+    cause_curves, data_notes_by_simulation,
 };
 use crate::report::{self, Advice, DataEntry, DiagnosisSummary, EXTENDED, FamilyFigure, GainSummary, Origin};
 use crate::study::{Loaded, MEASURED, Nuisance, Study};
@@ -35,38 +34,30 @@ fn judged(arguments: &Diagnose) -> Result<(), Failure> {
     let (design, measured) = Design::of(&study);
     // The bank keeps the study's own seed.
     let seed = arguments.seed.unwrap_or(study.seed);
-    notes.extend(bank::noted(&doubts_beside(&world, &design, &measured, seed.wrapping_add(5 * SEEDS))));
-    let judge = judge::judge(&world, &design, seed)?;
-    let diagnosis = doing("weighing the causes", |_| {
-        judge.diagnosed(&measured, &Limits::default(), seed.wrapping_add(SEEDS))
-    });
-    let test = judge::self_test(&judge, &plan, seed, &folder);
-    let residuals = doing("setting the readings beside the simulation", |_| {
-        Baseline::new(&world, &design, seed.wrapping_add(6 * SEEDS)).residuals(&measured)
-    });
+    notes.extend(bank::noted(&data_notes_by_simulation(
+        &world,
+        &design,
+        &measured,
+        seed.wrapping_add(5 * SEEDS),
+    )));
+    let task =
+        Task { world: &world, design: &design, measured: &measured, seed, with_gain: !arguments.no_gain };
+    let kept = |judge: &Judge<'_>| judge::self_test(judge, &plan, seed, &folder);
+    let analysis = critic::diagnose(&task, &OnStderr, kept).ok_or_else(judge::nothing_to_compare)?;
+    let Analysis { diagnosis, residuals, self_test, extensions, gain, offered, are_left } = analysis;
     let mut summary =
-        DiagnosisSummary::of(&study, seed, &plan.study.hash, &mechanisms, &design, &diagnosis, &test)
+        DiagnosisSummary::of(&study, seed, &plan.study.hash, &mechanisms, &design, &diagnosis, &self_test)
             .beside(&study, &residuals);
     summary.notes = notes;
     let file = arguments.measured.as_deref().unwrap_or(Path::new(MEASURED));
     summary.measured = stated.measured().map(|(_, sha256)| DataEntry::of(file, sha256));
-    let (possible, are_left) = diagnosis.possible();
-    let offered = doing("looking for the next test worth making", |_| {
-        critic::offers(&judge, &possible, seed.wrapping_add(4 * SEEDS))
-    });
-    summary.advice = Advice::of(&test, &offered, are_left, &mechanisms);
-    if diagnosis.verdict != Verdict::NothingFound && !arguments.no_gain {
-        let folds = Folds::new(&judge, Measuring::default(), seed.wrapping_add(3 * SEEDS));
-        let gain = doing("measuring what the extended model gains", |_| folds.gain(&measured));
-        summary.gain = gain.map(|gain| GainSummary::of(&gain, &study, &design, &mechanisms));
-    }
+    summary.advice = Advice::of(&self_test, &offered, are_left, &mechanisms);
+    summary.gain = gain.map(|gain| GainSummary::of(&gain, &study, &design, &mechanisms));
     let drawn = seed.wrapping_add(7 * SEEDS);
     let (base, causes) = doing("simulating the curves of the figures", |_| {
         (base_curves(&world, &design, drawn), cause_curves(&world, &design, &diagnosis, drawn))
     });
     let families = FamilyFigure::all(&study, &mechanisms, &residuals, &base, &causes);
-    let extensions: Vec<Extension> =
-        diagnosis.explained_by().iter().filter_map(|(_, draws)| extension(&world, draws)).collect();
     summary.extended = extensions.iter().map(|own| format!("{EXTENDED}/{}", named(own))).collect();
     output::folder(&out)?;
     report::write_diagnosis(&summary, &families, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
@@ -79,6 +70,22 @@ fn judged(arguments: &Diagnose) -> Result<(), Failure> {
     }
     let text = report::diagnosis_text(&summary);
     output::print(&format!("{text}{law}\nwritten to {}\n{extended}", out.display()))
+}
+
+/// Says on standard error which step is being done.
+struct OnStderr;
+
+impl Steps for OnStderr {
+    fn during<T>(&self, step: Step, work: impl FnOnce() -> T) -> T {
+        let what = match step {
+            Step::Simulate => judge::LEARNING,
+            Step::Compare => "setting the readings beside the simulation",
+            Step::RankAndCheck => "weighing the causes",
+            Step::Predict => "measuring what the extended model gains",
+            Step::Advise => "looking for the next test worth making",
+        };
+        doing(what, |_| work())
+    }
 }
 
 /// Learns a law of the joints where no cause explains the readings and it is asked for, writes it, and says what it is; else what can be

@@ -8,12 +8,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::cli::doing::doing;
 use crate::cli::failure::Failure;
-use crate::critic::{Bank, Design, Diagnosis, Effort, Judge, Limits, Plan, SelfTest, World};
+use crate::critic::{Bank, Design, Diagnosis, Effort, Judge, Limits, Plan, SEEDS, SelfTest, World};
 use crate::ensemble::replace_file;
 use crate::study::{Described, Nuisance, Study, sha256};
 
-/// Seeds that a part of a diagnosis may use from its own on.
-pub(super) const SEEDS: u64 = 1000;
+/// What a judge does before he judges.
+pub(super) const LEARNING: &str = "learning to tell the causes apart";
 /// Name of the file of a self-test.
 const KEPT: &str = "self-test.json";
 /// Campaigns of each cause in it.
@@ -42,14 +42,15 @@ pub(super) fn world<'s>(
 
 /// Who judges campaigns of a design.
 pub(super) fn judge<'w>(world: &'w World<'w>, design: &Design, seed: u64) -> Result<Judge<'w>, Failure> {
-    let trained = doing("learning to tell the causes apart", |_| {
-        Judge::trained(world, design, Effort::default(), seed)
-    });
-    trained.ok_or_else(|| {
-        Failure::Input(
-            "none of the measurements can be set against a simulation: at their tilts simulated walls have fallen".to_owned(),
-        )
-    })
+    let trained = doing(LEARNING, |_| Judge::trained(world, design, Effort::default(), seed));
+    trained.ok_or_else(nothing_to_compare)
+}
+
+/// No reading can be set against a simulation.
+pub(super) fn nothing_to_compare() -> Failure {
+    Failure::Input(
+        "none of the measurements can be set against a simulation: at their tilts simulated walls have fallen".to_owned(),
+    )
 }
 
 /// The self-test of a judge: the one that is kept in the bank's folder, if it is of the same.

@@ -10,7 +10,7 @@ use serde_json::json;
 use crate::cli::arguments::Measured;
 use crate::cli::failure::Failure;
 use crate::cli::{bank, locate, output};
-use crate::critic::{Design, doubts};
+use crate::critic::{Design, data_notes};
 use crate::math::degrees;
 use crate::study::measured::Dimension;
 use crate::study::{
@@ -31,7 +31,7 @@ pub(crate) fn measured(arguments: &Measured) -> Result<(), Failure> {
             loaded.study.name
         )));
     };
-    let notes = bank::noted(&doubts(&loaded.study, &Design::of(&loaded.study).0));
+    let notes = bank::noted(&data_notes(&loaded.study, &Design::of(&loaded.study).0));
     let file = arguments.file.clone().unwrap_or_else(|| PathBuf::from(MEASURED));
     if arguments.which.json {
         return output::print_json(&told(&loaded, how, &file, &notes));

@@ -1,43 +1,56 @@
-//! Measured beside simulated: how far apart they are, which joint stiffness the measurements speak for, and which mechanisms
-//! they could see.
+//! Measured beside simulated: how far they are apart, which joint stiffness the measurements speak for, which mechanisms they
+//! could see, and which cause explains what the base model does not.
+//!
+//! Every stage is a folder, and imports from earlier ones alone. [`diagnose`] is the method from the first stage to the last.
 
-mod bank;
+mod advise;
 mod calibrate;
+mod causes;
+mod check;
 mod compare;
-mod diagnose;
+mod conflict;
+mod discrepancy;
+mod extend;
+#[cfg(test)]
+mod fixture;
+mod gain;
 mod joint_law;
-mod likelihood;
-mod monotone;
-mod neighbours;
-mod observable;
-mod points;
-mod profile;
+mod method;
+mod screening;
 mod sensitivity;
-mod simulated;
+mod simulate;
 #[cfg(test)]
 pub(crate) mod tests;
+mod verdict;
 
-pub use bank::{BANK, Bank, DOUBT, Emulator, Held, NotThisBank, Path, Place, Plan};
-pub use calibrate::{Calibration, CurvePoint, End, LEAST_POINTS, calibrate, calibrate_family};
-pub use compare::{Beside, Difference, Measured, Ours, Walls, compare};
+pub use advise::{Counted, DETECTION_POWER, DetectionLimit, Offer, Offered, SelfTest, SelfTestRow, offers};
+pub use calibrate::{
+    AnglePoint, Calibration, CurvePoint, End, LEAST_POINTS, LeftOut, OtherPhi, angles_of, calibrate,
+    calibrate_family, other_friction, points_of,
+};
+pub use causes::{COVERED, Evidence, Ranked, Ranking, evidence};
+pub use compare::{Beside, Difference, Measured, Ours, Simulated, Walls, compare, log_likelihood, simulated};
+pub use conflict::log_weight;
+pub use discrepancy::{
+    Band, Baseline, Component, ComponentEstimate, Contrast, Discrepancy, Expected, Feature, Group, Parts,
+    Reference, Residual, Residuals, Scale, Side, features,
+};
+pub use extend::{Curve, DRAWS, Extension, FamilyCurves, Known, base_curves, cause_curves, extension};
 #[cfg(test)]
-pub(crate) use diagnose::tests::{Made, made};
-pub use diagnose::{
-    Band, Baseline, Bent, CAUGHT, COVERED, Campaign, Caught, Causes, Choice, Contrast, Counted, Curve, DRAWS,
-    Design, Diagnosis, Doubt, Effort, Evidence, Excluded, Expected, Extension, FamilyCurves, Feature, Folds,
-    Gain, Gained, Group, HeldOut, Interval, Judge, Known, Lacking, Limits, LookedAt, MOST_AMBIGUOUS,
-    Measuring, Offer, Offered, PairLimits, Parts, Ranked, Ranking, Reference, Residual, Residuals, Scale,
-    Scores, Seeming, Seen, SelfTest, SelfTestRow, Side, Specimen, Told, Truth, Unused, Verdict, World, Wrong,
-    base_curves, cause_curves, doubts, doubts_beside, evidence, extension, features, guarded, log_weight,
-    offers,
-};
+pub(crate) use fixture::{Made, made};
+pub use gain::{Choice, Folds, Gain, Gained, HeldOut, Interval, Measuring, Scores};
 pub use joint_law::{Bend, KnownLaw, LawGain, LearntLaw, NamedForm, Nearness, NotLearnt, learnt_law};
-pub use likelihood::log_likelihood;
-pub use monotone::Monotone;
-pub use neighbours::{OtherPhi, other_friction};
-pub use observable::Observable;
-pub use points::{AnglePoint, LeftOut, angles_of, points_of};
+pub use method::{Analysis, SEEDS, Step, Steps, Task, diagnose};
+pub use screening::{DataNote, Extent, data_notes, data_notes_by_simulation};
 pub use sensitivity::{
-    Cell, Change, Effect, NoSensitivity, SEEN, Sensitivity, SensitivitySettings, Sight, sensitivity,
+    Cell, Change, Effect, NoSensitivity, Observable, SEEN, Sensitivity, SensitivitySettings, Sight,
+    sensitivity,
 };
-pub use simulated::{Simulated, simulated};
+pub use simulate::{
+    BANK, Bank, Campaign, Causes, Design, Emulator, Held, NotThisBank, PRIOR_WIDENING, Path, Place, Plan,
+    Seen, Specimen, Truth, Unused, World,
+};
+pub use verdict::{
+    Diagnosis, Effort, Examination, Examined, Excluded, Finding, Judge, Limits, MOST_AMBIGUOUS, PairLimits,
+    Verdict,
+};

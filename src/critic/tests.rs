@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use crate::critic::compare::is_rising;
-use crate::critic::{Ours, Simulated, Walls, compare, log_likelihood, other_friction, simulated};
+use crate::critic::calibrate::other_friction;
+use crate::critic::compare::{Ours, Simulated, Walls, compare, is_rising, log_likelihood, simulated};
 use crate::ensemble::{Row, StepRow, evaluate, plan};
 use crate::math::{degrees, exp, ln, radians};
 use crate::model::{Level, Outcome};

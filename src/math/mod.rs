@@ -1,12 +1,14 @@
 //! Vectors, elementary functions on libm, angles at the border, and the invariant check that stays on in release;
-//! and how far words are apart.
+//! monotone curves, and how far words are apart.
 
+mod curve;
 mod elementary;
 mod exponentials;
 mod invariant;
 mod monotone;
 mod words;
 
+pub use curve::{Monotone, Share};
 pub use elementary::*;
 pub use exponentials::exp_all;
 pub use monotone::monotone_slopes;

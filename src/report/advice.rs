@@ -1,7 +1,7 @@
 //! What the data cannot tell, and what would: causes that look alike, the next measurement, and how large an effect must be to be
-//! caught.
+//! detected.
 
-use crate::critic::{CAUGHT, Offer, Offered, SelfTest};
+use crate::critic::{DETECTION_POWER, Offer, Offered, SelfTest};
 use crate::report::number::{or_dash, significant, with_interval};
 use crate::report::table::wrapped;
 use crate::study::Described;
@@ -16,31 +16,30 @@ pub struct Advice {
     pub look_alike: Vec<Vec<&'static str>>,
     /// Causes that data like these see in less than a fifth of cases.
     pub not_seen: Vec<&'static str>,
-    /// The smallest effects that data like these catch four times in five; a cause that goes both ways may have two.
-    pub caught: Vec<CaughtEntry>,
+    /// The smallest effects that data like these detect four times in five; a cause that goes both ways may have two.
+    pub caught: Vec<DetectionLimitEntry>,
     /// Causes that they see, but at no strength of one parameter so often.
     pub seen_in_part: Vec<PartEntry>,
     /// Measurements that would tell the possible causes apart, the most information per hour first; empty where nothing was found.
     pub next: Vec<NextEntry>,
-    /// Whether these tell apart the causes that nothing speaks against; or, where fewer than two are left, all that were looked at
-    /// closely.
+    /// Whether these tell apart the causes that nothing speaks against; or, where fewer than two are left, all that were examined.
     pub next_of_those_left: bool,
 }
 
-/// From where on an effect is caught.
+/// The detection limit of a cause.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
-pub struct CaughtEntry {
+pub struct DetectionLimitEntry {
     /// The mechanism.
     pub cause: &'static str,
     /// Its parameter and the unit.
     pub parameter: &'static str,
     /// Unit of the parameter.
     pub unit: &'static str,
-    /// From this value on; null where it is caught anywhere in its search prior.
+    /// From this value on; null where it is detected anywhere in its search prior.
     pub value: Option<f64>,
     /// The 95 % interval of this value, of the self-test's campaigns; null at an end that these do not bound.
     pub interval: [Option<f64>; 2],
-    /// Whether smaller values are caught, not larger ones.
+    /// Whether smaller values are detected, not larger ones.
     pub below: bool,
 }
 
@@ -76,22 +75,22 @@ impl Advice {
         let names = |causes: Vec<usize>| causes.into_iter().map(|cause| mechanisms[cause].name).collect();
         let rows = || test.rows.iter().filter_map(|row| Some((row.cause?, row)));
         let unseen = rows().filter(|(_, row)| (row.all.found as f64) < SEEN * row.all.campaigns as f64);
-        let caught = rows().flat_map(|(cause, row)| row.caught.iter().map(move |own| (cause, own)));
-        let caught = caught.map(|(cause, caught)| {
+        let limits = rows().flat_map(|(cause, row)| row.detection_limits.iter().map(move |own| (cause, own)));
+        let limits = limits.map(|(cause, limit)| {
             let mechanism = &mechanisms[cause];
-            let parameter = &mechanism.parameters[caught.parameter];
+            let parameter = &mechanism.parameters[limit.parameter];
             let value = |score: Option<f64>| score.map(|score| parameter.search.at_score(score));
-            CaughtEntry {
+            DetectionLimitEntry {
                 cause: mechanism.name,
                 parameter: parameter.key,
                 unit: parameter.unit,
-                value: value(caught.score),
-                interval: caught.interval.map(value),
-                below: caught.below,
+                value: value(limit.score),
+                interval: limit.interval.map(value),
+                below: limit.below,
             }
         });
         let in_part = rows().filter(|(_, row)| {
-            row.caught.is_empty() && row.all.found as f64 >= SEEN * row.all.campaigns as f64
+            row.detection_limits.is_empty() && row.all.found as f64 >= SEEN * row.all.campaigns as f64
         });
         let in_part = in_part.map(|(cause, row)| PartEntry {
             cause: mechanisms[cause].name,
@@ -108,7 +107,7 @@ impl Advice {
         Advice {
             look_alike: test.classes(SEEN).into_iter().map(names).collect(),
             not_seen: unseen.map(|(cause, _)| mechanisms[cause].name).collect(),
-            caught: caught.collect(),
+            caught: limits.collect(),
             seen_in_part: in_part.collect(),
             next: next.collect(),
             next_of_those_left: are_left,
@@ -133,7 +132,7 @@ impl Advice {
         if !self.caught.is_empty() {
             text.push_str(&format!(
                 "\nSmallest effects found in {:.0} % of simulated campaigns (95 % intervals; a dash: not bounded)\n",
-                100.0 * CAUGHT
+                100.0 * DETECTION_POWER
             ));
             for own in &self.caught {
                 let side = if own.below { "at most" } else { "at least" };

@@ -169,7 +169,7 @@ impl ChoiceEntry {
 impl GainEntry {
     /// The gain with its interval, and what that shows.
     pub(super) fn text(&self) -> String {
-        match self.told() {
+        match self.finite() {
             Some(_) => format!("{}, {}", self.number(), self.claim()),
             None => format!(
                 "{}, how sure cannot be told: all specimens gain the same",
@@ -180,11 +180,11 @@ impl GainEntry {
 
     /// The gain with its interval.
     fn number(&self) -> String {
-        with_interval(Some(self.value), self.told(), 3)
+        with_interval(Some(self.value), self.finite(), 3)
     }
 
     /// The interval, where there is one.
-    fn told(&self) -> Option<[f64; 2]> {
+    fn finite(&self) -> Option<[f64; 2]> {
         Some(self.interval).filter(|ends| ends.iter().all(|end| end.is_finite()))
     }
 

@@ -1,5 +1,7 @@
-//! The house: which module may import which. A forbidden import, a folder without a row and `super::super::` fail.
+//! The house: which module may import which. A forbidden import, a folder without a row and `super::super::` fail. The stages of
+//! the critic have a table of their own.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -35,6 +37,29 @@ const HOUSE: &[(&str, &[&str])] = &[
 /// The solvers check each other, so none may lean on another.
 const SOLVERS: [&str; 4] = ["explicit", "grains", "implicit", "limit"];
 
+/// The stages of the critic, in the order of the method: the folder, and the folders that it may import besides itself.
+const STAGES: &[(&str, &[&str])] = &[
+    // Measured beside simulated, reading by reading.
+    ("compare", &[]),
+    ("calibrate", &["compare"]),
+    ("sensitivity", &["compare"]),
+    // The diagnosis.
+    ("simulate", &["compare"]),
+    ("screening", &["simulate"]),
+    ("discrepancy", &["compare", "simulate"]),
+    ("causes", &["compare", "simulate", "discrepancy"]),
+    ("check", &["simulate", "discrepancy", "causes"]),
+    ("conflict", &["simulate", "discrepancy", "causes"]),
+    ("verdict", &["simulate", "discrepancy", "causes", "check", "conflict"]),
+    ("joint_law", &["compare", "simulate"]),
+    ("extend", &["simulate", "discrepancy", "verdict"]),
+    ("gain", &["simulate", "discrepancy", "causes", "verdict"]),
+    ("advise", &["compare", "simulate", "discrepancy", "causes", "verdict"]),
+];
+
+/// Most files of a stage, or of a folder in one.
+const MOST_FILES: usize = 12;
+
 /// What a file (path below `src`, with `/`) imports against the house's rules.
 fn violations(path: &str, text: &str) -> Vec<String> {
     let code = without_comments(text);
@@ -66,9 +91,35 @@ fn violations(path: &str, text: &str) -> Vec<String> {
             found.push(format!("{path}: the {own} solver imports the {other} solver"));
         }
     }
+    found.extend(stage_violations(path, &code));
     found.sort();
     found.dedup();
     found
+}
+
+/// What a file of a stage of the critic imports against the table of stages. Tests may import any stage, and so may the files
+/// beside the stages, which put them together.
+fn stage_violations(path: &str, code: &str) -> Vec<String> {
+    let Some((stage, inner)) = path.strip_prefix("critic/").and_then(|inner| inner.split_once('/')) else {
+        return Vec::new();
+    };
+    let Some((_, allowed)) = STAGES.iter().find(|(name, _)| *name == stage) else {
+        return vec![format!("{path} lies in src/critic/{stage}, which has no row in the table of stages")];
+    };
+    if inner.ends_with("tests.rs") {
+        return Vec::new();
+    }
+    let code = code.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
+    let mut imports = paths_after("crate::critic::", code);
+    if inner == "mod.rs" {
+        // From the top of a stage, `super` is the critic.
+        imports.extend(paths_after("super::", code));
+    }
+    imports
+        .iter()
+        .filter(|import| import[0] != stage && !allowed.contains(&import[0].as_str()))
+        .map(|import| format!("{path} imports critic::{}; {stage} may import only {allowed:?}", import[0]))
+        .collect()
 }
 
 fn is_row(name: &str) -> bool {
@@ -159,16 +210,32 @@ fn every_import_follows_the_house() {
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
-/// The table itself must be one-way: nobody may import what stands below it.
+/// The tables themselves must be one-way: nobody may import what stands below it.
 #[test]
-fn the_house_has_one_direction() {
-    for (i, (module, allowed)) in HOUSE.iter().enumerate() {
-        for name in *allowed {
-            assert!(
-                HOUSE[..i].iter().any(|(row, _)| row == name),
-                "{module} may import {name}, which is not above it"
-            );
+fn the_house_and_the_stages_have_one_direction() {
+    for table in [HOUSE, STAGES] {
+        for (i, (module, allowed)) in table.iter().enumerate() {
+            for name in *allowed {
+                assert!(
+                    table[..i].iter().any(|(row, _)| row == name),
+                    "{module} may import {name}, which is not above it"
+                );
+            }
         }
+    }
+}
+
+#[test]
+fn every_stage_is_a_folder_of_few_files() {
+    let critic = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/critic");
+    let mut count: BTreeMap<PathBuf, usize> = BTreeMap::new();
+    for file in sources(&critic) {
+        *count.entry(file.parent().expect("it lies in a folder").to_path_buf()).or_default() += 1;
+    }
+    let full: Vec<_> = count.iter().filter(|(_, files)| **files > MOST_FILES).collect();
+    assert!(full.is_empty(), "{full:?}");
+    for (stage, _) in STAGES {
+        assert!(count.contains_key(&critic.join(stage)), "the table has {stage}, and src/critic has not");
     }
 }
 
@@ -201,6 +268,12 @@ fn bad_imports_are_found() {
         ("helpers/mod.rs", "", "has no row"),
         ("study/load.rs", "use super::super::law::Coulomb;", "climbs"),
         ("lib.rs", "use super::super::x;", "climbs"),
+        ("critic/causes/ranking.rs", "use crate::critic::check::Check;", "imports critic::check"),
+        ("critic/causes/mod.rs", "pub use super::advise::offers;", "imports critic::advise"),
+        ("critic/simulate/bank/plan.rs", "use crate::critic::{verdict::Judge};", "imports critic::verdict"),
+        // The face of the critic has all stages.
+        ("critic/simulate/world.rs", "use crate::critic::Judge;", "imports critic::Judge"),
+        ("critic/helpers/sums.rs", "", "no row in the table of stages"),
     ];
     for (path, text, part) in bad {
         let found = violations(path, text).join("\n");
@@ -220,6 +293,16 @@ fn good_imports_pass() {
         ("solve/explicit/step.rs", "use crate::solve::{assembly::Arrays, explicit::Settings};"),
         ("report/table.rs", "use crate::{\n    ensemble::Row,\n    study::{Arm, Study},\n};"),
         ("lib.rs", "pub mod law;"),
+        (
+            "critic/causes/ranking.rs",
+            "use crate::critic::causes::network::Network;\nuse crate::critic::simulate::World;",
+        ),
+        (
+            "critic/simulate/world.rs",
+            "use crate::math::ln;\n#[cfg(test)]\nmod tests {\n    use crate::critic::verdict::Judge;\n}",
+        ),
+        ("critic/simulate/world/tests.rs", "use crate::critic::verdict::Judge;"),
+        ("critic/method.rs", "use crate::critic::verdict::Judge;"),
     ];
     for (path, text) in good {
         assert_eq!(violations(path, text), Vec::<String>::new(), "{path}: {text}");

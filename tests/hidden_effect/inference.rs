@@ -81,11 +81,12 @@ pub struct Said {
     pub open: Vec<String>,
     /// The most likely cause with its probability.
     pub likeliest: (String, f64),
-    /// What the guard says of the causes in question: the share of a cause's own campaigns that fit no better.
-    pub guard: Vec<(String, f64)>,
-    /// Share of the evidence of the causes that were looked at closely.
+    /// The posterior predictive check of the causes in question: the share of a cause's own campaigns that fit no better.
+    #[serde(rename = "guard")]
+    pub check: Vec<(String, f64)>,
+    /// Share of the evidence of the causes that were examined.
     pub evidence: Vec<(String, f64)>,
-    /// Share of the evidence of the best pair, where pairs were looked at, and what the guard says of it.
+    /// Share of the evidence of the best pair, where pairs were examined, and its posterior predictive check.
     pub pair: Option<([String; 2], f64, Option<f64>)>,
 }
 
@@ -144,17 +145,17 @@ impl<'k> Judge<'k> {
             Verdict::Ambiguous(causes) => (Word::Ambiguous, causes.iter().map(name).collect()),
             Verdict::Unexplained => (Word::Unexplained, Vec::new()),
         };
-        let ranked = &found.seeming.ranked;
+        let ranked = &found.finding.ranked;
         let mut causes = ranked.causes.iter();
         let likeliest = causes.find_map(|(cause, p)| Some((name(&(*cause)?), *p))).expect("a catalogue");
         let set = ranked.set.iter().map(name).collect();
         let is_found = found.verdict != Verdict::NothingFound;
         let open = if is_found { found.left_open().iter().map(name).collect() } else { Vec::new() };
-        let guard = found.looked_at.iter().filter_map(|own| Some((name(&own.cause), own.guard?))).collect();
-        let evidence = found.looked_at.iter().map(|own| (name(&own.cause), own.evidence)).collect();
+        let check = found.examined.iter().filter_map(|own| Some((name(&own.cause), own.check?))).collect();
+        let evidence = found.examined.iter().map(|own| (name(&own.cause), own.evidence)).collect();
         let best = found.pairs.first();
-        let pair = best.map(|own| ([0, 1].map(|k| name(&own.cause[k])), own.evidence, own.guard));
-        Said { p_value: found.seeming.p_value, verdict, names, set, open, likeliest, guard, evidence, pair }
+        let pair = best.map(|own| ([0, 1].map(|k| name(&own.cause[k])), own.evidence, own.check));
+        Said { p_value: found.finding.p_value, verdict, names, set, open, likeliest, check, evidence, pair }
     }
 }
 

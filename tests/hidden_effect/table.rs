@@ -367,7 +367,7 @@ pub mod tests {
                 open: Vec::new(),
                 names,
                 likeliest,
-                guard: Vec::new(),
+                check: Vec::new(),
                 evidence: Vec::new(),
                 pair: None,
             };

@@ -188,7 +188,7 @@ fn strong_effects_that_the_data_identify_are_named() {
     let cases: [(&'static str, &'static [(&'static str, f64)]); 3] = [
         ("gauge_offset", &[("offset_m", 3e-3)]),
         ("joint_closure", &[("initial_pa_per_m", 6e6), ("closure_m", 3e-4)]),
-        // Half of a joint in contact is found once in three: the alarm also looks for causes beyond their priors.
+        // Half of a joint in contact is found once in three: the test for a discrepancy also looks for causes beyond their priors.
         ("contact_area", &[("share", 0.35)]),
     ];
     for (name, parameters) in cases {

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use pirca::critic::{Bank, Design, Doubt, Plan, Seen, Told, World, doubts};
+use pirca::critic::{Bank, DataNote, Design, Extent, Plan, Seen, World, data_notes};
 use pirca::math::radians;
 use pirca::random::Streams;
 use pirca::study::{MeasuredKind, MeasuredQuantity, Measurement, Study, described, nuisances};
@@ -107,15 +107,15 @@ fn hidden_effects_are_not_taken_for_slips_of_the_pen() {
             });
             let campaign = Study { measured: shown.collect(), ..study.clone() };
             judged += 1;
-            let found = doubts(&campaign, &Design::of(&campaign).0);
-            for doubt in found {
-                let words = format!("{}: {doubt}", cause.map_or("nothing", |c| mechanisms[c].name));
-                match doubt {
+            let found = data_notes(&campaign, &Design::of(&campaign).0);
+            for note in found {
+                let words = format!("{}: {note}", cause.map_or("nothing", |c| mechanisms[c].name));
+                match note {
                     // A strong effect may move a wall so far.
-                    Doubt::ThickerThanWall { .. } => {}
-                    Doubt::OtherUnit { told: Told::Part, .. } => parts.push(words),
+                    DataNote::ThickerThanWall { .. } => {}
+                    DataNote::OtherUnit { extent: Extent::Part, .. } => parts.push(words),
                     // What stands on once a part has fallen is stockier than the whole wall.
-                    Doubt::Overturned { .. }
+                    DataNote::Overturned { .. }
                         if cause.is_some_and(|c| PARTS_FALL.contains(&mechanisms[c].name)) =>
                     {
                         overturned.push(words)

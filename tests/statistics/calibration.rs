@@ -1,8 +1,8 @@
 //! Calibration of kn: closed forms, and how often its intervals hold a known truth.
 
 use crate::support::{close, near_share, share};
-use pirca::critic::{AnglePoint, Calibration, End, Monotone, calibrate};
-use pirca::math::{degrees, exp, ln, radians};
+use pirca::critic::{AnglePoint, Calibration, End, calibrate};
+use pirca::math::{Monotone, degrees, exp, ln, radians};
 use pirca::random::{Family, Stream, Streams};
 use pirca::stats::student_quantile;
 use pirca::study::{MeasuredKind, MeasuredQuantity, Measurement};

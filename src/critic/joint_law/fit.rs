@@ -52,7 +52,7 @@ pub struct Fit {
 }
 
 impl Fit {
-    /// Of some of the specimens, from a first guess; `None` where no walls can be told of.
+    /// Of some of the specimens, from a first guess; `None` where no walls can be simulated.
     pub fn of(
         tested: &Tested<'_>,
         freedom: Freedom,
@@ -112,7 +112,7 @@ impl Fit {
     }
 
     /// The logarithm of the density that it gives to the readings of a specimen that it has not seen; `None` where it cannot tell.
-    pub fn foretells(&self, tested: &Tested<'_>, specimen: usize) -> Option<f64> {
+    pub fn predicts(&self, tested: &Tested<'_>, specimen: usize) -> Option<f64> {
         let said = said(tested, self.freedom, &[specimen], &self.unknowns)?.pop()?;
         let covariance = &said.covariance + &said.slopes * &self.covariance * said.slopes.transpose();
         let root = covariance.cholesky()?;
@@ -240,15 +240,15 @@ fn said(
     Some(specimens.iter().map(of).collect())
 }
 
-/// What a specimen's readings lack of what its walls show; 0 of a bound that is kept.
+/// What a specimen's readings are below what its walls show; 0 of a bound that is kept.
 fn off(tested: &Tested<'_>, specimen: usize, shown: &Shown) -> Vec<f64> {
     let readings = tested.specimens[specimen].readings.iter().zip(&shown.means);
-    let lacks = readings.map(|(m, mean)| match m.kind {
+    let below = readings.map(|(m, mean)| match m.kind {
         MeasuredKind::Below if *mean < m.value => 0.0,
         MeasuredKind::Above if *mean > m.value => 0.0,
         _ => m.value - mean,
     });
-    lacks.collect()
+    below.collect()
 }
 
 /// What all specimens know, and towards where they pull.

@@ -1,4 +1,4 @@
-//! Whether a law foretells specimens that it has not seen: half of each family's specimens from the other half, and back.
+//! Whether a law predicts specimens that it has not seen: half of each family's specimens from the other half, and back.
 
 use crate::critic::joint_law::fit::{Fit, Freedom};
 use crate::critic::joint_law::tested::Tested;
@@ -33,7 +33,7 @@ pub(super) fn gained(tested: &Tested<'_>, free: &Fit, level: &Fit) -> Option<Law
         let free = Fit::of(tested, Freedom::Knots, known, &free.unknowns)?;
         let level = Fit::of(tested, Freedom::Level, known, &level.unknowns)?;
         for &at in &folds[fold] {
-            gains.push(free.foretells(tested, at)? - level.foretells(tested, at)?);
+            gains.push(free.predicts(tested, at)? - level.predicts(tested, at)?);
         }
     }
     let sums = [0, 1].map(|fold| gains[fold].iter().sum::<f64>());

@@ -2,12 +2,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::critic::diagnose::Design;
 use crate::critic::joint_law::fit::{Fit, Freedom};
 use crate::critic::joint_law::form::Knots;
 use crate::critic::joint_law::gain::{LawGain, gained};
 use crate::critic::joint_law::named::{Form, Nearness};
 use crate::critic::joint_law::tested::{KNOTS, Tested};
+use crate::critic::simulate::Design;
 use crate::math::{exp, ln};
 use crate::random::standard_normal::{cdf, quantile};
 use crate::study::{Arm, Nuisance, Study};
@@ -164,7 +164,7 @@ impl LearntLaw {
         }
     }
 
-    /// Whether it is taken on: it foretells what it has not seen.
+    /// Whether it is taken on: it predicts what it has not seen.
     pub fn is_accepted(&self) -> bool {
         self.gain.as_ref().is_some_and(|gain| gain.is_accepted)
     }

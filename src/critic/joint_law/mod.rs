@@ -7,9 +7,9 @@
 //! same stones at every try, and what is left open by Laplace's approximation about it.
 //!
 //! Tilting shows how joints close on from the pressure that they stand under. What they closed by before that nobody has seen: the law is
-//! told from there on, and a table that starts at 0 has something for the rest that no reading speaks of.
+//! known from there on, and a table that starts at 0 has something for the rest that no reading speaks of.
 //!
-//! It is learnt from families whose joints are stated alike, and it is taken on only where it foretells specimens that it has not
+//! It is learnt from families whose joints are stated the same, and it is taken on only where it predicts specimens that it has not
 //! seen better than joints of constant stiffness do.
 
 mod fit;

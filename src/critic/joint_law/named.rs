@@ -74,7 +74,7 @@ impl Form {
         }
     }
 
-    /// How near it comes to a law that is told at these stresses with this information.
+    /// How near it comes to a law that is known at these stresses with this information.
     pub fn near(self, stresses: &[f64], ln_compliance: &[f64], information: &DMatrix<f64>) -> Nearness {
         let lost = |logs: &[f64]| {
             let parameters: Vec<f64> = logs.iter().map(|x| exp(*x)).collect();

@@ -2,9 +2,9 @@
 
 use rayon::prelude::*;
 
-use crate::critic::diagnose::{Design, Specimen};
+use crate::critic::compare::{Simulated, at_rest, simulated};
 use crate::critic::joint_law::form::Knots;
-use crate::critic::simulated::{Simulated, at_rest, simulated};
+use crate::critic::simulate::{Design, Specimen};
 use crate::ensemble::{Row, Task, build, evaluate, is_random, weight};
 use crate::math::{atan, cos, ln, radians, tan};
 use crate::protocol::Protocol;
@@ -38,7 +38,7 @@ pub struct Shown {
     pub apart: Vec<Vec<f64>>,
 }
 
-/// Specimens whose joints are stated alike, and the study that simulates them.
+/// Specimens whose joints are stated the same, and the study that simulates them.
 pub struct Tested<'s> {
     study: Study,
     nuisances: &'s [Nuisance; 3],
@@ -46,7 +46,7 @@ pub struct Tested<'s> {
     pub families: Vec<usize>,
     /// The specimens.
     pub specimens: Vec<Specimen>,
-    /// The knots that a law is told by.
+    /// The knots of a law.
     pub knots: Knots,
     /// Stresses (Pa) that press on the beds of these walls: a quarter of the mean on the lowest one, and that under the toe at the
     /// largest tilt at which a wall was seen.
@@ -71,10 +71,10 @@ impl<'s> Tested<'s> {
             return None;
         }
         let arms = &study.arms;
-        let alike = |family: &usize| {
+        let same_joints = |family: &usize| {
             arms[*family].joint == arms[first].joint && arms[*family].kn_points == arms[first].kn_points
         };
-        let families: Vec<usize> = families.into_iter().filter(alike).collect();
+        let families: Vec<usize> = families.into_iter().filter(same_joints).collect();
         families.iter().all(|&family| arms[family].is_free_to_close()).then_some(())?;
         let specimens: Vec<Specimen> =
             design.specimens.iter().filter(|specimen| families.contains(&specimen.family)).cloned().collect();

@@ -3,11 +3,14 @@
 use std::num::NonZero;
 use std::path::Path;
 
+use super::map::cell;
+use super::observable::observables;
 use super::*;
+use crate::critic::compare::Simulated;
 use crate::critic::tests::{measurement, study};
 use crate::ensemble::Silent;
 use crate::math::{degrees, radians};
-use crate::study::{MeasuredKind, MeasuredQuantity, Measurement, described};
+use crate::study::{Described, MeasuredKind, MeasuredQuantity, Measurement, Study, described};
 
 fn mechanisms(names: &[&str]) -> Vec<Described> {
     let distributions = Path::new(env!("CARGO_MANIFEST_DIR")).join("distributions");
@@ -86,8 +89,8 @@ fn each_mechanism_changes_what_it_can_change() {
     // Of a reading that is only known to be below 2 mm, what lies above 2 mm counts.
     let bound = value(&map, "gauge_offset", Q::DisplacementCentre);
     let beyond = base(Q::DisplacementCentre) + offset - 2e-3;
-    assert!((bound.told.value.expect("two walls") - beyond).abs() < 1e-12, "{bound:?} {beyond}");
-    assert_eq!(value(&map, "gauge_scale", Q::DisplacementCentre).told.value, Some(0.0));
+    assert!((bound.resolved.value.expect("two walls") - beyond).abs() < 1e-12, "{bound:?} {beyond}");
+    assert_eq!(value(&map, "gauge_scale", Q::DisplacementCentre).resolved.value, Some(0.0));
     // What has no number has a name.
     let late =
         map.observables.iter().position(|o| o.tilt.is_some_and(|t| degrees(t) > 30.0)).expect("measured");

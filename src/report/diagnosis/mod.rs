@@ -1,9 +1,9 @@
 //! The verdict on a base model: `verdict.json`, the figures, the page that shows them, and what is printed.
 
+mod components;
 mod conclusion;
 mod family;
 mod family_plot;
-mod form;
 mod page;
 mod residual;
 mod residual_plot;

@@ -75,7 +75,7 @@ pub fn page(summary: &DiagnosisSummary, drawings: &[Drawing]) -> String {
     }
     body.push_str(&pairs(summary).map_or_else(String::new, |words| paragraph(&words)));
     if summary.verdict == "unexplained" {
-        let mut sentences: Vec<Vec<String>> = summary.form.iter().map(|bent| vec![bent.sentence()]).collect();
+        let mut sentences: Vec<Vec<String>> = summary.form.iter().map(|own| vec![own.sentence()]).collect();
         if sentences.is_empty() {
             sentences.push(vec![NO_FORM.to_owned()]);
         }
@@ -107,9 +107,9 @@ pub fn page(summary: &DiagnosisSummary, drawings: &[Drawing]) -> String {
 
 fn cause(cause: &CauseEntry) -> Vec<String> {
     let name = if cause.in_verdict { format!("{} (in the verdict)", cause.id) } else { cause.id.to_string() };
-    let [evidence, guard] = [cause.evidence, cause.guard_p_value].map(or_dash);
+    let [evidence, check] = [cause.evidence, cause.guard_p_value].map(or_dash);
     let parameters: Vec<String> = cause.parameters.iter().map(|parameter| parameter.words()).collect();
-    vec![name, format!("{:.3}", cause.probability), evidence, guard, parameters.join("; ")]
+    vec![name, format!("{:.3}", cause.probability), evidence, check, parameters.join("; ")]
 }
 
 fn paragraph(words: &str) -> String {

@@ -9,7 +9,7 @@ use crate::critic::{
 };
 use crate::math::exp;
 use crate::report::advice::Advice;
-use crate::report::diagnosis::form::BentEntry;
+use crate::report::diagnosis::components::ComponentEntry;
 use crate::report::diagnosis::residual::{GroupEntry, ResidualEntry};
 use crate::report::gain::GainSummary;
 use crate::report::number::{compact, significant};
@@ -36,7 +36,7 @@ pub struct DiagnosisSummary {
     pub verdict: &'static str,
     /// The causes that the verdict speaks of, then all others; probabilities when all are equally likely beforehand.
     pub causes: Vec<CauseEntry>,
-    /// Pairs of causes that were looked at because no one explains what is wrong, that with most of the evidence first.
+    /// Pairs of causes that were examined because no one explains the discrepancy, that with most of the evidence first.
     pub pairs: Vec<PairEntry>,
     /// Probability of the base model among them.
     pub base_probability: f64,
@@ -44,7 +44,7 @@ pub struct DiagnosisSummary {
     pub nameless_probability: f64,
     /// Share of campaigns without any effect in which something is as far off.
     pub p_value: f64,
-    /// The same of each way of looking alone.
+    /// The same by each statistic alone.
     pub looks: LooksEntry,
     /// What is off, the furthest first.
     pub off: Vec<OffEntry>,
@@ -52,8 +52,8 @@ pub struct DiagnosisSummary {
     pub residuals: Vec<ResidualEntry>,
     /// The same of the means over the specimens, by family, quantity and tilt.
     pub groups: Vec<GroupEntry>,
-    /// Where the base model with fitted joints surely lacks something, if that is smooth over the tilt.
-    pub form: Vec<BentEntry>,
+    /// Where the base model with fitted joints surely misses something that is smooth over the tilt.
+    pub form: Vec<ComponentEntry>,
     /// What was not used of the measurements.
     pub unused: Vec<UnusedEntry>,
     /// What looks odd about the measurements and was judged all the same.
@@ -61,7 +61,7 @@ pub struct DiagnosisSummary {
     /// How reliable verdicts on such data are.
     pub self_test: Vec<SelfTestEntry>,
     /// The same where something is off that is in no catalogue: any name is a wrong one.
-    pub self_test_nameless: NamelessEntry,
+    pub self_test_nameless: UnmodelledEntry,
     /// What the data cannot tell, and what would.
     pub advice: Advice,
     /// Folders of the extended studies, beside this file: one for each cause that the verdict speaks of, or for its pair.
@@ -87,7 +87,7 @@ impl DataEntry {
     }
 }
 
-/// Shares of campaigns without any effect that surprise as much, by the way of looking.
+/// Shares of campaigns without any effect that are as far off, by each statistic.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct LooksEntry {
     /// By the number that is furthest off.
@@ -105,19 +105,19 @@ pub struct CauseEntry {
     pub id: &'static str,
     /// Its probability.
     pub probability: f64,
-    /// Its share of the evidence of the causes that were looked at closely and of the base model; null for the others.
+    /// Its share of the evidence of the causes that were examined and of the base model; null for the others.
     pub evidence: Option<f64>,
     /// Whether the verdict speaks of it.
     pub in_verdict: bool,
     /// What speaks against it: `readings` where it fits them worse than nearly all of its own campaigns, `looks` where nine in
     /// ten of its campaigns look more like it, `evidence` where that leaves it hardly any probability; null where nothing does.
     pub excluded_by: Option<&'static str>,
-    /// Share of its own campaigns that fit the readings no better; null where the guard was not asked.
+    /// Share of its own campaigns that fit the readings no better; null where it was not checked.
     pub guard_p_value: Option<f64>,
     /// Share of the campaigns that its physical prior predicts which are as far out, along what the data pin down; null where the
     /// verdict does not speak of it.
     pub conflict_p_value: Option<f64>,
-    /// Its parameters, as far as the data tell them; empty where it was not looked at closely.
+    /// Its parameters, as far as the data tell them; empty where it was not examined.
     pub parameters: Vec<ParameterEntry>,
 }
 
@@ -135,11 +135,11 @@ pub struct UnusedEntry {
 pub struct PairEntry {
     /// Names of the mechanisms.
     pub ids: [&'static str; 2],
-    /// Share of the evidence of all pairs, of the causes that were looked at closely and of the base model.
+    /// Share of the evidence of all pairs, of the causes that were examined and of the base model.
     pub evidence: f64,
     /// Whether the verdict names the pair.
     pub in_verdict: bool,
-    /// Share of its own campaigns that fit the readings no better; null where the guard was not asked.
+    /// Share of its own campaigns that fit the readings no better; null where it was not checked.
     pub guard_p_value: Option<f64>,
     /// Share of the campaigns that the physical priors of both predict which are as far out; null where the verdict does not name it.
     pub conflict_p_value: Option<f64>,
@@ -220,11 +220,11 @@ pub struct OffEntry {
 
 /// What the self-test says of effects that are in no catalogue.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-pub struct NamelessEntry {
-    /// Campaigns, by how they seem: before evidence and guard.
+pub struct UnmodelledEntry {
+    /// Campaigns, by the ranking alone: before evidence and check.
     #[serde(flatten)]
     pub all: Counted,
-    /// Some of them by all that a diagnosis does.
+    /// Some of them by the whole diagnosis.
     pub judged: Counted,
 }
 
@@ -233,12 +233,12 @@ pub struct NamelessEntry {
 pub struct SelfTestEntry {
     /// What was hidden; "nothing" where nothing was.
     pub hidden: &'static str,
-    /// Campaigns, by how they seem: before evidence and guard.
+    /// Campaigns, by the ranking alone: before evidence and check.
     #[serde(flatten)]
     pub all: Counted,
     /// The third of them that the cause moves most.
     pub strong: Counted,
-    /// Some of them by all that a diagnosis does.
+    /// Some of them by the whole diagnosis.
     pub judged: Counted,
 }
 
@@ -269,7 +269,7 @@ impl DiagnosisSummary {
                 let first = before.map(|other| mechanisms[*other].parameters.len()).sum();
                 parameters(mechanisms, &mechanisms[cause], first, draws)
             };
-            match (own, diagnosis.looked_at(cause)) {
+            match (own, diagnosis.examined(cause)) {
                 (Some((causes, draws)), _) => parameters(causes, draws),
                 (None, Some(own)) => parameters(&[cause], &own.draws),
                 (None, None) => Vec::new(),
@@ -279,36 +279,36 @@ impl DiagnosisSummary {
             ids: own.cause.map(|cause| mechanisms[cause].name),
             evidence: own.evidence,
             in_verdict: diagnosis.verdict == Verdict::NamedPair(own.cause),
-            guard_p_value: own.guard,
+            guard_p_value: own.check,
             conflict_p_value: own.conflict,
         });
-        let ranked = &diagnosis.seeming.ranked;
+        let ranked = &diagnosis.finding.ranked;
         let mut causes: Vec<CauseEntry> = ranked
             .causes
             .iter()
             .filter_map(|&(cause, probability)| {
                 let cause = cause?;
-                let closely = diagnosis.looked_at(cause);
+                let examined = diagnosis.examined(cause);
                 Some(CauseEntry {
                     id: mechanisms[cause].name,
                     probability,
-                    evidence: closely.map(|own| own.evidence),
+                    evidence: examined.map(|own| own.evidence),
                     in_verdict: spoken.contains(&cause),
                     excluded_by: diagnosis.excluded(cause).map(|by| match by {
-                        Excluded::ByReadings => "readings",
-                        Excluded::ByLooks => "looks",
+                        Excluded::ByCheck => "readings",
+                        Excluded::ByRanking => "looks",
                         Excluded::ByEvidence => "evidence",
                     }),
-                    guard_p_value: closely.and_then(|own| own.guard),
-                    conflict_p_value: closely.and_then(|own| own.conflict),
+                    guard_p_value: examined.and_then(|own| own.check),
+                    conflict_p_value: examined.and_then(|own| own.conflict),
                     parameters: drawn(cause),
                 })
             })
             .collect();
         causes.sort_by_key(|cause| !cause.in_verdict);
         let mut off: Vec<OffEntry> = diagnosis
-            .seeming
-            .wrong
+            .finding
+            .discrepancy
             .excess
             .iter()
             .filter_map(|(feature, excess)| {
@@ -317,7 +317,7 @@ impl DiagnosisSummary {
             .collect();
         off.sort_by(|a, b| b.in_sd.abs().total_cmp(&a.in_sd.abs()));
         let base = ranked.causes.iter().find(|(cause, _)| cause.is_none());
-        let [furthest, together, likeness] = diagnosis.seeming.looks;
+        let [furthest, together, likeness] = diagnosis.finding.p_by_statistic;
         let tested = self_test.rows.iter().map(|row| SelfTestEntry {
             hidden: row.cause.map_or("nothing", |cause| mechanisms[cause].name),
             all: row.all,
@@ -334,17 +334,20 @@ impl DiagnosisSummary {
             causes,
             pairs: pairs.collect(),
             base_probability: base.map_or(0.0, |(_, probability)| *probability),
-            nameless_probability: ranked.nameless,
-            p_value: diagnosis.seeming.p_value,
+            nameless_probability: ranked.unmodelled,
+            p_value: diagnosis.finding.p_value,
             looks: LooksEntry { furthest, together, likeness },
             off,
             residuals: Vec::new(),
             groups: Vec::new(),
-            form: diagnosis.form.iter().filter_map(|bent| BentEntry::of(study, bent)).collect(),
+            form: diagnosis.components.iter().filter_map(|own| ComponentEntry::of(study, own)).collect(),
             unused: unused(design),
             notes: Vec::new(),
             self_test: tested.collect(),
-            self_test_nameless: NamelessEntry { all: self_test.nameless[0], judged: self_test.nameless[1] },
+            self_test_nameless: UnmodelledEntry {
+                all: self_test.unmodelled[0],
+                judged: self_test.unmodelled[1],
+            },
             advice: Advice::default(),
             extended: Vec::new(),
             gain: None,

@@ -45,7 +45,7 @@ pub fn diagnosis_text(summary: &DiagnosisSummary) -> String {
     text.push_str(&causes(summary));
     if summary.verdict == "unexplained" {
         text.push_str(&format!("\n{}", wrapped("", FORM)));
-        summary.form.iter().for_each(|bent| text.push_str(&wrapped("  - ", &bent.sentence())));
+        summary.form.iter().for_each(|own| text.push_str(&wrapped("  - ", &own.sentence())));
         if summary.form.is_empty() {
             text.push_str(&format!("  {NO_FORM}\n"));
         }
@@ -65,9 +65,9 @@ fn causes(summary: &DiagnosisSummary) -> String {
     let mut rows = vec![row(head)];
     for cause in summary.causes.iter().take(CAUSES) {
         let mark = if cause.in_verdict { "*" } else { "" };
-        let [evidence, guard] = [cause.evidence, cause.guard_p_value].map(or_dash);
+        let [evidence, check] = [cause.evidence, cause.guard_p_value].map(or_dash);
         let [name, mark] = [cause.id, mark].map(String::from);
-        rows.push(row([name, mark, format!("{:.3}", cause.probability), evidence, guard]));
+        rows.push(row([name, mark, format!("{:.3}", cause.probability), evidence, check]));
     }
     for (what, probability) in others(summary) {
         let dash = || "-".to_string();
@@ -148,7 +148,7 @@ pub(super) fn worth_saying(summary: &DiagnosisSummary) -> Vec<&OffEntry> {
     summary.off.iter().filter(|off| off.in_sd.abs() >= WORTH_SAYING).collect()
 }
 
-/// The pair with most of the evidence, where pairs were looked at.
+/// The pair with most of the evidence, where pairs were examined.
 pub(super) fn pairs(summary: &DiagnosisSummary) -> Option<String> {
     let (pair, limits) = (summary.pairs.first()?, Limits::default());
     Some(format!(
@@ -160,8 +160,8 @@ pub(super) fn pairs(summary: &DiagnosisSummary) -> Option<String> {
         significant(pair.evidence, 2),
         or_dash(pair.guard_p_value),
         limits.pair.named,
-        limits.pair.guard,
-        limits.pair.nameless,
+        limits.pair.check,
+        limits.pair.unmodelled,
         limits.sure
     ))
 }
@@ -204,8 +204,8 @@ pub(super) fn reliability(summary: &DiagnosisSummary) -> Vec<String> {
         rows.iter().map(|row| of(row)).sum::<Counted>()
     };
     let (all, strong) = (sum(&hidden, |row| row.all), sum(&hidden, |row| row.strong));
-    let (judged, closely) = (sum(&hidden, |row| row.judged), sum(&nothing, |row| row.judged));
-    let (still, nameless) = (sum(&nothing, |row| row.all), summary.self_test_nameless.judged);
+    let (judged, nothing_judged) = (sum(&hidden, |row| row.judged), sum(&nothing, |row| row.judged));
+    let (still, unmodelled) = (sum(&nothing, |row| row.all), summary.self_test_nameless.judged);
     let counted = |part: u64, whole: u64| format!("{part} of {whole}, {}", share(part, whole));
     let mut sentences = vec![
         format!(
@@ -235,8 +235,8 @@ pub(super) fn reliability(summary: &DiagnosisSummary) -> Vec<String> {
              catalogue in {}.",
             counted(judged.named, judged.campaigns),
             counted(judged.misnamed, judged.campaigns),
-            counted(closely.misnamed, closely.campaigns),
-            counted(nameless.misnamed, nameless.campaigns)
+            counted(nothing_judged.misnamed, nothing_judged.campaigns),
+            counted(unmodelled.misnamed, unmodelled.campaigns)
         ),
     });
     sentences

@@ -6,8 +6,9 @@ use std::path::Path;
 
 use super::figure::folder;
 use crate::critic::{
-    Baseline, Caught, Contrast, Counted, Design, Diagnosis, Feature, LookedAt, Made, Offer, Offered, Ranked,
-    Seeming, SelfTest, SelfTestRow, Truth, Unused, Verdict, Wrong, base_curves, cause_curves, made,
+    Baseline, Contrast, Counted, Design, DetectionLimit, Diagnosis, Discrepancy, Examined, Feature, Finding,
+    Made, Offer, Offered, Ranked, SelfTest, SelfTestRow, Truth, Unused, Verdict, base_curves, cause_curves,
+    made,
 };
 use crate::report::Advice;
 use crate::report::diagnosis::{
@@ -56,11 +57,11 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>) {
         reading.order = Some(place as u32 % 9 + 1);
     }
     let cause = |name: &str| made.mechanisms.iter().position(|m| m.name == name).expect("in the catalogue");
-    let guard = |cause: usize| {
+    let examined = |cause: usize| {
         let parameters = vec![0.5; made.mechanisms[cause].parameters.len()];
         let joints = vec![[0.0; 3]; world.joint_kinds()];
         let draws = vec![Truth { causes: Some(cause).into(), parameters, joints }];
-        LookedAt { cause, guard: Some(0.4), conflict: Some(0.3), evidence: 0.45, draws }
+        Examined { cause, check: Some(0.4), conflict: Some(0.3), evidence: 0.45, draws }
     };
     let causes = [cause("creep"), cause("gauge_offset")];
     let rows = [None, Some(causes[0])].map(|cause| SelfTestRow {
@@ -71,13 +72,13 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>) {
         covered: 4,
         set_size: 1.5,
         with: BTreeMap::new(),
-        caught: Vec::new(),
+        detection_limits: Vec::new(),
     });
     let diagnosis = Diagnosis {
-        seeming: Seeming {
+        finding: Finding {
             p_value: 0.001,
-            looks: [0.004, 0.001, 0.02],
-            wrong: Wrong {
+            p_by_statistic: [0.004, 0.001, 0.02],
+            discrepancy: Discrepancy {
                 excess: BTreeMap::from([(Feature::Mean(1, Contrast::Level), Some(4.2))]),
                 joints: vec![[0.0; 3]],
                 distance: 30.0,
@@ -90,18 +91,18 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>) {
                     (Some(cause("lean")), 0.036),
                     (Some(cause("density")), 0.004),
                 ],
-                nameless: 0.25,
+                unmodelled: 0.25,
                 set: vec![causes[0], causes[1], cause("density")],
             },
         },
-        looked_at: causes.map(guard).to_vec(),
+        examined: causes.map(examined).to_vec(),
         pairs: Vec::new(),
-        form: Vec::new(),
+        components: Vec::new(),
         verdict: Verdict::Ambiguous(causes.to_vec()),
     };
     let residuals = Baseline::new(&world, &design, 2).residuals(&measured);
-    let nameless = [10, 5].map(|campaigns| Counted { campaigns, found: 3, named: 0, misnamed: 1 });
-    let test = SelfTest { rows: rows.to_vec(), nameless };
+    let unmodelled = [10, 5].map(|campaigns| Counted { campaigns, found: 3, named: 0, misnamed: 1 });
+    let test = SelfTest { rows: rows.to_vec(), unmodelled };
     let summary = DiagnosisSummary::of(&made.study, 3, "00ff", &made.mechanisms, &design, &diagnosis, &test)
         .beside(&made.study, &residuals);
     let (base, under) = (base_curves(&world, &design, 4), cause_curves(&world, &design, &diagnosis, 4));
@@ -156,10 +157,10 @@ fn what_is_not_explained_excludes_causes_and_says_why() {
 }
 
 #[test]
-fn every_cause_is_caught_seen_in_part_or_hardly_seen() {
+fn every_cause_is_detected_seen_in_part_or_hardly_seen() {
     let made = made();
     let cause = |name: &str| made.mechanisms.iter().position(|m| m.name == name).expect("in the catalogue");
-    let row = |name: &str, found: u64, caught: &[Caught]| SelfTestRow {
+    let row = |name: &str, found: u64, limits: &[DetectionLimit]| SelfTestRow {
         cause: Some(cause(name)),
         all: Counted { campaigns: 100, found, named: 0, misnamed: 0 },
         strong: Counted { campaigns: 33, found: found / 3, named: 0, misnamed: 0 },
@@ -167,9 +168,9 @@ fn every_cause_is_caught_seen_in_part_or_hardly_seen() {
         covered: 0,
         set_size: 0.0,
         with: BTreeMap::new(),
-        caught: caught.to_vec(),
+        detection_limits: limits.to_vec(),
     };
-    let from = |score, interval, below| Caught { parameter: 0, score, interval, below };
+    let from = |score, interval, below| DetectionLimit { parameter: 0, score, interval, below };
     let both = [from(Some(1.0), [Some(0.0), None], false), from(Some(-1.0), [Some(-2.0), Some(0.0)], true)];
     let rows = vec![
         row("creep", 90, &[from(None, [None, Some(1.0)], false)]),
@@ -177,7 +178,7 @@ fn every_cause_is_caught_seen_in_part_or_hardly_seen() {
         row("joint_closure", 49, &[]),
         row("cohesion", 12, &[]),
     ];
-    let test = SelfTest { rows, nameless: [Counted::default(); 2] };
+    let test = SelfTest { rows, unmodelled: [Counted::default(); 2] };
     let advice = Advice::of(&test, &[], true, &made.mechanisms);
     let text = advice.text();
     for part in [

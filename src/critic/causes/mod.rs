@@ -1,0 +1,12 @@
+//! Which causes explain what is off: a ranking by how campaigns look, and the evidence of all readings.
+
+mod evidence;
+mod likelihood;
+mod network;
+mod ranking;
+mod weighing;
+
+pub use evidence::{Evidence, evidence, rough_evidence};
+pub use network::softmax;
+pub use ranking::{COVERED, Ranked, Ranking, inputs};
+pub use weighing::{reweighed, weighed};

@@ -1,0 +1,80 @@
+//! What is held out of a campaign: each specimen in turn, the largest tilts of all, and all families but one.
+
+use crate::critic::simulate::{Campaign, Design};
+
+/// Of a specimen's tilts this share, the largest, is held out.
+const LARGEST: f64 = 1.0 / 3.0;
+
+/// What is held out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum HeldOut {
+    /// All that was read on a specimen (its place in the design).
+    Specimen(usize),
+    /// The upper third of every specimen's tilts, at least one of them, and its collapse angle.
+    LargestTilts,
+    /// All that was read on other families than this one (its arm).
+    OtherFamilies(usize),
+}
+
+/// A campaign in two parts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fold {
+    /// What is held out.
+    pub held_out: HeldOut,
+    /// Whether a reading is known, by specimen and reading.
+    pub known: Vec<Vec<bool>>,
+}
+
+impl Fold {
+    /// All folds that leave something to learn from: specimens, tilts, families.
+    pub fn all(design: &Design) -> Vec<Fold> {
+        let specimens = 0..design.specimens.len();
+        let mut folds: Vec<Fold> = specimens
+            .map(|out| {
+                let known = design.specimens.iter().enumerate();
+                let known = known.map(|(index, specimen)| vec![index != out; specimen.readings.len()]);
+                Fold { held_out: HeldOut::Specimen(out), known: known.collect() }
+            })
+            .collect();
+        let known = design.specimens.iter().map(|specimen| {
+            let tilts = specimen.tilts();
+            let out = (LARGEST * tilts.len() as f64).ceil() as usize;
+            let last = tilts.len().checked_sub(out + 1).map_or(f64::NEG_INFINITY, |last| tilts[last]);
+            specimen.readings.iter().map(|m| m.tilt.is_some_and(|tilt| tilt <= last)).collect()
+        });
+        folds.push(Fold { held_out: HeldOut::LargestTilts, known: known.collect() });
+        folds.extend(design.families().into_iter().map(|family| {
+            let known = design.specimens.iter();
+            let known = known.map(|own| vec![own.family == family; own.readings.len()]).collect();
+            Fold { held_out: HeldOut::OtherFamilies(family), known }
+        }));
+        folds.retain(|fold| {
+            let all = || fold.known.iter().flatten();
+            all().any(|known| *known) && all().any(|known| !known)
+        });
+        folds
+    }
+
+    /// The design that is known; specimens of which nothing is known are not in it.
+    pub fn design(&self, design: &Design) -> Design {
+        let mut part = design.clone();
+        for (specimen, known) in part.specimens.iter_mut().zip(&self.known) {
+            specimen.readings = kept(&specimen.readings, known);
+        }
+        part.specimens.retain(|specimen| !specimen.readings.is_empty());
+        part
+    }
+
+    /// What is known of a campaign, in the order of [`Self::design`].
+    pub fn campaign(&self, campaign: &Campaign) -> Campaign {
+        let specimens = campaign.specimens.iter().zip(&self.known).map(|(seen, known)| kept(seen, known));
+        Campaign {
+            specimens: specimens.filter(|seen| !seen.is_empty()).collect(),
+            apart: campaign.apart.clone(),
+        }
+    }
+}
+
+fn kept<T: Clone>(all: &[T], known: &[bool]) -> Vec<T> {
+    all.iter().zip(known).filter(|(_, known)| **known).map(|(one, _)| one.clone()).collect()
+}

@@ -1,0 +1,98 @@
+//! The method: what a measured campaign says of the base model, from simulated campaigns to advice.
+
+use crate::critic::advise::{Offered, SelfTest, offers};
+use crate::critic::discrepancy::{Baseline, Residuals};
+use crate::critic::extend::{Extension, extension};
+use crate::critic::gain::{Folds, Gain, Measuring};
+use crate::critic::simulate::{Campaign, Design, World};
+use crate::critic::verdict::{Diagnosis, Effort, Judge, Limits, Verdict};
+
+/// Seeds that a step may use from its own on: each draws numbers of its own.
+pub const SEEDS: u64 = 1000;
+
+/// A step of the method that takes long.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// Campaigns are simulated, and the ranking learns from them.
+    Simulate,
+    /// Readings are set beside the base model.
+    Compare,
+    /// The causes are ranked and checked.
+    RankAndCheck,
+    /// The gain on readings held out is measured.
+    Predict,
+    /// The next measurement is sought.
+    Advise,
+}
+
+/// Who is told of the steps.
+pub trait Steps {
+    /// Does the work of a step, and gives what comes of it.
+    fn during<T>(&self, step: Step, work: impl FnOnce() -> T) -> T;
+}
+
+/// What is to be diagnosed.
+#[derive(Clone, Copy, Debug)]
+pub struct Task<'w> {
+    /// What campaigns are simulated from.
+    pub world: &'w World<'w>,
+    /// What was read.
+    pub design: &'w Design,
+    /// What was seen.
+    pub measured: &'w Campaign,
+    /// First seed of all random numbers.
+    pub seed: u64,
+    /// Whether the gain is measured, where something is found.
+    pub with_gain: bool,
+}
+
+/// All that a campaign says.
+#[derive(Clone, Debug)]
+pub struct Analysis {
+    /// The verdict, with what it rests on.
+    pub diagnosis: Diagnosis,
+    /// How far readings and their means lie from the base model.
+    pub residuals: Residuals,
+    /// How often such a diagnosis is right.
+    pub self_test: SelfTest,
+    /// The base model extended by each cause of the verdict, or by its pair.
+    pub extensions: Vec<Extension>,
+    /// How much better the extended model predicts; `None` where that was not measured.
+    pub gain: Option<Gain>,
+    /// Measurements that would separate the causes that are possible, the most information per hour first.
+    pub offered: Vec<Offered>,
+    /// Whether these causes are those that nothing speaks against, see [`Diagnosis::possible`].
+    pub are_left: bool,
+}
+
+/// Diagnoses a measured campaign. The self-test depends on the judge alone, and may have been kept. `None` where the readings say
+/// nothing: at their tilts all simulated walls have fallen.
+pub fn diagnose<'w>(
+    task: &Task<'w>,
+    steps: &impl Steps,
+    self_test: impl FnOnce(&Judge<'w>) -> SelfTest,
+) -> Option<Analysis> {
+    let &Task { world, design, measured, seed, with_gain } = task;
+    let (part, limits) = (|number: u64| seed.wrapping_add(number * SEEDS), Limits::default());
+    let judge = steps.during(Step::Simulate, || Judge::trained(world, design, Effort::default(), seed))?;
+    let diagnosis = steps.during(Step::RankAndCheck, || {
+        let finding = judge.compare(measured);
+        let examination = judge.rank(finding, measured, &limits, part(1));
+        judge.check(examination, measured, &limits, part(1))
+    });
+    let self_test = self_test(&judge);
+    let residuals = steps.during(Step::Compare, || Baseline::new(world, design, part(6)).residuals(measured));
+    let extensions = extend(world, &diagnosis);
+    let (possible, are_left) = diagnosis.possible();
+    let offered = steps.during(Step::Advise, || offers(&judge, &possible, part(4)));
+    let gain = (with_gain && diagnosis.verdict != Verdict::NothingFound).then(|| {
+        let folds = Folds::new(&judge, Measuring::default(), part(3));
+        steps.during(Step::Predict, || folds.gain(measured))
+    });
+    Some(Analysis { diagnosis, residuals, self_test, extensions, gain: gain.flatten(), offered, are_left })
+}
+
+/// The base model extended by the causes of a verdict.
+fn extend(world: &World<'_>, diagnosis: &Diagnosis) -> Vec<Extension> {
+    diagnosis.explained_by().iter().filter_map(|(_, draws)| extension(world, draws)).collect()
+}

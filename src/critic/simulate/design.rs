@@ -1,0 +1,199 @@
+//! What was read on which specimen: the design that a measured campaign shares with every simulated one.
+
+use std::collections::BTreeMap;
+
+use crate::critic::compare::is_rising;
+use crate::random::Streams;
+use crate::random::standard_normal::quantile;
+use crate::study::{MeasuredKind, MeasuredQuantity, Measurement, Study};
+
+/// A tilting test.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Specimen {
+    /// Its name.
+    pub name: String,
+    /// Index of its arm.
+    pub family: usize,
+    /// Place in the order of the tests, from 1, where that is known.
+    pub order: Option<u32>,
+    /// Whether it is turned round beforehand. Only planned specimens are: measured ones are of an arm that says so.
+    pub turned: bool,
+    /// Its readings, in the order of the file.
+    pub readings: Vec<Measurement>,
+}
+
+impl Specimen {
+    /// The tilts that it was read at (rad), each once, ascending.
+    pub fn tilts(&self) -> Vec<f64> {
+        tilts(&self.readings)
+    }
+}
+
+/// The tilts of readings (rad), each once, ascending.
+pub fn tilts<'m>(readings: impl IntoIterator<Item = &'m Measurement>) -> Vec<f64> {
+    let mut tilts: Vec<f64> = readings.into_iter().filter_map(|m| m.tilt).collect();
+    tilts.sort_by(f64::total_cmp);
+    tilts.dedup();
+    tilts
+}
+
+/// All tests, and what was measured apart from them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Design {
+    /// The specimens that were tilted, in the order of the file.
+    pub specimens: Vec<Specimen>,
+    /// Two-stone tests, weights of specimens and readings of fixed targets: the index of their family's arm, and the reading.
+    pub apart: Vec<(usize, Measurement)>,
+    /// Lines of the file that a diagnosis does not use.
+    pub unused: Vec<(Unused, usize)>,
+}
+
+/// Why a line of the file is not used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Unused {
+    /// The study does not evaluate the arm.
+    NotEvaluated,
+    /// The weight of a single block.
+    BlockWeight,
+    /// A displacement at 0 deg that no earlier stage makes a remainder of: it is 0, whatever the wall.
+    AtLevel,
+    /// Read at a tilt that the wall had come to before.
+    Again,
+}
+
+/// What a reading shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Seen {
+    /// A value (SI).
+    Value(f64),
+    /// That the value is on the bound's side, and no more.
+    Beyond,
+    /// Nothing: the wall had fallen.
+    Nothing,
+}
+
+impl Design {
+    /// The design of a study's measurements, and what was seen, by specimen and reading, what was measured apart last.
+    pub fn of(study: &Study) -> (Design, Campaign) {
+        let mut design = Design { specimens: Vec::new(), apart: Vec::new(), unused: Vec::new() };
+        for m in &study.measured {
+            let Some(family) = study.arms.iter().position(|arm| arm.name == m.family) else {
+                design.unused.push((Unused::NotEvaluated, m.line));
+                continue;
+            };
+            match m.quantity {
+                MeasuredQuantity::BlockWeight => design.unused.push((Unused::BlockWeight, m.line)),
+                apart if apart.is_apart() => design.apart.push((family, m.clone())),
+                _ if m.tilt == Some(0.0) => design.unused.push((Unused::AtLevel, m.line)),
+                _ if !is_rising(m, &study.measured) => design.unused.push((Unused::Again, m.line)),
+                _ => {
+                    let of = |s: &&mut Specimen| s.name == m.specimen && s.family == family;
+                    match design.specimens.iter_mut().find(of) {
+                        Some(specimen) => specimen.readings.push(m.clone()),
+                        None => design.specimens.push(Specimen {
+                            name: m.specimen.clone(),
+                            family,
+                            order: m.order,
+                            turned: false,
+                            readings: vec![m.clone()],
+                        }),
+                    }
+                }
+            }
+        }
+        let seen = |m: &Measurement| if m.kind.is_censored() { Seen::Beyond } else { Seen::Value(m.value) };
+        let specimens = design.specimens.iter().map(|s| s.readings.iter().map(seen).collect());
+        let campaign = Campaign {
+            specimens: specimens.collect(),
+            apart: design.apart.iter().map(|(_, m)| seen(m)).collect(),
+        };
+        (design, campaign)
+    }
+
+    /// The families of the specimens (their arms), each once, in their order.
+    pub fn families(&self) -> Vec<usize> {
+        let mut families: Vec<usize> = self.specimens.iter().map(|specimen| specimen.family).collect();
+        families.sort_unstable();
+        families.dedup();
+        families
+    }
+
+    /// All readings with their families, specimen by specimen, what was measured apart last.
+    pub fn readings(&self) -> impl Iterator<Item = (usize, &Measurement)> {
+        let specimens = self.specimens.iter();
+        let of_walls = specimens.flat_map(|s| s.readings.iter().map(|reading| (s.family, reading)));
+        of_walls.chain(self.apart.iter().map(|(family, reading)| (*family, reading)))
+    }
+}
+
+/// What was seen in a campaign, measured or simulated, in the order of a [`Design`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Campaign {
+    /// By specimen and reading.
+    pub specimens: Vec<Vec<Seen>>,
+    /// What was measured apart.
+    pub apart: Vec<Seen>,
+}
+
+impl Campaign {
+    /// What is read where walls (by specimen and reading, `None` once they have fallen) and what is measured apart have these
+    /// values: a pure function of these and the streams.
+    pub(in crate::critic) fn read(
+        design: &Design,
+        walls: &[Vec<Option<f64>>],
+        apart: &[f64],
+        streams: &Streams,
+    ) -> Campaign {
+        let score = |name: &str| quantile(streams.of(name).uniform());
+        let mut shared = BTreeMap::new();
+        let mut read = |value: f64, m: &Measurement, name: &str| {
+            let (common, share) = *shared.entry(m.quantity.instrument()).or_insert_with(|| {
+                let name = m.quantity.instrument().name();
+                let share = streams.of(&format!("share of the common error {name}")).uniform();
+                (score(&format!("common error {name}")), share)
+            });
+            let [random, whole] = m.errors(share);
+            Seen::of(value + whole * common + random * score(name), m)
+        };
+        let specimens = walls.iter().zip(&design.specimens).enumerate().map(|(index, (values, specimen))| {
+            let readings = values.iter().zip(&specimen.readings).enumerate();
+            readings
+                .map(|(k, (value, m))| match value {
+                    Some(value) => read(*value, m, &format!("error {index} {k}")),
+                    None => Seen::Nothing,
+                })
+                .collect()
+        });
+        let specimens: Vec<Vec<Seen>> = specimens.collect();
+        let apart = apart.iter().zip(&design.apart).enumerate();
+        let apart = apart.map(|(k, (value, (_, m)))| read(*value, m, &format!("error apart {k}")));
+        Campaign { specimens, apart: apart.collect() }
+    }
+
+    /// What was seen, in the order of [`Design::readings`].
+    pub fn seen(&self) -> impl Iterator<Item = Seen> {
+        self.specimens.iter().flatten().chain(&self.apart).copied()
+    }
+}
+
+impl Seen {
+    /// What a value, its errors added, shows where a reading of this kind was taken.
+    pub(in crate::critic) fn of(value: f64, m: &Measurement) -> Seen {
+        match m.kind {
+            MeasuredKind::Exact => Seen::Value(value),
+            MeasuredKind::Rounded => Seen::Value((value / m.resolution).round() * m.resolution),
+            MeasuredKind::Below if value < m.value => Seen::Beyond,
+            MeasuredKind::Above if value > m.value => Seen::Beyond,
+            MeasuredKind::Below | MeasuredKind::Above => Seen::Value(value),
+        }
+    }
+
+    /// As a number: what lies beyond a bound counts as lying on it. `None` where nothing was seen.
+    pub(in crate::critic) fn number(self, m: &Measurement) -> Option<f64> {
+        match self {
+            Seen::Value(value) => Some(value),
+            Seen::Beyond => Some(m.value),
+            Seen::Nothing => None,
+        }
+    }
+}

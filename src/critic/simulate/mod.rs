@@ -1,0 +1,18 @@
+//! Campaigns as they could have been measured: a bank of simulated walls, emulators between its points, and what is read of the
+//! walls of a design.
+
+pub mod bank;
+mod causes;
+mod design;
+mod queries;
+mod truth;
+mod unmodelled;
+mod world;
+
+pub use bank::{BANK, Bank, Emulator, Held, NotThisBank, PRIOR_WIDENING, Path, Place, Plan};
+pub use causes::Causes;
+pub use design::{Campaign, Design, Seen, Specimen, Unused};
+pub use queries::Queries;
+pub use truth::Truth;
+pub use world::World;
+pub(in crate::critic) use world::standing;

@@ -1,0 +1,42 @@
+//! The queries of the bank: each quantity of a family at each tilt once, however many readings are of it.
+
+use crate::critic::compare::of_points;
+use crate::critic::simulate::design::tilts;
+use crate::study::{MeasuredQuantity, Measurement};
+
+/// The quantities that readings are of.
+pub struct Queries {
+    /// Tilts (rad), ascending.
+    pub tilts: Vec<f64>,
+    /// Each query: a quantity, with the place of its tilt where it has one.
+    what: Vec<(MeasuredQuantity, Option<usize>)>,
+    /// Which of these each reading is of.
+    pub by_reading: Vec<usize>,
+    /// Whether any is of what is left after the platform has gone back.
+    pub goes_back: bool,
+}
+
+impl Queries {
+    /// By readings of one family.
+    pub fn by(readings: &[&Measurement]) -> Queries {
+        let tilts = tilts(readings.iter().copied());
+        let place = |tilt: f64| tilts.partition_point(|known| *known < tilt);
+        let all: Vec<_> = readings.iter().map(|m| (m.quantity, m.tilt.map(place))).collect();
+        let mut what = all.clone();
+        what.sort_unstable();
+        what.dedup();
+        let by_reading = all.iter().map(|one| what.partition_point(|known| known < one)).collect();
+        let goes_back = what.iter().any(|(quantity, _)| quantity.is_remainder());
+        Queries { tilts, what, by_reading, goes_back }
+    }
+
+    /// What a wall shows that falls at this tilt and moves left, centre and right by so much at each of the tilts; if any
+    /// [goes back](Self::goes_back), with what is left after each.
+    pub fn shown(&self, collapse: f64, points: &[[f64; 3]], left: &[[f64; 3]]) -> Vec<f64> {
+        let one = |(quantity, at): &(MeasuredQuantity, Option<usize>)| {
+            let read = if quantity.is_remainder() { left } else { points };
+            at.and_then(|at| of_points(*quantity, read[at])).unwrap_or(collapse)
+        };
+        self.what.iter().map(one).collect()
+    }
+}

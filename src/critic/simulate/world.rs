@@ -1,0 +1,373 @@
+//! Campaigns that could have been measured, from a bank: truth in, readings out.
+
+mod likely;
+mod standing;
+#[cfg(test)]
+mod tests;
+
+pub(in crate::critic) use standing::standing;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::critic::compare::of_points;
+use crate::critic::simulate::bank::{Bank, Curves, Emulator, HALF_WAY, NUMBERS, PRIOR_WIDENING, Path, Plan};
+use crate::critic::simulate::causes::Causes;
+use crate::critic::simulate::design::{Campaign, Design};
+use crate::critic::simulate::truth::Truth;
+use crate::critic::simulate::unmodelled::Unmodelled;
+use crate::ensemble::{build, is_random, weight};
+use crate::math::{atan, radians, tan};
+use crate::model::Outcome;
+use crate::protocol::Ends;
+use crate::random::standard_normal::quantile;
+use crate::random::{Family, Streams};
+use crate::study::{Acts, Arm, Described, MeasuredQuantity, Measurement, Mechanisms, Nuisance, Study};
+
+/// The mechanism that has a side, uphill or downhill.
+const SIDED: &str = "lean";
+
+/// So many walls of a family are tried for one that can be built and weighed.
+const BUILT: u64 = 20;
+
+/// The walls of a family: in the base model, or what a cause changes of them.
+#[derive(Debug)]
+struct Walls {
+    emulator: Emulator,
+    /// Whether walls of one family differ.
+    random: bool,
+}
+
+/// The walls of a bank that an emulator is fitted through.
+#[derive(Default)]
+struct Learnt {
+    scores: Vec<Vec<f64>>,
+    walls: Vec<[f64; NUMBERS]>,
+    random: bool,
+}
+
+/// All that campaigns of a study are simulated from.
+#[derive(Debug)]
+pub struct World<'s> {
+    study: &'s Study,
+    mechanisms: &'s [Described],
+    nuisances: &'s [Nuisance; 3],
+    /// The base model, by family.
+    base: BTreeMap<usize, Walls>,
+    /// What a cause changes, by family and cause. A point of the bank has the same stones and joints under every cause: the
+    /// difference that a cause makes is known far better than either wall, and dies away with the cause.
+    changes: BTreeMap<(usize, usize), Walls>,
+    /// Scores of the walls of the bank that do not stand at rest, by family and cause.
+    fallen: BTreeMap<(usize, Option<usize>), Vec<Vec<f64>>>,
+    /// Causes that were to have walls in the bank.
+    planned: BTreeSet<usize>,
+    /// Weight of a wall as it is stated, and of its stones in the mean (N), by family.
+    weights: BTreeMap<usize, [f64; 2]>,
+    /// Kind of joint of each arm: arms whose joints are stated the same share one.
+    kinds: Vec<usize>,
+}
+
+impl<'s> World<'s> {
+    /// From a bank; `None` where a family's base model has too few walls to emulate others from them. A cause that has too few, or
+    /// cannot act on a family, has there the walls of the base model.
+    pub fn new(
+        study: &'s Study,
+        mechanisms: &'s [Described],
+        nuisances: &'s [Nuisance; 3],
+        plan: &Plan,
+        bank: &Bank,
+    ) -> Option<World<'s>> {
+        let mut unchanged: BTreeMap<(usize, u64), &Path> = BTreeMap::new();
+        for (place, path) in plan.places.iter().zip(&bank.paths).filter(|(place, _)| place.cause.is_none()) {
+            unchanged.extend(path.as_ref().map(|path| ((place.family, place.point), path)));
+        }
+        let mut grouped: BTreeMap<(usize, Option<usize>), Learnt> = BTreeMap::new();
+        let mut fallen: BTreeMap<(usize, Option<usize>), Vec<Vec<f64>>> = BTreeMap::new();
+        let walls = plan.places.iter().zip(&plan.study.arms);
+        for ((place, arm), (path, ending)) in walls.zip(bank.paths.iter().zip(&bank.endings)) {
+            let learnt = grouped.entry((place.family, place.cause)).or_default();
+            learnt.random |= is_random(arm);
+            let joints = place.joints.into_iter().map(|score| score / PRIOR_WIDENING);
+            let parameters = place.parameters.iter().copied().map(quantile);
+            let scores: Vec<f64> = joints.chain(varying(mechanisms, place.cause, parameters)).collect();
+            let Some(path) = path else {
+                if *ending == Outcome::UnstableAtRest.name() {
+                    fallen.entry((place.family, place.cause)).or_default().push(scores);
+                }
+                continue;
+            };
+            let Some(before) = unchanged.get(&(place.family, place.point)) else { continue };
+            learnt.scores.push(scores);
+            let (own, before) = (path.adding(), before.adding());
+            learnt.walls.push(match place.cause {
+                None => own,
+                Some(_) => std::array::from_fn(|k| own[k] - before[k]),
+            });
+        }
+        let planned: BTreeSet<usize> = grouped.keys().filter_map(|(_, cause)| *cause).collect();
+        let (mut base, mut changes) = (BTreeMap::new(), BTreeMap::new());
+        for ((family, cause), Learnt { scores, walls, random }) in grouped {
+            let walls = Emulator::fit(&scores, &walls).map(|emulator| Walls { emulator, random });
+            match cause {
+                None => drop(base.insert(family, walls?)),
+                Some(cause) => changes.extend(walls.map(|walls| ((family, cause), walls))),
+            }
+        }
+        let weighed = |family: usize| {
+            let wall = (0..BUILT).find_map(|member| build(study, family as u32, member).ok())?.wall;
+            let whole = weight(&wall);
+            Some((family, [whole, whole / wall.stones().count() as f64]))
+        };
+        let weights = base.keys().map(|&family| weighed(family)).collect::<Option<BTreeMap<_, _>>>()?;
+        Some(World {
+            study,
+            mechanisms,
+            nuisances,
+            base,
+            changes,
+            fallen,
+            planned,
+            weights,
+            kinds: kinds(&study.arms),
+        })
+    }
+
+    /// Kinds of joints that differ in what is stated of them.
+    pub fn joint_kinds(&self) -> usize {
+        self.kinds.iter().max().map_or(0, |last| last + 1)
+    }
+
+    /// The truth with these causes, drawn from the search priors, those of the joints wider by [`PRIOR_WIDENING`], such that walls
+    /// [stand](Self::stands).
+    pub fn drawn(&self, causes: impl Into<Causes>, streams: &Streams) -> Truth {
+        self.drawn_as(causes.into(), streams, |truth| truth)
+    }
+
+    /// The truth of the base model, drawn from the priors as they are stated.
+    pub fn stated(&self, streams: &Streams) -> Truth {
+        let mut truth = self.drawn(None, streams);
+        truth.joints.iter_mut().flatten().for_each(|score| *score /= PRIOR_WIDENING);
+        truth
+    }
+
+    /// Scores that a truth with these causes has: three for each kind of joint, then one for each parameter.
+    pub fn inputs(&self, causes: impl Into<Causes>) -> usize {
+        let parameters = causes.into().each().map(|cause| self.mechanisms[cause].parameters.len());
+        3 * self.joint_kinds() + parameters.sum::<usize>()
+    }
+
+    /// The truth with these causes and these scores; those of the joints count [`PRIOR_WIDENING`] times.
+    pub fn truth(&self, causes: impl Into<Causes>, scores: &[f64]) -> Truth {
+        let causes = causes.into();
+        crate::check!(scores.len() == self.inputs(causes), "{} scores for {causes:?}", scores.len());
+        let (joints, parameters) = scores.split_at(3 * self.joint_kinds());
+        let joints = joints
+            .chunks_exact(3)
+            .map(|c| [PRIOR_WIDENING * c[0], PRIOR_WIDENING * c[1], PRIOR_WIDENING * c[2]])
+            .collect();
+        Truth { causes, parameters: parameters.to_vec(), joints }
+    }
+
+    /// A campaign of a design under a truth: a pure function of these and the streams.
+    pub fn campaign(&self, design: &Design, truth: &Truth, streams: &Streams) -> Campaign {
+        let values = self.values(design, truth, streams);
+        Campaign::read(design, &values, &self.values_apart(design, truth), streams)
+    }
+
+    /// A campaign in which something is off that is in no catalogue, with joints drawn from their priors: a pure function of the
+    /// design and the streams.
+    pub fn unmodelled(&self, design: &Design, streams: &Streams) -> Campaign {
+        let truth = self.drawn(None, streams);
+        let values = self.values_with(design, &truth, &Unmodelled::drawn(design, streams), streams);
+        Campaign::read(design, &values, &self.values_apart(design, &truth), streams)
+    }
+
+    /// What the specimens of a campaign show of each reading (SI, gauges included) before the readings' errors; `None` where the
+    /// wall has fallen. The walls are those of [`Self::campaign`] with the same streams.
+    pub fn values(&self, design: &Design, truth: &Truth, streams: &Streams) -> Vec<Vec<Option<f64>>> {
+        self.values_with(design, truth, &Unmodelled::default(), streams)
+    }
+
+    fn values_with(
+        &self,
+        design: &Design,
+        truth: &Truth,
+        unmodelled: &Unmodelled,
+        streams: &Streams,
+    ) -> Vec<Vec<Option<f64>>> {
+        let gauge = self.gauge(truth);
+        let specimens = design.specimens.iter().enumerate();
+        specimens
+            .map(|(index, specimen)| {
+                let truth = if specimen.turned { &self.turned(truth) } else { truth };
+                let mut numbers = self.wall(specimen.family, truth, index, streams);
+                unmodelled.act(index, &mut numbers);
+                let curves = Curves::of(&numbers);
+                let seen = |tilt: f64, points: [f64; 3]| {
+                    unmodelled.shown(index, tilt, points.map(|x| gauge.reading(x)))
+                };
+                specimen.readings.iter().map(|m| shown(&curves, m, &seen)).collect()
+            })
+            .collect()
+    }
+
+    /// What is measured apart before its errors.
+    pub fn values_apart(&self, design: &Design, truth: &Truth) -> Vec<f64> {
+        design.apart.iter().map(|(family, m)| self.apart(*family, m, truth)).collect()
+    }
+
+    /// Whether walls of a family differ in the base model. Where they do not, simulated ones differ by the emulator's error alone.
+    pub fn is_random(&self, family: usize) -> bool {
+        self.base.get(&family).is_some_and(|walls| walls.random)
+    }
+
+    /// What the emulators explain of walls of the base model that they do not know, by family: share of the variance of the collapse
+    /// angle, and of (the logarithm of) how far a wall has moved half way up to it. The rest is the stones' own and the emulator's
+    /// error.
+    pub fn explained(&self) -> Vec<(usize, [f64; 2])> {
+        let shares = |walls: &Walls| [0, HALF_WAY].map(|number| walls.emulator.explained()[number]);
+        self.base.iter().map(|(family, walls)| (*family, shares(walls))).collect()
+    }
+
+    /// Whether the ends of a family's walls are held.
+    pub fn is_held(&self, family: usize) -> bool {
+        self.study.arms[family].restraint.ends != Ends::Free
+    }
+
+    /// Weight of a stone of a family as it is stated, in the mean over a wall (N).
+    pub fn stone_weight(&self, family: usize) -> f64 {
+        self.weights[&family][1]
+    }
+
+    /// Whether a wall that is turned round stands as another one of its family does, but for a lean.
+    pub fn can_turn(&self, family: usize) -> bool {
+        self.study.arms[family].is_alike_from_both_sides()
+    }
+
+    /// What is true of a wall that is turned round: it leans the other way. The prior of that is the same for both.
+    fn turned(&self, truth: &Truth) -> Truth {
+        let sides = truth.causes.each().flat_map(|cause| {
+            let Described { name, parameters, .. } = &self.mechanisms[cause];
+            parameters.iter().map(move |_| if *name == SIDED { -1.0 } else { 1.0 })
+        });
+        let parameters = truth.parameters.iter().zip(sides).map(|(score, side)| side * score).collect();
+        Truth { parameters, ..truth.clone() }
+    }
+
+    /// The parameters of the causes of a truth, each in its order and in the units of their keys.
+    pub fn parameters(&self, truth: &Truth) -> Vec<f64> {
+        let parameters = truth.causes.each().flat_map(|cause| &self.mechanisms[cause].parameters);
+        parameters.zip(&truth.parameters).map(|(p, score)| p.search.at_score(*score)).collect()
+    }
+
+    /// Each cause of a truth with the scores of its parameters.
+    fn parts<'t>(&self, truth: &'t Truth) -> impl Iterator<Item = (usize, &'t [f64])> {
+        let mut left = &truth.parameters[..];
+        truth.causes.each().map(move |cause| {
+            let (own, others) = left.split_at(self.mechanisms[cause].parameters.len());
+            left = others;
+            (cause, own)
+        })
+    }
+
+    /// Factors on the joints of a family (its arm's index) under a truth, in the order of
+    /// [`NUISANCES`](crate::study::NUISANCES).
+    pub fn factors(&self, truth: &Truth, family: usize) -> [f64; 3] {
+        let scores = truth.joints[self.kinds[family]];
+        std::array::from_fn(|k| self.nuisances[k].prior.at_score(scores[k]))
+    }
+
+    /// The study whose campaigns these are.
+    pub fn study(&self) -> &'s Study {
+        self.study
+    }
+
+    /// The mechanisms that its causes are indices of.
+    pub fn mechanisms(&self) -> &'s [Described] {
+        self.mechanisms
+    }
+
+    /// A parameter of a mechanism (in its key's unit), if it is among the causes.
+    fn parameter(&self, truth: &Truth, mechanism: &str, key: &str) -> Option<f64> {
+        let (cause, scores) =
+            self.parts(truth).find(|(cause, _)| self.mechanisms[*cause].name == mechanism)?;
+        let parameters = &self.mechanisms[cause].parameters;
+        let at = parameters.iter().position(|p| p.key == key)?;
+        Some(parameters[at].search.at_score(scores[at]))
+    }
+
+    /// What gauges make of the displacements.
+    fn gauge(&self, truth: &Truth) -> Mechanisms {
+        Mechanisms {
+            gauge_scale: self.parameter(truth, "gauge_scale", "factor"),
+            gauge_offset: self.parameter(truth, "gauge_offset", "offset_m"),
+            ..Mechanisms::default()
+        }
+    }
+
+    /// What is measured of a family apart from tilting: in a test on two stones the stiffness over the whole joint, and the
+    /// friction angle before it weakens; the weight of a specimen; what the gauge shows of a target that does not move.
+    pub(in crate::critic) fn apart(&self, family: usize, m: &Measurement, truth: &Truth) -> f64 {
+        let arm = &self.study.arms[family];
+        let factors = self.factors(truth, family);
+        let by = |mechanism: &str, key: &str| self.parameter(truth, mechanism, key).unwrap_or(1.0);
+        match m.quantity {
+            MeasuredQuantity::JointKn => {
+                arm.kn_points[arm.middle_point()] * factors[0] * by("contact_area", "share")
+            }
+            MeasuredQuantity::SpecimenWeight => self.weights[&family][0] * by("density", "factor"),
+            MeasuredQuantity::FixedTarget => self.gauge(truth).reading(0.0),
+            _ => atan(tan(radians(arm.joint.phi_deg.mean() * factors[1])) * by("friction", "factor")),
+        }
+    }
+
+    /// Causes that cannot be diagnosed, as too few of their walls in the bank came to a fall.
+    pub fn too_few(&self) -> Vec<usize> {
+        self.planned.iter().copied().filter(|cause| !self.has_walls(*cause)).collect()
+    }
+
+    /// The causes that a diagnosis considers: those with walls of their own in some family, and those that act on readings.
+    pub fn causes(&self) -> Vec<usize> {
+        let is_known = |(index, m): &(usize, &Described)| m.acts == Acts::Readings || self.has_walls(*index);
+        self.mechanisms.iter().enumerate().filter(is_known).map(|(index, _)| index).collect()
+    }
+
+    /// Whether the walls that a cause changes are known in some family.
+    fn has_walls(&self, cause: usize) -> bool {
+        self.changes.keys().any(|(_, own)| *own == cause)
+    }
+}
+
+/// What a wall shows of a reading before its errors; `None` where it has fallen. `seen` is what gauges make of the three points at a
+/// tilt.
+fn shown(wall: &Curves, m: &Measurement, seen: &impl Fn(f64, [f64; 3]) -> [f64; 3]) -> Option<f64> {
+    if m.quantity == MeasuredQuantity::CollapseAngle {
+        return Some(wall.collapse());
+    }
+    let tilt = m.tilt?;
+    let points = match m.quantity.is_remainder() {
+        false => wall.displacements(tilt),
+        true => wall.remainders(tilt),
+    };
+    of_points(m.quantity, seen(tilt, points?))
+}
+
+/// Scores of the parameters that vary.
+fn varying(mechanisms: &[Described], cause: Option<usize>, scores: impl Iterator<Item = f64>) -> Vec<f64> {
+    let parameters = cause.map_or(&[][..], |index| &mechanisms[index].parameters);
+    let varies = |prior: &Family| !matches!(prior, Family::Constant { .. });
+    parameters.iter().zip(scores).filter(|(p, _)| varies(&p.search)).map(|(_, score)| score).collect()
+}
+
+/// Numbers the kinds of joints.
+fn kinds(arms: &[Arm]) -> Vec<usize> {
+    let mut seen: Vec<&Arm> = Vec::new();
+    arms.iter()
+        .map(|arm| {
+            let same_joints = |other: &&Arm| other.joint == arm.joint && other.kn_points == arm.kn_points;
+            seen.iter().position(same_joints).unwrap_or_else(|| {
+                seen.push(arm);
+                seen.len() - 1
+            })
+        })
+        .collect()
+}

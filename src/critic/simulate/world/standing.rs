@@ -1,0 +1,62 @@
+//! Truths under which walls stand at rest, before they are loaded: nobody measures walls that do not.
+
+use crate::critic::simulate::bank::PRIOR_WIDENING;
+use crate::critic::simulate::causes::Causes;
+use crate::critic::simulate::truth::Truth;
+use crate::critic::simulate::world::{World, varying};
+use crate::random::Streams;
+use crate::random::standard_normal::quantile;
+
+/// So many truths are drawn at most for one under which walls stand at rest. A cause under which few do has too few walls in the bank
+/// to be searched for.
+const DRAWN: usize = 100;
+
+impl World<'_> {
+    /// A draw as of [`Self::drawn`], with what is made of each truth before it is asked whether walls stand.
+    pub(in crate::critic) fn drawn_as(
+        &self,
+        causes: Causes,
+        streams: &Streams,
+        made: impl Fn(Truth) -> Truth,
+    ) -> Truth {
+        let mut draws = streams.of("truth");
+        let inputs = self.inputs(causes);
+        let next = || {
+            let scores: Vec<f64> = (0..inputs).map(|_| quantile(draws.uniform())).collect();
+            made(self.truth(causes, &scores))
+        };
+        standing(next, |truth| self.stands(truth))
+    }
+
+    /// Whether walls stand at rest under a truth, as the nearest wall of the bank does, for each family and cause.
+    pub fn stands(&self, truth: &Truth) -> bool {
+        let falls = |(&(family, cause), fallen): (&(usize, Option<usize>), &Vec<Vec<f64>>)| {
+            let joints = truth.joints[self.kinds[family]].map(|score| score / PRIOR_WIDENING);
+            let (walls, parameters) = match cause {
+                None => (self.base.get(&family), &[][..]),
+                Some(cause) => {
+                    let Some((_, own)) = self.parts(truth).find(|(own, _)| *own == cause) else {
+                        return false;
+                    };
+                    (self.changes.get(&(family, cause)), own)
+                }
+            };
+            let varying = varying(self.mechanisms, cause, parameters.iter().copied());
+            let scores: Vec<f64> = joints.into_iter().chain(varying).collect();
+            walls.is_some_and(|walls| walls.emulator.is_beyond(&scores, fallen))
+        };
+        !self.fallen.iter().any(falls)
+    }
+}
+
+/// The first draw under which walls stand, or the last of [`DRAWN`] ones.
+pub(in crate::critic) fn standing<T>(mut next: impl FnMut() -> T, stands: impl Fn(&T) -> bool) -> T {
+    let mut drawn = next();
+    for _ in 1..DRAWN {
+        if stands(&drawn) {
+            break;
+        }
+        drawn = next();
+    }
+    drawn
+}

@@ -1,0 +1,107 @@
+//! What is said of a campaign: nothing found, one cause or a pair named, a few that cannot be separated, or something that no known
+//! cause explains; and what that rests on.
+
+use crate::critic::discrepancy::ComponentEstimate;
+use crate::critic::simulate::Truth;
+use crate::critic::verdict::judge::Finding;
+
+/// What a campaign says of the base model.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// No discrepancy beyond error and natural scatter, or none that these data can see.
+    NothingFound,
+    /// There is a discrepancy, and this cause explains it.
+    Named(usize),
+    /// There is a discrepancy, and this cause explains it, at a strength that its physical prior does not expect.
+    NamedOutsidePrior(usize),
+    /// There is a discrepancy, no one cause explains it, and these two together do.
+    NamedPair([usize; 2]),
+    /// There is a discrepancy, and each of these, at most [`MOST_AMBIGUOUS`](crate::critic::MOST_AMBIGUOUS), explains it.
+    Ambiguous(Vec<usize>),
+    /// There is a discrepancy, and no cause of the catalogue explains it, or too many do.
+    Unexplained,
+}
+
+impl Verdict {
+    /// The causes that it names, one alone or two together.
+    pub fn named(&self) -> &[usize] {
+        match self {
+            Verdict::Ambiguous(_) => &[],
+            verdict => verdict.causes(),
+        }
+    }
+
+    /// The causes that it speaks of.
+    pub fn causes(&self) -> &[usize] {
+        match self {
+            Verdict::Named(cause) | Verdict::NamedOutsidePrior(cause) => std::slice::from_ref(cause),
+            Verdict::NamedPair(causes) => causes,
+            Verdict::Ambiguous(causes) => causes,
+            Verdict::NothingFound | Verdict::Unexplained => &[],
+        }
+    }
+}
+
+/// A verdict with what it rests on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnosis {
+    /// What is off, and how likely that is by chance.
+    pub finding: Finding,
+    /// The causes that were examined, most likely first; none where nothing was found.
+    pub examined: Vec<Examined<usize>>,
+    /// Pairs of causes that were examined as no one explains the discrepancy, that with most of the evidence first.
+    pub pairs: Vec<Examined<[usize; 2]>>,
+    /// What the base model with fitted joints misses, as components of a smooth discrepancy; empty where nothing was found.
+    pub components: Vec<ComponentEstimate>,
+    /// The verdict.
+    pub verdict: Verdict,
+}
+
+/// A cause, or two together, that was examined.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Examined<C> {
+    /// Index of the mechanism; of both, ascending.
+    pub cause: C,
+    /// Share of its own campaigns that fit no better; `None` where it was not checked, as it was not in question.
+    pub check: Option<f64>,
+    /// Share of the campaigns that the physical priors predict which are as far out, along what the data pin down; `None` where it
+    /// was not tested, as the verdict does not speak of it.
+    pub conflict: Option<f64>,
+    /// Its share of the evidence: a cause's of all causes examined and of the base model, a pair's of these and of all pairs.
+    pub evidence: f64,
+    /// What its parameters and the joints may be: draws, equally likely.
+    pub draws: Vec<Truth>,
+}
+
+impl Diagnosis {
+    /// The causes of the verdict, together or each on its own, with draws of what is true under them.
+    pub fn explained_by(&self) -> Vec<(Vec<usize>, &[Truth])> {
+        match &self.verdict {
+            Verdict::NamedPair(pair) => {
+                let own = self.pairs.iter().filter(|own| own.cause == *pair);
+                own.map(|own| (pair.to_vec(), &own.draws[..])).collect()
+            }
+            verdict => {
+                let own = verdict.causes().iter().filter_map(|&cause| self.examined(cause));
+                own.map(|own| (vec![own.cause], &own.draws[..])).collect()
+            }
+        }
+    }
+
+    /// What was seen of a cause that was examined.
+    pub fn examined(&self, cause: usize) -> Option<&Examined<usize>> {
+        self.examined.iter().find(|own| own.cause == cause)
+    }
+
+    /// The causes that the next measurement should tell apart, each with its probability and draws of what is true under it: those
+    /// that were examined and that nothing [speaks against](Self::excluded); where fewer than two are left, all that were
+    /// examined, as what speaks against them may be chance. And whether they are left.
+    pub fn possible(&self) -> (Vec<(f64, Vec<Truth>)>, bool) {
+        let left: Vec<&Examined<usize>> =
+            self.examined.iter().filter(|own| self.excluded(own.cause).is_none()).collect();
+        let are_left = left.len() >= 2;
+        let all = if are_left { left } else { self.examined.iter().collect() };
+        let probability = |own: &Examined<usize>| self.finding.ranked.probability(own.cause);
+        (all.into_iter().map(|own| (probability(own), own.draws.clone())).collect(), are_left)
+    }
+}
