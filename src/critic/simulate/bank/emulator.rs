@@ -1,78 +1,36 @@
-//! What the walls of a bank would have done between its points: a Gaussian process with a polynomial mean over the scores of the
-//! inputs for every number of a path (Rasmussen and Williams 2006, chapter 2), and what it leaves. In units of the variance that it
-//! leaves its covariance is
-//!
-//! ```text
-//! k(z, z') = [z = z'] + WIDE t(z) . t(z') + s m(r)        t: 1; each score as well; each product of two as well
-//! m(r) = (1 + sqrt(5) r + 5/3 r^2) exp(-sqrt(5) r)         r^2 = sum of ((z_k - z'_k) / l_k)^2  (Matern, 5/2)
-//! ```
-//!
-//! with the terms `t`, the size `s` and the lengths `l` that predict walls best that they do not know. What a wall's own stones decide
-//! (which wedge is lost, which stones are small) hangs on no score: there a constant predicts more than a quadratic.
+//! What the walls of a bank would have done between its points: [curves](curve) of the numbers of a path over the scores of the
+//! inputs, and what they leave.
 
-use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
+mod curve;
 
-use crate::critic::simulate::bank::path::{NUMBERS, NUMBERS_UP};
-use crate::math::{exp, exp_all, ln};
+use std::ops::Range;
+
+use nalgebra::DMatrix;
+
+use crate::critic::simulate::bank::emulator::curve::{Curve, DEGREES, terms};
+use crate::critic::simulate::bank::path::{NUMBERS, NUMBERS_UP, PLACES};
 use crate::stats;
 
-/// Variance of the polynomial's coefficients.
-const WIDE: f64 = 10.0;
 /// Scores beyond this are taken to be there: few walls tell of the far ends of their inputs.
 const FURTHEST: f64 = 2.5;
-/// The first inputs are the joints': walls answer to them smoothly.
-const JOINTS: usize = 3;
-/// Length over which they do (in scores).
-const SMOOTH: f64 = 5.0;
-/// Lengths that are tried for the other inputs, and sizes of what a polynomial misses; none at all is tried as well.
-const LENGTHS: [f64; 3] = [0.7, 1.5, 3.0];
-const SIZES: [f64; 3] = [3.0, 30.0, 300.0];
-
-/// Degrees of the polynomial.
-const DEGREES: [usize; 3] = [2, 1, 0];
-
-/// A polynomial and what is smooth beside it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Shape {
-    degree: usize,
-    size: f64,
-    length: f64,
-}
+/// Numbers that have a shape in common: when a wall falls and how far it moves; in which form; what is left on the way back. Stones
+/// decide of one and joints of another, and creep acts on the last alone.
+const GROUPS: [Range<usize>; 3] = [0..1 + PLACES.len(), 1 + PLACES.len()..NUMBERS_UP, NUMBERS_UP..NUMBERS];
 
 /// The walls of a family under one cause, in few numbers.
 #[derive(Clone, Debug)]
 pub struct Emulator {
     inputs: usize,
-    shape: Shape,
     /// Means of the numbers, from which all else counts.
     middle: [f64; NUMBERS],
-    /// Coefficients of the polynomial, by term and number.
-    coefficients: Vec<[f64; NUMBERS]>,
-    /// How well the curve is known.
-    known: Known,
+    /// Of each group of numbers.
+    curves: [Curve; GROUPS.len()],
     /// Where the walls of the bank lie, in scores that are [`held`].
     scores: Vec<Vec<f64>>,
     /// What each wall of the bank differs by from a curve that does not know it: the stones' own part, and the emulator's error.
     left: Vec<[f64; NUMBERS]>,
     /// Share of the variance that such curves explain, by number.
     explained: [f64; NUMBERS],
-}
-
-/// How well a curve is known by the walls of the bank (sections 2.1.2 and 2.2).
-#[derive(Clone, Debug)]
-enum Known {
-    /// A polynomial alone: the covariance of its coefficients.
-    Polynomial(DMatrix<f64>),
-    /// A polynomial with what is smooth beside it.
-    Smooth {
-        /// Of the covariance of the walls.
-        inverse: DMatrix<f64>,
-        /// Terms of the polynomial, by wall.
-        terms: Vec<Vec<f64>>,
-        /// Weights of the walls in what is smooth, by wall and number.
-        weights: Vec<[f64; NUMBERS]>,
-    },
 }
 
 /// What an emulator predicts of walls at some scores.
@@ -82,18 +40,8 @@ pub struct Emulated<'e> {
     /// What the walls of the bank that lie nearest are left with, nearest first: a wall differs from what is expected by one of
     /// them.
     pub left: Vec<&'e [f64; NUMBERS]>,
-    /// Share of the variance of that which is the emulator's own error: all walls at these scores have it in common.
-    pub common: f64,
-}
-
-/// What a shape makes of the walls.
-struct Fitted {
-    /// Terms by wall.
-    design: DMatrix<f64>,
-    inverse: DMatrix<f64>,
-    weights: DMatrix<f64>,
-    /// By wall and number.
-    left: DMatrix<f64>,
+    /// Share of the variance of that which is the emulator's own error, by number: all walls at these scores have it in common.
+    pub common: [f64; NUMBERS],
 }
 
 impl Emulator {
@@ -108,16 +56,18 @@ impl Emulator {
         }
         let mean = |number: usize| stats::mean(&walls.iter().map(|wall| wall[number]).collect::<Vec<_>>());
         let middle: [f64; NUMBERS] = std::array::from_fn(|number| mean(number).unwrap_or(0.0));
-        let wanted = DMatrix::from_fn(n, NUMBERS, |row, number| walls[row][number] - middle[number]);
-        let tried: Vec<Shape> = DEGREES.iter().flat_map(|&degree| Shape::tried(degree, inputs)).collect();
-        let fitted: Vec<(Shape, Fitted)> = tried
-            .into_par_iter()
-            .filter_map(|shape| Some((shape, Fitted::of(shape, &scores, &wanted)?)))
-            .collect();
-        let best = fitted.into_iter().map(|(shape, fitted)| (fitted.misses(), shape, fitted));
-        let (_, shape, Fitted { design, inverse, weights, left }) =
-            best.reduce(|best, own| if own.0 < best.0 { own } else { best })?;
-        let left = by_row(&left);
+        let mut left = vec![[0.0; NUMBERS]; n];
+        let fitted = GROUPS.into_iter().map(|group| {
+            let more = DMatrix::from_fn(n, group.len(), |row, number| {
+                walls[row][group.start + number] - middle[group.start + number]
+            });
+            let (curve, rest) = Curve::fit(group.clone(), &scores, &more)?;
+            for (left, rest) in left.iter_mut().zip(rest.row_iter()) {
+                left[group.clone()].iter_mut().zip(rest.iter()).for_each(|(left, rest)| *left = *rest);
+            }
+            Some(curve)
+        });
+        let curves: [Curve; GROUPS.len()] = fitted.collect::<Option<Vec<_>>>()?.try_into().ok()?;
         let explained = std::array::from_fn(|number| {
             let values: Vec<f64> = walls.iter().map(|wall| wall[number]).collect();
             let squares: Vec<f64> = left.iter().map(|left| left[number] * left[number]).collect();
@@ -125,61 +75,33 @@ impl Emulator {
             let rest = stats::sum(&squares) / n as f64;
             if whole > 0.0 { 1.0 - rest / (whole * whole) } else { 0.0 }
         });
-        let coefficients = by_row(&(design.transpose() * &weights * WIDE));
-        let known = if shape.size > 0.0 {
-            let terms = scores.iter().map(|z| terms(z, shape.degree)).collect();
-            Known::Smooth { inverse, terms, weights: by_row(&weights) }
-        } else {
-            let p = design.ncols();
-            let information = DMatrix::identity(p, p) / WIDE + design.tr_mul(&design);
-            Known::Polynomial(information.cholesky()?.inverse())
-        };
-        Some(Emulator { inputs, shape, middle, coefficients, known, scores, left, explained })
+        Some(Emulator { inputs, middle, curves, scores, left, explained })
     }
 
     /// What it predicts of walls at these scores (one per input), with what so many walls of the bank are left with.
     pub fn emulated(&self, scores: &[f64], count: usize) -> Emulated<'_> {
         crate::check!(scores.len() == self.inputs, "{} scores for {} inputs", scores.len(), self.inputs);
         let scores = held(scores);
-        let own = terms(&scores, self.shape.degree);
-        let distances: Vec<f64> =
-            self.scores.iter().map(|wall| self.shape.squared_distance(&scores, wall)).collect();
-        let mut numbers = self.middle;
-        let mut add = |share: f64, of: &[f64; NUMBERS]| {
-            numbers.iter_mut().zip(of).for_each(|(number, of)| *number += share * of);
-        };
-        own.iter().zip(&self.coefficients).for_each(|(term, of)| add(*term, of));
-        // What the walls of the bank do not tell of the curve, in units of what the stones leave.
-        let unknown = match &self.known {
-            Known::Polynomial(covariance) => {
-                let own = DVector::from_vec(own);
-                own.dot(&(covariance * &own))
-            }
-            Known::Smooth { inverse, terms, weights } => {
-                let smooths = self.shape.covariances(&distances);
-                smooths.iter().zip(weights).for_each(|(covariance, of)| add(*covariance, of));
-                let dot = |other: &[f64]| WIDE * own.iter().zip(other).fold(0.0, |sum, (a, b)| sum + a * b);
-                let covariances = smooths.iter().zip(terms).map(|(smooth, other)| smooth + dot(other));
-                let covariances = DVector::from_iterator(smooths.len(), covariances);
-                let known = covariances.dot(&(inverse * &covariances));
-                (self.shape.covariance(0.0) + dot(&own) - known).max(0.0)
-            }
-        };
-        let nearest = stats::smallest(distances.into_iter().zip(0..), count);
-        Emulated {
-            numbers,
-            left: nearest.into_iter().map(|wall| &self.left[wall]).collect(),
-            common: unknown / (1.0 + unknown),
+        let (mut numbers, mut common) = (self.middle, [0.0; NUMBERS]);
+        for (curve, group) in self.curves.iter().zip(GROUPS) {
+            let own = curve.add(&scores, &self.scores, &mut numbers);
+            common[group].fill(own);
         }
+        let nearest = stats::smallest(self.distances(&scores).zip(0..), count);
+        Emulated { numbers, left: nearest.into_iter().map(|wall| &self.left[wall]).collect(), common }
     }
 
     /// Whether one of other walls (by their scores, as [`Self::fit`] has them) lies nearer to some scores than every wall that it was
     /// fitted through.
     pub fn is_beyond(&self, scores: &[f64], others: &[Vec<f64>]) -> bool {
         let scores = held(scores);
-        let apart = |wall: &[f64]| self.shape.squared_distance(&scores, wall);
-        let own = self.scores.iter().map(|wall| apart(wall)).fold(f64::INFINITY, f64::min);
-        others.iter().any(|wall| apart(&held(wall)) < own)
+        let own = self.distances(&scores).fold(f64::INFINITY, f64::min);
+        others.iter().any(|wall| self.curves[0].shape.squared_distance(&scores, &held(wall)) < own)
+    }
+
+    /// Squared distances of the walls from some scores, as the fall and the way up to it see them.
+    fn distances(&self, scores: &[f64]) -> impl Iterator<Item = f64> {
+        self.scores.iter().map(|wall| self.curves[0].shape.squared_distance(scores, wall))
     }
 
     /// Share of the variance of each number that is explained for a wall that the curve does not know.
@@ -188,95 +110,7 @@ impl Emulator {
     }
 }
 
-impl Fitted {
-    /// The weights, and what leaving out each wall in turn leaves of it (section 5.4.2): its weight over the diagonal of the
-    /// inverse covariance.
-    fn of(shape: Shape, scores: &[Vec<f64>], wanted: &DMatrix<f64>) -> Option<Fitted> {
-        let n = scores.len();
-        let terms: Vec<Vec<f64>> = scores.iter().map(|z| terms(z, shape.degree)).collect();
-        let design = DMatrix::from_fn(n, terms[0].len(), |row, column| terms[row][column]);
-        let mut covariance = &design * design.transpose() * WIDE;
-        for (row, one) in scores.iter().enumerate() {
-            for (column, other) in scores[..row].iter().enumerate() {
-                let own = shape.covariance(shape.squared_distance(one, other));
-                covariance[(row, column)] += own;
-                covariance[(column, row)] += own;
-            }
-            covariance[(row, row)] += 1.0 + shape.size;
-        }
-        let inverse = covariance.cholesky()?.inverse();
-        let weights = &inverse * wanted;
-        let left =
-            DMatrix::from_fn(n, NUMBERS, |wall, number| weights[(wall, number)] / inverse[(wall, wall)]);
-        Some(Fitted { design, inverse, weights, left })
-    }
-
-    /// How far off it is of walls that it does not know: mean logarithm over the numbers that vary on the way up. What is left on
-    /// the way back is close to nothing for most walls.
-    fn misses(&self) -> f64 {
-        let up = self.left.column_iter().take(NUMBERS_UP);
-        let squares = up.map(|left| left.dot(&left)).filter(|square| *square > 0.0);
-        stats::mean(&squares.map(ln).collect::<Vec<_>>()).unwrap_or(0.0)
-    }
-}
-
-impl Shape {
-    /// Those with a polynomial of a degree; what a cause does not change is smooth.
-    fn tried(degree: usize, inputs: usize) -> Vec<Shape> {
-        let alone = Shape { degree, size: 0.0, length: 1.0 };
-        let beside = SIZES.iter().flat_map(|&size| LENGTHS.map(|length| Shape { degree, size, length }));
-        std::iter::once(alone).chain(beside.filter(|_| inputs > JOINTS)).collect()
-    }
-
-    fn squared_distance(&self, one: &[f64], other: &[f64]) -> f64 {
-        let pairs = one.iter().zip(other).enumerate();
-        pairs.fold(0.0, |sum, (k, (a, b))| {
-            let length = if k < JOINTS { SMOOTH } else { self.length };
-            let off = (a - b) / length;
-            sum + off * off
-        })
-    }
-
-    fn covariance(&self, squared_distance: f64) -> f64 {
-        let square = 5.0 * squared_distance;
-        self.smooth(square, exp(-square.sqrt()))
-    }
-
-    /// Of many squared distances.
-    fn covariances(&self, squared_distances: &[f64]) -> Vec<f64> {
-        let squares = || squared_distances.iter().map(|of| 5.0 * of);
-        let mut covariances: Vec<f64> = squares().map(|square| -square.sqrt()).collect();
-        exp_all(&mut covariances);
-        covariances.iter_mut().zip(squares()).for_each(|(own, square)| *own = self.smooth(square, *own));
-        covariances
-    }
-
-    /// By five times the squared distance, and how far it has died away at the root of that.
-    fn smooth(&self, square: f64, dying: f64) -> f64 {
-        self.size * (1.0 + square.sqrt() + square / 3.0) * dying
-    }
-}
-
-/// Numbers by number, row by row.
-fn by_row(of: &DMatrix<f64>) -> Vec<[f64; NUMBERS]> {
-    of.row_iter().map(|row| std::array::from_fn(|number| row[number])).collect()
-}
-
 /// Scores within what walls tell of.
 fn held(scores: &[f64]) -> Vec<f64> {
     scores.iter().map(|score| score.clamp(-FURTHEST, FURTHEST)).collect()
-}
-
-/// One; of the first degree each score as well; of the second each product of two as well.
-fn terms(z: &[f64], degree: usize) -> Vec<f64> {
-    let mut terms = vec![1.0];
-    if degree > 0 {
-        terms.extend(z);
-    }
-    if degree > 1 {
-        for (k, a) in z.iter().enumerate() {
-            terms.extend(z[k..].iter().map(|b| a * b));
-        }
-    }
-    terms
 }

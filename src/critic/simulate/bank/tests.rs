@@ -204,11 +204,11 @@ fn what_an_emulator_does_not_know_of_its_curve_is_that_of_a_regression() {
     for at in [[0.0, 0.0, 0.0], [1.0, -0.5, 0.3], [2.0, 2.0, -2.0]] {
         let t = terms(&at);
         let unknown = t.dot(&(&covariance * &t));
-        let common = emulator.emulated(&at, 0).common;
+        let common = emulator.emulated(&at, 0).common[0];
         assert!((common - unknown / (1.0 + unknown)).abs() < 1e-9, "{at:?}: {common} against {unknown}");
     }
     // Ten terms of sixty walls leave a sixth of the noise in the mean over the walls, and far more in a corner.
-    let [middle, corner] = [[0.0; 3], [2.0, 2.0, -2.0]].map(|at| emulator.emulated(&at, 0).common);
+    let [middle, corner] = [[0.0; 3], [2.0, 2.0, -2.0]].map(|at| emulator.emulated(&at, 0).common[0]);
     assert!(middle < 0.1 && corner > 0.4, "{middle} {corner}");
 }
 

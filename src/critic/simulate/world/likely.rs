@@ -109,13 +109,14 @@ impl Likely {
         let count = emulated.left.len() as f64;
         let mean: [f64; NUMBERS] =
             std::array::from_fn(|k| emulated.left.iter().fold(0.0, |sum, left| sum + left[k]) / count);
-        let [alone, shared] = [(1.0 - emulated.common).sqrt(), emulated.common.sqrt()];
+        let alone = emulated.common.map(|share| (1.0 - share).sqrt());
+        let shared = emulated.common.map(f64::sqrt);
         let left = emulated.left.iter().cycle().skip(first);
         for ((own, common), left) in self.own.iter_mut().zip(&mut self.common).zip(left) {
             for k in 0..NUMBERS {
                 let off = left[k] - mean[k];
-                own[k] += mean[k] + alone * off;
-                common[k] += shared * off;
+                own[k] += mean[k] + alone[k] * off;
+                common[k] += shared[k] * off;
             }
         }
     }

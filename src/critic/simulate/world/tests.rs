@@ -81,7 +81,8 @@ fn walls_of_a_family_share_the_emulators_error_and_their_mean_scatters_by_it() {
         values.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / values.len() as f64
     };
     let left = variance(&emulated.left.iter().map(|left| left[0]).collect::<Vec<_>>());
-    assert!(emulated.common > 0.2 && emulated.common < 0.8, "{}", emulated.common);
+    let common = emulated.common[0];
+    assert!(common > 0.1 && common < 0.8, "{common}");
     let drawn: Vec<[f64; 3]> = (0..4000)
         .map(|k| [0, 1, 2].map(|specimen| world.wall(1, &truth, specimen, &Streams::new(31, k))[0]))
         .collect();
@@ -90,7 +91,7 @@ fn walls_of_a_family_share_the_emulators_error_and_their_mean_scatters_by_it() {
     let alone = of(&|walls| walls[0]) / left;
     assert!((alone - 1.0).abs() < 0.1, "{alone}");
     let mean = of(&|walls| (walls[0] + walls[1] + walls[2]) / 3.0) / left;
-    let expected = emulated.common + (1.0 - emulated.common) / 3.0;
+    let expected = common + (1.0 - common) / 3.0;
     assert!((mean / expected - 1.0).abs() < 0.1, "{mean} {expected}");
     // As independent walls they are shown wider, so that the mean of three scatters so much.
     let (design, _) = Design::of(&made.study);
@@ -292,7 +293,7 @@ fn a_bound_on_a_test_of_two_stones_says_its_side_and_no_more() {
     // That it is above what is thought leaves the upper half, as far as it reaches.
     design.apart[0].1.value = stated;
     let (_, above, furthest) = found(&design, &shown);
-    assert!(above > 0.95 * stated && furthest > 1.2 * stated, "{above} {furthest}");
+    assert!(above > 0.95 * stated && furthest > 0.95 * high, "{above} {furthest} {high}");
 }
 
 #[test]
