@@ -34,6 +34,7 @@ pub(crate) fn mechanisms(arguments: &Mechanisms) -> Result<(), Failure> {
 
 fn describe(mechanism: &Described, text: &mut String) {
     let _ = writeln!(text, "{}: {}", mechanism.name, mechanism.what);
+    let _ = writeln!(text, "  would mean: {}", mechanism.means);
     let _ = writeln!(
         text,
         "  acts on: {}; when unloaded: {}; limit analysis: {}",

@@ -5,10 +5,9 @@ use crate::report::diagnosis::summary::{CauseEntry, DiagnosisSummary};
 use crate::report::diagnosis::text::worth_saying;
 use crate::report::number::significant;
 
-/// The verdict, how surely something is wrong, the parameters of the causes, the gain, and what to measure next.
+/// The verdict, how surely something is wrong, what the causes would mean and their parameters, the gain, and what to measure next.
 pub(super) fn conclusion(summary: &DiagnosisSummary) -> Vec<String> {
-    let sentences =
-        [Some(verdict(summary)), wrong(summary), parameters(summary), gain(summary), next(summary)];
+    let sentences = [Some(verdict(summary)), wrong(summary), meaning(summary), gain(summary), next(summary)];
     sentences.into_iter().flatten().collect()
 }
 
@@ -61,9 +60,20 @@ fn wrong(summary: &DiagnosisSummary) -> Option<String> {
     Some(format!("The base model is off beyond chance (p {p}). {furthest}"))
 }
 
-/// The parameters of the causes in the verdict.
-fn parameters(summary: &DiagnosisSummary) -> Option<String> {
+/// What the causes in the verdict would mean, with their parameters.
+fn meaning(summary: &DiagnosisSummary) -> Option<String> {
     let spoken: Vec<&CauseEntry> = summary.causes.iter().filter(|cause| cause.in_verdict).collect();
+    let by_name = |cause: &&CauseEntry| match spoken.len() {
+        1 => cause.means.to_string(),
+        _ => format!("{}: {}", cause.id, cause.means),
+    };
+    let means: Vec<String> = spoken.iter().map(by_name).collect();
+    let means = (!means.is_empty()).then(|| format!("It would mean: {}.", means.join("; ")))?;
+    Some(parameters(&spoken).map_or(means.clone(), |found| format!("{means} {found}")))
+}
+
+/// The parameters of causes.
+fn parameters(spoken: &[&CauseEntry]) -> Option<String> {
     // Of one cause the verdict has just told the name.
     let named = |cause: &CauseEntry, words: String| match spoken.len() {
         1 => words,

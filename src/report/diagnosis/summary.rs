@@ -103,6 +103,8 @@ pub struct LooksEntry {
 pub struct CauseEntry {
     /// Name of the mechanism.
     pub id: &'static str,
+    /// What would be true of the wall or of the test.
+    pub means: &'static str,
     /// Its probability.
     pub probability: f64,
     /// Its share of the evidence of the causes that were examined and of the base model; null for the others.
@@ -291,6 +293,7 @@ impl DiagnosisSummary {
                 let examined = diagnosis.examined(cause);
                 Some(CauseEntry {
                     id: mechanisms[cause].name,
+                    means: mechanisms[cause].means,
                     probability,
                     evidence: examined.map(|own| own.evidence),
                     in_verdict: spoken.contains(&cause),

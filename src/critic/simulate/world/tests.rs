@@ -272,28 +272,25 @@ fn an_error_of_a_gauge_is_shared_by_all_its_points_and_by_a_target_that_does_not
 fn a_bound_on_a_test_of_two_stones_says_its_side_and_no_more() {
     let made = made();
     let (world, (mut design, mut shown)) = (made.world(), Design::of(&made.study));
-    let stated = {
-        let mut kn = design.specimens[0].readings[0].clone();
-        (kn.quantity, kn.tilt, kn.resolution) = (MeasuredQuantity::JointKn, None, 0.0);
-        (kn.kind, kn.error, kn.value) = (MeasuredKind::Above, 1e6, 1e4);
-        design.apart = vec![(0, kn)];
-        world.values_apart(&design, &world.truth(None, &vec![0.0; world.inputs(None)]))[0]
-    };
+    let mut kn = design.specimens[0].readings[0].clone();
+    (kn.quantity, kn.tilt, kn.resolution) = (MeasuredQuantity::JointKn, None, 0.0);
+    (kn.kind, kn.error, kn.value) = (MeasuredKind::Above, 1e6, 1e4);
+    design.apart = vec![(0, kn)];
     shown.apart = vec![Seen::Beyond];
     let found = |design: &Design, shown: &Campaign| {
         let found = crate::critic::evidence(&world, design, shown, None, 3);
         let kn: Vec<f64> = found.draws.iter().map(|draw| world.values_apart(design, draw)[0]).collect();
-        (found.log, stats::quantile(&kn, 0.1).expect("many"), stats::quantile(&kn, 0.9).expect("many"))
+        (found.log, [0.1, 0.5, 0.9].map(|p| stats::quantile(&kn, p).expect("many")))
     };
     let none = Campaign { apart: vec![Seen::Nothing], ..shown.clone() };
     // That it is above next to nothing changes nothing.
     assert_eq!(found(&design, &shown), found(&design, &none));
-    let (_, low, high) = found(&design, &none);
-    assert!(low < stated && high > stated, "{low} {high}");
-    // That it is above what is thought leaves the upper half, as far as it reaches.
-    design.apart[0].1.value = stated;
-    let (_, above, furthest) = found(&design, &shown);
-    assert!(above > 0.95 * stated && furthest > 0.95 * high, "{above} {furthest} {high}");
+    let (_, [low, middle, high]) = found(&design, &none);
+    assert!(low < 0.95 * middle, "{low} {middle} {high}");
+    // That it is above what the other readings say leaves the upper half, as far as it reaches.
+    design.apart[0].1.value = middle;
+    let (_, [above, _, furthest]) = found(&design, &shown);
+    assert!(above > 0.98 * middle && furthest > 0.98 * high, "{above} {furthest} {high}");
 }
 
 #[test]
