@@ -10,11 +10,11 @@ use pirca::random::Streams;
 use pirca::study::{MeasuredKind, MeasuredQuantity, Measurement, Study, described, nuisances};
 use serde_json::Value;
 
-/// The verdict on a study's measurements, with a bank in this folder.
-fn verdict(study: &str, bank: &Path) -> Value {
+/// The verdict on a study's measurements, with a bank of so many points in this folder.
+fn verdict(study: &str, points: &str, bank: &Path) -> Value {
     let scratch = Path::new(env!("CARGO_TARGET_TMPDIR")).join(study.replace('/', "-"));
     let ran = Command::new(env!("CARGO_BIN_EXE_pirca"))
-        .args(["diagnose", study, "--no-gain", "--json", "--bank"])
+        .args(["diagnose", study, "--points", points, "--no-gain", "--json", "--bank"])
         .arg(bank)
         .arg("--out")
         .arg(scratch)
@@ -29,7 +29,7 @@ fn verdict(study: &str, bank: &Path) -> Value {
 #[test]
 fn the_nine_walls_stay_unexplained_as_sbl_moves_too_far() {
     let study = "studies/tilting-table";
-    let found = verdict(study, &Path::new(env!("CARGO_MANIFEST_DIR")).join(study));
+    let found = verdict(study, "60", &Path::new(env!("CARGO_MANIFEST_DIR")).join(study));
     assert_eq!(found["verdict"], "unexplained");
     assert!(found["p_value"].as_f64().is_some_and(|p| p < 0.005), "{}", found["p_value"]);
     // Table 11: SBL at 5 deg 13.3 mm measured; beyond all that scatters, unless all errors are common to all means.
@@ -50,12 +50,12 @@ fn the_nine_walls_stay_unexplained_as_sbl_moves_too_far() {
 
 /// `studies/hidden-effects/example`: 6e6 Pa/m at first and 0.3 mm in all were hidden.
 #[test]
-#[ignore = "slow: a bank and a diagnosis, fifty seconds of processor time"]
+#[ignore = "slow: a bank and a diagnosis, two minutes of processor time"]
 fn the_example_names_joints_that_close_and_finds_their_parameters() {
     let bank = Path::new(env!("CARGO_TARGET_TMPDIR")).join("example-bank");
     // Walls of an earlier state would be taken for this one's.
     let _ = fs::remove_dir_all(&bank);
-    let found = verdict("studies/hidden-effects/example", &bank);
+    let found = verdict("studies/hidden-effects/example", "120", &bank);
     let cause = &found["causes"][0];
     assert_eq!((&found["verdict"], &cause["id"]), (&"named".into(), &"joint_closure".into()));
     let parameters = cause["parameters"].as_array().expect("they are told");
