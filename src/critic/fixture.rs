@@ -61,6 +61,17 @@ impl Made {
             .expect("enough walls")
     }
 
+    /// The same walls, but for those of a cause at the upper quantiles of its first parameter, which do not stand at rest.
+    pub(super) fn falling(mut self, cause: usize, from: f64) -> Made {
+        for (wall, place) in self.plan.places.iter().enumerate() {
+            if place.cause == Some(cause) && place.parameters[0] > from {
+                self.bank.paths[wall] = None;
+                self.bank.endings[wall] = "unstable_at_rest".to_string();
+            }
+        }
+        self
+    }
+
     /// Index of a mechanism.
     pub(super) fn cause(&self, name: &str) -> usize {
         self.mechanisms.iter().position(|m| m.name == name).expect("in the catalogue")
