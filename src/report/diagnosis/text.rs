@@ -98,7 +98,7 @@ pub(super) fn beside_prior(cause: &CauseEntry) -> Vec<String> {
         cause.id,
         significant(p, 2)
     );
-    let parameters = cause.parameters.iter().filter_map(|own| Some(own.beside_prior()?));
+    let parameters = cause.parameters.iter().filter_map(|own| own.beside_prior());
     std::iter::once(first).chain(parameters).collect()
 }
 
