@@ -55,7 +55,7 @@ pub struct LearntLaw {
     pub stiffness: Vec<Known>,
     /// Closure (m) at the knots since the first one at which the beds are pressed: what closed before the walls stood nobody has seen.
     pub closures: Vec<Known>,
-    /// Numbers of the law that the readings know, of [`KNOTS`] that it has.
+    /// Numbers of the law that the readings know, of seven that it has.
     pub resolved: f64,
     /// The exponent of the stress in the stiffness, over the stresses seen.
     pub exponent: Known,
