@@ -433,15 +433,14 @@ fn truths_under_which_walls_do_not_stand_are_neither_drawn_nor_found() {
     let made = made.falling(lean, 0.8);
     let world = made.world();
     // Lean has one parameter; at the quantile 0.8 its score is 0.84, and the nearest wall decides within its distance of that.
-    let score = |truth: &Truth| truth.parameters[0];
     let at = |own: f64| Truth { parameters: vec![own], ..world.drawn(Some(lean), &Streams::new(9, 0)) };
     assert!(world.stands(&at(0.2)) && !world.stands(&at(2.0)));
     assert!(world.stands(&world.drawn(None, &Streams::new(9, 0))));
-    let drawn: Vec<f64> = (0..500).map(|k| score(&world.drawn(Some(lean), &Streams::new(17, k)))).collect();
-    let beyond = drawn.iter().filter(|own| **own > 1.3).count();
+    let drawn: Vec<Truth> = (0..500).map(|k| world.drawn(Some(lean), &Streams::new(17, k))).collect();
+    assert!(drawn.iter().all(|truth| world.stands(truth)));
+    let beyond = drawn.iter().filter(|truth| truth.parameters[0] > 1.3).count();
     // Of a standard normal score one in ten lies there.
     assert!(beyond < 10, "{beyond} of 500");
-    assert!(drawn.iter().all(|own| world.stands(&at(*own))));
     let (design, campaign) = Design::of(&made.study);
     let found = crate::critic::evidence(&world, &design, &campaign, Some(lean), 3);
     assert!(found.log.is_finite() && found.draws.iter().all(|draw| world.stands(draw)));
