@@ -1,6 +1,6 @@
 //! One member: its wall, its joints, its protocol, its row. A pure function of study, seed and task.
 
-use crate::ensemble::{LimitAnalysis, Mechanism, Row, StepRow, Task};
+use crate::ensemble::{LimitAnalysis, Mechanism, Row, ShearRow, StepRow, Task};
 use crate::generate::{Generated, InvalidGeometry, generate};
 use crate::math::degrees;
 use crate::model::{Level, Outcome, Wall};
@@ -66,6 +66,8 @@ fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
     let load_steps = run.steps.iter().enumerate().map(|(number, step)| StepRow {
         load_factor: matches!(step.level, Level::Factor(_)).then(|| step.level.value()),
         tilt_deg: tilt(step.level),
+        drift_percent: drift(step.level),
+        force_n: step.push.and_then(finite),
         top_displacement_m: read(number, step.top_displacement),
         left_m: step.points.and_then(|[left, ..]| read(number, left)),
         centre_m: step.points.and_then(|[_, centre, _]| read(number, centre)),
@@ -109,6 +111,14 @@ fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
             length_share: failure.length_share,
             place: failure.place,
         }),
+        shear: run.shear.map(|shear| ShearRow {
+            capacity_n: finite(shear.capacity),
+            drift_at_capacity_percent: shear.mode.and_then(|_| finite(100.0 * shear.drift_at_capacity)),
+            plateau_n: shear.plateau.and_then(finite),
+            stiffness_n_per_m: shear.stiffness.and_then(finite),
+            mode: shear.mode,
+            opening_m: shear.opening.and_then(finite),
+        }),
         stones: wall.stones().count() as u32,
         joints: run.joints as u32,
         wedges: realised.wedges,
@@ -148,6 +158,7 @@ fn unsolved(study: &Study, task: Task, outcome: Outcome) -> Row {
         largest_tilt_deg: None,
         limit: None,
         mechanism: None,
+        shear: None,
         stones: 0,
         joints: 0,
         wedges: 0,
@@ -222,6 +233,11 @@ fn by_itself(run: &protocol::Run, flow: Flow) -> Option<LimitAnalysis> {
 /// A tilt (deg), if the level is one.
 fn tilt(level: Level) -> Option<f64> {
     if let Level::Tilt(tilt) = level { Some(degrees(tilt)) } else { None }
+}
+
+/// A drift (%), if the level is one.
+fn drift(level: Level) -> Option<f64> {
+    if let Level::Drift(drift) = level { Some(100.0 * drift) } else { None }
 }
 
 /// A value that a table can hold: NaN and infinity are "not observed".

@@ -5,6 +5,7 @@ use crate::protocol::drive::drive_telling;
 use crate::protocol::events::in_parts;
 use crate::protocol::path::LoadPath;
 use crate::protocol::pressure::back_loads;
+use crate::protocol::shear::{Begin, by_limit, push};
 use crate::protocol::stage::Stage;
 use crate::protocol::tilting::turn;
 use crate::protocol::{Changes, Confirmation, Contacts, Criterion, Protocol, Rate, Restraint, Run, Task};
@@ -83,6 +84,17 @@ pub fn run_telling(
                     }
                 }
             })
+        }
+        Protocol::Shear(shear) => {
+            let criterion = Criterion::AnyBlock(shear.collapse_share * thickness);
+            let path = LoadPath::drift(shear.step, shear.history.widest());
+            let task = task(&stage, &stage.assembly, path, criterion, thickness);
+            let task = Task { changes: changes.clone(), ..task };
+            match solver {
+                Solver::Limit(settings) => by_limit(task, shear.vertical_load, *settings),
+                Solver::Implicit(settings) => push(&task, shear, Begin::Implicit(*settings), tell),
+                Solver::Explicit(settings) => push(&task, shear, Begin::Explicit(*settings), tell),
+            }
         }
     };
     run.displacements.truncate(wall.blocks.len());
