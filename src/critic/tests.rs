@@ -31,6 +31,7 @@ pub fn measurement(
         specimen: specimen.into(),
         family: "irregular".into(),
         tilt: tilt_deg.map(radians),
+        drift: None,
         quantity,
         value,
         kind: MeasuredKind::Exact,

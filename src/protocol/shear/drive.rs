@@ -117,7 +117,8 @@ fn at_jack(assembly: &Assembly<'_>) -> (f64, f64) {
         let body = &assembly.bodies.all[jack.tie.body];
         (jack.displacement(body), jack.force(body, assembly.load_factor))
     });
-    (way, -pull)
+    // Not the negative of 0.
+    (way, 0.0 - pull)
 }
 
 /// How the solver begins.
