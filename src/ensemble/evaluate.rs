@@ -66,7 +66,7 @@ fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
     let load_steps = run.steps.iter().enumerate().map(|(number, step)| StepRow {
         load_factor: matches!(step.level, Level::Factor(_)).then(|| step.level.value()),
         tilt_deg: tilt(step.level),
-        drift_percent: drift(step.level),
+        drift_percent: drift(step.level).and_then(finite),
         force_n: step.push.and_then(finite),
         top_displacement_m: read(number, step.top_displacement),
         left_m: step.points.and_then(|[left, ..]| read(number, left)),

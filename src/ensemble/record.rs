@@ -122,7 +122,8 @@ pub struct LimitAnalysis {
     pub angle_deg: Option<f64>,
     /// The same without dilatancy, neither a bound nor unique (deg).
     pub non_associative_angle_deg: Option<f64>,
-    /// Factor on the protocol's load at collapse with associative flow; `None` on a tilting table or if not found.
+    /// Factor on the protocol's load at collapse with associative flow, in shear the push over the vertical load; `None` on a
+    /// tilting table or if not found.
     pub multiplier: Option<f64>,
     /// The same without dilatancy.
     pub non_associative_multiplier: Option<f64>,

@@ -26,7 +26,7 @@ pub fn run(
     run_changing(wall, laws, protocol, restraint, contacts, &Changes::default(), solver)
 }
 
-/// [`run`] with a wall that changes on its way. Changes go by tilt: under a service load they must be none.
+/// [`run`] with a wall that changes on its way. Changes go by tilt: under a service load, and in shear, they must be none.
 pub fn run_changing(
     wall: &Wall,
     laws: &dyn JointLaws,
@@ -89,7 +89,6 @@ pub fn run_telling(
             let criterion = Criterion::AnyBlock(shear.collapse_share * thickness);
             let path = LoadPath::drift(shear.step, shear.history.widest());
             let task = task(&stage, &stage.assembly, path, criterion, thickness);
-            let task = Task { changes: changes.clone(), ..task };
             match solver {
                 Solver::Limit(settings) => by_limit(task, shear.vertical_load, *settings),
                 Solver::Implicit(settings) => push(&task, shear, Begin::Implicit(*settings), tell),

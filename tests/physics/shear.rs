@@ -108,21 +108,21 @@ fn rocking(b: f64, h: f64, jack: f64, kn: f64, strength: f64, drift: f64) -> f64
 fn a_block_rocks_at_the_closed_form() {
     let wall = bond(1, 1, [1.0, 1.2]);
     for solver in [implicitly(), explicitly()] {
-        let stiff = 1e12;
+        let (stiff, is_implicit) = (1e12, matches!(solver, Solver::Implicit(_)));
         let run = sheared(&wall, &law(stiff), to(&wall, 0.02), &solver);
         for drift in [2e-3, 5e-3, 1e-2, 2e-2] {
             let (found, exact) = (at(&run, drift), rocking(1.0, 1.2, 1.325, stiff, f64::INFINITY, drift));
             println!("{drift}: {found} against {exact}");
             // The joints' own closure and shear, and turns of second order. In time a toe that swings loses a little of its
             // shear each time it opens, and slips: a twentieth of the drift is slip then, and the block leans less.
-            let close = if matches!(solver, Solver::Implicit(_)) { 1e-3 } else { 4e-3 };
+            let close = if is_implicit { 1e-3 } else { 4e-3 };
             assert!((found / exact - 1.0).abs() < close, "{drift}: {found} against {exact}");
         }
         assert_eq!(read(&run).mode, Some(ShearMode::Rocking));
         assert_eq!(run.failure.as_ref().map(|failure| failure.mode), Some(FailureMode::Rocking));
         // The far edge of the foot has gone up by its length times the turn.
         let opening = read(&run).opening.expect("it was seen");
-        assert!((opening / 0.02 - 1.0).abs() < 0.02, "{opening}");
+        assert!((opening / 0.02 - 1.0).abs() < if is_implicit { 0.02 } else { 0.06 }, "{opening}");
     }
 }
 

@@ -1,11 +1,13 @@
 //! `studies/dry-shear-walls`: walls sheared in their plane.
 
+use std::fs;
 use std::path::Path;
 
 use pirca::critic::{Ours, compare};
 use pirca::ensemble::{Row, evaluate, plan};
 use pirca::model::Outcome;
 use pirca::protocol::ShearMode;
+use pirca::report::write_all;
 use pirca::study::Study;
 
 fn study(variant: Option<&str>) -> Study {
@@ -38,6 +40,17 @@ fn one_stiffness_fits_the_wall_that_it_was_read_off_and_not_those_under_more_loa
         let shear = row.shear.expect("it was sheared");
         assert_eq!((&row.outcome, shear.mode), (&Outcome::Equilibrium, Some(ShearMode::Rocking)));
     }
+    let out = std::env::temp_dir().join(format!("pirca-force-drift-{}", std::process::id()));
+    fs::create_dir_all(&out).expect("a folder for the report");
+    write_all(&base, &of_base, &out, None).expect("it is written");
+    let table = fs::read_to_string(out.join("force-drift.csv")).expect("walls are sheared");
+    fs::remove_dir_all(&out).expect("it was ours");
+    let steps: usize = of_base.iter().map(|row| row.load_steps.len()).sum();
+    assert_eq!(table.lines().count(), 1 + steps);
+    assert_eq!(table.lines().next(), Some("arm,kn_pa_per_m,member,load_step,drift_percent,force_n"));
+    let last: Vec<&str> = table.lines().last().expect("the last drift").split(',').collect();
+    let at = |column: usize| last[column].parse::<f64>().expect("a number");
+    assert!((2.0..2.001).contains(&at(4)) && (3e4..4e4).contains(&at(5)), "{last:?}");
     let others = study(Some("predict"));
     let of_others = rows(&others);
     let off = differences(&others, &of_others, "ws-175", 7e9);

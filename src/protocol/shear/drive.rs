@@ -214,10 +214,10 @@ impl Test {
         let (drift, before) = (last.level.value(), &rest.bodies.all);
         let moved = displacements(&now.all, before, now);
         let turns = turns(&now.all, before, now);
-        let far = 0.5 * drift.abs();
+        let (far, foot) = (0.5 * drift.abs(), extent(task.wall).0.z);
         let (mut turn, mut mass) = (0.0, 0.0);
         for (id, block) in movable(task.wall) {
-            let height = now.centroid_in(before, id).z;
+            let height = now.centroid_in(before, id).z + now.origin.z - foot;
             if moved[id].x.abs() >= far * height && drift != 0.0 {
                 let own = block.density * block.shape.volume();
                 turn += own * turns[id].y / drift;
