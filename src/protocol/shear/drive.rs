@@ -34,8 +34,8 @@ const LET_GO: explicit::Settings = explicit::Settings {
 
 /// A wall at rest under a solver that goes on from there.
 enum Pushed<'a> {
-    Implicit(Equilibrium<'a>),
-    Explicit(Assembly<'a>, explicit::Settings),
+    Implicit(Box<Equilibrium<'a>>),
+    Explicit(Box<Assembly<'a>>, explicit::Settings),
 }
 
 impl<'a> Pushed<'a> {
@@ -52,7 +52,7 @@ impl<'a> Pushed<'a> {
         match self {
             Pushed::Explicit(assembly, settings) => {
                 let (assembly, settled) = let_go(task, assembly, [from, to], *settings, &mut stop);
-                (Pushed::Explicit(assembly, *settings), settled)
+                (Pushed::Explicit(Box::new(assembly), *settings), settled)
             }
             Pushed::Implicit(at_rest) => {
                 let mut next = at_rest.clone();
@@ -64,7 +64,7 @@ impl<'a> Pushed<'a> {
                 }
                 let (assembly, free) = let_go(task, at_rest.assembly(), [from, to], LET_GO, &mut stop);
                 let steps = settled.steps + free.steps;
-                let next = at_rest.again(assembly);
+                let next = Box::new(at_rest.again(assembly));
                 if free.status != Status::Equilibrium {
                     return (Pushed::Implicit(next), Settled { steps, ..free });
                 }
@@ -135,8 +135,8 @@ pub fn push(task: &Task<'_>, shear: &Shear, begin: Begin, tell: &dyn Fn(Level)) 
     let joints = built.joints.all.len();
     let mut watch = Watch::new(task.wall, &built.bodies, task.path.direction(), task.criterion);
     let start = match begin {
-        Begin::Implicit(settings) => Pushed::Implicit(Equilibrium::of(built.clone(), settings)),
-        Begin::Explicit(settings) => Pushed::Explicit(built.clone(), settings),
+        Begin::Implicit(settings) => Pushed::Implicit(Box::new(Equilibrium::of(built.clone(), settings))),
+        Begin::Explicit(settings) => Pushed::Explicit(Box::new(built.clone()), settings),
     };
     let (mut state, settled) = start.go(task, [0.0; 2], &watch);
     let mut test = Test { steps: Vec::new(), shear: *shear, zero: 0.0 };
