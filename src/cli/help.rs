@@ -48,8 +48,8 @@ Example: pirca init my-wall
          pirca run my-wall
          pirca init my-tests --from tilting-table
 
-Built in are edge-restraint, element-types, joint-arrangement, tilting-block and tilting-table. A folder that exists is left alone: \
-choose another name.
+Built in are dry-shear-walls, edge-restraint, element-types, joint-arrangement, tilting-block and tilting-table. A folder that \
+exists is left alone: choose another name.
 
 ",
     codes!()

@@ -70,6 +70,7 @@ fn direction(protocol: &Protocol) -> Direction {
     match protocol {
         Protocol::Lateral(_) => Direction::YPlus,
         Protocol::Tilting(tilting) => tilting.towards,
+        Protocol::Shear(_) => Direction::XPlus,
     }
 }
 

@@ -31,6 +31,7 @@ pub fn measurement(
         specimen: specimen.into(),
         family: "irregular".into(),
         tilt: tilt_deg.map(radians),
+        drift: None,
         quantity,
         value,
         kind: MeasuredKind::Exact,
@@ -49,6 +50,8 @@ pub fn fallen(member: u64, point: u32, angle: f64) -> Row {
     let step = |tilt: f64| StepRow {
         load_factor: None,
         tilt_deg: Some(tilt),
+        drift_percent: None,
+        force_n: None,
         top_displacement_m: Some(6e-3 * tilt),
         left_m: Some(1e-3 * tilt),
         centre_m: Some(2e-3 * tilt),

@@ -1,10 +1,10 @@
 //! One member: its wall, its joints, its protocol, its row. A pure function of study, seed and task.
 
-use crate::ensemble::{LimitAnalysis, Mechanism, Row, StepRow, Task};
+use crate::ensemble::{LimitAnalysis, Mechanism, Row, ShearRow, StepRow, Task};
 use crate::generate::{Generated, InvalidGeometry, generate};
 use crate::math::degrees;
 use crate::model::{Level, Outcome, Wall};
-use crate::protocol::{self, Agreement, Bounds};
+use crate::protocol::{self, Agreement, Bounds, Protocol};
 use crate::random::Streams;
 use crate::solve::limit::Flow;
 use crate::solve::{STANDARD_GRAVITY, Solver};
@@ -44,7 +44,7 @@ pub fn solve(study: &Study, task: Task, wall: &Wall, tell: &dyn Fn(Level)) -> pr
     let contacts = arm.mechanisms.contacts(arm.sub_contacts);
     let changes = arm.mechanisms.changes(wall, &Streams::new(study.seed, task.member));
     let way = protocol::Way { changes: &changes, tell };
-    protocol::run_telling(wall, &laws, &study.protocol, &arm.restraint, contacts, way, &study.solver)
+    protocol::run_telling(wall, &laws, &study.protocol_of(arm), &arm.restraint, contacts, way, &study.solver)
 }
 
 /// The arm of a task and the laws of its member's joints.
@@ -66,6 +66,8 @@ fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
     let load_steps = run.steps.iter().enumerate().map(|(number, step)| StepRow {
         load_factor: matches!(step.level, Level::Factor(_)).then(|| step.level.value()),
         tilt_deg: tilt(step.level),
+        drift_percent: drift(step.level).and_then(finite),
+        force_n: step.push.and_then(finite),
         top_displacement_m: read(number, step.top_displacement),
         left_m: step.points.and_then(|[left, ..]| read(number, left)),
         centre_m: step.points.and_then(|[_, centre, _]| read(number, centre)),
@@ -97,7 +99,10 @@ fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
             _ => run.steps.iter().rev().nth(1).and_then(|step| tilt(step.level)),
         },
         limit: match study.solver {
-            Solver::Limit(settings) => by_itself(&run, settings.flow),
+            Solver::Limit(settings) => {
+                let arm = &study.arms[task.arm as usize];
+                by_itself(&run, push_over_load(study, arm, &run), settings.flow)
+            }
             _ => study.agreement.then(|| limit(study, task, wall, &run)),
         },
         mechanism: run.failure.as_ref().map(|failure| Mechanism {
@@ -108,6 +113,14 @@ fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
             turning_share: failure.turning_share,
             length_share: failure.length_share,
             place: failure.place,
+        }),
+        shear: run.shear.map(|shear| ShearRow {
+            capacity_n: finite(shear.capacity),
+            drift_at_capacity_percent: shear.mode.and_then(|_| finite(100.0 * shear.drift_at_capacity)),
+            plateau_n: shear.plateau.and_then(finite),
+            stiffness_n_per_m: shear.stiffness.and_then(finite),
+            mode: shear.mode,
+            opening_m: shear.opening.and_then(finite),
         }),
         stones: wall.stones().count() as u32,
         joints: run.joints as u32,
@@ -148,6 +161,7 @@ fn unsolved(study: &Study, task: Task, outcome: Outcome) -> Row {
         largest_tilt_deg: None,
         limit: None,
         mechanism: None,
+        shear: None,
         stones: 0,
         joints: 0,
         wedges: 0,
@@ -177,8 +191,10 @@ pub fn weight(wall: &Wall) -> f64 {
 fn limit(study: &Study, task: Task, wall: &Wall, run: &protocol::Run) -> LimitAnalysis {
     let (arm, laws) = drawn(study, task, wall);
     let contacts = arm.mechanisms.contacts(arm.sub_contacts);
-    let bounds = Bounds::of(wall, &laws, &study.protocol, &arm.restraint, contacts);
+    let bounds = Bounds::of(wall, &laws, &study.protocol_of(arm), &arm.restraint, contacts);
+    let pushed = push_over_load(study, arm, run);
     let borne = match run.outcome {
+        _ if pushed.is_some() => pushed,
         Outcome::Collapsed { at } => Some(at.value()),
         _ => run.steps.last().map(|step| step.level.value()),
     };
@@ -187,7 +203,7 @@ fn limit(study: &Study, task: Task, wall: &Wall, run: &protocol::Run) -> LimitAn
     let tilts = run.steps.first().is_some_and(|step| tilt(step.level).is_some());
     let angle = |x: Option<f64>| x.filter(|_| tilts).map(degrees);
     let factor = |x: Option<f64>| x.filter(|_| !tilts);
-    let collapsed = matches!(run.outcome, Outcome::Collapsed { .. });
+    let collapsed = pushed.is_some() || matches!(run.outcome, Outcome::Collapsed { .. });
     LimitAnalysis {
         angle_deg: angle(bounds.associative),
         non_associative_angle_deg: angle(bounds.non_associative),
@@ -198,8 +214,15 @@ fn limit(study: &Study, task: Task, wall: &Wall, run: &protocol::Run) -> LimitAn
     }
 }
 
-/// What limit analysis found as a study's own solver, in its own columns: a factor above 1 stands nowhere else.
-fn by_itself(run: &protocol::Run, flow: Flow) -> Option<LimitAnalysis> {
+/// The largest push on a sheared wall over its vertical load; `None` of others.
+fn push_over_load(study: &Study, arm: &Arm, run: &protocol::Run) -> Option<f64> {
+    let Protocol::Shear(shear) = study.protocol_of(arm) else { return None };
+    run.shear.map(|read| read.capacity / shear.vertical_load)
+}
+
+/// What limit analysis found as a study's own solver, in its own columns: a factor above 1 stands nowhere else. A wall that is
+/// sheared bears its push as a factor on the vertical load.
+fn by_itself(run: &protocol::Run, pushed: Option<f64>, flow: Flow) -> Option<LimitAnalysis> {
     let borne = run.steps.get(1)?.level;
     let found = match run.outcome {
         Outcome::Collapsed { .. } => true,
@@ -208,7 +231,7 @@ fn by_itself(run: &protocol::Run, flow: Flow) -> Option<LimitAnalysis> {
         _ => false,
     };
     let of = |own: Flow, x: Option<f64>| x.filter(|_| found && own == flow);
-    let factor = matches!(borne, Level::Factor(_)).then(|| borne.value());
+    let factor = pushed.or_else(|| matches!(borne, Level::Factor(_)).then(|| borne.value()));
     Some(LimitAnalysis {
         angle_deg: of(Flow::Associative, tilt(borne)),
         non_associative_angle_deg: of(Flow::NonAssociative, tilt(borne)),
@@ -222,6 +245,11 @@ fn by_itself(run: &protocol::Run, flow: Flow) -> Option<LimitAnalysis> {
 /// A tilt (deg), if the level is one.
 fn tilt(level: Level) -> Option<f64> {
     if let Level::Tilt(tilt) = level { Some(degrees(tilt)) } else { None }
+}
+
+/// A drift (%), if the level is one.
+fn drift(level: Level) -> Option<f64> {
+    if let Level::Drift(drift) = level { Some(100.0 * drift) } else { None }
 }
 
 /// A value that a table can hold: NaN and infinity are "not observed".

@@ -23,6 +23,6 @@ pub use files::replace_file;
 pub use manifest::Manifest;
 pub use progress::{Progress, Silent};
 pub use quantity::{Observed, Quantity};
-pub use record::{LimitAnalysis, Mechanism, Row, StepRow};
+pub use record::{LimitAnalysis, Mechanism, Row, ShearRow, StepRow};
 pub use run::{Settings, run, run_with};
 pub(crate) use table::parquet;

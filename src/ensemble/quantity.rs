@@ -11,6 +11,8 @@ pub enum Quantity {
     TopDisplacement,
     /// The tilt at which the wall falls, the last one borne (deg), of walls that collapse.
     CollapseAngle,
+    /// The largest push that a wall bears along itself under a constant vertical load (N).
+    ShearCapacity,
 }
 
 /// What a wall says about the quantity.
@@ -33,6 +35,7 @@ impl Quantity {
                 Observes::CollapseAngle => Quantity::CollapseAngle,
                 Observes::Displacement => Quantity::TopDisplacement,
             },
+            Protocol::Shear(_) => Quantity::ShearCapacity,
         }
     }
 
@@ -44,6 +47,9 @@ impl Quantity {
             (Quantity::CollapseAngle, Outcome::Collapsed { .. }) => value(row.collapse_angle_deg),
             (Quantity::CollapseAngle, Outcome::Equilibrium) => {
                 row.largest_tilt_deg.map_or(Observed::Nothing, Observed::Above)
+            }
+            (Quantity::ShearCapacity, Outcome::Collapsed { .. } | Outcome::Equilibrium) => {
+                value(row.shear.and_then(|shear| shear.capacity_n))
             }
             _ => Observed::Nothing,
         }

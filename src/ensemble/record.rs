@@ -1,7 +1,7 @@
 //! What is recorded of a member: one row, and one row per load step.
 
 use crate::model::Outcome;
-use crate::protocol::{Agreement, FailureMode};
+use crate::protocol::{Agreement, FailureMode, ShearMode};
 
 /// One member of one arm at one kn: what was drawn, how it ended, what was observed.
 ///
@@ -42,6 +42,9 @@ pub struct Row {
     pub limit: Option<LimitAnalysis>,
     /// The mechanism of a collapse; `None` unless one was watched.
     pub mechanism: Option<Mechanism>,
+    /// What is read off a wall that is sheared; `None` of others.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shear: Option<ShearRow>,
     /// Number of stones (headers and wedges counted).
     pub stones: u32,
     /// Number of joints at rest.
@@ -95,6 +98,23 @@ pub struct Mechanism {
     pub place: f64,
 }
 
+/// What is read off a sheared wall; see [`crate::protocol::Sheared`]. `None` where limit analysis has no such value.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct ShearRow {
+    /// The largest push (N).
+    pub capacity_n: Option<f64>,
+    /// The drift at which it was reached (%).
+    pub drift_at_capacity_percent: Option<f64>,
+    /// The plateau (N).
+    pub plateau_n: Option<f64>,
+    /// The secant at a third of the plateau (N/m).
+    pub stiffness_n_per_m: Option<f64>,
+    /// How the wall gives way.
+    pub mode: Option<ShearMode>,
+    /// Widest opening of a joint at the end (m).
+    pub opening_m: Option<f64>,
+}
+
 /// What limit analysis says of a member, and how that goes with the solver's answer; see [`crate::protocol::Bounds`].
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct LimitAnalysis {
@@ -102,7 +122,8 @@ pub struct LimitAnalysis {
     pub angle_deg: Option<f64>,
     /// The same without dilatancy, neither a bound nor unique (deg).
     pub non_associative_angle_deg: Option<f64>,
-    /// Factor on the protocol's load at collapse with associative flow; `None` on a tilting table or if not found.
+    /// Factor on the protocol's load at collapse with associative flow, in shear the push over the vertical load; `None` on a
+    /// tilting table or if not found.
     pub multiplier: Option<f64>,
     /// The same without dilatancy.
     pub non_associative_multiplier: Option<f64>,
@@ -119,6 +140,12 @@ pub struct StepRow {
     pub load_factor: Option<f64>,
     /// Tilt of the platform (deg); `None` unless on a tilting table.
     pub tilt_deg: Option<f64>,
+    /// Displacement of the beam over the height of the jack (%); `None` unless the wall is sheared.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drift_percent: Option<f64>,
+    /// Force (N) of the jack along x+; `None` unless the wall is sheared.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub force_n: Option<f64>,
     /// Largest displacement at the top in the direction of the load since the end of gravity (m); `None` when it is not finite.
     pub top_displacement_m: Option<f64>,
     /// Displacement of the left point of the top along +y since the end of gravity (m); `None` when it is not finite.

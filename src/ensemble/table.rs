@@ -17,7 +17,7 @@ pub(crate) fn members(rows: &[Row]) -> Result<Vec<u8>, RunError> {
     let real = |name: &str, of: fn(&Row) -> Option<f64>| {
         Column::from(Series::new(name.into(), rows.iter().map(of).collect::<Vec<_>>()))
     };
-    let columns = vec![
+    let mut columns = vec![
         text("arm", |r| Some(r.arm.clone())),
         count("point", |r| r.point.into()),
         real("kn_pa_per_m", |r| Some(r.kn_pa_per_m)),
@@ -60,6 +60,16 @@ pub(crate) fn members(rows: &[Row]) -> Result<Vec<u8>, RunError> {
         count("solver_steps", |r| r.solver_steps),
         real("unbalanced_ratio", |r| r.unbalanced_ratio),
     ];
+    if rows.iter().any(|row| row.shear.is_some()) {
+        columns.extend([
+            real("capacity_n", |r| r.shear.and_then(|s| s.capacity_n)),
+            real("drift_at_capacity_percent", |r| r.shear.and_then(|s| s.drift_at_capacity_percent)),
+            real("plateau_n", |r| r.shear.and_then(|s| s.plateau_n)),
+            real("stiffness_n_per_m", |r| r.shear.and_then(|s| s.stiffness_n_per_m)),
+            text("shear_mode", |r| r.shear.and_then(|s| s.mode).map(|mode| mode.name().to_string())),
+            real("opening_m", |r| r.shear.and_then(|s| s.opening_m)),
+        ]);
+    }
     parquet("members.parquet", rows.len(), columns)
 }
 
@@ -76,7 +86,7 @@ pub(crate) fn steps(rows: &[Row]) -> Result<Vec<u8>, RunError> {
     let real = |name: &str, of: fn(&(&Row, u64, &StepRow)) -> Option<f64>| {
         Column::from(Series::new(name.into(), flat.iter().map(of).collect::<Vec<_>>()))
     };
-    let columns = vec![
+    let mut columns = vec![
         Column::from(Series::new("arm".into(), arms)),
         count("point", |(row, ..)| row.point.into()),
         real("kn_pa_per_m", |(row, ..)| Some(row.kn_pa_per_m)),
@@ -94,6 +104,12 @@ pub(crate) fn steps(rows: &[Row]) -> Result<Vec<u8>, RunError> {
         real("unbalanced_ratio", |(.., step)| step.unbalanced_ratio),
         count("solver_steps", |(.., step)| step.solver_steps),
     ];
+    if flat.iter().any(|(.., step)| step.force_n.is_some()) {
+        columns.extend([
+            real("drift_percent", |(.., step)| step.drift_percent),
+            real("force_n", |(.., step)| step.force_n),
+        ]);
+    }
     parquet("steps.parquet", flat.len(), columns)
 }
 

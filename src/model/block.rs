@@ -29,6 +29,8 @@ pub enum Support {
     Fixed,
     /// Cannot move out of plane (y) nor turn about x or z; free in the wall's plane.
     OutOfPlane,
+    /// Neither moves out of plane nor turns: it shifts in the wall's plane.
+    Upright,
     /// Not there any more: a stone that has fallen out. It has neither weight nor joints; the others keep their ids.
     Absent,
 }
@@ -45,7 +47,7 @@ pub enum Tag {
     Wedge,
     /// The ground or the platform under the wall.
     Base,
-    /// A block that restrains an end of the wall.
+    /// A block that restrains an end of the wall, or presses on its top.
     End,
     /// A stone that its owner calls something else, for example a keystone.
     #[serde(untagged)]

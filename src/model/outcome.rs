@@ -14,13 +14,15 @@ pub enum Level {
     Tilt(f64),
     /// Horizontal load over weight, the multiplier of limit analysis.
     Multiplier(f64),
+    /// Horizontal displacement of a beam on the wall's top over its height, along the wall.
+    Drift(f64),
 }
 
 impl Level {
     /// The number alone, in SI units.
     pub fn value(&self) -> f64 {
         match *self {
-            Level::Factor(x) | Level::Tilt(x) | Level::Multiplier(x) => x,
+            Level::Factor(x) | Level::Tilt(x) | Level::Multiplier(x) | Level::Drift(x) => x,
         }
     }
 }
@@ -31,6 +33,7 @@ impl fmt::Display for Level {
             Level::Factor(x) => write!(f, "load factor {x}"),
             Level::Tilt(x) => write!(f, "a tilt of {:.4} deg", degrees(*x)),
             Level::Multiplier(x) => write!(f, "a load multiplier of {x:.6}"),
+            Level::Drift(x) => write!(f, "a drift of {:.4} %", 100.0 * x),
         }
     }
 }

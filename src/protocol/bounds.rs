@@ -5,11 +5,13 @@ use crate::model::{JointLaws, Outcome, Wall};
 use crate::protocol::path::Growing;
 use crate::protocol::pressure::back_loads;
 use crate::protocol::rigid::{Rigid, level};
+use crate::protocol::shear::push_on;
 use crate::protocol::stage::Stage;
 use crate::protocol::{Contacts, Protocol, Restraint};
 use crate::solve::limit::{Flow, Settings};
 
-/// What limit analysis says of a wall under a protocol's loads: a tilt (rad), or a factor on the protocol's load.
+/// What limit analysis says of a wall under a protocol's loads: a tilt (rad), a factor on the protocol's load, or the push over
+/// the vertical load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
     /// With associative flow: an upper bound on what rigid blocks with Coulomb joints bear. `None` where the solver found no
@@ -57,10 +59,15 @@ impl Bounds {
         restraint: &Restraint,
         contacts: impl Into<Contacts>,
     ) -> Bounds {
-        let stage = Stage::new(wall, laws, protocol, restraint, contacts.into());
+        let mut stage = Stage::new(wall, laws, protocol, restraint, contacts.into());
         let (growing, loads) = match protocol {
             Protocol::Tilting(_) => (Growing::Tilt(stage.towards), Vec::new()),
             Protocol::Lateral(lateral) => (Growing::Factor, back_loads(wall, lateral)),
+            // The jack is the load.
+            Protocol::Shear(shear) => {
+                let jack = stage.ties.remove(0);
+                (Growing::Factor, vec![push_on(&jack, shear.vertical_load)])
+            }
         };
         let rigid = Rigid {
             wall: &stage.assembly,

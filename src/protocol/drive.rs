@@ -134,6 +134,7 @@ fn climb_telling<'a, S: Equilibrate<'a>>(
         failure,
         events: Events::default(),
         joint_states: joint_states(assembly, &at_rest),
+        shear: None,
     }
 }
 
@@ -526,6 +527,7 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
             failure,
             events: Events::default(),
             joint_states: Vec::new(),
+            shear: None,
         }
     }
 }

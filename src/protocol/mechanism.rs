@@ -77,6 +77,8 @@ pub struct JointState {
     pub slip: f64,
     /// Share of its sub-contacts that have slipped at any time.
     pub slipped: f64,
+    /// Share of its area that is crushed.
+    pub crushed: f64,
 }
 
 /// The mechanism from two moments of the runaway.
@@ -224,6 +226,7 @@ pub fn joint_states(assembly: &Assembly<'_>, at_rest: &[Body]) -> Vec<JointState
                 opening: joint.largest_gap(now).max(0.0),
                 slip: (relative - normal * relative.dot(&normal)).norm(),
                 slipped: joint.slipped_share(),
+                crushed: joint.crushed_share(now),
             }
         })
         .collect()

@@ -18,6 +18,7 @@ mod ropes;
 mod route;
 mod run;
 mod settings;
+mod shear;
 mod shove;
 mod stage;
 mod task;
@@ -38,6 +39,7 @@ pub use run::{Way, run, run_changing, run_telling};
 pub use settings::{
     Base, Compliance, Contacts, Ends, Lateral, Observes, Protocol, Rate, Restraint, Rope, Tilting, Turning,
 };
+pub use shear::{Head, History, Shear, ShearMode, Sheared, force_at};
 pub use shove::{Phase, Shove, Shoved, Stand, shove_heap, shove_wall};
 pub use stage::{Stage, typical_size};
 pub use task::{Platform, Run, Task};

@@ -14,6 +14,8 @@ pub enum Growing {
     Tilt(Direction),
     /// A body force of so many times the weight towards a side.
     Multiplier(Direction),
+    /// How far a jack goes along the wall, over its height.
+    Drift,
 }
 
 /// A load path: a level that grows from 0 to its end.
@@ -54,6 +56,11 @@ impl LoadPath {
         LoadPath { growing: Growing::Multiplier(towards), end, steps: end / step, bracket, goes_back: false }
     }
 
+    /// A jack that pushes along the wall; drifts are shares of its height.
+    pub fn drift(step: f64, end: f64) -> LoadPath {
+        LoadPath { growing: Growing::Drift, end, steps: end / step, bracket: f64::INFINITY, goes_back: false }
+    }
+
     /// The number of the level after so many full steps (a fraction of a step counts as that).
     pub fn after(&self, steps: f64) -> f64 {
         (steps / self.steps * self.end).min(self.end)
@@ -70,14 +77,15 @@ impl LoadPath {
             Growing::Factor => Level::Factor(x),
             Growing::Tilt(_) => Level::Tilt(x),
             Growing::Multiplier(_) => Level::Multiplier(x),
+            Growing::Drift => Level::Drift(x),
         }
     }
 
-    /// Gravity (m/s^2) and the factor on the dead loads.
+    /// Gravity (m/s^2) and the factor on the dead loads and on the way of jacks.
     pub fn loads(&self, x: f64) -> (Vec3, f64) {
         let g = STANDARD_GRAVITY;
         match self.growing {
-            Growing::Factor => (Vec3::new(0.0, 0.0, -g), x),
+            Growing::Factor | Growing::Drift => (Vec3::new(0.0, 0.0, -g), x),
             Growing::Tilt(towards) => (towards.unit() * (g * sin(x)) - Vec3::z() * (g * cos(x)), 1.0),
             Growing::Multiplier(towards) => (towards.unit() * (g * x) - Vec3::z() * g, 1.0),
         }
@@ -87,6 +95,7 @@ impl LoadPath {
     pub fn direction(&self) -> Direction {
         match self.growing {
             Growing::Factor => Direction::YPlus,
+            Growing::Drift => Direction::XPlus,
             Growing::Tilt(towards) | Growing::Multiplier(towards) => towards,
         }
     }

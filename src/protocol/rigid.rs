@@ -36,7 +36,7 @@ impl Rigid<'_> {
         };
         let limit = match self.growing {
             Growing::Tilt(towards) => analysis.tilt(towards.unit(), &points(When::Dead)),
-            Growing::Factor => analysis.multiplier(&Loads {
+            Growing::Factor | Growing::Drift => analysis.multiplier(&Loads {
                 points: points(When::Live),
                 live: Vec3::zeros(),
                 ..Loads::weight()
@@ -57,7 +57,7 @@ pub(super) fn rigid(task: &Task<'_>, settings: Settings) -> Run {
     let settings = match path.growing {
         Growing::Tilt(_) => Settings { largest_tilt: path.end.min(settings.largest_tilt), ..settings },
         Growing::Multiplier(_) => Settings { largest_multiplier: path.end, ..settings },
-        Growing::Factor => settings,
+        Growing::Factor | Growing::Drift => settings,
     };
     let asked = Rigid { wall, laws, contact, ties: &task.ties, loads: &task.loads, growing: path.growing };
     let (limit, joints) = asked.ask(settings);
@@ -79,6 +79,7 @@ pub(super) fn rigid(task: &Task<'_>, settings: Settings) -> Run {
         top_displacement: f64::NAN,
         points: None,
         remainders: None,
+        push: None,
         unbalanced_ratio: limit.accuracy.residual,
         solver_steps: u64::from(solver_steps),
     };
@@ -97,6 +98,7 @@ pub(super) fn rigid(task: &Task<'_>, settings: Settings) -> Run {
         joints,
         events: Events::default(),
         joint_states: Vec::new(),
+        shear: None,
     }
 }
 

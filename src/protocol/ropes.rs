@@ -25,6 +25,7 @@ pub fn ropes(wall: &Wall, rope: &Rope, towards: Direction) -> Vec<Tie> {
                     pretension: rope.pretension,
                     slack: rope.slack,
                     two_sided: rope.two_sided,
+                    travel: 0.0,
                 });
             }
         }

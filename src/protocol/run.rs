@@ -5,6 +5,7 @@ use crate::protocol::drive::drive_telling;
 use crate::protocol::events::in_parts;
 use crate::protocol::path::LoadPath;
 use crate::protocol::pressure::back_loads;
+use crate::protocol::shear::{Begin, by_limit, push};
 use crate::protocol::stage::Stage;
 use crate::protocol::tilting::turn;
 use crate::protocol::{Changes, Confirmation, Contacts, Criterion, Protocol, Rate, Restraint, Run, Task};
@@ -25,7 +26,7 @@ pub fn run(
     run_changing(wall, laws, protocol, restraint, contacts, &Changes::default(), solver)
 }
 
-/// [`run`] with a wall that changes on its way. Changes go by tilt: under a service load they must be none.
+/// [`run`] with a wall that changes on its way. Changes go by tilt: under a service load, and in shear, they must be none.
 pub fn run_changing(
     wall: &Wall,
     laws: &dyn JointLaws,
@@ -83,6 +84,16 @@ pub fn run_telling(
                     }
                 }
             })
+        }
+        Protocol::Shear(shear) => {
+            let criterion = Criterion::AnyBlock(shear.collapse_share * thickness);
+            let path = LoadPath::drift(shear.step, shear.history.widest());
+            let task = task(&stage, &stage.assembly, path, criterion, thickness);
+            match solver {
+                Solver::Limit(settings) => by_limit(task, shear.vertical_load, *settings),
+                Solver::Implicit(settings) => push(&task, shear, Begin::Implicit(*settings), tell),
+                Solver::Explicit(settings) => push(&task, shear, Begin::Explicit(*settings), tell),
+            }
         }
     };
     run.displacements.truncate(wall.blocks.len());

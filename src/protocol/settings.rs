@@ -2,6 +2,7 @@
 
 use crate::protocol::direction::Direction;
 use crate::protocol::events::EventShares;
+use crate::protocol::shear::Shear;
 
 /// How the ends of the wall (x = 0 and x = length) are held.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -191,4 +192,6 @@ pub enum Protocol {
     Lateral(Lateral),
     /// Tilting table: the source paper's sections 2.2 and 3.4.
     Tilting(Tilting),
+    /// Shear in the wall's plane under a constant vertical load.
+    Shear(Shear),
 }

@@ -4,13 +4,14 @@ use crate::contact;
 use crate::math::cbrt;
 use crate::model::{JointLaws, Wall};
 use crate::protocol::restraint::{Surroundings, restrain};
+use crate::protocol::shear::{beam, jack};
 use crate::protocol::task::Platform;
 use crate::protocol::{Contacts, Direction, Ends, Protocol, Restraint, ropes};
 use crate::solve::Tie;
 
 /// The wall on its base and between its ends, ready for a solver or for limit analysis.
 pub struct Stage<'a> {
-    /// The blocks; base, strip and ends have ids behind the stones'.
+    /// The blocks; base, strip, ends and the beam on its top have ids behind the stones'.
     pub assembly: Wall,
     /// The laws of all joints.
     pub laws: Surroundings<'a>,
@@ -18,7 +19,7 @@ pub struct Stage<'a> {
     pub contact: contact::Settings,
     /// Springs under its platform.
     pub platform: Option<Platform>,
-    /// Ropes at its ends.
+    /// The jack that shears it, and ropes at its ends.
     pub ties: Vec<Tie>,
     /// Where the load pushes.
     pub towards: Direction,
@@ -36,8 +37,18 @@ impl<'a> Stage<'a> {
         let towards = match protocol {
             Protocol::Lateral(_) => Direction::YPlus,
             Protocol::Tilting(tilting) => tilting.towards,
+            Protocol::Shear(_) => Direction::XPlus,
         };
-        let assembly = restrain(wall, restraint, towards);
+        let mut assembly = restrain(wall, restraint, towards);
+        let mut ties = Vec::new();
+        if let Protocol::Shear(shear) = protocol {
+            let beam = beam(wall, shear);
+            ties.push(jack(assembly.blocks.len(), &beam, shear));
+            assembly.blocks.push(beam);
+        }
+        if let Ends::Ropes(rope) = restraint.ends {
+            ties.extend(ropes(wall, &rope, towards));
+        }
         let platform = restraint.base.compliance.map(|springs| Platform::under(wall, &assembly, springs));
         Stage {
             assembly,
@@ -47,10 +58,7 @@ impl<'a> Stage<'a> {
                 inset: contacts.inset,
                 ..contact::Settings::for_size(typical_size(wall), contacts.sub_contacts)
             },
-            ties: match restraint.ends {
-                Ends::Ropes(rope) => ropes(wall, &rope, towards),
-                _ => Vec::new(),
-            },
+            ties,
             towards,
         }
     }

@@ -10,6 +10,7 @@ use crate::protocol::events::Events;
 use crate::protocol::mechanism::{Failure, JointState};
 use crate::protocol::path::LoadPath;
 use crate::protocol::pressure::Load;
+use crate::protocol::shear::Sheared;
 use crate::protocol::watch::{Criterion, LoadStep};
 use crate::solve::bodies::{Bodies, Body};
 use crate::solve::{Assembly, Mount, Tie};
@@ -81,6 +82,8 @@ pub struct Run {
     pub events: Events,
     /// The joints at the last state at rest; empty if there was none.
     pub joint_states: Vec<JointState>,
+    /// What is read off a wall that is sheared; `None` of others, and of one that never came to rest.
+    pub shear: Option<Sheared>,
 }
 
 impl<'t> Task<'t> {

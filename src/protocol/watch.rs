@@ -28,6 +28,8 @@ pub struct LoadStep {
     /// What is left of these (m) when the platform goes back to the level from here; `None` where that was not asked for, or the
     /// wall does not come to rest on the way.
     pub remainders: Option<[f64; 3]>,
+    /// Force (N) with which a jack pushes along the wall; `None` where there is none.
+    pub push: Option<f64>,
     /// Unbalanced force ratio reached.
     pub unbalanced_ratio: f64,
     /// Time steps or iterations that it took, failed attempts on the way included.
@@ -106,7 +108,15 @@ impl Watch {
         let points = self.points(bodies);
         let (top_displacement, _) =
             furthest(&displacements(&self.top, bodies), &self.top_at_rest, self.towards);
-        LoadStep { level, top_displacement, points, remainders: None, unbalanced_ratio, solver_steps }
+        LoadStep {
+            level,
+            top_displacement,
+            points,
+            remainders: None,
+            push: None,
+            unbalanced_ratio,
+            solver_steps,
+        }
     }
 
     /// See [`LoadStep::points`].

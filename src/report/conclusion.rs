@@ -76,6 +76,7 @@ fn shown(summary: &Summary) -> Option<String> {
     };
     let what = match quantity.unit() {
         "deg" => "Mean collapse angle",
+        "N" => "Mean of the largest push",
         _ => "Mean displacement at the top",
     };
     let head = format!("{what} in {} at kn {}: ", quantity.shown_unit(), stiffness(first.kn_pa_per_m));

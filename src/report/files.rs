@@ -7,7 +7,7 @@ use anyhow::{Context, Result};
 
 use crate::ensemble::{Row, replace_file};
 use crate::report::beside::Earlier;
-use crate::report::csv::{csv, fragility_csv};
+use crate::report::csv::{csv, force_drift_csv, fragility_csv};
 use crate::report::draw::{Figure, IMAGE_SCALE, png_into, svg};
 use crate::report::drift::{DriftPlot, drift_csv, drift_curves};
 use crate::report::figure::{curves, ladders, title};
@@ -23,6 +23,8 @@ pub const SUMMARY_JSON: &str = "summary.json";
 pub const FRAGILITY: &str = "fragility";
 /// File name, without ending, of the drift against the walls' length.
 const DRIFT: &str = "drift";
+/// File name of the pushes over the drifts of every wall that is sheared.
+pub const FORCE_DRIFT_CSV: &str = "force-drift.csv";
 /// File name of the comparison with what was measured.
 pub const COMPARISON_CSV: &str = "comparison.csv";
 /// File name, without ending, of the calibration's curves and the figure of them.
@@ -40,6 +42,9 @@ pub const CALIBRATION: &str = "calibration";
 pub fn write_all(study: &Study, rows: &[Row], dir: &Path, beside: Option<&Earlier>) -> Result<Summary> {
     let summary = summarise(study, rows);
     write_summary(&summary, dir, beside)?;
+    if rows.iter().any(|row| row.shear.is_some()) {
+        replace_file(&dir.join(FORCE_DRIFT_CSV), force_drift_csv(rows).as_bytes())?;
+    }
     Ok(summary)
 }
 

@@ -8,6 +8,7 @@ impl Quantity {
         match self {
             Quantity::TopDisplacement => "equilibrium",
             Quantity::CollapseAngle => "collapsed",
+            Quantity::ShearCapacity => "equilibrium",
         }
     }
 
@@ -16,6 +17,7 @@ impl Quantity {
         match self {
             Quantity::TopDisplacement => "top_displacement",
             Quantity::CollapseAngle => "collapse_angle",
+            Quantity::ShearCapacity => "shear_capacity",
         }
     }
 
@@ -24,6 +26,7 @@ impl Quantity {
         match self {
             Quantity::TopDisplacement => "m",
             Quantity::CollapseAngle => "deg",
+            Quantity::ShearCapacity => "N",
         }
     }
 
@@ -32,6 +35,7 @@ impl Quantity {
         match self {
             Quantity::TopDisplacement => "mm",
             Quantity::CollapseAngle => "deg",
+            Quantity::ShearCapacity => "kN",
         }
     }
 
@@ -40,6 +44,7 @@ impl Quantity {
         match self {
             Quantity::TopDisplacement => x * 1e3,
             Quantity::CollapseAngle => x,
+            Quantity::ShearCapacity => x * 1e-3,
         }
     }
 
@@ -48,6 +53,7 @@ impl Quantity {
         match self {
             Quantity::TopDisplacement => "out-of-plane displacement at the top (mm)",
             Quantity::CollapseAngle => "collapse angle (deg)",
+            Quantity::ShearCapacity => "largest push along the wall (kN)",
         }
     }
 
@@ -56,6 +62,7 @@ impl Quantity {
         match self {
             Quantity::TopDisplacement => "figure-10",
             Quantity::CollapseAngle => "capacity",
+            Quantity::ShearCapacity => "shear",
         }
     }
 
@@ -68,6 +75,9 @@ impl Quantity {
             Quantity::CollapseAngle => {
                 "the tilt at which the wall falls: the last one at which it came to rest"
             }
+            Quantity::ShearCapacity => {
+                "the largest push along the wall that it bears under its constant vertical load"
+            }
         }
     }
 
@@ -76,6 +86,7 @@ impl Quantity {
         match self {
             Quantity::TopDisplacement => "collapsed, not converged, non-finite, invalid geometry",
             Quantity::CollapseAngle => "not standing at rest, not converged, non-finite, invalid geometry",
+            Quantity::ShearCapacity => "not standing at rest, not converged, non-finite, invalid geometry",
         }
     }
 }

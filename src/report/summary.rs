@@ -152,7 +152,7 @@ pub(crate) fn describe(
 ) -> ArmSummary {
     let values = population.complete();
     let statistics = match population.quantity {
-        Quantity::CollapseAngle => stats::Summary::of_positive(&values),
+        Quantity::CollapseAngle | Quantity::ShearCapacity => stats::Summary::of_positive(&values),
         Quantity::TopDisplacement => stats::Summary::of(&values),
     };
     let name = format!("{} {:e}", population.arm, population.kn);
@@ -179,7 +179,7 @@ pub(crate) fn describe(
         cov_bootstrap_ci: cov_bootstrap.interval,
         quantiles: PROBABILITIES.map(|p| QuantileEntry::of(&values, p)).to_vec(),
         fragility: match population.quantity {
-            Quantity::TopDisplacement => Vec::new(),
+            Quantity::TopDisplacement | Quantity::ShearCapacity => Vec::new(),
             Quantity::CollapseAngle => stats::empirical(&population.ordered(), &population.limits()),
         },
         note: population.note(),

@@ -90,6 +90,11 @@ impl<'a> Assembly<'a> {
         &self.ties
     }
 
+    /// The pull (N) of every tie as the bodies stand; negative where it pushes.
+    pub fn pulls(&self) -> impl Iterator<Item = f64> {
+        self.ties.iter().map(|tie| tie.force(&self.bodies.all[tie.tie.body], self.load_factor))
+    }
+
     /// Puts a fixed body, which has not moved yet, on springs, and fixes others to it.
     pub fn mount(&mut self, mount: Mount, fixed_to_it: &[usize]) {
         self.mounted = Some(Mounted::new(mount, &self.bodies.all[mount.body]));
@@ -122,7 +127,9 @@ impl<'a> Assembly<'a> {
         for body in &mut self.bodies.all {
             body.force = match body.freedom {
                 Freedom::Mounted => Vec3::zeros(),
-                Freedom::Free | Freedom::Fixed | Freedom::InPlane => self.gravity * body.mass,
+                Freedom::Free | Freedom::Fixed | Freedom::InPlane | Freedom::Upright => {
+                    self.gravity * body.mass
+                }
             };
             body.torque = Vec3::zeros();
         }
@@ -133,7 +140,7 @@ impl<'a> Assembly<'a> {
             body.torque += (body.rotation * load.lever).cross(&force);
         }
         for tie in &self.ties {
-            tie.apply(&mut self.bodies.all[tie.tie.body]);
+            tie.apply(&mut self.bodies.all[tie.tie.body], self.load_factor);
         }
         if let Some(mounted) = &self.mounted {
             mounted.apply(&mut self.bodies.all[mounted.mount.body]);

@@ -17,6 +17,8 @@ pub enum Freedom {
     Fixed,
     /// It cannot move out of plane (y) nor turn about x or z.
     InPlane,
+    /// It moves in the plane (x and z) without turning.
+    Upright,
     /// It moves up and down and turns about x, on springs; its own weight does not act.
     Mounted,
 }
@@ -188,6 +190,7 @@ impl Freedom {
             Support::Free => Freedom::Free,
             Support::Fixed | Support::Absent => Freedom::Fixed,
             Support::OutOfPlane => Freedom::InPlane,
+            Support::Upright => Freedom::Upright,
         }
     }
 }
@@ -234,7 +237,7 @@ impl Body {
     /// Angular velocity (rad/s) of an attitude with this body's angular momentum.
     fn spin_at(&self, rotation: &Mat3) -> Vec3 {
         match self.freedom {
-            Freedom::Fixed => Vec3::zeros(),
+            Freedom::Fixed | Freedom::Upright => Vec3::zeros(),
             Freedom::Free => {
                 let local = rotation.tr_mul(&self.angular_momentum);
                 rotation * (local.component_div(&self.inertia) / self.inertia_scale)
@@ -296,6 +299,10 @@ impl Body {
             Freedom::InPlane => {
                 self.force.y = 0.0;
                 self.torque = Vec3::new(0.0, self.torque.y, 0.0);
+            }
+            Freedom::Upright => {
+                self.force.y = 0.0;
+                self.torque = Vec3::zeros();
             }
             Freedom::Mounted => {
                 self.force = Vec3::new(0.0, 0.0, self.force.z);

@@ -1,11 +1,12 @@
-//! Ties: springs from points of bodies to the surroundings, as ropes across the face of a wall are.
+//! Ties: springs from points of bodies to the surroundings, as ropes across the face of a wall are, or jacks that push it.
 
 use crate::math::Vec3;
 use crate::solve::bodies::Body;
 
 /// A spring that does not let a point of a body go in one fixed direction.
 ///
-/// With `u` the displacement of the point along the direction since it was built, the tie pulls against the direction with
+/// With `u` the displacement of the point along the direction since it was built, less the travel of the tie's other end, it
+/// pulls against the direction with
 ///
 /// ```text
 /// T = max(0, T0 + k (u - slack))                        one that only pulls
@@ -29,6 +30,8 @@ pub struct Tie {
     pub slack: f64,
     /// Whether it also pushes.
     pub two_sided: bool,
+    /// How far (m) its other end goes along the direction at load factor 1: a jack. 0 for what is fixed to the surroundings.
+    pub travel: f64,
 }
 
 /// Derivatives of a tie's force and moment, see [`Held::stiffness`].
@@ -62,20 +65,27 @@ impl Held {
         Held { tie, lever: body.rotation.tr_mul(&(tie.point - body.position)) }
     }
 
-    /// The point's lever from the body's centroid (m, world axes), and its displacement along the direction (m).
-    fn place(&self, body: &Body) -> (Vec3, f64) {
+    /// The point's lever from the body's centroid (m, world axes), and its displacement along the direction from where the
+    /// other end is at a load factor (m).
+    fn place(&self, body: &Body, load_factor: f64) -> (Vec3, f64) {
         let lever = body.rotation * self.lever;
-        (lever, (body.position + lever - self.tie.point).dot(&self.tie.direction))
+        let moved = (body.position + lever - self.tie.point).dot(&self.tie.direction);
+        (lever, moved - self.tie.travel * load_factor)
     }
 
     /// Size of its force now (N); negative where it pushes.
-    pub fn force(&self, body: &Body) -> f64 {
-        self.tie.pull(self.place(body).1).0
+    pub fn force(&self, body: &Body, load_factor: f64) -> f64 {
+        self.tie.pull(self.place(body, load_factor).1).0
+    }
+
+    /// Displacement (m) of its point along the direction since it was built.
+    pub fn displacement(&self, body: &Body) -> f64 {
+        self.place(body, 0.0).1
     }
 
     /// Adds its force to its body.
-    pub fn apply(&self, body: &mut Body) {
-        let (lever, u) = self.place(body);
+    pub fn apply(&self, body: &mut Body, load_factor: f64) {
+        let (lever, u) = self.place(body, load_factor);
         let force = self.tie.direction * -self.tie.pull(u).0;
         body.force += force;
         body.torque += lever.cross(&force);
@@ -83,8 +93,8 @@ impl Held {
 
     /// The negative derivatives of force and moment on the body (rows) with respect to its displacement and turn (rad,
     /// world axes; columns), with the change of the moment arm: `d(r x F) = (w x r) x F + r x dF`.
-    pub fn stiffness(&self, body: &Body) -> Stiffness {
-        let (lever, u) = self.place(body);
+    pub fn stiffness(&self, body: &Body, load_factor: f64) -> Stiffness {
+        let (lever, u) = self.place(body, load_factor);
         let (pull, slope) = self.tie.pull(u);
         let (direction, force) = (self.tie.direction, self.tie.direction * -pull);
         let column = |shift: Vec3, turn: Vec3| {
@@ -125,6 +135,7 @@ mod tests {
         pretension: 300.0,
         slack: 0.0,
         two_sided: false,
+        travel: 0.0,
     };
 
     #[test]
@@ -145,6 +156,26 @@ mod tests {
     }
 
     #[test]
+    fn a_jack_pushes_as_far_as_its_other_end_goes() {
+        let block = Block {
+            shape: Polyhedron::cuboid(Vec3::zeros(), Vec3::new(0.4, 0.3, 0.1)),
+            density: 2400.0,
+            support: Support::Free,
+            tag: Tag::Stone,
+            group: None,
+        };
+        let mut body = Bodies::from_wall(&Wall { blocks: vec![block] }).all.remove(0);
+        let jack = Tie { travel: 2.0, two_sided: true, pretension: 0.0, ..ROPE };
+        let held = Held::new(jack, &body);
+        body.position += Vec3::new(0.0, 3e-3, 0.0);
+        // Its other end has gone 2 m x 0.002 = 4 mm, its point 3 mm.
+        assert!((held.force(&body, 2e-3) + 1000.0).abs() < 1e-6, "{}", held.force(&body, 2e-3));
+        assert!((held.displacement(&body) - 3e-3).abs() < 1e-12);
+        held.apply(&mut body, 2e-3);
+        assert!((body.force.y - 1000.0).abs() < 1e-6);
+    }
+
+    #[test]
     fn its_stiffness_is_that_of_central_differences() {
         let shape = Polyhedron::cuboid(Vec3::zeros(), Vec3::new(0.4, 0.3, 0.1));
         let block = Block { shape, density: 2400.0, support: Support::Free, tag: Tag::Stone, group: None };
@@ -159,10 +190,10 @@ mod tests {
             let (shift, turn) = if k < 3 { (step, Vec3::zeros()) } else { (Vec3::zeros(), step) };
             moved.place(&body, &shift, &turn);
             (moved.force, moved.torque) = (Vec3::zeros(), Vec3::zeros());
-            held.apply(&mut moved);
+            held.apply(&mut moved, 1.0);
             [moved.force.x, moved.force.y, moved.force.z, moved.torque.x, moved.torque.y, moved.torque.z]
         };
-        let stiffness = held.stiffness(&body);
+        let stiffness = held.stiffness(&body, 1.0);
         let differences: Vec<_> = (0..6).map(|column| (at(column, 1e-5), at(column, -1e-5))).collect();
         for (row, entries) in stiffness.iter().enumerate() {
             for (column, (entry, (plus, minus))) in entries.iter().zip(&differences).enumerate() {

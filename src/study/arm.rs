@@ -109,6 +109,7 @@ fn arm(t: &mut Reader<'_>, name: Option<String>, shared: &Setting, catalogue: &m
     let setting = shared.of_arm(t, catalogue);
     let (wall, bond) = (&setting.wall, setting.wall.bond);
     let members = t.whole("members");
+    let vertical_load = if t.has("vertical_load_n") { Some(t.real("vertical_load_n")?) } else { None };
     let curve = if t.has("curve") { t.name("curve") } else { None };
     let (arrangement, stone) = arrangement(t, catalogue);
     let has_wedges = t.has("wedges");
@@ -139,6 +140,7 @@ fn arm(t: &mut Reader<'_>, name: Option<String>, shared: &Setting, catalogue: &m
         joint,
         kn_points,
         restraint: mechanisms.restraint(setting.restraint?),
+        vertical_load,
         sub_contacts,
         mechanisms,
     })

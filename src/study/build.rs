@@ -1,7 +1,9 @@
 //! From the raw tree of study.toml to checked parts.
 
 use crate::math::radians;
-use crate::protocol::{Direction, Ends, EventShares, Lateral, Observes, Protocol, Rate, Tilting, Turning};
+use crate::protocol::{
+    Direction, Ends, EventShares, History, Lateral, Observes, Protocol, Rate, Shear, Tilting, Turning,
+};
 use crate::solve::{Solver, explicit, implicit, limit};
 use crate::study::arm;
 use crate::study::catalogue::Catalogue;
@@ -46,6 +48,7 @@ pub fn parts(root: &Node, notes: &mut Notes, catalogue: &mut Catalogue) -> Optio
         None => arms?,
     };
     let protocol = protocol?;
+    check_shear(&mut top, &arms, &protocol)?;
     check_mechanisms(&mut top, &arms, &protocol, agreement)?;
     if matches!(solver, Solver::Limit(_)) {
         for unfit in unfit_for_limit(&arms, &protocol, agreement) {
@@ -106,6 +109,50 @@ fn chosen(top: &mut Reader<'_>, arms: Vec<Arm>, only: &[String]) -> Option<Vec<A
     only.iter().map(|name| arms.iter().find(|arm| arm.name == *name).cloned()).collect()
 }
 
+/// What a beam on the wall's top needs: room above every wall and free ends; and nothing for it to do where there is none.
+fn check_shear(top: &mut Reader<'_>, arms: &[Arm], protocol: &Protocol) -> Option<()> {
+    let before = top.notes.faults.len();
+    let mut fault = |table: &str, key: &str, found: String, allowed: &str, fix: &str| {
+        let place = top.place_of(table).clone();
+        top.notes.faults.push(Fault::at(&place, key, Found::Words(found), allowed, fix));
+    };
+    for arm in arms {
+        match protocol {
+            Protocol::Shear(shear) => {
+                let height = arm.layout.outline.height;
+                if shear.force_height <= height {
+                    let found = format!("pushes at or below the top of {}, {height} m high", arm.name);
+                    let allowed = "more than the height of every wall";
+                    fault(
+                        "load",
+                        "load.force_height_m",
+                        found,
+                        allowed,
+                        "push higher: at the middle of the beam",
+                    );
+                }
+                if arm.restraint.ends != Ends::Free {
+                    let found = format!("hold {} while a beam pushes it along", arm.name);
+                    fault(
+                        "restraint",
+                        "restraint.ends",
+                        found,
+                        "\"free\" where walls are sheared",
+                        "free them",
+                    );
+                }
+            }
+            Protocol::Lateral(_) | Protocol::Tilting(_) if arm.vertical_load.is_some() => {
+                let (key, found) =
+                    (format!("arm.{}.vertical_load_n", arm.name), "has no beam to weigh".to_owned());
+                fault("arm", &key, found, "load.protocol = \"shear\"", "remove it, or shear the walls");
+            }
+            Protocol::Lateral(_) | Protocol::Tilting(_) => {}
+        }
+    }
+    (top.notes.faults.len() == before).then_some(())
+}
+
 /// What mechanisms need of the study as a whole: something in some arm to act on, a load that they go with, and no limit
 /// analysis that knows nothing of them.
 fn check_mechanisms(top: &mut Reader<'_>, arms: &[Arm], protocol: &Protocol, agreement: bool) -> Option<()> {
@@ -159,6 +206,7 @@ fn check_mechanisms(top: &mut Reader<'_>, arms: &[Arm], protocol: &Protocol, agr
 fn load(t: &mut Reader<'_>) -> Option<Protocol> {
     match t.chosen()? {
         "lateral" => lateral(t).map(Protocol::Lateral),
+        "shear" => shear(t).map(Protocol::Shear),
         _ => tilting(t).map(Protocol::Tilting),
     }
 }
@@ -168,6 +216,20 @@ fn lateral(t: &mut Reader<'_>) -> Option<Lateral> {
     let steps = t.whole32("steps");
     let [mean_pressure, base_over_top, collapse_share] = reals?;
     Some(Lateral { mean_pressure, base_over_top, steps: steps?, collapse_share })
+}
+
+/// Percents end here.
+fn shear(t: &mut Reader<'_>) -> Option<Shear> {
+    let reals =
+        t.reals(["vertical_load_n", "force_height_m", "drift_percent", "step_percent", "runaway_share"]);
+    let (head, cycles) = (t.choice("head"), t.whole32("cycles"));
+    let [vertical_load, force_height, drift, step, collapse_share] = reals?;
+    let to = 0.01 * drift;
+    let history = match cycles? {
+        0 => History::Monotonic { to },
+        count => History::Cycles { to, count },
+    };
+    Some(Shear { vertical_load, force_height, head: head?, history, step: 0.01 * step, collapse_share })
 }
 
 /// The side that goes down, by its name or by its angle.

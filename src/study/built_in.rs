@@ -54,6 +54,8 @@ pub(super) const DISTRIBUTIONS: &[(&str, &str)] = texts![
 
 /// What the studies read, in the order of their paths. Their banks are left out: they are large, and computed anew.
 const STUDIES: &[(&str, &str)] = texts![
+    "studies/dry-shear-walls/measured.csv",
+    "studies/dry-shear-walls/study.toml",
     "studies/edge-restraint/published.toml",
     "studies/edge-restraint/study.toml",
     "studies/element-types/published.toml",

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use crate::generate::{BatteredFace, Layout};
 use crate::law::{ClosureTable, CohesionAfterSlip, Sampling};
-use crate::protocol::{FailureMode, Protocol, Restraint};
+use crate::protocol::{FailureMode, Protocol, Restraint, Shear};
 use crate::random::Family;
 use crate::solve::Solver;
 use crate::study::measured::Measurement;
@@ -63,6 +63,8 @@ pub struct Arm {
     pub kn_points: Vec<f64>,
     /// What holds each wall.
     pub restraint: Restraint,
+    /// Vertical load (N) on walls that are sheared, where it is not the study's.
+    pub vertical_load: Option<f64>,
     /// Sub-contacts of a joint along its two in-plane axes.
     pub sub_contacts: [u32; 2],
     /// Mechanisms beyond the base model; those that change layout, joints' families or restraint are in these already.
@@ -70,6 +72,16 @@ pub struct Arm {
 }
 
 impl Study {
+    /// What is done to the walls of an arm.
+    pub fn protocol_of(&self, arm: &Arm) -> Protocol {
+        match (self.protocol, arm.vertical_load) {
+            (Protocol::Shear(shear), Some(vertical_load)) => {
+                Protocol::Shear(Shear { vertical_load, ..shear })
+            }
+            (protocol, _) => protocol,
+        }
+    }
+
     /// The arms, by index, of which something was measured.
     pub fn measured_arms(&self) -> Vec<usize> {
         let measured = |arm: &usize| self.measured.iter().any(|m| m.family == self.arms[*arm].name);

@@ -40,6 +40,7 @@ fn a_sound_file_is_read_in_si_units() {
         specimen: "A1".into(),
         family: "laid".into(),
         tilt: None,
+        drift: None,
         quantity: MeasuredQuantity::CollapseAngle,
         value: radians(13.5),
         kind: MeasuredKind::Rounded,
@@ -236,6 +237,28 @@ fn every_fault_is_named_with_its_line() {
 }
 
 /// Two specimens cannot both be the first of their family; those of different families can.
+#[test]
+fn a_push_is_read_at_a_drift_and_nothing_else_is() {
+    let header = "specimen,family,tilt_deg,drift_percent,quantity,value,unit,error,kind\n";
+    let with = |rows: &str| load("drift", &format!("{header}{rows}"));
+    let found = with("W,laid,,0.25,force_at_drift,27,kN,1,exact\nW,laid,,0.5,force_at_drift,31,kN,1,exact\n");
+    let found = found.unwrap_or_else(|faults| panic!("{faults}"));
+    assert_eq!((found[0].drift, found[0].tilt, found[0].value), (Some(0.0025), None, 27e3));
+    for (row, said) in [
+        ("W,laid,,,force_at_drift,27,kN,1,exact", "drift_percent"),
+        ("W,laid,5,0.25,force_at_drift,27,kN,1,exact", "tilt_deg"),
+        ("W,laid,5,0.25,displacement_mean,1,mm,1,exact", "drift_percent"),
+        ("W,laid,,0.25,force_at_drift,27,mm,1,exact", "unit"),
+        (
+            "W,laid,,0.5,force_at_drift,1,N,1,exact\nW,laid,,0.5,force_at_drift,2,N,1,exact",
+            "was read in line 2",
+        ),
+    ] {
+        let faults = with(row).expect_err(said);
+        assert!(faults.contains(said), "{faults}");
+    }
+}
+
 #[test]
 fn places_in_the_order_of_tests_are_taken_once() {
     let taken = GOOD.replace(",2,", ",1,").replace(",,2,\r", ",,1,\r");

@@ -189,6 +189,51 @@ fn a_tilting_study_has_the_defaults_of_its_protocol() {
     );
 }
 
+#[test]
+fn a_study_of_shear_has_the_defaults_of_its_protocol_and_its_arms_their_own_load() {
+    use pirca::protocol::{Head, History, Protocol, Shear};
+    let scratch = Scratch::new("shear");
+    let text = scratch.read(STUDY);
+    let (before, rest) = text.split_once("[load]").expect("the fixture has a load");
+    let (_, after) = rest.split_once("\n\n").expect("something follows it");
+    let after = after.replacen("ends = \"joint_springs\"", "ends = \"free\"", 1);
+    let with = |load: &str, after: &str| {
+        let shear = "[load]\nprotocol = \"shear\"\nvertical_load_n = 1e5";
+        scratch.write(STUDY, format!("{before}{shear}\n{load}\n\n{after}").as_bytes());
+        scratch.load(None)
+    };
+    let study = with("force_height_m = 1.325", &after).unwrap_or_else(|faults| panic!("{faults}")).study;
+    assert_eq!(study.protocol, Protocol::Shear(Shear::default()));
+    let cycles = "force_height_m = 1.2\nhead = \"level\"\ndrift_percent = 1\ncycles = 3\nstep_percent = 0.02";
+    let own = after.replacen("name = \"stack\"", "name = \"stack\"\nvertical_load_n = 2e4", 1);
+    let study = with(cycles, &own).unwrap_or_else(|faults| panic!("{faults}")).study;
+    let expected = Shear {
+        force_height: 1.2,
+        head: Head::Level,
+        history: History::Cycles { to: 0.01, count: 3 },
+        step: 0.0002,
+        ..Shear::default()
+    };
+    assert_eq!(study.protocol_of(&study.arms[1]), Protocol::Shear(expected));
+    let light = Protocol::Shear(Shear { vertical_load: 2e4, ..expected });
+    assert_eq!(study.protocol_of(&study.arms[0]), light);
+    let refused = |load: &str, after: &str, said: &str| {
+        let faults = with(load, after).expect_err(said).to_string();
+        assert!(faults.contains(said), "{faults}");
+    };
+    refused("force_height_m = 1", &after, "more than the height of every wall");
+    refused("force_height_m = 1.3\ntowards = \"x+\"", &after, "load.towards");
+    let held = after.replacen("ends = \"free\"", "ends = \"fixed_end_blocks\"", 1);
+    refused("force_height_m = 1.3", &held, "\"free\" where walls are sheared");
+    // A load of its own means nothing to a wall that no beam presses.
+    scratch.write(
+        STUDY,
+        text.replacen("name = \"stack\"", "name = \"stack\"\nvertical_load_n = 2e4", 1).as_bytes(),
+    );
+    let faults = scratch.load(None).expect_err("nothing is sheared").to_string();
+    assert!(faults.contains("arm.stack.vertical_load_n"), "{faults}");
+}
+
 /// The side that goes down by its angle; that of an axis is the axis.
 #[test]
 fn a_platform_goes_down_at_any_angle() {

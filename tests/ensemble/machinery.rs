@@ -41,6 +41,8 @@ fn made_up(study: &Study, task: Task) -> Row {
     let step = |load_factor, share| StepRow {
         load_factor: Some(load_factor),
         tilt_deg: None,
+        drift_percent: None,
+        force_n: None,
         left_m: Some(0.0),
         centre_m: None,
         right_m: Some(top),
@@ -71,6 +73,7 @@ fn made_up(study: &Study, task: Task) -> Row {
         largest_tilt_deg: None,
         limit: None,
         mechanism: None,
+        shear: None,
         stones: 25,
         joints: 60,
         wedges: 0,

@@ -26,6 +26,7 @@ mod pressure;
 mod remainders;
 mod ropes;
 mod shapes;
+mod shear;
 mod table;
 mod tilting;
 mod tumbling;

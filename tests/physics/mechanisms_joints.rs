@@ -217,6 +217,7 @@ fn a_block_on_a_rope_slides_as_its_friction_weakens() {
         pretension: 0.0,
         slack: 0.0,
         two_sided: false,
+        travel: 0.0,
     };
     // W sin a = k u + W cos a mu (1 - (1 - r) u / d) on the way down, and r mu at its end.
     let push = |a: f64| WEIGHT * sin(radians(a));

@@ -30,6 +30,7 @@ fn rope() -> Tie {
         pretension: 0.0,
         slack: 0.0,
         two_sided: false,
+        travel: 0.0,
     }
 }
 

@@ -23,6 +23,7 @@ fn reading(specimen: usize, angle: f64) -> Measurement {
         specimen: specimen.to_string(),
         family: "a".into(),
         tilt: None,
+        drift: None,
         quantity: MeasuredQuantity::CollapseAngle,
         value: angle,
         kind: MeasuredKind::Exact,

@@ -18,6 +18,8 @@ pub struct Beside {
     pub quantity: MeasuredQuantity,
     /// At which tilt (rad); `None` where the quantity has none of its own.
     pub tilt: Option<f64>,
+    /// At which drift; `None` where the quantity has none of its own.
+    pub drift: Option<f64>,
     /// What was measured.
     pub measured: Measured,
     /// What our walls show.
@@ -102,6 +104,7 @@ pub type Group<'m> = Vec<&'m Measurement>;
 /// Compares all that was measured with the rows: families in the order of the arms, quantities, tilts and kn ascending.
 pub fn compare(study: &Study, rows: &[Row]) -> Vec<Beside> {
     let tilts = matches!(study.protocol, Protocol::Tilting(_));
+    let shears = matches!(study.protocol, Protocol::Shear(_));
     let goes_back = study.goes_back();
     let mut all = Vec::new();
     for ((arm, quantity, _, rising), group) in groups(study) {
@@ -111,12 +114,16 @@ pub fn compare(study: &Study, rows: &[Row]) -> Vec<Beside> {
             family: first.family.clone(),
             quantity,
             tilt: first.tilt,
+            drift: first.drift,
             measured: measured.clone(),
             ours,
         };
         match (study.arms.get(arm), rising) {
             (None, _) => all.push(beside(Ours::None("the arm is not evaluated here"))),
-            _ if !tilts && quantity != MeasuredQuantity::SpecimenWeight => {
+            _ if quantity.has_drift() && !shears => {
+                all.push(beside(Ours::None("the walls are not sheared here")));
+            }
+            _ if !tilts && !quantity.has_drift() && quantity != MeasuredQuantity::SpecimenWeight => {
                 all.push(beside(Ours::None("the walls are not tilted here")));
             }
             (_, false) => all.push(beside(Ours::None("read after the load had been larger"))),
@@ -136,15 +143,18 @@ pub fn compare(study: &Study, rows: &[Row]) -> Vec<Beside> {
 pub fn groups(study: &Study) -> BTreeMap<(usize, MeasuredQuantity, u64, bool), Group<'_>> {
     let mut groups: BTreeMap<_, Group<'_>> = BTreeMap::new();
     for m in &study.measured {
-        let arm = study.arms.iter().position(|arm| arm.name == m.family).unwrap_or(study.arms.len());
+        let own = study.arms.iter().position(|arm| arm.name == m.family);
+        // Families whose arms are not evaluated come behind, each by itself.
+        let first = || study.measured.iter().position(|first| first.family == m.family).unwrap_or_default();
+        let arm = own.unwrap_or_else(|| study.arms.len() + first());
         groups.entry((arm, m.quantity, order_of_tilt(m), is_rising(m, &study.measured))).or_default().push(m);
     }
     groups
 }
 
-/// A key that is in the order of the tilts: the bits of a number that is not negative; 0 where there is none.
+/// A key that is in the order of the tilts, or of the drifts: the bits of a number that is not negative; 0 where there is none.
 pub fn order_of_tilt(m: &Measurement) -> u64 {
-    m.tilt.map_or(0, |tilt| tilt.abs().to_bits())
+    m.at().map_or(0, |at| at.abs().to_bits())
 }
 
 /// Whether the specimen comes to the reading's tilt for the first time: no earlier stage had a larger one, nor the same one with
@@ -207,7 +217,7 @@ fn walls(
     for (point, &kn) in arm.kn_points.iter().enumerate() {
         let own = rows.iter().filter(|row| row.arm_index as usize == index && row.point as usize == point);
         let shown: Vec<Simulated> =
-            own.map(|row| simulated(first.quantity, first.tilt, row)).collect::<Option<_>>()?;
+            own.map(|row| simulated(first.quantity, first.at(), row)).collect::<Option<_>>()?;
         let count = |wanted: fn(&Simulated) -> bool| shown.iter().filter(|s| wanted(s)).count() as u64;
         let stood = count(|s| matches!(s, Simulated::Above(_)));
         let values: Vec<f64> =

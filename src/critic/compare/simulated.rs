@@ -21,12 +21,12 @@ pub enum Simulated {
     Nothing,
 }
 
-/// What a row shows of a quantity read at a tilt (rad, on the way up); `None` where the simulation has no such quantity:
+/// What a row shows of a quantity read at a tilt (rad, on the way up) or a drift (the first time along x+); `None` where the simulation has no such quantity:
 /// joint properties go into it, single blocks are not weighed, and gauges are no part of it.
 ///
 /// A displacement is that of the load step at the tilt, a remainder what is left after it; between two steps it is interpolated
 /// linearly.
-pub fn simulated(quantity: MeasuredQuantity, tilt: Option<f64>, row: &Row) -> Option<Simulated> {
+pub fn simulated(quantity: MeasuredQuantity, at: Option<f64>, row: &Row) -> Option<Simulated> {
     use MeasuredQuantity as Q;
     let found = match quantity {
         Q::CollapseAngle => match Quantity::CollapseAngle.observed(row) {
@@ -44,10 +44,30 @@ pub fn simulated(quantity: MeasuredQuantity, tilt: Option<f64>, row: &Row) -> Op
         | Q::RemainderCentre
         | Q::RemainderRight
         | Q::RemainderMean
-        | Q::RemainderCentreMinusEnds => displacement(quantity, tilt?, row),
+        | Q::RemainderCentreMinusEnds => displacement(quantity, at?, row),
+        Q::ForceAtDrift => force(100.0 * at?, row),
         Q::JointKn | Q::JointPhi | Q::BlockWeight | Q::FixedTarget => return None,
     };
     Some(found)
+}
+
+/// The push (N) when the wall first came to a drift (%), by straight lines between the steps.
+fn force(drift_percent: f64, row: &Row) -> Simulated {
+    let (mut from, mut before) = (0.0, 0.0);
+    for step in &row.load_steps {
+        let Some((to, push)) = step.drift_percent.zip(step.force_n) else { continue };
+        if to >= drift_percent {
+            let share = if to > from { (drift_percent - from) / (to - from) } else { 1.0 };
+            return Simulated::Value(before + share * (push - before));
+        }
+        if to >= from {
+            (from, before) = (to, push);
+        }
+    }
+    match row.outcome {
+        Outcome::Collapsed { .. } | Outcome::UnstableAtRest => Simulated::FellBefore,
+        _ => Simulated::Nothing,
+    }
 }
 
 fn displacement(quantity: MeasuredQuantity, tilt: f64, row: &Row) -> Simulated {

@@ -15,6 +15,9 @@ pub struct ComparisonEntry {
     pub quantity: &'static str,
     /// Tilt of the reading; null where the quantity has none of its own.
     pub tilt_deg: Option<f64>,
+    /// Drift of the reading; only where the quantity has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub drift_percent: Option<f64>,
     /// Unit of all numbers below that have one.
     pub unit: &'static str,
     /// Normal stiffness of the joints of our walls (Pa/m); null where there are none.
@@ -87,6 +90,7 @@ impl ComparisonEntry {
             family: line.family.clone(),
             quantity: quantity.name(),
             tilt_deg: line.tilt.map(tidy_degrees),
+            drift_percent: line.drift.map(tidy_percent),
             unit: unit(quantity),
             kn_pa_per_m: walls.map(|walls| walls.kn),
             measured: MomentsEntry::of(&line.measured.values, quantity),
@@ -140,6 +144,11 @@ pub fn unit(quantity: MeasuredQuantity) -> &'static str {
 /// An SI number in that unit.
 pub fn in_unit(quantity: MeasuredQuantity, x: f64) -> f64 {
     if quantity.dimension() == Dimension::Angle { tidy_degrees(x) } else { x }
+}
+
+/// Percents to a billionth, as degrees are.
+fn tidy_percent(share: f64) -> f64 {
+    (share * 1e11).round() / 1e9
 }
 
 /// Degrees to a billionth: an angle that was written as 13.5 is 13.5 again.

@@ -11,6 +11,11 @@ const MOMENTS: [&str; 10] =
 pub fn comparison_csv(entries: &[ComparisonEntry]) -> String {
     let moments = |side: &str| MOMENTS.map(|name| format!("{side}_{name}"));
     let mut header = ["family", "quantity", "tilt_deg", "unit", "kn_pa_per_m"].map(String::from).to_vec();
+    // Only walls that are sheared have drifts.
+    let drifts = entries.iter().any(|entry| entry.drift_percent.is_some());
+    if drifts {
+        header.insert(3, "drift_percent".to_string());
+    }
     header.extend(moments("measured"));
     header.extend(["measured_below", "measured_above", "measured_mean_error"].map(String::from));
     header.extend(moments("simulated"));
@@ -39,6 +44,9 @@ pub fn comparison_csv(entries: &[ComparisonEntry]) -> String {
             entry.unit.to_string(),
             cell(entry.kn_pa_per_m),
         ];
+        if drifts {
+            cells.insert(3, cell(entry.drift_percent));
+        }
         cells.extend(moments_cells(&entry.measured));
         cells.extend([entry.measured_below.to_string(), entry.measured_above.to_string()]);
         cells.push(cell(entry.measured_mean_error));

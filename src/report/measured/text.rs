@@ -29,7 +29,7 @@ pub fn text(measured: Option<&MeasuredSummary>) -> String {
     text
 }
 
-const EXPLANATION: &str = "Displacements in mm, angles in deg. Numbers in brackets are 95 % intervals. ours - theirs: \
+const EXPLANATION: &str = "Displacements in mm, angles in deg, pushes in kN. Numbers in brackets are 95 % intervals. ours - theirs: \
     difference of the means, and the same over its standard deviation (errors of the readings, scatter of the specimens \
     and sampling error of our mean together; where it is mostly the scatter of few specimens, this ratio follows Student's t \
     and not the normal law). comparison.csv has the parts.";
@@ -49,7 +49,11 @@ fn rows(entries: &[&ComparisonEntry]) -> Vec<Vec<String>> {
     ];
     let mut rows = vec![header.map(String::from).to_vec()];
     for entry in entries {
-        let shown = |x: f64| if entry.unit == "m" { 1e3 * x } else { x };
+        let shown = |x: f64| match entry.unit {
+            "m" => 1e3 * x,
+            "N" if entry.drift_percent.is_some() => 1e-3 * x,
+            _ => x,
+        };
         rows.push(vec![
             entry.family.clone(),
             what(entry),
@@ -76,9 +80,10 @@ fn what(entry: &ComparisonEntry) -> String {
         "displacement_centre_minus_ends" => "centre - ends".to_string(),
         name => name.replace("displacement_", "displ. ").replace('_', " "),
     };
-    match entry.tilt_deg {
-        Some(tilt) => format!("{name}, {tilt} deg"),
-        None => name,
+    match (entry.tilt_deg, entry.drift_percent) {
+        (Some(tilt), _) => format!("{name}, {tilt} deg"),
+        (None, Some(drift)) => format!("{name}, {drift} %"),
+        (None, None) => name,
     }
 }
 

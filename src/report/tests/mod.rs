@@ -44,6 +44,7 @@ fn failed(member: u64, outcome: Outcome) -> Row {
         largest_tilt_deg: None,
         limit: None,
         mechanism: None,
+        shear: None,
         stones: 50,
         joints: 120,
         wedges: 0,

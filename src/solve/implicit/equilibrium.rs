@@ -36,6 +36,11 @@ impl<'a> Equilibrium<'a> {
         Equilibrium { assembly, settings, system, borne: None, effort: Effort::default(), loose: Vec::new() }
     }
 
+    /// The same solver on the assembly in another state at rest.
+    pub fn again(&self, assembly: Assembly<'a>) -> Self {
+        Equilibrium { effort: self.effort, ..Equilibrium::of(assembly, self.settings) }
+    }
+
     /// The assembly as it stands, for another solver to go on from.
     pub fn into_assembly(self) -> Assembly<'a> {
         self.assembly

@@ -46,7 +46,7 @@ fn in_the_air(assembly: &Assembly<'_>) -> Vec<usize> {
 /// The load on a body in the directions in which it can move.
 fn pull(body: &Body) -> Vec3 {
     match body.freedom {
-        Freedom::InPlane => Vec3::new(body.force.x, 0.0, body.force.z),
+        Freedom::InPlane | Freedom::Upright => Vec3::new(body.force.x, 0.0, body.force.z),
         // Its springs hold it.
         Freedom::Mounted => Vec3::zeros(),
         Freedom::Free | Freedom::Fixed => body.force,

@@ -107,7 +107,7 @@ impl Newton<'_, '_> {
         self.system.clear();
         for tie in self.assembly.ties() {
             let body = &self.assembly.bodies.all[tie.tie.body];
-            self.system.add_own(tie.tie.body, &tie.stiffness(body));
+            self.system.add_own(tie.tie.body, &tie.stiffness(body, self.assembly.load_factor));
         }
         if let Some(mounted) = self.assembly.mounted() {
             self.system.add_diagonal(mounted.mount.body, mounted.stiffness());

@@ -247,6 +247,8 @@ pub fn held(body: &Body) -> &'static [usize] {
         Freedom::Fixed => &[0, 1, 2, 3, 4, 5],
         // Neither out of plane nor about x and z.
         Freedom::InPlane => &[1, 3, 5],
+        // Nor about y.
+        Freedom::Upright => &[1, 3, 4, 5],
         Freedom::Mounted => &[0, 1, 4, 5],
     }
 }

@@ -139,6 +139,14 @@ impl Joint {
         }
     }
 
+    /// Share of the area in which it is crushed.
+    pub fn crushed_share(&self, bodies: &[Body]) -> f64 {
+        let gap = self.pose(bodies).gap;
+        let bearing = Bearing::of(&self.law, &self.polygon, &gap);
+        let crushed = self.cells.iter().filter_map(|cell| bearing.crushed(cell, &gap));
+        crushed.map(|outline| outline.moments().area).sum::<f64>() / self.area()
+    }
+
     pub(super) fn closure_energy(&self, bodies: &[Body]) -> f64 {
         let gap = self.pose(bodies).gap;
         let bearing = Bearing::of(&self.law, &self.polygon, &gap);

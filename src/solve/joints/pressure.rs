@@ -86,7 +86,7 @@ impl<'l> Bearing<'l> {
     }
 
     /// The part of a cell that is crushed.
-    fn crushed(&self, cell: &Cell, gap: &Gap) -> Option<Polygon> {
+    pub(super) fn crushed(&self, cell: &Cell, gap: &Gap) -> Option<Polygon> {
         let Crushing { closure, .. } = self.crushing?;
         let outline = cell.outline.clip(gap.g0 + closure, gap.gs, gap.gt);
         (outline.vertices.len() > 2).then_some(outline)

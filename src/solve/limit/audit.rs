@@ -69,6 +69,7 @@ fn residual(program: &Program, solved: &Solved) -> f64 {
             Support::Fixed | Support::Absent => 0.0,
             Support::Free => f.norm().max(m.norm()),
             Support::OutOfPlane => f.x.abs().max(f.z.abs()).max(m.y.abs()),
+            Support::Upright => f.x.abs().max(f.z.abs()),
         }
     };
     largest(blocks.rigid.iter().zip(&sums).map(left)) / blocks.unit

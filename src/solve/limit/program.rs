@@ -120,6 +120,7 @@ fn first_rows(blocks: &Blocks) -> (Vec<Option<usize>>, usize) {
                 Support::Fixed | Support::Absent => return None,
                 Support::Free => 6,
                 Support::OutOfPlane => 3,
+                Support::Upright => 2,
             };
             next += rows;
             Some(next - rows)
@@ -135,6 +136,7 @@ fn components(support: Support, wrench: &Wrench, radius: f64) -> ([f64; 6], usiz
         Support::Fixed | Support::Absent => ([0.0; 6], 0),
         Support::Free => ([f.x, f.y, f.z, m.x, m.y, m.z], 6),
         Support::OutOfPlane => ([f.x, f.z, m.y, 0.0, 0.0, 0.0], 3),
+        Support::Upright => ([f.x, f.z, 0.0, 0.0, 0.0, 0.0], 2),
     }
 }
 
@@ -328,6 +330,7 @@ impl Program<'_> {
                 Support::OutOfPlane => {
                     Wrench { force: Vec3::new(v(0), 0.0, v(1)), moment: Vec3::new(0.0, w(2), 0.0) }
                 }
+                Support::Upright => Wrench { force: Vec3::new(v(0), 0.0, v(1)), moment: Vec3::zeros() },
             }
         };
         first.iter().enumerate().map(of).collect()

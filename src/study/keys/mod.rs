@@ -257,6 +257,12 @@ pub static ARM: Section = Section {
             "About which axis the bed planes dip.",
         )
         .only(CUT),
+        Key::new(
+            "vertical_load_n",
+            real("N", Interval::above(0.0, 1e9)),
+            Optional,
+            "Vertical load of this arm's walls instead of load.vertical_load_n, where they are sheared.",
+        ),
         Key::new("wall", Kind::Table(&WALL), Optional, "What this arm says otherwise than [wall]."),
         Key::new("block", Kind::Table(&BLOCK), Optional, "What this arm says otherwise than [block]."),
         Key::new("joint", Kind::Table(&JOINT), Optional, "What this arm says otherwise than [joint]."),

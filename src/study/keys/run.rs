@@ -6,6 +6,8 @@ use crate::study::schema::{Interval, Key, Kind, Section};
 
 const LATERAL: &[&str] = &["lateral"];
 const TILTING: &[&str] = &["tilting"];
+const SHEAR: &[&str] = &["shear"];
+const RUNS_AWAY: &[&str] = &["tilting", "shear"];
 const EXPLICIT: &[&str] = &["explicit"];
 const IMPLICIT: &[&str] = &["implicit"];
 const LIMIT: &[&str] = &["limit"];
@@ -14,14 +16,15 @@ const AT_REST: &str = "At rest when the unbalanced force ratio falls below this.
 
 pub static LOAD: Section = Section {
     title: "[load]",
-    doc: "Gravity, then a trapezoidal pressure on the back face in equal steps, or a platform that tilts.",
+    doc: "Gravity, then a trapezoidal pressure on the back face in equal steps, a platform that tilts, or a beam on the wall's \
+          top that is pushed along the wall.",
     chooser: Some("protocol"),
     keys: &[&[
         Key::new(
             "protocol",
-            Kind::Choice(&["lateral", "tilting"]),
+            Kind::Choice(&["lateral", "tilting", "shear"]),
             Required,
-            "What is done to each wall: pressure on its back, or a tilting table.",
+            "What is done to each wall: pressure on its back, a tilting table, or shear in its plane under a constant load.",
         ),
         Key::new(
             "mean_pressure_pa",
@@ -87,7 +90,7 @@ pub static LOAD: Section = Section {
             Default("0.1"),
             "A wall falls when any block has moved by this share of the base thickness since the last rest.",
         )
-        .only(TILTING),
+        .only(RUNS_AWAY),
         Key::new(
             "observes",
             Kind::Choice(&["collapse_angle", "displacement"]),
@@ -132,6 +135,48 @@ pub static LOAD: Section = Section {
             "The platform turns steadily instead of stopping at every step.",
         )
         .only(TILTING),
+        Key::new(
+            "vertical_load_n",
+            real("N", Interval::above(0.0, 1e9)),
+            Required,
+            "Weight of the rigid beam on the wall's top: a constant load at its middle. An arm may have its own.",
+        )
+        .only(SHEAR),
+        Key::new(
+            "force_height_m",
+            real("m", SIZE),
+            Required,
+            "Height of the push, and of the beam's middle, above the wall's foot; more than the wall's own height.",
+        )
+        .only(SHEAR),
+        Key::new(
+            "head",
+            Kind::Choice(&["turns", "level"]),
+            Default("\"turns\""),
+            "Whether the beam may turn, or stays level.",
+        )
+        .only(SHEAR),
+        Key::new(
+            "drift_percent",
+            real("%", Interval::above(0.0, 20.0)),
+            Default("2"),
+            "Largest displacement of the beam along the wall over the height of the push.",
+        )
+        .only(SHEAR),
+        Key::new(
+            "cycles",
+            Kind::Whole { low: 0, high: 100 },
+            Default("0"),
+            "Cycles there, back and as far the other way, each wider by the same amount; 0 for one push.",
+        )
+        .only(SHEAR),
+        Key::new(
+            "step_percent",
+            real("%", Interval::above(0.0, 1.0)),
+            Default("0.01"),
+            "Drift from step to step.",
+        )
+        .only(SHEAR),
     ]],
 };
 

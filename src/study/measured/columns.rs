@@ -35,6 +35,10 @@ pub const COLUMNS: &[Column] = &[
         "common_error",
         "error that all readings of one instrument share, one standard deviation: displacements, remainders and fixed targets have the same, differences of points, collapse angles and what is measured apart their own; empty for none; `unknown` where nobody knows how much of `error` it is",
     ),
+    optional(
+        "drift_percent",
+        "drift at the reading, displacement over the height of the push (%); of a force_at_drift alone, which needs it",
+    ),
     optional("resolution", "distance of neighbouring values of a rounded reading"),
     optional("order", "place of the specimen in the order of the tests, from 1"),
     optional(

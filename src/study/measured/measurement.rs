@@ -11,6 +11,8 @@ pub struct Measurement {
     pub family: String,
     /// Tilt of the platform at the reading, of a remainder that from which it has gone back (rad); `None` where the quantity has none of its own.
     pub tilt: Option<f64>,
+    /// Drift at the reading, displacement over height of the push; `None` where the quantity has none of its own.
+    pub drift: Option<f64>,
     /// What was measured.
     pub quantity: MeasuredQuantity,
     /// The value, or the bound of a censored reading.
@@ -34,6 +36,11 @@ pub struct Measurement {
 }
 
 impl Measurement {
+    /// The tilt (rad) or the drift at which it was read; `None` where the quantity has neither.
+    pub fn at(&self) -> Option<f64> {
+        self.tilt.or(self.drift)
+    }
+
     /// The random and the common error (one standard deviation each), where the common one has this share of the variance if that
     /// is not known.
     pub fn errors(&self, share: f64) -> [f64; 2] {
@@ -115,11 +122,13 @@ pub enum MeasuredQuantity {
     BlockWeight,
     /// What the gauge shows of a target that does not move (m).
     FixedTarget,
+    /// Push along a sheared wall when it first came to a drift (N).
+    ForceAtDrift,
 }
 
 impl MeasuredQuantity {
     /// All of them.
-    pub const ALL: [MeasuredQuantity; 16] = [
+    pub const ALL: [MeasuredQuantity; 17] = [
         MeasuredQuantity::CollapseAngle,
         MeasuredQuantity::DisplacementLeft,
         MeasuredQuantity::DisplacementCentre,
@@ -136,6 +145,7 @@ impl MeasuredQuantity {
         MeasuredQuantity::SpecimenWeight,
         MeasuredQuantity::BlockWeight,
         MeasuredQuantity::FixedTarget,
+        MeasuredQuantity::ForceAtDrift,
     ];
 
     /// Name in files.
@@ -157,6 +167,7 @@ impl MeasuredQuantity {
             MeasuredQuantity::SpecimenWeight => "specimen_weight",
             MeasuredQuantity::BlockWeight => "block_weight",
             MeasuredQuantity::FixedTarget => "fixed_target",
+            MeasuredQuantity::ForceAtDrift => "force_at_drift",
         }
     }
 
@@ -170,7 +181,9 @@ impl MeasuredQuantity {
         match self {
             MeasuredQuantity::CollapseAngle | MeasuredQuantity::JointPhi => Dimension::Angle,
             MeasuredQuantity::JointKn => Dimension::Stiffness,
-            MeasuredQuantity::SpecimenWeight | MeasuredQuantity::BlockWeight => Dimension::Force,
+            MeasuredQuantity::SpecimenWeight
+            | MeasuredQuantity::BlockWeight
+            | MeasuredQuantity::ForceAtDrift => Dimension::Force,
             _ => Dimension::Length,
         }
     }
@@ -199,9 +212,14 @@ impl MeasuredQuantity {
         self.remains_of().is_some()
     }
 
-    /// Whether it is measured apart from the tilting of walls.
+    /// Whether it is measured apart from the loading of walls.
     pub fn is_apart(self) -> bool {
-        !self.has_tilt() && self != MeasuredQuantity::CollapseAngle
+        !self.has_tilt() && !self.has_drift() && self != MeasuredQuantity::CollapseAngle
+    }
+
+    /// Whether it is read at a drift of the wall.
+    pub fn has_drift(self) -> bool {
+        self == MeasuredQuantity::ForceAtDrift
     }
 
     /// The quantity that stands for all that share its common error: what a gauge is off at every point of a wall it is off at all of

@@ -35,6 +35,7 @@ fn limits(quantity: MeasuredQuantity) -> Interval {
         MeasuredQuantity::JointPhi => Interval::closed(0.0, 85.0),
         MeasuredQuantity::JointKn => Interval::above(0.0, 1e15),
         MeasuredQuantity::SpecimenWeight | MeasuredQuantity::BlockWeight => Interval::above(0.0, 1e9),
+        MeasuredQuantity::ForceAtDrift => Interval::closed(-1e9, 1e9),
         _ => Interval::closed(-100.0, 100.0),
     }
 }
@@ -54,6 +55,7 @@ impl Row<'_> {
         let kind = self.kind();
         let (order, stage) = (self.whole("order", 1), self.whole("stage", 0));
         let tilt = quantity.and_then(|quantity| self.tilt(quantity));
+        let drift = quantity.and_then(|quantity| self.drift(quantity));
         let numbers = quantity.and_then(|quantity| {
             let unit = self.unit(quantity.dimension())?;
             self.numbers(quantity, &unit, kind)
@@ -63,6 +65,7 @@ impl Row<'_> {
             specimen: specimen?,
             family: family?,
             tilt: tilt?,
+            drift: drift?,
             quantity: quantity?,
             value,
             kind: kind?,
@@ -188,6 +191,27 @@ impl Row<'_> {
         let cell = self.needed("tilt_deg", allowed.as_str(), &fix)?;
         let tilt = self.number(&cell, "tilt_deg", within, &allowed)?;
         Some(Some(radians(tilt)))
+    }
+
+    /// The drift (a share), or none where the quantity has none; the outer `None` is a fault.
+    fn drift(&mut self, quantity: MeasuredQuantity) -> Option<Option<f64>> {
+        let name = quantity.name();
+        if !quantity.has_drift() {
+            return match self.given("drift_percent") {
+                None => Some(None),
+                Some(cell) => {
+                    let allowed = format!("nothing where quantity = {name}");
+                    self.refuse(&cell, "drift_percent", allowed, "empty the cell");
+                    None
+                }
+            };
+        }
+        let within = Interval::above(0.0, 100.0);
+        let allowed = format!("a number {within} (%)");
+        let fix = "state the drift at which the push was read; its size where the wall went back";
+        let cell = self.needed("drift_percent", allowed.as_str(), fix)?;
+        let drift = self.number(&cell, "drift_percent", within, &allowed)?;
+        Some(Some(0.01 * drift))
     }
 
     /// Value, error, common error and resolution in SI units, and whether nobody knows how much of the error is common; `kind` is

@@ -58,13 +58,13 @@ pub fn check(rows: &[Read], faults: &mut Vec<Fault>) {
             }
         }
         // Bits, as two readings at one tilt are written the same.
-        let key = (m.specimen.as_str(), m.quantity, m.tilt.map_or(0, f64::to_bits), m.stage);
+        let key = (m.specimen.as_str(), m.quantity, m.at().map_or(0, f64::to_bits), m.stage);
         let (same, _) = readings.entry(key).or_insert(row);
         if same.line != m.line {
             fault(
                 "quantity",
                 format!("{} of {} was read in line {} already", m.quantity.name(), m.specimen, same.line),
-                "one row per specimen, quantity, tilt and stage".to_owned(),
+                "one row per specimen, quantity, tilt or drift, and stage".to_owned(),
                 "remove one, or number the readings in the column stage",
             );
         }

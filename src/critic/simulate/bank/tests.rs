@@ -34,6 +34,8 @@ fn wall(collapse: f64, step: f64) -> Row {
         let [left, centre, right] = formula(tilt, collapse).map(Some);
         StepRow {
             tilt_deg: Some(tilt),
+            drift_percent: None,
+            force_n: None,
             left_m: left,
             centre_m: centre,
             right_m: right,

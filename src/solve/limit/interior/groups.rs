@@ -92,6 +92,7 @@ impl Groups {
         };
         let held = |block: &Rigid| match block.support {
             Support::OutOfPlane => [false, true, false, true, false, true],
+            Support::Upright => [false, true, false, true, true, true],
             Support::Free | Support::Fixed | Support::Absent => [false; SIX],
         };
         Some(Groups {
@@ -111,5 +112,6 @@ fn six(block: &Rigid, wrench: &Wrench) -> Six {
         Support::Fixed | Support::Absent => [0.0; SIX],
         Support::Free => [f.x, f.y, f.z, m.x, m.y, m.z],
         Support::OutOfPlane => [f.x, 0.0, f.z, 0.0, m.y, 0.0],
+        Support::Upright => [f.x, 0.0, f.z, 0.0, 0.0, 0.0],
     }
 }

@@ -1,0 +1,70 @@
+//! `studies/dry-shear-walls`: walls sheared in their plane.
+
+use std::fs;
+use std::path::Path;
+
+use pirca::critic::{Ours, compare};
+use pirca::ensemble::{Row, evaluate, plan};
+use pirca::model::Outcome;
+use pirca::protocol::ShearMode;
+use pirca::report::write_all;
+use pirca::study::Study;
+
+fn study(variant: Option<&str>) -> Study {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/dry-shear-walls");
+    Study::load(&folder, variant).unwrap_or_else(|faults| panic!("{faults}")).study
+}
+
+fn rows(study: &Study) -> Vec<Row> {
+    plan(study).into_iter().map(|task| evaluate(study, task)).collect()
+}
+
+/// Differences from the readings of a family over their standard deviations, at one stiffness.
+fn differences(study: &Study, rows: &[Row], family: &str, kn: f64) -> Vec<f64> {
+    let lines = compare(study, rows).into_iter().filter(|line| line.family == family);
+    let of = |ours| match ours {
+        Ours::Walls(walls) if walls.kn == kn => walls.difference.map(|difference| difference.in_sd()),
+        _ => None,
+    };
+    lines.filter_map(|line| of(line.ours)).collect()
+}
+
+#[test]
+fn one_stiffness_fits_the_wall_that_it_was_read_off_and_not_those_under_more_load() {
+    let base = study(None);
+    let of_base = rows(&base);
+    let square = |kn| differences(&base, &of_base, "ws-100", kn).iter().map(|z| z * z).sum::<f64>();
+    // Eight readings.
+    assert!(square(7e9) < 8.0 && square(5e9) > 25.0 && square(1e10) > 25.0, "{}", square(7e9));
+    for row in &of_base {
+        let shear = row.shear.expect("it was sheared");
+        assert_eq!((&row.outcome, shear.mode), (&Outcome::Equilibrium, Some(ShearMode::Rocking)));
+    }
+    let out = std::env::temp_dir().join(format!("pirca-force-drift-{}", std::process::id()));
+    fs::create_dir_all(&out).expect("a folder for the report");
+    write_all(&base, &of_base, &out, None).expect("it is written");
+    let table = fs::read_to_string(out.join("force-drift.csv")).expect("walls are sheared");
+    fs::remove_dir_all(&out).expect("it was ours");
+    let steps: usize = of_base.iter().map(|row| row.load_steps.len()).sum();
+    assert_eq!(table.lines().count(), 1 + steps);
+    assert_eq!(table.lines().next(), Some("arm,kn_pa_per_m,member,load_step,drift_percent,force_n"));
+    let last: Vec<&str> = table.lines().last().expect("the last drift").split(',').collect();
+    let at = |column: usize| last[column].parse::<f64>().expect("a number");
+    assert!((2.0..2.001).contains(&at(4)) && (3e4..4e4).contains(&at(5)), "{last:?}");
+    let others = study(Some("predict"));
+    let of_others = rows(&others);
+    let off = differences(&others, &of_others, "ws-175", 7e9);
+    // The joints under the larger load are stiffer: all readings lie above what is foretold.
+    assert!(off.len() == 8 && off.iter().all(|z| *z < -1.5), "{off:?}");
+}
+
+#[test]
+fn rigid_blocks_bear_more_than_any_wall_of_joints_does() {
+    let study = study(Some("rigid"));
+    for (row, stated) in rows(&study).iter().zip([39.4e3, 67.7e3]) {
+        let capacity = row.shear.and_then(|shear| shear.capacity_n).expect("it falls");
+        assert!((capacity / stated - 1.0).abs() < 2e-3, "{capacity} against {stated}");
+        let limit = row.limit.and_then(|limit| limit.multiplier).expect("it is limit analysis");
+        assert!((0.3..0.5).contains(&limit), "{limit}");
+    }
+}
