@@ -97,6 +97,7 @@ pub fn campaign(study: &Study, hidden: &Hidden, seed: u64) -> Vec<Measurement> {
                 specimen: format!("T{}", row.member),
                 family: study.arms[0].name.clone(),
                 tilt: tilt.map(radians),
+                drift: None,
                 quantity,
                 value: value + error * normal(),
                 kind: MeasuredKind::Exact,
