@@ -38,6 +38,7 @@ fn every_key_carries_its_unit() {
         ("N m/rad", "_n_m_per_rad"),
         ("m", "_m"),
         ("s", "_s"),
+        ("%", "_percent"),
     ];
     for key in all {
         let unit = match key.kind {
