@@ -102,10 +102,7 @@ impl<'t, 'a> Judge<'t, 'a> {
         }
         let Confirmation { explicit, limit } = self.task.confirmation;
         let mut assembly = from.clone();
-        for body in &mut assembly.bodies.all {
-            body.velocity = Vec3::zeros();
-            body.set_spin(Vec3::zeros());
-        }
+        assembly.bodies.stop();
         self.task.changes.apply(&mut assembly, since, level);
         let released = |damping| {
             let mut simulation = Simulation::of(assembly.clone(), explicit::Settings { damping, ..explicit });

@@ -2,6 +2,7 @@
 //! found; confirm before a wall is called collapsed.
 
 use crate::model::{Level, Outcome};
+use crate::protocol::back::back_to_0;
 use crate::protocol::confirm::{Fall, Judge, Told};
 use crate::protocol::events::Events;
 use crate::protocol::kept::keeps_contacts;
@@ -188,8 +189,6 @@ const MOST_RELAXED: u64 = 30_000_000;
 const RARE: f64 = 0.5;
 /// The path of equilibria is followed so often: where it is lost, it is so again from nearby.
 const MOST_FOLLOWED: u32 = 3;
-/// A step back to level 0 is halved down to this share of a full one.
-const SHORTEST_BACK: f64 = 0.125;
 /// A fall is followed for this share of how far a wall goes that runs away.
 const FOLLOWED: f64 = 0.5;
 /// So many full steps above a suspicion a fall is looked for, when it cannot be told there; and up to which of them a wall that
@@ -461,7 +460,11 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
         let full_steps = level / full_step;
         let goes_back =
             self.task.path.goes_back && level > 0.0 && (full_steps - full_steps.round()).abs() < 1e-9;
-        let remainders = goes_back.then(|| self.left_at_level_0(&state, level)).flatten();
+        let back = match goes_back {
+            true => back_to_0(&state, level, &self.task.path, &mut self.spent),
+            false => None,
+        };
+        let remainders = back.and_then(|back| self.watch.points(&back.assembly().bodies));
         let step =
             self.watch.read(bodies, self.task.path.level(level), ratio, std::mem::take(&mut self.spent));
         self.steps.push(LoadStep { remainders, ..step });
@@ -470,31 +473,6 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
             self.certain = None;
         }
         state
-    }
-
-    /// What is left of the displacements where the load goes back to level 0 from a state at rest, in full steps or, where no
-    /// equilibrium is found, shorter ones; `None` where that does not help.
-    fn left_at_level_0(&mut self, from: &S, level: f64) -> Option<[f64; 3]> {
-        let full_step = self.task.path.higher(0.0, 1);
-        let (mut state, mut at, mut step) = (from.clone(), level, full_step);
-        while at > 0.0 {
-            let lower = (at - step).max(0.0);
-            let mut next = state.clone();
-            let (gravity, factor) = self.task.path.loads(lower);
-            next.set_loads(gravity, factor);
-            // It may have come far, and goes back as far.
-            let settled = next.settle(&mut |_| false);
-            self.spent += settled.steps;
-            if settled.status == Status::Equilibrium {
-                (state, at) = (next, lower);
-                step = (2.0 * step).min(full_step);
-            } else if step <= SHORTEST_BACK * full_step {
-                return None;
-            } else {
-                step *= 0.5;
-            }
-        }
-        self.watch.points(&state.assembly().bodies)
     }
 
     /// The last level at which the wall came to rest.

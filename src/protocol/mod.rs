@@ -1,5 +1,6 @@
 //! What is done to a wall and what is observed: load path, stop rule, restraint.
 
+mod back;
 mod bounds;
 mod changes;
 mod confirm;
@@ -39,7 +40,7 @@ pub use run::{Way, run, run_changing, run_telling};
 pub use settings::{
     Base, Compliance, Contacts, Ends, Lateral, Observes, Protocol, Rate, Restraint, Rope, Tilting, Turning,
 };
-pub use shear::{Head, History, Shear, ShearMode, Sheared, force_at};
+pub use shear::{Head, History, Shear, ShearMode, Sheared, first_at, force_at};
 pub use shove::{Phase, Shove, Shoved, Stand, shove_heap, shove_wall};
 pub use stage::{Stage, typical_size};
 pub use task::{Platform, Run, Task};

@@ -1,6 +1,5 @@
 //! The tilting table: the platform turns about its edge towards a side, in steps or steadily.
 
-use crate::math::Vec3;
 use crate::model::{Level, Outcome};
 use crate::protocol::events::Events;
 use crate::protocol::mechanism::joint_states;
@@ -101,11 +100,8 @@ struct Turned<'t, 'a> {
 impl<'t, 'a> Turned<'t, 'a> {
     fn new(task: &'t Task<'a>, turning: &Turning, watch: Watch, at_rest: &Assembly<'a>) -> Self {
         let mut assembly = at_rest.clone();
-        for body in &mut assembly.bodies.all {
-            body.velocity = Vec3::zeros();
-            body.rescale(1.0);
-            body.set_spin(Vec3::zeros());
-        }
+        assembly.bodies.all.iter_mut().for_each(|body| body.rescale(1.0));
+        assembly.bodies.stop();
         let settings = Settings {
             damping: turning.damping,
             step_safety: turning.step_safety,

@@ -75,6 +75,14 @@ pub struct Bodies {
 }
 
 impl Bodies {
+    /// Stops all bodies where they are.
+    pub fn stop(&mut self) {
+        for body in &mut self.all {
+            body.velocity = Vec3::zeros();
+            body.set_spin(Vec3::zeros());
+        }
+    }
+
     /// Bodies at rest from the blocks of a wall. The first part of a stone of several carries the others: its body has the mass
     /// of all, and theirs stay behind, fixed and without a part in anything.
     pub fn from_wall(wall: &Wall) -> Self {

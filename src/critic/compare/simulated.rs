@@ -3,6 +3,7 @@
 use crate::ensemble::{Observed, Quantity, Row, StepRow};
 use crate::math::radians;
 use crate::model::Outcome;
+use crate::protocol::first_at;
 use crate::study::MeasuredQuantity;
 
 /// Two tilts that are nearer than this are one (deg): what the halving of steps and their sums leave.
@@ -53,16 +54,9 @@ pub fn simulated(quantity: MeasuredQuantity, at: Option<f64>, row: &Row) -> Opti
 
 /// The push (N) when the wall first came to a drift (%), by straight lines between the steps.
 fn force(drift_percent: f64, row: &Row) -> Simulated {
-    let (mut from, mut before) = (0.0, 0.0);
-    for step in &row.load_steps {
-        let Some((to, push)) = step.drift_percent.zip(step.force_n) else { continue };
-        if to >= drift_percent {
-            let share = if to > from { (drift_percent - from) / (to - from) } else { 1.0 };
-            return Simulated::Value(before + share * (push - before));
-        }
-        if to >= from {
-            (from, before) = (to, push);
-        }
+    let history = row.load_steps.iter().filter_map(|step| step.drift_percent.zip(step.force_n));
+    if let Some(push) = first_at(history, drift_percent) {
+        return Simulated::Value(push);
     }
     match row.outcome {
         Outcome::Collapsed { .. } | Outcome::UnstableAtRest => Simulated::FellBefore,

@@ -42,6 +42,8 @@ struct Walls {
 struct Learnt {
     scores: Vec<Vec<f64>>,
     walls: Vec<[f64; NUMBERS]>,
+    /// Scores of those that do not stand at rest.
+    fallen: Vec<Vec<f64>>,
     random: bool,
 }
 
@@ -56,8 +58,6 @@ pub struct World<'s> {
     /// What a cause changes, by family and cause. A point of the bank has the same stones and joints under every cause: the
     /// difference that a cause makes is known far better than either wall, and dies away with the cause.
     changes: BTreeMap<(usize, usize), Walls>,
-    /// Scores of the walls of the bank that do not stand at rest, by family and cause.
-    fallen: BTreeMap<(usize, Option<usize>), Vec<Vec<f64>>>,
     /// Causes that were to have walls in the bank.
     planned: BTreeSet<usize>,
     /// Weight of a wall as it is stated, and of its stones in the mean (N), by family.
@@ -81,7 +81,6 @@ impl<'s> World<'s> {
             unchanged.extend(path.as_ref().map(|path| ((place.family, place.point), path)));
         }
         let mut grouped: BTreeMap<(usize, Option<usize>), Learnt> = BTreeMap::new();
-        let mut fallen: BTreeMap<(usize, Option<usize>), Vec<Vec<f64>>> = BTreeMap::new();
         let walls = plan.places.iter().zip(&plan.study.arms);
         for ((place, arm), (path, ending)) in walls.zip(bank.paths.iter().zip(&bank.endings)) {
             let learnt = grouped.entry((place.family, place.cause)).or_default();
@@ -91,7 +90,7 @@ impl<'s> World<'s> {
             let scores: Vec<f64> = joints.chain(varying(mechanisms, place.cause, parameters)).collect();
             let Some(path) = path else {
                 if *ending == Outcome::UnstableAtRest.name() {
-                    fallen.entry((place.family, place.cause)).or_default().push(scores);
+                    learnt.fallen.push(scores);
                 }
                 continue;
             };
@@ -105,8 +104,9 @@ impl<'s> World<'s> {
         }
         let planned: BTreeSet<usize> = grouped.keys().filter_map(|(_, cause)| *cause).collect();
         let (mut base, mut changes) = (BTreeMap::new(), BTreeMap::new());
-        for ((family, cause), Learnt { scores, walls, random }) in grouped {
-            let walls = Emulator::fit(&scores, &walls).map(|emulator| Walls { emulator, random });
+        for ((family, cause), Learnt { scores, walls, fallen, random }) in grouped {
+            let emulator = Emulator::fit(&scores, &walls).map(|emulator| emulator.beside(&fallen));
+            let walls = emulator.map(|emulator| Walls { emulator, random });
             match cause {
                 None => drop(base.insert(family, walls?)),
                 Some(cause) => changes.extend(walls.map(|walls| ((family, cause), walls))),
@@ -124,7 +124,6 @@ impl<'s> World<'s> {
             nuisances,
             base,
             changes,
-            fallen,
             planned,
             weights,
             kinds: kinds(&study.arms),

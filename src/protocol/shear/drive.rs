@@ -1,6 +1,5 @@
 //! The loop over the way of the jack.
 
-use crate::math::Vec3;
 use crate::model::{Level, Outcome};
 use crate::protocol::events::Events;
 use crate::protocol::mechanism::{Failure, FailureMode, failure, joint_states};
@@ -104,10 +103,7 @@ fn let_go<'a>(
     set(&mut simulation, to);
     let settled = simulation.settle(stop);
     let mut assembly = simulation.assembly;
-    for body in &mut assembly.bodies.all {
-        body.velocity = Vec3::zeros();
-        body.set_spin(Vec3::zeros());
-    }
+    assembly.bodies.stop();
     (assembly, Settled { steps: settled.steps + if from != to { u64::from(RAMP) } else { 0 }, ..settled })
 }
 

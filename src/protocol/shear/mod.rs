@@ -12,6 +12,6 @@ mod stage;
 
 pub(super) use drive::{Begin, push};
 pub(super) use limit::{by_limit, push_on};
-pub use readings::{ShearMode, Sheared, force_at};
+pub use readings::{ShearMode, Sheared, first_at, force_at};
 pub use settings::{Head, History, Shear};
 pub(super) use stage::{beam, jack};

@@ -80,7 +80,7 @@ impl Sheared {
     /// Of the steps of a test with the jack at a height (m), and what was seen of its mechanism; `None` of a wall that was not
     /// pushed.
     pub(super) fn of(steps: &[LoadStep], height: f64, mode: ShearMode, opening: f64) -> Option<Sheared> {
-        let mut curve = envelope(steps, 1.0);
+        let mut curve = envelope(along(steps, 1.0));
         let (drift_at_capacity, capacity) =
             curve.iter().copied().reduce(|best, next| if next.1 > best.1 { next } else { best })?;
         let falls = |&(drift, push): &(f64, f64)| drift > drift_at_capacity && push < DONE * capacity;
@@ -110,21 +110,30 @@ impl Sheared {
 /// did.
 pub fn force_at(steps: &[LoadStep], drift: f64) -> Option<f64> {
     let way = if drift < 0.0 { -1.0 } else { 1.0 };
-    let curve = envelope(steps, way);
-    let after = curve.iter().position(|point| point.0 >= way * drift)?;
-    let (to, push) = curve[after];
-    let Some(&(from, before)) = after.checked_sub(1).and_then(|k| curve.get(k)) else {
-        return Some(way * push);
-    };
-    Some(way * (before + (push - before) * (way * drift - from) / (to - from)))
+    first_at(along(steps, way), way * drift).map(|push| way * push)
 }
 
-/// Drifts and pushes along one way (1 or -1) where the drift was new, both counted that way; the unmoved wall first.
-fn envelope(steps: &[LoadStep], way: f64) -> Vec<(f64, f64)> {
+/// The push when a drift was first reached, of a history of drifts (in any unit) and pushes that begins with the unmoved wall.
+pub fn first_at(history: impl Iterator<Item = (f64, f64)>, drift: f64) -> Option<f64> {
+    let curve = envelope(history);
+    let after = curve.iter().position(|point| point.0 >= drift)?;
+    let (to, push) = curve[after];
+    let Some(&(from, before)) = after.checked_sub(1).and_then(|k| curve.get(k)) else { return Some(push) };
+    Some(before + (push - before) * (drift - from) / (to - from))
+}
+
+/// Drifts and pushes, both counted along one way (1 or -1).
+fn along(steps: &[LoadStep], way: f64) -> impl Iterator<Item = (f64, f64)> {
+    steps.iter().filter_map(move |step| match (step.level, step.push) {
+        (Level::Drift(drift), Some(push)) => Some((way * drift, way * push)),
+        _ => None,
+    })
+}
+
+/// The points of a history at which the drift was new.
+fn envelope(history: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
     let mut points: Vec<(f64, f64)> = Vec::new();
-    for step in steps {
-        let (Level::Drift(drift), Some(push)) = (step.level, step.push) else { continue };
-        let (drift, push) = (way * drift, way * push);
+    for (drift, push) in history {
         if points.last().is_none_or(|last| drift > last.0) {
             points.push((drift, push));
         }

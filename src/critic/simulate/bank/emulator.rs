@@ -27,6 +27,8 @@ pub struct Emulator {
     curves: [Curve; GROUPS.len()],
     /// Where the walls of the bank lie, in scores that are [`held`].
     scores: Vec<Vec<f64>>,
+    /// Where those lie that do not stand at rest.
+    fallen: Vec<Vec<f64>>,
     /// What each wall of the bank differs by from a curve that does not know it: the stones' own part, and the emulator's error.
     left: Vec<[f64; NUMBERS]>,
     /// Share of the variance that such curves explain, by number.
@@ -75,7 +77,12 @@ impl Emulator {
             let rest = stats::sum(&squares) / n as f64;
             if whole > 0.0 { 1.0 - rest / (whole * whole) } else { 0.0 }
         });
-        Some(Emulator { inputs, middle, curves, scores, left, explained })
+        Some(Emulator { inputs, middle, curves, scores, fallen: Vec::new(), left, explained })
+    }
+
+    /// With walls (by their scores, as [`Self::fit`] has them) that do not stand at rest.
+    pub fn beside(self, fallen: &[Vec<f64>]) -> Emulator {
+        Emulator { fallen: fallen.iter().map(|wall| held(wall)).collect(), ..self }
     }
 
     /// What it predicts of walls at these scores (one per input), with what so many walls of the bank are left with.
@@ -87,21 +94,23 @@ impl Emulator {
             let own = curve.add(&scores, &self.scores, &mut numbers);
             common[group].fill(own);
         }
-        let nearest = stats::smallest(self.distances(&scores).zip(0..), count);
+        let nearest = stats::smallest(self.distances(&self.scores, &scores).zip(0..), count);
         Emulated { numbers, left: nearest.into_iter().map(|wall| &self.left[wall]).collect(), common }
     }
 
-    /// Whether one of other walls (by their scores, as [`Self::fit`] has them) lies nearer to some scores than every wall that it was
-    /// fitted through.
-    pub fn is_beyond(&self, scores: &[f64], others: &[Vec<f64>]) -> bool {
+    /// Whether walls at some scores stand at rest, as the nearest wall of the bank does.
+    pub fn stands(&self, scores: &[f64]) -> bool {
+        if self.fallen.is_empty() {
+            return true;
+        }
         let scores = held(scores);
-        let own = self.distances(&scores).fold(f64::INFINITY, f64::min);
-        others.iter().any(|wall| self.curves[0].shape.squared_distance(&scores, &held(wall)) < own)
+        let own = self.distances(&self.scores, &scores).fold(f64::INFINITY, f64::min);
+        self.distances(&self.fallen, &scores).all(|fallen| fallen >= own)
     }
 
-    /// Squared distances of the walls from some scores, as the fall and the way up to it see them.
-    fn distances(&self, scores: &[f64]) -> impl Iterator<Item = f64> {
-        self.scores.iter().map(|wall| self.curves[0].shape.squared_distance(scores, wall))
+    /// Squared distances of walls from some scores, as the fall and the way up to it see them.
+    fn distances(&self, walls: &[Vec<f64>], scores: &[f64]) -> impl Iterator<Item = f64> {
+        walls.iter().map(|wall| self.curves[0].shape.squared_distance(scores, wall))
     }
 
     /// Share of the variance of each number that is explained for a wall that the curve does not know.

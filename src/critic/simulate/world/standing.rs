@@ -30,22 +30,15 @@ impl World<'_> {
 
     /// Whether walls stand at rest under a truth, as the nearest wall of the bank does, for each family and cause.
     pub fn stands(&self, truth: &Truth) -> bool {
-        let falls = |(&(family, cause), fallen): (&(usize, Option<usize>), &Vec<Vec<f64>>)| {
+        self.base.iter().all(|(&family, walls)| {
             let joints = truth.joints[self.kinds[family]].map(|score| score / PRIOR_WIDENING);
-            let (walls, parameters) = match cause {
-                None => (self.base.get(&family), &[][..]),
-                Some(cause) => {
-                    let Some((_, own)) = self.parts(truth).find(|(own, _)| *own == cause) else {
-                        return false;
-                    };
-                    (self.changes.get(&(family, cause)), own)
-                }
-            };
-            let varying = varying(self.mechanisms, cause, parameters.iter().copied());
-            let scores: Vec<f64> = joints.into_iter().chain(varying).collect();
-            walls.is_some_and(|walls| walls.emulator.is_beyond(&scores, fallen))
-        };
-        !self.fallen.iter().any(falls)
+            walls.emulator.stands(&joints)
+                && self.parts(truth).all(|(cause, parameters)| {
+                    let parameters = varying(self.mechanisms, Some(cause), parameters.iter().copied());
+                    let scores: Vec<f64> = joints.into_iter().chain(parameters).collect();
+                    self.changes.get(&(family, cause)).is_none_or(|walls| walls.emulator.stands(&scores))
+                })
+        })
     }
 }
 
