@@ -37,6 +37,9 @@ pub enum Contrast {
     LeftBow,
     /// The largest step from one tilt to the next beside the steps before and after it, in errors of the readings.
     Jump,
+    /// How much less a point moves over some tilt than over as much before it, in errors of the readings (the inverse hyperbolic sine
+    /// of the most): walls move ever faster, a gauge at its end stands still.
+    Slowing,
     /// Share of the readings that the wall still stood for.
     Reached,
 }
@@ -85,6 +88,10 @@ const ORDERED: [Contrast; 2] = [Contrast::Collapse, Contrast::Level];
 /// A scatter below the readings' errors and rounding, and below this, counts as these: three readings rounded to the same step do
 /// not agree to all digits.
 const LEAST_SCATTER: f64 = 0.05;
+/// Readings of a point that show whether it slows down.
+const SLOWED: usize = 5;
+/// Tilts whose distances differ by no more than this share are evenly spaced.
+const UNEVEN: f64 = 0.01;
 /// A standard deviation below this share of the largest value counts as this: readings at a bound do not vary at all.
 const LEAST_SHARE: f64 = 1e-3;
 
@@ -143,6 +150,11 @@ impl Usual {
         }
     }
 
+    /// The least that an error counts (SI).
+    fn least(&self) -> f64 {
+        LEAST_SHARE * self.sd
+    }
+
     /// A reading against its mean and in its standard deviation; `None` where nothing was seen.
     fn scaled(&self, seen: Seen, m: &Measurement) -> Option<f64> {
         let [mean, sd] = self.counted;
@@ -189,8 +201,9 @@ fn contrasts(specimen: &Specimen, seen: &[Seen], scale: &[Usual]) -> Vec<(Contra
     use MeasuredQuantity as Q;
     let last = specimen.readings.iter().filter_map(|m| m.tilt).fold(0.0, f64::max);
     let mut weighted: BTreeMap<Contrast, Vec<[f64; 3]>> = BTreeMap::new();
-    // The way up point by point: tilt, value and error.
+    // The way up point by point: tilt, value and error; and the reading in its own errors.
     let mut ways: BTreeMap<MeasuredQuantity, Vec<[f64; 3]>> = BTreeMap::new();
+    let mut moved: BTreeMap<MeasuredQuantity, Vec<[f64; 2]>> = BTreeMap::new();
     let (mut read, mut reached) = (0.0, 0.0);
     for ((m, seen), usual) in specimen.readings.iter().zip(seen).zip(scale) {
         let (z, error) = (usual.scaled(*seen, m), usual.error);
@@ -203,6 +216,8 @@ fn contrasts(specimen: &Specimen, seen: &[Seen], scale: &[Usual]) -> Vec<(Contra
         reached += 1.0;
         if !m.quantity.is_remainder() {
             ways.entry(m.quantity).or_default().push([tilt, z, error.max(LEAST_SCATTER)]);
+            let own = seen.number(m).map(|x| [tilt, x / reading_variance(m).sqrt().max(usual.least())]);
+            moved.entry(m.quantity).or_default().extend(own);
         }
         let s = tilt / last;
         let mut add = |contrast, weight| weighted.entry(contrast).or_default().push([weight, z, error]);
@@ -245,6 +260,7 @@ fn contrasts(specimen: &Specimen, seen: &[Seen], scale: &[Usual]) -> Vec<(Contra
         })
         .collect();
     found.extend(jump(ways).map(|jump| (Contrast::Jump, [jump, 0.0])));
+    found.extend(slowing(moved).map(|slowing| (Contrast::Slowing, [asinh(slowing), 0.0])));
     if read > 0.0 {
         found.push((Contrast::Reached, [reached / read, 0.0]));
     }
@@ -265,6 +281,24 @@ fn jump(ways: BTreeMap<MeasuredQuantity, Vec<[f64; 3]>>) -> Option<f64> {
         way.windows(weights.len()).map(one).collect::<Vec<f64>>()
     });
     steps.reduce(f64::max)
+}
+
+/// The most by which any point moves less over some tilt than over as much before it, in standard deviations of the readings' errors:
+/// what grows ever faster has none. `None` where no point was read at [`SLOWED`] tilts.
+fn slowing(ways: BTreeMap<MeasuredQuantity, Vec<[f64; 2]>>) -> Option<f64> {
+    let slowed = ways.into_values().filter(|way| way.len() >= SLOWED).flat_map(|mut way| {
+        way.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let count = way.len();
+        let middles = (1..count - 1).flat_map(move |at| (1..=at.min(count - 1 - at)).map(move |by| (at, by)));
+        let one = move |(at, by): (usize, usize)| {
+            let [[t0, x0], [t1, x1], [t2, x2]] = [way[at - by], way[at], way[at + by]];
+            let is_even = ((t2 - t1) / (t1 - t0) - 1.0).abs() < UNEVEN;
+            // Errors with the weights -1, 2 and -1.
+            is_even.then(|| (2.0 * x1 - x0 - x2) / 6.0_f64.sqrt())
+        };
+        middles.filter_map(one).collect::<Vec<f64>>()
+    });
+    slowed.reduce(f64::max)
 }
 
 /// Slope of a straight line through points; `None` where all have the same place.

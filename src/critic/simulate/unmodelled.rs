@@ -19,6 +19,8 @@ const LEVEL: [f64; 2] = [0.05, 1.5];
 const SHAPE: [f64; 2] = [0.05, 1.0];
 /// What a gauge shows besides (m).
 const SHIFT: [f64; 2] = [1e-4, 5e-3];
+/// The largest that a gauge shows, where it has an end (m).
+const LARGEST: [f64; 2] = [5e-4, 1e-2];
 /// No factor on what is shown is beyond this (logarithm): readings stay numbers.
 const FURTHEST: f64 = 3.0;
 /// The tilt at which what gauges do is fully there, if it grows (rad): 15 deg.
@@ -35,6 +37,8 @@ enum On {
     Factor([f64; 3]),
     /// The same: an addition.
     Shift([f64; 3]),
+    /// The same: no more than the form's size, for points that have a share.
+    End([f64; 3]),
 }
 
 /// How it grows from the start (0) to the end (1).
@@ -79,7 +83,7 @@ impl Unmodelled {
                         *number += sizes[specimen] * growth.at(1.0 - q);
                     }
                 }
-                On::Factor(_) | On::Shift(_) => {}
+                On::Factor(_) | On::Shift(_) | On::End(_) => {}
             }
         }
     }
@@ -97,6 +101,10 @@ impl Unmodelled {
                 On::Shift(shares) => {
                     points.iter_mut().zip(shares).for_each(|(point, share)| *point += share * size);
                 }
+                On::End(shares) => {
+                    let ended = points.iter_mut().zip(shares).filter(|(_, share)| **share != 0.0);
+                    ended.for_each(|(point, _)| *point = point.min(sizes[specimen]));
+                }
                 On::Fall | On::Way(_) => {}
             }
         }
@@ -106,11 +114,12 @@ impl Unmodelled {
 
 impl Form {
     fn drawn(design: &Design, draws: &mut Stream) -> Form {
-        let (on, [least, most]) = match draws.below(6) {
+        let (on, [least, most]) = match draws.below(7) {
             0 => (On::Fall, FALL),
             1 => (On::Way(0), LEVEL),
             kind @ 2..=3 => (On::Way(kind - 1), SHAPE),
             4 => (On::Factor(shares(draws)), LEVEL),
+            5 => (On::End(shares(draws)), LARGEST),
             _ => (On::Shift(shares(draws)), SHIFT),
         };
         let size = least * exp(draws.uniform() * ln(most / least));
@@ -126,7 +135,13 @@ impl Form {
                 1 => before / half,
                 _ => 1.0,
             };
-            if of_one && specimen.family != one { 0.0 } else { size * by }
+            match on {
+                On::End(_) if of_one && specimen.family != one => f64::INFINITY,
+                // A gauge ends where it ends, whatever is tested.
+                On::End(_) => size.abs(),
+                _ if of_one && specimen.family != one => 0.0,
+                _ => size * by,
+            }
         });
         let sizes = own.collect();
         Form { on, sizes, growth: Growth::drawn(draws) }
@@ -198,6 +213,8 @@ mod tests {
         let knock = one(On::Shift([0.0, 1.0, 0.0]), Growth::Step(0.5), 1e-3);
         assert_eq!(knock.shown(0, 0.1, points), points);
         assert_eq!(knock.shown(0, 0.2, points), [1e-3, 3e-3, 3e-3]);
+        let ended = one(On::End([0.0, 1.0, 1.0]), always, 1.5e-3);
+        assert_eq!(ended.shown(0, 0.2, points), [1e-3, 1.5e-3, 1.5e-3]);
         assert_eq!(changed(&Unmodelled::default()), []);
     }
 
@@ -213,6 +230,7 @@ mod tests {
             |form: &Form| form.on == On::Way(2),
             |form: &Form| matches!(form.on, On::Factor(_)),
             |form: &Form| matches!(form.on, On::Shift([1.0, 0.0, -1.0])),
+            |form: &Form| matches!(form.on, On::End(_)) && form.sizes.contains(&f64::INFINITY),
             |form: &Form| form.sizes.contains(&0.0),
             |form: &Form| form.sizes.iter().all(|size| *size == form.sizes[0]),
             |form: &Form| form.sizes.windows(2).all(|two| two[0].abs() < two[1].abs()),

@@ -5,13 +5,14 @@ use crate::critic::fixture::made;
 use crate::math::exp;
 use crate::study::MeasuredKind;
 
-#[test]
-fn a_jump_stands_out_of_the_steps_before_and_after_it() {
+/// A specimen whose centre is read at eight tilts, and what it counts of a contrast by what the readings are in their errors of a
+/// millimetre at each degree.
+fn counted(contrast: Contrast, readings: usize, value: &dyn Fn(f64) -> f64) -> Option<f64> {
     let made = made();
     let (mut design, _) = Design::of(&made.study);
     design.specimens.truncate(1);
     let first = design.specimens[0].readings.iter().find(|m| m.tilt.is_some()).expect("read").clone();
-    let tilts: Vec<f64> = (1..=8).map(f64::from).collect();
+    let tilts: Vec<f64> = (1..=readings as u32).map(f64::from).collect();
     design.specimens[0].readings = tilts
         .iter()
         .map(|deg| Measurement {
@@ -26,19 +27,33 @@ fn a_jump_stands_out_of_the_steps_before_and_after_it() {
     // Readings far below the bend count as they are: a millimetre, their error, is one standard deviation.
     let usual = Usual { sd: 1e-3, bend: 1e3, counted: [0.0, 1e-6], error: 1.0 };
     let scale = Scale { specimens: vec![vec![usual; tilts.len()]], apart: Vec::new() };
-    let of = |value: &dyn Fn(f64) -> f64| {
-        let seen = tilts.iter().map(|deg| Seen::Value(1e-3 * value(*deg))).collect();
-        let shown = Campaign { specimens: vec![seen], apart: Vec::new() };
-        features(&design, &scale, &shown)[&Feature::Mean(design.specimens[0].family, Contrast::Jump)]
-    };
+    let seen = tilts.iter().map(|deg| Seen::Value(1e-3 * value(*deg))).collect();
+    let shown = Campaign { specimens: vec![seen], apart: Vec::new() };
+    let family = design.specimens[0].family;
+    features(&design, &scale, &shown).get(&Feature::Mean(family, contrast)).copied()
+}
+
+#[test]
+fn a_jump_stands_out_of_the_steps_before_and_after_it() {
+    let of = |value: &dyn Fn(f64) -> f64| counted(Contrast::Jump, 8, value).expect("it is read often enough");
     assert!(of(&|x| 3.0 * x) < 1e-6 && of(&|x| x * x) < 1e-6);
     let stepped = of(&|x| x + if x > 4.5 { 6.0 } else { 0.0 });
     // The step, in the error of four readings with the weights 1/2, 3/2, 3/2 and 1/2.
     assert!((stepped - 6.0 / 5.0_f64.sqrt()).abs() < 1e-6, "{stepped}");
-    design.specimens[0].readings.truncate(3);
-    let few = Campaign { specimens: vec![vec![Seen::Value(0.0); 3]], apart: Vec::new() };
-    let found = features(&design, &scale, &few);
-    assert!(found.keys().all(|feature| !matches!(feature, Feature::Mean(_, Contrast::Jump))));
+    assert_eq!(counted(Contrast::Jump, 3, &|_| 0.0), None);
+}
+
+#[test]
+fn a_gauge_at_its_end_slows_down_and_a_wall_never_does() {
+    let of =
+        |value: &dyn Fn(f64) -> f64| counted(Contrast::Slowing, 8, value).expect("it is read often enough");
+    assert!(of(&|x| 3.0 * x).abs() < 1e-6);
+    // Of x^2 the second differences are 2, the least of all spans.
+    assert!((of(&|x| x * x) + asinh(2.0 / 6.0_f64.sqrt())).abs() < 1e-9);
+    // At 4 mm it stands still: 3 mm in the three degrees before, none in the three after.
+    let ended = of(&|x| x.min(4.0));
+    assert!((ended - asinh(3.0 / 6.0_f64.sqrt())).abs() < 1e-9, "{ended}");
+    assert_eq!(counted(Contrast::Slowing, 4, &|_| 0.0), None);
 }
 
 #[test]
