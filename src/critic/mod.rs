@@ -30,7 +30,7 @@ pub use calibrate::{
 };
 pub use causes::{COVERED, Evidence, Ranked, Ranking, evidence};
 pub use compare::{Beside, Difference, Measured, Ours, Simulated, Walls, compare, log_likelihood, simulated};
-pub use conflict::log_weight;
+pub use conflict::{PriorPredictive, log_weight};
 pub use discrepancy::{
     Band, Baseline, Component, ComponentEstimate, Contrast, Discrepancy, Expected, Feature, Group, Parts,
     Reference, Residual, Residuals, Scale, Side, features,

@@ -1,14 +1,11 @@
 //! Does a campaign differ from the nearest of the cause's own by more than these differ among themselves? One of the two statistics
 //! of the [check](super::posterior).
 
-use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex};
-
 use rayon::prelude::*;
 
 use crate::critic::causes::inputs;
 use crate::critic::discrepancy::Reference;
-use crate::critic::simulate::{Campaign, Causes, Design, World};
+use crate::critic::simulate::{ByCause, Campaign, Causes, Design, World};
 use crate::random::Streams;
 use crate::stats;
 
@@ -22,11 +19,8 @@ const JUDGED: usize = 300;
 const SHOWN: usize = 15;
 
 /// The nearest of the causes' own campaigns, for campaigns of a design.
-///
-/// The own campaigns of a single cause are kept, by cause and seed: where many campaigns are judged, most checks are of the
-/// same few causes. Pairs are many, and seldom checked twice.
 #[derive(Debug, Default)]
-pub struct Nearest(Mutex<BTreeMap<(usize, u64), Arc<Simulated>>>);
+pub struct Nearest(ByCause<Simulated>);
 
 /// Causes' own campaigns.
 #[derive(Debug)]
@@ -54,24 +48,10 @@ impl Nearest {
         (causes, seed): (Causes, u64),
         campaign: &Campaign,
     ) -> f64 {
-        let simulated = || Arc::new(Simulated::of(world, design, reference, causes, seed));
-        let own = match causes.single() {
-            Some(cause) => self.kept((cause, seed), simulated),
-            None => simulated(),
-        };
+        let own = self.0.of((causes, seed), || Simulated::of(world, design, reference, causes, seed));
         let misfit = misfit(&Summary::of(design, reference, campaign), &own.pool, None);
         let worse = own.misfits.iter().filter(|own| **own >= misfit).count();
         (worse + 1) as f64 / (JUDGED + 1) as f64
-    }
-
-    fn kept(&self, of: (usize, u64), simulated: impl FnOnce() -> Arc<Simulated>) -> Arc<Simulated> {
-        let all = || self.0.lock().expect("nothing panics that holds it");
-        let before = all().get(&of).cloned();
-        // All threads simulate: none may wait here meanwhile. Two that ask at once simulate the same.
-        before.unwrap_or_else(|| {
-            let own = simulated();
-            all().entry(of).or_insert(own).clone()
-        })
     }
 }
 
@@ -142,6 +122,5 @@ mod tests {
             let k = k as u64;
             assert_eq!(share(&all, of, k), share(&Nearest::default(), of, k), "{of:?}");
         }
-        assert_eq!(all.0.lock().expect("nobody holds it").len(), 3);
     }
 }

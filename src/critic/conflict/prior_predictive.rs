@@ -22,9 +22,7 @@ const RIDGE: f64 = 0.05;
 
 /// What the physical prior of a cause predicts of a design's campaigns.
 #[derive(Debug)]
-pub struct PriorPredictive<'d> {
-    design: &'d Design,
-    reference: &'d Reference,
+pub struct PriorPredictive {
     mean: DVector<f64>,
     /// Columns; along each the physical prior's campaigns have a variance of 1.
     directions: DMatrix<f64>,
@@ -32,15 +30,15 @@ pub struct PriorPredictive<'d> {
     distances: Vec<f64>,
 }
 
-impl<'d> PriorPredictive<'d> {
+impl PriorPredictive {
     /// Of causes; a pure function of its arguments.
     pub fn of(
         world: &World<'_>,
-        design: &'d Design,
-        reference: &'d Reference,
+        design: &Design,
+        reference: &Reference,
         causes: impl Into<Causes>,
         seed: u64,
-    ) -> PriorPredictive<'d> {
+    ) -> PriorPredictive {
         let causes = causes.into();
         let seen = |from: u64, drawn: &(dyn Fn(&Streams) -> Truth + Sync)| -> Vec<DVector<f64>> {
             let of = |k: u64| {
@@ -59,20 +57,20 @@ impl<'d> PriorPredictive<'d> {
             within[(k, k)] += ridge.max(f64::MIN_POSITIVE);
         }
         let directions = beyond(within, &wide);
-        let mut predictive = PriorPredictive { design, reference, mean, directions, distances: Vec::new() };
+        let mut predictive = PriorPredictive { mean, directions, distances: Vec::new() };
         let further = seen(CAMPAIGNS, &|streams| world.expected(causes, streams));
         predictive.distances = further.iter().map(|seen| predictive.distance(seen)).collect();
         predictive.distances.sort_by(f64::total_cmp);
         predictive
     }
 
-    /// Share of the campaigns that the physical prior predicts which lie as far out as this one; 1 where the design's readings pin
-    /// nothing down that tells the priors apart.
-    pub fn p_value(&self, campaign: &Campaign) -> f64 {
+    /// Share of the campaigns that the physical prior predicts which lie as far out as this one of the same design; 1 where the
+    /// design's readings pin nothing down that tells the priors apart.
+    pub fn p_value(&self, design: &Design, reference: &Reference, campaign: &Campaign) -> f64 {
         if self.directions.ncols() == 0 {
             return 1.0;
         }
-        let own = self.distance(&features(self.design, self.reference, campaign));
+        let own = self.distance(&features(design, reference, campaign));
         let as_far = self.distances.len() - self.distances.partition_point(|distance| *distance < own);
         (as_far + 1) as f64 / (self.distances.len() + 1) as f64
     }
@@ -137,7 +135,8 @@ mod tests {
                 let streams = Streams::new(91, k);
                 judge.world.campaign(&judge.design, &truth(&streams), &streams)
             };
-            (0..400).filter(|&k| predictive.p_value(&shown(k)) < 0.05).count()
+            let p_value = |k| predictive.p_value(&judge.design, &judge.reference, &shown(k));
+            (0..400).filter(|&k| p_value(k) < 0.05).count()
         };
         let within = flagged(&|streams| judge.world.expected(Some(creep), streams));
         let far = flagged(&|streams| {

@@ -2,6 +2,7 @@
 //! walls of a design.
 
 pub mod bank;
+mod by_cause;
 mod causes;
 mod design;
 mod queries;
@@ -10,6 +11,7 @@ mod unmodelled;
 mod world;
 
 pub use bank::{BANK, Bank, Emulator, Held, NotThisBank, PRIOR_WIDENING, Path, Place, Plan};
+pub(in crate::critic) use by_cause::ByCause;
 pub use causes::Causes;
 pub use design::{Campaign, Design, Seen, Specimen, Unused};
 pub use queries::Queries;

@@ -92,7 +92,10 @@ impl Judge<'_> {
     /// Tests of every cause that the verdict speaks of whether it acts as its physical prior expects.
     fn set_beside_priors(&self, diagnosis: &mut Diagnosis, campaign: &Campaign, limits: &Limits, seed: u64) {
         let conflict = |causes: Causes| {
-            PriorPredictive::of(self.world, &self.design, &self.reference, causes, seed).p_value(campaign)
+            let expected = self.predictions.of((causes, seed), || {
+                PriorPredictive::of(self.world, &self.design, &self.reference, causes, seed)
+            });
+            expected.p_value(&self.design, &self.reference, campaign)
         };
         match diagnosis.verdict.clone() {
             Verdict::NamedPair(pair) => {

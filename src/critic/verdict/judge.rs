@@ -4,8 +4,9 @@ use rayon::prelude::*;
 
 use crate::critic::causes::{Ranked, Ranking};
 use crate::critic::check::{Check, Nearest};
+use crate::critic::conflict::PriorPredictive;
 use crate::critic::discrepancy::{Discrepancy, Reference};
-use crate::critic::simulate::{Campaign, Design, World};
+use crate::critic::simulate::{ByCause, Campaign, Design, World};
 use crate::critic::verdict::detection::Detection;
 use crate::critic::verdict::limits::{Limits, MOST_AMBIGUOUS};
 use crate::random::Streams;
@@ -38,6 +39,8 @@ pub struct Judge<'w> {
     pub ranking: Ranking,
     detection: Detection,
     nearest: Nearest,
+    /// What the physical priors of causes predict.
+    pub(super) predictions: ByCause<PriorPredictive>,
 }
 
 /// What is found in a campaign: its discrepancy, how likely that is by chance, and the ranking of the causes.
@@ -92,6 +95,7 @@ impl<'w> Judge<'w> {
             ranking,
             detection,
             nearest: Nearest::default(),
+            predictions: ByCause::default(),
         })
     }
 
