@@ -10,7 +10,7 @@ const BENT: f64 = 1.0;
 /// And of its level: as good as free. A tighter one leaks into stresses that were not seen.
 const LEVEL: f64 = 20.0;
 /// Specimens of a family differ by so much in stiffness (logarithm).
-const SPECIMEN: f64 = 0.1;
+pub const SPECIMEN: f64 = 0.1;
 /// Steps of finite differences: of the logarithm of the compliance, and of scores.
 const STEPS: [f64; 2] = [0.1, 0.3];
 /// At most so many rounds, and so many halvings in one.
@@ -132,7 +132,12 @@ impl Fit {
 
     /// As a try.
     pub fn tried(&self) -> Try {
-        self.freedom.tried(&self.unknowns)
+        self.tried_at(&self.unknowns)
+    }
+
+    /// Other unknowns as a try.
+    pub fn tried_at(&self, unknowns: &DVector<f64>) -> Try {
+        self.freedom.tried(unknowns)
     }
 }
 

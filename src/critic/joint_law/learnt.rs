@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::critic::joint_law::collapse::collapse;
 use crate::critic::joint_law::fit::{Fit, Freedom};
 use crate::critic::joint_law::form::Knots;
 use crate::critic::joint_law::gain::{LawGain, gained};
@@ -68,6 +69,8 @@ pub struct LearntLaw {
     /// A stress (Pa) of twice the largest one seen, and the closures (m) there since the same knot if the stiffness stays as it is at the largest one seen,
     /// and if it goes on as it has changed: what the law is beyond what was seen is not known better than this.
     pub beyond: (f64, [f64; 2]),
+    /// The collapse angle (rad) that it predicts of one more wall, by family; `None` where too few walls could be solved.
+    pub collapse: Vec<Option<Known>>,
     /// What it gains on specimens held out; `None` where there are too few.
     pub gain: Option<LawGain>,
 }
@@ -159,6 +162,7 @@ impl LearntLaw {
             bend,
             named,
             beyond: (top, beyond(stresses, &law, tested.seen, top, exponent.median)),
+            collapse: collapse(tested, fit),
             gain,
             stresses: stresses.to_vec(),
         }

@@ -12,6 +12,7 @@
 //! It is learnt from families whose joints are stated the same, and it is taken on only where it predicts specimens that it has not
 //! seen better than joints of constant stiffness do.
 
+mod collapse;
 mod fit;
 mod form;
 mod gain;

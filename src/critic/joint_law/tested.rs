@@ -7,6 +7,7 @@ use crate::critic::joint_law::form::Knots;
 use crate::critic::simulate::{Design, Specimen};
 use crate::ensemble::{Row, Task, build, evaluate, is_random, weight};
 use crate::math::{atan, cos, ln, radians, tan};
+use crate::model::Outcome;
 use crate::protocol::Protocol;
 use crate::study::{Arm, MeasuredKind, MeasuredQuantity, Measurement, Nuisance, Study};
 
@@ -127,6 +128,16 @@ impl<'s> Tested<'s> {
             specimens.collect::<Option<Vec<Shown>>>()
         };
         (0..tries.len()).map(of).collect()
+    }
+
+    /// The collapse angle (rad) of a wall of a family under a try, 0 where it does not stand; `None` where it could not be solved.
+    pub fn collapse(&self, family: usize, own: &Try, member: u64) -> Option<f64> {
+        let task = Task { arm: family as u32, point: 0, member };
+        let row = evaluate(&self.study_of(own)?, task);
+        match row.outcome {
+            Outcome::UnstableAtRest => Some(0.0),
+            _ => row.collapse_angle_deg.map(radians),
+        }
     }
 
     /// The study with a try's law in its families.

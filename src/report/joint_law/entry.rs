@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::critic::{Bend, KnownLaw, LawGain, LearntLaw, Nearness};
+use crate::math::degrees;
 use crate::study::Study;
 
 /// A law that was learnt.
@@ -30,6 +31,8 @@ pub struct LawSummary {
     pub beyond_pa: f64,
     /// The closures (m) there since the same knot if the stiffness stays, and if it goes on as it has changed.
     pub beyond_closure_m: [f64; 2],
+    /// The collapse angle that it predicts of one more wall.
+    pub collapse: Vec<LawCollapse>,
     /// What it gains on specimens held out.
     pub gain: Option<LawGain>,
     /// Whether it is taken on.
@@ -47,6 +50,15 @@ pub struct LawKnot {
     pub closure_m: KnownLaw,
     /// Stiffness (Pa/m).
     pub stiffness_pa_per_m: KnownLaw,
+}
+
+/// The collapse angle of one more wall of a family (deg); none where too few walls could be solved.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LawCollapse {
+    /// The family.
+    pub family: String,
+    /// The angle: median and 90 % interval.
+    pub collapse_deg: Option<KnownLaw>,
 }
 
 /// How near a law with a name comes.
@@ -87,6 +99,18 @@ impl LawSummary {
             named: law.named.iter().map(named).collect(),
             beyond_pa: law.beyond.0,
             beyond_closure_m: law.beyond.1,
+            collapse: law
+                .families
+                .iter()
+                .zip(&law.collapse)
+                .map(|(&family, own)| LawCollapse {
+                    family: study.arms[family].name.clone(),
+                    collapse_deg: own.map(|own| KnownLaw {
+                        median: degrees(own.median),
+                        interval: own.interval.map(degrees),
+                    }),
+                })
+                .collect(),
             gain: law.gain.clone(),
             is_accepted: law.is_accepted(),
             extended: None,

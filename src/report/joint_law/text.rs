@@ -1,6 +1,6 @@
 //! What is printed of a law.
 
-use crate::critic::Bend;
+use crate::critic::{Bend, KnownLaw};
 use crate::report::joint_law::LawSummary;
 use crate::report::number::significant;
 
@@ -47,6 +47,11 @@ pub fn law_text(summary: &LawSummary) -> String {
         three(stays),
         three(goes_on)
     ));
+    lines.extend(summary.collapse.iter().filter_map(|own| {
+        let KnownLaw { median, interval: [low, high] } = own.collapse_deg?;
+        let [median, low, high] = [median, low, high].map(three);
+        Some(format!("One more wall of {} falls at {median} deg [{low}, {high}] under it.", own.family))
+    }));
     lines.push(match &summary.gain {
         None => "There are too few specimens to hold some out: the law is not taken on.".to_owned(),
         Some(gain) => format!(
