@@ -53,14 +53,20 @@ pub fn empirical(values: &[f64], censored: &[f64]) -> Vec<EmpiricalStep> {
 
 /// 95 % interval of a probability from `k` hits in `n` trials (Clopper and Pearson 1934): exact, coverage at least 95 %.
 pub fn clopper_pearson(k: usize, n: usize) -> [f64; 2] {
+    clopper_pearson_at(k, n, 1.0 - 2.0 * TAIL)
+}
+
+/// The same at another confidence level, between 0 and 1.
+pub fn clopper_pearson_at(k: usize, n: usize, level: f64) -> [f64; 2] {
+    let tail = 0.5 * (1.0 - level);
     crate::check!(k <= n && n > 0, "{k} hits in {n} trials");
     let quantile = |a: usize, b: usize, p: f64| {
         let beta = Beta::new(a as f64, b as f64);
         crate::check!(beta.is_ok(), "there is no beta distribution of {a} and {b}");
         beta.map_or(f64::NAN, |beta| beta.inverse_cdf(p))
     };
-    let low = if k == 0 { 0.0 } else { quantile(k, n - k + 1, TAIL) };
-    let high = if k == n { 1.0 } else { quantile(k + 1, n - k, 1.0 - TAIL) };
+    let low = if k == 0 { 0.0 } else { quantile(k, n - k + 1, tail) };
+    let high = if k == n { 1.0 } else { quantile(k + 1, n - k, 1.0 - tail) };
     [low, high]
 }
 

@@ -19,7 +19,7 @@ mod summary;
 
 pub use bootstrap::{bootstrap_bca, cov_bootstrap, sigma_bootstrap};
 pub use estimate::Estimate;
-pub use fragility::{EmpiricalStep, clopper_pearson, dkw_half_width, empirical};
+pub use fragility::{EmpiricalStep, clopper_pearson, clopper_pearson_at, dkw_half_width, empirical};
 pub use kolmogorov::{ks_p_value, ks_statistic};
 pub use moments::{cov, mean, sigma, sum};
 pub use order::{quantile, quantile_interval, smallest};
