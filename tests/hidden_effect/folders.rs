@@ -22,12 +22,6 @@ impl Folders {
         folder
     }
 
-    /// Whether nothing is said yet in one of its folders of some of these.
-    pub fn lacks(&self, kind: &str, names: &[impl AsRef<str>]) -> bool {
-        let folder = self.of(kind);
-        names.iter().any(|name| !folder.join(format!("{}.json", name.as_ref())).exists())
-    }
-
     /// Something is to be found out as it does not lie there.
     pub fn lack(&self, what: &str) {
         assert!(!self.is_whole, "{} lacks {what}", self.out.display());

@@ -1,15 +1,14 @@
 //! What the inference knows, and what it says of a campaign: a study, the catalogue with its priors, a bank, and the data.
 
 use std::path::Path;
-use std::sync::OnceLock;
 
 use pirca::critic::{
-    self, Bank, Campaign, Design, Effort, Folds, Gained, Limits, Measuring, Plan, Seen, Verdict, World,
+    self, Bank, Campaign, Design, Effort, Limits, Plan, PriorPredictive, Seen, Verdict, World,
 };
 use pirca::study::{Described, Measurement, Nuisance, Study, described, nuisances};
 use serde::{Deserialize, Serialize};
 
-/// Seeds of what is learnt, of the verdicts, and of the gains.
+/// Seeds of what is learnt, of the verdicts, and of what priors predict.
 const SEEDS: [u64; 3] = [11, 13, 17];
 
 /// What the inference knows.
@@ -53,18 +52,6 @@ impl Known {
 pub struct Judge<'k> {
     pub known: &'k Known,
     pub judge: &'k critic::Judge<'k>,
-    /// Who measures gains, from the first time on.
-    folds: OnceLock<Folds<'k, 'k>>,
-}
-
-/// What the extended model gains on readings held out: the gain and the ends of its interval, for the logarithm of the probability
-/// given, the ranked score and the error.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Gains {
-    /// Specimen by specimen held out.
-    pub specimens: Option<[[f64; 3]; 3]>,
-    /// The largest tilts held out.
-    pub tilts: Option<[[f64; 3]; 3]>,
 }
 
 /// What is said of a campaign.
@@ -96,6 +83,7 @@ pub struct Said {
 pub enum Word {
     NothingFound,
     Named,
+    NamedOutsidePrior,
     Ambiguous,
     Unexplained,
 }
@@ -114,23 +102,25 @@ impl<'k> Judge<'k> {
         // Judges live as long as the test, and so does what they rest on.
         let world: &World<'k> = Box::leak(Box::new(world));
         let judge = critic::Judge::trained(world, &design, effort, SEEDS[0]).expect("it can be told");
-        Judge { known, judge: Box::leak(Box::new(judge)), folds: OnceLock::new() }
+        Judge { known, judge: Box::leak(Box::new(judge)) }
     }
 
-    /// Who measures gains.
-    pub fn folds(&self) -> &Folds<'k, 'k> {
-        self.folds.get_or_init(|| Folds::new(self.judge, Measuring::default(), SEEDS[2]))
+    /// The place of a mechanism in the catalogue.
+    pub fn index(&self, mechanism: &str) -> usize {
+        let place = self.known.mechanisms.iter().position(|own| own.name == mechanism);
+        place.unwrap_or_else(|| panic!("{mechanism} is in no catalogue"))
     }
 
-    /// Measures what the extended model gains.
-    pub fn gains(&self, measured: &[Measurement]) -> Gains {
-        let gain = self.folds().gain(&matched(&self.judge.design, measured));
-        let of = |gained: &Gained| gained.gain.map(|own| [own.value, own.ends[0], own.ends[1]]);
-        let gain = gain.as_ref();
-        Gains {
-            specimens: gain.and_then(|gain| gain.specimens.as_ref()).map(of),
-            tilts: gain.and_then(|gain| gain.tilts.as_ref()).map(of),
-        }
+    /// What the physical prior of a mechanism predicts.
+    pub fn expects(&self, mechanism: usize) -> PriorPredictive {
+        let own = self.judge;
+        PriorPredictive::of(own.world, &own.design, &own.reference, Some(mechanism), SEEDS[2])
+    }
+
+    /// Share of what a prior predicts that is as far out as what was measured.
+    pub fn conflict(&self, expected: &PriorPredictive, measured: &[Measurement]) -> f64 {
+        let own = self.judge;
+        expected.p_value(&own.design, &own.reference, &matched(&own.design, measured))
     }
 
     /// Judges what was measured. What was planned and is not there was not seen.
@@ -140,7 +130,8 @@ impl<'k> Judge<'k> {
         let name = |cause: &usize| self.known.mechanisms[*cause].name.to_owned();
         let (verdict, names) = match &found.verdict {
             Verdict::NothingFound => (Word::NothingFound, Vec::new()),
-            Verdict::Named(cause) | Verdict::NamedOutsidePrior(cause) => (Word::Named, vec![name(cause)]),
+            Verdict::Named(cause) => (Word::Named, vec![name(cause)]),
+            Verdict::NamedOutsidePrior(cause) => (Word::NamedOutsidePrior, vec![name(cause)]),
             Verdict::NamedPair(causes) => (Word::Named, causes.iter().map(name).collect()),
             Verdict::Ambiguous(causes) => (Word::Ambiguous, causes.iter().map(name).collect()),
             Verdict::Unexplained => (Word::Unexplained, Vec::new()),

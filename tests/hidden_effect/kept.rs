@@ -8,14 +8,15 @@ use crate::folders::Folders;
 use crate::hide::{MASTER, hidden, opened};
 use crate::inference::Word;
 use crate::record;
-use crate::run::{BANK, Judges, PLAIN, Verdicts, judged, known, loaded};
+use crate::run::{BANK, Judges, Verdicts, judged, known, loaded};
+use crate::truth::designs::Design;
 use crate::truth::label::Label;
 use crate::truth::roster::{root, roster};
 
 /// A share of the roster that they are in.
 const SHARE: f64 = 0.1;
-/// By their seeds, with what is said of them by the designs [`PLAIN`].
-const KEPT: [(u64, [Word; PLAIN.len()]); 8] = [
+/// By their seeds, with what is said of them by the designs [`Design::ALL`].
+const KEPT: [(u64, [Word; Design::ALL.len()]); 8] = [
     // end_release, strong
     (3_685_888_843_546_938, [Word::Named, Word::Named]),
     // gauge_offset, strong
@@ -44,17 +45,17 @@ fn what_was_said_of_some_campaigns_of_nine_walls_is_still_said() {
         fs::remove_dir_all(&folders.out).expect("the folder is the test's own");
     }
     let kept = |label: &Label| KEPT.iter().find(|(seed, _)| *seed == label.seed);
-    let mut labels = roster(SHARE, MASTER, &BTreeMap::new());
+    let mut labels = roster(&|_| SHARE, MASTER, &BTreeMap::new());
     labels.retain(|label| kept(label).is_some());
     let (names, _) = hidden(&folders, &loaded().study, &labels, "kept");
     assert_eq!(names.len(), KEPT.len(), "they are in the roster, and can be solved");
     let known = known(&root(BANK));
     let judges = Judges::new(&folders, &known);
-    let verdicts = judged(&folders, "verdicts", &judges, &PLAIN, &names);
+    let verdicts = judged(&folders, "verdicts", &judges, &Design::ALL, &names);
     for (name, verdicts) in names.iter().zip(&verdicts) {
         let label = opened(&folders, name);
         let (_, words) = kept(&label).expect("it was kept");
-        for (design, word) in PLAIN.iter().zip(words) {
+        for (design, word) in Design::ALL.iter().zip(words) {
             let said = &verdicts[design.name()];
             assert_eq!(said.verdict, *word, "{}: {label:?} {said:?}", design.name());
             if matches!(word, Word::Named | Word::Ambiguous) {
@@ -78,12 +79,12 @@ fn goes_on_elsewhere(
     record::pack(&folders.out, &record);
     record::unpack(&record, &elsewhere.out);
     assert_eq!(hidden(&elsewhere, &loaded().study, labels, "kept").0, names);
-    assert_eq!(judged(&elsewhere, "verdicts", judges, &PLAIN, names), verdicts);
+    assert_eq!(judged(&elsewhere, "verdicts", judges, &Design::ALL, names), verdicts);
     let campaigns = elsewhere.out.join("campaigns");
     assert!(!campaigns.exists() || fs::read_dir(&campaigns).expect("a folder").next().is_none());
     // Judged once more, from data that are solved anew.
-    let again = judged(&elsewhere, "again", judges, &PLAIN[..1], &names[..1]);
-    let design = PLAIN[0].name();
+    let again = judged(&elsewhere, "again", judges, &Design::ALL[..1], &names[..1]);
+    let design = Design::ALL[0].name();
     assert_eq!(again[0][design], verdicts[0][design]);
     let [first, second] = [&folders.out, &elsewhere.out].map(|out| {
         let file = out.join("campaigns").join(&names[0]).join(format!("{design}.csv"));

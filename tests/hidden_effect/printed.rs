@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
-use pirca::stats::clopper_pearson;
+use pirca::stats::clopper_pearson_at;
 
+use crate::looks::LEVEL;
 use crate::table::Line;
 use crate::truth::designs::Design;
 
@@ -57,10 +58,10 @@ fn cell(line: &Line) -> String {
     }
 }
 
-/// The 95 % interval of a share (Clopper and Pearson).
+/// The interval of a share (Clopper and Pearson), at the level of all looks together.
 pub fn interval(line: &Line) -> Option<[f64; 2]> {
     let [hits, trials] = line.counts.filter(|[_, trials]| *trials > 0)?;
-    Some(clopper_pearson(hits, trials))
+    Some(clopper_pearson_at(hits, trials, LEVEL))
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::folders::{Folders, read};
 use crate::record;
-use crate::run::{Judges, Printed, RECORD, SECRET, SHARE, TABLES, known_without_walls, stages};
+use crate::run::{Judges, MADE, Printed, RECORD, SECRET, SHARE, TABLES, known_without_walls, stages};
 use crate::truth::roster::root;
 
 #[test]
@@ -16,12 +16,15 @@ fn the_published_table_is_what_the_record_says() {
     }
     record::unpack(&root(RECORD), &folders.out);
     let [text, csv] = TABLES.map(|path| read(&root(path)));
-    let share = text.strip_prefix(SHARE).and_then(|text| text.split(". ").next()?.parse().ok());
+    let after = |what: &str, end: &str| text.split_once(what)?.1.split(end).next();
+    let share = after(SHARE, ". ").and_then(|text| text.parse().ok());
     let share = share.unwrap_or_else(|| panic!("{} begins with its share", TABLES[0]));
+    let looks = after(MADE, " of ").and_then(|text| text.parse().ok());
+    let looks = looks.unwrap_or_else(|| panic!("{} says how many looks were made", TABLES[0]));
     let secret = read(&folders.of("sealed").join(SECRET));
     let mut counted = None;
     let known = known_without_walls();
-    stages(&folders, &Judges::new(&folders, &known), share, &secret, &mut |printed| {
+    stages(&folders, &Judges::new(&folders, &known), share, looks, &secret, &mut |printed| {
         counted = Some(printed.clone())
     });
     let (counted, published) = (counted.expect("it is told"), Printed { text, csv });

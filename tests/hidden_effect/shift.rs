@@ -16,9 +16,9 @@ const END: f64 = 1e-6;
 /// How far campaigns with the mechanism and the joints of a label are from any without it, in standard deviations.
 pub fn shift(judge: &Judge<'_>, label: &Label) -> f64 {
     let hidden = &label.hidden[0];
-    let of_name = judge.known.mechanisms.iter().enumerate().find(|(_, m)| m.name == hidden.name);
-    let (index, mechanism) = of_name.expect("in the catalogue");
-    let score = |p: &Parameter| quantile(p.prior.cdf(hidden.value(p.key)).clamp(END, 1.0 - END));
+    let index = judge.index(&hidden.name);
+    let mechanism = &judge.known.mechanisms[index];
+    let score = |p: &Parameter| quantile(p.search.cdf(hidden.value(p.key)).clamp(END, 1.0 - END));
     let truth = Truth {
         causes: Some(index).into(),
         parameters: mechanism.parameters.iter().map(score).collect(),

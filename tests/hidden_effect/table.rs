@@ -3,12 +3,14 @@
 use pirca::random::Streams;
 use pirca::stats::{mean, quantile};
 
-use crate::inference::{Gains, Said, Word};
+use crate::inference::{Said, Word};
+use crate::laws::Learnt;
 use crate::truth::decoys::DECOYS;
 use crate::truth::designs::Design;
 use crate::truth::label::{Group, Label};
-use crate::truth::roster::catalogue;
-use crate::truth::strength::Strength;
+use crate::truth::laws::LAWS;
+use crate::truth::roster::{SPREADS, catalogue};
+use crate::truth::strength::{Strength, Within, outside};
 use crate::truth::unknown::UNKNOWN;
 
 /// Bins of the probability given, for its calibration.
@@ -23,8 +25,14 @@ const PERMUTED: u64 = 1000;
 const DRAWN_ANEW: u64 = 1000;
 
 /// Effects in no catalogue that are of a form that the ranking learns to keep apart from all causes (a gauge that shifts at some
-/// tilt, or from specimen to specimen).
-const LEARNT: [&str; 2] = ["drift", "knock"];
+/// tilt, or from specimen to specimen, or comes to its end).
+const LEARNT: [&str; 3] = ["drift", "knock", "saturation"];
+
+/// A mechanism whose other code is the same as a cause of the catalogue: a soft bed that may open stands on less than its width.
+const OTHER_WORDS: [(&str, &str); 1] = [("base_compliance", "contact_inset")];
+
+/// A test of prior against data flags a conflict below this.
+const FLAGGED: f64 = 0.05;
 
 /// Bands of the shift that an effect makes, in standard deviations.
 const SHIFTS: [[f64; 2]; 4] = [[0.0, 1.0], [1.0, 3.0], [3.0, 10.0], [10.0, f64::INFINITY]];
@@ -32,14 +40,17 @@ const SHIFTS: [[f64; 2]; 4] = [[0.0, 1.0], [1.0, 3.0], [3.0, 10.0], [10.0, f64::
 /// A shift that data mostly show. The lines say 3.
 const CLEAR: f64 = 3.0;
 
+/// What laws that were learnt are called in the table.
+const LEARNT_LAWS: &str = "learnt laws";
+
 /// A campaign that was judged by a design.
 #[derive(Clone, Debug)]
 pub struct Judged {
     pub label: Label,
     pub design: String,
     pub said: Said,
-    /// What the extended model gains, where that was measured.
-    pub gains: Option<Gains>,
+    /// Share of what the physical prior of the hidden mechanism predicts that is as far out, where it is one of our code.
+    pub conflict: Option<f64>,
     /// How far the mechanism that is hidden moves what the design sees, in standard deviations, where it is one of our code.
     pub shift: Option<f64>,
 }
@@ -64,14 +75,29 @@ impl Judged {
     }
 
     fn named(&self) -> bool {
-        self.said.verdict == Word::Named
+        matches!(self.said.verdict, Word::Named | Word::NamedOutsidePrior)
+    }
+
+    /// Whether the hidden cause is named, and said to lie outside its prior.
+    fn flagged(&self) -> bool {
+        self.right() && self.said.verdict == Word::NamedOutsidePrior
+    }
+
+    /// Whether the verdict speaks of the hidden cause.
+    fn held(&self) -> bool {
+        self.said.names.iter().any(|name| self.is_hidden(name))
     }
 
     /// Whether a cause is hidden, by its own name or by one that means the same.
     fn is_hidden(&self, cause: &str) -> bool {
         self.label.hidden.iter().any(|hidden| {
             let unknown = UNKNOWN.iter().find(|unknown| unknown.name == hidden.name);
-            hidden.name == cause || unknown.is_some_and(|unknown| unknown.aliases.contains(&cause))
+            let law = LAWS.iter().find(|law| law.name == hidden.name);
+            let other = self.label.group == Group::OtherCode;
+            hidden.name == cause
+                || unknown.is_some_and(|unknown| unknown.aliases.contains(&cause))
+                || law.is_some_and(|law| law.aliases.contains(&cause))
+                || (other && OTHER_WORDS.contains(&(&hidden.name, cause)))
         })
     }
 
@@ -89,22 +115,6 @@ impl Judged {
         self.named() && !self.said.names.iter().any(|name| self.is_hidden(name))
     }
 
-    /// Whether the interval of the gain on specimens held out, in the logarithm of the probability, lies above 0.
-    fn gains(&self) -> bool {
-        let own = |gains: &Gains| gains.specimens.is_some_and(|[[_, low, _], ..]| low > 0.0);
-        self.gains.as_ref().is_some_and(own)
-    }
-
-    /// The same on the largest tilts.
-    fn gains_further(&self) -> bool {
-        let own = |gains: &Gains| gains.tilts.is_some_and(|[[_, low, _], ..]| low > 0.0);
-        self.gains.as_ref().is_some_and(own)
-    }
-
-    fn other_code(&self) -> bool {
-        self.label.hidden.iter().any(|hidden| hidden.other_code)
-    }
-
     /// Whether what is said is all that should be: nothing where nothing is hidden, the name of a mechanism.
     fn correct(&self) -> bool {
         match self.label.group {
@@ -114,18 +124,17 @@ impl Judged {
     }
 }
 
-/// The table of campaigns that were judged, and of those that were judged by a catalogue without their mechanism.
-pub fn of(judged: &[Judged], removed: &[Judged]) -> Vec<Line> {
-    Design::ALL.into_iter().flat_map(|design| of_design(design.name(), judged, removed)).collect()
+/// The table of campaigns that were judged, and of the laws that were learnt.
+pub fn of(judged: &[Judged], laws: &[Option<Learnt>]) -> Vec<Line> {
+    Design::ALL.into_iter().flat_map(|design| of_design(design, judged, laws)).collect()
 }
 
-fn of_design(design: &'static str, judged: &[Judged], removed: &[Judged]) -> Vec<Line> {
-    let own: Vec<&Judged> = judged.iter().filter(|j| j.design == design).collect();
+fn of_design(design: Design, judged: &[Judged], laws: &[Option<Learnt>]) -> Vec<Line> {
+    let own: Vec<&Judged> = judged.iter().filter(|j| j.design == design.name()).collect();
     let of = |group: Group| own.iter().copied().filter(move |j| j.label.group == group).collect::<Vec<_>>();
     let (nothing, far, mechanisms) = (of(Group::Nothing), of(Group::PriorWrong), of(Group::Mechanism));
-    let ours: Vec<&Judged> = mechanisms.iter().copied().filter(|j| !j.other_code()).collect();
     let catalogued: Vec<&Judged> = [&nothing[..], &far[..], &mechanisms[..]].concat();
-    let mut lines = Lines { design, lines: Vec::new() };
+    let mut lines = Lines { design: design.name(), lines: Vec::new() };
     lines.share("all groups", "a name given is right", &named(&own), Judged::right);
     lines.share("catalogue and nothing", "a name given is right", &named(&catalogued), Judged::right);
     lines.share("nothing hidden", "found", &nothing, Judged::found);
@@ -133,51 +142,48 @@ fn of_design(design: &'static str, judged: &[Judged], removed: &[Judged]) -> Vec
     lines.share("prior wrong", "found", &far, Judged::found);
     lines.share("prior wrong", "named", &far, Judged::named);
     for strength in Strength::ALL.into_iter().rev() {
-        let some: Vec<&Judged> =
-            mechanisms.iter().copied().filter(|j| j.label.hidden[0].strength == Some(strength)).collect();
+        let is_own = |j: &&Judged| j.label.hidden[0].strength.is_some_and(|(own, _)| own == strength);
+        let some: Vec<&Judged> = mechanisms.iter().copied().filter(is_own).collect();
         let group = format!("mechanism, {}", strength.name());
         lines.of_mechanisms(&group, &some);
-        let moved: Vec<&Judged> = some.into_iter().filter(|j| j.shift.is_some()).collect();
         let is_clear = |j: &Judged| j.shift.is_some_and(|shift| shift >= CLEAR);
-        lines.share(&group, "shift of 3 or more", &moved, is_clear);
-        let clear: Vec<&Judged> = moved.into_iter().filter(|j| is_clear(j)).collect();
+        lines.share(&group, "shift of 3 or more", &some, is_clear);
+        let clear: Vec<&Judged> = some.into_iter().filter(|j| is_clear(j)).collect();
         lines.share(&group, "named where the shift is 3 or more", &clear, Judged::right);
     }
-    lines.of_mechanisms("mechanism, our code", &ours);
-    let other: Vec<&Judged> = mechanisms.iter().copied().filter(|j| j.other_code()).collect();
+    lines.of_mechanisms("mechanism", &mechanisms);
+    let inside = |j: &&Judged| j.label.hidden[0].strength.is_some_and(|(_, within)| within == Within::Prior);
+    let inside: Vec<&Judged> = mechanisms.iter().copied().filter(inside).collect();
+    lines.of_mechanisms("mechanism, within its physical prior", &inside);
+    let is_flagged = |j: &Judged| j.conflict.is_some_and(|p| p < FLAGGED);
+    lines.share("mechanism, within its physical prior", "conflict flagged", &inside, is_flagged);
+    let other = of(Group::OtherCode);
     lines.of_mechanisms("mechanism, other code", &other);
     lines.share("mechanism, other code", "a name given is right", &named(&other), Judged::right);
     for [low, high] in SHIFTS {
         let some = |j: &&Judged| j.shift.is_some_and(|shift| (low..high).contains(&shift));
-        let some: Vec<&Judged> = ours.iter().copied().filter(some).collect();
+        let some: Vec<&Judged> = mechanisms.iter().copied().filter(some).collect();
         let to = if high.is_finite() { format!("{low} to {high}") } else { format!("above {low}") };
         lines.of_mechanisms(&format!("mechanism, shift {to}"), &some);
     }
     for mechanism in catalogue() {
-        let some = |j: &&Judged| {
-            j.label.hidden[0].name == mechanism.name && j.label.hidden[0].strength == Some(Strength::Strong)
-        };
+        let some = |j: &&Judged| j.label.hidden[0].name == mechanism.name;
         let some: Vec<&Judged> = mechanisms.iter().copied().filter(some).collect();
-        let group = format!("{}, strong", mechanism.name);
-        lines.of_mechanisms(&group, &some);
+        lines.of_mechanisms(mechanism.name, &some);
         let shifts: Vec<f64> = some.iter().filter_map(|j| j.shift).collect();
-        lines.value(&group, "median shift", &shifts, |shifts| quantile(shifts, 0.5));
+        lines.value(mechanism.name, "median shift", &shifts, |shifts| quantile(shifts, 0.5));
     }
     let found: Vec<&Judged> = mechanisms.iter().copied().filter(|j| j.found()).collect();
-    for (group, of) in [
-        ("mechanism, found", &mechanisms),
-        ("mechanism, our code, found", &ours),
-        ("mechanism, other code, found", &other),
+    for (group, found) in [
+        ("mechanism, found", found.clone()),
+        ("mechanism, other code, found", other.iter().copied().filter(|j| j.found()).collect()),
     ] {
-        let found: Vec<&Judged> = of.iter().copied().filter(|j| j.found()).collect();
         lines.share(group, "the set holds it", &found, |j| j.said.set.contains(&j.label.hidden[0].name));
     }
     let sizes: Vec<f64> = found.iter().map(|j| j.said.set.len() as f64).collect();
     lines.value("mechanism, found", "mean size of the set", &sizes, mean);
     let few: Vec<&Judged> = found.iter().copied().filter(|j| j.said.verdict == Word::Ambiguous).collect();
-    lines.share("mechanism, ambiguous", "the verdict holds it", &few, |j| {
-        j.said.names.iter().any(|name| j.is_hidden(name))
-    });
+    lines.share("mechanism, ambiguous", "the verdict holds it", &few, Judged::held);
     let sizes: Vec<f64> = few.iter().map(|j| j.said.names.len() as f64).collect();
     lines.value("mechanism, ambiguous", "mean number of causes", &sizes, mean);
     let unexplained: Vec<&Judged> =
@@ -190,10 +196,26 @@ fn of_design(design: &'static str, judged: &[Judged], removed: &[Judged]) -> Vec
         found.iter().map(|j| (j.said.likeliest.1, j.is_hidden(&j.said.likeliest.0))).collect();
     lines.value("mechanism, found", "calibration error of the likeliest", &given, calibration_error);
     lines.plain("mechanism, found", "calibration error by chance alone", chance_error(&given));
-    for (group, of) in [("mechanism, named", named(&mechanisms)), ("nothing hidden", nothing.clone())] {
-        let measured: Vec<&Judged> = of.into_iter().filter(|j| j.gains.is_some()).collect();
-        lines.share(group, "a gain on specimens held out", &measured, Judged::gains);
-        lines.share(group, "a gain on the largest tilts held out", &measured, Judged::gains_further);
+    let beyond = of(Group::Outside);
+    for spreads in SPREADS {
+        let some: Vec<&Judged> =
+            beyond.iter().copied().filter(|j| j.label.hidden[0].spreads == Some(spreads)).collect();
+        lines.outside(&format!("outside its prior, {spreads} spreads"), &some);
+    }
+    for name in outside() {
+        let some: Vec<&Judged> = beyond.iter().copied().filter(|j| j.label.hidden[0].name == name).collect();
+        lines.outside(&format!("{name}, outside its prior"), &some);
+    }
+    lines.outside("outside its prior", &beyond);
+    let curved = of(Group::Law);
+    lines.of_mechanisms("laws of no catalogue", &curved);
+    for law in &LAWS {
+        let some: Vec<&Judged> =
+            curved.iter().copied().filter(|j| j.label.hidden[0].name == law.name).collect();
+        lines.of_mechanisms(law.name, &some);
+    }
+    if design == Design::Rich {
+        lines.learnt(laws);
     }
     let pairs = of(Group::Pair);
     lines.share("pairs", "found", &pairs, Judged::found);
@@ -213,24 +235,16 @@ fn of_design(design: &'static str, judged: &[Judged], removed: &[Judged]) -> Vec
         lines.share(effect.name, "found", &some, Judged::found);
         lines.share(effect.name, "wrongly named", &some, Judged::wrong);
     }
-    let without: Vec<&Judged> = removed.iter().filter(|j| j.design == design).collect();
-    lines.share("out of the catalogue in turn", "found", &without, Judged::found);
-    lines.share("out of the catalogue in turn", "wrongly named", &without, Judged::wrong);
     let decoys = of(Group::Decoy);
     lines.share("decoys", "found", &decoys, Judged::found);
     lines.share("decoys", "named", &decoys, Judged::named);
     lines.share("catalogue and nothing", "correct", &catalogued, Judged::correct);
     let still = |j: &Judged| matches!(j.label.group, Group::Nothing | Group::PriorWrong);
     lines.share("catalogue and nothing", "correct if nothing is ever found", &catalogued, still);
-    let frequent = most_frequent(&catalogued);
-    lines.share("catalogue and nothing", "correct if the most frequent is always named", &catalogued, |j| {
-        frequent.as_ref().is_some_and(|name| j.is_hidden(name))
-    });
     let named = named(&mechanisms);
     let shares = permuted(&named);
     lines.plain("mechanism, labels permuted", "a name given is right", mean(&shares));
     lines.between(&shares);
-    lines.plain("mechanism, labels permuted", "share of names right to be expected", by_chance(&named));
     for name in DECOYS {
         let some: Vec<&Judged> = decoys.iter().copied().filter(|j| j.label.hidden[0].name == name).collect();
         lines.share(name, "found", &some, Judged::found);
@@ -247,9 +261,13 @@ struct Lines {
 
 impl Lines {
     fn share(&mut self, group: &str, measure: &'static str, of: &[&Judged], hit: impl Fn(&Judged) -> bool) {
-        let hits = of.iter().filter(|j| hit(j)).count();
-        let value = (!of.is_empty()).then(|| hits as f64 / of.len() as f64);
-        let counts = Some([hits, of.len()]);
+        self.counted(group, measure, [of.iter().filter(|j| hit(j)).count(), of.len()]);
+    }
+
+    /// Hits and trials.
+    fn counted(&mut self, group: &str, measure: &'static str, [hits, trials]: [usize; 2]) {
+        let value = (trials > 0).then(|| hits as f64 / trials as f64);
+        let counts = Some([hits, trials]);
         let group = group.to_owned();
         self.lines.push(Line { design: self.design, group, measure, counts, value, between: None });
     }
@@ -283,6 +301,31 @@ impl Lines {
         self.lines.push(Line { design: self.design, group, measure, counts: None, value, between: None });
     }
 
+    /// What is said of mechanisms that lie outside their priors.
+    fn outside(&mut self, group: &str, of: &[&Judged]) {
+        self.of_mechanisms(group, of);
+        self.share(group, "named, and said to lie outside", of, Judged::flagged);
+        self.share(group, "the verdict holds it", of, Judged::held);
+        self.share(group, "conflict flagged", of, |j| j.conflict.is_some_and(|p| p < FLAGGED));
+    }
+
+    /// What was learnt of laws.
+    fn learnt(&mut self, laws: &[Option<Learnt>]) {
+        let own: Vec<&Learnt> = laws.iter().flatten().collect();
+        self.counted(LEARNT_LAWS, "a law was learnt", [own.len(), laws.len()]);
+        let sum = |k: usize| own.iter().map(|law| law.within[k]).sum();
+        self.counted(LEARNT_LAWS, "its band holds the truth", [sum(0), sum(1)]);
+        let collapses: Vec<bool> = own.iter().filter_map(|law| law.collapse).collect();
+        let hits = |of: &[bool]| [of.iter().filter(|hit| **hit).count(), of.len()];
+        self.counted(LEARNT_LAWS, "the collapse of one more wall lies within", hits(&collapses));
+        let signs: Vec<bool> = own.iter().filter_map(|law| law.sign).collect();
+        self.counted(LEARNT_LAWS, "a sign given is right", hits(&signs));
+        let goes: Vec<bool> = own.iter().filter(|law| law.goes).map(|law| law.sign == Some(true)).collect();
+        self.counted(LEARNT_LAWS, "the sign is given and right", hits(&goes));
+        let accepted = own.iter().filter(|law| law.accepted).count();
+        self.counted(LEARNT_LAWS, "accepted", [accepted, own.len()]);
+    }
+
     fn of_mechanisms(&mut self, group: &str, of: &[&Judged]) {
         self.share(group, "found", of, Judged::found);
         self.share(group, "named", of, Judged::right);
@@ -313,22 +356,6 @@ fn chance_error(of: &[(f64, bool)]) -> Option<f64> {
     mean(&errors)
 }
 
-/// The mechanism that is hidden most often, the first of several.
-fn most_frequent(of: &[&Judged]) -> Option<String> {
-    let count = |name: &str| of.iter().filter(|j| j.is_hidden(name)).count();
-    let names = catalogue().into_iter().map(|mechanism| mechanism.name).rev();
-    names.max_by_key(|name| count(name)).map(str::to_owned)
-}
-
-/// Share of names that are right on average over all orders of the labels.
-fn by_chance(of: &[&Judged]) -> Option<f64> {
-    let right = |j: &Judged| {
-        let hides = |other: &&&Judged| j.said.names.iter().all(|name| other.is_hidden(name));
-        of.iter().filter(hides).count() as f64 / of.len() as f64
-    };
-    mean(&of.iter().map(|j| right(j)).collect::<Vec<_>>())
-}
-
 /// Shares of names that are right where labels have changed places, each time otherwise.
 pub fn permuted(of: &[&Judged]) -> Vec<f64> {
     let shuffled = |k: u64| {
@@ -353,11 +380,16 @@ pub mod tests {
     /// What somebody says who knows all labels, and gives no name where there is none. Strong effects of our code shift what is seen
     /// by 5, others by 1.
     pub fn told() -> Vec<Judged> {
-        let all = roster(0.2, 3, &BTreeMap::new()).into_iter();
+        let all = roster(&|_| 1.0, 3, &BTreeMap::new()).into_iter();
         all.map(|label| {
             let name = label.hidden.first().map(|hidden| hidden.name.clone());
-            let name = name.filter(|_| label.group == Group::Mechanism);
-            let verdict = if name.is_some() { Word::Named } else { Word::NothingFound };
+            let name =
+                name.filter(|_| matches!(label.group, Group::Mechanism | Group::OtherCode | Group::Outside));
+            let verdict = match (&name, label.group) {
+                (None, _) => Word::NothingFound,
+                (_, Group::Outside) => Word::NamedOutsidePrior,
+                _ => Word::Named,
+            };
             let names: Vec<String> = name.clone().into_iter().collect();
             let likeliest = (name.unwrap_or_else(|| "lean".to_owned()), 0.95);
             let said = Said {
@@ -371,10 +403,10 @@ pub mod tests {
                 evidence: Vec::new(),
                 pair: None,
             };
-            let ours = label.group == Group::Mechanism && !label.hidden[0].other_code;
-            let strong = ours && label.hidden[0].strength == Some(Strength::Strong);
+            let ours = label.group == Group::Mechanism;
+            let strong = ours && label.hidden[0].strength.is_some_and(|(own, _)| own == Strength::Strong);
             let shift = ours.then_some(if strong { 5.0 } else { 1.0 });
-            Judged { label, design: Design::Rich.name().to_owned(), said, gains: None, shift }
+            Judged { label, design: Design::Rich.name().to_owned(), said, conflict: None, shift }
         })
         .collect()
     }
@@ -391,13 +423,12 @@ pub mod tests {
         told.sort_by_key(|j| j.label.group);
         let counts =
             |told: &[Judged], group: &str, measure: &str| line(&of(told, &[]), group, measure).counts;
-        let wrong =
-            |told: &[Judged]| counts(told, "mechanism, our code", "another one named").expect("a share")[0];
+        let wrong = |told: &[Judged]| counts(told, "mechanism", "another one named").expect("a share")[0];
         let other = |j: &Judged| {
             let names = catalogue().into_iter().map(|mechanism| mechanism.name.to_owned());
             names.into_iter().find(|name| !j.is_hidden(name)).expect("there are more")
         };
-        let one = told.iter().position(|j| !j.other_code()).expect("two in three");
+        let one = told.iter().position(|j| j.label.group == Group::Mechanism).expect("most");
         for order in [0, 1] {
             told[one].said.names = vec![told[one].label.hidden[0].name.clone(); 1];
             let own = other(&told[one]);
@@ -444,6 +475,8 @@ pub mod tests {
             ("catalogue and nothing", "correct", 1.0),
             ("mechanism, found", "the set holds it", 1.0),
             ("mechanism, other code, found", "the set holds it", 1.0),
+            ("outside its prior, 3 spreads", "named, and said to lie outside", 1.0),
+            ("outside its prior", "the verdict holds it", 1.0),
             ("mechanism, strong", "shift of 3 or more", 1.0),
             ("mechanism, weak", "shift of 3 or more", 0.0),
             ("mechanism, strong", "named where the shift is 3 or more", 1.0),
@@ -458,18 +491,15 @@ pub mod tests {
         assert!((error.expect("some are found") - 0.05).abs() < 1e-12);
         let permuted = line(&lines, "mechanism, labels permuted", "a name given is right");
         let [low, high] = permuted.between.expect("there are some");
-        assert!(low < 1.0 / 17.0 && 1.0 / 17.0 < high && high < 0.1, "{low} to {high}");
-        // A thousand orders of 612 names, of which one scatters by 0.01.
-        assert!(permuted.value.is_some_and(|share| (share - 1.0 / 17.0).abs() < 0.001), "{permuted:?}");
-        // As many of every mechanism.
-        let expected = line(&lines, "mechanism, labels permuted", "share of names right to be expected");
-        assert!((expected.value.expect("some are named") - 1.0 / 17.0).abs() < 1e-12);
+        // 216 names of 18 mechanisms: a share of 1/18, of which one order scatters by 0.016.
+        assert!(low < 1.0 / 18.0 && 1.0 / 18.0 < high && high < 0.12, "{low} to {high}");
+        assert!(permuted.value.is_some_and(|share| (share - 1.0 / 18.0).abs() < 0.002), "{permuted:?}");
         // One that moves little and is not named lowers what is named, but not of those that move much.
         let mut told = told;
         let strong = told.iter_mut().find(|j| j.shift == Some(5.0)).expect("a strong one");
         (strong.shift, strong.said.verdict) = (Some(1.0), Word::NothingFound);
         let some = of(&told, &[]);
-        for (measure, value) in [("named", 0.99), ("shift of 3 or more", 0.99)] {
+        for (measure, value) in [("named", 0.98), ("shift of 3 or more", 0.98)] {
             assert!(
                 line(&some, "mechanism, strong", measure)
                     .value
@@ -478,11 +508,30 @@ pub mod tests {
         }
         assert_eq!(line(&some, "mechanism, strong", "named where the shift is 3 or more").value, Some(1.0));
         // Of nothing, nothing is told; and of a design without campaigns.
-        assert_eq!(line(&lines, "out of the catalogue in turn", "wrongly named").value, None);
-        assert!(
-            markdown(&lines)
-                .contains("| mechanism, strong | named | - | - | - | 204/204 100 % [98, 100] | - |")
+        assert_eq!(line(&lines, "learnt laws", "accepted").value, None);
+        assert!(markdown(&lines).contains("| mechanism, strong | named | - | 72/72 100 % [94, 100] |"));
+    }
+
+    #[test]
+    fn what_was_learnt_of_laws_is_counted() {
+        let law =
+            Learnt { within: [4, 5], collapse: Some(true), sign: Some(true), goes: true, accepted: true };
+        let all = [
+            Some(law.clone()),
+            Some(Learnt { within: [5, 5], collapse: Some(false), sign: Some(false), ..law.clone() }),
+            Some(Learnt { collapse: None, sign: None, goes: false, accepted: false, ..law }),
+            None,
+        ];
+        let lines = of(&[], &all);
+        let counts = |measure| line(&lines, "learnt laws", measure).counts;
+        assert_eq!(counts("a law was learnt"), Some([3, 4]));
+        assert_eq!(counts("its band holds the truth"), Some([13, 15]));
+        assert_eq!(counts("the collapse of one more wall lies within"), Some([1, 2]));
+        assert_eq!(
+            (counts("a sign given is right"), counts("the sign is given and right")),
+            (Some([1, 2]), Some([1, 2]))
         );
+        assert_eq!(counts("accepted"), Some([2, 3]));
     }
 
     #[test]
@@ -512,8 +561,8 @@ pub mod tests {
             (j.said.verdict, j.said.names) = (Word::Named, vec!["lean".to_owned()]);
         }
         let lines = of(&judged, &[]);
-        assert_eq!(line(&lines, "backlash", "wrongly named").counts, Some([0, 20]));
-        assert_eq!(line(&lines, "knock", "wrongly named").counts, Some([20, 20]));
-        assert_eq!(line(&lines, "out of catalogue", "wrongly named").counts, Some([260, 280]));
+        assert_eq!(line(&lines, "backlash", "wrongly named").counts, Some([0, 5]));
+        assert_eq!(line(&lines, "knock", "wrongly named").counts, Some([5, 5]));
+        assert_eq!(line(&lines, "out of catalogue", "wrongly named").counts, Some([65, 70]));
     }
 }

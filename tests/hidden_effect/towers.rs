@@ -12,11 +12,12 @@ use pirca::math::{exp, radians};
 use pirca::protocol::Protocol;
 use pirca::random::Streams;
 use pirca::random::standard_normal::quantile;
-use pirca::study::{MeasuredKind, MeasuredQuantity, Measurement, Study};
+use pirca::study::{Arm, MeasuredKind, MeasuredQuantity, Measurement, Study};
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 
 use crate::inference::{Judge, Known, Said, Word};
+use crate::truth::laws::Law;
 
 /// Specimens of a campaign.
 const SPECIMENS: u64 = 6;
@@ -58,6 +59,8 @@ pub struct Hidden {
     pub mechanism: Option<(&'static str, &'static [(&'static str, f64)])>,
     /// Scores of kn and of the friction angle in their priors, where they are not drawn.
     pub joints: Option<[f64; 2]>,
+    /// A law of no catalogue, with its softer over its stiffer stiffness and its knee (Pa).
+    pub law: Option<(&'static Law, f64, f64)>,
     /// Whether the platform goes back to the level from one of the tilts for a reading of what is left.
     pub goes_back: bool,
 }
@@ -67,24 +70,45 @@ fn hiding(name: &'static str, parameters: &'static [(&'static str, f64)]) -> Hid
     Hidden { mechanism: Some((name, parameters)), ..Hidden::default() }
 }
 
+impl Hidden {
+    /// Scores of kn and of the friction angle that are not given are drawn by a seed, and then the errors of the readings.
+    fn drawn(&self, seed: u64) -> ([f64; 2], impl FnMut() -> f64 + use<>) {
+        let mut draws = Streams::new(seed, 0).of("hidden");
+        let mut normal = move || quantile(draws.uniform());
+        let drawn = [normal(), normal()];
+        (self.joints.unwrap_or(drawn), normal)
+    }
+
+    /// The arm of a study with joints of this seed.
+    pub fn joints_of(&self, study: &Study, seed: u64) -> Arm {
+        let [kn, phi] = self.drawn(seed).0;
+        // Lognormal, as the priors are: 47 % of kn, 6 % of the friction angle.
+        study.arms[0].with_joints(5e7, [exp(0.47 * kn), exp(0.06 * phi), 1.0])
+    }
+
+    /// The study that walls are of.
+    pub fn study(&self, study: &Study, seed: u64) -> Study {
+        let mut study = study.clone().with_seed(seed);
+        if let Some((name, parameters)) = self.mechanism {
+            study = study.with_mechanism(name, parameters).unwrap_or_else(|faults| panic!("{faults}")).study;
+        }
+        study.arms[0] = self.joints_of(&study, seed);
+        if let Some((law, soft_share, knee)) = self.law {
+            study.arms[0] = law.on(&study.arms[0], soft_share, knee);
+        }
+        if self.goes_back {
+            study = study.with_remainders();
+        }
+        let Protocol::Tilting(tilting) = &mut study.protocol else { panic!("towers are tilted") };
+        tilting.step = radians(1.25);
+        study
+    }
+}
+
 /// What is read on walls of the solver. The seed is that of walls, joints and errors.
 pub fn campaign(study: &Study, hidden: &Hidden, seed: u64) -> Vec<Measurement> {
-    let mut draws = Streams::new(seed, 0).of("hidden");
-    let mut normal = || quantile(draws.uniform());
-    let drawn = [normal(), normal()];
-    let [kn, phi] = hidden.joints.unwrap_or(drawn);
-    let mut study = study.clone().with_seed(seed);
-    if let Some((name, parameters)) = hidden.mechanism {
-        study = study.with_mechanism(name, parameters).unwrap_or_else(|faults| panic!("{faults}")).study;
-    }
-    // Lognormal, as the priors are: 47 % of kn, 6 % of the friction angle.
-    let arm = study.arms[0].with_joints(5e7, [exp(0.47 * kn), exp(0.06 * phi), 1.0]);
-    study.arms[0] = arm;
-    if hidden.goes_back {
-        study = study.with_remainders();
-    }
-    let Protocol::Tilting(tilting) = &mut study.protocol else { panic!("towers are tilted") };
-    tilting.step = radians(1.25);
+    let mut normal = hidden.drawn(seed).1;
+    let study = hidden.study(study, seed);
     let rows: Vec<Row> = (0..SPECIMENS)
         .into_par_iter()
         .map(|member| evaluate(&study, Task { arm: 0, point: 0, member }))

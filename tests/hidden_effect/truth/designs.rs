@@ -1,18 +1,16 @@
-//! Five ways to measure one and the same campaign.
+//! Two ways to measure one and the same campaign.
 
-use pirca::math::{atan, degrees};
-use pirca::random::{Stream, Streams};
+use pirca::math::degrees;
+use pirca::random::Streams;
 use pirca::study::MeasuredQuantity as Quantity;
 
-use super::effect::{Effect, TwoStones, normal};
+use super::effect::{Effect, normal};
 use super::readings::{Entry, Series};
 
 /// The families, in the order of the study's arms.
 pub const FAMILIES: [&str; 3] = ["cbl", "sbl", "sbr"];
 /// Specimens of each.
 pub const PER_FAMILY: usize = 3;
-/// Families whose joints are tested on two stones; those of the ropes are as the free ones'.
-pub const TESTED: usize = 2;
 
 /// Error of a reading with good instruments (m), one standard deviation.
 const RICH_ERROR: f64 = 0.3e-3;
@@ -20,23 +18,13 @@ const RICH_ERROR: f64 = 0.3e-3;
 const UNSEEN_CM: f64 = 0.5;
 /// Error of a good protractor (deg).
 const ANGLE_ERROR_DEG: f64 = 0.05;
-/// Errors of a test on two stones: of the stiffness, as a share of what the study states, and of the friction angle (deg).
-const JOINT_ERRORS: [f64; 2] = [0.1, 1.0];
 /// What stands in a plan for a collapse angle (deg).
 const PLANNED_DEG: f64 = 20.0;
 
-/// Errors of the paper's instrument, one standard deviation.
-struct Gauge {
-    /// Of a reading (m).
-    reading: f64,
-    /// What is stated of the mean of three, and of the centre less the mean of the ends (cm).
-    stated_cm: [f64; 2],
-}
-
-/// Its 5 mm as a bound on every error.
-const BOUNDED: Gauge = Gauge { reading: 2.9e-3, stated_cm: [0.17, 0.35] };
-/// Its 5 mm as a standard deviation.
-const COARSE: Gauge = Gauge { reading: 5e-3, stated_cm: [0.29, 0.61] };
+/// The paper's 5 mm as a bound on every error: the error of one reading (m), one standard deviation.
+const PAPER_ERROR: f64 = 2.9e-3;
+/// What is stated of the mean of three, and of the centre less the mean of the ends (cm).
+const STATED_CM: [f64; 2] = [0.17, 0.35];
 
 /// A way to measure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
@@ -44,52 +32,29 @@ const COARSE: Gauge = Gauge { reading: 5e-3, stated_cm: [0.29, 0.61] };
 pub enum Design {
     /// The paper's: angles to half a degree, displacements at 5, 10 and 15 deg to a millimetre.
     Paper,
-    /// The same with errors of 5 mm per reading.
-    PaperCoarse,
-    /// As the paper's, and tests on two stones.
-    PaperJoints,
     /// Exact angles, three points at twenty tilts.
     Rich,
-    /// The same, and tests on two stones.
-    RichJoints,
-}
-
-/// A test on two stones of a family, and what the study states of its joints.
-#[derive(Clone, Copy)]
-pub struct JointTest {
-    pub shows: TwoStones,
-    pub stated: TwoStones,
 }
 
 impl Design {
-    pub const ALL: [Design; 5] =
-        [Design::Paper, Design::PaperCoarse, Design::PaperJoints, Design::Rich, Design::RichJoints];
+    pub const ALL: [Design; 2] = [Design::Paper, Design::Rich];
 
     /// Its name in files.
     pub fn name(self) -> &'static str {
-        ["paper", "paper_coarse", "paper_joints", "rich", "rich_joints"][self as usize]
-    }
-
-    pub fn is_rich(self) -> bool {
-        matches!(self, Design::Rich | Design::RichJoints)
-    }
-
-    /// Whether two stones are tested as well.
-    pub fn has_joints(self) -> bool {
-        matches!(self, Design::PaperJoints | Design::RichJoints)
+        ["paper", "rich"][self as usize]
     }
 
     /// What is written down of specimens, family by family. Of a plan, which has none, every row that there may be.
     pub fn rows(
         self,
         specimens: Option<&[Series]>,
-        joints: &[JointTest; TESTED],
         effects: &[Box<dyn Effect>],
         streams: &Streams,
     ) -> Vec<Entry> {
-        // With a test on two stones the other readings are the same.
-        let mut stream =
-            streams.of(if self.is_rich() { "hidden rich errors" } else { "hidden paper errors" });
+        let mut stream = streams.of(match self {
+            Design::Paper => "hidden paper errors",
+            Design::Rich => "hidden rich errors",
+        });
         let mut rows = Vec::new();
         for index in 0..FAMILIES.len() * PER_FAMILY {
             let mut error = || {
@@ -97,19 +62,12 @@ impl Design {
                 own.unwrap_or_else(|| normal(&mut stream))
             };
             let series = specimens.map(|all| &all[index]);
-            rows.extend(match self.is_rich() {
-                true => rich(index, series, &mut error),
-                false if self == Design::PaperCoarse => paper(index, series, &COARSE, &mut error),
-                false => paper(index, series, &BOUNDED, &mut error),
+            rows.extend(match self {
+                Design::Paper => paper(index, series, &mut error),
+                Design::Rich => rich(index, series, &mut error),
             });
         }
         effects.iter().for_each(|effect| effect.rows(&mut rows, &mut stream));
-        if self.has_joints() {
-            let mut stream = streams.of("hidden joint errors");
-            rows.extend(
-                joints.iter().zip(FAMILIES).flat_map(|(test, family)| two_stones(test, family, &mut stream)),
-            );
-        }
         rows
     }
 }
@@ -141,7 +99,7 @@ fn rounded(value: f64, per_unit: f64) -> f64 {
     (value * per_unit).round() / per_unit
 }
 
-fn paper(index: usize, series: Option<&Series>, gauge: &Gauge, error: &mut dyn FnMut() -> f64) -> Vec<Entry> {
+fn paper(index: usize, series: Option<&Series>, error: &mut dyn FnMut() -> f64) -> Vec<Entry> {
     let collapse = series.map_or(PLANNED_DEG, |series| rounded(degrees(series.collapse), 2.0));
     let mut rows = vec![Entry {
         value: collapse,
@@ -151,11 +109,11 @@ fn paper(index: usize, series: Option<&Series>, gauge: &Gauge, error: &mut dyn F
     }];
     for tilt in [5.0, 10.0, 15.0] {
         let shown = series.map_or(Some([0.0; 3]), |series| series.at(tilt));
-        let Some([left, centre, right]) = shown.map(|points| points.map(|x| x + gauge.reading * error()))
+        let Some([left, centre, right]) = shown.map(|points| points.map(|x| x + PAPER_ERROR * error()))
         else {
             continue;
         };
-        let [of_mean, of_difference] = gauge.stated_cm;
+        let [of_mean, of_difference] = STATED_CM;
         let (quantity, value, error) = match FAMILIES[index / PER_FAMILY] {
             "sbr" => (Quantity::DisplacementCentreMinusEnds, centre - 0.5 * (left + right), of_difference),
             _ => (Quantity::DisplacementMean, (left + centre + right) / 3.0, of_mean),
@@ -187,21 +145,4 @@ fn rich(index: usize, series: Option<&Series>, error: &mut dyn FnMut() -> f64) -
     }
     rows.iter_mut().for_each(|row| row.order = Some(order(index)));
     rows
-}
-
-fn two_stones(test: &JointTest, family: &str, stream: &mut Stream) -> [Entry; 2] {
-    let JointTest { shows, stated } = test;
-    let kn_error = JOINT_ERRORS[0] * stated.kn;
-    // Nobody writes down a stiffness below the error of the test.
-    let kn = (shows.kn + kn_error * normal(stream)).max(kn_error);
-    let phi = degrees(atan(shows.tan_phi)) + JOINT_ERRORS[1] * normal(stream);
-    let entry = |quantity, value, unit, error| Entry {
-        specimen: format!("{}-JOINT", family.to_uppercase()),
-        family: family.to_owned(),
-        value,
-        unit,
-        error,
-        ..row(0, None, quantity)
-    };
-    [entry(Quantity::JointKn, kn, "Pa/m", kn_error), entry(Quantity::JointPhi, phi, "deg", JOINT_ERRORS[1])]
 }

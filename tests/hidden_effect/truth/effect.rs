@@ -56,11 +56,6 @@ pub trait Effect: Send + Sync {
         None
     }
 
-    /// What a test on two stones shows.
-    fn two_stones(&self, test: TwoStones) -> TwoStones {
-        test
-    }
-
     /// The rows as they are written down.
     fn rows(&self, _rows: &mut [Entry], _stream: &mut Stream) {}
 }
@@ -73,13 +68,6 @@ pub struct Specimen {
     pub order: u32,
     /// Its own draws.
     pub streams: Streams,
-}
-
-/// What a test on two stones shows: normal stiffness (Pa/m) and tangent of the friction angle.
-#[derive(Clone, Copy)]
-pub struct TwoStones {
-    pub kn: f64,
-    pub tan_phi: f64,
 }
 
 /// Where a joint lies.

@@ -4,8 +4,9 @@ use pirca::study::Study;
 use serde::{Deserialize, Serialize};
 
 use super::decoys::decoy;
-use super::effect::{Effect, TwoStones};
-use super::strength::Strength;
+use super::effect::Effect;
+use super::laws::{self, LAWS};
+use super::strength::{Strength, Within};
 use super::unknown::UNKNOWN;
 use super::variants::other_code;
 
@@ -17,9 +18,15 @@ pub enum Group {
     Nothing,
     /// Nothing but joints that are far from where they are thought to be.
     PriorWrong,
-    /// A mechanism of the catalogue.
+    /// A mechanism of the catalogue, within its search prior.
     Mechanism,
-    /// Two of them.
+    /// A mechanism as another code has it.
+    OtherCode,
+    /// A mechanism further from the centre of its physical prior than anybody expects.
+    Outside,
+    /// Joints that close along a law of no catalogue.
+    Law,
+    /// Two mechanisms.
     Pair,
     /// An effect that is in no catalogue.
     Unknown,
@@ -27,14 +34,42 @@ pub enum Group {
     Decoy,
 }
 
+impl Group {
+    pub const ALL: [Group; 9] = [
+        Group::Nothing,
+        Group::PriorWrong,
+        Group::Mechanism,
+        Group::OtherCode,
+        Group::Outside,
+        Group::Law,
+        Group::Pair,
+        Group::Unknown,
+        Group::Decoy,
+    ];
+
+    pub fn name(self) -> &'static str {
+        [
+            "nothing hidden",
+            "prior wrong",
+            "mechanisms",
+            "another code",
+            "outside the prior",
+            "laws",
+            "pairs",
+            "out of the catalogue",
+            "decoys",
+        ][self as usize]
+    }
+}
+
 /// Something hidden.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Hidden {
     pub name: String,
-    /// Of a mechanism.
-    pub strength: Option<Strength>,
-    /// Whether it is written in another code than the catalogue's.
-    pub other_code: bool,
+    /// Of a mechanism, and the prior that it was drawn from.
+    pub strength: Option<(Strength, Within)>,
+    /// Standard deviations of its physical prior from its centre, where it lies outside.
+    pub spreads: Option<u32>,
     /// Its parameters, by key and in the key's unit.
     pub parameters: Vec<(String, f64)>,
 }
@@ -64,7 +99,12 @@ impl Hidden {
                 (unknown.effect)(&values)
             }
             Group::Decoy => decoy(&self.name, self.value("which")),
-            _ if self.other_code => other_code(&self.name, &|key| self.value(key)),
+            Group::OtherCode => other_code(&self.name, &|key| self.value(key)),
+            Group::Law => Box::new(laws::Hidden {
+                law: LAWS.iter().find(|law| law.name == self.name).expect("it is listed"),
+                soft_share: self.value("soft_share"),
+                knee: self.value("knee_pa"),
+            }),
             _ => Box::new(OurCode(self.clone())),
         }
     }
@@ -76,8 +116,12 @@ impl Label {
         match (self.group, &self.hidden[..]) {
             (Group::Nothing, _) => "nothing".to_owned(),
             (Group::PriorWrong, _) => "prior wrong".to_owned(),
-            (Group::Mechanism, [Hidden { name, strength: Some(strength), .. }]) => {
+            (Group::Mechanism, [Hidden { name, strength: Some((strength, _)), .. }]) => {
                 format!("{name} {}", strength.name())
+            }
+            (Group::OtherCode, [hidden]) => format!("{} in another code", hidden.name),
+            (Group::Outside, [Hidden { name, spreads: Some(spreads), .. }]) => {
+                format!("{name} {spreads} out")
             }
             (Group::Pair, _) => "pair".to_owned(),
             (_, hidden) => hidden[0].name.clone(),
@@ -97,13 +141,5 @@ impl Effect for OurCode {
     fn study(&self, study: Study) -> Study {
         let values: Vec<(&str, f64)> = self.0.parameters.iter().map(|(key, x)| (key.as_str(), *x)).collect();
         study.with_mechanism(&self.0.name, &values).unwrap_or_else(|faults| panic!("{faults}")).study
-    }
-
-    fn two_stones(&self, test: TwoStones) -> TwoStones {
-        match self.0.name.as_str() {
-            "contact_area" => TwoStones { kn: test.kn * self.0.value("share"), ..test },
-            "friction" => TwoStones { tan_phi: test.tan_phi * self.0.value("factor"), ..test },
-            _ => test,
-        }
     }
 }

@@ -5,6 +5,7 @@ pub mod decoys;
 pub mod designs;
 mod effect;
 pub mod label;
+pub mod laws;
 pub mod readings;
 pub mod roster;
 pub mod strength;

@@ -1,7 +1,9 @@
-//! How strong a mechanism is: how far its parameters lie from no effect in their priors.
+//! How strong a mechanism is: how far its parameters lie from no effect in their physical priors or in their search priors, or how far
+//! outside of what anybody expects.
 
-use pirca::random::Stream;
-use pirca::study::{Described, Parameter};
+use pirca::math::exp;
+use pirca::random::{Family, Stream};
+use pirca::study::{Described, Parameter, WIDER};
 
 /// A tercile of severity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
@@ -10,6 +12,25 @@ pub enum Strength {
     Weak,
     Middle,
     Strong,
+}
+
+/// Which of its two priors a mechanism is drawn from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Within {
+    /// The physical prior.
+    Prior,
+    /// The search prior.
+    Search,
+}
+
+impl Within {
+    fn of(self, parameter: &Parameter) -> &Family {
+        match self {
+            Within::Prior => &parameter.prior,
+            Within::Search => &parameter.search,
+        }
+    }
 }
 
 /// On which side of its prior a parameter has no effect.
@@ -51,14 +72,60 @@ impl Strength {
     }
 }
 
-/// The parameters of a mechanism, by key and in the key's unit: the severity of each is drawn on its own, in this tercile.
-pub fn drawn(mechanism: &Described, strength: Strength, stream: &mut Stream) -> Vec<(String, f64)> {
+/// Mechanisms that are hidden outside their physical priors: the parameters that lie there, and the side (0 for either).
+const OUTSIDE: [(&str, &[(&str, f64)]); 5] = [
+    ("contact_inset", &[("radius_m", 1.0)]),
+    ("joint_closure", &[("closure_m", 1.0)]),
+    ("base_compliance", &[("rotation_n_m_per_rad", -1.0)]),
+    ("lean", &[("angle_deg", 0.0)]),
+    ("gauge_offset", &[("offset_m", 0.0)]),
+];
+
+/// Their names.
+pub fn outside() -> [&'static str; OUTSIDE.len()] {
+    OUTSIDE.map(|(name, _)| name)
+}
+
+/// The parameters of a mechanism, by key and in the key's unit: the severity of each is drawn on its own, in this tercile of a prior.
+pub fn drawn(
+    mechanism: &Described,
+    (strength, within): (Strength, Within),
+    stream: &mut Stream,
+) -> Vec<(String, f64)> {
     let value = |p: &Parameter| {
         let severity = (strength as usize as f64 + stream.uniform()) / 3.0;
-        let place = at(away(mechanism.name, p.key), p, severity, stream.uniform());
-        (p.key.to_owned(), p.prior.quantile(place))
+        let prior = within.of(p);
+        let place = at(away(mechanism.name, p.key), prior, severity, stream.uniform());
+        (p.key.to_owned(), prior.quantile(place))
     };
     mechanism.parameters.iter().map(value).collect()
+}
+
+/// The same with what lies outside so many standard deviations from the centre of its physical prior, and the rest drawn from its
+/// own.
+pub fn drawn_outside(mechanism: &Described, spreads: u32, stream: &mut Stream) -> Vec<(String, f64)> {
+    let (_, moved) = OUTSIDE.iter().find(|(name, _)| *name == mechanism.name).expect("it is listed");
+    let value = |p: &Parameter| {
+        let [place, side] = [0; 2].map(|_| stream.uniform());
+        let value = match moved.iter().find(|(key, _)| *key == p.key) {
+            Some((_, way)) => {
+                let way = if *way == 0.0 { 1_f64.copysign(side - 0.5) } else { *way };
+                out(p, way * f64::from(spreads))
+            }
+            None => p.prior.quantile(place),
+        };
+        (p.key.to_owned(), value)
+    };
+    mechanism.parameters.iter().map(value).collect()
+}
+
+/// The value that lies so many standard deviations of a parameter's physical prior above its centre, see
+/// [`Parameter::spreads_out`].
+fn out(p: &Parameter, spreads: f64) -> f64 {
+    match p.search {
+        Family::TruncatedLognormal { median, log_sd, .. } => median * exp(spreads * log_sd / WIDER),
+        _ => p.prior.mean() + spreads * p.prior.sd(),
+    }
 }
 
 fn away(mechanism: &str, key: &str) -> Away {
@@ -67,12 +134,12 @@ fn away(mechanism: &str, key: &str) -> Away {
 }
 
 /// The quantile of a prior that has a severity; `side` is uniform.
-fn at(away: Away, parameter: &Parameter, severity: f64, side: f64) -> f64 {
+fn at(away: Away, prior: &Family, severity: f64, side: f64) -> f64 {
     match away {
         Away::Up => severity,
         Away::Down => 1.0 - severity,
         Away::From(value) => {
-            let none = parameter.prior.cdf(value);
+            let none = prior.cdf(value);
             if side < none { none * (1.0 - severity) } else { none + severity * (1.0 - none) }
         }
     }
@@ -102,21 +169,47 @@ mod tests {
                 continue;
             }
             let at = mechanism.parameters.iter().position(|own| own.key == p.key).expect("its own");
-            let mut of = |strength: Strength| -> Vec<f64> {
-                (0..600).map(|_| p.prior.cdf(drawn(mechanism, strength, &mut stream)[at].1)).collect()
-            };
-            let all: Vec<f64> = Strength::ALL.iter().flat_map(|strength| of(*strength)).collect();
-            let mean = stats::mean(&all).expect("there are some");
-            // Uniform, in three strata: a standard error of at most sqrt(1/12 / 1800).
-            assert!((mean - 0.5).abs() < 0.03, "{}.{}: {mean}", mechanism.name, p.key);
-            let none = match away(mechanism.name, p.key) {
-                Away::Up => 0.0,
-                Away::Down => 1.0,
-                Away::From(value) => p.prior.cdf(value),
-            };
-            let far = |values: Vec<f64>| values.iter().fold(0.0, |sum: f64, u| sum + (u - none).abs());
-            assert!(far(of(Strength::Strong)) > 1.5 * far(of(Strength::Middle)), "{}", p.key);
-            assert!(far(of(Strength::Middle)) > 2.0 * far(of(Strength::Weak)), "{}", p.key);
+            for within in [Within::Prior, Within::Search] {
+                let prior = within.of(p);
+                let mut of = |strength: Strength| -> Vec<f64> {
+                    let mut one = || drawn(mechanism, (strength, within), &mut stream)[at].1;
+                    (0..600).map(|_| prior.cdf(one())).collect()
+                };
+                let all: Vec<f64> = Strength::ALL.iter().flat_map(|strength| of(*strength)).collect();
+                let mean = stats::mean(&all).expect("there are some");
+                // Uniform, in three strata: a standard error of at most sqrt(1/12 / 1800).
+                assert!((mean - 0.5).abs() < 0.03, "{}.{}: {mean}", mechanism.name, p.key);
+                let none = match away(mechanism.name, p.key) {
+                    Away::Up => 0.0,
+                    Away::Down => 1.0,
+                    Away::From(value) => prior.cdf(value),
+                };
+                let far = |values: Vec<f64>| values.iter().fold(0.0, |sum: f64, u| sum + (u - none).abs());
+                assert!(far(of(Strength::Strong)) > 1.5 * far(of(Strength::Middle)), "{}", p.key);
+                assert!(far(of(Strength::Middle)) > 2.0 * far(of(Strength::Weak)), "{}", p.key);
+            }
+        }
+    }
+
+    #[test]
+    fn what_lies_outside_lies_so_many_standard_deviations_out_and_can_be_searched_for() {
+        let mut stream = Streams::new(2, 0).of("outside");
+        for mechanism in catalogue().iter().filter(|m| outside().contains(&m.name)) {
+            let (_, moved) = OUTSIDE.iter().find(|(name, _)| *name == mechanism.name).expect("it is listed");
+            for spreads in [2, 3, 4] {
+                let values = drawn_outside(mechanism, spreads, &mut stream);
+                for (p, (key, value)) in mechanism.parameters.iter().zip(&values) {
+                    if moved.iter().any(|(own, _)| own == key) {
+                        let own = p.spreads_out(*value).expect("it is no constant").abs();
+                        assert!((own - f64::from(spreads)).abs() < 1e-9, "{}.{key}: {own}", mechanism.name);
+                        assert!(
+                            (0.001..0.999).contains(&p.search.cdf(*value)),
+                            "{}.{key} {value}",
+                            mechanism.name
+                        );
+                    }
+                }
+            }
         }
     }
 }

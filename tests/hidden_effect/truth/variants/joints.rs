@@ -5,7 +5,7 @@ use pirca::math::{atan, exp, tan};
 use pirca::random::{Stream, Streams};
 use pirca::solve::STANDARD_GRAVITY;
 
-use crate::truth::effect::{Effect, Place, TwoStones};
+use crate::truth::effect::{Effect, Place};
 
 /// Joints that are linear, each with the slope that an exponential closure has under the stones above it.
 pub struct ClosureByDepth {
@@ -50,10 +50,6 @@ impl Effect for LargePatches {
     fn differs(&self) -> bool {
         true
     }
-
-    fn two_stones(&self, test: TwoStones) -> TwoStones {
-        TwoStones { kn: test.kn * self.share, ..test }
-    }
 }
 
 /// 0 to 3 in random order.
@@ -74,10 +70,6 @@ impl Effect for FrictionAngle {
     fn law(&self, law: Coulomb, _: &Place, _: &Streams) -> Coulomb {
         let weakening = Weakening { residual: self.residual, distance: 0.5 * self.distance };
         Coulomb { tan_phi: tan(self.factor * atan(law.tan_phi)), weakening: Some(weakening), ..law }
-    }
-
-    fn two_stones(&self, test: TwoStones) -> TwoStones {
-        TwoStones { tan_phi: tan(self.factor * atan(test.tan_phi)), ..test }
     }
 }
 
