@@ -6,10 +6,10 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::cli::help::{
-    ANALYSE, BANK, CHECK, DIAGNOSE, GENERATE, INIT, MEASURED, MECHANISMS, PICTURE, READINGS, RUN,
+    ANALYSE, BANK, CAPACITY, CHECK, DIAGNOSE, GENERATE, INIT, MEASURED, MECHANISMS, PICTURE, READINGS, RUN,
     SENSITIVITY, WHOLE,
 };
-use crate::cli::{analyse, sensitivity};
+use crate::cli::{analyse, capacity, sensitivity};
 use crate::protocol::Direction;
 
 /// Headings of the options that several verbs share.
@@ -55,6 +55,11 @@ pub(crate) enum Verb {
     /// A run that was stopped goes on where it stood.
     #[command(after_help = RUN)]
     Run(Run),
+    /// Say what walls of a kind may be counted on to bear: a probability, a low fractile, characteristic and design values.
+    ///
+    /// From simulated walls, or with --measured from tested specimens alone.
+    #[command(after_help = CAPACITY)]
+    Capacity(Capacity),
     /// Say which readings of a study explain what was published.
     ///
     /// Where a source does not say all that it did, its statements may tell which of the possible readings is meant: the study's
@@ -249,6 +254,48 @@ pub(crate) struct Run {
     /// Output folder of an earlier run of the same study, whose means are drawn into the figure as hollow markers.
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub beside: Option<PathBuf>,
+}
+
+/// Arguments of `capacity`.
+#[derive(Args, Debug)]
+pub(crate) struct Capacity {
+    #[command(flatten)]
+    pub which: Which,
+    #[command(flatten)]
+    pub question: Asked,
+    /// Take the collapse angles of the specimens in measured.csv alone, and simulate nothing.
+    #[arg(long, conflicts_with_all = ["members", "seed", "threads", "above_m", "below_n"], help_heading = STUDY)]
+    pub measured: bool,
+    /// Coefficient of variation of such walls, where more than these walls tell it: 0.1 is 10 %.
+    #[arg(long, value_name = "V", value_parser = capacity::variation, allow_negative_numbers = true, help_heading = STUDY)]
+    pub known_cov: Option<f64>,
+    #[command(flatten)]
+    pub ensemble: Ensemble,
+    /// Worker threads [default: one per processor]. No result depends on their number.
+    #[arg(long, value_name = "T", help_heading = SOLUTION)]
+    pub threads: Option<NonZero<usize>>,
+    /// Output folder [default: runs/<study>-capacity, with -<variant> in it if one is named].
+    #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
+    pub out: Option<PathBuf>,
+}
+
+/// What is asked of a capacity.
+#[derive(Args, Debug)]
+#[group(multiple = false)]
+#[command(next_help_heading = "Question")]
+pub(crate) struct Asked {
+    /// Which share of walls lie below the value sought [default: 0.05].
+    #[arg(long, value_name = "P", value_parser = capacity::probability, allow_negative_numbers = true)]
+    pub quantile: Option<f64>,
+    /// How probable is a collapse before this tilt (deg)?
+    #[arg(long, value_name = "DEG", value_parser = capacity::level, allow_negative_numbers = true)]
+    pub below_deg: Option<f64>,
+    /// How probable is a displacement beyond this (m)?
+    #[arg(long, value_name = "M", value_parser = capacity::level, allow_negative_numbers = true)]
+    pub above_m: Option<f64>,
+    /// How probable is a shear capacity below this (N)?
+    #[arg(long, value_name = "N", value_parser = capacity::level, allow_negative_numbers = true)]
+    pub below_n: Option<f64>,
 }
 
 /// Arguments of `readings`.

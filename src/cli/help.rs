@@ -17,7 +17,7 @@ const INDENT: usize = 10;
 /// The verbs in the order in which they are met, under what they are about.
 const GROUPS: [(&str, &[&str]); 3] = [
     ("One wall", &["analyse", "generate", "picture"]),
-    ("Many walls", &["init", "check", "run", "readings"]),
+    ("Many walls", &["init", "check", "run", "capacity", "readings"]),
     ("Measured walls", &["measured", "sensitivity", "bank", "diagnose", "mechanisms"]),
 ];
 
@@ -93,6 +93,21 @@ Example: pirca run studies/joint-arrangement --members 5 --out runs/first-try
 
 Stopped and started again with the same arguments, it goes on where it stood and ends with the same files. A wall that falls or \
 cannot be built is counted in the results; it is no error.
+
+",
+    codes!()
+);
+
+/// Of `capacity`.
+pub(super) const CAPACITY: &str = concat!(
+    "\
+Example: pirca capacity studies/tilting-table --members 100
+         pirca capacity studies/tilting-table --below-deg 12
+         pirca capacity studies/tilting-table --measured --known-cov 0.1
+
+It writes capacity.json beside the files of the walls. Intervals are at 95 %. A wall that brings no value is counted, and the \
+interval that holds whatever it would have borne is given too. Characteristic and design values are those of EN 1990 Annex D, \
+computed and not read from its tables; the design value is undercut with a probability of 0.1 %.
 
 ",
     codes!()

@@ -3,6 +3,7 @@
 mod analyse;
 mod arguments;
 mod bank;
+mod capacity;
 mod check;
 mod diagnose;
 mod doing;
@@ -42,6 +43,7 @@ pub fn main() -> ExitCode {
     let done = match &arguments.verb {
         Verb::Analyse(arguments) => analyse::analyse(arguments),
         Verb::Bank(arguments) => bank::bank(arguments),
+        Verb::Capacity(arguments) => capacity::capacity(arguments),
         Verb::Check(arguments) => check::check(arguments),
         Verb::Diagnose(arguments) => diagnose::diagnose(arguments),
         Verb::Generate(arguments) => generate::generate(arguments),

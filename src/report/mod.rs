@@ -3,6 +3,7 @@
 
 mod advice;
 mod beside;
+mod capacity;
 mod compare;
 mod conclusion;
 mod csv;
@@ -37,6 +38,9 @@ mod vtu;
 
 pub use advice::Advice;
 pub use beside::{Earlier, Mean};
+pub use capacity::{
+    CapacityGroup, CapacitySummary, Question, Supported, SupportedValue, capacity_text, write_capacity,
+};
 pub use compare::{Basis, Comparison};
 pub use diagnosis::{DataEntry, DiagnosisSummary, FamilyFigure, diagnosis_text, write_diagnosis};
 pub use elements::{element_table, write_elements};

@@ -114,21 +114,26 @@ impl Population {
 
     /// Why walls are not in the numbers, with their counts.
     fn reasons(&self) -> Vec<String> {
+        self.failed().iter().map(|(why, count)| format!("{count} {why}")).collect()
+    }
+
+    /// Walls that bring no value, by why: the names of their outcomes first.
+    pub fn failed(&self) -> Vec<(String, u64)> {
         let wanted = self.quantity.wanted_outcome();
         let stood = if self.above.is_empty() { "" } else { "equilibrium" };
-        let mut reasons: Vec<String> = self
+        let mut reasons: Vec<(String, u64)> = self
             .outcomes
             .iter()
             .filter(|(name, _)| *name != wanted && *name != stood)
-            .map(|(name, count)| format!("{count} {}", name.replace('_', " ")))
+            .map(|(name, count)| (name.replace('_', " "), *count))
             .collect();
         let rows: u64 = self.outcomes.values().sum();
         if rows < self.planned {
-            reasons.push(format!("{} without a result", self.planned - rows));
+            reasons.push(("without a result".to_owned(), self.planned - rows));
         }
         let ended = self.outcomes.get(wanted).copied().unwrap_or(0);
         if ended > self.values.len() as u64 {
-            reasons.push(format!("{} without a finite value", ended - self.values.len() as u64));
+            reasons.push(("without a finite value".to_owned(), ended - self.values.len() as u64));
         }
         reasons
     }

@@ -7,6 +7,7 @@
 //! the last digits of an interval may differ between platforms; values and bootstrap intervals may not.
 
 mod bootstrap;
+mod characteristic;
 mod estimate;
 mod fragility;
 mod kolmogorov;
@@ -15,9 +16,13 @@ mod order;
 mod ratio;
 mod reference;
 mod seeded;
+pub mod subset;
 mod summary;
 
 pub use bootstrap::{bootstrap_bca, cov_bootstrap, sigma_bootstrap};
+pub use characteristic::{
+    DESIGN_PROBABILITY, Shape, Variation, below_mean, predictive_factor, tolerance_factor,
+};
 pub use estimate::Estimate;
 pub use fragility::{EmpiricalStep, clopper_pearson, clopper_pearson_at, dkw_half_width, empirical};
 pub use kolmogorov::{ks_p_value, ks_statistic};

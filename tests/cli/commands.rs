@@ -7,7 +7,8 @@ use serde_json::Value;
 
 use crate::fixture::{Folder, STUDY, changed, stderr};
 
-fn stdout(output: &Output) -> String {
+/// What a finished program wrote to standard output.
+pub fn stdout(output: &Output) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
@@ -31,7 +32,8 @@ fn every_verb_has_help_with_an_example_and_the_exit_codes() {
     }
     let verbs: Vec<&str> =
         whole.lines().filter_map(|line| line.strip_prefix("  ")?.split("  ").next()).collect();
-    let of_a_study = ["bank", "check", "diagnose", "generate", "measured", "picture", "run", "sensitivity"];
+    let of_a_study =
+        ["bank", "capacity", "check", "diagnose", "generate", "measured", "picture", "run", "sensitivity"];
     for verb in ["analyse", "init", "mechanisms", "readings"].iter().chain(&of_a_study) {
         assert!(verbs.contains(verb), "{verb} is missing in: {whole}");
         let help = stdout(&ends_with(&folder, 0, &[verb, "--help"]));

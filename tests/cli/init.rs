@@ -7,11 +7,8 @@ use std::process::Output;
 use pirca::study::{Distributions, ElementStudy, Study, built_in_studies};
 use serde_json::Value;
 
+use crate::commands::stdout;
 use crate::fixture::{Folder, STUDY, stderr};
-
-fn stdout(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stdout).into_owned()
-}
 
 fn json(output: &Output) -> Value {
     serde_json::from_slice(&output.stdout).unwrap_or_else(|e| panic!("{e}: {}", stderr(output)))

@@ -2,6 +2,7 @@
 
 mod analyse;
 mod bad_walls;
+mod capacity;
 mod catalogue;
 mod commands;
 mod diagnose;

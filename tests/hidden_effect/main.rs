@@ -8,6 +8,7 @@
 //! `recount` counts the published table anew from the record.
 
 mod conflict;
+mod figure;
 mod folders;
 mod hide;
 mod inference;

@@ -15,7 +15,7 @@ fn the_published_table_is_what_the_record_says() {
         fs::remove_dir_all(&folders.out).expect("the folder is the test's own");
     }
     record::unpack(&root(RECORD), &folders.out);
-    let [text, csv] = TABLES.map(|path| read(&root(path)));
+    let [text, csv, figure] = TABLES.map(|path| read(&root(path)));
     let after = |what: &str, end: &str| text.split_once(what)?.1.split(end).next();
     let share = after(SHARE, ". ").and_then(|text| text.parse().ok());
     let share = share.unwrap_or_else(|| panic!("{} begins with its share", TABLES[0]));
@@ -27,8 +27,12 @@ fn the_published_table_is_what_the_record_says() {
     stages(&folders, &Judges::new(&folders, &known), share, looks, &secret, &mut |printed| {
         counted = Some(printed.clone())
     });
-    let (counted, published) = (counted.expect("it is told"), Printed { text, csv });
-    for (own, other) in [(&counted.text, &published.text), (&counted.csv, &published.csv)] {
+    let (counted, published) = (counted.expect("it is told"), Printed { text, csv, figure });
+    for (own, other) in [
+        (&counted.text, &published.text),
+        (&counted.csv, &published.csv),
+        (&counted.figure, &published.figure),
+    ] {
         own.lines().zip(other.lines()).for_each(|(own, other)| assert_eq!(own, other));
     }
     assert_eq!(counted, published);

@@ -13,6 +13,7 @@ use pirca::study::{Loaded, Measurement, Study};
 use rayon::prelude::*;
 
 use crate::conflict;
+use crate::figure;
 use crate::folders::{Folders, begun_with, read, told, write};
 use crate::hide::{MASTER, hidden_share, opened, seals, solved_again};
 use crate::inference::{Judge, Known, Said, Word};
@@ -205,15 +206,20 @@ fn together(names: &[String], labels: &[Label], verdicts: Vec<Verdicts>) -> Vec<
     .collect()
 }
 
-/// A table with its head, as text, and its numbers as a file.
+/// A table with its head, as text; its numbers as a file; what was asked for as a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Printed {
     pub text: String,
     pub csv: String,
+    pub figure: String,
 }
 
 /// Where the table is published.
-pub const TABLES: [&str; 2] = ["studies/hidden-effects/table.md", "studies/hidden-effects/table.csv"];
+pub const TABLES: [&str; 3] = [
+    "studies/hidden-effects/table.md",
+    "studies/hidden-effects/table.csv",
+    "studies/hidden-effects/figures/rates.svg",
+];
 
 #[test]
 #[ignore = "the sealed test: more than an hour; see studies/hidden-effects"]
@@ -231,7 +237,7 @@ fn hidden_effect_campaigns_are_sealed_judged_and_opened() {
     record::pack(&folders.out, &record);
     stages(&folders, &judges, share, LOOKS.len(), &secret, &mut |printed| {
         record::pack(&folders.out, &record);
-        for (path, text) in TABLES.iter().zip([&printed.text, &printed.csv]) {
+        for (path, text) in TABLES.iter().zip([&printed.text, &printed.csv, &printed.figure]) {
             write(&root(path), text);
         }
     });
@@ -277,7 +283,7 @@ pub fn stages(
             wanted::markdown(&table),
             printed::markdown(&table),
         );
-        tell(&Printed { text, csv: printed::csv(&table) });
+        tell(&Printed { text, csv: printed::csv(&table), figure: figure::svg(&table) });
         if stopped.all() {
             return;
         }

@@ -188,6 +188,15 @@ fn line<'l>(lines: &'l [Line], design: Design, group: &str, measure: &str) -> Op
     lines.iter().find(|line| (line.design, &line.group[..], line.measure) == asked)
 }
 
+/// The rows of which something is wanted, each with its line and its bounds in every design.
+pub fn asked(lines: &[Line]) -> Vec<(&'static str, [(Option<&Line>, Option<[f64; 2]>); Design::ALL.len()])> {
+    let rows = WANTED.iter().filter(|(.., bounds)| bounds.iter().any(Option::is_some));
+    rows.map(|(what, _, group, measure, bounds)| {
+        (*what, Design::ALL.map(|design| (line(lines, design, group, measure), bounds[design as usize])))
+    })
+    .collect()
+}
+
 /// A table with a column for each design; what is as wanted is in bold.
 pub fn markdown(lines: &[Line]) -> String {
     let mut text = head(&["", "wanted, paper and rich"]);

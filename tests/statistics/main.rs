@@ -3,11 +3,13 @@
 mod bootstrap;
 mod calibration;
 mod certified;
+mod characteristic;
 mod coverage;
 mod families;
 mod order;
 mod published_tables;
 mod rand_distr_agrees;
+mod rare;
 mod ratios;
 mod support;
 mod truncated;

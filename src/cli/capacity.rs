@@ -1,0 +1,92 @@
+//! `pirca capacity`: what walls of a kind may be counted on to bear.
+
+use crate::cli::arguments::{Asked, Capacity};
+use crate::cli::failure::Failure;
+use crate::cli::{locate, output, progress};
+use crate::ensemble::{self, Quantity, Settings, is_random};
+use crate::report::{CapacitySummary, Question, capacity_text, write_capacity};
+use crate::stats::Variation;
+use crate::study::{MEASURED, MeasuredQuantity, Measurement, Study};
+
+/// What the folder of the results is named by.
+const CAPACITY: &str = "capacity";
+/// The share of walls below the value sought, unless another is asked for: EN 1990's characteristic value.
+const QUANTILE: f64 = 0.05;
+
+/// Answers the question from specimens, or from walls that are evaluated as far as they have not been.
+pub(crate) fn capacity(arguments: &Capacity) -> Result<(), Failure> {
+    let study = locate::with_ensemble(locate::study(&arguments.which)?.study, &arguments.ensemble)?;
+    let known = arguments.known_cov.map_or(Variation::Unknown, Variation::Known);
+    let quantity = if arguments.measured { Quantity::CollapseAngle } else { Quantity::of(&study.protocol) };
+    let question = question(&arguments.question, quantity, &study)?;
+    if arguments.measured {
+        let is_angle = |m: &Measurement| m.quantity == MeasuredQuantity::CollapseAngle;
+        if !study.measured.iter().any(is_angle) {
+            return Err(Failure::Input(format!(
+                "{}: no collapse angle in {MEASURED}: nothing to count on",
+                study.name
+            )));
+        }
+        let summary = CapacitySummary::measured(&study, question, known);
+        return match arguments.which.json {
+            true => output::print_json(&summary),
+            false => output::print(&capacity_text(&summary)),
+        };
+    }
+    if !study.arms.iter().any(is_random) {
+        return Err(Failure::Input(format!(
+            "{}: nothing is drawn in any arm, so every wall is alike and has no probability; give an arm random stones or joints",
+            study.name
+        )));
+    }
+    let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, CAPACITY));
+    let settings = Settings { out: out.clone(), threads: arguments.threads };
+    let rows = ensemble::run(&study, &settings, progress::on_stderr(&study).as_ref())?;
+    let summary = CapacitySummary::simulated(&study, &rows, question, known);
+    write_capacity(&summary, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
+    if arguments.which.json {
+        return output::print_json(&summary);
+    }
+    output::print(&format!("{}\nwritten to {}\n", capacity_text(&summary), out.display()))
+}
+
+/// The question, which must be of what is observed.
+fn question(asked: &Asked, quantity: Quantity, study: &Study) -> Result<Question, Failure> {
+    let levels = [
+        ("--below-deg", asked.below_deg, Quantity::CollapseAngle, Question::Below as fn(f64) -> Question),
+        ("--above-m", asked.above_m, Quantity::TopDisplacement, Question::Above),
+        ("--below-n", asked.below_n, Quantity::ShearCapacity, Question::Below),
+    ];
+    for (option, level, of, question) in levels {
+        let Some(level) = level else { continue };
+        if of != quantity {
+            let own = levels.iter().find(|(.., of, _)| *of == quantity).map_or("", |(option, ..)| *option);
+            return Err(Failure::Usage(format!(
+                "{option}: {} observes {}; ask with {own}",
+                study.name,
+                quantity.words()
+            )));
+        }
+        return Ok(question(level));
+    }
+    Ok(Question::Quantile(asked.quantile.unwrap_or(QUANTILE)))
+}
+
+/// A probability between 0 and 1.
+pub(crate) fn probability(text: &str) -> Result<f64, String> {
+    number(text, "a number above 0 and below 1", |p| p > 0.0 && p < 1.0)
+}
+
+/// A level above 0.
+pub(crate) fn level(text: &str) -> Result<f64, String> {
+    number(text, "a number above 0", |x| x > 0.0 && x.is_finite())
+}
+
+/// A coefficient of variation above 0 and up to 1.
+pub(crate) fn variation(text: &str) -> Result<f64, String> {
+    number(text, "a number above 0, up to 1 (0.1 is 10 %)", |v| v > 0.0 && v <= 1.0)
+}
+
+fn number(text: &str, allowed: &str, is_allowed: impl Fn(f64) -> bool) -> Result<f64, String> {
+    text.parse().ok().filter(|x| is_allowed(*x)).ok_or_else(|| format!("allowed is {allowed}"))
+}

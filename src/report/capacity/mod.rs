@@ -1,0 +1,127 @@
+//! What an engineer may count on: the probability that a wall of a kind fails below a level, a low fractile, characteristic and
+//! design values; `capacity.json` and what is printed of it.
+
+mod group;
+mod text;
+mod values;
+
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use serde::Serialize;
+
+pub use group::CapacityGroup;
+pub use text::capacity_text;
+pub use values::{Supported, SupportedValue};
+
+use crate::ensemble::{Quantity, Row, replace_file};
+use crate::math::degrees;
+use crate::report::population::populations;
+use crate::stats::{DESIGN_PROBABILITY, Variation};
+use crate::study::{MeasuredKind, MeasuredQuantity, Measurement, Study};
+
+/// File name of what is written.
+const FILE: &str = "capacity.json";
+
+/// What is asked of the capacity.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Question {
+    /// How probable it is that a wall's value lies below a level (in the unit of the quantity).
+    Below(f64),
+    /// How probable it is that a wall's value lies above a level.
+    Above(f64),
+    /// Below which value a share of all walls lie.
+    Quantile(f64),
+}
+
+/// The answer to a question, group by group.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CapacitySummary {
+    /// Name of the study.
+    pub study: String,
+    /// Its variant.
+    pub variant: Option<String>,
+    /// What was asked.
+    pub question: Question,
+    /// What is described, and its unit.
+    pub quantity: &'static str,
+    /// See `quantity`.
+    pub unit: &'static str,
+    /// `plain`: every wall counts alike; `measured`: specimens alone, nothing simulated.
+    pub method: &'static str,
+    /// Probability at which design values are given.
+    pub design_probability: f64,
+    /// Coefficient of variation that was stated as known.
+    pub known_cov: Option<f64>,
+    /// One entry per arm and kn of a simulated study, per family of a measured one.
+    pub groups: Vec<CapacityGroup>,
+    /// How the quantity is shown.
+    #[serde(skip)]
+    pub shown: Quantity,
+}
+
+impl CapacitySummary {
+    /// From the rows of a study.
+    pub fn simulated(study: &Study, rows: &[Row], question: Question, known: Variation) -> CapacitySummary {
+        let groups = populations(study, rows);
+        let groups = groups.iter().map(|own| CapacityGroup::simulated(own, question, known)).collect();
+        CapacitySummary::new(study, Quantity::of(&study.protocol), "plain", question, known, groups)
+    }
+
+    /// From the collapse angles of a study's specimens alone; families without any are left out.
+    pub fn measured(study: &Study, question: Question, known: Variation) -> CapacitySummary {
+        let mut families: Vec<&str> = Vec::new();
+        let angles = || study.measured.iter().filter(|m| m.quantity == MeasuredQuantity::CollapseAngle);
+        for m in angles() {
+            if !families.contains(&&m.family[..]) {
+                families.push(&m.family);
+            }
+        }
+        let of = |family: &&str| {
+            let own = || angles().filter(|m| m.family == *family);
+            let angle = |m: &Measurement| degrees(m.value);
+            let read = own().filter(|m| !m.kind.is_censored()).map(angle).collect();
+            let above = own().filter(|m| m.kind == MeasuredKind::Above).map(angle).collect();
+            let unread = own().filter(|m| m.kind == MeasuredKind::Below).count() as u64;
+            CapacityGroup::measured(family, read, above, unread, question, known)
+        };
+        let groups = families.iter().map(of).collect();
+        CapacitySummary::new(study, Quantity::CollapseAngle, "measured", question, known, groups)
+    }
+
+    fn new(
+        study: &Study,
+        quantity: Quantity,
+        method: &'static str,
+        question: Question,
+        known: Variation,
+        groups: Vec<CapacityGroup>,
+    ) -> CapacitySummary {
+        let known_cov = match known {
+            Variation::Known(cov) => Some(cov),
+            Variation::Unknown => None,
+        };
+        CapacitySummary {
+            study: study.name.clone(),
+            variant: study.variant.clone(),
+            question,
+            quantity: quantity.name(),
+            unit: quantity.unit(),
+            method,
+            design_probability: DESIGN_PROBABILITY,
+            known_cov,
+            groups,
+            shown: quantity,
+        }
+    }
+}
+
+/// Writes the answer as JSON into an existing folder.
+///
+/// # Errors
+/// The file that could not be written, and why.
+pub fn write_capacity(summary: &CapacitySummary, dir: &Path) -> Result<()> {
+    let json = serde_json::to_string_pretty(summary).context("the answer cannot be written as JSON")? + "\n";
+    Ok(replace_file(&dir.join(FILE), json.as_bytes())?)
+}
