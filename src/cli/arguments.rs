@@ -266,6 +266,9 @@ pub(crate) struct Capacity {
     /// Take the collapse angles of the specimens in measured.csv alone, and simulate nothing.
     #[arg(long, conflicts_with_all = ["members", "seed", "threads", "above_m", "below_n"], help_heading = STUDY)]
     pub measured: bool,
+    /// Where fewer than ten walls are on the worse side of a level, evaluate up to so many more in each arm by subset simulation.
+    #[arg(long, value_name = "N", conflicts_with_all = ["measured", "quantile"], value_parser = clap::value_parser!(u64).range(1000..=10_000_000), help_heading = STUDY)]
+    pub walls: Option<u64>,
     /// Coefficient of variation of such walls, where more than these walls tell it: 0.1 is 10 %.
     #[arg(long, value_name = "V", value_parser = capacity::variation, allow_negative_numbers = true, help_heading = STUDY)]
     pub known_cov: Option<f64>,

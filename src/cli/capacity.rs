@@ -2,7 +2,7 @@
 
 use crate::cli::arguments::{Asked, Capacity};
 use crate::cli::failure::Failure;
-use crate::cli::{locate, output, progress};
+use crate::cli::{locate, output, progress, rare, threads};
 use crate::ensemble::{self, Quantity, Settings, is_random};
 use crate::report::{CapacitySummary, Question, capacity_text, write_capacity};
 use crate::stats::Variation;
@@ -42,7 +42,10 @@ pub(crate) fn capacity(arguments: &Capacity) -> Result<(), Failure> {
     let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, CAPACITY));
     let settings = Settings { out: out.clone(), threads: arguments.threads };
     let rows = ensemble::run(&study, &settings, progress::on_stderr(&study).as_ref())?;
-    let summary = CapacitySummary::simulated(&study, &rows, question, known);
+    let mut summary = CapacitySummary::simulated(&study, &rows, question, known);
+    if let Some(budget) = arguments.walls {
+        threads::on(arguments.threads, || rare::ask(&study, &mut summary, budget, &out))?;
+    }
     write_capacity(&summary, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
     if arguments.which.json {
         return output::print_json(&summary);

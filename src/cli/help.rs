@@ -103,6 +103,7 @@ pub(super) const CAPACITY: &str = concat!(
     "\
 Example: pirca capacity studies/tilting-table --members 100
          pirca capacity studies/tilting-table --below-deg 12
+         pirca capacity studies/tilting-block --variant restrained-ends --below-deg 20 --walls 4000
          pirca capacity studies/tilting-table --measured --known-cov 0.1
 
 It writes capacity.json beside the files of the walls. Intervals are at 95 %. A wall that brings no value is counted, and the \

@@ -20,6 +20,7 @@ mod one_wall;
 mod output;
 mod picture;
 mod progress;
+mod rare;
 mod readings;
 mod run;
 mod sensitivity;

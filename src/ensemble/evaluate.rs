@@ -5,7 +5,6 @@ use crate::generate::{Generated, InvalidGeometry, generate};
 use crate::math::degrees;
 use crate::model::{Level, Outcome, Wall};
 use crate::protocol::{self, Agreement, Bounds, Protocol};
-use crate::random::Streams;
 use crate::solve::limit::Flow;
 use crate::solve::{STANDARD_GRAVITY, Solver};
 use crate::stats;
@@ -17,7 +16,7 @@ use crate::study::{Arm, DrawnJoints, Study};
 /// [`InvalidGeometry`] when the generator found no valid wall within its attempts.
 pub fn build(study: &Study, arm: u32, member: u64) -> Result<Generated, InvalidGeometry> {
     let arm = &study.arms[arm as usize];
-    let generated = generate(&arm.layout, &Streams::new(study.seed, member))?;
+    let generated = generate(&arm.layout, &study.streams(member))?;
     let wall = arm.mechanisms.built(generated.wall, &study.protocol);
     let wall = if arm.turned { wall.turned(arm.layout.outline.length) } else { wall };
     Ok(Generated { wall, ..generated })
@@ -42,7 +41,7 @@ pub fn evaluate(study: &Study, task: Task) -> Row {
 pub fn solve(study: &Study, task: Task, wall: &Wall, tell: &dyn Fn(Level)) -> protocol::Run {
     let (arm, laws) = drawn(study, task, wall);
     let contacts = arm.mechanisms.contacts(arm.sub_contacts);
-    let changes = arm.mechanisms.changes(wall, &Streams::new(study.seed, task.member));
+    let changes = arm.mechanisms.changes(wall, &study.streams(task.member));
     let way = protocol::Way { changes: &changes, tell };
     protocol::run_telling(wall, &laws, &study.protocol_of(arm), &arm.restraint, contacts, way, &study.solver)
 }
@@ -51,7 +50,7 @@ pub fn solve(study: &Study, task: Task, wall: &Wall, tell: &dyn Fn(Level)) -> pr
 fn drawn<'s>(study: &'s Study, task: Task, wall: &Wall) -> (&'s Arm, DrawnJoints<'s>) {
     let arm = &study.arms[task.arm as usize];
     let kn = arm.kn_points[task.point as usize];
-    let laws = DrawnJoints::new(&arm.joint, kn, Streams::new(study.seed, task.member));
+    let laws = DrawnJoints::new(&arm.joint, kn, study.streams(task.member));
     (arm, laws.altered(&arm.mechanisms, wall))
 }
 

@@ -151,12 +151,13 @@ fn refuse_orphans(folder: &Path, journal: &Path) -> Result<(), RunError> {
     }
 }
 
-fn sealed(json: &str) -> String {
+/// JSON as a line with its check.
+pub(super) fn sealed(json: &str) -> String {
     format!("{HEAD}{}{MIDDLE}{json}}}\n", check(json))
 }
 
 /// The JSON of a line whose check is right.
-fn unsealed(line: &str) -> Option<&str> {
+pub(super) fn unsealed(line: &str) -> Option<&str> {
     let rest = line.strip_prefix(HEAD)?;
     let (stated, rest) = rest.split_at_checked(CHECK_DIGITS)?;
     let json = rest.strip_prefix(MIDDLE)?.strip_suffix('}')?;

@@ -14,7 +14,7 @@ mod truncated;
 
 pub use family::Family;
 pub use fault::BadFamily;
-pub use stream::{Stream, Streams};
+pub use stream::{Move, Stream, Streams};
 
 #[cfg(test)]
 mod tests;

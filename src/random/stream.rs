@@ -1,8 +1,12 @@
 //! Random streams: ChaCha with 12 rounds, keyed by seed and member, one numbered stream per name of a quantity.
 
+use std::sync::Arc;
+
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 use sha2::{Digest, Sha256};
+
+use crate::random::standard_normal::{cdf, quantile};
 
 /// First half of every key. It keeps our streams apart from other uses of the same generator; changing it changes
 /// every wall that was ever generated.
@@ -21,22 +25,46 @@ const DOMAIN: &[u8; 16] = b"pirca streams v1";
 /// streams.of("bed dip").uniform();
 /// assert_eq!(first, streams.of("stone length").uniform());
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Streams {
     /// Seed of the study.
     pub seed: u64,
     /// Index of the member.
     pub member: u64,
+    /// What its numbers were moved by since they were drawn.
+    pub moves: Arc<[Move]>,
+}
+
+/// A move of the numbers of a member: some of them, as standard normals, keep a share of what they were and take the rest from the same
+/// place of another member's streams. The numbers stay distributed as they were drawn, so that moves make a Markov chain of walls, each
+/// a pure function of its seed, its member and its moves (conditional sampling, see [`subset`](crate::stats::subset)).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Move {
+    /// Seed and member of the other streams.
+    pub from: [u64; 2],
+    /// The share kept, 0 to 1.
+    pub keep: f64,
+    /// Share of the numbers that are moved, by draws of the other streams.
+    pub moved: f64,
 }
 
 /// One stream of independent uniforms; a clone continues from the same place.
 #[derive(Clone, Debug)]
-pub struct Stream(ChaCha12Rng);
+pub struct Stream {
+    generator: ChaCha12Rng,
+    /// Those that it was moved by, in their order.
+    moves: Vec<(Move, ChaCha12Rng)>,
+}
 
 impl Streams {
     /// The streams of a member.
     pub fn new(seed: u64, member: u64) -> Self {
-        Streams { seed, member }
+        Streams { seed, member, moves: Arc::default() }
+    }
+
+    /// The streams after moves, the first one first.
+    pub fn after(self, moves: Arc<[Move]>) -> Self {
+        Streams { moves, ..self }
     }
 
     /// The stream of a named quantity, from its beginning.
@@ -44,16 +72,29 @@ impl Streams {
     /// The 256-bit key is the domain, the seed and the member (little-endian); the 64-bit stream number is the first
     /// eight bytes (little-endian) of the SHA-256 of the name.
     pub fn of(&self, quantity: &str) -> Stream {
-        let mut key = [0_u8; 32];
-        key[..16].copy_from_slice(DOMAIN);
-        key[16..24].copy_from_slice(&self.seed.to_le_bytes());
-        key[24..].copy_from_slice(&self.member.to_le_bytes());
         let mut number = [0_u8; 8];
         number.copy_from_slice(&Sha256::digest(quantity.as_bytes())[..8]);
-        let mut generator = ChaCha12Rng::from_seed(key);
-        generator.set_stream(u64::from_le_bytes(number));
-        Stream(generator)
+        let keyed = |[seed, member]: [u64; 2]| {
+            let mut key = [0_u8; 32];
+            key[..16].copy_from_slice(DOMAIN);
+            key[16..24].copy_from_slice(&seed.to_le_bytes());
+            key[24..].copy_from_slice(&member.to_le_bytes());
+            let mut generator = ChaCha12Rng::from_seed(key);
+            generator.set_stream(u64::from_le_bytes(number));
+            generator
+        };
+        Stream {
+            generator: keyed([self.seed, self.member]),
+            moves: self.moves.iter().map(|own| (*own, keyed(own.from))).collect(),
+        }
     }
+}
+
+/// Width of the cells that uniforms are the middles of.
+const CELL: f64 = 1.0 / (1_u64 << 52) as f64;
+
+fn uniform(generator: &mut ChaCha12Rng) -> f64 {
+    ((generator.next_u64() >> 12) as f64 + 0.5) * CELL
 }
 
 impl Stream {
@@ -61,8 +102,23 @@ impl Stream {
     ///
     /// Neither end can come out, so every inverse CDF is finite; `1.0 - u` is exact and just as likely as `u`.
     pub fn uniform(&mut self) -> f64 {
-        const CELL: f64 = 1.0 / (1_u64 << 52) as f64;
-        ((self.0.next_u64() >> 12) as f64 + 0.5) * CELL
+        let drawn = uniform(&mut self.generator);
+        self.moved(drawn)
+    }
+
+    /// A uniform after the moves; it is what it was to the bit where none moves it.
+    fn moved(&mut self, drawn: f64) -> f64 {
+        let mut score = None;
+        for (own, generator) in &mut self.moves {
+            let [chosen, other] = [0; 2].map(|_| uniform(generator));
+            if chosen < own.moved {
+                let before = score.unwrap_or_else(|| quantile(drawn));
+                score =
+                    Some(own.keep * before + (1.0 - own.keep * own.keep).max(0.0).sqrt() * quantile(other));
+            }
+        }
+        // Neither end can come out.
+        score.map_or(drawn, |score| cdf(score).clamp(0.5 * CELL, 1.0 - 0.5 * CELL))
     }
 
     /// A whole number from 0 to `n - 1`, each exactly as likely (Lemire 2019: multiply, and reject the few numbers
@@ -71,10 +127,14 @@ impl Stream {
     /// `n` must not be 0: there is no number below it.
     pub fn below(&mut self, n: usize) -> usize {
         crate::check!(n > 0, "no whole number lies below 0");
+        if !self.moves.is_empty() {
+            // The same number as below, but for one in 2^52.
+            return ((self.uniform() * n as f64) as usize).min(n - 1);
+        }
         let n = n as u64;
         let favoured = n.wrapping_neg() % n;
         loop {
-            let product = u128::from(self.0.next_u64()) * u128::from(n);
+            let product = u128::from(self.generator.next_u64()) * u128::from(n);
             if product as u64 >= favoured {
                 return (product >> 64) as usize;
             }

@@ -1,5 +1,5 @@
 use super::standard_normal;
-use super::{BadFamily, Family, Streams};
+use super::{BadFamily, Family, Move, Streams};
 
 fn first(seed: u64, member: u64, quantity: &str, n: usize) -> Vec<f64> {
     let mut stream = Streams::new(seed, member).of(quantity);
@@ -272,4 +272,42 @@ fn families_are_written_by_name_and_refuse_unknown_parameters() {
     assert!(read("family = \"constant\"\nvalue = 1.0\nsd = 0.1").is_err());
     assert!(read("family = \"uniform\"\nlow = 1.0").is_err());
     assert!(read("family = \"gumbel\"\nmean = 1.0").is_err());
+}
+
+/// The scores of a stream after moves.
+fn moved(member: u64, moves: &[Move], n: usize) -> Vec<f64> {
+    let mut stream = Streams::new(5, member).after(moves.into()).of("stone length");
+    (0..n).map(|_| standard_normal::quantile(stream.uniform())).collect()
+}
+
+#[test]
+fn moved_numbers_are_distributed_as_before_and_go_with_what_they_were() {
+    let n = 40_000;
+    let one = Move { from: [5, 1 << 48], keep: 0.8, moved: 1.0 };
+    let before = moved(3, &[], n);
+    let mean = |of: &dyn Fn(usize) -> f64| (0..n).map(of).sum::<f64>() / n as f64;
+    for (moves, kept) in [
+        (vec![one], 0.8),
+        // Of a tenth of the numbers.
+        (vec![Move { moved: 0.1, ..one }], 1.0 - 0.1 * 0.2),
+        (vec![one, Move { from: [5, 1 << 49], keep: 0.5, ..one }], 0.4),
+    ] {
+        let after = moved(3, &moves, n);
+        // Standard errors of 0.005 and 0.007.
+        assert!(mean(&|k| after[k]).abs() < 0.02 && (mean(&|k| after[k] * after[k]) - 1.0).abs() < 0.03);
+        assert!((mean(&|k| before[k] * after[k]) - kept).abs() < 0.03, "{moves:?}");
+    }
+    // Nothing moved is what it was to the bit; whole numbers move with the rest.
+    let same = Move { moved: 0.0, ..one };
+    assert_eq!(moved(3, &[same], 50), moved(3, &[], 50));
+    let whole = |moves: &[Move]| {
+        let mut stream = Streams::new(5, 3).after(moves.into()).of("stone length");
+        (0..200).map(|_| stream.below(7)).collect::<Vec<_>>()
+    };
+    assert_eq!(whole(&[same]), whole(&[]));
+    let others = whole(&[one]).iter().zip(whole(&[])).filter(|(a, b)| **a != *b).count();
+    assert!((40..160).contains(&others), "{others} of 200");
+    // All moves are a pure function of what they are taken from.
+    assert_eq!(moved(3, &[one], 50), moved(3, &[one], 50));
+    assert_ne!(moved(3, &[one], 50), moved(4, &[one], 50));
 }

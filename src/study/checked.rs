@@ -2,11 +2,12 @@
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use crate::generate::{BatteredFace, Layout};
 use crate::law::{ClosureTable, CohesionAfterSlip, Sampling};
 use crate::protocol::{FailureMode, Protocol, Restraint, Shear};
-use crate::random::Family;
+use crate::random::{Family, Move, Streams};
 use crate::solve::Solver;
 use crate::study::measured::Measurement;
 use crate::study::mechanism::Mechanisms;
@@ -20,6 +21,8 @@ pub struct Study {
     pub question: String,
     /// Seed of all random streams.
     pub seed: u64,
+    /// What the numbers of every member are moved by after they were drawn; none in a study from files.
+    pub moves: Arc<[Move]>,
     /// Named variant that was asked for, if any.
     pub variant: Option<String>,
     /// The arms, in the order of the file.
@@ -72,6 +75,17 @@ pub struct Arm {
 }
 
 impl Study {
+    /// The random streams of a member.
+    pub fn streams(&self, member: u64) -> Streams {
+        Streams::new(self.seed, member).after(self.moves.clone())
+    }
+
+    /// The study with its members' numbers moved.
+    pub fn with_moves(mut self, moves: Arc<[Move]>) -> Study {
+        self.moves = moves;
+        self
+    }
+
     /// What is done to the walls of an arm.
     pub fn protocol_of(&self, arm: &Arm) -> Protocol {
         match (self.protocol, arm.vertical_load) {

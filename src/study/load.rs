@@ -127,6 +127,7 @@ impl Study {
                     name,
                     question: parts.question,
                     seed: parts.seed,
+                    moves: Arc::default(),
                     variant: joined(&chosen),
                     arms: parts.arms,
                     protocol: parts.protocol,

@@ -98,7 +98,7 @@ fn kn_of(law: crate::law::Coulomb) -> f64 {
 fn a_joint_is_drawn_once_per_pair_whatever_the_order_and_the_stiffness() {
     let joint = joint();
     let streams = Streams::new(1, 4);
-    let soft = DrawnJoints::new(&joint, 1e7, streams);
+    let soft = DrawnJoints::new(&joint, 1e7, streams.clone());
     let stiff = DrawnJoints::new(&joint, 2e7, streams);
     assert_eq!(soft.of(3, 8), soft.of(8, 3));
     assert_ne!(kn_of(soft.of(3, 8)), kn_of(soft.of(3, 9)));

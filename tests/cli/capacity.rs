@@ -111,3 +111,35 @@ fn what_cannot_be_asked_is_said_and_nothing_is_computed() {
     said(&[], 3, "nothing is drawn in any arm");
     assert!(!folder.path("runs").exists());
 }
+
+/// The level that three in a hundred towers fall before, of 300; and what subset simulation says of it.
+#[test]
+#[ignore = "slow: 2,000 towers, half a minute of processor time"]
+fn a_rare_probability_is_that_of_many_plain_walls_whatever_the_threads_and_after_a_stop() {
+    let folder = towers();
+    let (json, _) = asked(&folder, &["--members", "300", "--quantile", "0.03", "--out", "plain"]);
+    let level = json["groups"][0]["answer"].as_f64().unwrap().to_string();
+    let (json, _) = asked(&folder, &["--members", "300", "--below-deg", &level, "--out", "plain-below"]);
+    let ends = |of: &Value| [0, 1].map(|k| of["interval"][k].as_f64().unwrap());
+    let plain = ends(&json["groups"][0]);
+    let rare = |out: &str, threads: &str| {
+        let few =
+            ["--members", "30", "--below-deg", &level, "--walls", "1500", "--out", out, "--threads", threads];
+        asked(&folder, &few)
+    };
+    let (first, text) = rare("rare", "2");
+    let group = &first["groups"][0];
+    assert_eq!(group["method"], "subset", "{text}");
+    assert!(text.contains("subset simulation") && group["repeats"]["failed"] == 0, "{text}");
+    let own = ends(group);
+    assert!(own[0] < plain[1] && plain[0] < own[1], "{own:?} and {plain:?}: {text}");
+    // The weakest wall lies beyond all plain ones' level.
+    assert!(group["repeats"]["weakest"][1].as_f64().unwrap() < level.parse().unwrap());
+    let (other, _) = rare("rare-alone", "1");
+    assert_eq!(first, other);
+    // Half of what it had evaluated is lost, and the last line torn.
+    let path = folder.path("rare/draws.jsonl");
+    let kept = fs::read_to_string(&path).unwrap();
+    fs::write(&path, &kept[..kept.len() / 2]).unwrap();
+    assert_eq!(rare("rare", "2").0, first);
+}

@@ -26,7 +26,7 @@ fn a_study_states_a_table_and_its_joints_close_along_it() {
         assert_eq!(arm.joint.normal_law, StatedLaw::Table(Box::new(table)));
         // What is drawn from joint to joint scales stress and shear stiffness alike; kn gives the latter alone.
         let streams = Streams::new(1, 0);
-        let of = |kn: f64| DrawnJoints::new(&arm.joint, kn, streams).of(0, 1);
+        let of = |kn: f64| DrawnJoints::new(&arm.joint, kn, streams.clone()).of(0, 1);
         let (soft, stiff) = (of(1e7), of(2e7));
         assert_eq!(soft.normal, stiff.normal);
         let factor = soft.ks * arm.joint.kn_over_ks / 1e7;

@@ -92,7 +92,7 @@ fn moved(mechanisms: &Mechanisms) -> [Vec<[f64; 3]>; 2] {
     let wall = generate(&mechanisms.layout(layout()), &streams).expect("a wall comes out").wall;
     let wall = mechanisms.built(wall, &protocol);
     let joint = joint();
-    let laws = DrawnJoints::new(&joint, 1e8, streams).altered(mechanisms, &wall);
+    let laws = DrawnJoints::new(&joint, 1e8, streams.clone()).altered(mechanisms, &wall);
     let restraint = mechanisms.restraint(Restraint::at_ends(Ends::Ropes(Rope::default())));
     let stage = Stage::new(&wall, &laws, &protocol, &restraint, mechanisms.contacts([2, 2]));
     let task = Task {

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::ensemble::Quantity;
+use crate::ensemble::{Draw, Quantity};
 use crate::report::capacity::Question;
 use crate::report::capacity::values::Supported;
 use crate::report::population::Population;
-use crate::stats::{self, Shape, Variation, clopper_pearson};
+use crate::stats::{self, Estimate, Shape, Summary, Variation, clopper_pearson};
 
 /// Beyond all values: what a wall that brought none counts at worst, and at best.
 const BEYOND: f64 = 1e100;
@@ -35,10 +35,30 @@ pub struct CapacityGroup {
     pub interval: Option<[f64; 2]>,
     /// The interval if every wall that brought no value had been on the worse side, and on the better one; none where all brought one.
     pub interval_whatever_failed: Option<[f64; 2]>,
+    /// How it was found: `plain`, every wall counts alike; `subset`, by subset simulation; `measured`, specimens alone.
+    pub method: &'static str,
+    /// Independent repeats that the interval comes from, of subset simulation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub repeats: Option<Repeats>,
     /// Coefficient of variation of the walls, where all values are known.
     pub cov: Option<f64>,
     /// Values that the walls support, normal and lognormal; none where some value is not known, or nothing is drawn.
     pub supported: Vec<Supported>,
+}
+
+/// Independent runs of subset simulation.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Repeats {
+    /// The probability of each.
+    pub probabilities: Vec<f64>,
+    /// Coefficient of variation of their mean.
+    pub cov: Option<f64>,
+    /// Walls that were evaluated in all.
+    pub evaluations: usize,
+    /// Walls that brought no value: they count as on the better side.
+    pub failed: usize,
+    /// The weakest wall that was found, with its value.
+    pub weakest: Option<(Draw, f64)>,
 }
 
 /// What is known of walls.
@@ -76,10 +96,20 @@ impl CapacityGroup {
         variation: Variation,
     ) -> CapacityGroup {
         let mut group = CapacityGroup::of(family, Known { values, above, lost: unread }, question, variation);
+        group.method = "measured";
         if unread > 0 {
             group.failed.insert("below a bound".to_owned(), unread);
         }
         group
+    }
+
+    /// The same answered by independent runs of subset simulation. The interval is Student's on their mean, above 0.
+    pub fn by_subset(&mut self, repeats: Repeats, is_high: bool) {
+        let Estimate { value, interval } = Summary::of_positive(&repeats.probabilities).mean;
+        (self.answer, self.interval, self.interval_whatever_failed) = (value, interval, None);
+        self.method = "subset";
+        let signed = |(draw, value): (Draw, f64)| (draw, if is_high { -value } else { value });
+        self.repeats = Some(Repeats { weakest: repeats.weakest.map(signed), ..repeats });
     }
 
     fn of(name: &str, known: Known, question: Question, variation: Variation) -> CapacityGroup {
@@ -96,6 +126,8 @@ impl CapacityGroup {
             answer,
             interval,
             interval_whatever_failed: whatever.filter(|_| known.lost > 0),
+            method: "plain",
+            repeats: None,
             cov: complete.then(|| stats::cov(&known.values)).flatten(),
             supported: shapes.iter().map(|shape| Supported::by(&known.values, *shape, variation)).collect(),
         }

@@ -10,7 +10,7 @@ use std::path::Path;
 use anyhow::{Context, Result};
 use serde::Serialize;
 
-pub use group::CapacityGroup;
+pub use group::{CapacityGroup, Repeats};
 pub use text::capacity_text;
 pub use values::{Supported, SupportedValue};
 
@@ -48,8 +48,6 @@ pub struct CapacitySummary {
     pub quantity: &'static str,
     /// See `quantity`.
     pub unit: &'static str,
-    /// `plain`: every wall counts alike; `measured`: specimens alone, nothing simulated.
-    pub method: &'static str,
     /// Probability at which design values are given.
     pub design_probability: f64,
     /// Coefficient of variation that was stated as known.
@@ -66,7 +64,7 @@ impl CapacitySummary {
     pub fn simulated(study: &Study, rows: &[Row], question: Question, known: Variation) -> CapacitySummary {
         let groups = populations(study, rows);
         let groups = groups.iter().map(|own| CapacityGroup::simulated(own, question, known)).collect();
-        CapacitySummary::new(study, Quantity::of(&study.protocol), "plain", question, known, groups)
+        CapacitySummary::new(study, Quantity::of(&study.protocol), question, known, groups)
     }
 
     /// From the collapse angles of a study's specimens alone; families without any are left out.
@@ -87,13 +85,12 @@ impl CapacitySummary {
             CapacityGroup::measured(family, read, above, unread, question, known)
         };
         let groups = families.iter().map(of).collect();
-        CapacitySummary::new(study, Quantity::CollapseAngle, "measured", question, known, groups)
+        CapacitySummary::new(study, Quantity::CollapseAngle, question, known, groups)
     }
 
     fn new(
         study: &Study,
         quantity: Quantity,
-        method: &'static str,
         question: Question,
         known: Variation,
         groups: Vec<CapacityGroup>,
@@ -108,7 +105,6 @@ impl CapacitySummary {
             question,
             quantity: quantity.name(),
             unit: quantity.unit(),
-            method,
             design_probability: DESIGN_PROBABILITY,
             known_cov,
             groups,

@@ -1,6 +1,6 @@
 //! What is printed of a capacity.
 
-use crate::report::capacity::group::CapacityGroup;
+use crate::report::capacity::group::{CapacityGroup, Repeats};
 use crate::report::capacity::{CapacitySummary, Question, SupportedValue};
 use crate::report::number::{compact, or_dash, significant, with_interval};
 use crate::report::table::{aligned, wrapped};
@@ -42,6 +42,9 @@ fn conclusion(summary: &CapacitySummary, group: &CapacityGroup) -> String {
             _ => format!("{name}: nothing is drawn, every wall is alike."),
         };
     }
+    if let Some(repeats) = &group.repeats {
+        return by_subset(summary, group, repeats);
+    }
     let lost: u64 = group.failed.values().sum();
     let counted = if lost > 0 {
         format!("{} walls, {lost} without a value", group.walls)
@@ -71,8 +74,36 @@ fn conclusion(summary: &CapacitySummary, group: &CapacityGroup) -> String {
         let [low, high] = ends.map(|end| significant(end, 2));
         text.push_str(&format!(" Whatever those without a value would have borne: [{low}, {high}]."));
     }
-    if summary.method == "measured" && group.walls < FEW {
+    if group.method == "measured" && group.walls < FEW {
         text.push_str(&few(summary, group));
+    }
+    text
+}
+
+/// What subset simulation found.
+fn by_subset(summary: &CapacitySummary, group: &CapacityGroup, repeats: &Repeats) -> String {
+    let (side, level) = match summary.question {
+        Question::Above(level) => ("above", level),
+        Question::Below(level) | Question::Quantile(level) => ("below", level),
+    };
+    let unit = summary.shown.shown_unit();
+    let mut text = format!(
+        "{}: {side} {} {unit} with a probability of {} (subset simulation, {} independent runs, {} walls).",
+        name(group),
+        significant(summary.shown.shown(level), 3),
+        with_interval(group.answer, group.interval, 2),
+        repeats.probabilities.len(),
+        repeats.evaluations
+    );
+    if let Some((_, value)) = &repeats.weakest {
+        let value = significant(summary.shown.shown(*value), 3);
+        text.push_str(&format!(" The weakest wall found has {value} {unit}."));
+    }
+    if repeats.failed > 0 {
+        text.push_str(&format!(
+            " {} walls brought no value and count as on the better side.",
+            repeats.failed
+        ));
     }
     text
 }

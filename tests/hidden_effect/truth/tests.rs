@@ -24,7 +24,8 @@ fn reached(effects: &[Box<dyn Effect>]) -> [String; 5] {
     let arm = &study.arms[2];
     let built = build(&study, 2, 0).unwrap_or_else(|fault| panic!("{fault}")).wall;
     let wall = effects.iter().fold(built, |wall, effect| effect.wall(wall, &streams));
-    let base = DrawnJoints::new(&arm.joint, arm.kn_points[0], streams).altered(&arm.mechanisms, &wall);
+    let base =
+        DrawnJoints::new(&arm.joint, arm.kn_points[0], streams.clone()).altered(&arm.mechanisms, &wall);
     let laws = Laws::new(base, &wall, effects, streams);
     let blocks = wall.blocks.len() as u32;
     let pairs = (0..blocks).flat_map(|a| [(a, a + 1), (a, blocks)]);

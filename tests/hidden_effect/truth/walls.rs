@@ -38,8 +38,9 @@ pub fn solved(study: &Study, arm: u32, member: u64, effects: &[Box<dyn Effect>])
     let arm = &study.arms[arm as usize];
     let streams = Streams::new(study.seed, member);
     let wall = effects.iter().fold(built, |wall, effect| effect.wall(wall, &streams));
-    let base = DrawnJoints::new(&arm.joint, arm.kn_points[0], streams).altered(&arm.mechanisms, &wall);
-    let laws = Laws::new(base, &wall, effects, streams);
+    let base =
+        DrawnJoints::new(&arm.joint, arm.kn_points[0], streams.clone()).altered(&arm.mechanisms, &wall);
+    let laws = Laws::new(base, &wall, effects, streams.clone());
     let restraint = effects.iter().fold(arm.restraint, |restraint, effect| effect.restraint(restraint));
     let contacts = arm.mechanisms.contacts(arm.sub_contacts);
     let changes = arm.mechanisms.changes(&wall, &streams);
