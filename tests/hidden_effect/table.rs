@@ -31,6 +31,9 @@ const LEARNT: [&str; 3] = ["drift", "knock", "saturation"];
 /// A mechanism whose other code is the same as a cause of the catalogue: a soft bed that may open stands on less than its width.
 const OTHER_WORDS: [(&str, &str); 1] = [("base_compliance", "contact_inset")];
 
+/// Mechanisms that are the same in other words, as their meanings say: under the weight of one wall both laws stiffen.
+const SAME: [&str; 2] = ["joint_closure", "stress_stiffening"];
+
 /// A test of prior against data flags a conflict below this.
 const FLAGGED: f64 = 0.05;
 
@@ -97,6 +100,7 @@ impl Judged {
             hidden.name == cause
                 || unknown.is_some_and(|unknown| unknown.aliases.contains(&cause))
                 || law.is_some_and(|law| law.aliases.contains(&cause))
+                || [&hidden.name[..], cause].iter().all(|name| SAME.contains(name))
                 || (other && OTHER_WORDS.contains(&(&hidden.name, cause)))
         })
     }

@@ -113,6 +113,11 @@ impl Emulator {
         walls.iter().map(|wall| self.curves[0].shape.squared_distance(scores, wall))
     }
 
+    #[cfg(test)]
+    pub fn shapes(&self) -> Vec<String> {
+        self.curves.iter().map(|c| format!("{:?}", c.shape)).collect()
+    }
+
     /// Share of the variance of each number that is explained for a wall that the curve does not know.
     pub fn explained(&self) -> &[f64; NUMBERS] {
         &self.explained

@@ -445,3 +445,45 @@ fn truths_under_which_walls_do_not_stand_are_neither_drawn_nor_found() {
     let found = crate::critic::evidence(&world, &design, &campaign, Some(lean), 3);
     assert!(found.log.is_finite() && found.draws.iter().all(|draw| world.stands(draw)));
 }
+
+#[test]
+#[ignore = "scratch"]
+fn scratch_emulator() {
+    use crate::critic::simulate::bank::{Bank, HALF_WAY, PRIOR_WIDENING, Plan};
+    use crate::critic::simulate::world::World;
+    use crate::study::{Loaded, Study, described, nuisances};
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let Loaded { study, .. } = Study::load(&root.join("studies/tilting-table"), None).unwrap();
+    let mechanisms = described(&root.join("distributions")).unwrap();
+    let nuisances = nuisances(&root.join("distributions")).unwrap();
+    let plan = Plan::new(&study, &mechanisms, &nuisances, 60).unwrap();
+    let bank = Bank::read(&std::fs::read(root.join("studies/tilting-table/bank.parquet")).unwrap(), &plan).unwrap();
+    let world = World::new(&study, &mechanisms, &nuisances, &plan, &bank).unwrap();
+    for (family, walls) in &world.base {
+        println!("{family} {:?} explained {:?}", walls.emulator.shapes(), walls.emulator.explained().map(|x| (100.0 * x).round()));
+    }
+    for ((family, cause), walls) in &world.changes {
+        println!("{family} {} {:?} {:?}", mechanisms[*cause].name, walls.emulator.shapes(), [0, HALF_WAY].map(|k| walls.emulator.explained()[k]));
+    }
+    let mut names: Vec<_> = std::fs::read_dir("/tmp/he-dev/verdicts").unwrap().map(|e| e.unwrap().path()).collect();
+    names.sort();
+    for path in names {
+        let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
+        let sealed: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(format!("/tmp/he-dev/sealed/{name}.json")).unwrap()).unwrap();
+        let label: serde_json::Value = serde_json::from_str(sealed["label"].as_str().unwrap()).unwrap();
+        if label["group"] != "prior_wrong" && label["group"] != "nothing" { continue; }
+        let joints: Vec<[f64; 3]> = (0..2).map(|k| [0, 1, 2].map(|j| label["joints"][k][j].as_f64().unwrap())).collect();
+        let truth = Truth { causes: None.into(), parameters: vec![], joints: joints.clone() };
+        let csv = std::fs::read_to_string(format!("/tmp/he-dev/campaigns/{name}/rich.csv")).unwrap();
+        let mut out = String::new();
+        for (family, fam) in ["cbl", "sbl", "sbr"].iter().enumerate() {
+            let seen: Vec<f64> = csv.lines().filter(|l| l.contains(&format!(",{fam},,collapse_angle"))).map(|l| l.split(',').nth(4).unwrap().parse().unwrap()).collect();
+            let scores = truth.joints[world.kinds[family]].map(|s| s / PRIOR_WIDENING);
+            let e = world.base[&family].emulator.emulated(&scores, 20);
+            let sd = (e.left.iter().map(|l| l[0] * l[0]).sum::<f64>() / e.left.len() as f64).sqrt();
+            let m = seen.iter().sum::<f64>() / seen.len() as f64;
+            out += &format!(" | {fam} {m:.2} {:.2} sd {:.2} common {:.2}", e.numbers[0].to_degrees(), sd.to_degrees(), e.common[0]);
+        }
+        println!("{} {:?}{out}", label["group"], joints[1].map(|x| (10.0 * x).round() / 10.0));
+    }
+}
