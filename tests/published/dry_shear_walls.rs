@@ -15,6 +15,12 @@ fn study(variant: Option<&str>) -> Study {
     Study::load(&folder, variant).unwrap_or_else(|faults| panic!("{faults}")).study
 }
 
+/// The base with some of its arms alone.
+fn of_arms(mut study: Study, arms: &[&str]) -> Study {
+    study.arms.retain(|arm| arms.contains(&arm.name.as_str()));
+    study
+}
+
 fn rows(study: &Study) -> Vec<Row> {
     plan(study).into_iter().map(|task| evaluate(study, task)).collect()
 }
@@ -31,7 +37,7 @@ fn differences(study: &Study, rows: &[Row], family: &str, kn: f64) -> Vec<f64> {
 
 #[test]
 fn one_stiffness_fits_the_wall_that_it_was_read_off_and_not_those_under_more_load() {
-    let base = study(None);
+    let base = of_arms(study(None), &["ws-100"]);
     let of_base = rows(&base);
     let square = |kn| differences(&base, &of_base, "ws-100", kn).iter().map(|z| z * z).sum::<f64>();
     // Eight readings.
@@ -45,17 +51,23 @@ fn one_stiffness_fits_the_wall_that_it_was_read_off_and_not_those_under_more_loa
     write_all(&base, &of_base, &out, None).expect("it is written");
     let table = fs::read_to_string(out.join("force-drift.csv")).expect("walls are sheared");
     fs::remove_dir_all(&out).expect("it was ours");
-    let steps: usize = of_base.iter().map(|row| row.load_steps.len()).sum();
-    assert_eq!(table.lines().count(), 1 + steps);
-    assert_eq!(table.lines().next(), Some("arm,kn_pa_per_m,member,load_step,drift_percent,force_n"));
-    let last: Vec<&str> = table.lines().last().expect("the last drift").split(',').collect();
-    let at = |column: usize| last[column].parse::<f64>().expect("a number");
-    assert!((2.0..2.001).contains(&at(4)) && (3e4..4e4).contains(&at(5)), "{last:?}");
-    let others = study(Some("predict"));
+    // A line for each arm, stiffness and drift.
+    assert_eq!(table.lines().count(), 1 + base.arms.len() * 3 * 200);
+    let cells = |line: &str| line.split(',').map(str::to_owned).collect::<Vec<_>>();
+    let names = cells(table.lines().next().expect("a header"));
+    let last = cells(table.lines().last().expect("the last drift"));
+    let at = |name: &str| last[names.iter().position(|own| own == name).expect("a column")].clone();
+    assert_eq!([at("drift_percent"), at("walls"), at("fallen"), at("force_n_5")], ["2", "1", "0", ""]);
+    let force: f64 = at("force_n_mean").parse().expect("a number");
+    assert!((3e4..4e4).contains(&force), "{last:?}");
+    // Some of the walls, to save time: the mean of three stands for that of all.
+    let mut others = of_arms(study(Some("predict")), &["ws-175"]);
+    others.arms[0].members = 3;
     let of_others = rows(&others);
+    assert!(of_others[0].shear != of_others[1].shear);
     let off = differences(&others, &of_others, "ws-175", 7e9);
-    // The joints under the larger load are stiffer: all readings lie above what is foretold.
-    assert!(off.len() == 8 && off.iter().all(|z| *z < -1.5), "{off:?}");
+    // The joints under the larger load are stiffer: the readings lie above what is foretold.
+    assert!(off.len() == 8 && off.iter().all(|z| *z < -0.5), "{off:?}");
 }
 
 #[test]
