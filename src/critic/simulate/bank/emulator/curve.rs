@@ -30,7 +30,7 @@ const LENGTHS: [f64; 3] = [0.7, 1.5, 3.0];
 const SIZES: [f64; 3] = [3.0, 30.0, 300.0];
 
 /// Degrees of the polynomial.
-pub(super) const DEGREES: [usize; 3] = [2, 1, 0];
+const DEGREES: [usize; 3] = [2, 1, 0];
 
 /// A polynomial and what is smooth beside it.
 #[derive(Clone, Copy, Debug, PartialEq)]
