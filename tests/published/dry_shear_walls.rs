@@ -5,6 +5,7 @@ use std::path::Path;
 
 use pirca::critic::{Ours, compare};
 use pirca::ensemble::{Row, evaluate, plan};
+use pirca::math::ln;
 use pirca::model::Outcome;
 use pirca::protocol::ShearMode;
 use pirca::report::write_all;
@@ -79,4 +80,55 @@ fn rigid_blocks_bear_more_than_any_wall_of_joints_does() {
         let limit = row.limit.and_then(|limit| limit.multiplier).expect("it is limit analysis");
         assert!((0.3..0.5).contains(&limit), "{limit}");
     }
+}
+
+/// Push over drift (kN, %) at a third of the largest push, by straight lines from the unloaded wall on.
+fn secant(curve: &[(f64, f64)]) -> f64 {
+    let third = curve.iter().map(|(_, force)| *force).fold(0.0, f64::max) / 3.0;
+    let whole: Vec<(f64, f64)> = std::iter::once((0.0, 0.0)).chain(curve.iter().copied()).collect();
+    let two = whole.windows(2).find(|two| two[1].1 >= third).expect("it is reached");
+    let [(from, below), (to, above)] = [two[0], two[1]];
+    third / (from + (to - from) * (third - below) / (above - below))
+}
+
+/// Exponent of the vertical load in the secant, from the means of the logarithms under either load, and its standard error.
+fn exponent(light: &[f64], heavy: &[f64]) -> (f64, f64) {
+    let logs = |secants: &[f64]| secants.iter().map(|secant| ln(*secant)).collect::<Vec<f64>>();
+    let (light, heavy) = (logs(light), logs(heavy));
+    let per_log = 1.0 / ln(176.7 / 101.7);
+    let mean = |logs: &[f64]| pirca::stats::mean(logs).expect("some");
+    let variance =
+        |logs: &[f64]| pirca::stats::sigma(logs).map_or(0.0, |sigma| sigma * sigma / logs.len() as f64);
+    (per_log * (mean(&heavy) - mean(&light)), per_log * (variance(&light) + variance(&heavy)).sqrt())
+}
+
+#[test]
+fn walls_are_the_stiffer_the_more_they_bear_and_constant_joints_do_not_make_them_so() {
+    let all = study(None);
+    let mut curves: std::collections::BTreeMap<(String, String), Vec<(f64, f64)>> = Default::default();
+    for m in &all.measured {
+        let drift = m.drift.expect("it was sheared");
+        let own = curves.entry((m.family.clone(), m.specimen.clone())).or_default();
+        own.push((100.0 * drift, 1e-3 * m.value));
+    }
+    let under = |load: &str| -> Vec<f64> {
+        curves
+            .iter()
+            .filter(|((family, _), _)| family.starts_with(load))
+            .map(|(_, own)| secant(own))
+            .collect()
+    };
+    let (measured, error) = exponent(&under("ws-100"), &under("ws-175"));
+    assert!((measured - 0.87).abs() < 0.01 && (error - 0.19).abs() < 0.01, "{measured} +- {error}");
+    let mut base = of_arms(all, &["ws-100", "ws-175"]);
+    base.arms.iter_mut().for_each(|arm| arm.kn_points = vec![7e9]);
+    let ours: Vec<f64> = rows(&base)
+        .iter()
+        .map(|row| {
+            let steps = row.load_steps.iter().filter_map(|step| step.drift_percent.zip(step.force_n));
+            secant(&steps.map(|(drift, force)| (drift, 1e-3 * force)).collect::<Vec<_>>())
+        })
+        .collect();
+    let (base, _) = exponent(&ours[..1], &ours[1..]);
+    assert!(base.abs() < 0.03, "{base}");
 }
