@@ -55,7 +55,7 @@ impl Emulator {
         let mean = |number: usize| stats::mean(&walls.iter().map(|wall| wall[number]).collect::<Vec<_>>());
         let middle: [f64; NUMBERS] = std::array::from_fn(|number| mean(number).unwrap_or(0.0));
         let mut left = vec![[0.0; NUMBERS]; n];
-        let fitted = test.groups().iter().cloned().map(|group| {
+        let fitted = test.groups().iter().map(|group| {
             let more = DMatrix::from_fn(n, group.len(), |row, number| {
                 walls[row][group.start + number] - middle[group.start + number]
             });
