@@ -10,6 +10,7 @@ use crate::cli::{judge, locate, output, progress, threads};
 use crate::critic::{self, BANK, DataNote, Design, NotThisBank, Plan, World, data_notes};
 use crate::ensemble::{Settings, replace_file, run_with};
 use crate::protocol::Protocol;
+use crate::solve::Solver;
 use crate::study::{Described, Loaded, Nuisance, Study, described, nuisances};
 
 /// What a bank is made of.
@@ -35,7 +36,11 @@ fn made(arguments: &Bank) -> Result<(), Failure> {
     let bank = present.map_or_else(|| computed(&plan, &out, arguments.threads), Ok)?;
     let told = bank.paths.iter().flatten().count();
     let walls = bank.paths.len();
-    let mut said = format!("{walls} walls, {told} with a path to their collapse, in {}\n", out.display());
+    let way = match study.protocol {
+        Protocol::Shear(_) => "a curve of pushes",
+        _ => "a path to their collapse",
+    };
+    let mut said = format!("{walls} walls, {told} with {way}, in {}\n", out.display());
     // Few points make a bank that may grow, and nothing to judge by.
     let seed = arguments.seed.unwrap_or(study.seed);
     if let Ok(world) = judge::world(&study, &mechanisms, &nuisances, &plan, &bank)
@@ -53,11 +58,9 @@ fn explained(world: &World<'_>) -> String {
                     is reckoned with)\n"
         .to_string();
     for (family, shares) in world.explained() {
-        let [collapse, moved] = shares.map(|share| 100.0 * share.max(0.0));
         let name = &world.study().arms[family].name;
-        text.push_str(&format!(
-            "  {name}: collapse angle {collapse:.0} %, displacement half way up {moved:.0} %\n"
-        ));
+        let shares = shares.map(|(of, share)| format!("{of} {:.0} %", 100.0 * share.max(0.0)));
+        text.push_str(&format!("  {name}: {}\n", shares.join(", ")));
     }
     text
 }
@@ -84,26 +87,55 @@ pub(crate) fn prepared(study: &Study, which: &Which, points: u64) -> Result<Prep
             study.name
         )));
     }
-    let Protocol::Tilting(_) = study.protocol else {
-        let text = "the study tilts no platform: diagnoses are of tilting tests";
-        return Err(Failure::Input(format!("{}: {text}", study.name)));
+    let (done, needed) = match study.protocol {
+        Protocol::Tilting(_) => ("tilted", "collapse angles or displacements"),
+        Protocol::Shear(_) => ("sheared", "readings of force_at_drift"),
+        Protocol::Lateral(_) => {
+            let text =
+                "the study neither tilts nor shears its walls: diagnoses are of such tests (load.protocol)";
+            return Err(Failure::Input(format!("{}: {text}", study.name)));
+        }
     };
+    if let Solver::Limit(_) = study.solver
+        && done == "sheared"
+    {
+        let text = "limit analysis knows no drift: diagnose with solver.name = \"implicit\"";
+        return Err(Failure::Input(format!("{}: {text}", study.name)));
+    }
     let (design, _) = Design::of(study);
     if design.specimens.is_empty() {
         let arms: Vec<&str> = study.arms.iter().map(|arm| arm.name.as_str()).collect();
         return Err(Failure::Input(format!(
-            "{}: no specimen was tilted: a diagnosis needs collapse angles or displacements of a wall of {}; weights, tests on \
-             joints alone and other arms say nothing of these",
+            "{}: no specimen was {done}: a diagnosis needs {needed} of a wall of {}; weights, tests on joints alone and other arms \
+             say nothing of these",
             study.name,
             arms.join(", ")
         )));
     }
-    let notes = noted(&data_notes(study, &design));
+    let mut notes = noted(&data_notes(study, &design));
     let distributions = locate::distributions(which)?;
-    let mechanisms = described(&distributions).map_err(Failure::Input)?;
+    let mut mechanisms = described(&distributions).map_err(Failure::Input)?;
+    if let Protocol::Shear(_) = study.protocol {
+        let idle = set_aside(study, &mut mechanisms)?;
+        notes.extend(noted(&[idle]));
+    }
     let nuisances = nuisances(&distributions).map_err(Failure::Input)?;
     let plan = Plan::new(study, &mechanisms, &nuisances, points)?;
     Ok(Prepared { mechanisms, nuisances, plan, notes })
+}
+
+/// Takes those mechanisms out that cannot act on any wall that was measured, and says so.
+fn set_aside(study: &Study, mechanisms: &mut Vec<Described>) -> Result<DataNote, Failure> {
+    let families = study.measured_arms();
+    let (mut acting, mut idle) = (Vec::new(), Vec::new());
+    for mechanism in mechanisms.drain(..) {
+        match study.cannot_act(&mechanism, &families)? {
+            Some(why) => idle.push((mechanism.name, why)),
+            None => acting.push(mechanism),
+        }
+    }
+    *mechanisms = acting;
+    Ok(DataNote::CannotAct { mechanisms: idle })
 }
 
 /// Prints notes on the data on standard error, and gives their words.
@@ -141,7 +173,7 @@ pub(crate) fn computed(
     let settings = Settings { out: folder.to_path_buf(), threads };
     let progress = progress::on_stderr(&plan.study);
     let rows = run_with(&plan.study, &settings, progress.as_ref(), &|_, task| plan.evaluate(task))?;
-    let bank = critic::Bank::of(&rows);
+    let bank = critic::Bank::of_plan(plan, &rows);
     replace_file(&folder.join(BANK), &bank.table(plan)?)?;
     Ok(bank)
 }

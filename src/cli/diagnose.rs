@@ -101,6 +101,10 @@ fn learnt(
     if !is_unexplained {
         return Ok(String::new());
     }
+    let is_sheared = !origin.study.drifts().is_empty();
+    if !is_asked && is_sheared {
+        return Ok(String::new());
+    }
     if !is_asked {
         return Ok("\nA free law of the joints may say more: add --law to learn it.\n".to_owned());
     }

@@ -35,7 +35,10 @@ pub(super) fn world<'s>(
     bank: &Bank,
 ) -> Result<World<'s>, Failure> {
     World::new(study, mechanisms, nuisances, plan, bank).ok_or_else(|| {
-        let text = "the bank holds too few walls that fell: ask for more --points, or for a load path that ends later";
+        let text = match study.drifts().is_empty() {
+            true => "the bank holds too few walls that fell: ask for more --points, or for a load path that ends later",
+            false => "the bank holds too few walls that came to rest while they were pushed: ask for more --points",
+        };
         Failure::Run(text.to_owned())
     })
 }
@@ -49,7 +52,7 @@ pub(super) fn judge<'w>(world: &'w World<'w>, design: &Design, seed: u64) -> Res
 /// No reading can be set against a simulation.
 pub(super) fn nothing_to_compare() -> Failure {
     Failure::Input(
-        "none of the measurements can be set against a simulation: at their tilts simulated walls have fallen".to_owned(),
+        "none of the measurements can be set against a simulation: at their tilts or drifts simulated walls have fallen".to_owned(),
     )
 }
 

@@ -66,7 +66,7 @@ pub struct Analysis {
 }
 
 /// Diagnoses a measured campaign. The self-test depends on the judge alone, and may have been kept. `None` where the readings say
-/// nothing: at their tilts all simulated walls have fallen.
+/// nothing: at their tilts or drifts all simulated walls have fallen.
 pub fn diagnose<'w>(
     task: &Task<'w>,
     steps: &impl Steps,

@@ -18,6 +18,8 @@ mod joint_law;
 mod method;
 mod screening;
 mod sensitivity;
+#[cfg(test)]
+mod sheared;
 mod simulate;
 #[cfg(test)]
 pub(crate) mod tests;
@@ -48,7 +50,7 @@ pub use sensitivity::{
 };
 pub use simulate::{
     BANK, Bank, Campaign, Causes, Design, Emulator, Held, NotThisBank, PRIOR_WIDENING, Path, Place, Plan,
-    Seen, Specimen, Truth, Unused, World,
+    Seen, Specimen, Truth, Unused, World, stand_in,
 };
 pub use verdict::{
     Diagnosis, Effort, Examination, Examined, Excluded, Finding, Judge, Limits, MOST_AMBIGUOUS, PairLimits,

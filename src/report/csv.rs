@@ -1,6 +1,5 @@
 //! The numbers behind the figures.
 
-use crate::ensemble::Row;
 use crate::report::figure::Curve;
 use crate::report::summary::ArmSummary;
 
@@ -54,24 +53,6 @@ pub fn fragility_csv(arms: &[ArmSummary]) -> String {
                 step.value,
                 step.count,
                 step.probability
-            ));
-        }
-    }
-    text
-}
-
-/// `force-drift.csv`: one line per wall that is sheared and state at rest, in the order of the rows.
-pub fn force_drift_csv(rows: &[Row]) -> String {
-    let mut text = "arm,kn_pa_per_m,member,load_step,drift_percent,force_n\n".to_string();
-    for row in rows.iter().filter(|row| row.shear.is_some()) {
-        for (number, step) in row.load_steps.iter().enumerate() {
-            text.push_str(&format!(
-                "{},{},{},{number},{},{}\n",
-                quoted(&row.arm),
-                row.kn_pa_per_m,
-                row.member,
-                cell(step.drift_percent),
-                cell(step.force_n)
             ));
         }
     }

@@ -7,10 +7,11 @@ use anyhow::{Context, Result};
 
 use crate::ensemble::{Row, replace_file};
 use crate::report::beside::Earlier;
-use crate::report::csv::{csv, force_drift_csv, fragility_csv};
+use crate::report::csv::{csv, fragility_csv};
 use crate::report::draw::{Figure, IMAGE_SCALE, png_into, svg};
 use crate::report::drift::{DriftPlot, drift_csv, drift_curves};
 use crate::report::figure::{curves, ladders, title};
+use crate::report::force_drift::{ForceDriftPlot, force_curves, force_drift_csv};
 use crate::report::fragility::FragilityPlot;
 use crate::report::measured::{CalibrationPlot, calibration_csv, comparison_csv};
 use crate::report::plot::Plot;
@@ -23,8 +24,8 @@ pub const SUMMARY_JSON: &str = "summary.json";
 pub const FRAGILITY: &str = "fragility";
 /// File name, without ending, of the drift against the walls' length.
 const DRIFT: &str = "drift";
-/// File name of the pushes over the drifts of every wall that is sheared.
-pub const FORCE_DRIFT_CSV: &str = "force-drift.csv";
+/// File name, without ending, of the pushes over the drift, and the figure of them.
+const FORCE_DRIFT: &str = "force-drift";
 /// File name of the comparison with what was measured.
 pub const COMPARISON_CSV: &str = "comparison.csv";
 /// File name, without ending, of the calibration's curves and the figure of them.
@@ -32,7 +33,7 @@ pub const CALIBRATION: &str = "calibration";
 
 /// Sums up the rows and writes `summary.json` and the figures (SVG, PNG, CSV) into an existing folder: the quantity
 /// over kn, with the means of an earlier run if one is given, and for a capacity its fragility curves; and where something
-/// was measured the comparison with it and the calibration of kn.
+/// was measured the comparison with it and the calibration of kn; and of walls that are sheared the push over the drift.
 ///
 /// The same study and rows give the same bytes. Each file is written under a temporary name and renamed, so that a
 /// reader never sees half of one.
@@ -42,10 +43,19 @@ pub const CALIBRATION: &str = "calibration";
 pub fn write_all(study: &Study, rows: &[Row], dir: &Path, beside: Option<&Earlier>) -> Result<Summary> {
     let summary = summarise(study, rows);
     write_summary(&summary, dir, beside)?;
-    if rows.iter().any(|row| row.shear.is_some()) {
-        replace_file(&dir.join(FORCE_DRIFT_CSV), force_drift_csv(rows).as_bytes())?;
-    }
+    write_force_drift(study, rows, &title(&summary), dir)?;
     Ok(summary)
+}
+
+/// Writes the pushes over the drift, if walls were sheared.
+fn write_force_drift(study: &Study, rows: &[Row], title: &str, dir: &Path) -> Result<()> {
+    let curves = force_curves(study, rows);
+    if curves.is_empty() {
+        return Ok(());
+    }
+    replace_file(&dir.join(format!("{FORCE_DRIFT}.csv")), force_drift_csv(&curves).as_bytes())?;
+    let figure = |scale| ForceDriftPlot::new(title, &curves, &study.measured, scale);
+    write_figure(dir, FORCE_DRIFT, &figure(1), &figure(IMAGE_SCALE))
 }
 
 /// Writes the files of a summary.

@@ -1,6 +1,6 @@
 //! What the extended model gains on readings that it has not seen, in the units and words of files.
 
-use crate::critic::{Design, Gain, Gained, HeldOut, Interval, Scores};
+use crate::critic::{Design, Gain, Gained, HeldOut, Interval, Scores, stand_in};
 use crate::report::number::{significant, with_interval};
 use crate::report::table::wrapped;
 use crate::study::{Described, Study};
@@ -10,14 +10,17 @@ use crate::study::{Described, Study};
 pub struct GainSummary {
     /// Every specimen left out in turn; null for fewer than two.
     pub specimens_left_out: Option<GainedEntry>,
-    /// The largest tilts and the collapse angles of all specimens left out; null where nothing is left then.
+    /// The largest tilts and the collapse angles, or the largest drifts, of all specimens left out; null where nothing is left then.
     pub largest_tilts_left_out: Option<GainedEntry>,
-    /// All families left out but one.
+    /// All families left out but one, and those that are alike.
     pub one_family_known: Vec<FamilyEntry>,
     /// What was chosen in each fold, from what was known there.
     pub choices: Vec<ChoiceEntry>,
     /// Campaigns without any effect that the intervals are widened by.
     pub nulls: u64,
+    /// Whether walls were sheared.
+    #[serde(skip)]
+    is_sheared: bool,
 }
 
 /// A gain on readings that were held out. Scores and errors in standard deviations of the base model's readings.
@@ -73,7 +76,7 @@ pub struct GainEntry {
 /// What is gained on all other families.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct FamilyEntry {
-    /// The family that is known.
+    /// The family that is known, with those whose arms say the same.
     pub family: String,
     /// The gain.
     pub gained: GainedEntry,
@@ -82,7 +85,7 @@ pub struct FamilyEntry {
 /// What was chosen in a fold.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct ChoiceEntry {
-    /// The specimen that was left out, "largest tilts", or "all but" a family.
+    /// The specimen that was left out, "largest tilts" or "largest drifts", or "all but" a family.
     pub left_out: String,
     /// The mechanisms with their shares of the extended model; none where nothing was found.
     pub causes: Vec<ShareEntry>,
@@ -100,10 +103,15 @@ pub struct ShareEntry {
 impl GainSummary {
     /// From a gain measured on a design.
     pub fn of(gain: &Gain, study: &Study, design: &Design, mechanisms: &[Described]) -> GainSummary {
-        let name = |family: usize| study.arms[family].name.clone();
+        let is_sheared = !study.drifts().is_empty();
+        let name = |family: usize| {
+            let alike = design.families().into_iter().filter(|own| stand_in(study, *own) == family);
+            alike.map(|own| study.arms[own].name.clone()).collect::<Vec<_>>().join(" and ")
+        };
         let choices = gain.choices.iter().map(|choice| ChoiceEntry {
             left_out: match choice.held_out {
                 HeldOut::Specimen(index) => design.specimens[index].name.clone(),
+                HeldOut::LargestTilts if is_sheared => "largest drifts".to_string(),
                 HeldOut::LargestTilts => "largest tilts".to_string(),
                 HeldOut::OtherFamilies(family) => format!("all but {}", name(family)),
             },
@@ -122,6 +130,7 @@ impl GainSummary {
             one_family_known: families.collect(),
             choices: choices.collect(),
             nulls: gain.nulls,
+            is_sheared,
         }
     }
 
@@ -130,11 +139,18 @@ impl GainSummary {
         let mut text = "\nGain on held-out readings (extended less base model; 95 % intervals, calibrated on campaigns without effect)\n".to_string();
         let parts = [
             ("each specimen left out in turn", "it takes two specimens", &self.specimens_left_out),
-            (
-                "the largest tilts and the collapse angles left out",
-                "it takes two specimens that were read at two tilts",
-                &self.largest_tilts_left_out,
-            ),
+            match self.is_sheared {
+                true => (
+                    "the largest drifts left out",
+                    "it takes two specimens that were read at two drifts",
+                    &self.largest_tilts_left_out,
+                ),
+                false => (
+                    "the largest tilts and the collapse angles left out",
+                    "it takes two specimens that were read at two tilts",
+                    &self.largest_tilts_left_out,
+                ),
+            },
         ];
         for (what, needed, entry) in parts {
             match entry {

@@ -14,6 +14,7 @@ mod elements;
 mod extended;
 mod figure;
 mod files;
+mod force_drift;
 mod fragility;
 mod gain;
 mod joint_law;

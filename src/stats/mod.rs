@@ -27,7 +27,7 @@ pub use estimate::Estimate;
 pub use fragility::{EmpiricalStep, clopper_pearson, clopper_pearson_at, dkw_half_width, empirical};
 pub use kolmogorov::{ks_p_value, ks_statistic};
 pub use moments::{cov, mean, sigma, sum};
-pub use order::{quantile, quantile_interval, smallest};
+pub use order::{predictive_quantile, quantile, quantile_interval, smallest};
 pub use ratio::{paired_ratio_of_means, ratio_of_means};
 pub use reference::student_quantile;
 pub use seeded::spread_bootstrap;

@@ -4,12 +4,39 @@ use super::moments::check_values;
 use super::reference::TAIL;
 use statrs::distribution::{Binomial, DiscreteCDF};
 
+/// A place among order statistics that is so near to a whole one is that.
+const WHOLE: f64 = 1e-9;
+
 /// Quantile at `p` in [0, 1] of a sample in any order; `None` for an empty one.
 ///
 /// Type 7 of Hyndman and Fan (1996), the default of R and NumPy: linear between the order statistics, with the
 /// smallest value at p = 0 and the largest at p = 1.
 pub fn quantile(values: &[f64], p: f64) -> Option<f64> {
     quantile_of_sorted(&sorted(values), p)
+}
+
+/// Value below which one more of the same population lies with probability `p`, averaged over samples like this one: linear between
+/// the order statistics at `p (n + 1)` (type 6 of Hyndman and Fan 1996), for every continuous distribution exact at whole places.
+/// `None` where the sample is too small to bound one more value so closely (at 0.05 and 0.95 below 19 values).
+///
+/// ```
+/// let walls: Vec<f64> = (1..=19).map(f64::from).collect();
+/// assert_eq!(pirca::stats::predictive_quantile(&walls, 0.05), Some(1.0));
+/// assert_eq!(pirca::stats::predictive_quantile(&walls[1..], 0.05), None);
+/// ```
+pub fn predictive_quantile(values: &[f64], p: f64) -> Option<f64> {
+    check_probability(p);
+    let values = sorted(values);
+    // What rounding leaves of a whole place.
+    let place = p * (values.len() + 1) as f64;
+    let place = if (place - place.round()).abs() < WHOLE { place.round() } else { place };
+    let below = (place.floor() as usize).checked_sub(1)?;
+    let left = *values.get(below)?;
+    let share = place - place.floor();
+    if share == 0.0 {
+        return Some(left);
+    }
+    values.get(below + 1).map(|right| (left + share * (right - left)).clamp(left, *right))
 }
 
 /// 95 % interval of the population's quantile at `p` in [0, 1], between two order statistics (David and Nagaraja 2003,

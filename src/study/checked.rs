@@ -96,6 +96,14 @@ impl Study {
         }
     }
 
+    /// The drifts at the ends of the steps of walls that are sheared, ascending; empty of others.
+    pub fn drifts(&self) -> Vec<f64> {
+        match self.protocol {
+            Protocol::Shear(shear) => shear.drifts(),
+            _ => Vec::new(),
+        }
+    }
+
     /// The arms, by index, of which something was measured.
     pub fn measured_arms(&self) -> Vec<usize> {
         let measured = |arm: &usize| self.measured.iter().any(|m| m.family == self.arms[*arm].name);

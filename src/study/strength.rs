@@ -109,6 +109,15 @@ impl Study {
         self.rehashed()
     }
 
+    /// The same study of walls that are sheared, in so many steps up to the widest drift or fewer; of others as it was.
+    pub fn with_steps_at_most(mut self, count: u32) -> Study {
+        if let Protocol::Shear(shear) = &mut self.protocol {
+            shear.step = shear.step.max(shear.history.widest() / f64::from(count));
+            self.effective.insert("load.step_percent".to_owned(), (100.0 * shear.step).to_string());
+        }
+        self.rehashed()
+    }
+
     /// Whether its platform is let back to the level from every stop.
     pub fn goes_back(&self) -> bool {
         matches!(&self.protocol, Protocol::Tilting(tilting) if tilting.remainders)
@@ -153,6 +162,17 @@ impl Study {
         }
         Ok(Switched { study: study.rehashed(), idle })
     }
+
+    /// Why a mechanism can act on none of these arms (by index); `None` where it can on some.
+    ///
+    /// # Errors
+    /// The faults of parameters in the middle of their priors.
+    pub fn cannot_act(&self, mechanism: &Described, arms: &[usize]) -> Result<Option<&'static str>, Faults> {
+        let idle = self.with_mechanism(mechanism.name, &mechanism.at_strength(0.5))?.idle;
+        let reasons: Option<Vec<&'static str>> =
+            arms.iter().map(|arm| idle.get(&self.arms[*arm].name).copied()).collect();
+        Ok(reasons.and_then(|reasons| reasons.first().copied()))
+    }
 }
 
 impl Arm {
@@ -195,12 +215,22 @@ impl Mechanisms {
     /// Why these cannot act on an arm under a load; `None` where they can.
     fn idle_in(&self, arm: &Arm, protocol: &Protocol) -> Option<&'static str> {
         let tilts = matches!(protocol, Protocol::Tilting(_));
+        let shears = matches!(protocol, Protocol::Shear(_));
         let roped = matches!(arm.restraint.ends, Ends::Ropes(_));
         let wedges = arm.layout.wedges.as_ref().is_some_and(|wedges| wedges.share > 0.0);
         let reasons = [
             (self.rope_slack.is_some() && !roped, "there are no ropes"),
             (self.wedge_loss.is_some() && !wedges, "there are no wedges"),
             ((self.wedge_loss.is_some() || self.creep.is_some()) && !tilts, "the platform does not tilt"),
+            (
+                shears && (self.gauge_scale.is_some() || self.gauge_offset.is_some()),
+                "no displacement out of plane is read",
+            ),
+            (shears && self.lean.is_some(), "the beam on the wall is guided in its plane"),
+            (
+                shears && self.base_compliance.is_some(),
+                "the platform settles and turns out of plane, and the push is in plane",
+            ),
             (self.size_scatter.is_some() && !arm.layout.draws_sizes(), "the stones' sizes are not drawn"),
             (
                 self.size_scatter.is_some_and(|factor| !stays_above_0(&arm.layout, factor)),
@@ -245,6 +275,37 @@ mod tests {
     fn shipped(name: &str) -> Study {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies").join(name);
         Study::load(&folder, None).unwrap_or_else(|faults| panic!("{faults}")).study
+    }
+
+    #[test]
+    fn what_cannot_act_on_a_sheared_wall_is_named_with_its_reason() {
+        let study = shipped("dry-shear-walls");
+        let distributions = Path::new(env!("CARGO_MANIFEST_DIR")).join("distributions");
+        let all = described(&distributions).unwrap_or_else(|lacks| panic!("{lacks}"));
+        let idle = all.iter().filter_map(|mechanism| {
+            let why = study.cannot_act(mechanism, &[0, 2]).unwrap_or_else(|faults| panic!("{faults}"));
+            Some((mechanism.name, why?))
+        });
+        let idle: BTreeMap<&str, &str> = idle.collect();
+        assert_eq!(
+            idle.keys().copied().collect::<Vec<_>>(),
+            [
+                "base_compliance",
+                "creep",
+                "gauge_offset",
+                "gauge_scale",
+                "lean",
+                "rope_slack",
+                "size_scatter",
+                "wedge_loss"
+            ]
+        );
+        assert_eq!(idle["gauge_scale"], "no displacement out of plane is read");
+        let tilted = shipped("tilting-table");
+        let ropes = all.iter().find(|mechanism| mechanism.name == "rope_slack").expect("in the catalogue");
+        // One of its arms has ropes.
+        let why = |arms: &[usize]| tilted.cannot_act(ropes, arms).unwrap_or_else(|faults| panic!("{faults}"));
+        assert_eq!((why(&[0]), why(&[0, 2])), (Some("there are no ropes"), None));
     }
 
     #[test]

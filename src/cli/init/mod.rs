@@ -139,8 +139,9 @@ impl Origin {
             written.push(name);
             Ok(())
         };
-        for (name, bytes) in self.files()? {
-            put(name, &bytes)?;
+        let files = self.files()?;
+        for (name, bytes) in &files {
+            put(name.clone(), bytes)?;
         }
         // What the copy would read otherwise, or not find at all, goes with it; it may not load without.
         let distributions = self.distributions();
@@ -148,7 +149,9 @@ impl Origin {
             Origin::Folder(own) => distributions_among(&inputs(own)?),
             Origin::Template | Origin::BuiltIn(_) => distributions.names(),
         };
-        for (name, text) in distributions.missing_from(&Distributions::of_study(folder), names)? {
+        let missing = distributions.missing_from(&Distributions::of_study(folder), names)?;
+        // A study that is built in may bring distributions of its own.
+        for (name, text) in missing.into_iter().filter(|(name, _)| files.iter().all(|(own, _)| own != name)) {
             put(name, text.as_bytes())?;
         }
         put("README.md".to_owned(), self.readme(folder, name).as_bytes())?;

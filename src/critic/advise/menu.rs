@@ -1,7 +1,7 @@
 //! The menu of measurements that could be made next: what each reads, and what it costs.
 
 use crate::critic::compare::reading_variance;
-use crate::critic::simulate::{Design, Specimen};
+use crate::critic::simulate::{Design, Specimen, Test};
 use crate::critic::verdict::Judge;
 use crate::math::radians;
 use crate::study::{MeasuredKind, MeasuredQuantity, Measurement};
@@ -63,10 +63,18 @@ pub(super) fn finest(design: &Design) -> Option<f64> {
     errors.filter(|error| *error > 0.0).reduce(f64::min)
 }
 
+/// Whether a measurement is made of walls that are sheared: what is read of displacements is read on a tilting table.
+fn is_in_shear(offer: Offer) -> bool {
+    matches!(offer, Offer::TwoStones | Offer::Weights | Offer::MoreSpecimens)
+}
+
 /// The readings of an offer, displacements with such an error where they are read finely; `None` where it adds nothing to a design.
 pub(super) fn planned(offer: Offer, judge: &Judge<'_>, fine: f64) -> Option<Design> {
     use MeasuredQuantity as Q;
     let design = &judge.design;
+    if judge.world.test() != Test::Tilting && !is_in_shear(offer) {
+        return None;
+    }
     let mut new = Design { specimens: Vec::new(), apart: Vec::new(), unused: Vec::new() };
     let pattern = design.specimens.iter().flat_map(|specimen| &specimen.readings).next()?;
     let reading = |quantity, tilt: Option<f64>, error: f64| Measurement {

@@ -86,7 +86,7 @@ impl Check<'_> {
 enum Part {
     /// What the ranking sees as well.
     Feature(Feature),
-    /// Readings of a quantity on a family in a third of its tilts (0 to 2).
+    /// Readings of a quantity on a family in a third of its tilts, or of its way over the drift (0 to 2).
     Third(usize, MeasuredQuantity, usize),
     /// Those on one specimen.
     Own(usize, MeasuredQuantity, usize),
@@ -99,8 +99,10 @@ fn parts(design: &Design, scale: &Scale, campaign: &Campaign) -> BTreeMap<Part, 
     for (index, specimen) in design.specimens.iter().enumerate() {
         let last = specimen.readings.iter().filter_map(|m| m.tilt).fold(f64::MIN_POSITIVE, f64::max);
         for (m, (family, z)) in specimen.readings.iter().zip(&mut readings) {
-            let (Some(tilt), Some(z)) = (m.tilt, z) else { continue };
-            let third = ((3.0 * tilt / last).ceil() as usize).clamp(1, 3) - 1;
+            let (Some(place), Some(z)) = (specimen.place(m), z) else { continue };
+            // As tilts stand to the largest one, to the last bit.
+            let thirds = m.tilt.map_or(3.0 * place, |tilt| 3.0 * tilt / last);
+            let third = (thirds.ceil() as usize).clamp(1, 3) - 1;
             shown.entry(Part::Third(family, m.quantity, third)).or_default().push(z);
             shown.entry(Part::Own(index, m.quantity, third)).or_default().push(z);
         }

@@ -199,15 +199,14 @@ pub fn features(design: &Design, scale: &Scale, campaign: &Campaign) -> BTreeMap
 /// rounding have in it (one standard deviation).
 fn contrasts(specimen: &Specimen, seen: &[Seen], scale: &[Usual]) -> Vec<(Contrast, [f64; 2])> {
     use MeasuredQuantity as Q;
-    let last = specimen.readings.iter().filter_map(|m| m.tilt).fold(0.0, f64::max);
     let mut weighted: BTreeMap<Contrast, Vec<[f64; 3]>> = BTreeMap::new();
-    // The way up point by point: tilt, value and error; and the reading in its own errors.
+    // The way up point by point: tilt or drift, value and error; and of displacements the reading in its own errors.
     let mut ways: BTreeMap<MeasuredQuantity, Vec<[f64; 3]>> = BTreeMap::new();
     let mut moved: BTreeMap<MeasuredQuantity, Vec<[f64; 2]>> = BTreeMap::new();
     let (mut read, mut reached) = (0.0, 0.0);
     for ((m, seen), usual) in specimen.readings.iter().zip(seen).zip(scale) {
         let (z, error) = (usual.scaled(*seen, m), usual.error);
-        let Some(tilt) = m.tilt else {
+        let Some(at) = m.at() else {
             weighted.entry(Contrast::Collapse).or_default().extend(z.map(|z| [1.0, z, error]));
             continue;
         };
@@ -215,11 +214,13 @@ fn contrasts(specimen: &Specimen, seen: &[Seen], scale: &[Usual]) -> Vec<(Contra
         let Some(z) = z else { continue };
         reached += 1.0;
         if !m.quantity.is_remainder() {
-            ways.entry(m.quantity).or_default().push([tilt, z, error.max(LEAST_SCATTER)]);
-            let own = seen.number(m).map(|x| [tilt, x / reading_variance(m).sqrt().max(usual.least())]);
+            ways.entry(m.quantity).or_default().push([at, z, error.max(LEAST_SCATTER)]);
+            // What a wall bears grows ever slower, whatever shows it.
+            let own = seen.number(m).filter(|_| !m.quantity.has_drift());
+            let own = own.map(|x| [at, x / reading_variance(m).sqrt().max(usual.least())]);
             moved.entry(m.quantity).or_default().extend(own);
         }
-        let s = tilt / last;
+        let s = specimen.place(m).unwrap_or(1.0);
         let mut add = |contrast, weight| weighted.entry(contrast).or_default().push([weight, z, error]);
         match m.quantity {
             Q::DisplacementCentreMinusEnds | Q::RemainderCentreMinusEnds => {}

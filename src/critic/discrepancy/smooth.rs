@@ -16,6 +16,8 @@ use crate::study::{MeasuredQuantity, Measurement};
 
 /// Over so many degrees of tilt a discrepancy changes.
 const LENGTH_DEG: f64 = 5.0;
+/// Over so large a factor on the drift (its logarithm) one does.
+const LENGTH_LN_DRIFT: f64 = 1.0;
 /// Share of its variance that is common to all families.
 const COMMON: f64 = 0.5;
 /// Variance of the left end less that of the middle, of the centre less that of the mean, and of the last test less that of a middle
@@ -88,6 +90,8 @@ pub struct ComponentEstimate {
     pub quantity: MeasuredQuantity,
     /// At which tilt (rad); `None` where the quantity has none of its own.
     pub tilt: Option<f64>,
+    /// At which drift; `None` where the quantity has none of its own.
+    pub drift: Option<f64>,
     /// Measured less base model (SI).
     pub value: f64,
     /// Its standard deviation (SI).
@@ -184,26 +188,27 @@ impl<'d> SmoothDiscrepancy<'d> {
     pub fn components(&self) -> Vec<ComponentEstimate> {
         let mut components: Vec<ComponentEstimate> = Vec::new();
         for (k, at) in self.all.iter().enumerate().filter(|(_, at)| at.seen != Seen::Beyond) {
-            let (family, quantity, tilt) = (at.family, at.m.quantity, at.m.tilt);
+            let (family, quantity, place) = (at.family, at.m.quantity, at.m.at());
             let beside = |is: fn(&At<'_>) -> bool| {
                 self.all.iter().position(|other| {
                     other.seen != Seen::Beyond
-                        && (other.family, other.m.tilt) == (family, tilt)
+                        && (other.family, other.m.at()) == (family, place)
                         && kind(other.m.quantity) == kind(quantity)
                         && is(other)
                 })
             };
             let mut add = |part: Component, of: &[(usize, f64)]| {
                 let is_there = |estimate: &ComponentEstimate| {
-                    let same =
-                        (estimate.family, estimate.tilt, estimate.quantity) == (family, tilt, quantity);
+                    let own = estimate.tilt.or(estimate.drift);
+                    let same = (estimate.family, own, estimate.quantity) == (family, place, quantity);
                     estimate.part == part
                         && (same || part == Component::Drift && kind(estimate.quantity) == kind(quantity))
                 };
                 if !components.iter().any(is_there) {
                     let (value, sd) =
                         self.estimate(if part == Component::Drift { &PARTS[3..] } else { &PARTS[..3] }, of);
-                    components.push(ComponentEstimate { part, family, quantity, tilt, value, sd });
+                    let (tilt, drift) = (at.m.tilt, at.m.drift);
+                    components.push(ComponentEstimate { part, family, quantity, tilt, drift, value, sd });
                 }
             };
             add(Component::Level, &[(k, 1.0)]);
@@ -268,7 +273,10 @@ fn covariance(part: Component, a: &At<'_>, b: &At<'_>) -> f64 {
     if kind(a.m.quantity) != kind(b.m.quantity) {
         return 0.0;
     }
-    let apart = degrees(a.m.tilt.unwrap_or(0.0) - b.m.tilt.unwrap_or(0.0)) / LENGTH_DEG;
+    let apart = match (a.m.drift, b.m.drift) {
+        (Some(one), Some(other)) => ln(one / other) / LENGTH_LN_DRIFT,
+        _ => degrees(a.m.tilt.unwrap_or(0.0) - b.m.tilt.unwrap_or(0.0)) / LENGTH_DEG,
+    };
     let families = if a.family == b.family { 1.0 } else { COMMON };
     let over_the_tilt = families * exp(-0.5 * apart * apart);
     match part {

@@ -1,12 +1,12 @@
-//! What the walls of a world do between the tilts that were read: bands over the tilt, for figures.
+//! What the walls of a world do between the tilts or drifts that were read: bands over them, for figures.
 
 use crate::critic::discrepancy::Band;
-use crate::critic::simulate::{Design, Specimen, Truth, World};
+use crate::critic::simulate::{Design, Specimen, Test, Truth, World};
 use crate::critic::verdict::Diagnosis;
 use crate::random::Streams;
 use crate::study::{MeasuredQuantity, Measurement};
 
-/// Steps of the tilt.
+/// Steps of the tilt or the drift.
 const STEPS: usize = 60;
 /// Walls of a band, and sets of stones under every truth of the base model.
 const WALLS: u64 = 1000;
@@ -17,18 +17,19 @@ const SETS: u64 = 2;
 pub struct FamilyCurves {
     /// Index of its arm.
     pub family: usize,
-    /// The collapse angle (rad).
-    pub collapse: Band,
-    /// What was read of it at some tilt, quantity by quantity.
+    /// The collapse angle (rad); `None` of walls that are sheared.
+    pub collapse: Option<Band>,
+    /// What was read of it at some tilt or drift, quantity by quantity.
     pub curves: Vec<Curve>,
 }
 
-/// A quantity over the tilt, without errors of reading.
+/// A quantity over the tilt or the drift, without errors of reading.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
     /// What was read.
     pub quantity: MeasuredQuantity,
-    /// Tilt (rad) and what the walls show that still stand, from upright to where half of them have fallen.
+    /// Tilt (rad) and what the walls show that still stand, from upright to where half of them have fallen; of walls that are sheared
+    /// drift and what they bear, up to the widest one.
     pub bands: Vec<(f64, Band)>,
 }
 
@@ -64,10 +65,10 @@ fn curves(
     let own = design.specimens.iter().filter(|specimen| specimen.family == family);
     let read: Vec<&Measurement> = own.flat_map(|specimen| &specimen.readings).collect();
     let mut quantities: Vec<MeasuredQuantity> =
-        read.iter().filter(|m| m.tilt.is_some()).map(|m| m.quantity).collect();
+        read.iter().filter(|m| m.at().is_some()).map(|m| m.quantity).collect();
     quantities.sort_unstable();
     quantities.dedup();
-    let of = |quantity, tilt| Measurement { quantity, tilt, ..(*read[0]).clone() };
+    let of = |quantity, tilt, drift| Measurement { quantity, tilt, drift, ..(*read[0]).clone() };
     let walls = |readings: Vec<Measurement>| -> Vec<Vec<Option<f64>>> {
         let wall = Specimen { name: String::new(), family, order: None, turned: false, readings };
         let one = Design { specimens: vec![wall], apart: Vec::new(), unused: Vec::new() };
@@ -76,10 +77,20 @@ fn curves(
             truths.iter().zip(0..).flat_map(|(truth, k)| (0..sets).map(move |set| (truth, sets * k + set)));
         drawn.flat_map(|(truth, k)| world.values(&one, truth, &Streams::new(seed, k))).collect()
     };
-    let angles = walls(vec![of(MeasuredQuantity::CollapseAngle, None)]);
-    let collapse = Band::of(&angles.concat().into_iter().flatten().collect::<Vec<_>>())?;
-    let tilts: Vec<f64> = (0..=STEPS).map(|k| k as f64 / STEPS as f64 * collapse.median).collect();
-    let places = quantities.iter().flat_map(|q| tilts.iter().map(|tilt| of(*q, Some(*tilt))));
+    let steps = |end: f64| (0..=STEPS).map(|k| k as f64 / STEPS as f64 * end).collect::<Vec<f64>>();
+    let (tilts, collapse) = match world.test() {
+        Test::Shear { widest } => (steps(widest), None),
+        Test::Tilting => {
+            let angles = walls(vec![of(MeasuredQuantity::CollapseAngle, None, None)]);
+            let collapse = Band::of(&angles.concat().into_iter().flatten().collect::<Vec<_>>())?;
+            (steps(collapse.median), Some(collapse))
+        }
+    };
+    let at = |quantity: MeasuredQuantity, place: f64| match collapse {
+        Some(_) => of(quantity, Some(place), None),
+        None => of(quantity, None, Some(place)),
+    };
+    let places = quantities.iter().flat_map(|q| tilts.iter().map(|place| at(*q, *place)));
     let shown = walls(places.collect());
     let curve = |(index, quantity): (usize, &MeasuredQuantity)| {
         let at = |k: usize| -> Vec<f64> {

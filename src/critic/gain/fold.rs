@@ -1,5 +1,7 @@
 //! What is held out of a campaign: each specimen in turn, the largest tilts of all, and all families but one.
 
+use std::collections::BTreeSet;
+
 use crate::critic::simulate::{Campaign, Design};
 
 /// Of a specimen's tilts this share, the largest, is held out.
@@ -10,9 +12,9 @@ const LARGEST: f64 = 1.0 / 3.0;
 pub enum HeldOut {
     /// All that was read on a specimen (its place in the design).
     Specimen(usize),
-    /// The upper third of every specimen's tilts, at least one of them, and its collapse angle.
+    /// The upper third of every specimen's tilts or drifts, at least one of them, and its collapse angle.
     LargestTilts,
-    /// All that was read on other families than this one (its arm).
+    /// All that was read on other families than this one (its arm), and those that are alike.
     OtherFamilies(usize),
 }
 
@@ -26,8 +28,9 @@ pub struct Fold {
 }
 
 impl Fold {
-    /// All folds that leave something to learn from: specimens, tilts, families.
-    pub fn all(design: &Design) -> Vec<Fold> {
+    /// All folds that leave something to learn from: specimens, tilts, families. `stands_for` says which family's walls
+    /// [stand](crate::critic::World::stands_for) for those of each: of two that are alike none is known without the other.
+    pub fn all(design: &Design, stands_for: impl Fn(usize) -> usize) -> Vec<Fold> {
         let specimens = 0..design.specimens.len();
         let mut folds: Vec<Fold> = specimens
             .map(|out| {
@@ -40,12 +43,13 @@ impl Fold {
             let tilts = specimen.tilts();
             let out = (LARGEST * tilts.len() as f64).ceil() as usize;
             let last = tilts.len().checked_sub(out + 1).map_or(f64::NEG_INFINITY, |last| tilts[last]);
-            specimen.readings.iter().map(|m| m.tilt.is_some_and(|tilt| tilt <= last)).collect()
+            specimen.readings.iter().map(|m| m.at().is_some_and(|tilt| tilt <= last)).collect()
         });
         folds.push(Fold { held_out: HeldOut::LargestTilts, known: known.collect() });
-        folds.extend(design.families().into_iter().map(|family| {
+        let families: BTreeSet<usize> = design.families().into_iter().map(&stands_for).collect();
+        folds.extend(families.into_iter().map(|family| {
             let known = design.specimens.iter();
-            let known = known.map(|own| vec![own.family == family; own.readings.len()]).collect();
+            let known = known.map(|own| vec![stands_for(own.family) == family; own.readings.len()]).collect();
             Fold { held_out: HeldOut::OtherFamilies(family), known }
         }));
         folds.retain(|fold| {

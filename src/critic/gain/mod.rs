@@ -43,9 +43,9 @@ pub struct Choice {
 pub struct Gain {
     /// Every specimen left out in turn; `None` for fewer than two specimens.
     pub specimens: Option<Gained>,
-    /// The largest tilts of all specimens left out; `None` where nothing is left then.
+    /// The largest tilts or drifts of all specimens left out; `None` where nothing is left then.
     pub tilts: Option<Gained>,
-    /// All families left out but one (its arm); empty where there is only one.
+    /// All families left out but one (its arm, with those that are alike); empty where there is only one.
     pub families: Vec<(usize, Gained)>,
     /// What was chosen, fold by fold.
     pub choices: Vec<Choice>,
@@ -108,7 +108,7 @@ impl<'j, 'w> Folds<'j, 'w> {
     /// The folds of the design of a judge.
     pub fn new(judge: &'j Judge<'w>, measuring: Measuring, seed: u64) -> Folds<'j, 'w> {
         let (mut folds, mut judges): (Vec<(Fold, usize)>, Vec<Judge<'w>>) = (Vec::new(), Vec::new());
-        for fold in Fold::all(&judge.design) {
+        for fold in Fold::all(&judge.design, |family| judge.world.stands_for(family)) {
             let part = fold.design(&judge.design);
             let known = judges.iter().position(|judge| same_readings(&judge.design, &part));
             let index = known.or_else(|| {

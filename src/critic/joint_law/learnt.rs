@@ -79,7 +79,7 @@ pub struct LearntLaw {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NotLearnt {
     /// Nothing to learn from.
-    #[error("no displacement was read on walls whose joints have no law of their own yet")]
+    #[error("no displacement was read on tilted walls whose joints have no law of their own yet")]
     NothingRead,
     /// Simulated walls tell nothing.
     #[error("the walls of the study cannot be simulated under the laws that were tried")]

@@ -21,6 +21,11 @@ pub enum DataNote {
         /// The lines.
         lines: Vec<usize>,
     },
+    /// Mechanisms that cannot act on the walls that were measured.
+    CannotAct {
+        /// Their names, each with the reason.
+        mechanisms: Vec<(&'static str, &'static str)>,
+    },
     /// The study has the arm, but does not evaluate it.
     NotEvaluated {
         /// The arm.
@@ -119,10 +124,14 @@ impl fmt::Display for DataNote {
             ),
             DataNote::NotConsidered { mechanisms } => write!(
                 f,
-                "too few walls of the bank came to a fall under {}: these are not considered, and another cause may be named in \
+                "too few walls of the bank came to a fall (pushed ones, to rest) under {}: these are not considered, and another cause may be named in \
                  their place; ask for more --points",
                 mechanisms.join(", ")
             ),
+            DataNote::CannotAct { mechanisms } => {
+                let each: Vec<String> = mechanisms.iter().map(|(name, why)| format!("{name} ({why})")).collect();
+                write!(f, "not considered, as they cannot act on these walls: {}", each.join(", "))
+            }
             DataNote::Level { lines } => write!(
                 f,
                 "{}: a displacement at 0 deg is 0, as readings are relative to the one at rest at 0 deg, and is not used: if it is what \
@@ -229,8 +238,12 @@ impl DataNote {
 fn described(m: &Measurement) -> String {
     let value = shown(m.quantity.dimension(), m.value);
     let at = m.quantity.at_or_after();
-    let tilt = m.tilt.map(|tilt| format!(" {at} {}", shown(Dimension::Angle, tilt))).unwrap_or_default();
-    format!("{} of {} is {value}{tilt}", m.quantity.name(), m.specimen)
+    let place = match (m.tilt, m.drift) {
+        (Some(tilt), _) => format!(" {at} {}", shown(Dimension::Angle, tilt)),
+        (None, Some(drift)) => format!(" {at} a drift of {} %", (1e5 * drift).round() / 1e3),
+        (None, None) => String::new(),
+    };
+    format!("{} of {} is {value}{place}", m.quantity.name(), m.specimen)
 }
 
 /// A value in the unit that people use, with four digits.

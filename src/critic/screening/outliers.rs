@@ -128,18 +128,18 @@ fn error(m: &Measurement) -> f64 {
     (m.error * m.error + m.common_error * m.common_error + m.resolution * m.resolution / 12.0).sqrt()
 }
 
-/// What a specimen shows of the quantity of a reading at its tilt, and the error there: between its own tilts in proportion, from
-/// nothing at 0 deg on.
+/// What a specimen shows of the quantity of a reading at its tilt or drift, and the error there: between its own in proportion, from
+/// nothing at 0 on.
 fn at(own: &[&Measurement], m: &Measurement) -> Option<(f64, f64)> {
     let mut same: Vec<&&Measurement> = own.iter().filter(|other| other.quantity == m.quantity).collect();
-    same.sort_by(|a, b| a.tilt.unwrap_or(0.0).total_cmp(&b.tilt.unwrap_or(0.0)));
-    let Some(tilt) = m.tilt else { return same.first().map(|own| (own.value, error(own))) };
-    let above = same.iter().position(|other| other.tilt.is_some_and(|own| own >= tilt - 1e-9))?;
+    same.sort_by(|a, b| a.at().unwrap_or(0.0).total_cmp(&b.at().unwrap_or(0.0)));
+    let Some(tilt) = m.at() else { return same.first().map(|own| (own.value, error(own))) };
+    let above = same.iter().position(|other| other.at().is_some_and(|own| own >= tilt - 1e-9))?;
     let (from, below) = match above.checked_sub(1).and_then(|below| same.get(below)) {
-        Some(below) => (below.tilt?, below.value),
+        Some(below) => (below.at()?, below.value),
         None => (0.0, 0.0),
     };
-    let to = same[above].tilt?;
+    let to = same[above].at()?;
     let share = if to > from { ((tilt - from) / (to - from)).min(1.0) } else { 1.0 };
     Some((below + share * (same[above].value - below), error(same[above])))
 }
@@ -147,9 +147,9 @@ fn at(own: &[&Measurement], m: &Measurement) -> Option<(f64, f64)> {
 /// Readings of a specimen that are odd among its own: all of a quantity, all at a tilt, or one.
 fn parts(own: &[Beside<'_>]) -> Vec<DataNote> {
     let quantity = |b: &Beside<'_>| (Some(b.reading.quantity), None, 0_usize);
-    let tilt = |b: &Beside<'_>| (None, b.reading.tilt.map(f64::to_bits), 0_usize);
+    let tilt = |b: &Beside<'_>| (None, b.reading.at().map(f64::to_bits), 0_usize);
     let single =
-        |b: &Beside<'_>| (Some(b.reading.quantity), b.reading.tilt.map(f64::to_bits), b.reading.line);
+        |b: &Beside<'_>| (Some(b.reading.quantity), b.reading.at().map(f64::to_bits), b.reading.line);
     let mut found: Vec<DataNote> = Vec::new();
     let mut noted: Vec<*const Measurement> = Vec::new();
     for key in

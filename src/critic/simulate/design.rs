@@ -3,11 +3,13 @@
 use std::collections::BTreeMap;
 
 use crate::critic::compare::is_rising;
+use crate::critic::simulate::bank::Test;
+use crate::math::ln;
 use crate::random::Streams;
 use crate::random::standard_normal::quantile;
 use crate::study::{MeasuredKind, MeasuredQuantity, Measurement, Study};
 
-/// A tilting test.
+/// A test on a wall.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Specimen {
     /// Its name.
@@ -23,15 +25,28 @@ pub struct Specimen {
 }
 
 impl Specimen {
-    /// The tilts that it was read at (rad), each once, ascending.
+    /// The tilts (rad) or drifts that it was read at, each once, ascending.
     pub fn tilts(&self) -> Vec<f64> {
         tilts(&self.readings)
     }
+
+    /// Where a reading lies among its own: on the tilting table the tilt over the largest one; in shear, where the first readings are
+    /// far closer to each other than the last, 0 at the smallest drift and 1 at the widest, by the logarithm. `None` of a quantity
+    /// that has neither.
+    pub fn place(&self, m: &Measurement) -> Option<f64> {
+        if let Some(tilt) = m.tilt {
+            return Some(tilt / self.readings.iter().filter_map(|m| m.tilt).fold(0.0, f64::max));
+        }
+        let drifts = || self.readings.iter().filter_map(|m| m.drift).map(f64::abs);
+        let (first, last) = (drifts().fold(f64::INFINITY, f64::min), drifts().fold(0.0, f64::max));
+        let drift = m.drift?.abs();
+        Some(if first < last { ln(drift / first) / ln(last / first) } else { 1.0 })
+    }
 }
 
-/// The tilts of readings (rad), each once, ascending.
+/// The tilts (rad) or drifts of readings, each once, ascending.
 pub fn tilts<'m>(readings: impl IntoIterator<Item = &'m Measurement>) -> Vec<f64> {
-    let mut tilts: Vec<f64> = readings.into_iter().filter_map(|m| m.tilt).collect();
+    let mut tilts: Vec<f64> = readings.into_iter().filter_map(Measurement::at).collect();
     tilts.sort_by(f64::total_cmp);
     tilts.dedup();
     tilts
@@ -40,7 +55,7 @@ pub fn tilts<'m>(readings: impl IntoIterator<Item = &'m Measurement>) -> Vec<f64
 /// All tests, and what was measured apart from them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Design {
-    /// The specimens that were tilted, in the order of the file.
+    /// The specimens that were tilted or sheared, in the order of the file.
     pub specimens: Vec<Specimen>,
     /// Two-stone tests, weights of specimens and readings of fixed targets: the index of their family's arm, and the reading.
     pub apart: Vec<(usize, Measurement)>,
@@ -59,6 +74,8 @@ pub enum Unused {
     AtLevel,
     /// Read at a tilt that the wall had come to before.
     Again,
+    /// Read in another kind of test than the study's.
+    OtherTest,
 }
 
 /// What a reading shows.
@@ -76,6 +93,12 @@ impl Design {
     /// The design of a study's measurements, and what was seen, by specimen and reading, what was measured apart last.
     pub fn of(study: &Study) -> (Design, Campaign) {
         let mut design = Design { specimens: Vec::new(), apart: Vec::new(), unused: Vec::new() };
+        let test = Test::of(study);
+        let is_of_test = |m: &Measurement| match test {
+            Test::Tilting => !m.quantity.has_drift(),
+            // Along x+ alone: the other way of a wall is that of the same wall turned round.
+            Test::Shear { .. } => m.drift.is_some_and(|drift| drift > 0.0),
+        };
         for m in &study.measured {
             let Some(family) = study.arms.iter().position(|arm| arm.name == m.family) else {
                 design.unused.push((Unused::NotEvaluated, m.line));
@@ -83,6 +106,7 @@ impl Design {
             };
             match m.quantity {
                 MeasuredQuantity::BlockWeight => design.unused.push((Unused::BlockWeight, m.line)),
+                own if !own.is_apart() && !is_of_test(m) => design.unused.push((Unused::OtherTest, m.line)),
                 apart if apart.is_apart() => design.apart.push((family, m.clone())),
                 _ if m.tilt == Some(0.0) => design.unused.push((Unused::AtLevel, m.line)),
                 _ if !is_rising(m, &study.measured) => design.unused.push((Unused::Again, m.line)),

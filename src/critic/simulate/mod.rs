@@ -10,7 +10,7 @@ mod truth;
 mod unmodelled;
 mod world;
 
-pub use bank::{BANK, Bank, Emulator, Held, NotThisBank, PRIOR_WIDENING, Path, Place, Plan};
+pub use bank::{BANK, Bank, Emulator, Held, NotThisBank, PRIOR_WIDENING, Path, Place, Plan, Test, stand_in};
 pub(in crate::critic) use by_cause::ByCause;
 pub use causes::Causes;
 pub use design::{Campaign, Design, Seen, Specimen, Unused};

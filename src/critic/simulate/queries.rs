@@ -1,14 +1,15 @@
-//! The queries of the bank: each quantity of a family at each tilt once, however many readings are of it.
+//! The queries of the bank: each quantity of a family at each tilt, or drift, once, however many readings are of it.
 
 use crate::critic::compare::of_points;
+use crate::critic::simulate::bank::Pushes;
 use crate::critic::simulate::design::tilts;
 use crate::study::{MeasuredQuantity, Measurement};
 
 /// The quantities that readings are of.
 pub struct Queries {
-    /// Tilts (rad), ascending.
+    /// Tilts (rad) or drifts, ascending.
     pub tilts: Vec<f64>,
-    /// Each query: a quantity, with the place of its tilt where it has one.
+    /// Each query: a quantity, with the place of its tilt or drift where it has one.
     what: Vec<(MeasuredQuantity, Option<usize>)>,
     /// Which of these each reading is of.
     pub by_reading: Vec<usize>,
@@ -21,13 +22,19 @@ impl Queries {
     pub fn by(readings: &[&Measurement]) -> Queries {
         let tilts = tilts(readings.iter().copied());
         let place = |tilt: f64| tilts.partition_point(|known| *known < tilt);
-        let all: Vec<_> = readings.iter().map(|m| (m.quantity, m.tilt.map(place))).collect();
+        let all: Vec<_> = readings.iter().map(|m| (m.quantity, m.at().map(place))).collect();
         let mut what = all.clone();
         what.sort_unstable();
         what.dedup();
         let by_reading = all.iter().map(|one| what.partition_point(|known| known < one)).collect();
         let goes_back = what.iter().any(|(quantity, _)| quantity.is_remainder());
         Queries { tilts, what, by_reading, goes_back }
+    }
+
+    /// What a sheared wall shows; one that has fallen its last push.
+    pub fn pushes(&self, wall: &Pushes) -> Vec<f64> {
+        let drift = |at: &Option<usize>| at.map_or(0.0, |at| self.tilts[at]);
+        self.what.iter().map(|(_, at)| wall.last_at(drift(at))).collect()
     }
 
     /// What a wall shows that falls at this tilt and moves left, centre and right by so much at each of the tilts; if any

@@ -2,7 +2,7 @@
 //! ranking how the ones look that are like none of its causes: of a cause's own it sees thousands, and of all others it would
 //! otherwise know nothing (outlier exposure: Hendrycks, Mazeika and Dietterich 2019).
 
-use crate::critic::simulate::bank::{NUMBERS, PLACES};
+use crate::critic::simulate::bank::{NUMBERS, PLACES, SHARES};
 use crate::critic::simulate::design::Design;
 use crate::math::{exp, ln};
 use crate::random::standard_normal::quantile;
@@ -15,6 +15,8 @@ const MOST: usize = 3;
 const FALL: [f64; 2] = [0.02, 0.3];
 /// Logarithm of a factor on displacements.
 const LEVEL: [f64; 2] = [0.05, 1.5];
+/// Logarithm of a factor on pushes: friction bounds what walls bear, joints what they bear at small drifts.
+const PUSH: [f64; 2] = [0.03, 1.0];
 /// What a wall bows or twists by besides, over its mean displacement.
 const SHAPE: [f64; 2] = [0.05, 1.0];
 /// What a gauge shows besides (m).
@@ -33,6 +35,8 @@ enum On {
     Fall,
     /// A kind of number of the way up: how far walls move (0), bow (1), twist (2).
     Way(usize),
+    /// The push of a wall that is sheared.
+    Push,
     /// What is shown of the left, centre and right points, each by its share: a factor.
     Factor([f64; 3]),
     /// The same: an addition.
@@ -83,6 +87,12 @@ impl Unmodelled {
                         *number += sizes[specimen] * growth.at(1.0 - q);
                     }
                 }
+                On::Push => {
+                    let (first, whole) = (ln(SHARES[0]), -ln(SHARES[0]));
+                    for (number, share) in adding[1..].iter_mut().zip(SHARES) {
+                        *number += sizes[specimen] * growth.at((ln(share) - first) / whole);
+                    }
+                }
                 On::Factor(_) | On::Shift(_) | On::End(_) => {}
             }
         }
@@ -105,7 +115,7 @@ impl Unmodelled {
                     let ended = points.iter_mut().zip(shares).filter(|(_, share)| **share != 0.0);
                     ended.for_each(|(point, _)| *point = point.min(sizes[specimen]));
                 }
-                On::Fall | On::Way(_) => {}
+                On::Fall | On::Way(_) | On::Push => {}
             }
         }
         points
@@ -114,7 +124,10 @@ impl Unmodelled {
 
 impl Form {
     fn drawn(design: &Design, draws: &mut Stream) -> Form {
+        // A design of sheared walls reads pushes, one of tilted walls never does.
+        let is_pushed = design.readings().any(|(_, m)| m.quantity.has_drift());
         let (on, [least, most]) = match draws.below(7) {
+            _ if is_pushed => (On::Push, PUSH),
             0 => (On::Fall, FALL),
             1 => (On::Way(0), LEVEL),
             kind @ 2..=3 => (On::Way(kind - 1), SHAPE),

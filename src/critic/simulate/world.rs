@@ -10,7 +10,9 @@ pub(in crate::critic) use standing::standing;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::critic::compare::of_points;
-use crate::critic::simulate::bank::{Bank, Curves, Emulator, HALF_WAY, NUMBERS, PRIOR_WIDENING, Path, Plan};
+use crate::critic::simulate::bank::{
+    Bank, Curves, Emulator, NUMBERS, PRIOR_WIDENING, Path, Plan, Pushes, Test, stand_in,
+};
 use crate::critic::simulate::causes::Causes;
 use crate::critic::simulate::design::{Campaign, Design};
 use crate::critic::simulate::truth::Truth;
@@ -51,9 +53,12 @@ struct Learnt {
 #[derive(Debug)]
 pub struct World<'s> {
     study: &'s Study,
+    test: Test,
     mechanisms: &'s [Described],
     nuisances: &'s [Nuisance; 3],
-    /// The base model, by family.
+    /// The family whose walls stand for those of each arm, see [`stand_in`].
+    stands_for: Vec<usize>,
+    /// The base model, by family; of families that share their walls by the first.
     base: BTreeMap<usize, Walls>,
     /// What a cause changes, by family and cause. A point of the bank has the same stones and joints under every cause: the
     /// difference that a cause makes is known far better than either wall, and dies away with the cause.
@@ -76,6 +81,8 @@ impl<'s> World<'s> {
         plan: &Plan,
         bank: &Bank,
     ) -> Option<World<'s>> {
+        let test = Test::of(study);
+        let stands_for = (0..study.arms.len()).map(|family| stand_in(study, family)).collect();
         let mut unchanged: BTreeMap<(usize, u64), &Path> = BTreeMap::new();
         for (place, path) in plan.places.iter().zip(&bank.paths).filter(|(place, _)| place.cause.is_none()) {
             unchanged.extend(path.as_ref().map(|path| ((place.family, place.point), path)));
@@ -105,7 +112,7 @@ impl<'s> World<'s> {
         let planned: BTreeSet<usize> = grouped.keys().filter_map(|(_, cause)| *cause).collect();
         let (mut base, mut changes) = (BTreeMap::new(), BTreeMap::new());
         for ((family, cause), Learnt { scores, walls, fallen, random }) in grouped {
-            let emulator = Emulator::fit(&scores, &walls).map(|emulator| emulator.beside(&fallen));
+            let emulator = Emulator::fit(test, &scores, &walls).map(|emulator| emulator.beside(&fallen));
             let walls = emulator.map(|emulator| Walls { emulator, random });
             match cause {
                 None => drop(base.insert(family, walls?)),
@@ -120,6 +127,8 @@ impl<'s> World<'s> {
         let weights = base.keys().map(|&family| weighed(family)).collect::<Option<BTreeMap<_, _>>>()?;
         Some(World {
             study,
+            test,
+            stands_for,
             mechanisms,
             nuisances,
             base,
@@ -200,6 +209,10 @@ impl<'s> World<'s> {
                 let truth = if specimen.turned { &self.turned(truth) } else { truth };
                 let mut numbers = self.wall(specimen.family, truth, index, streams);
                 unmodelled.act(index, &mut numbers);
+                if let Test::Shear { widest } = self.test {
+                    let pushes = Pushes::of(&numbers, widest);
+                    return specimen.readings.iter().map(|m| pushes.at(m.drift?)).collect();
+                }
                 let curves = Curves::of(&numbers);
                 let seen = |tilt: f64, points: [f64; 3]| {
                     unmodelled.shown(index, tilt, points.map(|x| gauge.reading(x)))
@@ -216,14 +229,15 @@ impl<'s> World<'s> {
 
     /// Whether walls of a family differ in the base model. Where they do not, simulated ones differ by the emulator's error alone.
     pub fn is_random(&self, family: usize) -> bool {
-        self.base.get(&family).is_some_and(|walls| walls.random)
+        self.base.get(&self.stands_for[family]).is_some_and(|walls| walls.random)
     }
 
-    /// What the emulators explain of walls of the base model that they do not know, by family: share of the variance of the collapse
-    /// angle, and of (the logarithm of) how far a wall has moved half way up to it. The rest is the stones' own and the emulator's
-    /// error.
-    pub fn explained(&self) -> Vec<(usize, [f64; 2])> {
-        let shares = |walls: &Walls| [0, HALF_WAY].map(|number| walls.emulator.explained()[number]);
+    /// What the emulators explain of walls of the base model that they do not know, by family: share of the variance of two
+    /// [numbers](Test::telling) of their path. The rest is the stones' own and the emulator's error.
+    pub fn explained(&self) -> Vec<(usize, [(&'static str, f64); 2])> {
+        let shares = |walls: &Walls| {
+            self.test.telling().map(|(number, words)| (words, walls.emulator.explained()[number]))
+        };
         self.base.iter().map(|(family, walls)| (*family, shares(walls))).collect()
     }
 
@@ -234,7 +248,7 @@ impl<'s> World<'s> {
 
     /// Weight of a stone of a family as it is stated, in the mean over a wall (N).
     pub fn stone_weight(&self, family: usize) -> f64 {
-        self.weights[&family][1]
+        self.weights[&self.stands_for[family]][1]
     }
 
     /// Whether a wall that is turned round stands as another one of its family does, but for a lean.
@@ -280,6 +294,16 @@ impl<'s> World<'s> {
         self.study
     }
 
+    /// The family whose walls stand for those of another: itself, unless arms that are alike share their walls.
+    pub fn stands_for(&self, family: usize) -> usize {
+        self.stands_for[family]
+    }
+
+    /// What is done to its walls.
+    pub fn test(&self) -> Test {
+        self.test
+    }
+
     /// The mechanisms that its causes are indices of.
     pub fn mechanisms(&self) -> &'s [Described] {
         self.mechanisms
@@ -313,13 +337,15 @@ impl<'s> World<'s> {
             MeasuredQuantity::JointKn => {
                 arm.kn_points[arm.middle_point()] * factors[0] * by("contact_area", "share")
             }
-            MeasuredQuantity::SpecimenWeight => self.weights[&family][0] * by("density", "factor"),
+            MeasuredQuantity::SpecimenWeight => {
+                self.weights[&self.stands_for[family]][0] * by("density", "factor")
+            }
             MeasuredQuantity::FixedTarget => self.gauge(truth).reading(0.0),
             _ => atan(tan(radians(arm.joint.phi_deg.mean() * factors[1])) * by("friction", "factor")),
         }
     }
 
-    /// Causes that cannot be diagnosed, as too few of their walls in the bank came to a fall.
+    /// Causes that cannot be diagnosed, as too few of their walls in the bank have a path.
     pub fn too_few(&self) -> Vec<usize> {
         self.planned.iter().copied().filter(|cause| !self.has_walls(*cause)).collect()
     }

@@ -1,5 +1,8 @@
 //! What is done to a wall that is sheared.
 
+/// The widest drift is a step's end if it is beyond that by less than this share of a step.
+const ROUNDING: f64 = 1e-6;
+
 /// A constant vertical load through a rigid beam on the wall's top, and a displacement of the beam along the wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shear {
@@ -61,6 +64,14 @@ impl History {
                 (1..=count).flat_map(|cycle| [wide(cycle), -wide(cycle)]).collect()
             }
         }
+    }
+}
+
+impl Shear {
+    /// The drifts at the ends of its steps along x+, up to the widest one, ascending.
+    pub fn drifts(&self) -> Vec<f64> {
+        let steps = (self.history.widest() / self.step + ROUNDING).floor() as u32;
+        (1..=steps).map(|step| f64::from(step) * self.step).collect()
     }
 }
 

@@ -1,8 +1,8 @@
 //! What the base model misses where no cause explains it.
 
 use crate::critic::{Component, ComponentEstimate};
-use crate::report::diagnosis::words::at;
-use crate::report::measured::{in_unit, tidy_degrees, unit};
+use crate::report::diagnosis::words::place;
+use crate::report::measured::{in_unit, tidy_degrees, tidy_percent, unit};
 use crate::report::number::significant;
 use crate::study::Study;
 
@@ -22,6 +22,9 @@ pub struct ComponentEntry {
     pub quantity: &'static str,
     /// At which tilt; null where the quantity has none of its own.
     pub tilt_deg: Option<f64>,
+    /// At which drift; left out where the quantity has none of its own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub drift_percent: Option<f64>,
     /// Unit of the numbers.
     pub unit: &'static str,
     /// Measured less base model.
@@ -45,6 +48,7 @@ impl ComponentEntry {
             family: study.arms[estimate.family].name.clone(),
             quantity: estimate.quantity.name(),
             tilt_deg: estimate.tilt.map(tidy_degrees),
+            drift_percent: estimate.drift.map(tidy_percent),
             unit: unit(estimate.quantity),
             value: in_units(estimate.value),
             interval: [in_units(estimate.value - reach), in_units(estimate.value + reach)],
@@ -53,10 +57,13 @@ impl ComponentEntry {
 
     /// In words.
     pub fn sentence(&self) -> String {
-        let (scale, unit) = if self.unit == "m" { (1e3, "mm") } else { (1.0, self.unit) };
+        let (scale, unit) = match (self.unit, self.drift_percent) {
+            ("m", _) => (1e3, "mm"),
+            ("N", Some(_)) => (1e-3, "kN"),
+            (unit, _) => (1.0, unit),
+        };
         let number = |x: f64| significant(scale * x, 2);
-        let tilt =
-            self.tilt_deg.map_or_else(String::new, |tilt| format!(" {} {tilt} deg", at(self.quantity)));
+        let place = place(self.quantity, self.tilt_deg, self.drift_percent);
         let [low, high] = self.interval.map(number);
         let quantity = match (self.part, self.quantity) {
             ("twist", _) => "left end less right end".to_owned(),
@@ -64,7 +71,7 @@ impl ComponentEntry {
             (_, quantity) => quantity.replace('_', " "),
         };
         let by = if self.part == "drift" { ", from each test to the next" } else { "" };
-        format!("{}: {quantity}{tilt}{by}: {} [{low}, {high}] {unit}", self.family, number(self.value))
+        format!("{}: {quantity}{place}{by}: {} [{low}, {high}] {unit}", self.family, number(self.value))
     }
 }
 
@@ -76,8 +83,9 @@ mod tests {
     fn a_line_says_what_is_lacking_where() {
         let line = |part, quantity| {
             let (family, unit, interval) = ("SBL".to_owned(), "m", [1e-3, 3e-3]);
-            let tilt_deg = Some(10.0);
-            ComponentEntry { part, family, quantity, tilt_deg, unit, value: 2e-3, interval }.sentence()
+            let (tilt_deg, drift_percent) = (Some(10.0), None);
+            ComponentEntry { part, family, quantity, tilt_deg, drift_percent, unit, value: 2e-3, interval }
+                .sentence()
         };
         let all = [
             ("level", "displacement_left"),

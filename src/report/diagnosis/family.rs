@@ -4,39 +4,43 @@ use crate::critic::{Band, FamilyCurves, Residual, Residuals, Seen};
 use crate::math::degrees;
 use crate::study::{Described, MeasuredKind, MeasuredQuantity, Study};
 
-/// A family over the tilt.
+/// A family over the tilt or the drift.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FamilyFigure {
     /// Its name.
     pub family: String,
     /// The causes that a verdict speaks of.
     pub causes: Vec<String>,
-    /// What was read at a tilt, quantity by quantity.
+    /// What it is drawn over.
+    pub over: &'static str,
+    /// What was read there, quantity by quantity.
     pub panels: Vec<Panel>,
-    /// The collapse angle (deg) of the base model, and its median under each cause.
-    pub collapse: (Band, Vec<f64>),
+    /// The collapse angle (deg) of the base model, and its median under each cause; `None` of walls that are sheared.
+    pub collapse: Option<(Band, Vec<f64>)>,
     /// The collapse angles that were measured (deg).
     pub angles: Vec<Mark>,
 }
 
-/// A quantity over the tilt.
+/// A quantity over the tilt (deg) or the drift (%).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
     /// The quantity in words.
     pub words: &'static str,
-    /// Tilt (deg) and what the base model shows (mm).
+    /// Its unit.
+    pub unit: &'static str,
+    /// Where, and what the base model shows.
     pub bands: Vec<(f64, Band)>,
-    /// Tilt and median under each cause.
+    /// Where, and the median under each cause.
     pub causes: Vec<Vec<(f64, f64)>>,
-    /// What was measured (mm).
+    /// What was measured.
     pub marks: Vec<Mark>,
 }
 
 /// A reading.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mark {
-    /// Tilt (deg); 0 of a collapse angle.
-    pub tilt: f64,
+    /// Tilt (deg) or drift (%); 0 of a collapse angle.
+    pub at: f64,
     /// The value or the bound.
     pub value: f64,
     /// Error of the reading, one standard deviation.
@@ -48,7 +52,7 @@ pub struct Mark {
 }
 
 impl FamilyFigure {
-    /// A figure per family that was tilted, from its curves in the base model and under the causes of the verdict.
+    /// A figure per family that was tilted or sheared, from its curves in the base model and under the causes of the verdict.
     pub fn all(
         study: &Study,
         mechanisms: &[Described],
@@ -85,38 +89,45 @@ impl FamilyFigure {
             let of = own.iter().filter(|r| r.reading.quantity == quantity);
             of.filter_map(|r| mark(r, &specimens)).collect()
         };
+        let is_tilted = curves.collapse.is_some();
+        let place = if is_tilted { degrees } else { percents };
+        let shown = if is_tilted { millimetres } else { kilonewtons };
         let over = |bands: &[(f64, Band)]| -> Vec<(f64, Band)> {
-            bands.iter().map(|(tilt, band)| (degrees(*tilt), band.map(millimetres))).collect()
+            bands.iter().map(|(at, band)| (place(*at), band.map(shown))).collect()
         };
         let panels = curves.curves.iter().map(|curve| {
             let same = causes.iter().map(|(_, of)| of.curves.iter().find(|c| c.quantity == curve.quantity));
             let medians = same.map(|of| {
                 let bands = of.map_or_else(Vec::new, |of| over(&of.bands));
-                bands.into_iter().map(|(tilt, band)| (tilt, band.median)).collect()
+                bands.into_iter().map(|(at, band)| (at, band.median)).collect()
             });
             Panel {
                 words: words(curve.quantity),
+                unit: if is_tilted { "mm" } else { "kN" },
                 bands: over(&curve.bands),
                 causes: medians.collect(),
                 marks: marks(curve.quantity),
             }
         });
-        let angles = causes.iter().map(|(_, curves)| degrees(curves.collapse.median));
+        let angles = || causes.iter().filter_map(|(_, own)| Some(degrees(own.collapse.as_ref()?.median)));
         FamilyFigure {
             family: study.arms[curves.family].name.clone(),
             causes: causes.iter().map(|(name, _)| name.clone()).collect(),
+            over: if is_tilted { "tilt (deg)" } else { "drift (%)" },
             panels: panels.collect(),
-            collapse: (curves.collapse.map(degrees), angles.collect()),
+            collapse: curves.collapse.as_ref().map(|band| (band.map(degrees), angles().collect())),
             angles: marks(MeasuredQuantity::CollapseAngle),
         }
     }
 
-    /// The largest tilt of all that is drawn (deg).
+    /// The largest tilt or drift of all that is drawn.
     pub fn end(&self) -> f64 {
-        let read = self.panels.iter().flat_map(|panel| &panel.marks).map(|mark| mark.tilt);
+        let read = self.panels.iter().flat_map(|panel| &panel.marks).map(|mark| mark.at);
         let fell = self.angles.iter().map(|mark| mark.value + mark.error);
-        let (band, causes) = &self.collapse;
-        read.chain(fell).chain(causes.iter().copied()).fold(band.most[1], f64::max)
+        let last = self.panels.iter().filter_map(|panel| panel.bands.last()).map(|(at, _)| *at);
+        let (most, causes) =
+            self.collapse.as_ref().map_or((0.0, &[][..]), |(band, causes)| (band.most[1], causes));
+        read.chain(fell).chain(last).chain(causes.iter().copied()).fold(most, f64::max)
     }
 
     /// Whether some readings are only bounds.
@@ -134,10 +145,14 @@ fn mark(residual: &Residual, specimens: &[&str]) -> Option<Mark> {
         Seen::Beyond => (m.value, Some(m.kind)),
         Seen::Nothing => return None,
     };
-    let shown = if m.tilt.is_some() { millimetres } else { degrees };
+    let shown = match (m.tilt, m.drift) {
+        (Some(_), _) => millimetres,
+        (None, Some(_)) => kilonewtons,
+        (None, None) => degrees,
+    };
     let place = specimens.iter().position(|name| *name == m.specimen)? as f64;
     Some(Mark {
-        tilt: m.tilt.map_or(0.0, degrees),
+        at: m.tilt.map(degrees).or(m.drift.map(percents)).unwrap_or(0.0),
         value: shown(value),
         error: shown(residual.error()),
         bound,
@@ -147,6 +162,14 @@ fn mark(residual: &Residual, specimens: &[&str]) -> Option<Mark> {
 
 fn millimetres(x: f64) -> f64 {
     1e3 * x
+}
+
+fn kilonewtons(x: f64) -> f64 {
+    1e-3 * x
+}
+
+fn percents(x: f64) -> f64 {
+    100.0 * x
 }
 
 fn words(quantity: MeasuredQuantity) -> &'static str {
@@ -163,6 +186,7 @@ fn words(quantity: MeasuredQuantity) -> &'static str {
         MeasuredQuantity::RemainderCentreMinusEnds => {
             "left after going back from there, centre less mean of the ends"
         }
+        MeasuredQuantity::ForceAtDrift => "push when the wall first came to the drift",
         other => other.name(),
     }
 }

@@ -1,4 +1,4 @@
-//! How the figure of a family looks: what was measured on the bands of the base model, over the tilt.
+//! How the figure of a family looks: what was measured on the bands of the base model, over the tilt or the drift.
 //!
 //! The bands are greys of one colour with dashed edges, what was measured is black: the figure survives a print in grey.
 
@@ -66,8 +66,8 @@ impl<'f> FamilyPlot<'f> {
             .y_labels(6)
             .x_label_formatter(&|value| format!("{value:.x_decimals$}"))
             .y_label_formatter(&|value| format!("{value:.y_decimals$}"))
-            .x_desc("tilt (deg)")
-            .y_desc("mm")
+            .x_desc(self.figure.over)
+            .y_desc(panel.unit)
             .draw()?;
         self.bands(&mut chart, panel)?;
         for (index, medians) in panel.causes.iter().enumerate() {
@@ -76,7 +76,7 @@ impl<'f> FamilyPlot<'f> {
         let widest = panel.marks.iter().map(|mark| 2.0 * mark.place.abs()).fold(1.0, f64::max);
         let step = APART.min(SPREAD / widest) * end / f64::from(WIDTH - LEFT as u32);
         for mark in &panel.marks {
-            let x = mark.tilt + step * mark.place;
+            let x = mark.at + step * mark.place;
             let bar = [(x, mark.value - mark.error), (x, mark.value + mark.error)];
             let towards = mark.bound.map(|kind| (0, if kind == MeasuredKind::Above { -1 } else { 1 }));
             self.reading(&mut chart, (x, mark.value), bar, towards)?;
@@ -136,7 +136,11 @@ impl<'f> FamilyPlot<'f> {
     }
 
     /// The collapse angles that were measured below those that were simulated.
-    fn strip<DB: DrawingBackend>(&self, area: &DrawingArea<DB, Shift>) -> Drawn<DB> {
+    fn strip<DB: DrawingBackend>(
+        &self,
+        area: &DrawingArea<DB, Shift>,
+        (band, causes): &(Band, Vec<f64>),
+    ) -> Drawn<DB> {
         let end = 1.04 * self.figure.end();
         let mut chart =
             self.pen.frame(area, ("collapse angle", 20), LEFT).build_cartesian_2d(0.0..end, 0.0..1.0)?;
@@ -151,7 +155,6 @@ impl<'f> FamilyPlot<'f> {
             .x_desc("tilt (deg)")
             .draw()?;
         let ours = colour(0);
-        let (band, causes) = &self.figure.collapse;
         for ([from, to], half, dark) in [(band.most, 0.1, 1.0), (band.half, 0.15, 1.6)] {
             let corners = [(from, SIMULATED - half), (to, SIMULATED + half)];
             chart.draw_series([Rectangle::new(corners, ours.mix(dark * BAND_ALPHA).filled())])?;
@@ -233,7 +236,8 @@ impl<'f> FamilyPlot<'f> {
     }
 
     fn heights(&self) -> [u32; 2] {
-        [HEAD + PANEL * self.figure.panels.len() as u32 + STRIP, LINE * (self.lines().len() as u32 + 1)]
+        let strip = if self.figure.collapse.is_some() { STRIP } else { 0 };
+        [HEAD + PANEL * self.figure.panels.len() as u32 + strip, LINE * (self.lines().len() as u32 + 1)]
     }
 }
 
@@ -253,8 +257,11 @@ impl Figure for FamilyPlot<'_> {
             self.panel(&area, panel)?;
             rest = below;
         }
-        let (strip, legend) = rest.split_vertically(self.pen.px(STRIP as i32));
-        self.strip(&strip)?;
-        self.legend(&legend)
+        if let Some(collapse) = &self.figure.collapse {
+            let (strip, legend) = rest.split_vertically(self.pen.px(STRIP as i32));
+            self.strip(&strip, collapse)?;
+            rest = legend;
+        }
+        self.legend(&rest)
     }
 }

@@ -1,7 +1,7 @@
 //! How far readings and groups lie from the base model, in the units of files.
 
 use crate::critic::{Expected, Group, Residual, Seen, Side};
-use crate::report::measured::{in_unit, tidy_degrees, unit};
+use crate::report::measured::{in_unit, tidy_degrees, tidy_percent, unit};
 use crate::study::{MeasuredKind, MeasuredQuantity, Study};
 
 /// What the base model shows of a number.
@@ -42,6 +42,9 @@ pub struct ResidualEntry {
     pub quantity: &'static str,
     /// Tilt of the reading; null where the quantity has none of its own.
     pub tilt_deg: Option<f64>,
+    /// Drift of the reading; left out where the quantity has none of its own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub drift_percent: Option<f64>,
     /// Unit of all numbers below that have one.
     pub unit: &'static str,
     /// How the value is to be read: exact, rounded, or a bound.
@@ -60,7 +63,7 @@ pub struct ResidualEntry {
     pub order: Option<u32>,
 }
 
-/// The mean over the specimens of a family of one quantity at one tilt.
+/// The mean over the specimens of a family of one quantity at one tilt or drift.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct GroupEntry {
     /// The arm.
@@ -69,6 +72,9 @@ pub struct GroupEntry {
     pub quantity: &'static str,
     /// Tilt of the readings; null where the quantity has none of its own.
     pub tilt_deg: Option<f64>,
+    /// Drift of the readings; left out where the quantity has none of its own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub drift_percent: Option<f64>,
     /// Unit of all numbers below that have one.
     pub unit: &'static str,
     /// Number of readings.
@@ -123,6 +129,7 @@ impl ResidualEntry {
             stone_weight_n: residual.stone_weight,
             quantity: m.quantity.name(),
             tilt_deg: m.tilt.map(tidy_degrees),
+            drift_percent: m.drift.map(tidy_percent),
             unit: unit(m.quantity),
             kind: m.kind,
             measured: in_unit(m.quantity, value),
@@ -142,6 +149,7 @@ impl GroupEntry {
             family: study.arms[group.family].name.clone(),
             quantity: group.quantity.name(),
             tilt_deg: group.tilt.map(tidy_degrees),
+            drift_percent: group.drift.map(tidy_percent),
             unit: unit(group.quantity),
             readings: group.seen,
             below: group.below,

@@ -113,6 +113,7 @@ impl<'r> ResidualPlot<'r> {
         let labels = places.iter().map(|(_, word)| *word).collect();
         let panels = [
             Against { shared: true, ..against("tilt of the reading (deg)", Vec::new(), &|r| r.tilt_deg) },
+            Against { shared: true, ..against("drift of the reading (%)", Vec::new(), &|r| r.drift_percent) },
             against(
                 "position (each from low tilts to high; difference: centre less mean of the ends)",
                 labels,

@@ -52,7 +52,7 @@ pub struct DiagnosisSummary {
     pub residuals: Vec<ResidualEntry>,
     /// The same of the means over the specimens, by family, quantity and tilt.
     pub groups: Vec<GroupEntry>,
-    /// Where the base model with fitted joints surely misses something that is smooth over the tilt.
+    /// Where the base model with fitted joints surely misses something that is smooth over the tilt or the drift.
     pub form: Vec<ComponentEntry>,
     /// What was not used of the measurements.
     pub unused: Vec<UnusedEntry>,
@@ -376,6 +376,7 @@ fn unused(design: &Design) -> Vec<UnusedEntry> {
             Unused::BlockWeight => "the weight of a single block",
             Unused::AtLevel => "a displacement at 0 deg, from where displacements count",
             Unused::Again => "read at a tilt that the wall had come to before",
+            Unused::OtherTest => "read in another kind of test than the study's, or on the way along x-",
         },
     };
     by_reason.into_iter().map(entry).collect()
@@ -444,7 +445,12 @@ fn weighted_quantile(values: &[f64], weights: &[f64], share: f64) -> f64 {
 
 fn words(study: &Study, feature: Feature) -> String {
     let family = |arm: usize| &study.arms[arm].name;
+    let is_sheared = !study.drifts().is_empty();
     let of = |contrast| match contrast {
+        Contrast::Level if is_sheared => "push as a whole",
+        Contrast::Growth if is_sheared => "growth of the push with the drift",
+        Contrast::Curvature if is_sheared => "curvature of the push over the drift",
+        Contrast::Jump if is_sheared => "largest jump of the push from one drift to the next",
         Contrast::Collapse => "collapse angle",
         Contrast::Level => "displacements as a whole",
         Contrast::Growth => "growth of the displacements with the tilt",

@@ -112,7 +112,7 @@ pub(super) const CAUSE: &str = "probability: posterior, all causes equally likel
     search prior: four times the spread of the documented prior. \
     not in catalogue: smooth random effects that no cause here describes";
 /// What the numbers of a form are.
-pub(super) const FORM: &str = "Form of what is not explained (measured less base model with fitted joints, if it is smooth over the tilt or goes with the order of the tests; brackets: 95 %, for these joints)";
+pub(super) const FORM: &str = "Form of what is not explained (measured less base model with fitted joints, if it is smooth over tilt or drift or goes with the order of the tests; brackets: 95 %, for these joints)";
 
 /// What is said where nothing of it is sure.
 pub(super) const NO_FORM: &str = "none that is sure";

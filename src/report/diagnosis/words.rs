@@ -59,13 +59,20 @@ fn agrees(group: &GroupEntry) -> bool {
 
 /// Tilts that all agree.
 fn together(groups: &[GroupEntry]) -> Line {
-    let tilts: Vec<String> = groups.iter().filter_map(|g| g.tilt_deg).map(|tilt| tilt.to_string()).collect();
+    let places = groups.iter().filter_map(|g| g.tilt_deg.or(g.drift_percent));
+    let tilts: Vec<String> = places.map(|place| place.to_string()).collect();
+    let unit = if groups[0].drift_percent.is_some() { "% of drift" } else { "deg" };
     let (last, others) = tilts.split_last().map_or(("", &[][..]), |(last, others)| (last.as_str(), others));
     let least = groups.iter().filter_map(|group| group.p_value).fold(1.0, f64::min);
     let agreeing = groups.iter().filter_map(|group| group.agreeing_share).reduce(f64::min);
     let fallen = groups.iter().map(|group| group.fallen_share).fold(0.0, f64::max);
     Line {
-        what: format!("{} {} {} and {last} deg", name(&groups[0]), at(groups[0].quantity), others.join(", ")),
+        what: format!(
+            "{} {} {} and {last} {unit}",
+            name(&groups[0]),
+            at(groups[0].quantity),
+            others.join(", ")
+        ),
         measured: from_to(groups, measured),
         simulated: from_to(groups, simulated),
         finding: match least < 1.0 {
@@ -84,17 +91,25 @@ fn from_to(groups: &[GroupEntry], said: fn(&GroupEntry) -> String) -> String {
 }
 
 fn line(group: &GroupEntry) -> Line {
-    let tilt = group.tilt_deg.map_or_else(String::new, |tilt| format!(" {} {tilt} deg", at(group.quantity)));
     Line {
-        what: format!("{}{tilt}", name(group)),
+        what: format!("{}{}", name(group), place(group.quantity, group.tilt_deg, group.drift_percent)),
         measured: measured(group),
         simulated: simulated(group),
         finding: finding(group),
     }
 }
 
+/// Where a quantity of that name was read, with a space before it; nothing where it has no such place.
+pub(super) fn place(quantity: &str, tilt_deg: Option<f64>, drift_percent: Option<f64>) -> String {
+    match (tilt_deg, drift_percent) {
+        (Some(tilt), _) => format!(" {} {tilt} deg", at(quantity)),
+        (None, Some(drift)) => format!(" of {drift} %"),
+        (None, None) => String::new(),
+    }
+}
+
 /// How the quantity of that name stands to its tilt.
-pub(super) fn at(quantity: &str) -> &'static str {
+fn at(quantity: &str) -> &'static str {
     MeasuredQuantity::named(quantity).map_or("at", MeasuredQuantity::at_or_after)
 }
 
@@ -176,16 +191,18 @@ fn amount(group: &GroupEntry, simulated: &ExpectedEntry, above: bool) -> String 
 
 /// A number in the unit of text and figures.
 fn shown(group: &GroupEntry, x: f64) -> String {
-    match group.unit {
-        "m" => significant(1e3 * x, 3),
+    match (group.unit, group.drift_percent) {
+        ("m", _) => significant(1e3 * x, 3),
+        ("N", Some(_)) => significant(1e-3 * x, 3),
         _ => significant(x, 3),
     }
 }
 
 fn shown_unit(group: &GroupEntry) -> &'static str {
-    match group.unit {
-        "m" => "mm",
-        unit => unit,
+    match (group.unit, group.drift_percent) {
+        ("m", _) => "mm",
+        ("N", Some(_)) => "kN",
+        (unit, _) => unit,
     }
 }
 

@@ -147,7 +147,7 @@ pub fn in_unit(quantity: MeasuredQuantity, x: f64) -> f64 {
 }
 
 /// Percents to a billionth, as degrees are.
-fn tidy_percent(share: f64) -> f64 {
+pub fn tidy_percent(share: f64) -> f64 {
     (share * 1e11).round() / 1e9
 }
 

@@ -9,7 +9,7 @@ mod text;
 
 pub use calibration::CalibrationEntry;
 pub use comparison::ComparisonEntry;
-pub(super) use comparison::{in_unit, tidy_degrees, unit};
+pub(super) use comparison::{in_unit, tidy_degrees, tidy_percent, unit};
 pub(super) use csv::{calibration_csv, comparison_csv};
 pub(super) use plot::CalibrationPlot;
 pub(super) use text::text;

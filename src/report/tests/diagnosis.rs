@@ -34,6 +34,7 @@ fn group(measured: f64, stands: &'static str, p: f64, in_sd: f64) -> GroupEntry 
         family: "sbl".into(),
         quantity: "displacement_mean",
         tilt_deg: Some(5.0),
+        drift_percent: None,
         unit: "m",
         readings: 3,
         below: 0,
@@ -412,7 +413,7 @@ fn figures_say_what_is_in_them_and_no_more() {
     let without = |family: &FamilyFigure| {
         let mut family = family.clone();
         family.causes.clear();
-        family.collapse.1.clear();
+        family.collapse.iter_mut().for_each(|(_, causes)| causes.clear());
         family.panels.iter_mut().for_each(|panel| panel.causes.clear());
         family
     };

@@ -4,6 +4,7 @@ mod beside;
 mod capacity;
 mod diagnosis;
 mod figure;
+mod force_drift;
 mod measured;
 mod summary;
 mod verdict;

@@ -23,6 +23,8 @@ pub struct Group {
     pub quantity: MeasuredQuantity,
     /// At which tilt (rad); `None` where the quantity has none of its own.
     pub tilt: Option<f64>,
+    /// At which drift; `None` where the quantity has none of its own.
+    pub drift: Option<f64>,
     /// Readings that show something.
     pub seen: usize,
     /// Of these, so many only that they are below a bound.
@@ -94,6 +96,7 @@ impl GroupBase {
             family,
             quantity: first.quantity,
             tilt: first.tilt,
+            drift: first.drift,
             seen: 0,
             below: 0,
             above: 0,

@@ -214,7 +214,7 @@ fn bands_over_the_tilt_go_to_where_half_have_fallen_and_show_a_cause() {
     for family in &base {
         let [curve] = &family.curves[..] else { panic!("one quantity was read") };
         let (last, _) = curve.bands.last().expect("bands");
-        assert_eq!((curve.bands.len(), *last), (61, family.collapse.median));
+        assert_eq!((curve.bands.len(), *last), (61, family.collapse.expect("they fall").median));
         for (_, band) in &curve.bands {
             let order = [band.most[0], band.half[0], band.median, band.half[1], band.most[1]];
             assert!(order.is_sorted(), "{band:?}");

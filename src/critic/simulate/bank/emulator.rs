@@ -3,28 +3,24 @@
 
 mod curve;
 
-use std::ops::Range;
-
 use nalgebra::DMatrix;
 
-use crate::critic::simulate::bank::emulator::curve::{Curve, DEGREES, terms};
-use crate::critic::simulate::bank::path::{NUMBERS, NUMBERS_UP, PLACES};
+use crate::critic::simulate::bank::emulator::curve::{Curve, terms};
+use crate::critic::simulate::bank::path::NUMBERS;
+use crate::critic::simulate::bank::test::Test;
 use crate::stats;
 
 /// Scores beyond this are taken to be there: few walls tell of the far ends of their inputs.
 const FURTHEST: f64 = 2.5;
-/// Numbers that have a shape in common: when a wall falls and how far it moves; in which form; what is left on the way back. Stones
-/// decide of one and joints of another, and creep acts on the last alone.
-const GROUPS: [Range<usize>; 3] = [0..1 + PLACES.len(), 1 + PLACES.len()..NUMBERS_UP, NUMBERS_UP..NUMBERS];
-
 /// The walls of a family under one cause, in few numbers.
 #[derive(Clone, Debug)]
 pub struct Emulator {
     inputs: usize,
+    test: Test,
     /// Means of the numbers, from which all else counts.
     middle: [f64; NUMBERS],
     /// Of each group of numbers.
-    curves: [Curve; GROUPS.len()],
+    curves: Vec<Curve>,
     /// Where the walls of the bank lie, in scores that are [`held`].
     scores: Vec<Vec<f64>>,
     /// Where those lie that do not stand at rest.
@@ -48,18 +44,18 @@ pub struct Emulated<'e> {
 
 impl Emulator {
     /// Through walls by their scores (standard normal, one per input) and numbers, see [`Path::adding`](super::Path::adding);
-    /// `None` for fewer than twice as many walls as a quadratic has terms.
-    pub fn fit(scores: &[Vec<f64>], walls: &[[f64; NUMBERS]]) -> Option<Emulator> {
+    /// `None` for fewer than twice as many walls as a quadratic has terms; where they are sheared, a plane.
+    pub fn fit(test: Test, scores: &[Vec<f64>], walls: &[[f64; NUMBERS]]) -> Option<Emulator> {
         let inputs = scores.first()?.len();
         let scores: Vec<Vec<f64>> = scores.iter().map(|z| held(z)).collect();
         let n = scores.len();
-        if n < 2 * terms(&scores[0], DEGREES[0]).len() {
+        if n < 2 * terms(&scores[0], test.least_degree()).len() {
             return None;
         }
         let mean = |number: usize| stats::mean(&walls.iter().map(|wall| wall[number]).collect::<Vec<_>>());
         let middle: [f64; NUMBERS] = std::array::from_fn(|number| mean(number).unwrap_or(0.0));
         let mut left = vec![[0.0; NUMBERS]; n];
-        let fitted = GROUPS.into_iter().map(|group| {
+        let fitted = test.groups().iter().map(|group| {
             let more = DMatrix::from_fn(n, group.len(), |row, number| {
                 walls[row][group.start + number] - middle[group.start + number]
             });
@@ -69,7 +65,7 @@ impl Emulator {
             }
             Some(curve)
         });
-        let curves: [Curve; GROUPS.len()] = fitted.collect::<Option<Vec<_>>>()?.try_into().ok()?;
+        let curves = fitted.collect::<Option<Vec<Curve>>>()?;
         let explained = std::array::from_fn(|number| {
             let values: Vec<f64> = walls.iter().map(|wall| wall[number]).collect();
             let squares: Vec<f64> = left.iter().map(|left| left[number] * left[number]).collect();
@@ -77,7 +73,7 @@ impl Emulator {
             let rest = stats::sum(&squares) / n as f64;
             if whole > 0.0 { 1.0 - rest / (whole * whole) } else { 0.0 }
         });
-        Some(Emulator { inputs, middle, curves, scores, fallen: Vec::new(), left, explained })
+        Some(Emulator { inputs, test, middle, curves, scores, fallen: Vec::new(), left, explained })
     }
 
     /// With walls (by their scores, as [`Self::fit`] has them) that do not stand at rest.
@@ -90,9 +86,9 @@ impl Emulator {
         crate::check!(scores.len() == self.inputs, "{} scores for {} inputs", scores.len(), self.inputs);
         let scores = held(scores);
         let (mut numbers, mut common) = (self.middle, [0.0; NUMBERS]);
-        for (curve, group) in self.curves.iter().zip(GROUPS) {
+        for (curve, group) in self.curves.iter().zip(self.test.groups()) {
             let own = curve.add(&scores, &self.scores, &mut numbers);
-            common[group].fill(own);
+            common[group.clone()].fill(own);
         }
         let nearest = stats::smallest(self.distances(&self.scores, &scores).zip(0..), count);
         Emulated { numbers, left: nearest.into_iter().map(|wall| &self.left[wall]).collect(), common }
@@ -111,11 +107,6 @@ impl Emulator {
     /// Squared distances of walls from some scores, as the fall and the way up to it see them.
     fn distances(&self, walls: &[Vec<f64>], scores: &[f64]) -> impl Iterator<Item = f64> {
         walls.iter().map(|wall| self.curves[0].shape.squared_distance(scores, wall))
-    }
-
-    #[cfg(test)]
-    pub fn shapes(&self) -> Vec<String> {
-        self.curves.iter().map(|c| format!("{:?}", c.shape)).collect()
     }
 
     /// Share of the variance of each number that is explained for a wall that the curve does not know.

@@ -4,11 +4,15 @@
 mod emulator;
 mod path;
 mod plan;
+mod pushes;
 mod store;
+mod test;
 #[cfg(test)]
 pub mod tests;
 
 pub use emulator::{Emulated, Emulator};
-pub use path::{Curves, HALF_WAY, NUMBERS, PLACES, Path};
+pub use path::{Curves, NUMBERS, PLACES, Path};
 pub use plan::{PRIOR_WIDENING, Place, Plan};
+pub use pushes::{Pushes, SHARES};
 pub use store::{BANK, Bank, Held, NotThisBank};
+pub use test::{Test, stand_in};

@@ -27,7 +27,8 @@ const AT_ONCE: usize = 32;
 /// No wall that stands falls before this tilt (rad): the least that a bank's collapses are told apart by, some 0.06 deg.
 const LEAST: f64 = 1e-3;
 
-/// The path of a wall on the tilting table.
+/// The path of a wall. What follows is said of one on the tilting table; for one that is sheared see
+/// [`Pushes`](super::Pushes).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
     /// Logarithm of the collapse angle (rad); at each place, the logarithm of the mean of the three points' displacements over

@@ -6,8 +6,9 @@ use std::io::Cursor;
 use polars::prelude::{Column, DataFrame, NamedFrom, PolarsError, Series};
 use polars_io::prelude::{ParquetReader, SerReader};
 
-use crate::critic::simulate::bank::path::{KINDS, NUMBERS, PLACES, Path};
+use crate::critic::simulate::bank::path::{NUMBERS, Path};
 use crate::critic::simulate::bank::plan::{BASE, Plan};
+use crate::critic::simulate::bank::test::Test;
 use crate::ensemble::{Row, RunError, parquet};
 
 /// Name of the file.
@@ -16,7 +17,7 @@ pub const BANK: &str = "bank.parquet";
 /// The walls of a [`Plan`], in its order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bank {
-    /// Each wall's path; `None` for one that has none, see [`Path::of`].
+    /// Each wall's path; `None` for one that has none, see [`Test::path`].
     pub paths: Vec<Option<Path>>,
     /// How each wall ended.
     pub endings: Vec<String>,
@@ -79,9 +80,18 @@ impl Held {
 
 impl Bank {
     /// From the rows of a plan, one per wall in its order.
+    pub fn of_plan(plan: &Plan, rows: &[Row]) -> Bank {
+        Bank::by(Test::of(&plan.study), rows)
+    }
+
+    /// From the rows of walls on the tilting table.
     pub fn of(rows: &[Row]) -> Bank {
+        Bank::by(Test::Tilting, rows)
+    }
+
+    fn by(test: Test, rows: &[Row]) -> Bank {
         Bank {
-            paths: rows.iter().map(Path::of).collect(),
+            paths: rows.iter().map(|row| test.path(row)).collect(),
             endings: rows.iter().map(|row| row.outcome.name().to_string()).collect(),
         }
     }
@@ -98,10 +108,10 @@ impl Bank {
             Column::from(Series::new("wall".into(), arms)),
             Column::from(Series::new("outcome".into(), &self.endings)),
         ];
-        for number in 0..NUMBERS {
+        for (number, name) in Test::of(&plan.study).names().into_iter().enumerate() {
             let values: Vec<Option<f64>> =
                 self.paths.iter().map(|path| path.as_ref().map(|path| path.numbers[number])).collect();
-            columns.push(Column::from(Series::new(name(number).into(), values)));
+            columns.push(Column::from(Series::new(name.into(), values)));
         }
         parquet(BANK, n, columns)
     }
@@ -146,15 +156,19 @@ impl Bank {
             };
             return Err(NotThisBank::Design { differs, found, wanted });
         }
-        let numbers = (0..NUMBERS)
-            .map(|number| {
-                let column = frame.column(&name(number)).and_then(|column| column.f64().cloned());
-                column.map(|values| values.iter().collect()).map_err(|_| NotThisBank::Column(name(number)))
+        let names = Test::of(&plan.study).names();
+        let numbers = names
+            .iter()
+            .map(|name| {
+                let column = frame.column(name).and_then(|column| column.f64().cloned());
+                column.map(|values| values.iter().collect()).map_err(|_| NotThisBank::Column(name.clone()))
             })
             .collect::<Result<Vec<Vec<Option<f64>>>, NotThisBank>>()?;
         let path = |wall: usize| {
-            let own: Option<Vec<f64>> = numbers.iter().map(|column| column[wall]).collect();
-            own?.try_into().ok().map(|numbers| Path { numbers })
+            let own: Vec<f64> = numbers.iter().map(|column| column[wall]).collect::<Option<_>>()?;
+            let mut numbers = [0.0; NUMBERS];
+            numbers[..own.len()].copy_from_slice(&own);
+            Some(Path { numbers })
         };
         Ok(Bank { paths: (0..designs.len()).map(path).collect(), endings: text("outcome")? })
     }
@@ -163,12 +177,4 @@ impl Bank {
 fn texts(frame: &DataFrame, name: &str) -> Option<Vec<String>> {
     let values = frame.column(name).ok()?.str().ok()?;
     values.iter().map(|value| value.map(str::to_string)).collect()
-}
-
-/// Name of a number's column.
-fn name(number: usize) -> String {
-    match number.checked_sub(1) {
-        None => "ln_collapse_rad".to_string(),
-        Some(k) => format!("{}_{}", KINDS[k / PLACES.len()], k % PLACES.len()),
-    }
 }

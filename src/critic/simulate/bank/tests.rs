@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::critic::simulate::bank::emulator::Emulator;
 use crate::critic::simulate::bank::path::{Curves, NUMBERS, PLACES, Path};
-use crate::critic::simulate::bank::{Bank, NotThisBank, Plan};
+use crate::critic::simulate::bank::{Bank, NotThisBank, Plan, Test};
 use crate::critic::tests::fallen;
 use crate::ensemble::{Row, StepRow};
 use crate::math::radians;
@@ -147,7 +147,7 @@ fn quadratic(z: &[f64]) -> f64 {
 #[test]
 fn an_emulator_finds_the_curve_and_knows_what_it_does_not_tell() {
     let (scores, walls) = bank(200);
-    let emulator = Emulator::fit(&scores, &walls).expect("twenty walls per term");
+    let emulator = Emulator::fit(Test::Tilting, &scores, &walls).expect("twenty walls per term");
     let at = [0.7, -1.1, 0.4];
     let (found, exact) = (emulator.emulated(&at, 0).numbers, quadratic(&at));
     // The penalty takes a thousandth; the noise of 0.1 leaves a mean over 200 walls with ten terms some 0.02.
@@ -169,7 +169,7 @@ fn an_emulator_finds_the_curve_and_knows_what_it_does_not_tell() {
 #[test]
 fn of_what_hangs_on_no_input_an_emulator_knows_no_less_than_the_mean() {
     let (scores, walls) = bank(40);
-    let emulator = Emulator::fit(&scores, &walls).expect("four walls per term");
+    let emulator = Emulator::fit(Test::Tilting, &scores, &walls).expect("four walls per term");
     // Form and way back are noise: a quadratic of ten terms through forty walls explains some -0.3 of a wall left out.
     let shares = &emulator.explained()[1 + PLACES.len()..];
     assert!(shares.iter().all(|share| *share > -0.1), "{shares:?}");
@@ -188,7 +188,7 @@ fn an_emulator_follows_what_begins_in_the_middle_of_a_prior() {
         scores.push(fourth);
         *path = [begins(fourth) + 0.01 * noise; NUMBERS];
     }
-    let emulator = Emulator::fit(&scores, &walls).expect("four walls per term");
+    let emulator = Emulator::fit(Test::Tilting, &scores, &walls).expect("four walls per term");
     for fourth in [-1.5, -0.8, -0.3, 0.5, 1.0, 1.6] {
         let at = [0.2, -0.4, 0.5, fourth];
         let found = emulator.emulated(&at, 0).numbers[3];
@@ -202,7 +202,7 @@ fn an_emulator_follows_what_begins_in_the_middle_of_a_prior() {
 #[test]
 fn what_an_emulator_does_not_know_of_its_curve_is_that_of_a_regression() {
     let (scores, walls) = bank(60);
-    let emulator = Emulator::fit(&scores, &walls).expect("six walls per term");
+    let emulator = Emulator::fit(Test::Tilting, &scores, &walls).expect("six walls per term");
     let terms = |z: &[f64]| {
         let z: [f64; 3] = std::array::from_fn(|k| z[k].clamp(-2.5, 2.5));
         let products = [z[0] * z[0], z[0] * z[1], z[0] * z[2], z[1] * z[1], z[1] * z[2], z[2] * z[2]];
@@ -228,15 +228,15 @@ fn what_an_emulator_does_not_know_of_its_curve_is_that_of_a_regression() {
 #[test]
 fn an_emulator_needs_walls() {
     let (scores, walls) = bank(19);
-    assert!(Emulator::fit(&scores, &walls).is_none());
+    assert!(Emulator::fit(Test::Tilting, &scores, &walls).is_none());
     let (scores, walls) = bank(20);
-    assert!(Emulator::fit(&scores, &walls).is_some());
+    assert!(Emulator::fit(Test::Tilting, &scores, &walls).is_some());
 }
 
 #[test]
 fn the_nearest_walls_come_first() {
     let (scores, walls) = bank(40);
-    let emulator = Emulator::fit(&scores, &walls).expect("enough");
+    let emulator = Emulator::fit(Test::Tilting, &scores, &walls).expect("enough");
     let at = scores[7].clone();
     let whole = emulator.emulated(&at, 40).left;
     assert_eq!(whole.len(), 40);

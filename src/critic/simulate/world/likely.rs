@@ -1,6 +1,6 @@
 //! The paths that a wall may have under a truth: what the emulators expect, and what walls differ by.
 
-use crate::critic::simulate::bank::{Curves, Emulated, NUMBERS, PRIOR_WIDENING};
+use crate::critic::simulate::bank::{Curves, Emulated, NUMBERS, PRIOR_WIDENING, Pushes, Test};
 use crate::critic::simulate::queries::Queries;
 use crate::critic::simulate::truth::Truth;
 use crate::critic::simulate::world::{Walls, World, varying};
@@ -32,6 +32,7 @@ impl World<'_> {
         specimen: usize,
         streams: &Streams,
     ) -> [f64; NUMBERS] {
+        let family = self.stands_for[family];
         let Likely { expected, own, common, random } = self.likely(family, truth);
         // Walls in which nothing is drawn are the same: what is left is the emulator's error, and they share it.
         let name = match random {
@@ -45,6 +46,7 @@ impl World<'_> {
 
     /// The paths that the walls of a family may have under a truth.
     fn likely(&self, family: usize, truth: &Truth) -> Likely {
+        let family = self.stands_for[family];
         let Walls { emulator, random } = &self.base[&family];
         let joints = truth.joints[self.kinds[family]].map(|score| score / PRIOR_WIDENING);
         let base = emulator.emulated(&joints, NEIGHBOURS);
@@ -85,7 +87,11 @@ impl World<'_> {
         let apart = common.iter().cycle().skip(COMMON_APART);
         let of = |(own, common): (&[f64; NUMBERS], &[f64; NUMBERS])| {
             let left = std::array::from_fn(|k| own[k] + times * common[k]);
-            let curves = Curves::of(&moved(&expected, &left));
+            let numbers = moved(&expected, &left);
+            if let Test::Shear { widest } = self.test {
+                return queries.pushes(&Pushes::of(&numbers, widest));
+            }
+            let curves = Curves::of(&numbers);
             let last = curves.collapse();
             let read = |points: &mut [f64; 3]| *points = points.map(|x| gauge.reading(x));
             let mut points = curves.last_displacements(&queries.tilts);

@@ -31,7 +31,7 @@ const LENGTHS: [f64; 3] = [0.7, 1.5, 3.0];
 const SIZES: [f64; 3] = [3.0, 30.0, 300.0];
 
 /// Degrees of the polynomial.
-pub(super) const DEGREES: [usize; 3] = [2, 1, 0];
+const DEGREES: [usize; 3] = [2, 1, 0];
 
 /// A polynomial and what is smooth beside it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -172,7 +172,8 @@ impl Shape {
     fn tried(degree: usize, inputs: usize) -> Vec<Shape> {
         let alone = Shape { degree, size: 0.0, length: 1.0, joint_length: 1.0 };
         let lengths = if inputs > JOINTS { &LENGTHS[..] } else { &LENGTHS[..1] };
-        let pairs = lengths.iter().flat_map(|&length| JOINT_LENGTHS.map(|joint_length| (length, joint_length)));
+        let pairs =
+            lengths.iter().flat_map(|&length| JOINT_LENGTHS.map(|joint_length| (length, joint_length)));
         let beside = pairs.flat_map(|(length, joint_length)| {
             SIZES.map(|size| Shape { degree, size, length, joint_length })
         });
