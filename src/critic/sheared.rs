@@ -1,4 +1,4 @@
-//! Sheared walls whose formula is known: what is hidden in them is found, and the other load is foretold by it.
+//! Sheared walls whose formula is known: what is hidden in them is found, and the other load is predicted by it.
 
 use std::path::Path as Folder;
 
@@ -126,7 +126,7 @@ fn joints_that_stiffen_under_the_load_are_told_from_others_and_nothing_is_found_
 }
 
 #[test]
-fn what_is_fitted_to_one_load_foretells_the_other_where_it_is_the_cause() {
+fn what_is_fitted_to_one_load_predicts_the_other_where_it_is_the_cause() {
     let made = made();
     let world = made.world();
     let (design, _) = Design::of(&made.study);
@@ -151,6 +151,6 @@ fn what_is_fitted_to_one_load_foretells_the_other_where_it_is_the_cause() {
         stats::mean(&each.collect::<Vec<f64>>()).expect("some")
     };
     let (base, own) = (off(None), off(Some(made.cause("stress_stiffening"))));
-    // The strength is not known from one load: half of what the base model lacks is foretold.
+    // The strength is not known from one load: half of what the base model lacks is predicted.
     assert!(own < 0.7 * base && base > 0.05, "{own} {base}");
 }

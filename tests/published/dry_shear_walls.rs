@@ -67,7 +67,7 @@ fn one_stiffness_fits_the_wall_that_it_was_read_off_and_not_those_under_more_loa
     let of_others = rows(&others);
     assert!(of_others[0].shear != of_others[1].shear);
     let off = differences(&others, &of_others, "ws-175", 7e9);
-    // The joints under the larger load are stiffer: the readings lie above what is foretold.
+    // The joints under the larger load are stiffer: the readings lie above what is predicted.
     assert!(off.len() == 8 && off.iter().all(|z| *z < -0.5), "{off:?}");
 }
 

@@ -173,6 +173,10 @@ impl Known {
         let finite = |value: f64| value.abs() < 0.1 * BEYOND;
         let within = |ends: [f64; 2]| ends.iter().all(|end| finite(*end));
         let told = with(None);
+        if told.len() as f64 * share.min(1.0 - share) < 1.0 {
+            // No wall in the mean lies beyond it: what is between the last two says nothing of it.
+            return (None, None, None);
+        }
         let ends = |values: &[f64]| stats::quantile_interval(values, share);
         let whatever =
             ends(&with(Some(-BEYOND))).zip(ends(&with(Some(BEYOND)))).map(|(low, high)| [low[0], high[1]]);
@@ -234,6 +238,8 @@ mod tests {
             of(&values, &[], 3, Question::Quantile(0.05)).interval_whatever_failed.expect("200 walls");
         let [own_low, own_high] = group.interval.expect("200 walls");
         assert!(low < own_low && high >= own_high);
-        assert_eq!(of(&values[..20], &[], 0, Question::Quantile(0.05)).interval, None);
+        let few = of(&values[..20], &[], 0, Question::Quantile(0.05));
+        assert!(few.answer.is_some() && few.interval.is_none());
+        assert_eq!(of(&values[..19], &[], 0, Question::Quantile(0.05)).answer, None);
     }
 }

@@ -60,6 +60,12 @@ fn conclusion(summary: &CapacitySummary, group: &CapacityGroup) -> String {
                 with_interval(group.answer, group.interval, 2)
             )
         }
+        Question::Quantile(share) if group.answer.is_none() => {
+            format!(
+                "{name}: {counted} are too few to show a {} % quantile by themselves.",
+                significant(100.0 * share, 2)
+            )
+        }
         Question::Quantile(share) => format!(
             "{name}: {} % of walls lie below {} {unit} ({counted}).",
             significant(100.0 * share, 2),
