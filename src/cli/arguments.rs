@@ -55,9 +55,9 @@ pub(crate) enum Verb {
     /// A run that was stopped goes on where it stood.
     #[command(after_help = RUN)]
     Run(Run),
-    /// Say what walls of a kind may be counted on to bear: a probability, a low fractile, characteristic and design values.
+    /// Say what walls may be counted on to bear.
     ///
-    /// From simulated walls, or with --measured from tested specimens alone.
+    /// The probability of a failure below some load, a low quantile, characteristic and design values: from simulated walls, or with --measured from tested specimens alone.
     #[command(after_help = CAPACITY)]
     Capacity(Capacity),
     /// Say which readings of a study explain what was published.

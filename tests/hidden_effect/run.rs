@@ -52,13 +52,13 @@ const AGAIN: usize = 3;
 pub type Verdicts = BTreeMap<String, Said>;
 
 /// The share of the full sizes that is run.
-fn share() -> f64 {
+pub fn share() -> f64 {
     let Ok(text) = env::var("HIDDEN_EFFECT_SHARE") else { return 1.0 };
     let share = text.parse().ok().filter(|share| *share > 0.0 && *share <= 1.0);
     share.unwrap_or_else(|| panic!("HIDDEN_EFFECT_SHARE is {text}: a number above 0 and at most 1"))
 }
 
-fn path(variable: &str, default: &str) -> PathBuf {
+pub fn path(variable: &str, default: &str) -> PathBuf {
     env::var_os(variable).map_or_else(|| root(default), PathBuf::from)
 }
 
@@ -237,10 +237,19 @@ fn hidden_effect_campaigns_are_sealed_judged_and_opened() {
     record::pack(&folders.out, &record);
     stages(&folders, &judges, share, LOOKS.len(), &secret, &mut |printed| {
         record::pack(&folders.out, &record);
-        for (path, text) in TABLES.iter().zip([&printed.text, &printed.csv, &printed.figure]) {
-            write(&root(path), text);
-        }
+        printed.publish();
     });
+}
+
+impl Printed {
+    /// Writes it where it is published.
+    pub fn publish(&self) {
+        for (path, text) in TABLES.iter().zip([&self.text, &self.csv, &self.figure]) {
+            let path = root(path);
+            fs::create_dir_all(path.parent().expect("it lies in a folder")).expect("it can be made");
+            write(&path, text);
+        }
+    }
 }
 
 /// Leads through the stages, once for each of so many looks. What comes of a look is told.

@@ -58,8 +58,8 @@ fn three_walls_of_a_family_support_a_characteristic_value_and_no_design_value() 
         let known = Variation::Known(0.1);
         let factor = predictive_factor(3, 0.05, known).expect("known");
         let own = below_mean(values, factor, Shape::Lognormal, known).expect("above 0");
-        // The reference takes 0.1 for sqrt(ln 1.01) = 0.0998.
-        assert!((own - expected).abs() < 0.01, "{own}");
+        // The reference takes 0.1 for sqrt(ln 1.01) = 0.0998, and rounds to 0.01.
+        assert!((own - expected).abs() < 0.015, "{own}");
     }
     assert_eq!(below_mean(&[1.0, 0.0], 2.0, Shape::Lognormal, unknown), None);
     assert_eq!(below_mean(&[], 2.0, Shape::Normal, unknown), None);
