@@ -197,7 +197,7 @@ fn extended_by_an_offset(folder: &Folder) -> Vec<u8> {
         "# Made by `pirca diagnose` from the study \"tiny\", seed 7.\n",
         "#   mechanism.gauge_offset.offset_m  0.002999 [0.00299",
         "#   arm.tower.joint.kn_pa_per_m",
-        "\n[mechanism.gauge_offset]\noffset_m = 0.002999",
+        "\n[mechanism.gauge_offset]\noffset_m = 0.00299",
         "\nname = \"draw-20\"\n",
     ] {
         assert!(text.contains(part), "{part} in: {text}");
