@@ -188,8 +188,11 @@ fn line<'l>(lines: &'l [Line], design: Design, group: &str, measure: &str) -> Op
     lines.iter().find(|line| (line.design, &line.group[..], line.measure) == asked)
 }
 
+/// A line, if there is one, and its bounds, if there are any.
+pub type Asked<'l> = (Option<&'l Line>, Option<[f64; 2]>);
+
 /// The rows of which something is wanted, each with its line and its bounds in every design.
-pub fn asked(lines: &[Line]) -> Vec<(&'static str, [(Option<&Line>, Option<[f64; 2]>); Design::ALL.len()])> {
+pub fn asked(lines: &[Line]) -> Vec<(&'static str, [Asked<'_>; Design::ALL.len()])> {
     let rows = WANTED.iter().filter(|(.., bounds)| bounds.iter().any(Option::is_some));
     rows.map(|(what, _, group, measure, bounds)| {
         (*what, Design::ALL.map(|design| (line(lines, design, group, measure), bounds[design as usize])))

@@ -233,7 +233,7 @@ impl<'s> World<'s> {
     }
 
     /// What the emulators explain of walls of the base model that they do not know, by family: share of the variance of two
-    /// [numbers](Test::telling) of their path. The rest is the stones' own and the emulator's error.
+    /// numbers of their path. The rest is the stones' own and the emulator's error.
     pub fn explained(&self) -> Vec<(usize, [(&'static str, f64); 2])> {
         let shares = |walls: &Walls| {
             self.test.telling().map(|(number, words)| (words, walls.emulator.explained()[number]))

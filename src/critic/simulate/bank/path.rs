@@ -28,7 +28,7 @@ const AT_ONCE: usize = 32;
 const LEAST: f64 = 1e-3;
 
 /// The path of a wall. What follows is said of one on the tilting table; for one that is sheared see
-/// [`Pushes`](super::Pushes).
+/// `Pushes`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
     /// Logarithm of the collapse angle (rad); at each place, the logarithm of the mean of the three points' displacements over

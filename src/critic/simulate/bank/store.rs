@@ -17,7 +17,7 @@ pub const BANK: &str = "bank.parquet";
 /// The walls of a [`Plan`], in its order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bank {
-    /// Each wall's path; `None` for one that has none, see [`Test::path`].
+    /// Each wall's path; `None` for one that has none, see `Test::path`.
     pub paths: Vec<Option<Path>>,
     /// How each wall ended.
     pub endings: Vec<String>,
