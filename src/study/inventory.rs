@@ -86,8 +86,8 @@ pub static INVENTORY: [Entry; 18] = {
     use Unloading::{AsWithout, Irreversible, Reversible};
     [
         entry("contact_inset", "joints begin behind the stated faces; rounded arrises, a soft bed that may open and a wall thinner than stated look the same", Joints, AsWithout, Honoured, &["joint.kn_pa_per_m", "restraint.strip_height_m", "lean", "contact_area"]),
-        entry("joint_closure", "joints touch by rough points and are soft until they have closed; under one load, a stiffness that grows with the stress looks the same", Joints, Reversible, Refused, &["joint.kn_pa_per_m", "stress_stiffening", "contact_area", "base_compliance", "gauge_scale", "gauge_offset"]),
-        entry("stress_stiffening", "joints become stiffer as they are pressed together; under one load, joints that are soft until they have closed look the same", Joints, Reversible, Refused, &["joint.kn_pa_per_m", "joint_closure"]),
+        entry("joint_closure", "joints touch by rough points and are soft until they have closed", Joints, Reversible, Refused, &["joint.kn_pa_per_m", "stress_stiffening", "contact_area", "base_compliance", "gauge_scale", "gauge_offset"]),
+        entry("stress_stiffening", "joints become stiffer as they are pressed together", Joints, Reversible, Refused, &["joint.kn_pa_per_m", "joint_closure"]),
         entry("contact_area", "stones touch on a part of their faces only", Joints, AsWithout, Honoured, &["joint.kn_pa_per_m", "contact_inset", "joint_closure", "size_scatter", "specimen_scatter", "wedge_loss"]),
         entry("friction", "joints are smoother or rougher than stated, or lose friction as they slip", Joints, Irreversible, Honoured, &["joint.phi_deg", "cohesion", "end_release", "creep"]),
         entry("cohesion", "something holds the stones together, as earth in the joints or suction does", Joints, AsWithout, Honoured, &["friction", "density"]),

@@ -31,7 +31,7 @@ const LEARNT: [&str; 3] = ["drift", "knock", "saturation"];
 /// A mechanism whose other code is the same as a cause of the catalogue: a soft bed that may open stands on less than its width.
 const OTHER_WORDS: [(&str, &str); 1] = [("base_compliance", "contact_inset")];
 
-/// Mechanisms that are the same in other words, as their meanings say: under the weight of one wall both laws stiffen.
+/// Mechanisms that are the same in other words, confounded by the catalogue: under the weight of one wall both laws stiffen.
 const SAME: [&str; 2] = ["joint_closure", "stress_stiffening"];
 
 /// A test of prior against data flags a conflict below this.

@@ -460,7 +460,7 @@ fn words(study: &Study, feature: Feature) -> String {
         Contrast::Left => "what is left after going back",
         Contrast::LeftBow => "centre against the ends after going back",
         Contrast::Jump => "largest jump of the displacements from one tilt to the next",
-        Contrast::Slowing => "slowing down of the displacements",
+        Contrast::Slowing => "slowing down",
         Contrast::Reached => "share of the readings that were reached",
     };
     match feature {
