@@ -96,9 +96,7 @@ pub(crate) fn prepared(study: &Study, which: &Which, points: u64) -> Result<Prep
             return Err(Failure::Input(format!("{}: {text}", study.name)));
         }
     };
-    if let Solver::Limit(_) = study.solver
-        && done == "sheared"
-    {
+    if let (Protocol::Shear(_), Solver::Limit(_)) = (&study.protocol, &study.solver) {
         let text = "limit analysis knows no drift: diagnose with solver.name = \"implicit\"";
         return Err(Failure::Input(format!("{}: {text}", study.name)));
     }
@@ -173,7 +171,7 @@ pub(crate) fn computed(
     let settings = Settings { out: folder.to_path_buf(), threads };
     let progress = progress::on_stderr(&plan.study);
     let rows = run_with(&plan.study, &settings, progress.as_ref(), &|_, task| plan.evaluate(task))?;
-    let bank = critic::Bank::of_plan(plan, &rows);
+    let bank = critic::Bank::of(plan, &rows);
     replace_file(&folder.join(BANK), &bank.table(plan)?)?;
     Ok(bank)
 }

@@ -42,7 +42,7 @@ fn bank() -> &'static [u8] {
         let tasks: Vec<Task> =
             (0..plan.places.len() as u32).map(|arm| Task { arm, point: 0, member: 0 }).collect();
         let rows: Vec<Row> = tasks.into_par_iter().map(|task| plan.evaluate(task)).collect();
-        Bank::of(&rows).table(&plan).expect("walls make a table")
+        Bank::of(&plan, &rows).table(&plan).expect("walls make a table")
     })
 }
 

@@ -49,7 +49,7 @@ fn bank(plan: &Plan) -> Bank {
     let tasks: Vec<Task> =
         (0..plan.places.len() as u32).map(|arm| Task { arm, point: 0, member: 0 }).collect();
     let rows: Vec<Row> = tasks.into_par_iter().map(|task| plan.evaluate(task)).collect();
-    Bank::of(&rows)
+    Bank::of(plan, &rows)
 }
 
 /// What is hidden in a campaign.

@@ -97,9 +97,10 @@ fn parts(design: &Design, scale: &Scale, campaign: &Campaign) -> BTreeMap<Part, 
     let mut shown: BTreeMap<Part, Vec<f64>> = BTreeMap::new();
     let mut readings = scale.readings(design, campaign).into_iter();
     for (index, specimen) in design.specimens.iter().enumerate() {
+        let place = specimen.places();
         let last = specimen.readings.iter().filter_map(|m| m.tilt).fold(f64::MIN_POSITIVE, f64::max);
         for (m, (family, z)) in specimen.readings.iter().zip(&mut readings) {
-            let (Some(place), Some(z)) = (specimen.place(m), z) else { continue };
+            let (Some(place), Some(z)) = (place(m), z) else { continue };
             // As tilts stand to the largest one, to the last bit.
             let thirds = m.tilt.map_or(3.0 * place, |tilt| 3.0 * tilt / last);
             let third = (thirds.ceil() as usize).clamp(1, 3) - 1;

@@ -203,6 +203,7 @@ fn contrasts(specimen: &Specimen, seen: &[Seen], scale: &[Usual]) -> Vec<(Contra
     // The way up point by point: tilt or drift, value and error; and of displacements the reading in its own errors.
     let mut ways: BTreeMap<MeasuredQuantity, Vec<[f64; 3]>> = BTreeMap::new();
     let mut moved: BTreeMap<MeasuredQuantity, Vec<[f64; 2]>> = BTreeMap::new();
+    let place = specimen.places();
     let (mut read, mut reached) = (0.0, 0.0);
     for ((m, seen), usual) in specimen.readings.iter().zip(seen).zip(scale) {
         let (z, error) = (usual.scaled(*seen, m), usual.error);
@@ -220,7 +221,7 @@ fn contrasts(specimen: &Specimen, seen: &[Seen], scale: &[Usual]) -> Vec<(Contra
             let own = own.map(|x| [at, x / reading_variance(m).sqrt().max(usual.least())]);
             moved.entry(m.quantity).or_default().extend(own);
         }
-        let s = specimen.place(m).unwrap_or(1.0);
+        let s = place(m).unwrap_or(1.0);
         let mut add = |contrast, weight| weighted.entry(contrast).or_default().push([weight, z, error]);
         match m.quantity {
             Q::DisplacementCentreMinusEnds | Q::RemainderCentreMinusEnds => {}

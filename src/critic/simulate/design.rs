@@ -30,17 +30,18 @@ impl Specimen {
         tilts(&self.readings)
     }
 
-    /// Where a reading lies among its own: on the tilting table the tilt over the largest one; in shear, where the first readings are
-    /// far closer to each other than the last, 0 at the smallest drift and 1 at the widest, by the logarithm. `None` of a quantity
-    /// that has neither.
-    pub fn place(&self, m: &Measurement) -> Option<f64> {
-        if let Some(tilt) = m.tilt {
-            return Some(tilt / self.readings.iter().filter_map(|m| m.tilt).fold(0.0, f64::max));
-        }
+    /// Where its readings lie among each other: on the tilting table the tilt over the largest one; in shear, where the first readings
+    /// are far closer to each other than the last, 0 at the smallest drift and 1 at the widest, by the logarithm. `None` of a
+    /// quantity that has neither.
+    pub fn places(&self) -> impl Fn(&Measurement) -> Option<f64> + use<> {
+        let tilted = self.readings.iter().filter_map(|m| m.tilt).fold(0.0, f64::max);
         let drifts = || self.readings.iter().filter_map(|m| m.drift).map(f64::abs);
         let (first, last) = (drifts().fold(f64::INFINITY, f64::min), drifts().fold(0.0, f64::max));
-        let drift = m.drift?.abs();
-        Some(if first < last { ln(drift / first) / ln(last / first) } else { 1.0 })
+        move |m| match (m.tilt, m.drift) {
+            (Some(tilt), _) => Some(tilt / tilted),
+            (None, Some(_)) if first >= last => Some(1.0),
+            (None, drift) => Some(ln(drift?.abs() / first) / ln(last / first)),
+        }
     }
 }
 

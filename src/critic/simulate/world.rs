@@ -5,6 +5,7 @@ mod standing;
 #[cfg(test)]
 mod tests;
 
+use likely::Likely;
 pub(in crate::critic) use standing::standing;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -203,11 +204,17 @@ impl<'s> World<'s> {
         streams: &Streams,
     ) -> Vec<Vec<Option<f64>>> {
         let gauge = self.gauge(truth);
+        // Specimens of a family are walls of one kind, those that are turned round of another.
+        let mut kinds: BTreeMap<(usize, bool), Likely> = BTreeMap::new();
         let specimens = design.specimens.iter().enumerate();
         specimens
             .map(|(index, specimen)| {
-                let truth = if specimen.turned { &self.turned(truth) } else { truth };
-                let mut numbers = self.wall(specimen.family, truth, index, streams);
+                let kind = kinds.entry((self.stands_for[specimen.family], specimen.turned));
+                let likely = kind.or_insert_with(|| match specimen.turned {
+                    true => self.likely(specimen.family, &self.turned(truth)),
+                    false => self.likely(specimen.family, truth),
+                });
+                let mut numbers = likely.wall(index, streams);
                 unmodelled.act(index, &mut numbers);
                 if let Test::Shear { widest } = self.test {
                     let pushes = Pushes::of(&numbers, widest);

@@ -80,16 +80,8 @@ impl Held {
 
 impl Bank {
     /// From the rows of a plan, one per wall in its order.
-    pub fn of_plan(plan: &Plan, rows: &[Row]) -> Bank {
-        Bank::by(Test::of(&plan.study), rows)
-    }
-
-    /// From the rows of walls on the tilting table.
-    pub fn of(rows: &[Row]) -> Bank {
-        Bank::by(Test::Tilting, rows)
-    }
-
-    fn by(test: Test, rows: &[Row]) -> Bank {
+    pub fn of(plan: &Plan, rows: &[Row]) -> Bank {
+        let test = Test::of(&plan.study);
         Bank {
             paths: rows.iter().map(|row| test.path(row)).collect(),
             endings: rows.iter().map(|row| row.outcome.name().to_string()).collect(),

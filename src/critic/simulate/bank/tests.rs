@@ -253,7 +253,7 @@ fn a_bank_comes_back_from_its_table_and_only_for_its_own_plan() {
     let rows: Vec<Row> = (0..plan.places.len())
         .map(|wall| if wall % 7 == 3 { standing(wall) } else { wall_of(wall) })
         .collect();
-    let bank = Bank::of(&rows);
+    let bank = Bank::of(&plan, &rows);
     assert!(bank.paths[3].is_none() && bank.paths[4].is_some());
     let bytes = bank.table(&plan).expect("it is written");
     assert_eq!(bytes, bank.table(&plan).expect("it is written"));
@@ -270,7 +270,7 @@ fn a_bank_of_more_families_or_points_serves_a_plan_of_fewer() {
         Plan::of_families(&study, families, &[], &priors, points).unwrap_or_else(|f| panic!("{f}"))
     };
     let own = of(&[0, 1, 2], 4);
-    let bank = Bank::of(&(0..own.places.len()).map(wall_of).collect::<Vec<_>>());
+    let bank = Bank::of(&own, &(0..own.places.len()).map(wall_of).collect::<Vec<_>>());
     let bytes = bank.table(&own).expect("it is written");
     let held = Bank::held(&bytes).expect("it is a bank");
     assert_eq!(

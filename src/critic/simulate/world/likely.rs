@@ -13,7 +13,8 @@ pub(super) const NEIGHBOURS: usize = 20;
 const COMMON_APART: usize = 3;
 
 /// What is known of the walls of a family before they are built.
-struct Likely {
+pub(super) struct Likely {
+    family: usize,
     /// The numbers of a path to be expected, see [`Path::adding`](crate::critic::Path::adding).
     expected: [f64; NUMBERS],
     /// What each may differ by, each equally likely.
@@ -23,34 +24,30 @@ struct Likely {
     random: bool,
 }
 
-impl World<'_> {
+impl Likely {
     /// The numbers of a specimen's path: one of those that a wall may have.
-    pub(super) fn wall(
-        &self,
-        family: usize,
-        truth: &Truth,
-        specimen: usize,
-        streams: &Streams,
-    ) -> [f64; NUMBERS] {
-        let family = self.stands_for[family];
-        let Likely { expected, own, common, random } = self.likely(family, truth);
+    pub(super) fn wall(&self, specimen: usize, streams: &Streams) -> [f64; NUMBERS] {
+        let Likely { family, expected, own, common, random } = self;
         // Walls in which nothing is drawn are the same: what is left is the emulator's error, and they share it.
         let name = match random {
             true => format!("stones {specimen}"),
             false => format!("stones of family {family}"),
         };
-        let alone = moved(&expected, &own[streams.of(&name).below(own.len())]);
+        let alone = moved(expected, &own[streams.of(&name).below(own.len())]);
         let shared = streams.of(&format!("emulator of family {family}")).below(common.len());
         moved(&alone, &common[shared])
     }
+}
 
+impl World<'_> {
     /// The paths that the walls of a family may have under a truth.
-    fn likely(&self, family: usize, truth: &Truth) -> Likely {
+    pub(super) fn likely(&self, family: usize, truth: &Truth) -> Likely {
         let family = self.stands_for[family];
         let Walls { emulator, random } = &self.base[&family];
         let joints = truth.joints[self.kinds[family]].map(|score| score / PRIOR_WIDENING);
         let base = emulator.emulated(&joints, NEIGHBOURS);
         let mut likely = Likely {
+            family,
             expected: base.numbers,
             own: vec![[0.0; NUMBERS]; base.left.len()],
             common: vec![[0.0; NUMBERS]; base.left.len()],
@@ -81,7 +78,7 @@ impl World<'_> {
         truth: &Truth,
         walls: usize,
     ) -> (Vec<Vec<f64>>, bool) {
-        let Likely { expected, own, common, random } = self.likely(family, truth);
+        let Likely { expected, own, common, random, .. } = self.likely(family, truth);
         let gauge = self.gauge(truth);
         let times = if random { (walls as f64).sqrt() } else { 1.0 };
         let apart = common.iter().cycle().skip(COMMON_APART);

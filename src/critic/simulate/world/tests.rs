@@ -83,9 +83,9 @@ fn walls_of_a_family_share_the_emulators_error_and_their_mean_scatters_by_it() {
     let left = variance(&emulated.left.iter().map(|left| left[0]).collect::<Vec<_>>());
     let common = emulated.common[0];
     assert!(common > 0.1 && common < 0.8, "{common}");
-    let drawn: Vec<[f64; 3]> = (0..4000)
-        .map(|k| [0, 1, 2].map(|specimen| world.wall(1, &truth, specimen, &Streams::new(31, k))[0]))
-        .collect();
+    let likely = world.likely(1, &truth);
+    let drawn: Vec<[f64; 3]> =
+        (0..4000).map(|k| [0, 1, 2].map(|specimen| likely.wall(specimen, &Streams::new(31, k))[0])).collect();
     let of = |what: &dyn Fn(&[f64; 3]) -> f64| variance(&drawn.iter().map(what).collect::<Vec<_>>());
     // 4000 draws tell a variance to 2 %, those of 20 discrete ones to a little less.
     let alone = of(&|walls| walls[0]) / left;
