@@ -5,13 +5,11 @@ use crate::cli::failure::Failure;
 use crate::cli::{locate, output, progress, rare, threads};
 use crate::ensemble::{self, Quantity, Settings, is_random};
 use crate::report::{CapacitySummary, Question, capacity_text, write_capacity};
-use crate::stats::Variation;
+use crate::stats::{CHARACTERISTIC_PROBABILITY, Variation};
 use crate::study::{MEASURED, MeasuredQuantity, Measurement, Study};
 
 /// What the folder of the results is named by.
 const CAPACITY: &str = "capacity";
-/// The share of walls below the value sought, unless another is asked for: EN 1990's characteristic value.
-const QUANTILE: f64 = 0.05;
 
 /// Answers the question from specimens, or from walls that are evaluated as far as they have not been.
 pub(crate) fn capacity(arguments: &Capacity) -> Result<(), Failure> {
@@ -19,6 +17,16 @@ pub(crate) fn capacity(arguments: &Capacity) -> Result<(), Failure> {
     let known = arguments.known_cov.map_or(Variation::Unknown, Variation::Known);
     let quantity = if arguments.measured { Quantity::CollapseAngle } else { Quantity::of(&study.protocol) };
     let question = question(&arguments.question, quantity, &study)?;
+    if let (Some(_), Question::Quantile(_)) = (arguments.walls, question) {
+        let text = "--walls: further walls are evaluated towards a level; name one (--below-deg, --above-m or --below-n)";
+        return Err(Failure::Usage(text.to_owned()));
+    }
+    if arguments.known_cov.is_some() && quantity == Quantity::TopDisplacement {
+        return Err(Failure::Usage(format!(
+            "--known-cov: {} observes a displacement, of which no characteristic value is given; leave it out",
+            study.name
+        )));
+    }
     if arguments.measured {
         let is_angle = |m: &Measurement| m.quantity == MeasuredQuantity::CollapseAngle;
         if !study.measured.iter().any(is_angle) {
@@ -72,7 +80,7 @@ fn question(asked: &Asked, quantity: Quantity, study: &Study) -> Result<Question
         }
         return Ok(question(level));
     }
-    Ok(Question::Quantile(asked.quantile.unwrap_or(QUANTILE)))
+    Ok(Question::Quantile(asked.quantile.unwrap_or(CHARACTERISTIC_PROBABILITY)))
 }
 
 /// A probability between 0 and 1.

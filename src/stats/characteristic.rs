@@ -11,6 +11,8 @@ use super::reference::student_quantile;
 use crate::math::{exp, ln};
 use crate::random::standard_normal::{cdf, quantile};
 
+/// The probability of EN 1990's characteristic values.
+pub const CHARACTERISTIC_PROBABILITY: f64 = 0.05;
 /// The probability of EN 1990's design values: with alpha 0.8 and beta 3.8 it is 0.0012, and its Table D2 is of 0.001.
 pub const DESIGN_PROBABILITY: f64 = 0.001;
 

@@ -21,7 +21,8 @@ mod summary;
 
 pub use bootstrap::{bootstrap_bca, cov_bootstrap, sigma_bootstrap};
 pub use characteristic::{
-    DESIGN_PROBABILITY, Shape, Variation, below_mean, predictive_factor, tolerance_factor,
+    CHARACTERISTIC_PROBABILITY, DESIGN_PROBABILITY, Shape, Variation, below_mean, predictive_factor,
+    tolerance_factor,
 };
 pub use estimate::Estimate;
 pub use fragility::{EmpiricalStep, clopper_pearson, clopper_pearson_at, dkw_half_width, empirical};

@@ -107,7 +107,10 @@ fn what_cannot_be_asked_is_said_and_nothing_is_computed() {
     said(&["--known-cov", "10"], 2, "up to 1 (0.1 is 10 %)");
     said(&["--above-m", "0.01"], 2, "ask with --below-deg");
     said(&["--quantile", "0.1", "--below-deg", "9"], 2, "cannot be used with");
+    said(&["--walls", "2000"], 2, "--walls: further walls are evaluated towards a level; name one");
     said(&["--measured"], 3, "no collapse angle in measured.csv");
+    folder.write_study(STUDY);
+    said(&["--known-cov", "0.1"], 2, "observes a displacement");
     let alone =
         STUDY.replace("members = 8\narrangement = \"coursed\"", "members = 1\narrangement = \"continuous\"");
     let alone = &alone[..alone.find("length_m = {").unwrap()];

@@ -3,10 +3,11 @@
 
 use serde::Serialize;
 
-use crate::stats::{DESIGN_PROBABILITY, Shape, Variation, below_mean, predictive_factor, tolerance_factor};
+use crate::stats::{
+    CHARACTERISTIC_PROBABILITY, DESIGN_PROBABILITY, Shape, Variation, below_mean, predictive_factor,
+    tolerance_factor,
+};
 
-/// Share of walls, or probability for the next one, below a characteristic value (EN 1990).
-pub const CHARACTERISTIC: f64 = 0.05;
 /// Confidence of a tolerance limit.
 const CONFIDENCE: f64 = 0.95;
 
@@ -43,8 +44,8 @@ impl Supported {
         let some = |of: &dyn Fn() -> Option<f64>| if n == 0 { None } else { at(of()) };
         Supported {
             shape,
-            characteristic: some(&|| predictive_factor(n, CHARACTERISTIC, variation)),
-            tolerance_95_95: some(&|| tolerance_factor(n, CHARACTERISTIC, CONFIDENCE, variation)),
+            characteristic: some(&|| predictive_factor(n, CHARACTERISTIC_PROBABILITY, variation)),
+            tolerance_95_95: some(&|| tolerance_factor(n, CHARACTERISTIC_PROBABILITY, CONFIDENCE, variation)),
             design: some(&|| predictive_factor(n, DESIGN_PROBABILITY, variation)),
         }
     }
