@@ -195,7 +195,7 @@ fn extended_by_an_offset(folder: &Folder) -> Vec<u8> {
     let text = fs::read_to_string(written.join("study.toml")).unwrap();
     for part in [
         "# Made by `pirca diagnose` from the study \"tiny\", seed 7.\n",
-        "#   mechanism.gauge_offset.offset_m  0.002999 [0.00299",
+        "#   mechanism.gauge_offset.offset_m  0.003000 [0.00299",
         "#   arm.tower.joint.kn_pa_per_m",
         "\n[mechanism.gauge_offset]\noffset_m = 0.00299",
         "\nname = \"draw-20\"\n",

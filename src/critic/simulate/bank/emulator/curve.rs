@@ -21,11 +21,10 @@ use crate::stats;
 
 /// Variance of the polynomial's coefficients.
 const WIDE: f64 = 10.0;
-/// The first inputs are the joints'.
+/// The first inputs are the joints': walls answer to them smoothly.
 const JOINTS: usize = 3;
-/// Lengths (in scores) over which walls answer to them that are tried: smoothly, or otherwise beyond some friction or stiffness, where
-/// walls fall in another way.
-const JOINT_LENGTHS: [f64; 3] = [1.0, 2.0, 5.0];
+/// Length over which they do (in scores).
+const SMOOTH: f64 = 5.0;
 /// Lengths that are tried for the other inputs, and sizes of what a polynomial misses; none at all is tried as well.
 const LENGTHS: [f64; 3] = [0.7, 1.5, 3.0];
 const SIZES: [f64; 3] = [3.0, 30.0, 300.0];
@@ -39,7 +38,6 @@ pub(super) struct Shape {
     degree: usize,
     size: f64,
     length: f64,
-    joint_length: f64,
 }
 
 /// Curves of some of the numbers, of one shape.
@@ -168,22 +166,17 @@ impl Fitted {
 }
 
 impl Shape {
-    /// Those with a polynomial of a degree. Without other inputs than the joints' their length alone is tried.
+    /// Those with a polynomial of a degree; what a cause does not change is smooth.
     fn tried(degree: usize, inputs: usize) -> Vec<Shape> {
-        let alone = Shape { degree, size: 0.0, length: 1.0, joint_length: 1.0 };
-        let lengths = if inputs > JOINTS { &LENGTHS[..] } else { &LENGTHS[..1] };
-        let pairs =
-            lengths.iter().flat_map(|&length| JOINT_LENGTHS.map(|joint_length| (length, joint_length)));
-        let beside = pairs.flat_map(|(length, joint_length)| {
-            SIZES.map(|size| Shape { degree, size, length, joint_length })
-        });
-        std::iter::once(alone).chain(beside).collect()
+        let alone = Shape { degree, size: 0.0, length: 1.0 };
+        let beside = SIZES.iter().flat_map(|&size| LENGTHS.map(|length| Shape { degree, size, length }));
+        std::iter::once(alone).chain(beside.filter(|_| inputs > JOINTS)).collect()
     }
 
     pub(super) fn squared_distance(&self, one: &[f64], other: &[f64]) -> f64 {
         let pairs = one.iter().zip(other).enumerate();
         pairs.fold(0.0, |sum, (k, (a, b))| {
-            let length = if k < JOINTS { self.joint_length } else { self.length };
+            let length = if k < JOINTS { SMOOTH } else { self.length };
             let off = (a - b) / length;
             sum + off * off
         })
