@@ -13,30 +13,20 @@ use crate::truth::designs::Design;
 use crate::truth::label::Label;
 use crate::truth::roster::{root, roster};
 
-/// A share of the roster that they are in.
-const SHARE: f64 = 0.1;
-/// By their seeds, with what is said of them by the designs [`Design::ALL`].
-const KEPT: [(u64, [Word; Design::ALL.len()]); 8] = [
-    // end_release, strong
-    (3_685_888_843_546_938, [Word::Named, Word::Named]),
-    // gauge_offset, strong
-    (3_653_885_504_365_434, [Word::Named, Word::Named]),
-    // joint_closure, strong
-    (4_462_549_361_783_095, [Word::Ambiguous, Word::Named]),
-    // rope_slack, strong
-    (57_672_123_557_404, [Word::NothingFound, Word::Named]),
-    // specimen_scatter, middle
-    (1_416_242_287_071_566, [Word::Ambiguous, Word::Named]),
-    // nothing
-    (1_352_524_665_583_362, [Word::NothingFound, Word::NothingFound]),
-    // joints other than thought
-    (3_763_932_759_429_356, [Word::NothingFound, Word::NothingFound]),
-    // soft_left
-    (2_961_466_872_670_822, [Word::NothingFound, Word::Unexplained]),
+/// By their kinds, of which each is the first, with what is said of them by the designs.
+const KEPT: [(&str, [Word; Design::ALL.len()]); 8] = [
+    ("end_release strong", [Word::Ambiguous, Word::Named]),
+    ("gauge_offset strong", [Word::Named, Word::NamedOutsidePrior]),
+    ("joint_closure strong", [Word::Unexplained, Word::Named]),
+    ("rope_slack strong", [Word::Ambiguous, Word::Named]),
+    ("lean 4 out", [Word::NamedOutsidePrior, Word::Unexplained]),
+    ("nothing", [Word::NothingFound, Word::NothingFound]),
+    ("prior wrong", [Word::NothingFound, Word::NothingFound]),
+    ("soft_left", [Word::NothingFound, Word::Unexplained]),
 ];
 
 #[test]
-#[ignore = "by hand, with the bank of studies/hidden-effects: eight campaigns of nine walls are solved and judged"]
+#[ignore = "slow: eight campaigns of nine walls are solved and judged, three minutes of processor time"]
 fn what_was_said_of_some_campaigns_of_nine_walls_is_still_said() {
     let folders =
         Folders { out: Path::new(env!("CARGO_TARGET_TMPDIR")).join("kept-campaigns"), is_whole: false };
@@ -44,8 +34,9 @@ fn what_was_said_of_some_campaigns_of_nine_walls_is_still_said() {
         // Verdicts of another day are not today's.
         fs::remove_dir_all(&folders.out).expect("the folder is the test's own");
     }
-    let kept = |label: &Label| KEPT.iter().find(|(seed, _)| *seed == label.seed);
-    let mut labels = roster(&|_| SHARE, MASTER, &BTreeMap::new());
+    let kept = |label: &Label| KEPT.iter().find(|(kind, _)| *kind == label.kind());
+    // The first of each kind.
+    let mut labels = roster(&|_| 0.0, MASTER, &BTreeMap::new());
     labels.retain(|label| kept(label).is_some());
     let (names, _) = hidden(&folders, &loaded().study, &labels, "kept");
     assert_eq!(names.len(), KEPT.len(), "they are in the roster, and can be solved");
@@ -58,7 +49,7 @@ fn what_was_said_of_some_campaigns_of_nine_walls_is_still_said() {
         for (design, word) in Design::ALL.iter().zip(words) {
             let said = &verdicts[design.name()];
             assert_eq!(said.verdict, *word, "{}: {label:?} {said:?}", design.name());
-            if matches!(word, Word::Named | Word::Ambiguous) {
+            if matches!(word, Word::Named | Word::NamedOutsidePrior | Word::Ambiguous) {
                 assert!(said.names.contains(&label.hidden[0].name), "{}: {label:?} {said:?}", design.name());
             }
         }

@@ -280,7 +280,7 @@ pub fn stages(
         let unsolved: Vec<String> = unsolved.iter().map(|(kind, count)| format!("{kind} {count}")).collect();
         let text = format!(
             "{SHARE}{share}. {MADE}{} of {}. Groups that stopped before the last: {}. Campaigns judged: {}; laws learnt: {}; \
-             not solved, and others drawn in their place: {}. Bank: {POINTS} points, design {}. Secret of the seals: {secret}.\n\n\
+             not solved, and up to eight others of a kind drawn in their place: {}. Bank: {POINTS} points, design {}. Secret of the seals: {secret}.\n\n\
              What is as wanted is in bold; the README says how to read it.\n\n{}\n## All lines\n\n{}",
             now + 1,
             LOOKS.len(),
