@@ -225,6 +225,8 @@ pub(crate) enum Measure {
     Opening,
     /// How far they have slipped.
     Slip,
+    /// How hard the blocks press on each other, over the whole area of the joint.
+    Stress,
 }
 
 /// A magnification: above 0, and no more than anything could need.
@@ -435,7 +437,7 @@ pub(crate) enum SolverName {
 }
 
 /// Arguments of `analyse`.
-#[derive(Args, Debug)]
+#[derive(Clone, Args, Debug)]
 pub(crate) struct Analyse {
     /// The wall: a .json or .obj file.
     pub wall: PathBuf,
@@ -455,6 +457,9 @@ pub(crate) struct Analyse {
         help_heading = LOAD
     )]
     pub direction: Direction,
+    /// Look for the horizontal direction in which the wall bears least, and answer for that one.
+    #[arg(long, conflicts_with = "direction", help_heading = LOAD)]
+    pub worst_direction: bool,
     /// Friction angle of the joints (deg), 0 to 89.
     #[arg(long, value_name = "F", value_parser = analyse::friction_angle, allow_negative_numbers = true, help_heading = JOINTS)]
     pub phi_deg: f64,
@@ -490,6 +495,12 @@ pub(crate) struct Analyse {
     /// Density (kg/m^3) of the objects of an OBJ file that have no density comment [default: 2400, with a warning].
     #[arg(long, value_name = "F", value_parser = analyse::density, allow_negative_numbers = true, help_heading = FILE)]
     pub density_kg_per_m3: Option<f64>,
+    /// Folder for a picture of the mechanism, files for ParaView (.vtu), and tables of blocks and joints (.csv, .json).
+    #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
+    pub out: Option<PathBuf>,
+    /// What joints are coloured by in the picture.
+    #[arg(long, value_name = "NAME", default_value = "opening", requires = "out", help_heading = OUTPUT)]
+    pub colour: Measure,
     /// Print one JSON object on standard output instead of text.
     #[arg(long, help_heading = OUTPUT)]
     pub json: bool,

@@ -7,6 +7,7 @@ mod capacity;
 mod check;
 mod diagnose;
 mod doing;
+mod drawn;
 mod elements;
 mod failure;
 mod generate;

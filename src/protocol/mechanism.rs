@@ -79,6 +79,10 @@ pub struct JointState {
     pub slipped: f64,
     /// Share of its area that is crushed.
     pub crushed: f64,
+    /// Force (N, world axes) on the second of its blocks.
+    pub force: Vec3,
+    /// The part of that force across the joint over its area (Pa): positive where the blocks press on each other.
+    pub pressure: f64,
 }
 
 /// The mechanism from two moments of the runaway.
@@ -219,6 +223,8 @@ pub fn joint_states(assembly: &Assembly<'_>, at_rest: &[Body]) -> Vec<JointState
             // Back to where the joint's middle was on either block.
             let came = |id: u32| place - carried(&now[id as usize], &at_rest[id as usize], place);
             let relative = came(a) - came(b);
+            let carried = joint.carried(now);
+            let second = assembly.bodies.carriers[upper as usize] as u32 == a;
             JointState {
                 blocks: [lower, upper],
                 place: place + assembly.bodies.origin,
@@ -227,6 +233,8 @@ pub fn joint_states(assembly: &Assembly<'_>, at_rest: &[Body]) -> Vec<JointState
                 slip: (relative - normal * relative.dot(&normal)).norm(),
                 slipped: joint.slipped_share(),
                 crushed: joint.crushed_share(now),
+                force: if second { carried } else { -carried },
+                pressure: carried.dot(&normal) / joint.area(),
             }
         })
         .collect()

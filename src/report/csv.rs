@@ -70,7 +70,7 @@ pub(super) fn ends(interval: Option<[f64; 2]>) -> [String; 2] {
 }
 
 /// A name as a CSV field (RFC 4180).
-pub(super) fn quoted(name: &str) -> String {
+pub(crate) fn quoted(name: &str) -> String {
     match name.contains([',', '"', '\n', '\r']) {
         true => format!("\"{}\"", name.replace('"', "\"\"")),
         false => name.to_string(),

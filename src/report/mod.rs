@@ -44,6 +44,7 @@ pub use capacity::{
     write_capacity,
 };
 pub use compare::{Basis, Comparison};
+pub(crate) use csv::quoted;
 pub use diagnosis::{DataEntry, DiagnosisSummary, FamilyFigure, diagnosis_text, write_diagnosis};
 pub use elements::{element_table, write_elements};
 pub use extended::{EXTENDED, Origin, extended_name, remove_extended, write_extended};

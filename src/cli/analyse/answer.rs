@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::cli::analyse::meetings::Fit;
+use crate::cli::analyse::worst::Tried;
 use crate::cli::arguments::{Analyse, LoadName};
 use crate::exchange::WallFile;
 use crate::math::{atan, degrees, radians, tan};
@@ -87,7 +88,7 @@ impl Answer {
         asked: &Analyse,
         file: &WallFile,
         fit: &Fit,
-        warnings: &[String],
+        (warnings, directions): (&[String], &[Tried]),
         seconds: f64,
     ) -> Value {
         let (angle, multiplier) = self.collapse();
@@ -105,6 +106,9 @@ impl Answer {
             "load": asked.load.name(),
             "direction": asked.direction.to_string(),
             "direction_deg": asked.direction.angle_deg(),
+            "directions": (!directions.is_empty()).then(|| {
+                directions.iter().map(|of| json!({ "direction_deg": of.direction_deg, "bears": of.bears })).collect::<Vec<_>>()
+            }),
             "blocks": file.wall.blocks.len(),
             "joints": fit.joints,
             "mechanism": ids(&self.moving),
@@ -115,8 +119,8 @@ impl Answer {
         })
     }
 
-    /// The same for people: what came out, what that number is, what moves, and then the rest.
-    pub fn text(&self, asked: &Analyse, file: &WallFile, fit: &Fit, seconds: f64) -> String {
+    /// What came out, in a sentence.
+    pub fn headline(&self, asked: &Analyse) -> String {
         let to = asked.direction;
         let said = match (&self.outcome, asked.load, self.collapse()) {
             (_, _, (Some(angle), _)) => {
@@ -134,7 +138,13 @@ impl Answer {
             }
             (other, ..) => format!("is {}: {}", self.name().replace('_', " "), other.reason()),
         };
-        let mut text = format!("The wall {said}.\n  {} solver: {}\n", asked.solver.name(), self.meaning);
+        format!("The wall {said}.")
+    }
+
+    /// The same for people: what came out, what that number is, what moves, and then the rest.
+    pub fn text(&self, asked: &Analyse, file: &WallFile, fit: &Fit, seconds: f64) -> String {
+        let mut text =
+            format!("{}\n  {} solver: {}\n", self.headline(asked), asked.solver.name(), self.meaning);
         if let Some([low, high]) = self.shown_bracket(asked) {
             let unit = if asked.load == LoadName::Tilt { "deg" } else { "of its weight" };
             text.push_str(&format!("  bracket: {low:.4} to {high:.4} {unit}\n"));

@@ -2,6 +2,7 @@
 
 use crate::cli::analyse::answer::Answer;
 use crate::cli::analyse::meetings::Fit;
+use crate::cli::analyse::state::State;
 use crate::cli::arguments::{Analyse, FlowName, LoadName, MethodName};
 use crate::cli::doing::doing;
 use crate::contact;
@@ -45,12 +46,18 @@ pub(crate) fn law(arguments: &Analyse) -> Coulomb {
 }
 
 /// Solves the wall as asked.
-pub(crate) fn solve(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit) -> Answer {
+pub(crate) fn solve(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit) -> (Answer, State) {
     let what = format!("solving {} blocks by the {} solver", wall.blocks.len(), arguments.solver.name());
     doing(&what, |doing| solve_telling(arguments, wall, law, fit, &|level| doing.at(level)))
 }
 
-fn solve_telling(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit, tell: &dyn Fn(Level)) -> Answer {
+pub(crate) fn solve_telling(
+    arguments: &Analyse,
+    wall: &Wall,
+    law: &Coulomb,
+    fit: &Fit,
+    tell: &dyn Fn(Level),
+) -> (Answer, State) {
     match arguments.solver {
         MethodName::Limit => by_limit_analysis(arguments, wall, law, fit),
         MethodName::Implicit => {
@@ -59,11 +66,12 @@ fn solve_telling(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit, tel
             let mut at_rest = Equilibrium::new(wall, law, settings, task.contact);
             at_rest.settle(&mut |_| false);
             let loose = Some(at_rest.loose().iter().map(|&i| i as usize).collect());
-            Answer { loose, ..by_steps(drive_telling(&task, &Solver::Implicit(settings), tell)) }
+            let (answer, state) = by_steps(wall, drive_telling(&task, &Solver::Implicit(settings), tell));
+            (Answer { loose, ..answer }, state)
         }
         MethodName::Explicit => {
             let solver = Solver::Explicit(explicit::Settings::default());
-            by_steps(drive_telling(&task(arguments, wall, law, fit), &solver, tell))
+            by_steps(wall, drive_telling(&task(arguments, wall, law, fit), &solver, tell))
         }
     }
 }
@@ -90,8 +98,9 @@ fn task<'t>(arguments: &Analyse, wall: &'t Wall, law: &'t Coulomb, fit: &Fit) ->
     }
 }
 
-fn by_steps(run: Run) -> Answer {
-    Answer {
+fn by_steps(wall: &Wall, run: Run) -> (Answer, State) {
+    let state = State::after(wall, &run);
+    let answer = Answer {
         clamped: Vec::new(),
         between: None,
         moving: run.failure.map_or_else(Vec::new, |f| f.moving.iter().map(|&i| i as usize).collect()),
@@ -99,10 +108,11 @@ fn by_steps(run: Run) -> Answer {
         bracket: run.bracket,
         meaning: format!("the largest load borne on the way, {} load steps", run.steps.len()),
         outcome: run.outcome,
-    }
+    };
+    (answer, state)
 }
 
-fn by_limit_analysis(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit) -> Answer {
+fn by_limit_analysis(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit) -> (Answer, State) {
     let flow = match arguments.flow.unwrap_or(FlowName::Associative) {
         FlowName::Associative => limit::Flow::Associative,
         FlowName::NonAssociative => limit::Flow::NonAssociative,
@@ -119,21 +129,19 @@ fn by_limit_analysis(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit)
         motion.velocity.norm() + motion.spin.norm() * 0.5 * block.shape.diameter()
     };
     let fastest = (0..found.mechanism.len()).map(speed).fold(0.0, f64::max);
-    Answer {
+    // What a solver leaves where nothing collapses is no mechanism.
+    let falls = matches!(found.outcome, Outcome::Collapsed { .. } | Outcome::UnstableAtRest);
+    let state = State::at_limit(wall, &fit.contact, &found, falls);
+    let answer = Answer {
         clamped: clamped(&analysis, wall, &found.outcome),
         between: found.between,
         bracket: None,
-        // What a solver leaves where nothing collapses is no mechanism.
-        moving: match found.outcome {
-            Outcome::Collapsed { .. } | Outcome::UnstableAtRest => {
-                (0..found.mechanism.len()).filter(|&i| speed(i) > MOVES * fastest).collect()
-            }
-            _ => Vec::new(),
-        },
+        moving: (0..found.mechanism.len()).filter(|&i| falls && speed(i) > MOVES * fastest).collect(),
         loose: None,
         meaning: format!("{}: {}", arguments.flow.unwrap_or(FlowName::Associative).name(), flow.meaning()),
         outcome: found.outcome,
-    }
+    };
+    (answer, state)
 }
 
 /// The blocks that stand at rest only by forces that no weight causes.

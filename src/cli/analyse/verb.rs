@@ -5,14 +5,17 @@ use std::time::Instant;
 use serde_json::json;
 
 use crate::cli::analyse::meetings::{Fit, bounds, look};
-use crate::cli::analyse::solve::{law, solve};
-use crate::cli::analyse::upright;
-use crate::cli::arguments::UpName;
-use crate::cli::arguments::{Analyse, FlowName, LoadName, MethodName};
+use crate::cli::analyse::solve::{law, solve, solve_telling};
+use crate::cli::analyse::worst::{Tried, tried, weakest};
+use crate::cli::analyse::{files, upright};
+use crate::cli::arguments::{Analyse, FlowName, LoadName, MethodName, UpName};
+use crate::cli::doing::doing;
 use crate::cli::failure::Failure;
 use crate::cli::output;
 use crate::exchange::{ReadOptions, Unit, Up, WallFaults, WallFile, read_wall};
+use crate::law::Coulomb;
 use crate::model::{Outcome, Support, Wall};
+use crate::protocol::Direction;
 use crate::solve::STANDARD_GRAVITY;
 
 /// A prestress above this share of the pressure under the wall's own weight is worth a warning.
@@ -39,7 +42,10 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
     warnings.extend(fit.warnings.iter().cloned());
     warnings.extend(prestress(arguments, &file.wall, &fit));
     let law = law(arguments);
-    let answer = solve(arguments, &file.wall, &law, &fit);
+    let directions = directions(arguments, &file.wall, &law, &fit);
+    let towards = weakest(&directions).map_or(arguments.direction, |of| Direction::at(of.direction_deg));
+    let arguments = &Analyse { direction: towards, ..arguments.clone() };
+    let (answer, state) = solve(arguments, &file.wall, &law, &fit);
     warnings.extend(answer.warning(&file));
     if answer.outcome == Outcome::UnstableAtRest {
         warnings.extend(upright::question(
@@ -51,11 +57,38 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
         ));
     }
     let seconds = begun.elapsed().as_secs_f64();
+    let object = answer.object(arguments, &file, &fit, (&warnings, &directions), seconds);
+    if let Some(folder) = &arguments.out {
+        files::write(folder, arguments, (&file, &fit), (&answer, &state), &object)?;
+    }
     if arguments.json {
-        return output::print_json(&answer.object(arguments, &file, &fit, &warnings, seconds));
+        return output::print_json(&object);
     }
     warnings.iter().for_each(|warning| output::note(&format!("warning: {warning}")));
-    output::print(&answer.text(arguments, &file, &fit, seconds))
+    let mut text = answer.text(arguments, &file, &fit, seconds);
+    if arguments.worst_direction {
+        text += &match weakest(&directions) {
+            Some(_) => format!("  the weakest of {} directions that were tried\n", directions.len()),
+            None => format!("  it falls in none of {} directions that were tried\n", directions.len()),
+        };
+    }
+    if let Some(folder) = &arguments.out {
+        text += &format!("written to {}\n", folder.display());
+    }
+    output::print(&text)
+}
+
+/// All directions that are tried where the weakest one is asked for, with what the wall bears in each.
+fn directions(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit) -> Vec<Tried> {
+    if !arguments.worst_direction {
+        return Vec::new();
+    }
+    doing("looking for the weakest direction", |_| {
+        tried(&|direction| {
+            let towards = Analyse { direction, ..arguments.clone() };
+            solve_telling(&towards, wall, law, fit, &|_| ()).0.outcome
+        })
+    })
 }
 
 /// The file, fit to be solved.

@@ -33,7 +33,7 @@ pub struct Seam {
     pub blocks: [usize; 2],
     /// Its polygon as built (m, world axes), in order around.
     pub polygon: Vec<Vec3>,
-    /// What it is coloured by (m).
+    /// What it is coloured by (SI units).
     pub value: f64,
 }
 
@@ -46,6 +46,8 @@ pub struct Picture {
     pub seams: Vec<Seam>,
     /// What their values are, for the colour bar: "largest opening of a joint".
     pub measure: String,
+    /// The unit in which the colour bar shows them, and how many of it make one of theirs.
+    pub unit: (&'static str, f64),
     /// Whether the wall is seen from its front (+y).
     pub from_front: bool,
     /// Magnification of the movement.
@@ -81,7 +83,7 @@ impl Stone {
     }
 
     /// The block where it is drawn.
-    pub(super) fn drawn(&self, magnification: f64) -> Polyhedron {
+    pub fn drawn(&self, magnification: f64) -> Polyhedron {
         Polyhedron {
             vertices: self.taking(&self.shape.vertices, magnification),
             faces: self.shape.faces.clone(),

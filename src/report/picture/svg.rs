@@ -128,7 +128,7 @@ impl Picture {
         polygon(&canvas.path(points), &fill, &fill, 0.7)
     }
 
-    /// The colour bar with its ends (mm).
+    /// The colour bar with its ends.
     fn bar(&self, top: f64, largest: f64) -> String {
         let (width, tall) = (360.0, 14.0);
         let step = width / STEPS as f64;
@@ -143,12 +143,12 @@ impl Picture {
             );
         }
         for share in [0.0, 0.5, 1.0] {
-            let value = significant(1e3 * share * largest, 2);
+            let value = significant(self.unit.1 * share * largest, 2);
             let value = if share == 0.0 { "0".to_string() } else { value };
             text += &label(MARGIN + share * width, top + tall + 17.0, 14, &value);
         }
         let beside = MARGIN + width + 40.0;
-        text += &label(beside, top + tall - 2.0, 14, &format!("mm: {}", self.measure));
+        text += &label(beside, top + tall - 2.0, 14, &format!("{}: {}", self.unit.0, self.measure));
         let least = format!("below {} % of the largest not coloured", 100.0 * LEAST);
         text + &label(beside, top + tall + 17.0, 14, &least)
     }

@@ -28,6 +28,7 @@ fn picture() -> Picture {
         seams: vec![bed([0, 1], 0.5, 1e-3), bed([0, 2], 0.0, 4e-3)],
         stones,
         measure: "opening".to_owned(),
+        unit: ("mm", 1e3),
         from_front: true,
         magnification: 1.0,
         title: "a < b & c".to_owned(),

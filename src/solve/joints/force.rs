@@ -46,6 +46,17 @@ impl Joint {
         self.add(bodies, &pose, &sums);
     }
 
+    /// The force (N, world axes) on the incident body as the joint stands, with the shear that it remembers.
+    pub fn carried(&self, bodies: &[Body]) -> Vec3 {
+        let pose = self.pose(bodies);
+        if self.is_wide_open(&pose.gap) {
+            return Vec3::zeros();
+        }
+        // What is summed is remembered, and nothing that is only looked at may change.
+        let sums = self.clone().sums(&pose.gap, &Motion::default(), &mut Vec::new());
+        pose.world(sums.pressure.force, sums.shear.force)
+    }
+
     /// What the next step starts from.
     pub(super) fn anchor(&self, bodies: &[Body]) -> Anchor {
         let pose = self.pose(bodies);

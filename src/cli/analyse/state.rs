@@ -1,0 +1,98 @@
+//! What a solver leaves of a wall: where its blocks are, how they fall, what its joints do and carry. The same for all solvers.
+
+use std::collections::BTreeMap;
+
+use crate::cli::drawn::stones;
+use crate::contact::{self, Patch, find_patch};
+use crate::math::Vec3;
+use crate::model::{Block, Wall};
+use crate::protocol::{JointState, Run};
+use crate::report::{Movement, Stone};
+use crate::solve::limit::{BlockMotion, Limit};
+
+/// A block that slips or opens by less than this share of the fastest corner does neither (rounding of the conic solver).
+const STILL: f64 = 1e-6;
+
+/// A wall as a solver left it.
+pub(crate) struct State {
+    /// The blocks; their movement is the mechanism where `falls`, and what they moved to where they rest otherwise.
+    pub stones: Vec<Stone>,
+    /// Whether there is a mechanism.
+    pub falls: bool,
+    /// The joints: at the last state at rest; of limit analysis with the forces of the state found, and with the openings and slips
+    /// of a mechanism whose fastest corner moves by 1 m.
+    pub joints: Vec<JointState>,
+}
+
+impl State {
+    /// After steps of the load.
+    pub fn after(wall: &Wall, run: &Run) -> State {
+        State { stones: stones(wall, run), falls: run.failure.is_some(), joints: run.joint_states.clone() }
+    }
+
+    /// Of a limit analysis; `falls` says whether what it left is a mechanism.
+    pub fn at_limit(wall: &Wall, settings: &contact::Settings, found: &Limit, falls: bool) -> State {
+        let movements = movements(wall, found);
+        let movement = |id: usize| if falls { movements[id] } else { Movement::NONE };
+        let stone = |(id, block): (usize, &Block)| Stone {
+            shape: block.shape.clone(),
+            before: Movement::NONE,
+            movement: movement(id),
+        };
+        let stones: Vec<Stone> = wall.blocks.iter().enumerate().map(stone).collect();
+        let joints = found.thrust.iter().filter_map(|thrust| {
+            let [a, b] = [thrust.blocks.0 as usize, thrust.blocks.1 as usize];
+            let patch = find_patch(&wall.blocks[a].shape, &wall.blocks[b].shape, settings)?;
+            Some(joint(&stones, [a, b], &patch, thrust.force))
+        });
+        State { joints: joints.collect(), stones, falls }
+    }
+}
+
+/// How every block moves in the mechanism. The parts of a stone turn about its centroid, not about their own.
+fn movements(wall: &Wall, found: &Limit) -> Vec<Movement> {
+    let leads = wall.leads();
+    let mut stones: BTreeMap<usize, (f64, Vec3)> = BTreeMap::new();
+    for (block, lead) in wall.blocks.iter().zip(&leads) {
+        let mass = block.density * block.shape.volume();
+        let stone = stones.entry(*lead).or_insert((0.0, Vec3::zeros()));
+        *stone = (stone.0 + mass, stone.1 + block.shape.mass_properties().centroid * mass);
+    }
+    let of = |((block, lead), motion): ((&Block, &usize), &BlockMotion)| {
+        let (mass, moment) = stones[lead];
+        let own = block.shape.mass_properties().centroid;
+        let off = if mass > 0.0 { own - moment / mass } else { Vec3::zeros() };
+        Movement { shift: motion.velocity + motion.spin.cross(&off), turn: motion.spin }
+    };
+    wall.blocks.iter().zip(&leads).zip(&found.mechanism).map(of).collect()
+}
+
+/// A joint of a mechanism: how its blocks part and slip over it, and what the second one gets.
+fn joint(stones: &[Stone], blocks: [usize; 2], patch: &Patch, force: Vec3) -> JointState {
+    let speed = |id: usize, point: &Vec3| {
+        let (stone, movement) = (&stones[id], stones[id].movement);
+        movement.shift + movement.turn.cross(&(point - stone.shape.mass_properties().centroid))
+    };
+    let (incident, reference) =
+        if patch.reference_is_second { (blocks[0], blocks[1]) } else { (blocks[1], blocks[0]) };
+    let normal = patch.plane.normal;
+    let parted = |point: &Vec3| (speed(incident, point) - speed(reference, point)).dot(&normal);
+    let moments = patch.polygon.moments();
+    let place = patch.frame.lift(moments.centroid());
+    let corners = patch.polygon.vertices.iter().map(|&st| patch.frame.lift(st));
+    let opening = corners.map(|corner| parted(&corner)).fold(0.0, f64::max);
+    let relative = speed(incident, &place) - speed(reference, &place);
+    let slip = (relative - normal * relative.dot(&normal)).norm();
+    let on_incident = if incident == blocks[1] { force } else { -force };
+    JointState {
+        blocks: blocks.map(|id| id as u32),
+        place,
+        area: moments.area,
+        opening: if opening > STILL { opening } else { 0.0 },
+        slip: if slip > STILL { slip } else { 0.0 },
+        slipped: if slip > STILL { 1.0 } else { 0.0 },
+        crushed: 0.0,
+        force,
+        pressure: on_incident.dot(&normal) / moments.area,
+    }
+}
