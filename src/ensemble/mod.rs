@@ -26,7 +26,7 @@ pub use files::replace_file;
 pub use manifest::Manifest;
 pub use progress::{Progress, Silent};
 pub use quantity::{Observed, Quantity};
-pub use rare::{Draw, RareWalls};
+pub use rare::{DRAWS, Draw, RareDraws, RareWalls};
 pub use record::{LimitAnalysis, Mechanism, Row, ShearRow, StepRow};
 pub use run::{Settings, run, run_with};
 pub(crate) use table::parquet;

@@ -13,6 +13,7 @@ mod fragility;
 mod kolmogorov;
 mod moments;
 mod order;
+mod randomised;
 mod ratio;
 mod reference;
 mod seeded;
@@ -29,6 +30,7 @@ pub use fragility::{EmpiricalStep, clopper_pearson, clopper_pearson_at, dkw_half
 pub use kolmogorov::{ks_p_value, ks_statistic};
 pub use moments::{cov, mean, sigma, sum};
 pub use order::{predictive_quantile, quantile, quantile_interval, smallest};
+pub use randomised::{Sample, by_randomisations};
 pub use ratio::{paired_ratio_of_means, ratio_of_means};
 pub use reference::student_quantile;
 pub use seeded::spread_bootstrap;

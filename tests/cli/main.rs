@@ -26,4 +26,5 @@ mod records;
 mod scratch;
 mod spreadsheets;
 mod study;
+mod uncertain;
 mod walls;

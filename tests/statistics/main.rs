@@ -9,6 +9,7 @@ mod families;
 mod order;
 mod published_tables;
 mod rand_distr_agrees;
+mod randomised;
 mod rare;
 mod ratios;
 mod support;
