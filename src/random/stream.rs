@@ -39,7 +39,8 @@ pub struct Streams {
     pub taken: Option<Arc<Taken>>,
 }
 
-/// Quantities of which a member has the numbers of another one, for pick-freeze estimates.
+/// Quantities of which a member has the numbers of another one, for pick-freeze estimates; see
+/// [`influence`](crate::stats::influence).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Taken {
     /// Which quantities.

@@ -10,6 +10,7 @@ mod bootstrap;
 mod characteristic;
 mod estimate;
 mod fragility;
+mod influence;
 mod kolmogorov;
 mod moments;
 mod order;
@@ -27,6 +28,7 @@ pub use characteristic::{
 };
 pub use estimate::Estimate;
 pub use fragility::{EmpiricalStep, clopper_pearson, clopper_pearson_at, dkw_half_width, empirical};
+pub use influence::{BasePoint, Influence, Share, influence};
 pub use kolmogorov::{ks_p_value, ks_statistic};
 pub use moments::{cov, mean, sigma, sum};
 pub use order::{predictive_quantile, quantile, quantile_interval, smallest};

@@ -44,6 +44,18 @@ pub(super) fn jackknife_error(without: &[f64]) -> f64 {
     ((count - 1.0) / count * sum(&squares)).sqrt()
 }
 
+/// Interval of a quantile between two others: those at the ends of the interval of the share of values up to it (Woodruff 1952). `None`
+/// where that share may be 0 or 1.
+fn between_quantiles(shared: &[Vec<f64>], all: &[f64], value: f64) -> Option<[f64; 2]> {
+    let up_to = |values: &[f64]| values.iter().filter(|x| **x <= value).count() as f64 / values.len() as f64;
+    let [low, high] =
+        by_randomisations(shared, |values| (!values.is_empty()).then(|| up_to(values))).interval?;
+    if low <= 0.0 || high >= 1.0 {
+        return None;
+    }
+    Some([quantile(all, low)?, quantile(all, high)?])
+}
+
 /// The same interval on the logarithm, for what is above 0; as it was where its value is not.
 fn above_0(Estimate { value, interval }: Estimate) -> Estimate {
     let interval = value.zip(interval).map(|(value, [low, high])| match value > 0.0 {
@@ -103,7 +115,9 @@ impl Sample {
     /// Standard error of the mean; 0 where there are too few values to tell it.
     pub fn error_of_mean(&self) -> f64 {
         match self {
-            Sample::Independent(values) => sigma(values).unwrap_or(0.0) / (values.len() as f64).sqrt(),
+            Sample::Independent(values) => {
+                sigma(values).map_or(0.0, |sigma| sigma / (values.len() as f64).sqrt())
+            }
             Sample::Randomised(shared) => {
                 let held = shared.iter().filter(|own| !own.is_empty()).count();
                 let half = by_randomisations(shared, mean).interval.map(|[low, high]| 0.5 * (high - low));
@@ -112,13 +126,17 @@ impl Sample {
         }
     }
 
-    /// The quantile at `p` of type 7 with its interval.
+    /// The quantile at `p` of type 7 with its interval; `None` where the sample does not bound it on both sides.
     pub fn quantile(&self, p: f64) -> Estimate {
         match self {
             Sample::Independent(values) => {
                 Estimate { value: quantile(values, p), interval: quantile_interval(values, p) }
             }
-            Sample::Randomised(shared) => by_randomisations(shared, |values| quantile(values, p)),
+            Sample::Randomised(shared) => {
+                let all = shared.concat();
+                let value = quantile(&all, p);
+                Estimate { value, interval: value.and_then(|value| between_quantiles(shared, &all, value)) }
+            }
         }
     }
 

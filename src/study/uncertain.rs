@@ -268,11 +268,12 @@ pub(super) fn take_up(
 ) -> Option<Arm> {
     let before = t.notes.faults.len();
     for (own, place) in &stated {
+        let is_own = draws_itself(t, own.key);
         if let Some([found, allowed, fix]) = contradiction(&arm, own, protocol) {
-            let key = join("uncertain", own.key);
+            let key = join(if is_own { &t.path } else { "" }, &format!("uncertain.{}", own.key));
             t.notes.faults.push(Fault::at(place, &key, Found::Words(found), allowed, fix));
         }
-        if let Some((place, key)) = stated_by_the_arm(t, own.key) {
+        if let Some((place, key)) = stated_by_the_arm(t, own.key).filter(|_| !is_own) {
             let found = Found::Words("is stated here, and drawn in the study's [uncertain]".to_owned());
             let fix = format!("write \"{}\" in [arm.uncertain] too, or remove it here", own.key);
             let allowed = "a number that the arm draws itself";
@@ -305,12 +306,14 @@ fn contradiction(arm: &Arm, own: &Uncertain, protocol: Option<&Protocol>) -> Opt
     }
 }
 
-/// Where an arm states a number that the study's own `[uncertain]` draws, with its path.
-fn stated_by_the_arm(t: &mut Reader<'_>, key: &str) -> Option<(Place, String)> {
+/// Whether an arm has a parameter in an `[uncertain]` of its own.
+fn draws_itself(t: &mut Reader<'_>, key: &str) -> bool {
     let draws = |node: &Node| matches!(&node.value, Value::Table(own) if own.contains_key(key));
-    if t.has("uncertain") && t.given("uncertain").is_some_and(|(node, _)| draws(&node)) {
-        return None;
-    }
+    t.has("uncertain") && t.given("uncertain").is_some_and(|(node, _)| draws(&node))
+}
+
+/// Where an arm states a number of that key, with its path.
+fn stated_by_the_arm(t: &mut Reader<'_>, key: &str) -> Option<(Place, String)> {
     let mut path = key.split('.');
     let (table, name) = (path.next()?, path.next()?);
     if table == "load" {

@@ -6,6 +6,7 @@ mod certified;
 mod characteristic;
 mod coverage;
 mod families;
+mod influence;
 mod order;
 mod published_tables;
 mod rand_distr_agrees;
