@@ -6,10 +6,10 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::cli::help::{
-    ANALYSE, BANK, CAPACITY, CHECK, DIAGNOSE, GENERATE, INIT, MEASURED, MECHANISMS, PICTURE, READINGS, RUN,
-    SENSITIVITY, WHOLE,
+    ANALYSE, BANK, CAPACITY, CHECK, DIAGNOSE, GENERATE, INFLUENCE, INIT, MEASURED, MECHANISMS, PICTURE,
+    READINGS, RUN, SENSITIVITY, WHOLE,
 };
-use crate::cli::{analyse, capacity, sensitivity};
+use crate::cli::{analyse, capacity, influence, sensitivity};
 use crate::protocol::Direction;
 
 /// Headings of the options that several verbs share.
@@ -60,6 +60,12 @@ pub(crate) enum Verb {
     /// The probability of a failure below some load, a low quantile, characteristic and design values: from simulated walls, or with --measured from tested specimens alone.
     #[command(after_help = CAPACITY)]
     Capacity(Capacity),
+    /// Say where the scatter of walls comes from.
+    ///
+    /// Shares of the variance by source: each parameter that is drawn once per wall, the layout of the stones as a whole, and what the
+    /// layout consists of.
+    #[command(after_help = INFLUENCE)]
+    Influence(Influence),
     /// Say which readings of a study explain what was published.
     ///
     /// Where a source does not say all that it did, its statements may tell which of the possible readings is meant: the study's
@@ -278,6 +284,31 @@ pub(crate) struct Capacity {
     #[arg(long, value_name = "T", help_heading = SOLUTION)]
     pub threads: Option<NonZero<usize>>,
     /// Output folder [default: runs/<study>-capacity, with -<variant> in it if one is named].
+    #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
+    pub out: Option<PathBuf>,
+}
+
+/// Arguments of `influence`.
+#[derive(Args, Debug)]
+pub(crate) struct Influence {
+    #[command(flatten)]
+    pub which: Which,
+    /// Name of the arm; without it the first whose walls are random.
+    #[arg(long, value_name = "ARM", help_heading = WALL)]
+    pub arm: Option<String>,
+    /// Number of the kn point, from 0.
+    #[arg(long, value_name = "K", default_value_t = 0, help_heading = WALL)]
+    pub point: u32,
+    /// Base points, a multiple of 16; each costs two walls and one more for every source.
+    #[arg(long, value_name = "N", default_value_t = 256, value_parser = influence::points, help_heading = STUDY)]
+    pub points: u64,
+    /// Seed instead of the study's.
+    #[arg(long, value_name = "S", help_heading = STUDY)]
+    pub seed: Option<u64>,
+    /// Worker threads [default: one per processor]. No result depends on their number.
+    #[arg(long, value_name = "T", help_heading = SOLUTION)]
+    pub threads: Option<NonZero<usize>>,
+    /// Output folder [default: runs/<study>-influence, with -<variant> in it if one is named].
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub out: Option<PathBuf>,
 }

@@ -47,6 +47,12 @@ pub(crate) fn capacity(arguments: &Capacity) -> Result<(), Failure> {
             study.name
         )));
     }
+    if study.randomisations() > 1 {
+        return Err(Failure::Input(format!(
+            "{}: what walls may be counted on rests on walls that are drawn independently; set study.design = \"plain\" for it",
+            study.name
+        )));
+    }
     let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, CAPACITY));
     let settings = Settings { out: out.clone(), threads: arguments.threads };
     let rows = ensemble::run(&study, &settings, progress::on_stderr(&study).as_ref())?;

@@ -17,7 +17,7 @@ const INDENT: usize = 10;
 /// The verbs in the order in which they are met, under what they are about.
 const GROUPS: [(&str, &[&str]); 3] = [
     ("One wall", &["analyse", "generate", "picture"]),
-    ("Many walls", &["init", "check", "run", "capacity", "readings"]),
+    ("Many walls", &["init", "check", "run", "capacity", "influence", "readings"]),
     ("Measured walls", &["measured", "sensitivity", "bank", "diagnose", "mechanisms"]),
 ];
 
@@ -109,6 +109,24 @@ Example: pirca capacity studies/tilting-table --members 100
 It writes capacity.json beside the files of the walls. Intervals are at 95 %. A wall that brings no value is counted, and the \
 interval that holds whatever it would have borne is given too. Characteristic and design values are those of EN 1990 Annex D, \
 computed and not read from its tables; the design value is undercut with a probability of 0.1 %.
+
+",
+    codes!()
+);
+
+/// Of `influence`.
+pub(super) const INFLUENCE: &str = concat!(
+    "\
+Example: pirca influence studies/tilting-block --points 64
+         pirca influence studies/tilting-table --arm sbl --points 128 --json
+
+First order: the share of the variance that would go if the source were known. Total: the share that would be left if all others \
+were known. They differ by interactions. Sources are independent of each other, as a study cannot state a correlation; so Shapley's \
+shares lie between the two and are not given. Intervals are at 95 %, over 16 independent randomisations.
+
+Walls without a value are counted; a base point that lacks one is left out of the shares that need it. It writes influence.json, \
+influence.csv, influence.parquet (every evaluation), influence.svg and influence.png. Stopped and started again, it goes on \
+where it stood, with more --points as well unless the design is a Latin hypercube.
 
 ",
     codes!()

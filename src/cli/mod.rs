@@ -11,6 +11,7 @@ mod elements;
 mod failure;
 mod generate;
 mod help;
+mod influence;
 mod init;
 mod judge;
 mod locate;
@@ -49,6 +50,7 @@ pub fn main() -> ExitCode {
         Verb::Diagnose(arguments) => diagnose::diagnose(arguments),
         Verb::Generate(arguments) => generate::generate(arguments),
         Verb::Measured(arguments) => measured::measured(arguments),
+        Verb::Influence(arguments) => influence::influence(arguments),
         Verb::Init(arguments) => init::init(arguments),
         Verb::Mechanisms(arguments) => mechanisms::mechanisms(arguments),
         Verb::Picture(arguments) => picture::picture(arguments),

@@ -47,7 +47,7 @@ impl OneWall {
 }
 
 /// The arm of that name, or the first one that is random, or else the first one.
-fn arm_index(study: &Study, name: Option<&str>) -> Result<usize, Failure> {
+pub(super) fn arm_index(study: &Study, name: Option<&str>) -> Result<usize, Failure> {
     let Some(name) = name else {
         let random = study.arms.iter().position(ensemble::is_random);
         return Ok(random.unwrap_or(0));
@@ -59,7 +59,7 @@ fn arm_index(study: &Study, name: Option<&str>) -> Result<usize, Failure> {
 }
 
 /// The joint stiffness (Pa/m) of an arm's point.
-fn kn(arm: &Arm, point: u32) -> Result<f64, Failure> {
+pub(super) fn kn(arm: &Arm, point: u32) -> Result<f64, Failure> {
     arm.kn_points.get(point as usize).copied().ok_or_else(|| {
         let points = numbered(arm.kn_points.len() as u64, "kn point");
         Failure::Usage(format!(

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::cli::failure::Failure;
 use crate::cli::output;
-use crate::ensemble::{Draw, Draws, RareWalls};
+use crate::ensemble::{DRAWS, Draw, RareDraws, RareWalls};
 use crate::report::{CapacityGroup, CapacitySummary, Question, Repeats};
 use crate::stats::subset::{Run, Settings, run};
 use crate::stats::{mean, sigma};
@@ -39,7 +39,7 @@ pub(super) fn ask(
         .iter()
         .enumerate()
         .flat_map(|(arm, own)| (0..own.kn_points.len()).map(move |point| (arm as u32, point as u32)));
-    let draws = Draws::open(out, &study.hash)?;
+    let draws = RareDraws::open(out, DRAWS, &study.hash)?;
     for ((arm, point), group) in places.zip(&mut summary.groups) {
         if !group.random || tells(group) {
             continue;

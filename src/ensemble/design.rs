@@ -25,10 +25,11 @@ pub fn plan(study: &Study) -> Vec<Task> {
     tasks
 }
 
-/// Whether the walls of an arm differ from member to member: in their stones, in their joints, or by a mechanism that draws.
+/// Whether the walls of an arm differ from member to member: in their stones, in their joints, as a whole, or by a
+/// mechanism that draws.
 pub fn is_random(arm: &Arm) -> bool {
     let drawn = |family: &Family| !matches!(family, Family::Constant { .. });
     let joint = &arm.joint;
     let drawn_joints = [&joint.kn_factor, &joint.phi_deg, &joint.cohesion].into_iter().any(drawn);
-    !arm.layout.is_fixed() || drawn_joints || arm.mechanisms.draws()
+    !arm.layout.is_fixed() || drawn_joints || arm.mechanisms.draws() || !arm.uncertain.is_empty()
 }

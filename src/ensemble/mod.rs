@@ -6,6 +6,7 @@ mod elements;
 mod error;
 mod evaluate;
 mod files;
+mod influence;
 mod journal;
 mod manifest;
 mod progress;
@@ -17,16 +18,22 @@ mod table;
 
 /// What [`build`] gives.
 pub use crate::generate::Generated;
+/// Into so many the members of a design are shared out.
+pub use crate::random::RANDOMISATIONS;
 pub use design::{Task, is_random, plan};
 pub use draws::Draws;
 pub use elements::{ElementRow, Timed, evaluate_element, run_elements};
 pub use error::{MemberFault, RunError};
 pub use evaluate::{build, evaluate, solve, weight};
 pub use files::replace_file;
+pub use influence::{
+    Evaluated, Evaluation, InfluenceWalls, Source, Wall as InfluenceWall, base_points, influence_table,
+    sources, without_value,
+};
 pub use manifest::Manifest;
 pub use progress::{Progress, Silent};
 pub use quantity::{Observed, Quantity};
-pub use rare::{Draw, RareWalls};
+pub use rare::{DRAWS, Draw, RareDraws, RareWalls};
 pub use record::{LimitAnalysis, Mechanism, Row, ShearRow, StepRow};
 pub use run::{Settings, run, run_with};
 pub(crate) use table::parquet;

@@ -20,6 +20,12 @@ const RUN: u64 = 1 << 32;
 /// Share of a wall's numbers that a move changes: a few stones, as a stone of another length shifts all that come after it.
 const MOVED: f64 = 0.2;
 
+/// Name of the file in the output folder that keeps their values.
+pub const DRAWS: &str = "draws.jsonl";
+
+/// The values that are kept.
+pub type RareDraws = Draws<Draw, Option<f64>>;
+
 /// Walls that each thread evaluates before they are kept.
 const PIECE: usize = 4;
 
@@ -55,7 +61,7 @@ pub struct RareWalls<'s> {
     /// Whether the event is a high value.
     pub is_high: bool,
     /// The values that were computed before, and are kept.
-    pub draws: &'s Draws,
+    pub draws: &'s RareDraws,
     /// Told how many more were computed.
     pub tell: &'s (dyn Fn(usize) + Sync),
 }

@@ -1,5 +1,7 @@
 //! Rows as tables: `members.parquet`, `steps.parquet` and `timing.csv`. The bytes depend on the rows alone.
 
+use std::collections::BTreeSet;
+
 use polars::prelude::{Column, DataFrame, NamedFrom, Series};
 use polars_io::prelude::ParquetWriter;
 
@@ -69,6 +71,11 @@ pub(crate) fn members(rows: &[Row]) -> Result<Vec<u8>, RunError> {
             text("shear_mode", |r| r.shear.and_then(|s| s.mode).map(|mode| mode.name().to_string())),
             real("opening_m", |r| r.shear.and_then(|s| s.opening_m)),
         ]);
+    }
+    let drawn: BTreeSet<&str> = rows.iter().flat_map(|row| row.drawn.keys().map(String::as_str)).collect();
+    for key in drawn {
+        let values: Vec<Option<f64>> = rows.iter().map(|row| row.drawn.get(key).copied()).collect();
+        columns.push(Column::from(Series::new(format!("drawn {key}").into(), values)));
     }
     parquet("members.parquet", rows.len(), columns)
 }

@@ -7,7 +7,7 @@ use crate::report::compare::{Comparison, comparisons};
 use crate::report::measured::{MeasuredSummary, measured};
 use crate::report::population::{Population, populations};
 use crate::report::published::{Published, judge_all};
-use crate::stats::{self, EmpiricalStep};
+use crate::stats::{self, EmpiricalStep, Estimate, Sample};
 use crate::study::{Arm, Study};
 
 /// What came out of a study. Intervals are at 95 %; what is not defined is null, never zero.
@@ -66,23 +66,24 @@ pub struct ArmSummary {
     pub unit: &'static str,
     /// Mean.
     pub mean: Option<f64>,
-    /// Its interval (Student's t).
+    /// Its interval (Student's t; of a design, over its randomisations, as all intervals).
     pub mean_ci: Option<[f64; 2]>,
     /// Standard deviation, n - 1 in the denominator; null for fewer than two walls.
     pub sigma: Option<f64>,
     /// Its interval (chi-square, exact for normal values).
     pub sigma_ci: Option<[f64; 2]>,
-    /// Its interval by bootstrap (BCa).
+    /// Its interval by bootstrap (BCa); null of a design.
     pub sigma_bootstrap_ci: Option<[f64; 2]>,
     /// Coefficient of variation, a fraction.
     pub cov: Option<f64>,
     /// Its interval (modified McKay, Vangel 1996).
     pub cov_ci: Option<[f64; 2]>,
-    /// Its interval by bootstrap (BCa).
+    /// Its interval by bootstrap (BCa); null of a design.
     pub cov_bootstrap_ci: Option<[f64; 2]>,
     /// Quantiles.
     pub quantiles: Vec<QuantileEntry>,
-    /// The empirical distribution of the capacity, P(collapse | load), in the quantity's unit, with its 95 % bands.
+    /// The empirical distribution of the capacity, P(collapse | load), in the quantity's unit, with its 95 % bands;
+    /// left out of a design, whose walls are not independent.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub fragility: Vec<EmpiricalStep>,
     /// Says which walls are not in the numbers; null when all are.
@@ -109,9 +110,9 @@ pub struct QuantileEntry {
 }
 
 impl QuantileEntry {
-    fn of(values: &[f64], probability: f64) -> Self {
-        let value = stats::quantile(values, probability);
-        QuantileEntry { probability, value, ci: stats::quantile_interval(values, probability) }
+    fn of(sample: &Sample, probability: f64) -> Self {
+        let Estimate { value, interval } = sample.quantile(probability);
+        QuantileEntry { probability, value, ci: interval }
     }
 }
 
@@ -150,13 +151,18 @@ pub(crate) fn describe(
     seed: u64,
     parameters: BTreeMap<String, serde_json::Value>,
 ) -> ArmSummary {
-    let values = population.complete();
+    let sample = population.sample();
     let statistics = match population.quantity {
-        Quantity::CollapseAngle | Quantity::ShearCapacity => stats::Summary::of_positive(&values),
-        Quantity::TopDisplacement => stats::Summary::of(&values),
+        Quantity::CollapseAngle | Quantity::ShearCapacity => sample.summary_of_positive(),
+        Quantity::TopDisplacement => sample.summary(),
     };
     let name = format!("{} {:e}", population.arm, population.kn);
-    let [sigma_bootstrap, cov_bootstrap] = stats::spread_bootstrap(&values, REPLICATES, seed, &name);
+    // A bootstrap draws values as independent ones, and so does a band of the distribution.
+    let [sigma_bootstrap, cov_bootstrap] = match &sample {
+        Sample::Independent(values) => stats::spread_bootstrap(values, REPLICATES, seed, &name),
+        Sample::Randomised(_) => [Estimate::UNDEFINED; 2],
+    };
+    let bands = matches!(sample, Sample::Independent(_));
     ArmSummary {
         arm: population.arm.clone(),
         parameters,
@@ -164,7 +170,7 @@ pub(crate) fn describe(
         random: !population.fixed,
         members: population.planned,
         outcomes: population.outcomes.clone(),
-        in_mean: values.len() as u64,
+        in_mean: statistics.n as u64,
         stood_to_the_end: population.above.len() as u64,
         failure_modes: population.modes.clone(),
         quantity: population.quantity.name(),
@@ -177,9 +183,10 @@ pub(crate) fn describe(
         cov: statistics.cov.value,
         cov_ci: statistics.cov.interval,
         cov_bootstrap_ci: cov_bootstrap.interval,
-        quantiles: PROBABILITIES.map(|p| QuantileEntry::of(&values, p)).to_vec(),
+        quantiles: PROBABILITIES.map(|p| QuantileEntry::of(&sample, p)).to_vec(),
         fragility: match population.quantity {
             Quantity::TopDisplacement | Quantity::ShearCapacity => Vec::new(),
+            Quantity::CollapseAngle if !bands => Vec::new(),
             Quantity::CollapseAngle => stats::empirical(&population.ordered(), &population.limits()),
         },
         note: population.note(),
@@ -209,5 +216,7 @@ fn parameters(arm: &Arm) -> BTreeMap<String, serde_json::Value> {
         ("tension_pa", serde_json::json!(joint.tension)),
     ];
     let curve = arm.curve.iter().map(|curve| ("curve", serde_json::json!(curve)));
-    entries.into_iter().chain(curve).map(|(key, value)| (key.to_string(), value)).collect()
+    let uncertain: BTreeMap<&str, _> = arm.uncertain.iter().map(|own| (own.key, &own.family)).collect();
+    let uncertain = (!uncertain.is_empty()).then(|| ("uncertain", serde_json::json!(uncertain)));
+    entries.into_iter().chain(curve).chain(uncertain).map(|(key, value)| (key.to_string(), value)).collect()
 }

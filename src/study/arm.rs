@@ -3,6 +3,7 @@
 use crate::generate::{Arrangement, BatteredFace, Layout, Limits, Outline, Wedges, Wythes};
 use crate::law::Sampling;
 use crate::math::radians;
+use crate::protocol::Protocol;
 use crate::random::Family;
 use crate::study::catalogue::Catalogue;
 use crate::study::checked::{Arm, Joint, StatedLaw};
@@ -13,6 +14,7 @@ use crate::study::quantity::quantity;
 use crate::study::reader::Reader;
 use crate::study::schema::Short;
 use crate::study::setting::{Joints, Setting};
+use crate::study::uncertain::take_up;
 
 /// What `[wall]` says, as far as it is not faulty.
 #[derive(Clone, Copy, Debug, Default)]
@@ -83,7 +85,12 @@ impl WallKeys {
 }
 
 /// Reads all `[[arm]]` tables.
-pub fn arms(top: &mut Reader<'_>, shared: &Setting, catalogue: &mut Catalogue) -> Option<Vec<Arm>> {
+pub fn arms(
+    top: &mut Reader<'_>,
+    shared: &Setting,
+    protocol: Option<&Protocol>,
+    catalogue: &mut Catalogue,
+) -> Option<Vec<Arm>> {
     let mut arms: Vec<Option<Arm>> = Vec::new();
     let mut names: Vec<String> = Vec::new();
     for (node, path) in top.tables("arm") {
@@ -98,14 +105,19 @@ pub fn arms(top: &mut Reader<'_>, shared: &Setting, catalogue: &mut Catalogue) -
             }
             names.push(name.clone());
         }
-        arms.push(arm(&mut t, name, shared, catalogue));
+        arms.push(arm(&mut t, name, (shared, protocol), catalogue));
     }
     top.record("arm", names.join(", "));
     let arms: Vec<Arm> = arms.into_iter().collect::<Option<_>>()?;
     (!arms.is_empty()).then_some(arms)
 }
 
-fn arm(t: &mut Reader<'_>, name: Option<String>, shared: &Setting, catalogue: &mut Catalogue) -> Option<Arm> {
+fn arm(
+    t: &mut Reader<'_>,
+    name: Option<String>,
+    (shared, protocol): (&Setting, Option<&Protocol>),
+    catalogue: &mut Catalogue,
+) -> Option<Arm> {
     let setting = shared.of_arm(t, catalogue);
     let (wall, bond) = (&setting.wall, setting.wall.bond);
     let members = t.whole("members");
@@ -131,7 +143,7 @@ fn arm(t: &mut Reader<'_>, name: Option<String>, shared: &Setting, catalogue: &m
     let Joints { joint, kn_points, sub_contacts } = setting.joints?;
     let mechanisms = setting.mechanisms?;
     check_mechanisms(t, &mechanisms, &joint, &layout)?;
-    Some(Arm {
+    let arm = Arm {
         name: name?,
         members: members?,
         curve,
@@ -143,7 +155,9 @@ fn arm(t: &mut Reader<'_>, name: Option<String>, shared: &Setting, catalogue: &m
         vertical_load,
         sub_contacts,
         mechanisms,
-    })
+        uncertain: Vec::new(),
+    };
+    take_up(t, arm, setting.uncertain?, protocol)
 }
 
 fn arrangement(t: &mut Reader<'_>, catalogue: &mut Catalogue) -> (Option<Arrangement>, Stone) {

@@ -128,6 +128,8 @@ impl Study {
                     question: parts.question,
                     seed: parts.seed,
                     moves: Arc::default(),
+                    design: parts.design,
+                    taken: None,
                     variant: joined(&chosen),
                     arms: parts.arms,
                     protocol: parts.protocol,
@@ -207,6 +209,14 @@ impl Study {
         self.published.clear();
         self.effective.extend(decided_by);
         self.rehashed()
+    }
+
+    /// Whether its design can share out so many walls.
+    ///
+    /// # Errors
+    /// What is allowed, in words.
+    pub fn takes_members(&self, members: u64) -> Result<(), String> {
+        build::members_fit(self.design, &self.clone().with_members(members).arms)
     }
 
     /// The same study with another number of walls in every arm that has more than one; at least one.

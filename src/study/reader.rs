@@ -73,6 +73,11 @@ impl<'n> Reader<'n> {
                     format!("remove it; it belongs to {}", key.only.join(" and ")),
                 ),
                 None => match crate::study::schema::nearest(name, &names) {
+                    // A path that was not put in quotes is a table of its own in TOML.
+                    _ if names.iter().any(|known| known.starts_with(&format!("{name}."))) => (
+                        "is a part of a path".to_owned(),
+                        format!("write the whole path in quotes, as \"{name}.<key>\" = {{ family = ... }}"),
+                    ),
                     Some(near) => ("is not a known key".to_owned(), format!("did you mean \"{near}\"?")),
                     None => ("is not a known key".to_owned(), "remove it".to_owned()),
                 },
@@ -382,7 +387,10 @@ impl<'n> Reader<'n> {
     pub fn warn_if_unusual(&mut self, node: &Node, key: &Key, x: f64) {
         if let Some(usual) = key.usual.filter(|usual| !usual.contains(x)) {
             let unit = match key.kind {
-                Kind::Real { unit, .. } | Kind::Quantity { unit, .. } | Kind::Reals { unit, .. } => unit,
+                Kind::Real { unit, .. }
+                | Kind::Quantity { unit, .. }
+                | Kind::Distribution { unit, .. }
+                | Kind::Reals { unit, .. } => unit,
                 _ => "",
             };
             let path = join(&self.path, key.name);

@@ -76,6 +76,13 @@ pub enum Kind {
         /// Where the whole distribution must lie.
         within: Interval,
     },
+    /// A distribution that is no single number, written as those of a quantity.
+    Distribution {
+        /// Unit.
+        unit: &'static str,
+        /// Where the whole distribution must lie.
+        within: Interval,
+    },
     /// A list of numbers.
     Reals {
         /// Unit.
@@ -195,6 +202,9 @@ impl Kind {
             Kind::Real { unit, within } => format!("a number {within}{}", in_unit(unit)),
             Kind::Quantity { unit, within } => {
                 format!("a number or a distribution {within}{}", in_unit(unit))
+            }
+            Kind::Distribution { unit, within } => {
+                format!("a distribution {within}{}", in_unit(unit))
             }
             Kind::Reals { unit, within, at_most, ascending } => {
                 let order = if *ascending { "ascending " } else { "" };

@@ -141,7 +141,7 @@ fn write_out(node: &mut Node, section: &'static Section, path: &str, catalogue: 
                     write_out(node, below, &path, catalogue);
                 }
             }
-            (Kind::Quantity { unit, .. }, Value::Text(reference)) => {
+            (Kind::Quantity { unit, .. } | Kind::Distribution { unit, .. }, Value::Text(reference)) => {
                 let reference = reference.clone();
                 if let Ok(Some(family)) = catalogue.family(&reference, unit, node, &path) {
                     *node = raw::parse_default(&family_value(&family).to_string(), &node.place);
@@ -178,7 +178,7 @@ impl Serialize for Written<'_> {
                     let key = self.section.and_then(|section| section.key(name, None));
                     let section = match key.map(|key| key.kind) {
                         Some(Kind::Table(below) | Kind::Tables(below)) => Some(below),
-                        Some(Kind::Quantity { .. }) => Some(&keys::FAMILY),
+                        Some(Kind::Quantity { .. } | Kind::Distribution { .. }) => Some(&keys::FAMILY),
                         _ => None,
                     };
                     (name, Written { node: &entry.node, section })

@@ -11,6 +11,7 @@ mod files_of_others;
 #[path = "../ensemble/fixture.rs"]
 mod fixture;
 mod groups;
+mod influence;
 mod init;
 mod joint_laws;
 mod layering;
@@ -26,4 +27,5 @@ mod records;
 mod scratch;
 mod spreadsheets;
 mod study;
+mod uncertain;
 mod walls;

@@ -59,6 +59,7 @@ fn made_up(study: &Study, task: Task) -> Row {
         point,
         kn_pa_per_m: kn,
         member,
+        drawn: Default::default(),
         outcome: if collapsed {
             Outcome::Collapsed { at: Level::Factor(1.0 / 3.0) }
         } else {
