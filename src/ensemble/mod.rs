@@ -3,6 +3,7 @@
 mod design;
 mod draws;
 mod elements;
+mod enough;
 mod error;
 mod evaluate;
 mod files;
@@ -14,17 +15,19 @@ mod rare;
 mod record;
 mod run;
 mod table;
+mod walls;
 
 /// What [`build`] gives.
 pub use crate::generate::Generated;
 pub use design::{Task, is_random, plan};
 pub use draws::Draws;
 pub use elements::{ElementRow, Timed, evaluate_element, run_elements};
+pub use enough::{Look, come_to};
 pub use error::{MemberFault, RunError};
 pub use evaluate::{build, evaluate, solve, weight};
 pub use files::replace_file;
 pub use manifest::Manifest;
-pub use progress::{Progress, Silent};
+pub use progress::{Grown, Progress, Silent};
 pub use quantity::{Observed, Quantity};
 pub use rare::{Draw, RareWalls};
 pub use record::{LimitAnalysis, Mechanism, Row, ShearRow, StepRow};

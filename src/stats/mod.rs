@@ -16,6 +16,7 @@ mod order;
 mod ratio;
 mod reference;
 mod seeded;
+mod sequential;
 pub mod subset;
 mod summary;
 
@@ -32,4 +33,5 @@ pub use order::{predictive_quantile, quantile, quantile_interval, smallest};
 pub use ratio::{paired_ratio_of_means, ratio_of_means};
 pub use reference::student_quantile;
 pub use seeded::spread_bootstrap;
+pub use sequential::{Looks, Statistic, relative_half_width};
 pub use summary::{Summary, sigma_factors};

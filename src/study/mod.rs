@@ -34,7 +34,7 @@ mod variant;
 
 pub use built_in::{BuiltInStudy, built_in_studies};
 pub use catalogue::{Distribution, DistributionFile, Used, load_distributions};
-pub use checked::{Arm, Claim, ClaimTest, InputFile, Joint, StatedLaw, Study};
+pub use checked::{Arm, Claim, ClaimTest, InputFile, Joint, StatedLaw, Study, Until};
 pub use distributions::{Distributions, Origin, distributions_among};
 pub use elements::{ElementArm, ElementStudy, Reported};
 pub use extended::{Acting, Point};

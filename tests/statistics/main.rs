@@ -11,5 +11,6 @@ mod published_tables;
 mod rand_distr_agrees;
 mod rare;
 mod ratios;
+mod sequential;
 mod support;
 mod truncated;
