@@ -56,6 +56,7 @@ pub(crate) fn capacity(arguments: &Capacity) -> Result<(), Failure> {
     let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, CAPACITY));
     let settings = Settings { out: out.clone(), threads: arguments.threads };
     let rows = ensemble::run(&study, &settings, progress::on_stderr(&study).as_ref())?;
+    let study = ensemble::come_to(study, &rows);
     let mut summary = CapacitySummary::simulated(&study, &rows, question, known);
     if let Some(budget) = arguments.walls {
         threads::on(arguments.threads, || rare::ask(&study, &mut summary, budget, &out))?;

@@ -3,6 +3,7 @@
 mod design;
 mod draws;
 mod elements;
+mod enough;
 mod error;
 mod evaluate;
 mod files;
@@ -15,6 +16,7 @@ mod rare;
 mod record;
 mod run;
 mod table;
+mod walls;
 
 /// What [`build`] gives.
 pub use crate::generate::Generated;
@@ -23,6 +25,7 @@ pub use crate::random::RANDOMISATIONS;
 pub use design::{Task, is_random, plan};
 pub use draws::Draws;
 pub use elements::{ElementRow, Timed, evaluate_element, run_elements};
+pub use enough::{Look, come_to};
 pub use error::{MemberFault, RunError};
 pub use evaluate::{build, evaluate, solve, weight};
 pub use files::replace_file;
@@ -31,7 +34,7 @@ pub use influence::{
     sources, without_value,
 };
 pub use manifest::Manifest;
-pub use progress::{Progress, Silent};
+pub use progress::{Grown, Progress, Silent};
 pub use quantity::{Observed, Quantity};
 pub use rare::{DRAWS, Draw, RareDraws, RareWalls};
 pub use record::{LimitAnalysis, Mechanism, Row, ShearRow, StepRow};

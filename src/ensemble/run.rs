@@ -10,8 +10,13 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use crate::ensemble::journal::{Entry, Journal};
-use crate::ensemble::{Manifest, MemberFault, Progress, Row, RunError, Task, evaluate, files, plan, table};
+use crate::ensemble::design::plan_of;
+use crate::ensemble::enough::{first_looks, next_looks};
+use crate::ensemble::journal::{Entry, Journal, Recorded};
+use crate::ensemble::walls::WallKeys;
+use crate::ensemble::{
+    Grown, Manifest, MemberFault, Progress, Row, RunError, Task, evaluate, files, plan, table,
+};
 use crate::study::Study;
 
 /// Where a run writes and how many threads it uses; no result depends on either.
@@ -24,7 +29,11 @@ pub struct Settings {
 }
 
 /// Evaluates every member of a study that the output folder does not hold yet, and writes `members.parquet`,
-/// `steps.parquet`, `manifest.json` and `timing.csv` there. Gives all rows in the order arm, point, member.
+/// `steps.parquet`, `manifest.json` and `timing.csv` there. Gives all rows in the order arm, point, member. Where an arm may have enough
+/// walls before it has all, its walls are evaluated from look to look; [`come_to`](crate::ensemble::come_to) says how many they were.
+///
+/// A folder that holds another run is gone on from where walls of that run are walls of this one as well: their rows are taken over.
+/// Walls of other inputs stay in the journal and in no result.
 ///
 /// # Errors
 /// See [`RunError`]; whatever was evaluated until then is in the journal.
@@ -45,29 +54,40 @@ pub fn run_with(
     let manifest = Manifest::of(study);
     let out = &settings.out;
     fs::create_dir_all(out).map_err(|e| RunError::file("create the folder", out, e))?;
-    let (journal, mut entries) = Journal::open(out, &manifest)?;
+    let (journal, recorded) = Journal::open(out)?;
+    let keys = WallKeys::of(&manifest);
+    let mut entries = taken_over(study, &manifest, &keys, &journal, recorded, settings, progress)?;
 
     let threads =
         settings.threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-    let tasks = plan(study);
-    progress.begin(tasks.len(), &entries.values().map(|entry| &entry.row).collect::<Vec<_>>());
-    let missing: Vec<Task> = tasks.iter().copied().filter(|task| !entries.contains_key(task)).collect();
     let realisation = Realisation {
         study,
         evaluate,
         journal: &journal,
+        keys: &keys,
         progress,
         threads: threads as u32,
         host: host(),
         stop: AtomicBool::new(false),
     };
-    let results: Vec<Result<Entry, Missed>> =
-        pool.install(|| missing.par_iter().with_max_len(1).map(|&task| realisation.of(task)).collect());
-    progress.end();
-    gather(&missing, results, &mut entries)?;
+    let mut members = first_looks(study);
+    let tasks = loop {
+        let tasks = plan_of(study, &members);
+        let (known, missing): (Vec<Task>, Vec<Task>) =
+            tasks.iter().partition(|&task| entries.contains_key(task));
+        progress.begin(tasks.len(), &known.iter().map(|task| &entries[task].row).collect::<Vec<_>>());
+        let results: Vec<Result<Entry, Missed>> =
+            pool.install(|| missing.par_iter().with_max_len(1).map(|&task| realisation.of(task)).collect());
+        progress.end();
+        gather(&missing, results, &mut entries)?;
+        match next_looks(study, &members, &|task| Some(&entries.get(&task)?.row)) {
+            Some(more) => members = more,
+            None => break tasks,
+        }
+    };
 
-    let entries: Vec<Entry> = entries.into_values().collect();
+    let entries: Vec<Entry> = tasks.iter().filter_map(|task| entries.remove(task)).collect();
     files::replace_file(&out.join("timing.csv"), table::timing(&entries).as_bytes())?;
     let rows: Vec<Row> = entries.into_iter().map(|entry| entry.row).collect();
     files::replace_file(&out.join("members.parquet"), &table::members(&rows)?)?;
@@ -77,11 +97,51 @@ pub fn run_with(
     Ok(rows)
 }
 
+/// The recorded walls that are walls of this study, each in its place there; the journal is then open for those that are missing.
+///
+/// # Errors
+/// [`RunError::OtherRun`] where another run was recorded and none of its walls is one of this study, and faults of the disk.
+fn taken_over(
+    study: &Study,
+    manifest: &Manifest,
+    keys: &WallKeys,
+    journal: &Journal,
+    recorded: Recorded,
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Result<BTreeMap<Task, Entry>, RunError> {
+    let Recorded { head, mut walls, .. } = recorded;
+    let mut entries = BTreeMap::new();
+    for task in plan(study) {
+        if let Some(entry) = key_of(study, keys, task).and_then(|key| walls.remove(&key)) {
+            let row = Row { arm_index: task.arm, point: task.point, ..entry.row };
+            entries.insert(task, Entry { row, ..entry });
+        }
+    }
+    let differences = head.as_ref().map_or_else(Vec::new, |head| head.differences(manifest));
+    if !differences.is_empty() {
+        if entries.is_empty() {
+            return Err(RunError::OtherRun { folder: settings.out.clone(), differences });
+        }
+        progress.grown(&Grown::of(study, differences, entries.keys(), walls.len()));
+    }
+    let is_new = head.as_ref().is_none_or(|head| !head.differences(manifest).is_empty());
+    journal.go_on(is_new.then_some(manifest))?;
+    Ok(entries)
+}
+
+/// The hash of what decides a task's row.
+fn key_of(study: &Study, keys: &WallKeys, task: Task) -> Option<String> {
+    let arm = &study.arms[task.arm as usize];
+    keys.key(&arm.name, arm.kn_points[task.point as usize], task.member)
+}
+
 /// What every worker shares.
 struct Realisation<'a> {
     study: &'a Study,
     evaluate: &'a (dyn Fn(&Study, Task) -> Row + Sync),
     journal: &'a Journal,
+    keys: &'a WallKeys,
     progress: &'a dyn Progress,
     threads: u32,
     host: String,
@@ -107,7 +167,8 @@ impl Realisation<'_> {
             let begun = Instant::now();
             let row = (self.evaluate)(self.study, task);
             let seconds = begun.elapsed().as_secs_f64();
-            let entry = Entry { seconds, threads: self.threads, host: self.host.clone(), row };
+            let wall = key_of(self.study, self.keys, task);
+            let entry = Entry { wall, seconds, threads: self.threads, host: self.host.clone(), row };
             let line = entry.line();
             (entry, line)
         }));

@@ -132,7 +132,7 @@ pub(crate) fn parquet(table: &'static str, height: usize, columns: Vec<Column>) 
 /// What each member took, on which machine: kept apart from the results, which must not depend on it.
 pub(crate) fn timing(entries: &[Entry]) -> String {
     let mut text = String::from("arm,point,member,seconds,threads,host\n");
-    for Entry { seconds, threads, host, row } in entries {
+    for Entry { seconds, threads, host, row, .. } in entries {
         let line =
             format!("{},{},{},{seconds:.6},{threads},{host}\n", quoted(&row.arm), row.point, row.member);
         text.push_str(&line);

@@ -57,6 +57,6 @@ pub use picture::{Movement, Picture, Seam, Stone};
 pub use published::{Published, Verdict};
 pub use readings::{Extent, ReadingEntry, ReadingsSummary, readings_text, write_readings};
 pub use sensitivity::{SensitivitySummary, sensitivity_text, write_sensitivity};
-pub use summary::{ArmSummary, QuantileEntry, Summary, summarise};
+pub use summary::{ArmSummary, EnoughEntry, QuantileEntry, Summary, summarise};
 pub use table::terminal_table;
 pub use vtu::write_vtu;

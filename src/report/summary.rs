@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use crate::ensemble::{Quantity, Row};
+use crate::ensemble::{Look, Quantity, Row};
 use crate::report::compare::{Comparison, comparisons};
 use crate::report::measured::{MeasuredSummary, measured};
 use crate::report::population::{Population, populations};
 use crate::report::published::{Published, judge_all};
-use crate::stats::{self, EmpiricalStep, Estimate, Sample};
-use crate::study::{Arm, Study};
+use crate::stats::{self, EmpiricalStep, Estimate, Sample, Statistic};
+use crate::study::{Arm, Study, Until};
 
 /// What came out of a study. Intervals are at 95 %; what is not defined is null, never zero.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -86,11 +86,66 @@ pub struct ArmSummary {
     /// left out of a design, whose walls are not independent.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub fragility: Vec<EmpiricalStep>,
+    /// When the arm had walls enough; left out where their number was fixed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub enough: Option<EnoughEntry>,
     /// Says which walls are not in the numbers; null when all are.
     pub note: Option<String>,
     /// How the quantity is shown.
     #[serde(skip)]
     pub shown: Quantity,
+}
+
+/// The last look at an arm whose walls were added until a statistic was known well enough.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct EnoughEntry {
+    /// The statistic.
+    pub of: String,
+    /// Its value, in the unit of the quantity.
+    pub value: Option<f64>,
+    /// Its 95 % interval, which allows for all looks: it stands in the place of the one for a number of walls that is fixed beforehand.
+    pub ci: Option<[f64; 2]>,
+    /// Half the width of the interval over the value.
+    pub half_width: Option<f64>,
+    /// What the half width was to fall below.
+    pub below: f64,
+    /// Most walls that there could have been.
+    pub at_most: u64,
+    /// Whether it fell below.
+    pub reached: bool,
+}
+
+impl EnoughEntry {
+    /// At the walls of an arm at one stiffness.
+    pub(crate) fn of(until: Until, population: &Population) -> EnoughEntry {
+        let look = Look::at(until, &population.ordered(), population.above.len());
+        EnoughEntry {
+            of: until.of.name(),
+            value: look.estimate.value,
+            ci: look.estimate.interval,
+            half_width: look.half_width,
+            below: until.below,
+            at_most: until.at_most,
+            reached: look.is_enough(),
+        }
+    }
+}
+
+impl ArmSummary {
+    /// With the last look at an arm that has walls enough: its interval is that of the statistic.
+    fn stopped(mut self, until: Option<Until>, population: &Population) -> ArmSummary {
+        let Some(until) = until else { return self };
+        let entry = EnoughEntry::of(until, population);
+        match until.of {
+            Statistic::Mean => self.mean_ci = entry.ci,
+            Statistic::Sigma => self.sigma_ci = entry.ci,
+            Statistic::Quantile(share) => {
+                let own = self.quantiles.iter_mut().find(|own| own.probability == share);
+                own.into_iter().for_each(|own| own.ci = entry.ci);
+            }
+        }
+        ArmSummary { enough: Some(entry), ..self }
+    }
 }
 
 /// For serde: a count that says nothing is left out.
@@ -129,6 +184,7 @@ pub fn summarise(study: &Study, rows: &[Row]) -> Summary {
         .map(|population| {
             let arm = study.arms.iter().find(|arm| arm.name == population.arm);
             describe(population, study.seed, arm.map_or_else(BTreeMap::new, parameters))
+                .stopped(arm.and_then(|arm| arm.until), population)
         })
         .collect();
     Summary {
@@ -189,6 +245,7 @@ pub(crate) fn describe(
             Quantity::CollapseAngle if !bands => Vec::new(),
             Quantity::CollapseAngle => stats::empirical(&population.ordered(), &population.limits()),
         },
+        enough: None,
         note: population.note(),
         shown: population.quantity,
     }

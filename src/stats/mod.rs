@@ -18,6 +18,7 @@ mod randomised;
 mod ratio;
 mod reference;
 mod seeded;
+mod sequential;
 pub mod subset;
 mod summary;
 
@@ -36,4 +37,5 @@ pub use randomised::{Sample, by_randomisations};
 pub use ratio::{paired_ratio_of_means, ratio_of_means};
 pub use reference::student_quantile;
 pub use seeded::spread_bootstrap;
+pub use sequential::{Looks, Statistic, relative_half_width};
 pub use summary::{Summary, sigma_factors};

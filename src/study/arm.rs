@@ -6,7 +6,7 @@ use crate::math::radians;
 use crate::protocol::Protocol;
 use crate::random::Family;
 use crate::study::catalogue::Catalogue;
-use crate::study::checked::{Arm, Joint, StatedLaw};
+use crate::study::checked::{Arm, Joint, StatedLaw, Until};
 use crate::study::fault::{Fault, Found};
 use crate::study::keys;
 use crate::study::mechanism::Mechanisms;
@@ -120,7 +120,7 @@ fn arm(
 ) -> Option<Arm> {
     let setting = shared.of_arm(t, catalogue);
     let (wall, bond) = (&setting.wall, setting.wall.bond);
-    let members = t.whole("members");
+    let members = members(t);
     let vertical_load = if t.has("vertical_load_n") { Some(t.real("vertical_load_n")?) } else { None };
     let curve = if t.has("curve") { t.name("curve") } else { None };
     let (arrangement, stone) = arrangement(t, catalogue);
@@ -143,9 +143,11 @@ fn arm(
     let Joints { joint, kn_points, sub_contacts } = setting.joints?;
     let mechanisms = setting.mechanisms?;
     check_mechanisms(t, &mechanisms, &joint, &layout)?;
+    let (members, until) = members?;
     let arm = Arm {
         name: name?,
-        members: members?,
+        members,
+        until,
         curve,
         layout: mechanisms.layout(layout),
         turned: setting.wall.turned,
@@ -157,7 +159,25 @@ fn arm(
         mechanisms,
         uncertain: Vec::new(),
     };
-    take_up(t, arm, setting.uncertain?, protocol)
+    let arm = take_up(t, arm, setting.uncertain?, protocol)?;
+    if until.is_some() && !arm.is_random() {
+        t.fault("members", "a number where nothing is random", "set members = 1: every wall is the same");
+        return None;
+    }
+    Some(arm)
+}
+
+/// How many walls, at most, and when fewer are enough.
+fn members(t: &mut Reader<'_>) -> Option<(u64, Option<Until>)> {
+    if !t.is_table("members") {
+        return Some((t.whole("members")?, None));
+    }
+    let mut rule = t.table("members")?;
+    let (what, of, below, at_most) =
+        (rule.choice_name("until"), rule.statistic("of"), rule.real("below"), rule.whole("at_most"));
+    what?;
+    let at_most = at_most?;
+    Some((at_most, Some(Until { of: of?, below: below?, at_most })))
 }
 
 fn arrangement(t: &mut Reader<'_>, catalogue: &mut Catalogue) -> (Option<Arrangement>, Stone) {

@@ -142,6 +142,11 @@ pub fn members_fit(design: Design, arms: &[Arm]) -> Result<(), String> {
     let Some(first) = several.next() else { return Ok(()) };
     let is_whole = first.is_multiple_of(RANDOMISATIONS) && first >= 2 * RANDOMISATIONS;
     let most = RANDOMISATIONS * Design::MOST_POINTS;
+    if design != Design::Plain && arms.iter().any(|arm| arm.until.is_some()) {
+        return Err(
+            "this with members = a number: how many walls share a design is known beforehand".to_owned()
+        );
+    }
     if design == Design::Plain || (is_whole && first <= most && several.all(|members| members == first)) {
         return Ok(());
     }

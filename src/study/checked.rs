@@ -9,6 +9,7 @@ use crate::law::{ClosureTable, CohesionAfterSlip, Sampling};
 use crate::protocol::{FailureMode, Protocol, Restraint, Shear};
 use crate::random::{Design, Family, Move, Place, Quantities, RANDOMISATIONS, Streams, Taken};
 use crate::solve::Solver;
+use crate::stats::Statistic;
 use crate::study::measured::Measurement;
 use crate::study::mechanism::Mechanisms;
 use crate::study::uncertain::{Uncertain, parameters};
@@ -66,8 +67,10 @@ pub struct TakenFrom {
 pub struct Arm {
     /// Name, unique in the study.
     pub name: String,
-    /// Number of walls, at least 1.
+    /// Number of walls, at least 1; at most so many where there may be enough before.
     pub members: u64,
+    /// When there are enough walls; `None` where their number is fixed.
+    pub until: Option<Until>,
     /// The curve over the walls' length that the arm is a point of, if any.
     pub curve: Option<String>,
     /// What each wall is asked to be.
@@ -168,7 +171,26 @@ impl Study {
     }
 }
 
+/// When an arm has walls enough: half the width of a statistic's interval over the statistic lies below a bound at every stiffness.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Until {
+    /// The statistic of the study's quantity.
+    pub of: Statistic,
+    /// The bound (a number: 0.05 is 5 %).
+    pub below: f64,
+    /// Most walls, come what may.
+    pub at_most: u64,
+}
+
 impl Arm {
+    /// Whether its walls differ from one to the next: in their stones, in their joints, as a whole, or by a mechanism that draws.
+    pub fn is_random(&self) -> bool {
+        let drawn = |family: &Family| !matches!(family, Family::Constant { .. });
+        let Joint { kn_factor, phi_deg, cohesion, .. } = &self.joint;
+        let drawn_joints = [kn_factor, phi_deg, cohesion].into_iter().any(drawn);
+        !self.layout.is_fixed() || drawn_joints || self.mechanisms.draws() || !self.uncertain.is_empty()
+    }
+
     /// Whether the section of its walls has no back and no front.
     pub fn is_alike_from_both_sides(&self) -> bool {
         let outline = &self.layout.outline;

@@ -36,7 +36,7 @@ mod variant;
 pub use crate::random::Design;
 pub use built_in::{BuiltInStudy, built_in_studies};
 pub use catalogue::{Distribution, DistributionFile, Used, load_distributions};
-pub use checked::{Arm, Claim, ClaimTest, InputFile, Joint, StatedLaw, Study, TakenFrom};
+pub use checked::{Arm, Claim, ClaimTest, InputFile, Joint, StatedLaw, Study, TakenFrom, Until};
 pub use distributions::{Distributions, Origin, distributions_among};
 pub use elements::{ElementArm, ElementStudy, Reported};
 pub use extended::{Acting, Point};

@@ -177,9 +177,9 @@ impl Serialize for Written<'_> {
                 to.collect_map(entries.into_iter().map(|(name, entry)| {
                     let key = self.section.and_then(|section| section.key(name, None));
                     let section = match key.map(|key| key.kind) {
-                        Some(Kind::Table(below) | Kind::Tables(below)) => Some(below),
                         Some(Kind::Quantity { .. } | Kind::Distribution { .. }) => Some(&keys::FAMILY),
-                        _ => None,
+                        Some(kind) => kind.below(),
+                        None => None,
                     };
                     (name, Written { node: &entry.node, section })
                 }))

@@ -14,7 +14,7 @@ use crate::study::{
 fn keys_below(section: &'static Section, found: &mut Vec<&'static Key>) {
     for key in section.all() {
         found.push(key);
-        if let Kind::Table(below) | Kind::Tables(below) = key.kind {
+        if let Some(below) = key.kind.below() {
             keys_below(below, found);
         }
     }

@@ -13,5 +13,6 @@ mod rand_distr_agrees;
 mod randomised;
 mod rare;
 mod ratios;
+mod sequential;
 mod support;
 mod truncated;

@@ -212,6 +212,24 @@ static JOINT: Section = Section {
     ]],
 };
 
+static UNTIL: Section = Section {
+    title: "{ until = ... }",
+    doc: "Walls are added until a statistic of the quantity is known well enough, at every stiffness. The walls are looked at a few \
+          times, and the 95 % interval allows for that.",
+    chooser: None,
+    keys: &[&[
+        Key::new(
+            "until",
+            Kind::Choice(&["half_width"]),
+            Required,
+            "What is to fall below a bound: half the width of the 95 % interval over the statistic.",
+        ),
+        Key::new("of", Kind::Statistic, Required, "The statistic."),
+        Key::new("below", real("1", Interval::open(0.0, 1.0)), Required, "The bound: 0.05 is 5 %."),
+        Key::new("at_most", Kind::Whole { low: 2, high: 1_000_000 }, Required, "Most walls, come what may."),
+    ]],
+};
+
 /// One population of walls.
 pub static ARM: Section = Section {
     title: "[[arm]]",
@@ -219,7 +237,12 @@ pub static ARM: Section = Section {
     chooser: Some("arrangement"),
     keys: &[&[
         Key::new("name", Kind::Name, Required, "Name of the arm."),
-        Key::new("members", Kind::Whole { low: 1, high: 1_000_000 }, Required, "Number of walls."),
+        Key::new(
+            "members",
+            Kind::WholeOr { low: 1, high: 1_000_000, rule: &UNTIL },
+            Required,
+            "Number of walls, or when there are enough.",
+        ),
         Key::new(
             "curve",
             Kind::Name,
