@@ -20,7 +20,7 @@ mod walls;
 /// What [`build`] gives.
 pub use crate::generate::Generated;
 pub use design::{Task, is_random, plan};
-pub use draws::Draws;
+pub use draws::{Draws, Evaluated, drawn};
 pub use elements::{ElementRow, Timed, evaluate_element, run_elements};
 pub use enough::{Look, come_to};
 pub use error::{MemberFault, RunError};
@@ -29,7 +29,7 @@ pub use files::replace_file;
 pub use manifest::Manifest;
 pub use progress::{Grown, Progress, Silent};
 pub use quantity::{Observed, Quantity};
-pub use rare::{Draw, RareWalls};
+pub use rare::{Draw, RareWalls, ScreenedWalls};
 pub use record::{LimitAnalysis, Mechanism, Row, ShearRow, StepRow};
 pub use run::{Settings, run, run_with};
 pub(crate) use table::parquet;

@@ -28,10 +28,10 @@ pub use characteristic::{
 pub use estimate::Estimate;
 pub use fragility::{EmpiricalStep, clopper_pearson, clopper_pearson_at, dkw_half_width, empirical};
 pub use kolmogorov::{ks_p_value, ks_statistic};
-pub use moments::{cov, mean, sigma, sum};
+pub use moments::{correlation, cov, mean, sigma, sum};
 pub use order::{predictive_quantile, quantile, quantile_interval, smallest};
 pub use ratio::{paired_ratio_of_means, ratio_of_means};
 pub use reference::student_quantile;
 pub use seeded::spread_bootstrap;
 pub use sequential::{Looks, Statistic, relative_half_width};
-pub use summary::{Summary, sigma_factors};
+pub use summary::{Summary, above_zero, sigma_factors};
