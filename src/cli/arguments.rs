@@ -180,6 +180,12 @@ pub(crate) struct OneWall {
     /// Number of the wall in its arm, from 0.
     #[arg(long, value_name = "M", default_value_t = 0)]
     pub member: u64,
+    /// Number of a wall that `capacity --walls` drew and moved (draw in evaluations.parquet), instead of an arm's.
+    #[arg(long, value_name = "K", conflicts_with_all = ["arm", "point", "member", "members"])]
+    pub draw: Option<u64>,
+    /// Folder that holds it [default: runs/<study>-capacity, with -<variant> in it if one is named].
+    #[arg(long, value_name = "DIR", requires = "draw")]
+    pub draws: Option<PathBuf>,
     /// Number of walls in every random arm, instead of the study's, as in `run`.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     pub members: Option<u64>,
@@ -273,8 +279,15 @@ pub(crate) struct Capacity {
     #[arg(long, conflicts_with_all = ["members", "seed", "threads", "above_m", "below_n"], help_heading = STUDY)]
     pub measured: bool,
     /// Where fewer than ten walls are on the worse side of a level, evaluate up to so many more in each arm by subset simulation.
-    #[arg(long, value_name = "N", conflicts_with_all = ["measured", "quantile"], value_parser = clap::value_parser!(u64).range(1000..=10_000_000), help_heading = STUDY)]
+    /// With --half-width: most walls of an arm [default there: 1000].
+    #[arg(long, value_name = "N", conflicts_with = "measured", value_parser = clap::value_parser!(u64).range(100..=10_000_000), help_heading = STUDY)]
     pub walls: Option<u64>,
+    /// Add walls, up to --walls, until the coefficient of variation of a probability is no larger: 0.2 is 20 %.
+    #[arg(long, value_name = "C", requires = "walls", value_parser = capacity::relative, allow_negative_numbers = true, help_heading = STUDY)]
+    pub cov: Option<f64>,
+    /// Add walls, up to --walls, until half the width of a quantile's interval is below this share of the quantile.
+    #[arg(long, value_name = "H", conflicts_with_all = ["measured", "members", "below_deg", "above_m", "below_n"], value_parser = capacity::relative, allow_negative_numbers = true, help_heading = STUDY)]
+    pub half_width: Option<f64>,
     /// Coefficient of variation of such walls, where more than these walls tell it: 0.1 is 10 %.
     #[arg(long, value_name = "V", value_parser = capacity::variation, allow_negative_numbers = true, help_heading = STUDY)]
     pub known_cov: Option<f64>,

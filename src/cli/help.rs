@@ -91,7 +91,8 @@ pub(super) const RUN: &str = concat!(
 Example: pirca run studies/joint-arrangement --members 5 --out runs/first-try
          pirca run studies/joint-arrangement --beside runs/explicit --out runs/both
 
-Stopped and started again with the same arguments, it goes on where it stood and ends with the same files. A wall that falls or \
+Stopped and started again with the same arguments, it goes on where it stood and ends with the same files. With more members, \
+another stiffness or another arm in the same folder it computes only what is new, and says what it takes over. A wall that falls or \
 cannot be built is counted in the results; it is no error.
 
 ",
@@ -103,10 +104,13 @@ pub(super) const CAPACITY: &str = concat!(
     "\
 Example: pirca capacity studies/tilting-table --members 100
          pirca capacity studies/tilting-table --below-deg 12
-         pirca capacity studies/tilting-block --variant restrained-ends --below-deg 20 --walls 4000
+         pirca capacity studies/tilting-table --quantile 0.05 --half-width 0.1
+         pirca capacity studies/tilting-block --variant restrained-ends --below-deg 20 --walls 4000 --cov 0.2
+         pirca generate studies/tilting-block --variant restrained-ends --draw 0 --out wall.vtu
          pirca capacity studies/tilting-table --measured --known-cov 0.1
 
-It writes capacity.json beside the files of the walls. Intervals are at 95 %. A wall that brings no value is counted, and the \
+It writes capacity.json, probability.svg, .png and .csv beside the files of the walls, and evaluations.parquet of walls drawn for a rare \
+level. Intervals are at 95 %. A wall that brings no value is counted, and the \
 interval that holds whatever it would have borne is given too. Characteristic and design values are those of EN 1990 Annex D, \
 computed and not read from its tables; the design value is undercut with a probability of 0.1 %.
 

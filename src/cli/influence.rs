@@ -5,14 +5,12 @@ use std::collections::BTreeMap;
 use crate::cli::arguments::Influence;
 use crate::cli::failure::Failure;
 use crate::cli::{locate, one_wall, output, threads};
-use crate::ensemble::{Draws, InfluenceWalls, RANDOMISATIONS, base_points, influence_table, sources};
+use crate::ensemble::{InfluenceWalls, Kept, RANDOMISATIONS, base_points, influence_table, sources};
 use crate::report::{InfluenceSummary, influence_text, running, write_influence};
 use crate::study::{Arm, Design, Study};
 
 /// What the folder of the results is named by.
 const INFLUENCE: &str = "influence";
-/// File that keeps what was evaluated.
-const KEPT: &str = "influence.jsonl";
 /// Most base points.
 const MOST: u64 = RANDOMISATIONS * Design::MOST_POINTS;
 
@@ -38,7 +36,7 @@ fn answered(arguments: &Influence) -> Result<(), Failure> {
     }
     let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, INFLUENCE));
     output::folder(&out)?;
-    let kept = Draws::open(&out, KEPT, &study.hash)?;
+    let kept = Kept::open(&out, &study.hash)?;
     let walls =
         InfluenceWalls { study: &study, arm: 0, point: arguments.point, sources: &sources, kept: &kept };
     let mut tenths = 0;

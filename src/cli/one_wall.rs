@@ -1,10 +1,13 @@
 //! The wall that a verb is about: a member of an arm at one stiffness of its joints, built.
 
+use std::path::Path;
+
 use crate::cli::arguments::{OneWall as Arguments, Which};
+use crate::cli::capacity::CAPACITY;
 use crate::cli::doing::doing;
 use crate::cli::failure::Failure;
-use crate::cli::locate;
-use crate::ensemble::{self, Generated, Task};
+use crate::cli::{locate, output};
+use crate::ensemble::{self, Evaluated, Generated, Task};
 use crate::protocol::Run;
 use crate::study::{Arm, Study};
 
@@ -27,6 +30,9 @@ impl OneWall {
         if let Some(members) = arguments.members {
             study = locate::with_members(study, members)?;
         }
+        if let Some(number) = arguments.draw {
+            return OneWall::drawn(study, number, arguments.draws.as_deref());
+        }
         let index = arm_index(&study, arguments.arm.as_deref())?;
         let (arm, member) = (&study.arms[index], arguments.member);
         let kn = kn(arm, arguments.point)?;
@@ -35,6 +41,23 @@ impl OneWall {
             .map_err(|e| Failure::Run(format!("arm {}, member {member}: invalid geometry: {e}", arm.name)))?;
         let task = Task { arm: index as u32, point: arguments.point, member };
         Ok(OneWall { study, task, kn, generated })
+    }
+
+    /// The wall of that number among those that were drawn and moved for rare values.
+    fn drawn(study: Study, number: u64, folder: Option<&Path>) -> Result<OneWall, Failure> {
+        let folder = folder.map_or_else(|| output::default_folder(&study, CAPACITY), Path::to_path_buf);
+        let Some(Evaluated { arm, point, draw, .. }) = ensemble::drawn(&folder, &study, number)? else {
+            return Err(Failure::Usage(format!(
+                "--draw {number}: {} holds no such wall of {}; evaluations.parquet there lists them, and the seed must be its own",
+                folder.display(),
+                study.name
+            )));
+        };
+        let study = draw.study(&study);
+        let generated = ensemble::build(&study, arm, draw.member)
+            .map_err(|e| Failure::Run(format!("draw {number}: invalid geometry: {e}")))?;
+        let kn = study.arms[arm as usize].kn_points[point as usize];
+        Ok(OneWall { study, task: Task { arm, point, member: draw.member }, kn, generated })
     }
 
     /// Takes it through the study's protocol.

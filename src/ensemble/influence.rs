@@ -7,7 +7,7 @@ use polars::prelude::{Column, NamedFrom, Series};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::ensemble::draws::Draws;
+use crate::ensemble::kept::Kept;
 use crate::ensemble::table::parquet;
 use crate::ensemble::{Observed, Quantity, RunError, Task, evaluate};
 use crate::generate::Arrangement;
@@ -93,7 +93,7 @@ fn is_drawn(arm: &Arm, name: &str) -> bool {
 }
 
 /// Which wall of a base point.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Wall {
     /// The wall itself.
@@ -105,7 +105,7 @@ pub enum Wall {
 }
 
 /// An evaluation: base point and wall. With the study and the arm it gives the same wall again.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Evaluation {
     /// Number of the base point: the member that the own wall is.
     pub base: u64,
@@ -115,7 +115,7 @@ pub struct Evaluation {
 
 /// What an evaluation came to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Evaluated {
+pub struct Influenced {
     /// The value; `None` of a wall that failed or whose value is only known to lie above something.
     pub value: Option<f64>,
     /// How the wall ended.
@@ -138,7 +138,7 @@ pub struct InfluenceWalls<'s> {
     /// Its sources.
     pub sources: &'s [Source],
     /// What was evaluated before, and is kept.
-    pub kept: &'s Draws<Evaluation, Evaluated>,
+    pub kept: &'s Kept,
 }
 
 impl InfluenceWalls<'_> {
@@ -155,30 +155,26 @@ impl InfluenceWalls<'_> {
     pub fn evaluated(
         &self,
         points: u64,
-        tell: &mut dyn FnMut(&[Vec<Evaluated>]),
-    ) -> Result<Vec<Vec<Evaluated>>, RunError> {
-        let mut all: Vec<Vec<Evaluated>> = Vec::new();
+        tell: &mut dyn FnMut(&[Vec<Influenced>]),
+    ) -> Result<Vec<Vec<Influenced>>, RunError> {
+        let mut all: Vec<Vec<Influenced>> = Vec::new();
         let bases: Vec<u64> = (0..points).collect();
         for some in bases.chunks(TOLD) {
             let walls: Vec<Evaluation> = some.iter().flat_map(|base| self.walls(*base)).collect();
-            let open: Vec<&Evaluation> =
-                walls.iter().filter(|wall| self.kept.value(self.arm, self.point, wall).is_none()).collect();
+            let open: Vec<&Evaluation> = walls.iter().filter(|wall| self.kept.of(wall).is_none()).collect();
             for piece in open.chunks(rayon::current_num_threads().max(1) * PIECE) {
-                let found: Vec<Evaluated> = piece.par_iter().map(|wall| self.evaluate(wall)).collect();
-                self.kept.keep(self.arm, self.point, piece.iter().copied().zip(&found));
-                if let Some(fault) = self.kept.fault() {
-                    return Err(fault);
-                }
+                let found: Vec<(&Evaluation, Influenced)> =
+                    piece.par_iter().map(|wall| (*wall, self.evaluate(wall))).collect();
+                self.kept.keep(&found)?;
             }
-            let value =
-                |wall: &Evaluation| self.kept.value(self.arm, self.point, wall).expect("it was kept above");
+            let value = |wall: &Evaluation| self.kept.of(wall).expect("it was kept above");
             all.extend(some.iter().map(|base| self.walls(*base).iter().map(value).collect()));
             tell(&all);
         }
         Ok(all)
     }
 
-    fn evaluate(&self, evaluation: &Evaluation) -> Evaluated {
+    fn evaluate(&self, evaluation: &Evaluation) -> Influenced {
         let (own, partner) = (evaluation.base, evaluation.base + PARTNER);
         let task = |member: u64| Task { arm: self.arm, point: self.point, member };
         let row = match &evaluation.wall {
@@ -196,13 +192,13 @@ impl InfluenceWalls<'_> {
             Observed::Above(_) => (None, "stood_to_the_end"),
             Observed::Nothing => (None, row.outcome.name()),
         };
-        Evaluated { value, outcome: outcome.to_owned() }
+        Influenced { value, outcome: outcome.to_owned() }
     }
 }
 
 /// The values of base points, from their walls in the order own, partner, source by source.
-pub fn base_points(evaluated: &[Vec<Evaluated>]) -> Vec<BasePoint> {
-    let point = |walls: &Vec<Evaluated>| BasePoint {
+pub fn base_points(evaluated: &[Vec<Influenced>]) -> Vec<BasePoint> {
+    let point = |walls: &Vec<Influenced>| BasePoint {
         own: walls[0].value,
         partner: walls[1].value,
         mixed: walls[2..].iter().map(|wall| wall.value).collect(),
@@ -216,7 +212,7 @@ pub fn base_points(evaluated: &[Vec<Evaluated>]) -> Vec<BasePoint> {
 /// [`RunError::Table`] where it cannot be encoded.
 pub fn influence_table(
     sources: &[Source],
-    evaluated: &[Vec<Evaluated>],
+    evaluated: &[Vec<Influenced>],
     randomisations: u64,
 ) -> Result<Vec<u8>, RunError> {
     let names: Vec<&str> =
@@ -241,7 +237,7 @@ pub fn influence_table(
 }
 
 /// Walls without a value, by how they ended.
-pub fn without_value(evaluated: &[Vec<Evaluated>]) -> BTreeMap<String, u64> {
+pub fn without_value(evaluated: &[Vec<Influenced>]) -> BTreeMap<String, u64> {
     let mut counts = BTreeMap::new();
     for wall in evaluated.iter().flatten().filter(|wall| wall.value.is_none()) {
         *counts.entry(wall.outcome.clone()).or_default() += 1;

@@ -41,8 +41,8 @@ mod vtu;
 pub use advice::Advice;
 pub use beside::{Earlier, Mean};
 pub use capacity::{
-    CapacityGroup, CapacitySummary, Question, Repeats, Supported, SupportedValue, capacity_text,
-    write_capacity,
+    Answer, CapacityGroup, CapacitySummary, Failed, Question, Repeats, Rung, Screen, Supported,
+    SupportedValue, Target, capacity_text, write_capacity,
 };
 pub use compare::{Basis, Comparison};
 pub use diagnosis::{DataEntry, DiagnosisSummary, FamilyFigure, diagnosis_text, write_diagnosis};

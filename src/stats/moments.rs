@@ -30,6 +30,15 @@ pub fn cov(values: &[f64]) -> Option<f64> {
     ratio.is_finite().then_some(ratio)
 }
 
+/// Pearson's correlation of two samples of the same length, value by value; `None` below two values and where one of them does not vary.
+pub fn correlation(a: &[f64], b: &[f64]) -> Option<f64> {
+    crate::check!(a.len() == b.len(), "{} values beside {}", a.len(), b.len());
+    let (mean_a, mean_b) = (mean(a)?, mean(b)?);
+    let scale = sigma(a)? * sigma(b)?;
+    let rho = comoment(a, mean_a, b, mean_b) / scale;
+    rho.is_finite().then(|| rho.clamp(-1.0, 1.0))
+}
+
 /// Sample covariance (divisor n - 1) of two samples of the same length, at least 2, about their given means.
 pub(super) fn comoment(a: &[f64], mean_a: f64, b: &[f64], mean_b: f64) -> f64 {
     let products = a.iter().zip(b).map(|(x, y)| (x - mean_a) * (y - mean_b));

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::ensemble::{Evaluated, Quantity, Source, base_points, without_value};
+use crate::ensemble::{Influenced, Quantity, Source, base_points, without_value};
 use crate::report::number::significant;
 use crate::stats::{BasePoint, Estimate, influence};
 use crate::study::{Design, Study};
@@ -66,7 +66,7 @@ impl InfluenceSummary {
         study: &Study,
         kn_pa_per_m: f64,
         sources: &[Source],
-        evaluated: &[Vec<Evaluated>],
+        evaluated: &[Vec<Influenced>],
         randomisations: u64,
     ) -> InfluenceSummary {
         let found = influence(&base_points(evaluated), randomisations as usize);
