@@ -1,5 +1,6 @@
 //! Statistics and distributions against certified values, closed forms, independent programs and simulation.
 
+mod always_valid;
 mod bootstrap;
 mod calibration;
 mod certified;
@@ -11,5 +12,7 @@ mod published_tables;
 mod rand_distr_agrees;
 mod rare;
 mod ratios;
+mod selection;
 mod support;
+mod test_plan;
 mod truncated;
