@@ -13,6 +13,7 @@ mod quantity;
 mod rare;
 mod record;
 mod run;
+mod selection;
 mod table;
 
 /// What [`build`] gives.
@@ -28,5 +29,6 @@ pub use progress::{Progress, Silent};
 pub use quantity::{Observed, Quantity};
 pub use rare::{Draw, RareWalls};
 pub use record::{LimitAnalysis, Mechanism, Row, ShearRow, StepRow};
-pub use run::{Settings, run, run_with};
+pub use run::{Evaluations, Settings, run, run_with};
+pub use selection::{Contest, Hopeless, Look};
 pub(crate) use table::parquet;

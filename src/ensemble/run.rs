@@ -1,6 +1,6 @@
 //! The loop over realisations: evaluate what is missing in parallel, record each as it ends, gather in order.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::num::NonZero;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -42,39 +42,92 @@ pub fn run_with(
     progress: &dyn Progress,
     evaluate: &(dyn Fn(&Study, Task) -> Row + Sync),
 ) -> Result<Vec<Row>, RunError> {
-    let manifest = Manifest::of(study);
-    let out = &settings.out;
-    fs::create_dir_all(out).map_err(|e| RunError::file("create the folder", out, e))?;
-    let (journal, mut entries) = Journal::open(out, &manifest)?;
+    let mut evaluations = Evaluations::begin(study, settings)?;
+    evaluations.of(&plan(study), progress, evaluate)?;
+    evaluations.end()
+}
 
-    let threads =
-        settings.threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-    let tasks = plan(study);
-    progress.begin(tasks.len(), &entries.values().map(|entry| &entry.row).collect::<Vec<_>>());
-    let missing: Vec<Task> = tasks.iter().copied().filter(|task| !entries.contains_key(task)).collect();
-    let realisation = Realisation {
-        study,
-        evaluate,
-        journal: &journal,
-        progress,
-        threads: threads as u32,
-        host: host(),
-        stop: AtomicBool::new(false),
-    };
-    let results: Vec<Result<Entry, Missed>> =
-        pool.install(|| missing.par_iter().with_max_len(1).map(|&task| realisation.of(task)).collect());
-    progress.end();
-    gather(&missing, results, &mut entries)?;
+/// The evaluations of a study in an output folder, where those that were recorded before are not done again. What is to be evaluated next
+/// may depend on what was found before.
+pub struct Evaluations<'s> {
+    study: &'s Study,
+    manifest: Manifest,
+    out: PathBuf,
+    pool: rayon::ThreadPool,
+    journal: Journal,
+    /// All that is recorded, whether it was asked for or not.
+    entries: BTreeMap<Task, Entry>,
+    asked: BTreeSet<Task>,
+}
 
-    let entries: Vec<Entry> = entries.into_values().collect();
-    files::replace_file(&out.join("timing.csv"), table::timing(&entries).as_bytes())?;
-    let rows: Vec<Row> = entries.into_iter().map(|entry| entry.row).collect();
-    files::replace_file(&out.join("members.parquet"), &table::members(&rows)?)?;
-    files::replace_file(&out.join("steps.parquet"), &table::steps(&rows)?)?;
-    let json = serde_json::to_string_pretty(&manifest).expect("a manifest has string keys only");
-    files::replace_file(&out.join("manifest.json"), format!("{json}\n").as_bytes())?;
-    Ok(rows)
+impl<'s> Evaluations<'s> {
+    /// Opens the record in the output folder, or begins one.
+    ///
+    /// # Errors
+    /// Those of a folder that cannot be used, see [`RunError`].
+    pub fn begin(study: &'s Study, settings: &Settings) -> Result<Evaluations<'s>, RunError> {
+        let (manifest, out) = (Manifest::of(study), settings.out.clone());
+        fs::create_dir_all(&out).map_err(|e| RunError::file("create the folder", &out, e))?;
+        let (journal, entries) = Journal::open(&out, &manifest)?;
+        let threads =
+            settings.threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+        Ok(Evaluations { study, manifest, out, pool, journal, entries, asked: BTreeSet::new() })
+    }
+
+    /// Evaluates tasks as far as they are not recorded, in parallel.
+    ///
+    /// # Errors
+    /// See [`RunError`]; whatever was evaluated until then is in the record.
+    pub fn of(
+        &mut self,
+        tasks: &[Task],
+        progress: &dyn Progress,
+        evaluate: &(dyn Fn(&Study, Task) -> Row + Sync),
+    ) -> Result<(), RunError> {
+        self.asked.extend(tasks);
+        let recorded: Vec<&Row> = tasks.iter().filter_map(|task| self.row(*task)).collect();
+        progress.begin(tasks.len(), &recorded);
+        let missing: Vec<Task> =
+            tasks.iter().copied().filter(|task| !self.entries.contains_key(task)).collect();
+        let realisation = Realisation {
+            study: self.study,
+            evaluate,
+            journal: &self.journal,
+            progress,
+            threads: self.pool.current_num_threads() as u32,
+            host: host(),
+            stop: AtomicBool::new(false),
+        };
+        let results: Vec<Result<Entry, Missed>> = self
+            .pool
+            .install(|| missing.par_iter().with_max_len(1).map(|&task| realisation.of(task)).collect());
+        progress.end();
+        gather(&missing, results, &mut self.entries)
+    }
+
+    /// The row of a task, if it is recorded.
+    pub fn row(&self, task: Task) -> Option<&Row> {
+        self.entries.get(&task).map(|entry| &entry.row)
+    }
+
+    /// Writes `members.parquet`, `steps.parquet`, `manifest.json` and `timing.csv`, and gives the rows that were asked for in the order arm,
+    /// point, member.
+    ///
+    /// # Errors
+    /// [`RunError::File`] and [`RunError::Table`].
+    pub fn end(self) -> Result<Vec<Row>, RunError> {
+        let Evaluations { out, manifest, asked, entries, .. } = self;
+        let entries: Vec<Entry> =
+            entries.into_iter().filter(|(task, _)| asked.contains(task)).map(|(_, entry)| entry).collect();
+        files::replace_file(&out.join("timing.csv"), table::timing(&entries).as_bytes())?;
+        let rows: Vec<Row> = entries.into_iter().map(|entry| entry.row).collect();
+        files::replace_file(&out.join("members.parquet"), &table::members(&rows)?)?;
+        files::replace_file(&out.join("steps.parquet"), &table::steps(&rows)?)?;
+        let json = serde_json::to_string_pretty(&manifest).expect("a manifest has string keys only");
+        files::replace_file(&out.join("manifest.json"), format!("{json}\n").as_bytes())?;
+        Ok(rows)
+    }
 }
 
 /// What every worker shares.
