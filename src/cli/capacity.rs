@@ -1,8 +1,8 @@
 //! `pirca capacity`: what walls of a kind may be counted on to bear.
 
-use crate::cli::arguments::{Asked, Capacity};
+use crate::cli::arguments::Capacity;
 use crate::cli::failure::Failure;
-use crate::cli::{locate, output, progress, rare, threads};
+use crate::cli::{locate, output, progress, question, rare, threads};
 use crate::ensemble::{self, Quantity, Settings, is_random};
 use crate::report::{CapacitySummary, Question, capacity_text, write_capacity};
 use crate::stats::{CHARACTERISTIC_PROBABILITY, Statistic, Variation};
@@ -16,7 +16,8 @@ pub(crate) fn capacity(arguments: &Capacity) -> Result<(), Failure> {
     let study = locate::with_ensemble(locate::study(&arguments.which)?.study, &arguments.ensemble)?;
     let known = arguments.known_cov.map_or(Variation::Unknown, Variation::Known);
     let quantity = if arguments.measured { Quantity::CollapseAngle } else { Quantity::of(&study.protocol) };
-    let question = question(&arguments.question, quantity, &study)?;
+    let question = question::asked(&arguments.question, quantity, &study)?
+        .unwrap_or(Question::Quantile(CHARACTERISTIC_PROBABILITY));
     let study = enough(study, question, arguments)?;
     if arguments.known_cov.is_some() && quantity == Quantity::TopDisplacement {
         return Err(Failure::Usage(format!(
@@ -44,12 +45,7 @@ pub(crate) fn capacity(arguments: &Capacity) -> Result<(), Failure> {
             study.name
         )));
     }
-    if study.randomisations() > 1 {
-        return Err(Failure::Input(format!(
-            "{}: what walls may be counted on rests on walls that are drawn independently; set study.design = \"plain\" for it",
-            study.name
-        )));
-    }
+    question::needs_independent_walls(&study, "what walls may be counted on")?;
     let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, CAPACITY));
     let settings = Settings { out: out.clone(), threads: arguments.threads };
     let rows = ensemble::run(&study, &settings, progress::on_stderr(&study).as_ref())?;
@@ -86,50 +82,4 @@ fn enough(study: Study, question: Question, arguments: &Capacity) -> Result<Stud
             Ok(study.with_until(Until { of: Statistic::Quantile(share), below, at_most }))
         }
     }
-}
-
-/// The question, which must be of what is observed.
-fn question(asked: &Asked, quantity: Quantity, study: &Study) -> Result<Question, Failure> {
-    let levels = [
-        ("--below-deg", asked.below_deg, Quantity::CollapseAngle, Question::Below as fn(f64) -> Question),
-        ("--above-m", asked.above_m, Quantity::TopDisplacement, Question::Above),
-        ("--below-n", asked.below_n, Quantity::ShearCapacity, Question::Below),
-    ];
-    for (option, level, of, question) in levels {
-        let Some(level) = level else { continue };
-        if of != quantity {
-            let own = levels.iter().find(|(.., of, _)| *of == quantity).map_or("", |(option, ..)| *option);
-            return Err(Failure::Usage(format!(
-                "{option}: {} observes {}; ask with {own}",
-                study.name,
-                quantity.words()
-            )));
-        }
-        return Ok(question(level));
-    }
-    Ok(Question::Quantile(asked.quantile.unwrap_or(CHARACTERISTIC_PROBABILITY)))
-}
-
-/// A probability between 0 and 1.
-pub(crate) fn probability(text: &str) -> Result<f64, String> {
-    number(text, "a number above 0 and below 1", |p| p > 0.0 && p < 1.0)
-}
-
-/// A share above 0 and below 1 that an error is of what it is the error of.
-pub(crate) fn relative(text: &str) -> Result<f64, String> {
-    number(text, "a number above 0 and below 1 (0.1 is 10 %)", |x| x > 0.0 && x < 1.0)
-}
-
-/// A level above 0.
-pub(crate) fn level(text: &str) -> Result<f64, String> {
-    number(text, "a number above 0", |x| x > 0.0 && x.is_finite())
-}
-
-/// A coefficient of variation above 0 and up to 1.
-pub(crate) fn variation(text: &str) -> Result<f64, String> {
-    number(text, "a number above 0, up to 1 (0.1 is 10 %)", |v| v > 0.0 && v <= 1.0)
-}
-
-fn number(text: &str, allowed: &str, is_allowed: impl Fn(f64) -> bool) -> Result<f64, String> {
-    text.parse().ok().filter(|x| is_allowed(*x)).ok_or_else(|| format!("allowed is {allowed}"))
 }

@@ -5,6 +5,7 @@ mod arguments;
 mod bank;
 mod capacity;
 mod check;
+mod compare;
 mod diagnose;
 mod doing;
 mod elements;
@@ -20,7 +21,9 @@ mod mechanisms;
 mod one_wall;
 mod output;
 mod picture;
+mod plan_tests;
 mod progress;
+mod question;
 mod rare;
 mod readings;
 mod run;
@@ -47,6 +50,7 @@ pub fn main() -> ExitCode {
         Verb::Bank(arguments) => bank::bank(arguments),
         Verb::Capacity(arguments) => capacity::capacity(arguments),
         Verb::Check(arguments) => check::check(arguments),
+        Verb::Compare(arguments) => compare::compare(arguments),
         Verb::Diagnose(arguments) => diagnose::diagnose(arguments),
         Verb::Generate(arguments) => generate::generate(arguments),
         Verb::Measured(arguments) => measured::measured(arguments),
@@ -54,6 +58,7 @@ pub fn main() -> ExitCode {
         Verb::Init(arguments) => init::init(arguments),
         Verb::Mechanisms(arguments) => mechanisms::mechanisms(arguments),
         Verb::Picture(arguments) => picture::picture(arguments),
+        Verb::PlanTests(arguments) => plan_tests::plan_tests(arguments),
         Verb::Readings(arguments) => readings::readings(arguments),
         Verb::Run(arguments) => run::run(arguments),
         Verb::Sensitivity(arguments) => sensitivity::sensitivity(arguments),

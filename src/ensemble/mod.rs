@@ -17,6 +17,7 @@ mod quantity;
 mod rare;
 mod record;
 mod run;
+mod selection;
 mod table;
 mod walls;
 
@@ -41,5 +42,6 @@ pub use progress::{Grown, Progress, Silent};
 pub use quantity::{Observed, Quantity};
 pub use rare::{Draw, RareWalls, ScreenedWalls};
 pub use record::{LimitAnalysis, Mechanism, Row, ShearRow, StepRow};
-pub use run::{Settings, run, run_with};
+pub use run::{Evaluations, Settings, run, run_with};
+pub use selection::{Compared, Contest, Hopeless};
 pub(crate) use table::parquet;

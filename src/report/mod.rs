@@ -30,10 +30,12 @@ mod population;
 mod published;
 mod quantity;
 mod readings;
+mod selection;
 mod sensitivity;
 mod standing;
 mod summary;
 mod table;
+mod test_plan;
 #[cfg(test)]
 mod tests;
 mod vtu;
@@ -56,7 +58,14 @@ pub use measured::{CalibrationEntry, ComparisonEntry, MeasuredSummary};
 pub use picture::{Movement, Picture, Seam, Stone};
 pub use published::{Published, Verdict};
 pub use readings::{Extent, ReadingEntry, ReadingsSummary, readings_text, write_readings};
+pub use selection::{
+    ArmDifference, ArmShown, SelectedArm, SelectionSummary, ShareLevels, selection_running, selection_text,
+    write_selection,
+};
 pub use sensitivity::{SensitivitySummary, sensitivity_text, write_sensitivity};
 pub use summary::{ArmSummary, EnoughEntry, QuantileEntry, Summary, summarise};
 pub use table::terminal_table;
+pub use test_plan::{
+    Asked, PlannedArm, PlannedDifference, Reading, TestPlan, test_plan_text, write_test_plan,
+};
 pub use vtu::write_vtu;

@@ -44,13 +44,12 @@ pub fn predictive_quantile(values: &[f64], p: f64) -> Option<f64> {
 /// the quantile is binomial. `None` when the sample is too small to bound the quantile on both sides (for the median:
 /// below six values).
 pub fn quantile_interval(values: &[f64], p: f64) -> Option<[f64; 2]> {
-    interval_missing(values, p, 2.0 * TAIL)
+    order_interval(values, p, TAIL)
 }
 
-/// The same with the probability that it may miss the quantile, half of it at each end.
-pub(super) fn interval_missing(values: &[f64], p: f64, miss: f64) -> Option<[f64; 2]> {
+/// The same with another probability left out at each end.
+pub(super) fn order_interval(values: &[f64], p: f64, tail: f64) -> Option<[f64; 2]> {
     check_probability(p);
-    let tail = 0.5 * miss;
     let values = sorted(values);
     let n = values.len();
     let below = Binomial::new(p, n as u64).ok()?;

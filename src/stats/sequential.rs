@@ -7,7 +7,7 @@
 
 use super::Estimate;
 use super::moments::{mean, sigma, sum};
-use super::order::{interval_missing, quantile};
+use super::order::{order_interval, quantile};
 use super::reference::student_quantile;
 use crate::math::{exp, ln};
 use crate::random::standard_normal;
@@ -63,9 +63,10 @@ impl Statistic {
                 Estimate { value, interval }
             }
             Statistic::Sigma => Estimate { value: sigma(values), interval: sigma_interval(values, miss) },
-            Statistic::Quantile(share) => {
-                Estimate { value: quantile(values, share), interval: interval_missing(values, share, miss) }
-            }
+            Statistic::Quantile(share) => Estimate {
+                value: quantile(values, share),
+                interval: order_interval(values, share, 0.5 * miss),
+            },
         }
     }
 }

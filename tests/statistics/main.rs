@@ -1,5 +1,6 @@
 //! Statistics and distributions against certified values, closed forms, independent programs and simulation.
 
+mod always_valid;
 mod bootstrap;
 mod calibration;
 mod certified;
@@ -13,6 +14,8 @@ mod rand_distr_agrees;
 mod randomised;
 mod rare;
 mod ratios;
+mod selection;
 mod sequential;
 mod support;
+mod test_plan;
 mod truncated;
