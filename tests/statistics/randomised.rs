@@ -44,6 +44,7 @@ fn designs_have_short_intervals_that_hold_the_truth() {
         assert!(held[0] >= 180 && held[1] >= 176, "{design:?}: {held:?}");
         lengths.push(length);
     }
-    // 256 independent points: 2 x 1.97 x 0.50 / 16.
-    assert!(lengths[0] < 0.05 && lengths[1] < 0.3 * lengths[0], "{lengths:?}");
+    // 256 independent points: 2 x 1.97 x 0.517 / 16 = 0.127. What is left of a Latin hypercube's error is the interaction of x and y,
+    // which a net evens out as well.
+    assert!(lengths[0] < 0.02 && lengths[1] < 0.8 * lengths[0], "{lengths:?}");
 }
