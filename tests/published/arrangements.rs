@@ -31,14 +31,14 @@ fn wythes_that_are_not_tied_fall_first_and_headers_help() {
 }
 
 #[test]
-fn columns_gain_nothing_from_ends_that_are_held_and_bonded_walls_do() {
+fn columns_gain_little_from_ends_that_are_held_and_bonded_walls_much() {
     let (free, held) = (walls(Some("lateral")), walls(Some("lateral-restrained")));
     let kept = |arm: usize| {
         let [held, free] = [&held, &free].map(|rows| rows[arm].top_displacement_m.expect("it stands"));
         held / free
     };
-    assert!(kept(0) > 0.9, "continuous: {}", kept(0));
-    for arm in 1..6 {
-        assert!(kept(arm) < 0.6, "{}: {}", ARMS[arm], kept(arm));
+    assert!(kept(0) > 0.7, "continuous: {}", kept(0));
+    for (arm, name) in ARMS.iter().enumerate().skip(1) {
+        assert!(kept(arm) < 0.6, "{name}: {}", kept(arm));
     }
 }

@@ -224,11 +224,12 @@ fn the_next_values_go_where_they_are_needed() {
     let needed = |kind: usize| {
         let difference = standing.differences[kind].unwrap();
         let [low, high] = difference.interval.unwrap();
-        ((high - low) / difference.value.unwrap()).powi(2)
+        let ratio = (high - low) / difference.value.unwrap();
+        ratio * ratio
     };
     let (own, wanted) = (next[1] as f64 / next[2] as f64, needed(1) / needed(2));
     assert!(wanted > 1.2 && (own / wanted - 1.0).abs() < 0.05, "{next:?}: {own} against {wanted}");
     assert_eq!(next[0], next[1]);
     let spent: usize = next.iter().sum();
-    assert!(spent <= 80 + 200 && spent >= 80 + 198, "{next:?}");
+    assert!((80 + 198..=80 + 200).contains(&spent), "{next:?}");
 }
