@@ -6,10 +6,10 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::cli::help::{
-    ANALYSE, BANK, CAPACITY, CHECK, DIAGNOSE, GENERATE, INIT, MEASURED, MECHANISMS, PICTURE, READINGS, RUN,
-    SENSITIVITY, WHOLE,
+    ANALYSE, BANK, CAPACITY, CHECK, COMPARE, DIAGNOSE, GENERATE, INFLUENCE, INIT, MEASURED, MECHANISMS,
+    PICTURE, PLAN_TESTS, READINGS, RUN, SENSITIVITY, WHOLE,
 };
-use crate::cli::{analyse, capacity, sensitivity};
+use crate::cli::{analyse, influence, question, sensitivity};
 use crate::protocol::Direction;
 
 /// Headings of the options that several verbs share.
@@ -60,6 +60,18 @@ pub(crate) enum Verb {
     /// The probability of a failure below some load, a low quantile, characteristic and design values: from simulated walls, or with --measured from tested specimens alone.
     #[command(after_help = CAPACITY)]
     Capacity(Capacity),
+    /// Say where the scatter of walls comes from.
+    ///
+    /// Shares of the variance by source: each parameter that is drawn once per wall, the layout of the stones as a whole, and what the
+    /// layout consists of.
+    #[command(after_help = INFLUENCE)]
+    Influence(Influence),
+    /// Say which arm of a study is the best, and how sure that is.
+    ///
+    /// Evaluates walls until every other arm is shown to be worse than the best one, or the same. Arms share the random numbers of a member;
+    /// those that are near to the best one get the walls.
+    #[command(after_help = COMPARE)]
+    Compare(Compare),
     /// Say which readings of a study explain what was published.
     ///
     /// Where a source does not say all that it did, its statements may tell which of the possible readings is meant: the study's
@@ -78,6 +90,11 @@ pub(crate) enum Verb {
     /// and joints that nobody knows exactly. What is left is explained by a mechanism, by a few, or by none.
     #[command(after_help = DIAGNOSE)]
     Diagnose(Diagnose),
+    /// Say how many specimens to test, and what to read.
+    ///
+    /// How many real walls of each arm show a difference, by which reading, and how many carry a characteristic value.
+    #[command(after_help = PLAN_TESTS)]
+    PlanTests(PlanTests),
     /// Write an empty table of measurements, or check a filled one.
     ///
     /// The table is for a spreadsheet. Of a filled one it says what is read from it and what looks odd; it simulates nothing.
@@ -174,6 +191,12 @@ pub(crate) struct OneWall {
     /// Number of the wall in its arm, from 0.
     #[arg(long, value_name = "M", default_value_t = 0)]
     pub member: u64,
+    /// Number of a wall that `capacity --walls` drew and moved (draw in evaluations.parquet), instead of an arm's.
+    #[arg(long, value_name = "K", conflicts_with_all = ["arm", "point", "member", "members"])]
+    pub draw: Option<u64>,
+    /// Folder that holds it [default: runs/<study>-capacity, with -<variant> in it if one is named].
+    #[arg(long, value_name = "DIR", requires = "draw")]
+    pub draws: Option<PathBuf>,
     /// Number of walls in every random arm, instead of the study's, as in `run`.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     pub members: Option<u64>,
@@ -269,10 +292,17 @@ pub(crate) struct Capacity {
     #[arg(long, conflicts_with_all = ["members", "seed", "threads", "above_m", "below_n"], help_heading = STUDY)]
     pub measured: bool,
     /// Where fewer than ten walls are on the worse side of a level, evaluate up to so many more in each arm by subset simulation.
-    #[arg(long, value_name = "N", conflicts_with_all = ["measured", "quantile"], value_parser = clap::value_parser!(u64).range(1000..=10_000_000), help_heading = STUDY)]
+    /// With --half-width: most walls of an arm [default there: 1000].
+    #[arg(long, value_name = "N", conflicts_with = "measured", value_parser = clap::value_parser!(u64).range(100..=10_000_000), help_heading = STUDY)]
     pub walls: Option<u64>,
+    /// Add walls, up to --walls, until the coefficient of variation of a probability is no larger: 0.2 is 20 %.
+    #[arg(long, value_name = "C", requires = "walls", value_parser = question::relative, allow_negative_numbers = true, help_heading = STUDY)]
+    pub cov: Option<f64>,
+    /// Add walls, up to --walls, until half the width of a quantile's interval is below this share of the quantile.
+    #[arg(long, value_name = "H", conflicts_with_all = ["measured", "members", "below_deg", "above_m", "below_n"], value_parser = question::relative, allow_negative_numbers = true, help_heading = STUDY)]
+    pub half_width: Option<f64>,
     /// Coefficient of variation of such walls, where more than these walls tell it: 0.1 is 10 %.
-    #[arg(long, value_name = "V", value_parser = capacity::variation, allow_negative_numbers = true, help_heading = STUDY)]
+    #[arg(long, value_name = "V", value_parser = question::variation, allow_negative_numbers = true, help_heading = STUDY)]
     pub known_cov: Option<f64>,
     #[command(flatten)]
     pub ensemble: Ensemble,
@@ -284,22 +314,137 @@ pub(crate) struct Capacity {
     pub out: Option<PathBuf>,
 }
 
-/// What is asked of a capacity.
+/// Arguments of `influence`.
+#[derive(Args, Debug)]
+pub(crate) struct Influence {
+    #[command(flatten)]
+    pub which: Which,
+    /// Name of the arm; without it the first whose walls are random.
+    #[arg(long, value_name = "ARM", help_heading = WALL)]
+    pub arm: Option<String>,
+    /// Number of the kn point, from 0.
+    #[arg(long, value_name = "K", default_value_t = 0, help_heading = WALL)]
+    pub point: u32,
+    /// Base points, a multiple of 16; each costs two walls and one more for every source.
+    #[arg(long, value_name = "N", default_value_t = 256, value_parser = influence::points, help_heading = STUDY)]
+    pub points: u64,
+    /// Seed instead of the study's.
+    #[arg(long, value_name = "S", help_heading = STUDY)]
+    pub seed: Option<u64>,
+    /// Worker threads [default: one per processor]. No result depends on their number.
+    #[arg(long, value_name = "T", help_heading = SOLUTION)]
+    pub threads: Option<NonZero<usize>>,
+    /// Output folder [default: runs/<study>-influence, with -<variant> in it if one is named].
+    #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
+    pub out: Option<PathBuf>,
+}
+
+/// Arguments of `compare`.
+#[derive(Args, Debug)]
+pub(crate) struct Compare {
+    #[command(flatten)]
+    pub which: Which,
+    #[command(flatten)]
+    pub question: Asked,
+    /// The arms to compare, with commas between them [default: all].
+    #[arg(long, value_name = "ARMS", value_delimiter = ',', help_heading = STUDY)]
+    pub arms: Vec<String>,
+    /// Number of the kn point at which they are compared, from 0.
+    #[arg(long, value_name = "K", default_value_t = 0, help_heading = STUDY)]
+    pub point: u32,
+    /// Probability with which all that is said of differences holds together.
+    #[arg(long, value_name = "P", default_value = "0.95", value_parser = question::confidence, allow_negative_numbers = true, help_heading = "Answer")]
+    pub confidence: f64,
+    /// Most walls that are evaluated, in all arms together.
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(20..=10_000_000), help_heading = "Answer")]
+    pub walls: u64,
+    #[command(flatten)]
+    pub same_within: SameWithin,
+    /// Seed instead of the study's.
+    #[arg(long, value_name = "S", help_heading = STUDY)]
+    pub seed: Option<u64>,
+    /// Worker threads [default: one per processor]. No result depends on their number.
+    #[arg(long, value_name = "T", help_heading = SOLUTION)]
+    pub threads: Option<NonZero<usize>>,
+    /// Output folder [default: runs/<study>-compare, with -<variant> in it if one is named].
+    #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
+    pub out: Option<PathBuf>,
+}
+
+/// Arguments of `plan-tests`.
+#[derive(Args, Debug)]
+pub(crate) struct PlanTests {
+    #[command(flatten)]
+    pub which: Which,
+    /// Specimens of each arm that might be tested.
+    #[arg(long, value_name = "N", value_parser = question::specimens, allow_negative_numbers = true, help_heading = "Tests")]
+    pub specimens: usize,
+    /// Coefficient of variation of real specimens, instead of that of simulated ones: 0.05 is 5 %.
+    #[arg(long, value_name = "V", value_parser = question::variation, allow_negative_numbers = true, help_heading = "Tests")]
+    pub cov: Option<f64>,
+    /// Standard deviation of the error of an angle that is read (deg).
+    #[arg(long, value_name = "DEG", default_value = "0.25", value_parser = question::level, allow_negative_numbers = true, help_heading = "Tests")]
+    pub error_deg: f64,
+    /// Standard deviation of the error of a displacement that is read (m).
+    #[arg(long, value_name = "M", default_value = "0.0001", value_parser = question::level, allow_negative_numbers = true, help_heading = "Tests")]
+    pub error_m: f64,
+    /// Probability with which a difference is to be seen.
+    #[arg(long, value_name = "P", default_value = "0.8", value_parser = question::confidence, allow_negative_numbers = true, help_heading = "Tests")]
+    pub power: f64,
+    /// Probability with which arms that are the same are not called different.
+    #[arg(long, value_name = "P", default_value = "0.95", value_parser = question::confidence, allow_negative_numbers = true, help_heading = "Tests")]
+    pub confidence: f64,
+    /// Share of the true 5 % fractile that the characteristic value (EN 1990 D7.2) may lose in the mean.
+    #[arg(long, value_name = "P", default_value = "0.05", value_parser = question::probability, allow_negative_numbers = true, help_heading = "Tests")]
+    pub loss: f64,
+    #[command(flatten)]
+    pub ensemble: Ensemble,
+    /// Number of the kn point at which walls are simulated, from 0.
+    #[arg(long, value_name = "K", default_value_t = 0, help_heading = STUDY)]
+    pub point: u32,
+    /// Worker threads [default: one per processor]. No result depends on their number.
+    #[arg(long, value_name = "T", help_heading = SOLUTION)]
+    pub threads: Option<NonZero<usize>>,
+    /// Output folder [default: runs/<study>-plan-tests, with -<variant> in it if one is named].
+    #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
+    pub out: Option<PathBuf>,
+}
+
+/// Which differences do not matter.
+#[derive(Args, Debug)]
+#[group(multiple = false)]
+#[command(next_help_heading = "Answer")]
+pub(crate) struct SameWithin {
+    /// Collapse angles that differ by less are the same (deg) [default: 0.25].
+    #[arg(long, value_name = "DEG", value_parser = question::level, allow_negative_numbers = true)]
+    pub same_within_deg: Option<f64>,
+    /// Displacements that differ by less are the same (m) [default: 0.0001].
+    #[arg(long, value_name = "M", value_parser = question::level, allow_negative_numbers = true)]
+    pub same_within_m: Option<f64>,
+    /// Shear capacities that differ by less are the same (N) [default: 1000].
+    #[arg(long, value_name = "N", value_parser = question::level, allow_negative_numbers = true)]
+    pub same_within_n: Option<f64>,
+    /// Probabilities that differ by less are the same, where a level is asked for [default: 0.05].
+    #[arg(long, value_name = "P", value_parser = question::probability, allow_negative_numbers = true)]
+    pub same_within_share: Option<f64>,
+}
+
+/// What is asked of walls: one question, or none.
 #[derive(Args, Debug)]
 #[group(multiple = false)]
 #[command(next_help_heading = "Question")]
 pub(crate) struct Asked {
-    /// Which share of walls lie below the value sought [default: 0.05].
-    #[arg(long, value_name = "P", value_parser = capacity::probability, allow_negative_numbers = true)]
+    /// Which share of walls lie below the value sought.
+    #[arg(long, value_name = "P", value_parser = question::probability, allow_negative_numbers = true)]
     pub quantile: Option<f64>,
     /// How probable is a collapse before this tilt (deg)?
-    #[arg(long, value_name = "DEG", value_parser = capacity::level, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", value_parser = question::level, allow_negative_numbers = true)]
     pub below_deg: Option<f64>,
     /// How probable is a displacement beyond this (m)?
-    #[arg(long, value_name = "M", value_parser = capacity::level, allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", value_parser = question::level, allow_negative_numbers = true)]
     pub above_m: Option<f64>,
     /// How probable is a shear capacity below this (N)?
-    #[arg(long, value_name = "N", value_parser = capacity::level, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = question::level, allow_negative_numbers = true)]
     pub below_n: Option<f64>,
 }
 

@@ -81,6 +81,7 @@ pub(crate) fn measured(which: &Which, file: Option<&Path>) -> Result<Loaded, Fai
 
 /// The plan for what was measured, with the priors beside the folder of the studies.
 pub(crate) fn prepared(study: &Study, which: &Which, points: u64) -> Result<Prepared, Failure> {
+    locate::without_uncertain(study)?;
     if study.measured.is_empty() {
         return Err(Failure::Input(format!(
             "{}: nothing was measured; put a measured.csv into the study's folder, or name a file with --measured",

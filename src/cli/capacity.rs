@@ -1,26 +1,24 @@
 //! `pirca capacity`: what walls of a kind may be counted on to bear.
 
-use crate::cli::arguments::{Asked, Capacity};
+use crate::cli::arguments::Capacity;
 use crate::cli::failure::Failure;
-use crate::cli::{locate, output, progress, rare, threads};
+use crate::cli::{locate, output, progress, question, rare, threads};
 use crate::ensemble::{self, Quantity, Settings, is_random};
 use crate::report::{CapacitySummary, Question, capacity_text, write_capacity};
-use crate::stats::{CHARACTERISTIC_PROBABILITY, Variation};
-use crate::study::{MEASURED, MeasuredQuantity, Measurement, Study};
+use crate::stats::{CHARACTERISTIC_PROBABILITY, Statistic, Variation};
+use crate::study::{MEASURED, MeasuredQuantity, Measurement, Study, Until};
 
 /// What the folder of the results is named by.
-const CAPACITY: &str = "capacity";
+pub(crate) const CAPACITY: &str = "capacity";
 
 /// Answers the question from specimens, or from walls that are evaluated as far as they have not been.
 pub(crate) fn capacity(arguments: &Capacity) -> Result<(), Failure> {
     let study = locate::with_ensemble(locate::study(&arguments.which)?.study, &arguments.ensemble)?;
     let known = arguments.known_cov.map_or(Variation::Unknown, Variation::Known);
     let quantity = if arguments.measured { Quantity::CollapseAngle } else { Quantity::of(&study.protocol) };
-    let question = question(&arguments.question, quantity, &study)?;
-    if let (Some(_), Question::Quantile(_)) = (arguments.walls, question) {
-        let text = "--walls: further walls are evaluated towards a level; name one (--below-deg, --above-m or --below-n)";
-        return Err(Failure::Usage(text.to_owned()));
-    }
+    let question = question::asked(&arguments.question, quantity, &study)?
+        .unwrap_or(Question::Quantile(CHARACTERISTIC_PROBABILITY));
+    let study = enough(study, question, arguments)?;
     if arguments.known_cov.is_some() && quantity == Quantity::TopDisplacement {
         return Err(Failure::Usage(format!(
             "--known-cov: {} observes a displacement, of which no characteristic value is given; leave it out",
@@ -47,12 +45,15 @@ pub(crate) fn capacity(arguments: &Capacity) -> Result<(), Failure> {
             study.name
         )));
     }
+    question::needs_independent_walls(&study, "what walls may be counted on")?;
     let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, CAPACITY));
     let settings = Settings { out: out.clone(), threads: arguments.threads };
     let rows = ensemble::run(&study, &settings, progress::on_stderr(&study).as_ref())?;
+    let study = ensemble::come_to(study, &rows);
     let mut summary = CapacitySummary::simulated(&study, &rows, question, known);
-    if let Some(budget) = arguments.walls {
-        threads::on(arguments.threads, || rare::ask(&study, &mut summary, budget, &out))?;
+    if let (Some(budget), Question::Below(_) | Question::Above(_)) = (arguments.walls, question) {
+        let aim = rare::Aim { budget, cov: arguments.cov };
+        threads::on(arguments.threads, || rare::ask(&study, &rows, &mut summary, aim, &out))?;
     }
     write_capacity(&summary, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
     if arguments.which.json {
@@ -61,43 +62,24 @@ pub(crate) fn capacity(arguments: &Capacity) -> Result<(), Failure> {
     output::print(&format!("{}\nwritten to {}\n", capacity_text(&summary), out.display()))
 }
 
-/// The question, which must be of what is observed.
-fn question(asked: &Asked, quantity: Quantity, study: &Study) -> Result<Question, Failure> {
-    let levels = [
-        ("--below-deg", asked.below_deg, Quantity::CollapseAngle, Question::Below as fn(f64) -> Question),
-        ("--above-m", asked.above_m, Quantity::TopDisplacement, Question::Above),
-        ("--below-n", asked.below_n, Quantity::ShearCapacity, Question::Below),
-    ];
-    for (option, level, of, question) in levels {
-        let Some(level) = level else { continue };
-        if of != quantity {
-            let own = levels.iter().find(|(.., of, _)| *of == quantity).map_or("", |(option, ..)| *option);
-            return Err(Failure::Usage(format!(
-                "{option}: {} observes {}; ask with {own}",
-                study.name,
-                quantity.words()
-            )));
+/// Most walls of an arm that are added towards a quantile, unless another number is asked for.
+const MOST_WALLS: u64 = 1000;
+
+/// The study with walls added until a quantile is known as well as is asked for, and what cannot be asked of a question.
+fn enough(study: Study, question: Question, arguments: &Capacity) -> Result<Study, Failure> {
+    let Question::Quantile(share) = question else { return Ok(study) };
+    let refused = |text: &str| Err(Failure::Usage(text.to_owned()));
+    match (arguments.half_width, arguments.walls) {
+        _ if arguments.cov.is_some() => {
+            refused("--cov: a quantile has an interval; say how wide with --half-width, or name a level")
         }
-        return Ok(question(level));
+        (None, Some(_)) => refused(
+            "--walls: further walls are evaluated towards a level (--below-deg, --above-m or --below-n) or a --half-width; name one",
+        ),
+        (None, None) => Ok(study),
+        (Some(below), at_most) => {
+            let at_most = at_most.unwrap_or(MOST_WALLS);
+            Ok(study.with_until(Until { of: Statistic::Quantile(share), below, at_most }))
+        }
     }
-    Ok(Question::Quantile(asked.quantile.unwrap_or(CHARACTERISTIC_PROBABILITY)))
-}
-
-/// A probability between 0 and 1.
-pub(crate) fn probability(text: &str) -> Result<f64, String> {
-    number(text, "a number above 0 and below 1", |p| p > 0.0 && p < 1.0)
-}
-
-/// A level above 0.
-pub(crate) fn level(text: &str) -> Result<f64, String> {
-    number(text, "a number above 0", |x| x > 0.0 && x.is_finite())
-}
-
-/// A coefficient of variation above 0 and up to 1.
-pub(crate) fn variation(text: &str) -> Result<f64, String> {
-    number(text, "a number above 0, up to 1 (0.1 is 10 %)", |v| v > 0.0 && v <= 1.0)
-}
-
-fn number(text: &str, allowed: &str, is_allowed: impl Fn(f64) -> bool) -> Result<f64, String> {
-    text.parse().ok().filter(|x| is_allowed(*x)).ok_or_else(|| format!("allowed is {allowed}"))
 }

@@ -42,6 +42,9 @@ pub(crate) fn check(arguments: &Check) -> Result<(), Failure> {
             "arms": study.arms.iter().map(|arm| json!({
                 "arm": arm.name,
                 "members": arm.members,
+                "until": arm.until.map(|until| json!({
+                    "half_width_of": until.of.name(), "below": until.below, "at_most": until.at_most,
+                })),
                 "random": ensemble::is_random(arm),
                 "kn_pa_per_m": arm.kn_points,
             })).collect::<Vec<_>>(),
@@ -73,7 +76,10 @@ fn specimens(study: &Study) -> BTreeSet<&str> {
 fn summary(loaded: &Loaded) -> String {
     let study = &loaded.study;
     let variant = study.variant.as_ref().map(|name| format!(", variant {name}")).unwrap_or_default();
-    let arm = |arm: &Arm| format!("{} ({} x {} kn)", arm.name, arm.members, arm.kn_points.len());
+    let arm = |arm: &Arm| {
+        let most = if arm.until.is_some() { "at most " } else { "" };
+        format!("{} ({most}{} x {} kn)", arm.name, arm.members, arm.kn_points.len())
+    };
     let arms: Vec<_> = study.arms.iter().map(arm).collect();
     let mut text = format!(
         "{}{variant}: valid\n  question: {}\n  arms (walls x points): {}\n  evaluations: {}\n  seed: {}\n",

@@ -17,8 +17,8 @@ const INDENT: usize = 10;
 /// The verbs in the order in which they are met, under what they are about.
 const GROUPS: [(&str, &[&str]); 3] = [
     ("One wall", &["analyse", "generate", "picture"]),
-    ("Many walls", &["init", "check", "run", "capacity", "readings"]),
-    ("Measured walls", &["measured", "sensitivity", "bank", "diagnose", "mechanisms"]),
+    ("Many walls", &["init", "check", "run", "capacity", "compare", "influence", "readings"]),
+    ("Measured walls", &["plan-tests", "measured", "sensitivity", "bank", "diagnose", "mechanisms"]),
 ];
 
 macro_rules! codes {
@@ -48,8 +48,8 @@ Example: pirca init my-wall
          pirca run my-wall
          pirca init my-tests --from tilting-table
 
-Built in are dry-shear-walls, edge-restraint, element-types, joint-arrangement, tilting-block and tilting-table. A folder that \
-exists is left alone: choose another name.
+Built in are arrangements, dry-shear-walls, edge-restraint, element-types, joint-arrangement, tilting-block and tilting-table. A \
+folder that exists is left alone: choose another name.
 
 ",
     codes!()
@@ -91,7 +91,8 @@ pub(super) const RUN: &str = concat!(
 Example: pirca run studies/joint-arrangement --members 5 --out runs/first-try
          pirca run studies/joint-arrangement --beside runs/explicit --out runs/both
 
-Stopped and started again with the same arguments, it goes on where it stood and ends with the same files. A wall that falls or \
+Stopped and started again with the same arguments, it goes on where it stood and ends with the same files. With more members, \
+another stiffness or another arm in the same folder it computes only what is new, and says what it takes over. A wall that falls or \
 cannot be built is counted in the results; it is no error.
 
 ",
@@ -103,15 +104,53 @@ pub(super) const CAPACITY: &str = concat!(
     "\
 Example: pirca capacity studies/tilting-table --members 100
          pirca capacity studies/tilting-table --below-deg 12
-         pirca capacity studies/tilting-block --variant restrained-ends --below-deg 20 --walls 4000
+         pirca capacity studies/tilting-table --quantile 0.05 --half-width 0.1
+         pirca capacity studies/tilting-block --variant restrained-ends --below-deg 20 --walls 4000 --cov 0.2
+         pirca generate studies/tilting-block --variant restrained-ends --draw 0 --out wall.vtu
          pirca capacity studies/tilting-table --measured --known-cov 0.1
 
-It writes capacity.json beside the files of the walls. Intervals are at 95 %. A wall that brings no value is counted, and the \
+Without a question it seeks the value that 5 % of walls lie below. It writes capacity.json, probability.svg, .png and .csv beside the \
+files of the walls, and evaluations.parquet of walls drawn for a rare level. Intervals are at 95 %. A wall that brings no value is \
+counted, and the \
 interval that holds whatever it would have borne is given too. Characteristic and design values are those of EN 1990 Annex D, \
 computed and not read from its tables; the design value is undercut with a probability of 0.1 %.
 
 ",
     codes!()
+);
+
+/// Of `influence`.
+pub(super) const INFLUENCE: &str = concat!(
+    "\
+Example: pirca influence studies/tilting-block --points 64
+         pirca influence studies/tilting-table --arm sbl --points 128 --json
+
+First order: the share of the variance that would go if the source were known. Total: the share that would be left if all others \
+were known. They differ by interactions. Sources are independent of each other, as a study cannot state a correlation; so Shapley's \
+shares lie between the two and are not given. Intervals are at 95 %, over 16 independent randomisations.
+
+Walls without a value are counted; a base point that lacks one is left out of the shares that need it. It writes influence.json, \
+influence.csv, influence.parquet (every evaluation), influence.svg and influence.png. Stopped and started again, it goes on \
+where it stood, with more --points as well unless the design is a Latin hypercube.
+
+",
+    codes!()
+);
+
+/// Of `compare`.
+pub(super) const COMPARE: &str = concat!(
+    "\
+Example: pirca compare studies/arrangements
+         pirca compare studies/arrangements --arms continuous,irregular --same-within-deg 0.1 --walls 2000
+         pirca compare studies/tilting-table --arms sbl,sbr --below-deg 14
+
+Without a question it compares means. It writes compare.json, compare.csv, a figure of the differences (compare.svg, compare.png), the \
+distributions (distributions.csv, .svg, .png) and the files of the walls. Intervals hold together and at every number of walls, so \
+that looking early costs nothing. Stopped and started again it goes on where it stood; with more --walls it goes on from there.
+
+",
+    codes!(),
+    "\nAn answer, \"cannot be told apart\" and \"not decided\" all end with 0."
 );
 
 /// Of `readings`.
@@ -165,6 +204,20 @@ Example: pirca measured studies/tilting-table --template --wide --out my-tests.c
 
 Commas, semicolons or tabs; decimals with a point, or with a comma where it does not separate; a row per value, or a row per tilt. \
 `pirca check STUDY --keys` lists all columns and quantities. Every fault is told with its line.
+
+",
+    codes!()
+);
+
+/// Of `plan-tests`.
+pub(super) const PLAN_TESTS: &str = concat!(
+    "\
+Example: pirca plan-tests studies/tilting-table --specimens 3
+         pirca plan-tests studies/tilting-table --specimens 3 --cov 0.052 --error-deg 0.25
+
+The walls of each arm are simulated as `run` does. Real specimens scatter by what simulated walls do and by the error of the reading; \
+--cov states another scatter. A difference is seen by Student's test of two groups of specimens built of different stones. Where the same \
+stones are laid twice, the pairs correlate as simulated walls do, and fewer suffice. It writes plan-tests.json and plan-tests.csv.
 
 ",
     codes!()

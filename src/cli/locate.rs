@@ -35,7 +35,25 @@ pub(crate) fn with_members(study: Study, members: u64) -> Result<Study, Failure>
             study.name
         )));
     }
+    study.takes_members(members).map_err(|allowed| {
+        Failure::Usage(format!(
+            "--members {members}: allowed for study.design of {} is {allowed}",
+            study.name
+        ))
+    })?;
     Ok(study.with_members(members))
+}
+
+/// The study, in which nothing may be drawn in the place of what a diagnosis reckons with by priors of its own.
+pub(crate) fn without_uncertain(study: &Study) -> Result<(), Failure> {
+    match study.arms.iter().find(|arm| !arm.uncertain.is_empty()) {
+        None => Ok(()),
+        Some(arm) => Err(Failure::Input(format!(
+            "{}: [uncertain] draws numbers of arm {}, which measurements are to tell of: the priors in distributions/nuisance and \
+             distributions/mechanism say how badly they are known; take a variant without it",
+            study.name, arm.name
+        ))),
+    }
 }
 
 /// The study with the seed and the number of walls that are asked for.

@@ -5,6 +5,7 @@ mod arguments;
 mod bank;
 mod capacity;
 mod check;
+mod compare;
 mod diagnose;
 mod doing;
 mod drawn;
@@ -12,6 +13,7 @@ mod elements;
 mod failure;
 mod generate;
 mod help;
+mod influence;
 mod init;
 mod judge;
 mod locate;
@@ -20,7 +22,9 @@ mod mechanisms;
 mod one_wall;
 mod output;
 mod picture;
+mod plan_tests;
 mod progress;
+mod question;
 mod rare;
 mod readings;
 mod run;
@@ -47,12 +51,15 @@ pub fn main() -> ExitCode {
         Verb::Bank(arguments) => bank::bank(arguments),
         Verb::Capacity(arguments) => capacity::capacity(arguments),
         Verb::Check(arguments) => check::check(arguments),
+        Verb::Compare(arguments) => compare::compare(arguments),
         Verb::Diagnose(arguments) => diagnose::diagnose(arguments),
         Verb::Generate(arguments) => generate::generate(arguments),
         Verb::Measured(arguments) => measured::measured(arguments),
+        Verb::Influence(arguments) => influence::influence(arguments),
         Verb::Init(arguments) => init::init(arguments),
         Verb::Mechanisms(arguments) => mechanisms::mechanisms(arguments),
         Verb::Picture(arguments) => picture::picture(arguments),
+        Verb::PlanTests(arguments) => plan_tests::plan_tests(arguments),
         Verb::Readings(arguments) => readings::readings(arguments),
         Verb::Run(arguments) => run::run(arguments),
         Verb::Sensitivity(arguments) => sensitivity::sensitivity(arguments),

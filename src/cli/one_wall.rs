@@ -1,10 +1,13 @@
 //! The wall that a verb is about: a member of an arm at one stiffness of its joints, built.
 
+use std::path::Path;
+
 use crate::cli::arguments::{OneWall as Arguments, Which};
+use crate::cli::capacity::CAPACITY;
 use crate::cli::doing::doing;
 use crate::cli::failure::Failure;
-use crate::cli::locate;
-use crate::ensemble::{self, Generated, Task};
+use crate::cli::{locate, output};
+use crate::ensemble::{self, Evaluated, Generated, Task};
 use crate::protocol::Run;
 use crate::study::{Arm, Study};
 
@@ -27,6 +30,9 @@ impl OneWall {
         if let Some(members) = arguments.members {
             study = locate::with_members(study, members)?;
         }
+        if let Some(number) = arguments.draw {
+            return OneWall::drawn(study, number, arguments.draws.as_deref());
+        }
         let index = arm_index(&study, arguments.arm.as_deref())?;
         let (arm, member) = (&study.arms[index], arguments.member);
         let kn = kn(arm, arguments.point)?;
@@ -35,6 +41,23 @@ impl OneWall {
             .map_err(|e| Failure::Run(format!("arm {}, member {member}: invalid geometry: {e}", arm.name)))?;
         let task = Task { arm: index as u32, point: arguments.point, member };
         Ok(OneWall { study, task, kn, generated })
+    }
+
+    /// The wall of that number among those that were drawn and moved for rare values.
+    fn drawn(study: Study, number: u64, folder: Option<&Path>) -> Result<OneWall, Failure> {
+        let folder = folder.map_or_else(|| output::default_folder(&study, CAPACITY), Path::to_path_buf);
+        let Some(Evaluated { arm, point, draw, .. }) = ensemble::drawn(&folder, &study, number)? else {
+            return Err(Failure::Usage(format!(
+                "--draw {number}: {} holds no such wall of {}; evaluations.parquet there lists them, and the seed must be its own",
+                folder.display(),
+                study.name
+            )));
+        };
+        let study = draw.study(&study);
+        let generated = ensemble::build(&study, arm, draw.member)
+            .map_err(|e| Failure::Run(format!("draw {number}: invalid geometry: {e}")))?;
+        let kn = study.arms[arm as usize].kn_points[point as usize];
+        Ok(OneWall { study, task: Task { arm, point, member: draw.member }, kn, generated })
     }
 
     /// Takes it through the study's protocol.
@@ -47,7 +70,7 @@ impl OneWall {
 }
 
 /// The arm of that name, or the first one that is random, or else the first one.
-fn arm_index(study: &Study, name: Option<&str>) -> Result<usize, Failure> {
+pub(super) fn arm_index(study: &Study, name: Option<&str>) -> Result<usize, Failure> {
     let Some(name) = name else {
         let random = study.arms.iter().position(ensemble::is_random);
         return Ok(random.unwrap_or(0));
@@ -59,7 +82,7 @@ fn arm_index(study: &Study, name: Option<&str>) -> Result<usize, Failure> {
 }
 
 /// The joint stiffness (Pa/m) of an arm's point.
-fn kn(arm: &Arm, point: u32) -> Result<f64, Failure> {
+pub(super) fn kn(arm: &Arm, point: u32) -> Result<f64, Failure> {
     arm.kn_points.get(point as usize).copied().ok_or_else(|| {
         let points = numbered(arm.kn_points.len() as u64, "kn point");
         Failure::Usage(format!(

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::cli::output;
-use crate::ensemble::{Observed, Progress, Quantity, Row, Task};
+use crate::ensemble::{Grown, Observed, Progress, Quantity, Row, Task};
 use crate::study::Study;
 
 /// A progress on standard error, fit for what standard error is.
@@ -66,6 +66,10 @@ impl Bar {
 }
 
 impl Progress for Bar {
+    fn grown(&self, grown: &Grown) {
+        output::note(&grown.to_string());
+    }
+
     fn begin(&self, total: usize, recorded: &[&Row]) {
         let style = ProgressStyle::with_template("{bar:12} {pos}/{len} done, ETA {eta}, {wide_msg}");
         self.bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
@@ -122,6 +126,10 @@ impl Count {
 }
 
 impl Progress for Lines {
+    fn grown(&self, grown: &Grown) {
+        output::note(&format!("{}: {grown}", self.name));
+    }
+
     fn begin(&self, total: usize, recorded: &[&Row]) {
         let mut tally = Tally::new(self.quantity);
         recorded.iter().for_each(|row| tally.take(row));
@@ -173,6 +181,10 @@ impl Tenths {
 }
 
 impl Progress for Tenths {
+    fn grown(&self, grown: &Grown) {
+        output::note(&format!("{}: {grown}", self.what));
+    }
+
     fn begin(&self, total: usize, _recorded: &[&Row]) {
         self.total.store(total, Ordering::Relaxed);
         self.done.store(0, Ordering::Relaxed);

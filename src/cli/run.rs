@@ -20,6 +20,7 @@ pub(crate) fn run(arguments: &Run) -> Result<(), Failure> {
     let beside = beside.transpose().map_err(|error| Failure::Usage(format!("--beside: {error:#}")))?;
     let settings = Settings { out: out.clone(), threads: arguments.threads };
     let rows = ensemble::run(&study, &settings, progress::on_stderr(&study).as_ref())?;
+    let study = ensemble::come_to(study, &rows);
     let summary = report::write_all(&study, &rows, &out, beside.as_ref())
         .map_err(|error| Failure::Run(format!("{error:#}")))?;
     if arguments.which.json {

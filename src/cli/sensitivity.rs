@@ -11,6 +11,7 @@ use crate::study::described;
 /// Computes the map, writes it and prints it.
 pub(crate) fn sensitivity(arguments: &Sensitivity) -> Result<(), Failure> {
     let study = locate::study(&arguments.which)?.study;
+    locate::without_uncertain(&study)?;
     let distributions = locate::distributions(&arguments.which)?;
     let mechanisms = described(&distributions).map_err(Failure::Input)?;
     let settings = SensitivitySettings {

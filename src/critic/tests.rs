@@ -76,6 +76,7 @@ pub fn fallen(member: u64, point: u32, angle: f64) -> Row {
     Row {
         point,
         member,
+        drawn: Default::default(),
         outcome: Outcome::Collapsed { at: Level::Tilt(radians(angle)) },
         collapse_angle_deg: Some(angle),
         largest_tilt_deg: Some(angle),

@@ -1,6 +1,5 @@
 //! The design of an ensemble: which walls are evaluated at which stiffness, in the order of the results.
 
-use crate::random::Family;
 use crate::study::{Arm, Study};
 
 /// One evaluation: a wall of an arm at one joint stiffness. The order of tasks is that of the result files.
@@ -14,21 +13,25 @@ pub struct Task {
     pub member: u64,
 }
 
-/// Every evaluation that a study asks for: arm by arm, point by point, member by member.
+/// Every evaluation that a study asks for: arm by arm, point by point, member by member. Of an arm that may have enough walls before,
+/// all that it may come to.
 pub fn plan(study: &Study) -> Vec<Task> {
+    let all: Vec<u64> = study.arms.iter().map(|arm| arm.members).collect();
+    plan_of(study, &all)
+}
+
+/// The same with so many walls in each arm.
+pub(super) fn plan_of(study: &Study, members: &[u64]) -> Vec<Task> {
     let mut tasks = Vec::new();
-    for (arm, index) in study.arms.iter().zip(0u32..) {
+    for ((arm, &members), index) in study.arms.iter().zip(members).zip(0u32..) {
         for point in 0..arm.kn_points.len() as u32 {
-            tasks.extend((0..arm.members).map(|member| Task { arm: index, point, member }));
+            tasks.extend((0..members).map(|member| Task { arm: index, point, member }));
         }
     }
     tasks
 }
 
-/// Whether the walls of an arm differ from member to member: in their stones, in their joints, or by a mechanism that draws.
+/// Whether the walls of an arm differ from member to member, see [`Arm::is_random`].
 pub fn is_random(arm: &Arm) -> bool {
-    let drawn = |family: &Family| !matches!(family, Family::Constant { .. });
-    let joint = &arm.joint;
-    let drawn_joints = [&joint.kn_factor, &joint.phi_deg, &joint.cohesion].into_iter().any(drawn);
-    !arm.layout.is_fixed() || drawn_joints || arm.mechanisms.draws()
+    arm.is_random()
 }

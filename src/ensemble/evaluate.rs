@@ -8,16 +8,16 @@ use crate::protocol::{self, Agreement, Bounds, Protocol};
 use crate::solve::limit::Flow;
 use crate::solve::{STANDARD_GRAVITY, Solver};
 use crate::stats;
-use crate::study::{Arm, DrawnJoints, Study};
+use crate::study::{Arm, AsDrawn, DrawnJoints, Study};
 
-/// The wall of a member, the same one at every kn: only the arm's layout, the seed and the member enter.
+/// The wall of a member, the same one at every kn: only the arm as drawn, the seed and the member enter.
 ///
 /// # Errors
 /// [`InvalidGeometry`] when the generator found no valid wall within its attempts.
 pub fn build(study: &Study, arm: u32, member: u64) -> Result<Generated, InvalidGeometry> {
-    let arm = &study.arms[arm as usize];
+    let AsDrawn { arm, protocol, .. } = study.as_drawn(arm, member);
     let generated = generate(&arm.layout, &study.streams(member))?;
-    let wall = arm.mechanisms.built(generated.wall, &study.protocol);
+    let wall = arm.mechanisms.built(generated.wall, &protocol);
     let wall = if arm.turned { wall.turned(arm.layout.outline.length) } else { wall };
     Ok(Generated { wall, ..generated })
 }
@@ -39,19 +39,19 @@ pub fn evaluate(study: &Study, task: Task) -> Row {
 
 /// Draws the joints of a member's wall and takes it through the study's protocol; tells of every level at which it came to rest.
 pub fn solve(study: &Study, task: Task, wall: &Wall, tell: &dyn Fn(Level)) -> protocol::Run {
-    let (arm, laws) = drawn(study, task, wall);
+    let drawn = study.as_drawn(task.arm, task.member);
+    let AsDrawn { arm, protocol, .. } = &drawn;
+    let laws = laws(study, task, arm, wall);
     let contacts = arm.mechanisms.contacts(arm.sub_contacts);
     let changes = arm.mechanisms.changes(wall, &study.streams(task.member));
     let way = protocol::Way { changes: &changes, tell };
-    protocol::run_telling(wall, &laws, &study.protocol_of(arm), &arm.restraint, contacts, way, &study.solver)
+    protocol::run_telling(wall, &laws, protocol, &arm.restraint, contacts, way, &study.solver)
 }
 
-/// The arm of a task and the laws of its member's joints.
-fn drawn<'s>(study: &'s Study, task: Task, wall: &Wall) -> (&'s Arm, DrawnJoints<'s>) {
-    let arm = &study.arms[task.arm as usize];
+/// The laws of the joints of a task's member, from its arm as drawn.
+fn laws<'a>(study: &Study, task: Task, arm: &'a Arm, wall: &Wall) -> DrawnJoints<'a> {
     let kn = arm.kn_points[task.point as usize];
-    let laws = DrawnJoints::new(&arm.joint, kn, study.streams(task.member));
-    (arm, laws.altered(&arm.mechanisms, wall))
+    DrawnJoints::new(&arm.joint, kn, study.streams(task.member)).altered(&arm.mechanisms, wall)
 }
 
 fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
@@ -99,8 +99,8 @@ fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
         },
         limit: match study.solver {
             Solver::Limit(settings) => {
-                let arm = &study.arms[task.arm as usize];
-                by_itself(&run, push_over_load(study, arm, &run), settings.flow)
+                let protocol = study.as_drawn(task.arm, task.member).protocol;
+                by_itself(&run, push_over_load(&protocol, &run), settings.flow)
             }
             _ => study.agreement.then(|| limit(study, task, wall, &run)),
         },
@@ -150,6 +150,7 @@ fn unsolved(study: &Study, task: Task, outcome: Outcome) -> Row {
         point: task.point,
         kn_pa_per_m: arm.kn_points[task.point as usize],
         member: task.member,
+        drawn: study.as_drawn(task.arm, task.member).values,
         outcome,
         top_displacement_m: None,
         collapse_angle_deg: None,
@@ -188,10 +189,12 @@ pub fn weight(wall: &Wall) -> f64 {
 
 /// Limit analysis of a member's wall, with the same joints.
 fn limit(study: &Study, task: Task, wall: &Wall, run: &protocol::Run) -> LimitAnalysis {
-    let (arm, laws) = drawn(study, task, wall);
+    let drawn = study.as_drawn(task.arm, task.member);
+    let AsDrawn { arm, protocol, .. } = &drawn;
+    let laws = laws(study, task, arm, wall);
     let contacts = arm.mechanisms.contacts(arm.sub_contacts);
-    let bounds = Bounds::of(wall, &laws, &study.protocol_of(arm), &arm.restraint, contacts);
-    let pushed = push_over_load(study, arm, run);
+    let bounds = Bounds::of(wall, &laws, protocol, &arm.restraint, contacts);
+    let pushed = push_over_load(protocol, run);
     let borne = match run.outcome {
         _ if pushed.is_some() => pushed,
         Outcome::Collapsed { at } => Some(at.value()),
@@ -214,8 +217,8 @@ fn limit(study: &Study, task: Task, wall: &Wall, run: &protocol::Run) -> LimitAn
 }
 
 /// The largest push on a sheared wall over its vertical load; `None` of others.
-fn push_over_load(study: &Study, arm: &Arm, run: &protocol::Run) -> Option<f64> {
-    let Protocol::Shear(shear) = study.protocol_of(arm) else { return None };
+fn push_over_load(protocol: &Protocol, run: &protocol::Run) -> Option<f64> {
+    let Protocol::Shear(shear) = protocol else { return None };
     run.shear.map(|read| read.capacity / shear.vertical_load)
 }
 

@@ -1,9 +1,9 @@
-//! The journal: every finished member, one line each, so that a run that was killed goes on where it stood.
+//! The journal: every finished wall, one line each, so that a run that was killed goes on where it stood and a finished one can grow.
 //!
-//! Line 1 says which run it is ([`Manifest`]); every other line is a member. A line is
-//! `{"check":"<16 hex digits>","entry":<JSON>}` with the start of the SHA-256 of the JSON's bytes, written and flushed
-//! as a whole. A line that a kill has torn, or a disk has damaged, fails its check: it is left out and its member is
-//! evaluated again, which gives the same row because a row is a pure function of study, seed and task.
+//! Line 1 says which run it is ([`Manifest`]), and so does a later line where the run has grown; every other line is a wall with the
+//! hash of what decides it ([`WallKeys`]). A line is `{"check":"<16 hex digits>","entry":<JSON>}` with the start of the SHA-256
+//! of the JSON's bytes, written and flushed as a whole. A line that a kill has torn, or a disk has damaged, fails its check:
+//! it is left out and its wall is evaluated again, which gives the same row because a row is a pure function of what decides it.
 
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions, TryLockError};
@@ -14,7 +14,8 @@ use std::sync::Mutex;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-use crate::ensemble::{Manifest, Row, RunError, Task};
+use crate::ensemble::walls::WallKeys;
+use crate::ensemble::{Manifest, Row, RunError};
 
 /// Name of the journal in the output folder.
 pub(crate) const JOURNAL: &str = "journal.jsonl";
@@ -22,9 +23,12 @@ const HEAD: &str = "{\"check\":\"";
 const MIDDLE: &str = "\",\"entry\":";
 const CHECK_DIGITS: usize = 16;
 
-/// A finished member: its row, and what it took to get it, which no result depends on.
+/// A finished wall: its row, and what it took to get it, which no result depends on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Entry {
+    /// Hash of what decides the row. Journals of before there were any have none: it follows from their head.
+    #[serde(default)]
+    pub wall: Option<String>,
     /// Wall-clock time (s).
     pub seconds: f64,
     /// Worker threads of the run.
@@ -46,25 +50,34 @@ impl Entry {
         crate::check!(back.as_ref().is_ok_and(|entry| entry == self), "a row that JSON cannot hold: {json}");
         sealed(&json)
     }
-
-    fn task(&self) -> Task {
-        Task { arm: self.row.arm_index, point: self.row.point, member: self.row.member }
-    }
 }
 
-/// The journal of a run, open for more members and locked against a second run.
+/// The journal of a run, open for more walls and locked against a second run.
 pub(crate) struct Journal {
     path: PathBuf,
     file: Mutex<File>,
+    /// Bytes of it, and of its whole lines.
+    length: u64,
+    whole: u64,
+}
+
+/// What a journal holds.
+pub(crate) struct Recorded {
+    /// The run that it was last; `None` of a new one.
+    pub head: Option<Manifest>,
+    /// The walls, by the hash of what decides them.
+    pub walls: BTreeMap<String, Entry>,
+    /// The hashes that follow from the first head, once one was needed.
+    keys: Option<WallKeys>,
 }
 
 impl Journal {
-    /// Opens the journal of this run in `folder`, or begins one, and reads the members that it holds.
+    /// Opens the journal in `folder`, or begins one, and reads what it holds; nothing is written yet.
     ///
     /// # Errors
-    /// [`RunError::OtherRun`] and [`RunError::NotOurs`] when the folder belongs to something else, [`RunError::Busy`]
-    /// when another process has it open, [`RunError::File`] when it cannot be read or written.
-    pub fn open(folder: &Path, manifest: &Manifest) -> Result<(Self, BTreeMap<Task, Entry>), RunError> {
+    /// [`RunError::NotOurs`] when the folder belongs to something else, [`RunError::Busy`] when another process has it open,
+    /// [`RunError::File`] when it cannot be read.
+    pub fn open(folder: &Path) -> Result<(Self, Recorded), RunError> {
         let path = folder.join(JOURNAL);
         refuse_orphans(folder, &path)?;
         let file = OpenOptions::new().read(true).append(true).create(true).open(&path);
@@ -77,62 +90,79 @@ impl Journal {
             }
             Err(TryLockError::Error(_)) | Ok(()) => {}
         }
-        let journal = Journal { path, file: Mutex::new(file) };
-        let entries = journal.take_up(folder, manifest)?;
-        Ok((journal, entries))
-    }
-
-    /// Reads what is there, cuts off a torn end, and writes the head if there is none yet.
-    fn take_up(&self, folder: &Path, manifest: &Manifest) -> Result<BTreeMap<Task, Entry>, RunError> {
-        let read = |e| RunError::file("read", &self.path, e);
-        let mut file = self.file.lock().expect("nobody else has it yet");
+        let read = |e| RunError::file("read", &path, e);
         let length = match file.metadata().map_err(read)? {
             m if m.is_file() => m.len(),
             // A device (/dev/null) can be written to, but holds nothing to go on from.
             _ => 0,
         };
-        let (mut whole, mut head, mut entries) = (0, None, BTreeMap::new());
+        let (mut whole, mut recorded) = (0, Recorded { head: None, walls: BTreeMap::new(), keys: None });
         if length > 0 {
-            let mut reader = BufReader::new(&*file);
+            let mut reader = BufReader::new(&file);
             let mut line = Vec::new();
             while reader.read_until(b'\n', &mut line).map_err(read)? > 0 && line.ends_with(b"\n") {
                 let json = std::str::from_utf8(&line).ok().and_then(|text| unsealed(text.trim_end()));
-                if whole == 0 {
-                    head = json.and_then(|j| serde_json::from_str::<Manifest>(j).ok());
-                } else if let Some(entry) = json.and_then(|j| serde_json::from_str::<Entry>(j).ok()) {
-                    entries.insert(entry.task(), entry);
-                }
+                recorded.take(json, whole == 0);
                 whole += line.len() as u64;
                 line.clear();
             }
             let torn_head =
                 whole == 0 && (line.starts_with(HEAD.as_bytes()) || HEAD.as_bytes().starts_with(&line));
-            if head.is_none() && !torn_head {
+            if recorded.head.is_none() && !torn_head {
                 let found = format!("its {JOURNAL} does not begin with the head of a run");
                 return Err(RunError::NotOurs { folder: folder.to_path_buf(), found });
             }
         }
-        if let Some(recorded) = &head {
-            let differences = recorded.differences(manifest);
-            if !differences.is_empty() {
-                return Err(RunError::OtherRun { folder: folder.to_path_buf(), differences });
+        Ok((Journal { path, file: Mutex::new(file), length, whole }, recorded))
+    }
+
+    /// Cuts off a torn end, so that walls may follow; where the run is new or has grown, they follow its head.
+    ///
+    /// # Errors
+    /// [`RunError::File`] when it cannot be written.
+    pub fn go_on(&self, head: Option<&Manifest>) -> Result<(), RunError> {
+        if self.length > self.whole {
+            let file = self.file.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+            file.set_len(self.whole).map_err(|e| RunError::file("write", &self.path, e))?;
+        }
+        match head {
+            Some(head) => {
+                let json = serde_json::to_string(head).expect("a manifest has string keys only");
+                self.append(&sealed(&json))
             }
+            None => Ok(()),
         }
-        let write = |e| RunError::file("write", &self.path, e);
-        if length > whole {
-            file.set_len(whole).map_err(write)?;
-        }
-        if head.is_none() {
-            let json = serde_json::to_string(manifest).expect("a manifest has string keys only");
-            file.write_all(sealed(&json).as_bytes()).map_err(write)?;
-        }
-        Ok(entries)
     }
 
     /// Adds one line in one write, so that a kill tears the last line at most.
     pub fn append(&self, line: &str) -> Result<(), RunError> {
         let mut file = self.file.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
         file.write_all(line.as_bytes()).map_err(|e| RunError::file("write", &self.path, e))
+    }
+}
+
+impl Recorded {
+    /// Takes a line: the first one must be a head.
+    fn take(&mut self, json: Option<&str>, is_first: bool) {
+        let head = || json.and_then(|json| serde_json::from_str::<Manifest>(json).ok());
+        if is_first {
+            self.head = head();
+        } else if let Some(entry) = json.and_then(|json| serde_json::from_str::<Entry>(json).ok()) {
+            let row = &entry.row;
+            let wall = match (&entry.wall, &self.head) {
+                (Some(wall), _) => Some(wall.clone()),
+                (None, Some(head)) => {
+                    let keys = self.keys.get_or_insert_with(|| WallKeys::of(head));
+                    keys.key(&row.arm, row.kn_pa_per_m, row.member)
+                }
+                (None, None) => None,
+            };
+            if let Some(wall) = wall {
+                self.walls.insert(wall, entry);
+            }
+        } else if let Some(head) = head() {
+            self.head = Some(head);
+        }
     }
 }
 

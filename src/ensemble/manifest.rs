@@ -1,4 +1,4 @@
-//! What decides the results of a run: written beside them, and compared before a run is resumed.
+//! What decides the results of a run: written beside them, and compared before a run goes on.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -3,30 +3,45 @@
 mod design;
 mod draws;
 mod elements;
+mod enough;
 mod error;
 mod evaluate;
 mod files;
+mod influence;
 mod journal;
+mod kept;
+mod lines;
 mod manifest;
 mod progress;
 mod quantity;
 mod rare;
 mod record;
 mod run;
+mod selection;
 mod table;
+mod walls;
 
 /// What [`build`] gives.
 pub use crate::generate::Generated;
+/// Into so many the members of a design are shared out.
+pub use crate::random::RANDOMISATIONS;
 pub use design::{Task, is_random, plan};
-pub use draws::Draws;
+pub use draws::{Draws, Evaluated, drawn};
 pub use elements::{ElementRow, Timed, evaluate_element, run_elements};
+pub use enough::{Look, come_to};
 pub use error::{MemberFault, RunError};
 pub use evaluate::{build, evaluate, solve, weight};
 pub use files::replace_file;
+pub use influence::{
+    Evaluation, InfluenceWalls, Influenced, Source, Wall as InfluenceWall, base_points, influence_table,
+    sources, without_value,
+};
+pub use kept::Kept;
 pub use manifest::Manifest;
-pub use progress::{Progress, Silent};
+pub use progress::{Grown, Progress, Silent};
 pub use quantity::{Observed, Quantity};
-pub use rare::{Draw, RareWalls};
+pub use rare::{Draw, RareWalls, ScreenedWalls};
 pub use record::{LimitAnalysis, Mechanism, Row, ShearRow, StepRow};
-pub use run::{Settings, run, run_with};
+pub use run::{Evaluations, Settings, run, run_with};
+pub use selection::{Compared, Contest, Hopeless};
 pub(crate) use table::parquet;

@@ -39,6 +39,14 @@ impl Quantity {
         }
     }
 
+    /// A value with the sign by which larger is stronger: of a displacement the other one.
+    pub fn strength(self, value: f64) -> f64 {
+        match self {
+            Quantity::TopDisplacement => -value,
+            Quantity::CollapseAngle | Quantity::ShearCapacity => value,
+        }
+    }
+
     /// What a row says about it.
     pub fn observed(self, row: &Row) -> Observed {
         let value = |x: Option<f64>| x.filter(|x| x.is_finite()).map_or(Observed::Nothing, Observed::Value);

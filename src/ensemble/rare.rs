@@ -1,6 +1,7 @@
 //! Walls of rare values, for [`subset`](crate::stats::subset): the numbers that a wall is made of are moved until its value is rare.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -33,6 +34,11 @@ pub struct Draw {
 }
 
 impl Draw {
+    /// The number of the run that it was drawn in.
+    pub fn run(&self) -> u64 {
+        self.member.saturating_sub(FIRST_MEMBER) / RUN
+    }
+
     /// The study in which the member is this wall.
     pub fn study(&self, study: &Study) -> Study {
         let moves: Arc<[Move]> = self
@@ -55,7 +61,7 @@ pub struct RareWalls<'s> {
     /// Whether the event is a high value.
     pub is_high: bool,
     /// The values that were computed before, and are kept.
-    pub draws: &'s Draws,
+    pub draws: &'s Draws<'s>,
     /// Told how many more were computed.
     pub tell: &'s (dyn Fn(usize) + Sync),
 }
@@ -93,7 +99,7 @@ impl Rare for RareWalls<'_> {
 
     fn values(&self, points: &[Draw]) -> Vec<Option<f64>> {
         let known: Vec<Option<Option<f64>>> =
-            points.iter().map(|draw| self.draws.value(self.arm, self.point, draw)).collect();
+            points.iter().map(|draw| Some(self.draws.evaluated(self.arm, self.point, draw)?.value)).collect();
         let open: Vec<Draw> = points
             .iter()
             .zip(&known)
@@ -110,5 +116,50 @@ impl Rare for RareWalls<'_> {
         }
         let mut found = found.into_iter();
         known.into_iter().map(|known| known.unwrap_or_else(|| found.next().expect("one for each"))).collect()
+    }
+}
+
+/// Walls whose limit analysis lies at or below a bound, for subset simulation that goes on from there: only these are taken to the
+/// study's own solver (delayed acceptance, Christen and Fox 2005).
+pub struct ScreenedWalls<'w, 's> {
+    /// The walls, by the study's own solver.
+    pub walls: &'w RareWalls<'s>,
+    /// The same walls by limit analysis.
+    pub screen: &'w RareWalls<'s>,
+    /// The bound.
+    pub bound: f64,
+    /// How many were taken there.
+    pub taken: AtomicUsize,
+}
+
+impl Rare for ScreenedWalls<'_, '_> {
+    type Point = Draw;
+
+    fn drawn(&self, run: u64, k: u64) -> Draw {
+        self.walls.drawn(run, k)
+    }
+
+    fn moved(&self, point: &Draw, keep: f64, run: u64, number: u64) -> Draw {
+        self.walls.moved(point, keep, run, number)
+    }
+
+    /// A wall beyond the bound has a value above all levels; one that limit analysis finds nothing of has none.
+    fn values(&self, points: &[Draw]) -> Vec<Option<f64>> {
+        let screened = self.screen.values(points);
+        let passes = |value: &Option<f64>| value.is_some_and(|value| value <= self.bound);
+        let passed: Vec<Draw> = points
+            .iter()
+            .zip(&screened)
+            .filter(|(_, value)| passes(value))
+            .map(|(point, _)| point.clone())
+            .collect();
+        self.taken.fetch_add(passed.len(), Ordering::Relaxed);
+        let mut found = self.walls.values(&passed).into_iter();
+        let own = |value: &Option<f64>| match value {
+            Some(_) if passes(value) => found.next().expect("one for each that passed"),
+            Some(_) => Some(f64::MAX),
+            None => None,
+        };
+        screened.iter().map(own).collect()
     }
 }

@@ -1,5 +1,7 @@
 //! What is recorded of a member: one row, and one row per load step.
 
+use std::collections::BTreeMap;
+
 use crate::model::Outcome;
 use crate::protocol::{Agreement, FailureMode, ShearMode};
 
@@ -14,10 +16,13 @@ pub struct Row {
     pub arm: String,
     /// Index of the kn point.
     pub point: u32,
-    /// Normal stiffness of the joints (Pa/m).
+    /// Normal stiffness of the joints (Pa/m), as stated.
     pub kn_pa_per_m: f64,
     /// Index of the member within its arm: the same wall at every point.
     pub member: u64,
+    /// What was drawn of the wall as a whole in the place of the numbers stated, by the path of its key and in its unit.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub drawn: BTreeMap<String, f64>,
     /// How it ended.
     #[serde(flatten)]
     pub outcome: Outcome,

@@ -1,6 +1,6 @@
 //! The loop over realisations: evaluate what is missing in parallel, record each as it ends, gather in order.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::num::NonZero;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -10,8 +10,13 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use crate::ensemble::journal::{Entry, Journal};
-use crate::ensemble::{Manifest, MemberFault, Progress, Row, RunError, Task, evaluate, files, plan, table};
+use crate::ensemble::design::plan_of;
+use crate::ensemble::enough::{first_looks, next_looks};
+use crate::ensemble::journal::{Entry, Journal, Recorded};
+use crate::ensemble::walls::WallKeys;
+use crate::ensemble::{
+    Grown, Manifest, MemberFault, Progress, Row, RunError, Task, evaluate, files, plan, table,
+};
 use crate::study::Study;
 
 /// Where a run writes and how many threads it uses; no result depends on either.
@@ -24,7 +29,11 @@ pub struct Settings {
 }
 
 /// Evaluates every member of a study that the output folder does not hold yet, and writes `members.parquet`,
-/// `steps.parquet`, `manifest.json` and `timing.csv` there. Gives all rows in the order arm, point, member.
+/// `steps.parquet`, `manifest.json` and `timing.csv` there. Gives all rows in the order arm, point, member. Where an arm may have enough
+/// walls before it has all, its walls are evaluated from look to look; [`come_to`](crate::ensemble::come_to) says how many they were.
+///
+/// A folder that holds another run is gone on from where walls of that run are walls of this one as well: their rows are taken over.
+/// Walls of other inputs stay in the journal and in no result.
 ///
 /// # Errors
 /// See [`RunError`]; whatever was evaluated until then is in the journal.
@@ -42,39 +51,145 @@ pub fn run_with(
     progress: &dyn Progress,
     evaluate: &(dyn Fn(&Study, Task) -> Row + Sync),
 ) -> Result<Vec<Row>, RunError> {
-    let manifest = Manifest::of(study);
-    let out = &settings.out;
-    fs::create_dir_all(out).map_err(|e| RunError::file("create the folder", out, e))?;
-    let (journal, mut entries) = Journal::open(out, &manifest)?;
+    let mut evaluations = Evaluations::begin(study, settings, progress)?;
+    let mut members = first_looks(study);
+    loop {
+        evaluations.of(&plan_of(study, &members), progress, evaluate)?;
+        match next_looks(study, &members, &|task| evaluations.row(task)) {
+            Some(more) => members = more,
+            None => return evaluations.end(),
+        }
+    }
+}
 
-    let threads =
-        settings.threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-    let tasks = plan(study);
-    progress.begin(tasks.len(), &entries.values().map(|entry| &entry.row).collect::<Vec<_>>());
-    let missing: Vec<Task> = tasks.iter().copied().filter(|task| !entries.contains_key(task)).collect();
-    let realisation = Realisation {
-        study,
-        evaluate,
-        journal: &journal,
-        progress,
-        threads: threads as u32,
-        host: host(),
-        stop: AtomicBool::new(false),
-    };
-    let results: Vec<Result<Entry, Missed>> =
-        pool.install(|| missing.par_iter().with_max_len(1).map(|&task| realisation.of(task)).collect());
-    progress.end();
-    gather(&missing, results, &mut entries)?;
+/// The evaluations of a study in an output folder, where those that were recorded before are not done again. What is to be evaluated next
+/// may depend on what was found before.
+pub struct Evaluations<'s> {
+    study: &'s Study,
+    manifest: Manifest,
+    keys: WallKeys,
+    out: PathBuf,
+    pool: rayon::ThreadPool,
+    journal: Journal,
+    /// What is recorded of walls that were not asked for yet, by the hash of what decides each.
+    recorded: BTreeMap<String, Entry>,
+    entries: BTreeMap<Task, Entry>,
+    asked: BTreeSet<Task>,
+}
 
-    let entries: Vec<Entry> = entries.into_values().collect();
-    files::replace_file(&out.join("timing.csv"), table::timing(&entries).as_bytes())?;
-    let rows: Vec<Row> = entries.into_iter().map(|entry| entry.row).collect();
-    files::replace_file(&out.join("members.parquet"), &table::members(&rows)?)?;
-    files::replace_file(&out.join("steps.parquet"), &table::steps(&rows)?)?;
-    let json = serde_json::to_string_pretty(&manifest).expect("a manifest has string keys only");
-    files::replace_file(&out.join("manifest.json"), format!("{json}\n").as_bytes())?;
-    Ok(rows)
+impl<'s> Evaluations<'s> {
+    /// Opens the record in the output folder, or begins one. Of another run those walls are taken over that are walls of this one as well.
+    ///
+    /// # Errors
+    /// [`RunError::OtherRun`] where another run was recorded and none of its walls is one of this study, and those of a folder that cannot
+    /// be used.
+    pub fn begin(
+        study: &'s Study,
+        settings: &Settings,
+        progress: &dyn Progress,
+    ) -> Result<Evaluations<'s>, RunError> {
+        let (manifest, out) = (Manifest::of(study), settings.out.clone());
+        fs::create_dir_all(&out).map_err(|e| RunError::file("create the folder", &out, e))?;
+        let (journal, Recorded { head, walls, .. }) = Journal::open(&out)?;
+        let threads =
+            settings.threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
+        let mut evaluations = Evaluations {
+            study,
+            keys: WallKeys::of(&manifest),
+            manifest,
+            out,
+            pool: rayon::ThreadPoolBuilder::new().num_threads(threads).build()?,
+            journal,
+            recorded: walls,
+            entries: BTreeMap::new(),
+            asked: BTreeSet::new(),
+        };
+        evaluations.take_over(&plan(study));
+        let differences = head.as_ref().map_or_else(Vec::new, |head| head.differences(&evaluations.manifest));
+        if !differences.is_empty() {
+            if evaluations.entries.is_empty() {
+                return Err(RunError::OtherRun { folder: evaluations.out, differences });
+            }
+            let left = evaluations.recorded.len();
+            progress.grown(&Grown::of(study, differences.clone(), evaluations.entries.keys(), left));
+        }
+        let is_new = head.is_none() || !differences.is_empty();
+        evaluations.journal.go_on(is_new.then_some(&evaluations.manifest))?;
+        Ok(evaluations)
+    }
+
+    /// Finds tasks among what is recorded.
+    fn take_over(&mut self, tasks: &[Task]) {
+        for task in tasks {
+            let key = key_of(self.study, &self.keys, *task);
+            if let Some(entry) = key.and_then(|key| self.recorded.remove(&key)) {
+                let row = Row { arm_index: task.arm, point: task.point, ..entry.row };
+                self.entries.insert(*task, Entry { row, ..entry });
+            }
+        }
+    }
+
+    /// Evaluates tasks as far as they are not recorded, in parallel.
+    ///
+    /// # Errors
+    /// See [`RunError`]; whatever was evaluated until then is in the record.
+    pub fn of(
+        &mut self,
+        tasks: &[Task],
+        progress: &dyn Progress,
+        evaluate: &(dyn Fn(&Study, Task) -> Row + Sync),
+    ) -> Result<(), RunError> {
+        self.asked.extend(tasks);
+        self.take_over(tasks);
+        let recorded: Vec<&Row> = tasks.iter().filter_map(|task| self.row(*task)).collect();
+        progress.begin(tasks.len(), &recorded);
+        let missing: Vec<Task> =
+            tasks.iter().copied().filter(|task| !self.entries.contains_key(task)).collect();
+        let realisation = Realisation {
+            study: self.study,
+            evaluate,
+            journal: &self.journal,
+            keys: &self.keys,
+            progress,
+            threads: self.pool.current_num_threads() as u32,
+            host: host(),
+            stop: AtomicBool::new(false),
+        };
+        let results: Vec<Result<Entry, Missed>> = self
+            .pool
+            .install(|| missing.par_iter().with_max_len(1).map(|&task| realisation.of(task)).collect());
+        progress.end();
+        gather(&missing, results, &mut self.entries)
+    }
+
+    /// The row of a task, if it is recorded.
+    pub fn row(&self, task: Task) -> Option<&Row> {
+        self.entries.get(&task).map(|entry| &entry.row)
+    }
+
+    /// Writes `members.parquet`, `steps.parquet`, `manifest.json` and `timing.csv`, and gives the rows that were asked for in the order arm,
+    /// point, member.
+    ///
+    /// # Errors
+    /// [`RunError::File`] and [`RunError::Table`].
+    pub fn end(self) -> Result<Vec<Row>, RunError> {
+        let Evaluations { out, manifest, asked, entries, .. } = self;
+        let entries: Vec<Entry> =
+            entries.into_iter().filter(|(task, _)| asked.contains(task)).map(|(_, entry)| entry).collect();
+        files::replace_file(&out.join("timing.csv"), table::timing(&entries).as_bytes())?;
+        let rows: Vec<Row> = entries.into_iter().map(|entry| entry.row).collect();
+        files::replace_file(&out.join("members.parquet"), &table::members(&rows)?)?;
+        files::replace_file(&out.join("steps.parquet"), &table::steps(&rows)?)?;
+        let json = serde_json::to_string_pretty(&manifest).expect("a manifest has string keys only");
+        files::replace_file(&out.join("manifest.json"), format!("{json}\n").as_bytes())?;
+        Ok(rows)
+    }
+}
+
+/// The hash of what decides a task's row.
+fn key_of(study: &Study, keys: &WallKeys, task: Task) -> Option<String> {
+    let arm = &study.arms[task.arm as usize];
+    keys.key(&arm.name, arm.kn_points[task.point as usize], task.member)
 }
 
 /// What every worker shares.
@@ -82,6 +197,7 @@ struct Realisation<'a> {
     study: &'a Study,
     evaluate: &'a (dyn Fn(&Study, Task) -> Row + Sync),
     journal: &'a Journal,
+    keys: &'a WallKeys,
     progress: &'a dyn Progress,
     threads: u32,
     host: String,
@@ -107,7 +223,8 @@ impl Realisation<'_> {
             let begun = Instant::now();
             let row = (self.evaluate)(self.study, task);
             let seconds = begun.elapsed().as_secs_f64();
-            let entry = Entry { seconds, threads: self.threads, host: self.host.clone(), row };
+            let wall = key_of(self.study, self.keys, task);
+            let entry = Entry { wall, seconds, threads: self.threads, host: self.host.clone(), row };
             let line = entry.line();
             (entry, line)
         }));

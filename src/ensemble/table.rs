@@ -1,5 +1,7 @@
 //! Rows as tables: `members.parquet`, `steps.parquet` and `timing.csv`. The bytes depend on the rows alone.
 
+use std::collections::BTreeSet;
+
 use polars::prelude::{Column, DataFrame, NamedFrom, Series};
 use polars_io::prelude::ParquetWriter;
 
@@ -70,6 +72,11 @@ pub(crate) fn members(rows: &[Row]) -> Result<Vec<u8>, RunError> {
             real("opening_m", |r| r.shear.and_then(|s| s.opening_m)),
         ]);
     }
+    let drawn: BTreeSet<&str> = rows.iter().flat_map(|row| row.drawn.keys().map(String::as_str)).collect();
+    for key in drawn {
+        let values: Vec<Option<f64>> = rows.iter().map(|row| row.drawn.get(key).copied()).collect();
+        columns.push(Column::from(Series::new(format!("drawn {key}").into(), values)));
+    }
     parquet("members.parquet", rows.len(), columns)
 }
 
@@ -125,7 +132,7 @@ pub(crate) fn parquet(table: &'static str, height: usize, columns: Vec<Column>) 
 /// What each member took, on which machine: kept apart from the results, which must not depend on it.
 pub(crate) fn timing(entries: &[Entry]) -> String {
     let mut text = String::from("arm,point,member,seconds,threads,host\n");
-    for Entry { seconds, threads, host, row } in entries {
+    for Entry { seconds, threads, host, row, .. } in entries {
         let line =
             format!("{},{},{},{seconds:.6},{threads},{host}\n", quoted(&row.arm), row.point, row.member);
         text.push_str(&line);

@@ -33,6 +33,46 @@ pub struct Streams {
     pub member: u64,
     /// What its numbers were moved by since they were drawn.
     pub moves: Arc<[Move]>,
+    /// First uniforms that a design sets, by quantity; see [`Design`](crate::random::Design).
+    pub placed: Arc<[(&'static str, f64)]>,
+    /// Numbers that are another member's.
+    pub taken: Option<Arc<Taken>>,
+}
+
+/// Quantities of which a member has the numbers of another one, for pick-freeze estimates; see
+/// [`influence`](crate::stats::influence).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Taken {
+    /// Which quantities.
+    pub quantities: Quantities,
+    /// The streams of the other member.
+    pub from: Streams,
+}
+
+/// Quantities by how their names begin. A name belongs to the beginning if it is that, or goes on with a blank.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct Quantities {
+    /// How their names begin.
+    pub beginnings: Vec<String>,
+    /// Whether all quantities are meant but these.
+    pub others: bool,
+}
+
+impl Quantities {
+    /// Whether the quantity of that name is one of them.
+    ///
+    /// ```
+    /// use pirca::random::Quantities;
+    /// let dips = Quantities { beginnings: vec!["bed dip".to_owned()], others: false };
+    /// assert!(dips.contains("bed dip 3") && !dips.contains("bed dips") && !dips.contains("density 3"));
+    /// assert!(Quantities { others: true, ..dips }.contains("density 3"));
+    /// ```
+    pub fn contains(&self, quantity: &str) -> bool {
+        let begins = |own: &String| {
+            quantity.strip_prefix(own.as_str()).is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
+        };
+        self.beginnings.iter().any(begins) != self.others
+    }
 }
 
 /// A move of the numbers of a member: some of them, as standard normals, keep a share of what they were and take the rest from the same
@@ -52,6 +92,8 @@ pub struct Move {
 #[derive(Clone, Debug)]
 pub struct Stream {
     generator: ChaCha12Rng,
+    /// What the first uniform is set to.
+    placed: Option<f64>,
     /// Those that it was moved by, in their order.
     moves: Vec<(Move, ChaCha12Rng)>,
 }
@@ -59,7 +101,17 @@ pub struct Stream {
 impl Streams {
     /// The streams of a member.
     pub fn new(seed: u64, member: u64) -> Self {
-        Streams { seed, member, moves: Arc::default() }
+        Streams { seed, member, moves: Arc::default(), placed: Arc::default(), taken: None }
+    }
+
+    /// The streams with the first uniforms of quantities set, each in (0, 1).
+    pub fn placed(self, placed: Arc<[(&'static str, f64)]>) -> Self {
+        Streams { placed, ..self }
+    }
+
+    /// The streams with the numbers of some quantities taken from others.
+    pub fn taking(self, taken: Taken) -> Self {
+        Streams { taken: Some(Arc::new(taken)), ..self }
     }
 
     /// The streams after moves, the first one first.
@@ -72,6 +124,9 @@ impl Streams {
     /// The 256-bit key is the domain, the seed and the member (little-endian); the 64-bit stream number is the first
     /// eight bytes (little-endian) of the SHA-256 of the name.
     pub fn of(&self, quantity: &str) -> Stream {
+        if let Some(taken) = self.taken.as_ref().filter(|taken| taken.quantities.contains(quantity)) {
+            return taken.from.of(quantity);
+        }
         let mut number = [0_u8; 8];
         number.copy_from_slice(&Sha256::digest(quantity.as_bytes())[..8]);
         let keyed = |[seed, member]: [u64; 2]| {
@@ -85,6 +140,7 @@ impl Streams {
         };
         Stream {
             generator: keyed([self.seed, self.member]),
+            placed: self.placed.iter().find(|(name, _)| *name == quantity).map(|(_, uniform)| *uniform),
             moves: self.moves.iter().map(|own| (*own, keyed(own.from))).collect(),
         }
     }
@@ -102,7 +158,9 @@ impl Stream {
     ///
     /// Neither end can come out, so every inverse CDF is finite; `1.0 - u` is exact and just as likely as `u`.
     pub fn uniform(&mut self) -> f64 {
+        // The generator goes on where the uniform is set, so that the second one is the same in every design.
         let drawn = uniform(&mut self.generator);
+        let drawn = self.placed.take().unwrap_or(drawn);
         self.moved(drawn)
     }
 

@@ -68,6 +68,14 @@ pub fn ratio(above: &Population, below: &Population) -> Ratio {
             let value = stats::ratio_of_means(&[mean_a], &[mean_b]).value;
             (Estimate { value, interval: value.map(|ratio| [ratio, ratio]) }, Basis::Exact)
         }
+        (false, true) if above.randomisations > 1 => {
+            let pairs: Vec<(u64, [f64; 2])> = above.values.iter().map(|(m, x)| (*m, [*x, mean_b])).collect();
+            (randomised(&pairs, above.randomisations), Basis::OneArmFixed)
+        }
+        (true, false) if below.randomisations > 1 => {
+            let pairs: Vec<(u64, [f64; 2])> = below.values.iter().map(|(m, y)| (*m, [mean_a, *y])).collect();
+            (randomised(&pairs, below.randomisations), Basis::OneArmFixed)
+        }
         (false, true) => (stats::ratio_of_means(&a, &[mean_b]), Basis::OneArmFixed),
         (true, false) => (stats::ratio_of_means(&[mean_a], &b), Basis::OneArmFixed),
         (false, false) if above.planned == below.planned => return paired(above, below),
@@ -80,10 +88,29 @@ pub fn ratio(above: &Population, below: &Population) -> Ratio {
 }
 
 fn paired(above: &Population, below: &Population) -> Ratio {
-    let (a, b): (Vec<f64>, Vec<f64>) =
-        above.values.iter().filter_map(|(member, x)| below.values.get(member).map(|y| (*x, *y))).unzip();
-    let estimate = stats::paired_ratio_of_means(&a, &b);
-    Ratio { value: estimate.value, interval: estimate.interval, basis: Basis::Paired, walls: a.len() as u64 }
+    let pairs: Vec<(u64, [f64; 2])> = above
+        .values
+        .iter()
+        .filter_map(|(member, x)| below.values.get(member).map(|y| (*member, [*x, *y])))
+        .collect();
+    let walls = pairs.len() as u64;
+    let Estimate { value, interval } = if above.randomisations > 1 {
+        randomised(&pairs, above.randomisations)
+    } else {
+        let (a, b): (Vec<f64>, Vec<f64>) = pairs.iter().map(|(_, [x, y])| (*x, *y)).unzip();
+        stats::paired_ratio_of_means(&a, &b)
+    };
+    Ratio { value, interval, basis: Basis::Paired, walls }
+}
+
+/// Ratio of the means of pairs, by member, that share the randomisations of a design in turn.
+fn randomised(pairs: &[(u64, [f64; 2])], randomisations: u64) -> Estimate {
+    let mut shared = vec![Vec::new(); randomisations as usize];
+    pairs.iter().for_each(|(member, pair)| shared[(member % randomisations) as usize].push(*pair));
+    stats::by_randomisations(&shared, |pairs| {
+        let mean = |side: usize| stats::mean(&pairs.iter().map(|pair| pair[side]).collect::<Vec<_>>());
+        mean(0).zip(mean(1)).map(|(a, b)| a / b).filter(|ratio| ratio.is_finite())
+    })
 }
 
 /// Ratios of means for every pair of arms, kn by kn. A pair that a published statement names is given in the

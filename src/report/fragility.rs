@@ -3,6 +3,7 @@
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
+use crate::ensemble::Quantity;
 use crate::report::draw::Figure;
 use crate::report::figure::Ladder;
 use crate::report::marker::colour;
@@ -17,13 +18,23 @@ const LONGEST_NAME: usize = 24;
 pub struct FragilityPlot<'c> {
     title: &'c str,
     ladders: &'c [Ladder],
+    axes: [&'static str; 2],
     pen: Pen,
 }
 
 impl<'c> FragilityPlot<'c> {
     /// Prepares the curves.
     pub fn new(title: &'c str, ladders: &'c [Ladder], scale: u32) -> Self {
-        FragilityPlot { title, ladders, pen: Pen { scale } }
+        let axes = ["tilt (deg)", "share of walls that have collapsed"];
+        FragilityPlot { title, ladders, axes, pen: Pen { scale } }
+    }
+
+    /// Says what the steps are of, where it need not be a tilt.
+    pub fn of(mut self, quantity: Quantity) -> Self {
+        if quantity != Quantity::CollapseAngle {
+            self.axes = [quantity.axis(), "share of walls with less"];
+        }
+        self
     }
 
     fn chart<DB: DrawingBackend>(&self, area: &DrawingArea<DB, Shift>) -> Drawn<DB> {
@@ -44,8 +55,8 @@ impl<'c> FragilityPlot<'c> {
             .y_labels(6)
             .x_label_formatter(&|value| format!("{value:.x_decimals$}"))
             .y_label_formatter(&|value| format!("{value:.1}"))
-            .x_desc("tilt (deg)")
-            .y_desc("share of walls that have collapsed")
+            .x_desc(self.axes[0])
+            .y_desc(self.axes[1])
             .draw()?;
         for (index, ladder) in self.ladders.iter().enumerate() {
             let colour = colour(index);

@@ -17,6 +17,7 @@ mod files;
 mod force_drift;
 mod fragility;
 mod gain;
+mod influence;
 mod joint_law;
 mod marker;
 mod markup;
@@ -29,10 +30,12 @@ mod population;
 mod published;
 mod quantity;
 mod readings;
+mod selection;
 mod sensitivity;
 mod standing;
 mod summary;
 mod table;
+mod test_plan;
 #[cfg(test)]
 mod tests;
 mod vtu;
@@ -40,8 +43,8 @@ mod vtu;
 pub use advice::Advice;
 pub use beside::{Earlier, Mean};
 pub use capacity::{
-    CapacityGroup, CapacitySummary, Question, Repeats, Supported, SupportedValue, capacity_text,
-    write_capacity,
+    Answer, CapacityGroup, CapacitySummary, Failed, Question, Repeats, Rung, Screen, Supported,
+    SupportedValue, Target, capacity_text, write_capacity,
 };
 pub use compare::{Basis, Comparison};
 pub(crate) use csv::quoted;
@@ -50,12 +53,20 @@ pub use elements::{element_table, write_elements};
 pub use extended::{EXTENDED, Origin, extended_name, remove_extended, write_extended};
 pub use files::{FRAGILITY, SUMMARY_JSON, write_all};
 pub use gain::GainSummary;
+pub use influence::{InfluenceSummary, ShareEntry, influence_text, running, write_influence};
 pub use joint_law::{LawSummary, law_text, remove_law, write_law};
 pub use measured::{CalibrationEntry, ComparisonEntry, MeasuredSummary};
 pub use picture::{Movement, Picture, Seam, Stone};
 pub use published::{Published, Verdict};
 pub use readings::{Extent, ReadingEntry, ReadingsSummary, readings_text, write_readings};
+pub use selection::{
+    ArmDifference, ArmShown, SelectedArm, SelectionSummary, ShareLevels, selection_running, selection_text,
+    write_selection,
+};
 pub use sensitivity::{SensitivitySummary, sensitivity_text, write_sensitivity};
-pub use summary::{ArmSummary, QuantileEntry, Summary, summarise};
+pub use summary::{ArmSummary, EnoughEntry, QuantileEntry, Summary, summarise};
 pub use table::terminal_table;
+pub use test_plan::{
+    Asked, PlannedArm, PlannedDifference, Reading, TestPlan, test_plan_text, write_test_plan,
+};
 pub use vtu::write_vtu;

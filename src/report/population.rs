@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::ensemble::{Mechanism, Observed, Quantity, Row, is_random};
 use crate::report::number::significant;
+use crate::stats::Sample;
 use crate::study::Study;
 
 /// One arm at one kn: what was planned, how it ended, and the values of the walls that stand.
@@ -27,8 +28,10 @@ pub struct Population {
     pub above: BTreeMap<u64, f64>,
     /// Number of walls by the name of the mechanism by which they fell.
     pub modes: BTreeMap<String, u64>,
-    /// The mechanisms of the walls that fell.
-    pub mechanisms: Vec<Mechanism>,
+    /// The mechanisms of the walls that fell, by member.
+    pub mechanisms: Vec<(u64, Mechanism)>,
+    /// Randomisations of a design that its members share in turn; 1 where each is drawn by itself.
+    pub randomisations: u64,
 }
 
 impl Population {
@@ -54,12 +57,13 @@ impl Population {
             above: BTreeMap::new(),
             modes: BTreeMap::new(),
             mechanisms: Vec::new(),
+            randomisations: 1,
         };
         for row in rows {
             *population.outcomes.entry(row.outcome.name().to_string()).or_insert(0) += 1;
             if let Some(mechanism) = &row.mechanism {
                 *population.modes.entry(mechanism.mode.name().to_string()).or_insert(0) += 1;
-                population.mechanisms.push(*mechanism);
+                population.mechanisms.push((row.member, *mechanism));
             }
             let earlier = match quantity.observed(row) {
                 Observed::Value(value) => population.values.insert(row.member, value),
@@ -79,6 +83,12 @@ impl Population {
     /// The values of which moments can be taken: none where some wall stood to the end, as its value is not known.
     pub fn complete(&self) -> Vec<f64> {
         if self.above.is_empty() { self.ordered() } else { Vec::new() }
+    }
+
+    /// The values of which moments can be taken, with what their intervals rest on.
+    pub fn sample(&self) -> Sample {
+        let values = self.values.iter().map(|(member, value)| (*member, *value));
+        Sample::of(values.filter(|_| self.above.is_empty()), self.randomisations)
     }
 
     /// What the values of walls that stood to the end are known to exceed, in the order of the members.
@@ -148,7 +158,8 @@ pub fn populations(study: &Study, rows: &[Row]) -> Vec<Population> {
             let own =
                 rows.iter().filter(|row| row.arm_index as usize == arm_index && row.point as usize == point);
             let fixed = !is_random(arm);
-            all.push(Population::collect(&arm.name, fixed, kn, arm.members, quantity, own));
+            let own = Population::collect(&arm.name, fixed, kn, arm.members, quantity, own);
+            all.push(Population { randomisations: study.randomisations(), ..own });
         }
     }
     all

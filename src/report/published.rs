@@ -5,7 +5,7 @@ use crate::report::compare::{arm_names, at, of_arm, ratio};
 use crate::report::number::{significant, stiffness};
 use crate::report::population::Population;
 use crate::report::standing::{Number, Standing, spread};
-use crate::stats;
+use crate::stats::{Estimate, Sample};
 use crate::study::{Claim, ClaimTest};
 
 /// What our numbers say about a statement.
@@ -182,7 +182,7 @@ fn means(populations: &[Population], arm: &str, at_kn: Option<f64>) -> Vec<Numbe
     let meant = of_arm(populations, arm).into_iter().filter(|p| at_kn.is_none_or(|kn| p.kn == kn));
     meant
         .map(|population| {
-            let mean = stats::Summary::of(&population.complete()).mean;
+            let mean = population.sample().summary().mean;
             let exact = mean.value.filter(|_| population.fixed).map(|value| [value, value]);
             Number::at(population.kn, mean.value, exact.or(mean.interval))
         })
@@ -215,19 +215,15 @@ fn failing_so(populations: &[Population], test: &ClaimTest) -> Vec<Number> {
     of_arm(populations, arm)
         .into_iter()
         .map(|population| {
-            let fallen = population.mechanisms.len();
-            let so = population.mechanisms.iter().filter(|m| {
-                mode.is_none_or(|mode| m.mode == mode)
+            let so = population.mechanisms.iter().map(|(member, m)| {
+                let so = mode.is_none_or(|mode| m.mode == mode)
                     && holds(m.weight_share, weight_share)
                     && holds(m.length_share, length_share)
-                    && holds(m.place, place)
+                    && holds(m.place, place);
+                (*member, f64::from(u8::from(so)))
             });
-            let so = so.count();
-            let value = (fallen > 0).then(|| so as f64 / fallen as f64);
-            let interval = match (value, population.fixed) {
-                (Some(value), true) => Some([value, value]),
-                (value, _) => value.map(|_| stats::clopper_pearson(so, fallen)),
-            };
+            let Estimate { value, interval } = Sample::of(so, population.randomisations).share();
+            let interval = if population.fixed { value.map(|value| [value, value]) } else { interval };
             Number::at(population.kn, value, interval)
         })
         .collect()
@@ -237,7 +233,7 @@ fn covs(populations: &[Population], arm: &str) -> Vec<Number> {
     of_arm(populations, arm)
         .into_iter()
         .map(|population| {
-            let cov = stats::Summary::of(&population.complete()).cov;
+            let cov = population.sample().summary().cov;
             Number::at(population.kn, cov.value, cov.interval)
         })
         .collect()

@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use crate::ensemble::{Quantity, Row};
+use crate::ensemble::{Look, Quantity, Row};
 use crate::report::compare::{Comparison, comparisons};
 use crate::report::measured::{MeasuredSummary, measured};
 use crate::report::population::{Population, populations};
 use crate::report::published::{Published, judge_all};
-use crate::stats::{self, EmpiricalStep};
-use crate::study::{Arm, Study};
+use crate::stats::{self, EmpiricalStep, Estimate, Sample, Statistic};
+use crate::study::{Arm, Study, Until};
 
 /// What came out of a study. Intervals are at 95 %; what is not defined is null, never zero.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -66,30 +66,86 @@ pub struct ArmSummary {
     pub unit: &'static str,
     /// Mean.
     pub mean: Option<f64>,
-    /// Its interval (Student's t).
+    /// Its interval (Student's t; of a design, over its randomisations, as all intervals).
     pub mean_ci: Option<[f64; 2]>,
     /// Standard deviation, n - 1 in the denominator; null for fewer than two walls.
     pub sigma: Option<f64>,
     /// Its interval (chi-square, exact for normal values).
     pub sigma_ci: Option<[f64; 2]>,
-    /// Its interval by bootstrap (BCa).
+    /// Its interval by bootstrap (BCa); null of a design.
     pub sigma_bootstrap_ci: Option<[f64; 2]>,
     /// Coefficient of variation, a fraction.
     pub cov: Option<f64>,
     /// Its interval (modified McKay, Vangel 1996).
     pub cov_ci: Option<[f64; 2]>,
-    /// Its interval by bootstrap (BCa).
+    /// Its interval by bootstrap (BCa); null of a design.
     pub cov_bootstrap_ci: Option<[f64; 2]>,
     /// Quantiles.
     pub quantiles: Vec<QuantileEntry>,
-    /// The empirical distribution of the capacity, P(collapse | load), in the quantity's unit, with its 95 % bands.
+    /// The empirical distribution of the capacity, P(collapse | load), in the quantity's unit, with its 95 % bands;
+    /// left out of a design, whose walls are not independent.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub fragility: Vec<EmpiricalStep>,
+    /// When the arm had walls enough; left out where their number was fixed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub enough: Option<EnoughEntry>,
     /// Says which walls are not in the numbers; null when all are.
     pub note: Option<String>,
     /// How the quantity is shown.
     #[serde(skip)]
     pub shown: Quantity,
+}
+
+/// The last look at an arm whose walls were added until a statistic was known well enough.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct EnoughEntry {
+    /// The statistic.
+    pub of: String,
+    /// Its value, in the unit of the quantity.
+    pub value: Option<f64>,
+    /// Its 95 % interval, which allows for all looks: it stands in the place of the one for a number of walls that is fixed beforehand.
+    pub ci: Option<[f64; 2]>,
+    /// Half the width of the interval over the value.
+    pub half_width: Option<f64>,
+    /// What the half width was to fall below.
+    pub below: f64,
+    /// Most walls that there could have been.
+    pub at_most: u64,
+    /// Whether it fell below.
+    pub reached: bool,
+}
+
+impl EnoughEntry {
+    /// At the walls of an arm at one stiffness.
+    pub(crate) fn of(until: Until, population: &Population) -> EnoughEntry {
+        let look = Look::at(until, &population.ordered(), population.above.len());
+        EnoughEntry {
+            of: until.of.name(),
+            value: look.estimate.value,
+            ci: look.estimate.interval,
+            half_width: look.half_width,
+            below: until.below,
+            at_most: until.at_most,
+            reached: look.is_enough(),
+        }
+    }
+}
+
+impl ArmSummary {
+    /// With the last look at an arm that has walls enough: its interval is that of the statistic.
+    fn stopped(mut self, until: Option<Until>, population: &Population) -> ArmSummary {
+        let Some(until) = until else { return self };
+        let entry = EnoughEntry::of(until, population);
+        match until.of {
+            Statistic::Mean => self.mean_ci = entry.ci,
+            Statistic::Sigma => self.sigma_ci = entry.ci,
+            Statistic::Quantile(share) => {
+                let own = self.quantiles.iter_mut().find(|own| own.probability == share);
+                own.into_iter().for_each(|own| own.ci = entry.ci);
+            }
+        }
+        ArmSummary { enough: Some(entry), ..self }
+    }
 }
 
 /// For serde: a count that says nothing is left out.
@@ -109,9 +165,9 @@ pub struct QuantileEntry {
 }
 
 impl QuantileEntry {
-    fn of(values: &[f64], probability: f64) -> Self {
-        let value = stats::quantile(values, probability);
-        QuantileEntry { probability, value, ci: stats::quantile_interval(values, probability) }
+    fn of(sample: &Sample, probability: f64) -> Self {
+        let Estimate { value, interval } = sample.quantile(probability);
+        QuantileEntry { probability, value, ci: interval }
     }
 }
 
@@ -128,6 +184,7 @@ pub fn summarise(study: &Study, rows: &[Row]) -> Summary {
         .map(|population| {
             let arm = study.arms.iter().find(|arm| arm.name == population.arm);
             describe(population, study.seed, arm.map_or_else(BTreeMap::new, parameters))
+                .stopped(arm.and_then(|arm| arm.until), population)
         })
         .collect();
     Summary {
@@ -150,13 +207,18 @@ pub(crate) fn describe(
     seed: u64,
     parameters: BTreeMap<String, serde_json::Value>,
 ) -> ArmSummary {
-    let values = population.complete();
+    let sample = population.sample();
     let statistics = match population.quantity {
-        Quantity::CollapseAngle | Quantity::ShearCapacity => stats::Summary::of_positive(&values),
-        Quantity::TopDisplacement => stats::Summary::of(&values),
+        Quantity::CollapseAngle | Quantity::ShearCapacity => sample.summary_of_positive(),
+        Quantity::TopDisplacement => sample.summary(),
     };
     let name = format!("{} {:e}", population.arm, population.kn);
-    let [sigma_bootstrap, cov_bootstrap] = stats::spread_bootstrap(&values, REPLICATES, seed, &name);
+    // A bootstrap draws values as independent ones, and so does a band of the distribution.
+    let [sigma_bootstrap, cov_bootstrap] = match &sample {
+        Sample::Independent(values) => stats::spread_bootstrap(values, REPLICATES, seed, &name),
+        Sample::Randomised(_) => [Estimate::UNDEFINED; 2],
+    };
+    let bands = matches!(sample, Sample::Independent(_));
     ArmSummary {
         arm: population.arm.clone(),
         parameters,
@@ -164,7 +226,7 @@ pub(crate) fn describe(
         random: !population.fixed,
         members: population.planned,
         outcomes: population.outcomes.clone(),
-        in_mean: values.len() as u64,
+        in_mean: statistics.n as u64,
         stood_to_the_end: population.above.len() as u64,
         failure_modes: population.modes.clone(),
         quantity: population.quantity.name(),
@@ -177,11 +239,13 @@ pub(crate) fn describe(
         cov: statistics.cov.value,
         cov_ci: statistics.cov.interval,
         cov_bootstrap_ci: cov_bootstrap.interval,
-        quantiles: PROBABILITIES.map(|p| QuantileEntry::of(&values, p)).to_vec(),
+        quantiles: PROBABILITIES.map(|p| QuantileEntry::of(&sample, p)).to_vec(),
         fragility: match population.quantity {
             Quantity::TopDisplacement | Quantity::ShearCapacity => Vec::new(),
+            Quantity::CollapseAngle if !bands => Vec::new(),
             Quantity::CollapseAngle => stats::empirical(&population.ordered(), &population.limits()),
         },
+        enough: None,
         note: population.note(),
         shown: population.quantity,
     }
@@ -209,5 +273,7 @@ fn parameters(arm: &Arm) -> BTreeMap<String, serde_json::Value> {
         ("tension_pa", serde_json::json!(joint.tension)),
     ];
     let curve = arm.curve.iter().map(|curve| ("curve", serde_json::json!(curve)));
-    entries.into_iter().chain(curve).map(|(key, value)| (key.to_string(), value)).collect()
+    let uncertain: BTreeMap<&str, _> = arm.uncertain.iter().map(|own| (own.key, &own.family)).collect();
+    let uncertain = (!uncertain.is_empty()).then(|| ("uncertain", serde_json::json!(uncertain)));
+    entries.into_iter().chain(curve).chain(uncertain).map(|(key, value)| (key.to_string(), value)).collect()
 }

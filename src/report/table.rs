@@ -3,8 +3,10 @@
 use crate::ensemble::Quantity;
 use crate::report::conclusion::conclusion;
 use crate::report::measured;
-use crate::report::number::{compact, or_dash, shortened, stiffness, with_interval, with_interval_against};
-use crate::report::summary::{ArmSummary, Summary};
+use crate::report::number::{
+    compact, or_dash, shortened, significant, stiffness, with_interval, with_interval_against,
+};
+use crate::report::summary::{ArmSummary, EnoughEntry, Summary};
 
 /// Widest line of text and of tables that are split.
 pub(super) const WIDTH: usize = 100;
@@ -35,6 +37,25 @@ pub fn terminal_table(summary: &Summary) -> String {
     text
 }
 
+/// Whether an arm had walls enough, and what of.
+fn said_enough(arm: &ArmSummary, enough: &EnoughEntry) -> String {
+    let shown = |x: f64| arm.shown.shown(x);
+    let value = with_interval(enough.value.map(shown), enough.ci.map(|ci| ci.map(shown)), 3);
+    let half = or_dash(enough.half_width.map(|half| 100.0 * half), 2);
+    let below = significant(100.0 * enough.below, 2);
+    let ending = match enough.reached {
+        true => format!("{} walls are enough", arm.members),
+        false => format!("{} walls, the most allowed, are not enough", arm.members),
+    };
+    format!(
+        "{} at kn {}: {ending}: {} {value} {}, half width {half} % (asked: below {below} %)",
+        arm.arm,
+        stiffness(arm.kn_pa_per_m),
+        enough.of,
+        arm.shown.shown_unit()
+    )
+}
+
 /// One line per arm and kn, and the notes below.
 fn arms(arms: &[ArmSummary]) -> String {
     let unit = arms.first().map_or("", |arm| arm.shown.shown_unit());
@@ -60,6 +81,9 @@ fn arms(arms: &[ArmSummary]) -> String {
     }
     let mut text = aligned(rows);
     for arm in arms {
+        if let Some(enough) = &arm.enough {
+            text.push_str(&wrapped("", &said_enough(arm, enough)));
+        }
         if let Some(note) = &arm.note {
             text.push_str(&wrapped(
                 "! ",

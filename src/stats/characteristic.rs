@@ -113,7 +113,7 @@ fn noncentral_t(probability: f64, freedom: f64, shift: f64) -> f64 {
 }
 
 /// P((Z + shift) / S <= t), where the square of S is chi-square over its degrees of freedom: Simpson's rule over the density of S.
-fn noncentral_t_cdf(t: f64, freedom: f64, shift: f64) -> f64 {
+pub(super) fn noncentral_t_cdf(t: f64, freedom: f64, shift: f64) -> f64 {
     const PARTS: usize = 2000;
     let most = 1.0 + 12.0 / (2.0 * freedom).sqrt();
     let constant = ln(2.0) + 0.5 * freedom * ln(0.5 * freedom) - ln_gamma(0.5 * freedom);

@@ -6,30 +6,48 @@
 //! Student's t, chi-square and the binomial distribution come from `statrs`, which uses the platform's logarithm:
 //! the last digits of an interval may differ between platforms; values and bootstrap intervals may not.
 
+mod always_valid;
 mod bootstrap;
 mod characteristic;
+mod dominance;
 mod estimate;
 mod fragility;
+mod influence;
 mod kolmogorov;
 mod moments;
 mod order;
+mod paired;
+mod randomised;
 mod ratio;
 mod reference;
 mod seeded;
+pub mod selection;
+mod sequential;
 pub mod subset;
 mod summary;
+mod test_plan;
 
+pub use always_valid::{always_valid_mean, always_valid_quantile, always_valid_share};
 pub use bootstrap::{bootstrap_bca, cov_bootstrap, sigma_bootstrap};
 pub use characteristic::{
     CHARACTERISTIC_PROBABILITY, DESIGN_PROBABILITY, Shape, Variation, below_mean, predictive_factor,
     tolerance_factor,
 };
+pub use dominance::{Distributed, Dominance, dominance};
 pub use estimate::Estimate;
 pub use fragility::{EmpiricalStep, clopper_pearson, clopper_pearson_at, dkw_half_width, empirical};
+pub use influence::{BasePoint, Influence, Share, influence};
 pub use kolmogorov::{ks_p_value, ks_statistic};
-pub use moments::{cov, mean, sigma, sum};
+pub use moments::{correlation, cov, mean, sigma, sum};
 pub use order::{predictive_quantile, quantile, quantile_interval, smallest};
+pub use paired::{NextPair, next_pair, probability_above};
+pub use randomised::{Sample, by_randomisations};
 pub use ratio::{paired_ratio_of_means, ratio_of_means};
 pub use reference::student_quantile;
 pub use seeded::spread_bootstrap;
-pub use summary::{Summary, sigma_factors};
+pub use sequential::{Looks, Statistic, relative_half_width};
+pub use summary::{Summary, above_zero, sigma_factors};
+pub use test_plan::{
+    Aim, characteristic_loss, pairs_to_see, power_of_groups, smallest_seen, specimens_for_characteristic,
+    specimens_to_see,
+};

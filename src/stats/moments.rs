@@ -30,6 +30,20 @@ pub fn cov(values: &[f64]) -> Option<f64> {
     ratio.is_finite().then_some(ratio)
 }
 
+/// Pearson's correlation of two samples of the same length; `None` below two values and where one of them does not scatter.
+///
+/// ```
+/// use pirca::stats::correlation;
+/// assert!((correlation(&[1.0, 2.0, 3.0], &[2.0, 4.0, 6.0]).unwrap() - 1.0).abs() < 1e-12);
+/// assert_eq!(correlation(&[1.0, 2.0], &[3.0, 3.0]), None);
+/// ```
+pub fn correlation(a: &[f64], b: &[f64]) -> Option<f64> {
+    crate::check!(a.len() == b.len(), "{} values cannot be paired with {}", a.len(), b.len());
+    let ((mean_a, mean_b), (sigma_a, sigma_b)) = (mean(a).zip(mean(b))?, sigma(a).zip(sigma(b))?);
+    let spread = sigma_a * sigma_b;
+    (spread > 0.0).then(|| (comoment(a, mean_a, b, mean_b) / spread).clamp(-1.0, 1.0))
+}
+
 /// Sample covariance (divisor n - 1) of two samples of the same length, at least 2, about their given means.
 pub(super) fn comoment(a: &[f64], mean_a: f64, b: &[f64], mean_b: f64) -> f64 {
     let products = a.iter().zip(b).map(|(x, y)| (x - mean_a) * (y - mean_b));

@@ -44,14 +44,19 @@ pub fn predictive_quantile(values: &[f64], p: f64) -> Option<f64> {
 /// the quantile is binomial. `None` when the sample is too small to bound the quantile on both sides (for the median:
 /// below six values).
 pub fn quantile_interval(values: &[f64], p: f64) -> Option<[f64; 2]> {
+    order_interval(values, p, TAIL)
+}
+
+/// The same with another probability left out at each end.
+pub(super) fn order_interval(values: &[f64], p: f64, tail: f64) -> Option<[f64; 2]> {
     check_probability(p);
     let values = sorted(values);
     let n = values.len();
     let below = Binomial::new(p, n as u64).ok()?;
     // The k-th smallest value (from 1) exceeds the quantile with probability P(at most k - 1 values below it).
     let exceeds = |k: usize| below.cdf(k as u64 - 1);
-    let low = last_rank(n, |k| exceeds(k) <= TAIL)?;
-    let high = last_rank(n, |k| exceeds(k) < 1.0 - TAIL).unwrap_or(0) + 1;
+    let low = last_rank(n, |k| exceeds(k) <= tail)?;
+    let high = last_rank(n, |k| exceeds(k) < 1.0 - tail).unwrap_or(0) + 1;
     (high <= n).then(|| [values[low - 1], values[high - 1]])
 }
 

@@ -53,8 +53,12 @@ pub struct Run<P> {
     pub values: usize,
     /// Values that could not be. A point without a value is in no event.
     pub failed: usize,
+    /// How many of these were of points as they were drawn at first.
+    pub lost: usize,
     /// The point of the lowest value, with it.
     pub lowest: Option<(P, f64)>,
+    /// The points of the last level with a value at or below the level asked for, by their values; none where it was not reached.
+    pub within: Vec<P>,
 }
 
 /// Share of proposals that should stay.
@@ -62,14 +66,35 @@ const STAYING: f64 = 0.44;
 
 /// One run of subset simulation for a level.
 pub fn run<R: Rare>(problem: &R, level: f64, settings: &Settings, number: u64) -> Run<R::Point> {
+    let drawn: Vec<R::Point> = (0..settings.points as u64).map(|k| problem.drawn(number, k)).collect();
+    run_from(problem, drawn, level, settings, number)
+}
+
+/// The same from points of an event, as many as a level has: the probability is the conditional one, given that event. It must be part
+/// of the problem: a point outside it has a value above all levels.
+pub fn run_from<R: Rare>(
+    problem: &R,
+    start: Vec<R::Point>,
+    level: f64,
+    settings: &Settings,
+    number: u64,
+) -> Run<R::Point> {
     let seeds = ((settings.points as f64 * settings.share).round() as usize).max(1);
     let steps = settings.points / seeds;
     crate::check!(steps > 0 && settings.share > 0.0 && settings.share < 1.0, "{settings:?}");
     let mut moves = 0;
     let mut spread = (1.0 - settings.keep * settings.keep).sqrt();
-    let drawn: Vec<R::Point> = (0..settings.points as u64).map(|k| problem.drawn(number, k)).collect();
-    let mut found = Run { probability: 1.0, bounds: Vec::new(), values: 0, failed: 0, lowest: None };
-    let mut level_points = found.take(problem, drawn);
+    let mut found = Run {
+        probability: 1.0,
+        bounds: Vec::new(),
+        values: 0,
+        failed: 0,
+        lost: 0,
+        lowest: None,
+        within: Vec::new(),
+    };
+    let mut level_points = found.take(problem, start);
+    found.lost = found.failed;
     for _ in 0..=settings.levels {
         level_points.sort_by(|a, b| a.1.total_cmp(&b.1));
         let all = settings.points as f64;
@@ -79,6 +104,7 @@ pub fn run<R: Rare>(problem: &R, level: f64, settings: &Settings, number: u64) -
         let bound = bound.zip(level_points.get(seeds).map(|(_, value)| *value)).map(|(a, b)| 0.5 * (a + b));
         let Some(bound) = bound.filter(|bound| *bound > level) else {
             found.probability *= within as f64 / all;
+            found.within = level_points.into_iter().take(within).map(|(point, _)| point).collect();
             return found;
         };
         found.probability *= seeds as f64 / all;

@@ -59,14 +59,19 @@ impl Summary {
     /// ```
     pub fn of_positive(values: &[f64]) -> Summary {
         let summary = Summary::of(values);
-        let half = |mean: f64, [low, high]: [f64; 2]| (0.5 * (high - low)) / mean;
-        let interval =
-            summary.mean.value.zip(summary.mean.interval).map(|(mean, interval)| match mean > 0.0 {
-                true => [mean * exp(-half(mean, interval)), mean * exp(half(mean, interval))],
-                false => interval,
-            });
-        Summary { mean: Estimate { interval, ..summary.mean }, ..summary }
+        Summary { mean: above_zero(summary.mean), ..summary }
     }
+}
+
+/// A value above 0 with an interval about it, the interval on its logarithm: to the first order in the half width it is the same, and
+/// it stays above 0. Where the value is not above 0 it is left as it is.
+pub fn above_zero(estimate: Estimate) -> Estimate {
+    let half = |mean: f64, [low, high]: [f64; 2]| (0.5 * (high - low)) / mean;
+    let interval = estimate.value.zip(estimate.interval).map(|(mean, interval)| match mean > 0.0 {
+        true => [mean * exp(-half(mean, interval)), mean * exp(half(mean, interval))],
+        false => interval,
+    });
+    Estimate { interval, ..estimate }
 }
 
 /// mean -+ t sigma / sqrt(n) with n - 1 degrees of freedom (Student 1908).

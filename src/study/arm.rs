@@ -3,9 +3,10 @@
 use crate::generate::{Arrangement, BatteredFace, Layout, Limits, Outline, Wedges, Wythes};
 use crate::law::Sampling;
 use crate::math::radians;
+use crate::protocol::Protocol;
 use crate::random::Family;
 use crate::study::catalogue::Catalogue;
-use crate::study::checked::{Arm, Joint, StatedLaw};
+use crate::study::checked::{Arm, Joint, StatedLaw, Until};
 use crate::study::fault::{Fault, Found};
 use crate::study::keys;
 use crate::study::mechanism::Mechanisms;
@@ -13,6 +14,7 @@ use crate::study::quantity::quantity;
 use crate::study::reader::Reader;
 use crate::study::schema::Short;
 use crate::study::setting::{Joints, Setting};
+use crate::study::uncertain::take_up;
 
 /// What `[wall]` says, as far as it is not faulty.
 #[derive(Clone, Copy, Debug, Default)]
@@ -83,7 +85,12 @@ impl WallKeys {
 }
 
 /// Reads all `[[arm]]` tables.
-pub fn arms(top: &mut Reader<'_>, shared: &Setting, catalogue: &mut Catalogue) -> Option<Vec<Arm>> {
+pub fn arms(
+    top: &mut Reader<'_>,
+    shared: &Setting,
+    protocol: Option<&Protocol>,
+    catalogue: &mut Catalogue,
+) -> Option<Vec<Arm>> {
     let mut arms: Vec<Option<Arm>> = Vec::new();
     let mut names: Vec<String> = Vec::new();
     for (node, path) in top.tables("arm") {
@@ -98,17 +105,22 @@ pub fn arms(top: &mut Reader<'_>, shared: &Setting, catalogue: &mut Catalogue) -
             }
             names.push(name.clone());
         }
-        arms.push(arm(&mut t, name, shared, catalogue));
+        arms.push(arm(&mut t, name, (shared, protocol), catalogue));
     }
     top.record("arm", names.join(", "));
     let arms: Vec<Arm> = arms.into_iter().collect::<Option<_>>()?;
     (!arms.is_empty()).then_some(arms)
 }
 
-fn arm(t: &mut Reader<'_>, name: Option<String>, shared: &Setting, catalogue: &mut Catalogue) -> Option<Arm> {
+fn arm(
+    t: &mut Reader<'_>,
+    name: Option<String>,
+    (shared, protocol): (&Setting, Option<&Protocol>),
+    catalogue: &mut Catalogue,
+) -> Option<Arm> {
     let setting = shared.of_arm(t, catalogue);
     let (wall, bond) = (&setting.wall, setting.wall.bond);
-    let members = t.whole("members");
+    let members = members(t);
     let vertical_load = if t.has("vertical_load_n") { Some(t.real("vertical_load_n")?) } else { None };
     let curve = if t.has("curve") { t.name("curve") } else { None };
     let (arrangement, stone) = arrangement(t, catalogue);
@@ -131,9 +143,11 @@ fn arm(t: &mut Reader<'_>, name: Option<String>, shared: &Setting, catalogue: &m
     let Joints { joint, kn_points, sub_contacts } = setting.joints?;
     let mechanisms = setting.mechanisms?;
     check_mechanisms(t, &mechanisms, &joint, &layout)?;
-    Some(Arm {
+    let (members, until) = members?;
+    let arm = Arm {
         name: name?,
-        members: members?,
+        members,
+        until,
         curve,
         layout: mechanisms.layout(layout),
         turned: setting.wall.turned,
@@ -143,7 +157,27 @@ fn arm(t: &mut Reader<'_>, name: Option<String>, shared: &Setting, catalogue: &m
         vertical_load,
         sub_contacts,
         mechanisms,
-    })
+        uncertain: Vec::new(),
+    };
+    let arm = take_up(t, arm, setting.uncertain?, protocol)?;
+    if until.is_some() && !arm.is_random() {
+        t.fault("members", "a number where nothing is random", "set members = 1: every wall is the same");
+        return None;
+    }
+    Some(arm)
+}
+
+/// How many walls, at most, and when fewer are enough.
+fn members(t: &mut Reader<'_>) -> Option<(u64, Option<Until>)> {
+    if !t.is_table("members") {
+        return Some((t.whole("members")?, None));
+    }
+    let mut rule = t.table("members")?;
+    let (what, of, below, at_most) =
+        (rule.choice_name("until"), rule.statistic("of"), rule.real("below"), rule.whole("at_most"));
+    what?;
+    let at_most = at_most?;
+    Some((at_most, Some(Until { of: of?, below: below?, at_most })))
 }
 
 fn arrangement(t: &mut Reader<'_>, catalogue: &mut Catalogue) -> (Option<Arrangement>, Stone) {

@@ -4,6 +4,7 @@ use crate::math::radians;
 use crate::protocol::{
     Direction, Ends, EventShares, History, Lateral, Observes, Protocol, Rate, Shear, Tilting, Turning,
 };
+use crate::random::{Design, RANDOMISATIONS};
 use crate::solve::{Solver, explicit, implicit, limit};
 use crate::study::arm;
 use crate::study::catalogue::Catalogue;
@@ -15,11 +16,13 @@ use crate::study::raw::Node;
 use crate::study::reader::{Notes, Reader};
 use crate::study::schema::suggestion;
 use crate::study::setting::Setting;
+use crate::study::uncertain::parameters;
 
 /// The checked parts of study.toml.
 pub struct Parts {
     pub question: String,
     pub seed: u64,
+    pub design: Design,
     pub arms: Vec<Arm>,
     pub protocol: Protocol,
     pub solver: Solver,
@@ -32,7 +35,8 @@ pub fn parts(root: &Node, notes: &mut Notes, catalogue: &mut Catalogue) -> Optio
     let study = top.table("study").and_then(|mut t| {
         let (question, seed) = (t.text("question"), t.whole("seed"));
         let only = t.has("arms").then(|| t.names("arms"));
-        Some((question?, seed?, only))
+        let design = if t.has("design") { t.choice("design") } else { Some(Design::Plain) };
+        Some((question?, seed?, only, design))
     });
     let shared = Setting::of_study(&mut top, catalogue);
     let protocol = top.table("load").and_then(|mut t| load(&mut t));
@@ -40,8 +44,9 @@ pub fn parts(root: &Node, notes: &mut Notes, catalogue: &mut Catalogue) -> Optio
         let agreement = t.flag("agreement");
         solver(&mut t).zip(agreement)
     });
-    let arms = arm::arms(&mut top, &shared, catalogue);
-    let (question, seed, only) = study?;
+    let arms = arm::arms(&mut top, &shared, protocol.as_ref(), catalogue);
+    let (question, seed, only, design) = study?;
+    let design = design?;
     let (solver, agreement) = solved?;
     let arms = match only {
         Some(only) => chosen(&mut top, arms?, &only?)?,
@@ -50,13 +55,14 @@ pub fn parts(root: &Node, notes: &mut Notes, catalogue: &mut Catalogue) -> Optio
     let protocol = protocol?;
     check_shear(&mut top, &arms, &protocol)?;
     check_mechanisms(&mut top, &arms, &protocol, agreement)?;
+    check_design(&mut top, &arms, design)?;
     if matches!(solver, Solver::Limit(_)) {
         for unfit in unfit_for_limit(&arms, &protocol, agreement) {
             let place = top.place_of("solver").clone();
             top.notes.faults.push(beyond_limit(&place, unfit));
         }
     }
-    Some(Parts { question, seed, arms, protocol, solver, agreement })
+    Some(Parts { question, seed, design, arms, protocol, solver, agreement })
 }
 
 /// What a study asks for that rigid blocks do not have, in words.
@@ -107,6 +113,47 @@ fn chosen(top: &mut Reader<'_>, arms: Vec<Arm>, only: &[String]) -> Option<Vec<A
     }
     top.record("arm", only.join(", "));
     only.iter().map(|name| arms.iter().find(|arm| arm.name == *name).cloned()).collect()
+}
+
+/// What a design needs: something that is drawn once per wall, and as many walls in each randomisation of every arm.
+fn check_design(top: &mut Reader<'_>, arms: &[Arm], design: Design) -> Option<()> {
+    if design == Design::Plain {
+        return Some(());
+    }
+    let mut study = top.table("study")?;
+    if parameters(arms).is_empty() {
+        let allowed = "plain where nothing is drawn once per wall";
+        study.fault("design", allowed, "add [uncertain], or remove it");
+        return None;
+    }
+    if let Err(fits) = members_fit(design, arms) {
+        study.fault("design", fits, "mend members of the arms, or remove it");
+        return None;
+    }
+    Some(())
+}
+
+/// Whether every arm of more than one wall has walls that a design can share out evenly.
+///
+/// # Errors
+/// What is allowed, in words.
+pub fn members_fit(design: Design, arms: &[Arm]) -> Result<(), String> {
+    let mut several = arms.iter().map(|arm| arm.members).filter(|members| *members > 1);
+    let Some(first) = several.next() else { return Ok(()) };
+    let is_whole = first.is_multiple_of(RANDOMISATIONS) && first >= 2 * RANDOMISATIONS;
+    let most = RANDOMISATIONS * Design::MOST_POINTS;
+    if design != Design::Plain && arms.iter().any(|arm| arm.until.is_some()) {
+        return Err(
+            "this with members = a number: how many walls share a design is known beforehand".to_owned()
+        );
+    }
+    if design == Design::Plain || (is_whole && first <= most && several.all(|members| members == first)) {
+        return Ok(());
+    }
+    Err(format!(
+        "this with as many walls in every arm of several, a multiple of {RANDOMISATIONS} from {} to {most}",
+        2 * RANDOMISATIONS
+    ))
 }
 
 /// What a beam on the wall's top needs: room above every wall and free ends; and nothing for it to do where there is none.

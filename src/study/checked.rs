@@ -7,10 +7,12 @@ use std::sync::Arc;
 use crate::generate::{BatteredFace, Layout};
 use crate::law::{ClosureTable, CohesionAfterSlip, Sampling};
 use crate::protocol::{FailureMode, Protocol, Restraint, Shear};
-use crate::random::{Family, Move, Streams};
+use crate::random::{Design, Family, Move, Place, Quantities, RANDOMISATIONS, Streams, Taken};
 use crate::solve::Solver;
+use crate::stats::Statistic;
 use crate::study::measured::Measurement;
 use crate::study::mechanism::Mechanisms;
+use crate::study::uncertain::{Uncertain, parameters};
 
 /// A study whose every value has been checked.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +25,10 @@ pub struct Study {
     pub seed: u64,
     /// What the numbers of every member are moved by after they were drawn; none in a study from files.
     pub moves: Arc<[Move]>,
+    /// How what is drawn once per wall covers its space.
+    pub design: Design,
+    /// Quantities of which every wall has the numbers of another member; none in a study from files.
+    pub taken: Option<TakenFrom>,
     /// Named variant that was asked for, if any.
     pub variant: Option<String>,
     /// The arms, in the order of the file.
@@ -47,13 +53,24 @@ pub struct Study {
     pub hash: String,
 }
 
+/// Quantities of which walls have the numbers of another member.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TakenFrom {
+    /// Which quantities.
+    pub quantities: Quantities,
+    /// The other member.
+    pub member: u64,
+}
+
 /// One arm: a population of walls.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arm {
     /// Name, unique in the study.
     pub name: String,
-    /// Number of walls, at least 1.
+    /// Number of walls, at least 1; at most so many where there may be enough before.
     pub members: u64,
+    /// When there are enough walls; `None` where their number is fixed.
+    pub until: Option<Until>,
     /// The curve over the walls' length that the arm is a point of, if any.
     pub curve: Option<String>,
     /// What each wall is asked to be.
@@ -72,12 +89,55 @@ pub struct Arm {
     pub sub_contacts: [u32; 2],
     /// Mechanisms beyond the base model; those that change layout, joints' families or restraint are in these already.
     pub mechanisms: Mechanisms,
+    /// What is drawn once per wall in the place of the number stated.
+    pub uncertain: Vec<Uncertain>,
 }
 
 impl Study {
-    /// The random streams of a member.
+    /// The random streams of a member: what is drawn once per wall by the study's design, all else by itself.
     pub fn streams(&self, member: u64) -> Streams {
-        Streams::new(self.seed, member).after(self.moves.clone())
+        let own = self.placed(member).after(self.moves.clone());
+        match &self.taken {
+            Some(TakenFrom { quantities, member }) => {
+                own.taking(Taken { quantities: quantities.clone(), from: self.placed(*member) })
+            }
+            None => own,
+        }
+    }
+
+    fn placed(&self, member: u64) -> Streams {
+        let streams = Streams::new(self.seed, member);
+        if self.design == Design::Plain {
+            return streams;
+        }
+        let points = (self.walls_of_design() / RANDOMISATIONS).max(1);
+        let place = Place { seed: self.seed, member, points };
+        let placed = parameters(&self.arms).into_iter().filter_map(|parameter| {
+            let uniform = self.design.uniform(place, parameter.stream, parameter.number())?;
+            Some((parameter.stream, uniform))
+        });
+        streams.placed(placed.collect())
+    }
+
+    /// Walls of the arms that a design covers: all arms with more than one wall have as many.
+    pub fn walls_of_design(&self) -> u64 {
+        self.arms.iter().map(|arm| arm.members).max().unwrap_or(1)
+    }
+
+    /// Independent randomisations that its members share in turn; 1 where each is drawn by itself.
+    pub fn randomisations(&self) -> u64 {
+        if self.design == Design::Plain { 1 } else { RANDOMISATIONS }
+    }
+
+    /// Whether a wall depends on how many there are: each stratum of a Latin hypercube holds one.
+    pub fn depends_on_members(&self) -> bool {
+        self.design == Design::LatinHypercube
+    }
+
+    /// The study whose walls have the numbers of another member for some quantities.
+    pub fn with_taken(mut self, taken: TakenFrom) -> Study {
+        self.taken = Some(taken);
+        self
     }
 
     /// The study with its members' numbers moved.
@@ -111,7 +171,26 @@ impl Study {
     }
 }
 
+/// When an arm has walls enough: half the width of a statistic's interval over the statistic lies below a bound at every stiffness.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Until {
+    /// The statistic of the study's quantity.
+    pub of: Statistic,
+    /// The bound (a number: 0.05 is 5 %).
+    pub below: f64,
+    /// Most walls, come what may.
+    pub at_most: u64,
+}
+
 impl Arm {
+    /// Whether its walls differ from one to the next: in their stones, in their joints, as a whole, or by a mechanism that draws.
+    pub fn is_random(&self) -> bool {
+        let drawn = |family: &Family| !matches!(family, Family::Constant { .. });
+        let Joint { kn_factor, phi_deg, cohesion, .. } = &self.joint;
+        let drawn_joints = [kn_factor, phi_deg, cohesion].into_iter().any(drawn);
+        !self.layout.is_fixed() || drawn_joints || self.mechanisms.draws() || !self.uncertain.is_empty()
+    }
+
     /// Whether the section of its walls has no back and no front.
     pub fn is_alike_from_both_sides(&self) -> bool {
         let outline = &self.layout.outline;

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use crate::solve::{REVISION, Solver};
 use crate::study::build::{self, Parts};
 use crate::study::catalogue::{Catalogue, Used};
-use crate::study::checked::{Arm, InputFile, Study};
+use crate::study::checked::{Arm, InputFile, Study, Until};
 use crate::study::distributions::Distributions;
 use crate::study::fault::{Fault, Faults, Source};
 use crate::study::files::TextFile;
@@ -128,6 +128,8 @@ impl Study {
                     question: parts.question,
                     seed: parts.seed,
                     moves: Arc::default(),
+                    design: parts.design,
+                    taken: None,
                     variant: joined(&chosen),
                     arms: parts.arms,
                     protocol: parts.protocol,
@@ -209,14 +211,44 @@ impl Study {
         self.rehashed()
     }
 
-    /// The same study with another number of walls in every arm that has more than one; at least one.
+    /// Whether its design can share out so many walls.
+    ///
+    /// # Errors
+    /// What is allowed, in words.
+    pub fn takes_members(&self, members: u64) -> Result<(), String> {
+        build::members_fit(self.design, &self.clone().with_members(members).arms)
+    }
+
+    /// The same study with another number of walls in every arm that has more than one, whatever it says of enough; at least one.
     pub fn with_members(mut self, members: u64) -> Study {
         for arm in self.arms.iter_mut().filter(|arm| arm.members > 1) {
-            arm.members = members.max(1);
+            (arm.members, arm.until) = (members.max(1), None);
+            let rule = format!("arm.{}.members.", arm.name);
+            self.effective.retain(|key, _| !key.starts_with(&rule));
             self.effective.insert(format!("arm.{}.members", arm.name), arm.members.to_string());
         }
         self.hash = hash_of(&self.effective);
         self
+    }
+}
+
+impl Study {
+    /// The same study with walls added to every random arm until there are enough, in the place of what it says of their number.
+    pub fn with_until(mut self, until: Until) -> Study {
+        for arm in self.arms.iter_mut().filter(|arm| arm.is_random()) {
+            (arm.members, arm.until) = (until.at_most, Some(until));
+            let path = format!("arm.{}.members", arm.name);
+            self.effective.remove(&path);
+            for (key, value) in [
+                ("until", "half_width".to_owned()),
+                ("of", until.of.name()),
+                ("below", format!("{:?}", until.below)),
+                ("at_most", until.at_most.to_string()),
+            ] {
+                self.effective.insert(format!("{path}.{key}"), value);
+            }
+        }
+        self.rehashed()
     }
 }
 

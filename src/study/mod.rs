@@ -30,11 +30,13 @@ mod schema;
 mod setting;
 mod stated;
 mod strength;
+mod uncertain;
 mod variant;
 
+pub use crate::random::Design;
 pub use built_in::{BuiltInStudy, built_in_studies};
 pub use catalogue::{Distribution, DistributionFile, Used, load_distributions};
-pub use checked::{Arm, Claim, ClaimTest, InputFile, Joint, StatedLaw, Study};
+pub use checked::{Arm, Claim, ClaimTest, InputFile, Joint, StatedLaw, Study, TakenFrom, Until};
 pub use distributions::{Distributions, Origin, distributions_among};
 pub use elements::{ElementArm, ElementStudy, Reported};
 pub use extended::{Acting, Point};
@@ -58,6 +60,7 @@ pub use readings::{Reading, reading_name, readings};
 pub use reference::key_reference;
 pub use stated::{Settings, Stated, WrittenVariant};
 pub use strength::{Stronger, Switched};
+pub use uncertain::{AsDrawn, PARAMETERS, Parameter as WallParameter, Uncertain, parameters};
 
 #[cfg(test)]
 mod tests;

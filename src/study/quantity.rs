@@ -12,12 +12,16 @@ use crate::study::schema::{Interval, Key, Kind, Short};
 /// Reads a quantity in the unit that its key states.
 pub fn quantity(reader: &mut Reader<'_>, name: &str, catalogue: &mut Catalogue) -> Option<Family> {
     let (node, key) = reader.given(name)?;
-    let Kind::Quantity { unit, within } = key.kind else {
+    let (Kind::Quantity { unit, within } | Kind::Distribution { unit, within }) = key.kind else {
         crate::check!(false, "`{name}` is no quantity in the key table");
         return None;
     };
     let path = join(&reader.path, name);
     let family = match &node.value {
+        Value::Whole(_) | Value::Real(_) if matches!(key.kind, Kind::Distribution { .. }) => {
+            reader.refuse(&node, key, "a number belongs where the study states it; write { family = ... }");
+            return None;
+        }
         Value::Whole(_) | Value::Real(_) => {
             let value = reader.one_real(&node, key, within)?;
             Family::Constant { value }

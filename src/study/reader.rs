@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::stats::Statistic;
 use crate::study::fault::{Fault, Found, Place};
 use crate::study::raw::{self, Node, Table, Value};
 use crate::study::schema::{Interval, Key, Kind, Presence, Section, Short, suggestion};
@@ -73,6 +74,11 @@ impl<'n> Reader<'n> {
                     format!("remove it; it belongs to {}", key.only.join(" and ")),
                 ),
                 None => match crate::study::schema::nearest(name, &names) {
+                    // A path that was not put in quotes is a table of its own in TOML.
+                    _ if names.iter().any(|known| known.starts_with(&format!("{name}."))) => (
+                        "is a part of a path".to_owned(),
+                        format!("write the whole path in quotes, as \"{name}.<key>\" = {{ family = ... }}"),
+                    ),
                     Some(near) => ("is not a known key".to_owned(), format!("did you mean \"{near}\"?")),
                     None => ("is not a known key".to_owned(), "remove it".to_owned()),
                 },
@@ -90,6 +96,11 @@ impl<'n> Reader<'n> {
     /// Whether the key is there.
     pub fn has(&self, name: &str) -> bool {
         self.table.contains_key(name)
+    }
+
+    /// Whether a table stands there.
+    pub fn is_table(&self, name: &str) -> bool {
+        self.table.get(name).is_some_and(|entry| matches!(entry.node.value, Value::Table(_)))
     }
 
     /// Where a key's value stands; the table itself when the key is absent.
@@ -245,6 +256,21 @@ impl<'n> Reader<'n> {
         Some(chosen)
     }
 
+    /// The name of a statistic.
+    pub fn statistic(&mut self, name: &str) -> Option<Statistic> {
+        let (node, key) = self.given(name)?;
+        let Value::Text(text) = &node.value else {
+            self.refuse_kind(&node, key);
+            return None;
+        };
+        let Some(statistic) = Statistic::named(text) else {
+            self.refuse(&node, key, "name one of these");
+            return None;
+        };
+        self.record(name, statistic.name());
+        Some(statistic)
+    }
+
     /// true or false.
     pub fn flag(&mut self, name: &str) -> Option<bool> {
         let (node, key) = self.given(name)?;
@@ -259,7 +285,7 @@ impl<'n> Reader<'n> {
     /// A whole number.
     pub fn whole(&mut self, name: &str) -> Option<u64> {
         let (node, key) = self.given(name)?;
-        let Kind::Whole { low, high } = key.kind else {
+        let (Kind::Whole { low, high } | Kind::WholeOr { low, high, .. }) = key.kind else {
             crate::check!(false, "`{name}` is no whole number in the key table");
             return None;
         };
@@ -382,7 +408,10 @@ impl<'n> Reader<'n> {
     pub fn warn_if_unusual(&mut self, node: &Node, key: &Key, x: f64) {
         if let Some(usual) = key.usual.filter(|usual| !usual.contains(x)) {
             let unit = match key.kind {
-                Kind::Real { unit, .. } | Kind::Quantity { unit, .. } | Kind::Reals { unit, .. } => unit,
+                Kind::Real { unit, .. }
+                | Kind::Quantity { unit, .. }
+                | Kind::Distribution { unit, .. }
+                | Kind::Reals { unit, .. } => unit,
                 _ => "",
             };
             let path = join(&self.path, key.name);
@@ -396,7 +425,7 @@ impl<'n> Reader<'n> {
     /// A table of its own section.
     pub fn table(&mut self, name: &str) -> Option<Reader<'_>> {
         let (node, key) = self.given(name)?;
-        let Kind::Table(section) = key.kind else {
+        let (Kind::Table(section) | Kind::WholeOr { rule: section, .. }) = key.kind else {
             crate::check!(false, "`{name}` is no table in the key table");
             return None;
         };

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::study::keys;
 use crate::study::measured::{COLUMNS, FORMS, MeasuredKind, MeasuredQuantity};
-use crate::study::schema::{Key, Kind, Presence, Section, quoted};
+use crate::study::schema::{Key, Presence, Section, quoted};
 
 /// Every key of every input file with what is allowed, its default and its meaning, as Markdown.
 pub fn key_reference() -> String {
@@ -60,7 +60,7 @@ fn describe(section: &'static Section, text: &mut String, done: &mut Vec<&'stati
     }
     text.push('\n');
     for key in section.all() {
-        if let Kind::Table(below) | Kind::Tables(below) = key.kind
+        if let Some(below) = key.kind.below()
             && !done.contains(&below.title)
         {
             describe(below, text, done);

@@ -62,6 +62,17 @@ pub enum Kind {
         /// Largest.
         high: u64,
     },
+    /// A whole number, or a table that says by which rule it comes about.
+    WholeOr {
+        /// Smallest.
+        low: u64,
+        /// Largest.
+        high: u64,
+        /// The table.
+        rule: &'static Section,
+    },
+    /// The name of a statistic.
+    Statistic,
     /// A number.
     Real {
         /// Unit.
@@ -71,6 +82,13 @@ pub enum Kind {
     },
     /// A number, or a distribution: an inline table, or a reference to an entry below `distributions`.
     Quantity {
+        /// Unit.
+        unit: &'static str,
+        /// Where the whole distribution must lie.
+        within: Interval,
+    },
+    /// A distribution that is no single number, written as those of a quantity.
+    Distribution {
         /// Unit.
         unit: &'static str,
         /// Where the whole distribution must lie.
@@ -192,9 +210,16 @@ impl Kind {
             Kind::Flag => "true or false".to_owned(),
             Kind::Choice(names) => format!("one of {}", quoted(names)),
             Kind::Whole { low, high } => format!("a whole number within {low} to {high}"),
+            Kind::WholeOr { low, high, rule } => {
+                format!("a whole number within {low} to {high}, or a table {}", rule.title)
+            }
+            Kind::Statistic => "\"mean\", \"sigma\" or \"quantile-P\" with P above 0 and below 1".to_owned(),
             Kind::Real { unit, within } => format!("a number {within}{}", in_unit(unit)),
             Kind::Quantity { unit, within } => {
                 format!("a number or a distribution {within}{}", in_unit(unit))
+            }
+            Kind::Distribution { unit, within } => {
+                format!("a distribution {within}{}", in_unit(unit))
             }
             Kind::Reals { unit, within, at_most, ascending } => {
                 let order = if *ascending { "ascending " } else { "" };
@@ -241,6 +266,18 @@ impl Key {
     /// Whether the key is used when the chooser says `chosen`; everything is when that is not known.
     pub fn applies(&self, chosen: Option<&str>) -> bool {
         self.only.is_empty() || chosen.is_none_or(|c| self.only.contains(&c))
+    }
+}
+
+impl Kind {
+    /// The keys of a table that may stand here.
+    pub fn below(&self) -> Option<&'static Section> {
+        match self {
+            Kind::Table(section) | Kind::Tables(section) | Kind::WholeOr { rule: section, .. } => {
+                Some(section)
+            }
+            _ => None,
+        }
     }
 }
 

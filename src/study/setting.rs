@@ -9,14 +9,16 @@ use crate::random::Family;
 use crate::study::arm::{WallKeys, wall};
 use crate::study::catalogue::Catalogue;
 use crate::study::checked::{Joint, StatedLaw};
+use crate::study::fault::Place;
 use crate::study::mechanism::Mechanisms;
 use crate::study::quantity::quantity;
 use crate::study::raw::{Node, Value};
 use crate::study::reader::{Notes, Reader, join};
 use crate::study::schema::{Kind, Section};
+use crate::study::uncertain::{Uncertain, uncertain};
 
 /// The tables of a study that an arm may lay its own keys over.
-const TABLES: [&str; 5] = ["wall", "block", "joint", "restraint", "mechanism"];
+const TABLES: [&str; 6] = ["wall", "block", "joint", "restraint", "mechanism", "uncertain"];
 
 /// The checked tables, as far as they are not faulty.
 #[derive(Clone, Debug, Default)]
@@ -31,6 +33,8 @@ pub struct Setting {
     pub restraint: Option<Restraint>,
     /// Mechanisms beyond the base model.
     pub mechanisms: Option<Mechanisms>,
+    /// What is drawn once per wall.
+    pub uncertain: Option<Vec<(Uncertain, Place)>>,
     /// The tables as they stand in the file.
     raw: BTreeMap<&'static str, Node>,
 }
@@ -49,7 +53,11 @@ pub struct Joints {
 impl Setting {
     /// The tables of the study itself.
     pub fn of_study(top: &mut Reader<'_>, catalogue: &mut Catalogue) -> Setting {
-        let mut setting = Setting { mechanisms: Some(Mechanisms::default()), ..Setting::default() };
+        let mut setting = Setting {
+            mechanisms: Some(Mechanisms::default()),
+            uncertain: Some(Vec::new()),
+            ..Setting::default()
+        };
         for name in TABLES {
             if let Some((node, _)) = top.given(name) {
                 setting.raw.insert(name, node);
@@ -94,6 +102,7 @@ impl Setting {
             "block" => self.density = None,
             "joint" => self.joints = None,
             "mechanism" => self.mechanisms = None,
+            "uncertain" => self.uncertain = None,
             _ => self.restraint = None,
         }
     }
@@ -104,6 +113,7 @@ impl Setting {
             "block" => self.density = quantity(t, "density_kg_per_m3", catalogue),
             "joint" => self.joints = joints(t, catalogue),
             "mechanism" => self.mechanisms = Mechanisms::read(t),
+            "uncertain" => self.uncertain = uncertain(t, catalogue),
             _ => self.restraint = restraint(t),
         }
     }

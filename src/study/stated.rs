@@ -141,7 +141,7 @@ fn write_out(node: &mut Node, section: &'static Section, path: &str, catalogue: 
                     write_out(node, below, &path, catalogue);
                 }
             }
-            (Kind::Quantity { unit, .. }, Value::Text(reference)) => {
+            (Kind::Quantity { unit, .. } | Kind::Distribution { unit, .. }, Value::Text(reference)) => {
                 let reference = reference.clone();
                 if let Ok(Some(family)) = catalogue.family(&reference, unit, node, &path) {
                     *node = raw::parse_default(&family_value(&family).to_string(), &node.place);
@@ -177,9 +177,9 @@ impl Serialize for Written<'_> {
                 to.collect_map(entries.into_iter().map(|(name, entry)| {
                     let key = self.section.and_then(|section| section.key(name, None));
                     let section = match key.map(|key| key.kind) {
-                        Some(Kind::Table(below) | Kind::Tables(below)) => Some(below),
-                        Some(Kind::Quantity { .. }) => Some(&keys::FAMILY),
-                        _ => None,
+                        Some(Kind::Quantity { .. } | Kind::Distribution { .. }) => Some(&keys::FAMILY),
+                        Some(kind) => kind.below(),
+                        None => None,
                     };
                     (name, Written { node: &entry.node, section })
                 }))

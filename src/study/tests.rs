@@ -7,13 +7,14 @@ use crate::random::{Family, Streams};
 use crate::study::keys;
 use crate::study::schema::{Interval, Key, Kind, Section, nearest};
 use crate::study::{
-    DrawnJoints, EndRelease, FrictionChange, Joint, JointClosure, Mechanisms, SpecimenScatter, StatedLaw,
+    DrawnJoints, EndRelease, FrictionChange, Joint, JointClosure, Mechanisms, PARAMETERS, SpecimenScatter,
+    StatedLaw, WallParameter,
 };
 
 fn keys_below(section: &'static Section, found: &mut Vec<&'static Key>) {
     for key in section.all() {
         found.push(key);
-        if let Kind::Table(below) | Kind::Tables(below) = key.kind {
+        if let Some(below) = key.kind.below() {
             keys_below(below, found);
         }
     }
@@ -42,13 +43,48 @@ fn every_key_carries_its_unit() {
     ];
     for key in all {
         let unit = match key.kind {
-            Kind::Real { unit, .. } | Kind::Quantity { unit, .. } | Kind::Reals { unit, .. } => unit,
+            Kind::Real { unit, .. }
+            | Kind::Quantity { unit, .. }
+            | Kind::Distribution { unit, .. }
+            | Kind::Reals { unit, .. } => unit,
             _ => "1",
         };
         let named =
             suffixes.iter().find(|(_, suffix)| key.name.ends_with(suffix)).map_or("1", |(unit, _)| unit);
         assert_eq!(unit, named, "{}", key.name);
     }
+}
+
+/// What may be drawn once per wall is a number of the study, in the same unit, and may reach down to where that number may.
+#[test]
+fn what_is_drawn_once_per_wall_is_stated_in_the_same_unit() {
+    let mut put = Vec::new();
+    for own in keys::UNCERTAIN.all() {
+        let Kind::Distribution { unit, within } = own.kind else { panic!("{}", own.name) };
+        let mut section = &keys::STUDY;
+        let mut stated = None;
+        for part in own.name.split('.') {
+            let key = section.key(part, None).unwrap_or_else(|| panic!("{}: no key {part}", own.name));
+            if let Kind::Table(below) = key.kind {
+                section = below;
+            }
+            stated = Some(key.kind);
+        }
+        let (of, range) = match stated {
+            Some(
+                Kind::Real { unit, within }
+                | Kind::Quantity { unit, within }
+                | Kind::Reals { unit, within, .. },
+            ) => (unit, within),
+            other => panic!("{}: {other:?}", own.name),
+        };
+        assert_eq!((of, range.low, range.open_low), (unit, within.low, within.open_low), "{}", own.name);
+        assert!(WallParameter::of(own.name).is_some(), "{}", own.name);
+        put.push(own.name);
+    }
+    // All others are drawn by the generator.
+    let rest = PARAMETERS.iter().map(|own| own.key).filter(|key| !put.contains(key));
+    assert_eq!(rest.collect::<Vec<_>>(), ["wall_size_factor"]);
 }
 
 #[test]

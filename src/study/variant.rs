@@ -142,6 +142,9 @@ pub fn shared_key<'k>(one: &'k [String], other: &[String]) -> Option<&'k str> {
 fn change(node: &mut Node, section: &'static Section, path: &[&str], edit: &Edit) -> Result<(), NoSuchKey> {
     let place = node.place.clone();
     let Value::Table(table) = &mut node.value else { return Ok(()) };
+    // The keys of [uncertain] are paths themselves.
+    let whole = path.join(".");
+    let path = if section.key(&whole, None).is_some() { &[whole.as_str()][..] } else { path };
     let [name, rest @ ..] = path else { return Err(no_such("", section)) };
     let key =
         section.key(name, None).filter(|k| k.name != "variant").ok_or_else(|| no_such(name, section))?;

@@ -19,7 +19,7 @@ const HOUSE: &[(&str, &[&str])] = &[
     ("solve", &["math", "shape", "law", "model", "contact"]),
     // `shape`, beyond the house's first plan: a pressure is integrated over faces, and end blocks are shapes.
     ("protocol", &["math", "shape", "law", "model", "contact", "solve"]),
-    ("study", &["math", "random", "law", "model", "generate", "solve", "protocol"]),
+    ("study", &["math", "random", "stats", "law", "model", "generate", "solve", "protocol"]),
     ("ensemble", &["math", "random", "stats", "model", "generate", "solve", "protocol", "study"]),
     ("critic", &["math", "random", "stats", "model", "protocol", "study", "ensemble"]),
     ("report", &["math", "shape", "stats", "model", "exchange", "study", "ensemble", "critic"]),

@@ -59,6 +59,7 @@ fn made_up(study: &Study, task: Task) -> Row {
         point,
         kn_pa_per_m: kn,
         member,
+        drawn: Default::default(),
         outcome: if collapsed {
             Outcome::Collapsed { at: Level::Factor(1.0 / 3.0) }
         } else {
@@ -235,9 +236,9 @@ fn another_study_in_the_same_folder_is_refused_and_changes_nothing() {
         run_with(&other, &settings(&folder.path("out"), 1), &Silent, &made_up).unwrap_err().to_string();
     assert!(refused.contains("study.seed: 7 recorded, 8 asked for"), "{refused}");
     assert!(refused.contains("--out") && refused.contains("remove"), "{refused}");
-    let mut hash_only = study();
-    hash_only.hash = "b".repeat(64);
-    let refused = run_with(&hash_only, &settings(&folder.path("out"), 1), &Silent, &made_up).unwrap_err();
+    let mut revised = study();
+    revised.effective.insert("revision of laws and solvers".to_string(), "another".to_string());
+    let refused = run_with(&revised, &settings(&folder.path("out"), 1), &Silent, &made_up).unwrap_err();
     assert!(matches!(refused, RunError::OtherRun { .. }), "{refused}");
     assert_eq!((bytes(&folder.path("out")), fs::read(folder.path("out").join(JOURNAL)).unwrap()), before);
 }

@@ -1,7 +1,9 @@
 //! Runs as a user starts them: worker counts, kills, changed studies, full disks, shared random numbers.
 
+mod enough;
 mod failed_members;
 mod fixture;
+mod grow;
 mod kill;
 mod machinery;
 mod mechanisms;

@@ -16,7 +16,6 @@ fn a_changed_study_is_refused_by_name_and_changes_nothing() {
 
     for (text, more, said) in [
         (STUDY.to_string(), &["--seed", "8"][..], "seed: 7 recorded, 8 asked for"),
-        (STUDY.to_string(), &["--members", "9"][..], "members: 8 recorded, 9 asked for"),
         (STUDY.to_string(), &["--variant", "slippery"][..], "variant: none recorded, slippery asked for"),
         (changed("base_over_top = 2", "base_over_top = 3"), &[][..], "load.base_over_top: 2"),
     ] {

@@ -1,5 +1,6 @@
 //! Published statements against our numbers: what the studies' READMEs say comes out, does.
 
+mod arrangements;
 mod diagnoses;
 mod dry_shear_walls;
 mod edge_restraint;

@@ -1,15 +1,21 @@
 //! Statistics and distributions against certified values, closed forms, independent programs and simulation.
 
+mod always_valid;
 mod bootstrap;
 mod calibration;
 mod certified;
 mod characteristic;
 mod coverage;
 mod families;
+mod influence;
 mod order;
 mod published_tables;
 mod rand_distr_agrees;
+mod randomised;
 mod rare;
 mod ratios;
+mod selection;
+mod sequential;
 mod support;
+mod test_plan;
 mod truncated;

@@ -1,9 +1,15 @@
 //! Rare probabilities with known answers: a plane, and four branches, in standard normal space.
 
+use pirca::math::exp;
 use pirca::random::Streams;
 use pirca::random::standard_normal::{cdf, quantile};
-use pirca::stats::subset::{Rare, Settings, run};
-use pirca::stats::{mean, sigma};
+use pirca::stats::subset::{Rare, Settings, run, run_from};
+use pirca::stats::{correlation, mean, sigma};
+
+use crate::support::simpson;
+
+/// Independent runs of each problem.
+const REPEATS: u64 = 100;
 
 /// A limit state in so many standard normals.
 struct Normals<'f> {
@@ -48,14 +54,16 @@ fn ratios(problem: &Normals<'_>, exact: f64, runs: u64) -> [f64; 3] {
 
 #[test]
 fn a_plane_far_out_has_its_probability_at_a_thousandth_of_the_values() {
-    for (beta, most_cov, most_values) in [(3.5, 0.45, 4_500.0), (4.5, 0.65, 6_500.0)] {
+    for (beta, most_cov, most_values) in
+        [(3.0, 0.4, 4_000.0), (3.5, 0.45, 4_500.0), (4.0, 0.55, 5_500.0), (4.5, 0.65, 6_500.0)]
+    {
         let plane = |point: &[f64]| beta - point.iter().sum::<f64>() / (point.len() as f64).sqrt();
         let problem = Normals { dimensions: 100, seed: 100, value: &plane };
-        let [ratio, cov, values] = ratios(&problem, cdf(-beta), 40);
+        let [ratio, cov, values] = ratios(&problem, cdf(-beta), REPEATS);
         println!("beta {beta}: {ratio:.3}, COV {cov:.2}, {values:.0} values");
-        // Four standard errors of 40 runs.
-        assert!((ratio - 1.0).abs() < 4.0 * cov / 40_f64.sqrt(), "beta {beta}: {ratio}");
-        // An independent program has COV 0.30 and 0.47 at 3,700 and 5,509 values.
+        // Four standard errors.
+        assert!((ratio - 1.0).abs() < 4.0 * cov / (REPEATS as f64).sqrt(), "beta {beta}: {ratio}");
+        // An independent program has COV 0.30 at 3.5 and 0.47 at 4.5, with 3,700 and 5,509 values.
         assert!(cov < most_cov && values < most_values, "beta {beta}: {cov} {values}");
     }
 }
@@ -72,9 +80,9 @@ fn a_system_of_four_branches_has_its_probability() {
                 .fold(f64::INFINITY, f64::min)
         };
         let problem = Normals { dimensions: 2, seed: 900, value: &branches };
-        let [ratio, cov, values] = ratios(&problem, exact, 60);
+        let [ratio, cov, values] = ratios(&problem, exact, REPEATS);
         println!("k {k}: {ratio:.3}, COV {cov:.2}, {values:.0} values");
-        assert!((ratio - 1.0).abs() < 4.0 * cov / 60_f64.sqrt(), "k {k}: {ratio}");
+        assert!((ratio - 1.0).abs() < 4.0 * cov / (REPEATS as f64).sqrt(), "k {k}: {ratio}");
         assert!(cov < 0.4 && values < 3_500.0, "k {k}: {cov} {values}");
     }
 }
@@ -90,4 +98,43 @@ fn what_is_likely_is_a_share_and_what_is_never_reached_is_nothing() {
     let never = run(&problem, 0.5, &Settings { levels: 4, ..Settings::default() }, 0);
     assert_eq!((never.probability, never.bounds.len()), (0.0, 5));
     assert!(never.lowest.is_some_and(|(_, lowest)| lowest > 1.0));
+}
+
+/// A run may begin in an event that another one went down to: the probability is then the conditional one.
+#[test]
+fn a_run_that_begins_in_an_event_gives_the_conditional_probability() {
+    let first = |point: &[f64]| point[0];
+    let all = Normals { dimensions: 5, seed: 40, value: &first };
+    // Only points with a first number below -1 belong to the event; their sum is what is rare.
+    let inside = |point: &[f64]| if point[0] <= -1.0 { point.iter().sum::<f64>() } else { f64::MAX };
+    let given = Normals { dimensions: 5, seed: 40, value: &inside };
+    let level = -5.0;
+    let mut products = Vec::new();
+    for number in 0..REPEATS {
+        let reached = run(&all, -1.0, &Settings::default(), number);
+        assert!((reached.probability - cdf(-1.0)).abs() < 0.06, "{}", reached.probability);
+        assert_eq!(reached.within.len(), (reached.probability * 1000.0).round() as usize);
+        assert!(reached.within.iter().all(|point| point[0] <= -1.0));
+        // They come by their values: a stride takes them from all over the event.
+        let all_within = reached.within.len();
+        let start: Vec<Vec<f64>> = (0..100).map(|k| reached.within[k * all_within / 100].clone()).collect();
+        let settings = Settings { points: start.len(), ..Settings::default() };
+        let within = run_from(&given, start, level, &settings, 5000 + number);
+        products.push(reached.probability * within.probability);
+    }
+    let (found, error) = (mean(&products).unwrap(), sigma(&products).unwrap() / (REPEATS as f64).sqrt());
+    // P(x <= -1, x + y <= -5) with y normal of variance 4, by Simpson's rule over x.
+    let density = |x: f64| exp(-0.5 * x * x) / (2.0 * std::f64::consts::PI).sqrt();
+    let exact = simpson(-9.0, -1.0, 2000, |x| density(x) * cdf((level - x) / 2.0));
+    println!("{found:e} of {exact:e}, error {error:e}");
+    assert!((found - exact).abs() < 4.0 * error, "{found} {exact} {error}");
+}
+
+#[test]
+fn a_correlation_is_that_of_pearson() {
+    // By hand: deviations (-1, 0, 1) and (-4, -1, 5)/3: 3 / sqrt(2 * 42/9).
+    let rho = correlation(&[1.0, 2.0, 3.0], &[2.0, 3.0, 5.0]).unwrap();
+    assert!((rho - 3.0 / (2.0_f64 * 42.0 / 9.0).sqrt()).abs() < 1e-12, "{rho}");
+    assert_eq!(correlation(&[1.0, 1.0], &[2.0, 3.0]), None);
+    assert_eq!(correlation(&[1.0], &[2.0]), None);
 }

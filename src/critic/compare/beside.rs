@@ -6,7 +6,7 @@ use crate::critic::compare::simulated::{Simulated, simulated};
 use crate::ensemble::Row;
 use crate::protocol::Protocol;
 use crate::random::standard_normal::cdf;
-use crate::stats::{self, Summary};
+use crate::stats::{self, Sample, Summary};
 use crate::study::{Arm, MeasuredKind, MeasuredQuantity, Measurement, Study};
 
 /// One quantity of one family at one tilt, measured and simulated. SI units.
@@ -130,7 +130,7 @@ pub fn compare(study: &Study, rows: &[Row]) -> Vec<Beside> {
             _ if quantity.is_remainder() && !goes_back => {
                 all.push(beside(Ours::None("the platform does not go back here: load.remainders = true")));
             }
-            (Some(own), true) => match walls(own, arm, &group, &measured, rows) {
+            (Some(own), true) => match walls((own, study.randomisations()), arm, &group, &measured, rows) {
                 Some(walls) => all.extend(walls.into_iter().map(|walls| beside(Ours::Walls(walls)))),
                 None => all.push(beside(Ours::None("the simulation does not give it"))),
             },
@@ -204,9 +204,10 @@ pub fn measured(group: &[&Measurement]) -> Measured {
     }
 }
 
-/// The walls of an arm, point by point; `None` where the simulation has no such quantity.
+/// The walls of an arm, of which so many randomisations of a design share the members, point by point; `None` where the simulation has
+/// no such quantity.
 fn walls(
-    arm: &Arm,
+    (arm, randomisations): (&Arm, u64),
     index: usize,
     group: &[&Measurement],
     measured: &Measured,
@@ -215,17 +216,20 @@ fn walls(
     let first = group.first()?;
     let mut all = Vec::new();
     for (point, &kn) in arm.kn_points.iter().enumerate() {
-        let own = rows.iter().filter(|row| row.arm_index as usize == index && row.point as usize == point);
+        let own = || rows.iter().filter(|row| row.arm_index as usize == index && row.point as usize == point);
         let shown: Vec<Simulated> =
-            own.map(|row| simulated(first.quantity, first.at(), row)).collect::<Option<_>>()?;
+            own().map(|row| simulated(first.quantity, first.at(), row)).collect::<Option<_>>()?;
         let count = |wanted: fn(&Simulated) -> bool| shown.iter().filter(|s| wanted(s)).count() as u64;
         let stood = count(|s| matches!(s, Simulated::Above(_)));
-        let values: Vec<f64> =
-            shown.iter().filter_map(|s| if let Simulated::Value(x) = s { Some(*x) } else { None }).collect();
-        let values = Summary::of(if stood == 0 { &values } else { &[] });
+        let values = own().zip(&shown).filter_map(|(row, shown)| match shown {
+            Simulated::Value(x) if stood == 0 => Some((row.member, *x)),
+            _ => None,
+        });
+        let sample = Sample::of(values, randomisations);
+        let values = sample.summary();
         all.push(Walls {
             kn,
-            difference: difference(&values, group, measured),
+            difference: difference(&values, sample.error_of_mean(), group, measured),
             values,
             fell_before: count(|s| *s == Simulated::FellBefore),
             stood,
@@ -236,11 +240,16 @@ fn walls(
     Some(all)
 }
 
-fn difference(ours: &Summary, group: &[&Measurement], measured: &Measured) -> Option<Difference> {
+/// `ensemble` is the standard error of the mean of our walls.
+fn difference(
+    ours: &Summary,
+    ensemble: f64,
+    group: &[&Measurement],
+    measured: &Measured,
+) -> Option<Difference> {
     let value = ours.mean.value? - measured.values.mean.value?;
     let sigma = ours.sigma.value.unwrap_or(0.0);
     let scatter = scatter(sigma, group, measured);
-    let ensemble = sigma / (ours.n as f64).sqrt();
     let difference = Difference { value, measurement: measured.error?, scatter, ensemble };
     (difference.sd() > 0.0).then_some(difference)
 }

@@ -5,15 +5,15 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::ensemble::{Draw, Quantity};
-use crate::report::capacity::Question;
+use crate::report::capacity::known::{Known, Told};
 use crate::report::capacity::values::Supported;
+use crate::report::capacity::{Question, Rung};
 use crate::report::population::Population;
-use crate::stats::{self, Estimate, Shape, Summary, Variation, clopper_pearson};
+use crate::report::summary::EnoughEntry;
+use crate::stats::{self, Estimate, Shape, Statistic, Variation, above_zero, clopper_pearson};
+use crate::study::Until;
 
-/// Beyond all values: what a wall that brought none counts at worst, and at best.
-const BEYOND: f64 = 1e100;
-
-/// The walls of one kind.
+/// The walls of one kind, and what they answer.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CapacityGroup {
     /// The arm, or the family.
@@ -23,27 +23,98 @@ pub struct CapacityGroup {
     pub kn_pa_per_m: Option<f64>,
     /// Whether anything is drawn: walls that are all alike have no probability.
     pub random: bool,
-    /// Walls that were evaluated.
-    pub walls: u64,
-    /// Walls whose value is known to lie above where their load path ended.
-    pub stood_to_the_end: u64,
-    /// Walls that brought no value, by why.
-    pub failed: BTreeMap<String, u64>,
-    /// The probability, or the quantile in the unit of the quantity; none where the walls do not tell.
-    pub answer: Option<f64>,
+    /// What was asked.
+    pub question: Question,
+    /// The answer.
+    #[serde(flatten)]
+    pub answer: Answer,
     /// Its 95 % interval: of a probability Clopper and Pearson's, of a quantile that between two order statistics.
     pub interval: Option<[f64; 2]>,
-    /// The interval if every wall that brought no value had been on the worse side, and on the better one; none where all brought one.
-    pub interval_whatever_failed: Option<[f64; 2]>,
-    /// How it was found: `plain`, every wall counts alike; `subset`, by subset simulation; `measured`, specimens alone.
+    /// Coefficient of variation of the answer, of a probability above 0: by independent repeats where there are some, else that of a
+    /// binomial share. It is no interval.
+    pub cov: Option<f64>,
+    /// Walls that were evaluated, by the name of the solver; none of specimens.
+    pub evaluations: BTreeMap<&'static str, u64>,
+    /// How it was found: `plain`, every wall counts alike; `subset`, by subset simulation; `subset_from_limit`, by that from limit
+    /// analysis of the same walls; `measured`, specimens alone.
     pub method: &'static str,
     /// Independent repeats that the interval comes from, of subset simulation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub repeats: Option<Repeats>,
+    /// The coefficient of variation that was asked for, and whether it was reached.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub target: Option<Target>,
+    /// Walls that brought no value.
+    pub failed: Failed,
+    /// Why there were walls enough, where they were added until the quantile was known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub enough: Option<EnoughEntry>,
+    /// Walls that count alike.
+    pub walls: u64,
+    /// Walls whose value is known to lie above where their load path ended.
+    pub stood_to_the_end: u64,
     /// Coefficient of variation of the walls, where all values are known.
-    pub cov: Option<f64>,
+    pub walls_cov: Option<f64>,
     /// Values that the walls support, normal and lognormal; none where some value is not known, or nothing is drawn.
     pub supported: Vec<Supported>,
+    /// The probability of the worse side over the level, by all walls alike and by each run: in the figure and its table.
+    #[serde(skip)]
+    pub rungs: Vec<Rung>,
+}
+
+/// An answer, by its name in files; none where the walls do not tell.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Answer {
+    /// Of a value on the worse side of a level.
+    Probability(Option<f64>),
+    /// The value that a share of all walls lie below, in the unit of the quantity.
+    Quantile(Option<f64>),
+}
+
+impl Answer {
+    fn to(question: Question, value: Option<f64>) -> Answer {
+        match question {
+            Question::Below(_) | Question::Above(_) => Answer::Probability(value),
+            Question::Quantile(_) => Answer::Quantile(value),
+        }
+    }
+
+    /// Its value.
+    pub fn value(self) -> Option<f64> {
+        let (Answer::Probability(value) | Answer::Quantile(value)) = self;
+        value
+    }
+}
+
+/// How well a probability was to be known.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Target {
+    /// The largest coefficient of variation.
+    pub cov: f64,
+    /// Whether that of the answer is no larger.
+    pub reached: bool,
+}
+
+/// Walls that brought no value: counted, bounded and never dropped.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Failed {
+    /// How many.
+    pub walls: u64,
+    /// By why.
+    pub by: BTreeMap<String, u64>,
+    /// The interval of the answer if all of them had been on the worse side; `None` where there are none, or it has no end.
+    pub interval_if_failed: Option<[f64; 2]>,
+    /// The same if all of them had been on the better side.
+    pub interval_if_not: Option<[f64; 2]>,
+}
+
+impl Failed {
+    /// What holds the answer whatever they would have borne.
+    pub fn whatever(&self) -> Option<[f64; 2]> {
+        let ([a, b], [c, d]) = self.interval_if_failed.zip(self.interval_if_not)?;
+        Some([a.min(c), b.max(d)])
+    }
 }
 
 /// Independent runs of subset simulation.
@@ -53,31 +124,75 @@ pub struct Repeats {
     pub probabilities: Vec<f64>,
     /// Coefficient of variation of their mean.
     pub cov: Option<f64>,
+    /// What their interval may miss: 0.05, or a part of it where runs were added until they were enough.
+    pub miss: f64,
     /// Walls that were evaluated in all.
     pub evaluations: usize,
+    /// Limit analyses of walls, where runs began with them.
+    #[serde(skip)]
+    pub limit_evaluations: usize,
+    /// By what they began with them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub screen: Option<Screen>,
     /// Walls that brought no value: they count as on the better side.
+    #[serde(skip)]
     pub failed: usize,
+    /// How many of those brought none that were drawn before any was moved, and how many these are.
+    #[serde(skip)]
+    pub lost_of_drawn: [u64; 2],
     /// The weakest wall that was found, with its value.
     pub weakest: Option<(Draw, f64)>,
+    /// Its number, for `pirca generate --draw`.
+    pub weakest_draw: Option<u64>,
+    /// By run, the levels that it went down by, the last one the level asked for, each with its probability.
+    #[serde(skip)]
+    pub ladders: Vec<Vec<[f64; 2]>>,
+    /// The number of the first wall that was found on the worse side.
+    pub first_failed_draw: Option<u64>,
 }
 
-/// What is known of walls.
-struct Known {
-    values: Vec<f64>,
-    above: Vec<f64>,
-    lost: u64,
+/// Limit analysis that runs began with: only walls whose limit lies within a bound were taken to the study's own solver.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Screen {
+    /// Correlation of limit and value on walls that enter no answer.
+    pub rho: f64,
+    /// How many these were.
+    pub pilot_walls: usize,
+    /// The bound, in the unit of the quantity.
+    pub bound: f64,
+    /// The largest limit of all walls that were found on the worse side. Near the bound, walls beyond it may have been missed.
+    pub largest_on_worse_side: Option<f64>,
 }
 
 impl CapacityGroup {
-    /// Simulated walls.
-    pub fn simulated(own: &Population, question: Question, variation: Variation) -> CapacityGroup {
-        let known = Known { values: own.ordered(), above: own.limits(), lost: own.lost() };
+    /// Simulated walls of an arm, solved by a solver of this name; `until` says when they were enough, if that was asked.
+    pub fn simulated(
+        own: &Population,
+        question: Question,
+        variation: Variation,
+        solver: &'static str,
+        until: Option<Until>,
+    ) -> CapacityGroup {
+        let known = Known {
+            values: own.ordered(),
+            above: own.limits(),
+            lost: own.lost(),
+            worse_is_high: own.quantity == Quantity::TopDisplacement,
+        };
         let mut group = CapacityGroup::of(&own.arm, known, question, variation);
         group.kn_pa_per_m = Some(own.kn);
         group.random = !own.fixed;
-        group.failed = own.failed().into_iter().collect();
+        group.failed.by = own.failed().into_iter().collect();
+        group.evaluations.insert(solver, group.walls);
+        if let (Question::Quantile(share), Some(until)) = (question, until)
+            && until.of == Statistic::Quantile(share)
+        {
+            let entry = EnoughEntry::of(until, own);
+            (group.interval, group.enough) = (entry.ci, Some(entry));
+        }
         if own.fixed {
-            (group.interval, group.interval_whatever_failed) = (None, None);
+            (group.interval, group.cov) = (None, None);
+            (group.failed.interval_if_failed, group.failed.interval_if_not) = (None, None);
         }
         // A displacement is the worse the larger it is: its low fractiles are no capacity.
         if own.fixed || own.quantity == Quantity::TopDisplacement {
@@ -95,96 +210,88 @@ impl CapacityGroup {
         question: Question,
         variation: Variation,
     ) -> CapacityGroup {
-        let mut group = CapacityGroup::of(family, Known { values, above, lost: unread }, question, variation);
+        let known = Known { values, above, lost: unread, worse_is_high: false };
+        let mut group = CapacityGroup::of(family, known, question, variation);
         group.method = "measured";
         if unread > 0 {
-            group.failed.insert("below a bound".to_owned(), unread);
+            group.failed.by.insert("below a bound".to_owned(), unread);
         }
         group
     }
 
-    /// The same answered by independent runs of subset simulation. The interval is Student's on their mean, above 0.
-    pub fn by_subset(&mut self, repeats: Repeats, is_high: bool) {
-        let Estimate { value, interval } = Summary::of_positive(&repeats.probabilities).mean;
-        (self.answer, self.interval, self.interval_whatever_failed) = (value, interval, None);
-        self.method = "subset";
+    /// The same answered by independent runs of subset simulation. The interval is Student's on their mean, above 0. Walls without a
+    /// value count as on the better side; at worst the share of them among those drawn at first is on the worse one.
+    pub fn by_subset(&mut self, repeats: Repeats, solver: &'static str, is_high: bool) {
+        let mean = Statistic::Mean.of(&repeats.probabilities, repeats.miss);
+        let Estimate { value, interval } = above_zero(mean);
+        (self.answer, self.interval) = (Answer::to(self.question, value), interval);
+        self.cov = repeats.cov;
+        self.method = if repeats.screen.is_some() { "subset_from_limit" } else { "subset" };
+        *self.evaluations.entry(solver).or_default() += repeats.evaluations as u64;
+        if let Some(screen) = repeats.screen {
+            let limits = (repeats.limit_evaluations + screen.pilot_walls) as u64;
+            *self.evaluations.entry("limit").or_default() += limits;
+        }
+        let [lost, drawn] = repeats.lost_of_drawn;
+        let more = clopper_pearson(lost as usize, drawn as usize)[1];
+        let had_failed = interval.map(|[low, high]| [low, (high + more).min(1.0)]);
+        self.failed = Failed {
+            walls: repeats.failed as u64,
+            by: BTreeMap::from([("without a value".to_owned(), repeats.failed as u64)]),
+            interval_if_failed: had_failed.filter(|_| repeats.failed > 0),
+            interval_if_not: interval.filter(|_| repeats.failed > 0),
+        };
+        if repeats.failed == 0 {
+            self.failed.by.clear();
+        }
         let signed = |(draw, value): (Draw, f64)| (draw, if is_high { -value } else { value });
+        let rung = |run: usize, [level, probability]: [f64; 2]| Rung {
+            run: Some(run),
+            level: if is_high { -level } else { level },
+            probability,
+            interval: None,
+        };
+        let ladders = repeats.ladders.iter().enumerate();
+        self.rungs.extend(ladders.flat_map(|(run, ladder)| ladder.iter().map(move |own| rung(run, *own))));
         self.repeats = Some(Repeats { weakest: repeats.weakest.map(signed), ..repeats });
     }
 
+    /// With what was asked for.
+    pub fn aim(&mut self, cov: f64) {
+        self.target = Some(Target { cov, reached: self.cov.is_some_and(|own| own <= cov) });
+    }
+
     fn of(name: &str, known: Known, question: Question, variation: Variation) -> CapacityGroup {
-        let (answer, interval, whatever) = known.answer(question);
-        let complete = known.above.is_empty() && known.lost == 0;
+        let Known { values, above, lost, .. } = &known;
+        let Told { answer, told, interval, if_failed, if_not } = known.answer(question);
+        let complete = above.is_empty() && *lost == 0;
         let shapes: &[Shape] = if complete { &[Shape::Normal, Shape::Lognormal] } else { &[] };
+        let share = answer.filter(|share| *share > 0.0 && !matches!(question, Question::Quantile(_)));
         CapacityGroup {
             name: name.to_owned(),
             kn_pa_per_m: None,
             random: true,
-            walls: (known.values.len() + known.above.len()) as u64 + known.lost,
-            stood_to_the_end: known.above.len() as u64,
-            failed: BTreeMap::new(),
-            answer,
+            question,
+            answer: Answer::to(question, answer),
             interval,
-            interval_whatever_failed: whatever.filter(|_| known.lost > 0),
+            cov: share.map(|share| ((1.0 - share) / (share * told as f64)).sqrt()),
+            evaluations: BTreeMap::new(),
             method: "plain",
             repeats: None,
-            cov: complete.then(|| stats::cov(&known.values)).flatten(),
-            supported: shapes.iter().map(|shape| Supported::by(&known.values, *shape, variation)).collect(),
+            target: None,
+            failed: Failed {
+                walls: *lost,
+                by: BTreeMap::new(),
+                interval_if_failed: if_failed.filter(|_| *lost > 0),
+                interval_if_not: if_not.filter(|_| *lost > 0),
+            },
+            enough: None,
+            walls: (values.len() + above.len()) as u64 + lost,
+            stood_to_the_end: above.len() as u64,
+            walls_cov: complete.then(|| stats::cov(values)).flatten(),
+            supported: shapes.iter().map(|shape| Supported::by(values, *shape, variation)).collect(),
+            rungs: known.rungs(),
         }
-    }
-}
-
-type Answer = (Option<f64>, Option<[f64; 2]>, Option<[f64; 2]>);
-
-impl Known {
-    fn answer(&self, question: Question) -> Answer {
-        match question {
-            Question::Below(level) => self.share(&|value| value < level, level),
-            Question::Above(level) => {
-                let (share, interval, whatever) = self.share(&|value| value <= level, level);
-                let turned = |[low, high]: [f64; 2]| [1.0 - high, 1.0 - low];
-                (share.map(|share| 1.0 - share), interval.map(turned), whatever.map(turned))
-            }
-            Question::Quantile(share) => self.quantile(share),
-        }
-    }
-
-    /// The share of walls with a value on the lower side of a level. A wall that stood to a lower end than the level says nothing.
-    fn share(&self, is_below: &dyn Fn(f64) -> bool, level: f64) -> Answer {
-        let below = self.values.iter().filter(|value| is_below(**value)).count();
-        let stood = self.above.iter().filter(|end| **end >= level).count();
-        let silent = self.above.len() - stood + self.lost as usize;
-        let told = self.values.len() + stood;
-        if told == 0 {
-            return (None, None, None);
-        }
-        let all = told + silent;
-        let whatever = [clopper_pearson(below, all)[0], clopper_pearson(below + silent, all)[1]];
-        (Some(below as f64 / told as f64), Some(clopper_pearson(below, told)), Some(whatever))
-    }
-
-    /// The value that a share of all walls lie below. Walls that stood to the end are above all that fell.
-    fn quantile(&self, share: f64) -> Answer {
-        let with = |lost: Option<f64>| {
-            let stood = self.above.iter().map(|_| BEYOND);
-            let lost = lost.into_iter().flat_map(|at| (0..self.lost).map(move |_| at));
-            self.values.iter().copied().chain(stood).chain(lost).collect::<Vec<f64>>()
-        };
-        let finite = |value: f64| value.abs() < 0.1 * BEYOND;
-        let within = |ends: [f64; 2]| ends.iter().all(|end| finite(*end));
-        let told = with(None);
-        if told.len() as f64 * share.min(1.0 - share) < 1.0 {
-            // No wall in the mean lies beyond it: what is between the last two says nothing of it.
-            return (None, None, None);
-        }
-        let ends = |values: &[f64]| stats::quantile_interval(values, share);
-        let whatever =
-            ends(&with(Some(-BEYOND))).zip(ends(&with(Some(BEYOND)))).map(|(low, high)| [low[0], high[1]]);
-        (
-            stats::quantile(&told, share).filter(|value| finite(*value)),
-            ends(&told).filter(|ends| within(*ends)),
-            whatever.filter(|ends| within(*ends)),
-        )
     }
 }
 
@@ -193,7 +300,7 @@ mod tests {
     use super::*;
 
     fn of(values: &[f64], above: &[f64], lost: u64, question: Question) -> CapacityGroup {
-        let known = Known { values: values.to_vec(), above: above.to_vec(), lost };
+        let known = Known { values: values.to_vec(), above: above.to_vec(), lost, worse_is_high: false };
         CapacityGroup::of("any", known, question, Variation::Unknown)
     }
 
@@ -201,45 +308,48 @@ mod tests {
     fn walls_that_failed_are_counted_bounded_and_never_dropped() {
         let values: Vec<f64> = (1..=98).map(f64::from).collect();
         let group = of(&values, &[], 2, Question::Below(10.5));
-        assert_eq!((group.walls, group.answer), (100, Some(10.0 / 98.0)));
+        assert_eq!((group.walls, group.answer), (100, Answer::Probability(Some(10.0 / 98.0))));
         assert_eq!(group.interval, Some(clopper_pearson(10, 98)));
-        assert_eq!(
-            group.interval_whatever_failed,
-            Some([clopper_pearson(10, 100)[0], clopper_pearson(12, 100)[1]])
-        );
+        assert_eq!(group.failed.interval_if_failed, Some(clopper_pearson(12, 100)));
+        assert_eq!(group.failed.interval_if_not, Some(clopper_pearson(10, 100)));
+        assert_eq!(group.failed.whatever(), Some([clopper_pearson(10, 100)[0], clopper_pearson(12, 100)[1]]));
+        // Of 98 walls: sqrt(88/98 / 10).
+        assert!((group.cov.expect("a share above 0") - (88.0 / 98.0 / 10.0_f64).sqrt()).abs() < 1e-12);
         // What is not known has no moments.
-        assert!(group.supported.is_empty() && group.cov.is_none());
+        assert!(group.supported.is_empty() && group.walls_cov.is_none());
         let whole = of(&values, &[], 0, Question::Below(10.5));
-        assert!(whole.interval_whatever_failed.is_none() && whole.supported.len() == 2);
+        assert!(whole.failed.whatever().is_none() && whole.supported.len() == 2);
         let above = of(&values, &[], 2, Question::Above(10.0));
-        assert_eq!(above.answer, Some(88.0 / 98.0));
+        assert_eq!(above.answer.value(), Some(88.0 / 98.0));
+        // Walls that count as above the level are on the worse side now.
+        let [low, high] = clopper_pearson(10, 100);
+        assert_eq!(above.failed.interval_if_failed, Some([1.0 - high, 1.0 - low]));
     }
 
     #[test]
     fn a_wall_that_stood_to_the_end_is_above_the_levels_before_it_and_says_nothing_of_others() {
         let group = of(&[10.0, 12.0], &[30.0, 30.0], 0, Question::Below(20.0));
-        assert_eq!((group.answer, group.interval_whatever_failed), (Some(0.5), None));
+        assert_eq!((group.answer.value(), group.failed.whatever()), (Some(0.5), None));
         let group = of(&[10.0, 12.0], &[15.0, 30.0], 0, Question::Below(20.0));
-        assert_eq!(group.answer, Some(2.0 / 3.0));
+        assert_eq!(group.answer.value(), Some(2.0 / 3.0));
         let median = of(&[10.0, 12.0, 14.0], &[30.0, 30.0], 0, Question::Quantile(0.25));
-        assert_eq!(median.answer, Some(12.0));
+        assert_eq!(median.answer.value(), Some(12.0));
         // The upper quantiles lie among those that stood.
-        assert_eq!(of(&[10.0, 12.0], &[30.0, 30.0, 30.0], 0, Question::Quantile(0.9)).answer, None);
+        assert_eq!(of(&[10.0, 12.0], &[30.0, 30.0, 30.0], 0, Question::Quantile(0.9)).answer.value(), None);
     }
 
     #[test]
     fn a_quantile_has_the_interval_of_its_order_statistics() {
         let values: Vec<f64> = (1..=200).map(f64::from).collect();
         let group = of(&values, &[], 0, Question::Quantile(0.05));
-        assert_eq!(group.answer, stats::quantile(&values, 0.05));
+        assert_eq!(group.answer, Answer::Quantile(stats::quantile(&values, 0.05)));
         assert_eq!(group.interval, stats::quantile_interval(&values, 0.05));
         // Three lost walls may have been the weakest, or the strongest.
-        let [low, high] =
-            of(&values, &[], 3, Question::Quantile(0.05)).interval_whatever_failed.expect("200 walls");
+        let [low, high] = of(&values, &[], 3, Question::Quantile(0.05)).failed.whatever().expect("200 walls");
         let [own_low, own_high] = group.interval.expect("200 walls");
         assert!(low < own_low && high >= own_high);
         let few = of(&values[..20], &[], 0, Question::Quantile(0.05));
-        assert!(few.answer.is_some() && few.interval.is_none());
-        assert_eq!(of(&values[..19], &[], 0, Question::Quantile(0.05)).answer, None);
+        assert!(few.answer.value().is_some() && few.interval.is_none());
+        assert_eq!(of(&values[..19], &[], 0, Question::Quantile(0.05)).answer.value(), None);
     }
 }

@@ -1,7 +1,9 @@
 //! What an engineer may count on: the probability that a wall of a kind fails below a level, a low fractile, characteristic and
 //! design values; `capacity.json` and what is printed of it.
 
+mod figure;
 mod group;
+mod known;
 mod text;
 mod values;
 
@@ -10,18 +12,25 @@ use std::path::Path;
 use anyhow::{Context, Result};
 use serde::Serialize;
 
-pub use group::{CapacityGroup, Repeats};
+pub use figure::Rung;
+use figure::{CapacityPlot, capacity_csv};
+pub use group::{Answer, CapacityGroup, Failed, Repeats, Screen, Target};
 pub use text::capacity_text;
 pub use values::{Supported, SupportedValue};
 
 use crate::ensemble::{Quantity, Row, replace_file};
 use crate::math::degrees;
-use crate::report::population::populations;
+use crate::report::draw::IMAGE_SCALE;
+use crate::report::files::write_figure;
+use crate::report::population::{Population, populations};
 use crate::stats::{DESIGN_PROBABILITY, Variation};
 use crate::study::{MeasuredKind, MeasuredQuantity, Measurement, Study};
 
 /// File name of what is written.
 const FILE: &str = "capacity.json";
+
+/// File name, without ending, of the probability over the level and the figure of it.
+const FIGURE: &str = "probability";
 
 /// What is asked of the capacity.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -63,7 +72,11 @@ impl CapacitySummary {
     /// From the rows of a study.
     pub fn simulated(study: &Study, rows: &[Row], question: Question, known: Variation) -> CapacitySummary {
         let groups = populations(study, rows);
-        let groups = groups.iter().map(|own| CapacityGroup::simulated(own, question, known)).collect();
+        let until = |own: &Population| study.arms.iter().find(|arm| arm.name == own.arm)?.until;
+        let of = |own: &Population| {
+            CapacityGroup::simulated(own, question, known, study.solver.name(), until(own))
+        };
+        let groups = groups.iter().map(of).collect();
         CapacitySummary::new(study, Quantity::of(&study.protocol), question, known, groups)
     }
 
@@ -113,11 +126,17 @@ impl CapacitySummary {
     }
 }
 
-/// Writes the answer as JSON into an existing folder.
+/// Writes the answer as JSON into an existing folder, and the probability over the level as a figure (SVG, PNG) with its table (CSV).
 ///
 /// # Errors
 /// The file that could not be written, and why.
 pub fn write_capacity(summary: &CapacitySummary, dir: &Path) -> Result<()> {
     let json = serde_json::to_string_pretty(summary).context("the answer cannot be written as JSON")? + "\n";
-    Ok(replace_file(&dir.join(FILE), json.as_bytes())?)
+    replace_file(&dir.join(FILE), json.as_bytes())?;
+    replace_file(&dir.join(format!("{FIGURE}.csv")), capacity_csv(summary).as_bytes())?;
+    let figure = CapacityPlot::new(summary, 1);
+    if figure.is_empty() {
+        return Ok(());
+    }
+    write_figure(dir, FIGURE, &figure, &CapacityPlot::new(summary, IMAGE_SCALE))
 }

@@ -1,6 +1,6 @@
 //! What is printed of a capacity.
 
-use crate::report::capacity::group::{CapacityGroup, Repeats};
+use crate::report::capacity::group::{CapacityGroup, Repeats, Screen};
 use crate::report::capacity::{CapacitySummary, Question, SupportedValue};
 use crate::report::number::{compact, or_dash, significant, with_interval};
 use crate::report::table::{aligned, wrapped};
@@ -36,7 +36,7 @@ fn conclusion(summary: &CapacitySummary, group: &CapacityGroup) -> String {
     let shown = |x: f64| summary.shown.shown(x);
     let name = name(group);
     if !group.random {
-        let value = or_dash(group.answer.map(shown), 3);
+        let value = or_dash(group.answer.value().map(shown), 3);
         return match summary.question {
             Question::Quantile(_) => format!("{name}: nothing is drawn, every wall has {value} {unit}."),
             _ => format!("{name}: nothing is drawn, every wall is alike."),
@@ -45,7 +45,7 @@ fn conclusion(summary: &CapacitySummary, group: &CapacityGroup) -> String {
     if let Some(repeats) = &group.repeats {
         return by_subset(summary, group, repeats);
     }
-    let lost: u64 = group.failed.values().sum();
+    let lost = group.failed.walls;
     let counted = if lost > 0 {
         format!("{} walls, {lost} without a value", group.walls)
     } else {
@@ -57,10 +57,10 @@ fn conclusion(summary: &CapacitySummary, group: &CapacityGroup) -> String {
             format!(
                 "{name}: {side} {} {unit} with a probability of {} ({counted}).",
                 significant(shown(level), 3),
-                with_interval(group.answer, group.interval, 2)
+                with_interval(group.answer.value(), group.interval, 2)
             )
         }
-        Question::Quantile(share) if group.answer.is_none() => {
+        Question::Quantile(share) if group.answer.value().is_none() => {
             format!(
                 "{name}: {counted} are too few to show a {} % quantile by themselves.",
                 significant(100.0 * share, 2)
@@ -69,10 +69,16 @@ fn conclusion(summary: &CapacitySummary, group: &CapacityGroup) -> String {
         Question::Quantile(share) => format!(
             "{name}: {} % of walls lie below {} {unit} ({counted}).",
             significant(100.0 * share, 2),
-            with_interval(group.answer.map(shown), group.interval.map(|ends| ends.map(shown)), 3)
+            with_interval(group.answer.value().map(shown), group.interval.map(|ends| ends.map(shown)), 3)
         ),
     };
-    if let Some(ends) = group.interval_whatever_failed {
+    if let Some(enough) = &group.enough {
+        let half = or_dash(enough.half_width.map(|half| 100.0 * half), 2);
+        let below = significant(100.0 * enough.below, 2);
+        let more = if enough.reached { "" } else { ", not reached: give --walls more" };
+        text.push_str(&format!(" Half width {half} % (asked: below {below} %{more})."));
+    }
+    if let Some(ends) = group.failed.whatever() {
         let ends = match summary.question {
             Question::Quantile(_) => ends.map(shown),
             _ => ends,
@@ -93,22 +99,49 @@ fn by_subset(summary: &CapacitySummary, group: &CapacityGroup, repeats: &Repeats
         Question::Below(level) | Question::Quantile(level) => ("below", level),
     };
     let unit = summary.shown.shown_unit();
+    let (method, limits) = match repeats.screen {
+        Some(_) => (
+            "subset simulation from limit analysis",
+            format!(" after {} limit analyses", repeats.limit_evaluations),
+        ),
+        None => ("subset simulation", String::new()),
+    };
     let mut text = format!(
-        "{}: {side} {} {unit} with a probability of {} (subset simulation, {} independent runs, {} walls).",
+        "{}: {side} {} {unit} with a probability of {} ({method}, {} independent runs, {} walls{limits}).",
         name(group),
         significant(summary.shown.shown(level), 3),
-        with_interval(group.answer, group.interval, 2),
+        with_interval(group.answer.value(), group.interval, 2),
         repeats.probabilities.len(),
         repeats.evaluations
     );
-    if let Some((_, value)) = &repeats.weakest {
-        let value = significant(summary.shown.shown(*value), 3);
-        text.push_str(&format!(" The weakest wall found has {value} {unit}."));
-    }
-    if repeats.failed > 0 {
+    if let Some(Screen { rho, pilot_walls, bound, largest_on_worse_side }) = repeats.screen {
+        let shown = |x: f64| significant(summary.shown.shown(x), 3);
         text.push_str(&format!(
-            " {} walls brought no value and count as on the better side.",
-            repeats.failed
+            " Limit and value of {pilot_walls} other walls have a correlation of {}; walls with a limit above {} {unit} were taken to \
+             be on the better side, and those found on the worse side have {} at most.",
+            significant(rho, 2),
+            shown(bound),
+            largest_on_worse_side.map_or_else(|| "-".to_owned(), shown)
+        ));
+    }
+    if let (Some((_, value)), Some(number)) = (&repeats.weakest, repeats.weakest_draw) {
+        let value = significant(summary.shown.shown(*value), 3);
+        text.push_str(&format!(" The weakest wall found has {value} {unit}: draw {number}"));
+        let first =
+            repeats.first_failed_draw.map(|first| format!("; the first {side} the level: draw {first}"));
+        text.push_str(&format!("{}.", first.unwrap_or_default()));
+    }
+    if let Some(target) = group.target {
+        let cov = or_dash(group.cov.map(|cov| 100.0 * cov), 2);
+        let asked = significant(100.0 * target.cov, 2);
+        let more = if target.reached { "" } else { ", not reached: give --walls more" };
+        text.push_str(&format!(" COV {cov} % (asked: {asked} %{more})."));
+    }
+    if let Some([_, high]) = group.failed.interval_if_failed {
+        text.push_str(&format!(
+            " {} walls brought no value and count as on the better side; had they failed, it is {} at most.",
+            group.failed.walls,
+            significant(high, 2)
         ));
     }
     text
@@ -146,7 +179,7 @@ fn table(summary: &CapacitySummary) -> String {
                 group.name.clone(),
                 group.kn_pa_per_m.map_or_else(|| "-".to_owned(), compact),
                 group.walls.to_string(),
-                or_dash(group.cov.map(|cov| 100.0 * cov), 2),
+                or_dash(group.walls_cov.map(|cov| 100.0 * cov), 2),
                 match own.shape {
                     Shape::Normal => "normal".to_owned(),
                     Shape::Lognormal => "lognormal".to_owned(),

@@ -2,7 +2,7 @@
 
 use crate::critic::{Simulated, simulated};
 use crate::ensemble::{Row, is_random};
-use crate::stats::{self, Estimate, Summary};
+use crate::stats::{self, Estimate, Sample};
 use crate::study::{Arm, MeasuredQuantity, Study};
 
 /// One more wall lies below and above the band with this probability each.
@@ -54,7 +54,7 @@ pub fn force_curves(study: &Study, rows: &[Row]) -> Vec<ForceCurve> {
             arm: arm.name.clone(),
             kn,
             random: is_random(arm),
-            points: drifts.iter().map(|drift| ForcePoint::of(*drift, &own)).collect(),
+            points: drifts.iter().map(|drift| ForcePoint::of(*drift, &own, study.randomisations())).collect(),
         }
     };
     let arms = study.arms.iter().enumerate();
@@ -64,25 +64,27 @@ pub fn force_curves(study: &Study, rows: &[Row]) -> Vec<ForceCurve> {
 
 impl ForcePoint {
     /// Of walls at a drift.
-    fn of(drift: f64, rows: &[&Row]) -> ForcePoint {
+    fn of(drift: f64, rows: &[&Row], randomisations: u64) -> ForcePoint {
         let (mut forces, mut fallen) = (Vec::new(), 0);
         for row in rows {
             match simulated(MeasuredQuantity::ForceAtDrift, Some(drift), row) {
-                Some(Simulated::Value(force)) => forces.push(force),
+                Some(Simulated::Value(force)) => forces.push((row.member, force)),
                 Some(Simulated::FellBefore) => fallen += 1,
                 Some(Simulated::Above(_) | Simulated::Nothing) | None => {}
             }
         }
+        let values: Vec<f64> = forces.iter().map(|(_, force)| *force).collect();
+        let sample = Sample::of(forces, randomisations);
         let quantile = |p: f64| {
-            let value = stats::predictive_quantile(&forces, p);
-            Estimate { value, interval: value.and_then(|_| stats::quantile_interval(&forces, p)) }
+            let value = stats::predictive_quantile(&values, p);
+            Estimate { value, interval: value.and_then(|_| sample.quantile(p).interval) }
         };
         ForcePoint {
             drift_percent: tidy(100.0 * drift),
-            walls: forces.len(),
+            walls: values.len(),
             fallen,
-            lost: rows.len() - forces.len() - fallen,
-            mean: Summary::of(&forces).mean,
+            lost: rows.len() - values.len() - fallen,
+            mean: sample.summary().mean,
             low: quantile(BELOW),
             high: quantile(1.0 - BELOW),
         }

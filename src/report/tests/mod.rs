@@ -35,6 +35,7 @@ fn failed(member: u64, outcome: Outcome) -> Row {
         point: 0,
         kn_pa_per_m: KN[0],
         member,
+        drawn: Default::default(),
         outcome,
         top_displacement_m: None,
         collapse_angle_deg: None,

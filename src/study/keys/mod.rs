@@ -5,11 +5,13 @@ mod elements;
 mod mechanism;
 mod published;
 mod run;
+mod uncertain;
 
 pub use elements::{ELEMENT, ELEMENT_STUDY, ELEMENTS_PUBLISHED, REPORTED};
 pub use mechanism::MECHANISM;
 pub use published::{CLAIM, PUBLISHED};
 pub use run::SOLVER;
+pub use uncertain::UNCERTAIN;
 
 use crate::law::MOST_KNOTS;
 use crate::study::keys::run::{LOAD, RESTRAINT};
@@ -58,6 +60,12 @@ pub static STUDY: Section = Section {
             Optional,
             "Mechanisms that the base model leaves out.",
         ),
+        Key::new(
+            "uncertain",
+            Kind::Table(&UNCERTAIN),
+            Optional,
+            "What nobody knows exactly of a wall as a whole, drawn once per wall.",
+        ),
         Key::new("solver", Kind::Table(&SOLVER), Default("{}"), "Which solver, with its settings."),
         Key::new("arm", Kind::Tables(&ARM), Required, "The populations of walls that are compared."),
         Key::new("variant", Kind::Tables(&VARIANT), Optional, "Other readings of the study, chosen by name."),
@@ -72,6 +80,12 @@ static QUESTION: Section = Section {
         Key::new("question", Kind::Text, Required, "What the study asks, in words."),
         Key::new("seed", Kind::Whole { low: 0, high: u64::MAX }, Required, "Seed of all random streams."),
         Key::new("arms", Kind::Names, Optional, "The arms that are evaluated; without it all of them."),
+        Key::new(
+            "design",
+            Kind::Choice(&["plain", "latin_hypercube", "sobol"]),
+            Optional,
+            "How what is drawn once per wall covers its space, in 16 independent randomisations; without it plain: every wall by itself.",
+        ),
     ]],
 };
 
@@ -198,6 +212,24 @@ static JOINT: Section = Section {
     ]],
 };
 
+static UNTIL: Section = Section {
+    title: "{ until = ... }",
+    doc: "Walls are added until a statistic of the quantity is known well enough, at every stiffness. The walls are looked at a few \
+          times, and the 95 % interval allows for that.",
+    chooser: None,
+    keys: &[&[
+        Key::new(
+            "until",
+            Kind::Choice(&["half_width"]),
+            Required,
+            "What is to fall below a bound: half the width of the 95 % interval over the statistic.",
+        ),
+        Key::new("of", Kind::Statistic, Required, "The statistic."),
+        Key::new("below", real("1", Interval::open(0.0, 1.0)), Required, "The bound: 0.05 is 5 %."),
+        Key::new("at_most", Kind::Whole { low: 2, high: 1_000_000 }, Required, "Most walls, come what may."),
+    ]],
+};
+
 /// One population of walls.
 pub static ARM: Section = Section {
     title: "[[arm]]",
@@ -205,7 +237,12 @@ pub static ARM: Section = Section {
     chooser: Some("arrangement"),
     keys: &[&[
         Key::new("name", Kind::Name, Required, "Name of the arm."),
-        Key::new("members", Kind::Whole { low: 1, high: 1_000_000 }, Required, "Number of walls."),
+        Key::new(
+            "members",
+            Kind::WholeOr { low: 1, high: 1_000_000, rule: &UNTIL },
+            Required,
+            "Number of walls, or when there are enough.",
+        ),
         Key::new(
             "curve",
             Kind::Name,
@@ -277,6 +314,12 @@ pub static ARM: Section = Section {
             Kind::Table(&MECHANISM),
             Optional,
             "What this arm says otherwise than [mechanism].",
+        ),
+        Key::new(
+            "uncertain",
+            Kind::Table(&UNCERTAIN),
+            Optional,
+            "What this arm says otherwise than [uncertain].",
         ),
         Key::new("wedges", Kind::Table(&WEDGES), Optional, "Wedge stones cut into bed joints."),
         Key::new("limits", Kind::Table(&LIMITS), Default("{}"), "What a stone must at least be."),

@@ -1,0 +1,51 @@
+//! `pirca plan-tests`: how many real specimens tell what, and by which reading.
+
+use crate::cli::arguments::PlanTests;
+use crate::cli::failure::Failure;
+use crate::cli::{locate, output, progress, question};
+use crate::ensemble::{self, Settings, is_random};
+use crate::report::{Asked, TestPlan, test_plan_text, write_test_plan};
+use crate::stats::Aim;
+
+/// What the folder of the results is named by.
+const PLAN_TESTS: &str = "plan-tests";
+
+/// Simulates the walls of a study and plans tests of real ones by them.
+pub(crate) fn plan_tests(arguments: &PlanTests) -> Result<(), Failure> {
+    let study = locate::with_ensemble(locate::study(&arguments.which)?.study, &arguments.ensemble)?;
+    if arguments.cov.is_none() && !study.arms.iter().any(is_random) {
+        return Err(Failure::Input(format!(
+            "{}: nothing is drawn in any arm, so simulated walls show no scatter; state that of real ones with --cov, or give an arm random stones or joints",
+            study.name
+        )));
+    }
+    question::needs_independent_walls(&study, "a plan of tests")?;
+    if let Some(arm) = study.arms.iter().find(|arm| arguments.point as usize >= arm.kn_points.len()) {
+        return Err(Failure::Usage(format!(
+            "--point {}: arm `{}` has {} kn points; allowed is 0 to {}",
+            arguments.point,
+            arm.name,
+            arm.kn_points.len(),
+            arm.kn_points.len() - 1
+        )));
+    }
+    let asked = Asked {
+        specimens: arguments.specimens,
+        known_cov: arguments.cov,
+        error_deg: arguments.error_deg,
+        error_m: arguments.error_m,
+        aim: Aim { confidence: arguments.confidence, power: arguments.power },
+        loss: arguments.loss,
+        point: arguments.point,
+    };
+    let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, PLAN_TESTS));
+    let settings = Settings { out: out.clone(), threads: arguments.threads };
+    let rows = ensemble::run(&study, &settings, progress::on_stderr(&study).as_ref())?;
+    let study = ensemble::come_to(study, &rows);
+    let plan = TestPlan::of(&study, &rows, asked);
+    write_test_plan(&plan, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
+    if arguments.which.json {
+        return output::print_json(&plan);
+    }
+    output::print(&format!("{}\nwritten to {}\n", test_plan_text(&plan).trim_end(), out.display()))
+}

@@ -1,0 +1,76 @@
+//! What `capacity` and `compare` are asked, and the numbers in it.
+
+use crate::cli::arguments::Asked;
+use crate::cli::failure::Failure;
+use crate::ensemble::Quantity;
+use crate::report::Question;
+use crate::study::Study;
+
+/// The question that is asked, which must be of what is observed; `None` where none is.
+pub(super) fn asked(asked: &Asked, quantity: Quantity, study: &Study) -> Result<Option<Question>, Failure> {
+    let levels = [
+        ("--below-deg", asked.below_deg, Quantity::CollapseAngle, Question::Below as fn(f64) -> Question),
+        ("--above-m", asked.above_m, Quantity::TopDisplacement, Question::Above),
+        ("--below-n", asked.below_n, Quantity::ShearCapacity, Question::Below),
+    ];
+    for (option, level, of, question) in levels {
+        let Some(level) = level else { continue };
+        if of != quantity {
+            let own = levels.iter().find(|(.., of, _)| *of == quantity).map_or("", |(option, ..)| *option);
+            return Err(Failure::Usage(format!(
+                "{option}: {} observes {}; ask with {own}",
+                study.name,
+                quantity.words()
+            )));
+        }
+        return Ok(Some(question(level)));
+    }
+    Ok(asked.quantile.map(Question::Quantile))
+}
+
+/// That a study draws its walls independently, as what is asked of them needs.
+pub(super) fn needs_independent_walls(study: &Study, what: &str) -> Result<(), Failure> {
+    if study.randomisations() < 2 {
+        return Ok(());
+    }
+    Err(Failure::Input(format!(
+        "{}: {what} rests on walls that are drawn independently; set study.design = \"plain\" for it",
+        study.name
+    )))
+}
+
+/// A probability between 0 and 1.
+pub(crate) fn probability(text: &str) -> Result<f64, String> {
+    number(text, "a number above 0 and below 1", |p| p > 0.0 && p < 1.0)
+}
+
+/// A share above 0 and below 1 that an error is of what it is the error of.
+pub(crate) fn relative(text: &str) -> Result<f64, String> {
+    number(text, "a number above 0 and below 1 (0.1 is 10 %)", |x| x > 0.0 && x < 1.0)
+}
+
+/// A level above 0.
+pub(crate) fn level(text: &str) -> Result<f64, String> {
+    number(text, "a number above 0", |x| x > 0.0 && x.is_finite())
+}
+
+/// A confidence of a half or more.
+pub(crate) fn confidence(text: &str) -> Result<f64, String> {
+    number(text, "a number from 0.5, below 1 (0.95 is 95 %)", |p| (0.5..1.0).contains(&p))
+}
+
+/// A coefficient of variation above 0 and up to 1.
+pub(crate) fn variation(text: &str) -> Result<f64, String> {
+    number(text, "a number above 0, up to 1 (0.1 is 10 %)", |v| v > 0.0 && v <= 1.0)
+}
+
+/// Specimens of which a scatter can be told.
+pub(crate) fn specimens(text: &str) -> Result<usize, String> {
+    let allowed =
+        || "allowed is a whole number from 2 to 10000: one specimen alone shows no scatter".to_owned();
+    text.parse().ok().filter(|n| (2..=10_000).contains(n)).ok_or_else(allowed)
+}
+
+fn number(text: &str, allowed: &str, is_allowed: impl Fn(f64) -> bool) -> Result<f64, String> {
+    text.parse().ok().filter(|x| is_allowed(*x)).ok_or_else(|| format!("allowed is {allowed}"))
+}

@@ -1,0 +1,203 @@
+//! `pirca influence`: the sources of an arm, what it writes, and that nothing depends on threads or stops.
+
+use std::fs;
+
+use pirca::ensemble::{Row, Task, evaluate, sources};
+use pirca::random::{PARTNER, Quantities};
+use pirca::stats::{mean, quantile};
+use pirca::study::{Study, TakenFrom};
+use serde_json::Value;
+
+use crate::commands::stdout;
+use crate::fixture::{Folder, stderr};
+
+/// Columns of full-width courses on a tilting table, as rigid blocks: a bed that dips by d towards the downhill side slides at a tilt of
+/// phi - d, with all that lies above it. So the wall falls at phi - max d, with phi drawn once per wall and the dips bed by bed.
+const COLUMN: &str = r#"
+[study]
+question = "Does the scatter come from where it is put?"
+seed = 11
+
+[wall]
+height_m = 1.2
+length_m = 1.0
+base_thickness_m = 1.0
+top_thickness_m = 1.0
+battered_face = "both"
+
+[block]
+density_kg_per_m3 = 2000
+
+[joint]
+kn_pa_per_m = [1e9]
+kn_over_ks = 2
+phi_deg = 25
+cohesion_pa = 0
+
+[uncertain]
+"joint.phi_deg" = { family = "uniform", low = 23, high = 27 }
+
+[load]
+protocol = "tilting"
+towards = "y+"
+step_deg = 1
+end_deg = 45
+bracket_deg = 0.01
+capacity = "first_stone"
+
+[restraint]
+base = "fixed"
+ends = "free"
+
+[solver]
+name = "limit"
+
+[[arm]]
+name = "column"
+members = 64
+arrangement = "coursed"
+length_m = 1.0
+height_m = 0.2
+dip_deg = { family = "uniform", low = -5, high = 5 }
+"#;
+
+fn asked(folder: &Folder, arguments: &[&str]) -> (Value, String) {
+    let all = [&["influence", "studies/tiny"], arguments].concat();
+    let json = folder.pirca(&[&all[..], &["--json"]].concat());
+    assert_eq!(json.status.code(), Some(0), "{}", stderr(&json));
+    let text = folder.pirca(&all);
+    assert_eq!(text.status.code(), Some(0), "{}", stderr(&text));
+    (serde_json::from_slice(&json.stdout).unwrap(), stdout(&text))
+}
+
+/// Lines are wrapped.
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Variance of the largest of so many dips, uniform in (-5, 5) deg, and of the friction angle, uniform in (23, 27) deg.
+fn exact(beds: f64) -> [f64; 2] {
+    [100.0 * beds / ((beds + 1.0) * (beds + 1.0) * (beds + 2.0)), 16.0 / 12.0]
+}
+
+#[test]
+fn the_scatter_of_random_columns_comes_from_friction_and_dips_as_in_their_closed_form() {
+    let folder = Folder::with_study(&COLUMN.replace("seed = 11", "seed = 11\ndesign = \"sobol\""));
+    let (json, text) = asked(&folder, &["--points", "256", "--out", "out"]);
+    let groups = json["groups"].as_array().unwrap();
+    let names: Vec<&str> = groups.iter().map(|group| group["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["joint.phi_deg", "layout"]);
+    assert_eq!(
+        (&json["output"], &json["unit"], &json["walls"]),
+        (&"collapse_angle".into(), &"deg".into(), &1024.into())
+    );
+    assert!(json["failed"].as_object().unwrap().is_empty(), "{json}");
+    // Six courses have five beds between them that slide, as their base is fixed without a dip.
+    let [dips, friction] = exact(5.0);
+    let variance = json["variance"].as_f64().unwrap();
+    assert!((variance / (dips + friction) - 1.0).abs() < 0.15, "{variance} for {}", dips + friction);
+    for (group, own) in groups.iter().zip([friction, dips]) {
+        let share = own / (dips + friction);
+        for order in ["first", "total"] {
+            let [value, low, high] = [0, 1, 2].map(|k| group[order][k].as_f64().unwrap());
+            // The sum of two independent parts has no interactions.
+            assert!((value - share).abs() < 0.12, "{} {order}: {value} for {share}", group["name"]);
+            assert!(low < value && value < high && high - low < 0.6, "{low} {value} {high}");
+        }
+    }
+    let conclusion: Vec<&str> = text.lines().take_while(|line| !line.is_empty()).collect();
+    assert!(
+        conclusion.len() <= 5 && text.contains("Responsible in all, with interactions: layout"),
+        "{text}"
+    );
+    for file in ["json", "csv", "svg", "png", "parquet"] {
+        assert!(folder.path(format!("out/influence.{file}")).is_file(), "{file}");
+    }
+    assert_eq!(fs::read_to_string(folder.path("out/influence.csv")).unwrap().lines().count(), 3);
+}
+
+#[test]
+fn nothing_depends_on_threads_or_on_a_stop() {
+    let folder = Folder::with_study(COLUMN);
+    let (first, _) = asked(&folder, &["--points", "32", "--out", "one", "--threads", "1"]);
+    asked(&folder, &["--points", "32", "--out", "two", "--threads", "2"]);
+    let files = ["json", "csv", "svg", "png", "parquet"];
+    let bytes = |out: &str, file: &str| fs::read(folder.path(format!("{out}/influence.{file}"))).unwrap();
+    for file in files {
+        assert!(bytes("one", file) == bytes("two", file), "{file}");
+    }
+    // Half of it is lost and the last line torn; more points go on from what is left.
+    let kept = fs::read_to_string(folder.path("two/influence.jsonl")).unwrap();
+    fs::write(folder.path("two/influence.jsonl"), &kept[..kept.len() / 2]).unwrap();
+    assert_eq!(asked(&folder, &["--points", "32", "--out", "two"]).0, first);
+    let lines = || fs::read_to_string(folder.path("two/influence.jsonl")).unwrap().lines().count();
+    let before = lines();
+    asked(&folder, &["--points", "48", "--out", "two"]);
+    assert_eq!(lines() - before, 16 * 4);
+    // Another study is refused.
+    folder.write_study(
+        &COLUMN.replace("phi_deg = 25", "phi_deg = 26").replace("kn_over_ks = 2", "kn_over_ks = 3"),
+    );
+    let other = folder.pirca(&["influence", "studies/tiny", "--points", "32", "--out", "two"]);
+    assert_eq!(other.status.code(), Some(1), "{}", stderr(&other));
+    assert!(stderr(&other).contains("influence.jsonl is of another study"), "{}", stderr(&other));
+}
+
+#[test]
+fn walls_without_a_value_are_counted_and_what_cannot_be_asked_is_said() {
+    // One in four columns stands to the end of the path.
+    let folder = Folder::with_study(&COLUMN.replace("end_deg = 45", "end_deg = 23"));
+    let (json, text) = asked(&folder, &["--points", "32", "--out", "out"]);
+    let stood = json["failed"]["stood_to_the_end"].as_u64().unwrap();
+    assert!(
+        stood > 10 && one_line(&text).contains(&format!("{stood} without a value: {stood} stood to the end")),
+        "{text}"
+    );
+    assert!(json["groups"][0]["points"].as_u64().unwrap() < 32);
+    let said = |text: &str, arguments: &[&str], code: i32, what: &str| {
+        folder.write_study(text);
+        let output = folder.pirca(&[&["influence", "studies/tiny"], arguments].concat());
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(what), "{arguments:?}: {}", stderr(&output));
+    };
+    said(COLUMN, &["--points", "40"], 2, "allowed is a multiple of 16 from 32");
+    said(COLUMN, &["--arm", "wall"], 2, "the study has no such arm; it has column");
+    said(COLUMN, &["--point", "1"], 2, "arm column has one kn point");
+    let fixed = COLUMN.replace("{ family = \"uniform\", low = -5, high = 5 }", "0");
+    let start = fixed.find("[uncertain]").unwrap();
+    let end = fixed.find("[load]").unwrap();
+    let fixed = format!("{}{}", &fixed[..start], &fixed[end..]);
+    said(&fixed, &[], 3, "nothing is drawn in arm column");
+}
+
+/// A wall with its partner's dips has these, and all else of its own.
+#[test]
+fn a_source_taken_from_the_partner_brings_its_numbers_and_no_others() {
+    let text =
+        COLUMN.replace("height_m = 0.2", "height_m = { family = \"uniform\", low = 0.15, high = 0.25 }");
+    let folder = Folder::with_study(&text);
+    let study = Study::load(&folder.path("studies/tiny"), None).unwrap().study;
+    let sources = sources(&study.arms[0]);
+    let names: Vec<(&str, bool)> = sources.iter().map(|own| (own.name.as_str(), own.is_in_layout)).collect();
+    assert_eq!(names, [("joint.phi_deg", false), ("layout", false), ("dips", true), ("sizes", true)]);
+    let row = |study: &Study, member: u64| evaluate(study, Task { arm: 0, point: 0, member });
+    let mixed = |name: &str, k: u64| {
+        let quantities: Quantities = sources.iter().find(|own| own.name == name).unwrap().quantities.clone();
+        row(&study.clone().with_taken(TakenFrom { quantities, member: k + PARTNER }), k)
+    };
+    let dips = |row: &Row| row.first_dip_sd_deg;
+    for k in 0..6 {
+        let (own, partner) = (row(&study, k), row(&study, k + PARTNER));
+        let with_dips = mixed("dips", k);
+        assert_eq!((with_dips.height_mean_m, with_dips.drawn), (own.height_mean_m, own.drawn.clone()));
+        let with_sizes = mixed("sizes", k);
+        assert_eq!((with_sizes.height_mean_m, with_sizes.drawn), (partner.height_mean_m, own.drawn.clone()));
+        let layout = mixed("layout", k);
+        assert_eq!((dips(&layout), layout.height_mean_m), (dips(&partner), partner.height_mean_m));
+        assert_eq!(layout.drawn, own.drawn);
+        assert_eq!(mixed("joint.phi_deg", k).drawn, partner.drawn);
+        assert_ne!(own.drawn, partner.drawn);
+    }
+    let angles: Vec<f64> = (0..20).filter_map(|k| row(&study, k).collapse_angle_deg).collect();
+    assert!(angles.len() == 20 && mean(&angles) < quantile(&angles, 1.0));
+}
