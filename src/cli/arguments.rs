@@ -47,7 +47,7 @@ pub(crate) enum Verb {
     Generate(Generate),
     /// Draw how one wall of a study falls.
     ///
-    /// Solves the wall first. Its joints are coloured by how far they open or slip.
+    /// Solves the wall first. Its joints are coloured by how far they open or slip, or by the pressure in them.
     #[command(after_help = PICTURE)]
     Picture(Picture),
     /// Build and solve all walls of a study: tables, statistics, figures.

@@ -587,3 +587,79 @@ fn help_shows_an_example_the_format_and_the_exit_codes() {
         assert!(help.contains(said), "{said} is missing: {help}");
     }
 }
+
+/// What `--out` writes about a tower that leans: the joint under block k carries the weight above it, turned by the tilt.
+#[test]
+fn joints_carry_what_stands_on_them_and_a_tower_turns_about_its_foot() {
+    let folder = Folder::new();
+    let path = example("leaning-tower.json").display().to_string();
+    for (solver, kn, close_to) in
+        [("limit", "", 1e-6), ("implicit", "--kn=1e9", 1e-3), ("explicit", "--kn=1e9", 1e-2)]
+    {
+        let mut asked = vec!["analyse", &path, "--phi-deg", "35", "--solver", solver, "--out", solver];
+        asked.extend((!kn.is_empty()).then_some(kn));
+        let output = folder.pirca(&asked);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output));
+        assert!(text(&output).contains(&format!("written to {solver}")));
+        let file = |name: &str| fs::read_to_string(folder.path(&format!("{solver}/{name}"))).expect(name);
+        let whole: Value = serde_json::from_str(&file("analysis.json")).expect("JSON");
+        let angle = radians(whole["collapse_angle_deg"].as_f64().expect("it falls"));
+        let joints = whole["joint_states"].as_array().expect("joints");
+        assert_eq!(joints.len(), 6);
+        let weight = |blocks: usize| 2400.0 * 0.5 * 0.5 * 0.2 * 9.80665 * blocks as f64;
+        for (k, joint) in joints.iter().enumerate() {
+            let force = |axis: usize| joint["force_on_second_n"][axis].as_f64().expect("a number");
+            let above = weight(6 - k);
+            // Downhill is y+; what the joint gives holds against it. Blocks of elastic joints have turned by a few hundredths.
+            assert!((force(2) / (above * cos(angle)) - 1.0).abs() < 10.0 * close_to, "{solver} {joint}");
+            assert!((force(1) / (above * sin(angle)) + 1.0).abs() < 10.0 * close_to, "{solver} {joint}");
+            let area = joint["area_m2"].as_f64().expect("an area");
+            let pressure = joint["pressure_pa"].as_f64().expect("a pressure");
+            assert!((pressure * area / (above * cos(angle)) - 1.0).abs() < 0.02, "{solver} {joint}");
+        }
+        // It turns about the edge of its foot at y = 0.5: what lies h above it moves out by h times the turn.
+        let blocks = whole["block_states"].as_array().expect("blocks");
+        assert!(
+            blocks[0]["fixed"] == true && blocks[0]["moves"] == false && blocks[0]["mechanism"][1] == 0.0
+        );
+        for (k, block) in blocks.iter().enumerate().skip(1) {
+            let [out, turn] =
+                [&block["mechanism"][1], &block["mechanism_turn"][0]].map(|x| x.as_f64().expect("a number"));
+            let lever = 0.1 + 0.2 * (k as f64 - 1.0);
+            assert!((out / (-turn * lever) - 1.0).abs() < 0.2, "{solver} {block}");
+        }
+        let opened = joints[0]["opening"].as_f64().expect("an opening");
+        assert!(joints.iter().all(|joint| joint["opening"].as_f64() <= Some(opened)) && opened > 0.0);
+        for (name, lines) in [("blocks.csv", 8), ("joints.csv", 7)] {
+            assert_eq!(file(name).lines().count(), lines, "{name}");
+            let columns = |line: &str| line.split(',').count();
+            assert!(
+                file(name).lines().all(|line| columns(line) == columns(file(name).lines().next().unwrap()))
+            );
+        }
+        assert!(file("mechanism.svg").contains("The wall collapses at a tilt of"));
+        assert_eq!(file("rest.vtu").contains("Name=\"displacement\""), solver != "limit");
+        assert!(file("mechanism.vtu").contains("NumberOfCells=\"7\""));
+    }
+}
+
+/// The tower leans towards y+, and falls that way at the least tilt, see the first test.
+#[test]
+fn the_weakest_direction_is_found_and_all_that_were_tried_are_told() {
+    let answer = analysed("leaning-tower.json", &["--phi-deg", "45", "--worst-direction"]);
+    close(answer["direction_deg"].as_f64().expect("an angle"), 90.0, 0.25);
+    close(answer["collapse_angle_deg"].as_f64().expect("it falls"), degrees(atan(1.0 / 3.0)), EXACT);
+    let tried = answer["directions"].as_array().expect("a list");
+    assert!(
+        tried.len() >= 24
+            && tried.iter().all(|of| of["bears"].as_f64() >= answer["collapse_angle_deg"].as_f64())
+    );
+    let path = example("leaning-tower.json").display().to_string();
+    let refused = |more: &[&str]| {
+        let output = Folder::new().pirca(&[&["analyse", &path, "--phi-deg", "45"], more].concat());
+        assert_eq!(output.status.code(), Some(2), "{}", text(&output));
+        text(&output)
+    };
+    assert!(refused(&["--worst-direction", "--direction", "y+"]).contains("--direction"));
+    assert!(refused(&["--colour", "slip"]).contains("--out"));
+}

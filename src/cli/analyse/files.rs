@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use anyhow::Context;
 use serde_json::{Value, json};
 
 use crate::cli::analyse::answer::Answer;
@@ -11,6 +10,7 @@ use crate::cli::analyse::state::State;
 use crate::cli::arguments::{Analyse, Measure, MethodName};
 use crate::cli::drawn::seams;
 use crate::cli::failure::Failure;
+use crate::cli::output;
 use crate::ensemble::replace_file;
 use crate::exchange::WallFile;
 use crate::math::Vec3;
@@ -32,7 +32,7 @@ pub(crate) fn write(
     (answer, state): (&Answer, &State),
     object: &Value,
 ) -> Result<(), Failure> {
-    std::fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
+    output::folder(folder)?;
     let picture = picture(asked, (file, fit), answer, state);
     let rests: Vec<Vec3> = state.stones.iter().map(|stone| at_rest(state, stone).shift).collect();
     let mut files = vec![
@@ -111,7 +111,7 @@ fn drawn(wall: &Wall, state: &State, magnification: f64) -> Wall {
 
 /// A block with how it moves: where it rests, and how it falls.
 struct Moved<'a> {
-    id: usize,
+    id: u64,
     name: &'a str,
     block: &'a Block,
     moves: bool,

@@ -7,7 +7,7 @@ use crate::cli::arguments::{Analyse, FlowName, LoadName, MethodName};
 use crate::cli::doing::doing;
 use crate::contact;
 use crate::law::{CohesionAfterSlip, Coulomb, NormalLaw, Sampling};
-use crate::math::{radians, tan};
+use crate::math::{atan, cos, radians, tan};
 use crate::model::{Level, Outcome, Wall};
 use crate::protocol::{Changes, Confirmation, Criterion, LoadPath, Run, Task, drive_telling};
 use crate::solve::explicit;
@@ -131,7 +131,11 @@ fn by_limit_analysis(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit)
     let fastest = (0..found.mechanism.len()).map(speed).fold(0.0, f64::max);
     // What a solver leaves where nothing collapses is no mechanism.
     let falls = matches!(found.outcome, Outcome::Collapsed { .. } | Outcome::UnstableAtRest);
-    let state = State::at_limit(wall, &fit.contact, &found, falls);
+    let scale = match arguments.load {
+        LoadName::Tilt => cos(atan(found.multiplier)),
+        LoadName::Lateral => 1.0,
+    };
+    let state = State::at_limit(wall, &fit.contact, &found, (falls, scale));
     let answer = Answer {
         clamped: clamped(&analysis, wall, &found.outcome),
         between: found.between,

@@ -30,8 +30,14 @@ impl State {
         State { stones: stones(wall, run), falls: run.failure.is_some(), joints: run.joint_states.clone() }
     }
 
-    /// Of a limit analysis; `falls` says whether what it left is a mechanism.
-    pub fn at_limit(wall: &Wall, settings: &contact::Settings, found: &Limit, falls: bool) -> State {
+    /// Of a limit analysis; `falls` says whether what it left is a mechanism. Forces are those under the load as it stands at the end:
+    /// for a tilt `scale` is its cosine, as the analysis pushes with the tangent and leaves the weight as it is.
+    pub fn at_limit(
+        wall: &Wall,
+        settings: &contact::Settings,
+        found: &Limit,
+        (falls, scale): (bool, f64),
+    ) -> State {
         let movements = movements(wall, found);
         let movement = |id: usize| if falls { movements[id] } else { Movement::NONE };
         let stone = |(id, block): (usize, &Block)| Stone {
@@ -43,7 +49,7 @@ impl State {
         let joints = found.thrust.iter().filter_map(|thrust| {
             let [a, b] = [thrust.blocks.0 as usize, thrust.blocks.1 as usize];
             let patch = find_patch(&wall.blocks[a].shape, &wall.blocks[b].shape, settings)?;
-            Some(joint(&stones, [a, b], &patch, thrust.force))
+            Some(joint(&stones, [a, b], &patch, thrust.force * scale))
         });
         State { joints: joints.collect(), stones, falls }
     }
