@@ -58,15 +58,13 @@ fn picture(asked: &Analyse, (file, fit): (&WallFile, &Fit), answer: &Answer, sta
     let seams = seams(&file.wall, &fit.contact, &state.joints, asked.colour);
     let (side, end) = if from_front { ("front (+y)", "right") } else { ("back (-y)", "left") };
     let what = if state.falls {
-        format!(
-            "The mechanism, drawn so that its furthest block moves by a tenth of the height (times {magnification})"
-        )
+        format!("The mechanism, times {magnification}: its furthest block moves by a tenth of the height.")
     } else {
-        format!("Drawn at rest, with displacements since it was built times {magnification}")
+        format!("Drawn at rest, with displacements since it was built times {magnification}.")
     };
     let none = seams.iter().all(|seam| seam.value <= 0.0);
-    let mut remarks =
-        vec![answer.headline(asked), format!("{what}; seen from the {side}, x = 0 on the {end}.")];
+    let seen = format!("Seen from the {side}, x = 0 on the {end}.");
+    let mut remarks = vec![answer.headline(asked), what, seen];
     remarks.extend(none.then(|| asked.colour.none().to_owned()));
     Picture {
         stones: state.stones.clone(),
