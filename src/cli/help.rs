@@ -48,8 +48,8 @@ Example: pirca init my-wall
          pirca run my-wall
          pirca init my-tests --from tilting-table
 
-Built in are arrangements, dry-shear-walls, edge-restraint, element-types, joint-arrangement, tilting-block and tilting-table. A \
-folder that exists is left alone: choose another name.
+Built in are arrangements, dry-shear-walls, edge-restraint, element-types, joint-arrangement, sources-of-scatter, tilting-block and \
+tilting-table. A folder that exists is left alone: choose another name.
 
 ",
     codes!()
@@ -252,6 +252,7 @@ pub(super) const ANALYSE: &str = concat!(
 Example: pirca analyse wall.json --phi-deg 30
          pirca analyse arch.obj --unit mm --density-kg-per-m3 2300 --phi-deg 35
          pirca analyse wall.json --phi-deg 35 --solver explicit --kn 1e9 --json
+         pirca analyse wall.json --phi-deg 35 --worst-direction --out seen
 
 wall.json: {\"unit\": \"m\", \"blocks\": [{\"id\": 0, \"vertices\": [[x, y, z], ...], \"faces\": [[i, j, k, ...], ...], \
 \"density\": 2400, \"fixed\": false, \"tag\": \"stone\", \"group\": \"keystone\"}, ...]}. Convex blocks; faces count their \

@@ -66,6 +66,7 @@ const STUDIES: &[(&str, &str)] = texts![
     "studies/element-types/study.toml",
     "studies/joint-arrangement/published.toml",
     "studies/joint-arrangement/study.toml",
+    "studies/sources-of-scatter/study.toml",
     "studies/tilting-block/published.toml",
     "studies/tilting-block/study.toml",
     "studies/tilting-table/measured.csv",
