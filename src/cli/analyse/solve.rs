@@ -2,7 +2,7 @@
 
 use crate::cli::analyse::answer::Answer;
 use crate::cli::analyse::meetings::Fit;
-use crate::cli::analyse::state::State;
+use crate::cli::analyse::state::Found;
 use crate::cli::arguments::{Analyse, FlowName, LoadName, MethodName};
 use crate::cli::doing::doing;
 use crate::contact;
@@ -46,7 +46,7 @@ pub(crate) fn law(arguments: &Analyse) -> Coulomb {
 }
 
 /// Solves the wall as asked.
-pub(crate) fn solve(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit) -> (Answer, State) {
+pub(crate) fn solve(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit) -> (Answer, Found) {
     let what = format!("solving {} blocks by the {} solver", wall.blocks.len(), arguments.solver.name());
     doing(&what, |doing| solve_telling(arguments, wall, law, fit, &|level| doing.at(level)))
 }
@@ -57,7 +57,7 @@ pub(crate) fn solve_telling(
     law: &Coulomb,
     fit: &Fit,
     tell: &dyn Fn(Level),
-) -> (Answer, State) {
+) -> (Answer, Found) {
     match arguments.solver {
         MethodName::Limit => by_limit_analysis(arguments, wall, law, fit),
         MethodName::Implicit => {
@@ -66,12 +66,12 @@ pub(crate) fn solve_telling(
             let mut at_rest = Equilibrium::new(wall, law, settings, task.contact);
             at_rest.settle(&mut |_| false);
             let loose = Some(at_rest.loose().iter().map(|&i| i as usize).collect());
-            let (answer, state) = by_steps(wall, drive_telling(&task, &Solver::Implicit(settings), tell));
-            (Answer { loose, ..answer }, state)
+            let (answer, found) = by_steps(drive_telling(&task, &Solver::Implicit(settings), tell));
+            (Answer { loose, ..answer }, found)
         }
         MethodName::Explicit => {
             let solver = Solver::Explicit(explicit::Settings::default());
-            by_steps(wall, drive_telling(&task(arguments, wall, law, fit), &solver, tell))
+            by_steps(drive_telling(&task(arguments, wall, law, fit), &solver, tell))
         }
     }
 }
@@ -98,21 +98,23 @@ fn task<'t>(arguments: &Analyse, wall: &'t Wall, law: &'t Coulomb, fit: &Fit) ->
     }
 }
 
-fn by_steps(wall: &Wall, run: Run) -> (Answer, State) {
-    let state = State::after(wall, &run);
+fn by_steps(run: Run) -> (Answer, Found) {
     let answer = Answer {
         clamped: Vec::new(),
         between: None,
-        moving: run.failure.map_or_else(Vec::new, |f| f.moving.iter().map(|&i| i as usize).collect()),
+        moving: run
+            .failure
+            .as_ref()
+            .map_or_else(Vec::new, |f| f.moving.iter().map(|&i| i as usize).collect()),
         loose: None,
         bracket: run.bracket,
         meaning: format!("the largest load borne on the way, {} load steps", run.steps.len()),
-        outcome: run.outcome,
+        outcome: run.outcome.clone(),
     };
-    (answer, state)
+    (answer, Found::Steps(Box::new(run)))
 }
 
-fn by_limit_analysis(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit) -> (Answer, State) {
+fn by_limit_analysis(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit) -> (Answer, Found) {
     let flow = match arguments.flow.unwrap_or(FlowName::Associative) {
         FlowName::Associative => limit::Flow::Associative,
         FlowName::NonAssociative => limit::Flow::NonAssociative,
@@ -135,7 +137,6 @@ fn by_limit_analysis(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit)
         LoadName::Tilt => cos(atan(found.multiplier)),
         LoadName::Lateral => 1.0,
     };
-    let state = State::at_limit(wall, &fit.contact, &found, (falls, scale));
     let answer = Answer {
         clamped: clamped(&analysis, wall, &found.outcome),
         between: found.between,
@@ -143,9 +144,9 @@ fn by_limit_analysis(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit)
         moving: (0..found.mechanism.len()).filter(|&i| falls && speed(i) > MOVES * fastest).collect(),
         loose: None,
         meaning: format!("{}: {}", arguments.flow.unwrap_or(FlowName::Associative).name(), flow.meaning()),
-        outcome: found.outcome,
+        outcome: found.outcome.clone(),
     };
-    (answer, state)
+    (answer, Found::Limit { found: Box::new(found), falls, scale })
 }
 
 /// The blocks that stand at rest only by forces that no weight causes.

@@ -24,15 +24,37 @@ pub(crate) struct State {
     pub joints: Vec<JointState>,
 }
 
+/// What a solver found of a wall, as it says it.
+pub(crate) enum Found {
+    /// Limit analysis.
+    Limit {
+        /// Its result.
+        found: Box<Limit>,
+        /// Whether what it left is a mechanism.
+        falls: bool,
+        /// Of its forces: the cosine of a tilt, as the analysis pushes with the tangent and leaves the weight as it is; 1 otherwise.
+        scale: f64,
+    },
+    /// Steps of the load.
+    Steps(Box<Run>),
+}
+
 impl State {
+    /// Of a wall and what was found of it.
+    pub fn of(wall: &Wall, settings: &contact::Settings, found: &Found) -> State {
+        match found {
+            Found::Limit { found, falls, scale } => State::at_limit(wall, settings, found, (*falls, *scale)),
+            Found::Steps(run) => State::after(wall, run),
+        }
+    }
+
     /// After steps of the load.
-    pub fn after(wall: &Wall, run: &Run) -> State {
+    fn after(wall: &Wall, run: &Run) -> State {
         State { stones: stones(wall, run), falls: run.failure.is_some(), joints: run.joint_states.clone() }
     }
 
-    /// Of a limit analysis; `falls` says whether what it left is a mechanism. Forces are those under the load as it stands at the end:
-    /// for a tilt `scale` is its cosine, as the analysis pushes with the tangent and leaves the weight as it is.
-    pub fn at_limit(
+    /// Of a limit analysis, with the forces under the load as it stands at the end.
+    fn at_limit(
         wall: &Wall,
         settings: &contact::Settings,
         found: &Limit,

@@ -6,6 +6,7 @@ use serde_json::json;
 
 use crate::cli::analyse::meetings::{Fit, bounds, look};
 use crate::cli::analyse::solve::{law, solve, solve_telling};
+use crate::cli::analyse::state::State;
 use crate::cli::analyse::worst::{Tried, tried, weakest};
 use crate::cli::analyse::{files, upright};
 use crate::cli::arguments::{Analyse, FlowName, LoadName, MethodName, UpName};
@@ -45,7 +46,7 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
     let directions = directions(arguments, &file.wall, &law, &fit);
     let towards = weakest(&directions).map_or(arguments.direction, |of| Direction::at(of.direction_deg));
     let arguments = &Analyse { direction: towards, ..arguments.clone() };
-    let (answer, state) = solve(arguments, &file.wall, &law, &fit);
+    let (answer, found) = solve(arguments, &file.wall, &law, &fit);
     warnings.extend(answer.warning(&file));
     if answer.outcome == Outcome::UnstableAtRest {
         warnings.extend(upright::question(
@@ -59,6 +60,7 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
     let seconds = begun.elapsed().as_secs_f64();
     let object = answer.object(arguments, &file, &fit, (&warnings, &directions), seconds);
     if let Some(folder) = &arguments.out {
+        let state = State::of(&file.wall, &fit.contact, &found);
         files::write(folder, arguments, (&file, &fit), (&answer, &state), &object)?;
     }
     if arguments.json {
