@@ -59,7 +59,8 @@ pub enum Outcome {
     NotConverged {
         /// The load at which it happened.
         at: Level,
-        /// Unbalanced force ratio reached.
+        /// Unbalanced force ratio reached. Its name in files is not that of a row, which an outcome is part of.
+        #[serde(rename = "unbalanced_ratio_there")]
         unbalanced_ratio: f64,
         /// Where and why, in words.
         why: String,

@@ -278,6 +278,31 @@ fn a_member_that_panics_is_named_and_the_others_are_recorded() {
     assert_eq!(bytes(&folder.path("out")), bytes(&whole.path("out")));
 }
 
+/// However a wall ended, its row goes into the journal and comes back from it: the first run evaluates it, the second one reads it.
+#[test]
+fn every_way_to_end_is_recorded_and_read_again() {
+    let at = Level::Tilt(0.1 + 0.2);
+    let ways = [
+        Outcome::Equilibrium,
+        Outcome::Collapsed { at },
+        Outcome::UnstableAtRest,
+        Outcome::Unbounded,
+        Outcome::NotConverged { at, unbalanced_ratio: 1.0 / 3.0, why: "lost".to_owned() },
+        Outcome::NonFinite { at },
+        Outcome::InvalidGeometry { reason: "a sliver".to_owned() },
+    ];
+    let ended = |study: &Study, task: Task| {
+        let outcome = ways[(task.arm as usize + task.member as usize) % ways.len()].clone();
+        Row { outcome, ..made_up(study, task) }
+    };
+    let folder = new_folder();
+    let once = settings(&folder.path("out"), 1);
+    let rows = run_with(&study(), &once, &Silent, &ended).unwrap();
+    assert!(ways.iter().all(|way| rows.iter().any(|row| row.outcome == *way)));
+    let never = |_: &Study, task: Task| -> Row { panic!("evaluated again: {task:?}") };
+    assert_eq!(run_with(&study(), &once, &Silent, &never).unwrap(), rows);
+}
+
 #[test]
 fn a_row_that_json_cannot_hold_is_a_fault_of_its_member() {
     let folder = new_folder();
