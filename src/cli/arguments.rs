@@ -9,6 +9,7 @@ use crate::cli::help::{
     ANALYSE, BANK, CAPACITY, CHECK, COMPARE, DIAGNOSE, GENERATE, INFLUENCE, INIT, MEASURED, MECHANISMS,
     PICTURE, PLAN_TESTS, READINGS, RUN, SENSITIVITY, WHOLE,
 };
+use crate::cli::rare::Method;
 use crate::cli::{analyse, influence, question, sensitivity};
 use crate::protocol::Direction;
 
@@ -291,13 +292,16 @@ pub(crate) struct Capacity {
     /// Take the collapse angles of the specimens in measured.csv alone, and simulate nothing.
     #[arg(long, conflicts_with_all = ["members", "seed", "threads", "above_m", "below_n"], help_heading = STUDY)]
     pub measured: bool,
-    /// Where fewer than ten walls are on the worse side of a level, evaluate up to so many more in each arm by subset simulation.
-    /// With --half-width: most walls of an arm [default there: 1000].
+    /// Where fewer than ten walls are on the worse side of a level, evaluate up to so many more in each arm, by the method that is
+    /// expected to take the fewest. With --half-width: most walls of an arm [default there: 1000].
     #[arg(long, value_name = "N", conflicts_with = "measured", value_parser = clap::value_parser!(u64).range(100..=10_000_000), help_heading = STUDY)]
     pub walls: Option<u64>,
     /// Add walls, up to --walls, until the coefficient of variation of a probability is no larger: 0.2 is 20 %.
     #[arg(long, value_name = "C", requires = "walls", value_parser = question::relative, allow_negative_numbers = true, help_heading = STUDY)]
     pub cov: Option<f64>,
+    /// How further walls are drawn and counted [default: the one that is expected to take the fewest walls].
+    #[arg(long, value_name = "NAME", requires = "walls", conflicts_with = "quantile", help_heading = STUDY)]
+    pub method: Option<Method>,
     /// Add walls, up to --walls, until half the width of a quantile's interval is below this share of the quantile.
     #[arg(long, value_name = "H", conflicts_with_all = ["measured", "members", "below_deg", "above_m", "below_n"], value_parser = question::relative, allow_negative_numbers = true, help_heading = STUDY)]
     pub half_width: Option<f64>,

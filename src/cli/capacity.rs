@@ -52,7 +52,7 @@ pub(crate) fn capacity(arguments: &Capacity) -> Result<(), Failure> {
     let study = ensemble::come_to(study, &rows);
     let mut summary = CapacitySummary::simulated(&study, &rows, question, known);
     if let (Some(budget), Question::Below(_) | Question::Above(_)) = (arguments.walls, question) {
-        let aim = rare::Aim { budget, cov: arguments.cov };
+        let aim = rare::Aim { budget, cov: arguments.cov, method: arguments.method };
         threads::on(arguments.threads, || rare::ask(&study, &rows, &mut summary, aim, &out))?;
     }
     write_capacity(&summary, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
@@ -70,6 +70,9 @@ fn enough(study: Study, question: Question, arguments: &Capacity) -> Result<Stud
     let Question::Quantile(share) = question else { return Ok(study) };
     let refused = |text: &str| Err(Failure::Usage(text.to_owned()));
     match (arguments.half_width, arguments.walls) {
+        _ if arguments.method.is_some() => refused(
+            "--method: it finds the probability of a level; name one (--below-deg, --above-m or --below-n)",
+        ),
         _ if arguments.cov.is_some() => {
             refused("--cov: a quantile has an interval; say how wide with --half-width, or name a level")
         }

@@ -218,7 +218,11 @@ mod tests {
     fn draws_are_found_again_and_those_of_another_study_stay_aside() {
         let folder = std::env::temp_dir().join(format!("pirca-draws-{}", std::process::id()));
         std::fs::create_dir_all(&folder).expect("a folder");
-        let wall = |member: u64| Draw { member, moves: vec![(7, 0.8), (8, 0.1 + 0.2)] };
+        let wall = |member: u64| Draw {
+            moves: vec![(7, 0.8), (8, 0.1 + 0.2)],
+            shift: vec![("joint.phi_deg".to_owned(), -1.0 / 3.0)],
+            ..Draw::of(member)
+        };
         let (one, other) = (study("one"), study("other"));
         let draws = Draws::open(&folder, &one).expect("it is new");
         draws.keep(1, 0, [(&wall(3), &Some(1.0 / 3.0)), (&wall(4), &None)].into_iter());

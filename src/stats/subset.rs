@@ -67,18 +67,6 @@ const STAYING: f64 = 0.44;
 /// One run of subset simulation for a level.
 pub fn run<R: Rare>(problem: &R, level: f64, settings: &Settings, number: u64) -> Run<R::Point> {
     let drawn: Vec<R::Point> = (0..settings.points as u64).map(|k| problem.drawn(number, k)).collect();
-    run_from(problem, drawn, level, settings, number)
-}
-
-/// The same from points of an event, as many as a level has: the probability is the conditional one, given that event. It must be part
-/// of the problem: a point outside it has a value above all levels.
-pub fn run_from<R: Rare>(
-    problem: &R,
-    start: Vec<R::Point>,
-    level: f64,
-    settings: &Settings,
-    number: u64,
-) -> Run<R::Point> {
     let seeds = ((settings.points as f64 * settings.share).round() as usize).max(1);
     let steps = settings.points / seeds;
     crate::check!(steps > 0 && settings.share > 0.0 && settings.share < 1.0, "{settings:?}");
@@ -93,7 +81,7 @@ pub fn run_from<R: Rare>(
         lowest: None,
         within: Vec::new(),
     };
-    let mut level_points = found.take(problem, start);
+    let mut level_points = found.take(problem, drawn);
     found.lost = found.failed;
     for _ in 0..=settings.levels {
         level_points.sort_by(|a, b| a.1.total_cmp(&b.1));

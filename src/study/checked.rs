@@ -7,6 +7,7 @@ use std::sync::Arc;
 use crate::generate::{BatteredFace, Layout};
 use crate::law::{ClosureTable, CohesionAfterSlip, Sampling};
 use crate::protocol::{FailureMode, Protocol, Restraint, Shear};
+use crate::random::standard_normal::{cdf, quantile};
 use crate::random::{Design, Family, Move, Place, Quantities, RANDOMISATIONS, Streams, Taken};
 use crate::solve::Solver;
 use crate::stats::Statistic;
@@ -25,6 +26,8 @@ pub struct Study {
     pub seed: u64,
     /// What the numbers of every member are moved by after they were drawn; none in a study from files.
     pub moves: Arc<[Move]>,
+    /// What standard normals of parameters, by their streams, are shifted by after they were drawn; none in a study from files.
+    pub shift: Arc<[(&'static str, f64)]>,
     /// How what is drawn once per wall covers its space.
     pub design: Design,
     /// Quantities of which every wall has the numbers of another member; none in a study from files.
@@ -108,7 +111,12 @@ impl Study {
     fn placed(&self, member: u64) -> Streams {
         let streams = Streams::new(self.seed, member);
         if self.design == Design::Plain {
-            return streams;
+            let shifted = |&(stream, by): &(&'static str, f64)| {
+                let drawn = streams.of(stream).uniform();
+                (stream, cdf(quantile(drawn) + by).clamp(f64::EPSILON, 1.0 - f64::EPSILON))
+            };
+            let placed = self.shift.iter().map(shifted).collect();
+            return streams.placed(placed);
         }
         let points = (self.walls_of_design() / RANDOMISATIONS).max(1);
         let place = Place { seed: self.seed, member, points };
@@ -143,6 +151,12 @@ impl Study {
     /// The study with its members' numbers moved.
     pub fn with_moves(mut self, moves: Arc<[Move]>) -> Study {
         self.moves = moves;
+        self
+    }
+
+    /// The study with the standard normals of parameters shifted, by their streams.
+    pub fn with_shift(mut self, shift: Arc<[(&'static str, f64)]>) -> Study {
+        self.shift = shift;
         self
     }
 

@@ -128,6 +128,7 @@ impl Study {
                     question: parts.question,
                     seed: parts.seed,
                     moves: Arc::default(),
+                    shift: Arc::default(),
                     design: parts.design,
                     taken: None,
                     variant: joined(&chosen),

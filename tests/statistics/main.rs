@@ -6,6 +6,7 @@ mod calibration;
 mod certified;
 mod characteristic;
 mod coverage;
+mod effort;
 mod families;
 mod influence;
 mod order;

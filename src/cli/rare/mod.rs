@@ -1,16 +1,18 @@
-//! Rare probabilities for `pirca capacity`, where a study's walls are too few to tell: subset simulation, from limit analysis of the same
-//! walls where that says enough of them.
+//! Small probabilities for `pirca capacity`, where a study's walls are too few to tell: independent runs of the method that is expected
+//! to take the fewest walls.
 
+mod method;
 mod repeats;
-mod screen;
 
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::cli::failure::Failure;
 use crate::cli::output;
-use crate::cli::rare::repeats::repeated;
-use crate::cli::rare::screen::{Pilot, limit_study, pilot};
+pub(crate) use crate::cli::rare::method::Method;
+use crate::cli::rare::method::expected;
+use crate::cli::rare::repeats::{Way, repeated};
+use crate::ensemble::rare::{limit_study, pilot};
 use crate::ensemble::{Draws, RareWalls, Row, replace_file};
 use crate::report::{CapacityGroup, CapacitySummary, Question};
 use crate::study::Study;
@@ -21,6 +23,8 @@ const EVALUATIONS: &str = "evaluations.parquet";
 const TELLING: f64 = 10.0;
 /// Fewer independent runs say nothing of the error.
 const FEWEST: usize = 3;
+/// Methods are compared by the walls that they take to this coefficient of variation, unless another one is asked for.
+const COV: f64 = 0.2;
 
 /// How much may be spent on each arm, and what for.
 #[derive(Clone, Copy)]
@@ -29,9 +33,11 @@ pub(super) struct Aim {
     pub budget: u64,
     /// The coefficient of variation at which the probability is known well enough; without one all is spent on ten runs.
     pub cov: Option<f64>,
+    /// The method that was asked for.
+    pub method: Option<Method>,
 }
 
-/// Answers by subset simulation what the walls of a random arm do not tell; the rows are those of these walls.
+/// Answers by further walls what those of a random arm do not tell; the rows are those of these walls.
 pub(super) fn ask(
     study: &Study,
     rows: &[Row],
@@ -56,16 +62,12 @@ pub(super) fn ask(
         if !group.random {
             continue;
         }
-        if !tells(group, aim) {
+        if aim.method.is_some() || !tells(group, aim) {
             let done = AtomicUsize::new(0);
             let tell = |more: usize| {
                 let before = done.fetch_add(more, Ordering::Relaxed);
                 if (before + more) / 500 > before / 500 {
-                    output::note(&format!(
-                        "{}: {} walls evaluated for rare values",
-                        group.name,
-                        before + more
-                    ));
+                    output::note(&format!("{}: {} walls evaluated", group.name, before + more));
                 }
             };
             let walls = RareWalls { study, arm, point, is_high, draws: &draws, tell: &tell };
@@ -77,21 +79,20 @@ pub(super) fn ask(
                 tell: &quietly,
                 ..walls
             });
-            let pilot = screen.as_ref().and_then(|screen| pilot(screen, rows, level));
-            if let Some(Pilot { rho, walls, pays, .. }) = pilot {
-                let verdict = if pays { "runs begin with it" } else { "it says too little to begin with" };
-                output::note(&format!(
-                    "{}: limit analysis of {walls} walls has a correlation of {rho:.2} with their values: {verdict}",
-                    group.name
-                ));
-            }
-            let screened = screen.as_ref().zip(pilot.filter(|pilot| pilot.pays));
-            let repeats = repeated(&walls, screened, level, aim, &group.name);
+            let pilot = pilot(&walls, screen.as_ref(), rows, level);
+            let all = expected(&pilot);
+            let Some(own) = all.iter().find(|own| aim.method.is_none_or(|method| method == own.method))
+            else {
+                return Err(cannot(aim, group));
+            };
+            method::tell(&group.name, &all, own.method, aim.cov.unwrap_or(COV));
+            let way = Way { walls: &walls, screen: screen.as_ref(), pilot: &pilot, expected: *own, level };
+            let repeats = repeated(&way, aim, &group.name);
             if let Some(fault) = draws.fault().or_else(|| limit_draws.as_ref()?.fault()) {
                 return Err(fault.into());
             }
             if repeats.probabilities.len() >= FEWEST {
-                group.by_subset(repeats, study.solver.name(), is_high);
+                group.by_repeats(repeats, study.solver.name(), is_high);
             } else {
                 output::note(&format!(
                     "{}: {} walls do not suffice for {FEWEST} runs; what they began is kept, give --walls more",
@@ -112,4 +113,18 @@ fn tells(group: &CapacityGroup, aim: Aim) -> bool {
     let told = group.walls - group.failed.walls;
     let many = group.answer.value().is_some_and(|share| share * told as f64 >= TELLING);
     many && aim.cov.is_none_or(|cov| group.cov.is_some_and(|own| own <= cov))
+}
+
+/// Why a method that was asked for does not go.
+fn cannot(aim: Aim, group: &CapacityGroup) -> Failure {
+    let why = match aim.method {
+        Some(Method::Importance) => {
+            "needs parameters that are drawn once per wall and move the value (the study's [uncertain])"
+        }
+        _ => {
+            "needs limit analysis of the same walls, on at least 20 of them and with a correlation of 0.3 or more"
+        }
+    };
+    let method = aim.method.map_or("", Method::name);
+    Failure::Usage(format!("--method {method}: {}: {why}; leave it out, and one is chosen", group.name))
 }

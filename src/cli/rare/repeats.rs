@@ -1,103 +1,131 @@
-//! Independent runs of subset simulation, whose differences are the error of their mean.
-
-use std::sync::atomic::{AtomicUsize, Ordering};
+//! Independent runs of a method, whose differences are the error of their mean.
 
 use crate::cli::output;
-use crate::cli::rare::screen::Pilot;
+use crate::cli::rare::method::{Expected, Method};
 use crate::cli::rare::{Aim, FEWEST};
-use crate::ensemble::{Draw, RareWalls, ScreenedWalls};
+use crate::ensemble::rare::{Ended, First, Pilot, importance, plain, stratified, subset};
+use crate::ensemble::{Draw, RareWalls};
 use crate::report::{Repeats, Screen};
-use crate::stats::subset::{Rare, Run, Settings, run, run_from};
-use crate::stats::{Looks, Statistic, above_zero, mean, sigma};
+use crate::stats::subset::{Rare, Settings};
+use crate::stats::{Looks, Statistic, above_zero, effort, mean, sigma};
 
 /// Independent runs whose differences are the error.
 const REPEATS: u64 = 10;
-/// Points of a level, fewest and most.
+/// Points of a level of subset simulation, fewest and most.
 const POINTS: [usize; 2] = [100, 1000];
-/// The same where a run begins with limit analysis: it has fewer levels to go down.
-const SCREENED_POINTS: [usize; 2] = [50, 500];
-/// A run of three further levels evaluates so many times its points: nine tenths of each level are new.
-const LEVELS: f64 = 1.0 + 3.0 * 0.9;
-/// The same of one further level.
-const SCREENED_LEVELS: f64 = 1.0 + 0.9;
-/// Where runs are added until the answer is known well enough, the first ten take this share of the budget.
-const FIRST_SHARE: f64 = 0.3;
-/// What is added to the number of a run for its second part, so that the two draw other numbers.
-const SECOND: u64 = 1 << 12;
+/// Walls of a run of another method, fewest and most.
+const WALLS: [usize; 2] = [20, 100_000];
+/// Where runs are added until the answer is known well enough, the first ten take this share of the budget at most.
+const FIRST_SHARE: f64 = 0.5;
+/// Limit analyses for each wall that is solved, fewest and most.
+const CHEAP: [f64; 2] = [2.0, 50.0];
 
-/// What came out of one run.
-struct Ended {
-    probability: f64,
-    /// Walls that were taken to the study's solver, and analyses of limits.
-    walls: usize,
-    limits: usize,
-    /// Without a value, all and of those that were drawn at first.
-    failed: usize,
-    lost: usize,
-    lowest: Option<(Draw, f64)>,
-    /// Levels with their probabilities.
-    ladder: Vec<[f64; 2]>,
+/// What a group's walls are evaluated for, and by what.
+pub(super) struct Way<'w, 's> {
+    pub walls: &'w RareWalls<'s>,
+    pub screen: Option<&'w RareWalls<'s>>,
+    pub pilot: &'w Pilot,
+    pub expected: Expected,
+    pub level: f64,
+}
+
+impl Way<'_, '_> {
+    /// One run of so many walls: points of a level, in subset simulation.
+    fn once(&self, count: usize, number: u64) -> Ended {
+        let (walls, level) = (self.walls, self.level);
+        match (self.expected.method, self.screen.zip(self.pilot.limit), &self.pilot.parameters) {
+            (Method::Stratified, Some((screen, sorted)), _) => {
+                let cheap = effort::cheap_per_dear(self.pilot.index, sorted.rho, sorted.cost);
+                let all = (count as f64 * cheap.clamp(CHEAP[0], CHEAP[1])) as usize;
+                let first = if self.expected.goes_down { First::Down } else { First::Drawn(all) };
+                stratified(walls, (screen, sorted, first), level, count, number)
+            }
+            (Method::Importance, _, Some(leaning)) => {
+                let (_, far) = effort::importance(self.pilot.index, leaning.explained);
+                importance(walls, (leaning, far), level, count, number)
+            }
+            (Method::Subset, ..) => {
+                let settings = Settings { points: count, ..Settings::default() };
+                subset(walls, level, &settings, number)
+            }
+            _ => plain(walls, level, count, number),
+        }
+    }
+
+    /// Walls of a run: a tenth of what is expected to be enough, and of what the first ten may take.
+    fn count(&self, aim: Aim) -> usize {
+        let [budget, enough] = match aim.cov {
+            Some(cov) => [FIRST_SHARE * aim.budget as f64, self.expected.effort / (cov * cov)],
+            None => [aim.budget as f64; 2],
+        };
+        let own = budget.min(enough) / REPEATS as f64;
+        if self.expected.method == Method::Subset {
+            let points = own / effort::subset_run(self.pilot.index);
+            return (points as usize / 10 * 10).clamp(POINTS[0], POINTS[1]);
+        }
+        (own.ceil() as usize).clamp(WALLS[0], WALLS[1])
+    }
 }
 
 /// Independent runs: as many as the budget has room for up to ten, or until the answer is known well enough.
-pub(super) fn repeated(
-    walls: &RareWalls<'_>,
-    screened: Option<(&RareWalls<'_>, Pilot)>,
-    level: f64,
-    aim: Aim,
-    name: &str,
-) -> Repeats {
-    let (budget, is_screened) = (aim.budget as usize, screened.is_some());
-    let (levels, [fewest, largest]) =
-        if is_screened { (SCREENED_LEVELS, SCREENED_POINTS) } else { (LEVELS, POINTS) };
-    let first = aim.cov.map_or(1.0, |_| FIRST_SHARE) * aim.budget as f64;
-    let points = (first / (REPEATS as f64 * levels)) as usize / 10 * 10;
-    let settings = Settings { points: points.clamp(fewest, largest), ..Settings::default() };
+pub(super) fn repeated(way: &Way<'_, '_>, aim: Aim, name: &str) -> Repeats {
+    let (budget, count) = (aim.budget as usize, way.count(aim));
     // No run takes fewer walls than its points: there are no more runs than this.
-    let most = aim.cov.map_or(REPEATS, |_| (aim.budget / settings.points as u64).max(REPEATS));
+    let most = aim.cov.map_or(REPEATS, |_| (aim.budget / count as u64).max(REPEATS));
     let looks = Looks::between(REPEATS, most);
     // A budget that ends between two looks is one look more.
     let miss = aim.cov.map_or(0.05, |_| 0.05 / (looks.sizes().len() + 1) as f64);
     let mut runs: Vec<Ended> = Vec::new();
     let used = |runs: &[Ended]| runs.iter().map(|run| run.walls).sum::<usize>();
     while (runs.len() as u64) < most {
-        let next = runs.iter().map(|run| run.walls).max().unwrap_or(settings.points);
+        let next = runs.iter().map(|run| run.walls).max().unwrap_or(count);
         if used(&runs) + next > budget {
             break;
         }
-        let number = runs.len() as u64;
-        runs.push(match screened {
-            Some((screen, pilot)) => from_limit(walls, screen, pilot, level, &settings, number),
-            None => alone(walls, level, &settings, number),
-        });
+        runs.push(way.once(count, runs.len() as u64));
         tell_answer(&runs, miss, used(&runs), name);
         let is_look = looks.sizes().contains(&(runs.len() as u64));
         if is_look && aim.cov.is_some_and(|cov| cov_of_mean(&runs).is_some_and(|own| own <= cov)) {
             break;
         }
     }
+    summed_up(way, &runs, miss)
+}
+
+fn summed_up(way: &Way<'_, '_>, runs: &[Ended], miss: f64) -> Repeats {
+    let Way { walls, level, .. } = way;
     let all = walls.draws.all(walls.arm, walls.point);
+    let is_worse = |value: Option<f64>| value.is_some_and(|value| value <= *level);
     let lowest = runs.iter().filter_map(|run| run.lowest.clone()).min_by(|a, b| a.1.total_cmp(&b.1));
-    let is_worse = |value: Option<f64>| value.is_some_and(|value| value <= level);
-    let drawn = if is_screened { Settings::default().points } else { settings.points };
+    let is_sorted = way.expected.method == Method::Stratified;
+    let total = |of: &dyn Fn(&Ended) -> usize| runs.iter().map(of).sum::<usize>();
     Repeats {
-        cov: cov_of_mean(&runs),
+        method: way.expected.method.name(),
+        cov: cov_of_mean(runs),
         miss,
-        evaluations: used(&runs),
-        limit_evaluations: runs.iter().map(|run| run.limits).sum(),
-        screen: screened.map(|(screen, pilot)| {
+        evaluations: total(&|run| run.walls),
+        limit_evaluations: total(&|run| run.limits),
+        screen: way.screen.zip(way.pilot.limit).filter(|_| is_sorted).map(|(screen, sorted)| {
             let worse: Vec<Draw> =
                 all.iter().filter(|own| is_worse(own.value)).map(|own| own.draw.clone()).collect();
             let limits = screen.values(&worse).into_iter().flatten();
             Screen {
-                rho: pilot.rho,
-                pilot_walls: pilot.walls,
-                bound: pilot.bound,
+                rho: sorted.rho,
+                pilot_walls: sorted.walls,
+                bound: sorted.bound(),
+                goes_down: way.expected.goes_down,
+                beyond: [0, 1].map(|k| total(&|run| run.far[k])),
                 largest_on_worse_side: limits.max_by(f64::total_cmp),
             }
         }),
-        failed: runs.iter().map(|run| run.failed).sum(),
-        lost_of_drawn: [runs.iter().map(|run| run.lost).sum(), runs.len() * drawn].map(|n| n as u64),
+        explained: way
+            .pilot
+            .parameters
+            .as_ref()
+            .filter(|_| way.expected.method == Method::Importance)
+            .map(|own| own.explained),
+        failed: total(&|run| run.failed),
+        if_failed: runs.iter().map(|run| run.if_failed).collect(),
         weakest_draw: lowest
             .as_ref()
             .and_then(|(draw, _)| all.iter().find(|own| own.draw == *draw))
@@ -107,71 +135,6 @@ pub(super) fn repeated(
         ladders: runs.iter().map(|run| run.ladder.clone()).collect(),
         probabilities: runs.iter().map(|run| run.probability).collect(),
     }
-}
-
-/// A run with the study's own solver alone.
-fn alone(walls: &RareWalls<'_>, level: f64, settings: &Settings, number: u64) -> Ended {
-    let found = run(walls, level, settings, number);
-    Ended {
-        probability: found.probability,
-        walls: found.values,
-        limits: 0,
-        failed: found.failed,
-        lost: found.lost,
-        ladder: ladder(&found, level, settings.share, 1.0),
-        lowest: found.lowest,
-    }
-}
-
-/// A run that goes down to the bound by limit analysis, and takes walls from there to the study's own solver. It finds the walls
-/// beyond the level that have a limit within the bound.
-fn from_limit(
-    walls: &RareWalls<'_>,
-    screen: &RareWalls<'_>,
-    pilot: Pilot,
-    level: f64,
-    settings: &Settings,
-    number: u64,
-) -> Ended {
-    let first = run(screen, pilot.bound, &Settings::default(), number);
-    let mut ended = Ended {
-        probability: 0.0,
-        walls: 0,
-        limits: first.values,
-        failed: first.failed,
-        lost: first.lost,
-        lowest: None,
-        ladder: Vec::new(),
-    };
-    // Points in tens, so that each chain has ten; a stride takes them from all over the event.
-    let points = settings.points.min(first.within.len() / 10 * 10);
-    if points == 0 {
-        return ended;
-    }
-    let start = (0..points).map(|k| first.within[k * first.within.len() / points].clone()).collect();
-    let screened = ScreenedWalls { walls, screen, bound: pilot.bound, taken: AtomicUsize::new(0) };
-    let settings = Settings { points, ..*settings };
-    let second = run_from(&screened, start, level, &settings, SECOND + number);
-    ended.probability = first.probability * second.probability;
-    ended.walls = screened.taken.load(Ordering::Relaxed);
-    ended.limits += second.values;
-    ended.failed += second.failed;
-    ended.ladder = ladder(&second, level, settings.share, first.probability);
-    ended.lowest = second.lowest.filter(|(_, value)| *value < f64::MAX);
-    ended
-}
-
-/// The levels of a run with their probabilities, from that of the event that it began in; the level asked for is the last one, if it was
-/// reached.
-fn ladder(run: &Run<Draw>, level: f64, share: f64, from: f64) -> Vec<[f64; 2]> {
-    let mut reached = from;
-    let bounds = run.bounds.iter().map(|bound| {
-        reached *= share;
-        [*bound, reached]
-    });
-    let mut ladder: Vec<[f64; 2]> = bounds.filter(|[bound, _]| *bound < 0.1 * f64::MAX).collect();
-    ladder.extend((run.probability > 0.0).then_some([level, from * run.probability]));
-    ladder
 }
 
 /// Coefficient of variation of the runs' mean.

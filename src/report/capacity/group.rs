@@ -10,7 +10,7 @@ use crate::report::capacity::values::Supported;
 use crate::report::capacity::{Question, Rung};
 use crate::report::population::Population;
 use crate::report::summary::EnoughEntry;
-use crate::stats::{self, Estimate, Shape, Statistic, Variation, above_zero, clopper_pearson};
+use crate::stats::{self, Estimate, Shape, Statistic, Variation, above_zero};
 use crate::study::Until;
 
 /// The walls of one kind, and what they answer.
@@ -35,10 +35,10 @@ pub struct CapacityGroup {
     pub cov: Option<f64>,
     /// Walls that were evaluated, by the name of the solver; none of specimens.
     pub evaluations: BTreeMap<&'static str, u64>,
-    /// How it was found: `plain`, every wall counts alike; `subset`, by subset simulation; `subset_from_limit`, by that from limit
-    /// analysis of the same walls; `measured`, specimens alone.
+    /// How it was found: `plain`, every wall counts alike; `stratified`, by walls that limit analysis sorted; `importance`, by walls with
+    /// shifted parameters; `subset`, by subset simulation; `measured`, specimens alone.
     pub method: &'static str,
-    /// Independent repeats that the interval comes from, of subset simulation.
+    /// Independent runs that the interval comes from, where the study's own walls did not tell.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub repeats: Option<Repeats>,
     /// The coefficient of variation that was asked for, and whether it was reached.
@@ -117,9 +117,12 @@ impl Failed {
     }
 }
 
-/// Independent runs of subset simulation.
+/// Independent runs of a method.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Repeats {
+    /// Its name.
+    #[serde(skip)]
+    pub method: &'static str,
     /// The probability of each.
     pub probabilities: Vec<f64>,
     /// Coefficient of variation of their mean.
@@ -128,18 +131,22 @@ pub struct Repeats {
     pub miss: f64,
     /// Walls that were evaluated in all.
     pub evaluations: usize,
-    /// Limit analyses of walls, where runs began with them.
+    /// Limit analyses of walls, where these were sorted by them.
     #[serde(skip)]
     pub limit_evaluations: usize,
-    /// By what they began with them.
+    /// How they were sorted.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub screen: Option<Screen>,
+    /// Share of the variance of values that parameters explain, where these were shifted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub explained: Option<f64>,
     /// Walls that brought no value: they count as on the better side.
     #[serde(skip)]
     pub failed: usize,
-    /// How many of those brought none that were drawn before any was moved, and how many these are.
+    /// The probability of each run if those had been on the worse side; of subset simulation their share of the walls that were drawn
+    /// before any was moved is added.
     #[serde(skip)]
-    pub lost_of_drawn: [u64; 2],
+    pub if_failed: Vec<f64>,
     /// The weakest wall that was found, with its value.
     pub weakest: Option<(Draw, f64)>,
     /// Its number, for `pirca generate --draw`.
@@ -151,15 +158,19 @@ pub struct Repeats {
     pub first_failed_draw: Option<u64>,
 }
 
-/// Limit analysis that runs began with: only walls whose limit lies within a bound were taken to the study's own solver.
+/// Limit analysis that walls were sorted by.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Screen {
     /// Correlation of limit and value on walls that enter no answer.
     pub rho: f64,
     /// How many these were.
     pub pilot_walls: usize,
-    /// The bound, in the unit of the quantity.
+    /// Walls with a limit above it (in the unit of the quantity) are expected to lie beyond the level by four standard deviations.
     pub bound: f64,
+    /// Whether subset simulation by limit analysis went down to the bound first, so that no wall beyond it was solved.
+    pub goes_down: bool,
+    /// Walls beyond the bound that were solved all the same, and how many of them were on the worse side.
+    pub beyond: [usize; 2],
     /// The largest limit of all walls that were found on the worse side. Near the bound, walls beyond it may have been missed.
     pub largest_on_worse_side: Option<f64>,
 }
@@ -219,22 +230,21 @@ impl CapacityGroup {
         group
     }
 
-    /// The same answered by independent runs of subset simulation. The interval is Student's on their mean, above 0. Walls without a
-    /// value count as on the better side; at worst the share of them among those drawn at first is on the worse one.
-    pub fn by_subset(&mut self, repeats: Repeats, solver: &'static str, is_high: bool) {
-        let mean = Statistic::Mean.of(&repeats.probabilities, repeats.miss);
-        let Estimate { value, interval } = above_zero(mean);
+    /// The same answered by independent runs. The interval is Student's on their mean, above 0. Walls without a value count as on the
+    /// better side; at worst all are on the worse one.
+    pub fn by_repeats(&mut self, repeats: Repeats, solver: &'static str, is_high: bool) {
+        let of = |probabilities: &[f64]| above_zero(Statistic::Mean.of(probabilities, repeats.miss));
+        let Estimate { value, interval } = of(&repeats.probabilities);
         (self.answer, self.interval) = (Answer::to(self.question, value), interval);
         self.cov = repeats.cov;
-        self.method = if repeats.screen.is_some() { "subset_from_limit" } else { "subset" };
+        self.method = repeats.method;
         *self.evaluations.entry(solver).or_default() += repeats.evaluations as u64;
         if let Some(screen) = repeats.screen {
             let limits = (repeats.limit_evaluations + screen.pilot_walls) as u64;
             *self.evaluations.entry("limit").or_default() += limits;
         }
-        let [lost, drawn] = repeats.lost_of_drawn;
-        let more = clopper_pearson(lost as usize, drawn as usize)[1];
-        let had_failed = interval.map(|[low, high]| [low, (high + more).min(1.0)]);
+        let had_failed = of(&repeats.if_failed).interval.zip(interval);
+        let had_failed = had_failed.map(|([_, high], [low, own])| [low, high.max(own).min(1.0)]);
         self.failed = Failed {
             walls: repeats.failed as u64,
             by: BTreeMap::from([("without a value".to_owned(), repeats.failed as u64)]),
@@ -298,6 +308,7 @@ impl CapacityGroup {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::stats::clopper_pearson;
 
     fn of(values: &[f64], above: &[f64], lost: u64, question: Question) -> CapacityGroup {
         let known = Known { values: values.to_vec(), above: above.to_vec(), lost, worse_is_high: false };

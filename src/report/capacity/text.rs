@@ -43,7 +43,7 @@ fn conclusion(summary: &CapacitySummary, group: &CapacityGroup) -> String {
         };
     }
     if let Some(repeats) = &group.repeats {
-        return by_subset(summary, group, repeats);
+        return by_repeats(summary, group, repeats);
     }
     let lost = group.failed.walls;
     let counted = if lost > 0 {
@@ -92,19 +92,22 @@ fn conclusion(summary: &CapacitySummary, group: &CapacityGroup) -> String {
     text
 }
 
-/// What subset simulation found.
-fn by_subset(summary: &CapacitySummary, group: &CapacityGroup, repeats: &Repeats) -> String {
+/// What independent runs found.
+fn by_repeats(summary: &CapacitySummary, group: &CapacityGroup, repeats: &Repeats) -> String {
     let (side, level) = match summary.question {
         Question::Above(level) => ("above", level),
         Question::Below(level) | Question::Quantile(level) => ("below", level),
     };
     let unit = summary.shown.shown_unit();
-    let (method, limits) = match repeats.screen {
-        Some(_) => (
-            "subset simulation from limit analysis",
-            format!(" after {} limit analyses", repeats.limit_evaluations),
-        ),
-        None => ("subset simulation", String::new()),
+    let method = match group.method {
+        "stratified" => "walls stratified by limit analysis",
+        "importance" => "importance sampling of parameters",
+        "subset" => "subset simulation",
+        _ => "plain sampling",
+    };
+    let limits = match repeats.screen {
+        Some(_) => format!(" after {} limit analyses", repeats.limit_evaluations),
+        None => String::new(),
     };
     let mut text = format!(
         "{}: {side} {} {unit} with a probability of {} ({method}, {} independent runs, {} walls{limits}).",
@@ -114,14 +117,13 @@ fn by_subset(summary: &CapacitySummary, group: &CapacityGroup, repeats: &Repeats
         repeats.probabilities.len(),
         repeats.evaluations
     );
-    if let Some(Screen { rho, pilot_walls, bound, largest_on_worse_side }) = repeats.screen {
-        let shown = |x: f64| significant(summary.shown.shown(x), 3);
+    if let Some(screen) = &repeats.screen {
+        text.push_str(&sorted_by(summary, screen));
+    }
+    if let Some(explained) = repeats.explained {
+        let share = significant(100.0 * explained, 2);
         text.push_str(&format!(
-            " Limit and value of {pilot_walls} other walls have a correlation of {}; walls with a limit above {} {unit} were taken to \
-             be on the better side, and those found on the worse side have {} at most.",
-            significant(rho, 2),
-            shown(bound),
-            largest_on_worse_side.map_or_else(|| "-".to_owned(), shown)
+            " Parameters drawn once per wall explain {share} % of the variance of values."
         ));
     }
     if let (Some((_, value)), Some(number)) = (&repeats.weakest, repeats.weakest_draw) {
@@ -145,6 +147,25 @@ fn by_subset(summary: &CapacitySummary, group: &CapacityGroup, repeats: &Repeats
         ));
     }
     text
+}
+
+/// How limit analysis sorted the walls, and what is known of those beyond its bound.
+fn sorted_by(summary: &CapacitySummary, screen: &Screen) -> String {
+    let shown = |x: f64| format!("{} {}", significant(summary.shown.shown(x), 3), summary.shown.shown_unit());
+    let beyond = match (screen.goes_down, screen.beyond) {
+        (true, _) => "were taken to be on the better side".to_owned(),
+        (false, [solved, worse]) => {
+            format!("are expected on the better side: {worse} of {solved} solved were not")
+        }
+    };
+    format!(
+        " Limit and value of {} other walls have a correlation of {}. Walls with a limit above {} {beyond}; those found on the worse \
+         side have {} at most.",
+        screen.pilot_walls,
+        significant(screen.rho, 2),
+        shown(screen.bound),
+        screen.largest_on_worse_side.map_or_else(|| "-".to_owned(), shown)
+    )
 }
 
 /// What few tests can and cannot carry.

@@ -1,7 +1,10 @@
-//! Walls of rare values, for [`subset`](crate::stats::subset): the numbers that a wall is made of are moved until its value is rare.
+//! Walls of rare values: the numbers that a wall is made of are moved or shifted until its value is rare. One run of each method, and
+//! what the study's own walls say of which one pays.
+
+mod once;
+mod pilot;
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -9,8 +12,12 @@ use serde::{Deserialize, Serialize};
 use crate::ensemble::draws::Draws;
 use crate::ensemble::{Observed, Quantity, Task, evaluate};
 use crate::random::Move;
+use crate::random::standard_normal::quantile;
 use crate::stats::subset::Rare;
-use crate::study::Study;
+use crate::study::{Study, WallParameter as Parameter};
+
+pub use once::{Ended, First, importance, plain, stratified, subset};
+pub use pilot::{Leaning, Pilot, Sorted, limit_study, pilot};
 
 /// Members from here on are drawn for rare values alone: no ensemble has so many.
 const FIRST_MEMBER: u64 = 1 << 40;
@@ -31,9 +38,17 @@ pub struct Draw {
     pub member: u64,
     /// Its moves, the first one first: members that numbers were taken from, and the share that was kept.
     pub moves: Vec<(u64, f64)>,
+    /// What the standard normals of parameters, by their keys, are shifted by.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub shift: Vec<(String, f64)>,
 }
 
 impl Draw {
+    /// A member as it is drawn.
+    pub fn of(member: u64) -> Draw {
+        Draw { member, moves: Vec::new(), shift: Vec::new() }
+    }
+
     /// The number of the run that it was drawn in.
     pub fn run(&self) -> u64 {
         self.member.saturating_sub(FIRST_MEMBER) / RUN
@@ -46,7 +61,14 @@ impl Draw {
             .iter()
             .map(|&(member, keep)| Move { from: [study.seed, member], keep, moved: MOVED })
             .collect();
-        study.clone().with_moves(moves)
+        let by = |(key, by): &(String, f64)| Some((Parameter::of(key)?.stream, *by));
+        study.clone().with_moves(moves).with_shift(self.shift.iter().filter_map(by).collect())
+    }
+
+    /// The standard normals of parameters in this wall.
+    pub fn normals(&self, study: &Study, parameters: &[&'static Parameter]) -> Vec<f64> {
+        let streams = self.study(study).streams(self.member);
+        parameters.iter().map(|own| quantile(streams.of(own.stream).uniform())).collect()
     }
 }
 
@@ -88,78 +110,29 @@ impl Rare for RareWalls<'_> {
     type Point = Draw;
 
     fn drawn(&self, run: u64, k: u64) -> Draw {
-        Draw { member: FIRST_MEMBER + run * RUN + k, moves: Vec::new() }
+        Draw::of(FIRST_MEMBER + run * RUN + k)
     }
 
     fn moved(&self, point: &Draw, keep: f64, run: u64, number: u64) -> Draw {
-        let mut moves = point.moves.clone();
-        moves.push((FIRST_MOVE + run * RUN + number, keep));
-        Draw { moves, ..*point }
+        let mut draw = point.clone();
+        draw.moves.push((FIRST_MOVE + run * RUN + number, keep));
+        draw
     }
 
     fn values(&self, points: &[Draw]) -> Vec<Option<f64>> {
-        let known: Vec<Option<Option<f64>>> =
-            points.iter().map(|draw| Some(self.draws.evaluated(self.arm, self.point, draw)?.value)).collect();
-        let open: Vec<Draw> = points
-            .iter()
-            .zip(&known)
-            .filter(|(_, known)| known.is_none())
-            .map(|(draw, _)| draw.clone())
-            .collect();
+        let known = |draw: &Draw| self.draws.evaluated(self.arm, self.point, draw);
+        let mut open: Vec<&Draw> = Vec::new();
+        for draw in points.iter().filter(|draw| known(draw).is_none()) {
+            if !open.contains(&draw) {
+                open.push(draw);
+            }
+        }
         // In pieces: a run that is stopped has lost no more than one.
-        let mut found = Vec::with_capacity(open.len());
         for piece in open.chunks(rayon::current_num_threads().max(1) * PIECE) {
             let values: Vec<Option<f64>> = piece.par_iter().map(|draw| self.value(draw)).collect();
-            self.draws.keep(self.arm, self.point, piece.iter().zip(&values));
+            self.draws.keep(self.arm, self.point, piece.iter().copied().zip(&values));
             (self.tell)(piece.len());
-            found.extend(values);
         }
-        let mut found = found.into_iter();
-        known.into_iter().map(|known| known.unwrap_or_else(|| found.next().expect("one for each"))).collect()
-    }
-}
-
-/// Walls whose limit analysis lies at or below a bound, for subset simulation that goes on from there: only these are taken to the
-/// study's own solver (delayed acceptance, Christen and Fox 2005).
-pub struct ScreenedWalls<'w, 's> {
-    /// The walls, by the study's own solver.
-    pub walls: &'w RareWalls<'s>,
-    /// The same walls by limit analysis.
-    pub screen: &'w RareWalls<'s>,
-    /// The bound.
-    pub bound: f64,
-    /// How many were taken there.
-    pub taken: AtomicUsize,
-}
-
-impl Rare for ScreenedWalls<'_, '_> {
-    type Point = Draw;
-
-    fn drawn(&self, run: u64, k: u64) -> Draw {
-        self.walls.drawn(run, k)
-    }
-
-    fn moved(&self, point: &Draw, keep: f64, run: u64, number: u64) -> Draw {
-        self.walls.moved(point, keep, run, number)
-    }
-
-    /// A wall beyond the bound has a value above all levels; one that limit analysis finds nothing of has none.
-    fn values(&self, points: &[Draw]) -> Vec<Option<f64>> {
-        let screened = self.screen.values(points);
-        let passes = |value: &Option<f64>| value.is_some_and(|value| value <= self.bound);
-        let passed: Vec<Draw> = points
-            .iter()
-            .zip(&screened)
-            .filter(|(_, value)| passes(value))
-            .map(|(point, _)| point.clone())
-            .collect();
-        self.taken.fetch_add(passed.len(), Ordering::Relaxed);
-        let mut found = self.walls.values(&passed).into_iter();
-        let own = |value: &Option<f64>| match value {
-            Some(_) if passes(value) => found.next().expect("one for each that passed"),
-            Some(_) => Some(f64::MAX),
-            None => None,
-        };
-        screened.iter().map(own).collect()
+        points.iter().map(|draw| known(draw).expect("each was evaluated").value).collect()
     }
 }
