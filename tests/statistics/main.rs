@@ -9,6 +9,7 @@ mod coverage;
 mod families;
 mod influence;
 mod order;
+mod printed;
 mod published_tables;
 mod rand_distr_agrees;
 mod randomised;

@@ -219,7 +219,8 @@ impl CapacityGroup {
         group
     }
 
-    /// The same answered by independent runs of subset simulation. The interval is Student's on their mean, above 0. Walls without a
+    /// The same answered by independent runs of subset simulation. The interval is Student's on their mean, above 0; see [`above_zero`]
+    /// for how often it holds. Walls without a
     /// value count as on the better side; at worst the share of them among those drawn at first is on the worse one.
     pub fn by_subset(&mut self, repeats: Repeats, solver: &'static str, is_high: bool) {
         let mean = Statistic::Mean.of(&repeats.probabilities, repeats.miss);
