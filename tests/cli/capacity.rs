@@ -236,7 +236,12 @@ fn a_wall_of_a_rare_value_is_built_again_by_its_number() {
         let row = evaluate(&moved, task);
         assert_eq!(row.collapse_angle_deg, found.value);
         assert!(found.value.unwrap() <= level);
+        // It is what it was moved to, not what it was drawn as.
+        if !found.draw.moves.is_empty() {
+            assert_ne!(evaluate(&own, task).collapse_angle_deg, found.value);
+        }
         if is_weakest {
+            assert!(!found.draw.moves.is_empty());
             assert_eq!(repeats["weakest"][1].as_f64(), found.value);
         }
         let written = |draw: &str, more: &[&str]| {
