@@ -77,6 +77,10 @@ pub fn tolerance_factor(n: usize, share: f64, confidence: f64, variation: Variat
 /// The value so many standard deviations below the mean of a sample: of its logarithms, where it is lognormal. A known variation V gives
 /// the standard deviation in the place of the sample's, V times the mean, or sqrt(ln(1 + V^2)) of the logarithms. `None` for an
 /// empty sample, for one value of unknown variation, and for logarithms of values that are not above 0.
+///
+/// A known variation of a normal strength errs on the safe side, as the standard deviation is too low where the mean is: at a COV of
+/// 0.2 the next wall lies below the 5 % value of three walls in 3.7 of 100 cases, of thirty in 4.9; the 95/95 tolerance limit is
+/// missed in less than 1 of 100 in the place of 5.
 pub fn below_mean(values: &[f64], factor: f64, shape: Shape, variation: Variation) -> Option<f64> {
     let of = |values: &[f64], known: &dyn Fn(f64, f64) -> f64| {
         let mean = mean(values)?;

@@ -51,7 +51,8 @@ pub fn empirical(values: &[f64], censored: &[f64]) -> Vec<EmpiricalStep> {
     steps
 }
 
-/// 95 % interval of a probability from `k` hits in `n` trials (Clopper and Pearson 1934): exact, coverage at least 95 %.
+/// 95 % interval of a probability from `k` hits in `n` trials (Clopper and Pearson 1934): exact, coverage at least 95 %. As hits are
+/// whole it is more: from 1 to 99 % at least 97.6 % with three and five trials, 96.2 with ten, 95.4 with thirty.
 pub fn clopper_pearson(k: usize, n: usize) -> [f64; 2] {
     clopper_pearson_at(k, n, 1.0 - 2.0 * TAIL)
 }

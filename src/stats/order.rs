@@ -41,7 +41,8 @@ pub fn predictive_quantile(values: &[f64], p: f64) -> Option<f64> {
 
 /// 95 % interval of the population's quantile at `p` in [0, 1], between two order statistics (David and Nagaraja 2003,
 /// section 7.1). Holds for every continuous distribution, with a coverage of at least 95 %; the number of values below
-/// the quantile is binomial. `None` when the sample is too small to bound the quantile on both sides (for the median:
+/// the quantile is binomial. As ranks are whole it is more: 97.9 % for the median of ten values, 95.7 of thirty, 98.3 for
+/// the 5 % fractile of a hundred. `None` when the sample is too small to bound the quantile on both sides (for the median:
 /// below six values).
 pub fn quantile_interval(values: &[f64], p: f64) -> Option<[f64; 2]> {
     order_interval(values, p, TAIL)

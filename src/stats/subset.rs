@@ -26,7 +26,8 @@ pub trait Rare {
 /// How a run goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Points of each level.
+    /// Points of each level. Few of them find too much in the mean: behind a plane 100 points find 12 % too much of a probability
+    /// of 1e-3 and 23 % of 1e-4, 1000 points 2 and 3 %.
     pub points: usize,
     /// Share of them that makes the next level; its inverse is the length of the chains.
     pub share: f64,

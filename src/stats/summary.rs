@@ -25,7 +25,8 @@ pub struct Summary {
     pub sigma: Estimate,
     /// Sigma over the magnitude of the mean; undefined below two values and for a mean of 0. Interval of Vangel
     /// (1996): none where its upper end is infinite, which happens when few values scatter much (with three values at
-    /// a COV above 0.28). It is meant for a COV up to 1/3; beyond, it is rough.
+    /// a COV above 0.28). It is meant for a COV up to 1/3; beyond, it is rough. Of three walls whose true COV is 0.2, 15 in 100
+    /// samples have none, and those that have one hold the truth in 97 of 100.
     pub cov: Estimate,
 }
 
@@ -65,6 +66,10 @@ impl Summary {
 
 /// A value above 0 with an interval about it, the interval on its logarithm: to the first order in the half width it is the same, and
 /// it stays above 0. Where the value is not above 0 it is left as it is.
+///
+/// Of normal values it holds the truth as often as Student's. Of skewed ones it does so more often, but not in 95 of 100 cases: about
+/// the mean of ten lognormal values of COV 0.3, 0.5, 0.7, 1.0 and 1.5 in 94.5, 93.5, 92.5, 90.5 and 87 (Student's own: 94, 92.5, 90.5,
+/// 87, 82). It then mostly lies too low, as no large value was among the ten.
 pub fn above_zero(estimate: Estimate) -> Estimate {
     let half = |mean: f64, [low, high]: [f64; 2]| (0.5 * (high - low)) / mean;
     let interval = estimate.value.zip(estimate.interval).map(|(mean, interval)| match mean > 0.0 {

@@ -48,7 +48,7 @@ fn asked(folder: &Folder, arguments: &[&str]) -> (Value, String) {
 }
 
 /// Collapse angles by arm and member, as they are in the journal.
-fn angles(folder: &Folder, out: &str) -> BTreeMap<(String, u64), f64> {
+pub fn angles(folder: &Folder, out: &str) -> BTreeMap<(String, u64), f64> {
     let text = fs::read_to_string(folder.path(out).join("journal.jsonl")).unwrap();
     let row = |line: &str| {
         let row = serde_json::from_str::<Value>(line).ok()?["entry"]["row"].clone();

@@ -13,53 +13,7 @@ use crate::fixture::{Folder, stderr};
 
 /// Columns of full-width courses on a tilting table, as rigid blocks: a bed that dips by d towards the downhill side slides at a tilt of
 /// phi - d, with all that lies above it. So the wall falls at phi - max d, with phi drawn once per wall and the dips bed by bed.
-const COLUMN: &str = r#"
-[study]
-question = "Does the scatter come from where it is put?"
-seed = 11
-
-[wall]
-height_m = 1.2
-length_m = 1.0
-base_thickness_m = 1.0
-top_thickness_m = 1.0
-battered_face = "both"
-
-[block]
-density_kg_per_m3 = 2000
-
-[joint]
-kn_pa_per_m = [1e9]
-kn_over_ks = 2
-phi_deg = 25
-cohesion_pa = 0
-
-[uncertain]
-"joint.phi_deg" = { family = "uniform", low = 23, high = 27 }
-
-[load]
-protocol = "tilting"
-towards = "y+"
-step_deg = 1
-end_deg = 45
-bracket_deg = 0.01
-capacity = "first_stone"
-
-[restraint]
-base = "fixed"
-ends = "free"
-
-[solver]
-name = "limit"
-
-[[arm]]
-name = "column"
-members = 64
-arrangement = "coursed"
-length_m = 1.0
-height_m = 0.2
-dip_deg = { family = "uniform", low = -5, high = 5 }
-"#;
+const COLUMN: &str = include_str!("../peers/column/study.toml");
 
 fn asked(folder: &Folder, arguments: &[&str]) -> (Value, String) {
     let all = [&["influence", "studies/tiny"], arguments].concat();

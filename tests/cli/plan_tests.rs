@@ -1,10 +1,13 @@
 //! `pirca plan-tests`: how many real specimens tell what, by which reading.
 
-use pirca::stats::{Aim, characteristic_loss, power_of_groups, specimens_to_see};
+use pirca::stats::{
+    Aim, characteristic_loss, correlation, mean, pairs_to_see, power_of_groups, sigma, smallest_seen,
+    specimens_for_characteristic, specimens_to_see,
+};
 use serde_json::Value;
 
 use crate::commands::stdout;
-use crate::compare::towers;
+use crate::compare::{angles, towers};
 use crate::fixture::{Folder, STUDY, stderr};
 
 fn asked(folder: &Folder, arguments: &[&str]) -> (Value, String) {
@@ -26,13 +29,29 @@ fn specimens_follow_from_the_scatter_of_walls_and_the_error_of_the_reading() {
         own.unwrap_or_else(|| panic!("{over} {reading}: {text}")).clone()
     };
     let slim = of("slim", "collapse angle");
-    let (difference, sigma) = (slim["difference"].as_f64().unwrap(), slim["sigma"].as_f64().unwrap());
-    // The error of 0.25 deg is part of the scatter.
-    assert!(difference > 0.5 && sigma >= 0.25, "{slim}");
+    // By the walls that were recorded: the error of 0.25 deg is part of the scatter, and no wall shares it with another.
+    let walls = angles(&folder, "out");
+    let [tower, thin] = ["tower", "slim"]
+        .map(|arm| (0..12).map(|member| walls[&(arm.to_owned(), member)]).collect::<Vec<f64>>());
+    let difference = mean(&tower).unwrap() - mean(&thin).unwrap();
+    let [one, other] = [&tower, &thin].map(|walls| sigma(walls).unwrap());
+    let scatter = (0.5 * (one * one + other * other) + 0.25 * 0.25).sqrt();
+    let shared = correlation(&tower, &thin).unwrap() * (1.0 - 0.25 * 0.25 / (scatter * scatter));
     let aim = Aim { confidence: 0.95, power: 0.8 };
-    let needed = specimens_to_see(difference / sigma, aim).unwrap() as u64;
+    let effect = difference / scatter;
+    for (key, expected) in [
+        ("difference", difference),
+        ("sigma", scatter),
+        ("correlation", shared),
+        ("pairs", pairs_to_see(scatter, shared, difference, aim)),
+        ("power", power_of_groups(effect, 3, 0.95)),
+        ("smallest_seen", scatter * smallest_seen(3, aim).unwrap()),
+    ] {
+        let found = slim[key].as_f64().unwrap();
+        assert!((found / expected - 1.0).abs() < 1e-9, "{key}: {found} for {expected}");
+    }
+    let needed = specimens_to_see(effect, aim).unwrap() as u64;
     assert_eq!(slim["specimens"].as_u64(), Some(needed));
-    assert!((slim["power"].as_f64().unwrap() - power_of_groups(difference / sigma, 3, 0.95)).abs() < 1e-12);
     // Walls of the same stones are alike, and no number shows a difference that is none.
     let twin = of("twin", "collapse angle");
     assert!(twin["specimens"].is_null() && twin["pairs"].is_null(), "{twin}");
@@ -52,7 +71,10 @@ fn specimens_follow_from_the_scatter_of_walls_and_the_error_of_the_reading() {
         .find(|own| own["over"] == "slim" && own["reading"] == "collapse angle")
         .unwrap()
         .clone();
-    assert!(own["specimens"].as_u64().unwrap() > needed);
+    let worse = (scatter * scatter + 2.0 * 2.0 - 0.25 * 0.25).sqrt();
+    let more = specimens_to_see(difference / worse, aim).unwrap() as u64;
+    assert!(more > needed, "{more}");
+    assert_eq!(own["specimens"].as_u64(), Some(more));
 }
 
 #[test]
@@ -64,6 +86,8 @@ fn a_stated_scatter_takes_the_place_of_the_simulated_one() {
     assert!((arm["cov"].as_f64().unwrap() - 0.1).abs() < 1e-9);
     let loss = characteristic_loss(5, 0.05, 0.1).unwrap();
     assert!((arm["loss"].as_f64().unwrap() - loss).abs() < 1e-8);
+    let enough = specimens_for_characteristic(0.05, 0.1, 0.05).unwrap() as u64;
+    assert_eq!(arm["specimens"].as_u64(), Some(enough));
     assert!(text.contains("Characteristic value of 5 specimens"), "{text}");
     assert_eq!(json["asked"]["known_cov"], 0.1);
 }

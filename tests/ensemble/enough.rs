@@ -98,4 +98,13 @@ fn a_rule_that_cannot_be_followed_is_a_fault() {
     let output = folder.pirca(&["check", "studies/tiny"]);
     let text = format!("{}{}", String::from_utf8_lossy(&output.stdout), stderr(&output));
     assert!(text.contains("a number where nothing is random"), "{text}");
+    // A design is laid over a number of walls that is known beforehand.
+    let uncertain =
+        "[uncertain]\n\"joint.phi_deg\" = { family = \"uniform\", low = 34, high = 36 }\n\n[load]";
+    let designed = until("0.05").replace("seed = 7", "seed = 7\ndesign = \"sobol\"");
+    folder.write_study(&designed.replace("[load]", uncertain));
+    let output = folder.pirca(&["check", "studies/tiny"]);
+    let text = format!("{}{}", String::from_utf8_lossy(&output.stdout), stderr(&output));
+    assert_ne!(output.status.code(), Some(0), "{text}");
+    assert!(text.contains("this with members = a number"), "{text}");
 }

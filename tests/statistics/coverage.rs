@@ -4,8 +4,8 @@
 use crate::support::{near_share, sample, share};
 use pirca::random::{Family, Streams};
 use pirca::stats::{
-    Estimate, Shape, Summary, Variation, below_mean, cov_bootstrap, paired_ratio_of_means, predictive_factor,
-    quantile_interval, ratio_of_means, sigma_bootstrap, tolerance_factor,
+    Estimate, Summary, cov_bootstrap, paired_ratio_of_means, quantile_interval, ratio_of_means,
+    sigma_bootstrap,
 };
 
 const REPEATS: u64 = 2000;
@@ -115,43 +115,4 @@ fn bootstrap_coverage_is_modestly_short() {
     };
     near_share(found(sigma_bootstrap, 1.0), 0.93, repeats, 0.01, "BCa sigma");
     near_share(found(cov_bootstrap, 0.2), 0.93, repeats, 0.01, "BCa COV");
-}
-
-/// Printed intervals hold the truth in 93 to 97 of 100 cases, at the numbers of walls that people test.
-#[test]
-fn printed_intervals_hold_the_truth_in_93_to_97_of_100_cases() {
-    for n in [3, 5, 10, 30] {
-        for (name, held) in [
-            ("mean", summary_share(n, "printed mean", |s| holds(s.mean, 5.0))),
-            ("sigma", summary_share(n, "printed sigma", |s| holds(s.sigma, 1.0))),
-            // Above 0 it is the interval of a mean angle of collapse.
-            (
-                "mean above 0",
-                share(REPEATS, |k| {
-                    holds(Summary::of_positive(&sample(&NORMAL, n, k, "printed positive")).mean, 5.0)
-                }),
-            ),
-        ] {
-            println!("{name}, n {n}: {held:.3}");
-            assert!((0.93..=0.97).contains(&held), "{name}, n {n}: {held}");
-        }
-    }
-}
-
-/// The next wall lies below a characteristic value in 5 of 100 cases, and more than 5 % of all walls lie below a tolerance limit in 5.
-#[test]
-fn characteristic_values_and_tolerance_limits_keep_their_promise() {
-    let low = NORMAL.quantile(0.05);
-    for n in [3, 5, 10, 30] {
-        let at = |k: u64, factor: f64| {
-            below_mean(&sample(&NORMAL, n, k, "characteristic"), factor, Shape::Normal, Variation::Unknown)
-                .unwrap()
-        };
-        let predictive = predictive_factor(n, 0.05, Variation::Unknown).unwrap();
-        let undercut = share(REPEATS, |k| sample(&NORMAL, 1, k, "next")[0] < at(k, predictive));
-        near_share(undercut, 0.05, REPEATS, 0.0, &format!("characteristic, n = {n}"));
-        let tolerance = tolerance_factor(n, 0.05, 0.95, Variation::Unknown).unwrap();
-        let above = share(REPEATS, |k| at(k, tolerance) > low);
-        near_share(above, 0.05, REPEATS, 0.0, &format!("tolerance, n = {n}"));
-    }
 }

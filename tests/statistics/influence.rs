@@ -5,22 +5,19 @@
 //! g-function (Saltelli and Sobol' 1995): product of (|4 x - 2| + a) / (1 + a); V_i = 1 / (3 (1 + a_i)^2), V = prod (1 + V_i) - 1.
 
 use std::f64::consts::PI;
+use std::fmt::Write;
 
 use pirca::math::sin;
 use pirca::random::{Design, PARTNER, Place, Streams};
 use pirca::stats::{BasePoint, Influence, influence};
 
 const RANDOMISATIONS: u64 = 16;
+/// Of uniforms.
+type Function<'f> = &'f dyn Fn(&[f64]) -> f64;
 const NAMES: [&str; 8] = ["a", "b", "c", "d", "e", "f", "g", "h"];
 
 /// The shares of a function of so many uniforms, over so many base points of a design.
-fn shares(
-    function: &dyn Fn(&[f64]) -> f64,
-    inputs: usize,
-    points: u64,
-    design: Design,
-    seed: u64,
-) -> Influence {
+fn shares(function: Function, inputs: usize, points: u64, design: Design, seed: u64) -> Influence {
     let draw = |member: u64| -> Vec<f64> {
         let place = Place { seed, member, points: points / RANDOMISATIONS };
         let names = NAMES[..inputs].iter().zip(0..);
@@ -29,22 +26,23 @@ fn shares(
             .map(|(name, number)| design.uniform(place, name, number).unwrap_or_else(|| plain(name)))
             .collect()
     };
-    let points: Vec<BasePoint> = (0..points)
-        .map(|k| {
-            let (own, partner) = (draw(k), draw(k + PARTNER));
-            let mixed = |group: usize| {
-                let mut mixed = own.clone();
-                mixed[group] = partner[group];
-                Some(function(&mixed))
-            };
-            BasePoint {
-                own: Some(function(&own)),
-                partner: Some(function(&partner)),
-                mixed: (0..inputs).map(mixed).collect(),
-            }
-        })
-        .collect();
+    let points: Vec<BasePoint> =
+        (0..points).map(|k| base_point(function, &draw(k), &draw(k + PARTNER))).collect();
     influence(&points, RANDOMISATIONS as usize)
+}
+
+/// The values of a function at a base point whose groups are its inputs, one by one.
+fn base_point(function: Function, own: &[f64], partner: &[f64]) -> BasePoint {
+    let mixed = |group: usize| {
+        let mut mixed = own.to_vec();
+        mixed[group] = partner[group];
+        Some(function(&mixed))
+    };
+    BasePoint {
+        own: Some(function(own)),
+        partner: Some(function(partner)),
+        mixed: (0..own.len()).map(mixed).collect(),
+    }
 }
 
 fn ishigami(u: &[f64]) -> f64 {
@@ -94,6 +92,40 @@ fn the_shares_of_the_g_function_are_found() {
             assert!((value - exact).abs() < 0.02, "{k}: {value} for {exact}");
         }
     }
+}
+
+/// The shares that `tests/peers/shares.csv` states are ours at the points of the file beside it. There SALib and OpenTURNS evaluate
+/// the same functions at the same points, and must find these shares.
+#[test]
+fn the_shares_that_peers_check_are_ours() {
+    let points: Vec<Vec<f64>> = include_str!("../peers/points.csv")
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').map(|uniform| uniform.parse().unwrap()).collect())
+        .collect();
+    let mut found = String::from("function,input,first,first_low,first_high,total,total_low,total_high\n");
+    for (name, function, inputs) in [("ishigami", &ishigami as Function, 3), ("g", &g, 8)] {
+        let at = |point: &Vec<f64>| base_point(function, &point[..inputs], &point[8..8 + inputs]);
+        let base_points: Vec<BasePoint> = points.iter().map(at).collect();
+        for (k, share) in (1..).zip(influence(&base_points, RANDOMISATIONS as usize).shares) {
+            let numbers = [share.first, share.total].map(|estimate| {
+                let ([low, high], value) = estimate.interval.zip(estimate.value).expect("it varies");
+                format!("{value},{low},{high}")
+            });
+            writeln!(found, "{name},x{k},{}", numbers.join(",")).unwrap();
+        }
+    }
+    let stated = include_str!("../peers/shares.csv");
+    let numbers = |text: &str| -> Vec<f64> { text.split([',', '\n']).flat_map(str::parse).collect() };
+    let (found_numbers, stated_numbers) = (numbers(&found), numbers(stated));
+    // Student's quantile rests on the platform's logarithm: some last digits may differ.
+    let same = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-9;
+    assert!(
+        found_numbers.len() == 66
+            && stated_numbers.len() == 66
+            && found_numbers.iter().zip(&stated_numbers).all(same),
+        "shares.csv should be\n{found}"
+    );
 }
 
 /// Intervals hold the truth about as often as they say, in every design.

@@ -10,6 +10,7 @@ mod effort;
 mod families;
 mod influence;
 mod order;
+mod printed;
 mod published_tables;
 mod rand_distr_agrees;
 mod randomised;

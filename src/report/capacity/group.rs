@@ -230,8 +230,8 @@ impl CapacityGroup {
         group
     }
 
-    /// The same answered by independent runs. The interval is Student's on their mean, above 0. Walls without a value count as on the
-    /// better side; at worst all are on the worse one.
+    /// The same answered by independent runs. The interval is Student's on their mean, above 0; see [`above_zero`] for how
+    /// often it holds. Walls without a value count as on the better side; at worst all are on the worse one.
     pub fn by_repeats(&mut self, repeats: Repeats, solver: &'static str, is_high: bool) {
         let of = |probabilities: &[f64]| above_zero(Statistic::Mean.of(probabilities, repeats.miss));
         let Estimate { value, interval } = of(&repeats.probabilities);
