@@ -2,9 +2,9 @@
 
 use serde_json::{Value, json};
 
+use crate::cli::analyse::arguments::{Analyse, LoadName};
 use crate::cli::analyse::meetings::Fit;
 use crate::cli::analyse::worst::Tried;
-use crate::cli::arguments::{Analyse, LoadName};
 use crate::exchange::WallFile;
 use crate::math::{atan, degrees, radians, tan};
 use crate::model::{Block, Level, Outcome, Support};

@@ -5,9 +5,10 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use crate::cli::analyse::answer::Answer;
+use crate::cli::analyse::arguments::{Analyse, MethodName};
 use crate::cli::analyse::meetings::Fit;
 use crate::cli::analyse::state::State;
-use crate::cli::arguments::{Analyse, Measure, MethodName};
+use crate::cli::arguments::Measure;
 use crate::cli::drawn::seams;
 use crate::cli::failure::Failure;
 use crate::cli::output;

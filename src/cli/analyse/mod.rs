@@ -1,6 +1,7 @@
 //! `pirca analyse`: a wall that somebody else made, with one command.
 
 mod answer;
+mod arguments;
 mod files;
 mod meetings;
 mod numbers;
@@ -10,7 +11,5 @@ mod upright;
 mod verb;
 mod worst;
 
-pub(crate) use numbers::{
-    Tolerance, cohesion, density, direction, friction_angle, length, step, stiffness, tolerance,
-};
+pub(crate) use arguments::Analyse;
 pub(crate) use verb::analyse;

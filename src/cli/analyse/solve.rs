@@ -1,9 +1,9 @@
 //! From the arguments to a solver and its answer.
 
 use crate::cli::analyse::answer::Answer;
+use crate::cli::analyse::arguments::{Analyse, FlowName, LoadName, MethodName};
 use crate::cli::analyse::meetings::Fit;
 use crate::cli::analyse::state::Found;
-use crate::cli::arguments::{Analyse, FlowName, LoadName, MethodName};
 use crate::cli::doing::doing;
 use crate::contact;
 use crate::law::{CohesionAfterSlip, Coulomb, NormalLaw, Sampling};

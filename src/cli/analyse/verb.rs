@@ -4,12 +4,12 @@ use std::time::Instant;
 
 use serde_json::json;
 
+use crate::cli::analyse::arguments::{Analyse, FlowName, LoadName, MethodName, UpName};
 use crate::cli::analyse::meetings::{Fit, bounds, look};
 use crate::cli::analyse::solve::{law, solve, solve_telling};
 use crate::cli::analyse::state::State;
 use crate::cli::analyse::worst::{Tried, tried, weakest};
 use crate::cli::analyse::{files, upright};
-use crate::cli::arguments::{Analyse, FlowName, LoadName, MethodName, UpName};
 use crate::cli::doing::doing;
 use crate::cli::failure::Failure;
 use crate::cli::output;
