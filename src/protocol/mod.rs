@@ -19,6 +19,7 @@ mod ropes;
 mod route;
 mod run;
 mod settings;
+mod settlement;
 mod shear;
 mod shove;
 mod stage;
@@ -40,6 +41,7 @@ pub use run::{Way, run, run_changing, run_telling};
 pub use settings::{
     Base, Compliance, Contacts, Ends, Lateral, Observes, Protocol, Rate, Restraint, Rope, Tilting, Turning,
 };
+pub use settlement::Settlement;
 pub use shear::{Head, History, Shear, ShearMode, Sheared, first_at, force_at};
 pub use shove::{Phase, Shove, Shoved, Stand, shove_heap, shove_wall};
 pub use stage::{Stage, typical_size};

@@ -99,6 +99,7 @@ pub(super) fn rigid(task: &Task<'_>, settings: Settings) -> Run {
         joints,
         events: Events::default(),
         joint_states: Vec::new(),
+        settled_joints: Vec::new(),
         shear: None,
     }
 }
