@@ -32,6 +32,30 @@ pub(crate) struct Analyse {
     /// Look for the horizontal direction in which the wall bears least, and answer for that one.
     #[arg(long, conflicts_with = "direction", help_heading = LOAD)]
     pub worst_direction: bool,
+    /// Vertical share of --load lateral: a multiplier x pushes with V x times the weight upwards besides, which lightens the wall;
+    /// downwards where V is below 0. A number from -2 to 2 [default: 0].
+    #[arg(long, value_name = "V", value_parser = numbers::vertical, allow_negative_numbers = true, help_heading = LOAD)]
+    pub vertical: Option<f64>,
+    /// A weight (N) that rests on a block that moves, at its centroid, as of a roof or a floor: it turns and pushes with the load
+    /// as the block's own weight does. For several blocks, several times.
+    #[arg(
+        long = "dead-load",
+        value_name = "ID=N",
+        value_parser = numbers::dead_load,
+        allow_negative_numbers = true,
+        help_heading = LOAD
+    )]
+    pub dead_loads: Vec<(u64, f64)>,
+    /// A fixed block that goes down by so many metres, gradually, under the wall at rest before the load grows; for implicit and
+    /// explicit. For several supports, several times: they go down together.
+    #[arg(
+        long = "settle",
+        value_name = "ID=M",
+        value_parser = numbers::settlement,
+        allow_negative_numbers = true,
+        help_heading = LOAD
+    )]
+    pub settlements: Vec<(u64, f64)>,
     /// Friction angle of the joints (deg), 0 to 89.
     #[arg(long, value_name = "F", value_parser = numbers::friction_angle, allow_negative_numbers = true, help_heading = JOINTS)]
     pub phi_deg: f64,

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use crate::cli::analyse::answer::Answer;
 use crate::cli::analyse::arguments::{Analyse, MethodName};
+use crate::cli::analyse::joints;
 use crate::cli::analyse::meetings::Fit;
 use crate::cli::analyse::state::State;
 use crate::cli::arguments::Measure;
@@ -158,16 +159,9 @@ fn with_tables(object: &Value, file: &WallFile, answer: &Answer, state: &State) 
             "mechanism": list(&of.mechanism.shift), "mechanism_turn": list(&of.mechanism.turn),
         })
     };
-    let joint = |joint: &JointState| {
-        json!({
-            "blocks": joint.blocks.map(|at| file.ids[at as usize]), "place_m": list(&joint.place),
-            "area_m2": joint.area, "opening": joint.opening, "slip": joint.slip, "slipped_share": joint.slipped,
-            "force_on_second_n": list(&joint.force), "pressure_pa": joint.pressure,
-        })
-    };
     let mut whole = object.clone();
     whole["block_states"] = moved(file, answer, state).map(block).collect();
-    whole["joint_states"] = state.joints.iter().map(joint).collect();
+    whole["joint_states"] = state.joints.iter().map(|joint| joints::object(file, joint)).collect();
     whole
 }
 

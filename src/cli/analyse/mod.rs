@@ -3,6 +3,8 @@
 mod answer;
 mod arguments;
 mod files;
+mod joints;
+mod loads;
 mod meetings;
 mod numbers;
 mod solve;
