@@ -123,7 +123,7 @@ fn a_dead_load_pushes_and_turns_as_the_weight_of_its_block_does() {
     close(100.0 * 0.08 + all * cos(angle) * tan(radians(10.0)), all * sin(angle), 1e-5 * all);
 }
 
-fn joint<'a>(answer: &'a Value, blocks: [u64; 2]) -> &'a Value {
+fn joint(answer: &Value, blocks: [u64; 2]) -> &Value {
     let joints = answer["settled_joints"].as_array().unwrap_or_else(|| panic!("{answer}"));
     let pair = serde_json::json!(blocks);
     joints.iter().find(|joint| joint["blocks"] == pair).unwrap_or_else(|| panic!("{blocks:?}: {answer}"))
