@@ -3,6 +3,7 @@
 mod back;
 mod bounds;
 mod changes;
+mod closing;
 mod confirm;
 mod direction;
 mod drive;
@@ -29,6 +30,7 @@ mod watch;
 
 pub use bounds::{Agreement, Bounds};
 pub use changes::{Changes, Creep, Loss};
+pub use closing::Closing;
 pub use confirm::Confirmation;
 pub use direction::Direction;
 pub use drive::{climb, drive, drive_telling};

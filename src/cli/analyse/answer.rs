@@ -7,6 +7,7 @@ use crate::cli::analyse::joints;
 use crate::cli::analyse::loads::listed;
 use crate::cli::analyse::meetings::Fit;
 use crate::cli::analyse::worst::Tried;
+use crate::cli::condition::resting;
 use crate::exchange::WallFile;
 use crate::math::{atan, degrees, radians, tan};
 use crate::model::{Block, Level, Outcome, Support};
@@ -122,7 +123,7 @@ impl Answer {
             "dead_loads": listed(&asked.dead_loads, "weight_n"),
             "settlements": listed(&asked.settlements, "down_m"),
             "settled_share": self.settled_share(asked),
-            "settled_joints": self.settled.iter().map(|joint| joints::object(file, joint)).collect::<Value>(),
+            "settled_joints": joints::objects(file, &self.settled, &resting(&self.settled)),
             "direction": asked.direction.to_string(),
             "direction_deg": asked.direction.angle_deg(),
             "directions": (!directions.is_empty()).then(|| {

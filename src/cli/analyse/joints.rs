@@ -1,7 +1,8 @@
-//! How a joint of a wall is told: in the JSON objects, and in words where its blocks part.
+//! How a joint of a wall is told: what it does, in the JSON objects, and in words where its blocks part.
 
 use serde_json::{Value, json};
 
+use crate::cli::condition::Condition;
 use crate::exchange::WallFile;
 use crate::protocol::JointState;
 
@@ -10,10 +11,16 @@ const TOLD_FROM: f64 = 1e-6;
 /// Joints that are named.
 const NAMED: usize = 10;
 
+/// The joints in the JSON object, each with its condition.
+pub(crate) fn objects(file: &WallFile, joints: &[JointState], conditions: &[Condition]) -> Value {
+    joints.iter().zip(conditions).map(|(joint, condition)| object(file, joint, *condition)).collect()
+}
+
 /// A joint in the JSON object.
-pub(crate) fn object(file: &WallFile, joint: &JointState) -> Value {
+fn object(file: &WallFile, joint: &JointState, condition: Condition) -> Value {
     json!({
         "blocks": joint.blocks.map(|at| file.ids[at as usize]),
+        "state": condition.name(),
         "place_m": [joint.place.x, joint.place.y, joint.place.z],
         "area_m2": joint.area, "opening": joint.opening, "slip": joint.slip, "slipped_share": joint.slipped,
         "force_on_second_n": [joint.force.x, joint.force.y, joint.force.z], "pressure_pa": joint.pressure,
