@@ -253,6 +253,8 @@ Example: pirca analyse wall.json --phi-deg 30
          pirca analyse arch.obj --unit mm --density-kg-per-m3 2300 --phi-deg 35
          pirca analyse wall.json --phi-deg 35 --solver explicit --kn 1e9 --json
          pirca analyse wall.json --phi-deg 35 --worst-direction --out seen
+         pirca analyse wall.json --phi-deg 35 --load lateral --vertical 0.3 --dead-load 12=1500
+         pirca analyse wall.json --phi-deg 35 --solver implicit --kn 1e9 --settle 0=0.01
 
 wall.json: {\"unit\": \"m\", \"blocks\": [{\"id\": 0, \"vertices\": [[x, y, z], ...], \"faces\": [[i, j, k, ...], ...], \
 \"density\": 2400, \"fixed\": false, \"tag\": \"stone\", \"group\": \"keystone\"}, ...]}. Convex blocks; faces count their \

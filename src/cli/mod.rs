@@ -6,6 +6,7 @@ mod bank;
 mod capacity;
 mod check;
 mod compare;
+mod condition;
 mod diagnose;
 mod doing;
 mod drawn;

@@ -5,6 +5,7 @@ use std::path::Path;
 use serde_json::json;
 
 use crate::cli::arguments::Picture as Arguments;
+use crate::cli::condition::{conditions, hinges};
 use crate::cli::drawn::{drawing, ending, seams, stones, uncoloured};
 use crate::cli::failure::Failure;
 use crate::cli::one_wall::OneWall;
@@ -31,7 +32,10 @@ pub(crate) fn picture(arguments: &Arguments) -> Result<(), Failure> {
     let magnification = arguments.magnify.unwrap_or_else(|| Picture::fitting(&stones));
     // The ground has joints as well.
     let settings = contact::Settings::for_size(typical_size(wall), arm.sub_contacts);
-    let seams = seams(&wall.clone().with_base(), &settings, &run.joint_states, arguments.colour);
+    let grounded = wall.clone().with_base();
+    let seams = seams(&grounded, &settings, &run.joint_states, arguments.colour);
+    let falls = run.failure.is_some();
+    let conditions = conditions((&grounded, &settings), &stones, &run.joint_states, falls);
     let from_front = !direction(&study.protocol).is_backwards();
     let variant = study.variant.as_ref().map_or(String::new(), |name| format!(", variant {name}"));
     let ending = ending(&run);
@@ -40,6 +44,7 @@ pub(crate) fn picture(arguments: &Arguments) -> Result<(), Failure> {
     let picture = Picture {
         stones,
         seams,
+        hinges: hinges(&run.joint_states, &conditions),
         measure: arguments.colour.said().to_owned(),
         unit: arguments.colour.unit(),
         from_front,

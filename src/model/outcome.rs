@@ -16,13 +16,19 @@ pub enum Level {
     Multiplier(f64),
     /// Horizontal displacement of a beam on the wall's top over its height, along the wall.
     Drift(f64),
+    /// Share of the way that supports go down before the load grows.
+    Settlement(f64),
 }
 
 impl Level {
     /// The number alone, in SI units.
     pub fn value(&self) -> f64 {
         match *self {
-            Level::Factor(x) | Level::Tilt(x) | Level::Multiplier(x) | Level::Drift(x) => x,
+            Level::Factor(x)
+            | Level::Tilt(x)
+            | Level::Multiplier(x)
+            | Level::Drift(x)
+            | Level::Settlement(x) => x,
         }
     }
 }
@@ -34,6 +40,7 @@ impl fmt::Display for Level {
             Level::Tilt(x) => write!(f, "a tilt of {:.4} deg", degrees(*x)),
             Level::Multiplier(x) => write!(f, "a load multiplier of {x:.6}"),
             Level::Drift(x) => write!(f, "a drift of {:.4} %", 100.0 * x),
+            Level::Settlement(x) => write!(f, "{:.2} % of the settlement of its supports", 100.0 * x),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What changes a wall between two states at rest: creep of its joints, wedges that are lost.
 
 use crate::math::exp;
+use crate::protocol::Settlement;
 use crate::solve::Assembly;
 
 /// What changes a wall on its way along a load path; nothing by default. It depends on the levels of the states at rest
@@ -11,6 +12,8 @@ pub struct Changes {
     pub creep: Option<Creep>,
     /// Blocks that are lost.
     pub loss: Option<Loss>,
+    /// Supports that go down at level 0, on load paths that go by steps; a platform that turns steadily leaves them where they are.
+    pub settlements: Vec<Settlement>,
 }
 
 /// Shear tractions that relax: by `exp(-rate dalpha)` on the way from rest to rest, and by a share of themselves at every

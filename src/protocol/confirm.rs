@@ -4,9 +4,9 @@
 use std::cell::OnceCell;
 
 use crate::math::Vec3;
-use crate::protocol::Task;
 use crate::protocol::mechanism::{Failure, failure};
 use crate::protocol::watch::{LoadStep, Watch};
+use crate::protocol::{Changes, Task};
 use crate::solve::bodies::Bodies;
 use crate::solve::explicit::{self, Simulation};
 use crate::solve::limit::{self, Analysis, Loads, PointLoad, When};
@@ -149,8 +149,9 @@ impl<'t, 'a> Judge<'t, 'a> {
         let stands = |analysis: &Analysis, level: f64| analysis.stands(&self.loads(level));
         let rigid = self.rigid.get_or_init(|| {
             let Task { wall, laws, contact, .. } = *self.task;
-            // The bound is that of the wall with all its blocks.
-            if self.task.changes.loss.is_some() {
+            // The bound is that of the wall with all its blocks where they were built.
+            let Changes { loss, settlements, .. } = &self.task.changes;
+            if loss.is_some() || !settlements.is_empty() {
                 return None;
             }
             let analysis = Analysis::new(wall, laws, contact, limit::Settings::default());

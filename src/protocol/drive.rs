@@ -10,6 +10,7 @@ use crate::protocol::mechanism::{Failure, failure, joint_states};
 use crate::protocol::pace::Pace;
 use crate::protocol::rigid::rigid;
 use crate::protocol::route::Route;
+use crate::protocol::settlement::settle_supports;
 use crate::protocol::task::{displacements, turns};
 use crate::protocol::watch::{Criterion, LoadStep, Watch};
 use crate::protocol::{Run, Task};
@@ -89,7 +90,23 @@ fn climb_telling<'a, S: Equilibrate<'a>>(
     let at_rest = rest.assembly().bodies.all.clone();
     let mut route = Route::new(task.path);
     let (mut outcome, mut bracket, mut failure) = (Outcome::Equilibrium, None, None);
-    while let Some(place) = route.next() {
+    let mut settled_joints = Vec::new();
+    if !task.changes.settlements.is_empty() {
+        let settled = settle_supports(task, (of, &climber.judge), &mut climber.watch, rest);
+        climber.spent += settled.spent;
+        rest = settled.rest;
+        if let Some((failed, told)) = settled.ended {
+            let end = climber.ended_settling(rest.assembly(), failed, told);
+            outcome = end.outcome(Level::Settlement(settled.share), Level::Settlement(failed));
+            climber.steps.push(end.step);
+            failure = end.failure;
+        } else {
+            settled_joints = joint_states(rest.assembly(), &at_rest);
+        }
+    }
+    while outcome == Outcome::Equilibrium
+        && let Some(place) = route.next()
+    {
         let level = task.path.after(place);
         let tried = climber.try_level(&rest, level);
         if let Tried::Rest(next, ratio) = tried {
@@ -135,6 +152,7 @@ fn climb_telling<'a, S: Equilibrate<'a>>(
         failure,
         events: Events::default(),
         joint_states: joint_states(assembly, &at_rest),
+        settled_joints,
         shear: None,
     }
 }
@@ -434,6 +452,25 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
         Verdict::End(Box::new(End { why: Why::Fell, step, failure, bodies }))
     }
 
+    /// The end of a wall that came to no rest when its supports had gone a share of their way.
+    fn ended_settling(&mut self, rest: &Assembly<'_>, share: f64, told: Told<'_>) -> End {
+        let (why, assembly, ratio, failure) = match told {
+            Told::Falls(fall) => {
+                let failure = self.judge.failure(&fall, &self.watch);
+                (Why::Fell, fall.away, fall.step.unbalanced_ratio, Some(failure))
+            }
+            Told::NonFinite(assembly) => (Why::NonFinite, *assembly, f64::NAN, None),
+            Told::Rests(..) | Told::Nothing => {
+                let why =
+                    "no equilibrium was found, and relaxation did not tell whether it stands".to_owned();
+                (Why::Lost { unbalanced_ratio: f64::NAN, why }, rest.clone(), f64::NAN, None)
+            }
+        };
+        let spent = std::mem::take(&mut self.spent);
+        let step = self.watch.read(&assembly.bodies, Level::Settlement(share), ratio, spent);
+        End { why, step, failure, bodies: assembly.bodies.all }
+    }
+
     fn ended(
         &mut self,
         why: Why,
@@ -505,6 +542,7 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
             failure,
             events: Events::default(),
             joint_states: Vec::new(),
+            settled_joints: Vec::new(),
             shear: None,
         }
     }

@@ -2,9 +2,9 @@
 
 use crate::math::Vec3;
 use crate::model::Wall;
-use crate::protocol::Direction;
 use crate::protocol::observe::{extent, movable, top_points};
 use crate::protocol::task::{displacements, turns};
+use crate::protocol::{Closing, Direction};
 use crate::solve::Assembly;
 use crate::solve::bodies::{Bodies, Body};
 
@@ -83,6 +83,8 @@ pub struct JointState {
     pub force: Vec3,
     /// The part of that force across the joint over its area (Pa): positive where the blocks press on each other.
     pub pressure: f64,
+    /// What is left of its contact.
+    pub closing: Closing,
 }
 
 /// The mechanism from two moments of the runaway.
@@ -224,10 +226,13 @@ pub fn joint_states(assembly: &Assembly<'_>, at_rest: &[Body]) -> Vec<JointState
             let came = |id: u32| place - carried(&now[id as usize], &at_rest[id as usize], place);
             let relative = came(a) - came(b);
             let carried = joint.carried(now);
+            let origin = assembly.bodies.origin;
+            let corners: Vec<(Vec3, f64)> =
+                joint.corners(now).into_iter().map(|(at, gap)| (at + origin, gap)).collect();
             let second = assembly.bodies.carriers[upper as usize] as u32 == a;
             JointState {
                 blocks: [lower, upper],
-                place: place + assembly.bodies.origin,
+                place: place + origin,
                 area: joint.area(),
                 opening: joint.largest_gap(now).max(0.0),
                 slip: (relative - normal * relative.dot(&normal)).norm(),
@@ -235,6 +240,7 @@ pub fn joint_states(assembly: &Assembly<'_>, at_rest: &[Body]) -> Vec<JointState
                 crushed: joint.crushed_share(now),
                 force: if second { carried } else { -carried },
                 pressure: carried.dot(&normal) / joint.area(),
+                closing: Closing::of(&corners, 0.0),
             }
         })
         .collect()

@@ -3,6 +3,7 @@
 mod back;
 mod bounds;
 mod changes;
+mod closing;
 mod confirm;
 mod direction;
 mod drive;
@@ -19,6 +20,7 @@ mod ropes;
 mod route;
 mod run;
 mod settings;
+mod settlement;
 mod shear;
 mod shove;
 mod stage;
@@ -28,6 +30,7 @@ mod watch;
 
 pub use bounds::{Agreement, Bounds};
 pub use changes::{Changes, Creep, Loss};
+pub use closing::Closing;
 pub use confirm::Confirmation;
 pub use direction::Direction;
 pub use drive::{climb, drive, drive_telling};
@@ -40,6 +43,7 @@ pub use run::{Way, run, run_changing, run_telling};
 pub use settings::{
     Base, Compliance, Contacts, Ends, Lateral, Observes, Protocol, Rate, Restraint, Rope, Tilting, Turning,
 };
+pub use settlement::Settlement;
 pub use shear::{Head, History, Shear, ShearMode, Sheared, first_at, force_at};
 pub use shove::{Phase, Shove, Shoved, Stand, shove_heap, shove_wall};
 pub use stage::{Stage, typical_size};

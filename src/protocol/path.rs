@@ -12,8 +12,13 @@ pub enum Growing {
     Factor,
     /// The tilt of the platform, whose axes the wall's are: gravity turns towards a side.
     Tilt(Direction),
-    /// A body force of so many times the weight towards a side.
-    Multiplier(Direction),
+    /// A body force of so many times the weight.
+    Multiplier {
+        /// The side that it pushes towards.
+        towards: Direction,
+        /// So many times the horizontal force acts upwards besides; downwards where below 0.
+        vertical: f64,
+    },
     /// How far a jack goes along the wall, over its height.
     Drift,
 }
@@ -53,7 +58,19 @@ impl LoadPath {
 
     /// A horizontal force of so many times the weight.
     pub fn multiplier(towards: Direction, step: f64, end: f64, bracket: f64) -> LoadPath {
-        LoadPath { growing: Growing::Multiplier(towards), end, steps: end / step, bracket, goes_back: false }
+        let growing = Growing::Multiplier { towards, vertical: 0.0 };
+        LoadPath { growing, end, steps: end / step, bracket, goes_back: false }
+    }
+
+    /// The same with a vertical share: a multiplier `x` pushes with `x` times the weight sideways and `vertical x` times the
+    /// weight upwards, as the two parts of an earthquake do at their worst. Other paths stay as they are.
+    pub fn with_vertical(self, vertical: f64) -> LoadPath {
+        match self.growing {
+            Growing::Multiplier { towards, .. } => {
+                LoadPath { growing: Growing::Multiplier { towards, vertical }, ..self }
+            }
+            Growing::Factor | Growing::Tilt(_) | Growing::Drift => self,
+        }
     }
 
     /// A jack that pushes along the wall; drifts are shares of its height.
@@ -76,7 +93,7 @@ impl LoadPath {
         match self.growing {
             Growing::Factor => Level::Factor(x),
             Growing::Tilt(_) => Level::Tilt(x),
-            Growing::Multiplier(_) => Level::Multiplier(x),
+            Growing::Multiplier { .. } => Level::Multiplier(x),
             Growing::Drift => Level::Drift(x),
         }
     }
@@ -87,7 +104,9 @@ impl LoadPath {
         match self.growing {
             Growing::Factor | Growing::Drift => (Vec3::new(0.0, 0.0, -g), x),
             Growing::Tilt(towards) => (towards.unit() * (g * sin(x)) - Vec3::z() * (g * cos(x)), 1.0),
-            Growing::Multiplier(towards) => (towards.unit() * (g * x) - Vec3::z() * g, 1.0),
+            Growing::Multiplier { towards, vertical } => {
+                (towards.unit() * (g * x) - Vec3::z() * (g - g * vertical * x), 1.0)
+            }
         }
     }
 
@@ -96,7 +115,7 @@ impl LoadPath {
         match self.growing {
             Growing::Factor => Direction::YPlus,
             Growing::Drift => Direction::XPlus,
-            Growing::Tilt(towards) | Growing::Multiplier(towards) => towards,
+            Growing::Tilt(towards) | Growing::Multiplier { towards, .. } => towards,
         }
     }
 }

@@ -41,9 +41,10 @@ impl Rigid<'_> {
                 live: Vec3::zeros(),
                 ..Loads::weight()
             }),
-            Growing::Multiplier(towards) => {
-                analysis.multiplier(&Loads { points: points(When::Dead), ..Loads::lateral(towards.unit()) })
-            }
+            Growing::Multiplier { towards, vertical } => analysis.multiplier(&Loads {
+                points: points(When::Dead),
+                ..Loads::seismic(towards.unit(), vertical)
+            }),
         };
         (limit, analysis.joints())
     }
@@ -56,7 +57,7 @@ pub(super) fn rigid(task: &Task<'_>, settings: Settings) -> Run {
     let Task { wall, laws, contact, path, .. } = *task;
     let settings = match path.growing {
         Growing::Tilt(_) => Settings { largest_tilt: path.end.min(settings.largest_tilt), ..settings },
-        Growing::Multiplier(_) => Settings { largest_multiplier: path.end, ..settings },
+        Growing::Multiplier { .. } => Settings { largest_multiplier: path.end, ..settings },
         Growing::Factor | Growing::Drift => settings,
     };
     let asked = Rigid { wall, laws, contact, ties: &task.ties, loads: &task.loads, growing: path.growing };
@@ -98,6 +99,7 @@ pub(super) fn rigid(task: &Task<'_>, settings: Settings) -> Run {
         joints,
         events: Events::default(),
         joint_states: Vec::new(),
+        settled_joints: Vec::new(),
         shear: None,
     }
 }

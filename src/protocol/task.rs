@@ -82,6 +82,8 @@ pub struct Run {
     pub events: Events,
     /// The joints at the last state at rest; empty if there was none.
     pub joint_states: Vec<JointState>,
+    /// The joints at rest when all supports had gone down, slips counted from before; empty where none went.
+    pub settled_joints: Vec<JointState>,
     /// What is read off a wall that is sheared; `None` of others, and of one that never came to rest.
     pub shear: Option<Sheared>,
 }

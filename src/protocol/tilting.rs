@@ -47,6 +47,7 @@ pub fn turn(task: &Task<'_>, turning: &Turning, at_rest: Settings, tell: &dyn Fn
         failure: None,
         events: Events::default(),
         joint_states: Vec::new(),
+        settled_joints: Vec::new(),
         shear: None,
     };
     let at = task.path.level(0.0);

@@ -56,7 +56,7 @@ pub use gain::GainSummary;
 pub use influence::{InfluenceSummary, ShareEntry, influence_text, running, write_influence};
 pub use joint_law::{LawSummary, law_text, remove_law, write_law};
 pub use measured::{CalibrationEntry, ComparisonEntry, MeasuredSummary};
-pub use picture::{Movement, Picture, Seam, Stone};
+pub use picture::{Hinge, Movement, Picture, Seam, Stone};
 pub use published::{Published, Verdict};
 pub use readings::{Extent, ReadingEntry, ReadingsSummary, readings_text, write_readings};
 pub use selection::{

@@ -97,6 +97,13 @@ pub trait Equilibrate<'a>: Clone {
         None
     }
 
+    /// Lets fixed bodies down by so much (m) each, and goes on as [`settle`](Equilibrate::settle) does.
+    fn lower(&mut self, down: &[(usize, f64)], stop: &mut dyn FnMut(&Bodies) -> bool) -> Settled {
+        self.assembly_mut().lower(down);
+        self.assembly_mut().refresh();
+        self.settle(stop)
+    }
+
     /// Goes on until the assembly is at rest, `stop` says so, or it cannot be brought to rest.
     fn settle(&mut self, stop: &mut dyn FnMut(&Bodies) -> bool) -> Settled;
 }

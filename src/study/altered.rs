@@ -58,7 +58,7 @@ impl Mechanisms {
             let lost = |id: &usize| streams.of(&format!("wedge loss {id}")).uniform() < loss.share;
             Loss { blocks: wedges.map(|(id, _)| id).filter(lost).collect(), beyond: loss.beyond }
         });
-        Changes { creep: self.creep, loss }
+        Changes { creep: self.creep, loss, ..Changes::default() }
     }
 
     /// What a gauge shows of a displacement (m) since its zero reading.

@@ -98,6 +98,26 @@ fn an_arch_stands_if_it_is_thick_enough() {
     assert_eq!((&thin["outcome"], &thin["collapse_angle_deg"]), (&"unstable_at_rest".into(), &Value::Null));
 }
 
+/// An arch of one span falls by four hinges, which alternate between its inside and its outside; elastic joints let its neighbours
+/// open as well, and yet it turns about four.
+#[test]
+fn an_arch_falls_by_four_hinges() {
+    let path = example("arch.json").display().to_string();
+    for more in [&["--solver", "limit"][..], &["--solver", "implicit", "--kn", "1e10"]] {
+        let folder = Folder::new();
+        let asked = ["analyse", &path, "--phi-deg", "40", "--direction", "x+", "--out", "seen"];
+        let output = folder.pirca(&[&asked[..], more].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output));
+        let joints = fs::read_to_string(folder.path("seen/joints.csv")).unwrap();
+        let states: Vec<&str> = joints.lines().skip(1).filter_map(|line| line.split(',').nth(2)).collect();
+        let count = |state: &str| states.iter().filter(|of| **of == state).count();
+        assert_eq!((count("hinge"), count("closed")), (4, 28), "{more:?}: {states:?}");
+        // Four in the arch and one in the legend.
+        let picture = fs::read_to_string(folder.path("seen/mechanism.svg")).unwrap();
+        assert_eq!(picture.matches("<circle").count(), 5, "{more:?}");
+    }
+}
+
 /// The wall with an opening topples as a whole about its front edge: half its thickness over its centroid's height. Its
 /// upper parts are less slender, and the lintel and the courses above load both piers alike.
 #[test]
@@ -638,6 +658,11 @@ fn joints_carry_what_stands_on_them_and_a_tower_turns_about_its_foot() {
             );
         }
         assert!(file("mechanism.svg").contains("The wall collapses at a tilt of"));
+        // The foot alone is open but for its front edge.
+        let states: Vec<&Value> = joints.iter().map(|joint| &joint["state"]).collect();
+        assert_eq!(states, ["hinge", "closed", "closed", "closed", "closed", "closed"], "{solver}");
+        assert!(file("joints.csv").contains("\n0,1,hinge,"));
+        assert!(file("mechanism.svg").contains("1 hinge: joints open but for an edge that presses"));
         assert_eq!(file("rest.vtu").contains("Name=\"displacement\""), solver != "limit");
         assert!(file("mechanism.vtu").contains("NumberOfCells=\"7\""));
     }

@@ -1,6 +1,7 @@
 //! What a user meets: input files and their faults, the verbs, and the house's own layering.
 
 mod analyse;
+mod analyse_loads;
 mod bad_walls;
 mod capacity;
 mod catalogue;

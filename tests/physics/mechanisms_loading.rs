@@ -109,7 +109,7 @@ fn a_platform_on_stiff_springs_is_a_fixed_one_and_takes_its_strip_along() {
 /// Displacement (m) of the block's top centre at every stop of a tilting table.
 fn stops(law: &Coulomb, protocol: &Protocol, creep: Option<Creep>, solver: &Solver) -> Vec<f64> {
     let wall = Wall { blocks: vec![resting(SIZE, 2400.0)] };
-    let changes = Changes { creep, loss: None };
+    let changes = Changes { creep, ..Changes::default() };
     let run = run_changing(&wall, law, protocol, &free(Base::default()), [2, 2], &changes, solver);
     assert_eq!(run.outcome, Outcome::Equilibrium);
     run.steps.iter().map(|step| step.points.expect("it has a top")[1]).collect()
@@ -174,7 +174,7 @@ fn on_legs() -> Wall {
 fn a_block_falls_when_the_leg_under_it_is_lost() {
     let law = dry(1e9, 40.0);
     let tilt = |loss, solver: &Solver| -> Run {
-        let changes = Changes { creep: None, loss };
+        let changes = Changes { loss, ..Changes::default() };
         run_changing(&on_legs(), &law, &tilting(1.0, 8.0), &free(Base::default()), [2, 2], &changes, solver)
     };
     for solver in &solvers() {

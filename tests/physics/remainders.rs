@@ -11,7 +11,7 @@ use crate::fixture::{AREA, SIZE, WEIGHT, dry, resting, solvers};
 fn tilted(size: [f64; 3], law: &Coulomb, tilting: Tilting, creep: Option<Creep>, solver: &Solver) -> Run {
     let wall = Wall { blocks: vec![resting(size, 2400.0)] };
     let restraint = Restraint { base: Base::default(), ends: Ends::Free };
-    let changes = Changes { creep, loss: None };
+    let changes = Changes { creep, ..Changes::default() };
     run_changing(&wall, law, &Protocol::Tilting(tilting), &restraint, [2, 2], &changes, solver)
 }
 

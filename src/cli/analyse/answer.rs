@@ -2,12 +2,16 @@
 
 use serde_json::{Value, json};
 
+use crate::cli::analyse::arguments::{Analyse, LoadName};
+use crate::cli::analyse::joints;
+use crate::cli::analyse::loads::listed;
 use crate::cli::analyse::meetings::Fit;
 use crate::cli::analyse::worst::Tried;
-use crate::cli::arguments::{Analyse, LoadName};
+use crate::cli::condition::resting;
 use crate::exchange::WallFile;
 use crate::math::{atan, degrees, radians, tan};
 use crate::model::{Block, Level, Outcome, Support};
+use crate::protocol::JointState;
 
 /// What came of a wall.
 pub(crate) struct Answer {
@@ -25,6 +29,8 @@ pub(crate) struct Answer {
     pub between: Option<[f64; 2]>,
     /// The last load borne and the lowest at which it falls (rad or multipliers), of a solver that goes by steps.
     pub bracket: Option<[f64; 2]>,
+    /// The joints at rest on the supports that went down, before the load grew; empty where none went, or the wall fell meanwhile.
+    pub settled: Vec<JointState>,
 }
 
 impl Answer {
@@ -39,6 +45,15 @@ impl Answer {
             Outcome::Collapsed { at: Level::Tilt(angle) } => (Some(degrees(angle)), None),
             Outcome::Collapsed { at: Level::Multiplier(multiplier) } => (None, Some(multiplier)),
             _ => (None, None),
+        }
+    }
+
+    /// The share of the settlement that the wall bears; `None` where no support goes down, or it did not come so far.
+    fn settled_share(&self, asked: &Analyse) -> Option<f64> {
+        match self.outcome {
+            _ if asked.settlements.is_empty() => None,
+            Outcome::Collapsed { at: Level::Settlement(share) } => Some(share),
+            _ => (!self.settled.is_empty()).then_some(1.0),
         }
     }
 
@@ -104,6 +119,11 @@ impl Answer {
             "meaning": self.meaning,
             "solver": asked.solver.name(),
             "load": asked.load.name(),
+            "vertical": (asked.load == LoadName::Lateral).then(|| asked.vertical.unwrap_or(0.0)),
+            "dead_loads": listed(&asked.dead_loads, "weight_n"),
+            "settlements": listed(&asked.settlements, "down_m"),
+            "settled_share": self.settled_share(asked),
+            "settled_joints": joints::objects(file, &self.settled, &resting(&self.settled)),
             "direction": asked.direction.to_string(),
             "direction_deg": asked.direction.angle_deg(),
             "directions": (!directions.is_empty()).then(|| {
@@ -130,8 +150,16 @@ impl Answer {
                 )
             }
             (_, _, (_, Some(multiplier))) => {
-                format!("collapses at {multiplier:.5} of its weight towards {to} (collapse multiplier, a0/g)")
+                let upwards = match asked.vertical {
+                    Some(share) if share < 0.0 => format!(" and {:.5} downwards", -share * multiplier),
+                    Some(share) if share > 0.0 => format!(" and {:.5} upwards", share * multiplier),
+                    _ => String::new(),
+                };
+                format!(
+                    "collapses at {multiplier:.5} of its weight towards {to}{upwards} (collapse multiplier, a0/g)"
+                )
             }
+            (Outcome::Collapsed { at }, ..) => format!("collapses at {at}, before the load grows"),
             (Outcome::Equilibrium, LoadName::Tilt, _) => format!("stands to the largest tilt towards {to}"),
             (Outcome::Equilibrium, LoadName::Lateral, _) => {
                 format!("stands to the largest horizontal load towards {to}")
@@ -161,6 +189,18 @@ impl Answer {
                 let dots = if blocks.len() > 30 { ", ..." } else { "" };
                 text.push_str(&format!("  {what}: {}{dots}\n", names.join(", ")));
             }
+        }
+        if !self.settled.is_empty() {
+            let opened = joints::open(file, &self.settled);
+            text.push_str(&format!("  open on the settled supports: {opened}\n"));
+        }
+        let loads = &asked.dead_loads;
+        if !loads.is_empty() {
+            let all = loads.iter().fold(0.0, |sum, (_, weight)| sum + weight);
+            text.push_str(&format!(
+                "  dead loads: {all} N on {} blocks, counted in the weight\n",
+                loads.len()
+            ));
         }
         let blocks = file.wall.blocks.len();
         text.push_str(&format!("  {blocks} blocks, {} joints; {seconds:.3} s\n", fit.joints));

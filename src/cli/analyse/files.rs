@@ -5,9 +5,12 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use crate::cli::analyse::answer::Answer;
+use crate::cli::analyse::arguments::{Analyse, MethodName};
+use crate::cli::analyse::joints;
 use crate::cli::analyse::meetings::Fit;
 use crate::cli::analyse::state::State;
-use crate::cli::arguments::{Analyse, Measure, MethodName};
+use crate::cli::arguments::Measure;
+use crate::cli::condition::{Condition, hinges};
 use crate::cli::drawn::seams;
 use crate::cli::failure::Failure;
 use crate::cli::output;
@@ -21,7 +24,7 @@ use crate::report::{Movement, Picture, Stone, quoted, write_vtu};
 /// Columns of `blocks.csv` and `joints.csv`.
 const BLOCKS: &str = "block,name,fixed,moves,rest_x_m,rest_y_m,rest_z_m,rest_turn_x_rad,rest_turn_y_rad,rest_turn_z_rad,\
                       mechanism_x,mechanism_y,mechanism_z,mechanism_turn_x,mechanism_turn_y,mechanism_turn_z\n";
-const JOINTS: &str = "block_a,block_b,x_m,y_m,z_m,area_m2,opening,slip,slipped_share,force_on_b_x_n,force_on_b_y_n,force_on_b_z_n,\
+const JOINTS: &str = "block_a,block_b,state,x_m,y_m,z_m,area_m2,opening,slip,slipped_share,force_on_b_x_n,force_on_b_y_n,force_on_b_z_n,\
                       pressure_pa\n";
 
 /// Writes all files of a wall; `object` is what `--json` prints of it.
@@ -69,6 +72,7 @@ fn picture(asked: &Analyse, (file, fit): (&WallFile, &Fit), answer: &Answer, sta
     Picture {
         stones: state.stones.clone(),
         seams,
+        hinges: hinges(&state.joints, &state.conditions),
         measure: said(asked.colour, asked.solver).to_owned(),
         unit: asked.colour.unit(),
         from_front,
@@ -138,13 +142,13 @@ fn blocks_csv(file: &WallFile, answer: &Answer, state: &State) -> String {
 }
 
 fn joints_csv(file: &WallFile, state: &State) -> String {
-    let line = |joint: &JointState| {
+    let line = |(joint, condition): (&JointState, &Condition)| {
         let [a, b] = joint.blocks.map(|at| file.ids[at as usize]);
         let (place, force) = (row(&joint.place), row(&joint.force));
         let JointState { area, opening, slip, slipped, pressure, .. } = joint;
-        format!("{a},{b},{place},{area},{opening},{slip},{slipped},{force},{pressure}\n")
+        format!("{a},{b},{},{place},{area},{opening},{slip},{slipped},{force},{pressure}\n", condition.name())
     };
-    JOINTS.to_owned() + &state.joints.iter().map(line).collect::<String>()
+    JOINTS.to_owned() + &state.joints.iter().zip(&state.conditions).map(line).collect::<String>()
 }
 
 /// The object with its blocks and joints.
@@ -157,16 +161,9 @@ fn with_tables(object: &Value, file: &WallFile, answer: &Answer, state: &State) 
             "mechanism": list(&of.mechanism.shift), "mechanism_turn": list(&of.mechanism.turn),
         })
     };
-    let joint = |joint: &JointState| {
-        json!({
-            "blocks": joint.blocks.map(|at| file.ids[at as usize]), "place_m": list(&joint.place),
-            "area_m2": joint.area, "opening": joint.opening, "slip": joint.slip, "slipped_share": joint.slipped,
-            "force_on_second_n": list(&joint.force), "pressure_pa": joint.pressure,
-        })
-    };
     let mut whole = object.clone();
     whole["block_states"] = moved(file, answer, state).map(block).collect();
-    whole["joint_states"] = state.joints.iter().map(joint).collect();
+    whole["joint_states"] = joints::objects(file, &state.joints, &state.conditions);
     whole
 }
 

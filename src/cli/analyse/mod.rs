@@ -1,7 +1,10 @@
 //! `pirca analyse`: a wall that somebody else made, with one command.
 
 mod answer;
+mod arguments;
 mod files;
+mod joints;
+mod loads;
 mod meetings;
 mod numbers;
 mod solve;
@@ -10,7 +13,5 @@ mod upright;
 mod verb;
 mod worst;
 
-pub(crate) use numbers::{
-    Tolerance, cohesion, density, direction, friction_angle, length, step, stiffness, tolerance,
-};
+pub(crate) use arguments::Analyse;
 pub(crate) use verb::analyse;

@@ -24,6 +24,28 @@ pub(crate) fn step(text: &str) -> Result<f64, String> {
     within(text, 0.01..=45.0, "degrees")
 }
 
+/// Vertical share of the load, over its horizontal one.
+pub(crate) fn vertical(text: &str) -> Result<f64, String> {
+    within(text, -2.0..=2.0, "of the horizontal load")
+}
+
+/// A weight (N) on a block, as `12=1500`.
+pub(crate) fn dead_load(text: &str) -> Result<(u64, f64), String> {
+    of_a_block(text, "ID=N, as 12=1500", 0.0..=1e9, "N downwards")
+}
+
+/// How far (m) a block goes down, as `3=0.01`.
+pub(crate) fn settlement(text: &str) -> Result<(u64, f64), String> {
+    of_a_block(text, "ID=M, as 3=0.01", 0.0..=0.5, "m downwards")
+}
+
+/// The id of a block and a number.
+fn of_a_block(text: &str, form: &str, range: RangeInclusive<f64>, unit: &str) -> Result<(u64, f64), String> {
+    let (id, number) = text.split_once('=').ok_or_else(|| format!("allowed is {form}"))?;
+    let id = id.trim().parse().map_err(|_| format!("\"{id}\" is no id of a block; allowed is {form}"))?;
+    Ok((id, within(number.trim(), range, unit)?))
+}
+
 /// Density (kg/m^3).
 pub(crate) fn density(text: &str) -> Result<f64, String> {
     within(text, 10.0..=23_000.0, "kg/m^3")

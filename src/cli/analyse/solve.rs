@@ -1,15 +1,15 @@
 //! From the arguments to a solver and its answer.
 
 use crate::cli::analyse::answer::Answer;
+use crate::cli::analyse::arguments::{Analyse, FlowName, LoadName, MethodName};
 use crate::cli::analyse::meetings::Fit;
 use crate::cli::analyse::state::Found;
-use crate::cli::arguments::{Analyse, FlowName, LoadName, MethodName};
 use crate::cli::doing::doing;
 use crate::contact;
 use crate::law::{CohesionAfterSlip, Coulomb, NormalLaw, Sampling};
 use crate::math::{atan, cos, radians, tan};
 use crate::model::{Level, Outcome, Wall};
-use crate::protocol::{Changes, Confirmation, Criterion, LoadPath, Run, Task, drive_telling};
+use crate::protocol::{Changes, Confirmation, Criterion, LoadPath, Run, Settlement, Task, drive_telling};
 use crate::solve::explicit;
 use crate::solve::implicit::{self, Equilibrium};
 use crate::solve::{Equilibrate, Solver, limit};
@@ -46,14 +46,19 @@ pub(crate) fn law(arguments: &Analyse) -> Coulomb {
 }
 
 /// Solves the wall as asked.
-pub(crate) fn solve(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit) -> (Answer, Found) {
-    let what = format!("solving {} blocks by the {} solver", wall.blocks.len(), arguments.solver.name());
+pub(crate) fn solve(
+    arguments: &Analyse,
+    wall: (&Wall, &[Settlement]),
+    law: &Coulomb,
+    fit: &Fit,
+) -> (Answer, Found) {
+    let what = format!("solving {} blocks by the {} solver", wall.0.blocks.len(), arguments.solver.name());
     doing(&what, |doing| solve_telling(arguments, wall, law, fit, &|level| doing.at(level)))
 }
 
 pub(crate) fn solve_telling(
     arguments: &Analyse,
-    wall: &Wall,
+    (wall, settlements): (&Wall, &[Settlement]),
     law: &Coulomb,
     fit: &Fit,
     tell: &dyn Fn(Level),
@@ -62,7 +67,7 @@ pub(crate) fn solve_telling(
         MethodName::Limit => by_limit_analysis(arguments, wall, law, fit),
         MethodName::Implicit => {
             let settings = implicit::Settings::default();
-            let task = task(arguments, wall, law, fit);
+            let task = task(arguments, (wall, settlements), law, fit);
             let mut at_rest = Equilibrium::new(wall, law, settings, task.contact);
             at_rest.settle(&mut |_| false);
             let loose = Some(at_rest.loose().iter().map(|&i| i as usize).collect());
@@ -71,17 +76,23 @@ pub(crate) fn solve_telling(
         }
         MethodName::Explicit => {
             let solver = Solver::Explicit(explicit::Settings::default());
-            by_steps(drive_telling(&task(arguments, wall, law, fit), &solver, tell))
+            by_steps(drive_telling(&task(arguments, (wall, settlements), law, fit), &solver, tell))
         }
     }
 }
 
 /// The load path of the elastic solvers.
-fn task<'t>(arguments: &Analyse, wall: &'t Wall, law: &'t Coulomb, fit: &Fit) -> Task<'t> {
+fn task<'t>(
+    arguments: &Analyse,
+    (wall, settlements): (&'t Wall, &[Settlement]),
+    law: &'t Coulomb,
+    fit: &Fit,
+) -> Task<'t> {
     let (towards, step) = (arguments.direction, radians(arguments.step_deg.unwrap_or(STEP_DEG)));
     let path = match arguments.load {
         LoadName::Tilt => LoadPath::tilt(towards, step, radians(LARGEST_TILT_DEG), radians(BRACKET_DEG)),
-        LoadName::Lateral => LoadPath::multiplier(towards, tan(step), LARGEST_MULTIPLIER, BRACKET),
+        LoadName::Lateral => LoadPath::multiplier(towards, tan(step), LARGEST_MULTIPLIER, BRACKET)
+            .with_vertical(arguments.vertical.unwrap_or(0.0)),
     };
     Task {
         wall,
@@ -91,7 +102,7 @@ fn task<'t>(arguments: &Analyse, wall: &'t Wall, law: &'t Coulomb, fit: &Fit) ->
         loads: Vec::new(),
         ties: Vec::new(),
         platform: None,
-        changes: Changes::default(),
+        changes: Changes { settlements: settlements.to_vec(), ..Changes::default() },
         path,
         criterion: Criterion::AnyBlock(RUNS_AWAY * fit.thickness),
         confirmation: Confirmation::for_thickness(fit.thickness),
@@ -107,6 +118,7 @@ fn by_steps(run: Run) -> (Answer, Found) {
             .as_ref()
             .map_or_else(Vec::new, |f| f.moving.iter().map(|&i| i as usize).collect()),
         loose: None,
+        settled: run.settled_joints.clone(),
         bracket: run.bracket,
         meaning: format!("the largest load borne on the way, {} load steps", run.steps.len()),
         outcome: run.outcome.clone(),
@@ -124,7 +136,9 @@ fn by_limit_analysis(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit)
     let direction = arguments.direction.unit();
     let found = match arguments.load {
         LoadName::Tilt => analysis.tilt(direction, &[]),
-        LoadName::Lateral => analysis.multiplier(&limit::Loads::lateral(direction)),
+        LoadName::Lateral => {
+            analysis.multiplier(&limit::Loads::seismic(direction, arguments.vertical.unwrap_or(0.0)))
+        }
     };
     let speed = |i: usize| {
         let (motion, block) = (&found.mechanism[i], &wall.blocks[i]);
@@ -140,6 +154,7 @@ fn by_limit_analysis(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit)
     let answer = Answer {
         clamped: clamped(&analysis, wall, &found.outcome),
         between: found.between,
+        settled: Vec::new(),
         bracket: None,
         moving: (0..found.mechanism.len()).filter(|&i| falls && speed(i) > MOVES * fastest).collect(),
         loose: None,

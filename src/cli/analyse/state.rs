@@ -2,11 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use crate::cli::condition::{Condition, Parting, conditions};
 use crate::cli::drawn::stones;
 use crate::contact::{self, Patch, find_patch};
 use crate::math::Vec3;
 use crate::model::{Block, Wall};
-use crate::protocol::{JointState, Run};
+use crate::protocol::{Closing, JointState, Run};
 use crate::report::{Movement, Stone};
 use crate::solve::limit::{BlockMotion, Limit};
 
@@ -22,6 +23,8 @@ pub(crate) struct State {
     /// The joints: at the last state at rest; of limit analysis with the forces of the state found, and with the openings and slips
     /// of a mechanism whose fastest corner moves by 1 m.
     pub joints: Vec<JointState>,
+    /// The condition of each of them.
+    pub conditions: Vec<Condition>,
 }
 
 /// What a solver found of a wall, as it says it.
@@ -44,13 +47,14 @@ impl State {
     pub fn of(wall: &Wall, settings: &contact::Settings, found: &Found) -> State {
         match found {
             Found::Limit { found, falls, scale } => State::at_limit(wall, settings, found, (*falls, *scale)),
-            Found::Steps(run) => State::after(wall, run),
+            Found::Steps(run) => State::after(wall, settings, run),
         }
     }
 
     /// After steps of the load.
-    fn after(wall: &Wall, run: &Run) -> State {
-        State { stones: stones(wall, run), falls: run.failure.is_some(), joints: run.joint_states.clone() }
+    fn after(wall: &Wall, settings: &contact::Settings, run: &Run) -> State {
+        let (stones, falls, joints) = (stones(wall, run), run.failure.is_some(), run.joint_states.clone());
+        State { conditions: conditions((wall, settings), &stones, &joints, falls), stones, falls, joints }
     }
 
     /// Of a limit analysis, with the forces under the load as it stands at the end.
@@ -73,7 +77,8 @@ impl State {
             let patch = find_patch(&wall.blocks[a].shape, &wall.blocks[b].shape, settings)?;
             Some(joint(&stones, [a, b], &patch, thrust.force * scale))
         });
-        State { joints: joints.collect(), stones, falls }
+        let joints: Vec<JointState> = joints.collect();
+        State { conditions: conditions((wall, settings), &stones, &joints, falls), stones, falls, joints }
     }
 }
 
@@ -97,30 +102,25 @@ fn movements(wall: &Wall, found: &Limit) -> Vec<Movement> {
 
 /// A joint of a mechanism: how its blocks part and slip over it, and what the second one gets.
 fn joint(stones: &[Stone], blocks: [usize; 2], patch: &Patch, force: Vec3) -> JointState {
-    let speed = |id: usize, point: &Vec3| {
-        let (stone, movement) = (&stones[id], stones[id].movement);
-        movement.shift + movement.turn.cross(&(point - stone.shape.mass_properties().centroid))
+    let parting = Parting::of(stones, blocks, patch);
+    let (normal, moments) = (patch.plane.normal, patch.polygon.moments());
+    let gaps = |st: &[f64; 2]| {
+        let corner = patch.frame.lift(*st);
+        (corner, Parting::at(stones, blocks, patch, &corner) - parting.least)
     };
-    let (incident, reference) =
-        if patch.reference_is_second { (blocks[0], blocks[1]) } else { (blocks[1], blocks[0]) };
-    let normal = patch.plane.normal;
-    let parted = |point: &Vec3| (speed(incident, point) - speed(reference, point)).dot(&normal);
-    let moments = patch.polygon.moments();
-    let place = patch.frame.lift(moments.centroid());
-    let corners = patch.polygon.vertices.iter().map(|&st| patch.frame.lift(st));
-    let opening = corners.map(|corner| parted(&corner)).fold(0.0, f64::max);
-    let relative = speed(incident, &place) - speed(reference, &place);
-    let slip = (relative - normal * relative.dot(&normal)).norm();
-    let on_incident = if incident == blocks[1] { force } else { -force };
+    let corners: Vec<(Vec3, f64)> = patch.polygon.vertices.iter().map(gaps).collect();
+    let [opening, slip] = [parting.most, parting.slip].map(|x| if x > STILL { x } else { 0.0 });
+    let on_incident = if patch.reference_is_second { -force } else { force };
     JointState {
         blocks: blocks.map(|id| id as u32),
-        place,
+        place: patch.frame.lift(moments.centroid()),
         area: moments.area,
-        opening: if opening > STILL { opening } else { 0.0 },
-        slip: if slip > STILL { slip } else { 0.0 },
-        slipped: if slip > STILL { 1.0 } else { 0.0 },
+        opening,
+        slip,
+        slipped: if slip > 0.0 { 1.0 } else { 0.0 },
         crushed: 0.0,
         force,
         pressure: on_incident.dot(&normal) / moments.area,
+        closing: Closing::of(&corners, STILL),
     }
 }

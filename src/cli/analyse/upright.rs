@@ -1,7 +1,7 @@
 //! A wall that does not even stand at rest may lie on its back: another axis of its file points up.
 
+use crate::cli::analyse::arguments::UpName;
 use crate::cli::analyse::meetings::Fit;
-use crate::cli::arguments::UpName;
 use crate::law::Coulomb;
 use crate::math::Vec3;
 use crate::model::Wall;

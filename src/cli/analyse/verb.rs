@@ -4,19 +4,20 @@ use std::time::Instant;
 
 use serde_json::json;
 
+use crate::cli::analyse::arguments::{Analyse, FlowName, LoadName, MethodName, UpName};
+use crate::cli::analyse::loads::{loaded, settlements};
 use crate::cli::analyse::meetings::{Fit, bounds, look};
 use crate::cli::analyse::solve::{law, solve, solve_telling};
 use crate::cli::analyse::state::State;
 use crate::cli::analyse::worst::{Tried, tried, weakest};
 use crate::cli::analyse::{files, upright};
-use crate::cli::arguments::{Analyse, FlowName, LoadName, MethodName, UpName};
 use crate::cli::doing::doing;
 use crate::cli::failure::Failure;
 use crate::cli::output;
 use crate::exchange::{ReadOptions, Unit, Up, WallFaults, WallFile, read_wall};
 use crate::law::Coulomb;
 use crate::model::{Outcome, Support, Wall};
-use crate::protocol::Direction;
+use crate::protocol::{Direction, Settlement};
 use crate::solve::STANDARD_GRAVITY;
 
 /// A prestress above this share of the pressure under the wall's own weight is worth a warning.
@@ -27,7 +28,7 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
     let begun = Instant::now();
     let mut warnings = asked_in_vain(arguments)?;
     let (file, fit) = match read(arguments) {
-        Ok(read) => read,
+        Ok((file, fit)) => (WallFile { wall: loaded(&file, &arguments.dead_loads)?, ..file }, fit),
         Err(faults) if arguments.json => {
             output::print_json(&json!({
                 "outcome": "invalid_geometry",
@@ -43,10 +44,12 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
     warnings.extend(fit.warnings.iter().cloned());
     warnings.extend(prestress(arguments, &file.wall, &fit));
     let law = law(arguments);
-    let directions = directions(arguments, &file.wall, &law, &fit);
+    let settlements = settlements(&file, &arguments.settlements)?;
+    let wall = (&file.wall, &settlements[..]);
+    let directions = directions(arguments, wall, &law, &fit);
     let towards = weakest(&directions).map_or(arguments.direction, |of| Direction::at(of.direction_deg));
     let arguments = &Analyse { direction: towards, ..arguments.clone() };
-    let (answer, found) = solve(arguments, &file.wall, &law, &fit);
+    let (answer, found) = solve(arguments, wall, &law, &fit);
     warnings.extend(answer.warning(&file));
     if answer.outcome == Outcome::UnstableAtRest {
         warnings.extend(upright::question(
@@ -81,7 +84,7 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
 }
 
 /// All directions that are tried where the weakest one is asked for, with what the wall bears in each.
-fn directions(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit) -> Vec<Tried> {
+fn directions(arguments: &Analyse, wall: (&Wall, &[Settlement]), law: &Coulomb, fit: &Fit) -> Vec<Tried> {
     if !arguments.worst_direction {
         return Vec::new();
     }
@@ -123,7 +126,20 @@ fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
     if !is_obj(arguments) && arguments.up.is_some() {
         return Err(Failure::Usage("--up is for .obj files; in a wall.json z points up".to_owned()));
     }
+    if arguments.vertical.is_some() && arguments.load == LoadName::Tilt {
+        return Err(Failure::Usage(
+            "--vertical is for --load lateral, whose force has a direction; a tilt turns the whole weight: ask for that load, or leave --vertical out"
+                .to_owned(),
+        ));
+    }
     if arguments.solver == MethodName::Limit {
+        if !arguments.settlements.is_empty() {
+            return Err(Failure::Usage(
+                "--settle is for elastic joints: to rigid blocks a small settlement is a movement without forces, which no multiplier \
+                 depends on; ask --solver implicit --kn PA_PER_M, or move the support in the file"
+                    .to_owned(),
+            ));
+        }
         if arguments.kn.is_some() || arguments.ks.is_some() {
             warnings.push("limit analysis is of rigid blocks: --kn and --ks do not matter".to_owned());
         }

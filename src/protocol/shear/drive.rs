@@ -168,6 +168,7 @@ pub fn push(task: &Task<'_>, shear: &Shear, begin: Begin, tell: &dyn Fn(Level)) 
         failure: moved,
         events: Events::default(),
         joint_states: states,
+        settled_joints: Vec::new(),
         shear: read,
     }
 }

@@ -37,6 +37,15 @@ pub struct Seam {
     pub value: f64,
 }
 
+/// A hinge: the edge about which two blocks turn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hinge {
+    /// One of the blocks, by index.
+    pub block: usize,
+    /// The ends of the edge (m), where the block is at rest.
+    pub edge: [Vec3; 2],
+}
+
 /// A picture of a wall.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
@@ -44,6 +53,8 @@ pub struct Picture {
     pub stones: Vec<Stone>,
     /// The joints that may be coloured.
     pub seams: Vec<Seam>,
+    /// The hinges, each a dot.
+    pub hinges: Vec<Hinge>,
     /// What their values are, for the colour bar: "largest opening of a joint".
     pub measure: String,
     /// The unit in which the colour bar shows them, and how many of it make one of theirs.
@@ -80,6 +91,13 @@ impl Stone {
         let built = self.shape.mass_properties().centroid;
         let at_rest = self.before.taking(built, points);
         self.movement.times(magnification).taking(built + self.before.shift, &at_rest)
+    }
+
+    /// Points of the block where it is at rest, taken to where they are drawn. Where nothing falls, the movement is the one that led to
+    /// rest: points then are as good as built, as it is small but for its magnification.
+    pub(super) fn falling(&self, points: &[Vec3], magnification: f64) -> Vec<Vec3> {
+        let at_rest = self.shape.mass_properties().centroid + self.before.shift;
+        self.movement.times(magnification).taking(at_rest, points)
     }
 
     /// The block where it is drawn.

@@ -27,6 +27,10 @@ const PARALLEL: f64 = 0.99;
 const ON_FACE: f64 = 1e-3;
 /// Outlines that overlap by less than this share of the wall's height do not hide each other.
 const GRAZES: f64 = 5e-3;
+/// Radius of a dot (pixels).
+const DOT: f64 = 5.0;
+/// Cosine to the line of sight from which on an edge leads away from the viewer.
+const LEADS_AWAY: f64 = 0.5;
 /// Steps of the colour bar.
 const STEPS: usize = 40;
 
@@ -45,7 +49,9 @@ impl Picture {
         let below = HEADLINE + scale * (top - bottom) + LINE;
         let largest = self.seams.iter().map(|seam| seam.value).fold(0.0, f64::max);
         let coloured = largest > 0.0;
-        let bar = if coloured { 3.0 * LINE } else { 0.0 };
+        let dots = self.hinges.iter().filter(|hinge| hinge.block < shapes.len()).collect::<Vec<_>>();
+        let legend = if dots.is_empty() { 0.0 } else { LINE };
+        let bar = legend + if coloured { 3.0 * LINE } else { 0.0 };
         let tall = (below + bar + LINE * (self.remarks.len() as f64 + 1.0)).ceil();
         let mut text = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{tall}\" viewBox=\"0 0 {WIDTH} {tall}\" \
@@ -60,8 +66,19 @@ impl Picture {
         for block in back_to_front(&shapes, &view, GRAZES * (high - low)) {
             text += &self.block(block, &shapes[block], largest, &canvas);
         }
+        for hinge in &dots {
+            let ends = self.stones[hinge.block].falling(&hinge.edge, self.magnification);
+            text += &dot(&canvas.path(&[seen_of(&ends, &view)]));
+        }
         if coloured {
-            text += &self.bar(below, largest);
+            text += &self.bar(below + legend, largest);
+        }
+        if !dots.is_empty() {
+            let (x, y) = (MARGIN + DOT, below + 4.0);
+            let hinges = if dots.len() == 1 { "hinge" } else { "hinges" };
+            let said = format!("{} {hinges}: joints open but for an edge that presses", dots.len());
+            text += &dot(&format!("{x},{y}"));
+            text += &label(x + 2.0 * DOT, y + DOT, 14, &said);
         }
         for (line, remark) in self.remarks.iter().enumerate() {
             text += &label(MARGIN, below + bar + LINE * (line as f64 + 0.5), 15, remark);
@@ -178,6 +195,24 @@ impl Canvas {
             .collect();
         words.join(" ")
     }
+}
+
+/// The point of an edge at which it is marked: the end that comes nearer to the viewer where it leads away, else its middle.
+fn seen_of(ends: &[Vec3], view: &View) -> Vec3 {
+    let (from, to) = (ends[0], ends[ends.len() - 1]);
+    let away = view.nearness(&to) - view.nearness(&from);
+    if away.abs() < LEADS_AWAY * (to - from).norm() || away == 0.0 {
+        return (from + to) * 0.5;
+    }
+    if away > 0.0 { to } else { from }
+}
+
+/// A dot at a point as SVG writes it.
+fn dot(place: &str) -> String {
+    let (x, y) = place.split_once(',').unwrap_or((place, place));
+    format!(
+        "<circle cx=\"{x}\" cy=\"{y}\" r=\"{DOT}\" fill=\"#14213d\" stroke=\"#ffffff\" stroke-width=\"1.5\"/>\n"
+    )
 }
 
 fn polygon(points: &str, fill: &str, stroke: &str, width: f64) -> String {

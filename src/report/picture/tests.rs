@@ -4,7 +4,7 @@ use approx::assert_relative_eq;
 
 use super::order::back_to_front;
 use super::view::View;
-use super::{Movement, Picture, Seam, Stone, colour};
+use super::{Hinge, Movement, Picture, Seam, Stone, colour};
 use crate::math::{Vec3, radians};
 use crate::shape::Polyhedron;
 
@@ -27,6 +27,7 @@ fn picture() -> Picture {
     Picture {
         seams: vec![bed([0, 1], 0.5, 1e-3), bed([0, 2], 0.0, 4e-3)],
         stones,
+        hinges: Vec::new(),
         measure: "opening".to_owned(),
         unit: ("mm", 1e3),
         from_front: true,
@@ -122,6 +123,23 @@ fn faces_and_joints_that_are_seen_are_drawn() {
 }
 
 /// Without a joint that did something there is no scale to read it from.
+#[test]
+fn a_hinge_is_a_dot_at_the_near_end_of_an_edge_that_leads_away() {
+    let mut picture = picture();
+    let without = picture.svg();
+    // Along y the front end is nearer, and is taken instead of the middle.
+    let along_y = [Vec3::new(1.0, 0.0, 0.5), Vec3::new(1.0, 0.2, 0.5)];
+    picture.hinges = vec![Hinge { block: 1, edge: along_y }, Hinge { block: 9, edge: along_y }];
+    let with = picture.svg();
+    picture.hinges[0].edge = [along_y[1]; 2];
+    assert_eq!(picture.svg(), with);
+    picture.hinges[0].edge = [along_y[0]; 2];
+    assert_ne!(picture.svg(), with);
+    // One in the wall and one in the legend; a block that is not there has none.
+    assert_eq!(with.matches("<circle").count(), 2);
+    assert!(with.contains("1 hinge: joints open") && !without.contains("<circle"));
+}
+
 #[test]
 fn a_wall_whose_joints_did_nothing_has_no_colour_bar() {
     let mut still = picture();

@@ -8,6 +8,8 @@ use crate::solve::{Assembly, Equilibrate, Settled, Status};
 
 /// Steps between two looks at the unbalanced force ratio.
 const STEPS_BETWEEN_LOOKS: u64 = 10;
+/// Steps in which bodies are let down. In one step what stands on them would fall after them, bounce, and slip meanwhile.
+const STEPS_DOWN: u32 = 1000;
 
 /// An assembly stepped in time.
 #[derive(Clone)]
@@ -116,6 +118,17 @@ impl<'a> Equilibrate<'a> for Simulation<'a> {
 
     fn assembly_mut(&mut self) -> &mut Assembly<'a> {
         &mut self.assembly
+    }
+
+    fn lower(&mut self, down: &[(usize, f64)], stop: &mut dyn FnMut(&Bodies) -> bool) -> Settled {
+        let at_a_time: Vec<(usize, f64)> =
+            down.iter().map(|(body, way)| (*body, way / f64::from(STEPS_DOWN))).collect();
+        for _ in 0..STEPS_DOWN {
+            self.assembly.lower(&at_a_time);
+            self.step();
+        }
+        let settled = self.settle(stop);
+        Settled { steps: settled.steps + u64::from(STEPS_DOWN), ..settled }
     }
 
     fn settle(&mut self, stop: &mut dyn FnMut(&Bodies) -> bool) -> Settled {

@@ -185,6 +185,13 @@ impl Joint {
         self.polygon.vertices.iter().map(|v| gap.at(v)).fold(f64::NEG_INFINITY, f64::max)
     }
 
+    /// The corners of the joint in world coordinates (m), each with its gap (m): negative where it is pressed.
+    pub fn corners(&self, bodies: &[Body]) -> Vec<(Vec3, f64)> {
+        let pose = self.pose(bodies);
+        let corner = |v: &[f64; 2]| (pose.origin + pose.s * v[0] + pose.t * v[1], pose.gap.at(v));
+        self.polygon.vertices.iter().map(corner).collect()
+    }
+
     /// Share of the sub-contacts that have slipped at any time.
     pub fn slipped_share(&self) -> f64 {
         let slipped = self.states.iter().filter(|state| state.slipped).count();

@@ -47,6 +47,12 @@ impl Loads {
         Loads { live: direction.normalize() * STANDARD_GRAVITY, ..Loads::weight() }
     }
 
+    /// The same with a vertical share: lambda times the weight along `direction`, and `vertical` lambda times the weight upwards.
+    pub fn seismic(direction: Vec3, vertical: f64) -> Self {
+        let lateral = Loads::lateral(direction);
+        Loads { live: lateral.live + Vec3::z() * (vertical * STANDARD_GRAVITY), ..lateral }
+    }
+
     /// The direction in which the live loads push on the whole; zero when nothing is live.
     pub(crate) fn push(&self) -> Vec3 {
         let points = self.points.iter().filter(|p| p.when == When::Live);

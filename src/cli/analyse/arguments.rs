@@ -1,0 +1,175 @@
+//! The arguments of `analyse`, as clap reads them; their docstrings are the help.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use crate::cli::analyse::numbers;
+use crate::cli::arguments::{FILE, JOINTS, LOAD, Measure, OUTPUT, SOLUTION};
+use crate::protocol::Direction;
+
+/// Arguments of `analyse`.
+#[derive(Clone, Args, Debug)]
+pub(crate) struct Analyse {
+    /// The wall: a .json or .obj file.
+    pub wall: PathBuf,
+    /// Solver. Limit analysis takes rigid blocks and needs no stiffness.
+    #[arg(long, value_name = "NAME", default_value = "limit", help_heading = SOLUTION)]
+    pub solver: MethodName,
+    /// Load: gravity turns towards the direction (to at most 89 deg), or a multiple of the weight pushes there (to at most 10).
+    #[arg(long, value_name = "NAME", default_value = "tilt", help_heading = LOAD)]
+    pub load: LoadName,
+    /// Direction of the load: x+, x-, y+ or y-, or an angle in degrees from x+, counter-clockwise seen from above (90 is y+).
+    #[arg(
+        long,
+        value_name = "NAME|DEG",
+        default_value = "y+",
+        value_parser = numbers::direction,
+        allow_negative_numbers = true,
+        help_heading = LOAD
+    )]
+    pub direction: Direction,
+    /// Look for the horizontal direction in which the wall bears least, and answer for that one.
+    #[arg(long, conflicts_with = "direction", help_heading = LOAD)]
+    pub worst_direction: bool,
+    /// Vertical share of --load lateral: a multiplier x pushes with V x times the weight upwards besides, which lightens the wall;
+    /// downwards where V is below 0. A number from -2 to 2 [default: 0].
+    #[arg(long, value_name = "V", value_parser = numbers::vertical, allow_negative_numbers = true, help_heading = LOAD)]
+    pub vertical: Option<f64>,
+    /// A weight (N) that rests on a block that moves, at its centroid, as of a roof or a floor: it turns and pushes with the load
+    /// as the block's own weight does. For several blocks, several times.
+    #[arg(
+        long = "dead-load",
+        value_name = "ID=N",
+        value_parser = numbers::dead_load,
+        allow_negative_numbers = true,
+        help_heading = LOAD
+    )]
+    pub dead_loads: Vec<(u64, f64)>,
+    /// A fixed block that goes down by so many metres, gradually, under the wall at rest before the load grows; for implicit and
+    /// explicit. For several supports, several times: they go down together.
+    #[arg(
+        long = "settle",
+        value_name = "ID=M",
+        value_parser = numbers::settlement,
+        allow_negative_numbers = true,
+        help_heading = LOAD
+    )]
+    pub settlements: Vec<(u64, f64)>,
+    /// Friction angle of the joints (deg), 0 to 89.
+    #[arg(long, value_name = "F", value_parser = numbers::friction_angle, allow_negative_numbers = true, help_heading = JOINTS)]
+    pub phi_deg: f64,
+    /// Normal stiffness of the joints per area (Pa/m); required for implicit and explicit.
+    #[arg(long, value_name = "PA_PER_M", value_parser = numbers::stiffness, allow_negative_numbers = true, help_heading = JOINTS)]
+    pub kn: Option<f64>,
+    /// Shear stiffness of the joints per area (Pa/m) [default: kn / 2].
+    #[arg(long, value_name = "PA_PER_M", value_parser = numbers::stiffness, allow_negative_numbers = true, help_heading = JOINTS)]
+    pub ks: Option<f64>,
+    /// Cohesion of the joints (Pa).
+    #[arg(long, value_name = "PA", default_value = "0", value_parser = numbers::cohesion, allow_negative_numbers = true, help_heading = JOINTS)]
+    pub cohesion: f64,
+    /// Whether joints dilate when they slide, for limit analysis [default: associative, an upper bound].
+    #[arg(long, value_name = "NAME", help_heading = SOLUTION)]
+    pub flow: Option<FlowName>,
+    /// Step of the tilt (deg) for implicit and explicit [default: 0.5]; with --load lateral its tangent is the step.
+    #[arg(long, value_name = "F", value_parser = numbers::step, allow_negative_numbers = true, help_heading = LOAD)]
+    pub step_deg: Option<f64>,
+    /// Blocks closer than this touch: a length with its unit (2mm, 0.5cm, 0.002 m; at most a tenth of a stone), or a share of the
+    /// size of what moves, corner to corner (1e-12 to 0.001). Deeper overlaps are told, and wider gaps up to a tenth of a stone.
+    #[arg(long, value_name = "LENGTH", default_value = "1e-6", value_parser = numbers::tolerance, allow_negative_numbers = true, help_heading = FILE)]
+    pub touch_tolerance: numbers::Tolerance,
+    /// Make faces plane whose corners lie up to this length off their plane (2mm), or 1/20 of their block if that is less; how far
+    /// corners were moved is told [default: 1e-4 of a block is allowed, and nothing is moved].
+    #[arg(long, value_name = "LENGTH", value_parser = numbers::length, allow_negative_numbers = true, help_heading = FILE)]
+    pub flatness: Option<f64>,
+    /// Axis of an OBJ file that points up [default: z]. With y, its x, y, z become x, z, -y: its -z is out of plane, to the front.
+    #[arg(long, value_name = "NAME", help_heading = FILE)]
+    pub up: Option<UpName>,
+    /// Unit of the coordinates of an OBJ file [default: m].
+    #[arg(long, value_name = "NAME", help_heading = FILE)]
+    pub unit: Option<UnitName>,
+    /// Density (kg/m^3) of the objects of an OBJ file that have no density comment [default: 2400, with a warning].
+    #[arg(long, value_name = "F", value_parser = numbers::density, allow_negative_numbers = true, help_heading = FILE)]
+    pub density_kg_per_m3: Option<f64>,
+    /// Folder for a picture of the mechanism, files for ParaView (.vtu), and tables of blocks and joints (.csv, .json).
+    #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
+    pub out: Option<PathBuf>,
+    /// What joints are coloured by in the picture.
+    #[arg(long, value_name = "NAME", default_value = "opening", requires = "out", help_heading = OUTPUT)]
+    pub colour: Measure,
+    /// Print one JSON object on standard output instead of text.
+    #[arg(long, help_heading = OUTPUT)]
+    pub json: bool,
+}
+
+/// Declares a closed set of names for an argument: the value, its name, what it is.
+macro_rules! names {
+    ($(#[$about:meta])* $set:ident { $($(#[$what:meta])* $value:ident = $name:literal,)+ }) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+        pub(crate) enum $set {
+            $($(#[$what])* #[value(name = $name)] $value,)+
+        }
+
+        impl $set {
+            /// The name as the user writes it.
+            pub fn name(&self) -> &'static str {
+                match self { $($set::$value => $name,)+ }
+            }
+        }
+    };
+}
+
+names! {
+    /// How a wall from elsewhere is solved.
+    MethodName {
+        /// Limit analysis of rigid blocks.
+        Limit = "limit",
+        /// Elastic joints, equilibrium by Newton's method.
+        Implicit = "implicit",
+        /// Elastic joints, steps in time with damping (DEM).
+        Explicit = "explicit",
+    }
+}
+
+names! {
+    /// What grows until the wall falls.
+    LoadName {
+        /// Gravity turns towards the direction.
+        Tilt = "tilt",
+        /// A multiple of the weight pushes in the direction.
+        Lateral = "lateral",
+    }
+}
+
+names! {
+    /// Flow rules of limit analysis.
+    FlowName {
+        /// Sliding dilates by the friction angle: an upper bound.
+        Associative = "associative",
+        /// Sliding does not dilate: neither a bound nor unique.
+        NonAssociative = "non-associative",
+    }
+}
+
+names! {
+    /// Axes that may point up.
+    UpName {
+        /// The second one, as programs for pictures have it.
+        Y = "y",
+        /// The third one.
+        Z = "z",
+    }
+}
+
+names! {
+    /// Units of length.
+    UnitName {
+        /// Metres.
+        Metre = "m",
+        /// Centimetres.
+        Centimetre = "cm",
+        /// Millimetres.
+        Millimetre = "mm",
+    }
+}
