@@ -665,6 +665,18 @@ fn joints_carry_what_stands_on_them_and_a_tower_turns_about_its_foot() {
         assert!(file("mechanism.svg").contains("1 hinge: joints open but for an edge that presses"));
         assert_eq!(file("rest.vtu").contains("Name=\"displacement\""), solver != "limit");
         assert!(file("mechanism.vtu").contains("NumberOfCells=\"7\""));
+        let glb = fs::read(folder.path(&format!("{solver}/wall.glb"))).expect("wall.glb");
+        assert_eq!(
+            (&glb[..4], u32::from_le_bytes(glb[8..12].try_into().unwrap()) as usize),
+            (&b"glTF"[..], glb.len())
+        );
+        // Six blocks turn, each by a place and a rotation; the ground does not.
+        let described: Value = serde_json::from_slice(
+            &glb[20..20 + u32::from_le_bytes(glb[12..16].try_into().unwrap()) as usize],
+        )
+        .expect("JSON");
+        assert_eq!(described["meshes"].as_array().expect("meshes").len(), 7);
+        assert_eq!(described["animations"][0]["channels"].as_array().expect("channels").len(), 12);
     }
 }
 

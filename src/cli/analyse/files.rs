@@ -19,7 +19,7 @@ use crate::exchange::WallFile;
 use crate::math::Vec3;
 use crate::model::{Block, Support, Wall};
 use crate::protocol::JointState;
-use crate::report::{Movement, Picture, Stone, quoted, write_vtu};
+use crate::report::{Actor, Movement, Picture, Role, Stone, quoted, write_glb, write_vtu};
 
 /// Columns of `blocks.csv` and `joints.csv`.
 const BLOCKS: &str = "block,name,fixed,moves,rest_x_m,rest_y_m,rest_z_m,rest_turn_x_rad,rest_turn_y_rad,rest_turn_z_rad,\
@@ -51,7 +51,35 @@ pub(crate) fn write(
     for (name, text) in files {
         replace_file(&folder.join(name), text.as_bytes())?;
     }
+    replace_file(&folder.join("wall.glb"), &animation(asked, file, (answer, state), picture.magnification))?;
     Ok(())
+}
+
+/// The wall as built, as it rests, and as it falls.
+fn animation(
+    asked: &Analyse,
+    file: &WallFile,
+    (answer, state): (&Answer, &State),
+    magnification: f64,
+) -> Vec<u8> {
+    let role = |at: usize| match () {
+        () if file.wall.blocks[at].support == Support::Fixed => Role::Fixed,
+        () if state.falls && answer.moving.contains(&at) => Role::Moving,
+        () => Role::Standing,
+    };
+    let name = |at: usize| format!("{} {}", file.ids[at], file.names[at]).trim().to_owned();
+    let actors: Vec<Actor> = state
+        .stones
+        .iter()
+        .enumerate()
+        .map(|(at, stone)| Actor { name: name(at), stone, role: role(at) })
+        .collect();
+    write_glb(&title(asked), &actors, magnification)
+}
+
+/// What a wall is called.
+fn title(asked: &Analyse) -> String {
+    asked.wall.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
 /// The wall as it falls, its joints coloured as asked.
@@ -77,12 +105,7 @@ fn picture(asked: &Analyse, (file, fit): (&WallFile, &Fit), answer: &Answer, sta
         unit: asked.colour.unit(),
         from_front,
         magnification,
-        title: format!(
-            "{}: {} solver, phi {} deg",
-            asked.wall.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
-            asked.solver.name(),
-            asked.phi_deg
-        ),
+        title: format!("{}: {} solver, phi {} deg", title(asked), asked.solver.name(), asked.phi_deg),
         remarks,
     }
 }

@@ -73,8 +73,13 @@ impl Movement {
     /// None.
     pub const NONE: Movement = Movement { shift: Vec3::new(0.0, 0.0, 0.0), turn: Vec3::new(0.0, 0.0, 0.0) };
 
+    /// Whether there is any.
+    pub(in crate::report) fn moves(&self) -> bool {
+        *self != Movement::NONE
+    }
+
     /// The same movement `factor` times as large.
-    fn times(&self, factor: f64) -> Movement {
+    pub(in crate::report) fn times(&self, factor: f64) -> Movement {
         Movement { shift: self.shift * factor, turn: self.turn * factor }
     }
 

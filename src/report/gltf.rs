@@ -1,0 +1,334 @@
+//! A wall that moves as binary glTF 2.0 (`.glb`), for browsers, viewers and slides: one mesh per block, one animation from as built over
+//! rest to the fall.
+//!
+//! Blocks keep their shape: each is a node with a translation and a rotation, and between two key frames a viewer turns it about one
+//! axis, which is how a mechanism turns it. Numbers are of single precision, as the format has it, and a root node turns our upward z
+//! to its upward y.
+
+use std::collections::BTreeMap;
+
+use gltf_json::accessor::{ComponentType, GenericComponentType, Type};
+use gltf_json::animation::{Channel, Interpolation, Property, Sampler, Target};
+use gltf_json::buffer::{self, View};
+use gltf_json::mesh::{Mode, Primitive, Semantic};
+use gltf_json::scene::UnitQuaternion;
+use gltf_json::validation::{Checked::Valid, USize64};
+use gltf_json::{Accessor, Animation, Buffer, Index, Material, Mesh, Node, Root, Scene};
+use nalgebra::Quaternion;
+
+use crate::math::{Vec3, cos, sin};
+use crate::report::picture::Stone;
+use crate::shape::Polyhedron;
+
+/// When a viewer shows the wall as built, at rest, and where its fall is drawn (s).
+const BUILT: f64 = 0.0;
+const AT_REST: f64 = 1.0;
+const FALLEN: f64 = 4.0;
+/// A quarter turn about x, backwards: from z upwards to y upwards.
+const UPRIGHT: [f32; 4] = [-std::f32::consts::FRAC_1_SQRT_2, 0.0, 0.0, std::f32::consts::FRAC_1_SQRT_2];
+
+/// What a block is, for its colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Role {
+    /// It is held.
+    Fixed,
+    /// It stands.
+    Standing,
+    /// It takes part in the mechanism.
+    Moving,
+}
+
+impl Role {
+    const ALL: [Role; 3] = [Role::Fixed, Role::Standing, Role::Moving];
+
+    /// Name and colour (linear RGB).
+    fn look(self) -> (&'static str, [f32; 3]) {
+        match self {
+            Role::Fixed => ("fixed", [0.25, 0.25, 0.25]),
+            Role::Standing => ("standing", [0.55, 0.52, 0.46]),
+            Role::Moving => ("moving", [0.80, 0.35, 0.08]),
+        }
+    }
+}
+
+/// A block of the animation.
+pub struct Actor<'a> {
+    /// Its name in the viewer.
+    pub name: String,
+    /// Its shape, and how it moves.
+    pub stone: &'a Stone,
+    /// What it is.
+    pub role: Role,
+}
+
+/// The file: blocks from as built to where they rest in their true size, and from there along the mechanism times `magnification`;
+/// where nothing falls, along what they moved to rest by, times `magnification`.
+pub fn write_glb(title: &str, actors: &[Actor], magnification: f64) -> Vec<u8> {
+    let mut file = File::new();
+    let materials: BTreeMap<Role, Index<Material>> =
+        Role::ALL.into_iter().map(|role| (role, file.material(role))).collect();
+    let times = file.accessor(&[[BUILT], [AT_REST], [FALLEN]], Type::Scalar, None);
+    let mut animation = Animation {
+        channels: Vec::new(),
+        samplers: Vec::new(),
+        name: Some("fall".to_owned()),
+        extensions: None,
+        extras: Default::default(),
+    };
+    let mut nodes = Vec::new();
+    for Actor { name, stone, role } in actors {
+        let mesh = file.mesh(name, &stone.shape, materials[role]);
+        let (places, turns) = frames(stone, magnification);
+        let node = file.root.push(Node {
+            mesh: Some(mesh),
+            name: Some(name.clone()),
+            translation: Some(places[0].map(|x| x as f32)),
+            ..Node::default()
+        });
+        nodes.push(node);
+        if !stone.before.moves() && !stone.movement.moves() {
+            continue;
+        }
+        let outputs = [
+            (Property::Translation, file.accessor(&places, Type::Vec3, None)),
+            (Property::Rotation, file.accessor(&turns, Type::Vec4, None)),
+        ];
+        for (path, output) in outputs {
+            let sampler = Sampler {
+                input: times,
+                interpolation: Valid(Interpolation::Linear),
+                output,
+                extensions: None,
+                extras: Default::default(),
+            };
+            let sampler = Index::push(&mut animation.samplers, sampler);
+            let target = Target { node, path: Valid(path), extensions: None, extras: Default::default() };
+            animation.channels.push(Channel {
+                sampler,
+                target,
+                extensions: None,
+                extras: Default::default(),
+            });
+        }
+    }
+    file.finish(title, nodes, animation)
+}
+
+/// Where the centroid is at each key frame (m), and how the block is turned there (a quaternion, its scalar last).
+fn frames(stone: &Stone, magnification: f64) -> ([[f64; 3]; 3], [[f64; 4]; 3]) {
+    let (before, fall) = (stone.before, stone.movement.times(magnification));
+    let built = stone.shape.mass_properties().centroid;
+    let rests = built + before.shift;
+    let turned = rotation(&before.turn);
+    let turns = [Quaternion::identity(), turned, rotation(&fall.turn) * turned];
+    let places = [built, rests, rests + fall.shift];
+    (places.map(|own| [own.x, own.y, own.z]), turns.map(|own| [own.i, own.j, own.k, own.w]))
+}
+
+/// A rotation vector (rad) as a quaternion.
+fn rotation(turn: &Vec3) -> Quaternion<f64> {
+    let angle = turn.norm();
+    if angle == 0.0 {
+        return Quaternion::identity();
+    }
+    let axis = turn * (sin(0.5 * angle) / angle);
+    Quaternion::new(cos(0.5 * angle), axis.x, axis.y, axis.z)
+}
+
+/// A file in the making: what is described, and the numbers.
+struct File {
+    root: Root,
+    bytes: Vec<u8>,
+}
+
+impl File {
+    fn new() -> File {
+        let mut root = Root::default();
+        root.asset.generator = Some(format!("pirca {}", env!("CARGO_PKG_VERSION")));
+        // The one buffer is what follows the description; its length is known at the end.
+        root.push(Buffer {
+            byte_length: USize64(0),
+            name: None,
+            uri: None,
+            extensions: None,
+            extras: Default::default(),
+        });
+        File { root, bytes: Vec::new() }
+    }
+
+    fn material(&mut self, role: Role) -> Index<Material> {
+        let (name, [red, green, blue]) = role.look();
+        let mut material = Material { name: Some(name.to_owned()), ..Material::default() };
+        material.pbr_metallic_roughness.base_color_factor.0 = [red, green, blue, 1.0];
+        material.pbr_metallic_roughness.metallic_factor.0 = 0.0;
+        material.pbr_metallic_roughness.roughness_factor.0 = 0.9;
+        self.root.push(material)
+    }
+
+    /// Numbers in rows, with the least and the greatest of each column.
+    fn accessor<const N: usize>(
+        &mut self,
+        rows: &[[f64; N]],
+        kind: Type,
+        of: Option<buffer::Target>,
+    ) -> Index<Accessor> {
+        let rows: Vec<[f32; N]> = rows.iter().map(|row| row.map(|x| x as f32)).collect();
+        let start = self.bytes.len();
+        rows.iter().flatten().for_each(|x| self.bytes.extend(x.to_le_bytes()));
+        let view = self.root.push(View {
+            buffer: Index::new(0),
+            byte_length: USize64::from(self.bytes.len() - start),
+            byte_offset: Some(USize64::from(start)),
+            byte_stride: None,
+            name: None,
+            target: of.map(Valid),
+            extensions: None,
+            extras: Default::default(),
+        });
+        let column = |of: fn(f32, f32) -> f32| {
+            let ends: Vec<f32> =
+                (0..N).map(|at| rows.iter().map(|row| row[at]).reduce(of).unwrap_or(0.0)).collect();
+            Some(serde_json::json!(ends))
+        };
+        self.root.push(Accessor {
+            buffer_view: Some(view),
+            byte_offset: None,
+            count: USize64::from(rows.len()),
+            component_type: Valid(GenericComponentType(ComponentType::F32)),
+            type_: Valid(kind),
+            min: column(f32::min),
+            max: column(f32::max),
+            name: None,
+            normalized: false,
+            sparse: None,
+            extensions: None,
+            extras: Default::default(),
+        })
+    }
+
+    /// The block about its centroid: triangles with the normals of their faces, so that edges stay sharp.
+    fn mesh(&mut self, name: &str, shape: &Polyhedron, material: Index<Material>) -> Index<Mesh> {
+        let centroid = shape.mass_properties().centroid;
+        let (mut corners, mut normals) = (Vec::new(), Vec::new());
+        for face in &shape.faces {
+            let at = |k: usize| shape.vertices[face[k] as usize] - centroid;
+            for k in 1..face.len() - 1 {
+                let triangle = [at(0), at(k), at(k + 1)];
+                let normal = (triangle[1] - triangle[0]).cross(&(triangle[2] - triangle[0])).normalize();
+                for corner in triangle {
+                    corners.push([corner.x, corner.y, corner.z]);
+                    normals.push([normal.x, normal.y, normal.z]);
+                }
+            }
+        }
+        let vertices = Some(buffer::Target::ArrayBuffer);
+        let attributes = BTreeMap::from([
+            (Valid(Semantic::Positions), self.accessor(&corners, Type::Vec3, vertices)),
+            (Valid(Semantic::Normals), self.accessor(&normals, Type::Vec3, vertices)),
+        ]);
+        let primitive = Primitive {
+            attributes,
+            indices: None,
+            material: Some(material),
+            mode: Valid(Mode::Triangles),
+            targets: None,
+            extensions: None,
+            extras: Default::default(),
+        };
+        self.root.push(Mesh {
+            primitives: vec![primitive],
+            weights: None,
+            name: Some(name.to_owned()),
+            extensions: None,
+            extras: Default::default(),
+        })
+    }
+
+    /// The bytes of the file: a header, the description padded by blanks, the numbers, which come in fours.
+    fn finish(mut self, title: &str, blocks: Vec<Index<Node>>, animation: Animation) -> Vec<u8> {
+        let wall = self.root.push(Node {
+            children: Some(blocks),
+            rotation: Some(UnitQuaternion(UPRIGHT)),
+            name: Some(title.to_owned()),
+            ..Node::default()
+        });
+        let scene = self.root.push(Scene {
+            nodes: vec![wall],
+            name: Some(title.to_owned()),
+            extensions: None,
+            extras: Default::default(),
+        });
+        self.root.scene = Some(scene);
+        if !animation.channels.is_empty() {
+            self.root.push(animation);
+        }
+        self.root.buffers[0].byte_length = USize64::from(self.bytes.len());
+        let mut json =
+            serde_json::to_vec(&self.root).expect("a description has string keys and finite numbers only");
+        json.resize(json.len().next_multiple_of(4), b' ');
+        let mut file = Vec::new();
+        file.extend(b"glTF");
+        let length = 12 + 8 + json.len() + 8 + self.bytes.len();
+        [2, length as u32].iter().for_each(|number| file.extend(number.to_le_bytes()));
+        for (kind, chunk) in [(b"JSON", &json), (b"BIN\0", &self.bytes)] {
+            file.extend((chunk.len() as u32).to_le_bytes());
+            file.extend(kind);
+            file.extend(chunk);
+        }
+        file
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::picture::Movement;
+    use std::f64::consts::FRAC_PI_2;
+
+    /// The description and the numbers of a file.
+    fn parts(file: &[u8]) -> (Root, Vec<f32>) {
+        let number =
+            |at: usize| u32::from_le_bytes(file[at..at + 4].try_into().expect("four bytes")) as usize;
+        assert_eq!((&file[..4], number(4), number(8)), (&b"glTF"[..], 2, file.len()));
+        let json = number(12);
+        assert_eq!((&file[16..20], json % 4), (&b"JSON"[..], 0));
+        let root: Root = serde_json::from_slice(&file[20..20 + json]).expect("a description");
+        assert_eq!((number(20 + json), &file[24 + json..28 + json]), (file.len() - 28 - json, &b"BIN\0"[..]));
+        let numbers =
+            file[28 + json..].chunks(4).map(|four| f32::from_le_bytes(four.try_into().expect("four")));
+        (root, numbers.collect())
+    }
+
+    #[test]
+    fn a_block_goes_to_rest_and_turns_from_there_about_one_axis() {
+        let shape = Polyhedron::cuboid(Vec3::new(0.0, 0.0, 0.0), Vec3::new(0.2, 0.2, 0.4));
+        let before = Movement { shift: Vec3::new(0.0, 0.0, -0.01), turn: Vec3::zeros() };
+        let movement =
+            Movement { shift: Vec3::new(0.0, 0.1, 0.0), turn: Vec3::new(-0.5 * FRAC_PI_2, 0.0, 0.0) };
+        let moving = Stone { shape: shape.clone(), before, movement };
+        let still = Stone { shape, before: Movement::NONE, movement: Movement::NONE };
+        let actor = |name: &str, stone, role| Actor { name: name.to_owned(), stone, role };
+        let actors = [actor("0", &still, Role::Fixed), actor("1", &moving, Role::Moving)];
+        let (root, numbers) = parts(&write_glb("tower", &actors, 2.0));
+        // The one that is held has no channel.
+        assert_eq!(root.animations[0].channels.len(), 2);
+        assert_eq!((root.meshes.len(), root.nodes.len()), (2, 3));
+        let of = |channel: usize| {
+            let sampler = &root.animations[0].samplers[channel];
+            let accessor = &root.accessors[sampler.output.value()];
+            let view = &root.buffer_views[accessor.buffer_view.expect("a view").value()];
+            let from = view.byte_offset.expect("an offset").0 as usize / 4;
+            numbers[from..from + view.byte_length.0 as usize / 4].to_vec()
+        };
+        assert_eq!(of(0), [0.1, 0.1, 0.2, 0.1, 0.1, 0.19, 0.1, 0.3, 0.19]);
+        // Twice an eighth of a turn is a quarter turn about x, backwards.
+        let half = std::f32::consts::FRAC_1_SQRT_2;
+        let (turns, wanted) = (of(1), [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, -half, 0.0, 0.0, half]);
+        assert!(turns.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-6), "{turns:?}");
+        // Twelve triangles, each corner with the normal of its face.
+        let [corners, normals] = [Semantic::Positions, Semantic::Normals]
+            .map(|of| &root.accessors[root.meshes[0].primitives[0].attributes[&Valid(of)].value()]);
+        assert_eq!((corners.count.0, normals.count.0), (36, 36));
+        assert_eq!(corners.max, Some(serde_json::json!([0.1_f32, 0.1_f32, 0.2_f32])));
+    }
+}
