@@ -157,6 +157,7 @@ impl<'s> Draws<'s> {
             Column::from(Series::new("kn_pa_per_m".into(), kn)),
             count("run", &|own| own.draw.run()),
             count("moves", &|own| own.draw.moves.len() as u64),
+            count("shifts", &|own| own.draw.shift.len() as u64),
             Column::from(Series::new("value".into(), walls.iter().map(value).collect::<Vec<_>>())),
             Column::from(Series::new("stood_to_the_end".into(), walls.iter().map(stood).collect::<Vec<_>>())),
         ];
