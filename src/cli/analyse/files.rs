@@ -81,7 +81,7 @@ fn picture(asked: &Analyse, (file, fit): (&WallFile, &Fit), answer: &Answer, sta
             "{}: {} solver, phi {} deg",
             asked.wall.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
             asked.solver.name(),
-            asked.phi_deg
+            asked.phi_deg.middle()
         ),
         remarks,
     }
