@@ -255,6 +255,12 @@ Example: pirca analyse wall.json --phi-deg 30
          pirca analyse wall.json --phi-deg 35 --worst-direction --out seen
          pirca analyse wall.json --phi-deg 35 --load lateral --vertical 0.3 --dead-load 12=1500
          pirca analyse wall.json --phi-deg 35 --solver implicit --kn 1e9 --settle 0=0.01
+         pirca analyse wall.json --phi-deg 30..38 --solver implicit --kn 5e7..5e8 --density normal(2200,80)
+
+Ranges: of --phi-deg, --kn and --density a number, LOW..HIGH, or uniform(low, high), triangular(low, mode, high), normal(mean, sd), \
+lognormal(mean, sd), truncated_normal(mean, sd, low, high), truncated_lognormal(median, log_sd, low, high). The wall is then solved \
+with the middle values, at the ends of each parameter (the 5 and 95 % points of a distribution), and over a design. With --out the \
+evaluations are in uncertainty.csv, .svg and .png.
 
 wall.json: {\"unit\": \"m\", \"blocks\": [{\"id\": 0, \"vertices\": [[x, y, z], ...], \"faces\": [[i, j, k, ...], ...], \
 \"density\": 2400, \"fixed\": false, \"tag\": \"stone\", \"group\": \"keystone\"}, ...]}. Convex blocks; faces count their \

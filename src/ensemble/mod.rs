@@ -7,6 +7,7 @@ mod enough;
 mod error;
 mod evaluate;
 mod files;
+mod given;
 mod influence;
 mod journal;
 mod kept;
@@ -25,6 +26,8 @@ mod walls;
 pub use crate::generate::Generated;
 /// Into so many the members of a design are shared out.
 pub use crate::random::RANDOMISATIONS;
+/// What is known of a parameter of a wall that is given.
+pub use crate::random::{Scale, Spread};
 pub use design::{Task, is_random, plan};
 pub use draws::{Draws, Evaluated, drawn};
 pub use elements::{ElementRow, Timed, evaluate_element, run_elements};
@@ -32,6 +35,7 @@ pub use enough::{Look, come_to};
 pub use error::{MemberFault, RunError};
 pub use evaluate::{build, evaluate, solve, weight};
 pub use files::replace_file;
+pub use given::{Unsure, given_points, predicted};
 pub use influence::{
     Evaluation, InfluenceWalls, Influenced, Source, Wall as InfluenceWall, base_points, influence_table,
     sources, without_value,

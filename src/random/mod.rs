@@ -9,6 +9,7 @@ mod family;
 mod fault;
 mod flat;
 mod gaussian;
+mod spread;
 pub mod standard_normal;
 mod stream;
 mod truncated;
@@ -16,6 +17,7 @@ mod truncated;
 pub use design::{Design, PARTNER, Place, RANDOMISATIONS};
 pub use family::Family;
 pub use fault::BadFamily;
+pub use spread::{Scale, Spread};
 pub use stream::{Move, Quantities, Stream, Streams, Taken};
 
 #[cfg(test)]

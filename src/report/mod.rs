@@ -39,6 +39,7 @@ mod table;
 mod test_plan;
 #[cfg(test)]
 mod tests;
+mod uncertainty;
 mod vtu;
 
 pub use advice::Advice;
@@ -70,5 +71,8 @@ pub use summary::{ArmSummary, EnoughEntry, QuantileEntry, Summary, summarise};
 pub use table::terminal_table;
 pub use test_plan::{
     Asked, PlannedArm, PlannedDifference, Reading, TestPlan, test_plan_text, write_test_plan,
+};
+pub use uncertainty::{
+    Answered, AskedOfWall, Ended, UncertaintySummary, uncertainty_text, write_uncertainty,
 };
 pub use vtu::write_vtu;

@@ -2,6 +2,7 @@
 
 mod analyse;
 mod analyse_loads;
+mod analyse_ranges;
 mod bad_walls;
 mod capacity;
 mod catalogue;

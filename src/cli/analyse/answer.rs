@@ -2,16 +2,21 @@
 
 use serde_json::{Value, json};
 
-use crate::cli::analyse::arguments::{Analyse, LoadName};
+use crate::cli::analyse::arguments::{Analyse, LoadName, MethodName};
 use crate::cli::analyse::joints;
 use crate::cli::analyse::loads::listed;
 use crate::cli::analyse::meetings::Fit;
 use crate::cli::analyse::worst::Tried;
 use crate::cli::condition::resting;
 use crate::exchange::WallFile;
-use crate::math::{atan, degrees, radians, tan};
-use crate::model::{Block, Level, Outcome, Support};
+use crate::math::{atan, degrees, tan};
+use crate::model::{Block, Level, Outcome, Support, Wall};
 use crate::protocol::JointState;
+
+/// What the collapse multiplier is in a seismic assessment, and what it is not. Only the multiplier is computed: the participating mass
+/// and the confidence are the assessor's.
+const SEISMIC: &str =
+    "a0/g of the static limit state; a0 = alpha0 g / (e* FC) with e* = FC = 1 (Circolare 617/2009, C8A.4.4)";
 
 /// What came of a wall.
 pub(crate) struct Answer {
@@ -35,7 +40,7 @@ pub(crate) struct Answer {
 
 impl Answer {
     /// The name of the outcome; a wall that bears all that was asked is stable.
-    fn name(&self) -> &'static str {
+    pub fn name(&self) -> &'static str {
         if self.outcome == Outcome::Equilibrium { "stable" } else { self.outcome.name() }
     }
 
@@ -46,6 +51,24 @@ impl Answer {
             Outcome::Collapsed { at: Level::Multiplier(multiplier) } => (None, Some(multiplier)),
             _ => (None, None),
         }
+    }
+
+    /// The collapse multiplier alpha0, the horizontal load over the weight: of a tilt its tangent.
+    fn collapse_multiplier(&self) -> Option<f64> {
+        match self.outcome {
+            Outcome::Collapsed { at: Level::Tilt(angle) } => Some(tan(angle)),
+            Outcome::Collapsed { at: Level::Multiplier(multiplier) } => Some(multiplier),
+            _ => None,
+        }
+    }
+
+    /// What that multiplier is as a seismic coefficient. A tilt by an angle takes the weight across the platform down to its cosine; only
+    /// dry joints of rigid blocks bear the same then.
+    fn as_seismic_coefficient(&self, asked: &Analyse) -> Option<String> {
+        let is_near =
+            asked.load == LoadName::Tilt && (asked.solver != MethodName::Limit || asked.cohesion > 0.0);
+        let near = if is_near { ", nearly; --load lateral gives it itself" } else { "" };
+        self.collapse_multiplier().map(|_| format!("{SEISMIC}{near}"))
     }
 
     /// The share of the settlement that the wall bears; `None` where no support goes down, or it did not come so far.
@@ -66,12 +89,12 @@ impl Answer {
     }
 
     /// The share of the weight that moves at collapse.
-    fn moving_share(&self, file: &WallFile) -> f64 {
+    pub fn moving_share(&self, wall: &Wall) -> f64 {
         let weight = |block: &Block| match block.support {
             Support::Fixed => 0.0,
             _ => block.density * block.shape.volume(),
         };
-        let blocks = &file.wall.blocks;
+        let blocks = &wall.blocks;
         let all = blocks.iter().map(weight).fold(0.0, |sum, w| sum + w);
         self.moving.iter().map(|&i| weight(&blocks[i])).fold(0.0, |sum, w| sum + w) / all
     }
@@ -113,6 +136,8 @@ impl Answer {
             "reason": self.outcome.reason(),
             "collapse_angle_deg": angle,
             "multiplier": multiplier,
+            "collapse_multiplier": self.collapse_multiplier(),
+            "as_seismic_coefficient": self.as_seismic_coefficient(asked),
             "between": self.between.map(|ends| self.in_unit(asked, ends)),
             "bracket": self.shown_bracket(asked),
             "bracket_unit": self.bracket.map(|_| if asked.load == LoadName::Tilt { "deg" } else { "1" }),
@@ -132,7 +157,7 @@ impl Answer {
             "blocks": file.wall.blocks.len(),
             "joints": fit.joints,
             "mechanism": ids(&self.moving),
-            "moving_weight_share": (!self.moving.is_empty()).then(|| self.moving_share(file)),
+            "moving_weight_share": (!self.moving.is_empty()).then(|| self.moving_share(&file.wall)),
             "loose": self.loose.as_deref().map(ids),
             "seconds": seconds,
             "warnings": warnings,
@@ -144,7 +169,7 @@ impl Answer {
         let to = asked.direction;
         let said = match (&self.outcome, asked.load, self.collapse()) {
             (_, _, (Some(angle), _)) => {
-                let multiplier = tan(radians(angle));
+                let multiplier = self.collapse_multiplier().unwrap_or_default();
                 format!(
                     "collapses at a tilt of {angle:.3} deg towards {to} (collapse multiplier {multiplier:.4})"
                 )
@@ -156,7 +181,7 @@ impl Answer {
                     _ => String::new(),
                 };
                 format!(
-                    "collapses at {multiplier:.5} of its weight towards {to}{upwards} (collapse multiplier, a0/g)"
+                    "collapses at {multiplier:.5} of its weight towards {to}{upwards} (collapse multiplier)"
                 )
             }
             (Outcome::Collapsed { at }, ..) => format!("collapses at {at}, before the load grows"),
@@ -173,6 +198,11 @@ impl Answer {
     pub fn text(&self, asked: &Analyse, file: &WallFile, fit: &Fit, seconds: f64) -> String {
         let mut text =
             format!("{}\n  {} solver: {}\n", self.headline(asked), asked.solver.name(), self.meaning);
+        if let (Some(multiplier), Some(what)) =
+            (self.collapse_multiplier(), self.as_seismic_coefficient(asked))
+        {
+            text.push_str(&format!("  seismic coefficient {multiplier:.4}: {what}\n"));
+        }
         if let Some([low, high]) = self.shown_bracket(asked) {
             let unit = if asked.load == LoadName::Tilt { "deg" } else { "of its weight" };
             text.push_str(&format!("  bracket: {low:.4} to {high:.4} {unit}\n"));
@@ -181,7 +211,8 @@ impl Answer {
             let unit = if asked.load == LoadName::Tilt { "deg" } else { "of its weight" };
             text.push_str(&format!("  between {low:.4} and {high:.4} {unit}\n"));
         }
-        let moves = format!("moves at collapse ({:.1} % of the weight)", 100.0 * self.moving_share(file));
+        let moves =
+            format!("moves at collapse ({:.1} % of the weight)", 100.0 * self.moving_share(&file.wall));
         let loose = self.loose.as_deref().unwrap_or_default();
         for (blocks, what) in [(&self.moving[..], moves.as_str()), (loose, "loose, held lightly")] {
             if !blocks.is_empty() {

@@ -4,8 +4,10 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use crate::cli::analyse::known::{self, Known};
 use crate::cli::analyse::numbers;
 use crate::cli::arguments::{FILE, JOINTS, LOAD, Measure, OUTPUT, SOLUTION};
+use crate::cli::influence;
 use crate::protocol::Direction;
 
 /// Arguments of `analyse`.
@@ -56,12 +58,13 @@ pub(crate) struct Analyse {
         help_heading = LOAD
     )]
     pub settlements: Vec<(u64, f64)>,
-    /// Friction angle of the joints (deg), 0 to 89.
-    #[arg(long, value_name = "F", value_parser = numbers::friction_angle, allow_negative_numbers = true, help_heading = JOINTS)]
-    pub phi_deg: f64,
-    /// Normal stiffness of the joints per area (Pa/m); required for implicit and explicit.
-    #[arg(long, value_name = "PA_PER_M", value_parser = numbers::stiffness, allow_negative_numbers = true, help_heading = JOINTS)]
-    pub kn: Option<f64>,
+    /// Friction angle of the joints (deg), 0 to 89: a number, a range 30..38, or a distribution as normal(34,2).
+    #[arg(long, value_name = "F|LOW..HIGH", value_parser = known::friction_angle, allow_negative_numbers = true, help_heading = JOINTS)]
+    pub phi_deg: Known,
+    /// Normal stiffness of the joints per area (Pa/m); required for implicit and explicit. A number, a range 5e7..5e8 (even in the
+    /// logarithm), or a distribution as lognormal(1e8,3e7).
+    #[arg(long, value_name = "PA_PER_M", value_parser = known::stiffness, allow_negative_numbers = true, help_heading = JOINTS)]
+    pub kn: Option<Known>,
     /// Shear stiffness of the joints per area (Pa/m) [default: kn / 2].
     #[arg(long, value_name = "PA_PER_M", value_parser = numbers::stiffness, allow_negative_numbers = true, help_heading = JOINTS)]
     pub ks: Option<f64>,
@@ -91,6 +94,16 @@ pub(crate) struct Analyse {
     /// Density (kg/m^3) of the objects of an OBJ file that have no density comment [default: 2400, with a warning].
     #[arg(long, value_name = "F", value_parser = numbers::density, allow_negative_numbers = true, help_heading = FILE)]
     pub density_kg_per_m3: Option<f64>,
+    /// Mean density (kg/m^3) of the blocks that move, in the place of the file's: all are made as much heavier or lighter. A number, a
+    /// range 2000..2400, or a distribution as normal(2200,80).
+    #[arg(long, value_name = "F|LOW..HIGH", value_parser = known::density, allow_negative_numbers = true, help_heading = FILE)]
+    pub density: Option<Known>,
+    /// Walls that are solved over ranges and distributions: a multiple of 16 from 32 [default: 64].
+    #[arg(long, value_name = "N", value_parser = influence::points, help_heading = SOLUTION)]
+    pub walls: Option<u64>,
+    /// Seed of the design over ranges and distributions [default: 1].
+    #[arg(long, value_name = "N", help_heading = SOLUTION)]
+    pub seed: Option<u64>,
     /// Folder for a picture of the mechanism, files for ParaView (.vtu), and tables of blocks and joints (.csv, .json).
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub out: Option<PathBuf>,

@@ -105,7 +105,7 @@ fn picture(asked: &Analyse, (file, fit): (&WallFile, &Fit), answer: &Answer, sta
         unit: asked.colour.unit(),
         from_front,
         magnification,
-        title: format!("{}: {} solver, phi {} deg", title(asked), asked.solver.name(), asked.phi_deg),
+        title: format!("{}: {} solver, phi {} deg", title(asked), asked.solver.name(), asked.phi_deg.middle()),
         remarks,
     }
 }

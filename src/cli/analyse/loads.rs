@@ -11,10 +11,19 @@ use crate::solve::STANDARD_GRAVITY;
 /// Ids listed in a message.
 const LISTED: usize = 8;
 
-/// The wall with weights (N) on blocks: each makes its block as much heavier, at the block's centroid. What turns gravity turns them
+/// The wall with the mean density (kg/m^3) of the blocks that move, where one is given: those of the file keep their ratios. And with
+/// weights (N) on blocks: each makes its block as much heavier, at the block's centroid. What turns gravity turns them
 /// and what pushes with a share of the weight pushes with theirs, as of a roof that goes with the wall.
-pub(crate) fn loaded(file: &WallFile, weights: &[(u64, f64)]) -> Result<Wall, Failure> {
+pub(crate) fn loaded(file: &WallFile, density: Option<f64>, weights: &[(u64, f64)]) -> Result<Wall, Failure> {
     let mut wall = file.wall.clone();
+    if let Some(density) = density {
+        let free = || wall.blocks.iter().filter(|block| block.support != Support::Fixed);
+        let mass: f64 = free().map(|block| block.density * block.shape.volume()).sum();
+        let volume: f64 = free().map(|block| block.shape.volume()).sum();
+        let factor = density * volume / mass;
+        let moving = wall.blocks.iter_mut().filter(|block| block.support != Support::Fixed);
+        moving.for_each(|block| block.density *= factor);
+    }
     for (block, weight) in on_blocks(file, "--dead-load", "is fixed: it carries any load", false, weights)? {
         let block = &mut wall.blocks[block];
         block.density += weight / (STANDARD_GRAVITY * block.shape.volume());

@@ -2,13 +2,16 @@
 
 mod answer;
 mod arguments;
+mod fall;
 mod files;
 mod joints;
+mod known;
 mod loads;
 mod meetings;
 mod numbers;
 mod solve;
 mod state;
+mod unsure;
 mod upright;
 mod verb;
 mod worst;

@@ -4,14 +4,21 @@ use std::ops::RangeInclusive;
 
 use crate::protocol::Direction;
 
-/// Friction angle (deg): at 90 degrees friction would be infinite.
+/// Friction angles (deg): at 90 degrees friction would be infinite.
+pub(super) const FRICTION_ANGLES: RangeInclusive<f64> = 0.0..=89.0;
+/// Stiffnesses per joint area (Pa/m).
+pub(super) const STIFFNESSES: RangeInclusive<f64> = 1e3..=1e16;
+/// Densities (kg/m^3).
+pub(super) const DENSITIES: RangeInclusive<f64> = 10.0..=23_000.0;
+
+/// Friction angle (deg).
 pub(crate) fn friction_angle(text: &str) -> Result<f64, String> {
-    within(text, 0.0..=89.0, "degrees")
+    within(text, FRICTION_ANGLES, "degrees")
 }
 
 /// Stiffness per joint area (Pa/m).
 pub(crate) fn stiffness(text: &str) -> Result<f64, String> {
-    within(text, 1e3..=1e16, "Pa/m")
+    within(text, STIFFNESSES, "Pa/m")
 }
 
 /// Cohesion (Pa).
@@ -48,7 +55,7 @@ fn of_a_block(text: &str, form: &str, range: RangeInclusive<f64>, unit: &str) ->
 
 /// Density (kg/m^3).
 pub(crate) fn density(text: &str) -> Result<f64, String> {
-    within(text, 10.0..=23_000.0, "kg/m^3")
+    within(text, DENSITIES, "kg/m^3")
 }
 
 /// How far apart blocks may be that touch.

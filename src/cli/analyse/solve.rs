@@ -2,6 +2,7 @@
 
 use crate::cli::analyse::answer::Answer;
 use crate::cli::analyse::arguments::{Analyse, FlowName, LoadName, MethodName};
+use crate::cli::analyse::known::Known;
 use crate::cli::analyse::meetings::Fit;
 use crate::cli::analyse::state::Found;
 use crate::cli::doing::doing;
@@ -20,21 +21,21 @@ const ANY_STIFFNESS: f64 = 1e9;
 const MOVES: f64 = 0.01;
 /// Step of the tilt (deg) where none is asked for, and the largest tilt and multiplier.
 const STEP_DEG: f64 = 0.5;
-const LARGEST_TILT_DEG: f64 = 89.0;
-const LARGEST_MULTIPLIER: f64 = 10.0;
+pub(super) const LARGEST_TILT_DEG: f64 = 89.0;
+pub(super) const LARGEST_MULTIPLIER: f64 = 10.0;
 /// Width of the bracket around the collapse: angle (deg) and multiplier.
-const BRACKET_DEG: f64 = 0.01;
-const BRACKET: f64 = 1e-4;
+pub(super) const BRACKET_DEG: f64 = 0.01;
+pub(super) const BRACKET: f64 = 1e-4;
 /// A wall runs away when a block has moved by this share of its thickness in a step.
 const RUNS_AWAY: f64 = 0.1;
 
-/// The law of all joints: no tension, cohesion kept after slip, ks = kn / 2 unless it is given.
+/// The law of all joints, with the middle of what is not known exactly: no tension, cohesion kept after slip, ks = kn / 2 unless it is given.
 pub(crate) fn law(arguments: &Analyse) -> Coulomb {
-    let kn = arguments.kn.unwrap_or(ANY_STIFFNESS);
+    let kn = arguments.kn.as_ref().map_or(ANY_STIFFNESS, Known::middle);
     Coulomb {
         normal: NormalLaw::Linear { kn },
         ks: arguments.ks.unwrap_or(0.5 * kn),
-        tan_phi: tan(radians(arguments.phi_deg)),
+        tan_phi: tan(radians(arguments.phi_deg.middle())),
         cohesion: arguments.cohesion,
         tension: 0.0,
         compressive_strength: None,

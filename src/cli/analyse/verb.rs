@@ -5,10 +5,12 @@ use std::time::Instant;
 use serde_json::json;
 
 use crate::cli::analyse::arguments::{Analyse, FlowName, LoadName, MethodName, UpName};
+use crate::cli::analyse::known::Known;
 use crate::cli::analyse::loads::{loaded, settlements};
 use crate::cli::analyse::meetings::{Fit, bounds, look};
 use crate::cli::analyse::solve::{law, solve, solve_telling};
 use crate::cli::analyse::state::State;
+use crate::cli::analyse::unsure::{Given, asked, refused};
 use crate::cli::analyse::worst::{Tried, tried, weakest};
 use crate::cli::analyse::{files, upright};
 use crate::cli::doing::doing;
@@ -18,6 +20,7 @@ use crate::exchange::{ReadOptions, Unit, Up, WallFaults, WallFile, read_wall};
 use crate::law::Coulomb;
 use crate::model::{Outcome, Support, Wall};
 use crate::protocol::{Direction, Settlement};
+use crate::report::{uncertainty_text, write_uncertainty};
 use crate::solve::STANDARD_GRAVITY;
 
 /// A prestress above this share of the pressure under the wall's own weight is worth a warning.
@@ -27,8 +30,8 @@ const PRESTRESS: f64 = 0.1;
 pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
     let begun = Instant::now();
     let mut warnings = asked_in_vain(arguments)?;
-    let (file, fit) = match read(arguments) {
-        Ok((file, fit)) => (WallFile { wall: loaded(&file, &arguments.dead_loads)?, ..file }, fit),
+    let (read, fit) = match read(arguments) {
+        Ok(found) => found,
         Err(faults) if arguments.json => {
             output::print_json(&json!({
                 "outcome": "invalid_geometry",
@@ -40,6 +43,8 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
         }
         Err(faults) => return Err(Failure::Input(faults.to_string())),
     };
+    let density = arguments.density.as_ref().map(Known::middle);
+    let file = WallFile { wall: loaded(&read, density, &arguments.dead_loads)?, ..read.clone() };
     warnings.extend(file.warnings.iter().cloned());
     warnings.extend(fit.warnings.iter().cloned());
     warnings.extend(prestress(arguments, &file.wall, &fit));
@@ -60,17 +65,25 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
             is_obj(arguments),
         ));
     }
+    let given = Given { arguments, file: &read, fit: &fit, settlements: &settlements };
+    let sure = given.how_sure(asked(arguments), (&file.wall, &answer, &found))?;
     let seconds = begun.elapsed().as_secs_f64();
-    let object = answer.object(arguments, &file, &fit, (&warnings, &directions), seconds);
+    let mut object = answer.object(arguments, &file, &fit, (&warnings, &directions), seconds);
+    if let Some(sure) = &sure {
+        object["uncertain"] = json!(sure);
+    }
     if let Some(folder) = &arguments.out {
         let state = State::of(&file.wall, &fit.contact, &found);
         files::write(folder, arguments, (&file, &fit), (&answer, &state), &object)?;
+        let written = sure.as_ref().map_or(Ok(()), |sure| write_uncertainty(sure, folder));
+        written.map_err(|error| Failure::Run(format!("{error:#}")))?;
     }
     if arguments.json {
         return output::print_json(&object);
     }
     warnings.iter().for_each(|warning| output::note(&format!("warning: {warning}")));
     let mut text = answer.text(arguments, &file, &fit, seconds);
+    text += &sure.as_ref().map(uncertainty_text).unwrap_or_default();
     if arguments.worst_direction {
         text += &match weakest(&directions) {
             Some(_) => format!("  the weakest of {} directions that were tried\n", directions.len()),
@@ -101,7 +114,8 @@ fn read(arguments: &Analyse) -> Result<(WallFile, Fit), WallFaults> {
     let unit = arguments.unit.map(|unit| Unit::named(unit.name()).unwrap_or_default());
     let options = ReadOptions {
         unit,
-        density: arguments.density_kg_per_m3,
+        // What is scaled to a mean may as well begin there.
+        density: arguments.density_kg_per_m3.or(arguments.density.as_ref().map(Known::middle)),
         up: arguments.up.map_or(Up::Z, |up| if up == UpName::Y { Up::Y } else { Up::Z }),
         flatness: arguments.flatness,
     };
@@ -116,6 +130,7 @@ fn is_obj(arguments: &Analyse) -> bool {
 
 /// Arguments that are missing, and warnings of those that mean nothing for what is asked.
 fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
+    refused(arguments)?;
     let solver = arguments.solver.name();
     let mut warnings = Vec::new();
     if !is_obj(arguments) && (arguments.unit.is_some() || arguments.density_kg_per_m3.is_some()) {
@@ -164,7 +179,7 @@ fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
 
 /// Blocks that overlap as built press on each other from the start: how hard, for the solvers that are elastic.
 fn prestress(arguments: &Analyse, wall: &Wall, fit: &Fit) -> Option<String> {
-    let kn = arguments.kn.filter(|_| arguments.solver != MethodName::Limit)?;
+    let kn = arguments.kn.as_ref().filter(|_| arguments.solver != MethodName::Limit)?.middle();
     let (low, high) = bounds(wall);
     let moving = wall.blocks.iter().filter(|b| b.support != Support::Fixed);
     let heaviest = moving.map(|b| b.density).fold(0.0, f64::max);

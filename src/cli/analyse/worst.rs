@@ -62,7 +62,8 @@ fn key(of: &Tried) -> f64 {
     of.bears.unwrap_or(f64::INFINITY)
 }
 
-fn bears(outcome: &Outcome) -> Option<f64> {
+/// The load at collapse (deg or multiplier): 0 where it does not stand at rest; `None` where it does not fall or nothing was found.
+pub(crate) fn bears(outcome: &Outcome) -> Option<f64> {
     match outcome {
         Outcome::Collapsed { at: Level::Tilt(angle) } => Some(degrees(*angle)),
         // It falls before any load grows.
