@@ -7,6 +7,7 @@ mod enough;
 mod error;
 mod evaluate;
 mod files;
+mod finished;
 mod influence;
 mod journal;
 mod kept;
@@ -32,6 +33,7 @@ pub use enough::{Look, come_to};
 pub use error::{MemberFault, RunError};
 pub use evaluate::{build, evaluate, solve, weight};
 pub use files::replace_file;
+pub use finished::{finished, identity};
 pub use influence::{
     Evaluation, InfluenceWalls, Influenced, Source, Wall as InfluenceWall, base_points, influence_table,
     sources, without_value,

@@ -91,7 +91,7 @@ pub(crate) struct Analyse {
     /// Density (kg/m^3) of the objects of an OBJ file that have no density comment [default: 2400, with a warning].
     #[arg(long, value_name = "F", value_parser = numbers::density, allow_negative_numbers = true, help_heading = FILE)]
     pub density_kg_per_m3: Option<f64>,
-    /// Folder for a picture of the mechanism, files for ParaView (.vtu), and tables of blocks and joints (.csv, .json).
+    /// Folder for a page of it all (report.html), a picture of the mechanism, files for ParaView (.vtu), and tables of blocks and joints (.csv, .json).
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub out: Option<PathBuf>,
     /// What joints are coloured by in the picture.

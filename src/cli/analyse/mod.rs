@@ -7,6 +7,7 @@ mod joints;
 mod loads;
 mod meetings;
 mod numbers;
+mod page;
 mod solve;
 mod state;
 mod upright;

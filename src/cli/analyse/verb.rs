@@ -7,6 +7,7 @@ use serde_json::json;
 use crate::cli::analyse::arguments::{Analyse, FlowName, LoadName, MethodName, UpName};
 use crate::cli::analyse::loads::{loaded, settlements};
 use crate::cli::analyse::meetings::{Fit, bounds, look};
+use crate::cli::analyse::page::Told;
 use crate::cli::analyse::solve::{law, solve, solve_telling};
 use crate::cli::analyse::state::State;
 use crate::cli::analyse::worst::{Tried, tried, weakest};
@@ -62,14 +63,6 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
     }
     let seconds = begun.elapsed().as_secs_f64();
     let object = answer.object(arguments, &file, &fit, (&warnings, &directions), seconds);
-    if let Some(folder) = &arguments.out {
-        let state = State::of(&file.wall, &fit.contact, &found);
-        files::write(folder, arguments, (&file, &fit), (&answer, &state), &object)?;
-    }
-    if arguments.json {
-        return output::print_json(&object);
-    }
-    warnings.iter().for_each(|warning| output::note(&format!("warning: {warning}")));
     let mut text = answer.text(arguments, &file, &fit, seconds);
     if arguments.worst_direction {
         text += &match weakest(&directions) {
@@ -77,6 +70,15 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
             None => format!("  it falls in none of {} directions that were tried\n", directions.len()),
         };
     }
+    if let Some(folder) = &arguments.out {
+        let state = State::of(&file.wall, &fit.contact, &found);
+        let told = Told { text: &text, warnings: &warnings };
+        files::write(folder, arguments, (&file, &fit), (&answer, &state), &object, &told)?;
+    }
+    if arguments.json {
+        return output::print_json(&object);
+    }
+    warnings.iter().for_each(|warning| output::note(&format!("warning: {warning}")));
     if let Some(folder) = &arguments.out {
         text += &format!("written to {}\n", folder.display());
     }

@@ -9,16 +9,7 @@ use crate::report::diagnosis::text::{
 use crate::report::diagnosis::words::{lines, reading};
 use crate::report::gain::GainSummary;
 use crate::report::markup::escaped;
-
-const STYLE: &str = "body { font-family: \"DejaVu Sans\", Verdana, sans-serif; max-width: 60em; margin: 2em auto; padding: 0 1em; \
-    color: #000; background: #fff; line-height: 1.4; }\n\
-    table { border-collapse: collapse; margin: 1em 0; }\n\
-    th, td { text-align: left; vertical-align: top; padding: 0.25em 1em 0.25em 0; border-bottom: 1px solid #ccc; }\n\
-    .verdict { font-size: 1.2em; font-weight: bold; }\n\
-    pre { white-space: pre-wrap; font-size: 0.9em; }\n\
-    figure { margin: 1em 0; break-inside: avoid; }\n\
-    figure svg { max-width: 100%; height: auto; }\n\
-    tr { break-inside: avoid; }\n";
+use crate::report::page::STYLE;
 
 /// A figure of the page: its caption and its SVG.
 pub struct Drawing {
