@@ -53,8 +53,8 @@ pub(crate) fn write(
         let run = doing(&format!("drawing the {which} wall"), |doing| {
             wall.solved_telling(&|level| doing.at(level))
         });
-        let svg = picture::of_wall(&wall, &run, Measure::Opening, None).svg();
-        drawn.push(DrawnWall { which, task, svg, ending: ending(&run) });
+        let picture = picture::of_wall(&wall, &run, Measure::Opening, None);
+        drawn.push(DrawnWall { which, task, picture, ending: ending(&run) });
     }
     let text = run_page(&RunPage { study, loaded, rows, drawn: &drawn, origin: &origin.of_page() })
         .map_err(|error| Failure::Run(format!("{error:#}")))?;

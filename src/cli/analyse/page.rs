@@ -44,7 +44,7 @@ pub(crate) fn page(
         question: question(asked),
         answer: told.text.lines().map(|line| line.trim().to_owned()).collect(),
         warnings: told.warnings,
-        picture: (picture.svg(), picture.remarks.join(" ")),
+        picture,
         about_tables: match by_rates {
             true => {
                 "Openings, slips and movements are those of a mechanism whose fastest corner moves by 1 m: limit analysis knows no size \

@@ -9,15 +9,7 @@ use crate::report::diagnosis::text::{
 use crate::report::diagnosis::words::{lines, reading};
 use crate::report::gain::GainSummary;
 use crate::report::markup::escaped;
-use crate::report::page::STYLE;
-
-/// A figure of the page: its caption and its SVG.
-pub struct Drawing {
-    /// What it shows.
-    pub caption: String,
-    /// The figure, as it is.
-    pub svg: String,
-}
+use crate::report::page::{Drawing, STYLE};
 
 /// The page.
 pub fn page(summary: &DiagnosisSummary, drawings: &[Drawing]) -> String {
@@ -40,8 +32,11 @@ pub fn page(summary: &DiagnosisSummary, drawings: &[Drawing]) -> String {
     let cells = lines(&summary.groups).into_iter();
     let rows = cells.map(|line| vec![line.what, line.measured, line.simulated, line.finding]).collect();
     body.push_str(&table(&["what", "measured", "simulated", "finding"], rows));
-    for Drawing { caption, svg } in drawings {
-        body.push_str(&format!("<figure>\n{svg}<figcaption>{}</figcaption>\n</figure>\n", escaped(caption)));
+    for Drawing { id, caption, svg } in drawings {
+        body.push_str(&format!(
+            "<figure id=\"{id}\">\n{svg}<figcaption>{}</figcaption>\n</figure>\n",
+            escaped(caption)
+        ));
     }
     body.push_str("<h2>What is off once joints are fitted</h2>\n");
     body.push_str(&paragraph(&format!("{OFF}.")));
@@ -90,7 +85,8 @@ pub fn page(summary: &DiagnosisSummary, drawings: &[Drawing]) -> String {
     }
     body.push_str(&paragraph(&format!("Seed {}, bank {}.", summary.seed, summary.bank)));
     format!(
-        "<!DOCTYPE html>\n<html lang=\"en-GB\">\n<head>\n<meta charset=\"utf-8\">\n<title>{}</title>\n<style>\n{STYLE}</style>\n\
+        "<!DOCTYPE html>\n<html lang=\"en-GB\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n<style>\n{STYLE}</style>\n\
          </head>\n<body>\n{body}</body>\n</html>\n",
         escaped(&title)
     )
@@ -114,5 +110,5 @@ fn table(heads: &[&str], rows: Vec<Vec<String>>) -> String {
     };
     let head = row(&mut heads.iter().copied(), "th");
     let rows: String = rows.iter().map(|cells| row(&mut cells.iter().map(String::as_str), "td")).collect();
-    format!("<table>\n{head}{rows}</table>\n")
+    format!("<div class=\"wide\"><table>\n{head}{rows}</table></div>\n")
 }

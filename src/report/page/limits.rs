@@ -1,6 +1,5 @@
 //! What results hold for, and the methods in a paragraph.
 
-use crate::protocol::Protocol;
 use crate::report::page::inputs::assumed;
 use crate::report::summary::Summary;
 use crate::study::{Loaded, Study};
@@ -49,8 +48,8 @@ pub fn of_run(study: &Study, loaded: &Loaded, summary: &Summary) -> Vec<String> 
     }
     said.push(match &summary.measured {
         None => "Nothing that was measured is set beside these numbers.".to_owned(),
-        Some(_) => "What was measured stands beside these numbers; what they do not agree in is a fault of the model or of its \
-                    inputs (pirca diagnose)."
+        Some(_) => "What was measured stands beside these numbers. Where they differ by more than their errors, the model or its \
+                    inputs are wrong (pirca diagnose)."
             .to_owned(),
     });
     said.extend([RIGID.to_owned(), of_solver(study.solver.name()).to_owned()]);
@@ -75,14 +74,14 @@ pub fn built(study: &Study) -> String {
         false => format!("{} (one wall, as nothing is random)", arm.name),
     });
     let arms: Vec<String> = arms.collect();
-    let load = match &study.protocol {
-        Protocol::Lateral(_) => "a horizontal pressure on one face that grows in steps to its full value",
-        Protocol::Tilting(_) => {
+    let load = match study.effective.get("load.protocol").map(String::as_str) {
+        Some("tilting") => {
             "the tilt of a platform, which grows in steps until the wall falls or the largest tilt is reached"
         }
-        Protocol::Shear(_) => {
+        Some("shear") => {
             "a push along the wall at its top under a constant vertical load, from drift to drift"
         }
+        _ => "a horizontal pressure on one face that grows in steps to its full value",
     };
     format!("Dry stone walls, {}. Arms: {}. The load is {load}.", outlines.join("; "), arms.join(", "))
 }

@@ -7,11 +7,13 @@ mod inputs;
 mod limits;
 mod origin;
 mod run;
+mod solid;
 mod strip;
 mod table;
 mod template;
 mod wall;
 
+pub use drawing::Drawing;
 pub use origin::PageOrigin;
 pub use run::{DrawnWall, RunPage, chosen_walls, run_page};
 pub use wall::{WallPage, WallTable, wall_page};

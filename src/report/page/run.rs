@@ -14,9 +14,11 @@ use crate::report::page::figures::figures;
 use crate::report::page::inputs::{assumed, inputs};
 use crate::report::page::limits;
 use crate::report::page::origin::PageOrigin;
+use crate::report::page::solid::Solid;
 use crate::report::page::strip::{self, Mark, strip};
 use crate::report::page::table::{Line, Table};
 use crate::report::page::template::filled;
+use crate::report::picture::Picture;
 use crate::report::summary::{ArmSummary, Summary, summarise};
 use crate::report::table::{arm_notes, arm_rows, explanation};
 use crate::study::{Loaded, Study};
@@ -31,8 +33,8 @@ pub struct DrawnWall {
     pub which: &'static str,
     /// Its place in the ensemble.
     pub task: Task,
-    /// Its picture as SVG.
-    pub svg: String,
+    /// Its picture.
+    pub picture: Picture,
     /// How it ended.
     pub ending: String,
 }
@@ -67,6 +69,7 @@ struct Filled {
     strip: Option<Drawing>,
     about_drawn: String,
     drawn: Vec<Drawing>,
+    solid: Option<Solid>,
     about_walls: String,
     walls: Vec<Table>,
     about_wall: String,
@@ -146,6 +149,9 @@ pub fn run_page(of: &RunPage<'_>) -> Result<String> {
         }),
         about_drawn: about_drawn(study, of.drawn),
         drawn: of.drawn.iter().map(|own| drawing(of, own)).collect(),
+        solid: of.drawn.first().map(|own| {
+            Solid::of("figure-solid", &format!("The {} wall in three dimensions.", own.which), &own.picture)
+        }),
         about_walls: match has_rows {
             true => "Every wall that was evaluated. members.parquet has more columns.".to_owned(),
             false => format!(
@@ -245,7 +251,7 @@ fn drawing(of: &RunPage<'_>, own: &DrawnWall) -> Drawing {
         Observed::Nothing => String::new(),
     };
     let title = format!("The {} wall: number {}{value}", own.which, own.task.member);
-    Drawing::described(&figure_id(own.which), &title, &own.ending, &own.svg)
+    Drawing::described(&figure_id(own.which), &title, &own.ending, &own.picture.svg())
 }
 
 /// A table of walls for each arm.

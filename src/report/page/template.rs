@@ -6,6 +6,7 @@ use minijinja::{Environment, UndefinedBehavior};
 use serde::Serialize;
 
 use crate::report::page::STYLE;
+use crate::report::page::solid::VIEWER;
 
 /// The templates by name; the pages share their frame and the parts that they are made of.
 const TEMPLATES: [(&str, &str); 4] = [
@@ -20,6 +21,7 @@ const TEMPLATES: [(&str, &str); 4] = [
 struct Framed<'p, P> {
     style: &'static str,
     script: &'static str,
+    viewer: &'static str,
     #[serde(flatten)]
     page: &'p P,
 }
@@ -34,7 +36,7 @@ pub fn filled(name: &str, page: &impl Serialize) -> Result<String> {
     for (name, text) in TEMPLATES {
         engine.add_template(name, text).with_context(|| format!("the template {name} is faulty"))?;
     }
-    let framed = Framed { style: STYLE, script: include_str!("open.js"), page };
+    let framed = Framed { style: STYLE, script: include_str!("open.js"), viewer: VIEWER, page };
     let template = engine.get_template(name)?;
     template.render(Serde(framed)).with_context(|| format!("the template {name} cannot be filled"))
 }

@@ -7,8 +7,10 @@ use crate::report::page::cite::{Citation, citation};
 use crate::report::page::drawing::Drawing;
 use crate::report::page::limits;
 use crate::report::page::origin::PageOrigin;
+use crate::report::page::solid::Solid;
 use crate::report::page::table::Table;
 use crate::report::page::template::filled;
+use crate::report::picture::Picture;
 
 /// A table of the page: blocks, or joints.
 pub struct WallTable {
@@ -30,8 +32,8 @@ pub struct WallPage<'a> {
     pub answer: Vec<String>,
     /// What looks wrong.
     pub warnings: &'a [String],
-    /// How the wall gives way, as SVG, and what is written there.
-    pub picture: (String, String),
+    /// How the wall gives way.
+    pub picture: &'a Picture,
     /// What the numbers of its tables are.
     pub about_tables: &'static str,
     /// Its blocks and joints.
@@ -54,6 +56,7 @@ struct Filled<'a> {
     answer: &'a [String],
     warnings: &'a [String],
     picture: Drawing,
+    solid: Solid,
     about_tables: &'static str,
     tables: Vec<Table>,
     inputs: Table,
@@ -67,7 +70,7 @@ struct Filled<'a> {
 /// # Errors
 /// A template that is faulty.
 pub fn wall_page(of: &WallPage<'_>) -> Result<String> {
-    let (svg, described) = &of.picture;
+    let described = of.picture.remarks.join(" ");
     let own = [
         ("pirca", env!("CARGO_PKG_VERSION").to_owned()),
         ("wall", of.wall.to_owned()),
@@ -81,7 +84,13 @@ pub fn wall_page(of: &WallPage<'_>) -> Result<String> {
             question: &of.question,
             answer: &of.answer,
             warnings: of.warnings,
-            picture: Drawing::described("figure-mechanism", &format!("The wall {}", of.wall), described, svg),
+            picture: Drawing::described(
+                "figure-mechanism",
+                &format!("The wall {}", of.wall),
+                &described,
+                &of.picture.svg(),
+            ),
+            solid: Solid::of("figure-solid", "The wall in three dimensions.", of.picture),
             about_tables: of.about_tables,
             tables: of.tables.iter().map(table).collect(),
             inputs: Table::of_pairs(of.inputs.iter().map(|(name, value)| (*name, value.clone()))),
