@@ -8,7 +8,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use crate::cli::analyse::Analyse;
 use crate::cli::help::{
     ANALYSE, BANK, CAPACITY, CHECK, COMPARE, DIAGNOSE, GENERATE, INFLUENCE, INIT, MEASURED, MECHANISMS,
-    PICTURE, PLAN_TESTS, READINGS, RUN, SENSITIVITY, WHOLE,
+    PICTURE, PLAN_TESTS, READINGS, REPORT, RUN, SENSITIVITY, WHOLE,
 };
 use crate::cli::rare::Method;
 use crate::cli::{influence, question, sensitivity};
@@ -56,6 +56,12 @@ pub(crate) enum Verb {
     /// A run that was stopped goes on where it stood.
     #[command(after_help = RUN)]
     Run(Run),
+    /// Put a run on a page: answer, statistics, figures, walls, sources.
+    ///
+    /// One HTML file that any browser opens without a network: question, answer, figures, every wall, the weakest, the median and the
+    /// strongest one drawn, every input with its source, limits, provenance, and a paragraph for a paper.
+    #[command(after_help = REPORT)]
+    Report(Report),
     /// Say what walls may be counted on to bear.
     ///
     /// The probability of a failure below some load, a low quantile, characteristic and design values: from simulated walls, or with --measured from tested specimens alone.
@@ -280,6 +286,25 @@ pub(crate) struct Run {
     /// Output folder of an earlier run of the same study, whose means are drawn into the figure as hollow markers.
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub beside: Option<PathBuf>,
+    /// Write report.html into the output folder as well: the run on a page, as `report` does.
+    #[arg(long, help_heading = OUTPUT)]
+    pub report: bool,
+}
+
+/// Arguments of `report`.
+#[derive(Args, Debug)]
+pub(crate) struct Report {
+    /// The output folder of a run.
+    pub run: PathBuf,
+    /// Folder of the study that was run [default: where it was run from, else studies/<study>].
+    #[arg(long, value_name = "STUDY", help_heading = STUDY)]
+    pub study: Option<PathBuf>,
+    /// File to write [default: report.html in the folder of the run].
+    #[arg(long, value_name = "FILE", help_heading = OUTPUT)]
+    pub out: Option<PathBuf>,
+    /// Print one JSON object on standard output instead of text.
+    #[arg(long, help_heading = OUTPUT)]
+    pub json: bool,
 }
 
 /// Arguments of `capacity`.

@@ -18,6 +18,7 @@ pub(super) fn run(folder: &Path, arguments: &Run) -> Result<(), Failure> {
         (arguments.which.variant.is_some(), "--variant: it has no variants"),
         (arguments.solver.is_some(), "--solver: spheres and polyhedra each have their own explicit one"),
         (arguments.beside.is_some(), "--beside: it draws no figure"),
+        (arguments.report, "--report: its results are one table and have no page"),
     ];
     if let Some((_, why)) = refused.iter().find(|(given, _)| *given) {
         return Err(Failure::Usage(format!("{} compares types of elements; {why}", folder.display())));

@@ -17,7 +17,7 @@ const INDENT: usize = 10;
 /// The verbs in the order in which they are met, under what they are about.
 const GROUPS: [(&str, &[&str]); 3] = [
     ("One wall", &["analyse", "generate", "picture"]),
-    ("Many walls", &["init", "check", "run", "capacity", "compare", "influence", "readings"]),
+    ("Many walls", &["init", "check", "run", "report", "capacity", "compare", "influence", "readings"]),
     ("Measured walls", &["plan-tests", "measured", "sensitivity", "bank", "diagnose", "mechanisms"]),
 ];
 
@@ -94,6 +94,20 @@ Example: pirca run studies/joint-arrangement --members 5 --out runs/first-try
 Stopped and started again with the same arguments, it goes on where it stood and ends with the same files. With more members, \
 another stiffness or another arm in the same folder it computes only what is new, and says what it takes over. A wall that falls or \
 cannot be built is counted in the results; it is no error.
+
+",
+    codes!()
+);
+
+/// Of `report`.
+pub(super) const REPORT: &str = concat!(
+    "\
+Example: pirca run studies/tilting-block --out runs/first
+         pirca report runs/first
+         pirca report runs/first --out for-a-colleague.html
+
+The study must be as it was run. The walls that are drawn are solved again; no other wall is. `pirca run --report` writes the same \
+page at the end of a run.
 
 ",
     codes!()

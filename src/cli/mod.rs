@@ -21,6 +21,7 @@ mod locate;
 mod measured;
 mod mechanisms;
 mod one_wall;
+mod origin;
 mod output;
 mod picture;
 mod plan_tests;
@@ -28,6 +29,7 @@ mod progress;
 mod question;
 mod rare;
 mod readings;
+mod report;
 mod run;
 mod sensitivity;
 mod threads;
@@ -62,6 +64,7 @@ pub fn main() -> ExitCode {
         Verb::Picture(arguments) => picture::picture(arguments),
         Verb::PlanTests(arguments) => plan_tests::plan_tests(arguments),
         Verb::Readings(arguments) => readings::readings(arguments),
+        Verb::Report(arguments) => report::report(arguments),
         Verb::Run(arguments) => run::run(arguments),
         Verb::Sensitivity(arguments) => sensitivity::sensitivity(arguments),
     };

@@ -8,6 +8,7 @@ use crate::cli::doing::doing;
 use crate::cli::failure::Failure;
 use crate::cli::{locate, output};
 use crate::ensemble::{self, Evaluated, Generated, Task};
+use crate::model::Level;
 use crate::protocol::Run;
 use crate::study::{Arm, Study};
 
@@ -37,9 +38,15 @@ impl OneWall {
         let (arm, member) = (&study.arms[index], arguments.member);
         let kn = kn(arm, arguments.point)?;
         check_member(arm, member)?;
-        let generated = ensemble::build(&study, index as u32, member)
-            .map_err(|e| Failure::Run(format!("arm {}, member {member}: invalid geometry: {e}", arm.name)))?;
-        let task = Task { arm: index as u32, point: arguments.point, member };
+        OneWall::at(study, Task { arm: index as u32, point: arguments.point, member }, kn)
+    }
+
+    /// Builds the wall of a task.
+    pub fn at(study: Study, task: Task, kn: f64) -> Result<OneWall, Failure> {
+        let Task { arm, member, .. } = task;
+        let name = &study.arms[arm as usize].name;
+        let generated = ensemble::build(&study, arm, member)
+            .map_err(|e| Failure::Run(format!("arm {name}, member {member}: invalid geometry: {e}")))?;
         Ok(OneWall { study, task, kn, generated })
     }
 
@@ -62,10 +69,14 @@ impl OneWall {
 
     /// Takes it through the study's protocol.
     pub fn solved(&self) -> Run {
-        let Generated { wall, .. } = &self.generated;
-        let what =
-            format!("solving {} stones with the {} solver", wall.stones().count(), self.study.solver.name());
-        doing(&what, |doing| ensemble::solve(&self.study, self.task, wall, &|level| doing.at(level)))
+        let stones = self.generated.wall.stones().count();
+        let what = format!("solving {stones} stones with the {} solver", self.study.solver.name());
+        doing(&what, |doing| self.solved_telling(&|level| doing.at(level)))
+    }
+
+    /// The same, where somebody else says what is being done and is told how far it is.
+    pub fn solved_telling(&self, tell: &dyn Fn(Level)) -> Run {
+        ensemble::solve(&self.study, self.task, &self.generated.wall, tell)
     }
 }
 

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde_json::json;
 
-use crate::cli::arguments::Picture as Arguments;
+use crate::cli::arguments::{Measure, Picture as Arguments};
 use crate::cli::condition::{conditions, hinges};
 use crate::cli::drawn::{drawing, ending, seams, stones, uncoloured};
 use crate::cli::failure::Failure;
@@ -12,7 +12,7 @@ use crate::cli::one_wall::OneWall;
 use crate::cli::output;
 use crate::contact;
 use crate::ensemble::replace_file;
-use crate::protocol::{Direction, Protocol, typical_size};
+use crate::protocol::{Direction, Protocol, Run, typical_size};
 use crate::report::Picture;
 
 /// Solves the member and draws it.
@@ -25,33 +25,9 @@ pub(crate) fn picture(arguments: &Arguments) -> Result<(), Failure> {
     }
     let chosen = OneWall::of(&arguments.which, &arguments.wall)?;
     let run = chosen.solved();
-    let OneWall { study, task, kn, generated } = &chosen;
-    let (arm, member, wall) = (&study.arms[task.arm as usize], task.member, &generated.wall);
-
-    let stones = stones(wall, &run);
-    let magnification = arguments.magnify.unwrap_or_else(|| Picture::fitting(&stones));
-    // The ground has joints as well.
-    let settings = contact::Settings::for_size(typical_size(wall), arm.sub_contacts);
-    let grounded = wall.clone().with_base();
-    let seams = seams(&grounded, &settings, &run.joint_states, arguments.colour);
-    let falls = run.failure.is_some();
-    let conditions = conditions((&grounded, &settings), &stones, &run.joint_states, falls);
-    let from_front = !direction(&study.protocol).is_backwards();
-    let variant = study.variant.as_ref().map_or(String::new(), |name| format!(", variant {name}"));
-    let ending = ending(&run);
-    let mut remarks = vec![ending.clone(), drawing(&run, magnification, from_front)];
-    remarks.extend(uncoloured(&run, &seams, arguments.colour));
-    let picture = Picture {
-        stones,
-        seams,
-        hinges: hinges(&run.joint_states, &conditions),
-        measure: arguments.colour.said().to_owned(),
-        unit: arguments.colour.unit(),
-        from_front,
-        magnification,
-        title: format!("{}{variant}: arm {}, member {member}, kn {kn:e} Pa/m", study.name, arm.name),
-        remarks,
-    };
+    let picture = of_wall(&chosen, &run, arguments.colour, arguments.magnify);
+    let OneWall { study, task, kn, .. } = &chosen;
+    let (arm, member) = (&study.arms[task.arm as usize], task.member);
     replace_file(&arguments.out, picture.svg().as_bytes())?;
 
     let out = arguments.out.display().to_string();
@@ -60,12 +36,41 @@ pub(crate) fn picture(arguments: &Arguments) -> Result<(), Failure> {
         return output::print_json(&json!({
             "study": study.name, "variant": study.variant, "seed": study.seed,
             "arm": arm.name, "point": task.point, "kn_pa_per_m": kn, "member": member,
-            "out": out, "outcome": run.outcome.name(), "magnification": magnification,
+            "out": out, "outcome": run.outcome.name(), "magnification": picture.magnification,
             "mode": failure.map(|f| f.mode.name()), "hinge_height_m": failure.map(|f| f.hinge_height),
             "moving_weight_share": failure.map(|f| f.weight_share),
         }));
     }
-    output::print(&format!("{out}: {}: {ending}\n", picture.title))
+    output::print(&format!("{out}: {}: {}\n", picture.title, ending(&run)))
+}
+
+/// The picture of a wall that was solved.
+pub(super) fn of_wall(chosen: &OneWall, run: &Run, colour: Measure, magnify: Option<f64>) -> Picture {
+    let OneWall { study, task, kn, generated } = chosen;
+    let (arm, member, wall) = (&study.arms[task.arm as usize], task.member, &generated.wall);
+    let stones = stones(wall, run);
+    let magnification = magnify.unwrap_or_else(|| Picture::fitting(&stones));
+    // The ground has joints as well.
+    let settings = contact::Settings::for_size(typical_size(wall), arm.sub_contacts);
+    let grounded = wall.clone().with_base();
+    let seams = seams(&grounded, &settings, &run.joint_states, colour);
+    let falls = run.failure.is_some();
+    let conditions = conditions((&grounded, &settings), &stones, &run.joint_states, falls);
+    let from_front = !direction(&study.protocol).is_backwards();
+    let variant = study.variant.as_ref().map_or(String::new(), |name| format!(", variant {name}"));
+    let mut remarks = vec![ending(run), drawing(run, magnification, from_front)];
+    remarks.extend(uncoloured(run, &seams, colour));
+    Picture {
+        stones,
+        seams,
+        hinges: hinges(&run.joint_states, &conditions),
+        measure: colour.said().to_owned(),
+        unit: colour.unit(),
+        from_front,
+        magnification,
+        title: format!("{}{variant}: arm {}, member {member}, kn {kn:e} Pa/m", study.name, arm.name),
+        remarks,
+    }
 }
 
 fn is_svg(path: &Path) -> bool {

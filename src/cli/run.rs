@@ -2,7 +2,8 @@
 
 use crate::cli::arguments::{Run, SolverName};
 use crate::cli::failure::Failure;
-use crate::cli::{elements, locate, output, progress};
+use crate::cli::origin::Origin;
+use crate::cli::{elements, locate, output, progress, report as page};
 use crate::ensemble::{self, Quantity, Settings};
 use crate::report::{self, Earlier};
 use crate::study::{ElementStudy, Study};
@@ -13,7 +14,8 @@ pub(crate) fn run(arguments: &Run) -> Result<(), Failure> {
     if ElementStudy::is_in(&folder) {
         return elements::run(&folder, arguments);
     }
-    let study = asked(locate::study(&arguments.which)?.study, arguments)?;
+    let loaded = locate::study(&arguments.which)?;
+    let study = asked(loaded.study.clone(), arguments)?;
     let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, ""));
     let quantity = Quantity::of(&study.protocol);
     let beside = arguments.beside.as_ref().map(|dir| Earlier::read(dir, &study.name, quantity));
@@ -23,6 +25,11 @@ pub(crate) fn run(arguments: &Run) -> Result<(), Failure> {
     let study = ensemble::come_to(study, &rows);
     let summary = report::write_all(&study, &rows, &out, beside.as_ref())
         .map_err(|error| Failure::Run(format!("{error:#}")))?;
+    let origin = Origin::now(&folder, arguments.threads);
+    origin.write(&out)?;
+    if arguments.report {
+        page::write(&out.join(page::PAGE), (&study, &loaded), &rows, &origin)?;
+    }
     if arguments.which.json {
         return output::print_json(&summary);
     }

@@ -37,6 +37,16 @@ pub enum RunError {
         /// What was found.
         found: String,
     },
+    /// The folder holds no finished run of this study.
+    #[error("{}: {found}; {fix}", folder.display())]
+    NotARun {
+        /// The folder that was named.
+        folder: PathBuf,
+        /// What was found.
+        found: String,
+        /// What to do about it.
+        fix: String,
+    },
     /// Another process is writing into the folder.
     #[error("another run is writing to {}; wait for it, or choose another folder with --out", folder.display())]
     Busy {

@@ -6,6 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::study::Study;
 
+/// Name of its file in the output folder.
+pub(super) const MANIFEST: &str = "manifest.json";
 /// How many changed values an error names.
 const NAMED: usize = 8;
 

@@ -7,6 +7,7 @@ mod enough;
 mod error;
 mod evaluate;
 mod files;
+mod finished;
 mod given;
 mod influence;
 mod journal;
@@ -35,6 +36,7 @@ pub use enough::{Look, come_to};
 pub use error::{MemberFault, RunError};
 pub use evaluate::{build, evaluate, solve, weight};
 pub use files::replace_file;
+pub use finished::{finished, identity};
 pub use given::{Unsure, given_points, predicted};
 pub use influence::{
     Evaluation, InfluenceWalls, Influenced, Source, Wall as InfluenceWall, base_points, influence_table,

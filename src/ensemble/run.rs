@@ -13,6 +13,7 @@ use rayon::prelude::*;
 use crate::ensemble::design::plan_of;
 use crate::ensemble::enough::{first_looks, next_looks};
 use crate::ensemble::journal::{Entry, Journal, Recorded};
+use crate::ensemble::manifest::MANIFEST;
 use crate::ensemble::walls::WallKeys;
 use crate::ensemble::{
     Grown, Manifest, MemberFault, Progress, Row, RunError, Task, evaluate, files, plan, table,
@@ -121,10 +122,8 @@ impl<'s> Evaluations<'s> {
     /// Finds tasks among what is recorded.
     fn take_over(&mut self, tasks: &[Task]) {
         for task in tasks {
-            let key = key_of(self.study, &self.keys, *task);
-            if let Some(entry) = key.and_then(|key| self.recorded.remove(&key)) {
-                let row = Row { arm_index: task.arm, point: task.point, ..entry.row };
-                self.entries.insert(*task, Entry { row, ..entry });
+            if let Some(entry) = taken(self.study, &self.keys, &mut self.recorded, *task) {
+                self.entries.insert(*task, entry);
             }
         }
     }
@@ -181,9 +180,21 @@ impl<'s> Evaluations<'s> {
         files::replace_file(&out.join("members.parquet"), &table::members(&rows)?)?;
         files::replace_file(&out.join("steps.parquet"), &table::steps(&rows)?)?;
         let json = serde_json::to_string_pretty(&manifest).expect("a manifest has string keys only");
-        files::replace_file(&out.join("manifest.json"), format!("{json}\n").as_bytes())?;
+        files::replace_file(&out.join(MANIFEST), format!("{json}\n").as_bytes())?;
         Ok(rows)
     }
+}
+
+/// Takes a task out of what is recorded, if it is there.
+pub(super) fn taken(
+    study: &Study,
+    keys: &WallKeys,
+    recorded: &mut BTreeMap<String, Entry>,
+    task: Task,
+) -> Option<Entry> {
+    let entry = recorded.remove(&key_of(study, keys, task)?)?;
+    let row = Row { arm_index: task.arm, point: task.point, ..entry.row };
+    Some(Entry { row, ..entry })
 }
 
 /// The hash of what decides a task's row.

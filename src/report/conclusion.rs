@@ -7,17 +7,16 @@ use crate::report::published::Verdict;
 use crate::report::summary::{ArmSummary, Summary};
 use crate::report::table::{LONGEST_NAME, WIDTH, wrapped};
 
+/// The sentences of the conclusion, without the question.
+pub(super) fn sentences(summary: &Summary) -> Vec<String> {
+    let variant = summary.variant.as_ref().map_or_else(String::new, |variant| format!(", variant {variant}"));
+    let counted = format!("{}{variant}: {}", summary.study, walls(summary));
+    [Some(counted), shown(summary), ratios(summary), beside(summary)].into_iter().flatten().collect()
+}
+
 /// The conclusion, a line or two per sentence.
 pub(super) fn conclusion(summary: &Summary) -> String {
-    let variant = summary.variant.as_ref().map_or_else(String::new, |variant| format!(", variant {variant}"));
-    let lines = [
-        format!("{}{variant}: {}", summary.study, walls(summary)),
-        shown(summary).unwrap_or_default(),
-        ratios(summary).unwrap_or_default(),
-        beside(summary).unwrap_or_default(),
-    ];
-    let mut text: String =
-        lines.iter().filter(|line| !line.is_empty()).map(|line| wrapped("", line)).collect();
+    let mut text: String = sentences(summary).iter().map(|line| wrapped("", line)).collect();
     if text.lines().count() < MOST_LINES && !summary.question.is_empty() {
         let question = wrapped("", &summary.question);
         if text.lines().count() + question.lines().count() <= MOST_LINES {

@@ -12,7 +12,7 @@ use crate::report::summary::{ArmSummary, EnoughEntry, Summary};
 pub(super) const WIDTH: usize = 100;
 
 /// What the table shows, in words.
-fn explanation(quantity: Quantity) -> String {
+pub(super) fn explanation(quantity: Quantity) -> String {
     format!(
         "Each line is one arm (kind of wall) at one normal stiffness kn of the joints. The quantity is {}. Brackets hold \
          95 % intervals. A dash: not defined (one wall has no sigma). Failed walls ({}) are counted and are not in the \
@@ -56,8 +56,8 @@ fn said_enough(arm: &ArmSummary, enough: &EnoughEntry) -> String {
     )
 }
 
-/// One line per arm and kn, and the notes below.
-fn arms(arms: &[ArmSummary]) -> String {
+/// The heads, and a row per arm and kn.
+pub(super) fn arm_rows(arms: &[ArmSummary]) -> Vec<Vec<String>> {
     let unit = arms.first().map_or("", |arm| arm.shown.shown_unit());
     let in_unit = |name: &str| format!("{name} {unit}");
     let counts = ["arm", "kn Pa/m", "walls", "failed"].map(String::from);
@@ -79,17 +79,24 @@ fn arms(arms: &[ArmSummary]) -> String {
             with_interval(arm.cov.map(|x| x * 1e2), arm.cov_ci.map(|ci| ci.map(|x| x * 1e2)), 3),
         ]);
     }
-    let mut text = aligned(rows);
-    for arm in arms {
-        if let Some(enough) = &arm.enough {
-            text.push_str(&wrapped("", &said_enough(arm, enough)));
-        }
-        if let Some(note) = &arm.note {
-            text.push_str(&wrapped(
-                "! ",
-                &format!("{} at kn {}: {note}", arm.arm, stiffness(arm.kn_pa_per_m)),
-            ));
-        }
+    rows
+}
+
+/// What is to be said of an arm at one kn: whether it had walls enough, and which are not in the numbers.
+pub(super) fn arm_notes(arm: &ArmSummary) -> [Option<String>; 2] {
+    let note = arm.note.as_ref();
+    [
+        arm.enough.as_ref().map(|enough| said_enough(arm, enough)),
+        note.map(|note| format!("{} at kn {}: {note}", arm.arm, stiffness(arm.kn_pa_per_m))),
+    ]
+}
+
+/// One line per arm and kn, and the notes below.
+fn arms(arms: &[ArmSummary]) -> String {
+    let mut text = aligned(arm_rows(arms));
+    for [enough, note] in arms.iter().map(arm_notes) {
+        text.extend(enough.map(|enough| wrapped("", &enough)));
+        text.extend(note.map(|note| wrapped("! ", &note)));
     }
     text
 }

@@ -70,6 +70,11 @@ impl Stated {
         self.measured.as_ref().map(|file| (file.source.text.as_str(), file.sha256.as_str()))
     }
 
+    /// Whether the study's files state the key of that path; what they do not state has its default.
+    pub fn states(&self, path: &str) -> bool {
+        states(&self.root, path)
+    }
+
     /// Names of all arms, evaluated or not.
     pub(super) fn arms(&self) -> Option<Vec<String>> {
         load::arm_names(&self.root)
@@ -112,6 +117,21 @@ impl Stated {
         let written = toml::to_string(&Written { node: &self.root, section: Some(&keys::STUDY) });
         crate::check!(written.is_ok(), "a study that was read cannot be written: {written:?}");
         written.unwrap_or_default()
+    }
+}
+
+/// Whether a key below a node is stated. A key of `[uncertain]` has dots of its own.
+fn states(node: &Node, path: &str) -> bool {
+    let below = |name: &str, node: &Node| {
+        path.strip_prefix(name).is_some_and(|rest| match rest.strip_prefix('.') {
+            Some(rest) => states(node, rest),
+            None => rest.is_empty(),
+        })
+    };
+    match &node.value {
+        Value::Table(table) => table.iter().any(|(name, entry)| below(name, &entry.node)),
+        Value::List(list) => list.iter().any(|node| table_name(node).is_some_and(|name| below(name, node))),
+        _ => false,
     }
 }
 

@@ -28,6 +28,7 @@ mod picture;
 mod plan_tests;
 mod readings;
 mod records;
+mod report;
 mod scratch;
 mod spreadsheets;
 mod study;

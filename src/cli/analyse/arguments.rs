@@ -104,7 +104,7 @@ pub(crate) struct Analyse {
     /// Seed of the design over ranges and distributions [default: 1].
     #[arg(long, value_name = "N", help_heading = SOLUTION)]
     pub seed: Option<u64>,
-    /// Folder for a picture of the mechanism, files for ParaView (.vtu), and tables of blocks and joints (.csv, .json).
+    /// Folder for a page of it all (report.html), a picture of the mechanism, files for ParaView (.vtu), and tables of blocks and joints (.csv, .json).
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub out: Option<PathBuf>,
     /// What joints are coloured by in the picture.

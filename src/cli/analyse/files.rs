@@ -1,4 +1,4 @@
-//! What `analyse --out` writes of a wall: a picture, files for ParaView, and tables of its blocks and joints.
+//! What `analyse --out` writes of a wall: a page, a picture, files for ParaView, and tables of its blocks and joints.
 
 use std::path::Path;
 
@@ -8,6 +8,7 @@ use crate::cli::analyse::answer::Answer;
 use crate::cli::analyse::arguments::{Analyse, MethodName};
 use crate::cli::analyse::joints;
 use crate::cli::analyse::meetings::Fit;
+use crate::cli::analyse::page::{Told, page};
 use crate::cli::analyse::state::State;
 use crate::cli::arguments::Measure;
 use crate::cli::condition::{Condition, hinges};
@@ -27,18 +28,20 @@ const BLOCKS: &str = "block,name,fixed,moves,rest_x_m,rest_y_m,rest_z_m,rest_tur
 const JOINTS: &str = "block_a,block_b,state,x_m,y_m,z_m,area_m2,opening,slip,slipped_share,force_on_b_x_n,force_on_b_y_n,force_on_b_z_n,\
                       pressure_pa\n";
 
-/// Writes all files of a wall; `object` is what `--json` prints of it.
+/// Writes all files of a wall; `object` is what `--json` prints of it, `told` what is said of it otherwise.
 pub(crate) fn write(
     folder: &Path,
     asked: &Analyse,
     (file, fit): (&WallFile, &Fit),
     (answer, state): (&Answer, &State),
     object: &Value,
+    told: &Told<'_>,
 ) -> Result<(), Failure> {
     output::folder(folder)?;
     let picture = picture(asked, (file, fit), answer, state);
     let rests: Vec<Vec3> = state.stones.iter().map(|stone| at_rest(state, stone).shift).collect();
     let mut files = vec![
+        ("report.html", page(asked, file, (answer, state), &picture, told)?),
         ("mechanism.svg", picture.svg()),
         ("rest.vtu", write_vtu(&file.wall, (asked.solver != MethodName::Limit).then_some(&rests[..]))),
         ("blocks.csv", blocks_csv(file, answer, state)),
@@ -105,7 +108,12 @@ fn picture(asked: &Analyse, (file, fit): (&WallFile, &Fit), answer: &Answer, sta
         unit: asked.colour.unit(),
         from_front,
         magnification,
-        title: format!("{}: {} solver, phi {} deg", title(asked), asked.solver.name(), asked.phi_deg.middle()),
+        title: format!(
+            "{}: {} solver, phi {} deg",
+            title(asked),
+            asked.solver.name(),
+            asked.phi_deg.middle()
+        ),
         remarks,
     }
 }

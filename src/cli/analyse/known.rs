@@ -27,6 +27,14 @@ impl Known {
             Known::Within { spread, .. } => spread.middle(),
         }
     }
+
+    /// As a page says it: the number, or the range and the value at which the wall is drawn.
+    pub fn said(&self, number: impl Fn(f64) -> String) -> String {
+        match self {
+            Known::Exactly(x) => number(*x),
+            Known::Within { stated, .. } => format!("{stated}; drawn at {}", number(self.middle())),
+        }
+    }
 }
 
 /// Friction angle (deg).

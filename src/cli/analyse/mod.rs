@@ -9,6 +9,7 @@ mod known;
 mod loads;
 mod meetings;
 mod numbers;
+mod page;
 mod solve;
 mod state;
 mod unsure;

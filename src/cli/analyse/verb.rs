@@ -8,6 +8,7 @@ use crate::cli::analyse::arguments::{Analyse, FlowName, LoadName, MethodName, Up
 use crate::cli::analyse::known::Known;
 use crate::cli::analyse::loads::{loaded, settlements};
 use crate::cli::analyse::meetings::{Fit, bounds, look};
+use crate::cli::analyse::page::Told;
 use crate::cli::analyse::solve::{law, solve, solve_telling};
 use crate::cli::analyse::state::State;
 use crate::cli::analyse::unsure::{Given, asked, refused};
@@ -72,16 +73,6 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
     if let Some(sure) = &sure {
         object["uncertain"] = json!(sure);
     }
-    if let Some(folder) = &arguments.out {
-        let state = State::of(&file.wall, &fit.contact, &found);
-        files::write(folder, arguments, (&file, &fit), (&answer, &state), &object)?;
-        let written = sure.as_ref().map_or(Ok(()), |sure| write_uncertainty(sure, folder));
-        written.map_err(|error| Failure::Run(format!("{error:#}")))?;
-    }
-    if arguments.json {
-        return output::print_json(&object);
-    }
-    warnings.iter().for_each(|warning| output::note(&format!("warning: {warning}")));
     let mut text = answer.text(arguments, &file, &fit, seconds);
     text += &sure.as_ref().map(uncertainty_text).unwrap_or_default();
     if arguments.worst_direction {
@@ -90,6 +81,17 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
             None => format!("  it falls in none of {} directions that were tried\n", directions.len()),
         };
     }
+    if let Some(folder) = &arguments.out {
+        let state = State::of(&file.wall, &fit.contact, &found);
+        let told = Told { text: &text, warnings: &warnings };
+        files::write(folder, arguments, (&file, &fit), (&answer, &state), &object, &told)?;
+        let written = sure.as_ref().map_or(Ok(()), |sure| write_uncertainty(sure, folder));
+        written.map_err(|error| Failure::Run(format!("{error:#}")))?;
+    }
+    if arguments.json {
+        return output::print_json(&object);
+    }
+    warnings.iter().for_each(|warning| output::note(&format!("warning: {warning}")));
     if let Some(folder) = &arguments.out {
         text += &format!("written to {}\n", folder.display());
     }

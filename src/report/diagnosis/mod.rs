@@ -26,10 +26,11 @@ use anyhow::{Context, Result};
 
 use crate::ensemble::replace_file;
 use crate::report::diagnosis::family_plot::FamilyPlot;
-use crate::report::diagnosis::page::{Drawing, page};
+use crate::report::diagnosis::page::page;
 use crate::report::diagnosis::residual_plot::ResidualPlot;
 use crate::report::draw::{IMAGE_SCALE, svg};
 use crate::report::files::write_figure;
+use crate::report::page::Drawing;
 
 /// File name, without ending, of the figure of all readings.
 const RESIDUALS: &str = "residuals";
@@ -53,12 +54,13 @@ pub fn write_diagnosis(summary: &DiagnosisSummary, families: &[FamilyFigure], di
              of a cause where half of its own have. Specimens read at one tilt stand side by side.",
             family.family
         );
-        drawings.push(Drawing { caption, svg: svg(&figure(1))? });
+        let title = format!("Family {}", family.family);
+        drawings.push(Drawing::picture(&format!("figure-{name}"), &title, &caption, &svg(&figure(1))?));
     }
     let figure = |scale| ResidualPlot::new(&summary.study, &summary.residuals, scale);
     write_figure(dir, RESIDUALS, &figure(1), &figure(IMAGE_SCALE))?;
     let caption =
         "Every reading against what the base model shows of it, with joints anywhere in their priors.";
-    drawings.push(Drawing { caption: caption.to_string(), svg: svg(&figure(1))? });
+    drawings.push(Drawing::picture("figure-residuals", "All readings", caption, &svg(&figure(1))?));
     Ok(replace_file(&dir.join("verdict.html"), page(summary, &drawings).as_bytes())?)
 }

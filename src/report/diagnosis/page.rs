@@ -9,24 +9,7 @@ use crate::report::diagnosis::text::{
 use crate::report::diagnosis::words::{lines, reading};
 use crate::report::gain::GainSummary;
 use crate::report::markup::escaped;
-
-const STYLE: &str = "body { font-family: \"DejaVu Sans\", Verdana, sans-serif; max-width: 60em; margin: 2em auto; padding: 0 1em; \
-    color: #000; background: #fff; line-height: 1.4; }\n\
-    table { border-collapse: collapse; margin: 1em 0; }\n\
-    th, td { text-align: left; vertical-align: top; padding: 0.25em 1em 0.25em 0; border-bottom: 1px solid #ccc; }\n\
-    .verdict { font-size: 1.2em; font-weight: bold; }\n\
-    pre { white-space: pre-wrap; font-size: 0.9em; }\n\
-    figure { margin: 1em 0; break-inside: avoid; }\n\
-    figure svg { max-width: 100%; height: auto; }\n\
-    tr { break-inside: avoid; }\n";
-
-/// A figure of the page: its caption and its SVG.
-pub struct Drawing {
-    /// What it shows.
-    pub caption: String,
-    /// The figure, as it is.
-    pub svg: String,
-}
+use crate::report::page::{Drawing, STYLE};
 
 /// The page.
 pub fn page(summary: &DiagnosisSummary, drawings: &[Drawing]) -> String {
@@ -49,8 +32,11 @@ pub fn page(summary: &DiagnosisSummary, drawings: &[Drawing]) -> String {
     let cells = lines(&summary.groups).into_iter();
     let rows = cells.map(|line| vec![line.what, line.measured, line.simulated, line.finding]).collect();
     body.push_str(&table(&["what", "measured", "simulated", "finding"], rows));
-    for Drawing { caption, svg } in drawings {
-        body.push_str(&format!("<figure>\n{svg}<figcaption>{}</figcaption>\n</figure>\n", escaped(caption)));
+    for Drawing { id, caption, svg } in drawings {
+        body.push_str(&format!(
+            "<figure id=\"{id}\">\n{svg}<figcaption>{}</figcaption>\n</figure>\n",
+            escaped(caption)
+        ));
     }
     body.push_str("<h2>What is off once joints are fitted</h2>\n");
     body.push_str(&paragraph(&format!("{OFF}.")));
@@ -99,7 +85,8 @@ pub fn page(summary: &DiagnosisSummary, drawings: &[Drawing]) -> String {
     }
     body.push_str(&paragraph(&format!("Seed {}, bank {}.", summary.seed, summary.bank)));
     format!(
-        "<!DOCTYPE html>\n<html lang=\"en-GB\">\n<head>\n<meta charset=\"utf-8\">\n<title>{}</title>\n<style>\n{STYLE}</style>\n\
+        "<!DOCTYPE html>\n<html lang=\"en-GB\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n<style>\n{STYLE}</style>\n\
          </head>\n<body>\n{body}</body>\n</html>\n",
         escaped(&title)
     )
@@ -123,5 +110,5 @@ fn table(heads: &[&str], rows: Vec<Vec<String>>) -> String {
     };
     let head = row(&mut heads.iter().copied(), "th");
     let rows: String = rows.iter().map(|cells| row(&mut cells.iter().map(String::as_str), "td")).collect();
-    format!("<table>\n{head}{rows}</table>\n")
+    format!("<div class=\"wide\"><table>\n{head}{rows}</table></div>\n")
 }

@@ -1,0 +1,90 @@
+//! `pirca report`: the page of a run, and the same page as `pirca run --report` writes it.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::json;
+
+use crate::cli::arguments::{Measure, Report};
+use crate::cli::doing::doing;
+use crate::cli::drawn::ending;
+use crate::cli::failure::Failure;
+use crate::cli::one_wall::OneWall;
+use crate::cli::origin::Origin;
+use crate::cli::{locate, output, picture};
+use crate::ensemble::{self, Manifest, Row, replace_file};
+use crate::report::{DrawnWall, RunPage, chosen_walls, run_page};
+use crate::study::{Loaded, Study};
+
+/// Name of the page in the output folder.
+pub(crate) const PAGE: &str = "report.html";
+
+/// Writes the page of a run that has ended.
+pub(crate) fn report(arguments: &Report) -> Result<(), Failure> {
+    let folder = &arguments.run;
+    let manifest = ensemble::identity(folder)?;
+    let origin = Origin::read(folder).unwrap_or_default();
+    let place = place(arguments, &manifest, &origin)?;
+    let loaded = Study::load(&place, manifest.variant.as_deref())?;
+    let study = as_run(loaded.study.clone(), &manifest)?;
+    let rows = ensemble::finished(&study, folder)?;
+    let study = ensemble::come_to(study, &rows);
+    let page = arguments.out.clone().unwrap_or_else(|| folder.join(PAGE));
+    write(&page, (&study, &loaded), &rows, &origin)?;
+    if arguments.json {
+        return output::print_json(&json!({
+            "study": study.name, "variant": study.variant, "seed": study.seed, "study_hash": study.hash,
+            "evaluations": rows.len(), "page": page.display().to_string(),
+        }));
+    }
+    output::print(&format!("written to {}\n", page.display()))
+}
+
+/// Writes the page of a run of a study, as it was run and as its files state it.
+pub(crate) fn write(
+    page: &Path,
+    (study, loaded): (&Study, &Loaded),
+    rows: &[Row],
+    origin: &Origin,
+) -> Result<(), Failure> {
+    let mut drawn = Vec::new();
+    for (which, task) in chosen_walls(study, rows) {
+        let kn = study.arms[task.arm as usize].kn_points[task.point as usize];
+        let wall = OneWall::at(study.clone(), task, kn)?;
+        let run = doing(&format!("drawing the {which} wall"), |doing| {
+            wall.solved_telling(&|level| doing.at(level))
+        });
+        let picture = picture::of_wall(&wall, &run, Measure::Opening, None);
+        drawn.push(DrawnWall { which, task, picture, ending: ending(&run) });
+    }
+    let text = run_page(&RunPage { study, loaded, rows, drawn: &drawn, origin: &origin.of_page() })
+        .map_err(|error| Failure::Run(format!("{error:#}")))?;
+    Ok(replace_file(page, text.as_bytes())?)
+}
+
+/// Where the study of a run lies: where it was run from, or else among the studies.
+fn place(arguments: &Report, manifest: &Manifest, origin: &Origin) -> Result<PathBuf, Failure> {
+    if let Some(study) = &arguments.study {
+        return locate::folder(study);
+    }
+    let usual = Path::new("studies").join(&manifest.study);
+    let known = [origin.study.clone(), usual];
+    known.into_iter().find(|folder| folder.join("study.toml").is_file()).ok_or_else(|| {
+        Failure::Input(format!(
+            "{}: the study {} of the run is neither where it was run from nor in studies/; name its folder with --study",
+            arguments.run.display(),
+            manifest.study
+        ))
+    })
+}
+
+/// The study with the seed, the walls and the solver of the run, which may have been asked for in the place of its own.
+fn as_run(study: Study, manifest: &Manifest) -> Result<Study, Failure> {
+    let mut study = study.with_seed(manifest.seed);
+    if study.solver.name() != manifest.solver {
+        study = study.with_solver(&manifest.solver)?;
+    }
+    match manifest.members.values().max() {
+        Some(&members) if Manifest::of(&study).members != manifest.members => Ok(study.with_members(members)),
+        _ => Ok(study),
+    }
+}

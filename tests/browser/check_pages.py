@@ -1,0 +1,177 @@
+"""Opens the pages that pirca writes in a real browser, without a network.
+
+usage: check_pages.py CHROMIUM RUN WALL VERDICT   (CHROMIUM: the browser's program; RUN: report.html of a run with three random walls
+                                                   or more; WALL: report.html of analyse; VERDICT: verdict.html of diagnose; needs
+                                                   the package of requirements.txt)
+
+Of every page: nothing is fetched, the console is silent, no script of a name runs, the words that must be there are seen, all that a
+figure shows has a name for those who do not see it, the page is no larger than it may be, and it fits the width of A4 and of a small
+screen. Of the run's page besides: a mark, reached and pressed by the keyboard alone, leads to its wall and unfolds the table that holds
+it; and on paper the inputs are unfolded. The wall in three dimensions is drawn, moves with its slider and turns by keys. Every figure has marks on it: a blank one would have a single colour.
+
+Exits with 1 and a message when something is not what was expected.
+"""
+
+import pathlib
+import sys
+
+from playwright.sync_api import sync_playwright
+
+# A page beyond this is slow to open and to send (bytes).
+LARGEST = 3_000_000
+# Draws in three dimensions without a graphics card. With less the page is blank and nothing is said.
+SOFTWARE = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+SCREENS = {"desk": (1280, 900), "phone": (390, 844), "A4": (794, 1123)}
+
+
+def fail(words):
+    sys.exit(f"check_pages: {words}")
+
+
+def opened(browser, path, width, height):
+    """The page, which must be silent and fetch nothing."""
+    page = browser.new_page(viewport={"width": width, "height": height})
+    heard = []
+    page.on("console", lambda message: heard.append(f"console: {message.text}"))
+    page.on("pageerror", lambda error: heard.append(f"error: {error}"))
+    page.on("dialog", lambda dialog: (heard.append(f"dialog: {dialog.message}"), dialog.dismiss()))
+    page.on(
+        "request",
+        lambda request: None if request.url.startswith(("file:", "data:")) else heard.append(f"fetched: {request.url}"),
+    )
+    page.goto(path.resolve().as_uri())
+    return page, heard
+
+
+def check(browser, path, words):
+    size = path.stat().st_size
+    if size > LARGEST:
+        fail(f"{path} has {size} bytes, allowed are {LARGEST}")
+    for screen, (width, height) in SCREENS.items():
+        page, heard = opened(browser, path, width, height)
+        for wanted in words:
+            if not page.get_by_text(wanted).first.is_visible():
+                fail(f"{path}, {screen}: \"{wanted}\" is not seen")
+        wide = page.evaluate("document.documentElement.scrollWidth")
+        if wide > width:
+            fail(f"{path}, {screen}: {wide} pixels wide, where {width} are seen")
+        if heard:
+            fail(f"{path}, {screen}: {'; '.join(heard)}")
+        page.close()
+    page, heard = opened(browser, path, *SCREENS["desk"])
+    figures = page.locator("figure:not(.solid)")
+    for number in range(figures.count()):
+        picture = figures.nth(number).locator("svg").screenshot()
+        if len(picture) < 4000:
+            fail(f"{path}: figure {number} is blank ({len(picture)} bytes as PNG)")
+    count = figures.count()
+    page.close()
+    return count
+
+
+def check_names(browser, path):
+    page, _ = opened(browser, path, *SCREENS["desk"])
+    nameless = page.evaluate(
+        """[...document.querySelectorAll("figure svg")].filter(svg => (svg.getAttribute("aria-labelledby") || "").split(" ")
+           .some(id => !document.getElementById(id) || !document.getElementById(id).textContent)).length"""
+    )
+    if nameless:
+        fail(f"{path}: {nameless} figures have no name for a reader of screens")
+    page.close()
+
+
+def check_marks(browser, path):
+    """By the keyboard: to the first mark that leads to a row, which is folded away, and in."""
+    page, heard = opened(browser, path, *SCREENS["desk"])
+    page.evaluate("document.querySelectorAll('details').forEach(part => { part.open = false; })")
+    marks = page.locator("svg a[href^='#wall-']")
+    for _ in range(400):
+        page.keyboard.press("Tab")
+        to = page.evaluate("document.activeElement.getAttribute('href') || ''")
+        if to.startswith("#wall-"):
+            break
+    else:
+        fail(f"{path}: the keyboard reaches none of {marks.count()} marks")
+    if page.locator(to).is_visible():
+        fail(f"{path}: {to} was not folded away")
+    page.keyboard.press("Enter")
+    page.locator(to).wait_for(state="visible", timeout=3000)
+    drawn = page.locator("svg a[href^='#figure-']")
+    if drawn.count() < 3:
+        fail(f"{path}: {drawn.count()} marks lead to drawings, not 3")
+    for number in range(3):
+        if page.locator(drawn.nth(number).get_attribute("href")).count() != 1:
+            fail(f"{path}: a mark leads to no drawing")
+    if heard:
+        fail(f"{path}: {'; '.join(heard)}")
+    page.close()
+
+
+def check_solid(browser, path):
+    """The wall in three dimensions: something is drawn, it moves with the slider, and keys turn it."""
+    page, heard = opened(browser, path, *SCREENS["desk"])
+    canvas, slider = page.locator("figure.solid canvas"), page.locator("figure.solid input")
+    canvas.scroll_into_view_if_needed()
+    seen = [canvas.screenshot()]
+    slider.fill("0")
+    seen.append(canvas.screenshot())
+    canvas.focus()
+    for key in ["ArrowRight", "ArrowRight", "ArrowUp", "+"]:
+        page.keyboard.press(key)
+    seen.append(canvas.screenshot())
+    if len(set(seen)) < 3:
+        fail(f"{path}: the wall in three dimensions does not move")
+    # A blank canvas of this size has some three thousand bytes.
+    if min(map(len, seen)) < 8_000:
+        fail(f"{path}: the wall in three dimensions is blank: {[len(picture) for picture in seen]} bytes as PNG")
+    if heard:
+        fail(f"{path}: {'; '.join(heard)}")
+    page.close()
+
+
+def check_without(browser, path):
+    """A browser that draws nothing in three dimensions says so, and shows the rest."""
+    page = browser.new_page()
+    page.add_init_script("HTMLCanvasElement.prototype.getContext = () => null")
+    page.goto(path.resolve().as_uri())
+    if not page.get_by_text("This browser shows nothing in three dimensions").is_visible():
+        fail(f"{path}: without WebGL nothing is said")
+    page.close()
+
+
+def check_paper(browser, path):
+    """What paper shows: the inputs unfolded."""
+    page, _ = opened(browser, path, *SCREENS["A4"])
+    paper = page.pdf(prefer_css_page_size=True)
+    if len(paper) < 20_000:
+        fail(f"{path}: {len(paper)} bytes of PDF hold hardly anything")
+    if page.locator("details.printed:not([open])").count():
+        fail(f"{path}: inputs are folded away on paper")
+    page.close()
+
+
+def main():
+    if len(sys.argv) != 5:
+        sys.exit(__doc__)
+    chromium, (run, wall, verdict) = sys.argv[1], map(pathlib.Path, sys.argv[2:])
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox", *SOFTWARE])
+        found = []
+        for path, words in [
+            (run, ["What came out", "Wall and inputs", "Statistics", "The walls", "Limits of validity", "Provenance", "For a paper"]),
+            (wall, ["What came out", "Blocks and joints", "Inputs", "Limits of validity", "Provenance"]),
+            (verdict, ["Measured beside simulated", "Causes", "How often such verdicts are right"]),
+        ]:
+            found.append(f"{path}: {check(browser, path, words)} figures")
+            check_names(browser, path)
+        for path in [run, wall]:
+            check_solid(browser, path)
+            check_without(browser, path)
+        check_marks(browser, run)
+        check_paper(browser, run)
+        browser.close()
+    print("\n".join(found))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,198 @@
+//! The pages of runs and of walls from files: what is on them, what does nothing on them, and folders that hold no run.
+
+use std::collections::BTreeSet;
+use std::fs;
+
+use serde_json::Value;
+
+use crate::fixture::{Folder, STUDY, stderr};
+use crate::walls;
+
+/// Run with three random walls.
+const RUN: [&str; 6] = ["run", "studies/tiny", "--members", "3", "--out", "out"];
+
+/// A folder with a finished run in `out`, and its page.
+fn finished() -> (Folder, String) {
+    let folder = Folder::with_study(STUDY);
+    let output = folder.pirca(&[&RUN[..], &["--report"]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let page = fs::read_to_string(folder.path("out/report.html")).expect("the page was written");
+    (folder, page)
+}
+
+/// What stands in double quotes behind each occurrence of a text.
+fn quoted<'p>(page: &'p str, before: &str) -> Vec<&'p str> {
+    page.split(before).skip(1).filter_map(|rest| rest.split('"').next()).collect()
+}
+
+/// The page without our own scripts, which are its end.
+fn markup(page: &str) -> &str {
+    page.split("<script>\n").next().unwrap_or_default()
+}
+
+/// Every link leads somewhere on the page, no two places have one name, and nothing is fetched.
+fn holds_together(page: &str) {
+    let page = markup(page);
+    let ids = quoted(page, " id=\"");
+    let names: BTreeSet<&str> = ids.iter().copied().collect();
+    assert_eq!(ids.len(), names.len(), "a name comes twice");
+    for link in quoted(page, "href=\"") {
+        let to = link.strip_prefix('#');
+        assert!(to.is_some_and(|to| names.contains(to)) || link == "data:,", "{link} leads nowhere");
+    }
+    for list in quoted(page, "aria-labelledby=\"") {
+        assert!(list.split(' ').all(|name| names.contains(name)), "{list}");
+    }
+    for fetched in [" src=\"", "<link rel=\"stylesheet", "url(", "@import"] {
+        assert!(!page.contains(fetched), "{fetched} fetches something");
+    }
+}
+
+#[test]
+fn a_run_comes_on_a_page_with_its_answer_its_walls_and_its_sources() {
+    let (folder, page) = finished();
+    holds_together(&page);
+    let printed = folder.pirca(&RUN);
+    let printed = String::from_utf8_lossy(&printed.stdout).into_owned();
+    let first = printed.lines().find(|line| line.starts_with("tiny: ")).expect("the conclusion");
+    for words in [
+        "Does the machinery hold?",
+        first,
+        "<td>wall.height_m</td><td>0.3</td><td>stated in the study</td>",
+        "<td>joint.sampling</td><td>area</td><td>default</td>",
+        "<td>members</td><td>3</td><td>asked for with the command</td>",
+        "<td>dip_deg</td><td>uniform, low -3.0, high 3.0</td>",
+        "pirca run studies&#x2f;tiny --members 3 --out out --report",
+        "The weakest wall: number ",
+        "The median wall: number ",
+        "The strongest wall: number ",
+        "Intervals are at 95 %",
+        "@software{pirca",
+    ] {
+        assert!(page.contains(words), "{words} is not on the page");
+    }
+    // The stack bond at two stiffnesses and three random walls at both.
+    let rows = quoted(&page, "<tr id=\"").len();
+    assert_eq!((rows, quoted(&page, "<a href=\"#wall-").len()), (8, 5), "three marks lead to drawings");
+    assert_eq!(quoted(&page, "<a href=\"#figure-").len(), 3);
+}
+
+#[test]
+fn a_page_is_written_again_from_the_folder_alone() {
+    let (folder, page) = finished();
+    fs::remove_file(folder.path("out/report.html")).unwrap();
+    let output = folder.pirca(&["report", "out", "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let told: Value = serde_json::from_slice(&output.stdout).expect("one JSON object");
+    assert_eq!((&told["evaluations"], &told["page"]), (&Value::from(8), &Value::from("out/report.html")));
+    assert!(fs::read_to_string(folder.path("out/report.html")).unwrap() == page, "the same bytes");
+    // What else the run wrote is left alone, and a run that says nothing of its command has a page as well.
+    fs::remove_file(folder.path("out/command.json")).unwrap();
+    let output = folder.pirca(&["report", "out", "--out", "elsewhere.html"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let other = fs::read_to_string(folder.path("elsewhere.html")).unwrap();
+    assert!(other.contains("<td>command</td><td>not recorded</td>"));
+    holds_together(&other);
+}
+
+#[test]
+fn a_folder_without_such_a_run_is_refused_in_one_sentence() {
+    let (folder, _) = finished();
+    let refused = |arguments: &[&str], code: i32, words: &str| {
+        let output = folder.pirca(&[&["report"], arguments].concat());
+        assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
+        let said = stderr(&output);
+        assert!(said.contains(words) && said.trim_end().lines().count() == 1, "{words} in {said}");
+    };
+    refused(&["nowhere"], 1, "nowhere: there is no such folder; give the folder that pirca run wrote to");
+    refused(&["studies"], 1, "studies: holds no run: it has no manifest.json; give the folder");
+    let manifest = fs::read_to_string(folder.path("out/manifest.json")).unwrap();
+    let with = |text: &str| fs::write(folder.path("out/manifest.json"), text).unwrap();
+    let own = env!("CARGO_PKG_VERSION");
+    with(&manifest.replacen(&format!("\"version\": \"{own}\""), "\"version\": \"0.0.9\"", 1));
+    refused(&["out"], 1, &format!("the run is of pirca 0.0.9, and this is pirca {own}; use that version"));
+    with("{\"version\": 3}");
+    refused(&["out"], 1, "its manifest.json is not that of a run");
+    fs::remove_file(folder.path("out/manifest.json")).unwrap();
+    refused(
+        &["out"],
+        1,
+        "the run was stopped before its manifest.json was written; start the same pirca run again",
+    );
+    with(&manifest);
+    let journal = fs::read_to_string(folder.path("out/journal.jsonl")).unwrap();
+    let lines: Vec<&str> = journal.lines().collect();
+    fs::write(folder.path("out/journal.jsonl"), lines[..lines.len() - 2].join("\n") + "\n").unwrap();
+    refused(&["out"], 1, "2 of 8 walls are not evaluated yet; start the same pirca run again");
+    fs::write(folder.path("out/journal.jsonl"), &journal).unwrap();
+    folder.write_study(&STUDY.replacen("phi_deg = 35", "phi_deg = 36", 1));
+    refused(&["out"], 1, "the study is another one than was run (joint.phi_deg: ");
+    fs::rename(folder.path("studies/tiny"), folder.path("studies/moved")).unwrap();
+    refused(&["out"], 3, "the study tiny of the run is neither where it was run from nor in studies/");
+    // Where it went to, as it was.
+    fs::write(folder.path("studies/moved/study.toml"), STUDY).unwrap();
+    refused(&["out", "--study", "studies/moved"], 1, "study: tiny recorded, moved asked for");
+}
+
+#[test]
+fn a_study_of_elements_has_no_page() {
+    let folder = Folder::with_study(STUDY);
+    let study = concat!(env!("CARGO_MANIFEST_DIR"), "/studies/element-types");
+    let output = folder.pirca(&["run", study, "--report"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        stderr(&output).contains("--report: its results are one table and have no page"),
+        "{}",
+        stderr(&output)
+    );
+}
+
+/// Names that would do something if they were markup.
+const NAME: &str = "<img src=x onerror=alert(1)>";
+const WORDS: &str = "<script>alert(2)</script> & \\\"more\\\"";
+
+fn does_nothing(page: &str) {
+    let page = markup(page);
+    for tag in ["<img", "<script>alert", "onerror=alert(1)>"] {
+        assert!(!page.contains(tag), "{tag} is on the page as markup");
+    }
+    assert!(page.contains("&lt;img src=x onerror=alert(1)&gt;"), "the name is there to be read");
+}
+
+#[test]
+fn markup_in_the_names_of_a_study_does_nothing() {
+    let folder = Folder::with_study(STUDY);
+    let study = format!("studies/{NAME}");
+    fs::create_dir(folder.path(&study)).unwrap();
+    let text = STUDY.replacen("Does the machinery hold?", WORDS, 1);
+    fs::write(folder.path(&study).join("study.toml"), text).unwrap();
+    let output = folder.pirca(&["run", &study, "--members", "2", "--out", "out", "--report"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let page = fs::read_to_string(folder.path("out/report.html")).unwrap();
+    does_nothing(&page);
+    assert!(page.contains("&lt;script&gt;alert(2)&lt;&#x2f;script&gt; &amp; &quot;more&quot;"));
+}
+
+#[test]
+fn a_wall_from_a_file_comes_on_a_page_and_markup_in_its_names_does_nothing() {
+    let folder = walls::Folder::new();
+    let file = format!("{NAME}.obj");
+    fs::write(folder.path(&file), walls::GOOD_OBJ.replacen("o Stone", &format!("o {NAME}"), 1)).unwrap();
+    let output = folder.pirca(&["analyse", &file, "--phi-deg", "35", "--out", "seen"]);
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let page = fs::read_to_string(folder.path("seen/report.html")).expect("the page was written");
+    holds_together(&page);
+    does_nothing(&page);
+    let headline = said.lines().next().expect("an answer");
+    for words in [
+        "At which tilt towards y+ does the wall fall?",
+        headline,
+        "<td>friction angle of the joints</td><td>35 deg</td>",
+        "Blocks (3)",
+        "Joints (2)",
+        "SHA-256 of the file",
+    ] {
+        assert!(page.contains(words), "{words} is not on the page");
+    }
+}
