@@ -1,4 +1,4 @@
-//! How a wall falls, as far as its mechanism shows it.
+//! How a wall falls without slip, as far as its mechanism shows it.
 
 use crate::cli::analyse::state::State;
 use crate::cli::condition::Condition;
@@ -8,13 +8,11 @@ use crate::report::Stone;
 /// Stones move as one where none leaves the movement of the others by this share of the fastest.
 const AS_ONE: f64 = 0.1;
 
-/// A way to fall.
+/// A way to fall on which friction does no work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Fall {
     /// What moves turns as one rigid body, and no joint slips.
     OverturnsAsOne,
-    /// What moves is one rigid body, and slips on all joints under it.
-    SlidesAsOne,
     /// Several bodies turn, and no joint slips.
     TurnsWithoutSlip,
 }
@@ -31,19 +29,17 @@ impl Fall {
         match (is_one_body(&state.stones, moving), slips, works().count()) {
             (_, _, 0) => None,
             (true, 0, _) => Some(Fall::OverturnsAsOne),
-            (true, slips, all) if slips == all => Some(Fall::SlidesAsOne),
             (false, 0, _) => Some(Fall::TurnsWithoutSlip),
             _ => None,
         }
     }
 
-    /// Why friction does not matter to a wall that falls so, whatever the friction; `None` where it would.
-    pub fn without_friction(self, is_whole: bool) -> Option<String> {
+    /// Why friction does not matter to a wall that falls so.
+    pub fn without_friction(self, is_whole: bool) -> String {
         let what = if is_whole { "the wall" } else { "what moves" };
         match self {
-            Fall::OverturnsAsOne => Some(format!("{what} overturns as one body")),
-            Fall::TurnsWithoutSlip => Some(format!("{what} turns about its joints, and none slips")),
-            Fall::SlidesAsOne => None,
+            Fall::OverturnsAsOne => format!("{what} overturns as one body"),
+            Fall::TurnsWithoutSlip => format!("{what} turns about its joints, and none slips"),
         }
     }
 }

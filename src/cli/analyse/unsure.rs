@@ -164,7 +164,7 @@ impl Given<'_> {
             name if name == PHI.0 => {
                 let (_, fall, is_whole) = middle;
                 let is_alike = ends.iter().all(|(_, other, whole)| (other, whole) == (fall, is_whole));
-                fall.filter(|_| is_alike)?.without_friction(*is_whole)
+                fall.filter(|_| is_alike).map(|fall| fall.without_friction(*is_whole))
             }
             name if name == DENSITY.0 && self.arguments.solver == MethodName::Limit && is_dry => {
                 Some("of rigid blocks with dry joints all forces grow with the weight".to_owned())
