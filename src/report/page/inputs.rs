@@ -47,11 +47,8 @@ fn entries(values: &BTreeMap<String, String>) -> impl Iterator<Item = (&String, 
         let above = key.match_indices('.').filter_map(|(dot, _)| values.get(&key[..dot]));
         above.into_iter().any(|whole| whole.starts_with('{'))
     };
-    values.iter().filter(move |(key, _)| {
-        !NAMES.contains(&key.as_str())
-            && !is_part(key)
-            && !(key.starts_with("arm.") && key.ends_with(".name"))
-    })
+    let is_name = |key: &str| NAMES.contains(&key) || (key.starts_with("arm.") && key.ends_with(".name"));
+    values.iter().filter(move |(key, _)| !is_name(key) && !is_part(key))
 }
 
 /// A value as people read it: a distribution by its family and its parameters, a constant by its number.
