@@ -90,7 +90,7 @@ fn inputs(asked: &Analyse) -> Vec<(&'static str, String)> {
         ("direction", asked.direction.to_string()),
         (
             "friction angle of the joints",
-            asked.phi_deg.said(|phi| format!("{} deg", significant(phi, DIGITS))),
+            asked.phi_deg.said(|phi| format!("{} deg", (1e3 * phi).round() / 1e3)),
         ),
         ("cohesion of the joints", format!("{} Pa", asked.cohesion)),
     ];
@@ -100,7 +100,7 @@ fn inputs(asked: &Analyse) -> Vec<(&'static str, String)> {
         let ks = asked.ks.map_or_else(|| "half the normal one".to_owned(), stiffness);
         all.push(("shear stiffness of the joints", ks));
     }
-    let density = |own: f64| format!("{} kg/m3", significant(own, DIGITS));
+    let density = |own: f64| format!("{} kg/m3", own.round());
     all.extend(asked.density.as_ref().map(|own| ("mean density of the blocks that move", own.said(density))));
     if asked.solver == MethodName::Limit {
         all.push(("flow", asked.flow.map_or("associative", |flow| flow.name()).to_owned()));
