@@ -1,4 +1,4 @@
-//! How many walls a small probability takes: a wall of 72 random stones to a coefficient of variation of 20 %, by each method that goes.
+//! How many walls a small probability takes: a wall of 72 random stones to a coefficient of variation of 20 %.
 //!
 //! `cargo bench --bench capacity`; a name runs one method: `-- importance`. It prints and records nothing: walls are counted, and
 //! their number depends on no machine. See `benches/README.md`.
@@ -58,12 +58,8 @@ dip_deg = { family = "uniform", low = -10, high = 10 }
 "#;
 
 /// Methods with a level (deg) and the most walls that are spent on it: where plain sampling goes, the others must agree with it.
-const SCENES: [[&str; 3]; 4] = [
-    ["plain", "12.2", "4000"],
-    ["importance", "12.2", "1500"],
-    ["importance", "10", "1500"],
-    ["subset", "12.2", "4000"],
-];
+const SCENES: [[&str; 3]; 3] =
+    [["plain", "12.2", "4000"], ["importance", "12.2", "1500"], ["importance", "10", "1500"]];
 
 fn main() {
     let asked = std::env::args().skip(1).find(|own| !own.starts_with("--"));

@@ -86,7 +86,7 @@ pub fn write_glb(title: &str, actors: &[Actor], magnification: f64) -> Vec<u8> {
             ..Node::default()
         });
         nodes.push(node);
-        if !stone.before.moves() && !stone.movement.moves() {
+        if stone.is_still() {
             continue;
         }
         let outputs = [

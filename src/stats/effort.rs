@@ -6,6 +6,7 @@
 
 use crate::math::{exp, ln};
 use crate::random::standard_normal::{cdf, density};
+use crate::stats::strata;
 
 /// Share of points that each level of subset simulation keeps.
 const KEPT: f64 = 0.1;
@@ -56,7 +57,7 @@ pub fn cheap_per_dear(index: f64, rho: f64, cost: f64) -> f64 {
 /// but for some 4 standard deviations of what the cheaper value leaves open.
 pub fn stratified_subset(index: f64, rho: f64, cost: f64) -> f64 {
     let (p, [_, second]) = (cdf(-index), variances(index, rho));
-    let edge = rho * index - 4.0 * (1.0 - rho * rho).sqrt();
+    let edge = rho * index - strata::FAR * (1.0 - rho * rho).sqrt();
     let root = second.sqrt() / p + (cost * subset(edge)).sqrt();
     root * root
 }

@@ -4,8 +4,10 @@
 
 use crate::random::standard_normal::cdf;
 
+/// So many standard deviations above the level, values are expected far beyond it.
+pub const FAR: f64 = 4.0;
 /// Edges of strata: how many standard deviations the value that is expected lies above the level.
-const EDGES: [f64; 6] = [-2.0, -1.0, 0.0, 1.0, 2.0, 4.0];
+const EDGES: [f64; 6] = [-2.0, -1.0, 0.0, 1.0, 2.0, FAR];
 /// A point in the middle of each stratum.
 const MIDDLES: [f64; 7] = [-2.5, -1.5, -0.5, 0.5, 1.5, 2.5, 5.0];
 /// How many strata there are; the last one holds what is expected far beyond the level.

@@ -115,6 +115,13 @@ pub(crate) struct Analyse {
     pub json: bool,
 }
 
+impl Analyse {
+    /// What the wall is called: the name of its file.
+    pub fn title(&self) -> String {
+        self.wall.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+    }
+}
+
 /// Declares a closed set of names for an argument: the value, its name, what it is.
 macro_rules! names {
     ($(#[$about:meta])* $set:ident { $($(#[$what:meta])* $value:ident = $name:literal,)+ }) => {

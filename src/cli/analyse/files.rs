@@ -77,12 +77,7 @@ fn animation(
         .enumerate()
         .map(|(at, stone)| Actor { name: name(at), stone, role: role(at) })
         .collect();
-    write_glb(&title(asked), &actors, magnification)
-}
-
-/// What a wall is called.
-fn title(asked: &Analyse) -> String {
-    asked.wall.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+    write_glb(&asked.title(), &actors, magnification)
 }
 
 /// The wall as it falls, its joints coloured as asked.
@@ -110,7 +105,7 @@ fn picture(asked: &Analyse, (file, fit): (&WallFile, &Fit), answer: &Answer, sta
         magnification,
         title: format!(
             "{}: {} solver, phi {} deg",
-            title(asked),
+            asked.title(),
             asked.solver.name(),
             asked.phi_deg.middle()
         ),

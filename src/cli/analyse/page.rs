@@ -37,7 +37,7 @@ pub(crate) fn page(
 ) -> Result<String, Failure> {
     let bytes = fs::read(&asked.wall)
         .map_err(|error| Failure::Run(format!("cannot read {} again: {error}", asked.wall.display())))?;
-    let wall = asked.wall.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let wall = asked.title();
     let by_rates = asked.solver == MethodName::Limit && state.falls;
     let page = WallPage {
         wall: &wall,

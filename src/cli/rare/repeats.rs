@@ -7,7 +7,7 @@ use crate::ensemble::rare::{Ended, First, Pilot, importance, plain, stratified, 
 use crate::ensemble::{Draw, RareWalls};
 use crate::report::{Repeats, Screen};
 use crate::stats::subset::{Rare, Settings};
-use crate::stats::{Looks, Statistic, above_zero, effort, mean, sigma};
+use crate::stats::{Looks, Statistic, above_zero, cov, effort};
 
 /// Independent runs whose differences are the error.
 const REPEATS: u64 = 10;
@@ -140,8 +140,7 @@ fn summed_up(way: &Way<'_, '_>, runs: &[Ended], miss: f64) -> Repeats {
 /// Coefficient of variation of the runs' mean.
 fn cov_of_mean(runs: &[Ended]) -> Option<f64> {
     let probabilities: Vec<f64> = runs.iter().map(|run| run.probability).collect();
-    let (mean, sigma) = mean(&probabilities).zip(sigma(&probabilities)).filter(|(mean, _)| *mean > 0.0)?;
-    Some(sigma / mean / (runs.len() as f64).sqrt())
+    Some(cov(&probabilities)? / (runs.len() as f64).sqrt())
 }
 
 /// The answer as it stands after a run.

@@ -7,7 +7,7 @@ use crate::ensemble::{Observed, Quantity, Row};
 use crate::random::standard_normal;
 use crate::solve::Solver;
 use crate::stats::subset::Rare;
-use crate::stats::{correlation, mean, sigma};
+use crate::stats::{correlation, mean, sigma, strata};
 use crate::study::{Study, WallParameter, parameters};
 
 /// Most walls that are compared with limit analysis.
@@ -22,8 +22,6 @@ const INDEX: [f64; 2] = [0.0, 6.0];
 const LEAST: f64 = 0.0025;
 /// From this correlation on, limit analysis says anything at all.
 const SAYS: f64 = 0.3;
-/// By so many standard deviations of what is left open may a value lie below what limit analysis makes expected.
-const SPREADS: f64 = 4.0;
 /// Costs of a limit analysis over those of a solution, of the wall of 72 stones (benches/history).
 const COST_IMPLICIT: f64 = 0.2;
 const COST_EXPLICIT: f64 = 0.001;
@@ -72,7 +70,7 @@ impl Sorted {
 
     /// Walls with a larger limit are expected beyond the level by four standard deviations and more.
     pub fn bound(&self) -> f64 {
-        (self.level + SPREADS * self.left - self.line[0]) / self.line[1]
+        (self.level + strata::FAR * self.left - self.line[0]) / self.line[1]
     }
 }
 

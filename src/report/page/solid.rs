@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::math::Vec3;
-use crate::report::picture::{Movement, Picture, Stone};
+use crate::report::picture::{Picture, Stone};
 
 /// The script with the library that it needs.
 pub const VIEWER: &str = include_str!("solid/solid.min.js");
@@ -65,13 +65,14 @@ impl Block {
         let list = |v: &Vec3| [v.x, v.y, v.z].map(rounded);
         // Not magnified at all: where it rests.
         let at_rest = stone.drawn(0.0);
+        let movement = stone.movement.times(magnification);
         Block {
-            still: stone.before == Movement::NONE && stone.movement == Movement::NONE,
+            still: stone.is_still(),
             vertices: at_rest.vertices.iter().flat_map(list).collect(),
             centroid: list(&at_rest.mass_properties().centroid),
             faces: at_rest.faces,
-            shift: list(&(stone.movement.shift * magnification)),
-            turn: list(&(stone.movement.turn * magnification)),
+            shift: list(&movement.shift),
+            turn: list(&movement.turn),
         }
     }
 }

@@ -73,11 +73,6 @@ impl Movement {
     /// None.
     pub const NONE: Movement = Movement { shift: Vec3::new(0.0, 0.0, 0.0), turn: Vec3::new(0.0, 0.0, 0.0) };
 
-    /// Whether there is any.
-    pub(in crate::report) fn moves(&self) -> bool {
-        *self != Movement::NONE
-    }
-
     /// The same movement `factor` times as large.
     pub(in crate::report) fn times(&self, factor: f64) -> Movement {
         Movement { shift: self.shift * factor, turn: self.turn * factor }
@@ -91,6 +86,11 @@ impl Movement {
 }
 
 impl Stone {
+    /// Whether it is drawn where it was built.
+    pub(in crate::report) fn is_still(&self) -> bool {
+        self.before == Movement::NONE && self.movement == Movement::NONE
+    }
+
     /// Points of the block as built, taken to where they are drawn.
     pub(super) fn taking(&self, points: &[Vec3], magnification: f64) -> Vec<Vec3> {
         let built = self.shape.mass_properties().centroid;

@@ -122,7 +122,6 @@ fn faces_and_joints_that_are_seen_are_drawn() {
     assert_eq!(text, picture().svg(), "the same picture, the same bytes");
 }
 
-/// Without a joint that did something there is no scale to read it from.
 #[test]
 fn a_hinge_is_a_dot_at_the_near_end_of_an_edge_that_leads_away() {
     let mut picture = picture();
@@ -140,6 +139,7 @@ fn a_hinge_is_a_dot_at_the_near_end_of_an_edge_that_leads_away() {
     assert!(with.contains("1 hinge: joints open") && !without.contains("<circle"));
 }
 
+/// Without a joint that did something there is no scale to read it from.
 #[test]
 fn a_wall_whose_joints_did_nothing_has_no_colour_bar() {
     let mut still = picture();
