@@ -341,6 +341,9 @@ pub(crate) struct Capacity {
     /// Output folder [default: runs/<study>-capacity, with -<variant> in it if one is named].
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub out: Option<PathBuf>,
+    /// Write report.html into the output folder as well: the answer on a page.
+    #[arg(long, conflicts_with = "measured", help_heading = OUTPUT)]
+    pub report: bool,
 }
 
 /// Arguments of `influence`.
@@ -366,6 +369,9 @@ pub(crate) struct Influence {
     /// Output folder [default: runs/<study>-influence, with -<variant> in it if one is named].
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub out: Option<PathBuf>,
+    /// Write report.html into the output folder as well: the answer on a page.
+    #[arg(long, help_heading = OUTPUT)]
+    pub report: bool,
 }
 
 /// Arguments of `compare`.
@@ -398,6 +404,9 @@ pub(crate) struct Compare {
     /// Output folder [default: runs/<study>-compare, with -<variant> in it if one is named].
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub out: Option<PathBuf>,
+    /// Write report.html into the output folder as well: the comparison on a page.
+    #[arg(long, help_heading = OUTPUT)]
+    pub report: bool,
 }
 
 /// Arguments of `plan-tests`.
@@ -565,6 +574,9 @@ pub(crate) struct Diagnose {
     /// Output folder [default: runs/<study>-diagnosis, with -<variant> in it if one is named].
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub out: Option<PathBuf>,
+    /// Write report.html into the output folder as well: the verdict on a page.
+    #[arg(long, help_heading = OUTPUT)]
+    pub report: bool,
     /// Seed of the diagnosis instead of the study's; the bank keeps the study's.
     #[arg(long, value_name = "S", help_heading = STUDY)]
     pub seed: Option<u64>,

@@ -2,9 +2,9 @@
 
 use crate::cli::arguments::Capacity;
 use crate::cli::failure::Failure;
-use crate::cli::{locate, output, progress, question, rare, threads};
+use crate::cli::{locate, output, progress, question, rare, report as page, threads};
 use crate::ensemble::{self, Quantity, Settings, is_random};
-use crate::report::{CapacitySummary, Question, capacity_text, write_capacity};
+use crate::report::{CapacitySummary, Question, capacity_page, capacity_text, write_capacity};
 use crate::stats::{CHARACTERISTIC_PROBABILITY, Statistic, Variation};
 use crate::study::{MEASURED, MeasuredQuantity, Measurement, Study, Until};
 
@@ -13,7 +13,8 @@ pub(crate) const CAPACITY: &str = "capacity";
 
 /// Answers the question from specimens, or from walls that are evaluated as far as they have not been.
 pub(crate) fn capacity(arguments: &Capacity) -> Result<(), Failure> {
-    let study = locate::with_ensemble(locate::study(&arguments.which)?.study, &arguments.ensemble)?;
+    let loaded = locate::study(&arguments.which)?;
+    let study = locate::with_ensemble(loaded.study.clone(), &arguments.ensemble)?;
     let known = arguments.known_cov.map_or(Variation::Unknown, Variation::Known);
     let quantity = if arguments.measured { Quantity::CollapseAngle } else { Quantity::of(&study.protocol) };
     let question = question::asked(&arguments.question, quantity, &study)?
@@ -56,6 +57,9 @@ pub(crate) fn capacity(arguments: &Capacity) -> Result<(), Failure> {
         threads::on(arguments.threads, || rare::ask(&study, &rows, &mut summary, aim, &out))?;
     }
     write_capacity(&summary, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
+    page::beside(&out, (arguments.report, &arguments.which, arguments.threads), |origin| {
+        capacity_page(&summary, (&study, &loaded), origin)
+    })?;
     if arguments.which.json {
         return output::print_json(&summary);
     }

@@ -2,10 +2,12 @@
 
 use crate::cli::arguments::{Compare, SameWithin};
 use crate::cli::failure::Failure;
-use crate::cli::{locate, output, question};
+use crate::cli::{locate, output, question, report as page};
 use crate::ensemble::{Compared, Contest, Hopeless, Quantity, Row, Settings, is_random};
 use crate::math::edit_distance;
-use crate::report::{Question, SelectionSummary, selection_running, selection_text, write_selection};
+use crate::report::{
+    Question, SelectionSummary, selection_page, selection_running, selection_text, write_selection,
+};
 use crate::stats::selection::{FIRST, Measure};
 use crate::study::Study;
 
@@ -14,10 +16,10 @@ const COMPARE: &str = "compare";
 
 /// Evaluates walls until the best arm is known, and shows what they say.
 pub(crate) fn compare(arguments: &Compare) -> Result<(), Failure> {
-    let study = locate::study(&arguments.which)?.study;
+    let loaded = locate::study(&arguments.which)?;
     let study = match arguments.seed {
-        Some(seed) => study.with_seed(seed),
-        None => study,
+        Some(seed) => loaded.study.clone().with_seed(seed),
+        None => loaded.study.clone(),
     };
     question::needs_independent_walls(&study, "a comparison of arms")?;
     let quantity = Quantity::of(&study.protocol);
@@ -49,6 +51,9 @@ pub(crate) fn compare(arguments: &Compare) -> Result<(), Failure> {
     }
     let summary = SelectionSummary::of(&contest, question, &rows, &look);
     write_selection(&summary, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
+    page::beside(&out, (arguments.report, &arguments.which, arguments.threads), |origin| {
+        selection_page(&summary, (&study, &loaded), origin)
+    })?;
     if arguments.which.json {
         return output::print_json(&summary);
     }

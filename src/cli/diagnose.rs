@@ -7,12 +7,15 @@ use crate::cli::arguments::Diagnose;
 use crate::cli::bank::{self, Prepared};
 use crate::cli::doing::doing;
 use crate::cli::failure::Failure;
-use crate::cli::{judge, locate, output, threads};
+use crate::cli::{judge, locate, output, report as page, threads};
 use crate::critic::{
     self, Analysis, BANK, Design, Extension, Judge, SEEDS, Step, Steps, Task, Verdict, World, base_curves,
-    cause_curves, data_notes_by_simulation,
+    best_curves, cause_curves, data_notes_by_simulation, fitted_curves,
 };
-use crate::report::{self, Advice, DataEntry, DiagnosisSummary, EXTENDED, FamilyFigure, GainSummary, Origin};
+use crate::report::{
+    self, Advice, DataEntry, DiagnosisPage, DiagnosisSummary, EXTENDED, FamilyFigure, FitFigure, GainSummary,
+    Origin, diagnosis_page,
+};
 use crate::study::{Loaded, MEASURED, Nuisance, Study};
 
 /// Diagnoses the measurements of a study.
@@ -54,13 +57,30 @@ fn judged(arguments: &Diagnose) -> Result<(), Failure> {
     summary.advice = Advice::of(&self_test, &offered, are_left, &mechanisms);
     summary.gain = gain.map(|gain| GainSummary::of(&gain, &study, &design, &mechanisms));
     let drawn = seed.wrapping_add(7 * SEEDS);
-    let (base, causes) = doing("simulating the curves of the figures", |_| {
-        (base_curves(&world, &design, drawn), cause_curves(&world, &design, &diagnosis, drawn))
+    let (base, causes, fitted, best) = doing("simulating the curves of the figures", |_| {
+        let causes = cause_curves(&world, &design, &diagnosis, drawn);
+        let fitted = fitted_curves(&world, &design, &measured, drawn);
+        let best = best_curves(&world, &design, &diagnosis, drawn);
+        (base_curves(&world, &design, drawn), causes, fitted, best)
     });
     let families = FamilyFigure::all(&study, &mechanisms, &residuals, &base, &causes);
+    let in_verdict = !diagnosis.verdict.causes().is_empty();
+    let fit = FitFigure::of(&study, &mechanisms, &residuals, &fitted, best.as_ref(), in_verdict);
     summary.extended = extensions.iter().map(|own| format!("{EXTENDED}/{}", named(own))).collect();
     output::folder(&out)?;
-    report::write_diagnosis(&summary, &families, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
+    let failed = |error: anyhow::Error| Failure::Run(format!("{error:#}"));
+    let drawings = report::write_diagnosis(&summary, &families, &fit, &out).map_err(failed)?;
+    page::beside(&out, (arguments.report, &arguments.which, arguments.threads), |origin| {
+        let (fitted, drawings) = (drawings.fit.as_ref(), &drawings.others[..]);
+        diagnosis_page(&DiagnosisPage {
+            study: &study,
+            summary: &summary,
+            fit: &fit,
+            fitted,
+            drawings,
+            origin,
+        })
+    })?;
     let origin = Origin { study: &study, stated: &stated, seed, bank: &plan.study.hash };
     let extended = extended(&origin, &world, &extensions, &out)?;
     let is_unexplained = diagnosis.verdict == Verdict::Unexplained;

@@ -198,7 +198,8 @@ pub(super) const DIAGNOSE: &str = concat!(
     "\
 Example: pirca diagnose studies/tilting-table --measured my-tests.csv
 
-It writes verdict.html (a page with all of it), verdict.json, figures as SVG and PNG (one per family, and residuals) and, for each \
+It writes verdict.json, figures as SVG and PNG (best-fit: the readings on the base model and on the best cause; one per family; \
+residuals), with --report a page with all of it, report.html, and, for each \
 cause of the verdict, the study extended by it: extended/<cause>. That is an ordinary study at the medians of what is not known, \
 with draws from it as variants (run extended/<cause> --variant draw-07).
 

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use crate::cli::arguments::Influence;
 use crate::cli::failure::Failure;
-use crate::cli::{locate, one_wall, output, threads};
+use crate::cli::{locate, one_wall, output, report as page, threads};
 use crate::ensemble::{InfluenceWalls, Kept, RANDOMISATIONS, base_points, influence_table, sources};
-use crate::report::{InfluenceSummary, influence_text, running, write_influence};
+use crate::report::{InfluenceSummary, influence_page, influence_text, running, write_influence};
 use crate::study::{Arm, Design, Study};
 
 /// What the folder of the results is named by.
@@ -20,7 +20,8 @@ pub(crate) fn influence(arguments: &Influence) -> Result<(), Failure> {
 }
 
 fn answered(arguments: &Influence) -> Result<(), Failure> {
-    let mut study = locate::study(&arguments.which)?.study;
+    let loaded = locate::study(&arguments.which)?;
+    let mut study = loaded.study.clone();
     if let Some(seed) = arguments.seed {
         study = study.with_seed(seed);
     }
@@ -51,6 +52,9 @@ fn answered(arguments: &Influence) -> Result<(), Failure> {
     let summary = InfluenceSummary::of(&study, kn, &sources, &evaluated, RANDOMISATIONS);
     let table = influence_table(&sources, &evaluated, RANDOMISATIONS)?;
     write_influence(&summary, &table, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
+    page::beside(&out, (arguments.report, &arguments.which, arguments.threads), |origin| {
+        influence_page(&summary, (&study, &loaded), origin)
+    })?;
     if arguments.which.json {
         return output::print_json(&summary);
     }

@@ -1,10 +1,12 @@
 //! `pirca report`: the page of a run, and the same page as `pirca run --report` writes it.
 
+use std::fs;
+use std::num::NonZero;
 use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use crate::cli::arguments::{Measure, Report};
+use crate::cli::arguments::{Measure, Report, Which};
 use crate::cli::doing::doing;
 use crate::cli::drawn::ending;
 use crate::cli::failure::Failure;
@@ -12,7 +14,7 @@ use crate::cli::one_wall::OneWall;
 use crate::cli::origin::Origin;
 use crate::cli::{locate, output, picture};
 use crate::ensemble::{self, Manifest, Row, replace_file};
-use crate::report::{DrawnWall, RunPage, chosen_walls, run_page};
+use crate::report::{DrawnWall, PageOrigin, RunPage, chosen_walls, run_page};
 use crate::study::{Loaded, Study};
 
 /// Name of the page in the output folder.
@@ -59,6 +61,27 @@ pub(crate) fn write(
     let text = run_page(&RunPage { study, loaded, rows, drawn: &drawn, origin: &origin.of_page() })
         .map_err(|error| Failure::Run(format!("{error:#}")))?;
     Ok(replace_file(page, text.as_bytes())?)
+}
+
+/// Writes the page of an answer beside its files, if it is asked for; else takes away that of an earlier answer, which would be taken
+/// for this one's.
+pub(crate) fn beside(
+    out: &Path,
+    (is_asked, which, threads): (bool, &Which, Option<NonZero<usize>>),
+    page: impl FnOnce(&PageOrigin) -> anyhow::Result<String>,
+) -> Result<(), Failure> {
+    let file = out.join(PAGE);
+    if !is_asked {
+        return match fs::remove_file(&file) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                Err(Failure::Run(format!("{}: {error}", file.display())))
+            }
+            _ => Ok(()),
+        };
+    }
+    let origin = Origin::now(&locate::folder(&which.study)?, threads).of_page();
+    let text = page(&origin).map_err(|error| Failure::Run(format!("{error:#}")))?;
+    Ok(replace_file(&file, text.as_bytes())?)
 }
 
 /// Where the study of a run lies: where it was run from, or else among the studies.

@@ -37,7 +37,10 @@ pub use discrepancy::{
     Band, Baseline, Component, ComponentEstimate, Contrast, Discrepancy, Expected, Feature, Group, Parts,
     Reference, Residual, Residuals, Scale, Side, features,
 };
-pub use extend::{Curve, DRAWS, Extension, FamilyCurves, Known, base_curves, cause_curves, extension};
+pub use extend::{
+    Curve, DRAWS, Extension, FamilyCurves, Known, base_curves, best_curves, cause_curves, extension,
+    fitted_curves,
+};
 #[cfg(test)]
 pub(crate) use fixture::{Made, made};
 pub use gain::{Choice, Folds, Gain, Gained, HeldOut, Interval, Measuring, Scores};

@@ -3,8 +3,9 @@
 
 use crate::critic::{DETECTION_POWER, Offer, Offered, SelfTest};
 use crate::report::number::{or_dash, significant, with_interval};
+use crate::report::page::Table;
 use crate::report::table::wrapped;
-use crate::study::Described;
+use crate::study::{Described, in_plain_words};
 
 /// A cause that is found in fewer of its campaigns than this is not seen at all.
 const SEEN: f64 = 0.2;
@@ -69,6 +70,16 @@ pub struct NextEntry {
     pub of_bits: f64,
 }
 
+impl DetectionLimitEntry {
+    /// Where it is found.
+    fn from(&self) -> String {
+        let side = if self.below { "at most" } else { "at least" };
+        self.value.map_or("anywhere in its search prior".to_string(), |value| {
+            format!("{side} {}", significant(value, 2))
+        })
+    }
+}
+
 impl Advice {
     /// From the self-test and what was offered, for causes that are left or for others.
     pub fn of(test: &SelfTest, offered: &[Offered], are_left: bool, mechanisms: &[Described]) -> Advice {
@@ -114,6 +125,54 @@ impl Advice {
         }
     }
 
+    /// Sentences of a page: what data like these cannot tell apart, and what they hardly see.
+    pub fn sentences(&self) -> Vec<String> {
+        let classes: Vec<String> = self.look_alike.iter().map(|class| listed(class)).collect();
+        let alike = (!classes.is_empty())
+            .then(|| format!("Data like these cannot tell apart: {}.", classes.join(". Nor: ")));
+        let unseen = (!self.not_seen.is_empty())
+            .then(|| format!("Data like these hardly see: {}.", listed(&self.not_seen)));
+        alike.into_iter().chain(unseen).collect()
+    }
+
+    /// Tables of a page: the next measurements, and the smallest effects that are found.
+    pub fn tables(&self) -> Vec<Table> {
+        let next = self.next.iter().map(|own| {
+            let bits = with_interval(Some(own.bits), Some(own.interval), 2);
+            vec![own.what.clone(), bits, significant(own.hours, 2)]
+        });
+        let open = if self.next_of_those_left { "open" } else { "open if the exclusions are chance" };
+        let caption = self.next.first().map_or_else(String::new, |first| {
+            let bits = significant(first.of_bits, 2);
+            format!("Expected information about the cause, of {bits} bit {open}; hours of two people are our estimate.")
+        });
+        let heads = ["measurement", "information (bit), 95 % interval", "hours"];
+        let next = Table { caption, ..Table::new("Next measurement", &heads, next.collect()) };
+        let caught = self.caught.iter().map(|own| {
+            let [low, high] = own.interval.map(|end| or_dash(end, 2));
+            let from = own.from();
+            let unit = if own.unit == "1" { "" } else { own.unit };
+            vec![
+                in_plain_words(own.cause),
+                own.parameter.to_owned(),
+                from,
+                format!("[{low}, {high}]"),
+                unit.to_owned(),
+            ]
+        });
+        let name =
+            format!("Smallest effects found in {:.0} % of simulated campaigns", 100.0 * DETECTION_POWER);
+        let heads = ["cause", "parameter", "found where it is", "95 % interval; a dash: not bounded", "unit"];
+        let caught = Table::new(&name, &heads, caught.collect());
+        let part = self.seen_in_part.iter().map(|own| {
+            let of = |[found, all]: [u64; 2]| format!("{found} of {all}");
+            vec![in_plain_words(own.cause), of(own.found), of(own.strong_found)]
+        });
+        let heads = ["cause", "found in", "of the third that moves the readings most"];
+        let part = Table::new("Found less often at any strength", &heads, part.collect());
+        [next, caught, part].into_iter().filter(|table| !table.rows.is_empty()).collect()
+    }
+
     /// The advice as people read it.
     pub fn text(&self) -> String {
         let mut text = String::new();
@@ -135,11 +194,8 @@ impl Advice {
                 100.0 * DETECTION_POWER
             ));
             for own in &self.caught {
-                let side = if own.below { "at most" } else { "at least" };
                 let unit = if own.unit == "1" { String::new() } else { format!(" {}", own.unit) };
-                let from = own.value.map_or("anywhere in its search prior".to_string(), |value| {
-                    format!("{side} {}", significant(value, 2))
-                });
+                let from = own.from();
                 let [low, high] = own.interval.map(|end| or_dash(end, 2));
                 text.push_str(&format!(
                     "  {:<18} {} {from} [{low}, {high}]{unit}\n",
@@ -176,6 +232,11 @@ impl Advice {
         }
         text
     }
+}
+
+/// Causes in plain words.
+fn listed(causes: &[&'static str]) -> String {
+    causes.iter().map(|cause| in_plain_words(cause)).collect::<Vec<_>>().join("; ")
 }
 
 /// What an offer is, with displacements that are read finely to `fine` (m).

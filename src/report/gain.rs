@@ -1,7 +1,8 @@
 //! What the extended model gains on readings that it has not seen, in the units and words of files.
 
 use crate::critic::{Design, Gain, Gained, HeldOut, Interval, Scores, stand_in};
-use crate::report::number::{significant, with_interval};
+use crate::report::number::{capital, significant, with_interval};
+use crate::report::page::Table;
 use crate::report::table::wrapped;
 use crate::study::{Described, Study};
 
@@ -134,10 +135,22 @@ impl GainSummary {
         }
     }
 
-    /// The gain as people read it.
-    pub fn text(&self) -> String {
-        let mut text = "\nGain on held-out readings (extended less base model; 95 % intervals, calibrated on campaigns without effect)\n".to_string();
-        let parts = [
+    /// A gain on specimens left out, and nothing else.
+    #[cfg(test)]
+    pub fn of_specimens(entry: GainedEntry) -> GainSummary {
+        GainSummary {
+            specimens_left_out: Some(entry),
+            largest_tilts_left_out: None,
+            one_family_known: Vec::new(),
+            choices: Vec::new(),
+            nulls: 0,
+            is_sheared: false,
+        }
+    }
+
+    /// What was left out, what it takes, and what came of it.
+    fn parts(&self) -> [(&'static str, &'static str, &Option<GainedEntry>); 2] {
+        [
             ("each specimen left out in turn", "it takes two specimens", &self.specimens_left_out),
             match self.is_sheared {
                 true => (
@@ -151,8 +164,37 @@ impl GainSummary {
                     &self.largest_tilts_left_out,
                 ),
             },
-        ];
-        for (what, needed, entry) in parts {
+        ]
+    }
+
+    /// The gain as tables of a page: one for each part that was left out, and what was chosen without it.
+    pub fn tables(&self) -> Vec<Table> {
+        let mut tables = Vec::new();
+        for (what, needed, entry) in self.parts() {
+            match entry {
+                Some(entry) => tables.push(entry.table(what)),
+                None => {
+                    let caption = format!("Not measured: {needed}.");
+                    tables.push(Table { caption, ..Table::new(&capital(what), &[], Vec::new()) });
+                }
+            }
+        }
+        for own in &self.one_family_known {
+            tables.push(own.gained.table(&format!("fitted to {} alone, all others left out", own.family)));
+        }
+        let chosen = self.choices.iter().map(|choice| vec![choice.left_out.clone(), choice.text()]);
+        tables.push(Table::new(
+            "Causes chosen without what was left out",
+            &["left out", "chosen"],
+            chosen.collect(),
+        ));
+        tables
+    }
+
+    /// The gain as people read it.
+    pub fn text(&self) -> String {
+        let mut text = "\nGain on held-out readings (extended less base model; 95 % intervals, calibrated on campaigns without effect)\n".to_string();
+        for (what, needed, entry) in self.parts() {
             match entry {
                 Some(entry) => text.push_str(&entry.text(what)),
                 None => text.push_str(&format!("  {what}: {needed}\n")),
@@ -205,7 +247,7 @@ impl GainEntry {
     }
 
     /// What its interval shows.
-    fn claim(&self) -> &'static str {
+    pub(super) fn claim(&self) -> &'static str {
         match self.interval {
             [low, _] if low > 0.0 => "better",
             [_, high] if high < 0.0 => "worse",
@@ -239,6 +281,41 @@ impl GainedEntry {
         }
     }
 
+    /// As a table of a page.
+    fn table(&self, what: &str) -> Table {
+        let number = |x: f64| significant(x, 3);
+        let line = |name: &str, of: fn(&ScoresEntry) -> Option<f64>, gains: [Option<GainEntry>; 2]| {
+            let models = [&self.base, &self.extended, &self.ceiling].map(of);
+            let ([Some(base), Some(extended), Some(ceiling)], [Some(own), Some(most)]) = (models, gains)
+            else {
+                return None;
+            };
+            let cells =
+                [name.to_owned(), number(base), number(extended), own.text(), number(ceiling), most.number()];
+            Some(cells.to_vec())
+        };
+        let rows = [
+            line(
+                "log score per reading",
+                |s| Some(s.log_score),
+                [self.log_score, self.ceiling_log_score].map(Some),
+            ),
+            line("CRPS (sd)", |s| s.crps, [self.crps, self.ceiling_crps]),
+            line("RMSE (sd)", |s| s.rmse, [self.rmse, self.ceiling_rmse]),
+        ];
+        let heads =
+            ["score", "base model", "extended model", "gain, 95 % interval", "free discrepancy", "its gain"];
+        let caption = format!("{} of {} specimens.", self.counted(), self.specimens);
+        Table { caption, ..Table::new(&capital(what), &heads, rows.into_iter().flatten().collect()) }
+    }
+
+    /// The readings that were scored.
+    fn counted(&self) -> String {
+        let bounds = self.readings - self.valued;
+        let bounds = if bounds > 0 { format!(" ({bounds} of them bounds)") } else { String::new() };
+        format!("{} readings{bounds}", self.readings)
+    }
+
     fn text(&self, what: &str) -> String {
         let number = |x: f64| significant(x, 3);
         let line = |name: &str, of: fn(&ScoresEntry) -> Option<f64>, gains: [Option<GainEntry>; 2]| {
@@ -252,9 +329,7 @@ impl GainedEntry {
             format!("    {name:<22} base {base}; extended {extended}: {own}\n")
                 + &format!("    {:<22} free discrepancy {ceiling}: {most}\n", "")
         };
-        let bounds = self.readings - self.valued;
-        let bounds = if bounds > 0 { format!(" ({bounds} of them bounds)") } else { String::new() };
-        format!("  {what}: {} readings{bounds} of {} specimens\n", self.readings, self.specimens)
+        format!("  {what}: {} of {} specimens\n", self.counted(), self.specimens)
             + &line(
                 "log score per reading",
                 |s| Some(s.log_score),

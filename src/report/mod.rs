@@ -47,17 +47,20 @@ pub use advice::Advice;
 pub use beside::{Earlier, Mean};
 pub use capacity::{
     Answer, CapacityGroup, CapacitySummary, Failed, Question, Repeats, Rung, Screen, Supported,
-    SupportedValue, Target, capacity_text, write_capacity,
+    SupportedValue, Target, capacity_page, capacity_text, write_capacity,
 };
 pub use compare::{Basis, Comparison};
 pub(crate) use csv::quoted;
-pub use diagnosis::{DataEntry, DiagnosisSummary, FamilyFigure, diagnosis_text, write_diagnosis};
+pub use diagnosis::{
+    DataEntry, DiagnosisPage, DiagnosisSummary, FamilyFigure, FitFigure, diagnosis_page, diagnosis_text,
+    write_diagnosis,
+};
 pub use elements::{element_table, write_elements};
 pub use extended::{EXTENDED, Origin, extended_name, remove_extended, write_extended};
 pub use files::{FRAGILITY, SUMMARY_JSON, write_all};
 pub use gain::GainSummary;
 pub use gltf::{Actor, Role, write_glb};
-pub use influence::{InfluenceSummary, ShareEntry, influence_text, running, write_influence};
+pub use influence::{InfluenceSummary, ShareEntry, influence_page, influence_text, running, write_influence};
 pub use joint_law::{LawSummary, law_text, remove_law, write_law};
 pub use measured::{CalibrationEntry, ComparisonEntry, MeasuredSummary};
 pub(crate) use number::significant;
@@ -66,8 +69,8 @@ pub use picture::{Hinge, Movement, Picture, Seam, Stone};
 pub use published::{Published, Verdict};
 pub use readings::{Extent, ReadingEntry, ReadingsSummary, readings_text, write_readings};
 pub use selection::{
-    ArmDifference, ArmShown, SelectedArm, SelectionSummary, ShareLevels, selection_running, selection_text,
-    write_selection,
+    ArmDifference, ArmShown, SelectedArm, SelectionSummary, ShareLevels, selection_page, selection_running,
+    selection_text, write_selection,
 };
 pub use sensitivity::{SensitivitySummary, sensitivity_text, write_sensitivity};
 pub use summary::{ArmSummary, EnoughEntry, QuantileEntry, Summary, summarise};

@@ -72,6 +72,35 @@ pub fn compact(x: f64) -> String {
     }
 }
 
+/// How often something as far off is seen by chance, by a p-value from so many simulated campaigns: `about 1 in 200`,
+/// `fewer than 1 in 2,000` where none of them was, `12 in 100`.
+pub fn how_often(p_value: f64, campaigns: u64) -> String {
+    // With n campaigns a p-value is (k + 1) / (n + 1).
+    if p_value * (campaigns + 1) as f64 <= 1.5 {
+        return format!("fewer than 1 in {}", grouped(campaigns));
+    }
+    match p_value {
+        p if p < 0.095 => format!("about 1 in {}", grouped((1.0 / p).round() as u64)),
+        p => format!("{:.0} in 100", 100.0 * p),
+    }
+}
+
+/// A whole number with commas between thousands.
+fn grouped(n: u64) -> String {
+    let digits = n.to_string();
+    let comma = |(place, digit): (usize, char)| {
+        let before = (place > 0 && (digits.len() - place).is_multiple_of(3)).then_some(',');
+        before.into_iter().chain([digit])
+    };
+    digits.chars().enumerate().flat_map(comma).collect()
+}
+
+/// Words with a capital letter before them, as a sentence or a title begins.
+pub fn capital(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
 /// Lowest and highest of some numbers; `None` when there are none.
 pub fn range(values: impl IntoIterator<Item = f64>) -> Option<[f64; 2]> {
     values.into_iter().fold(None, |range, x| match range {
@@ -99,6 +128,19 @@ mod tests {
         assert_eq!(ratio(0.983, 0.99963), "0.9900 [0.9830, 0.9996]");
         assert_eq!(ratio(0.98, 1.0), "0.990 [0.980, 1.00]");
         assert_eq!(with_interval_against(Some(1.0004), None, 3, 1.0), "1.0004 [-]");
+    }
+
+    #[test]
+    fn chance_is_said_as_one_in_so_many() {
+        let said = |p: f64| how_often(p, 2000);
+        assert_eq!(said(1.0 / 2001.0), "fewer than 1 in 2,000");
+        assert_eq!(said(2.0 / 2001.0), "about 1 in 1,001");
+        assert_eq!(said(0.021), "about 1 in 48");
+        assert_eq!(
+            [0.094, 0.095, 0.12, 1.0].map(said),
+            ["about 1 in 11", "10 in 100", "12 in 100", "100 in 100"]
+        );
+        assert_eq!(how_often(1.0 / 1_234_568.0, 1_234_567), "fewer than 1 in 1,234,567");
     }
 
     #[test]

@@ -15,6 +15,8 @@ use crate::study::schema::{Key, Kind, Presence, Section};
 pub struct Entry {
     /// Its name, that of its table of keys.
     pub name: &'static str,
+    /// Its name in plain words.
+    pub title: &'static str,
     /// What would be true of the wall or of the test, with what looks the same and has no entry of its own.
     pub means: &'static str,
     /// Where it acts.
@@ -69,13 +71,14 @@ pub enum InLimitAnalysis {
 
 const fn entry(
     name: &'static str,
+    title: &'static str,
     means: &'static str,
     acts: Acts,
     unloading: Unloading,
     limit: InLimitAnalysis,
     confounded: &'static [&'static str],
 ) -> Entry {
-    Entry { name, means, acts, unloading, confounded, limit }
+    Entry { name, title, means, acts, unloading, confounded, limit }
 }
 
 /// All mechanisms, in the order of their keys.
@@ -85,26 +88,32 @@ pub static INVENTORY: [Entry; 18] = {
     use InLimitAnalysis::{Honoured, NoBearing, Refused};
     use Unloading::{AsWithout, Irreversible, Reversible};
     [
-        entry("contact_inset", "joints begin behind the stated faces; rounded arrises, a soft bed that may open and a wall thinner than stated look the same", Joints, AsWithout, Honoured, &["joint.kn_pa_per_m", "restraint.strip_height_m", "lean", "contact_area"]),
-        entry("joint_closure", "joints touch by rough points and are soft until they have closed", Joints, Reversible, Refused, &["joint.kn_pa_per_m", "stress_stiffening", "contact_area", "base_compliance", "gauge_scale", "gauge_offset"]),
-        entry("stress_stiffening", "joints become stiffer as they are pressed together", Joints, Reversible, Refused, &["joint.kn_pa_per_m", "joint_closure"]),
-        entry("contact_area", "stones touch on a part of their faces only", Joints, AsWithout, Honoured, &["joint.kn_pa_per_m", "contact_inset", "joint_closure", "size_scatter", "specimen_scatter", "wedge_loss"]),
-        entry("friction", "joints are smoother or rougher than stated, or lose friction as they slip", Joints, Irreversible, Honoured, &["joint.phi_deg", "cohesion", "end_release", "creep"]),
-        entry("cohesion", "something holds the stones together, as earth in the joints or suction does", Joints, AsWithout, Honoured, &["friction", "density"]),
-        entry("lean", "the wall leaned before the test, or the platform was not level", Wall, AsWithout, Honoured, &["wall.battered_face", "contact_inset", "base_compliance", "platform_friction"]),
-        entry("base_compliance", "what carries the wall gives way, the platform or the ground under it", Restraint, Reversible, Refused, &["joint.kn_pa_per_m", "joint_closure", "lean", "gauge_scale"]),
-        entry("wedge_loss", "pinning stones fall out as the wall tilts", Loading, Irreversible, Refused, &["creep", "contact_area", "size_scatter"]),
-        entry("rope_slack", "the ropes let the wall move before they hold", Restraint, Reversible, NoBearing, &["restraint.rope.stiffness_n_per_m", "end_release"]),
-        entry("size_scatter", "stones differ in size more than stated", Wall, AsWithout, Honoured, &["specimen_scatter", "wedge_loss", "contact_area"]),
-        entry("density", "stones are heavier or lighter than stated", Wall, AsWithout, Honoured, &["joint.kn_pa_per_m", "cohesion"]),
-        entry("gauge_offset", "the gauges moved, or their zero is wrong", Readings, Irreversible, NoBearing, &["creep", "joint_closure"]),
-        entry("gauge_scale", "the gauges show too much or too little by a factor", Readings, Reversible, NoBearing, &["joint.kn_pa_per_m", "joint_closure", "base_compliance"]),
-        entry("creep", "joints go on moving under load, and what they moved stays", Loading, Irreversible, Refused, &["joint.kn_over_ks", "gauge_offset", "friction", "wedge_loss"]),
-        entry("specimen_scatter", "joints differ from specimen to specimen", Joints, AsWithout, Honoured, &["size_scatter", "contact_area"]),
-        entry("end_release", "the stones near the ends are held less than the others", Joints, Irreversible, Honoured, &["rope_slack", "friction", "platform_friction"]),
-        entry("platform_friction", "the wall slides on its platform", Restraint, Irreversible, Honoured, &["restraint.platform_phi_deg", "restraint.strip_height_m", "end_release", "lean"]),
+        entry("contact_inset", "rounded arrises: joints that begin behind the faces", "joints begin behind the stated faces; rounded arrises, a soft bed that may open and a wall thinner than stated look the same", Joints, AsWithout, Honoured, &["joint.kn_pa_per_m", "restraint.strip_height_m", "lean", "contact_area"]),
+        entry("joint_closure", "joints that are soft until they close", "joints touch by rough points and are soft until they have closed", Joints, Reversible, Refused, &["joint.kn_pa_per_m", "stress_stiffening", "contact_area", "base_compliance", "gauge_scale", "gauge_offset"]),
+        entry("stress_stiffening", "joints that stiffen as they are pressed", "joints become stiffer as they are pressed together", Joints, Reversible, Refused, &["joint.kn_pa_per_m", "joint_closure"]),
+        entry("contact_area", "stones that touch on a part of their faces", "stones touch on a part of their faces only", Joints, AsWithout, Honoured, &["joint.kn_pa_per_m", "contact_inset", "joint_closure", "size_scatter", "specimen_scatter", "wedge_loss"]),
+        entry("friction", "joints with another friction than stated", "joints are smoother or rougher than stated, or lose friction as they slip", Joints, Irreversible, Honoured, &["joint.phi_deg", "cohesion", "end_release", "creep"]),
+        entry("cohesion", "something that holds the stones together", "something holds the stones together, as earth in the joints or suction does", Joints, AsWithout, Honoured, &["friction", "density"]),
+        entry("lean", "a wall or a platform out of plumb", "the wall leaned before the test, or the platform was not level", Wall, AsWithout, Honoured, &["wall.battered_face", "contact_inset", "base_compliance", "platform_friction"]),
+        entry("base_compliance", "a base that gives way", "what carries the wall gives way, the platform or the ground under it", Restraint, Reversible, Refused, &["joint.kn_pa_per_m", "joint_closure", "lean", "gauge_scale"]),
+        entry("wedge_loss", "pinning stones that fall out", "pinning stones fall out as the wall tilts", Loading, Irreversible, Refused, &["creep", "contact_area", "size_scatter"]),
+        entry("rope_slack", "ropes that hold late", "the ropes let the wall move before they hold", Restraint, Reversible, NoBearing, &["restraint.rope.stiffness_n_per_m", "end_release"]),
+        entry("size_scatter", "stones that differ more in size", "stones differ in size more than stated", Wall, AsWithout, Honoured, &["specimen_scatter", "wedge_loss", "contact_area"]),
+        entry("density", "stones of another weight", "stones are heavier or lighter than stated", Wall, AsWithout, Honoured, &["joint.kn_pa_per_m", "cohesion"]),
+        entry("gauge_offset", "a gauge that moved, or a wrong zero", "the gauges moved, or their zero is wrong", Readings, Irreversible, NoBearing, &["creep", "joint_closure"]),
+        entry("gauge_scale", "a gauge with a wrong scale", "the gauges show too much or too little by a factor", Readings, Reversible, NoBearing, &["joint.kn_pa_per_m", "joint_closure", "base_compliance"]),
+        entry("creep", "joints that go on moving under load", "joints go on moving under load, and what they moved stays", Loading, Irreversible, Refused, &["joint.kn_over_ks", "gauge_offset", "friction", "wedge_loss"]),
+        entry("specimen_scatter", "joints that differ from specimen to specimen", "joints differ from specimen to specimen", Joints, AsWithout, Honoured, &["size_scatter", "contact_area"]),
+        entry("end_release", "end stones that are held less", "the stones near the ends are held less than the others", Joints, Irreversible, Honoured, &["rope_slack", "friction", "platform_friction"]),
+        entry("platform_friction", "a wall that slides on its platform", "the wall slides on its platform", Restraint, Irreversible, Honoured, &["restraint.platform_phi_deg", "restraint.strip_height_m", "end_release", "lean"]),
     ]
 };
+
+/// The plain words of a mechanism, with its name behind them; the name alone of one that is not known.
+pub fn in_plain_words(name: &str) -> String {
+    let own = INVENTORY.iter().find(|entry| entry.name == name);
+    own.map_or_else(|| name.to_owned(), |entry| format!("{} ({name})", entry.title))
+}
 
 impl Acts {
     /// In words.
@@ -156,6 +165,8 @@ impl Entry {
 pub struct Described {
     /// Its name: `[mechanism.<name>]` switches it on.
     pub name: &'static str,
+    /// Its name in plain words.
+    pub title: &'static str,
     /// What it is.
     pub what: &'static str,
     /// What would be true of the wall or of the test, with what looks the same and has no name of its own.
@@ -249,6 +260,7 @@ pub fn described(distributions: impl Into<Distributions>) -> Result<Vec<Describe
             Described {
                 parameters: parameters.collect(),
                 name: entry.name,
+                title: entry.title,
                 what: section.map_or("", |section| section.doc),
                 means: entry.means,
                 acts: entry.acts,

@@ -45,7 +45,7 @@ pub use fault::{Fault, Faults, Found};
 pub(crate) use files::sha256;
 pub use inventory::{
     Acts, Described, Entry as InventoryEntry, INVENTORY, InLimitAnalysis, Parameter, Unloading, WIDER,
-    described,
+    described, in_plain_words,
 };
 pub use joints::DrawnJoints;
 pub use load::{Loaded, VariantName};

@@ -1,8 +1,8 @@
 """Opens the pages that pirca writes in a real browser, without a network.
 
-usage: check_pages.py CHROMIUM RUN WALL VERDICT   (CHROMIUM: the browser's program; RUN: report.html of a run with three random walls
-                                                   or more; WALL: report.html of analyse; VERDICT: verdict.html of diagnose; needs
-                                                   the package of requirements.txt)
+usage: check_pages.py CHROMIUM RUN WALL VERDICT CAPACITY COMPARE   (CHROMIUM: the browser's program; RUN: report.html of a run with
+        three random walls or more; WALL, VERDICT, CAPACITY, COMPARE: report.html of analyse, diagnose, capacity and compare;
+        needs the package of requirements.txt)
 
 Of every page: nothing is fetched, the console is silent, no script of a name runs, the words that must be there are seen, all that a
 figure shows has a name for those who do not see it, the page is no larger than it may be, and it fits the width of A4 and of a small
@@ -151,16 +151,19 @@ def check_paper(browser, path):
 
 
 def main():
-    if len(sys.argv) != 5:
+    if len(sys.argv) != 7:
         sys.exit(__doc__)
-    chromium, (run, wall, verdict) = sys.argv[1], map(pathlib.Path, sys.argv[2:])
+    chromium, (run, wall, verdict, capacity, compare) = sys.argv[1], map(pathlib.Path, sys.argv[2:])
+    shared = ["Limits of validity", "Provenance", "For a paper"]
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox", *SOFTWARE])
         found = []
         for path, words in [
             (run, ["What came out", "Wall and inputs", "Statistics", "The walls", "Limits of validity", "Provenance", "For a paper"]),
             (wall, ["What came out", "Blocks and joints", "Inputs", "Limits of validity", "Provenance"]),
-            (verdict, ["Measured beside simulated", "Causes", "How often such verdicts are right"]),
+            (verdict, ["What is wrong", "Measured beside simulated", "Causes", "How often such verdicts are right", *shared]),
+            (capacity, ["What came out", "Answers", "Values that these walls support", "Wall and inputs", *shared]),
+            (compare, ["What came out", "Arms, the best first", "Every pair of arms", "Wall and inputs", *shared]),
         ]:
             found.append(f"{path}: {check(browser, path, words)} figures")
             check_names(browser, path)
@@ -168,7 +171,8 @@ def main():
             check_solid(browser, path)
             check_without(browser, path)
         check_marks(browser, run)
-        check_paper(browser, run)
+        for path in [run, verdict, capacity, compare]:
+            check_paper(browser, path)
         browser.close()
     print("\n".join(found))
 

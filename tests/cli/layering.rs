@@ -52,7 +52,7 @@ const STAGES: &[(&str, &[&str])] = &[
     ("conflict", &["simulate", "discrepancy", "causes"]),
     ("verdict", &["simulate", "discrepancy", "causes", "check", "conflict"]),
     ("joint_law", &["compare", "simulate"]),
-    ("extend", &["simulate", "discrepancy", "verdict"]),
+    ("extend", &["simulate", "discrepancy", "causes", "verdict"]),
     ("gain", &["simulate", "discrepancy", "causes", "verdict"]),
     ("advise", &["compare", "simulate", "discrepancy", "causes", "verdict"]),
 ];

@@ -135,6 +135,56 @@ fn a_folder_without_such_a_run_is_refused_in_one_sentence() {
 }
 
 #[test]
+fn what_was_asked_of_a_study_comes_on_a_page_if_it_is_asked_for() {
+    let folder = Folder::with_study(STUDY);
+    let asked = |arguments: &[&str], words: &[&str]| {
+        let out = arguments[0];
+        let all = [&[arguments[0], "studies/tiny"], &arguments[1..], &["--out", out, "--report"]].concat();
+        let output = folder.pirca(&all);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let page =
+            fs::read_to_string(folder.path(&format!("{out}/report.html"))).expect("the page was written");
+        holds_together(&page);
+        let said = String::from_utf8_lossy(&output.stdout).into_owned();
+        // What the terminal says first stands there in one line.
+        let first = said.split_whitespace().take(6).collect::<Vec<_>>().join(" ");
+        for part in words.iter().copied().chain([
+            &first[..],
+            "<td>joint.sampling</td>",
+            "Intervals are at 95 %",
+            "@software{pirca",
+        ]) {
+            assert!(page.contains(part), "{out}: {part} is not on the page");
+        }
+        // That of an earlier answer is not left beside a later one.
+        let output = folder.pirca(&all[..all.len() - 1]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert!(!folder.path(&format!("{out}/report.html")).exists(), "{out}");
+    };
+    asked(
+        &["capacity", "--members", "20", "--above-m", "0.001"],
+        &[
+            "How probable is a top displacement above 1.00 mm?",
+            "Answers (",
+            "id=\"figure-probability\"",
+            "plain sampling",
+        ],
+    );
+    asked(
+        &["compare", "--walls", "40"],
+        &[
+            "Which arm is the best by the mean top displacement",
+            "Every pair of arms (1)",
+            "id=\"figure-compare\"",
+        ],
+    );
+    asked(
+        &["influence", "--points", "32"],
+        &["Shares of the variance in %", "id=\"figure-influence\"", "Sobol"],
+    );
+}
+
+#[test]
 fn a_study_of_elements_has_no_page() {
     let folder = Folder::with_study(STUDY);
     let study = concat!(env!("CARGO_MANIFEST_DIR"), "/studies/element-types");

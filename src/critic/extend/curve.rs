@@ -1,7 +1,8 @@
 //! What the walls of a world do between the tilts or drifts that were read: bands over them, for figures.
 
+use crate::critic::causes::evidence;
 use crate::critic::discrepancy::Band;
-use crate::critic::simulate::{Design, Specimen, Test, Truth, World};
+use crate::critic::simulate::{Campaign, Design, Specimen, Test, Truth, World};
 use crate::critic::verdict::Diagnosis;
 use crate::random::Streams;
 use crate::study::{MeasuredQuantity, Measurement};
@@ -37,6 +38,29 @@ pub struct Curve {
 pub fn base_curves(world: &World<'_>, design: &Design, seed: u64) -> Vec<FamilyCurves> {
     let truths: Vec<Truth> = (0..WALLS / SETS).map(|k| world.stated(&Streams::new(seed, k))).collect();
     over_the_tilt(world, design, &truths, seed)
+}
+
+/// Bands of the base model at its best fit: with draws of the joints from what the readings leave of their priors, if nothing else is
+/// wrong. A pure function of its arguments.
+pub fn fitted_curves(
+    world: &World<'_>,
+    design: &Design,
+    measured: &Campaign,
+    seed: u64,
+) -> Vec<FamilyCurves> {
+    let fitted = evidence(world, design, measured, None, seed);
+    over_the_tilt(world, design, &fitted.draws, seed)
+}
+
+/// Bands of the best cause of a diagnosis, or of its pair, with draws of the parameters and the joints; see [`Diagnosis::best`].
+pub fn best_curves(
+    world: &World<'_>,
+    design: &Design,
+    diagnosis: &Diagnosis,
+    seed: u64,
+) -> Option<(Vec<usize>, Vec<FamilyCurves>)> {
+    let (causes, draws) = diagnosis.best()?;
+    Some((causes, over_the_tilt(world, design, draws, seed)))
 }
 
 /// Bands of every cause that a verdict speaks of, or of a pair together, with draws of the parameters and the joints.

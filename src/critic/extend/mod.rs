@@ -7,5 +7,5 @@ mod tests;
 
 #[cfg(test)]
 pub(super) use curve::over_the_tilt;
-pub use curve::{Curve, FamilyCurves, base_curves, cause_curves};
+pub use curve::{Curve, FamilyCurves, base_curves, best_curves, cause_curves, fitted_curves};
 pub use extension::{DRAWS, Extension, Known, extension};

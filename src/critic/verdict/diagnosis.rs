@@ -88,6 +88,18 @@ impl Diagnosis {
         }
     }
 
+    /// The causes of the verdict, the one with most of the evidence where there are several; where it has none, the cause that was
+    /// examined and has most of it, though it does not explain the readings. `None` where nothing was found.
+    pub fn best(&self) -> Option<(Vec<usize>, &[Truth])> {
+        if let Verdict::NamedPair(_) = self.verdict {
+            return self.explained_by().into_iter().next();
+        }
+        let spoken = self.verdict.causes();
+        let open = self.examined.iter().filter(|own| spoken.is_empty() || spoken.contains(&own.cause));
+        let best = open.max_by(|a, b| a.evidence.total_cmp(&b.evidence))?;
+        Some((vec![best.cause], &best.draws[..]))
+    }
+
     /// What was seen of a cause that was examined.
     pub fn examined(&self, cause: usize) -> Option<&Examined<usize>> {
         self.examined.iter().find(|own| own.cause == cause)

@@ -4,6 +4,7 @@
 mod figure;
 mod group;
 mod known;
+mod page;
 mod text;
 mod values;
 
@@ -15,6 +16,7 @@ use serde::Serialize;
 pub use figure::Rung;
 use figure::{CapacityPlot, capacity_csv};
 pub use group::{Answer, CapacityGroup, Failed, Repeats, Screen, Target};
+pub use page::capacity_page;
 pub use text::capacity_text;
 pub use values::{Supported, SupportedValue};
 

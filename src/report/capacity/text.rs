@@ -11,17 +11,24 @@ const FEW: u64 = 10;
 
 /// The conclusion, a line per group, and what the values mean.
 pub fn capacity_text(summary: &CapacitySummary) -> String {
-    let mut text = String::new();
-    for group in &summary.groups {
-        text.push_str(&wrapped("", &conclusion(summary, group)));
+    let mut text: String = conclusions(summary).iter().map(|line| wrapped("", line)).collect();
+    let rows = supported(summary);
+    if rows.len() > 1 {
+        text.push_str(&format!("\n{SUPPORTED}\n{}", aligned(rows)));
     }
-    text.push_str(&table(summary));
-    text.push_str(&wrapped(
-        "",
-        "characteristic: the next wall lies below it with a probability of 5 % (EN 1990 D7.2); 95/95: no more than 5 % of all walls \
-         lie below it, with a confidence of 95 %; design: the next wall lies below it with a probability of 0.1 % (D7.3).",
-    ));
+    text.push_str(&wrapped("", VALUES));
     text
+}
+
+/// What the table of values is.
+pub(super) const SUPPORTED: &str = "Values that these walls support";
+/// What the values of it mean.
+pub(super) const VALUES: &str = "characteristic: the next wall lies below it with a probability of 5 % (EN 1990 D7.2); 95/95: no more than \
+     5 % of all walls lie below it, with a confidence of 95 %; design: the next wall lies below it with a probability of 0.1 % (D7.3).";
+
+/// What each group answers.
+pub(super) fn conclusions(summary: &CapacitySummary) -> Vec<String> {
+    summary.groups.iter().map(|group| conclusion(summary, group)).collect()
 }
 
 fn name(group: &CapacityGroup) -> String {
@@ -92,6 +99,17 @@ fn conclusion(summary: &CapacitySummary, group: &CapacityGroup) -> String {
     text
 }
 
+/// How an answer was found, in words.
+pub(super) fn method(group: &CapacityGroup) -> &'static str {
+    match group.method {
+        "stratified" => "walls stratified by limit analysis",
+        "importance" => "importance sampling of parameters",
+        "subset" => "subset simulation",
+        "measured" => "specimens alone",
+        _ => "plain sampling",
+    }
+}
+
 /// What independent runs found.
 fn by_repeats(summary: &CapacitySummary, group: &CapacityGroup, repeats: &Repeats) -> String {
     let (side, level) = match summary.question {
@@ -99,12 +117,7 @@ fn by_repeats(summary: &CapacitySummary, group: &CapacityGroup, repeats: &Repeat
         Question::Below(level) | Question::Quantile(level) => ("below", level),
     };
     let unit = summary.shown.shown_unit();
-    let method = match group.method {
-        "stratified" => "walls stratified by limit analysis",
-        "importance" => "importance sampling of parameters",
-        "subset" => "subset simulation",
-        _ => "plain sampling",
-    };
+    let method = method(group);
     let limits = match repeats.screen {
         Some(_) => format!(" after {} limit analyses", repeats.limit_evaluations),
         None => String::new(),
@@ -183,7 +196,8 @@ fn few(summary: &CapacitySummary, group: &CapacityGroup) -> String {
     }
 }
 
-fn table(summary: &CapacitySummary) -> String {
+/// The values that walls support, with their heads in the first row.
+pub(super) fn supported(summary: &CapacitySummary) -> Vec<Vec<String>> {
     let unit = summary.shown.shown_unit();
     let header =
         ["walls of", "kn Pa/m", "n", "COV %", "shape", "characteristic", "95/95", "design"].map(|head| {
@@ -211,8 +225,5 @@ fn table(summary: &CapacitySummary) -> String {
             ]);
         }
     }
-    if rows.len() == 1 {
-        return String::new();
-    }
-    format!("\nValues that these walls support\n{}", aligned(rows))
+    rows
 }

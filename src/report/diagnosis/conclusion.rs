@@ -3,12 +3,17 @@
 use crate::critic::MOST_AMBIGUOUS;
 use crate::report::diagnosis::summary::{CauseEntry, DiagnosisSummary};
 use crate::report::diagnosis::text::worth_saying;
-use crate::report::number::significant;
+use crate::report::number::{capital, how_often, significant};
 
 /// The verdict, how surely something is wrong, what the causes would mean and their parameters, the gain, and what to measure next.
 pub(super) fn conclusion(summary: &DiagnosisSummary) -> Vec<String> {
     let sentences = [Some(verdict(summary)), wrong(summary), meaning(summary), gain(summary), next(summary)];
     sentences.into_iter().flatten().collect()
+}
+
+/// What a page says below its headline: how surely something is wrong, the gain, and what to measure next.
+pub(super) fn below_headline(summary: &DiagnosisSummary) -> Vec<String> {
+    [wrong(summary), gain(summary), next(summary)].into_iter().flatten().collect()
 }
 
 /// The verdict in a sentence, with the causes that it speaks of.
@@ -49,15 +54,59 @@ pub(super) fn verdict(summary: &DiagnosisSummary) -> String {
 
 /// That the base model is off, and where most; or how likely what is seen is by chance.
 fn wrong(summary: &DiagnosisSummary) -> Option<String> {
-    let p = significant(summary.p_value, 2);
     if summary.verdict == "nothing_found" {
-        return Some(format!("As far off are {p} of simulated campaigns without any effect (p-value)."));
+        return Some(chance(summary));
     }
     let furthest = worth_saying(summary).first().map_or_else(
         || "No single number is off by two standard deviations; the readings together are.".to_string(),
         |off| format!("Furthest off: {} ({:+.1} sd).", off.what, off.in_sd),
     );
-    Some(format!("The base model is off beyond chance (p {p}). {furthest}"))
+    Some(format!("{} {furthest}", chance(summary)))
+}
+
+/// How many campaigns without any effect are as far off.
+fn chance(summary: &DiagnosisSummary) -> String {
+    let often = capital(&how_often(summary.p_value, summary.p_value_campaigns));
+    format!("{often} simulated campaigns without any effect are as far off.")
+}
+
+/// The verdict in plain words, as a page begins with it; it is not said without what its own tables hold against it.
+pub fn headline(summary: &DiagnosisSummary) -> String {
+    let spoken: Vec<&CauseEntry> = summary.causes.iter().filter(|cause| cause.in_verdict).collect();
+    let titles: Vec<&str> = spoken.iter().map(|cause| cause.title).collect();
+    let (one, all) = (titles.first().copied().unwrap_or_default(), titles.join("; "));
+    let verdict = match (summary.verdict, titles.len()) {
+        ("nothing_found", _) => {
+            "Nothing is wrong that these readings could show: errors, scatter and joints within their priors account for them."
+                .to_owned()
+        }
+        ("named", 1) => format!("Something is wrong with the base model, and one cause explains the readings: {one}."),
+        ("named", _) => format!("Something is wrong with the base model, and two causes together explain the readings: {all}."),
+        ("named_outside_prior", _) => format!(
+            "Something is wrong with the base model. One cause explains the readings, but at a strength that its prior does not \
+             expect: {one}."
+        ),
+        ("ambiguous", 1) => format!(
+            "Something is wrong with the base model. One cause explains the readings, but not surely enough to be named: {one}."
+        ),
+        ("ambiguous", _) => {
+            format!("Something is wrong with the base model, and these readings cannot tell which of these it is: {all}.")
+        }
+        _ => "Something is wrong with the base model, and no cause of the catalogue explains it surely.".to_owned(),
+    };
+    match predicted(summary) {
+        Some(but) if !spoken.is_empty() => format!("{verdict} {but}"),
+        _ => verdict,
+    }
+}
+
+/// Where the extended model does not predict better than the base model, though the verdict speaks of a cause.
+fn predicted(summary: &DiagnosisSummary) -> Option<&'static str> {
+    match summary.gain.as_ref()?.specimens_left_out.as_ref()?.log_score.claim() {
+        "better" => None,
+        "worse" => Some("Yet with it specimens that were left out are predicted worse."),
+        _ => Some("Yet it is not shown to predict specimens that were left out any better."),
+    }
 }
 
 /// What the causes in the verdict would mean, with their parameters.

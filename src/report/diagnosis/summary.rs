@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::critic::{
-    Contrast, Counted, Design, Diagnosis, Excluded, Feature, Residuals, SelfTest, Truth, Unused, Verdict,
-    log_weight,
+    Contrast, Counted, Design, Diagnosis, Effort, Excluded, Feature, Residuals, SelfTest, Truth, Unused,
+    Verdict, log_weight,
 };
 use crate::math::exp;
 use crate::report::advice::Advice;
@@ -44,6 +44,8 @@ pub struct DiagnosisSummary {
     pub nameless_probability: f64,
     /// Share of campaigns without any effect in which something is as far off.
     pub p_value: f64,
+    /// How many such campaigns were simulated to tell.
+    pub p_value_campaigns: u64,
     /// The same by each statistic alone.
     pub looks: LooksEntry,
     /// What is off, the furthest first.
@@ -103,6 +105,8 @@ pub struct LooksEntry {
 pub struct CauseEntry {
     /// Name of the mechanism.
     pub id: &'static str,
+    /// Its name in plain words.
+    pub title: &'static str,
     /// What would be true of the wall or of the test.
     pub means: &'static str,
     /// Its probability.
@@ -154,6 +158,8 @@ pub struct ParameterEntry {
     pub key: &'static str,
     /// Its unit.
     pub unit: &'static str,
+    /// What it means.
+    pub meaning: &'static str,
     /// Median, with the search prior.
     pub median: f64,
     /// 5 and 95 % quantile, with the search prior.
@@ -200,14 +206,14 @@ impl ParameterEntry {
 }
 
 /// A median with its interval and unit.
-fn amount(median: f64, interval: [f64; 2], unit: &str) -> String {
+pub(super) fn amount(median: f64, interval: [f64; 2], unit: &str) -> String {
     let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
     let [low, high] = interval.map(number);
     format!("{} [{low}, {high}]{unit}", number(median))
 }
 
 /// A stiffness is written as people write it, not by digits that nobody knows.
-fn number(x: f64) -> String {
+pub(super) fn number(x: f64) -> String {
     if x.abs() >= 1e5 { compact(x) } else { significant(x, 3) }
 }
 
@@ -293,6 +299,7 @@ impl DiagnosisSummary {
                 let examined = diagnosis.examined(cause);
                 Some(CauseEntry {
                     id: mechanisms[cause].name,
+                    title: mechanisms[cause].title,
                     means: mechanisms[cause].means,
                     probability,
                     evidence: examined.map(|own| own.evidence),
@@ -339,6 +346,7 @@ impl DiagnosisSummary {
             base_probability: base.map_or(0.0, |(_, probability)| *probability),
             nameless_probability: ranked.unmodelled,
             p_value: diagnosis.finding.p_value,
+            p_value_campaigns: Effort::default().reference,
             looks: LooksEntry { furthest, together, likeness },
             off,
             residuals: Vec::new(),
@@ -405,6 +413,7 @@ fn parameters(
         Some(ParameterEntry {
             key: parameter.key,
             unit: parameter.unit,
+            meaning: parameter.meaning,
             median,
             interval: [at(INTERVAL[0])?, at(INTERVAL[1])?],
             prior_interval: INTERVAL.map(|p| parameter.prior.quantile(p)),

@@ -6,7 +6,7 @@ use crate::report::diagnosis::conclusion::conclusion;
 use crate::report::diagnosis::summary::{CauseEntry, DiagnosisSummary, LooksEntry, OffEntry, SelfTestEntry};
 use crate::report::diagnosis::words::{lines, reading};
 use crate::report::gain::GainSummary;
-use crate::report::number::significant;
+use crate::report::number::{how_often, significant};
 use crate::report::table::{aligned, wrapped};
 use crate::stats;
 use crate::study::listed;
@@ -129,16 +129,16 @@ pub(super) fn or_dash(share: Option<f64>) -> String {
 
 /// How often campaigns without any effect are as far off, where something is wrong.
 pub(super) fn by_chance(summary: &DiagnosisSummary) -> Option<String> {
-    let number = |p: f64| significant(p, 2);
+    let often = |p: f64| how_often(p, summary.p_value_campaigns);
     let LooksEntry { furthest, together, likeness } = summary.looks;
     (summary.verdict != "nothing_found").then(|| {
         format!(
-            "Share of simulated campaigns without any effect that are as far off: {} in all; by the furthest single number {}, by all \
-             numbers together {}, by the ranking of causes {}.",
-            number(summary.p_value),
-            number(furthest),
-            number(together),
-            number(likeness)
+            "Simulated campaigns without any effect that are as far off: {} in all; by the furthest single number {}, by all numbers \
+             together {}, by the ranking of causes {}.",
+            often(summary.p_value),
+            often(furthest),
+            often(together),
+            often(likeness)
         )
     })
 }

@@ -3,6 +3,7 @@
 
 mod csv;
 mod entry;
+mod page;
 mod plot;
 mod text;
 
@@ -11,6 +12,7 @@ use std::path::Path;
 use anyhow::{Context, Result};
 
 pub use entry::{InfluenceSummary, ShareEntry, running};
+pub use page::influence_page;
 pub use text::influence_text;
 
 use crate::ensemble::replace_file;

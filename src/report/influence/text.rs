@@ -6,23 +6,32 @@ use crate::report::table::{aligned, wrapped};
 
 /// The conclusion and the shares of all sources.
 pub fn influence_text(summary: &InfluenceSummary) -> String {
-    let mut text: String = [scatter(summary), largest(summary), interactions(summary)]
-        .iter()
-        .filter(|line| !line.is_empty())
-        .map(|line| wrapped("", line))
-        .collect();
-    text.push_str("\nShares of the variance in %, with 95 % intervals\n");
+    let mut text: String = conclusion(summary).iter().map(|line| wrapped("", line)).collect();
+    text.push_str(&format!("\n{SHARES}\n{}", aligned(shares(summary))));
+    text.push_str(&wrapped("", ORDERS));
+    text
+}
+
+/// What the table holds.
+pub(super) const SHARES: &str = "Shares of the variance in %, with 95 % intervals";
+/// What its columns mean.
+pub(super) const ORDERS: &str = "first order: what would go if the source were known; total: what would be left if all others were known; \
+     behind a dash: part of the layout.";
+
+/// At most five lines.
+pub(super) fn conclusion(summary: &InfluenceSummary) -> Vec<String> {
+    let lines = [scatter(summary), largest(summary), interactions(summary)];
+    lines.into_iter().filter(|line| !line.is_empty()).collect()
+}
+
+/// A line per source, with the heads in the first row.
+pub(super) fn shares(summary: &InfluenceSummary) -> Vec<Vec<String>> {
     let header = ["source", "first order", "total", "points"].map(str::to_owned).to_vec();
     let rows = summary.groups.iter().map(|group| {
         let name = if group.is_in_layout { format!("- {}", group.name) } else { group.name.clone() };
         vec![name, percent(group.first), percent(group.total), group.points.to_string()]
     });
-    text.push_str(&aligned(std::iter::once(header).chain(rows).collect()));
-    text.push_str(&wrapped(
-        "",
-        "first order: what would go if the source were known; total: what would be left if all others were known; behind a dash: part of the layout.",
-    ));
-    text
+    std::iter::once(header).chain(rows).collect()
 }
 
 /// How much the walls scatter, and how many brought no value.

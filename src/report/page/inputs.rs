@@ -41,6 +41,18 @@ pub fn assumed(loaded: &Loaded) -> Vec<String> {
     own.map(|used| format!("{}: {} ({})", used.key, used.reference, used.source)).collect()
 }
 
+/// What the tables of inputs are, before those that are only assumed are named.
+pub fn about_inputs(assumed: &[String]) -> &'static str {
+    match assumed.is_empty() {
+        true => {
+            "Below is every value that decides a result, with its source. Units stand at the end of the keys."
+        }
+        false => {
+            "Below is every value that decides a result, with its source. Units stand at the end of the keys. Only assumed:"
+        }
+    }
+}
+
 /// The values that are inputs: a distribution as one, not by its parts.
 fn entries(values: &BTreeMap<String, String>) -> impl Iterator<Item = (&String, &String)> {
     let is_part = |key: &str| {

@@ -26,8 +26,8 @@ pub fn of_solver(name: &str) -> &'static str {
     }
 }
 
-/// What the results of a run hold for.
-pub fn of_run(study: &Study, loaded: &Loaded, summary: &Summary) -> Vec<String> {
+/// What the results of a study hold for, whatever was asked of it.
+pub fn of_study(study: &Study, loaded: &Loaded) -> Vec<String> {
     let mut said = vec![
         "Intervals are at 95 %. They say how well so many simulated walls know the model's own numbers, and nothing of how well the \
          model knows real walls."
@@ -38,6 +38,13 @@ pub fn of_run(study: &Study, loaded: &Loaded, summary: &Summary) -> Vec<String> 
         let inputs = assumed.join("; ");
         said.push(format!("Only assumed, and the first suspects where a prediction fails: {inputs}."));
     }
+    said.extend([RIGID.to_owned(), of_solver(study.solver.name()).to_owned()]);
+    said
+}
+
+/// What the results of a run hold for.
+pub fn of_run(study: &Study, loaded: &Loaded, summary: &Summary) -> Vec<String> {
+    let mut said = of_study(study, loaded);
     let failed = summary
         .arms
         .iter()
@@ -52,7 +59,6 @@ pub fn of_run(study: &Study, loaded: &Loaded, summary: &Summary) -> Vec<String> 
                     inputs are wrong (pirca diagnose)."
             .to_owned(),
     });
-    said.extend([RIGID.to_owned(), of_solver(study.solver.name()).to_owned()]);
     said
 }
 
@@ -87,16 +93,24 @@ pub fn built(study: &Study) -> String {
 }
 
 /// The methods of a run in a paragraph for a paper.
-pub fn methods(study: &Study, summary: &Summary) -> String {
+pub fn methods(study: &Study) -> String {
+    evaluated(
+        study,
+        "Intervals are at 95 %: of means by Student's t, of standard deviations by chi-square, of coefficients of variation by McKay's \
+         method as modified by Vangel (1996), of quantiles free of a distribution. Walls that failed were counted and left out of the \
+         means.",
+    )
+}
+
+/// How walls were built and evaluated, and what was made of that, in a paragraph for a paper.
+pub fn evaluated(study: &Study, then: &str) -> String {
     format!(
         "{} The walls were generated and solved with pirca {} ({} solver). Each is a pure function of study, seed and number: seed {}, \
-         SHA-256 of all values that decide a result {}. Intervals are at 95 %: of means by Student's t, of standard deviations by \
-         chi-square, of coefficients of variation by McKay's method as modified by Vangel (1996), of quantiles free of a \
-         distribution. Walls that failed were counted and left out of the means.",
+         SHA-256 of all values that decide a result {}. {then}",
         built(study),
         env!("CARGO_PKG_VERSION"),
         study.solver.name(),
-        summary.seed,
-        summary.study_hash,
+        study.seed,
+        study.hash,
     )
 }

@@ -1,10 +1,11 @@
 //! A report as a page: one HTML file that needs no network and no other file, for any browser, for the keyboard and for print.
 
+mod answer;
 mod cite;
 mod drawing;
 mod figures;
 mod inputs;
-mod limits;
+pub(super) mod limits;
 mod origin;
 mod run;
 mod solid;
@@ -13,10 +14,14 @@ mod table;
 mod template;
 mod wall;
 
+pub use answer::{Asked, answer_page};
+pub use cite::{Citation, citation};
 pub use drawing::Drawing;
 pub use origin::PageOrigin;
 pub use run::{DrawnWall, RunPage, chosen_walls, run_page};
+pub use table::{Line, Table};
+pub use template::filled;
 pub use wall::{WallPage, WallTable, wall_page};
 
 /// The style sheet of all pages.
-pub(super) const STYLE: &str = include_str!("style.css");
+const STYLE: &str = include_str!("style.css");

@@ -1,6 +1,8 @@
 //! Where the results of a page come from.
 
+use crate::ensemble::Manifest;
 use crate::report::page::table::Table;
+use crate::study::Study;
 
 /// How and where results were made; no result depends on it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -14,6 +16,24 @@ pub struct PageOrigin {
 }
 
 impl PageOrigin {
+    /// A table of it and of the study that was evaluated.
+    pub fn of_study(&self, study: &Study) -> Table {
+        let manifest = Manifest::of(study);
+        let walls: Vec<String> =
+            manifest.members.iter().map(|(arm, walls)| format!("{arm} {walls}")).collect();
+        let own = [
+            ("pirca", manifest.version.clone()),
+            ("study", study.name.clone()),
+            ("variant", study.variant.clone().unwrap_or_else(|| "none".to_owned())),
+            ("solver", manifest.solver.clone()),
+            ("seed", manifest.seed.to_string()),
+            ("walls", walls.join(", ")),
+            ("SHA-256 of all values", manifest.study_hash.clone()),
+        ];
+        let files = manifest.inputs.iter().map(|(path, hash)| (path.as_str(), format!("SHA-256 {hash}")));
+        self.table(own.into_iter().chain(files))
+    }
+
     /// A table of it, after what else tells the origin.
     pub fn table<'p>(&self, before: impl IntoIterator<Item = (&'p str, String)>) -> Table {
         let or_not = |text: &str| if text.is_empty() { "not recorded".to_owned() } else { text.to_owned() };

@@ -3,7 +3,7 @@
 use anyhow::Result;
 use serde::Serialize;
 
-use crate::ensemble::{Manifest, Observed, Quantity, Row, Task, is_random};
+use crate::ensemble::{Observed, Quantity, Row, Task, is_random};
 use crate::report::conclusion::sentences;
 use crate::report::figure::title;
 use crate::report::measured;
@@ -11,7 +11,7 @@ use crate::report::number::{compact, or_dash, significant, stiffness, with_inter
 use crate::report::page::cite::{Citation, citation};
 use crate::report::page::drawing::Drawing;
 use crate::report::page::figures::figures;
-use crate::report::page::inputs::{assumed, inputs};
+use crate::report::page::inputs::{about_inputs, assumed, inputs};
 use crate::report::page::limits;
 use crate::report::page::origin::PageOrigin;
 use crate::report::page::solid::Solid;
@@ -132,7 +132,7 @@ pub fn run_page(of: &RunPage<'_>) -> Result<String> {
         question: summary.question.clone(),
         answer,
         explanation: explanation(quantity),
-        arms: headed("", arm_rows(&summary.arms)),
+        arms: Table::headed("", arm_rows(&summary.arms)),
         notes: summary.arms.iter().flat_map(arm_notes).flatten().collect(),
         tables: [endings(&summary), quantiles(&summary), ratios(&summary), published(&summary)]
             .into_iter()
@@ -161,28 +161,15 @@ pub fn run_page(of: &RunPage<'_>) -> Result<String> {
         },
         walls: if has_rows { walls(of) } else { Vec::new() },
         about_wall: limits::built(study),
-        about_inputs: match assumed.is_empty() {
-            true => {
-                "Below is every value that decides a result, with its source. Units stand at the end of the keys."
-            }
-            false => {
-                "Below is every value that decides a result, with its source. Units stand at the end of the keys. Only assumed:"
-            }
-        },
+        about_inputs: about_inputs(&assumed),
         assumed,
         inputs: inputs(study, of.loaded),
         limits: limits::of_run(study, of.loaded, &summary),
-        provenance: provenance(study, of.origin),
-        methods: limits::methods(study, &summary),
+        provenance: of.origin.of_study(study),
+        methods: limits::methods(study),
         citation: citation(Some(study.seed)),
     };
     filled("run.html", &filled_with)
-}
-
-/// A table whose first row holds the heads.
-fn headed(summary: &str, mut rows: Vec<Vec<String>>) -> Table {
-    let heads = if rows.is_empty() { Vec::new() } else { rows.remove(0) };
-    Table { heads, ..Table::new(summary, &[], rows) }
 }
 
 /// What links lead to a wall by.
@@ -358,20 +345,4 @@ fn published(summary: &Summary) -> Table {
     });
     let heads = ["statement", "verdict", "theirs", "ours", "why", "source"];
     Table::new("Published statements beside these numbers", &heads, rows.collect())
-}
-
-fn provenance(study: &Study, origin: &PageOrigin) -> Table {
-    let manifest = Manifest::of(study);
-    let walls: Vec<String> = manifest.members.iter().map(|(arm, walls)| format!("{arm} {walls}")).collect();
-    let own = [
-        ("pirca", manifest.version.clone()),
-        ("study", study.name.clone()),
-        ("variant", study.variant.clone().unwrap_or_else(|| "none".to_owned())),
-        ("solver", manifest.solver.clone()),
-        ("seed", manifest.seed.to_string()),
-        ("walls", walls.join(", ")),
-        ("SHA-256 of all values", manifest.study_hash.clone()),
-    ];
-    let files = manifest.inputs.iter().map(|(path, hash)| (path.as_str(), format!("SHA-256 {hash}")));
-    origin.table(own.into_iter().chain(files))
 }

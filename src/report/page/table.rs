@@ -39,6 +39,12 @@ impl Table {
         }
     }
 
+    /// A table whose first row holds the heads, as tables on a terminal have them.
+    pub fn headed(summary: &str, mut rows: Vec<Vec<String>>) -> Table {
+        let heads = if rows.is_empty() { Vec::new() } else { rows.remove(0) };
+        Table { heads, ..Table::new(summary, &[], rows) }
+    }
+
     /// A table of things with their values.
     pub fn of_pairs<'p>(rows: impl IntoIterator<Item = (&'p str, String)>) -> Table {
         let rows = rows.into_iter().map(|(name, value)| vec![name.to_owned(), value]).collect();

@@ -9,11 +9,13 @@ use crate::report::page::STYLE;
 use crate::report::page::solid::VIEWER;
 
 /// The templates by name; the pages share their frame and the parts that they are made of.
-const TEMPLATES: [(&str, &str); 4] = [
+const TEMPLATES: [(&str, &str); 6] = [
     ("parts.html", include_str!("parts.html")),
     ("frame.html", include_str!("frame.html")),
     ("run.html", include_str!("run.html")),
     ("wall.html", include_str!("wall.html")),
+    ("diagnosis.html", include_str!("diagnosis.html")),
+    ("answer.html", include_str!("answer.html")),
 ];
 
 /// A page: its own values, and those of the frame.

@@ -3,6 +3,7 @@
 mod arm;
 mod csv;
 mod difference;
+mod page;
 mod plot;
 mod text;
 
@@ -13,6 +14,7 @@ use serde::Serialize;
 
 pub use arm::SelectedArm;
 pub use difference::{ArmDifference, ArmShown, ShareLevels};
+pub use page::selection_page;
 pub use text::{selection_running, selection_text};
 
 use crate::ensemble::{Compared, Contest, Quantity, Row, replace_file};

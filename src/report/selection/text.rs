@@ -17,7 +17,7 @@ const TOLD: f64 = 0.5;
 pub fn selection_text(summary: &SelectionSummary) -> String {
     let mut text = conclusion(summary).join("\n");
     text.push_str("\n\n");
-    text.push_str(&table(summary));
+    text.push_str(&aligned(table(summary)));
     text
 }
 
@@ -46,7 +46,7 @@ pub fn selection_running(contest: &Contest<'_>, look: &Compared) -> String {
 }
 
 /// At most five lines.
-fn conclusion(summary: &SelectionSummary) -> Vec<String> {
+pub(super) fn conclusion(summary: &SelectionSummary) -> Vec<String> {
     let mut lines = vec![answer(summary)];
     lines.extend(summary.of_best().next().map(|rival| nearest(summary, rival)));
     lines.extend(summary.of_best().next().and_then(|rival| levels(summary, rival)));
@@ -129,7 +129,7 @@ fn levels(summary: &SelectionSummary, rival: &ArmDifference) -> Option<String> {
 }
 
 /// By what arms are compared.
-fn measure(summary: &SelectionSummary) -> String {
+pub(super) fn measure(summary: &SelectionSummary) -> String {
     let unit = summary.shown.shown_unit();
     let shown = |level: f64| significant(summary.shown.shown(level), 3);
     let quantity = summary.quantity.replace('_', " ");
@@ -166,7 +166,8 @@ fn names(all: &[&str]) -> String {
     }
 }
 
-fn table(summary: &SelectionSummary) -> String {
+/// A line per arm, with the heads in the first row.
+pub(super) fn table(summary: &SelectionSummary) -> Vec<Vec<String>> {
     let unit = summary.shown.shown_unit();
     let asked = match summary.question {
         None => None,
@@ -221,5 +222,5 @@ fn table(summary: &SelectionSummary) -> String {
         ]);
         rows.push(row);
     }
-    aligned(rows)
+    rows
 }

@@ -1,0 +1,77 @@
+//! The page of what was asked of a study: question, answer, figures, tables, what it rests on.
+
+use anyhow::Result;
+use serde::Serialize;
+
+use crate::report::page::cite::{Citation, citation};
+use crate::report::page::drawing::Drawing;
+use crate::report::page::inputs::{about_inputs, assumed, inputs};
+use crate::report::page::limits;
+use crate::report::page::origin::PageOrigin;
+use crate::report::page::table::Table;
+use crate::report::page::template::filled;
+use crate::study::{Loaded, Study};
+
+/// A question to a study, and what came out.
+pub struct Asked {
+    /// What the page is about.
+    pub title: String,
+    /// The question.
+    pub question: String,
+    /// Sentences, the one that answers first.
+    pub answer: Vec<String>,
+    /// The numbers.
+    pub tables: Vec<Table>,
+    /// The figures.
+    pub figures: Vec<Drawing>,
+    /// What the answer holds for, besides what holds of every study.
+    pub limits: Vec<String>,
+    /// What was made of the walls, in sentences for a paper.
+    pub methods: String,
+}
+
+/// What the template is filled with.
+#[derive(Serialize)]
+struct Filled<'a> {
+    title: &'a str,
+    question: &'a str,
+    answer: &'a [String],
+    tables: &'a [Table],
+    figures: &'a [Drawing],
+    about_wall: String,
+    about_inputs: &'static str,
+    assumed: Vec<String>,
+    inputs: Vec<Table>,
+    limits: Vec<String>,
+    provenance: Table,
+    methods: String,
+    citation: Citation,
+}
+
+/// The page of a question to a study; `loaded` is the study as its files state it.
+///
+/// # Errors
+/// A template that is faulty.
+pub fn answer_page(asked: &Asked, (study, loaded): (&Study, &Loaded), origin: &PageOrigin) -> Result<String> {
+    let assumed = assumed(loaded);
+    let mut limits = asked.limits.clone();
+    limits.extend(limits::of_study(study, loaded));
+    filled(
+        "answer.html",
+        &Filled {
+            title: &asked.title,
+            question: &asked.question,
+            answer: &asked.answer,
+            tables: &asked.tables,
+            figures: &asked.figures,
+            about_wall: limits::built(study),
+            about_inputs: about_inputs(&assumed),
+            assumed,
+            inputs: inputs(study, loaded),
+            limits,
+            provenance: origin.of_study(study),
+            methods: limits::evaluated(study, &asked.methods),
+            citation: citation(Some(study.seed)),
+        },
+    )
+}
