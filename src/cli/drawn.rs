@@ -3,9 +3,9 @@
 use crate::cli::arguments::Measure;
 use crate::contact::{self, find_patch};
 use crate::math::Vec3;
-use crate::model::{Outcome, Wall};
+use crate::model::{Movement, Outcome, Wall};
 use crate::protocol::{self, JointState, Run};
-use crate::report::{Movement, Seam, Stone};
+use crate::report::{Seam, Stone};
 
 /// The blocks with their movement: the mechanism from the last state at rest, or where there is none all that they moved.
 pub(crate) fn stones(wall: &Wall, run: &Run) -> Vec<Stone> {

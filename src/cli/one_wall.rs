@@ -8,9 +8,12 @@ use crate::cli::doing::doing;
 use crate::cli::failure::Failure;
 use crate::cli::{locate, output};
 use crate::ensemble::{self, Evaluated, Generated, Task};
-use crate::model::Level;
-use crate::protocol::Run;
+use crate::model::{Level, Replay};
+use crate::protocol::{Recorder, Run, Witness};
 use crate::study::{Arm, Study};
+
+/// Most states of a replay.
+pub(crate) const MOST_STATES: usize = 100;
 
 /// A wall of a study.
 pub(crate) struct OneWall {
@@ -76,7 +79,18 @@ impl OneWall {
 
     /// The same, where somebody else says what is being done and is told how far it is.
     pub fn solved_telling(&self, tell: &dyn Fn(Level)) -> Run {
-        ensemble::solve(&self.study, self.task, &self.generated.wall, tell)
+        self.seen_by(Witness { tell, recorder: None })
+    }
+
+    /// The same, with the states that it goes through, at most [`MOST_STATES`], and those of its fall where it falls.
+    pub fn replayed(&self, tell: &dyn Fn(Level)) -> (Run, Replay) {
+        let recorder = Recorder::new(MOST_STATES);
+        let run = self.seen_by(Witness { tell, recorder: Some(&recorder) });
+        (run, recorder.replay(self.generated.wall.blocks.len()))
+    }
+
+    fn seen_by(&self, witness: Witness<'_>) -> Run {
+        ensemble::solve(&self.study, self.task, &self.generated.wall, witness)
     }
 }
 

@@ -4,7 +4,7 @@ use crate::ensemble::{LimitAnalysis, Mechanism, Row, ShearRow, StepRow, Task};
 use crate::generate::{Generated, InvalidGeometry, generate};
 use crate::math::degrees;
 use crate::model::{Level, Outcome, Wall};
-use crate::protocol::{self, Agreement, Bounds, Protocol};
+use crate::protocol::{self, Agreement, Bounds, Protocol, Witness};
 use crate::solve::limit::Flow;
 use crate::solve::{STANDARD_GRAVITY, Solver};
 use crate::stats;
@@ -37,15 +37,15 @@ pub fn evaluate(study: &Study, task: Task) -> Row {
     }
 }
 
-/// Draws the joints of a member's wall and takes it through the study's protocol; tells of every level at which it came to rest.
-pub fn solve(study: &Study, task: Task, wall: &Wall, tell: &dyn Fn(Level)) -> protocol::Run {
+/// Draws the joints of a member's wall and takes it through the study's protocol, seen by a witness.
+pub fn solve(study: &Study, task: Task, wall: &Wall, witness: Witness<'_>) -> protocol::Run {
     let drawn = study.as_drawn(task.arm, task.member);
     let AsDrawn { arm, protocol, .. } = &drawn;
     let laws = laws(study, task, arm, wall);
     let contacts = arm.mechanisms.contacts(arm.sub_contacts);
     let changes = arm.mechanisms.changes(wall, &study.streams(task.member));
-    let way = protocol::Way { changes: &changes, tell };
-    protocol::run_telling(wall, &laws, protocol, &arm.restraint, contacts, way, &study.solver)
+    let way = protocol::Way { changes: &changes, witness };
+    protocol::run_seen_by(wall, &laws, protocol, &arm.restraint, contacts, way, &study.solver)
 }
 
 /// The laws of the joints of a task's member, from its arm as drawn.
@@ -56,7 +56,7 @@ fn laws<'a>(study: &Study, task: Task, arm: &'a Arm, wall: &Wall) -> DrawnJoints
 
 fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
     let wall = &generated.wall;
-    let run = solve(study, task, wall, &|_| {});
+    let run = solve(study, task, wall, Witness::NOBODY);
     let last = run.steps.last();
     let gauge = &study.arms[task.arm as usize].mechanisms;
     // The first reading is the zero reading.

@@ -13,7 +13,7 @@ use crate::protocol::route::Route;
 use crate::protocol::settlement::settle_supports;
 use crate::protocol::task::{displacements, turns};
 use crate::protocol::watch::{Criterion, LoadStep, Watch};
-use crate::protocol::{Run, Task};
+use crate::protocol::{Run, Task, Witness};
 use crate::solve::bodies::Body;
 use crate::solve::explicit::Simulation;
 use crate::solve::implicit::{self, Equilibrium};
@@ -21,23 +21,23 @@ use crate::solve::{Ahead, Assembly, Equilibrate, Followed, Solver, Status, Way};
 
 /// Takes an assembly along a load path with the solver asked for.
 pub fn drive(task: &Task<'_>, solver: &Solver) -> Run {
-    drive_telling(task, solver, &|_| {})
+    drive_seen_by(task, solver, Witness::NOBODY)
 }
 
-/// [`drive`], which tells of every level at which the wall came to rest; nothing that is done there can change the result.
-pub fn drive_telling(task: &Task<'_>, solver: &Solver, tell: &dyn Fn(Level)) -> Run {
+/// [`drive`], with somebody who sees how it goes.
+pub fn drive_seen_by(task: &Task<'_>, solver: &Solver, witness: Witness<'_>) -> Run {
     match solver {
         Solver::Explicit(settings) => {
-            climb_telling(task, &|assembly| Simulation::of(assembly, *settings), tell)
+            climb_seen_by(task, &|assembly| Simulation::of(assembly, *settings), witness)
         }
         Solver::Implicit(settings) => {
             // A path that brackets a collapse halves its steps itself; twice costs half as much again and gains nothing.
             let brackets = task.path.bracket.is_finite();
             let max_halvings = if brackets { 0 } else { settings.max_halvings };
             let of = |assembly| Equilibrium::of(assembly, implicit::Settings { max_halvings, ..*settings });
-            climb_telling(task, &of, tell)
+            climb_seen_by(task, &of, witness)
         }
-        Solver::Limit(settings) => rigid(task, *settings),
+        Solver::Limit(settings) => rigid(task, *settings, witness),
     }
 }
 
@@ -50,23 +50,24 @@ pub fn drive_telling(task: &Task<'_>, solver: &Solver, tell: &dyn Fn(Level)) -> 
 /// relaxation is asked again, unless limit analysis has shown that the fall is near and the wall has become so soft that
 /// this is the limit point of its path; a doubt that stays widens the bracket up to where the fall is certain.
 pub fn climb<'a, S: Equilibrate<'a>>(task: &Task<'a>, of: &dyn Fn(Assembly<'a>) -> S) -> Run {
-    climb_telling(task, of, &|_| {})
+    climb_seen_by(task, of, Witness::NOBODY)
 }
 
-fn climb_telling<'a, S: Equilibrate<'a>>(
+fn climb_seen_by<'a, S: Equilibrate<'a>>(
     task: &Task<'a>,
     of: &dyn Fn(Assembly<'a>) -> S,
-    tell: &dyn Fn(Level),
+    witness: Witness<'_>,
 ) -> Run {
     let built = task.assembled();
     let joints = built.joints.all.len();
+    witness.begins(task, &built);
     let watch = Watch::new(task.wall, &built.bodies, task.path.direction(), task.criterion);
     let judge = Judge::new(task);
     let steps = Vec::new();
     let mut climber = Climber {
         task,
         of,
-        tell,
+        witness,
         watch,
         judge,
         built,
@@ -96,11 +97,13 @@ fn climb_telling<'a, S: Equilibrate<'a>>(
         climber.spent += settled.spent;
         rest = settled.rest;
         if let Some((failed, told)) = settled.ended {
+            climber.falls_settling(rest.assembly(), (settled.share, failed), &told);
             let end = climber.ended_settling(rest.assembly(), failed, told);
             outcome = end.outcome(Level::Settlement(settled.share), Level::Settlement(failed));
             climber.steps.push(end.step);
             failure = end.failure;
         } else {
+            climber.witness.rests(Level::Settlement(1.0), rest.assembly());
             settled_joints = joint_states(rest.assembly(), &at_rest);
         }
     }
@@ -142,6 +145,9 @@ fn climb_telling<'a, S: Equilibrate<'a>>(
         }
     }
     let assembly = rest.assembly();
+    if let Some([last, failed]) = bracket {
+        witness.falls(task, assembly, (last, failed), &climber.watch);
+    }
     Run {
         outcome,
         bracket,
@@ -160,8 +166,7 @@ fn climb_telling<'a, S: Equilibrate<'a>>(
 struct Climber<'c, 'a, S> {
     task: &'c Task<'a>,
     of: &'c dyn Fn(Assembly<'a>) -> S,
-    /// Is told of every level at which the wall came to rest.
-    tell: &'c dyn Fn(Level),
+    witness: Witness<'c>,
     watch: Watch,
     judge: Judge<'c, 'a>,
     /// The assembly as built, with its loads.
@@ -452,6 +457,20 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
         Verdict::End(Box::new(End { why: Why::Fell, step, failure, bodies }))
     }
 
+    /// Shows how a wall falls whose supports go on from one share of their way to another one.
+    fn falls_settling(&self, rest: &Assembly<'a>, (share, failed): (f64, f64), told: &Told<'_>) {
+        if !matches!(told, Told::Falls(_)) {
+            return;
+        }
+        let mut lowered = rest.clone();
+        let settlements = &self.task.changes.settlements;
+        let down: Vec<(usize, f64)> =
+            settlements.iter().map(|of| (of.block, (failed - share) * of.down)).collect();
+        lowered.lower(&down);
+        lowered.refresh();
+        self.witness.falls(self.task, &lowered, (0.0, 0.0), &self.watch);
+    }
+
     /// The end of a wall that came to no rest when its supports had gone a share of their way.
     fn ended_settling(&mut self, rest: &Assembly<'_>, share: f64, told: Told<'_>) -> End {
         let (why, assembly, ratio, failure) = match told {
@@ -486,7 +505,7 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
 
     /// Notes what is read at a state at rest. Displacements of the first one are taken from there on.
     fn read(&mut self, state: S, level: f64, ratio: f64) -> S {
-        (self.tell)(self.task.path.level(level));
+        self.witness.rests(self.task.path.level(level), state.assembly());
         let bodies = &state.assembly().bodies;
         if self.steps.is_empty() {
             self.watch.begins(bodies);
@@ -522,6 +541,7 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
         let zero = self.task.path.level(0.0);
         let (outcome, bodies, failure) = match end {
             Some(End { why: Why::Fell, bodies, step, failure }) => {
+                self.witness.falls(self.task, &self.built, (0.0, 0.0), &self.watch);
                 self.steps.push(step);
                 (Outcome::UnstableAtRest, bodies, failure)
             }

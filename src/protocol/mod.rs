@@ -1,5 +1,6 @@
 //! What is done to a wall and what is observed: load path, stop rule, restraint.
 
+mod amplified;
 mod back;
 mod bounds;
 mod changes;
@@ -14,6 +15,7 @@ mod observe;
 mod pace;
 mod path;
 mod pressure;
+mod recorder;
 mod restraint;
 mod rigid;
 mod ropes;
@@ -27,19 +29,22 @@ mod stage;
 mod task;
 mod tilting;
 mod watch;
+mod witness;
 
+pub use amplified::amplified;
 pub use bounds::{Agreement, Bounds};
 pub use changes::{Changes, Creep, Loss};
 pub use closing::Closing;
 pub use confirm::Confirmation;
 pub use direction::Direction;
-pub use drive::{climb, drive, drive_telling};
+pub use drive::{climb, drive, drive_seen_by};
 pub use events::{Event, EventShares, Events};
 pub use mechanism::{Failure, FailureMode, JointState};
 pub use path::{Growing, LoadPath};
 pub use pressure::{Load, back_loads};
+pub use recorder::Recorder;
 pub use ropes::ropes;
-pub use run::{Way, run, run_changing, run_telling};
+pub use run::{Way, run, run_changing, run_seen_by};
 pub use settings::{
     Base, Compliance, Contacts, Ends, Lateral, Observes, Protocol, Rate, Restraint, Rope, Tilting, Turning,
 };
@@ -49,3 +54,4 @@ pub use shove::{Phase, Shove, Shoved, Stand, shove_heap, shove_wall};
 pub use stage::{Stage, typical_size};
 pub use task::{Platform, Run, Task};
 pub use watch::{Criterion, LoadStep};
+pub use witness::Witness;

@@ -1,14 +1,15 @@
 //! A load path by limit analysis alone: no steps, no displacements, the load at which rigid blocks fall and how.
 
 use crate::contact;
-use crate::math::Vec3;
+use crate::math::{Vec3, cos};
 use crate::model::{JointLaws, Level, Outcome, Wall};
+use crate::protocol::amplified::amplified;
 use crate::protocol::events::Events;
 use crate::protocol::mechanism::{Failure, failure};
 use crate::protocol::path::Growing;
 use crate::protocol::pressure::Load;
 use crate::protocol::watch::LoadStep;
-use crate::protocol::{Run, Task};
+use crate::protocol::{Run, Task, Witness};
 use crate::solve::limit::{Analysis, BlockMotion, Limit, Loads, PointLoad, Settings, When};
 use crate::solve::{Assembly, Tie};
 
@@ -53,7 +54,7 @@ impl Rigid<'_> {
 /// Takes a wall along a load path by limit analysis. What bears more than the path's end stands to the end; the last step's
 /// level is then the end or, for a factor, what the wall bears. What rigid blocks do not have (displacements, remainders) is
 /// NaN. The wall is taken as built: no change on the way is made.
-pub(super) fn rigid(task: &Task<'_>, settings: Settings) -> Run {
+pub(super) fn rigid(task: &Task<'_>, settings: Settings, witness: Witness<'_>) -> Run {
     let Task { wall, laws, contact, path, .. } = *task;
     let settings = match path.growing {
         Growing::Tilt(_) => Settings { largest_tilt: path.end.min(settings.largest_tilt), ..settings },
@@ -89,6 +90,15 @@ pub(super) fn rigid(task: &Task<'_>, settings: Settings) -> Run {
     // As with the other solvers, the last step of a wall that falls is the one that it does not bear.
     steps.extend(last.filter(|_| falls).map(|at| step(at, 0)));
     let fell = falls || outcome == Outcome::UnstableAtRest;
+    if let Some(recorder) = witness.recorder {
+        // Tilt pushes with the tangent of the angle and leaves the weight as it is.
+        let scale = match (path.growing, last) {
+            (Growing::Tilt(_), Some(tilt)) => cos(tilt),
+            _ => 1.0,
+        };
+        let at = (path.level(last.unwrap_or(0.0)), scale);
+        recorder.takes(amplified((wall, &contact), &limit, at, fell));
+    }
     Run {
         bracket: last.filter(|_| falls).map(|at| [at; 2]),
         failure: fell.then(|| failure_by(task, &limit.mechanism)).flatten(),

@@ -1,14 +1,16 @@
 //! A wall of a study through the study's protocol.
 
 use crate::model::{JointLaws, Level, Support, Wall};
-use crate::protocol::drive::drive_telling;
+use crate::protocol::drive::drive_seen_by;
 use crate::protocol::events::in_parts;
 use crate::protocol::path::LoadPath;
 use crate::protocol::pressure::back_loads;
 use crate::protocol::shear::{Begin, by_limit, push};
 use crate::protocol::stage::Stage;
 use crate::protocol::tilting::turn;
-use crate::protocol::{Changes, Confirmation, Contacts, Criterion, Protocol, Rate, Restraint, Run, Task};
+use crate::protocol::{
+    Changes, Confirmation, Contacts, Criterion, Protocol, Rate, Restraint, Run, Task, Witness,
+};
 use crate::solve::{Solver, explicit};
 
 /// Takes a wall of stones through a protocol: gravity first, then the load.
@@ -36,7 +38,8 @@ pub fn run_changing(
     changes: &Changes,
     solver: &Solver,
 ) -> Run {
-    run_telling(wall, laws, protocol, restraint, contacts, Way { changes, tell: &|_| {} }, solver)
+    let way = Way { changes, witness: Witness::NOBODY };
+    run_seen_by(wall, laws, protocol, restraint, contacts, way, solver)
 }
 
 /// What goes on while a wall is loaded.
@@ -44,18 +47,18 @@ pub fn run_changing(
 pub struct Way<'w> {
     /// What changes it.
     pub changes: &'w Changes,
-    /// Is told of every level at which it came to rest.
-    pub tell: &'w dyn Fn(Level),
+    /// Who sees it.
+    pub witness: Witness<'w>,
 }
 
-/// [`run_changing`], which tells how far it is.
-pub fn run_telling(
+/// [`run_changing`], with somebody who sees how it goes.
+pub fn run_seen_by(
     wall: &Wall,
     laws: &dyn JointLaws,
     protocol: &Protocol,
     restraint: &Restraint,
     contacts: impl Into<Contacts>,
-    Way { changes, tell }: Way<'_>,
+    Way { changes, witness }: Way<'_>,
     solver: &Solver,
 ) -> Run {
     let stage = Stage::new(wall, laws, protocol, restraint, contacts.into());
@@ -66,7 +69,7 @@ pub fn run_telling(
             let criterion = Criterion::Top(lateral.collapse_share * thickness);
             let task = task(&stage, &stage.assembly, LoadPath::factor(lateral.steps), criterion, thickness);
             let task = Task { loads: back_loads(wall, lateral), changes: changes.clone(), ..task };
-            drive_telling(&task, solver, tell)
+            drive_seen_by(&task, solver, witness)
         }
         Protocol::Tilting(tilting) => {
             let criterion = Criterion::AnyBlock(tilting.collapse_share * thickness);
@@ -74,13 +77,13 @@ pub fn run_telling(
                 let task = task(&stage, left, tilting.path(), criterion, thickness);
                 let task = Task { changes: changes.clone(), ..task };
                 match tilting.rate {
-                    Rate::Static => drive_telling(&task, solver, tell),
+                    Rate::Static => drive_seen_by(&task, solver, witness),
                     Rate::Dynamic(turning) => {
                         let at_rest = match solver {
                             Solver::Explicit(settings) => *settings,
                             Solver::Implicit(_) | Solver::Limit(_) => explicit::Settings::default(),
                         };
-                        turn(&task, &turning, at_rest, tell)
+                        turn(&task, &turning, at_rest, witness)
                     }
                 }
             })
@@ -90,9 +93,9 @@ pub fn run_telling(
             let path = LoadPath::drift(shear.step, shear.history.widest());
             let task = task(&stage, &stage.assembly, path, criterion, thickness);
             match solver {
-                Solver::Limit(settings) => by_limit(task, shear.vertical_load, *settings),
-                Solver::Implicit(settings) => push(&task, shear, Begin::Implicit(*settings), tell),
-                Solver::Explicit(settings) => push(&task, shear, Begin::Explicit(*settings), tell),
+                Solver::Limit(settings) => by_limit(task, shear.vertical_load, *settings, witness),
+                Solver::Implicit(settings) => push(&task, shear, Begin::Implicit(*settings), witness),
+                Solver::Explicit(settings) => push(&task, shear, Begin::Explicit(*settings), witness),
             }
         }
     };

@@ -1,12 +1,12 @@
 //! The tilting table: the platform turns about its edge towards a side, in steps or steadily.
 
-use crate::model::{Level, Outcome};
+use crate::model::Outcome;
 use crate::protocol::events::Events;
 use crate::protocol::mechanism::joint_states;
 use crate::protocol::path::LoadPath;
 use crate::protocol::task::{displacements, turns};
 use crate::protocol::watch::{Criterion, LoadStep, Watch};
-use crate::protocol::{Run, Task, Tilting, Turning, confirm};
+use crate::protocol::{Run, Task, Tilting, Turning, Witness, confirm};
 use crate::solve::explicit::{Settings, Simulation};
 use crate::solve::{Assembly, Equilibrate, Status};
 
@@ -29,10 +29,11 @@ impl Tilting {
 /// the last reading; the collapse angle is the tilt at which it had gone a tenth of that way, and the bracket runs from
 /// there to the tilt at which it had passed. A wall that takes its time to fall has been tilted further meanwhile: the
 /// angle of a dynamic test lags behind the static one, the more so the faster the platform turns.
-/// `tell` is told of every reading.
-pub fn turn(task: &Task<'_>, turning: &Turning, at_rest: Settings, tell: &dyn Fn(Level)) -> Run {
+/// `witness` sees every reading.
+pub fn turn(task: &Task<'_>, turning: &Turning, at_rest: Settings, witness: Witness<'_>) -> Run {
     let built = task.assembled();
     let joints = built.joints.all.len();
+    witness.begins(task, &built);
     let towards = task.path.direction();
     let mut watch = Watch::new(task.wall, &built.bodies, towards, task.criterion);
     let mut level = Simulation::of(built.clone(), at_rest);
@@ -62,18 +63,26 @@ pub fn turn(task: &Task<'_>, turning: &Turning, at_rest: Settings, tell: &dyn Fn
     };
     let stands = outcome == Outcome::Equilibrium;
     if stands {
+        witness.rests(at, &level.assembly);
         watch.begins(&level.assembly.bodies);
     }
     let first = watch.read(&level.assembly.bodies, at, unbalanced_ratio, settled.steps);
     if !stands {
+        if outcome == Outcome::UnstableAtRest {
+            witness.falls(task, &built, (0.0, 0.0), &watch);
+        }
         return run(outcome, vec![first], &level.assembly);
     }
-    let turned = Turned::new(task, turning, watch, &level.assembly).until_the_end(vec![first], tell);
+    let turned = Turned::new(task, turning, watch, &level.assembly).until_the_end(vec![first], witness);
     let mut ended = run(turned.outcome, turned.steps, &turned.last);
     ended.joint_states = joint_states(&turned.last, &level.assembly.bodies.all);
     ended.bracket = turned.bracket;
     if let Some(falling) = turned.falling {
         let simulation = Simulation::of(falling, turned.settings);
+        if let Some(recorder) = witness.recorder {
+            let at = ended.steps.last().map_or(0.0, |step| step.level.value());
+            recorder.follows(task, simulation.clone(), at, &turned.watch);
+        }
         let failure = confirm::watch_fall(task, &turned.last, simulation, &turned.watch);
         ended.failure = Some(failure);
     }
@@ -125,7 +134,7 @@ impl<'t, 'a> Turned<'t, 'a> {
         }
     }
 
-    fn until_the_end(mut self, steps: Vec<LoadStep>, tell: &dyn Fn(Level)) -> Self {
+    fn until_the_end(mut self, steps: Vec<LoadStep>, witness: Witness<'_>) -> Self {
         self.steps = steps;
         self.watch.rests(&self.simulation.assembly.bodies);
         let path = self.task.path;
@@ -152,7 +161,7 @@ impl<'t, 'a> Turned<'t, 'a> {
             begun = (self.watch.moved(bodies) > self.begins).then(|| begun.unwrap_or(tilt));
             let away = self.watch.runs_away(bodies);
             if away || tilt >= path.after(readings) {
-                tell(level);
+                (witness.tell)(level);
                 let ratio = self.simulation.assembly.unbalanced_ratio();
                 self.steps.push(self.watch.read(bodies, level, ratio, std::mem::take(&mut since)));
                 if away {
@@ -168,6 +177,9 @@ impl<'t, 'a> Turned<'t, 'a> {
                 readings += 1.0;
                 begun = None;
                 self.last = self.simulation.assembly.clone();
+                if let Some(recorder) = witness.recorder {
+                    recorder.rests(level, &self.last);
+                }
                 self.watch.rests(&self.last.bodies);
             }
         }

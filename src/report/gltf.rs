@@ -282,7 +282,7 @@ impl File {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::picture::Movement;
+    use crate::model::Movement;
     use std::f64::consts::FRAC_PI_2;
 
     /// The description and the numbers of a file.

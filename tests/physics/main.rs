@@ -24,6 +24,7 @@ mod mechanisms_loading;
 mod objectivity;
 mod pressure;
 mod remainders;
+mod replay;
 mod ropes;
 mod shapes;
 mod shear;

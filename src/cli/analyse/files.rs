@@ -18,9 +18,9 @@ use crate::cli::output;
 use crate::ensemble::replace_file;
 use crate::exchange::WallFile;
 use crate::math::Vec3;
-use crate::model::{Block, Support, Wall};
+use crate::model::{Block, Movement, Support, Wall};
 use crate::protocol::JointState;
-use crate::report::{Actor, Movement, Picture, Role, Stone, quoted, write_glb, write_vtu};
+use crate::report::{Actor, Picture, Role, Stone, quoted, write_glb, write_vtu};
 
 /// Columns of `blocks.csv` and `joints.csv`.
 const BLOCKS: &str = "block,name,fixed,moves,rest_x_m,rest_y_m,rest_z_m,rest_turn_x_rad,rest_turn_y_rad,rest_turn_z_rad,\

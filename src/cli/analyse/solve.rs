@@ -10,7 +10,10 @@ use crate::contact;
 use crate::law::{CohesionAfterSlip, Coulomb, NormalLaw, Sampling};
 use crate::math::{atan, cos, radians, tan};
 use crate::model::{Level, Outcome, Wall};
-use crate::protocol::{Changes, Confirmation, Criterion, LoadPath, Run, Settlement, Task, drive_telling};
+use crate::protocol::{
+    Changes, Confirmation, Criterion, LoadPath, Recorder, Run, Settlement, Task, Witness, amplified,
+    drive_seen_by,
+};
 use crate::solve::explicit;
 use crate::solve::implicit::{self, Equilibrium};
 use crate::solve::{Equilibrate, Solver, limit};
@@ -52,32 +55,36 @@ pub(crate) fn solve(
     wall: (&Wall, &[Settlement]),
     law: &Coulomb,
     fit: &Fit,
+    recorder: Option<&Recorder>,
 ) -> (Answer, Found) {
     let what = format!("solving {} blocks by the {} solver", wall.0.blocks.len(), arguments.solver.name());
-    doing(&what, |doing| solve_telling(arguments, wall, law, fit, &|level| doing.at(level)))
+    doing(&what, |doing| {
+        let witness = Witness { tell: &|level| doing.at(level), recorder };
+        solve_seen_by(arguments, wall, law, fit, witness)
+    })
 }
 
-pub(crate) fn solve_telling(
+pub(crate) fn solve_seen_by(
     arguments: &Analyse,
     (wall, settlements): (&Wall, &[Settlement]),
     law: &Coulomb,
     fit: &Fit,
-    tell: &dyn Fn(Level),
+    witness: Witness<'_>,
 ) -> (Answer, Found) {
     match arguments.solver {
-        MethodName::Limit => by_limit_analysis(arguments, wall, law, fit),
+        MethodName::Limit => by_limit_analysis(arguments, wall, law, fit, witness),
         MethodName::Implicit => {
             let settings = implicit::Settings::default();
             let task = task(arguments, (wall, settlements), law, fit);
             let mut at_rest = Equilibrium::new(wall, law, settings, task.contact);
             at_rest.settle(&mut |_| false);
             let loose = Some(at_rest.loose().iter().map(|&i| i as usize).collect());
-            let (answer, found) = by_steps(drive_telling(&task, &Solver::Implicit(settings), tell));
+            let (answer, found) = by_steps(drive_seen_by(&task, &Solver::Implicit(settings), witness));
             (Answer { loose, ..answer }, found)
         }
         MethodName::Explicit => {
             let solver = Solver::Explicit(explicit::Settings::default());
-            by_steps(drive_telling(&task(arguments, (wall, settlements), law, fit), &solver, tell))
+            by_steps(drive_seen_by(&task(arguments, (wall, settlements), law, fit), &solver, witness))
         }
     }
 }
@@ -127,7 +134,13 @@ fn by_steps(run: Run) -> (Answer, Found) {
     (answer, Found::Steps(Box::new(run)))
 }
 
-fn by_limit_analysis(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit) -> (Answer, Found) {
+fn by_limit_analysis(
+    arguments: &Analyse,
+    wall: &Wall,
+    law: &Coulomb,
+    fit: &Fit,
+    witness: Witness<'_>,
+) -> (Answer, Found) {
     let flow = match arguments.flow.unwrap_or(FlowName::Associative) {
         FlowName::Associative => limit::Flow::Associative,
         FlowName::NonAssociative => limit::Flow::NonAssociative,
@@ -152,6 +165,13 @@ fn by_limit_analysis(arguments: &Analyse, wall: &Wall, law: &Coulomb, fit: &Fit)
         LoadName::Tilt => cos(atan(found.multiplier)),
         LoadName::Lateral => 1.0,
     };
+    if let Some(recorder) = witness.recorder {
+        let level = match arguments.load {
+            LoadName::Tilt => Level::Tilt(atan(found.multiplier)),
+            LoadName::Lateral => Level::Multiplier(found.multiplier),
+        };
+        recorder.takes(amplified((wall, &fit.contact), &found, (level, scale), falls));
+    }
     let answer = Answer {
         clamped: clamped(&analysis, wall, &found.outcome),
         between: found.between,

@@ -6,9 +6,9 @@ use crate::cli::condition::{Condition, Parting, conditions};
 use crate::cli::drawn::stones;
 use crate::contact::{self, Patch, find_patch};
 use crate::math::Vec3;
-use crate::model::{Block, Wall};
+use crate::model::{Block, Movement, Wall};
 use crate::protocol::{Closing, JointState, Run};
-use crate::report::{Movement, Stone};
+use crate::report::Stone;
 use crate::solve::limit::{BlockMotion, Limit};
 
 /// A block that slips or opens by less than this share of the fastest corner does neither (rounding of the conic solver).

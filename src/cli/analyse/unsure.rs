@@ -11,7 +11,7 @@ use crate::cli::analyse::known::Known;
 use crate::cli::analyse::loads::loaded;
 use crate::cli::analyse::meetings::Fit;
 use crate::cli::analyse::solve::{
-    BRACKET, BRACKET_DEG, LARGEST_MULTIPLIER, LARGEST_TILT_DEG, law, solve_telling,
+    BRACKET, BRACKET_DEG, LARGEST_MULTIPLIER, LARGEST_TILT_DEG, law, solve_seen_by,
 };
 use crate::cli::analyse::state::{Found, State};
 use crate::cli::analyse::worst::bears;
@@ -20,7 +20,7 @@ use crate::cli::failure::Failure;
 use crate::ensemble::{Observed, Unsure, given_points};
 use crate::exchange::WallFile;
 use crate::model::{Outcome, Wall};
-use crate::protocol::Settlement;
+use crate::protocol::{Settlement, Witness};
 use crate::report::{Answered, AskedOfWall, Ended, UncertaintySummary};
 
 /// Walls of a design where no number is asked for, and its seed.
@@ -142,7 +142,8 @@ impl Given<'_> {
             }
         }
         let wall = loaded(self.file, own.density.as_ref().map(Known::middle), &own.dead_loads)?;
-        let (answer, found) = solve_telling(&own, (&wall, self.settlements), &law(&own), self.fit, &|_| ());
+        let (answer, found) =
+            solve_seen_by(&own, (&wall, self.settlements), &law(&own), self.fit, Witness::NOBODY);
         Ok(self.came(&wall, &answer, &found))
     }
 

@@ -9,18 +9,19 @@ use crate::cli::analyse::known::Known;
 use crate::cli::analyse::loads::{loaded, settlements};
 use crate::cli::analyse::meetings::{Fit, bounds, look};
 use crate::cli::analyse::page::Told;
-use crate::cli::analyse::solve::{law, solve, solve_telling};
+use crate::cli::analyse::solve::{law, solve, solve_seen_by};
 use crate::cli::analyse::state::State;
 use crate::cli::analyse::unsure::{Given, asked, refused};
 use crate::cli::analyse::worst::{Tried, tried, weakest};
 use crate::cli::analyse::{files, upright};
 use crate::cli::doing::doing;
 use crate::cli::failure::Failure;
+use crate::cli::one_wall::MOST_STATES;
 use crate::cli::output;
 use crate::exchange::{ReadOptions, Unit, Up, WallFaults, WallFile, read_wall};
 use crate::law::Coulomb;
 use crate::model::{Outcome, Support, Wall};
-use crate::protocol::{Direction, Settlement};
+use crate::protocol::{Direction, Recorder, Settlement, Witness};
 use crate::report::{uncertainty_text, write_uncertainty};
 use crate::solve::STANDARD_GRAVITY;
 
@@ -55,7 +56,8 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
     let directions = directions(arguments, wall, &law, &fit);
     let towards = weakest(&directions).map_or(arguments.direction, |of| Direction::at(of.direction_deg));
     let arguments = &Analyse { direction: towards, ..arguments.clone() };
-    let (answer, found) = solve(arguments, wall, &law, &fit);
+    let recorder = arguments.out.is_some().then(|| Recorder::new(MOST_STATES));
+    let (answer, found) = solve(arguments, wall, &law, &fit, recorder.as_ref());
     warnings.extend(answer.warning(&file));
     if answer.outcome == Outcome::UnstableAtRest {
         warnings.extend(upright::question(
@@ -106,7 +108,7 @@ fn directions(arguments: &Analyse, wall: (&Wall, &[Settlement]), law: &Coulomb, 
     doing("looking for the weakest direction", |_| {
         tried(&|direction| {
             let towards = Analyse { direction, ..arguments.clone() };
-            solve_telling(&towards, wall, law, fit, &|_| ()).0.outcome
+            solve_seen_by(&towards, wall, law, fit, Witness::NOBODY).0.outcome
         })
     })
 }

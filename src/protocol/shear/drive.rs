@@ -8,7 +8,7 @@ use crate::protocol::shear::readings::{ShearMode, Sheared};
 use crate::protocol::shear::settings::Shear;
 use crate::protocol::task::{displacements, turns};
 use crate::protocol::watch::Watch;
-use crate::protocol::{LoadStep, Run, Task};
+use crate::protocol::{LoadStep, Run, Task, Witness};
 use crate::solve::bodies::Bodies;
 use crate::solve::explicit::{self, Simulation};
 use crate::solve::implicit::{self, Equilibrium};
@@ -126,9 +126,10 @@ pub enum Begin {
 }
 
 /// Takes a wall with its beam and jack, the first of the task's ties, along the history of a test.
-pub fn push(task: &Task<'_>, shear: &Shear, begin: Begin, tell: &dyn Fn(Level)) -> Run {
+pub fn push(task: &Task<'_>, shear: &Shear, begin: Begin, witness: Witness<'_>) -> Run {
     let built = task.assembled();
     let joints = built.joints.all.len();
+    witness.begins(task, &built);
     let mut watch = Watch::new(task.wall, &built.bodies, task.path.direction(), task.criterion);
     let start = match begin {
         Begin::Implicit(settings) => Pushed::Implicit(Box::new(Equilibrium::of(built.clone(), settings))),
@@ -141,11 +142,14 @@ pub fn push(task: &Task<'_>, shear: &Shear, begin: Begin, tell: &dyn Fn(Level)) 
     if outcome.is_none() {
         watch.begins(&state.assembly().bodies);
         test.zero = at_jack(state.assembly()).0;
-        test.read(&state, &settled, &mut watch, tell);
+        test.read(&state, &settled, &mut watch, witness);
         at_rest = Some(state.assembly().clone());
-        outcome = test.along(task, &mut state, &mut watch, tell);
+        outcome = test.along(task, &mut state, &mut watch, witness);
     } else {
-        test.read(&state, &settled, &mut watch, &|_| {});
+        if outcome == Some(Outcome::UnstableAtRest) {
+            witness.falls(task, &built, (0.0, 0.0), &watch);
+        }
+        test.read(&state, &settled, &mut watch, Witness::NOBODY);
     }
     let (now, before) = (state.assembly(), &built.bodies);
     let states = at_rest.as_ref().map_or_else(Vec::new, |rest| joint_states(now, &rest.bodies.all));
@@ -230,13 +234,13 @@ impl Test {
         state: &Pushed<'_>,
         settled: &Settled,
         watch: &mut Watch,
-        tell: &dyn Fn(Level),
+        witness: Witness<'_>,
     ) -> f64 {
         let assembly = state.assembly();
         let (way, push) = at_jack(assembly);
         let drift = (way - self.zero) / self.shear.force_height;
         let level = Level::Drift(drift);
-        tell(level);
+        witness.rests(level, assembly);
         let step = watch.read(&assembly.bodies, level, settled.unbalanced_ratio, settled.steps);
         self.steps.push(LoadStep { push: Some(push), ..step });
         watch.rests(&assembly.bodies);
@@ -249,7 +253,7 @@ impl Test {
         task: &Task<'a>,
         state: &mut Pushed<'a>,
         watch: &mut Watch,
-        tell: &dyn Fn(Level),
+        witness: Witness<'_>,
     ) -> Option<Outcome> {
         let Shear { step, history, .. } = self.shear;
         let (mut level, mut drift) = (0.0f64, 0.0f64);
@@ -272,11 +276,14 @@ impl Test {
                 let next = level + way * f64::min(step, left + BEYOND * step);
                 let (pushed, settled) = state.go(task, [level, next], watch);
                 if let Some(end) = ended(&settled, Some(drift)) {
+                    if matches!(end, Outcome::Collapsed { .. }) {
+                        witness.falls(task, state.assembly(), (level, next), watch);
+                    }
                     return Some(end);
                 }
                 *state = pushed;
                 level = next;
-                drift = self.read(state, &settled, watch, tell);
+                drift = self.read(state, &settled, watch, witness);
             }
         }
         None

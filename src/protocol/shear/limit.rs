@@ -1,11 +1,11 @@
 //! The push that a sheared wall bears by limit analysis.
 
 use crate::model::{Level, Outcome};
-use crate::protocol::drive::drive;
+use crate::protocol::drive::drive_seen_by;
 use crate::protocol::path::LoadPath;
 use crate::protocol::pressure::Load;
 use crate::protocol::shear::readings::Sheared;
-use crate::protocol::{Run, Task};
+use crate::protocol::{Run, Task, Witness};
 use crate::solve::{Solver, Tie, limit};
 
 /// A push as large as the vertical load, at the jack.
@@ -14,10 +14,10 @@ pub fn push_on(jack: &Tie, vertical_load: f64) -> Load {
 }
 
 /// A wall's task by limit analysis. Rigid blocks fall as built: the largest push is that of drift 0.
-pub fn by_limit(task: Task<'_>, vertical_load: f64, settings: limit::Settings) -> Run {
+pub fn by_limit(task: Task<'_>, vertical_load: f64, settings: limit::Settings, witness: Witness<'_>) -> Run {
     let loads = task.ties.first().map(|jack| push_on(jack, vertical_load)).into_iter().collect();
     let task = Task { loads, ties: Vec::new(), path: LoadPath::factor(1), ..task };
-    let mut run = drive(&task, &Solver::Limit(settings));
+    let mut run = drive_seen_by(&task, &Solver::Limit(settings), witness);
     let none = Level::Drift(0.0);
     let found = matches!(run.outcome, Outcome::Collapsed { .. } | Outcome::Equilibrium);
     for step in &mut run.steps {

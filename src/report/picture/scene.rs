@@ -1,19 +1,11 @@
 //! What is drawn: blocks where a magnified movement takes them, and what their joints did.
 
-use crate::math::{Mat3, Vec3, cos, sin};
+use crate::math::Vec3;
+use crate::model::Movement;
 use crate::shape::Polyhedron;
 
 /// Without a stated magnification the largest movement is drawn as this share of the wall's height.
 const SHARE_OF_HEIGHT: f64 = 0.1;
-
-/// A movement of a rigid block.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Movement {
-    /// Displacement of the centroid (m).
-    pub shift: Vec3,
-    /// Rotation vector about the centroid (rad, world axes).
-    pub turn: Vec3,
-}
 
 /// A block and how it moves.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,22 +59,6 @@ pub struct Picture {
     pub title: String,
     /// Lines below the wall.
     pub remarks: Vec<String>,
-}
-
-impl Movement {
-    /// None.
-    pub const NONE: Movement = Movement { shift: Vec3::new(0.0, 0.0, 0.0), turn: Vec3::new(0.0, 0.0, 0.0) };
-
-    /// The same movement `factor` times as large.
-    pub(in crate::report) fn times(&self, factor: f64) -> Movement {
-        Movement { shift: self.shift * factor, turn: self.turn * factor }
-    }
-
-    /// Where it takes points of a block with a centroid.
-    fn taking(&self, centroid: Vec3, points: &[Vec3]) -> Vec<Vec3> {
-        let turn = rotation(&self.turn);
-        points.iter().map(|point| centroid + self.shift + turn * (point - centroid)).collect()
-    }
 }
 
 impl Stone {
@@ -139,14 +115,4 @@ pub(super) fn height(stones: &[Stone]) -> (f64, f64) {
         .iter()
         .map(|stone| stone.shape.bounds())
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (from, to)| (low.min(from.z), high.max(to.z)))
-}
-
-/// The rotation by a rotation vector (rad): Rodrigues' formula.
-fn rotation(turn: &Vec3) -> Mat3 {
-    let angle = turn.norm();
-    if angle == 0.0 {
-        return Mat3::identity();
-    }
-    let cross = (turn / angle).cross_matrix();
-    Mat3::identity() + cross * sin(angle) + cross * cross * (1.0 - cos(angle))
 }

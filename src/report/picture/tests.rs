@@ -4,8 +4,9 @@ use approx::assert_relative_eq;
 
 use super::order::back_to_front;
 use super::view::View;
-use super::{Hinge, Movement, Picture, Seam, Stone, colour};
+use super::{Hinge, Picture, Seam, Stone, colour};
 use crate::math::{Vec3, radians};
+use crate::model::Movement;
 use crate::shape::Polyhedron;
 
 const RIGHT_ANGLE: f64 = std::f64::consts::FRAC_PI_2;
