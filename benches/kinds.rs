@@ -14,7 +14,7 @@ use pirca::generate::canonical;
 use pirca::law::{CohesionAfterSlip, Coulomb, NormalLaw, Sampling};
 use pirca::math::{degrees, exp, ln, radians, tan};
 use pirca::model::Outcome;
-use pirca::protocol::{self, Ends, Protocol, Restraint, Run, Tilting};
+use pirca::protocol::{self, Ends, Protocol, Restraint, Run, Tilting, Witness};
 use pirca::random::{Family, Streams};
 use pirca::solve::{Solver, explicit, implicit};
 use pirca::study::{Described, Study, described};
@@ -222,7 +222,7 @@ fn wide(prior: &Family, share: f64, wider: f64) -> f64 {
 fn member(study: &Study, arm: u32, point: u32, member: u64) -> Option<Told> {
     let task = Task { arm, point, member };
     let wall = build(study, arm, member).ok()?.wall;
-    let (seconds, run) = timed(|| solve(study, task, &wall, &|_| {}));
+    let (seconds, run) = timed(|| solve(study, task, &wall, Witness::NOBODY));
     let stones = wall.stones().count();
     Some(Told { seconds, run, of: format!("point {point}, member {member}, {stones} stones") })
 }

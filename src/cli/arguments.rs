@@ -1,5 +1,6 @@
 //! The arguments, as clap reads them; their docstrings are the help. What frames the help is in `help`.
 
+use std::ffi::OsString;
 use std::num::NonZero;
 use std::path::PathBuf;
 
@@ -56,7 +57,7 @@ pub(crate) enum Verb {
     /// A run that was stopped goes on where it stood.
     #[command(after_help = RUN)]
     Run(Run),
-    /// Put a run on a page: answer, statistics, figures, walls, sources.
+    /// Put a run, a study or a wall on a page: answer, figures, sources.
     ///
     /// One HTML file that any browser opens without a network: question, answer, figures, every wall, the weakest, the median and the
     /// strongest one drawn, every input with its source, limits, provenance, and a paragraph for a paper.
@@ -123,7 +124,7 @@ pub(crate) enum Verb {
     ///
     /// The wall is a wall.json or an OBJ file that somebody else made.
     #[command(after_help = ANALYSE)]
-    Analyse(Analyse),
+    Analyse(Box<Analyse>),
 }
 
 /// Arguments of `init`.
@@ -291,20 +292,32 @@ pub(crate) struct Run {
     pub report: bool,
 }
 
+impl Run {
+    /// A study as it is, with nothing asked for in the place of its own, and its page.
+    pub fn on_a_page(which: Which) -> Run {
+        let ensemble = Ensemble { members: None, seed: None };
+        Run { which, out: None, ensemble, threads: None, solver: None, beside: None, report: true }
+    }
+}
+
 /// Arguments of `report`.
 #[derive(Args, Debug)]
 pub(crate) struct Report {
-    /// The output folder of a run.
-    pub run: PathBuf,
+    /// The output folder of a run, a study (its folder or its study.toml, which is run as far as it has not been), or a wall (.json, .obj).
+    #[arg(value_name = "RUN|STUDY|WALL")]
+    pub of: PathBuf,
     /// Folder of the study that was run [default: where it was run from, else studies/<study>].
     #[arg(long, value_name = "STUDY", help_heading = STUDY)]
     pub study: Option<PathBuf>,
-    /// File to write [default: report.html in the folder of the run].
+    /// File to write [default: report.html in the folder of the run; of a wall <wall>-report.html here].
     #[arg(long, value_name = "FILE", help_heading = OUTPUT)]
     pub out: Option<PathBuf>,
     /// Print one JSON object on standard output instead of text.
     #[arg(long, help_heading = OUTPUT)]
     pub json: bool,
+    /// Of a wall, behind --: what is asked of it, as of analyse, for example -- --phi-deg 35.
+    #[arg(last = true, value_name = "OPTIONS OF ANALYSE")]
+    pub asked: Vec<OsString>,
 }
 
 /// Arguments of `capacity`.

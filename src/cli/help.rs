@@ -105,8 +105,10 @@ pub(super) const REPORT: &str = concat!(
 Example: pirca run studies/tilting-block --out runs/first
          pirca report runs/first
          pirca report runs/first --out for-a-colleague.html
+         pirca report studies/tilting-block
+         pirca report wall.json -- --phi-deg 35
 
-The study must be as it was run. The walls that are drawn are solved again; no other wall is. `pirca run --report` writes the same \
+A study is run first, as far as it has not been. Of a run the study must be as it was run. The walls that are drawn are solved again; no other wall is. `pirca run --report` writes the same \
 page at the end of a run.
 
 ",

@@ -64,6 +64,7 @@ pub(super) fn of_wall(chosen: &OneWall, run: &Run, colour: Measure, magnify: Opt
         stones,
         seams,
         hinges: hinges(&run.joint_states, &conditions),
+        thrusts: Vec::new(),
         measure: colour.said().to_owned(),
         unit: colour.unit(),
         from_front,

@@ -1,18 +1,20 @@
-//! `pirca report`: the page of a run, and the same page as `pirca run --report` writes it.
+//! `pirca report`: the page of a run, of a study or of a wall, and the pages that other verbs write with `--report`.
 
 use std::fs;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 
+use clap::Parser;
 use serde_json::json;
 
-use crate::cli::arguments::{Measure, Report, Which};
+use crate::cli::analyse::Analyse;
+use crate::cli::arguments::{Measure, Report, Run, Which};
 use crate::cli::doing::doing;
 use crate::cli::drawn::ending;
 use crate::cli::failure::Failure;
 use crate::cli::one_wall::OneWall;
 use crate::cli::origin::Origin;
-use crate::cli::{locate, output, picture};
+use crate::cli::{locate, output, picture, run};
 use crate::ensemble::{self, Manifest, Row, replace_file};
 use crate::report::{DrawnWall, PageOrigin, RunPage, chosen_walls, run_page};
 use crate::study::{Loaded, Study};
@@ -20,9 +22,56 @@ use crate::study::{Loaded, Study};
 /// Name of the page in the output folder.
 pub(crate) const PAGE: &str = "report.html";
 
-/// Writes the page of a run that has ended.
+/// Writes the page of a run that has ended, of a study, or of a wall.
 pub(crate) fn report(arguments: &Report) -> Result<(), Failure> {
-    let folder = &arguments.run;
+    let of = &arguments.of;
+    let is_wall =
+        of.extension().is_some_and(|end| ["json", "obj"].iter().any(|own| end.eq_ignore_ascii_case(own)));
+    if is_wall {
+        return of_wall(arguments);
+    }
+    if !arguments.asked.is_empty() {
+        return Err(Failure::Usage(format!(
+            "what stands behind -- is for a wall from a file (.json or .obj), and {} is none; leave it out",
+            of.display()
+        )));
+    }
+    // The folder of a run holds no study.toml.
+    let is_study = of.join("study.toml").is_file() || of.file_name().is_some_and(|name| name == "study.toml");
+    if is_study { of_study(arguments) } else { of_run(arguments) }
+}
+
+/// The page of a wall from a file, as `analyse --report` writes it.
+fn of_wall(arguments: &Report) -> Result<(), Failure> {
+    #[derive(Parser)]
+    #[command(name = "pirca report WALL --", no_binary_name = true)]
+    struct Asked {
+        #[command(flatten)]
+        analyse: Analyse,
+    }
+    let words = std::iter::once(arguments.of.clone().into_os_string()).chain(arguments.asked.clone());
+    let Asked { analyse } = Asked::try_parse_from(words).map_err(|error| {
+        let said = error.to_string();
+        Failure::Usage(said.trim_start_matches("error: ").trim_end().to_owned())
+    })?;
+    let json = analyse.json || arguments.json;
+    crate::cli::analyse::analyse(&Analyse { report: true, page: arguments.out.clone(), json, ..analyse })
+}
+
+/// The page of a study: it is run as far as it has not been.
+fn of_study(arguments: &Report) -> Result<(), Failure> {
+    if arguments.study.is_some() {
+        return Err(Failure::Usage(
+            "--study is for the folder of a run; a study names itself: leave it out".to_owned(),
+        ));
+    }
+    let which = Which { study: arguments.of.clone(), variant: None, json: arguments.json };
+    run::with_page(&Run::on_a_page(which), arguments.out.clone())
+}
+
+/// The page of a run that has ended.
+fn of_run(arguments: &Report) -> Result<(), Failure> {
+    let folder = &arguments.of;
     let manifest = ensemble::identity(folder)?;
     let origin = Origin::read(folder).unwrap_or_default();
     let place = place(arguments, &manifest, &origin)?;
@@ -52,11 +101,10 @@ pub(crate) fn write(
     for (which, task) in chosen_walls(study, rows) {
         let kn = study.arms[task.arm as usize].kn_points[task.point as usize];
         let wall = OneWall::at(study.clone(), task, kn)?;
-        let run = doing(&format!("drawing the {which} wall"), |doing| {
-            wall.solved_telling(&|level| doing.at(level))
-        });
+        let (run, replay) =
+            doing(&format!("drawing the {which} wall"), |doing| wall.replayed(&|level| doing.at(level)));
         let picture = picture::of_wall(&wall, &run, Measure::Opening, None);
-        drawn.push(DrawnWall { which, task, picture, ending: ending(&run) });
+        drawn.push(DrawnWall { which, task, picture, replay, ending: ending(&run) });
     }
     let text = run_page(&RunPage { study, loaded, rows, drawn: &drawn, origin: &origin.of_page() })
         .map_err(|error| Failure::Run(format!("{error:#}")))?;
@@ -94,7 +142,7 @@ fn place(arguments: &Report, manifest: &Manifest, origin: &Origin) -> Result<Pat
     known.into_iter().find(|folder| folder.join("study.toml").is_file()).ok_or_else(|| {
         Failure::Input(format!(
             "{}: the study {} of the run is neither where it was run from nor in studies/; name its folder with --study",
-            arguments.run.display(),
+            arguments.of.display(),
             manifest.study
         ))
     })

@@ -1,15 +1,22 @@
 //! `pirca run`: generate, solve, statistics, figures.
 
+use std::path::PathBuf;
+
 use crate::cli::arguments::{Run, SolverName};
 use crate::cli::failure::Failure;
 use crate::cli::origin::Origin;
-use crate::cli::{elements, locate, output, progress, report as page};
+use crate::cli::{elements, locate, output, progress, report};
 use crate::ensemble::{self, Quantity, Settings};
-use crate::report::{self, Earlier};
+use crate::report::{Earlier, terminal_table, write_all};
 use crate::study::{ElementStudy, Study};
 
 /// Runs a study, or what is still missing of it, and shows the results.
 pub(crate) fn run(arguments: &Run) -> Result<(), Failure> {
+    with_page(arguments, None)
+}
+
+/// The same with its page, if it is asked for, in a file of its own.
+pub(crate) fn with_page(arguments: &Run, page: Option<PathBuf>) -> Result<(), Failure> {
     let folder = locate::folder(&arguments.which.study)?;
     if ElementStudy::is_in(&folder) {
         return elements::run(&folder, arguments);
@@ -23,17 +30,18 @@ pub(crate) fn run(arguments: &Run) -> Result<(), Failure> {
     let settings = Settings { out: out.clone(), threads: arguments.threads };
     let rows = ensemble::run(&study, &settings, progress::on_stderr(&study).as_ref())?;
     let study = ensemble::come_to(study, &rows);
-    let summary = report::write_all(&study, &rows, &out, beside.as_ref())
+    let summary = write_all(&study, &rows, &out, beside.as_ref())
         .map_err(|error| Failure::Run(format!("{error:#}")))?;
     let origin = Origin::now(&folder, arguments.threads);
     origin.write(&out)?;
     if arguments.report {
-        page::write(&out.join(page::PAGE), (&study, &loaded), &rows, &origin)?;
+        let file = page.unwrap_or_else(|| out.join(report::PAGE));
+        report::write(&file, (&study, &loaded), &rows, &origin)?;
     }
     if arguments.which.json {
         return output::print_json(&summary);
     }
-    output::print(&format!("{}\nwritten to {}\n", report::terminal_table(&summary).trim_end(), out.display()))
+    output::print(&format!("{}\nwritten to {}\n", terminal_table(&summary).trim_end(), out.display()))
 }
 
 /// The study with what the arguments put in the place of its own values.

@@ -65,7 +65,7 @@ pub use joint_law::{LawSummary, law_text, remove_law, write_law};
 pub use measured::{CalibrationEntry, ComparisonEntry, MeasuredSummary};
 pub(crate) use number::significant;
 pub use page::{DrawnWall, PageOrigin, RunPage, WallPage, WallTable, chosen_walls, run_page, wall_page};
-pub use picture::{Hinge, Picture, Seam, Stone};
+pub use picture::{Hinge, Picture, Seam, Stone, Thrust};
 pub use published::{Published, Verdict};
 pub use readings::{Extent, ReadingEntry, ReadingsSummary, readings_text, write_readings};
 pub use selection::{

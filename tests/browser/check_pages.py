@@ -7,7 +7,8 @@ usage: check_pages.py CHROMIUM RUN WALL VERDICT CAPACITY COMPARE   (CHROMIUM: th
 Of every page: nothing is fetched, the console is silent, no script of a name runs, the words that must be there are seen, all that a
 figure shows has a name for those who do not see it, the page is no larger than it may be, and it fits the width of A4 and of a small
 screen. Of the run's page besides: a mark, reached and pressed by the keyboard alone, leads to its wall and unfolds the table that holds
-it; and on paper the inputs are unfolded. The wall in three dimensions is drawn, moves with its slider and turns by keys. Every figure has marks on it: a blank one would have a single colour.
+it; and on paper the inputs are unfolded. Walls in three dimensions are
+drawn, move with their slider, turn by keys, and change with what colours them. Every figure has marks on it: a blank one would have a single colour.
 
 Exits with 1 and a message when something is not what was expected.
 """
@@ -18,7 +19,7 @@ import sys
 from playwright.sync_api import sync_playwright
 
 # A page beyond this is slow to open and to send (bytes).
-LARGEST = 3_000_000
+LARGEST = 5_000_000
 # Draws in three dimensions without a graphics card. With less the page is blank and nothing is said.
 SOFTWARE = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 SCREENS = {"desk": (1280, 900), "phone": (390, 844), "A4": (794, 1123)}
@@ -107,23 +108,69 @@ def check_marks(browser, path):
     page.close()
 
 
-def check_solid(browser, path):
-    """The wall in three dimensions: something is drawn, it moves with the slider, and keys turn it."""
+def check_solid(browser, path, walls):
+    """Walls in three dimensions: something is drawn, it moves with the slider, keys turn it, colours and walls can be chosen."""
     page, heard = opened(browser, path, *SCREENS["desk"])
-    canvas, slider = page.locator("figure.solid canvas"), page.locator("figure.solid input")
+    solid = page.locator("figure.solid")
+    canvas, slider, said = solid.locator("canvas"), solid.locator("[name=state]"), solid.locator(".said")
     canvas.scroll_into_view_if_needed()
-    seen = [canvas.screenshot()]
-    slider.fill("0")
-    seen.append(canvas.screenshot())
+    seen = {"at the end": canvas.screenshot()}
+    last = int(slider.get_attribute("max"))
+    for name, state in [("halfway", last // 2), ("at rest", 0)]:
+        before = said.text_content()
+        slider.fill(str(state))
+        seen[name] = canvas.screenshot()
+        if said.text_content() == before:
+            fail(f"{path}: the slider does not say that it moved: {before}")
     canvas.focus()
     for key in ["ArrowRight", "ArrowRight", "ArrowUp", "+"]:
         page.keyboard.press(key)
-    seen.append(canvas.screenshot())
-    if len(set(seen)) < 3:
-        fail(f"{path}: the wall in three dimensions does not move")
+    seen["turned"] = canvas.screenshot()
+    slider.fill(str(last))
+    for measure in ["movement", "opening", "stress"]:
+        solid.locator("[name=measure]").select_option(measure)
+        seen[measure] = canvas.screenshot()
+        if not solid.locator(".bar").is_visible():
+            fail(f"{path}: the colours of {measure} have no bar")
+    choices = solid.locator("[name=wall] option").count()
+    if choices != (walls if walls > 1 else 0):
+        fail(f"{path}: {choices} walls can be chosen, not {walls}")
+    for wall in range(1, walls):
+        solid.locator("[name=wall]").select_option(str(wall))
+        seen[f"wall {wall}"] = canvas.screenshot()
+    if len(set(seen.values())) < len(seen):
+        same = [name for name, picture in seen.items() if list(seen.values()).count(picture) > 1]
+        fail(f"{path}: in three dimensions these look alike: {', '.join(same)}")
     # A blank canvas of this size has some three thousand bytes.
-    if min(map(len, seen)) < 8_000:
-        fail(f"{path}: the wall in three dimensions is blank: {[len(picture) for picture in seen]} bytes as PNG")
+    if min(map(len, seen.values())) < 8_000:
+        fail(f"{path}: the wall in three dimensions is blank: { {name: len(picture) for name, picture in seen.items()} } bytes as PNG")
+    solid.locator("[name=play]").click()
+    page.wait_for_function("document.querySelector('figure.solid [name=state]').valueAsNumber > 1", timeout=20_000)
+    if heard:
+        fail(f"{path}: {'; '.join(heard)}")
+    page.close()
+
+
+def check_charts(browser, path):
+    """Figures whose values can be read off: a button puts a chart in their place, which tells the values under the pointer."""
+    page, heard = opened(browser, path, *SCREENS["desk"])
+    charted = page.locator("figure.charted")
+    if not charted.count():
+        fail(f"{path}: no figure can be read off")
+    for number in range(charted.count()):
+        figure = charted.nth(number)
+        figure.locator("button.read").click()
+        over = figure.locator(".u-over")
+        over.scroll_into_view_if_needed()
+        over.hover()
+        read = figure.locator(".u-legend .u-value").all_text_contents()
+        if figure.locator("> svg").is_visible() or not any(value.strip("- ") for value in read):
+            fail(f"{path}: nothing is read off chart {number}: {read}")
+        if len(figure.locator(".chart").screenshot()) < 4000:
+            fail(f"{path}: chart {number} is blank")
+        figure.locator("button.read").click()
+        if not figure.locator("> svg").is_visible():
+            fail(f"{path}: the drawing of chart {number} does not come back")
     if heard:
         fail(f"{path}: {'; '.join(heard)}")
     page.close()
@@ -167,9 +214,11 @@ def main():
         ]:
             found.append(f"{path}: {check(browser, path, words)} figures")
             check_names(browser, path)
-        for path in [run, wall]:
-            check_solid(browser, path)
+        for path, walls in [(run, 3), (wall, 1)]:
+            check_solid(browser, path, walls)
             check_without(browser, path)
+        for path in [run, capacity, compare]:
+            check_charts(browser, path)
         check_marks(browser, run)
         for path in [run, verdict, capacity, compare]:
             check_paper(browser, path)

@@ -143,7 +143,7 @@ fn what_was_asked_of_a_study_comes_on_a_page_if_it_is_asked_for() {
         let output = folder.pirca(&all);
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         let page =
-            fs::read_to_string(folder.path(&format!("{out}/report.html"))).expect("the page was written");
+            fs::read_to_string(folder.path(format!("{out}/report.html"))).expect("the page was written");
         holds_together(&page);
         let said = String::from_utf8_lossy(&output.stdout).into_owned();
         // What the terminal says first stands there in one line.
@@ -159,7 +159,7 @@ fn what_was_asked_of_a_study_comes_on_a_page_if_it_is_asked_for() {
         // That of an earlier answer is not left beside a later one.
         let output = folder.pirca(&all[..all.len() - 1]);
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-        assert!(!folder.path(&format!("{out}/report.html")).exists(), "{out}");
+        assert!(!folder.path(format!("{out}/report.html")).exists(), "{out}");
     };
     asked(
         &["capacity", "--members", "20", "--above-m", "0.001"],
@@ -182,6 +182,41 @@ fn what_was_asked_of_a_study_comes_on_a_page_if_it_is_asked_for() {
         &["influence", "--points", "32"],
         &["Shares of the variance in %", "id=\"figure-influence\"", "Sobol"],
     );
+}
+
+#[test]
+fn a_study_and_a_wall_come_on_a_page_by_their_own_names() {
+    let folder = Folder::with_study(STUDY);
+    let told = |arguments: &[&str], code: i32| {
+        let output = folder.pirca(arguments);
+        assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
+        (String::from_utf8_lossy(&output.stdout).into_owned(), stderr(&output))
+    };
+    // A study is run first; its page goes where it is asked for, and its run to the usual folder.
+    told(&["report", "studies/tiny", "--out", "study.html"], 0);
+    let page = fs::read_to_string(folder.path("study.html")).unwrap();
+    assert!(page.contains("<h1>Study tiny</h1>") && folder.path("runs/tiny/summary.json").is_file());
+    assert!(!folder.path("runs/tiny/report.html").exists());
+    let (_, error) = told(&["report", "studies/tiny", "--study", "studies/tiny"], 2);
+    assert!(error.contains("--study is for the folder of a run"), "{error}");
+    // A wall is analysed as is asked behind the dashes.
+    fs::write(folder.path("tower.obj"), walls::GOOD_OBJ).unwrap();
+    let (said, _) = told(&["report", "tower.obj", "--out", "tower.html", "--", "--phi-deg", "35"], 0);
+    assert!(
+        said.contains("The wall collapses at a tilt of") && said.ends_with("written to tower.html\n"),
+        "{said}"
+    );
+    let page = fs::read_to_string(folder.path("tower.html")).unwrap();
+    holds_together(&page);
+    assert!(page.contains("<td>35 deg</td>"));
+    told(&["analyse", "tower.obj", "--phi-deg", "35", "--report"], 0);
+    assert!(folder.path("tower-report.html").is_file());
+    let (_, error) = told(&["report", "tower.obj"], 2);
+    assert!(error.contains("--phi-deg <F|LOW..HIGH>"), "{error}");
+    let (_, error) = told(&["report", "tower.obj", "--", "--phi-deg", "35", "--frobnicate"], 2);
+    assert!(error.contains("unexpected argument '--frobnicate'"), "{error}");
+    let (_, error) = told(&["report", "runs/tiny", "--", "--phi-deg", "35"], 2);
+    assert!(error.contains("what stands behind -- is for a wall from a file"), "{error}");
 }
 
 #[test]

@@ -2,16 +2,21 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::{ArgGroup, Args, ValueEnum};
 
 use crate::cli::analyse::known::{self, Known};
 use crate::cli::analyse::numbers;
 use crate::cli::arguments::{FILE, JOINTS, LOAD, Measure, OUTPUT, SOLUTION};
 use crate::cli::influence;
+use crate::cli::report::PAGE;
 use crate::protocol::Direction;
+
+/// What shows a wall: its folder, or its page alone.
+const SEEN: &str = "seen";
 
 /// Arguments of `analyse`.
 #[derive(Clone, Args, Debug)]
+#[command(group(ArgGroup::new(SEEN).args(["out", "report"]).multiple(true)))]
 pub(crate) struct Analyse {
     /// The wall: a .json or .obj file.
     pub wall: PathBuf,
@@ -107,8 +112,14 @@ pub(crate) struct Analyse {
     /// Folder for a page of it all (report.html), a picture of the mechanism, files for ParaView (.vtu), and tables of blocks and joints (.csv, .json).
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub out: Option<PathBuf>,
+    /// Write the page of it all without its folder, as <wall>-report.html here. With --out it is in that folder anyway.
+    #[arg(long, help_heading = OUTPUT)]
+    pub report: bool,
+    /// Where the page goes without its folder, if not here.
+    #[arg(skip)]
+    pub page: Option<PathBuf>,
     /// What joints are coloured by in the picture.
-    #[arg(long, value_name = "NAME", default_value = "opening", requires = "out", help_heading = OUTPUT)]
+    #[arg(long, value_name = "NAME", default_value = "opening", requires = SEEN, help_heading = OUTPUT)]
     pub colour: Measure,
     /// Print one JSON object on standard output instead of text.
     #[arg(long, help_heading = OUTPUT)]
@@ -116,6 +127,13 @@ pub(crate) struct Analyse {
 }
 
 impl Analyse {
+    /// Where its page is written without its folder, if it is.
+    pub fn page_alone(&self) -> Option<PathBuf> {
+        let stem = self.wall.file_stem().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        let here = || PathBuf::from(format!("{stem}-{PAGE}"));
+        (self.report && self.out.is_none()).then(|| self.page.clone().unwrap_or_else(here))
+    }
+
     /// What the wall is called: the name of its file.
     pub fn title(&self) -> String {
         self.wall.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())

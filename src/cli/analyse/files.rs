@@ -18,7 +18,7 @@ use crate::cli::output;
 use crate::ensemble::replace_file;
 use crate::exchange::WallFile;
 use crate::math::Vec3;
-use crate::model::{Block, Movement, Support, Wall};
+use crate::model::{Block, Movement, Replay, Support, Wall};
 use crate::protocol::JointState;
 use crate::report::{Actor, Picture, Role, Stone, quoted, write_glb, write_vtu};
 
@@ -28,20 +28,32 @@ const BLOCKS: &str = "block,name,fixed,moves,rest_x_m,rest_y_m,rest_z_m,rest_tur
 const JOINTS: &str = "block_a,block_b,state,x_m,y_m,z_m,area_m2,opening,slip,slipped_share,force_on_b_x_n,force_on_b_y_n,force_on_b_z_n,\
                       pressure_pa\n";
 
+/// A wall that was solved, with all that is shown of it.
+pub(crate) struct Seen<'a> {
+    pub asked: &'a Analyse,
+    pub file: &'a WallFile,
+    pub fit: &'a Fit,
+    pub answer: &'a Answer,
+    pub state: &'a State,
+    /// The states that it goes through.
+    pub replay: &'a Replay,
+}
+
+/// Writes its page alone.
+pub(crate) fn write_page(path: &Path, of: &Seen<'_>, told: &Told<'_>) -> Result<(), Failure> {
+    let picture = picture(of.asked, (of.file, of.fit), of.answer, of.state);
+    let text = page(of.asked, of.file, (of.answer, of.state), (&picture, of.replay), told)?;
+    Ok(replace_file(path, text.as_bytes())?)
+}
+
 /// Writes all files of a wall; `object` is what `--json` prints of it, `told` what is said of it otherwise.
-pub(crate) fn write(
-    folder: &Path,
-    asked: &Analyse,
-    (file, fit): (&WallFile, &Fit),
-    (answer, state): (&Answer, &State),
-    object: &Value,
-    told: &Told<'_>,
-) -> Result<(), Failure> {
+pub(crate) fn write(folder: &Path, of: &Seen<'_>, object: &Value, told: &Told<'_>) -> Result<(), Failure> {
+    let Seen { asked, file, fit, answer, state, replay } = *of;
     output::folder(folder)?;
     let picture = picture(asked, (file, fit), answer, state);
     let rests: Vec<Vec3> = state.stones.iter().map(|stone| at_rest(state, stone).shift).collect();
     let mut files = vec![
-        ("report.html", page(asked, file, (answer, state), &picture, told)?),
+        ("report.html", page(asked, file, (answer, state), (&picture, replay), told)?),
         ("mechanism.svg", picture.svg()),
         ("rest.vtu", write_vtu(&file.wall, (asked.solver != MethodName::Limit).then_some(&rests[..]))),
         ("blocks.csv", blocks_csv(file, answer, state)),
@@ -99,6 +111,7 @@ fn picture(asked: &Analyse, (file, fit): (&WallFile, &Fit), answer: &Answer, sta
         stones: state.stones.clone(),
         seams,
         hinges: hinges(&state.joints, &state.conditions),
+        thrusts: state.thrusts.clone(),
         measure: said(asked.colour, asked.solver).to_owned(),
         unit: asked.colour.unit(),
         from_front,

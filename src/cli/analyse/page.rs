@@ -9,7 +9,7 @@ use crate::cli::failure::Failure;
 use crate::cli::origin::Origin;
 use crate::exchange::WallFile;
 use crate::math::Vec3;
-use crate::model::Support;
+use crate::model::{Replay, Support};
 use crate::report::{Picture, Stone, WallPage, WallTable, significant, wall_page};
 use crate::study::sha256;
 
@@ -27,12 +27,12 @@ pub(crate) struct Told<'a> {
     pub warnings: &'a [String],
 }
 
-/// The page; `picture` is the one in the folder.
+/// The page; `picture` is the one in the folder, `replay` the states that the wall goes through.
 pub(crate) fn page(
     asked: &Analyse,
     file: &WallFile,
     (answer, state): (&Answer, &State),
-    picture: &Picture,
+    (picture, replay): (&Picture, &Replay),
     told: &Told<'_>,
 ) -> Result<String, Failure> {
     let bytes = fs::read(&asked.wall)
@@ -45,6 +45,7 @@ pub(crate) fn page(
         answer: told.text.lines().map(|line| line.trim().to_owned()).collect(),
         warnings: told.warnings,
         picture,
+        replay,
         about_tables: match by_rates {
             true => {
                 "Openings, slips and movements are those of a mechanism whose fastest corner moves by 1 m: limit analysis knows no size \

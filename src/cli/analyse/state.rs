@@ -8,7 +8,7 @@ use crate::contact::{self, Patch, find_patch};
 use crate::math::Vec3;
 use crate::model::{Block, Movement, Wall};
 use crate::protocol::{Closing, JointState, Run};
-use crate::report::Stone;
+use crate::report::{Stone, Thrust};
 use crate::solve::limit::{BlockMotion, Limit};
 
 /// A block that slips or opens by less than this share of the fastest corner does neither (rounding of the conic solver).
@@ -25,6 +25,8 @@ pub(crate) struct State {
     pub joints: Vec<JointState>,
     /// The condition of each of them.
     pub conditions: Vec<Condition>,
+    /// The forces between blocks of a limit analysis, under the load as it stands at the end.
+    pub thrusts: Vec<Thrust>,
 }
 
 /// What a solver found of a wall, as it says it.
@@ -54,7 +56,8 @@ impl State {
     /// After steps of the load.
     fn after(wall: &Wall, settings: &contact::Settings, run: &Run) -> State {
         let (stones, falls, joints) = (stones(wall, run), run.failure.is_some(), run.joint_states.clone());
-        State { conditions: conditions((wall, settings), &stones, &joints, falls), stones, falls, joints }
+        let conditions = conditions((wall, settings), &stones, &joints, falls);
+        State { conditions, stones, falls, joints, thrusts: Vec::new() }
     }
 
     /// Of a limit analysis, with the forces under the load as it stands at the end.
@@ -78,7 +81,12 @@ impl State {
             Some(joint(&stones, [a, b], &patch, thrust.force * scale))
         });
         let joints: Vec<JointState> = joints.collect();
-        State { conditions: conditions((wall, settings), &stones, &joints, falls), stones, falls, joints }
+        let thrusts = found.thrust.iter().filter_map(|own| {
+            Some(Thrust { block: own.blocks.0 as usize, at: own.at?, force: own.force * scale })
+        });
+        let (thrusts, conditions) =
+            (thrusts.collect(), conditions((wall, settings), &stones, &joints, falls));
+        State { conditions, stones, falls, joints, thrusts }
     }
 }
 

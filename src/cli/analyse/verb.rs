@@ -5,6 +5,7 @@ use std::time::Instant;
 use serde_json::json;
 
 use crate::cli::analyse::arguments::{Analyse, FlowName, LoadName, MethodName, UpName};
+use crate::cli::analyse::files::{self, Seen};
 use crate::cli::analyse::known::Known;
 use crate::cli::analyse::loads::{loaded, settlements};
 use crate::cli::analyse::meetings::{Fit, bounds, look};
@@ -12,8 +13,8 @@ use crate::cli::analyse::page::Told;
 use crate::cli::analyse::solve::{law, solve, solve_seen_by};
 use crate::cli::analyse::state::State;
 use crate::cli::analyse::unsure::{Given, asked, refused};
+use crate::cli::analyse::upright;
 use crate::cli::analyse::worst::{Tried, tried, weakest};
-use crate::cli::analyse::{files, upright};
 use crate::cli::doing::doing;
 use crate::cli::failure::Failure;
 use crate::cli::one_wall::MOST_STATES;
@@ -56,7 +57,9 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
     let directions = directions(arguments, wall, &law, &fit);
     let towards = weakest(&directions).map_or(arguments.direction, |of| Direction::at(of.direction_deg));
     let arguments = &Analyse { direction: towards, ..arguments.clone() };
-    let recorder = arguments.out.is_some().then(|| Recorder::new(MOST_STATES));
+    let page = arguments.page_alone();
+    let is_seen = arguments.out.is_some() || page.is_some();
+    let recorder = is_seen.then(|| Recorder::new(MOST_STATES));
     let (answer, found) = solve(arguments, wall, &law, &fit, recorder.as_ref());
     warnings.extend(answer.warning(&file));
     if answer.outcome == Outcome::UnstableAtRest {
@@ -83,19 +86,33 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
             None => format!("  it falls in none of {} directions that were tried\n", directions.len()),
         };
     }
-    if let Some(folder) = &arguments.out {
+    if is_seen {
+        let replay = recorder.map(|own| own.replay(file.wall.blocks.len())).unwrap_or_default();
         let state = State::of(&file.wall, &fit.contact, &found);
         let told = Told { text: &text, warnings: &warnings };
-        files::write(folder, arguments, (&file, &fit), (&answer, &state), &object, &told)?;
-        let written = sure.as_ref().map_or(Ok(()), |sure| write_uncertainty(sure, folder));
-        written.map_err(|error| Failure::Run(format!("{error:#}")))?;
+        let of = Seen {
+            asked: arguments,
+            file: &file,
+            fit: &fit,
+            answer: &answer,
+            state: &state,
+            replay: &replay,
+        };
+        if let Some(folder) = &arguments.out {
+            files::write(folder, &of, &object, &told)?;
+            let written = sure.as_ref().map_or(Ok(()), |sure| write_uncertainty(sure, folder));
+            written.map_err(|error| Failure::Run(format!("{error:#}")))?;
+        }
+        if let Some(page) = &page {
+            files::write_page(page, &of, &told)?;
+        }
     }
     if arguments.json {
         return output::print_json(&object);
     }
     warnings.iter().for_each(|warning| output::note(&format!("warning: {warning}")));
-    if let Some(folder) = &arguments.out {
-        text += &format!("written to {}\n", folder.display());
+    if let Some(place) = arguments.out.as_ref().or(page.as_ref()) {
+        text += &format!("written to {}\n", place.display());
     }
     output::print(&text)
 }

@@ -7,7 +7,7 @@ use crate::report::capacity::text::{SUPPORTED, VALUES, conclusions, method, supp
 use crate::report::capacity::{CapacityGroup, CapacitySummary, Question};
 use crate::report::draw::svg;
 use crate::report::number::{compact, or_dash, significant, with_interval};
-use crate::report::page::{Asked, Drawing, PageOrigin, Table, answer_page};
+use crate::report::page::{Asked, Axis, Chart, ChartLine, Drawing, PageOrigin, Table, answer_page};
 use crate::study::{Loaded, Study};
 
 /// The page of an answer; `loaded` is the study as its files state it.
@@ -24,12 +24,9 @@ pub fn capacity_page(
     if !figure.is_empty() {
         let caption = "How probable it is that a wall lies on the worse side of a level, over the level. Bars: 95 % intervals of the \
                        answers. The numbers are in probability.csv.";
-        figures.push(Drawing::picture(
-            "figure-probability",
-            "Probability over the level",
-            caption,
-            &svg(&figure)?,
-        ));
+        let drawing =
+            Drawing::picture("figure-probability", "Probability over the level", caption, &svg(&figure)?);
+        figures.push(drawing.with_chart(chart(summary)));
     }
     let values = Table { caption: VALUES.to_owned(), ..Table::headed(SUPPORTED, supported(summary)) };
     let asked = Asked {
@@ -49,6 +46,27 @@ pub fn capacity_page(
             .to_owned(),
     };
     answer_page(&asked, (study, loaded), origin)
+}
+
+/// The probability over the level by all walls alike, and by each run.
+fn chart(summary: &CapacitySummary) -> Option<Chart> {
+    let line = |(group, run): (&CapacityGroup, Option<usize>)| {
+        let rungs = group.rungs.iter().filter(|rung| rung.run == run && rung.probability > 0.0);
+        let level = |level: f64| summary.shown.shown(level);
+        let name = run.map_or_else(|| group.name.clone(), |run| format!("{}, run {}", group.name, run + 1));
+        let mut points: Vec<_> =
+            rungs.map(|rung| (level(rung.level), Some(rung.probability), rung.interval)).collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        ChartLine::through(name, points)
+    };
+    let runs = |group: &CapacityGroup| {
+        group.rungs.iter().filter_map(|rung| rung.run).max().map_or(0, |last| last + 1)
+    };
+    let each = summary.groups.iter().flat_map(|group| {
+        std::iter::once(None).chain((0..runs(group)).map(Some)).map(move |run| (group, run))
+    });
+    let x = Axis::of(format!("level ({})", summary.shown.shown_unit()));
+    Chart::with(x, Axis::of("probability").by_powers(), each.map(line))
 }
 
 fn question(summary: &CapacitySummary) -> String {

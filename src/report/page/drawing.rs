@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::report::markup::escaped;
+use crate::report::page::chart::Chart;
 
 /// A figure of a page.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -13,6 +14,8 @@ pub struct Drawing {
     pub caption: String,
     /// Its SVG.
     pub svg: String,
+    /// The numbers behind it as JSON, where they can be read off.
+    pub chart: Option<String>,
 }
 
 impl Drawing {
@@ -31,6 +34,13 @@ impl Drawing {
         Drawing::of(id, (title, caption), svg, "group")
     }
 
+    /// With the numbers behind it, if there are any. They stand in a script: what would end it is written out.
+    pub fn with_chart(self, chart: Option<Chart>) -> Drawing {
+        let written =
+            |chart: &Chart| serde_json::to_string(chart).ok().map(|text| text.replace('<', "\\u003c"));
+        Drawing { chart: chart.as_ref().and_then(written), ..self }
+    }
+
     fn of(id: &str, (title, described): (&str, &str), svg: &str, role: &str) -> Drawing {
         // An SVG of ours begins with its own tag.
         let (tag, rest) = svg.split_once('>').unwrap_or((svg, ""));
@@ -40,6 +50,6 @@ impl Drawing {
             "{tag} role=\"{role}\" aria-labelledby=\"{id}-title {id}-desc\"><title id=\"{id}-title\">{title}</title>\
              <desc id=\"{id}-desc\">{described}</desc>{rest}"
         );
-        Drawing { id: id.to_owned(), caption, svg }
+        Drawing { id: id.to_owned(), caption, svg, chart: None }
     }
 }

@@ -2,13 +2,14 @@
 
 use anyhow::Result;
 
-use crate::ensemble::Row;
+use crate::ensemble::{Quantity, Row};
 use crate::report::draw::svg;
 use crate::report::drift::{DriftPlot, drift_curves};
 use crate::report::figure::{curves, ladders, title};
 use crate::report::force_drift::{ForceDriftPlot, force_curves};
 use crate::report::fragility::FragilityPlot;
 use crate::report::measured::CalibrationPlot;
+use crate::report::page::chart::Chart;
 use crate::report::page::drawing::Drawing;
 use crate::report::plot::Plot;
 use crate::report::summary::Summary;
@@ -18,8 +19,8 @@ use crate::study::Study;
 pub fn figures(study: &Study, rows: &[Row], summary: &Summary) -> Result<Vec<Drawing>> {
     let title = title(summary);
     let mut all = Vec::new();
-    let mut add = |id: &str, name: &str, caption: &str, figure: &dyn Fn() -> Result<String>| {
-        all.push(Drawing::picture(id, name, caption, &figure()?));
+    let mut add = |id: &str, (name, caption): (&str, &str), chart, figure: &dyn Fn() -> Result<String>| {
+        all.push(Drawing::picture(id, name, caption, &figure()?).with_chart(chart));
         anyhow::Ok(())
     };
     let own = curves(summary);
@@ -29,30 +30,37 @@ pub fn figures(study: &Study, rows: &[Row], summary: &Summary) -> Result<Vec<Dra
              band of one standard deviation. The numbers are in the table of arms.",
             first.quantity.axis()
         );
-        add("figure-kn", "Over the stiffness of the joints", &caption, &|| svg(&Plot::new(&title, &own, 1)))?;
+        add("figure-kn", ("Over the stiffness of the joints", &caption), Chart::of_curves(&own), &|| {
+            svg(&Plot::new(&title, &own, 1))
+        })?;
     }
     let steps = ladders(summary);
     if !steps.is_empty() {
         let caption = "Share of walls that have collapsed over the tilt, at the middle stiffness: a step per wall, with the 95 % band of \
                        Clopper and Pearson at each tilt.";
-        add("figure-fragility", "Fragility", caption, &|| svg(&FragilityPlot::new(&title, &steps, 1)))?;
+        let chart = Chart::of_ladders(&steps, Quantity::CollapseAngle);
+        add("figure-fragility", ("Fragility", caption), chart, &|| {
+            svg(&FragilityPlot::new(&title, &steps, 1))
+        })?;
     }
     let forces = force_curves(study, rows);
     if !forces.is_empty() {
         let caption = "Push along the wall over the drift of its top: mean and band over the walls of an arm, and what was measured.";
-        add("figure-force", "Push over drift", caption, &|| {
+        add("figure-force", ("Push over drift", caption), Chart::of_forces(&forces), &|| {
             svg(&ForceDriftPlot::new(&title, &forces, &study.measured, 1))
         })?;
     }
     let drifts = drift_curves(summary);
     if !drifts.is_empty() {
         let caption = "Drift at the top over the length of the wall, each a share of the wall's height.";
-        add("figure-drift", "Drift over length", caption, &|| svg(&DriftPlot::new(&title, &drifts, 1)))?;
+        add("figure-drift", ("Drift over length", caption), Chart::of_drifts(&drifts), &|| {
+            svg(&DriftPlot::new(&title, &drifts, 1))
+        })?;
     }
     if let Some(measured) = summary.measured.as_ref().filter(|measured| !measured.calibration.is_empty()) {
         let panels = || measured.calibration.iter().map(|entry| &entry.panel).collect();
         let caption = "Calibration: how likely each stiffness of the joints is by the collapse angles that were measured.";
-        add("figure-calibration", "Calibration", caption, &|| {
+        add("figure-calibration", ("Calibration", caption), None, &|| {
             svg(&CalibrationPlot::new(&title, panels(), 1))
         })?;
     }

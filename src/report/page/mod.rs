@@ -1,6 +1,7 @@
 //! A report as a page: one HTML file that needs no network and no other file, for any browser, for the keyboard and for print.
 
 mod answer;
+mod chart;
 mod cite;
 mod drawing;
 mod figures;
@@ -15,6 +16,7 @@ mod template;
 mod wall;
 
 pub use answer::{Asked, answer_page};
+pub use chart::{Axis, Chart, Line as ChartLine};
 pub use cite::{Citation, citation};
 pub use drawing::Drawing;
 pub use origin::PageOrigin;

@@ -4,6 +4,7 @@ use anyhow::Result;
 use serde::Serialize;
 
 use crate::ensemble::{Observed, Quantity, Row, Task, is_random};
+use crate::model::Replay;
 use crate::report::conclusion::sentences;
 use crate::report::figure::title;
 use crate::report::measured;
@@ -14,13 +15,14 @@ use crate::report::page::figures::figures;
 use crate::report::page::inputs::{about_inputs, assumed, inputs};
 use crate::report::page::limits;
 use crate::report::page::origin::PageOrigin;
-use crate::report::page::solid::Solid;
+use crate::report::page::solid::{Solid, SolidWall};
 use crate::report::page::strip::{self, Mark, strip};
 use crate::report::page::table::{Line, Table};
 use crate::report::page::template::filled;
 use crate::report::picture::Picture;
 use crate::report::summary::{ArmSummary, Summary, summarise};
 use crate::report::table::{arm_notes, arm_rows, explanation};
+use crate::shape::Polyhedron;
 use crate::study::{Loaded, Study};
 
 /// Beyond so many walls only those that are drawn have a row on the page: it would be slow, and members.parquet has them all.
@@ -35,6 +37,8 @@ pub struct DrawnWall {
     pub task: Task,
     /// Its picture.
     pub picture: Picture,
+    /// The states that it goes through.
+    pub replay: Replay,
     /// How it ended.
     pub ending: String,
 }
@@ -64,6 +68,7 @@ struct Filled {
     notes: Vec<String>,
     tables: Vec<Table>,
     measured: String,
+    charts: bool,
     figures: Vec<Drawing>,
     about_strip: String,
     strip: Option<Drawing>,
@@ -121,6 +126,7 @@ pub fn run_page(of: &RunPage<'_>) -> Result<String> {
     } else {
         "The marks of walls that are drawn lead to them."
     };
+    let figures = figures(study, of.rows, &summary)?;
     let marks = marks(of, has_rows);
     let mut answer = sentences(&summary);
     if answer.len() > 1 {
@@ -139,7 +145,8 @@ pub fn run_page(of: &RunPage<'_>) -> Result<String> {
             .filter(|table| !table.rows.is_empty())
             .collect(),
         measured: measured::text(summary.measured.as_ref()).trim().to_owned(),
-        figures: figures(study, of.rows, &summary)?,
+        charts: figures.iter().any(|drawing| drawing.chart.is_some()),
+        figures,
         about_strip: match marks.is_empty() {
             true => "No wall brings a value.".to_owned(),
             false => format!("How the walls scatter. {leads}"),
@@ -149,9 +156,7 @@ pub fn run_page(of: &RunPage<'_>) -> Result<String> {
         }),
         about_drawn: about_drawn(study, of.drawn),
         drawn: of.drawn.iter().map(|own| drawing(of, own)).collect(),
-        solid: of.drawn.first().map(|own| {
-            Solid::of("figure-solid", &format!("The {} wall in three dimensions.", own.which), &own.picture)
-        }),
+        solid: solid(of.drawn),
         about_walls: match has_rows {
             true => "Every wall that was evaluated. members.parquet has more columns.".to_owned(),
             false => format!(
@@ -213,6 +218,30 @@ fn marks(of: &RunPage<'_>, has_rows: bool) -> Vec<strip::Row> {
         }
     }
     lines
+}
+
+/// The walls that are drawn, in three dimensions.
+fn solid(drawn: &[DrawnWall]) -> Option<Solid> {
+    let shapes: Vec<Vec<Polyhedron>> = drawn
+        .iter()
+        .map(|own| own.picture.stones.iter().map(|stone| stone.shape.clone()).collect())
+        .collect();
+    let walls: Vec<SolidWall<'_>> = drawn
+        .iter()
+        .zip(&shapes)
+        .map(|(own, shapes)| SolidWall {
+            name: own.which,
+            shapes,
+            replay: &own.replay,
+            from_front: own.picture.from_front,
+        })
+        .collect();
+    let names: Vec<&str> = drawn.iter().map(|own| own.which).collect();
+    let caption = format!(
+        "The {} wall in three dimensions, from rest through the collapse. Movements at rest are magnified, those of the fall are not.",
+        names.join(", the ")
+    );
+    Solid::of("figure-solid", &caption, &walls)
 }
 
 fn about_drawn(study: &Study, drawn: &[DrawnWall]) -> String {

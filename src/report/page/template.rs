@@ -6,6 +6,7 @@ use minijinja::{Environment, UndefinedBehavior};
 use serde::Serialize;
 
 use crate::report::page::STYLE;
+use crate::report::page::chart::{READER, READER_STYLE};
 use crate::report::page::solid::VIEWER;
 
 /// The templates by name; the pages share their frame and the parts that they are made of.
@@ -24,6 +25,8 @@ struct Framed<'p, P> {
     style: &'static str,
     script: &'static str,
     viewer: &'static str,
+    reader: &'static str,
+    reader_style: &'static str,
     #[serde(flatten)]
     page: &'p P,
 }
@@ -38,7 +41,14 @@ pub fn filled(name: &str, page: &impl Serialize) -> Result<String> {
     for (name, text) in TEMPLATES {
         engine.add_template(name, text).with_context(|| format!("the template {name} is faulty"))?;
     }
-    let framed = Framed { style: STYLE, script: include_str!("open.js"), viewer: VIEWER, page };
+    let framed = Framed {
+        style: STYLE,
+        script: include_str!("open.js"),
+        viewer: VIEWER,
+        reader: READER,
+        reader_style: READER_STYLE,
+        page,
+    };
     let template = engine.get_template(name)?;
     template.render(Serde(framed)).with_context(|| format!("the template {name} cannot be filled"))
 }

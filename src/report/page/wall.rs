@@ -3,14 +3,16 @@
 use anyhow::Result;
 use serde::Serialize;
 
+use crate::model::Replay;
 use crate::report::page::cite::{Citation, citation};
 use crate::report::page::drawing::Drawing;
 use crate::report::page::limits;
 use crate::report::page::origin::PageOrigin;
-use crate::report::page::solid::Solid;
+use crate::report::page::solid::{Solid, SolidWall};
 use crate::report::page::table::Table;
 use crate::report::page::template::filled;
 use crate::report::picture::Picture;
+use crate::shape::Polyhedron;
 
 /// A table of the page: blocks, or joints.
 pub struct WallTable {
@@ -34,6 +36,8 @@ pub struct WallPage<'a> {
     pub warnings: &'a [String],
     /// How the wall gives way.
     pub picture: &'a Picture,
+    /// The states that it goes through.
+    pub replay: &'a Replay,
     /// What the numbers of its tables are.
     pub about_tables: &'static str,
     /// Its blocks and joints.
@@ -56,7 +60,7 @@ struct Filled<'a> {
     answer: &'a [String],
     warnings: &'a [String],
     picture: Drawing,
-    solid: Solid,
+    solid: Option<Solid>,
     about_tables: &'static str,
     tables: Vec<Table>,
     inputs: Table,
@@ -76,6 +80,15 @@ pub fn wall_page(of: &WallPage<'_>) -> Result<String> {
         ("wall", of.wall.to_owned()),
         ("SHA-256 of the file", of.sha256.clone()),
     ];
+    let shapes: Vec<Polyhedron> = of.picture.stones.iter().map(|stone| stone.shape.clone()).collect();
+    let solid =
+        SolidWall { name: of.wall, shapes: &shapes, replay: of.replay, from_front: of.picture.from_front };
+    let caption = match of.replay.is_mechanism {
+        true => "The wall in three dimensions, and its mechanism, which has no size of its own.",
+        false => {
+            "The wall in three dimensions, from rest through the collapse. Movements at rest are magnified, those of the fall are not."
+        }
+    };
     let table = |own: &WallTable| Table::new(own.name, own.heads, own.rows.clone());
     filled(
         "wall.html",
@@ -90,7 +103,7 @@ pub fn wall_page(of: &WallPage<'_>) -> Result<String> {
                 &described,
                 &of.picture.svg(),
             ),
-            solid: Solid::of("figure-solid", "The wall in three dimensions.", of.picture),
+            solid: Solid::of("figure-solid", caption, &[solid]),
             about_tables: of.about_tables,
             tables: of.tables.iter().map(table).collect(),
             inputs: Table::of_pairs(of.inputs.iter().map(|(name, value)| (*name, value.clone()))),

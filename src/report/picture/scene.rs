@@ -38,6 +38,17 @@ pub struct Hinge {
     pub edge: [Vec3; 2],
 }
 
+/// The force that passes through a joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Thrust {
+    /// The block that it moves with, by index.
+    pub block: usize,
+    /// Where it passes, its centre of pressure as built (m).
+    pub at: Vec3,
+    /// The force (N).
+    pub force: Vec3,
+}
+
 /// A picture of a wall.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
@@ -47,6 +58,8 @@ pub struct Picture {
     pub seams: Vec<Seam>,
     /// The hinges, each a dot.
     pub hinges: Vec<Hinge>,
+    /// The forces between blocks, each a line along it through its centre of pressure; none where they are not drawn.
+    pub thrusts: Vec<Thrust>,
     /// What their values are, for the colour bar: "largest opening of a joint".
     pub measure: String,
     /// The unit in which the colour bar shows them, and how many of it make one of theirs.

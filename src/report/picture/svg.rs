@@ -31,6 +31,9 @@ const GRAZES: f64 = 5e-3;
 const DOT: f64 = 5.0;
 /// Cosine to the line of sight from which on an edge leads away from the viewer.
 const LEADS_AWAY: f64 = 0.5;
+/// The largest force is drawn as a line of this share of the wall's height, smaller ones as much shorter.
+const LONGEST_THRUST: f64 = 0.2;
+const THRUST: &str = "#003d7a";
 /// Steps of the colour bar.
 const STEPS: usize = 40;
 
@@ -50,7 +53,9 @@ impl Picture {
         let largest = self.seams.iter().map(|seam| seam.value).fold(0.0, f64::max);
         let coloured = largest > 0.0;
         let dots = self.hinges.iter().filter(|hinge| hinge.block < shapes.len()).collect::<Vec<_>>();
-        let legend = if dots.is_empty() { 0.0 } else { LINE };
+        let of_dots = if dots.is_empty() { 0.0 } else { LINE };
+        let most = self.thrusts.iter().map(|own| own.force.norm()).fold(0.0, f64::max);
+        let legend = of_dots + if most > 0.0 { LINE } else { 0.0 };
         let bar = legend + if coloured { 3.0 * LINE } else { 0.0 };
         let tall = (below + bar + LINE * (self.remarks.len() as f64 + 1.0)).ceil();
         let mut text = format!(
@@ -66,6 +71,12 @@ impl Picture {
         for block in back_to_front(&shapes, &view, GRAZES * (high - low)) {
             text += &self.block(block, &shapes[block], largest, &canvas);
         }
+        for thrust in self.thrusts.iter().filter(|own| own.block < shapes.len() && most > 0.0) {
+            let half = thrust.force * (0.5 * LONGEST_THRUST * (high - low) / most);
+            let ends =
+                self.stones[thrust.block].taking(&[thrust.at - half, thrust.at + half], self.magnification);
+            text += &line(&canvas.path(&ends));
+        }
         for hinge in &dots {
             let ends = self.stones[hinge.block].falling(&hinge.edge, self.magnification);
             text += &dot(&canvas.path(&[seen_of(&ends, &view)]));
@@ -80,8 +91,17 @@ impl Picture {
             text += &dot(&format!("{x},{y}"));
             text += &label(x + 2.0 * DOT, y + DOT, 14, &said);
         }
-        for (line, remark) in self.remarks.iter().enumerate() {
-            text += &label(MARGIN, below + bar + LINE * (line as f64 + 0.5), 15, remark);
+        if most > 0.0 {
+            let y = below + of_dots + 4.0;
+            let said = format!(
+                "thrust: force through each joint at its centre of pressure; longest line {} N",
+                significant(most, 3)
+            );
+            text += &line(&format!("{MARGIN},{y} {},{y}", MARGIN + 4.0 * DOT));
+            text += &label(MARGIN + 5.0 * DOT, y + DOT, 14, &said);
+        }
+        for (place, remark) in self.remarks.iter().enumerate() {
+            text += &label(MARGIN, below + bar + LINE * (place as f64 + 0.5), 15, remark);
         }
         text + "</svg>\n"
     }
@@ -205,6 +225,17 @@ fn seen_of(ends: &[Vec3], view: &View) -> Vec3 {
         return (from + to) * 0.5;
     }
     if away > 0.0 { to } else { from }
+}
+
+/// A line of thrust through points as SVG writes them.
+fn line(points: &str) -> String {
+    let drawn = |colour: &str, width: f64| {
+        format!(
+            "<polyline points=\"{points}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" stroke-linecap=\"round\"/>\n"
+        )
+    };
+    // With a light rim, so that it shows on dark joints.
+    drawn("#ffffff", 4.5) + &drawn(THRUST, 2.5)
 }
 
 /// A dot at a point as SVG writes it.

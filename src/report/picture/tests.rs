@@ -4,7 +4,7 @@ use approx::assert_relative_eq;
 
 use super::order::back_to_front;
 use super::view::View;
-use super::{Hinge, Picture, Seam, Stone, colour};
+use super::{Hinge, Picture, Seam, Stone, Thrust, colour};
 use crate::math::{Vec3, radians};
 use crate::model::Movement;
 use crate::shape::Polyhedron;
@@ -29,6 +29,7 @@ fn picture() -> Picture {
         seams: vec![bed([0, 1], 0.5, 1e-3), bed([0, 2], 0.0, 4e-3)],
         stones,
         hinges: Vec::new(),
+        thrusts: Vec::new(),
         measure: "opening".to_owned(),
         unit: ("mm", 1e3),
         from_front: true,
@@ -160,4 +161,32 @@ fn the_colour_scale_runs_from_light_to_dark() {
     assert_eq!((colour::of_share(0.0), colour::of_share(1.0)), ("#ffffb2".to_owned(), "#bd0026".to_owned()));
     assert_eq!(colour::of_share(2.0), colour::of_share(1.0));
     assert!((1..=20).all(|k| brightness(0.05 * f64::from(k)) < brightness(0.05 * f64::from(k - 1))));
+}
+
+#[test]
+fn a_thrust_is_a_line_along_the_force_through_its_centre_of_pressure() {
+    let mut picture = picture();
+    let without = picture.svg();
+    assert!(!without.contains("thrust"));
+    let at = |x: f64, newtons: f64| Thrust {
+        block: 0,
+        at: Vec3::new(x, 0.0, 0.2),
+        force: Vec3::new(0.0, 0.0, -newtons),
+    };
+    picture.thrusts = vec![at(0.1, 500.0), at(0.3, 250.0)];
+    let drawn = picture.svg();
+    assert!(drawn.contains("longest line 500 N"), "{drawn}");
+    // Upright on paper, the second half as long as the first; the third line is that of the legend.
+    let lines: Vec<Vec<f64>> = drawn
+        .split("<polyline points=\"")
+        .skip(1)
+        .step_by(2)
+        .map(|rest| {
+            rest.split('"').next().unwrap_or_default().split([' ', ',']).map(|x| x.parse().unwrap()).collect()
+        })
+        .collect();
+    assert_eq!(lines.len(), 3);
+    let long = |line: &[f64]| ((line[2] - line[0]).powi(2) + (line[3] - line[1]).powi(2)).sqrt();
+    assert!(lines[..2].iter().all(|line| (line[0] - line[2]).abs() < 0.2), "{lines:?}");
+    assert!((long(&lines[0]) / long(&lines[1]) - 2.0).abs() < 0.02, "{lines:?}");
 }

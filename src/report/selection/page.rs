@@ -5,7 +5,7 @@ use anyhow::Result;
 use crate::report::draw::svg;
 use crate::report::fragility::FragilityPlot;
 use crate::report::number::{with_interval, with_interval_against};
-use crate::report::page::{Asked, Drawing, PageOrigin, Table, answer_page};
+use crate::report::page::{Asked, Chart, Drawing, PageOrigin, Table, answer_page};
 use crate::report::selection::plot::Forest;
 use crate::report::selection::text::{conclusion, measure, table};
 use crate::report::selection::{ArmDifference, ArmShown, SelectionSummary, title};
@@ -39,7 +39,8 @@ pub fn selection_page(
             "Distributions of the arms",
             "The walls of each arm: which share has failed at each level, a step per wall, with its 95 % band.",
             &svg(&FragilityPlot::new(&title, &ladders, 1).of(summary.shown))?,
-        ),
+        )
+        .with_chart(Chart::of_ladders(&ladders, summary.shown)),
     ];
     let asked = Asked {
         title: format!("Arms of study {title} compared"),

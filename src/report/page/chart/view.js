@@ -1,0 +1,57 @@
+// Figures whose values can be read off: a click on their button takes the drawing away and puts a chart in its place, with the values under the
+// pointer below it; dragging enlarges a part, a double click shows all again. chart.min.js is made of this by build.sh.
+import uPlot from "uplot";
+
+// Those of the drawings (Okabe and Ito).
+const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000"];
+const DASHES = [[], [8, 4], [2, 3], [12, 3, 2, 3]];
+
+function short(x) {
+  return x === null || x === undefined ? "-" : Number(x.toPrecision(4)).toString();
+}
+
+function table(line) {
+  return line.low ? [line.x, line.y, line.low, line.high] : [line.x, line.y];
+}
+
+function options(chart, width) {
+  const series = [{ label: chart.x.label, value: (_, x) => short(x) }];
+  const bands = [];
+  chart.lines.forEach((line, k) => {
+    const stroke = COLOURS[k % COLOURS.length], dash = DASHES[Math.floor(k / COLOURS.length) % DASHES.length];
+    const paths = line.steps ? uPlot.paths.stepped({ align: 1 }) : undefined;
+    const value = (_, y) => short(y);
+    series.push({ label: line.name, stroke, dash, width: 2, spanGaps: true, paths, value, points: { show: !line.steps, size: 6 } });
+    if (!line.low) return;
+    const edge = { stroke: stroke + "66", width: 1, dash: [4, 4], spanGaps: true, paths, value, points: { show: false } };
+    series.push({ ...edge, label: `${line.name}, low` }, { ...edge, label: `${line.name}, high` });
+    bands.push({ series: [series.length - 1, series.length - 2], fill: stroke + "22" });
+  });
+  const axis = (own) => ({ label: own.label, values: (_, ticks) => ticks.map((x) => (x === null ? "" : short(x))) });
+  const scale = (own) => (own.log ? { time: false, distr: 3 } : { time: false });
+  return {
+    width, height: Math.round(width * 0.55), series, bands, axes: [axis(chart.x), axis(chart.y)],
+    scales: { x: scale(chart.x), y: scale(chart.y) }, cursor: { drag: { x: true, y: true, uni: 20 } },
+  };
+}
+
+function offer(figure) {
+  const button = figure.querySelector("button.read");
+  const place = figure.querySelector(".chart");
+  const chart = JSON.parse(place.querySelector("script").textContent);
+  let drawn;
+  button.hidden = false;
+  button.addEventListener("click", () => {
+    place.hidden = !place.hidden;
+    figure.classList.toggle("reading", !place.hidden);
+    button.setAttribute("aria-pressed", String(!place.hidden));
+    if (!drawn && !place.hidden) {
+      drawn = new uPlot(options(chart, place.clientWidth), uPlot.join(chart.lines.map(table)), place);
+    }
+  });
+  addEventListener("resize", () => {
+    if (drawn && !place.hidden) drawn.setSize({ width: place.clientWidth, height: Math.round(place.clientWidth * 0.55) });
+  });
+}
+
+document.querySelectorAll("figure.charted").forEach(offer);
