@@ -27,6 +27,11 @@ pub(crate) fn run(arguments: &Run) -> Result<(), Failure> {
         .map_err(|error| Failure::Run(format!("{error:#}")))?;
     let origin = Origin::now(&folder, arguments.threads);
     origin.write(&out)?;
+    if arguments.csv {
+        for (name, table) in ensemble::tables_as_csv(&rows) {
+            ensemble::replace_file(&out.join(name), table.as_bytes())?;
+        }
+    }
     if arguments.report {
         page::write(&out.join(page::PAGE), (&study, &loaded), &rows, &origin)?;
     }

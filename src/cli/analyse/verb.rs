@@ -86,7 +86,8 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
     if let Some(folder) = &arguments.out {
         let state = State::of(&file.wall, &fit.contact, &found);
         let told = Told { text: &text, warnings: &warnings };
-        files::write(folder, arguments, (&file, &fit), (&answer, &state), &object, &told)?;
+        let replay = recorder.map(|recorder| recorder.replay(file.wall.blocks.len())).unwrap_or_default();
+        files::write(folder, arguments, (&file, &fit), (&answer, &state), &object, (&told, &replay))?;
         let written = sure.as_ref().map_or(Ok(()), |sure| write_uncertainty(sure, folder));
         written.map_err(|error| Failure::Run(format!("{error:#}")))?;
     }
