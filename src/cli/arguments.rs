@@ -184,6 +184,9 @@ pub(crate) struct Check {
     /// List every key that a study, its published.toml and a distribution may hold: what is allowed, default, meaning.
     #[arg(long, conflicts_with = "json", help_heading = OUTPUT)]
     pub keys: bool,
+    /// List every column of the tables of a run: name, unit, meaning.
+    #[arg(long, conflicts_with = "json", help_heading = OUTPUT)]
+    pub columns: bool,
 }
 
 /// Which wall of a study.
@@ -220,7 +223,7 @@ pub(crate) struct Generate {
     pub which: Which,
     #[command(flatten)]
     pub wall: OneWall,
-    /// Solve the wall as `run` does, and write the displacement of every stone's centroid (m) into the .vtu.
+    /// Solve the wall as `run` does, and write the displacements (m) of all corners and of every stone's centroid into the .vtu.
     #[arg(long, help_heading = SOLUTION)]
     pub solved: bool,
     /// Add the ground: a fixed block under the wall, as `run` puts one there and `analyse` needs one.
@@ -247,6 +250,13 @@ pub(crate) struct Picture {
     /// File to write, an .svg.
     #[arg(long, value_name = "FILE", help_heading = OUTPUT)]
     pub out: PathBuf,
+    /// Folder for pictures of the wall in every state from rest through the collapse: frame-000.svg, frame-001.svg, ...
+    #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
+    pub frames: Option<PathBuf>,
+    /// Folder for the same states in three dimensions: series for ParaView (wall.pvd, joints.pvd), an animation (wall.glb), and the wall
+    /// at rest and at the end as OBJ.
+    #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
+    pub series: Option<PathBuf>,
 }
 
 /// What joints are coloured by.
@@ -290,6 +300,9 @@ pub(crate) struct Run {
     /// Write report.html into the output folder as well: the run on a page, as `report` does.
     #[arg(long, help_heading = OUTPUT)]
     pub report: bool,
+    /// Write members.csv and steps.csv into the output folder as well: the tables for a spreadsheet.
+    #[arg(long, help_heading = OUTPUT)]
+    pub csv: bool,
 }
 
 impl Run {

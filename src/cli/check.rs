@@ -20,8 +20,14 @@ pub(crate) fn check(arguments: &Check) -> Result<(), Failure> {
         return elements::check(&folder, arguments);
     }
     if !which.json {
-        let keys = if arguments.keys { format!("\n{}", key_reference()) } else { String::new() };
-        return output::print(&(summary(&locate::study(which)?) + &keys));
+        let mut text = summary(&locate::study(which)?);
+        if arguments.keys {
+            text += &format!("\n{}", key_reference());
+        }
+        if arguments.columns {
+            text += &format!("\n{}", ensemble::column_reference());
+        }
+        return output::print(&text);
     }
     let folder = match locate::folder(&which.study) {
         Ok(folder) => folder,

@@ -3,7 +3,7 @@
 use crate::cli::arguments::Measure;
 use crate::contact::{self, find_patch};
 use crate::math::Vec3;
-use crate::model::{Movement, Outcome, Wall};
+use crate::model::{JointReading, Movement, Outcome, Wall};
 use crate::protocol::{self, JointState, Run};
 use crate::report::{Seam, Stone};
 
@@ -53,6 +53,24 @@ impl Measure {
             Measure::Slip if joint.slipped > 0.0 => joint.slip,
             Measure::Slip => 0.0,
             Measure::Stress => joint.pressure.max(0.0),
+        }
+    }
+
+    /// The same of a joint in a replay.
+    pub fn read(self, joint: &JointReading) -> f64 {
+        match self {
+            Measure::Opening => joint.opening,
+            Measure::Slip => joint.slip,
+            Measure::Stress => joint.normal_stress.max(0.0),
+        }
+    }
+
+    /// What it is in a replay, for the colour bar.
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Measure::Opening => "opening of joints at their widest",
+            Measure::Slip => "movement of blocks along their joints, elastic shear in it",
+            Measure::Stress => "pressure between blocks over the joint",
         }
     }
 
@@ -110,8 +128,13 @@ pub(crate) fn drawing(run: &Run, magnification: f64, from_front: bool) -> String
         Some(_) => format!("The movement of the fall, as far as it was watched, times {magnification}"),
         None => format!("Drawn at rest, with displacements since it was built times {magnification}"),
     };
-    let (side, end) = if from_front { ("front (+y)", "right") } else { ("back (-y)", "left") };
+    let (side, end) = sides(from_front);
     format!("{what}; seen from the {side}, x = 0 on the {end}.")
+}
+
+/// The side that a picture is seen from, and at which end of it x = 0 is.
+pub(crate) fn sides(from_front: bool) -> (&'static str, &'static str) {
+    if from_front { ("front (+y)", "right") } else { ("back (-y)", "left") }
 }
 
 /// Why no joint is coloured, if none is.

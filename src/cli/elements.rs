@@ -18,6 +18,7 @@ pub(super) fn run(folder: &Path, arguments: &Run) -> Result<(), Failure> {
         (arguments.which.variant.is_some(), "--variant: it has no variants"),
         (arguments.solver.is_some(), "--solver: spheres and polyhedra each have their own explicit one"),
         (arguments.beside.is_some(), "--beside: it draws no figure"),
+        (arguments.csv, "--csv: elements.csv is what it writes anyway"),
         (arguments.report, "--report: its results are one table and have no page"),
     ];
     if let Some((_, why)) = refused.iter().find(|(given, _)| *given) {
@@ -84,6 +85,12 @@ pub(super) fn check(folder: &Path, arguments: &Check) -> Result<(), Failure> {
                 Err(Failure::Said)
             }
         };
+    }
+    if arguments.columns {
+        return Err(Failure::Usage(format!(
+            "{} compares types of elements; --columns: the table of its results is elements.csv, whose columns are named after what they hold",
+            folder.display()
+        )));
     }
     let study = loaded?;
     warn(&study);

@@ -9,7 +9,7 @@ use crate::cli::failure::Failure;
 use crate::cli::one_wall::OneWall;
 use crate::cli::output;
 use crate::ensemble::replace_file;
-use crate::model::Wall;
+use crate::model::{Movement, Wall};
 use crate::protocol::Run;
 use crate::{exchange, report};
 
@@ -56,10 +56,16 @@ pub(crate) fn generate(arguments: &Generate) -> Result<(), Failure> {
 
 fn encoded(format: Format, wall: &Wall, solved: Option<&Run>) -> String {
     match format {
-        Format::Vtu => report::write_vtu(wall, solved.map(|run| run.displacements.as_slice())),
+        Format::Vtu => report::write_vtu(wall, solved.map(moved).as_deref()),
         Format::Obj => exchange::write_obj(wall),
         Format::Json => exchange::write_wall_json(wall),
     }
+}
+
+/// How every block has moved at the last state at rest.
+fn moved(run: &Run) -> Vec<Movement> {
+    let both = run.displacements.iter().zip(&run.turns);
+    both.map(|(&shift, &turn)| Movement { shift, turn }).collect()
 }
 
 fn format_of(path: &Path) -> Result<Format, Failure> {

@@ -77,7 +77,17 @@ impl OneWall {
         doing(&what, |doing| self.solved_telling(&|level| doing.at(level)))
     }
 
-    /// The same, where somebody else says what is being done and is told how far it is.
+    /// The same, with the replay if it is asked for.
+    pub fn replayed_if(&self, asked: bool) -> (Run, Option<Replay>) {
+        if !asked {
+            return (self.solved(), None);
+        }
+        let what = format!("solving {} stones and letting them fall", self.generated.wall.stones().count());
+        let (run, replay) = doing(&what, |doing| self.replayed(&|level| doing.at(level)));
+        (run, Some(replay))
+    }
+
+    /// The same as [`OneWall::solved`], where somebody else says what is being done and is told how far it is.
     pub fn solved_telling(&self, tell: &dyn Fn(Level)) -> Run {
         self.seen_by(Witness { tell, recorder: None })
     }

@@ -8,10 +8,12 @@ use crate::cli::arguments::{Measure, Picture as Arguments};
 use crate::cli::condition::{conditions, hinges};
 use crate::cli::drawn::{drawing, ending, seams, stones, uncoloured};
 use crate::cli::failure::Failure;
+use crate::cli::frames::{self, Shown};
 use crate::cli::one_wall::OneWall;
-use crate::cli::output;
+use crate::cli::{output, replayed};
 use crate::contact;
 use crate::ensemble::replace_file;
+use crate::model::{Movement, Replay};
 use crate::protocol::{Direction, Protocol, Run, typical_size};
 use crate::report::Picture;
 
@@ -24,11 +26,14 @@ pub(crate) fn picture(arguments: &Arguments) -> Result<(), Failure> {
         )));
     }
     let chosen = OneWall::of(&arguments.which, &arguments.wall)?;
-    let run = chosen.solved();
+    let (run, replay) = chosen.replayed_if(arguments.frames.is_some() || arguments.series.is_some());
     let picture = of_wall(&chosen, &run, arguments.colour, arguments.magnify);
     let OneWall { study, task, kn, .. } = &chosen;
     let (arm, member) = (&study.arms[task.arm as usize], task.member);
     replace_file(&arguments.out, picture.svg().as_bytes())?;
+    let states = replay.as_ref().map(|replay| replay.states.len());
+    let written =
+        replay.map_or(Ok(Vec::new()), |replay| films(arguments, &chosen, &run, (&picture, replay)))?;
 
     let out = arguments.out.display().to_string();
     if arguments.which.json {
@@ -38,10 +43,46 @@ pub(crate) fn picture(arguments: &Arguments) -> Result<(), Failure> {
             "arm": arm.name, "point": task.point, "kn_pa_per_m": kn, "member": member,
             "out": out, "outcome": run.outcome.name(), "magnification": picture.magnification,
             "mode": failure.map(|f| f.mode.name()), "hinge_height_m": failure.map(|f| f.hinge_height),
-            "moving_weight_share": failure.map(|f| f.weight_share),
+            "moving_weight_share": failure.map(|f| f.weight_share), "states": states,
         }));
     }
-    output::print(&format!("{out}: {}: {}\n", picture.title, ending(&run)))
+    let films: String = written.iter().map(|line| format!("{line}\n")).collect();
+    output::print(&format!("{out}: {}: {}\n{films}", picture.title, ending(&run)))
+}
+
+/// Writes the states from rest through the collapse as asked; a line for each folder.
+fn films(
+    arguments: &Arguments,
+    chosen: &OneWall,
+    run: &Run,
+    (picture, mut replay): (&Picture, Replay),
+) -> Result<Vec<String>, Failure> {
+    let wall = &chosen.generated.wall;
+    let states = replay.states.len();
+    let mut written = Vec::new();
+    if let Some(folder) = &arguments.frames {
+        let shown = Shown {
+            title: picture.title.clone(),
+            wall,
+            colour: arguments.colour,
+            magnify: arguments.magnify,
+            from_front: picture.from_front,
+        };
+        let frames = frames::write(folder, &shown, &replay)?;
+        written.push(format!("{}: {frames} frames", folder.display()));
+    }
+    if let Some(folder) = &arguments.series {
+        // The ground stays where it is; its id is the one that joints have for it.
+        let grounded = wall.clone().with_base();
+        replay.states.iter_mut().for_each(|state| state.poses.push(Movement::NONE));
+        let name =
+            |id: usize| if id < wall.blocks.len() { format!("stone {id}") } else { "ground".to_owned() };
+        let moving = run.failure.as_ref().map(|failure| failure.moving.clone()).unwrap_or_default();
+        let moves = |id: usize| moving.contains(&(id as u32));
+        replayed::write(folder, &picture.title, (&grounded, &name, &moves), &replay)?;
+        written.push(format!("{}: {states} states", folder.display()));
+    }
+    Ok(written)
 }
 
 /// The picture of a wall that was solved.

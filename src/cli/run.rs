@@ -34,6 +34,11 @@ pub(crate) fn with_page(arguments: &Run, page: Option<PathBuf>) -> Result<(), Fa
         .map_err(|error| Failure::Run(format!("{error:#}")))?;
     let origin = Origin::now(&folder, arguments.threads);
     origin.write(&out)?;
+    if arguments.csv {
+        for (name, table) in ensemble::tables_as_csv(&rows) {
+            ensemble::replace_file(&out.join(name), table.as_bytes())?;
+        }
+    }
     if arguments.report {
         let file = page.unwrap_or_else(|| out.join(report::PAGE));
         report::write(&file, (&study, &loaded), &rows, &origin)?;

@@ -1,5 +1,6 @@
 //! From a study to a table of members: plan, evaluate in parallel, record, resume.
 
+mod columns;
 mod design;
 mod draws;
 mod elements;
@@ -19,6 +20,7 @@ mod quantity;
 pub mod rare;
 mod record;
 mod run;
+mod schema;
 mod selection;
 mod table;
 mod walls;
@@ -49,5 +51,7 @@ pub use quantity::{Observed, Quantity};
 pub use rare::{Draw, RareWalls};
 pub use record::{LimitAnalysis, Mechanism, Row, ShearRow, StepRow};
 pub use run::{Evaluations, Settings, run, run_with};
+pub use schema::column_reference;
 pub use selection::{Compared, Contest, Hopeless};
 pub(crate) use table::parquet;
+pub use table::tables_as_csv;

@@ -30,7 +30,7 @@ pub struct Settings {
 }
 
 /// Evaluates every member of a study that the output folder does not hold yet, and writes `members.parquet`,
-/// `steps.parquet`, `manifest.json` and `timing.csv` there. Gives all rows in the order arm, point, member. Where an arm may have enough
+/// `steps.parquet`, what their columns hold, `manifest.json` and `timing.csv` there. Gives all rows in the order arm, point, member. Where an arm may have enough
 /// walls before it has all, its walls are evaluated from look to look; [`come_to`](crate::ensemble::come_to) says how many they were.
 ///
 /// A folder that holds another run is gone on from where walls of that run are walls of this one as well: their rows are taken over.
@@ -166,7 +166,7 @@ impl<'s> Evaluations<'s> {
         self.entries.get(&task).map(|entry| &entry.row)
     }
 
-    /// Writes `members.parquet`, `steps.parquet`, `manifest.json` and `timing.csv`, and gives the rows that were asked for in the order arm,
+    /// Writes `members.parquet`, `steps.parquet`, their schemas, `manifest.json` and `timing.csv`, and gives the rows that were asked for in the order arm,
     /// point, member.
     ///
     /// # Errors
@@ -179,6 +179,9 @@ impl<'s> Evaluations<'s> {
         let rows: Vec<Row> = entries.into_iter().map(|entry| entry.row).collect();
         files::replace_file(&out.join("members.parquet"), &table::members(&rows)?)?;
         files::replace_file(&out.join("steps.parquet"), &table::steps(&rows)?)?;
+        for (name, schema) in table::schemas(&rows) {
+            files::replace_file(&out.join(name), schema.as_bytes())?;
+        }
         let json = serde_json::to_string_pretty(&manifest).expect("a manifest has string keys only");
         files::replace_file(&out.join(MANIFEST), format!("{json}\n").as_bytes())?;
         Ok(rows)

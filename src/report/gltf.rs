@@ -1,8 +1,8 @@
-//! A wall that moves as binary glTF 2.0 (`.glb`), for browsers, viewers and slides: one mesh per block, one animation from as built over
-//! rest to the fall.
+//! A wall that moves as binary glTF 2.0 (`.glb`), for browsers, viewers and slides: one mesh per block, one animation over all states of
+//! its replay.
 //!
 //! Blocks keep their shape: each is a node with a translation and a rotation, and between two key frames a viewer turns it about one
-//! axis, which is how a mechanism turns it. Numbers are of single precision, as the format has it, and a root node turns our upward z
+//! axis, which is how a mechanism turns it. A block that has fallen out shrinks to nothing. Numbers are of single precision, as the format has it, and a root node turns our upward z
 //! to its upward y.
 
 use std::collections::BTreeMap;
@@ -17,13 +17,12 @@ use gltf_json::{Accessor, Animation, Buffer, Index, Material, Mesh, Node, Root, 
 use nalgebra::Quaternion;
 
 use crate::math::{Vec3, cos, sin};
-use crate::report::picture::Stone;
+use crate::model::{Movement, Replay};
 use crate::shape::Polyhedron;
 
-/// When a viewer shows the wall as built, at rest, and where its fall is drawn (s).
-const BUILT: f64 = 0.0;
-const AT_REST: f64 = 1.0;
-const FALLEN: f64 = 4.0;
+/// For how long a viewer shows the states at rest, and for how long the fall (s).
+const RESTS: f64 = 4.0;
+const FALLS: f64 = 4.0;
 /// A quarter turn about x, backwards: from z upwards to y upwards.
 const UPRIGHT: [f32; 4] = [-std::f32::consts::FRAC_1_SQRT_2, 0.0, 0.0, std::f32::consts::FRAC_1_SQRT_2];
 
@@ -55,48 +54,43 @@ impl Role {
 pub struct Actor<'a> {
     /// Its name in the viewer.
     pub name: String,
-    /// Its shape, and how it moves.
-    pub stone: &'a Stone,
+    /// Its shape as built (m).
+    pub shape: &'a Polyhedron,
     /// What it is.
     pub role: Role,
 }
 
-/// The file: blocks from as built to where they rest in their true size, and from there along the mechanism times `magnification`;
-/// where nothing falls, along what they moved to rest by, times `magnification`.
-pub fn write_glb(title: &str, actors: &[Actor], magnification: f64) -> Vec<u8> {
+/// The file: the blocks, by id, in all states of their wall's replay, their movements times `magnification`. The states at rest take the
+/// first four seconds, evenly, and those of the fall the four seconds from the last one at rest on.
+pub fn write_glb(title: &str, actors: &[Actor], replay: &Replay, magnification: f64) -> Vec<u8> {
     let mut file = File::new();
     let materials: BTreeMap<Role, Index<Material>> =
         Role::ALL.into_iter().map(|role| (role, file.material(role))).collect();
-    let times = file.accessor(&[[BUILT], [AT_REST], [FALLEN]], Type::Scalar, None);
+    let times = file.accessor(&times(replay), Type::Scalar, None);
     let mut animation = Animation {
         channels: Vec::new(),
         samplers: Vec::new(),
-        name: Some("fall".to_owned()),
+        name: Some("replay".to_owned()),
         extensions: None,
         extras: Default::default(),
     };
     let mut nodes = Vec::new();
-    for Actor { name, stone, role } in actors {
-        let mesh = file.mesh(name, &stone.shape, materials[role]);
-        let (places, turns) = frames(stone, magnification);
+    for (id, Actor { name, shape, role }) in actors.iter().enumerate() {
+        let mesh = file.mesh(name, shape, materials[role]);
+        let centroid = shape.mass_properties().centroid;
         let node = file.root.push(Node {
             mesh: Some(mesh),
             name: Some(name.clone()),
-            translation: Some(places[0].map(|x| x as f32)),
+            translation: Some([centroid.x, centroid.y, centroid.z].map(|x| x as f32)),
             ..Node::default()
         });
         nodes.push(node);
-        if stone.is_still() {
-            continue;
-        }
-        let outputs = [
-            (Property::Translation, file.accessor(&places, Type::Vec3, None)),
-            (Property::Rotation, file.accessor(&turns, Type::Vec4, None)),
-        ];
-        for (path, output) in outputs {
+        let poses: Vec<Movement> =
+            replay.states.iter().map(|state| state.poses[id].times(magnification)).collect();
+        let mut channel = |path, interpolation, output| {
             let sampler = Sampler {
                 input: times,
-                interpolation: Valid(Interpolation::Linear),
+                interpolation: Valid(interpolation),
                 output,
                 extensions: None,
                 extras: Default::default(),
@@ -109,20 +103,47 @@ pub fn write_glb(title: &str, actors: &[Actor], magnification: f64) -> Vec<u8> {
                 extensions: None,
                 extras: Default::default(),
             });
+        };
+        if poses.iter().any(|pose| *pose != Movement::NONE) {
+            let places: Vec<[f64; 3]> = poses.iter().map(|pose| (centroid + pose.shift).into()).collect();
+            let places = file.accessor(&places, Type::Vec3, None);
+            channel(Property::Translation, Interpolation::Linear, places);
+            let turns = file.accessor(&turns(&poses), Type::Vec4, None);
+            channel(Property::Rotation, Interpolation::Linear, turns);
+        }
+        let gone = |at: usize| replay.states[at].gone.binary_search(&(id as u32)).is_ok();
+        if (0..poses.len()).any(gone) {
+            let sizes: Vec<[f64; 3]> =
+                (0..poses.len()).map(|at| if gone(at) { [0.0; 3] } else { [1.0; 3] }).collect();
+            let sizes = file.accessor(&sizes, Type::Vec3, None);
+            channel(Property::Scale, Interpolation::Step, sizes);
         }
     }
     file.finish(title, nodes, animation)
 }
 
-/// Where the centroid is at each key frame (m), and how the block is turned there (a quaternion, its scalar last).
-fn frames(stone: &Stone, magnification: f64) -> ([[f64; 3]; 3], [[f64; 4]; 3]) {
-    let (before, fall) = (stone.before, stone.movement.times(magnification));
-    let built = stone.shape.mass_properties().centroid;
-    let rests = built + before.shift;
-    let turned = rotation(&before.turn);
-    let turns = [Quaternion::identity(), turned, rotation(&fall.turn) * turned];
-    let places = [built, rests, rests + fall.shift];
-    (places.map(|own| [own.x, own.y, own.z]), turns.map(|own| [own.i, own.j, own.k, own.w]))
+/// When each state is shown (s).
+fn times(replay: &Replay) -> Vec<[f64; 1]> {
+    let rests = replay.states.iter().filter(|state| state.is_equilibrium).count();
+    let falls = replay.states.len() - rests;
+    let last = if rests > 1 { RESTS } else { 0.0 };
+    let at = |number: usize| match number < rests {
+        true => last * number as f64 / (rests.max(2) - 1) as f64,
+        // A fall without any rest before it begins at once.
+        false => last + FALLS * (number - rests + usize::from(rests > 0)) as f64 / falls as f64,
+    };
+    (0..replay.states.len()).map(|number| [at(number)]).collect()
+}
+
+/// How a block is turned (quaternions, their scalars last), each the shorter way from the one before.
+fn turns(poses: &[Movement]) -> Vec<[f64; 4]> {
+    let mut before = Quaternion::identity();
+    let turn = |pose: &Movement| {
+        let own = rotation(&pose.turn);
+        before = if own.dot(&before) < 0.0 { -own } else { own };
+        [before.i, before.j, before.k, before.w]
+    };
+    poses.iter().map(turn).collect()
 }
 
 /// A rotation vector (rad) as a quaternion.
@@ -282,10 +303,12 @@ impl File {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::Movement;
+    use crate::math::radians;
+    use crate::model::{Level, ReplayState};
+    use gltf_json::validation::Validate;
     use std::f64::consts::FRAC_PI_2;
 
-    /// The description and the numbers of a file.
+    /// The description and the numbers of a file, which is valid glTF.
     fn parts(file: &[u8]) -> (Root, Vec<f32>) {
         let number =
             |at: usize| u32::from_le_bytes(file[at..at + 4].try_into().expect("four bytes")) as usize;
@@ -293,42 +316,84 @@ mod tests {
         let json = number(12);
         assert_eq!((&file[16..20], json % 4), (&b"JSON"[..], 0));
         let root: Root = serde_json::from_slice(&file[20..20 + json]).expect("a description");
+        root.validate(&root, gltf_json::Path::new, &mut |path, error| panic!("{}: {error}", path()));
         assert_eq!((number(20 + json), &file[24 + json..28 + json]), (file.len() - 28 - json, &b"BIN\0"[..]));
         let numbers =
             file[28 + json..].chunks(4).map(|four| f32::from_le_bytes(four.try_into().expect("four")));
         (root, numbers.collect())
     }
 
+    /// A block that sinks to rest, then moves and turns by a quarter turn while the one under it, which is held, is still, and a third
+    /// one falls out before.
+    fn replay() -> Replay {
+        let sunk = Movement { shift: Vec3::new(0.0, 0.0, -0.01), turn: Vec3::zeros() };
+        let fallen = Movement { shift: Vec3::new(0.0, 0.2, -0.01), turn: Vec3::new(-FRAC_PI_2, 0.0, 0.0) };
+        let state = |is_equilibrium, second, gone| ReplayState {
+            level: Level::Tilt(0.1),
+            is_equilibrium,
+            poses: vec![Movement::NONE, second, Movement::NONE],
+            joints: Vec::new(),
+            gone,
+        };
+        let states = vec![
+            state(true, Movement::NONE, vec![]),
+            state(true, sunk, vec![2]),
+            state(false, fallen, vec![2]),
+        ];
+        Replay { states, ..Replay::default() }
+    }
+
     #[test]
     fn a_block_goes_to_rest_and_turns_from_there_about_one_axis() {
         let shape = Polyhedron::cuboid(Vec3::new(0.0, 0.0, 0.0), Vec3::new(0.2, 0.2, 0.4));
-        let before = Movement { shift: Vec3::new(0.0, 0.0, -0.01), turn: Vec3::zeros() };
-        let movement =
-            Movement { shift: Vec3::new(0.0, 0.1, 0.0), turn: Vec3::new(-0.5 * FRAC_PI_2, 0.0, 0.0) };
-        let moving = Stone { shape: shape.clone(), before, movement };
-        let still = Stone { shape, before: Movement::NONE, movement: Movement::NONE };
-        let actor = |name: &str, stone, role| Actor { name: name.to_owned(), stone, role };
-        let actors = [actor("0", &still, Role::Fixed), actor("1", &moving, Role::Moving)];
-        let (root, numbers) = parts(&write_glb("tower", &actors, 2.0));
-        // The one that is held has no channel.
-        assert_eq!(root.animations[0].channels.len(), 2);
-        assert_eq!((root.meshes.len(), root.nodes.len()), (2, 3));
-        let of = |channel: usize| {
-            let sampler = &root.animations[0].samplers[channel];
-            let accessor = &root.accessors[sampler.output.value()];
-            let view = &root.buffer_views[accessor.buffer_view.expect("a view").value()];
+        let actor = |name: &str, role| Actor { name: name.to_owned(), shape: &shape, role };
+        let actors = [actor("0", Role::Fixed), actor("1", Role::Moving), actor("2", Role::Standing)];
+        let (root, numbers) = parts(&write_glb("tower", &actors, &replay(), 1.0));
+        let channels = &root.animations[0].channels;
+        // The one that is held has none.
+        let nodes: Vec<usize> = channels.iter().map(|channel| channel.target.node.value()).collect();
+        assert_eq!((nodes, root.meshes.len(), root.nodes.len()), (vec![1, 1, 2], 3, 4));
+        let numbers_of = |accessor: Index<Accessor>| {
+            let view =
+                &root.buffer_views[root.accessors[accessor.value()].buffer_view.expect("a view").value()];
             let from = view.byte_offset.expect("an offset").0 as usize / 4;
             numbers[from..from + view.byte_length.0 as usize / 4].to_vec()
         };
-        assert_eq!(of(0), [0.1, 0.1, 0.2, 0.1, 0.1, 0.19, 0.1, 0.3, 0.19]);
-        // Twice an eighth of a turn is a quarter turn about x, backwards.
+        let sampler = |channel: usize| &root.animations[0].samplers[channel];
+        assert_eq!(numbers_of(sampler(0).input), [0.0, 4.0, 8.0]);
+        assert_eq!(numbers_of(sampler(0).output), [0.1, 0.1, 0.2, 0.1, 0.1, 0.19, 0.1, 0.3, 0.19]);
         let half = std::f32::consts::FRAC_1_SQRT_2;
-        let (turns, wanted) = (of(1), [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, -half, 0.0, 0.0, half]);
+        let (turns, wanted) =
+            (numbers_of(sampler(1).output), [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, -half, 0.0, 0.0, half]);
         assert!(turns.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-6), "{turns:?}");
+        assert_eq!(numbers_of(sampler(2).output), [1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
         // Twelve triangles, each corner with the normal of its face.
         let [corners, normals] = [Semantic::Positions, Semantic::Normals]
             .map(|of| &root.accessors[root.meshes[0].primitives[0].attributes[&Valid(of)].value()]);
         assert_eq!((corners.count.0, normals.count.0), (36, 36));
         assert_eq!(corners.max, Some(serde_json::json!([0.1_f32, 0.1_f32, 0.2_f32])));
+    }
+
+    #[test]
+    fn turns_beyond_half_a_turn_go_on_the_same_way() {
+        let by = |angle: f64| Movement { shift: Vec3::zeros(), turn: Vec3::x() * angle };
+        // 170 degrees, and 190 degrees as the shorter turn the other way round.
+        let [first, second] = [170.0, -170.0].map(|deg| by(radians(deg)));
+        let both = turns(&[first, second]);
+        let dot: f64 = both[0].iter().zip(both[1]).map(|(a, b)| a * b).sum();
+        assert!(dot > 0.98, "{both:?}");
+    }
+
+    #[test]
+    fn states_at_rest_and_falls_have_their_times() {
+        let all = replay();
+        let of = |states: &[usize]| {
+            let states = states.iter().map(|at| all.states[*at].clone()).collect();
+            times(&Replay { states, ..Replay::default() }).concat()
+        };
+        assert_eq!(of(&[0, 0, 1, 2, 2]), [0.0, 2.0, 4.0, 6.0, 8.0]);
+        assert_eq!(of(&[0, 2, 2]), [0.0, 2.0, 4.0]);
+        assert_eq!(of(&[2, 2]), [0.0, 2.0]);
+        assert_eq!(of(&[0]), [0.0]);
     }
 }

@@ -41,7 +41,7 @@ mod test_plan;
 #[cfg(test)]
 mod tests;
 mod uncertainty;
-mod vtu;
+mod vtk;
 
 pub use advice::Advice;
 pub use beside::{Earlier, Mean};
@@ -65,7 +65,7 @@ pub use joint_law::{LawSummary, law_text, remove_law, write_law};
 pub use measured::{CalibrationEntry, ComparisonEntry, MeasuredSummary};
 pub(crate) use number::significant;
 pub use page::{DrawnWall, PageOrigin, RunPage, WallPage, WallTable, chosen_walls, run_page, wall_page};
-pub use picture::{Hinge, Picture, Seam, Stone, Thrust};
+pub use picture::{Hinge, Picture, Seam, Stage, Stone, Thrust};
 pub use published::{Published, Verdict};
 pub use readings::{Extent, ReadingEntry, ReadingsSummary, readings_text, write_readings};
 pub use selection::{
@@ -81,4 +81,4 @@ pub use test_plan::{
 pub use uncertainty::{
     Answered, AskedOfWall, Ended, UncertaintySummary, uncertainty_text, write_uncertainty,
 };
-pub use vtu::write_vtu;
+pub use vtk::{SERIES, write_series, write_vtu};

@@ -12,15 +12,15 @@ use crate::cli::analyse::page::{Told, page};
 use crate::cli::analyse::state::State;
 use crate::cli::arguments::Measure;
 use crate::cli::condition::{Condition, hinges};
-use crate::cli::drawn::seams;
+use crate::cli::drawn::{seams, sides};
 use crate::cli::failure::Failure;
-use crate::cli::output;
+use crate::cli::{output, replayed};
 use crate::ensemble::replace_file;
 use crate::exchange::WallFile;
 use crate::math::Vec3;
 use crate::model::{Block, Movement, Replay, Support, Wall};
 use crate::protocol::JointState;
-use crate::report::{Actor, Picture, Role, Stone, quoted, write_glb, write_vtu};
+use crate::report::{Picture, Stone, quoted, write_vtu};
 
 /// Columns of `blocks.csv` and `joints.csv`.
 const BLOCKS: &str = "block,name,fixed,moves,rest_x_m,rest_y_m,rest_z_m,rest_turn_x_rad,rest_turn_y_rad,rest_turn_z_rad,\
@@ -51,7 +51,7 @@ pub(crate) fn write(folder: &Path, of: &Seen<'_>, object: &Value, told: &Told<'_
     let Seen { asked, file, fit, answer, state, replay } = *of;
     output::folder(folder)?;
     let picture = picture(asked, (file, fit), answer, state);
-    let rests: Vec<Vec3> = state.stones.iter().map(|stone| at_rest(state, stone).shift).collect();
+    let rests: Vec<Movement> = state.stones.iter().map(|stone| at_rest(state, stone)).collect();
     let mut files = vec![
         ("report.html", page(asked, file, (answer, state), (&picture, replay), told)?),
         ("mechanism.svg", picture.svg()),
@@ -66,30 +66,9 @@ pub(crate) fn write(folder: &Path, of: &Seen<'_>, object: &Value, told: &Told<'_
     for (name, text) in files {
         replace_file(&folder.join(name), text.as_bytes())?;
     }
-    replace_file(&folder.join("wall.glb"), &animation(asked, file, (answer, state), picture.magnification))?;
-    Ok(())
-}
-
-/// The wall as built, as it rests, and as it falls.
-fn animation(
-    asked: &Analyse,
-    file: &WallFile,
-    (answer, state): (&Answer, &State),
-    magnification: f64,
-) -> Vec<u8> {
-    let role = |at: usize| match () {
-        () if file.wall.blocks[at].support == Support::Fixed => Role::Fixed,
-        () if state.falls && answer.moving.contains(&at) => Role::Moving,
-        () => Role::Standing,
-    };
     let name = |at: usize| format!("{} {}", file.ids[at], file.names[at]).trim().to_owned();
-    let actors: Vec<Actor> = state
-        .stones
-        .iter()
-        .enumerate()
-        .map(|(at, stone)| Actor { name: name(at), stone, role: role(at) })
-        .collect();
-    write_glb(&asked.title(), &actors, magnification)
+    let moves = |at: usize| state.falls && answer.moving.contains(&at);
+    replayed::write(folder, &asked.title(), (&file.wall, &name, &moves), replay)
 }
 
 /// The wall as it falls, its joints coloured as asked.
@@ -97,7 +76,7 @@ fn picture(asked: &Analyse, (file, fit): (&WallFile, &Fit), answer: &Answer, sta
     let magnification = Picture::fitting(&state.stones);
     let from_front = !asked.direction.is_backwards();
     let seams = seams(&file.wall, &fit.contact, &state.joints, asked.colour);
-    let (side, end) = if from_front { ("front (+y)", "right") } else { ("back (-y)", "left") };
+    let (side, end) = sides(from_front);
     let what = if state.falls {
         format!("The mechanism, times {magnification}: its furthest block moves by a tenth of the height.")
     } else {

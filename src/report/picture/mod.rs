@@ -8,4 +8,4 @@ mod svg;
 mod tests;
 mod view;
 
-pub use scene::{Hinge, Picture, Seam, Stone, Thrust};
+pub use scene::{Hinge, Picture, Seam, Stage, Stone, Thrust};

@@ -75,6 +75,11 @@ pub struct Picture {
 }
 
 impl Stone {
+    /// A block that has moved since it was built, all of it magnified.
+    pub fn moved(shape: Polyhedron, movement: Movement) -> Stone {
+        Stone { shape, before: Movement::NONE, movement }
+    }
+
     /// Whether it is drawn where it was built.
     pub(in crate::report) fn is_still(&self) -> bool {
         self.before == Movement::NONE && self.movement == Movement::NONE
@@ -100,6 +105,26 @@ impl Stone {
             vertices: self.taking(&self.shape.vertices, magnification),
             faces: self.shape.faces.clone(),
         }
+    }
+}
+
+/// What pictures of the same wall that are shown one after the other have in common, so that nothing jumps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stage {
+    /// Left and right, bottom and top of what is seen (m, in the plane of the picture).
+    pub(super) extent: [[f64; 2]; 2],
+    /// The value of a joint at the end of the colour bar (SI units).
+    pub(super) largest: f64,
+}
+
+impl Stage {
+    /// The smallest one that holds both.
+    pub fn with(&self, other: &Stage) -> Stage {
+        let both = |k: usize| {
+            let ([low, high], [least, most]) = (self.extent[k], other.extent[k]);
+            [low.min(least), high.max(most)]
+        };
+        Stage { extent: [both(0), both(1)], largest: self.largest.max(other.largest) }
     }
 }
 

@@ -6,7 +6,7 @@ use crate::report::number::{range, significant};
 use crate::report::pen::FONT_NAME;
 use crate::report::picture::colour;
 use crate::report::picture::order::back_to_front;
-use crate::report::picture::scene::{Picture, Seam, height};
+use crate::report::picture::scene::{Picture, Seam, Stage, height};
 use crate::report::picture::view::View;
 use crate::shape::{Plane, Polyhedron};
 
@@ -40,17 +40,28 @@ const STEPS: usize = 40;
 impl Picture {
     /// The picture as SVG; the same picture gives the same bytes.
     pub fn svg(&self) -> String {
+        self.svg_on(&self.stage())
+    }
+
+    /// What it takes to show it.
+    pub fn stage(&self) -> Stage {
+        let view = View::on(self.from_front);
+        let (shapes, ground) = (self.drawn(), self.ground());
+        let places = || shapes.iter().flat_map(|s| &s.vertices).chain(&ground).map(|v| view.place(v));
+        let extent = [0, 1].map(|k| range(places().map(|place| place[k])).unwrap_or([0.0, 1.0]));
+        Stage { extent, largest: self.seams.iter().map(|seam| seam.value).fold(0.0, f64::max) }
+    }
+
+    /// [`Picture::svg`] on a stage that it shares with others.
+    pub fn svg_on(&self, stage: &Stage) -> String {
         let view = View::on(self.from_front);
         let shapes = self.drawn();
         let ground = self.ground();
-        let places = || shapes.iter().flat_map(|s| &s.vertices).chain(&ground).map(|v| view.place(v));
-        let [[left, right], [bottom, top]] =
-            [0, 1].map(|k| range(places().map(|place| place[k])).unwrap_or([0.0, 1.0]));
+        let Stage { extent: [[left, right], [bottom, top]], largest } = *stage;
         let scale = ((WIDTH - 2.0 * MARGIN) / (right - left)).min(TALLEST / (top - bottom));
         let aside = 0.5 * (WIDTH - scale * (right - left));
         let canvas = Canvas { view, scale, left: left - aside / scale, top: top + HEADLINE / scale };
         let below = HEADLINE + scale * (top - bottom) + LINE;
-        let largest = self.seams.iter().map(|seam| seam.value).fold(0.0, f64::max);
         let coloured = largest > 0.0;
         let dots = self.hinges.iter().filter(|hinge| hinge.block < shapes.len()).collect::<Vec<_>>();
         let of_dots = if dots.is_empty() { 0.0 } else { LINE };

@@ -1,0 +1,55 @@
+//! The columns of a run's tables for people and for programs.
+//!
+//! The schemas are [Table Schemas](https://datapackage.org/standard/table-schema/) of the Frictionless standard and not JSON Schemas: those
+//! describe JSON objects, these are made for the columns of a table, with units beside the types, and programs check a CSV file against
+//! them (`frictionless validate members.csv --schema members.schema.json`).
+
+use serde_json::{Value as Json, json};
+
+use crate::ensemble::columns::{Column, Value, documented};
+
+/// The schema of a table with these columns; `key` names its lines.
+pub(crate) fn schema<T>(columns: &[Column<T>], key: &[&str]) -> String {
+    let field = |column: &Column<T>| {
+        let mut field = json!({
+            "name": column.name, "type": kind(&column.value), "description": column.meaning,
+        });
+        if !column.unit.is_empty() {
+            field["unit"] = json!(column.unit);
+        }
+        if key.contains(&column.name.as_str()) || matches!(column.value, Value::Count(_)) {
+            field["constraints"] = json!({"required": true});
+        }
+        field
+    };
+    let fields: Vec<Json> = columns.iter().map(field).collect();
+    let schema = json!({
+        "$schema": "https://datapackage.org/profiles/2.0/tableschema.json",
+        "fields": fields, "missingValues": [""], "primaryKey": key,
+    });
+    format!("{schema:#}\n")
+}
+
+/// All columns that the tables of a run may have, for people: a line for each with its unit, its type and its meaning.
+pub fn column_reference() -> String {
+    let (members, steps) = documented();
+    let mut text = String::from("members.parquet, members.csv: a line per wall and stiffness\n");
+    members.iter().for_each(|column| text += &line(column));
+    text += "\nsteps.parquet, steps.csv: a line per load step of each\n";
+    steps.iter().for_each(|column| text += &line(column));
+    text
+}
+
+fn line<T>(column: &Column<T>) -> String {
+    let unit = if column.unit.is_empty() { "-" } else { column.unit };
+    format!("  {:<33} {unit:<5} {:<8} {}\n", column.name, kind(&column.value), column.meaning)
+}
+
+/// The type in the words of the standard.
+fn kind<T>(value: &Value<T>) -> &'static str {
+    match value {
+        Value::Text(_) => "string",
+        Value::Count(_) => "integer",
+        Value::Real(_) | Value::Drawn(..) => "number",
+    }
+}
