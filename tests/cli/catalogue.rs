@@ -50,7 +50,10 @@ fn every_study_loads_in_all_its_variants() {
         }
         let base =
             Study::load(&folder, None).unwrap_or_else(|faults| panic!("{}: {faults}", folder.display()));
-        assert!(base.warnings.is_empty(), "{:?}", base.warnings);
+        // Its joints differ on purpose: the arrangements are compared with joints that nobody sorted.
+        let scattering = if folder.ends_with("arrangements") { 2 } else { 0 };
+        assert_eq!(base.warnings.len(), scattering, "{:?}", base.warnings);
+        assert!(base.warnings.iter().all(|own| own.allowed.contains("averages out")), "{:?}", base.warnings);
         let mut hashes = vec![base.study.hash.clone()];
         for variant in &base.variants {
             let read = Study::load(&folder, Some(&variant.name)).unwrap_or_else(|faults| panic!("{faults}"));
@@ -83,11 +86,12 @@ fn the_joint_arrangement_study_states_the_papers_wall() {
         assert_eq!(arm.joint.phi_deg.mean(), 30.0);
         assert_eq!(arm.joint.cohesion.mean(), 1e5);
     }
-    let Arrangement::Coursed { length, height, dip, .. } = &study.arms[2].layout.arrangement else {
+    let Arrangement::Coursed { sizes, dip, .. } = &study.arms[2].layout.arrangement else {
         panic!("irregular walls are laid in courses")
     };
     let near = |a: f64, b: f64| (a - b).abs() < 1e-12;
-    assert!(near(length.mean(), 0.4) && near(height.mean(), 0.2));
+    let [length, height] = sizes.means();
+    assert!(near(length, 0.4) && near(height, 0.2));
     let twenty_deg = std::f64::consts::PI / 9.0;
     assert!(
         near(dip.support().0, -twenty_deg) && near(dip.support().1, twenty_deg),
