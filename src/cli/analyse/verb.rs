@@ -93,7 +93,7 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
     if arguments.json {
         return output::print_json(&object);
     }
-    warnings.iter().for_each(|warning| output::note(&format!("warning: {warning}")));
+    warnings.iter().for_each(|warning| output::warning(warning));
     if let Some(folder) = &arguments.out {
         text += &format!("written to {}\n", folder.display());
     }
