@@ -95,14 +95,16 @@ fn rounded(x: f64) -> f64 {
 }
 
 /// About how many joints a wall has: each stone lies on two stones, in a stack bond on one, and has a neighbour along the wall and
-/// across it.
+/// across it; those of the lowest course lie on the ground, and those at an end have no neighbour there.
 fn joints(layout: &Layout) -> f64 {
     let ([length, height], beds) = match &layout.arrangement {
         Arrangement::Continuous { length, height } => ([*length, *height], 1.0),
         Arrangement::Discontinuous { length, height, .. } => ([*length, *height], 2.0),
         Arrangement::Coursed { sizes, .. } | Arrangement::Cut { sizes, .. } => (sizes.means(), 2.0),
     };
-    let places = layout.outline.length * layout.outline.height / (length * height);
+    let (in_a_course, courses) = (layout.outline.length / length, layout.outline.height / height);
+    let places = in_a_course * courses;
     let wythes = f64::from(layout.wythes.count);
-    places * ((beds + 1.0) * wythes + wythes - 1.0)
+    let (lying, upright) = (beds * places - (beds - 1.0) * in_a_course, places - courses);
+    (lying + upright) * wythes + places * (wythes - 1.0)
 }

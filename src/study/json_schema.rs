@@ -92,12 +92,12 @@ fn table(section: &'static Section, stated: Stated, definitions: &mut Definition
         let laid_over = section.title == keys::ARM.title && LAID_OVER.contains(&key.name);
         let below = if laid_over { Stated::LaidOver } else { Stated::Whole };
         let own = property(key, below, definitions);
-        // A key of two kinds, one for each choice, has the same values allowed: only its default differs.
-        if properties.insert(key.name.to_owned(), own).is_some()
-            && let Some(Value::Object(known)) = properties.get_mut(key.name)
-        {
-            known.remove("default");
-        }
+        let both = match properties.remove(key.name) {
+            None => own,
+            // Which of them holds the chooser says: see `choices`.
+            Some(other) => json!({ "anyOf": [other, own] }),
+        };
+        properties.insert(key.name.to_owned(), both);
     }
     let mut schema = Map::new();
     schema.insert("type".to_owned(), "object".into());
@@ -105,7 +105,7 @@ fn table(section: &'static Section, stated: Stated, definitions: &mut Definition
     schema.insert("description".to_owned(), section.doc.into());
     schema.insert("properties".to_owned(), Value::Object(properties));
     schema.insert("additionalProperties".to_owned(), false.into());
-    let mut rules = choices(section, stated);
+    let mut rules = choices(section, stated, definitions);
     if stated == Stated::Whole {
         let always = section.all().filter(|key| key.only.is_empty());
         require(always, &mut rules, &mut schema);
@@ -135,8 +135,8 @@ fn require<'k>(keys: impl Iterator<Item = &'k Key>, rules: &mut Vec<Value>, sche
     }
 }
 
-/// For each value of the chooser: keys that must be there, and keys that mean nothing.
-fn choices(section: &'static Section, stated: Stated) -> Vec<Value> {
+/// For each value of the chooser: keys that must be there, keys that mean nothing, and those that mean something else than for others.
+fn choices(section: &'static Section, stated: Stated, definitions: &mut Definitions) -> Vec<Value> {
     let Some(chooser) = section.chooser.and_then(|name| section.key(name, None)) else { return Vec::new() };
     let Kind::Choice(names) = chooser.kind else { return Vec::new() };
     let mut all = Vec::new();

@@ -18,8 +18,8 @@ fn a_property_that_averages_out_is_warned_of_with_the_arithmetic() {
     assert_eq!(keys, ["joint.kn_factor", "joint.phi_deg"]);
     let phi = &all[1];
     assert_eq!((phi.file.as_str(), phi.line), ("study.toml", line));
-    // Two wythes of stones of 0.4 x 0.2 m in a wall of 4 x 1 m: 50 places with 4 bed joints, 2 head joints and one between them.
-    let said = "a wall of arm laid has about 350 joints, and a standard deviation of 2.3 deg in each is one of 2.3 / sqrt(350) = 0.12 deg";
+    // Five courses of ten stones in two wythes: 90 bed joints and 45 head joints in each, and 50 joints between them.
+    let said = "a wall of arm laid has about 320 joints, and a standard deviation of 2.3 deg in each is one of 2.3 / sqrt(320) = 0.13 deg";
     assert!(phi.allowed.contains(said), "{phi}");
     assert!(phi.fix.contains("\"joint.phi_deg\" in [uncertain]"), "{phi}");
     assert!(all[0].fix.contains("\"joint.kn_pa_per_m\" in [uncertain]"), "{}", all[0]);
@@ -59,7 +59,7 @@ fn nothing_is_said_where_the_same_is_drawn_per_wall_or_joints_are_few() {
         scratch.replace(STUDY, "kn_factor = { family = \"lognormal\", mean = 1.0, sd = 0.1 }\n", "");
     });
     assert!(constant.is_empty(), "{constant:?}");
-    // Stones of 2 x 0.5 m: 4 places with 3 joints each.
+    // Two courses of two stones.
     let few = sound(&|scratch| {
         let text = scratch.read(STUDY).replace("block_length_m = 0.41", "block_length_m = 2");
         let text = text.replace("course_height_m = 0.21", "course_height_m = 0.5");
