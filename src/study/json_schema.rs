@@ -148,10 +148,15 @@ fn choices(section: &'static Section, stated: Stated, definitions: &mut Definiti
             require(own, &mut rules, &mut then);
         }
         let meaningless = section.all().filter(|key| section.key(key.name, Some(name)).is_none());
-        let refused: Map<String, Value> =
+        let mut own: Map<String, Value> =
             meaningless.map(|key| (key.name.to_owned(), false.into())).collect();
-        if !refused.is_empty() {
-            then.insert("properties".to_owned(), Value::Object(refused));
+        for key in section.all().filter(|key| key.only.contains(name)) {
+            if section.all().filter(|other| other.name == key.name).count() > 1 {
+                own.insert(key.name.to_owned(), property(key, Stated::Whole, definitions));
+            }
+        }
+        if !own.is_empty() {
+            then.insert("properties".to_owned(), Value::Object(own));
         }
         if !rules.is_empty() {
             then.insert("allOf".to_owned(), Value::Array(rules));
