@@ -21,10 +21,12 @@ pub(crate) fn lay(draft: &mut Draft, ask: &Coursed) -> Result<Vec<Stone>, Fault>
     let (heights, groups): (Vec<f64>, Vec<usize>) = courses(draft, ask, &source)?.into_iter().unzip();
     let beds = beds(draft, ask.dip, &heights)?;
     let slabs = slabs(&draft.layout.outline, &beds)?;
-    let clear = ask.least_overlap * ask.factor * ask.sizes.means()[0];
     let (mut stones, mut joints) = (Vec::new(), Vec::new());
     for (index, slab) in slabs.iter().enumerate() {
-        let lengths = Lengths { family: source.lengths(groups[index]), factor: ask.factor, clear };
+        let [own, below] =
+            [groups[index], groups[index.saturating_sub(1)]].map(|group| source.lengths(group));
+        let clear = ask.least_overlap * ask.factor * own.mean().min(below.mean());
+        let lengths = Lengths { family: own, factor: ask.factor, clear };
         let course = fill_at_random(draft, slab, index as u32, &lengths, &joints)?;
         let laid;
         (laid, joints) = course.finish(draft, heights[index]);

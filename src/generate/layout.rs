@@ -121,7 +121,8 @@ pub enum Arrangement {
         /// Dip of a bed (rad), drawn once per bed.
         #[serde(rename = "dip_rad")]
         dip: Family,
-        /// Head joints of neighbouring courses closer than this share of the mean stone length are redrawn; in [0, 0.5).
+        /// Head joints of neighbouring courses closer than this share of the mean stone length are redrawn; in [0, 0.5). Where
+        /// courses differ by it, it is that of the course with the shorter stones.
         least_overlap: f64,
     },
     /// Recursive random joint planes, the analogue of 3DEC's random joint sets.

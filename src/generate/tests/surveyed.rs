@@ -91,3 +91,31 @@ fn walls_of_a_survey_are_a_function_of_seed_and_member() {
         assert_ne!(member(&wall, 3).wall, member(&wall, 4).wall);
     }
 }
+
+/// Joints of short stones are compared with short stones: by the mean of all stones none of them would find a place.
+#[test]
+fn courses_of_short_stones_find_their_overlap() {
+    let stones = [
+        [0.1, 0.08],
+        [0.11, 0.09],
+        [0.12, 0.1],
+        [0.13, 0.11],
+        [1.0, 0.3],
+        [1.1, 0.31],
+        [1.2, 0.32],
+        [1.3, 0.33],
+    ];
+    let mut wall = layout(Arrangement::Coursed {
+        sizes: survey(&stones),
+        wall_size_factor: constant(1.0),
+        dip: constant(0.0),
+        least_overlap: 0.2,
+    });
+    wall.limits.max_aspect = 40.0;
+    let short = (0..20).filter(|number| {
+        let made = member(&wall, *number);
+        // A wall with two courses of short stones on one another.
+        made.realised.heights.windows(2).any(|pair| pair.iter().all(|height| *height < 0.2))
+    });
+    assert!(short.count() > 0);
+}

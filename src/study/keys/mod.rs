@@ -311,7 +311,8 @@ pub static ARM: Section = Section {
             "least_overlap",
             real("1", Interval::below(0.0, 0.5)),
             Default("0.2"),
-            "Head joints of neighbouring courses closer than this share of the mean stone length are redrawn.",
+            "Head joints of neighbouring courses closer than this share of the mean stone length are redrawn; of stones of a survey it is the \
+             mean of the course with the shorter ones.",
         )
         .only(COURSED),
         Key::new(
