@@ -59,7 +59,7 @@ fn load(folder: &Path) -> Result<ElementStudy, Failure> {
 /// Passes the study's warnings on to standard error.
 fn warn(study: &ElementStudy) {
     for warning in &study.warnings {
-        output::note(&format!("warning: {warning}"));
+        output::warning(&warning.to_string());
     }
 }
 

@@ -5,7 +5,9 @@ mod arguments;
 mod bank;
 mod capacity;
 mod check;
+mod cite;
 mod compare;
+mod completions;
 mod condition;
 mod diagnose;
 mod doing;
@@ -19,6 +21,7 @@ mod influence;
 mod init;
 mod judge;
 mod locate;
+mod man;
 mod measured;
 mod mechanisms;
 mod one_wall;
@@ -33,6 +36,7 @@ mod readings;
 mod replayed;
 mod report;
 mod run;
+mod schema;
 mod sensitivity;
 mod threads;
 
@@ -51,14 +55,18 @@ pub fn main() -> ExitCode {
         Ok(arguments) => arguments,
         Err(error) => return output::usage(&error),
     };
+    output::set_quiet(arguments.quiet);
     let done = match &arguments.verb {
         Verb::Analyse(arguments) => analyse::analyse(arguments),
         Verb::Bank(arguments) => bank::bank(arguments),
         Verb::Capacity(arguments) => capacity::capacity(arguments),
         Verb::Check(arguments) => check::check(arguments),
+        Verb::Cite(arguments) => cite::cite(arguments),
         Verb::Compare(arguments) => compare::compare(arguments),
+        Verb::Completions(arguments) => completions::completions(arguments),
         Verb::Diagnose(arguments) => diagnose::diagnose(arguments),
         Verb::Generate(arguments) => generate::generate(arguments),
+        Verb::Man(arguments) => man::man(arguments),
         Verb::Measured(arguments) => measured::measured(arguments),
         Verb::Influence(arguments) => influence::influence(arguments),
         Verb::Init(arguments) => init::init(arguments),
@@ -68,6 +76,7 @@ pub fn main() -> ExitCode {
         Verb::Readings(arguments) => readings::readings(arguments),
         Verb::Report(arguments) => report::report(arguments),
         Verb::Run(arguments) => run::run(arguments),
+        Verb::Schema(arguments) => schema::schema(arguments),
         Verb::Sensitivity(arguments) => sensitivity::sensitivity(arguments),
     };
     match done {

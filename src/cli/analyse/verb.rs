@@ -110,7 +110,7 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
     if arguments.json {
         return output::print_json(&object);
     }
-    warnings.iter().for_each(|warning| output::note(&format!("warning: {warning}")));
+    warnings.iter().for_each(|warning| output::warning(warning));
     if let Some(place) = arguments.out.as_ref().or(page.as_ref()) {
         text += &format!("written to {}\n", place.display());
     }

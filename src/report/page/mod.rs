@@ -17,7 +17,7 @@ mod wall;
 
 pub use answer::{Asked, answer_page};
 pub use chart::{Axis, Chart, Line as ChartLine};
-pub use cite::{Citation, citation};
+pub use cite::{Citation, citation, citation_of_run};
 pub use drawing::Drawing;
 pub use origin::PageOrigin;
 pub use run::{DrawnWall, RunPage, chosen_walls, run_page};
