@@ -17,7 +17,11 @@ const COMMAND: &str = "PIRCA_REFERENCE=write cargo test --release --test cli ref
 
 /// What the program prints.
 fn printed(arguments: &[&str]) -> String {
-    let ran = Command::new(env!("CARGO_BIN_EXE_pirca")).args(arguments).current_dir(root()).output().expect("it is built");
+    let ran = Command::new(env!("CARGO_BIN_EXE_pirca"))
+        .args(arguments)
+        .current_dir(root())
+        .output()
+        .expect("it is built");
     assert!(ran.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&ran.stderr));
     String::from_utf8(ran.stdout).expect("it is text")
 }
@@ -26,7 +30,9 @@ fn printed(arguments: &[&str]) -> String {
 fn verbs(help: &str) -> Vec<&str> {
     let lines = help.lines().filter(|line| line.starts_with("  ") && !line.starts_with("   "));
     let first = lines.filter_map(|line| line.split_whitespace().next());
-    first.filter(|word| word.chars().all(|c| c.is_ascii_lowercase() || c == '-') && !word.starts_with('-')).collect()
+    first
+        .filter(|word| word.chars().all(|c| c.is_ascii_lowercase() || c == '-') && !word.starts_with('-'))
+        .collect()
 }
 
 /// The page of all commands.
@@ -55,9 +61,30 @@ fn keys() -> String {
     )
 }
 
+/// The page of all causes that a diagnosis looks for: a heading for each, and its lines as a list.
+fn causes() -> String {
+    let mut page = format!(
+        "# Causes\n\nWhat the base model leaves out, and a diagnosis looks for, as `pirca mechanisms` prints it. Each is a table \
+         `[mechanism.NAME]` that a study or one of its arms may have.\n\n<!-- Written by the program: {COMMAND} -->\n"
+    );
+    for line in printed(&["mechanisms"]).lines() {
+        let (depth, words) = (line.len() - line.trim_start().len(), line.trim_start());
+        let _ = match (depth, words.split_once(": ")) {
+            (0, Some((name, meaning))) => write!(page, "\n## {name}\n\n{meaning}\n\n"),
+            (2, _) => writeln!(page, "- {words}"),
+            (4, _) => writeln!(page, "  - {words}"),
+            _ => {
+                assert!(words.is_empty(), "neither a cause nor what is said of it: {line}");
+                Ok(())
+            }
+        };
+    }
+    page
+}
+
 #[test]
 fn the_reference_is_what_the_program_prints() {
-    for (name, page) in [("commands", commands()), ("keys", keys())] {
+    for (name, page) in [("commands", commands()), ("keys", keys()), ("causes", causes())] {
         let path = root().join("docs/reference").join(name).with_extension("md");
         if std::env::var_os("PIRCA_REFERENCE").is_some_and(|value| value == "write") {
             fs::write(&path, &page).expect("a page");
@@ -118,7 +145,8 @@ fn resolved(page: &Path, link: &str) -> PathBuf {
 
 #[test]
 fn every_link_leads_somewhere() {
-    let all: BTreeMap<PathBuf, Links> = pages().into_iter().map(|page| (page.clone(), links(&text(&page)))).collect();
+    let all: BTreeMap<PathBuf, Links> =
+        pages().into_iter().map(|page| (page.clone(), links(&text(&page)))).collect();
     let (mut count, mut broken) = (0, Vec::new());
     for (page, links) in &all {
         for link in links.to.iter().filter(|link| !link.contains("://")) {
@@ -149,5 +177,8 @@ fn every_page_is_in_the_table_of_contents() {
 fn headings_get_the_names_that_links_use() {
     assert_eq!(place("How is it built? Part 2: `kn`_x, and-so"), "how-is-it-built-part-2-kn_x-and-so");
     let found = links("# A `b`\n\n[x](y.md#z) ![p](q.svg)\n\n```text\n[no](link)\n```\n");
-    assert_eq!((found.to, found.places), (vec!["y.md#z".into(), "q.svg".into()], BTreeSet::from(["a-b".into()])));
+    assert_eq!(
+        (found.to, found.places),
+        (vec!["y.md#z".into(), "q.svg".into()], BTreeSet::from(["a-b".into()]))
+    );
 }
