@@ -270,15 +270,16 @@ def front(wall):
         corners = block["vertices"]
         for face in block["faces"]:
             points = [corners[k] for k in face]
-            # The area of a face seen from the front, positive where it looks there: x goes left as z goes up.
-            area = sum(p[2] * q[0] - p[0] * q[2] for p, q in zip(points, points[1:] + points[:1])) / 2
-            if area > 1e-6:
+            # Components of twice the area vector, which points outwards; a bed that leans looks up more than to the front.
+            edges = list(zip(points, points[1:] + points[:1]))
+            y, z = (sum(p[a] * q[b] - p[b] * q[a] for p, q in edges) for a, b in ((2, 0), (0, 1)))
+            if y > abs(z):
                 shown.append([(p[0], p[2]) for p in points])
     return shown
 
 
 def arrangements(program):
-    drawing = Drawing(760, 560, "Four walls: stack bond, running bond, random courses, random cuts")
+    drawing = Drawing(760, 290, "Four walls: stack bond, running bond, random courses, random cuts")
     asked = [
         ("stack bond (continuous)", ["--arm", "continuous"]), ("running bond (discontinuous)", ["--arm", "discontinuous"]),
         ("random courses (coursed)", ["--arm", "irregular", "--member", "0"]),
@@ -292,8 +293,8 @@ def arrangements(program):
             faces = front(json.loads(path.read_text()))
         low, high = min(x for face in faces for x, _ in face), max(x for face in faces for x, _ in face)
         top = max(z for face in faces for _, z in face)
-        scale = min(350 / (high - low), 210 / top)
-        left, bottom = 15 + 375 * (k % 2), 250 + 275 * (k // 2)
+        scale = 350 / (high - low)
+        left, bottom = 15 + 375 * (k % 2), 125 + 145 * (k // 2)
         for number, face in enumerate(faces):
             drawing.area([(left + scale * (x - low), bottom - scale * z) for x, z in face], STONES[number % 4], BLACK, 0.8)
         drawing.text(left, bottom - scale * top - 10, words, 14)
