@@ -26,6 +26,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 # Code first, so that a dollar in it is none of ours.
 CODE_OR_MATH = re.compile(r"^```.*?^```$|`[^`\n]*`|\$\$(?P<block>.+?)\$\$|\$(?P<inline>[^$\n]+)\$", re.M | re.S)
+COLOUR = "\x1b\\[[0-9;]*m"
 # What Markdown would take for itself within a line.
 MARKS = {"|": "&#124;", "*": "&#42;", "_": "&#95;", "\\": "&#92;", "[": "&#91;"}
 # What a browser loads by itself when it opens a page, by the name of the attribute.
@@ -51,7 +52,7 @@ def with_equations(path, text, converter):
         try:
             mathml = converter.convert_with_local_state(latex, displaystyle=found["block"] is not None)
         except math_core.LatexError as error:
-            fail([f"{path}: {error}: {latex.strip()}"])
+            fail([f"{path}: {latex.strip()}: {re.sub(COLOUR, '', str(error)).strip()}"])
         if found["block"]:
             return f'<div class="equation">\n{mathml}\n</div>'
         return re.sub(r"[|*_\\\[](?![^<]*>)", lambda mark: MARKS[mark[0]], mathml)
