@@ -20,6 +20,7 @@ mod init;
 mod joint_laws;
 mod layering;
 mod malformed;
+mod manual;
 mod measured;
 mod measured_verb;
 mod mechanisms;
