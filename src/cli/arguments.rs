@@ -126,6 +126,31 @@ pub(crate) enum Verb {
     Analyse(Analyse),
 }
 
+impl Verb {
+    /// Whether the answer is asked for as an object.
+    pub fn is_json(&self) -> bool {
+        match self {
+            Verb::Init(Init { json, .. })
+            | Verb::Mechanisms(Mechanisms { json, .. })
+            | Verb::Readings(Readings { json, .. })
+            | Verb::Report(Report { json, .. })
+            | Verb::Analyse(Analyse { json, .. }) => *json,
+            Verb::Check(Check { which, .. })
+            | Verb::Generate(Generate { which, .. })
+            | Verb::Picture(Picture { which, .. })
+            | Verb::Run(Run { which, .. })
+            | Verb::Capacity(Capacity { which, .. })
+            | Verb::Influence(Influence { which, .. })
+            | Verb::Compare(Compare { which, .. })
+            | Verb::Bank(Bank { which, .. })
+            | Verb::Diagnose(Diagnose { which, .. })
+            | Verb::PlanTests(PlanTests { which, .. })
+            | Verb::Measured(Measured { which, .. })
+            | Verb::Sensitivity(Sensitivity { which, .. }) => which.json,
+        }
+    }
+}
+
 /// Arguments of `init`.
 #[derive(Args, Debug)]
 pub(crate) struct Init {

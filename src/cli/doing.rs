@@ -1,6 +1,5 @@
 //! What is seen of one long piece of work that has no members to count: what is being done, and for how long.
 
-use std::io::IsTerminal;
 use std::sync::{Condvar, Mutex, MutexGuard};
 use std::time::{Duration, Instant};
 
@@ -66,7 +65,7 @@ impl Doing {
         if self.ends_within(FIRST) {
             return;
         }
-        match std::io::stderr().is_terminal() {
+        match output::is_drawn() {
             true => self.draw(begun),
             false => self.write(begun),
         }

@@ -1,11 +1,11 @@
 //! Standard output and standard error.
 
 use std::fs;
-use std::io::{ErrorKind, Write};
+use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use crate::cli::failure::Failure;
+use crate::cli::session;
 use crate::study::Study;
 
 /// Writes text to standard output, its sentences broken to the width of a terminal.
@@ -51,7 +51,7 @@ fn fitted(text: &str, width: usize) -> String {
 const HANGING: usize = 2;
 
 /// Writes text as it is. A reader that has gone away (`pirca ... | head`) has read what it wanted.
-fn write(text: &str) -> Result<(), Failure> {
+pub(super) fn write(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
@@ -82,23 +82,32 @@ pub(crate) fn folder(path: &Path) -> Result<(), Failure> {
         .map_err(|error| Failure::Run(format!("cannot create the folder {}: {error}", path.display())))
 }
 
-/// Writes a line to standard error; where nobody reads it, there is nobody left to tell.
+/// Says a line on the way: on standard error, where nobody is left to tell if nobody reads it, or to whoever hears it.
 pub(crate) fn note(text: &str) {
+    if let Some(hear) = session::heard_by() {
+        return hear(text);
+    }
     let _ = writeln!(std::io::stderr().lock(), "{text}");
 }
 
-/// Writes an error to standard error; nothing when there is nothing left to say.
-pub(crate) fn error(text: &str) {
-    if !text.is_empty() {
-        note(&format!("error: {text}"));
+/// Whether what is said on the way is drawn on a terminal, where a line can be drawn anew.
+pub(crate) fn is_drawn() -> bool {
+    session::heard_by().is_none() && std::io::stderr().is_terminal()
+}
+
+/// Says why a verb failed: on standard error, or as an object on standard output if that was asked for.
+pub(crate) fn failed(failure: &Failure) {
+    match failure {
+        Failure::Said(_) => drop(write(&format!("{}\n", failure.message()))),
+        _ => note(&format!("error: {}", failure.message())),
     }
 }
 
 /// Answers arguments that make no sense, or a request for help or the version.
-pub(crate) fn usage(error: &clap::Error) -> ExitCode {
+pub(crate) fn usage(error: &clap::Error) -> u8 {
     // As in `print`: whoever closed the pipe has read enough.
     let _ = error.print();
-    ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
+    u8::try_from(error.exit_code()).unwrap_or(2)
 }
 
 /// Lets a write beyond the file size limit (`ulimit -f`) fail with an error that says so, as a full disk does.

@@ -4,19 +4,19 @@ use std::path::Path;
 
 use serde_json::json;
 
+use crate::cli::answer::Answer;
 use crate::cli::arguments::{Measure, Picture as Arguments};
 use crate::cli::condition::{conditions, hinges};
 use crate::cli::drawn::{drawing, ending, seams, stones, uncoloured};
 use crate::cli::failure::Failure;
 use crate::cli::one_wall::OneWall;
-use crate::cli::output;
 use crate::contact;
 use crate::ensemble::replace_file;
 use crate::protocol::{Direction, Protocol, Run, typical_size};
 use crate::report::Picture;
 
 /// Solves the member and draws it.
-pub(crate) fn picture(arguments: &Arguments) -> Result<(), Failure> {
+pub(crate) fn picture(arguments: &Arguments) -> Result<Answer, Failure> {
     if !is_svg(&arguments.out) {
         return Err(Failure::Usage(format!(
             "--out {}: the picture is an SVG file, so its name must end in .svg",
@@ -31,17 +31,16 @@ pub(crate) fn picture(arguments: &Arguments) -> Result<(), Failure> {
     replace_file(&arguments.out, picture.svg().as_bytes())?;
 
     let out = arguments.out.display().to_string();
-    if arguments.which.json {
-        let failure = run.failure.as_ref();
-        return output::print_json(&json!({
-            "study": study.name, "variant": study.variant, "seed": study.seed,
-            "arm": arm.name, "point": task.point, "kn_pa_per_m": kn, "member": member,
-            "out": out, "outcome": run.outcome.name(), "magnification": picture.magnification,
-            "mode": failure.map(|f| f.mode.name()), "hinge_height_m": failure.map(|f| f.hinge_height),
-            "moving_weight_share": failure.map(|f| f.weight_share),
-        }));
-    }
-    output::print(&format!("{out}: {}: {}\n", picture.title, ending(&run)))
+    let failure = run.failure.as_ref();
+    let object = json!({
+        "study": study.name, "variant": study.variant, "seed": study.seed,
+        "arm": arm.name, "point": task.point, "kn_pa_per_m": kn, "member": member,
+        "out": out, "outcome": run.outcome.name(), "magnification": picture.magnification,
+        "mode": failure.map(|f| f.mode.name()), "hinge_height_m": failure.map(|f| f.hinge_height),
+        "moving_weight_share": failure.map(|f| f.weight_share),
+    });
+    let text = format!("{out}: {}: {}\n", picture.title, ending(&run));
+    Ok(Answer::of(text, &object)?.in_place(&arguments.out))
 }
 
 /// The picture of a wall that was solved.

@@ -1,7 +1,6 @@
 //! What is seen of a run while it goes on: a bar on a terminal, a line per tenth elsewhere.
 
 use std::collections::BTreeMap;
-use std::io::IsTerminal;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
@@ -16,7 +15,7 @@ use crate::study::Study;
 pub(crate) fn on_stderr(study: &Study) -> Box<dyn Progress> {
     let name = study.name.clone();
     let quantity = Quantity::of(&study.protocol);
-    match std::io::stderr().is_terminal() {
+    match output::is_drawn() {
         true => Box::new(Bar { bar: ProgressBar::hidden(), tally: Mutex::new(Tally::new(quantity)) }),
         false => Box::new(Lines { name, quantity, state: Mutex::new(None) }),
     }

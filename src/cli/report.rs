@@ -6,13 +6,14 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
+use crate::cli::answer::Answer;
 use crate::cli::arguments::{Measure, Report, Which};
 use crate::cli::doing::doing;
 use crate::cli::drawn::ending;
 use crate::cli::failure::Failure;
 use crate::cli::one_wall::OneWall;
 use crate::cli::origin::Origin;
-use crate::cli::{locate, output, picture};
+use crate::cli::{locate, picture};
 use crate::ensemble::{self, Manifest, Row, replace_file};
 use crate::report::{DrawnWall, PageOrigin, RunPage, chosen_walls, run_page};
 use crate::study::{Loaded, Study};
@@ -21,7 +22,7 @@ use crate::study::{Loaded, Study};
 pub(crate) const PAGE: &str = "report.html";
 
 /// Writes the page of a run that has ended.
-pub(crate) fn report(arguments: &Report) -> Result<(), Failure> {
+pub(crate) fn report(arguments: &Report) -> Result<Answer, Failure> {
     let folder = &arguments.run;
     let manifest = ensemble::identity(folder)?;
     let origin = Origin::read(folder).unwrap_or_default();
@@ -32,13 +33,11 @@ pub(crate) fn report(arguments: &Report) -> Result<(), Failure> {
     let study = ensemble::come_to(study, &rows);
     let page = arguments.out.clone().unwrap_or_else(|| folder.join(PAGE));
     write(&page, (&study, &loaded), &rows, &origin)?;
-    if arguments.json {
-        return output::print_json(&json!({
-            "study": study.name, "variant": study.variant, "seed": study.seed, "study_hash": study.hash,
-            "evaluations": rows.len(), "page": page.display().to_string(),
-        }));
-    }
-    output::print(&format!("written to {}\n", page.display()))
+    let object = json!({
+        "study": study.name, "variant": study.variant, "seed": study.seed, "study_hash": study.hash,
+        "evaluations": rows.len(), "page": page.display().to_string(),
+    });
+    Ok(Answer::of(format!("written to {}\n", page.display()), &object)?.in_place(&page))
 }
 
 /// Writes the page of a run of a study, as it was run and as its files state it.

@@ -1,5 +1,6 @@
 //! `pirca run`: generate, solve, statistics, figures.
 
+use crate::cli::answer::Answer;
 use crate::cli::arguments::{Run, SolverName};
 use crate::cli::failure::Failure;
 use crate::cli::origin::Origin;
@@ -8,8 +9,8 @@ use crate::ensemble::{self, Quantity, Settings};
 use crate::report::{self, Earlier};
 use crate::study::{ElementStudy, Study};
 
-/// Runs a study, or what is still missing of it, and shows the results.
-pub(crate) fn run(arguments: &Run) -> Result<(), Failure> {
+/// Runs a study, or what is still missing of it, and says what came out.
+pub(crate) fn run(arguments: &Run) -> Result<Answer, Failure> {
     let folder = locate::folder(&arguments.which.study)?;
     if ElementStudy::is_in(&folder) {
         return elements::run(&folder, arguments);
@@ -30,10 +31,8 @@ pub(crate) fn run(arguments: &Run) -> Result<(), Failure> {
     if arguments.report {
         page::write(&out.join(page::PAGE), (&study, &loaded), &rows, &origin)?;
     }
-    if arguments.which.json {
-        return output::print_json(&summary);
-    }
-    output::print(&format!("{}\nwritten to {}\n", report::terminal_table(&summary).trim_end(), out.display()))
+    let text = format!("{}\nwritten to {}\n", report::terminal_table(&summary).trim_end(), out.display());
+    Ok(Answer::of(text, &summary)?.in_place(&out))
 }
 
 /// The study with what the arguments put in the place of its own values.
