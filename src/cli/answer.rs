@@ -41,9 +41,9 @@ impl Answer {
     /// Prints it: the object alone, or the warnings on standard error and the text.
     pub(crate) fn tell(&self, as_json: bool) -> Result<(), Failure> {
         if as_json {
-            return output::write(&self.json);
+            return output::print_as_it_is(&self.json);
         }
-        self.warnings.iter().for_each(|warning| output::note(&format!("warning: {warning}")));
+        self.warnings.iter().for_each(|warning| output::warning(warning));
         output::print(&self.text)
     }
 }

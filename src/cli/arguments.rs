@@ -4,11 +4,12 @@ use std::num::NonZero;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
 
 use crate::cli::analyse::Analyse;
 use crate::cli::help::{
-    ANALYSE, BANK, CAPACITY, CHECK, COMPARE, DIAGNOSE, GENERATE, INFLUENCE, INIT, MEASURED, MECHANISMS,
-    PICTURE, PLAN_TESTS, READINGS, REPORT, RUN, SENSITIVITY, WHOLE,
+    ANALYSE, BANK, CAPACITY, CHECK, CITE, COMPARE, COMPLETIONS, DIAGNOSE, GENERATE, INFLUENCE, INIT, MAN,
+    MEASURED, MECHANISMS, PICTURE, PLAN_TESTS, READINGS, REPORT, RUN, SCHEMA, SENSITIVITY, WHOLE,
 };
 use crate::cli::rare::Method;
 use crate::cli::{influence, question, sensitivity};
@@ -29,6 +30,9 @@ pub(crate) struct Arguments {
     /// What to do.
     #[command(subcommand)]
     pub verb: Verb,
+    /// Write neither progress nor warnings to standard error; errors stay.
+    #[arg(long, short, global = true)]
+    pub quiet: bool,
 }
 
 /// The verbs. The first line of each is its line in the list of verbs, where `help` groups them.
@@ -62,6 +66,9 @@ pub(crate) enum Verb {
     /// strongest one drawn, every input with its source, limits, provenance, and a paragraph for a paper.
     #[command(after_help = REPORT)]
     Report(Report),
+    /// Say how to cite a run: version, study, seed and hash.
+    #[command(after_help = CITE)]
+    Cite(Cite),
     /// Say what walls may be counted on to bear.
     ///
     /// The probability of a failure below some load, a low quantile, characteristic and design values: from simulated walls, or with --measured from tested specimens alone.
@@ -124,6 +131,69 @@ pub(crate) enum Verb {
     /// The wall is a wall.json or an OBJ file that somebody else made.
     #[command(after_help = ANALYSE)]
     Analyse(Analyse),
+    /// Print the completions of a shell.
+    ///
+    /// Bash, zsh, fish, PowerShell and Elvish complete verbs, options and their values.
+    #[command(after_help = COMPLETIONS)]
+    Completions(Completions),
+    /// Write the manual pages of all verbs, for man.
+    #[command(after_help = MAN)]
+    Man(Man),
+    /// Print the JSON Schema of a study, for editors.
+    ///
+    /// An editor that knows it completes keys, shows what each means, and marks what is wrong while a study is written.
+    #[command(after_help = SCHEMA)]
+    Schema(Schema),
+}
+
+/// Arguments of `cite`.
+#[derive(Args, Debug)]
+pub(crate) struct Cite {
+    /// The output folder of the run.
+    pub run: PathBuf,
+    /// Print an entry for BibTeX.
+    #[arg(long, help_heading = OUTPUT)]
+    pub bibtex: bool,
+    /// Print one JSON object on standard output instead of text.
+    #[arg(long, help_heading = OUTPUT, conflicts_with = "bibtex")]
+    pub json: bool,
+}
+
+/// Arguments of `completions`.
+#[derive(Args, Debug)]
+pub(crate) struct Completions {
+    /// The shell.
+    pub shell: Shell,
+}
+
+/// Arguments of `man`.
+#[derive(Args, Debug)]
+pub(crate) struct Man {
+    /// Folder of the pages: pirca.1, pirca-run.1 and so on.
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+}
+
+/// Arguments of `schema`.
+#[derive(Args, Debug)]
+pub(crate) struct Schema {
+    /// Which file it describes.
+    #[arg(long, value_name = "FILE", default_value = "study")]
+    pub of: Described,
+    /// Write it to this file instead of standard output.
+    #[arg(long, value_name = "FILE", help_heading = OUTPUT)]
+    pub out: Option<PathBuf>,
+}
+
+/// Files that have a schema.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Described {
+    /// study.toml of walls.
+    Study,
+    /// study.toml of types of elements.
+    ElementStudy,
+    /// published.toml beside a study of walls.
+    Published,
 }
 
 impl Verb {
@@ -131,6 +201,7 @@ impl Verb {
     pub fn is_json(&self) -> bool {
         match self {
             Verb::Init(Init { json, .. })
+            | Verb::Cite(Cite { json, .. })
             | Verb::Mechanisms(Mechanisms { json, .. })
             | Verb::Readings(Readings { json, .. })
             | Verb::Report(Report { json, .. })
@@ -147,6 +218,8 @@ impl Verb {
             | Verb::PlanTests(PlanTests { which, .. })
             | Verb::Measured(Measured { which, .. })
             | Verb::Sensitivity(Sensitivity { which, .. }) => which.json,
+            // A text is all that they have.
+            Verb::Completions(_) | Verb::Man(_) | Verb::Schema(_) => false,
         }
     }
 }

@@ -65,7 +65,7 @@ impl Doing {
         if self.ends_within(FIRST) {
             return;
         }
-        match output::is_drawn() {
+        match output::can_draw() {
             true => self.draw(begun),
             false => self.write(begun),
         }

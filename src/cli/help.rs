@@ -15,10 +15,14 @@ const TYPED: usize = 8;
 const INDENT: usize = 10;
 
 /// The verbs in the order in which they are met, under what they are about.
-const GROUPS: [(&str, &[&str]); 3] = [
+const GROUPS: [(&str, &[&str]); 4] = [
     ("One wall", &["analyse", "generate", "picture"]),
-    ("Many walls", &["init", "check", "run", "report", "capacity", "compare", "influence", "readings"]),
+    (
+        "Many walls",
+        &["init", "check", "run", "report", "cite", "capacity", "compare", "influence", "readings"],
+    ),
     ("Measured walls", &["plan-tests", "measured", "sensitivity", "bank", "diagnose", "mechanisms"]),
+    ("Shell and editor", &["completions", "man", "schema"]),
 ];
 
 macro_rules! codes {
@@ -35,7 +39,8 @@ Examples: pirca analyse wall.json --phi-deg 35
           pirca run my-wall
 
 A study is a folder with a study.toml: which walls, under which load, by which solver. `pirca VERB --help` explains a verb. \
-With --json it prints one JSON object; warnings and progress go to standard error.
+With --json it prints one JSON object; warnings and progress go to standard error, and nowhere with --quiet. \
+NO_COLOR=1 keeps terminals plain.
 
 ",
     codes!()
@@ -261,6 +266,55 @@ A table [mechanism.creep] in a study, with its keys, switches creep on; [arm.mec
     codes!()
 );
 
+/// Of `cite`.
+pub(super) const CITE: &str = concat!(
+    "\
+Example: pirca cite runs/tilting-block
+         pirca cite runs/tilting-block --bibtex >> references.bib
+
+Whoever runs that version on a study of that hash with that seed gets the same walls. The run must be of this version of pirca.
+
+",
+    codes!()
+);
+
+/// Of `completions`.
+pub(super) const COMPLETIONS: &str = concat!(
+    "\
+Example: pirca completions bash > ~/.local/share/bash-completion/completions/pirca
+         pirca completions zsh > ~/.zfunc/_pirca
+         pirca completions fish > ~/.config/fish/completions/pirca.fish
+
+Zsh reads ~/.zfunc if ~/.zshrc has the line fpath+=~/.zfunc before compinit. New shells know the completions.
+
+",
+    codes!()
+);
+
+/// Of `man`.
+pub(super) const MAN: &str = concat!(
+    "\
+Example: pirca man --out ~/.local/share/man/man1
+         man pirca-run
+
+",
+    codes!()
+);
+
+/// Of `schema`.
+pub(super) const SCHEMA: &str = concat!(
+    "\
+Example: pirca schema --out study.schema.json
+         pirca schema --of published --out published.schema.json
+
+Editors with taplo (in VS Code: Even Better TOML) take it from the first line of a study: #:schema ./study.schema.json. \
+`pirca init` writes both. The schema is made from the table of keys that `pirca check` goes by; what needs more than one key, and the \
+references to distributions, `check` alone sees.
+
+",
+    codes!()
+);
+
 /// Of `analyse`.
 pub(super) const ANALYSE: &str = concat!(
     "\
@@ -377,8 +431,9 @@ fn lines(text: &str, columns: usize) -> String {
 
 /// The command with its verbs in groups.
 fn grouped(command: Command) -> Command {
+    let header = command.get_styles().get_header();
     let template = format!(
-        "{{name}} {{version}}\n{{about-with-newline}}\n{{usage-heading}} {{usage}}\n{}\nOptions:\n{{options}}{{after-help}}",
+        "{{name}} {{version}}\n{{about-with-newline}}\n{{usage-heading}} {{usage}}\n{}\n{header}Options:{header:#}\n{{options}}{{after-help}}",
         verbs(&command)
     );
     command.help_template(template)
@@ -387,8 +442,9 @@ fn grouped(command: Command) -> Command {
 /// A line for each verb, below the heading of its group.
 fn verbs(command: &Command) -> String {
     let mut text = String::new();
+    let header = command.get_styles().get_header();
     for (heading, verbs) in GROUPS {
-        let _ = writeln!(text, "\n{heading}:");
+        let _ = writeln!(text, "\n{header}{heading}:{header:#}");
         for verb in verbs.iter().filter_map(|name| command.find_subcommand(name)) {
             let about = verb.get_about().map(ToString::to_string).unwrap_or_default();
             let _ = writeln!(text, "  {:<12} {about}", verb.get_name());

@@ -24,7 +24,7 @@ pub(crate) fn study(which: &Which) -> Result<Loaded, Failure> {
 
 /// Says what is allowed and yet looks wrong on standard error.
 pub(crate) fn warn(warning: &Fault) {
-    output::note(&format!("warning: {warning}"));
+    output::warning(&warning.to_string());
 }
 
 /// The study with another number of walls in every random arm, of which it must have one.

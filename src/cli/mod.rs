@@ -6,7 +6,9 @@ mod arguments;
 mod bank;
 mod capacity;
 mod check;
+mod cite;
 mod compare;
+mod completions;
 mod condition;
 mod diagnose;
 mod doing;
@@ -19,6 +21,7 @@ mod influence;
 mod init;
 mod judge;
 mod locate;
+mod man;
 mod measured;
 mod mechanisms;
 mod one_wall;
@@ -32,6 +35,7 @@ mod rare;
 mod readings;
 mod report;
 mod run;
+mod schema;
 mod sensitivity;
 mod session;
 mod threads;
@@ -57,6 +61,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(arguments) => arguments,
         Err(error) => return output::usage(&error),
     };
+    output::set_quiet(arguments.quiet);
     let told = |answer: Option<Answer>| answer.map_or(Ok(()), |answer| answer.tell(arguments.verb.is_json()));
     match done(&arguments.verb).and_then(told) {
         Ok(()) => 0,
@@ -82,6 +87,7 @@ pub fn answered(arguments: Vec<OsString>, hear: Arc<Hear>) -> Result<Option<Answ
         let given: Vec<OsString> = std::iter::once(OsString::from("pirca")).chain(arguments).collect();
         let _served = session::begin(shown(&given), Some(hear));
         let arguments = read(given).map_err(|error| Failure::Usage(error.to_string()))?;
+        output::set_quiet(arguments.quiet);
         done(&arguments.verb)
     })?
 }
@@ -100,11 +106,15 @@ fn read(given: Vec<OsString>) -> Result<Arguments, clap::Error> {
 fn done(verb: &Verb) -> Result<Option<Answer>, Failure> {
     let answer = match verb {
         Verb::Bank(arguments) => return bank::bank(arguments).map(|()| None),
+        Verb::Cite(arguments) => return cite::cite(arguments).map(|()| None),
+        Verb::Completions(arguments) => return completions::completions(arguments).map(|()| None),
         Verb::Init(arguments) => return init::init(arguments).map(|()| None),
+        Verb::Man(arguments) => return man::man(arguments).map(|()| None),
         Verb::Measured(arguments) => return measured::measured(arguments).map(|()| None),
         Verb::Mechanisms(arguments) => return mechanisms::mechanisms(arguments).map(|()| None),
         Verb::PlanTests(arguments) => return plan_tests::plan_tests(arguments).map(|()| None),
         Verb::Readings(arguments) => return readings::readings(arguments).map(|()| None),
+        Verb::Schema(arguments) => return schema::schema(arguments).map(|()| None),
         Verb::Sensitivity(arguments) => return sensitivity::sensitivity(arguments).map(|()| None),
         Verb::Analyse(arguments) => analyse::analyse(arguments),
         Verb::Capacity(arguments) => capacity::capacity(arguments),

@@ -1,20 +1,64 @@
-//! Standard output and standard error.
+//! Standard output and standard error. A terminal gets sentences of its width, headings in bold and errors in red, unless `NO_COLOR` is set;
+//! files and pipes get the bare text.
 
 use std::fs;
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use console::Style;
 
 use crate::cli::failure::Failure;
 use crate::cli::session;
 use crate::study::Study;
 
-/// Writes text to standard output, its sentences broken to the width of a terminal.
+/// Whether standard error gets errors alone; decided once, by the arguments.
+static QUIET: AtomicBool = AtomicBool::new(false);
+
+/// Lets standard error have errors alone, or all that is said.
+pub(crate) fn set_quiet(quiet: bool) {
+    QUIET.store(quiet, Ordering::Relaxed);
+}
+
+/// Whether progress can be drawn on standard error: it is a terminal, is to be written to, and nobody else hears what is said.
+pub(crate) fn can_draw() -> bool {
+    session::heard_by().is_none() && std::io::stderr().is_terminal() && !QUIET.load(Ordering::Relaxed)
+}
+
+/// Writes text to standard output, as a terminal likes it if it is one.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let terminal = console::Term::stdout();
-    match terminal.is_term() {
-        true => write(&fitted(text, usize::from(terminal.size().1))),
-        false => write(text),
-    }
+    let fitted = match terminal.is_term() {
+        true => fitted(text, usize::from(terminal.size().1)),
+        false => text.to_owned(),
+    };
+    write(&emphasised(&fitted, &Style::new().bold()))
+}
+
+/// Writes text to standard output to be taken by a file or a program.
+pub(crate) fn print_as_it_is(text: &str) -> Result<(), Failure> {
+    write(text)
+}
+
+/// The text with its headings in a style: the heads of tables, which have a line of dashes below them, and lines of their own that end
+/// in a colon.
+fn emphasised(text: &str, style: &Style) -> String {
+    let lines: Vec<&str> = text.split_inclusive('\n').collect();
+    let is_rule =
+        |line: &str| line.trim_end().len() > 2 && line.trim_end().chars().all(|c| c == '-' || c == ' ');
+    let heads = |at: usize| {
+        let line = lines[at].trim_end();
+        let stands_over_a_table = lines.get(at + 1).is_some_and(|next| is_rule(next)) && !is_rule(line);
+        stands_over_a_table || (line.ends_with(':') && !line.starts_with(' '))
+    };
+    let styled = |(at, line): (usize, &&str)| {
+        let words = line.trim_end();
+        match heads(at) && !words.is_empty() {
+            true => format!("{}{}", style.apply_to(words), &line[words.len()..]),
+            false => (*line).to_owned(),
+        }
+    };
+    lines.iter().enumerate().map(styled).collect()
 }
 
 /// The text with lines of at most so many characters; the rows of tables, whose columns stand two spaces apart, stay whole.
@@ -51,7 +95,7 @@ fn fitted(text: &str, width: usize) -> String {
 const HANGING: usize = 2;
 
 /// Writes text as it is. A reader that has gone away (`pirca ... | head`) has read what it wanted.
-pub(super) fn write(text: &str) -> Result<(), Failure> {
+fn write(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
@@ -82,25 +126,39 @@ pub(crate) fn folder(path: &Path) -> Result<(), Failure> {
         .map_err(|error| Failure::Run(format!("cannot create the folder {}: {error}", path.display())))
 }
 
-/// Says a line on the way: on standard error, where nobody is left to tell if nobody reads it, or to whoever hears it.
+/// Says a line on the way, unless only errors are to be said: on standard error, or to whoever hears it.
 pub(crate) fn note(text: &str) {
-    if let Some(hear) = session::heard_by() {
-        return hear(text);
+    if QUIET.load(Ordering::Relaxed) {
+        return;
     }
-    let _ = writeln!(std::io::stderr().lock(), "{text}");
+    match session::heard_by() {
+        Some(hear) => hear(text),
+        None => tell(text),
+    }
 }
 
-/// Whether what is said on the way is drawn on a terminal, where a line can be drawn anew.
-pub(crate) fn is_drawn() -> bool {
-    session::heard_by().is_none() && std::io::stderr().is_terminal()
+/// Says a warning, unless only errors are to be said.
+pub(crate) fn warning(text: &str) {
+    let style = match session::heard_by() {
+        Some(_) => Style::new().force_styling(false),
+        None => Style::new().for_stderr().yellow().bold(),
+    };
+    note(&format!("{} {text}", style.apply_to("warning:")));
 }
 
 /// Says why a verb failed: on standard error, or as an object on standard output if that was asked for.
 pub(crate) fn failed(failure: &Failure) {
+    let message = failure.message();
     match failure {
-        Failure::Said(_) => drop(write(&format!("{}\n", failure.message()))),
-        _ => note(&format!("error: {}", failure.message())),
+        // Where nobody reads it, there is nobody left to tell.
+        Failure::Said(_) => drop(print_as_it_is(&format!("{message}\n"))),
+        _ => tell(&format!("{} {message}", Style::new().for_stderr().red().bold().apply_to("error:"))),
     }
+}
+
+/// Writes a line to standard error; where nobody reads it, there is nobody left to tell.
+fn tell(text: &str) {
+    let _ = writeln!(std::io::stderr().lock(), "{text}");
 }
 
 /// Answers arguments that make no sense, or a request for help or the version.
@@ -127,7 +185,7 @@ pub(crate) fn report_full_files() {
 
 #[cfg(test)]
 mod tests {
-    use super::fitted;
+    use super::*;
 
     #[test]
     fn sentences_are_broken_and_tables_are_not() {
@@ -137,5 +195,17 @@ mod tests {
             "  one two\n    three\n    four\narm          mean   sigma  COV\nshort\n"
         );
         assert_eq!(fitted(text, 80), text);
+    }
+
+    #[test]
+    fn heads_of_tables_and_headings_are_emphasised_and_nothing_else() {
+        let text = "study: 3 walls.\narm   mean\n----------\na     1.0\nOf arm a:\n  below:\n\n";
+        let bold = Style::new().bold().force_styling(true);
+        let [head, heading] = ["arm   mean", "Of arm a:"].map(|words| format!("\u{1b}[1m{words}\u{1b}[0m"));
+        assert_eq!(
+            emphasised(text, &bold),
+            format!("study: 3 walls.\n{head}\n----------\na     1.0\n{heading}\n  below:\n\n")
+        );
+        assert_eq!(emphasised(text, &bold.force_styling(false)), text);
     }
 }

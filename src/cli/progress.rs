@@ -15,7 +15,7 @@ use crate::study::Study;
 pub(crate) fn on_stderr(study: &Study) -> Box<dyn Progress> {
     let name = study.name.clone();
     let quantity = Quantity::of(&study.protocol);
-    match output::is_drawn() {
+    match output::can_draw() {
         true => Box::new(Bar { bar: ProgressBar::hidden(), tally: Mutex::new(Tally::new(quantity)) }),
         false => Box::new(Lines { name, quantity, state: Mutex::new(None) }),
     }

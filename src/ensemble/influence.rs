@@ -76,9 +76,7 @@ fn is_drawn(arm: &Arm, name: &str) -> bool {
     let has_wedges = layout.wedges.as_ref().is_some_and(|wedges| wedges.share > 0.0);
     match (name, &layout.arrangement) {
         ("dips", Arrangement::Coursed { dip, .. } | Arrangement::Cut { dip, .. }) => scatters(dip),
-        ("sizes", Arrangement::Coursed { length, height, .. } | Arrangement::Cut { length, height, .. }) => {
-            scatters(length) || scatters(height)
-        }
+        ("sizes", Arrangement::Coursed { sizes, .. } | Arrangement::Cut { sizes, .. }) => sizes.scatter(),
         ("wedges", _) => has_wedges,
         ("wythes", _) => {
             layout.wythes.count > 1 && layout.wythes.header_share > 0.0 && layout.wythes.header_share < 1.0

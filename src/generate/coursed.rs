@@ -1,14 +1,15 @@
 //! Random courses: heights, beds with one dip each, and stone lengths.
 
+use crate::generate::Sizes;
 use crate::generate::course::{Bed, Lengths, MAX_STONES, fill_at_random, slabs};
 use crate::generate::draft::{Draft, Fault, Stone};
+use crate::generate::sorted::Sorted;
 use crate::math::tan;
 use crate::random::Family;
 
 /// What a coursed wall asks for: see [`crate::generate::Arrangement::Coursed`].
 pub(crate) struct Coursed<'a> {
-    pub(crate) length: &'a Family,
-    pub(crate) height: &'a Family,
+    pub(crate) sizes: &'a Sizes,
     pub(crate) factor: f64,
     pub(crate) dip: &'a Family,
     pub(crate) least_overlap: f64,
@@ -16,16 +17,14 @@ pub(crate) struct Coursed<'a> {
 
 /// Lays random courses from the base up.
 pub(crate) fn lay(draft: &mut Draft, ask: &Coursed) -> Result<Vec<Stone>, Fault> {
-    let heights = course_heights(draft, ask)?;
+    let source = Source::of(ask.sizes);
+    let (heights, groups): (Vec<f64>, Vec<usize>) = courses(draft, ask, &source)?.into_iter().unzip();
     let beds = beds(draft, ask.dip, &heights)?;
     let slabs = slabs(&draft.layout.outline, &beds)?;
-    let lengths = Lengths {
-        family: ask.length,
-        factor: ask.factor,
-        clear: ask.least_overlap * ask.factor * ask.length.mean(),
-    };
+    let clear = ask.least_overlap * ask.factor * ask.sizes.means()[0];
     let (mut stones, mut joints) = (Vec::new(), Vec::new());
     for (index, slab) in slabs.iter().enumerate() {
+        let lengths = Lengths { family: source.lengths(groups[index]), factor: ask.factor, clear };
         let course = fill_at_random(draft, slab, index as u32, &lengths, &joints)?;
         let laid;
         (laid, joints) = course.finish(draft, heights[index]);
@@ -37,34 +36,72 @@ pub(crate) fn lay(draft: &mut Draft, ask: &Coursed) -> Result<Vec<Stone>, Fault>
     Ok(stones)
 }
 
-/// Course heights that fill the wall: drawn until their sum passes the wall's height, the last one left out when
-/// the sum is nearer without it, then all scaled by the same factor.
+/// Where courses take their heights and the lengths of their stones from.
+enum Source<'a> {
+    /// All from the same two distributions.
+    Apart { length: &'a Family, height: &'a Family },
+    /// Each from surveyed stones of like height.
+    Together(Sorted),
+}
+
+impl<'a> Source<'a> {
+    fn of(sizes: &'a Sizes) -> Source<'a> {
+        match sizes {
+            Sizes::Apart { length, height } => Source::Apart { length, height },
+            Sizes::Together { stones } => Source::Together(Sorted::of(stones)),
+        }
+    }
+
+    /// Height of a course (m) at `u` in (0, 1), and the group of its stones.
+    fn course(&self, u: f64) -> (f64, usize) {
+        match self {
+            Source::Apart { height, .. } => (height.quantile(u), 0),
+            Source::Together(sorted) => sorted.course(u),
+        }
+    }
+
+    /// Lengths (m) of the stones of a group.
+    fn lengths(&self, group: usize) -> &Family {
+        match self {
+            Source::Apart { length, .. } => length,
+            Source::Together(sorted) => sorted.lengths(group),
+        }
+    }
+}
+
+/// Heights of courses that fill the wall, each with the group of its stones: drawn until their sum passes the wall's height, the
+/// last one left out when the sum is nearer without it, then all scaled by the same factor.
 ///
 /// A height below the smallest stone size is redrawn.
-fn course_heights(draft: &mut Draft, ask: &Coursed) -> Result<Vec<f64>, Fault> {
+fn courses(draft: &mut Draft, ask: &Coursed, source: &Source) -> Result<Vec<(f64, usize)>, Fault> {
     let goal = draft.layout.outline.height;
     let least = draft.layout.limits.min_size;
-    let mut heights: Vec<f64> = Vec::new();
+    let mut courses: Vec<(f64, usize)> = Vec::new();
     let mut sum = 0.0;
     while sum < goal {
-        let mut stream = draft.stream("course height", heights.len());
-        let height = draft.draw("course height", ask.height, ask.factor, least, &mut stream)?;
-        heights.push(height);
+        let mut stream = draft.stream("course height", courses.len());
+        let mut group = 0;
+        let [height] = draft.draw_several("course height", least, || {
+            let (height, own) = source.course(stream.uniform());
+            group = own;
+            [ask.factor * height]
+        })?;
+        courses.push((height, group));
         sum += height;
-        if heights.len() > MAX_STONES {
+        if courses.len() > MAX_STONES {
             return Err(Fault::TooMany { limit: MAX_STONES });
         }
     }
-    draft.tally.first_heights.extend(&heights);
-    if let [.., last] = heights[..]
-        && heights.len() > 1
+    draft.tally.first_heights.extend(courses.iter().map(|(height, _)| height));
+    if let [.., (last, _)] = courses[..]
+        && courses.len() > 1
         && sum - goal > goal - (sum - last)
     {
-        heights.pop();
+        courses.pop();
         sum -= last;
     }
-    heights.iter_mut().for_each(|h| *h *= goal / sum);
-    Ok(heights)
+    courses.iter_mut().for_each(|(height, _)| *height *= goal / sum);
+    Ok(courses)
 }
 
 /// One bed on top of every course but the last, each with its own dip.

@@ -1,10 +1,10 @@
 //! Walls cut by random joint planes, one after another, until the pieces have their target sizes: the analogue of
 //! 3DEC's random joint sets.
 
-use crate::generate::DipAbout;
 use crate::generate::course::MAX_STONES;
 use crate::generate::draft::{CUT_TOLERANCE, CutFault, Draft, Fault, Stone};
 use crate::generate::outline::StoneFault;
+use crate::generate::{DipAbout, Sizes};
 use crate::math::{Vec3, tan};
 use crate::random::{Family, Stream};
 use crate::shape::{Plane, Polyhedron};
@@ -14,8 +14,7 @@ const BED_NORMAL: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// What a cut wall asks for: see [`crate::generate::Arrangement::Cut`].
 pub(crate) struct Cuts<'a> {
-    pub(crate) length: &'a Family,
-    pub(crate) height: &'a Family,
+    pub(crate) sizes: &'a Sizes,
     pub(crate) factor: f64,
     pub(crate) dip: &'a Family,
     pub(crate) dip_about: DipAbout,
@@ -98,8 +97,15 @@ impl Plan {
 /// targets from its lower end.
 fn plan(draft: &mut Draft, ask: &Cuts, piece: &Polyhedron, streams: &mut NodeStreams) -> Result<Plan, Fault> {
     let least = draft.layout.limits.min_size;
-    let length = draft.draw("stone length", ask.length, ask.factor, least, &mut streams.length)?;
-    let height = draft.draw("stone height", ask.height, ask.factor, least, &mut streams.height)?;
+    let [length, height] = match ask.sizes {
+        Sizes::Apart { length, height } => [
+            draft.draw("stone length", length, ask.factor, least, &mut streams.length)?,
+            draft.draw("stone height", height, ask.factor, least, &mut streams.height)?,
+        ],
+        Sizes::Together { stones } => draft.draw_several("stone length and height", least, || {
+            stones.sample(&mut streams.length).map(|size| ask.factor * size)
+        })?,
+    };
     if !streams.planned {
         streams.planned = true;
         draft.tally.first_lengths.push(length);

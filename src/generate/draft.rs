@@ -132,11 +132,21 @@ impl<'a> Draft<'a> {
         least: f64,
         stream: &mut Stream,
     ) -> Result<f64, Fault> {
+        self.draw_several(quantity, least, || [factor * family.sample(stream)]).map(|[value]| value)
+    }
+
+    /// Values that are drawn together, each finite and at least `least`; others are redrawn and counted.
+    pub(crate) fn draw_several<const N: usize>(
+        &mut self,
+        quantity: &'static str,
+        least: f64,
+        mut sample: impl FnMut() -> [f64; N],
+    ) -> Result<[f64; N], Fault> {
         let draws = self.layout.limits.max_redraws + 1;
         for _ in 0..draws {
-            let value = factor * family.sample(stream);
-            if value.is_finite() && value >= least && value > 0.0 {
-                return Ok(value);
+            let values = sample();
+            if values.iter().all(|value| value.is_finite() && *value >= least && *value > 0.0) {
+                return Ok(values);
             }
             self.tally.redraws += 1;
         }

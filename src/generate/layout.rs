@@ -1,5 +1,6 @@
 //! What a wall is asked to be: the outline, the arrangement of its joints, and the distributions of its sizes.
 
+use crate::generate::Sizes;
 use crate::random::Family;
 
 /// Everything the generator needs to know; a member's wall is a pure function of this, the seed and the member.
@@ -25,11 +26,8 @@ pub struct Layout {
 impl Layout {
     /// The same with stone lengths and heights that deviate `factor` times as far from their means.
     pub fn widened(mut self, factor: f64) -> Layout {
-        if let Arrangement::Coursed { length, height, .. } | Arrangement::Cut { length, height, .. } =
-            &mut self.arrangement
-        {
-            *length = length.clone().widened(factor);
-            *height = height.clone().widened(factor);
+        if let Arrangement::Coursed { sizes, .. } | Arrangement::Cut { sizes, .. } = &mut self.arrangement {
+            *sizes = sizes.clone().widened(factor);
         }
         self
     }
@@ -108,13 +106,15 @@ pub enum Arrangement {
     /// and scaled by one factor to fill it. Lengths are drawn until a course is full; the last stone takes what is
     /// left, and is merged into its neighbour when that is too short to be a stone. A bed is redrawn when it crosses
     /// the one below (or the top of the wall) inside the section, or comes closer to it than `min_size` at a face.
+    ///
+    /// Where lengths and heights come together from a survey, its stones are sorted by height into groups of like height, as many
+    /// as the square root of their number. The height of a course is that of one stone, which is as likely as it is long; the
+    /// lengths of the course are drawn from that stone's group. So each stone comes as often as any other, and long stones lie in
+    /// the courses that stones of their height make; a stone's own height gives way to that of its course.
     Coursed {
-        /// Stone length (m), drawn per stone.
-        #[serde(rename = "length_m")]
-        length: Family,
-        /// Course height (m), drawn per course.
-        #[serde(rename = "height_m")]
-        height: Family,
+        /// Stone lengths (m), drawn per stone, and course heights (m), drawn per course.
+        #[serde(flatten)]
+        sizes: Sizes,
         /// Factor on all lengths and heights of one wall, drawn once per wall (mean size varies between walls) and kept
         /// over its attempts.
         wall_size_factor: Family,
@@ -132,12 +132,9 @@ pub enum Arrangement {
     /// `min_size`, or when a part is no stone; after half the redraws it is tried across the other size, if that may
     /// be cut as well.
     Cut {
-        /// Target stone length (m), drawn per cut.
-        #[serde(rename = "length_m")]
-        length: Family,
-        /// Target stone height (m), drawn per cut.
-        #[serde(rename = "height_m")]
-        height: Family,
+        /// Target stone lengths and heights (m), drawn per cut.
+        #[serde(flatten)]
+        sizes: Sizes,
         /// Factor on all lengths and heights of one wall, drawn once per wall.
         wall_size_factor: Family,
         /// Dip of a joint plane (rad), drawn once per cut and axis.

@@ -10,10 +10,13 @@ pub mod elements;
 mod layout;
 mod outline;
 mod regular;
+mod sizes;
+mod sorted;
 #[cfg(test)]
 mod tests;
 mod wall;
 mod wedge;
 
 pub use layout::*;
+pub use sizes::Sizes;
 pub use wall::{Generated, InvalidGeometry, Realised, generate};

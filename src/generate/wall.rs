@@ -100,13 +100,13 @@ fn lay(draft: &mut Draft) -> Result<Vec<Stone>, Fault> {
         Arrangement::Discontinuous { length, height, overlap } => {
             regular::lay(draft, *length, *height, *overlap)
         }
-        Arrangement::Coursed { length, height, wall_size_factor, dip, least_overlap } => {
+        Arrangement::Coursed { sizes, wall_size_factor, dip, least_overlap } => {
             let factor = size_factor(draft, wall_size_factor)?;
-            coursed::lay(draft, &Coursed { length, height, factor, dip, least_overlap: *least_overlap })
+            coursed::lay(draft, &Coursed { sizes, factor, dip, least_overlap: *least_overlap })
         }
-        Arrangement::Cut { length, height, wall_size_factor, dip, dip_about } => {
+        Arrangement::Cut { sizes, wall_size_factor, dip, dip_about } => {
             let factor = size_factor(draft, wall_size_factor)?;
-            cut::lay(draft, &Cuts { length, height, factor, dip, dip_about: *dip_about })
+            cut::lay(draft, &Cuts { sizes, factor, dip, dip_about: *dip_about })
         }
     }?;
     Ok(wedge::insert(draft, stones))

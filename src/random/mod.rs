@@ -9,6 +9,7 @@ mod family;
 mod fault;
 mod flat;
 mod gaussian;
+mod pairs;
 mod spread;
 pub mod standard_normal;
 mod stream;
@@ -17,6 +18,7 @@ mod truncated;
 pub use design::{Design, PARTNER, Place, RANDOMISATIONS};
 pub use family::Family;
 pub use fault::BadFamily;
+pub use pairs::Pairs;
 pub use spread::{Scale, Spread};
 pub use stream::{Move, Quantities, Stream, Streams, Taken};
 

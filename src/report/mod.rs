@@ -64,7 +64,10 @@ pub use influence::{InfluenceSummary, ShareEntry, influence_page, influence_text
 pub use joint_law::{LawSummary, law_text, remove_law, write_law};
 pub use measured::{CalibrationEntry, ComparisonEntry, MeasuredSummary};
 pub(crate) use number::significant;
-pub use page::{DrawnWall, PageOrigin, RunPage, WallPage, WallTable, chosen_walls, run_page, wall_page};
+pub use page::{
+    Citation, DrawnWall, PageOrigin, RunPage, WallPage, WallTable, chosen_walls, citation_of_run, run_page,
+    wall_page,
+};
 pub use picture::{Hinge, Picture, Seam, Stone};
 pub use published::{Published, Verdict};
 pub use readings::{Extent, ReadingEntry, ReadingsSummary, readings_text, write_readings};

@@ -1,6 +1,6 @@
 //! From the raw tables `[wall]` and `[[arm]]` to layouts, with the checks that need more than one key.
 
-use crate::generate::{Arrangement, BatteredFace, Layout, Limits, Outline, Wedges, Wythes};
+use crate::generate::{Arrangement, BatteredFace, Layout, Limits, Outline, Sizes, Wedges, Wythes};
 use crate::law::Sampling;
 use crate::math::radians;
 use crate::protocol::Protocol;
@@ -14,6 +14,7 @@ use crate::study::quantity::quantity;
 use crate::study::reader::Reader;
 use crate::study::schema::Short;
 use crate::study::setting::{Joints, Setting};
+use crate::study::stones::stones;
 use crate::study::uncertain::take_up;
 
 /// What `[wall]` says, as far as it is not faulty.
@@ -211,28 +212,49 @@ fn regular(t: &mut Reader<'_>) -> (Option<[f64; 2]>, Stone) {
 }
 
 fn irregular(t: &mut Reader<'_>, chosen: &str, catalogue: &mut Catalogue) -> (Option<Arrangement>, Stone) {
-    let length = quantity(t, "length_m", catalogue);
-    let height = quantity(t, "height_m", catalogue);
+    let (sizes, stone) = sizes(t, catalogue);
     let wall_size_factor = quantity(t, "wall_size_factor", catalogue);
     let dip = quantity(t, "dip_deg", catalogue).map(|dip| dip.scaled(radians(1.0)));
+    let coursed = chosen == "coursed";
+    let least_overlap = if coursed { t.real("least_overlap") } else { None };
+    let dip_about = if coursed { None } else { t.choice("dip_about") };
+    let build = || {
+        let (sizes, wall_size_factor, dip) = (sizes?, wall_size_factor?, dip?);
+        Some(if coursed {
+            Arrangement::Coursed { sizes, wall_size_factor, dip, least_overlap: least_overlap? }
+        } else {
+            Arrangement::Cut { sizes, wall_size_factor, dip, dip_about: dip_about? }
+        })
+    };
+    (build(), stone)
+}
+
+/// Lengths and heights of stones: two quantities, or the stones of a survey in their place.
+fn sizes(t: &mut Reader<'_>, catalogue: &mut Catalogue) -> (Option<Sizes>, Stone) {
+    if t.has("stones") {
+        let apart: Vec<&str> = ["length_m", "height_m"].into_iter().filter(|key| t.has(key)).collect();
+        for key in &apart {
+            t.fault(
+                key,
+                "only where the arm has no stones, which have lengths and heights",
+                "remove one of the two",
+            );
+        }
+        let stones = stones(t, catalogue).filter(|_| apart.is_empty());
+        let means = stones.as_ref().map(|own| own.marginals().map(|one| one.mean()));
+        let [length, height] = [0, 1].map(|which| means.map(|own| own[which]));
+        let stone = Stone { length, height, length_key: "stones", height_key: "stones" };
+        return (stones.map(|stones| Sizes::Together { stones }), stone);
+    }
+    let length = quantity(t, "length_m", catalogue);
+    let height = quantity(t, "height_m", catalogue);
     let stone = Stone {
         length: length.as_ref().map(Family::mean),
         height: height.as_ref().map(Family::mean),
         length_key: "length_m",
         height_key: "height_m",
     };
-    let coursed = chosen == "coursed";
-    let least_overlap = if coursed { t.real("least_overlap") } else { None };
-    let dip_about = if coursed { None } else { t.choice("dip_about") };
-    let build = || {
-        let (length, height, wall_size_factor, dip) = (length?, height?, wall_size_factor?, dip?);
-        Some(if coursed {
-            Arrangement::Coursed { length, height, wall_size_factor, dip, least_overlap: least_overlap? }
-        } else {
-            Arrangement::Cut { length, height, wall_size_factor, dip, dip_about: dip_about? }
-        })
-    };
-    (build(), stone)
+    (length.zip(height).map(|(length, height)| Sizes::Apart { length, height }), stone)
 }
 
 fn check_headers(t: &mut Reader<'_>, bond: BondKeys) {
@@ -347,11 +369,10 @@ fn check_mechanisms(
         }
     }
     if let Some(factor) = mechanisms.size_scatter
-        && let Arrangement::Coursed { length, height, .. } | Arrangement::Cut { length, height, .. } =
+        && let Arrangement::Coursed { sizes, .. } | Arrangement::Cut { sizes, .. } =
             &layout.clone().widened(factor).arrangement
     {
-        for (size, what) in [(length, "lengths"), (height, "heights")] {
-            let least = size.support().0;
+        for (least, what) in sizes.least().into_iter().zip(["lengths", "heights"]) {
             if least < 0.0 {
                 let found = format!("widens {what} to {}", Short(least));
                 refuse("size_scatter", found, "sizes above 0", "reduce the factor");

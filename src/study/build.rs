@@ -7,6 +7,7 @@ use crate::protocol::{
 use crate::random::{Design, RANDOMISATIONS};
 use crate::solve::{Solver, explicit, implicit, limit};
 use crate::study::arm;
+use crate::study::averaged;
 use crate::study::catalogue::Catalogue;
 use crate::study::checked::Arm;
 use crate::study::fault::{Fault, Found, Place};
@@ -56,6 +57,7 @@ pub fn parts(root: &Node, notes: &mut Notes, catalogue: &mut Catalogue) -> Optio
     check_shear(&mut top, &arms, &protocol)?;
     check_mechanisms(&mut top, &arms, &protocol, agreement)?;
     check_design(&mut top, &arms, design)?;
+    averaged::warn(root, &arms, top.notes);
     if matches!(solver, Solver::Limit(_)) {
         for unfit in unfit_for_limit(&arms, &protocol, agreement) {
             let place = top.place_of("solver").clone();

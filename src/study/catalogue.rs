@@ -12,6 +12,7 @@ use crate::study::quantity::family;
 use crate::study::raw::{self, Entry, Node, Table, Value};
 use crate::study::reader::{Notes, Reader, is_name};
 use crate::study::schema::suggestion;
+use crate::study::survey::{Asked, Surveys};
 
 /// A file below `distributions`.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,6 +61,8 @@ pub struct Used {
 pub struct Catalogue {
     distributions: Distributions,
     files: BTreeMap<String, Option<Held>>,
+    /// The tables beside the study.
+    surveys: Surveys,
     /// Faults of the files read.
     pub faults: Vec<Fault>,
     /// The files read, in that order.
@@ -82,9 +85,63 @@ impl Catalogue {
         Catalogue {
             distributions,
             files: BTreeMap::new(),
+            surveys: Surveys::beside(None),
             faults: Vec::new(),
             inputs: Vec::new(),
             used: Vec::new(),
+        }
+    }
+
+    /// The catalogue of a study, with the tables in its folder.
+    pub fn of_study(folder: &Path) -> Catalogue {
+        let surveys = Surveys::beside(Some(folder.to_path_buf()));
+        Catalogue { surveys, ..Catalogue::of(Distributions::of_study(folder)) }
+    }
+
+    /// Hands over the faults of the files read, and their names.
+    pub fn hand_over(&mut self, faults: &mut Vec<Fault>, inputs: &mut Vec<InputFile>) {
+        faults.append(&mut self.faults);
+        faults.append(&mut self.surveys.faults);
+        inputs.append(&mut self.inputs);
+        inputs.append(&mut self.surveys.inputs);
+    }
+
+    /// The values of a column of a table beside the study; `None` where they are faulty themselves.
+    ///
+    /// # Errors
+    /// A fault at the reference when it names none.
+    pub fn column(&mut self, reference: &str, asked: Asked) -> Result<Option<Vec<f64>>, Box<Fault>> {
+        let values = self.surveys.column(reference, asked)?;
+        let key = asked.path.strip_suffix(".values").unwrap_or(asked.path);
+        self.note_survey(reference, key, values.as_ref().map(Vec::len));
+        Ok(values)
+    }
+
+    /// Lengths and heights (m) of the stones in a table beside the study; `None` where they are faulty themselves.
+    ///
+    /// # Errors
+    /// A fault at the reference when it names none.
+    pub fn stones(&mut self, file: &str, asked: Asked) -> Result<Option<Vec<[f64; 2]>>, Box<Fault>> {
+        let stones = self.surveys.pairs(file, ["length_m", "height_m"], asked)?;
+        self.note_survey(file, asked.path, stones.as_ref().map(Vec::len));
+        Ok(stones)
+    }
+
+    fn note_survey(&mut self, reference: &str, path: &str, rows: Option<usize>) {
+        let Some(rows) = rows else { return };
+        let file = reference.split(':').next().unwrap_or(reference);
+        self.note(Used {
+            key: path.to_owned(),
+            reference: reference.to_owned(),
+            status: "measured".to_owned(),
+            source: format!("{rows} rows of {file}"),
+            from: self.surveys.place(file),
+        });
+    }
+
+    fn note(&mut self, used: Used) {
+        if !self.used.contains(&used) {
+            self.used.push(used);
         }
     }
 
@@ -106,6 +163,12 @@ impl Catalogue {
         let Some((file, entry)) = reference.split_once(':') else {
             return Err(fault(form.to_owned(), "write a number, a table or a reference".to_owned()));
         };
+        if file.contains('.') {
+            let fix = format!(
+                "for a column of a table write {{ family = \"empirical\", values = \"{reference}\" }}"
+            );
+            return Err(fault(form.to_owned(), fix));
+        }
         if !file.split('/').all(is_name) || !is_name(entry) {
             return Err(fault(form.to_owned(), "use lower-case letters, digits, - and _".to_owned()));
         }
@@ -136,9 +199,7 @@ impl Catalogue {
             source: found.source,
             from: origin.place(file),
         };
-        if !self.used.contains(&used) {
-            self.used.push(used);
-        }
+        self.note(used);
         Ok(Some(found.family))
     }
 
@@ -206,7 +267,7 @@ fn read_file(root: &Node, notes: &mut Notes) -> Option<(DistributionFile, Vec<St
 fn read_entry(name: &str, node: &Node, notes: &mut Notes) -> Option<Distribution> {
     let before = notes.faults.len();
     let mut reader = Reader::open(node, name, &keys::ENTRY, notes)?;
-    let family = family(&mut reader);
+    let family = family(&mut reader, &mut |_, asked| Err(asked.without_a_table()));
     let (status, source) = (reader.choice_name("status"), reader.text("source"));
     let (n, note) = (reader.whole("n"), reader.text("note"));
     let entry = Distribution { family: family?, status: status?.to_owned(), source: source?, n, note };

@@ -10,7 +10,6 @@ use crate::protocol::Shove;
 use crate::solve::{explicit, grains};
 use crate::study::catalogue::{Catalogue, Used};
 use crate::study::checked::InputFile;
-use crate::study::distributions::Distributions;
 use crate::study::fault::{Fault, Faults};
 use crate::study::load::{existing, hash_of, parsed, record_revision};
 use crate::study::quantity::quantity;
@@ -114,7 +113,7 @@ impl ElementStudy {
             true => parsed(&folder, "published.toml", 1, &mut inputs, &mut faults),
             false => None,
         };
-        let mut catalogue = Catalogue::of(Distributions::of_study(&folder));
+        let mut catalogue = Catalogue::of_study(&folder);
         let study = root.and_then(|root| study(&root, &mut notes, &mut catalogue));
         // What others report decides no result.
         let mut effective = std::mem::take(&mut notes.effective);
@@ -124,8 +123,7 @@ impl ElementStudy {
         let published =
             reported.map(|root| published(&root, names.as_deref(), &mut notes)).unwrap_or_default();
         faults.append(&mut notes.faults);
-        faults.append(&mut catalogue.faults);
-        inputs.append(&mut catalogue.inputs);
+        catalogue.hand_over(&mut faults, &mut inputs);
         match study {
             Some(study) if faults.is_empty() => {
                 let name = folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();

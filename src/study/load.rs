@@ -8,7 +8,6 @@ use crate::solve::{REVISION, Solver};
 use crate::study::build::{self, Parts};
 use crate::study::catalogue::{Catalogue, Used};
 use crate::study::checked::{Arm, InputFile, Study, Until};
-use crate::study::distributions::Distributions;
 use crate::study::fault::{Fault, Faults, Source};
 use crate::study::files::TextFile;
 use crate::study::raw::{self, Node};
@@ -17,7 +16,7 @@ use crate::study::readings::reading_name;
 use crate::study::schema::suggestion;
 use crate::study::stated::Stated;
 use crate::study::variant::{self, Variant};
-use crate::study::{files, keys, measured, published};
+use crate::study::{csv, files, keys, measured, published};
 
 /// A study and what is to be said about it.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,8 +61,7 @@ impl Loaded {
     /// All faults of the file.
     pub fn with_measured(mut self, path: &Path) -> Result<Loaded, Faults> {
         let name = path.display().to_string();
-        let file =
-            files::read(path, &name, 0, measured::FORMAT).map_err(|fault| Faults::sorted(vec![*fault]))?;
+        let file = files::read(path, &name, 0, csv::FORMAT).map_err(|fault| Faults::sorted(vec![*fault]))?;
         // As beside the study: a variant that evaluates fewer arms reads the same files.
         let arms = self.stated.arms();
         let read = measured::read(&file.source, arms.as_deref()).map_err(Faults::sorted)?;
@@ -80,7 +78,7 @@ impl Loaded {
 
 impl Study {
     /// Loads and checks the study in `folder` (study.toml, published.toml and measured.csv if there are any, and the files of its
-    /// [`Distributions`] that it refers to), as the variant of that name reads it; as several do together, if their names are
+    /// [`Distributions`](crate::study::Distributions) and the surveys that it refers to), as the variant of that name reads it; as several do together, if their names are
     /// joined by a plus.
     ///
     /// All variants are checked, whichever is asked for.
@@ -98,7 +96,7 @@ impl Study {
             None
         };
         let published_text = published_root.as_ref().map(|root| root.place.source.clone());
-        let mut catalogue = Catalogue::of(Distributions::of_study(&folder));
+        let mut catalogue = Catalogue::of_study(&folder);
         let mut notes = Notes::default();
         let variants = root.as_ref().map_or_else(Vec::new, |root| variant::read(root, &mut notes));
         let chosen = choose(variant, &variants, root.as_ref(), &mut notes.faults);
@@ -114,8 +112,7 @@ impl Study {
             read.map_err(|mut found| faults.append(&mut found)).ok()
         });
         faults.append(&mut notes.faults);
-        faults.append(&mut catalogue.faults);
-        inputs.append(&mut catalogue.inputs);
+        catalogue.hand_over(&mut faults, &mut inputs);
         match reading {
             Some(Reading { parts: Some(parts), root, notes, used }) if faults.is_empty() => {
                 let name = folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
@@ -299,7 +296,7 @@ fn measurements(folder: &Path, inputs: &mut Vec<InputFile>, faults: &mut Vec<Fau
     if !path.exists() {
         return None;
     }
-    let file = files::read(&path, measured::FILE, 2, measured::FORMAT);
+    let file = files::read(&path, measured::FILE, 2, csv::FORMAT);
     let file = file.map_err(|fault| faults.push(*fault)).ok()?;
     inputs.push(InputFile { path: PathBuf::from(measured::FILE), sha256: file.sha256.clone() });
     Some(file)

@@ -2,11 +2,13 @@
 
 mod altered;
 mod arm;
+mod averaged;
 mod build;
 mod built_in;
 mod catalogue;
 mod checked;
 mod closing;
+mod csv;
 mod distributions;
 mod elements;
 mod extended;
@@ -14,6 +16,7 @@ mod fault;
 mod files;
 mod inventory;
 mod joints;
+mod json_schema;
 mod keys;
 mod load;
 pub mod measured;
@@ -29,7 +32,9 @@ mod reference;
 mod schema;
 mod setting;
 mod stated;
+mod stones;
 mod strength;
+mod survey;
 mod uncertain;
 mod variant;
 
@@ -48,6 +53,7 @@ pub use inventory::{
     described, in_plain_words,
 };
 pub use joints::DrawnJoints;
+pub use json_schema::Schema;
 pub use load::{Loaded, VariantName};
 pub use measured::{
     FILE as MEASURED, MeasuredKind, MeasuredQuantity, Measurement, Template, Written, template,

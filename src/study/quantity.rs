@@ -4,10 +4,15 @@
 use crate::random::Family;
 use crate::study::catalogue::Catalogue;
 use crate::study::fault::{Fault, Found};
+use crate::study::files::sha256;
 use crate::study::keys;
 use crate::study::raw::{Node, Value};
 use crate::study::reader::{Reader, join};
 use crate::study::schema::{Interval, Key, Kind, Short};
+use crate::study::survey::Asked;
+
+/// A list of more values than this is recorded by its hash.
+const LONG: usize = 20;
 
 /// Reads a quantity in the unit that its key states.
 pub fn quantity(reader: &mut Reader<'_>, name: &str, catalogue: &mut Catalogue) -> Option<Family> {
@@ -39,7 +44,9 @@ pub fn quantity(reader: &mut Reader<'_>, name: &str, catalogue: &mut Catalogue) 
         }
         Value::Table(_) => {
             let mut inline = Reader::open(&node, &path, &keys::FAMILY, reader.notes)?;
-            let family = family(&mut inline)?;
+            let mut column =
+                |reference: &str, asked: Asked| catalogue.column(reference, Asked { unit, within, ..asked });
+            let family = family(&mut inline, &mut column)?;
             check_range(reader, &node, key, within, &family)?;
             family
         }
@@ -52,13 +59,41 @@ pub fn quantity(reader: &mut Reader<'_>, name: &str, catalogue: &mut Catalogue) 
             return None;
         }
     };
-    let written = serde_json::to_string(&family).unwrap_or_default();
-    reader.record(name, written);
+    reader.record(name, recorded(&family));
     Some(family)
 }
 
-/// Reads family and parameters from a table that has them, and checks them.
-pub fn family(reader: &mut Reader<'_>) -> Option<Family> {
+/// How a distribution stands among the values that decide a result: a long list by its hash, which changes with every value in it.
+fn recorded(family: &Family) -> String {
+    match family {
+        Family::Empirical { values } if values.len() > LONG => {
+            of_survey("empirical", values, &[("mean", family.mean())])
+        }
+        _ => serde_json::to_string(family).unwrap_or_default(),
+    }
+}
+
+/// How the rows of a survey stand among the values that decide a result.
+pub fn of_survey<R: serde::Serialize>(family: &str, rows: &[R], means: &[(&str, f64)]) -> String {
+    let means: String = means.iter().map(|(name, mean)| format!(",\"{name}\":{mean:?}")).collect();
+    let hash = sha256(&serde_json::to_vec(rows).unwrap_or_default());
+    format!("{{\"family\":\"{family}\",\"rows\":{}{means},\"sha256\":\"{hash}\"}}", rows.len())
+}
+
+/// Where a column of a table comes from: by its reference, and what is asked of it.
+pub type Columns<'a> = dyn FnMut(&str, Asked) -> Result<Option<Vec<f64>>, Box<Fault>> + 'a;
+
+/// The values of a list, or of a column of a table.
+fn values(reader: &mut Reader<'_>, columns: &mut Columns<'_>) -> Option<Vec<f64>> {
+    let (node, _) = reader.given("values")?;
+    let Value::Text(reference) = &node.value else { return reader.list("values") };
+    let path = join(&reader.path, "values");
+    let asked = Asked { node: &node, path: &path, unit: "1", within: Interval::any() };
+    columns(reference, asked).map_err(|fault| reader.notes.faults.push(*fault)).ok().flatten()
+}
+
+/// Reads family and parameters from a table that has them, and checks them. `columns` gives the values that stand in a table.
+pub fn family(reader: &mut Reader<'_>, columns: &mut Columns<'_>) -> Option<Family> {
     let family =
         match reader.chosen()? {
             "constant" => reader.reals(["value"]).map(|[value]| Family::Constant { value }),
@@ -74,7 +109,7 @@ pub fn family(reader: &mut Reader<'_>) -> Option<Family> {
             "triangular" => reader
                 .reals(["low", "mode", "high"])
                 .map(|[low, mode, high]| Family::Triangular { low, mode, high }),
-            "empirical" => reader.list("values").map(|values| Family::Empirical { values }),
+            "empirical" => values(reader, columns).map(|values| Family::Empirical { values }),
             other => {
                 crate::check!(false, "the family `{other}` of the key table is not read");
                 None

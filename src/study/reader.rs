@@ -119,7 +119,8 @@ impl<'n> Reader<'n> {
         match key.presence {
             Presence::Default(text) => Some((raw::parse_default(text, &self.place), key)),
             Presence::Optional => None,
-            Presence::Required => {
+            Presence::Unless(other) if self.table.contains_key(other) => None,
+            Presence::Required | Presence::Unless(_) => {
                 let undecided =
                     self.section.chooser.is_some() && self.chosen.is_none() && !key.only.is_empty();
                 if !undecided {
@@ -358,8 +359,15 @@ impl<'n> Reader<'n> {
     /// A list of numbers.
     pub fn list(&mut self, name: &str) -> Option<Vec<f64>> {
         let (node, key) = self.given(name)?;
-        let (Kind::Reals { within, at_most, ascending, .. }, Value::List(list)) = (key.kind, &node.value)
-        else {
+        let (within, at_most, ascending) = match key.kind {
+            Kind::Reals { within, at_most, ascending, .. } => (within, at_most, ascending),
+            Kind::Values { at_most } => (Interval::any(), at_most, false),
+            _ => {
+                crate::check!(false, "`{name}` is no list of numbers in the key table");
+                return None;
+            }
+        };
+        let Value::List(list) = &node.value else {
             self.refuse_kind(&node, key);
             return None;
         };

@@ -79,6 +79,7 @@ fn default(key: &Key) -> String {
     match key.presence {
         Presence::Required => "required".to_owned(),
         Presence::Optional => "none".to_owned(),
+        Presence::Unless(other) => format!("required, unless {other} is there"),
         Presence::Default(text) => format!("`{text}`"),
     }
 }

@@ -40,6 +40,8 @@ pub enum Presence {
     Required,
     /// It may be left out, and then means nothing or what another table says.
     Optional,
+    /// It must, unless this other key is there, which takes its place.
+    Unless(&'static str),
     /// It may be left out, and then has this value, written in TOML.
     Default(&'static str),
 }
@@ -104,6 +106,18 @@ pub enum Kind {
         at_most: usize,
         /// Whether each must be above the one before.
         ascending: bool,
+    },
+    /// A list of numbers, or a column of a table beside the study.
+    Values {
+        /// Largest number of entries.
+        at_most: usize,
+    },
+    /// Pairs of length and height (m): a table beside the study, or a list.
+    Stones {
+        /// Allowed values.
+        within: Interval,
+        /// Largest number of pairs.
+        at_most: usize,
     },
     /// Two whole numbers.
     Pair {
@@ -225,6 +239,13 @@ impl Kind {
                 let order = if *ascending { "ascending " } else { "" };
                 format!("a list of 1 to {at_most} {order}numbers, each {within}{}", in_unit(unit))
             }
+            Kind::Values { at_most } => format!(
+                "a list of 1 to {at_most} numbers; or a column of a table beside the study, as \"survey.csv:length_m\""
+            ),
+            Kind::Stones { within, at_most } => format!(
+                "a table beside the study with columns length_m and height_m, as \"survey.csv\"; or a list of 1 to {at_most} \
+                 pairs [length, height], each number {within} (m)"
+            ),
             Kind::Pair { low, high } => format!("a list of two whole numbers within {low} to {high}"),
             Kind::NamePair => "a list of two different names".to_owned(),
             Kind::Names => "a list of names, each once".to_owned(),

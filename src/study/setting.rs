@@ -18,7 +18,7 @@ use crate::study::schema::{Kind, Section};
 use crate::study::uncertain::{Uncertain, uncertain};
 
 /// The tables of a study that an arm may lay its own keys over.
-const TABLES: [&str; 6] = ["wall", "block", "joint", "restraint", "mechanism", "uncertain"];
+pub const LAID_OVER: [&str; 6] = ["wall", "block", "joint", "restraint", "mechanism", "uncertain"];
 
 /// The checked tables, as far as they are not faulty.
 #[derive(Clone, Debug, Default)]
@@ -58,7 +58,7 @@ impl Setting {
             uncertain: Some(Vec::new()),
             ..Setting::default()
         };
-        for name in TABLES {
+        for name in LAID_OVER {
             if let Some((node, _)) = top.given(name) {
                 setting.raw.insert(name, node);
             }
@@ -72,7 +72,7 @@ impl Setting {
     /// The same with what an arm says otherwise. A fault that the study's own table has is not said again.
     pub fn of_arm(&self, arm: &mut Reader<'_>, catalogue: &mut Catalogue) -> Setting {
         let mut setting = self.clone();
-        for name in TABLES {
+        for name in LAID_OVER {
             if !arm.has(name) {
                 continue;
             }

@@ -14,6 +14,7 @@ use crate::study::files::TextFile;
 use crate::study::raw::{self, Entry, Node, Value};
 use crate::study::reader::{Notes, join, table_name};
 use crate::study::schema::{Kind, Section};
+use crate::study::survey::Asked;
 use crate::study::{keys, load, variant};
 
 /// Paths of keys with the values that they are set to, as a variant sets them.
@@ -72,7 +73,7 @@ impl Stated {
 
     /// Whether the study's files state the key of that path; what they do not state has its default.
     pub fn states(&self, path: &str) -> bool {
-        states(&self.root, path)
+        node_at(&self.root, path).is_some()
     }
 
     /// Names of all arms, evaluated or not.
@@ -120,18 +121,19 @@ impl Stated {
     }
 }
 
-/// Whether a key below a node is stated. A key of `[uncertain]` has dots of its own.
-fn states(node: &Node, path: &str) -> bool {
-    let below = |name: &str, node: &Node| {
-        path.strip_prefix(name).is_some_and(|rest| match rest.strip_prefix('.') {
-            Some(rest) => states(node, rest),
-            None => rest.is_empty(),
-        })
+/// What a key below a node states; `None` where it is not there. A key of `[uncertain]` has dots of its own.
+pub(super) fn node_at<'n>(node: &'n Node, path: &str) -> Option<&'n Node> {
+    let below = |name: &str, node: &'n Node| {
+        let rest = path.strip_prefix(name)?;
+        match rest.strip_prefix('.') {
+            Some(rest) => node_at(node, rest),
+            None => rest.is_empty().then_some(node),
+        }
     };
     match &node.value {
-        Value::Table(table) => table.iter().any(|(name, entry)| below(name, &entry.node)),
-        Value::List(list) => list.iter().any(|node| table_name(node).is_some_and(|name| below(name, node))),
-        _ => false,
+        Value::Table(table) => table.iter().find_map(|(name, entry)| below(name, &entry.node)),
+        Value::List(list) => list.iter().find_map(|node| below(table_name(node)?, node)),
+        _ => None,
     }
 }
 
@@ -165,6 +167,21 @@ fn write_out(node: &mut Node, section: &'static Section, path: &str, catalogue: 
                 let reference = reference.clone();
                 if let Ok(Some(family)) = catalogue.family(&reference, unit, node, &path) {
                     *node = raw::parse_default(&family_value(&family).to_string(), &node.place);
+                }
+            }
+            (Kind::Quantity { unit, within } | Kind::Distribution { unit, within }, Value::Table(family)) => {
+                let Some(Entry { node, .. }) = family.get_mut("values") else { continue };
+                let Value::Text(reference) = &node.value else { continue };
+                let asked = Asked { node, path: &path, unit, within };
+                if let Ok(Some(values)) = catalogue.column(reference, asked) {
+                    *node = raw::parse_default(&format!("{values:?}"), &node.place);
+                }
+            }
+            (Kind::Stones { within, .. }, Value::Text(file)) => {
+                let file = file.clone();
+                let asked = Asked { node, path: &path, unit: "m", within };
+                if let Ok(Some(stones)) = catalogue.stones(&file, asked) {
+                    *node = raw::parse_default(&format!("{stones:?}"), &node.place);
                 }
             }
             _ => {}

@@ -258,8 +258,8 @@ impl Mechanisms {
 /// Whether stones whose sizes deviate so many times as much still have sizes above 0.
 fn stays_above_0(layout: &Layout, factor: f64) -> bool {
     match layout.clone().widened(factor).arrangement {
-        Arrangement::Coursed { length, height, .. } | Arrangement::Cut { length, height, .. } => {
-            length.support().0 >= 0.0 && height.support().0 >= 0.0
+        Arrangement::Coursed { sizes, .. } | Arrangement::Cut { sizes, .. } => {
+            sizes.least().iter().all(|least| *least >= 0.0)
         }
         _ => true,
     }

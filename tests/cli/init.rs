@@ -34,7 +34,7 @@ fn a_new_study_runs_as_it_is() {
     let folder = Folder::with_study(STUDY);
     let told = json(&ends_with(&folder, 0, &["init", "walls/first", "--json"]));
     assert_eq!(told["study"], "first");
-    assert_eq!(told["files"], serde_json::json!(["study.toml", "README.md"]));
+    assert_eq!(told["files"], serde_json::json!(["study.toml", "study.schema.json", "README.md"]));
     let checked = ends_with(&folder, 0, &["check", "walls/first"]);
     assert_eq!(stderr(&checked), "", "nothing about it is odd");
     let ran = ends_with(&folder, 0, &["run", "walls/first", "--members", "2", "--json"]);
@@ -89,8 +89,14 @@ fn every_built_in_study_is_copied_as_it_is() {
         let original = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies").join(study.name);
         assert_eq!(hash(&copy), hash(&original), "{}", study.name);
         for (name, text) in &study.files {
-            assert_eq!(&fs::read_to_string(copy.join(name)).unwrap(), text, "{}/{name}", study.name);
+            // But for the first line, which tells an editor where the schema lies.
+            let here = text.replace("#:schema ../../schemas/", "#:schema ./");
+            assert_eq!(fs::read_to_string(copy.join(name)).unwrap(), here, "{}/{name}", study.name);
         }
+        let first = fs::read_to_string(copy.join("study.toml")).unwrap();
+        let schema =
+            first.lines().next().and_then(|line| line.strip_prefix("#:schema ./")).expect("it tells");
+        assert!(copy.join(schema).is_file(), "{}: {schema}", study.name);
         // But for those that a study brings itself.
         let own = study.files.iter().any(|(name, _)| name.starts_with("distributions/"));
         assert_eq!(copy.join("distributions").exists(), own, "they are built in");
@@ -208,7 +214,7 @@ fn a_copy_brings_the_distributions_that_it_would_not_find() {
     fs::write(folder.path("distributions/block/other.toml"), sizes(0.15)).unwrap();
     // Below the same folder nothing needs to be brought.
     let near = json(&ends_with(&folder, 0, &["init", "near", "--from", "studies/tiny", "--json"]));
-    assert_eq!(near["files"], serde_json::json!(["study.toml", "README.md"]));
+    assert_eq!(near["files"], serde_json::json!(["study.toml", "study.schema.json", "README.md"]));
     // In another one it is: to a place with a file of that name that says something else, and to a place without.
     let elsewhere = Folder::with_study(STUDY);
     let original = folder.path("studies/tiny");
@@ -222,7 +228,12 @@ fn a_copy_brings_the_distributions_that_it_would_not_find() {
         let told = json(&ends_with(&elsewhere, 0, &["init", place, "--from", original_shown, "--json"]));
         assert_eq!(
             told["files"],
-            serde_json::json!(["study.toml", "distributions/block/size.toml", "README.md"])
+            serde_json::json!([
+                "study.toml",
+                "study.schema.json",
+                "distributions/block/size.toml",
+                "README.md"
+            ])
         );
         assert_eq!(hash(&there), hash(&original));
     }
@@ -232,6 +243,36 @@ fn a_copy_brings_the_distributions_that_it_would_not_find() {
     assert!(told["files"].as_array().unwrap().contains(&"distributions/block/size.toml".into()), "{told}");
     let original = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/joint-arrangement");
     assert_eq!(hash(&elsewhere.path("other/ja")), hash(&original));
+}
+
+/// A table that a study takes distributions from is a part of it, wherever in its folder it lies.
+#[test]
+fn a_copy_brings_the_surveys_of_a_study() {
+    let arm = "length_m = { family = \"empirical\", values = \"tables/stones.csv:length_m\" }";
+    let length = STUDY.lines().find(|line| line.starts_with("length_m = {")).expect("a random arm");
+    let folder = Folder::with_study(&STUDY.replacen(length, arm, 1));
+    fs::create_dir_all(folder.path("studies/tiny/tables")).unwrap();
+    fs::write(folder.path("studies/tiny/tables/stones.csv"), "length_m\n0.18\n0.22\n0.2\n").unwrap();
+    let told = json(&ends_with(&folder, 0, &["init", "copy", "--from", "studies/tiny", "--json"]));
+    let files = ["study.toml", "study.schema.json", "tables/stones.csv", "README.md"];
+    assert_eq!(told["files"], serde_json::json!(files));
+    assert_eq!(hash(&folder.path("copy")), hash(&folder.path("studies/tiny")));
+}
+
+/// A schema on the net is left as it is told.
+#[test]
+fn a_copy_tells_editors_of_the_schema_beside_it() {
+    for (first, expected) in [
+        ("#:schema https://example.org/own.json\n", "#:schema https://example.org/own.json"),
+        ("#:schema ../../schemas/study.schema.json\n", "#:schema ./study.schema.json"),
+        ("", "#:schema ./study.schema.json"),
+    ] {
+        let folder = Folder::with_study(&format!("{first}{STUDY}"));
+        ends_with(&folder, 0, &["init", "copy", "--from", "studies/tiny"]);
+        let text = fs::read_to_string(folder.path("copy/study.toml")).unwrap();
+        assert_eq!(text.lines().next(), Some(expected));
+        assert_eq!(text.split_once("\n").expect("lines").1.trim_start(), STUDY.trim_start());
+    }
 }
 
 /// The program in an empty folder: the priors, the manifest of a run.

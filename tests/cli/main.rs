@@ -3,6 +3,7 @@
 mod analyse;
 mod analyse_loads;
 mod analyse_ranges;
+mod averaged;
 mod bad_walls;
 mod capacity;
 mod catalogue;
@@ -30,7 +31,9 @@ mod readings;
 mod records;
 mod report;
 mod scratch;
+mod shell;
 mod spreadsheets;
 mod study;
+mod survey;
 mod uncertain;
 mod walls;

@@ -2,7 +2,7 @@
 
 use pirca::contact;
 use pirca::generate::{
-    Arrangement, BatteredFace, DipAbout, Layout, Limits, Outline, Wedges, Wythes, generate,
+    Arrangement, BatteredFace, DipAbout, Layout, Limits, Outline, Sizes, Wedges, Wythes, generate,
 };
 use pirca::law::{CohesionAfterSlip, Coulomb, NormalLaw, Sampling};
 use pirca::math::{Vec3, cos, radians, sin, tan};
@@ -103,8 +103,10 @@ pub fn irregular(member: u64, length: f64, height: f64) -> Wall {
             battered_face: BatteredFace::Front,
         },
         arrangement: Arrangement::Cut {
-            length: Family::TruncatedNormal { mean: 0.4, sd: 0.08, low: 0.2, high: 0.6 },
-            height: Family::TruncatedNormal { mean: 0.2, sd: 0.03, low: 0.1, high: 0.3 },
+            sizes: Sizes::Apart {
+                length: Family::TruncatedNormal { mean: 0.4, sd: 0.08, low: 0.2, high: 0.6 },
+                height: Family::TruncatedNormal { mean: 0.2, sd: 0.03, low: 0.1, high: 0.3 },
+            },
             wall_size_factor: Family::Lognormal { mean: 1.0, sd: 0.1 },
             dip: Family::Uniform { low: radians(-10.0), high: radians(10.0) },
             dip_about: DipAbout::Both,

@@ -1,6 +1,6 @@
 //! Every mechanism on one small wall with wedges and ropes: both solvers move it alike, and each mechanism does something.
 
-use pirca::generate::{Arrangement, BatteredFace, Layout, Limits, Outline, Wedges, Wythes, generate};
+use pirca::generate::{Arrangement, BatteredFace, Layout, Limits, Outline, Sizes, Wedges, Wythes, generate};
 use pirca::law::{CohesionAfterSlip, Sampling};
 use pirca::math::{Vec3, pow, radians};
 use pirca::protocol::{
@@ -28,8 +28,10 @@ fn layout() -> Layout {
             battered_face: BatteredFace::Front,
         },
         arrangement: Arrangement::Coursed {
-            length: Family::Uniform { low: 0.15, high: 0.25 },
-            height: Family::Uniform { low: 0.07, high: 0.1 },
+            sizes: Sizes::Apart {
+                length: Family::Uniform { low: 0.15, high: 0.25 },
+                height: Family::Uniform { low: 0.07, high: 0.1 },
+            },
             wall_size_factor: Family::Constant { value: 1.0 },
             dip: Family::Uniform { low: radians(-3.0), high: radians(3.0) },
             least_overlap: 0.2,

@@ -11,7 +11,7 @@ use crate::cli::{locate, output};
 use crate::ensemble::replace_file;
 use crate::math::edit_distance;
 use crate::study::{
-    BuiltInStudy, Distributions, ElementStudy, InputFile, MEASURED, Study, built_in_studies,
+    BuiltInStudy, Distributions, ElementStudy, InputFile, MEASURED, Schema, Study, built_in_studies,
     distributions_among,
 };
 
@@ -19,6 +19,8 @@ use crate::study::{
 const TEMPLATE: &str = include_str!("template.toml");
 /// What a study reads in its folder.
 const FILES: [&str; 3] = ["study.toml", "published.toml", MEASURED];
+/// How a line of a TOML file tells an editor of its schema.
+const TELLS: &str = "#:schema";
 
 /// What a new study is made from.
 enum Origin {
@@ -114,15 +116,15 @@ impl Origin {
                 Ok(study.files.iter().map(|(name, text)| (name.to_string(), (*text).into())).collect())
             }
             Origin::Folder(folder) => {
-                let here = FILES.iter().filter(|name| folder.join(name).exists());
-                let read = |name: &&str| {
-                    let path = folder.join(name);
+                let own = FILES.into_iter().map(str::to_owned).filter(|name| folder.join(name).exists());
+                let read = |name: String| {
+                    let path = folder.join(&name);
                     let bytes = fs::read(&path).map_err(|error| {
                         Failure::Input(format!("cannot read {}: {error}", path.display()))
                     })?;
-                    Ok((name.to_string(), bytes))
+                    Ok((name, bytes))
                 };
-                here.map(read).collect()
+                own.chain(surveys(&inputs(folder)?)).map(read).collect()
             }
         }
     }
@@ -141,7 +143,13 @@ impl Origin {
         };
         let files = self.files()?;
         for (name, bytes) in &files {
-            put(name.clone(), bytes)?;
+            if name != FILES[0] {
+                put(name.clone(), bytes)?;
+                continue;
+            }
+            let schema = schema_of(bytes);
+            put(name.clone(), &with_schema(bytes, schema))?;
+            put(schema.file().to_owned(), schema.text().as_bytes())?;
         }
         // What the copy would read otherwise, or not find at all, goes with it; it may not load without.
         let distributions = self.distributions();
@@ -182,6 +190,36 @@ impl Origin {
              `pirca check {shown} --keys` lists every key.\n"
         )
     }
+}
+
+/// The schema that a study.toml is written by.
+fn schema_of(study: &[u8]) -> Schema {
+    let keys: Option<toml::Table> = toml::from_str(&String::from_utf8_lossy(study)).ok();
+    match keys.is_some_and(|keys| keys.contains_key("element")) {
+        true => Schema::ElementStudy,
+        false => Schema::Study,
+    }
+}
+
+/// A study.toml that tells editors of the schema beside it, in its first line; one that tells of a schema on the net keeps it.
+fn with_schema(study: &[u8], schema: Schema) -> Vec<u8> {
+    let told = study.starts_with(TELLS.as_bytes());
+    let first = study.iter().position(|byte| *byte == b'\n').map_or(study.len(), |at| at + 1);
+    let own = if told { &study[..first] } else { &[] };
+    if own.windows(3).any(|three| three == b"://") {
+        return study.to_vec();
+    }
+    let line = format!("{TELLS} ./{}\n", schema.file());
+    [line.as_bytes(), &study[own.len()..]].concat()
+}
+
+/// The tables beside a study that it takes distributions from.
+fn surveys(inputs: &[InputFile]) -> Vec<String> {
+    let is_other = |input: &&InputFile| {
+        FILES.iter().all(|name| input.path != Path::new(name))
+            && distributions_among(std::slice::from_ref(*input)).is_empty()
+    };
+    inputs.iter().filter(is_other).map(|input| input.path.display().to_string()).collect()
 }
 
 /// What the study in a folder reads, which is sound.

@@ -6,8 +6,10 @@ use crate::math::tan;
 /// The wall of the tilt tests, here with constant thickness and random beds on courses of 41.67 mm.
 pub(super) fn thin_wall(thickness: f64) -> Layout {
     let mut wall = layout(Arrangement::Coursed {
-        length: Family::Uniform { low: 0.15, high: 0.25 },
-        height: Family::Constant { value: 0.375 / 9.0 },
+        sizes: Sizes::Apart {
+            length: Family::Uniform { low: 0.15, high: 0.25 },
+            height: Family::Constant { value: 0.375 / 9.0 },
+        },
         wall_size_factor: Family::Constant { value: 1.0 },
         dip: dip(),
         least_overlap: 0.1,
@@ -194,8 +196,10 @@ fn rejection_shifts_the_draws_by_known_amounts() {
 fn a_request_that_cannot_be_met_ends_with_its_reason() {
     let coursed_of = |length: f64, height: f64, dip: Family, least_overlap: f64| {
         layout(Arrangement::Coursed {
-            length: Family::Constant { value: length },
-            height: Family::Constant { value: height },
+            sizes: Sizes::Apart {
+                length: Family::Constant { value: length },
+                height: Family::Constant { value: height },
+            },
             wall_size_factor: Family::Constant { value: 1.0 },
             dip,
             least_overlap,

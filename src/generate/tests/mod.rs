@@ -2,10 +2,11 @@
 
 mod draws;
 mod streams;
+mod surveyed;
 mod validity;
 
 use crate::generate::{
-    Arrangement, BatteredFace, DipAbout, Generated, Layout, Limits, Outline, Wedges, Wythes, generate,
+    Arrangement, BatteredFace, DipAbout, Generated, Layout, Limits, Outline, Sizes, Wedges, Wythes, generate,
 };
 use crate::math::radians;
 use crate::random::{Family, Streams};
@@ -49,8 +50,7 @@ fn height() -> Family {
 
 fn coursed() -> Layout {
     layout(Arrangement::Coursed {
-        length: length(),
-        height: height(),
+        sizes: Sizes::Apart { length: length(), height: height() },
         wall_size_factor: Family::Lognormal { mean: 1.0, sd: 0.2 },
         dip: dip(),
         least_overlap: 0.15,
@@ -59,8 +59,7 @@ fn coursed() -> Layout {
 
 fn cut(dip_about: DipAbout) -> Layout {
     layout(Arrangement::Cut {
-        length: length(),
-        height: height(),
+        sizes: Sizes::Apart { length: length(), height: height() },
         wall_size_factor: Family::Lognormal { mean: 1.0, sd: 0.2 },
         dip: dip(),
         dip_about,

@@ -15,7 +15,7 @@ mod template;
 mod wall;
 
 pub use answer::{Asked, answer_page};
-pub use cite::{Citation, citation};
+pub use cite::{Citation, citation, citation_of_run};
 pub use drawing::Drawing;
 pub use origin::PageOrigin;
 pub use run::{DrawnWall, RunPage, chosen_walls, run_page};

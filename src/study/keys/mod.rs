@@ -15,8 +15,9 @@ pub use uncertain::UNCERTAIN;
 
 use crate::law::MOST_KNOTS;
 use crate::study::keys::run::{LOAD, RESTRAINT};
-use crate::study::schema::Presence::{Default, Optional, Required};
+use crate::study::schema::Presence::{Default, Optional, Required, Unless};
 use crate::study::schema::{Interval, Key, Kind, Section};
+use crate::study::survey::MOST_ROWS;
 
 const COURSED: &[&str] = &["coursed"];
 const CUT: &[&str] = &["cut"];
@@ -143,7 +144,8 @@ const TABLE: &[&str] = &["table"];
 
 static JOINT: Section = Section {
     title: "[joint]",
-    doc: "The joints' properties, per area of joint; those that may be random are drawn once per joint.",
+    doc: "The joints' properties, per area of joint. A distribution is drawn once per joint: over the many joints of a wall it averages out. What \
+          is one number of a wall, and not known, stands here as a number and in [uncertain] as a distribution.",
     chooser: Some("normal_law"),
     keys: &[&[
         Key::new(
@@ -153,10 +155,20 @@ static JOINT: Section = Section {
             "Normal stiffnesses: the points at which every arm is evaluated. Where normal_law is a table they give the shear stiffness alone.",
         )
         .usual(Interval::closed(1e6, 1e12)),
-        Key::new("kn_factor", quantity("1", POSITIVE), Default("1"), "Factor on kn from joint to joint."),
+        Key::new("kn_factor", quantity("1", POSITIVE), Default("1"), "Factor on kn, drawn per joint; joint.kn_pa_per_m in [uncertain] is drawn per wall."),
         Key::new("kn_over_ks", real("1", POSITIVE), Required, "Normal over shear stiffness."),
-        Key::new("phi_deg", quantity("deg", Interval::closed(0.0, 85.0)), Required, "Friction angle."),
-        Key::new("cohesion_pa", quantity("Pa", Interval::below(0.0, f64::INFINITY)), Required, "Cohesion."),
+        Key::new(
+            "phi_deg",
+            quantity("deg", Interval::closed(0.0, 85.0)),
+            Required,
+            "Friction angle; a distribution is drawn per joint.",
+        ),
+        Key::new(
+            "cohesion_pa",
+            quantity("Pa", Interval::below(0.0, f64::INFINITY)),
+            Required,
+            "Cohesion; a distribution is drawn per joint.",
+        ),
         Key::new(
             "tension_pa",
             real("Pa", Interval::below(0.0, f64::INFINITY)),
@@ -264,8 +276,23 @@ pub static ARM: Section = Section {
             "Shift of every other course as a share of the stone length.",
         )
         .only(RUNNING),
-        Key::new("length_m", quantity("m", SIZE), Required, "Stone length, drawn per stone or cut.").only(RANDOM),
-        Key::new("height_m", quantity("m", SIZE), Required, "Height, drawn per course or cut.").only(RANDOM),
+        Key::new(
+            "length_m",
+            quantity("m", SIZE),
+            Unless("stones"),
+            "Stone length, drawn per stone or cut.",
+        )
+        .only(RANDOM),
+        Key::new("height_m", quantity("m", SIZE), Unless("stones"), "Height, drawn per course or cut.")
+            .only(RANDOM),
+        Key::new(
+            "stones",
+            Kind::Stones { within: SIZE, at_most: MOST_ROWS },
+            Optional,
+            "Stones of a survey, length and height drawn together, in the place of length_m and height_m. Each cut takes both from \
+             one stone; each course takes its height from one, and its lengths from stones of like height.",
+        )
+        .only(RANDOM),
         Key::new(
             "wall_size_factor",
             quantity("1", Interval::above(0.0, 100.0)),
@@ -453,9 +480,9 @@ const FAMILY_KEYS: &[Key] = &[
     ]),
     Key::new(
         "values",
-        Kind::Reals { unit: "", within: Interval::any(), at_most: 10_000, ascending: false },
+        Kind::Values { at_most: MOST_ROWS },
         Required,
-        "The values, each as likely.",
+        "The values, each as likely; of a survey the column of its table, whose name ends in the unit of the key.",
     )
     .only(&["empirical"]),
 ];

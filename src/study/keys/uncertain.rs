@@ -14,7 +14,7 @@ const NOT_NEGATIVE: Interval = Interval::below(0.0, f64::INFINITY);
 pub static UNCERTAIN: Section = Section {
     title: "[uncertain]",
     doc: "What nobody knows exactly of a wall as a whole: paths of keys, in quotes, with distributions. Each is drawn once per wall \
-          in the place of the number that the study states. What scatters within a wall stays where it is: the distributions of \
+          in the place of the number that the study states, and is the same in all its joints and stones. What scatters within a wall stays where it is: the distributions of \
           [block], [joint] and [[arm]], and wall_size_factor for the mean size of a wall's stones.",
     chooser: None,
     keys: &[&[

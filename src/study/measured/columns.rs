@@ -81,13 +81,6 @@ pub fn named(name: &str) -> Option<&'static Column> {
     COLUMNS.iter().find(|column| column.name == name)
 }
 
-/// A name as it is compared: in small letters, a unit in brackets behind an underscore, as all others are.
-pub fn compared(written: &str) -> String {
-    let opened = written.to_ascii_lowercase().replace([' ', '(', '['], "_");
-    let closed = opened.trim_end_matches([')', ']']);
-    closed.split('_').filter(|part| !part.is_empty()).collect::<Vec<_>>().join("_")
-}
-
 /// The fault of a file of comments and blanks.
 pub fn no_header(source: &Arc<Source>) -> Fault {
     let columns: Vec<&str> = COLUMNS.iter().filter(|c| c.required).map(|c| c.name).collect();

@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use crate::study::csv::cells::{Cell, Line};
+use crate::study::csv::compared;
 use crate::study::fault::{Fault, Found};
-use crate::study::measured::cells::{Cell, Line};
-use crate::study::measured::columns::{COLUMNS, compared, named};
+use crate::study::measured::columns::{COLUMNS, named};
 use crate::study::measured::measurement::MeasuredQuantity;
 use crate::study::measured::record::{Field, Record};
 use crate::study::measured::unit::Dimension;

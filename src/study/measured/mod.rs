@@ -1,10 +1,8 @@
 //! measured.csv: what was measured in tests on specimens of the study's arms, every fault of the file at once.
 
-mod cells;
 mod columns;
 mod header;
 mod measurement;
-mod numbers;
 mod record;
 mod returned;
 mod row;
@@ -22,15 +20,14 @@ pub use unit::Dimension;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+use crate::study::csv;
+use crate::study::csv::cells::Line;
+use crate::study::csv::numbers::Numbers;
 use crate::study::fault::{Fault, Found, Place, Source};
-use crate::study::measured::cells::Line;
 use crate::study::measured::header::Header;
-use crate::study::measured::numbers::Numbers;
 
 /// Name of the file, beside study.toml.
 pub const FILE: &str = "measured.csv";
-/// What it is meant to be.
-pub(super) const FORMAT: &str = "a text file of values separated by commas, semicolons or tabs";
 
 /// How a file of measurements is written.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -64,7 +61,7 @@ pub(super) struct Read {
 /// All faults of the file: of its cells, its header, its rows, and of rows against one another.
 pub(super) fn read(source: &Arc<Source>, arms: Option<&[String]>) -> Result<Read, Vec<Fault>> {
     let mut faults = Vec::new();
-    let table = cells::table(source, header::is_column, &mut faults);
+    let table = csv::cells::table(source, header::is_column, &mut faults);
     let Some((first, lines)) = table.lines.split_first() else {
         faults.push(columns::no_header(source));
         return Err(faults);

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use crate::study::csv::cells::{Cell, Line};
 use crate::study::fault::Place;
-use crate::study::measured::cells::{Cell, Line};
 
 /// A cell and how the file calls its column.
 #[derive(Clone)]

@@ -1,10 +1,10 @@
 //! The cells of one reading to one measurement.
 
 use crate::math::{degrees, radians};
+use crate::study::csv::cells::Cell;
+use crate::study::csv::numbers::Numbers;
 use crate::study::fault::{Fault, Found, Place};
-use crate::study::measured::cells::Cell;
 use crate::study::measured::measurement::{MeasuredKind, MeasuredQuantity, Measurement};
-use crate::study::measured::numbers::Numbers;
 use crate::study::measured::record::Record;
 use crate::study::measured::unit::Dimension;
 use crate::study::schema::{Interval, Short, quoted, suggestion};

@@ -1,11 +1,11 @@
 //! Rows in which no value was filled in.
 
 use crate::math::radians;
+use crate::study::csv::cells::Line;
+use crate::study::csv::numbers::Numbers;
 use crate::study::fault::{Fault, Found};
-use crate::study::measured::cells::Line;
 use crate::study::measured::header::Header;
 use crate::study::measured::measurement::{MeasuredQuantity, Measurement};
-use crate::study::measured::numbers::Numbers;
 
 /// Whether nothing could be read in a row, as its wall had fallen at a smaller tilt.
 pub fn had_fallen(header: &Header, line: &Line, rows: &[Measurement], numbers: &mut Numbers) -> bool {

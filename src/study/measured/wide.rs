@@ -1,6 +1,6 @@
 //! The names of the columns of a wide table: a row per specimen and tilt, a column per quantity.
 
-use crate::study::measured::columns::compared;
+use crate::study::csv::compared;
 use crate::study::measured::measurement::MeasuredQuantity;
 use crate::study::measured::unit::Dimension;
 

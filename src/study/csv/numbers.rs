@@ -1,7 +1,7 @@
 //! Numbers as people and spreadsheets write them: with a decimal point or a decimal comma, the same in the whole file.
 
+use crate::study::csv::cells::Cell;
 use crate::study::fault::{Fault, Found, Place};
-use crate::study::measured::cells::Cell;
 
 /// Reads the numbers of a file, and keeps where it first met each kind of decimals.
 pub struct Numbers {

@@ -1,0 +1,287 @@
+//! Surveys: tables beside a study whose columns it takes as distributions, one value as likely as any other.
+
+use std::collections::BTreeMap;
+use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
+
+use crate::study::checked::InputFile;
+use crate::study::csv::cells::{self, Cell, Line};
+use crate::study::csv::numbers::Numbers;
+use crate::study::csv::{self, compared};
+use crate::study::fault::{Fault, Found, Place};
+use crate::study::files;
+use crate::study::raw::Node;
+use crate::study::schema::{Interval, nearest};
+
+/// Most rows of a survey.
+pub const MOST_ROWS: usize = 10_000;
+
+/// Reads the tables beside a study when they are first referred to.
+pub struct Surveys {
+    /// The study's folder; `None` where there is none, and so no survey.
+    folder: Option<PathBuf>,
+    files: BTreeMap<String, Option<Arc<Survey>>>,
+    /// Faults of the files read.
+    pub faults: Vec<Fault>,
+    /// The files read, in that order.
+    pub inputs: Vec<InputFile>,
+}
+
+/// A table that was read.
+struct Survey {
+    separator: char,
+    /// Names of its columns, as they are compared.
+    columns: Vec<String>,
+    rows: Vec<Line>,
+}
+
+/// What is asked of a column.
+#[derive(Clone, Copy)]
+pub struct Asked<'a> {
+    /// The value in the study that refers to it.
+    pub node: &'a Node,
+    /// The path of its key.
+    pub path: &'a str,
+    /// The unit that its values are in, as the key table names units.
+    pub unit: &'static str,
+    /// Where each value must lie.
+    pub within: Interval,
+}
+
+impl Asked<'_> {
+    /// The fault of a reference where no table can lie.
+    pub fn without_a_table(&self) -> Box<Fault> {
+        self.fault("numbers, in a file of `distributions`".to_owned(), "write them here, in a list")
+    }
+
+    fn fault(&self, allowed: String, fix: impl Into<String>) -> Box<Fault> {
+        Box::new(Fault::at(&self.node.place, self.path, Found::Value(self.node.shown.clone()), allowed, fix))
+    }
+}
+
+impl Surveys {
+    /// Those in the folder of a study.
+    pub fn beside(folder: Option<PathBuf>) -> Surveys {
+        Surveys { folder, files: BTreeMap::new(), faults: Vec::new(), inputs: Vec::new() }
+    }
+
+    /// Where a file lies.
+    pub fn place(&self, file: &str) -> String {
+        self.folder.as_ref().map_or_else(|| file.to_owned(), |folder| folder.join(file).display().to_string())
+    }
+
+    /// The values of a column that is named as `survey.csv:length_m`, in its unit; `None` where the file or a cell is faulty.
+    ///
+    /// # Errors
+    /// A fault at the reference when it names no column.
+    pub fn column(&mut self, reference: &str, asked: Asked) -> Result<Option<Vec<f64>>, Box<Fault>> {
+        let Some((file, column)) = reference.rsplit_once(':') else {
+            let allowed = "numbers, or a column of a table beside the study, as \"survey.csv:length_m\"";
+            return Err(asked.fault(allowed.to_owned(), "write file and column with a colon between them"));
+        };
+        let Some(survey) = self.survey(file, asked)? else { return Ok(None) };
+        let at = survey.find(file, column, asked)?;
+        Ok(self.values(&survey, at, column, asked))
+    }
+
+    /// Rows of two columns of a file, in the unit of both; `None` where the file or a cell is faulty.
+    ///
+    /// # Errors
+    /// A fault at the reference when it names no such file, or one without these columns.
+    pub fn pairs(
+        &mut self,
+        file: &str,
+        columns: [&str; 2],
+        asked: Asked,
+    ) -> Result<Option<Vec<[f64; 2]>>, Box<Fault>> {
+        let Some(survey) = self.survey(file, asked)? else { return Ok(None) };
+        let [first, second] = columns;
+        let at = [survey.find(file, first, asked)?, survey.find(file, second, asked)?];
+        let read = [0, 1].map(|k| self.values(&survey, at[k], columns[k], asked));
+        let [Some(first), Some(second)] = read else { return Ok(None) };
+        Ok(Some(first.into_iter().zip(second).map(|(a, b)| [a, b]).collect()))
+    }
+
+    /// The file of that name, read once; `None` where it is faulty.
+    fn survey(&mut self, file: &str, asked: Asked) -> Result<Option<Arc<Survey>>, Box<Fault>> {
+        let Some(folder) = &self.folder else {
+            return Err(asked.fault("numbers".to_owned(), "write them here: no file lies beside this"));
+        };
+        let is_beside = |path: &Path| path.components().all(|part| matches!(part, Component::Normal(_)));
+        if file.is_empty() || !is_beside(Path::new(file)) {
+            let fix = "put the table beside study.toml, and give its name";
+            return Err(asked.fault("a table in the folder of the study, as \"survey.csv\"".to_owned(), fix));
+        }
+        let path = folder.join(file);
+        if !path.exists() {
+            let allowed = format!("a table in the folder of the study, which has no {file}");
+            return Err(asked.fault(allowed, files::similar(&path)));
+        }
+        if !self.files.contains_key(file) {
+            let read = self.read(file, &path).map(Arc::new);
+            self.files.insert(file.to_owned(), read);
+        }
+        Ok(self.files.get(file).cloned().flatten())
+    }
+
+    fn read(&mut self, file: &str, path: &Path) -> Option<Survey> {
+        // Behind all other files of a study.
+        let rank = 1000 + self.files.len();
+        let text =
+            files::read(path, file, rank, csv::FORMAT).map_err(|fault| self.faults.push(*fault)).ok()?;
+        self.inputs.push(InputFile { path: PathBuf::from(file), sha256: text.sha256 });
+        let mut faults = Vec::new();
+        let table = cells::table(&text.source, |name| !name.is_empty(), &mut faults);
+        let whole = |found: &str, fix: &str| {
+            let allowed = "a header and one row or more, each a stone or whatever else was surveyed";
+            Fault::of_file(file, rank, found, allowed, fix)
+        };
+        let mut rows = table.lines.into_iter();
+        let Some(header) = rows.next() else {
+            self.faults.append(&mut faults);
+            let fix = "begin with the names of the columns, as length_m,height_m";
+            self.faults.push(whole("has no header", fix));
+            return None;
+        };
+        let columns: Vec<String> = header.cells.iter().map(|cell| named(&cell.text)).collect();
+        check_header(&columns, &header.cells, &mut faults);
+        let rows: Vec<Line> = rows.collect();
+        faults.extend(rows.iter().filter_map(|row| too_wide(row, columns.len(), table.separator)));
+        if rows.is_empty() {
+            faults.push(whole("has no rows", "add the values below the header"));
+        }
+        if rows.len() > MOST_ROWS {
+            let (found, allowed) = (format!("has {} rows", rows.len()), format!("at most {MOST_ROWS} rows"));
+            faults.push(Fault::of_file(file, rank, &found, &allowed, "take a sample of them"));
+        }
+        let is_sound = faults.is_empty();
+        self.faults.append(&mut Fault::gathered(faults));
+        is_sound.then_some(Survey { separator: table.separator, columns, rows })
+    }
+
+    /// The values of a column; `None` where one of them is faulty.
+    fn values(&mut self, survey: &Survey, at: usize, column: &str, asked: Asked) -> Option<Vec<f64>> {
+        let mut numbers = Numbers::new(survey.separator);
+        let mut faults = Vec::new();
+        let mut values = Vec::with_capacity(survey.rows.len());
+        for row in &survey.rows {
+            match value(row, at, &mut numbers, asked) {
+                Ok(value) => values.push(value),
+                Err((place, found, fix)) => {
+                    let allowed = format!("a number {}{}", asked.within, in_words(asked.unit));
+                    faults.push(Fault::at(&place, column, found, allowed, fix));
+                }
+            }
+        }
+        faults.extend(numbers.mixed());
+        let is_sound = faults.is_empty();
+        self.faults.append(&mut Fault::gathered(faults));
+        is_sound.then_some(values)
+    }
+}
+
+impl Survey {
+    /// Where the column of that name stands, if its name says that it is in the unit asked for.
+    fn find(&self, file: &str, column: &str, asked: Asked) -> Result<usize, Box<Fault>> {
+        let unit = suffix(asked.unit);
+        let listed = || self.columns.iter().filter(|name| !name.is_empty()).cloned().collect::<Vec<_>>();
+        if !named(column).ends_with(&unit) {
+            let what = format!("a column of {file} in {}, whose name ends in \"{unit}\"", asked.unit);
+            let fix = format!("give its values in {}, and call it {}{unit}", asked.unit, stem(column));
+            return Err(asked.fault(what, fix));
+        }
+        if let Some(at) = self.columns.iter().position(|name| *name == named(column)) {
+            return Ok(at);
+        }
+        let allowed = format!("a column of {file}, which has {}; it has no {column}", listed().join(", "));
+        let other = self.columns.iter().find(|name| !unit.is_empty() && stem(name) == stem(column));
+        Err(asked.fault(
+            allowed,
+            match (other, nearest(&named(column), &listed())) {
+                (Some(other), _) => format!("give {other} in {}, and call it {column}", asked.unit),
+                (None, Some(near)) => format!("did you mean \"{near}\"?"),
+                (None, None) => format!("add a column {column}"),
+            },
+        ))
+    }
+}
+
+/// The stem of a name of a column: what stands before its unit.
+fn stem(column: &str) -> String {
+    const UNITS: [&str; 12] = [
+        "_kg_per_m3",
+        "_pa_per_m",
+        "_n_per_m",
+        "_pa",
+        "_mm",
+        "_cm",
+        "_dm",
+        "_m",
+        "_in",
+        "_ft",
+        "_deg",
+        "_rad",
+    ];
+    let name = named(column);
+    UNITS.iter().find_map(|unit| name.strip_suffix(unit)).unwrap_or(&name).to_owned()
+}
+
+/// A column's name as it is compared, its unit as in the name of a key.
+fn named(column: &str) -> String {
+    compared(&column.replace('/', " per "))
+}
+
+/// How the name of a quantity in that unit ends.
+fn suffix(unit: &str) -> String {
+    if unit == "1" { String::new() } else { format!("_{}", named(unit)) }
+}
+
+fn in_words(unit: &str) -> String {
+    if unit == "1" { String::new() } else { format!(" ({unit})") }
+}
+
+/// Every column has its name once.
+fn check_header(columns: &[String], header: &[Cell], faults: &mut Vec<Fault>) {
+    for (at, name) in columns.iter().enumerate() {
+        if !name.is_empty() && columns[..at].contains(name) {
+            let found = Found::Words("is the name of two columns".to_owned());
+            faults.push(Fault::at(&header[at].place, name, found, "every name once", "rename one of them"));
+        }
+    }
+}
+
+/// The fault of a row with more cells than the header.
+fn too_wide(row: &Line, width: usize, separator: char) -> Option<Fault> {
+    row.cells.iter().skip(width).find(|cell| !cell.text.is_empty())?;
+    let found = Found::Words(format!("has {} cells", row.cells.len()));
+    let fix = match separator {
+        ',' => "write decimals with a point, or separate the cells by semicolons",
+        _ => "put quotes around a cell that holds the separator",
+    };
+    Some(Fault::at(&row.place, "", found, format!("{width}, as in the header"), fix))
+}
+
+/// The value in a cell of a row; else the place of what is wrong, what was found, and how to mend it.
+fn value(
+    row: &Line,
+    at: usize,
+    numbers: &mut Numbers,
+    asked: Asked,
+) -> Result<f64, (Place, Found, &'static str)> {
+    let Some(cell) = row.cells.get(at).filter(|cell| !cell.text.is_empty()) else {
+        let place = row.cells.get(at).map_or(&row.place, |cell| &cell.place);
+        let words = Found::Words("is empty".to_owned());
+        return Err((place.clone(), words, "fill it in, or take the row away"));
+    };
+    let wrong = |fix| (cell.place.clone(), Found::Value(cell.text.clone()), fix);
+    if cell.text.starts_with(['<', '>']) {
+        return Err(wrong("write the number alone: a survey knows no bounds"));
+    }
+    let number = numbers.read(cell).map_err(wrong)?;
+    match number {
+        x if !x.is_finite() => Err(wrong("write the number, or take the row away")),
+        x if !asked.within.contains(x) && x > asked.within.low => Err(wrong("reduce it: check the unit")),
+        x if !asked.within.contains(x) => Err(wrong("mend it, or take the row away")),
+        x => Ok(x),
+    }
+}
