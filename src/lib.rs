@@ -78,6 +78,7 @@
 //!
 //! | module | what is in it |
 //! |---|---|
+//! | [`interrupt`] | long work that is told to stop |
 //! | [`math`] | vectors, elementary functions on libm, the invariant check |
 //! | [`shape`] | convex polygons and polyhedra: cut, clip, inertia, overlap, validity; unions of balls |
 //! | [`random`] | seed streams keyed by (seed, member, quantity); distribution families |
@@ -106,6 +107,7 @@ pub mod critic;
 pub mod ensemble;
 pub mod exchange;
 pub mod generate;
+pub mod interrupt;
 pub mod law;
 pub mod math;
 pub mod model;

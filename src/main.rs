@@ -1,5 +1,7 @@
 //! The `pirca` program: see [`pirca::cli`].
 
-fn main() -> std::process::ExitCode {
-    pirca::cli::main()
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    ExitCode::from(pirca::cli::main(std::env::args_os()))
 }

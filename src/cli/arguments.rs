@@ -197,6 +197,35 @@ pub(crate) enum Described {
     Published,
 }
 
+impl Verb {
+    /// Whether the answer is asked for as an object.
+    pub fn is_json(&self) -> bool {
+        match self {
+            Verb::Init(Init { json, .. })
+            | Verb::Cite(Cite { json, .. })
+            | Verb::Mechanisms(Mechanisms { json, .. })
+            | Verb::Readings(Readings { json, .. }) => *json,
+            Verb::Analyse(own) => own.json,
+            // Of a wall it may stand among what is asked of the wall.
+            Verb::Report(own) => own.json || own.asked.iter().any(|word| word == "--json"),
+            Verb::Check(Check { which, .. })
+            | Verb::Generate(Generate { which, .. })
+            | Verb::Picture(Picture { which, .. })
+            | Verb::Run(Run { which, .. })
+            | Verb::Capacity(Capacity { which, .. })
+            | Verb::Influence(Influence { which, .. })
+            | Verb::Compare(Compare { which, .. })
+            | Verb::Bank(Bank { which, .. })
+            | Verb::Diagnose(Diagnose { which, .. })
+            | Verb::PlanTests(PlanTests { which, .. })
+            | Verb::Measured(Measured { which, .. })
+            | Verb::Sensitivity(Sensitivity { which, .. }) => which.json,
+            // A text is all that they have.
+            Verb::Completions(_) | Verb::Man(_) | Verb::Schema(_) => false,
+        }
+    }
+}
+
 /// Arguments of `init`.
 #[derive(Args, Debug)]
 pub(crate) struct Init {
@@ -379,7 +408,16 @@ impl Run {
     /// A study as it is, with nothing asked for in the place of its own, and its page.
     pub fn on_a_page(which: Which) -> Run {
         let ensemble = Ensemble { members: None, seed: None };
-        Run { which, out: None, ensemble, threads: None, solver: None, beside: None, report: true }
+        Run {
+            which,
+            out: None,
+            ensemble,
+            threads: None,
+            solver: None,
+            beside: None,
+            csv: false,
+            report: true,
+        }
     }
 }
 

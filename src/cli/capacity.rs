@@ -1,5 +1,6 @@
 //! `pirca capacity`: what walls of a kind may be counted on to bear.
 
+use crate::cli::answer::Answer;
 use crate::cli::arguments::Capacity;
 use crate::cli::failure::Failure;
 use crate::cli::{locate, output, progress, question, rare, report as page, threads};
@@ -12,7 +13,7 @@ use crate::study::{MEASURED, MeasuredQuantity, Measurement, Study, Until};
 pub(crate) const CAPACITY: &str = "capacity";
 
 /// Answers the question from specimens, or from walls that are evaluated as far as they have not been.
-pub(crate) fn capacity(arguments: &Capacity) -> Result<(), Failure> {
+pub(crate) fn capacity(arguments: &Capacity) -> Result<Answer, Failure> {
     let loaded = locate::study(&arguments.which)?;
     let study = locate::with_ensemble(loaded.study.clone(), &arguments.ensemble)?;
     let known = arguments.known_cov.map_or(Variation::Unknown, Variation::Known);
@@ -35,10 +36,7 @@ pub(crate) fn capacity(arguments: &Capacity) -> Result<(), Failure> {
             )));
         }
         let summary = CapacitySummary::measured(&study, question, known);
-        return match arguments.which.json {
-            true => output::print_json(&summary),
-            false => output::print(&capacity_text(&summary)),
-        };
+        return Answer::of(capacity_text(&summary), &summary);
     }
     if !study.arms.iter().any(is_random) {
         return Err(Failure::Input(format!(
@@ -60,10 +58,8 @@ pub(crate) fn capacity(arguments: &Capacity) -> Result<(), Failure> {
     page::beside(&out, (arguments.report, &arguments.which, arguments.threads), |origin| {
         capacity_page(&summary, (&study, &loaded), origin)
     })?;
-    if arguments.which.json {
-        return output::print_json(&summary);
-    }
-    output::print(&format!("{}\nwritten to {}\n", capacity_text(&summary), out.display()))
+    let text = format!("{}\nwritten to {}\n", capacity_text(&summary), out.display());
+    Ok(Answer::of(text, &summary)?.in_place(&out))
 }
 
 /// Most walls of an arm that are added towards a quantile, unless another number is asked for.

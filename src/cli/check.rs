@@ -5,67 +5,72 @@ use std::path::Path;
 
 use serde_json::json;
 
+use crate::cli::answer::Answer;
 use crate::cli::arguments::Check;
 use crate::cli::failure::Failure;
-use crate::cli::{elements, locate, output};
+use crate::cli::{elements, locate};
 use crate::ensemble;
-use crate::study::{Arm, ElementStudy, Loaded, Study, Used, key_reference};
+use crate::study::{Arm, ElementStudy, Faults, Loaded, Study, Used, key_reference};
 
 /// Reads the study and says what it found.
-pub(crate) fn check(arguments: &Check) -> Result<(), Failure> {
+pub(crate) fn check(arguments: &Check) -> Result<Answer, Failure> {
     let which = &arguments.which;
-    if let Ok(folder) = locate::folder(&which.study)
-        && ElementStudy::is_in(&folder)
-    {
+    let folder = locate::folder(&which.study).map_err(|failure| not_there(failure, which.json))?;
+    if ElementStudy::is_in(&folder) {
         return elements::check(&folder, arguments);
     }
-    if !which.json {
-        let mut text = summary(&locate::study(which)?);
-        if arguments.keys {
-            text += &format!("\n{}", key_reference());
-        }
-        if arguments.columns {
-            text += &format!("\n{}", ensemble::column_reference());
-        }
-        return output::print(&text);
+    let loaded =
+        Study::load(&folder, which.variant.as_deref()).map_err(|faults| refused(faults, which.json))?;
+    let mut text = summary(&loaded);
+    if arguments.keys {
+        text += &format!("\n{}", key_reference());
     }
-    let folder = match locate::folder(&which.study) {
-        Ok(folder) => folder,
-        Err(failure) => {
-            output::print_json(
-                &json!({"valid": false, "error": failure.message(), "faults": [], "warnings": []}),
-            )?;
-            return Err(Failure::Said);
+    if arguments.columns {
+        text += &format!("\n{}", ensemble::column_reference());
+    }
+    let Loaded { study, warnings, variants, used, .. } = &loaded;
+    let object = json!({
+        "valid": true,
+        "study": study.name,
+        "variant": study.variant,
+        "seed": study.seed,
+        "study_hash": study.hash,
+        "arms": study.arms.iter().map(|arm| json!({
+            "arm": arm.name,
+            "members": arm.members,
+            "until": arm.until.map(|until| json!({
+                "half_width_of": until.of.name(), "below": until.below, "at_most": until.at_most,
+            })),
+            "random": ensemble::is_random(arm),
+            "kn_pa_per_m": arm.kn_points,
+        })).collect::<Vec<_>>(),
+        "evaluations": ensemble::plan(study).len(),
+        "measured": study.measured.len(),
+        "specimens": specimens(study).len(),
+        "variants": variants,
+        "distributions": used,
+        "faults": [],
+        "warnings": warnings,
+    });
+    let answer = Answer::of(text, &object)?;
+    Ok(answer.with_warnings(warnings.iter().map(ToString::to_string).collect()))
+}
+
+/// A study with faults, in words or as the object that a program reads.
+pub(super) fn refused(faults: Faults, as_json: bool) -> Failure {
+    match as_json {
+        true => Failure::Said(json!({"valid": false, "faults": faults.faults, "warnings": []})),
+        false => faults.into(),
+    }
+}
+
+/// The same of a study that is not there.
+fn not_there(failure: Failure, as_json: bool) -> Failure {
+    match as_json {
+        true => {
+            Failure::Said(json!({"valid": false, "error": failure.message(), "faults": [], "warnings": []}))
         }
-    };
-    match Study::load(&folder, which.variant.as_deref()) {
-        Ok(Loaded { study, warnings, variants, used, .. }) => output::print_json(&json!({
-            "valid": true,
-            "study": study.name,
-            "variant": study.variant,
-            "seed": study.seed,
-            "study_hash": study.hash,
-            "arms": study.arms.iter().map(|arm| json!({
-                "arm": arm.name,
-                "members": arm.members,
-                "until": arm.until.map(|until| json!({
-                    "half_width_of": until.of.name(), "below": until.below, "at_most": until.at_most,
-                })),
-                "random": ensemble::is_random(arm),
-                "kn_pa_per_m": arm.kn_points,
-            })).collect::<Vec<_>>(),
-            "evaluations": ensemble::plan(&study).len(),
-            "measured": study.measured.len(),
-            "specimens": specimens(&study).len(),
-            "variants": variants,
-            "distributions": used,
-            "faults": [],
-            "warnings": warnings,
-        })),
-        Err(faults) => {
-            output::print_json(&json!({"valid": false, "faults": faults.faults, "warnings": []}))?;
-            Err(Failure::Said)
-        }
+        false => failure,
     }
 }
 

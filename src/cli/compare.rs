@@ -1,5 +1,6 @@
 //! `pirca compare`: which arm of a study is the best, and how sure that is.
 
+use crate::cli::answer::Answer;
 use crate::cli::arguments::{Compare, SameWithin};
 use crate::cli::failure::Failure;
 use crate::cli::{locate, output, question, report as page};
@@ -14,8 +15,8 @@ use crate::study::Study;
 /// What the folder of the results is named by.
 const COMPARE: &str = "compare";
 
-/// Evaluates walls until the best arm is known, and shows what they say.
-pub(crate) fn compare(arguments: &Compare) -> Result<(), Failure> {
+/// Evaluates walls until the best arm is known, and says what they show.
+pub(crate) fn compare(arguments: &Compare) -> Result<Answer, Failure> {
     let loaded = locate::study(&arguments.which)?;
     let study = match arguments.seed {
         Some(seed) => loaded.study.clone().with_seed(seed),
@@ -54,10 +55,8 @@ pub(crate) fn compare(arguments: &Compare) -> Result<(), Failure> {
     page::beside(&out, (arguments.report, &arguments.which, arguments.threads), |origin| {
         selection_page(&summary, (&study, &loaded), origin)
     })?;
-    if arguments.which.json {
-        return output::print_json(&summary);
-    }
-    output::print(&format!("{}\nwritten to {}\n", selection_text(&summary), out.display()))
+    let text = format!("{}\nwritten to {}\n", selection_text(&summary), out.display());
+    Ok(Answer::of(text, &summary)?.in_place(&out))
 }
 
 fn arm_of(study: &Study, index: u32) -> &crate::study::Arm {

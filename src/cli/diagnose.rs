@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::cli::answer::Answer;
 use crate::cli::arguments::Diagnose;
 use crate::cli::bank::{self, Prepared};
 use crate::cli::doing::doing;
@@ -19,11 +20,11 @@ use crate::report::{
 use crate::study::{Loaded, MEASURED, Nuisance, Study};
 
 /// Diagnoses the measurements of a study.
-pub(crate) fn diagnose(arguments: &Diagnose) -> Result<(), Failure> {
+pub(crate) fn diagnose(arguments: &Diagnose) -> Result<Answer, Failure> {
     threads::on(arguments.threads, || judged(arguments))
 }
 
-fn judged(arguments: &Diagnose) -> Result<(), Failure> {
+fn judged(arguments: &Diagnose) -> Result<Answer, Failure> {
     let Loaded { study, stated, .. } = bank::measured(&arguments.which, arguments.measured.as_deref())?;
     let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, "diagnosis"));
     if out.exists() {
@@ -85,11 +86,9 @@ fn judged(arguments: &Diagnose) -> Result<(), Failure> {
     let extended = extended(&origin, &world, &extensions, &out)?;
     let is_unexplained = diagnosis.verdict == Verdict::Unexplained;
     let law = learnt(&origin, &nuisances, is_unexplained, arguments.law, &out)?;
-    if arguments.which.json {
-        return output::print_json(&summary);
-    }
     let text = report::diagnosis_text(&summary);
-    output::print(&format!("{text}{law}\nwritten to {}\n{extended}", out.display()))
+    let text = format!("{text}{law}\nwritten to {}\n{extended}", out.display());
+    Ok(Answer::of(text, &summary)?.in_place(&out))
 }
 
 /// Says on standard error which step is being done.

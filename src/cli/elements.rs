@@ -4,16 +4,17 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
+use crate::cli::answer::Answer;
 use crate::cli::arguments::{Check, Run};
 use crate::cli::doing::doing;
 use crate::cli::failure::Failure;
-use crate::cli::{check, output};
+use crate::cli::{check, locate};
 use crate::ensemble::{self, Settings};
 use crate::report;
 use crate::study::{ElementStudy, key_reference};
 
-/// Runs the study and shows its table.
-pub(super) fn run(folder: &Path, arguments: &Run) -> Result<(), Failure> {
+/// Runs the study and answers with its table.
+pub(super) fn run(folder: &Path, arguments: &Run) -> Result<Answer, Failure> {
     let refused = [
         (arguments.which.variant.is_some(), "--variant: it has no variants"),
         (arguments.solver.is_some(), "--solver: spheres and polyhedra each have their own explicit one"),
@@ -24,7 +25,8 @@ pub(super) fn run(folder: &Path, arguments: &Run) -> Result<(), Failure> {
     if let Some((_, why)) = refused.iter().find(|(given, _)| *given) {
         return Err(Failure::Usage(format!("{} compares types of elements; {why}", folder.display())));
     }
-    let mut study = load(folder)?;
+    let mut study = ElementStudy::load(folder)?;
+    study.warnings.iter().for_each(locate::warn);
     if let Some(seed) = arguments.ensemble.seed {
         study = study.with_seed(seed);
     }
@@ -44,64 +46,40 @@ pub(super) fn run(folder: &Path, arguments: &Run) -> Result<(), Failure> {
     })?;
     let summary =
         report::write_elements(&study, &rows, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
-    if arguments.which.json {
-        return output::print_json(&summary);
-    }
-    output::print(&format!("{}written to {}\n", report::element_table(&study, &rows), out.display()))
-}
-
-fn load(folder: &Path) -> Result<ElementStudy, Failure> {
-    let study = ElementStudy::load(folder)?;
-    warn(&study);
-    Ok(study)
-}
-
-/// Passes the study's warnings on to standard error.
-fn warn(study: &ElementStudy) {
-    for warning in &study.warnings {
-        output::warning(&warning.to_string());
-    }
+    let text = format!("{}written to {}\n", report::element_table(&study, &rows), out.display());
+    Ok(Answer::of(text, &summary)?.in_place(&out))
 }
 
 /// Says whether the study is valid and what it would run.
-pub(super) fn check(folder: &Path, arguments: &Check) -> Result<(), Failure> {
-    let loaded = ElementStudy::load(folder);
-    if arguments.which.json {
-        return match loaded {
-            Ok(study) => output::print_json(&json!({
-                "valid": true,
-                "study": study.name,
-                "seed": study.seed,
-                "study_hash": study.hash,
-                "elements": study.arms.iter()
-                    .map(|arm| json!({"element": arm.name, "members": arm.members, "random": !arm.elements.is_fixed()}))
-                    .collect::<Vec<_>>(),
-                "distributions": study.used,
-                "faults": [],
-                "warnings": study.warnings,
-            })),
-            Err(faults) => {
-                output::print_json(&json!({"valid": false, "faults": faults.faults, "warnings": []}))?;
-                Err(Failure::Said)
-            }
-        };
-    }
+pub(super) fn check(folder: &Path, arguments: &Check) -> Result<Answer, Failure> {
+    let study = ElementStudy::load(folder).map_err(|faults| check::refused(faults, arguments.which.json))?;
     if arguments.columns {
         return Err(Failure::Usage(format!(
             "{} compares types of elements; --columns: the table of its results is elements.csv, whose columns are named after what they hold",
             folder.display()
         )));
     }
-    let study = loaded?;
-    warn(&study);
     let names: Vec<String> = study.arms.iter().map(|arm| format!("{} ({})", arm.name, arm.members)).collect();
     let keys = if arguments.keys { format!("\n{}", key_reference()) } else { String::new() };
-    output::print(&format!(
+    let text = format!(
         "{}: valid\n  question: {}\n  elements (assemblies): {}\n  seed: {}\n{}{keys}",
         study.name,
         study.question,
         names.join(", "),
         study.seed,
         check::origins(&study.used)
-    ))
+    );
+    let object = json!({
+        "valid": true,
+        "study": study.name,
+        "seed": study.seed,
+        "study_hash": study.hash,
+        "elements": study.arms.iter()
+            .map(|arm| json!({"element": arm.name, "members": arm.members, "random": !arm.elements.is_fixed()}))
+            .collect::<Vec<_>>(),
+        "distributions": study.used,
+        "faults": [],
+        "warnings": study.warnings,
+    });
+    Ok(Answer::of(text, &object)?.with_warnings(study.warnings.iter().map(ToString::to_string).collect()))
 }

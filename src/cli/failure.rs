@@ -1,38 +1,43 @@
 //! Why a verb did not do what it was asked, and its exit code.
 
-use std::process::ExitCode;
+use serde_json::Value;
 
 use crate::ensemble::RunError;
+use crate::interrupt::Stopped;
 use crate::study::Faults;
 
 /// A verb that failed, by whose fault.
 #[derive(Debug)]
-pub(crate) enum Failure {
+pub enum Failure {
     /// The run, or one of its files: exit code 1.
     Run(String),
     /// The arguments: exit code 2.
     Usage(String),
     /// The study or the wall file: exit code 3.
     Input(String),
-    /// The study or the wall file, and all that is to be said has been printed: exit code 3.
-    Said,
+    /// The study or the wall file, where an object was asked for, which says what is wrong: exit code 3.
+    Said(Value),
+    /// It was asked to stop: exit code 130, as of a program that Ctrl-C has ended.
+    Stopped,
 }
 
 impl Failure {
-    /// What the user is told; empty when it has been said.
+    /// What the user is told.
     pub fn message(&self) -> String {
         match self {
             Failure::Run(text) | Failure::Usage(text) | Failure::Input(text) => text.trim_end().to_string(),
-            Failure::Said => String::new(),
+            Failure::Said(object) => format!("{object:#}"),
+            Failure::Stopped => Stopped.to_string(),
         }
     }
 
     /// The exit code.
-    pub fn code(&self) -> ExitCode {
+    pub fn code(&self) -> u8 {
         match self {
-            Failure::Run(_) => ExitCode::from(1),
-            Failure::Usage(_) => ExitCode::from(2),
-            Failure::Input(_) | Failure::Said => ExitCode::from(3),
+            Failure::Run(_) => 1,
+            Failure::Usage(_) => 2,
+            Failure::Input(_) | Failure::Said(_) => 3,
+            Failure::Stopped => 130,
         }
     }
 }
@@ -46,5 +51,11 @@ impl From<RunError> for Failure {
 impl From<Faults> for Failure {
     fn from(faults: Faults) -> Self {
         Failure::Input(faults.to_string())
+    }
+}
+
+impl From<Stopped> for Failure {
+    fn from(Stopped: Stopped) -> Self {
+        Failure::Stopped
     }
 }

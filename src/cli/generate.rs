@@ -4,10 +4,10 @@ use std::path::Path;
 
 use serde_json::json;
 
+use crate::cli::answer::Answer;
 use crate::cli::arguments::Generate;
 use crate::cli::failure::Failure;
 use crate::cli::one_wall::OneWall;
-use crate::cli::output;
 use crate::ensemble::replace_file;
 use crate::model::{Movement, Wall};
 use crate::protocol::Run;
@@ -22,7 +22,7 @@ enum Format {
 }
 
 /// Builds the wall and writes it.
-pub(crate) fn generate(arguments: &Generate) -> Result<(), Failure> {
+pub(crate) fn generate(arguments: &Generate) -> Result<Answer, Failure> {
     let format = format_of(&arguments.out)?;
     if arguments.solved && format != Format::Vtu {
         return Err(Failure::Usage(
@@ -38,20 +38,19 @@ pub(crate) fn generate(arguments: &Generate) -> Result<(), Failure> {
 
     let (out, stones) = (arguments.out.display().to_string(), wall.stones().count());
     let (wedges, headers) = (generated.realised.wedges, generated.realised.headers);
-    if arguments.which.json {
-        return output::print_json(&json!({
-            "study": study.name, "variant": study.variant, "seed": study.seed,
-            "arm": arm, "point": task.point, "kn_pa_per_m": kn, "member": member,
-            "out": out, "stones": stones, "wedges": wedges, "headers": headers,
-            "attempts": generated.attempts, "redraws": generated.redraws, "merges": generated.merges,
-            "volume_m3": generated.realised.volume, "outcome": solved.map(|run| run.outcome.name()),
-        }));
-    }
+    let object = json!({
+        "study": study.name, "variant": study.variant, "seed": study.seed,
+        "arm": arm, "point": task.point, "kn_pa_per_m": kn, "member": member,
+        "out": out, "stones": stones, "wedges": wedges, "headers": headers,
+        "attempts": generated.attempts, "redraws": generated.redraws, "merges": generated.merges,
+        "volume_m3": generated.realised.volume, "outcome": solved.as_ref().map(|run| run.outcome.name()),
+    });
     let ending = solved.map_or(String::new(), |run| format!("; {}", run.outcome.name()));
-    output::print(&format!(
+    let text = format!(
         "{out}: arm {arm}, member {member}, kn {kn:e} Pa/m: {stones} stones, of them {wedges} wedges and {headers} headers; {:.4} m3{ending}\n",
         generated.realised.volume
-    ))
+    );
+    Ok(Answer::of(text, &object)?.in_place(&arguments.out))
 }
 
 fn encoded(format: Format, wall: &Wall, solved: Option<&Run>) -> String {

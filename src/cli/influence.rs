@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::cli::answer::Answer;
 use crate::cli::arguments::Influence;
 use crate::cli::failure::Failure;
 use crate::cli::{locate, one_wall, output, report as page, threads};
@@ -15,11 +16,11 @@ const INFLUENCE: &str = "influence";
 const MOST: u64 = RANDOMISATIONS * Design::MOST_POINTS;
 
 /// Evaluates what has not been, and says where the scatter comes from.
-pub(crate) fn influence(arguments: &Influence) -> Result<(), Failure> {
+pub(crate) fn influence(arguments: &Influence) -> Result<Answer, Failure> {
     threads::on(arguments.threads, || answered(arguments))
 }
 
-fn answered(arguments: &Influence) -> Result<(), Failure> {
+fn answered(arguments: &Influence) -> Result<Answer, Failure> {
     let loaded = locate::study(&arguments.which)?;
     let mut study = loaded.study.clone();
     if let Some(seed) = arguments.seed {
@@ -55,10 +56,8 @@ fn answered(arguments: &Influence) -> Result<(), Failure> {
     page::beside(&out, (arguments.report, &arguments.which, arguments.threads), |origin| {
         influence_page(&summary, (&study, &loaded), origin)
     })?;
-    if arguments.which.json {
-        return output::print_json(&summary);
-    }
-    output::print(&format!("{}\nwritten to {}\n", influence_text(&summary), out.display()))
+    let text = format!("{}\nwritten to {}\n", influence_text(&summary), out.display());
+    Ok(Answer::of(text, &summary)?.in_place(&out))
 }
 
 /// The study of one arm alone, whose members are the base points.

@@ -1,6 +1,7 @@
 //! The command line: arguments, messages, exit codes. Nothing else in the library prints.
 
 mod analyse;
+mod answer;
 mod arguments;
 mod bank;
 mod capacity;
@@ -38,52 +39,95 @@ mod report;
 mod run;
 mod schema;
 mod sensitivity;
+mod session;
 mod threads;
 
-use std::process::ExitCode;
+use std::ffi::OsString;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use clap::{CommandFactory, FromArgMatches};
 
+pub use crate::cli::answer::Answer;
 use crate::cli::arguments::{Arguments, Verb};
+pub use crate::cli::failure::Failure;
+pub use crate::cli::session::Hear;
+use crate::interrupt;
 
-/// Reads the arguments of the process, does what they ask, and gives the exit code: 0 done, 1 the run or its files
-/// failed, 2 the arguments make no sense, 3 the study or the wall is invalid.
-pub fn main() -> ExitCode {
+/// Does what arguments ask, of which the first is the name of the program, prints what comes out, and gives the exit code: 0 done,
+/// 1 the run or its files failed, 2 the arguments make no sense, 3 the study or the wall is invalid.
+pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     output::report_full_files();
-    let matches = help::framed(Arguments::command()).try_get_matches();
-    let arguments = match matches.and_then(|matches| Arguments::from_arg_matches(&matches)) {
+    let given: Vec<OsString> = arguments.into_iter().collect();
+    let _served = session::begin(shown(&given), None);
+    let arguments = match read(given) {
         Ok(arguments) => arguments,
         Err(error) => return output::usage(&error),
     };
     output::set_quiet(arguments.quiet);
-    let done = match &arguments.verb {
-        Verb::Analyse(arguments) => analyse::analyse(arguments),
-        Verb::Bank(arguments) => bank::bank(arguments),
-        Verb::Capacity(arguments) => capacity::capacity(arguments),
-        Verb::Check(arguments) => check::check(arguments),
-        Verb::Cite(arguments) => cite::cite(arguments),
-        Verb::Compare(arguments) => compare::compare(arguments),
-        Verb::Completions(arguments) => completions::completions(arguments),
-        Verb::Diagnose(arguments) => diagnose::diagnose(arguments),
-        Verb::Generate(arguments) => generate::generate(arguments),
-        Verb::Man(arguments) => man::man(arguments),
-        Verb::Measured(arguments) => measured::measured(arguments),
-        Verb::Influence(arguments) => influence::influence(arguments),
-        Verb::Init(arguments) => init::init(arguments),
-        Verb::Mechanisms(arguments) => mechanisms::mechanisms(arguments),
-        Verb::Picture(arguments) => picture::picture(arguments),
-        Verb::PlanTests(arguments) => plan_tests::plan_tests(arguments),
-        Verb::Readings(arguments) => readings::readings(arguments),
-        Verb::Report(arguments) => report::report(arguments),
-        Verb::Run(arguments) => run::run(arguments),
-        Verb::Schema(arguments) => schema::schema(arguments),
-        Verb::Sensitivity(arguments) => sensitivity::sensitivity(arguments),
-    };
-    match done {
-        Ok(()) => ExitCode::SUCCESS,
+    let told = |answer: Option<Answer>| answer.map_or(Ok(()), |answer| answer.tell(arguments.verb.is_json()));
+    match done(&arguments.verb).and_then(told) {
+        Ok(()) => 0,
         Err(failure) => {
-            output::error(&failure.message());
+            output::failed(&failure);
             failure.code()
         }
     }
+}
+
+/// Does what arguments ask, without the name of the program, for another program: gives the answer where the command prints it, and lets
+/// `hear` hear what the command says on standard error meanwhile. `None` of a verb that makes no more than a text, which it prints.
+///
+/// One command is done at a time, on all processors: a second one waits. [`interrupt::ask`] stops those that go on.
+///
+/// # Errors
+/// See [`Failure`]; its message is that of the command.
+pub fn answered(arguments: Vec<OsString>, hear: Arc<Hear>) -> Result<Option<Answer>, Failure> {
+    static ONE: Mutex<()> = Mutex::new(());
+    interrupt::stoppable(|| {
+        let _one = ONE.lock().unwrap_or_else(PoisonError::into_inner);
+        interrupt::look();
+        let given: Vec<OsString> = std::iter::once(OsString::from("pirca")).chain(arguments).collect();
+        let _served = session::begin(shown(&given), Some(hear));
+        let arguments = read(given).map_err(|error| Failure::Usage(error.to_string()))?;
+        output::set_quiet(arguments.quiet);
+        done(&arguments.verb)
+    })?
+}
+
+/// The arguments behind the name of the program, as text.
+fn shown(given: &[OsString]) -> Vec<String> {
+    given.iter().skip(1).map(|argument| argument.to_string_lossy().into_owned()).collect()
+}
+
+fn read(given: Vec<OsString>) -> Result<Arguments, clap::Error> {
+    let matches = help::framed(Arguments::command()).try_get_matches_from(given)?;
+    Arguments::from_arg_matches(&matches)
+}
+
+/// Does what a verb asks. Verbs that make no more than a text print it themselves.
+fn done(verb: &Verb) -> Result<Option<Answer>, Failure> {
+    let answer = match verb {
+        Verb::Bank(arguments) => return bank::bank(arguments).map(|()| None),
+        Verb::Cite(arguments) => return cite::cite(arguments).map(|()| None),
+        Verb::Completions(arguments) => return completions::completions(arguments).map(|()| None),
+        Verb::Init(arguments) => return init::init(arguments).map(|()| None),
+        Verb::Man(arguments) => return man::man(arguments).map(|()| None),
+        Verb::Measured(arguments) => return measured::measured(arguments).map(|()| None),
+        Verb::Mechanisms(arguments) => return mechanisms::mechanisms(arguments).map(|()| None),
+        Verb::PlanTests(arguments) => return plan_tests::plan_tests(arguments).map(|()| None),
+        Verb::Readings(arguments) => return readings::readings(arguments).map(|()| None),
+        Verb::Schema(arguments) => return schema::schema(arguments).map(|()| None),
+        Verb::Sensitivity(arguments) => return sensitivity::sensitivity(arguments).map(|()| None),
+        Verb::Analyse(arguments) => analyse::analyse(arguments),
+        Verb::Capacity(arguments) => capacity::capacity(arguments),
+        Verb::Check(arguments) => check::check(arguments),
+        Verb::Compare(arguments) => compare::compare(arguments),
+        Verb::Diagnose(arguments) => diagnose::diagnose(arguments),
+        Verb::Generate(arguments) => generate::generate(arguments),
+        Verb::Influence(arguments) => influence::influence(arguments),
+        Verb::Picture(arguments) => picture::picture(arguments),
+        Verb::Report(arguments) => report::report(arguments),
+        Verb::Run(arguments) => run::run(arguments),
+    };
+    answer.map(Some)
 }

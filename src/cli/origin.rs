@@ -8,6 +8,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use serde::{Deserialize, Serialize};
 
 use crate::cli::failure::Failure;
+use crate::cli::session;
 use crate::ensemble::replace_file;
 use crate::report::PageOrigin;
 
@@ -29,12 +30,12 @@ pub(crate) struct Origin {
 }
 
 impl Origin {
-    /// Of this process, as of now, for what lies at a path and with so many threads (default: one per processor).
+    /// Of the command that is served, as of now, for what lies at a path and with so many threads (default: one per processor).
     pub fn now(study: &Path, threads: Option<NonZero<usize>>) -> Origin {
         let threads = threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
         let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
         Origin {
-            command: command(std::env::args().skip(1)),
+            command: command(session::arguments().into_iter()),
             study: study.canonicalize().unwrap_or_else(|_| study.to_path_buf()),
             date: date(since.as_secs()),
             platform: format!("{} {}, threads: {threads}", std::env::consts::OS, std::env::consts::ARCH),

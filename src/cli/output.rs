@@ -4,12 +4,12 @@
 use std::fs;
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use console::Style;
 
 use crate::cli::failure::Failure;
+use crate::cli::session;
 use crate::study::Study;
 
 /// Whether standard error gets errors alone; decided once, by the arguments.
@@ -20,9 +20,9 @@ pub(crate) fn set_quiet(quiet: bool) {
     QUIET.store(quiet, Ordering::Relaxed);
 }
 
-/// Whether progress can be drawn on standard error: it is a terminal, and is to be written to.
+/// Whether progress can be drawn on standard error: it is a terminal, is to be written to, and nobody else hears what is said.
 pub(crate) fn can_draw() -> bool {
-    std::io::stderr().is_terminal() && !QUIET.load(Ordering::Relaxed)
+    session::heard_by().is_none() && std::io::stderr().is_terminal() && !QUIET.load(Ordering::Relaxed)
 }
 
 /// Writes text to standard output, as a terminal likes it if it is one.
@@ -126,22 +126,33 @@ pub(crate) fn folder(path: &Path) -> Result<(), Failure> {
         .map_err(|error| Failure::Run(format!("cannot create the folder {}: {error}", path.display())))
 }
 
-/// Writes a line to standard error, unless it is to have errors alone.
+/// Says a line on the way, unless only errors are to be said: on standard error, or to whoever hears it.
 pub(crate) fn note(text: &str) {
-    if !QUIET.load(Ordering::Relaxed) {
-        tell(text);
+    if QUIET.load(Ordering::Relaxed) {
+        return;
+    }
+    match session::heard_by() {
+        Some(hear) => hear(text),
+        None => tell(text),
     }
 }
 
-/// Writes a warning to standard error, unless it is to have errors alone.
+/// Says a warning, unless only errors are to be said.
 pub(crate) fn warning(text: &str) {
-    note(&format!("{} {text}", Style::new().for_stderr().yellow().bold().apply_to("warning:")));
+    let style = match session::heard_by() {
+        Some(_) => Style::new().force_styling(false),
+        None => Style::new().for_stderr().yellow().bold(),
+    };
+    note(&format!("{} {text}", style.apply_to("warning:")));
 }
 
-/// Writes an error to standard error; nothing when there is nothing left to say.
-pub(crate) fn error(text: &str) {
-    if !text.is_empty() {
-        tell(&format!("{} {text}", Style::new().for_stderr().red().bold().apply_to("error:")));
+/// Says why a verb failed: on standard error, or as an object on standard output if that was asked for.
+pub(crate) fn failed(failure: &Failure) {
+    let message = failure.message();
+    match failure {
+        // Where nobody reads it, there is nobody left to tell.
+        Failure::Said(_) => drop(print_as_it_is(&format!("{message}\n"))),
+        _ => tell(&format!("{} {message}", Style::new().for_stderr().red().bold().apply_to("error:"))),
     }
 }
 
@@ -151,10 +162,10 @@ fn tell(text: &str) {
 }
 
 /// Answers arguments that make no sense, or a request for help or the version.
-pub(crate) fn usage(error: &clap::Error) -> ExitCode {
+pub(crate) fn usage(error: &clap::Error) -> u8 {
     // As in `print`: whoever closed the pipe has read enough.
     let _ = error.print();
-    ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
+    u8::try_from(error.exit_code()).unwrap_or(2)
 }
 
 /// Lets a write beyond the file size limit (`ulimit -f`) fail with an error that says so, as a full disk does.

@@ -4,13 +4,14 @@ use std::path::Path;
 
 use serde_json::json;
 
+use crate::cli::answer::Answer;
 use crate::cli::arguments::{Measure, Picture as Arguments};
 use crate::cli::condition::{conditions, hinges};
 use crate::cli::drawn::{drawing, ending, seams, stones, uncoloured};
 use crate::cli::failure::Failure;
 use crate::cli::frames::{self, Shown};
 use crate::cli::one_wall::OneWall;
-use crate::cli::{output, replayed};
+use crate::cli::replayed;
 use crate::contact;
 use crate::ensemble::replace_file;
 use crate::model::{Movement, Replay};
@@ -18,7 +19,7 @@ use crate::protocol::{Direction, Protocol, Run, typical_size};
 use crate::report::Picture;
 
 /// Solves the member and draws it.
-pub(crate) fn picture(arguments: &Arguments) -> Result<(), Failure> {
+pub(crate) fn picture(arguments: &Arguments) -> Result<Answer, Failure> {
     if !is_svg(&arguments.out) {
         return Err(Failure::Usage(format!(
             "--out {}: the picture is an SVG file, so its name must end in .svg",
@@ -36,18 +37,17 @@ pub(crate) fn picture(arguments: &Arguments) -> Result<(), Failure> {
         replay.map_or(Ok(Vec::new()), |replay| films(arguments, &chosen, &run, (&picture, replay)))?;
 
     let out = arguments.out.display().to_string();
-    if arguments.which.json {
-        let failure = run.failure.as_ref();
-        return output::print_json(&json!({
-            "study": study.name, "variant": study.variant, "seed": study.seed,
-            "arm": arm.name, "point": task.point, "kn_pa_per_m": kn, "member": member,
-            "out": out, "outcome": run.outcome.name(), "magnification": picture.magnification,
-            "mode": failure.map(|f| f.mode.name()), "hinge_height_m": failure.map(|f| f.hinge_height),
-            "moving_weight_share": failure.map(|f| f.weight_share), "states": states,
-        }));
-    }
+    let failure = run.failure.as_ref();
+    let object = json!({
+        "study": study.name, "variant": study.variant, "seed": study.seed,
+        "arm": arm.name, "point": task.point, "kn_pa_per_m": kn, "member": member,
+        "out": out, "outcome": run.outcome.name(), "magnification": picture.magnification,
+        "mode": failure.map(|f| f.mode.name()), "hinge_height_m": failure.map(|f| f.hinge_height),
+        "moving_weight_share": failure.map(|f| f.weight_share), "states": states,
+    });
     let films: String = written.iter().map(|line| format!("{line}\n")).collect();
-    output::print(&format!("{out}: {}: {}\n{films}", picture.title, ending(&run)))
+    let text = format!("{out}: {}: {}\n{films}", picture.title, ending(&run));
+    Ok(Answer::of(text, &object)?.in_place(&arguments.out))
 }
 
 /// Writes the states from rest through the collapse as asked; a line for each folder.

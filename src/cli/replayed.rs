@@ -10,11 +10,14 @@ use crate::exchange::write_obj;
 use crate::model::{Replay, ReplayState, Support, Wall};
 use crate::report::{Actor, Picture, Role, SERIES, Stone, write_glb, write_series};
 
+/// A wall, the names of its blocks by their ids, and which of them take part in the mechanism.
+type Named<'w> = (&'w Wall, &'w dyn Fn(usize) -> String, &'w dyn Fn(usize) -> bool);
+
 /// Writes the files of a wall's replay; `names` are those of its blocks, `moving` those that take part in the mechanism.
 pub(crate) fn write(
     folder: &Path,
     title: &str,
-    (wall, names, moving): (&Wall, &dyn Fn(usize) -> String, &dyn Fn(usize) -> bool),
+    (wall, names, moving): Named<'_>,
     replay: &Replay,
 ) -> Result<(), Failure> {
     output::folder(&folder.join(SERIES))?;

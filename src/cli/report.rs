@@ -8,13 +8,14 @@ use clap::Parser;
 use serde_json::json;
 
 use crate::cli::analyse::Analyse;
+use crate::cli::answer::Answer;
 use crate::cli::arguments::{Measure, Report, Run, Which};
 use crate::cli::doing::doing;
 use crate::cli::drawn::ending;
 use crate::cli::failure::Failure;
 use crate::cli::one_wall::OneWall;
 use crate::cli::origin::Origin;
-use crate::cli::{locate, output, picture, run};
+use crate::cli::{locate, picture, run};
 use crate::ensemble::{self, Manifest, Row, replace_file};
 use crate::report::{DrawnWall, PageOrigin, RunPage, chosen_walls, run_page};
 use crate::study::{Loaded, Study};
@@ -23,7 +24,7 @@ use crate::study::{Loaded, Study};
 pub(crate) const PAGE: &str = "report.html";
 
 /// Writes the page of a run that has ended, of a study, or of a wall.
-pub(crate) fn report(arguments: &Report) -> Result<(), Failure> {
+pub(crate) fn report(arguments: &Report) -> Result<Answer, Failure> {
     let of = &arguments.of;
     let is_wall =
         of.extension().is_some_and(|end| ["json", "obj"].iter().any(|own| end.eq_ignore_ascii_case(own)));
@@ -42,7 +43,7 @@ pub(crate) fn report(arguments: &Report) -> Result<(), Failure> {
 }
 
 /// The page of a wall from a file, as `analyse --report` writes it.
-fn of_wall(arguments: &Report) -> Result<(), Failure> {
+fn of_wall(arguments: &Report) -> Result<Answer, Failure> {
     #[derive(Parser)]
     #[command(name = "pirca report WALL --", no_binary_name = true)]
     struct Asked {
@@ -59,7 +60,7 @@ fn of_wall(arguments: &Report) -> Result<(), Failure> {
 }
 
 /// The page of a study: it is run as far as it has not been.
-fn of_study(arguments: &Report) -> Result<(), Failure> {
+fn of_study(arguments: &Report) -> Result<Answer, Failure> {
     if arguments.study.is_some() {
         return Err(Failure::Usage(
             "--study is for the folder of a run; a study names itself: leave it out".to_owned(),
@@ -70,7 +71,7 @@ fn of_study(arguments: &Report) -> Result<(), Failure> {
 }
 
 /// The page of a run that has ended.
-fn of_run(arguments: &Report) -> Result<(), Failure> {
+fn of_run(arguments: &Report) -> Result<Answer, Failure> {
     let folder = &arguments.of;
     let manifest = ensemble::identity(folder)?;
     let origin = Origin::read(folder).unwrap_or_default();
@@ -81,13 +82,11 @@ fn of_run(arguments: &Report) -> Result<(), Failure> {
     let study = ensemble::come_to(study, &rows);
     let page = arguments.out.clone().unwrap_or_else(|| folder.join(PAGE));
     write(&page, (&study, &loaded), &rows, &origin)?;
-    if arguments.json {
-        return output::print_json(&json!({
-            "study": study.name, "variant": study.variant, "seed": study.seed, "study_hash": study.hash,
-            "evaluations": rows.len(), "page": page.display().to_string(),
-        }));
-    }
-    output::print(&format!("written to {}\n", page.display()))
+    let object = json!({
+        "study": study.name, "variant": study.variant, "seed": study.seed, "study_hash": study.hash,
+        "evaluations": rows.len(), "page": page.display().to_string(),
+    });
+    Ok(Answer::of(format!("written to {}\n", page.display()), &object)?.in_place(&page))
 }
 
 /// Writes the page of a run of a study, as it was run and as its files state it.

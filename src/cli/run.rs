@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::cli::answer::Answer;
 use crate::cli::arguments::{Run, SolverName};
 use crate::cli::failure::Failure;
 use crate::cli::origin::Origin;
@@ -10,13 +11,13 @@ use crate::ensemble::{self, Quantity, Settings};
 use crate::report::{Earlier, terminal_table, write_all};
 use crate::study::{ElementStudy, Study};
 
-/// Runs a study, or what is still missing of it, and shows the results.
-pub(crate) fn run(arguments: &Run) -> Result<(), Failure> {
+/// Runs a study, or what is still missing of it, and says what came out.
+pub(crate) fn run(arguments: &Run) -> Result<Answer, Failure> {
     with_page(arguments, None)
 }
 
 /// The same with its page, if it is asked for, in a file of its own.
-pub(crate) fn with_page(arguments: &Run, page: Option<PathBuf>) -> Result<(), Failure> {
+pub(crate) fn with_page(arguments: &Run, page: Option<PathBuf>) -> Result<Answer, Failure> {
     let folder = locate::folder(&arguments.which.study)?;
     if ElementStudy::is_in(&folder) {
         return elements::run(&folder, arguments);
@@ -43,10 +44,8 @@ pub(crate) fn with_page(arguments: &Run, page: Option<PathBuf>) -> Result<(), Fa
         let file = page.unwrap_or_else(|| out.join(report::PAGE));
         report::write(&file, (&study, &loaded), &rows, &origin)?;
     }
-    if arguments.which.json {
-        return output::print_json(&summary);
-    }
-    output::print(&format!("{}\nwritten to {}\n", terminal_table(&summary).trim_end(), out.display()))
+    let text = format!("{}\nwritten to {}\n", terminal_table(&summary).trim_end(), out.display());
+    Ok(Answer::of(text, &summary)?.in_place(&out))
 }
 
 /// The study with what the arguments put in the place of its own values.

@@ -2,6 +2,7 @@
 
 use crate::ensemble::{LimitAnalysis, Mechanism, Row, ShearRow, StepRow, Task};
 use crate::generate::{Generated, InvalidGeometry, generate};
+use crate::interrupt;
 use crate::math::degrees;
 use crate::model::{Level, Outcome, Wall};
 use crate::protocol::{self, Agreement, Bounds, Protocol, Witness};
@@ -27,6 +28,7 @@ pub fn build(study: &Study, arm: u32, member: u64) -> Result<Generated, InvalidG
 ///
 /// Every point builds its wall anew: that costs little beside solving it, and no task waits for another.
 pub fn evaluate(study: &Study, task: Task) -> Row {
+    interrupt::look();
     match build(study, task.arm, task.member) {
         Ok(generated) => solved(study, task, &generated),
         Err(fault) => Row {

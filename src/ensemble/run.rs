@@ -18,6 +18,7 @@ use crate::ensemble::walls::WallKeys;
 use crate::ensemble::{
     Grown, Manifest, MemberFault, Progress, Row, RunError, Task, evaluate, files, plan, table,
 };
+use crate::interrupt::{self, Stopped};
 use crate::study::Study;
 
 /// Where a run writes and how many threads it uses; no result depends on either.
@@ -158,6 +159,8 @@ impl<'s> Evaluations<'s> {
             .pool
             .install(|| missing.par_iter().with_max_len(1).map(|&task| realisation.of(task)).collect());
         progress.end();
+        // On a worker a panic is a fault of its member; here it stops the run.
+        interrupt::look();
         gather(&missing, results, &mut self.entries)
     }
 
@@ -215,7 +218,8 @@ struct Realisation<'a> {
     progress: &'a dyn Progress,
     threads: u32,
     host: String,
-    /// Set when the journal cannot be written: what is not recorded would be lost, so nothing more is begun.
+    /// Set when the journal cannot be written, as what is not recorded would be lost, and when the run is told to stop: nothing more is
+    /// begun.
     stop: AtomicBool,
 }
 
@@ -243,6 +247,10 @@ impl Realisation<'_> {
             (entry, line)
         }));
         let (entry, line) = attempt.map_err(|cause| {
+            if cause.is::<Stopped>() {
+                self.stop.store(true, Ordering::Relaxed);
+                return Missed::NotBegun;
+            }
             self.progress.broken(task);
             Missed::Broken(self.fault(task, cause.as_ref()))
         })?;

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 /// Module and what it may import besides itself, in reading order.
 const HOUSE: &[(&str, &[&str])] = &[
+    ("interrupt", &[]),
     ("math", &[]),
     ("shape", &["math"]),
     ("random", &["math"]),
@@ -16,20 +17,35 @@ const HOUSE: &[(&str, &[&str])] = &[
     ("exchange", &["math", "shape", "model"]),
     ("contact", &["math", "shape", "model"]),
     ("generate", &["math", "shape", "random", "law", "model"]),
-    ("solve", &["math", "shape", "law", "model", "contact"]),
+    ("solve", &["interrupt", "math", "shape", "law", "model", "contact"]),
     // `shape`, beyond the house's first plan: a pressure is integrated over faces, and end blocks are shapes.
     ("protocol", &["math", "shape", "law", "model", "contact", "solve"]),
     ("study", &["math", "random", "stats", "law", "model", "generate", "solve", "protocol"]),
-    ("ensemble", &["math", "random", "stats", "model", "generate", "solve", "protocol", "study"]),
-    ("critic", &["math", "random", "stats", "model", "protocol", "study", "ensemble"]),
+    (
+        "ensemble",
+        &["interrupt", "math", "random", "stats", "model", "generate", "solve", "protocol", "study"],
+    ),
+    ("critic", &["interrupt", "math", "random", "stats", "model", "protocol", "study", "ensemble"]),
     ("report", &["math", "shape", "stats", "model", "exchange", "study", "ensemble", "critic"]),
     // `math`, `shape` and `contact`, beyond the house's first plan: degrees end at the command line, and a wall from
     // elsewhere is looked over (which blocks touch, overlap, float) before a solver sees it.
     (
         "cli",
         &[
-            "math", "shape", "law", "model", "exchange", "contact", "solve", "protocol", "stats", "study",
-            "ensemble", "critic", "report",
+            "interrupt",
+            "math",
+            "shape",
+            "law",
+            "model",
+            "exchange",
+            "contact",
+            "solve",
+            "protocol",
+            "stats",
+            "study",
+            "ensemble",
+            "critic",
+            "report",
         ],
     ),
 ];

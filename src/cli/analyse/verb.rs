@@ -15,10 +15,10 @@ use crate::cli::analyse::state::State;
 use crate::cli::analyse::unsure::{Given, asked, refused};
 use crate::cli::analyse::upright;
 use crate::cli::analyse::worst::{Tried, tried, weakest};
+use crate::cli::answer::Answer;
 use crate::cli::doing::doing;
 use crate::cli::failure::Failure;
 use crate::cli::one_wall::MOST_STATES;
-use crate::cli::output;
 use crate::exchange::{ReadOptions, Unit, Up, WallFaults, WallFile, read_wall};
 use crate::law::Coulomb;
 use crate::model::{Outcome, Support, Wall};
@@ -30,19 +30,18 @@ use crate::solve::STANDARD_GRAVITY;
 const PRESTRESS: f64 = 0.1;
 
 /// Solves a wall from a file.
-pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
+pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
     let begun = Instant::now();
     let mut warnings = asked_in_vain(arguments)?;
     let (read, fit) = match read(arguments) {
         Ok(found) => found,
         Err(faults) if arguments.json => {
-            output::print_json(&json!({
+            return Err(Failure::Said(json!({
                 "outcome": "invalid_geometry",
                 "faults": faults.faults,
                 "more": faults.more,
                 "warnings": warnings,
-            }))?;
-            return Err(Failure::Said);
+            })));
         }
         Err(faults) => return Err(Failure::Input(faults.to_string())),
     };
@@ -107,14 +106,11 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<(), Failure> {
             files::write_page(page, &of, &told)?;
         }
     }
-    if arguments.json {
-        return output::print_json(&object);
-    }
-    warnings.iter().for_each(|warning| output::warning(warning));
-    if let Some(place) = arguments.out.as_ref().or(page.as_ref()) {
-        text += &format!("written to {}\n", place.display());
-    }
-    output::print(&text)
+    let Some(place) = arguments.out.as_ref().or(page.as_ref()) else {
+        return Ok(Answer::of(text, &object)?.with_warnings(warnings));
+    };
+    text += &format!("written to {}\n", place.display());
+    Ok(Answer::of(text, &object)?.in_place(place).with_warnings(warnings))
 }
 
 /// All directions that are tried where the weakest one is asked for, with what the wall bears in each.

@@ -7,6 +7,7 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use crate::critic::compare::reading_variance;
 use crate::critic::simulate::{Campaign, Design, Queries, Seen, Truth, World};
+use crate::interrupt;
 use crate::math::{ln, ln_gamma};
 use crate::random::standard_normal::cdf;
 use crate::study::{MeasuredKind, MeasuredQuantity, Measurement};
@@ -99,6 +100,7 @@ impl<'c> Likelihood<'c> {
 
     /// The logarithm of the likelihood, but for a constant that all truths share, whatever causes they have.
     pub fn log(&self, truth: &Truth, common: &[f64]) -> f64 {
+        interrupt::look();
         let errors = Errors { of: self, scores: common };
         let mut log = 0.0;
         for Family { family, queries, each, all } in &self.families {

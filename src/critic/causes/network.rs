@@ -1,6 +1,7 @@
 //! A small network that gives the probability of each class from numbers: two hidden layers of rectified units, trained on examples
 //! by Adam (Kingma and Ba 2015) on the cross entropy, its confidence corrected by one temperature (Guo et al. 2017).
 
+use crate::interrupt;
 use crate::math::{exp, ln};
 use crate::random::Stream;
 use crate::random::standard_normal::quantile;
@@ -53,6 +54,7 @@ impl Network {
         let batches = order.len().div_ceil(BATCH) * EPOCHS as usize;
         let mut done = 0;
         for _ in 0..EPOCHS {
+            interrupt::look();
             for k in (1..order.len()).rev() {
                 order.swap(k, stream.below(k + 1));
             }

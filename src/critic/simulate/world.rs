@@ -19,6 +19,7 @@ use crate::critic::simulate::design::{Campaign, Design};
 use crate::critic::simulate::truth::Truth;
 use crate::critic::simulate::unmodelled::Unmodelled;
 use crate::ensemble::{build, is_random, weight};
+use crate::interrupt;
 use crate::math::{atan, radians, tan};
 use crate::model::Outcome;
 use crate::protocol::Ends;
@@ -203,6 +204,7 @@ impl<'s> World<'s> {
         unmodelled: &Unmodelled,
         streams: &Streams,
     ) -> Vec<Vec<Option<f64>>> {
+        interrupt::look();
         let gauge = self.gauge(truth);
         // Specimens of a family are walls of one kind, those that are turned round of another.
         let mut kinds: BTreeMap<(usize, bool), Likely> = BTreeMap::new();

@@ -80,11 +80,6 @@ impl Stone {
         Stone { shape, before: Movement::NONE, movement }
     }
 
-    /// Whether it is drawn where it was built.
-    pub(in crate::report) fn is_still(&self) -> bool {
-        self.before == Movement::NONE && self.movement == Movement::NONE
-    }
-
     /// Points of the block as built, taken to where they are drawn.
     pub(super) fn taking(&self, points: &[Vec3], magnification: f64) -> Vec<Vec3> {
         let built = self.shape.mass_properties().centroid;

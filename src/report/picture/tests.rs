@@ -186,7 +186,7 @@ fn a_thrust_is_a_line_along_the_force_through_its_centre_of_pressure() {
         })
         .collect();
     assert_eq!(lines.len(), 3);
-    let long = |line: &[f64]| ((line[2] - line[0]).powi(2) + (line[3] - line[1]).powi(2)).sqrt();
+    let long = |line: &[f64]| Vec3::new(line[2] - line[0], line[3] - line[1], 0.0).norm();
     assert!(lines[..2].iter().all(|line| (line[0] - line[2]).abs() < 0.2), "{lines:?}");
     assert!((long(&lines[0]) / long(&lines[1]) - 2.0).abs() < 0.02, "{lines:?}");
 }

@@ -1,5 +1,6 @@
 //! The contacts: sorted lists of neighbours, each with the springs and the shear that it remembers.
 
+use crate::interrupt;
 use crate::law::{Frictional, SphereSpring};
 use crate::math::Vec3;
 use crate::shape::Plane;
@@ -68,6 +69,7 @@ impl Contacts {
 
     /// Adds the forces of all contacts to the bodies; `dt` is the length of the step (s) that led to the positions now.
     pub fn apply(&mut self, bodies: &mut [Body], spheres: &Spheres, planes: &[Plane], dt: f64) {
+        interrupt::look();
         for contact in &mut self.pairs {
             let (i, j) = (contact.sphere as usize, contact.other as usize);
             let from = spheres.centre[i];

@@ -11,6 +11,7 @@ mod tests;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::contact::{self, candidate_pairs, find_patch};
+use crate::interrupt;
 use crate::law::{Pressed, SubContact};
 use crate::math::Vec3;
 use crate::model::JointLaws;
@@ -119,6 +120,7 @@ impl Joints {
 
     /// Adds every joint's force to its two bodies; `dt` (s) is the length of the step that led here.
     pub fn apply(&mut self, bodies: &mut [Body], dt: f64) {
+        interrupt::look();
         for joint in &mut self.all {
             joint.apply(bodies, dt, &mut self.scratch);
         }
@@ -132,6 +134,7 @@ impl Joints {
     /// Adds every joint's force to its two bodies for a step of any length that started at the anchors, one per joint:
     /// each joint goes back to what it remembered there first, so that a step can be tried again and again.
     pub fn apply_since(&mut self, bodies: &mut [Body], anchors: &[Anchor]) {
+        interrupt::look();
         for (joint, anchor) in self.all.iter_mut().zip(anchors) {
             joint.apply_since(bodies, anchor, &mut self.scratch);
         }

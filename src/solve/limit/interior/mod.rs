@@ -23,6 +23,7 @@ mod step;
 
 use clarabel::solver::SolverStatus;
 
+use crate::interrupt;
 use crate::math::Vec3;
 use crate::solve::limit::interior::groups::Groups;
 use crate::solve::limit::interior::iterate::Iterate;
@@ -67,6 +68,7 @@ pub(super) fn solve(program: &Program) -> Option<Solved> {
             break;
         }
         iterations += 1;
+        interrupt::look();
         let Some(scaling) = Scaling::of(&groups, &goal, &now) else { break };
         if !normal.factorise(&groups, &scaling.inverses) {
             break;

@@ -1,0 +1,205 @@
+"""Walls of one's own: from arrays, meshes or files to the load at which they fall."""
+
+from __future__ import annotations
+
+import json
+import tempfile
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from pirca.answer import Answer
+from pirca.command import ask, warn
+from pirca.errors import UsageError
+from pirca.wall import Block, Wall
+
+__all__ = ["Analysis", "analyse"]
+
+#: A number, a range (low, high) of it, or a text as "normal(34,2)".
+Known = float | tuple[float, float] | str
+#: Density (kg/m3) of blocks that come without one, as of objects of an OBJ file.
+DENSITY = 2400.0
+#: Name of the file that blocks are handed over in.
+FILE = "wall.json"
+
+
+class Analysis(Answer):
+    """How a wall falls: a mapping of what `pirca analyse --json` prints.
+
+    Attributes
+    ----------
+    outcome : str
+        "collapsed", "stable", "unstable_at_rest", ...
+    collapse_angle_deg : float or None
+        Tilt at which it falls (deg), if it is tilted.
+    multiplier : float or None
+        Horizontal load over the weight at which it falls, if it is pushed.
+    collapse_multiplier : float or None
+        The same of either load; of a tilt its tangent.
+    moves : list of int
+        Ids of the blocks that move at collapse.
+    """
+
+    outcome: str = property(lambda self: self["outcome"])
+    collapse_angle_deg: float | None = property(lambda self: self["collapse_angle_deg"])
+    multiplier: float | None = property(lambda self: self["multiplier"])
+    collapse_multiplier: float | None = property(lambda self: self["collapse_multiplier"])
+    moves: list[int] = property(lambda self: self["mechanism"])
+
+
+def analyse(
+    wall: Any,
+    *,
+    phi_deg: Known,
+    fixed: Collection[int] = (),
+    density_kg_per_m3: float | Sequence[float] | None = None,
+    unit: str | None = None,
+    solver: str = "limit",
+    load: str = "tilt",
+    direction: str | float | None = None,
+    worst_direction: bool = False,
+    vertical: float | None = None,
+    dead_load: Mapping[int, float] | None = None,
+    settle: Mapping[int, float] | None = None,
+    kn: Known | None = None,
+    ks: float | None = None,
+    cohesion: float | None = None,
+    flow: str | None = None,
+    step_deg: float | None = None,
+    touch_tolerance: float | str | None = None,
+    flatness: str | None = None,
+    up: str | None = None,
+    density: Known | None = None,
+    walls: int | None = None,
+    seed: int | None = None,
+    colour: str | None = None,
+    out: str | Path | None = None,
+    progress: bool = False,
+) -> Analysis:
+    """Say at which tilt or horizontal load a wall falls, as `pirca analyse`.
+
+    Parameters
+    ----------
+    wall : path, Wall, or list of blocks
+        A `wall.json` or `.obj` file; a `pirca.Wall`; or convex blocks, each a pair (vertices, faces), a trimesh or COMPAS mesh
+        (anything with `vertices` and `faces`, or `to_vertices_and_faces()`), a `pirca.Block`, or a mapping as in `wall.json`. They
+        are numbered from 0 in the order of the list, or by their own ids. Axes: z up.
+    phi_deg : float, (low, high) or str
+        Friction angle of the joints (deg), or what is known of it: a range, or "normal(34,2)".
+    fixed : collection of int
+        Ids of the blocks that are supports.
+    density_kg_per_m3 : float or list of float, optional
+        Density of all blocks, or of each; of an OBJ file, of the objects that have none. 2400 with a warning without it.
+    unit : {"m", "cm", "mm"}, optional
+        Unit of the coordinates of blocks, or of an OBJ file; "m" without it.
+    solver : {"limit", "implicit", "explicit"}
+        Limit analysis of rigid blocks, or elastic joints, which need `kn`.
+    load : {"tilt", "lateral"}
+        Gravity turns towards the direction, or a multiple of the weight pushes there.
+    direction : str or float, optional
+        "x+", "x-", "y+", "y-", or an angle (deg) from x+ seen from above; "y+" without it.
+    dead_load, settle : dict, optional
+        Weights (N) on blocks, and ways (m) that supports go down, by the id of the block.
+    kn, ks : optional
+        Normal and shear stiffness of the joints per area (Pa/m); ks is kn / 2 without it.
+    worst_direction, vertical, cohesion, flow, step_deg, touch_tolerance, flatness, up, density, walls, seed, colour
+        As the options of `pirca analyse`; see its help.
+    out : path, optional
+        Folder for a page of it all, the picture of the mechanism, files for ParaView, tables of blocks and joints, and the blocks
+        themselves (`wall.json`).
+    progress : bool
+        Say on standard error how far it is.
+
+    Raises
+    ------
+    pirca.InputError
+        With everything that is wrong with the blocks.
+    """
+    options = {
+        "phi_deg": phi_deg, "solver": solver, "load": load, "direction": direction, "worst_direction": worst_direction,
+        "vertical": vertical, "dead_load": dead_load, "settle": settle, "kn": kn, "ks": ks, "cohesion": cohesion,
+        "flow": flow, "step_deg": step_deg, "touch_tolerance": touch_tolerance, "flatness": flatness, "up": up,
+        "density": density, "walls": walls, "seed": seed, "colour": colour, "out": out, "progress": progress,
+    }
+    of_file = {"unit": unit, "density_kg_per_m3": density_kg_per_m3}
+    is_whole = isinstance(wall, (str, Path, Wall))
+    if is_whole and fixed:
+        raise UsageError("fixed: a file or a Wall says itself which of its blocks are supports; leave it out")
+    if isinstance(wall, (str, Path)):
+        return Analysis(ask("analyse", wall, **options, **of_file))
+    if isinstance(wall, Wall):
+        # Refused as of a file of that kind, which states both itself.
+        options, text = {**options, **of_file}, wall.json
+    else:
+        text = _written(wall, set(fixed), density_kg_per_m3, unit or "m")
+    if out is not None:
+        # The file stays, so that the command can be given again.
+        Path(out).mkdir(parents=True, exist_ok=True)
+        file = Path(out) / FILE
+        file.write_text(text, encoding="utf-8")
+        return Analysis(ask("analyse", file, **options))
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / FILE
+        file.write_text(text, encoding="utf-8")
+        return Analysis(ask("analyse", file, **options))
+
+
+def _written(blocks: Iterable[Any], fixed: set[int], densities: float | Sequence[float] | None, unit: str) -> str:
+    """Blocks as `wall.json`."""
+    entries = [_entry(block, number) for number, block in enumerate(blocks)]
+    unknown = fixed - {entry["id"] for entry in entries}
+    if unknown:
+        known = [entry["id"] for entry in entries]
+        raise UsageError(f"fixed: there is no block {', '.join(map(str, sorted(unknown)))}; the blocks are {known}")
+    if densities is not None and np.ndim(densities) == 1 and len(densities) != len(entries):
+        raise UsageError(f"density_kg_per_m3: {len(densities)} for {len(entries)} blocks; give one for each, or one for all")
+    given = [None] * len(entries) if densities is None else np.broadcast_to(densities, len(entries)).tolist()
+    for entry, density in zip(entries, given):
+        if entry["id"] in fixed:
+            entry["fixed"] = True
+        if density is not None:
+            entry["density"] = density
+    lack = [entry for entry in entries if "density" not in entry and not entry.get("fixed")]
+    if lack:
+        warn(f"{len(lack)} blocks have no density: {DENSITY:.0f} kg/m3 is taken; give density_kg_per_m3")
+    for entry in lack:
+        entry["density"] = DENSITY
+    return json.dumps({"unit": unit, "blocks": entries})
+
+
+def _entry(block: Any, number: int) -> dict[str, Any]:
+    """A block as `wall.json` has it."""
+    if isinstance(block, Mapping):
+        own = {"id": number, **block}
+        return {**own, "vertices": _points(own.get("vertices"), number), "faces": _faces(own.get("faces"), number)}
+    if isinstance(block, Block):
+        own = {"density": block.density, "fixed": block.fixed, "tag": block.tag}
+        own |= {} if block.group is None else {"group": block.group}
+        return {"id": block.id, "vertices": block.vertices.tolist(), "faces": _faces(block.faces, number), **own}
+    if hasattr(block, "to_vertices_and_faces"):
+        vertices, faces = block.to_vertices_and_faces()
+    elif hasattr(block, "vertices") and hasattr(block, "faces"):
+        vertices, faces = block.vertices, block.faces
+    elif isinstance(block, Sequence) and len(block) == 2:
+        vertices, faces = block
+    else:
+        raise UsageError(
+            f"block {number}: (vertices, faces), a mesh with vertices and faces, or a mapping is needed, and {type(block)} is none"
+        )
+    return {"id": number, "vertices": _points(vertices, number), "faces": _faces(faces, number)}
+
+
+def _points(vertices: Any, number: int) -> list[list[float]]:
+    points = np.asarray(vertices, dtype=float)
+    if points.ndim != 2 or points.shape[1] != 3:
+        raise UsageError(f"block {number}: the vertices are an array of shape {points.shape}; (n, 3) is needed")
+    return points.tolist()
+
+
+def _faces(faces: Any, number: int) -> list[list[int]]:
+    try:
+        return [[int(corner) for corner in face] for face in faces]
+    except (TypeError, ValueError) as wrong:
+        raise UsageError(f"block {number}: each face is a list of the indices of its corners: {wrong}") from wrong

@@ -1,0 +1,321 @@
+"""Studies: walls, stones, joints, load, and the arms to compare."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import tempfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from pirca.answer import Answer
+from pirca.command import Answered, ask
+from pirca.errors import InputError, UsageError
+from pirca.run import Run
+from pirca.wall import Wall
+
+__all__ = ["Study"]
+
+Path_ = str | Path
+
+
+class Study:
+    """A study: a folder with a `study.toml`. It is read and checked at once; what looks odd is a Python warning.
+
+    Parameters
+    ----------
+    study : path
+        Its folder, or the `study.toml` in it.
+    members : int, optional
+        Number of walls in every random arm, in the place of the study's, for `run`, `wall` and `capacity`.
+    seed : int, optional
+        Seed in the place of the study's.
+    variant : str, optional
+        A named variant of the study; see `variants`.
+    threads : int, optional
+        Worker threads; one per processor without it. No result depends on their number.
+
+    Raises
+    ------
+    pirca.InputError
+        With every fault of the study's files, by line and key.
+
+    Attributes
+    ----------
+    name : str
+        What it is called: its folder.
+    arms : list of str
+        The kinds of wall.
+    variants : dict
+        Name of each variant, and why somebody would read the study so.
+    info : dict
+        All that `pirca check --json` says.
+    """
+
+    def __init__(
+        self,
+        study: Path_,
+        *,
+        members: int | None = None,
+        seed: int | None = None,
+        variant: str | None = None,
+        threads: int | None = None,
+    ) -> None:
+        self.path = Path(study)
+        self._variant, self._members, self._seed, self._threads = variant, members, seed, threads
+        checked = ask("check", self.path, variant=variant)
+        self.text: str = checked.text
+        self.info: dict[str, Any] = json.loads(checked.json)
+        if "elements" in self.info:
+            raise InputError(f"{self.path} compares types of elements, not walls: only the command line takes it")
+        self.name: str = self.info["study"]
+        self.arms: list[str] = [arm["arm"] for arm in self.info["arms"]]
+        self.variants: dict[str, str] = {own["name"]: own["why"] for own in self.info["variants"]}
+
+    def run(
+        self,
+        *,
+        out: Path_ | None = None,
+        solver: str | None = None,
+        beside: Path_ | None = None,
+        report: bool = False,
+        progress: bool = False,
+    ) -> Run:
+        """Build and solve all walls: as `pirca run`, whose files it writes. A run that was stopped goes on where it stood.
+
+        Parameters
+        ----------
+        out : path, optional
+            Folder of the results; `runs/NAME` without it, with `-VARIANT` behind.
+        solver : {"explicit", "implicit", "limit"}, optional
+            Solver in the place of the study's.
+        beside : path, optional
+            Folder of an earlier run of the study, whose means are drawn into the figure.
+        report : bool
+            Write `report.html` as well.
+        progress : bool
+            Say on standard error how far it is.
+        """
+        answered = self._ask(
+            "run", out=out, solver=solver, beside=beside, report=report, members=self._members, progress=progress
+        )
+        assert answered.out is not None, "a run has a folder"
+        return Run(answered.out, answered.text)
+
+    def wall(self, arm: str | None = None, member: int = 0, *, point: int = 0, base: bool = False) -> Wall:
+        """Build one wall, as `pirca generate`.
+
+        Parameters
+        ----------
+        arm : str, optional
+            Name of the arm; without it the first whose walls are random.
+        member : int
+            Number of the wall in its arm, from 0.
+        point : int
+            Number of the kn point, from 0. The stones are the same at every point.
+        base : bool
+            With the ground, a fixed block, as `pirca.analyse` needs one.
+        """
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "wall.json"
+            answered = self._ask(
+                "generate", threads=None, arm=arm, member=member, point=point, with_base=base, members=self._members,
+                out=file,
+            )
+            text = file.read_text(encoding="utf-8")
+        drawn = json.loads(answered.json)
+        del drawn["out"]
+        return Wall(text, drawn)
+
+    def capacity(
+        self,
+        *,
+        quantile: float | None = None,
+        below_deg: float | None = None,
+        above_m: float | None = None,
+        below_n: float | None = None,
+        measured: bool = False,
+        walls: int | None = None,
+        cov: float | None = None,
+        method: str | None = None,
+        half_width: float | None = None,
+        known_cov: float | None = None,
+        out: Path_ | None = None,
+        progress: bool = False,
+    ) -> Answer:
+        """Say what walls may be counted on to bear, as `pirca capacity`: without a question the 5 % quantile.
+
+        Parameters
+        ----------
+        quantile : float, optional
+            Which share of walls lie below the value sought.
+        below_deg, above_m, below_n : float, optional
+            How probable is a collapse before this tilt (deg), a displacement beyond this (m), a shear capacity below this (N)?
+        measured : bool
+            Take the collapse angles in `measured.csv` alone, and simulate nothing.
+        walls, cov, method, half_width : optional
+            Further walls towards a small probability or a narrow quantile; see `pirca capacity --help`.
+        known_cov : float, optional
+            Coefficient of variation of such walls, where more than these walls tell it: 0.1 is 10 %.
+        out, progress
+            As of `run`.
+        """
+        own = {} if measured else {"members": self._members}
+        return Answer(
+            self._ask(
+                "capacity", measured=measured, quantile=quantile, below_deg=below_deg, above_m=above_m, below_n=below_n,
+                walls=walls, cov=cov, method=method, half_width=half_width, known_cov=known_cov, out=out,
+                progress=progress, **own,
+            )
+        )
+
+    def influence(
+        self,
+        *,
+        arm: str | None = None,
+        point: int = 0,
+        points: int | None = None,
+        out: Path_ | None = None,
+        progress: bool = False,
+    ) -> Answer:
+        """Say where the scatter of walls comes from, as `pirca influence`: shares of the variance by source.
+
+        Parameters
+        ----------
+        arm, point
+            As of `wall`.
+        points : int, optional
+            Base points, a multiple of 16; each costs two walls and one more for every source. 256 without it.
+        out, progress
+            As of `run`.
+        """
+        return Answer(self._ask("influence", arm=arm, point=point, points=points, out=out, progress=progress))
+
+    def compare(
+        self,
+        arms: Sequence[str] | None = None,
+        *,
+        quantile: float | None = None,
+        below_deg: float | None = None,
+        above_m: float | None = None,
+        below_n: float | None = None,
+        point: int = 0,
+        confidence: float | None = None,
+        walls: int | None = None,
+        same_within_deg: float | None = None,
+        same_within_m: float | None = None,
+        same_within_n: float | None = None,
+        same_within_share: float | None = None,
+        out: Path_ | None = None,
+        progress: bool = False,
+    ) -> Answer:
+        """Say which arm is the best, and how sure that is, as `pirca compare`.
+
+        Parameters
+        ----------
+        arms : list of str, optional
+            The arms to compare; all without it.
+        quantile, below_deg, above_m, below_n : float, optional
+            What is compared, as in `capacity`; the mean without one.
+        point : int
+            Number of the kn point, from 0.
+        confidence : float, optional
+            Probability with which all that is said holds together; 0.95 without it.
+        walls : int, optional
+            Most walls that are evaluated in all arms together; 1000 without it.
+        same_within_deg, same_within_m, same_within_n, same_within_share : float, optional
+            Differences that do not matter.
+        out, progress
+            As of `run`.
+        """
+        return Answer(
+            self._ask(
+                "compare", arms=None if arms is None else list(arms), quantile=quantile, below_deg=below_deg,
+                above_m=above_m, below_n=below_n, point=point, confidence=confidence, walls=walls,
+                same_within_deg=same_within_deg, same_within_m=same_within_m, same_within_n=same_within_n,
+                same_within_share=same_within_share, out=out, progress=progress,
+            )
+        )
+
+    def diagnose(
+        self,
+        measured: Any = None,
+        *,
+        bank: Path_ | None = None,
+        points: int | None = None,
+        build: bool = True,
+        gain: bool = True,
+        law: bool = False,
+        out: Path_ | None = None,
+        progress: bool = False,
+    ) -> Answer:
+        """Say what the simulation gets wrong and what explains it, as `pirca diagnose`.
+
+        Parameters
+        ----------
+        measured : path or data frame, optional
+            What was measured, with the columns of `measured.csv`; the study's own file without it. A pandas, polars or pyarrow
+            table, or a mapping of columns, is written beside the results as `measured.csv`.
+        bank : path, optional
+            Folder of the walls that the diagnosis rests on.
+        points : int, optional
+            Points in the priors for each mechanism that the bank has; 60 without it.
+        build : bool
+            Simulate the bank if there is none: minutes to hours.
+        gain : bool
+            Measure what the extended model gains on readings held out: minutes on a large design.
+        law : bool
+            Where no cause explains the readings, learn a free law of the joints.
+        out, progress
+            As of `run`; the folder without it is `runs/NAME-diagnosis`.
+        """
+        return Answer(
+            self._ask(
+                "diagnose", measured=self._file_of(measured, out), bank=bank, points=points, no_build=not build,
+                no_gain=not gain, law=law, out=out, progress=progress,
+            )
+        )
+
+    def _ask(self, verb: str, **options: Any) -> Answered:
+        given = {"variant": self._variant, "seed": self._seed, "threads": self._threads, **options}
+        return ask(verb, self.path, **given)
+
+    def _file_of(self, measured: Any, out: Path_ | None) -> Path | None:
+        """The file of what was measured. It stays, so that what was said of it can be said again."""
+        if measured is None or isinstance(measured, (str, Path)):
+            return None if measured is None else Path(measured)
+        file = Path("runs") / f"{self.name}-measured.csv" if out is None else Path(out) / "measured.csv"
+        text = _csv(measured)
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text, encoding="utf-8")
+        return file
+
+    def __repr__(self) -> str:
+        return f"<Study {self.name}: {', '.join(self.arms)}>"
+
+    def __str__(self) -> str:
+        return self.text
+
+
+def _csv(table: Any) -> str:
+    """A table as CSV; what is missing is empty."""
+    if hasattr(table, "write_csv"):
+        return table.write_csv()
+    if hasattr(table, "to_csv"):
+        return table.to_csv(index=False)
+    if hasattr(table, "to_pydict"):
+        table = table.to_pydict()
+    if not isinstance(table, Mapping):
+        raise UsageError(
+            f"measured: a path, a pandas, polars or pyarrow table, or a mapping of columns is needed, and {type(table)} is none"
+        )
+    columns = {name: list(values) for name, values in table.items()}
+    if len({len(values) for values in columns.values()}) > 1:
+        raise UsageError("measured: the columns are not of the same length")
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(columns)
+    writer.writerows(zip(*columns.values()))
+    return text.getvalue()
