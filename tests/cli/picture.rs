@@ -48,6 +48,59 @@ fn a_wall_that_falls_is_drawn_with_how_it_falls() {
     assert!(slips.contains("mm: slip of joints") || slips.contains("No joint slipped."), "{slips}");
 }
 
+/// The names of the files in a folder, in order.
+fn names(folder: &Folder, below: &str) -> Vec<String> {
+    let entries = fs::read_dir(folder.path(below)).expect("the folder was made").flatten();
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_wall_is_drawn_and_written_in_every_state_from_rest_through_the_collapse() {
+    let folder = Folder::with_study(&tilting(""));
+    let asked = ["--arm", "stack", "--frames", "frames", "--series", "seen"];
+    // What an earlier replay of more states left would be mixed with this one.
+    fs::create_dir_all(folder.path("frames")).expect("a folder");
+    fs::write(folder.path("frames/frame-099.svg"), "old").expect("a file");
+    let (told, picture) = drawn(&folder, &asked);
+    assert_eq!(drawn(&folder, &["--arm", "stack"]).1, picture, "the picture is the same without them");
+    let states = told["states"].as_u64().expect("so many states") as usize;
+    assert!((10..=100).contains(&states), "{told}");
+    assert_eq!(names(&folder, "frames").len(), states);
+    assert_eq!(
+        names(&folder, "seen"),
+        ["collapse.obj", "joints.pvd", "rest.obj", "series", "wall.glb", "wall.pvd"]
+    );
+    assert_eq!(names(&folder, "seen/series").len(), 2 * states);
+    let read = |name: &str| fs::read_to_string(folder.path(name)).expect("it was written");
+    let (first, last) = (read("frames/frame-000.svg"), read(&format!("frames/frame-{:03}.svg", states - 1)));
+    assert!(first.contains(&format!("State 1 of {states}: at rest at a tilt of 0.0000 deg.")), "{first}");
+    assert!(last.contains(&format!("State {states} of {states}: falling at a tilt of ")), "{last}");
+    // All frames are of one size, and the ground, which is drawn first, stays where it is.
+    let head = |text: &str| text.lines().take(4).map(str::to_owned).collect::<Vec<_>>();
+    assert_eq!(head(&first), head(&last));
+    // The collapse is that of the last state; the ground is in it.
+    let last = read(&format!("seen/series/wall-{:03}.vtu", states - 1));
+    assert!(last.contains("Name=\"at_rest\" NumberOfTuples=\"1\" format=\"ascii\">\n0\n"));
+    let stones = read("seen/collapse.obj").lines().filter(|line| line.starts_with("o ")).count();
+    assert!(last.contains(&format!("NumberOfCells=\"{stones}\"")) && stones == 13, "{stones}");
+    assert!(read("seen/collapse.obj").contains("\no base_12\n"));
+}
+
+#[test]
+fn a_wall_that_stands_has_a_series_of_its_states_at_rest_and_no_collapse() {
+    let folder = Folder::with_study(STUDY);
+    let (told, _) = drawn(&folder, &["--arm", "stack", "--frames", "frames", "--series", "seen"]);
+    assert_eq!(names(&folder, "seen"), ["joints.pvd", "rest.obj", "series", "wall.glb", "wall.pvd"]);
+    let frame = fs::read_to_string(folder.path("frames/frame-001.svg")).expect("a second state");
+    assert!(told["states"].as_u64() > Some(1) && frame.contains("at rest at load factor "), "{frame}");
+    // What moves by fractions of a millimetre is enlarged to be seen.
+    let times = frame.split("Movements times ").nth(1).and_then(|rest| rest.split(';').next());
+    assert!(times.and_then(|times| times.parse::<f64>().ok()) > Some(10.0), "{times:?}");
+}
+
 #[test]
 fn a_wall_that_does_not_fall_is_drawn_at_rest_and_says_so() {
     for (study, level) in

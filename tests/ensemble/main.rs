@@ -1,5 +1,6 @@
 //! Runs as a user starts them: worker counts, kills, changed studies, full disks, shared random numbers.
 
+mod columns;
 mod enough;
 mod failed_members;
 mod fixture;
