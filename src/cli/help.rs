@@ -62,7 +62,7 @@ tilting-table. A folder that exists is left alone: choose another name.
 
 /// Of `check`.
 pub(super) const CHECK: &str = concat!(
-    "Example: pirca check studies/joint-arrangement\n         pirca check studies/joint-arrangement --keys\n\n",
+    "Example: pirca check studies/joint-arrangement\n         pirca check studies/joint-arrangement --keys\n         pirca check studies/joint-arrangement --columns\n\n",
     codes!()
 );
 
@@ -81,9 +81,14 @@ Example: pirca generate studies/joint-arrangement --arm irregular --member 17 --
 pub(super) const PICTURE: &str = concat!(
     "\
 Example: pirca picture studies/tilting-table --arm sbl --member 0 --out wall.svg
+         pirca picture studies/tilting-table --arm sbl --out wall.svg --series fall --frames fall/frames
 
 The last state at rest is drawn in true size, the movement of the fall magnified. A wall that does not fall is drawn at rest, \
 with its displacements magnified. Every way a wall can end is drawn, and ends with 0.
+
+--frames and --series show the wall in at most 100 states: those at rest as the load grows, and where it falls up to 40 more in which \
+the explicit solver lets it fall from the last one at rest, until a stone has gone 0.3 of the wall's height. Limit analysis has the \
+mechanism further and further instead. A fall is in true size unless --magnify says otherwise.
 
 ",
     codes!(),

@@ -61,6 +61,18 @@ fn keys() -> String {
     )
 }
 
+/// The page of all columns of a run's tables.
+fn columns() -> String {
+    let said = printed(&["check", "studies/joint-arrangement", "--columns"]);
+    let (_, columns) = said.split_once("\nmembers.parquet, ").expect("the columns of members");
+    format!(
+        "# Columns\n\nThe columns of the tables that `pirca run` writes, as `pirca check STUDY --columns` prints them: name, unit, type, \
+         meaning. Those of sheared walls and of drawn parameters are there where a study has them.\n\n\
+         <!-- Written by the program: {COMMAND} -->\n\n```text\nmembers.parquet, {}\n```\n",
+        columns.trim_end()
+    )
+}
+
 /// The page of all causes that a diagnosis looks for: a heading for each, and its lines as a list.
 fn causes() -> String {
     let mut page = format!(
@@ -84,7 +96,9 @@ fn causes() -> String {
 
 #[test]
 fn the_reference_is_what_the_program_prints() {
-    for (name, page) in [("commands", commands()), ("keys", keys()), ("causes", causes())] {
+    for (name, page) in
+        [("commands", commands()), ("keys", keys()), ("columns", columns()), ("causes", causes())]
+    {
         let path = root().join("docs/reference").join(name).with_extension("md");
         if std::env::var_os("PIRCA_REFERENCE").is_some_and(|value| value == "write") {
             fs::write(&path, &page).expect("a page");

@@ -109,7 +109,8 @@ pub(crate) struct Analyse {
     /// Seed of the design over ranges and distributions [default: 1].
     #[arg(long, value_name = "N", help_heading = SOLUTION)]
     pub seed: Option<u64>,
-    /// Folder for a page of it all (report.html), a picture of the mechanism, files for ParaView (.vtu), and tables of blocks and joints (.csv, .json).
+    /// Folder for a page of it all (report.html), a picture of the mechanism, the way from rest through the collapse for ParaView (.pvd,
+    /// .vtu), as animation (.glb) and as .obj, and tables of blocks and joints (.csv, .json).
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub out: Option<PathBuf>,
     /// Write the page of it all without its folder, as <wall>-report.html here. With --out it is in that folder anyway.
