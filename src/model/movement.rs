@@ -26,6 +26,16 @@ impl Movement {
         points.iter().map(|point| centroid + self.shift + turn * (point - centroid)).collect()
     }
 
+    /// By how much it displaces points of a block with a centroid (m); exactly the shift where nothing turns.
+    pub fn displacing(&self, centroid: Vec3, points: &[Vec3]) -> Vec<Vec3> {
+        let turn = self.rotation();
+        let of = |point: &Vec3| {
+            let arm = point - centroid;
+            self.shift + (turn * arm - arm)
+        };
+        points.iter().map(of).collect()
+    }
+
     /// The rotation: Rodrigues' formula.
     pub fn rotation(&self) -> Mat3 {
         let angle = self.turn.norm();

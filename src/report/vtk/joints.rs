@@ -35,8 +35,7 @@ pub(super) fn in_state(replay: &Replay, centroids: &[Vec3], state: &ReplayState)
         text.push_str("</Cells>\n<PointData Vectors=\"displacement\">\n");
         let moved = joints.iter().flat_map(|(joint, _)| {
             let block = joint.blocks[0] as usize;
-            let now = state.poses[block].taking(centroids[block], &joint.polygon);
-            now.into_iter().zip(&joint.polygon).map(|(now, built)| now - built).collect::<Vec<_>>()
+            state.poses[block].displacing(centroids[block], &joint.polygon)
         });
         array(text, "Float64", "displacement", 3, moved.map(|v| vector(&v)));
         text.push_str("</PointData>\n<CellData>\n");

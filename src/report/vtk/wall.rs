@@ -71,9 +71,7 @@ fn written(
 
 /// How the corners of a block are displaced (m).
 fn displaced(block: &Block, movement: &Movement) -> Vec<Vec3> {
-    let corners = &block.shape.vertices;
-    let moved = movement.taking(block.shape.mass_properties().centroid, corners);
-    moved.iter().zip(corners).map(|(now, built)| now - built).collect()
+    movement.displacing(block.shape.mass_properties().centroid, &block.shape.vertices)
 }
 
 /// Connectivity, and the face stream of every polyhedron: number of faces, then per face its number of points and the
