@@ -80,7 +80,7 @@ impl Surveys {
             return Err(asked.fault(allowed.to_owned(), "write file and column with a colon between them"));
         };
         let Some(survey) = self.survey(file, asked)? else { return Ok(None) };
-        let at = survey.find(file, column, asked)?;
+        let at = survey.find(file, column, &[], asked)?;
         Ok(self.values(&survey, at, column, asked))
     }
 
@@ -96,7 +96,7 @@ impl Surveys {
     ) -> Result<Option<Vec<[f64; 2]>>, Box<Fault>> {
         let Some(survey) = self.survey(file, asked)? else { return Ok(None) };
         let [first, second] = columns;
-        let at = [survey.find(file, first, asked)?, survey.find(file, second, asked)?];
+        let at = [survey.find(file, first, &columns, asked)?, survey.find(file, second, &columns, asked)?];
         let read = [0, 1].map(|k| self.values(&survey, at[k], columns[k], asked));
         let [Some(first), Some(second)] = read else { return Ok(None) };
         Ok(Some(first.into_iter().zip(second).map(|(a, b)| [a, b]).collect()))
@@ -181,8 +181,9 @@ impl Surveys {
 }
 
 impl Survey {
-    /// Where the column of that name stands, if its name says that it is in the unit asked for.
-    fn find(&self, file: &str, column: &str, asked: Asked) -> Result<usize, Box<Fault>> {
+    /// Where the column of that name stands, if its name says that it is in the unit asked for. Those that are `taken` are not meant
+    /// by a slip in its name.
+    fn find(&self, file: &str, column: &str, taken: &[&str], asked: Asked) -> Result<usize, Box<Fault>> {
         let unit = suffix(asked.unit);
         let listed = || self.columns.iter().filter(|name| !name.is_empty()).cloned().collect::<Vec<_>>();
         if !named(column).ends_with(&unit) {
@@ -194,10 +195,11 @@ impl Survey {
             return Ok(at);
         }
         let allowed = format!("a column of {file}, which has {}; it has no {column}", listed().join(", "));
+        let free: Vec<String> = listed().into_iter().filter(|name| !taken.contains(&name.as_str())).collect();
         let other = self.columns.iter().find(|name| !unit.is_empty() && stem(name) == stem(column));
         Err(asked.fault(
             allowed,
-            match (other, nearest(&named(column), &listed())) {
+            match (other, nearest(&named(column), &free)) {
                 (Some(other), _) => format!("give {other} in {}, and call it {column}", asked.unit),
                 (None, Some(near)) => format!("did you mean \"{near}\"?"),
                 (None, None) => format!("add a column {column}"),

@@ -27,7 +27,7 @@ fn a_property_that_averages_out_is_warned_of_with_the_arithmetic() {
     scratch.replace(
         STUDY,
         "[[variant]]",
-        "[arm.joint]\nphi_deg = { family = \"normal\", mean = 30, sd = 4 }\n\n[[variant]]",
+        "[arm.joint]\nphi_deg = { family = \"triangular\", low = 20, mode = 30, high = 40 }\n\n[[variant]]",
     );
     let keys: Vec<String> = warnings(&scratch).into_iter().map(|own| own.key).collect();
     assert_eq!(keys, ["joint.kn_factor", "joint.phi_deg", "arm.hewn.joint.phi_deg"]);

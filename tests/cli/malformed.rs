@@ -203,7 +203,9 @@ fn the_sound_study_loads() {
     for variant in [None, Some("corners"), Some("laid-cut")] {
         let loaded = scratch.load(variant).unwrap_or_else(|faults| panic!("{faults}"));
         assert_eq!(loaded.study.variant.as_deref(), variant);
-        assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
+        // Its joints scatter from one to the next, which is said: see `averaged`.
+        let warned: Vec<&str> = loaded.warnings.iter().map(|own| own.key.as_str()).collect();
+        assert_eq!(warned, ["joint.kn_factor"], "{:?}", loaded.warnings);
     }
 }
 
@@ -346,7 +348,8 @@ fn a_stiffness_in_the_wrong_magnitude_is_a_warning() {
     let scratch = Scratch::new("magnitude");
     let line = scratch.replace(STUDY, "[5e7, 7.5e7]", "[5e2, 7.5e7, 2e13]");
     let loaded = scratch.load(None).unwrap_or_else(|faults| panic!("{faults}"));
-    let shown: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
+    let of_kn = loaded.warnings.iter().filter(|own| own.key == "joint.kn_pa_per_m");
+    let shown: Vec<String> = of_kn.map(ToString::to_string).collect();
     assert_eq!(shown.len(), 2, "{shown:?}");
     assert!(shown[0].starts_with(&format!("study.toml:{line}: joint.kn_pa_per_m = 5e2: allowed is this, but usual is within 1e6 to 1e12 (Pa/m)")), "{}", shown[0]);
     assert!(shown[1].contains("2e13"), "{}", shown[1]);
