@@ -50,7 +50,7 @@ fn commands() -> String {
     page
 }
 
-/// The page of all keys and of the columns of measured.csv.
+/// The page of all keys, and of the columns of measured.csv.
 fn keys() -> String {
     let said = printed(&["check", "studies/joint-arrangement", "--keys"]);
     let (_, keys) = said.split_once("\n## ").expect("tables of keys");
@@ -61,16 +61,32 @@ fn keys() -> String {
     )
 }
 
-/// The page of all columns of a run's tables.
+/// The page of the columns of a run's tables: a heading for each table, and its columns with unit, kind and meaning.
 fn columns() -> String {
-    let said = printed(&["check", "studies/joint-arrangement", "--columns"]);
-    let (_, columns) = said.split_once("\nmembers.parquet, ").expect("the columns of members");
-    format!(
-        "# Columns\n\nThe columns of the tables that `pirca run` writes, as `pirca check STUDY --columns` prints them: name, unit, type, \
-         meaning. Those of sheared walls and of drawn parameters are there where a study has them.\n\n\
-         <!-- Written by the program: {COMMAND} -->\n\n```text\nmembers.parquet, {}\n```\n",
-        columns.trim_end()
-    )
+    let said = printed(&["check", "studies/tilting-block", "--columns"]);
+    let (_, tables) = said.split_once("\n\n").expect("tables of columns");
+    let mut page = format!(
+        "# Columns\n\nThe columns of the tables that `pirca run` writes, as `pirca check STUDY --columns` prints them. Those that do not \
+         apply to a study are null. The columns of `measured.csv` are among the [keys](keys.md#measuredcsv).\n\n\
+         <!-- Written by the program: {COMMAND} -->\n"
+    );
+    for line in tables.lines() {
+        let cells: Vec<&str> =
+            line.trim().split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect();
+        let _ = match cells[..] {
+            [] => Ok(()),
+            [name, unit, kind, meaning] => {
+                writeln!(page, "| `{name}` | {unit} | {kind} | {meaning} |")
+            }
+            [title] if !line.starts_with(' ') => {
+                let (name, what) = title.split_once(": ").unwrap_or((title, ""));
+                let head = "| column | unit | kind | meaning |\n|---|---|---|---|";
+                writeln!(page, "\n## {name}\n\nHolds {what}.\n\n{head}")
+            }
+            _ => panic!("neither a table nor a column: {line}"),
+        };
+    }
+    page
 }
 
 /// The page of all causes that a diagnosis looks for: a heading for each, and its lines as a list.
