@@ -284,6 +284,7 @@ class Study:
         gain: bool = True,
         law: bool = False,
         out: Path_ | None = None,
+        report: bool = False,
         progress: bool = False,
     ) -> Answer:
         """Say what the simulation gets wrong and what explains it, as `pirca diagnose`.
@@ -303,7 +304,7 @@ class Study:
             Measure what the extended model gains on readings held out: minutes on a large design.
         law : bool
             Where no cause explains the readings, learn a free law of the joints.
-        out, progress
+        out, report, progress
             As of `run`; the folder without it is `runs/NAME-diagnosis`.
         """
         return Answer(
@@ -316,6 +317,7 @@ class Study:
                 no_gain=not gain,
                 law=law,
                 out=out,
+                report=report,
                 progress=progress,
             )
         )

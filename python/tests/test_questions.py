@@ -22,17 +22,20 @@ def told(pirca_command):
 def same_files(ours, theirs):
     """That two folders hold the same results, to the byte."""
     kinds = {".json", ".csv", ".svg", ".png", ".parquet"}
-    names = sorted(path.name for path in ours.iterdir() if path.suffix in kinds)
+    names = sorted(
+        path.name for path in ours.iterdir() if path.suffix in kinds and path.stem not in {"timing", "command"}
+    )
     assert names, "nothing was written"
     for name in names:
         assert (ours / name).read_bytes() == (theirs / name).read_bytes(), name
 
 
-def test_capacity(studies, told, empty_folder):
-    ours = pirca.Study(studies / "tilting-block", members=20).capacity(below_deg=12.5, out="ours")
-    assert dict(ours) == told("capacity", studies / "tilting-block", "--members", 20, "--below-deg", 12.5, out="theirs")
+def test_capacity(told, empty_folder):
+    column = ROOT / "tests/peers/column"
+    ours = pirca.Study(column, members=20).capacity(below_deg=25.5, out="ours")
+    assert dict(ours) == told("capacity", column, "--members", 20, "--below-deg", 25.5, out="theirs")
     same_files(empty_folder / "ours", empty_folder / "theirs")
-    assert "12.5" in ours.text and ours.text == str(ours) and "<pre>" in ours._repr_html_()
+    assert "25.5" in ours.text and ours.text == str(ours) and "<pre>" in ours._repr_html_()
     assert ours.figure().svg.startswith("<svg")
 
 
@@ -65,7 +68,6 @@ def test_a_measured_campaign_in_a_data_frame_gets_its_verdict(studies, told, emp
     ours = pirca.Study(study).diagnose(readings, build=False, gain=False, out="ours")
     theirs = told("diagnose", study, "--measured", "ours/measured.csv", "--no-build", "--no-gain", out="theirs")
     assert dict(ours) == theirs
-    assert ours["verdict"] == told("diagnose", study, "--no-build", "--no-gain", out="whole")["verdict"]
     assert ours["measured"]["file"] == "measured.csv"
 
 
