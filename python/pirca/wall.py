@@ -109,7 +109,7 @@ class Wall:
         Options go to `pyvista.plot`: `off_screen=True, screenshot="wall.png"` writes a picture.
         """
         seen_from_the_front = (0.5, 1.5, 0.6)
-        given = {"color": "lightgray", "show_edges": True, "edge_color": "dimgray", "cpos": seen_from_the_front}
+        given = {"color": "whitesmoke", "show_edges": True, "edge_color": "dimgray", "cpos": seen_from_the_front}
         return self.to_pyvista().plot(**{**given, **options})
 
     def __len__(self) -> int:
