@@ -26,27 +26,35 @@ FILE = "wall.json"
 
 
 class Analysis(Answer):
-    """How a wall falls: a mapping of what `pirca analyse --json` prints.
+    """How a wall falls: a mapping of what `pirca analyse --json` prints, with its main entries at hand."""
 
-    Attributes
-    ----------
-    outcome : str
-        "collapsed", "stable", "unstable_at_rest", ...
-    collapse_angle_deg : float or None
-        Tilt at which it falls (deg), if it is tilted.
-    multiplier : float or None
-        Horizontal load over the weight at which it falls, if it is pushed.
-    collapse_multiplier : float or None
-        The same of either load; of a tilt its tangent.
-    moves : list of int
-        Ids of the blocks that move at collapse.
-    """
+    @property
+    def outcome(self) -> str:
+        """How it ended: "collapsed", "stable", "unstable_at_rest", ..."""
+        return str(self["outcome"])
 
-    outcome: str = property(lambda self: self["outcome"])
-    collapse_angle_deg: float | None = property(lambda self: self["collapse_angle_deg"])
-    multiplier: float | None = property(lambda self: self["multiplier"])
-    collapse_multiplier: float | None = property(lambda self: self["collapse_multiplier"])
-    moves: list[int] = property(lambda self: self["mechanism"])
+    @property
+    def collapse_angle_deg(self) -> float | None:
+        """Tilt at which it falls (deg), if it is tilted."""
+        angle: float | None = self["collapse_angle_deg"]
+        return angle
+
+    @property
+    def multiplier(self) -> float | None:
+        """Horizontal load over the weight at which it falls, if it is pushed."""
+        multiplier: float | None = self["multiplier"]
+        return multiplier
+
+    @property
+    def collapse_multiplier(self) -> float | None:
+        """The same of either load; of a tilt its tangent."""
+        multiplier: float | None = self["collapse_multiplier"]
+        return multiplier
+
+    @property
+    def moves(self) -> list[int]:
+        """Ids of the blocks that move at collapse."""
+        return list(self["mechanism"])
 
 
 def analyse(
@@ -117,13 +125,31 @@ def analyse(
     pirca.InputError
         With everything that is wrong with the blocks.
     """
-    options = {
-        "phi_deg": phi_deg, "solver": solver, "load": load, "direction": direction, "worst_direction": worst_direction,
-        "vertical": vertical, "dead_load": dead_load, "settle": settle, "kn": kn, "ks": ks, "cohesion": cohesion,
-        "flow": flow, "step_deg": step_deg, "touch_tolerance": touch_tolerance, "flatness": flatness, "up": up,
-        "density": density, "walls": walls, "seed": seed, "colour": colour, "out": out, "progress": progress,
+    options: dict[str, Any] = {
+        "phi_deg": phi_deg,
+        "solver": solver,
+        "load": load,
+        "direction": direction,
+        "worst_direction": worst_direction,
+        "vertical": vertical,
+        "dead_load": dead_load,
+        "settle": settle,
+        "kn": kn,
+        "ks": ks,
+        "cohesion": cohesion,
+        "flow": flow,
+        "step_deg": step_deg,
+        "touch_tolerance": touch_tolerance,
+        "flatness": flatness,
+        "up": up,
+        "density": density,
+        "walls": walls,
+        "seed": seed,
+        "colour": colour,
+        "out": out,
+        "progress": progress,
     }
-    of_file = {"unit": unit, "density_kg_per_m3": density_kg_per_m3}
+    of_file: dict[str, Any] = {"unit": unit, "density_kg_per_m3": density_kg_per_m3}
     is_whole = isinstance(wall, (str, Path, Wall))
     if is_whole and fixed:
         raise UsageError("fixed: a file or a Wall says itself which of its blocks are supports; leave it out")
@@ -153,8 +179,10 @@ def _written(blocks: Iterable[Any], fixed: set[int], densities: float | Sequence
     if unknown:
         known = [entry["id"] for entry in entries]
         raise UsageError(f"fixed: there is no block {', '.join(map(str, sorted(unknown)))}; the blocks are {known}")
-    if densities is not None and np.ndim(densities) == 1 and len(densities) != len(entries):
-        raise UsageError(f"density_kg_per_m3: {len(densities)} for {len(entries)} blocks; give one for each, or one for all")
+    if isinstance(densities, (Sequence, np.ndarray)) and len(densities) != len(entries):
+        raise UsageError(
+            f"density_kg_per_m3: {len(densities)} for {len(entries)} blocks; give one for each, or one for all"
+        )
     given = [None] * len(entries) if densities is None else np.broadcast_to(densities, len(entries)).tolist()
     for entry, density in zip(entries, given):
         if entry["id"] in fixed:
@@ -195,7 +223,7 @@ def _points(vertices: Any, number: int) -> list[list[float]]:
     points = np.asarray(vertices, dtype=float)
     if points.ndim != 2 or points.shape[1] != 3:
         raise UsageError(f"block {number}: the vertices are an array of shape {points.shape}; (n, 3) is needed")
-    return points.tolist()
+    return [[float(x) for x in point] for point in points]
 
 
 def _faces(faces: Any, number: int) -> list[list[int]]:

@@ -38,7 +38,9 @@ def ask(verb: str, *files: Any, progress: bool = False, **options: Any) -> Answe
 
     arguments = [verb, *(argument for name, value in options.items() for argument in _spelled(name, value))]
     # What a file is called is no option, whatever it begins with.
-    answered = Answered(*_native.ask([*arguments, "--", *(os.fspath(file) for file in files)], hear))
+    parts = _native.ask([*arguments, "--", *(os.fspath(file) for file in files)], hear)
+    assert parts is not None, f"{verb} prints what it makes"
+    answered = Answered(*parts)
     for warning in answered.warnings:
         warn(warning)
     return answered
@@ -76,4 +78,4 @@ def _said(value: Any) -> str:
         return str(int(value))
     if isinstance(value, Real):
         return repr(float(value))
-    return os.fspath(value)
+    return str(os.fspath(value))

@@ -46,7 +46,8 @@ class Run:
     @property
     def summary(self) -> dict[str, Any]:
         """Statistics with their 95 % intervals, by arm and stiffness (`summary.json`)."""
-        return json.loads((self.out / "summary.json").read_text(encoding="utf-8"))
+        summary: dict[str, Any] = json.loads((self.out / "summary.json").read_text(encoding="utf-8"))
+        return summary
 
     @property
     def figures(self) -> list[str]:

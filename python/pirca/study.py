@@ -121,7 +121,13 @@ class Study:
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "wall.json"
             answered = self._ask(
-                "generate", threads=None, arm=arm, member=member, point=point, with_base=base, members=self._members,
+                "generate",
+                threads=None,
+                arm=arm,
+                member=member,
+                point=point,
+                with_base=base,
+                members=self._members,
                 out=file,
             )
             text = file.read_text(encoding="utf-8")
@@ -143,6 +149,7 @@ class Study:
         half_width: float | None = None,
         known_cov: float | None = None,
         out: Path_ | None = None,
+        report: bool = False,
         progress: bool = False,
     ) -> Answer:
         """Say what walls may be counted on to bear, as `pirca capacity`: without a question the 5 % quantile.
@@ -159,15 +166,27 @@ class Study:
             Further walls towards a small probability or a narrow quantile; see `pirca capacity --help`.
         known_cov : float, optional
             Coefficient of variation of such walls, where more than these walls tell it: 0.1 is 10 %.
-        out, progress
+        out, report, progress
             As of `run`.
         """
         own = {} if measured else {"members": self._members}
         return Answer(
             self._ask(
-                "capacity", measured=measured, quantile=quantile, below_deg=below_deg, above_m=above_m, below_n=below_n,
-                walls=walls, cov=cov, method=method, half_width=half_width, known_cov=known_cov, out=out,
-                progress=progress, **own,
+                "capacity",
+                measured=measured,
+                quantile=quantile,
+                below_deg=below_deg,
+                above_m=above_m,
+                below_n=below_n,
+                walls=walls,
+                cov=cov,
+                method=method,
+                half_width=half_width,
+                known_cov=known_cov,
+                out=out,
+                report=report,
+                progress=progress,
+                **own,
             )
         )
 
@@ -178,6 +197,7 @@ class Study:
         point: int = 0,
         points: int | None = None,
         out: Path_ | None = None,
+        report: bool = False,
         progress: bool = False,
     ) -> Answer:
         """Say where the scatter of walls comes from, as `pirca influence`: shares of the variance by source.
@@ -188,10 +208,12 @@ class Study:
             As of `wall`.
         points : int, optional
             Base points, a multiple of 16; each costs two walls and one more for every source. 256 without it.
-        out, progress
+        out, report, progress
             As of `run`.
         """
-        return Answer(self._ask("influence", arm=arm, point=point, points=points, out=out, progress=progress))
+        return Answer(
+            self._ask("influence", arm=arm, point=point, points=points, out=out, report=report, progress=progress)
+        )
 
     def compare(
         self,
@@ -209,6 +231,7 @@ class Study:
         same_within_n: float | None = None,
         same_within_share: float | None = None,
         out: Path_ | None = None,
+        report: bool = False,
         progress: bool = False,
     ) -> Answer:
         """Say which arm is the best, and how sure that is, as `pirca compare`.
@@ -227,15 +250,27 @@ class Study:
             Most walls that are evaluated in all arms together; 1000 without it.
         same_within_deg, same_within_m, same_within_n, same_within_share : float, optional
             Differences that do not matter.
-        out, progress
+        out, report, progress
             As of `run`.
         """
         return Answer(
             self._ask(
-                "compare", arms=None if arms is None else list(arms), quantile=quantile, below_deg=below_deg,
-                above_m=above_m, below_n=below_n, point=point, confidence=confidence, walls=walls,
-                same_within_deg=same_within_deg, same_within_m=same_within_m, same_within_n=same_within_n,
-                same_within_share=same_within_share, out=out, progress=progress,
+                "compare",
+                arms=None if arms is None else list(arms),
+                quantile=quantile,
+                below_deg=below_deg,
+                above_m=above_m,
+                below_n=below_n,
+                point=point,
+                confidence=confidence,
+                walls=walls,
+                same_within_deg=same_within_deg,
+                same_within_m=same_within_m,
+                same_within_n=same_within_n,
+                same_within_share=same_within_share,
+                out=out,
+                report=report,
+                progress=progress,
             )
         )
 
@@ -249,6 +284,7 @@ class Study:
         gain: bool = True,
         law: bool = False,
         out: Path_ | None = None,
+        report: bool = False,
         progress: bool = False,
     ) -> Answer:
         """Say what the simulation gets wrong and what explains it, as `pirca diagnose`.
@@ -268,13 +304,21 @@ class Study:
             Measure what the extended model gains on readings held out: minutes on a large design.
         law : bool
             Where no cause explains the readings, learn a free law of the joints.
-        out, progress
+        out, report, progress
             As of `run`; the folder without it is `runs/NAME-diagnosis`.
         """
         return Answer(
             self._ask(
-                "diagnose", measured=self._file_of(measured, out), bank=bank, points=points, no_build=not build,
-                no_gain=not gain, law=law, out=out, progress=progress,
+                "diagnose",
+                measured=self._file_of(measured, out),
+                bank=bank,
+                points=points,
+                no_build=not build,
+                no_gain=not gain,
+                law=law,
+                out=out,
+                report=report,
+                progress=progress,
             )
         )
 
@@ -302,9 +346,9 @@ class Study:
 def _csv(table: Any) -> str:
     """A table as CSV; what is missing is empty."""
     if hasattr(table, "write_csv"):
-        return table.write_csv()
+        return str(table.write_csv())
     if hasattr(table, "to_csv"):
-        return table.to_csv(index=False)
+        return str(table.to_csv(index=False))
     if hasattr(table, "to_pydict"):
         table = table.to_pydict()
     if not isinstance(table, Mapping):

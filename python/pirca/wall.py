@@ -104,18 +104,13 @@ class Wall:
         return mesh
 
     def plot(self, **options: Any) -> Any:
-        """Show it in 3D by pyvista, with the edges of its stones.
+        """Show it in 3D by pyvista, from the front (+y), with the edges of its stones.
 
         Options go to `pyvista.plot`: `off_screen=True, screenshot="wall.png"` writes a picture.
         """
-        mesh = self.to_pyvista()
-        # Colours that differ between neighbours: shades of stone by the number of the block.
-        mesh.cell_data["shade"] = (self.face_blocks * 7919) % 17
-        given = {
-            "scalars": "shade", "cmap": "copper", "clim": (-14, 20), "show_edges": False, "show_scalar_bar": False,
-            "background": "white", "cpos": [(2.2, 3.0, 1.6), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)], "zoom": 1.2,
-        }
-        return mesh.plot(**{**given, **options})
+        seen_from_the_front = (0.5, 1.5, 0.6)
+        given = {"color": "whitesmoke", "show_edges": True, "edge_color": "dimgray", "cpos": seen_from_the_front}
+        return self.to_pyvista().plot(**{**given, **options})
 
     def __len__(self) -> int:
         return len(self.blocks)

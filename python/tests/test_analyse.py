@@ -81,10 +81,28 @@ def test_blocks_of_every_kind_get_the_answer_of_their_file(told):
 
 def test_options_are_those_of_the_command_line(told):
     ours = pirca.analyse(
-        tower(), phi_deg=35, fixed=[0], density_kg_per_m3=[2400, 2400, 2400], solver="implicit", kn=5e7, load="lateral",
-        direction="x+", dead_load={2: 150.5},
+        tower(),
+        phi_deg=35,
+        fixed=[0],
+        density_kg_per_m3=[2400, 2400, 2400],
+        solver="implicit",
+        kn=5e7,
+        load="lateral",
+        direction="x+",
+        dead_load={2: 150.5},
     )
-    options = ["--solver", "implicit", "--kn", "5e7", "--load", "lateral", "--direction", "x+", "--dead-load", "2=150.5"]
+    options = [
+        "--solver",
+        "implicit",
+        "--kn",
+        "5e7",
+        "--load",
+        "lateral",
+        "--direction",
+        "x+",
+        "--dead-load",
+        "2=150.5",
+    ]
     assert same(ours, told("--phi-deg", 35, *options))
     assert ours.multiplier > 0.3 and ours.collapse_angle_deg is None
     ranges = pirca.analyse(tower(), phi_deg=(10, 25), fixed=[0], density_kg_per_m3=2400, walls=32)

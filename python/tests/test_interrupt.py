@@ -1,8 +1,10 @@
 """Ctrl-C stops what goes on, soon, and what was recorded stays."""
 
+import re
 import signal
 import subprocess
 import sys
+import threading
 import time
 
 import pytest
@@ -32,18 +34,23 @@ def stopped(study, given, call, after):
     assert child.poll() is None, f"it ended before it could be stopped: {child.stderr.read()}"
     begun = time.monotonic()
     child.send_signal(signal.SIGINT)
-    out, err = child.communicate(timeout=60)
+    try:
+        out, err = child.communicate(timeout=60)
+    finally:
+        child.kill()
     assert child.returncode == 0, err
     return time.monotonic() - begun, out
 
 
-def test_a_run_stops_and_goes_on_where_it_stood(studies, empty_folder):
+def test_a_run_stops_and_goes_on_where_it_stood(studies, capfd):
     seconds, out = stopped(studies / "joint-arrangement", "members=20000", "run(out='half')", after=3)
-    assert out.startswith("stopped\n") and seconds < 3, (seconds, out)
+    assert out.startswith("stopped\n") and seconds < 10, (seconds, out)
     with pytest.raises(pirca.RunError, match="was stopped before"):
         pirca.Run("half")
-    journal = (empty_folder / "half/members.jsonl").read_text() if (empty_folder / "half/members.jsonl").exists() else ""
-    assert any(path.stat().st_size > 1000 for path in (empty_folder / "half").iterdir()), journal
+    # A run of fewer walls goes on from those that were recorded.
+    run = pirca.Study(studies / "joint-arrangement", members=2).run(out="half", progress=True)
+    recorded = re.search(r"24 evaluations, (\d+) of them recorded before", capfd.readouterr().err)
+    assert len(run.members) == 24 and int(recorded[1]) > 0
 
 
 @pytest.mark.parametrize(
@@ -58,13 +65,13 @@ def test_a_run_stops_and_goes_on_where_it_stood(studies, empty_folder):
 )
 def test_whatever_goes_on_stops(studies, study, given, call):
     seconds, out = stopped(studies / study, given, call, after=2)
-    assert out.startswith("stopped\n") and seconds < 5, (seconds, out)
+    assert out.startswith("stopped\n") and seconds < 10, (seconds, out)
 
 
 def test_a_long_analysis_stops(walls):
     program = (
         "import pirca\nprint('begins', flush=True)\n"
-        f"try: pirca.analyse({str(walls / 'leaning-tower.json')!r}, phi_deg=35, solver='explicit', kn=1e9, step_deg=0.01, flow=None)\n"
+        f"try: pirca.analyse({str(walls / 'leaning-tower.json')!r}, phi_deg=35, solver='explicit', kn=1e9, step_deg=0.01)\n"
         "except KeyboardInterrupt: print('stopped')\n"
     )
     child = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
@@ -76,8 +83,6 @@ def test_a_long_analysis_stops(walls):
 
 
 def test_the_interpreter_is_free_meanwhile(studies):
-    import threading
-
     counted = []
     running = threading.Event()
 

@@ -6,9 +6,9 @@ import pandas
 import polars
 import pyarrow
 import pytest
+from conftest import ROOT
 
 import pirca
-from conftest import ROOT
 
 
 @pytest.fixture
@@ -20,19 +20,22 @@ def told(pirca_command):
 
 
 def same_files(ours, theirs):
-    """That two folders hold the same files, to the byte, as far as they are results."""
-    names = sorted(path.name for path in ours.iterdir() if path.suffix in {".json", ".csv", ".svg", ".parquet", ".html"})
-    assert names and "summary.json" not in names or True
+    """That two folders hold the same results, to the byte."""
+    kinds = {".json", ".csv", ".svg", ".png", ".parquet"}
+    names = sorted(
+        path.name for path in ours.iterdir() if path.suffix in kinds and path.stem not in {"timing", "command"}
+    )
+    assert names, "nothing was written"
     for name in names:
-        if name not in {"timing.csv", "command.json"}:
-            assert (ours / name).read_bytes() == (theirs / name).read_bytes(), name
+        assert (ours / name).read_bytes() == (theirs / name).read_bytes(), name
 
 
-def test_capacity(studies, told, empty_folder):
-    ours = pirca.Study(studies / "tilting-block", members=20).capacity(below_deg=12.5, out="ours")
-    assert dict(ours) == told("capacity", studies / "tilting-block", "--members", 20, "--below-deg", 12.5, out="theirs")
+def test_capacity(told, empty_folder):
+    column = ROOT / "tests/peers/column"
+    ours = pirca.Study(column, members=20).capacity(below_deg=25.5, out="ours")
+    assert dict(ours) == told("capacity", column, "--members", 20, "--below-deg", 25.5, out="theirs")
     same_files(empty_folder / "ours", empty_folder / "theirs")
-    assert "12.5" in ours.text and ours.text == str(ours) and "<pre>" in ours._repr_html_()
+    assert "25.5" in ours.text and ours.text == str(ours) and "<pre>" in ours._repr_html_()
     assert ours.figure().svg.startswith("<svg")
 
 
@@ -51,7 +54,9 @@ def test_influence(told, empty_folder):
 
 
 def test_compare(studies, told, empty_folder):
-    ours = pirca.Study(studies / "joint-arrangement").compare(["irregular", "continuous"], walls=40, same_within_m=1e-4, out="ours")
+    ours = pirca.Study(studies / "joint-arrangement").compare(
+        ["irregular", "continuous"], walls=40, same_within_m=1e-4, out="ours"
+    )
     options = ["--arms", "irregular,continuous", "--walls", 40, "--same-within-m", 1e-4]
     assert dict(ours) == told("compare", studies / "joint-arrangement", *options, out="theirs")
     same_files(empty_folder / "ours", empty_folder / "theirs")
@@ -61,11 +66,8 @@ def test_a_measured_campaign_in_a_data_frame_gets_its_verdict(studies, told, emp
     study = studies / "tilting-table"
     readings = pandas.read_csv(study / "measured.csv", comment="#", dtype=str)
     ours = pirca.Study(study).diagnose(readings, build=False, gain=False, out="ours")
-    theirs = told(
-        "diagnose", study, "--measured", "ours/measured.csv", "--no-build", "--no-gain", out="theirs"
-    )
+    theirs = told("diagnose", study, "--measured", "ours/measured.csv", "--no-build", "--no-gain", out="theirs")
     assert dict(ours) == theirs
-    assert ours["verdict"] == told("diagnose", study, "--no-build", "--no-gain", out="whole")["verdict"]
     assert ours["measured"]["file"] == "measured.csv"
 
 
@@ -80,5 +82,5 @@ def test_a_table_of_any_kind_is_written_as_its_csv(studies, empty_folder):
         study.diagnose(7)
     with pytest.raises(pirca.UsageError, match="not of the same length"):
         study.diagnose({"a": [1], "b": []})
-    with pytest.raises(pirca.InputError, match="ours.*measured.csv|measured.csv"):
+    with pytest.raises(pirca.InputError, match="ours/measured.csv"):
         study.diagnose({"specimen": ["a"]}, out="ours")

@@ -9,7 +9,15 @@ import pytest
 
 import pirca
 
-SAME = ["members.parquet", "steps.parquet", "summary.json", "manifest.json", "figure-10.svg", "figure-10.png", "figure-10.csv"]
+SAME = [
+    "members.parquet",
+    "steps.parquet",
+    "summary.json",
+    "manifest.json",
+    "figure-10.svg",
+    "figure-10.png",
+    "figure-10.csv",
+]
 
 
 @pytest.fixture
@@ -23,7 +31,9 @@ def test_the_files_are_those_of_the_command_line(studies, run, pirca_command):
         assert (run.out / name).read_bytes() == (run.out.parent.parent / "theirs" / name).read_bytes(), name
     assert str(run.out) == "runs/joint-arrangement"
     assert run.text.replace("runs/joint-arrangement", "theirs") == printed
-    ours, theirs = [json.loads((folder / "command.json").read_text()) for folder in (run.out, run.out.parent.parent / "theirs")]
+    ours, theirs = [
+        json.loads((folder / "command.json").read_text()) for folder in (run.out, run.out.parent.parent / "theirs")
+    ]
     assert ours["command"].startswith("pirca run --members=2 -- "), ours
     assert ours["study"] == theirs["study"]
 

@@ -13,8 +13,17 @@ def test_a_wall_is_the_one_that_generate_writes(studies, pirca_command):
     study = pirca.Study(studies / "joint-arrangement", variant="cut")
     wall = study.wall("irregular", 3, base=True)
     pirca_command(
-        "generate", studies / "joint-arrangement", "--variant", "cut", "--arm", "irregular", "--member", 3, "--with-base",
-        "--out", "wall.json",
+        "generate",
+        studies / "joint-arrangement",
+        "--variant",
+        "cut",
+        "--arm",
+        "irregular",
+        "--member",
+        3,
+        "--with-base",
+        "--out",
+        "wall.json",
     )
     assert wall.json == open("wall.json", encoding="utf-8").read()
     entries = json.loads(wall.json)["blocks"]
