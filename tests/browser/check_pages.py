@@ -62,8 +62,11 @@ def check(browser, path, words):
     page, heard = opened(browser, path, *SCREENS["desk"])
     figures = page.locator("figure:not(.solid)")
     for number in range(figures.count()):
-        picture = figures.nth(number).locator("svg").screenshot()
-        if len(picture) < 4000:
+        drawing = figures.nth(number).locator("> svg")
+        picture = drawing.screenshot()
+        # A sketch of a cause is small.
+        least = 4000 if drawing.bounding_box()["width"] > 400 else 1500
+        if len(picture) < least:
             fail(f"{path}: figure {number} is blank ({len(picture)} bytes as PNG)")
     count = figures.count()
     page.close()

@@ -13,7 +13,9 @@ pub(super) fn conclusion(summary: &DiagnosisSummary) -> Vec<String> {
 
 /// What a page says below its headline: how surely something is wrong, the gain, and what to measure next.
 pub(super) fn below_headline(summary: &DiagnosisSummary) -> Vec<String> {
-    [wrong(summary), gain(summary), next(summary)].into_iter().flatten().collect()
+    let is_off = summary.verdict != "nothing_found";
+    let wrong = Some(chance(summary)).into_iter().chain(is_off.then(|| furthest(summary)));
+    wrong.chain(gain(summary)).chain(next(summary)).collect()
 }
 
 /// The verdict in a sentence, with the causes that it speaks of.
@@ -52,16 +54,21 @@ pub(super) fn verdict(summary: &DiagnosisSummary) -> String {
     }
 }
 
-/// That the base model is off, and where most; or how likely what is seen is by chance.
+/// That the base model is off, and where most; or how likely what is seen is by chance. In a line of a terminal.
 fn wrong(summary: &DiagnosisSummary) -> Option<String> {
     if summary.verdict == "nothing_found" {
         return Some(chance(summary));
     }
-    let furthest = worth_saying(summary).first().map_or_else(
+    let often = how_often(summary.p_value, summary.p_value_campaigns);
+    Some(format!("Off beyond chance ({often}). {}", furthest(summary)))
+}
+
+/// Where it is off most.
+fn furthest(summary: &DiagnosisSummary) -> String {
+    worth_saying(summary).first().map_or_else(
         || "No single number is off by two standard deviations; the readings together are.".to_string(),
         |off| format!("Furthest off: {} ({:+.1} sd).", off.what, off.in_sd),
-    );
-    Some(format!("{} {furthest}", chance(summary)))
+    )
 }
 
 /// How many campaigns without any effect are as far off.
