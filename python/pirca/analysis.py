@@ -84,6 +84,7 @@ def analyse(
     seed: int | None = None,
     colour: str | None = None,
     out: str | Path | None = None,
+    report: bool = False,
     progress: bool = False,
 ) -> Analysis:
     """Say at which tilt or horizontal load a wall falls, as `pirca analyse`.
@@ -117,6 +118,8 @@ def analyse(
     out : path, optional
         Folder for a page of it all, the picture of the mechanism, files for ParaView, tables of blocks and joints, and the blocks
         themselves (`wall.json`).
+    report : bool
+        Write the page alone, as `<wall>-report.html` here; with `out` it is in that folder anyway.
     progress : bool
         Say on standard error how far it is.
 
@@ -147,6 +150,7 @@ def analyse(
         "seed": seed,
         "colour": colour,
         "out": out,
+        "report": report,
         "progress": progress,
     }
     of_file: dict[str, Any] = {"unit": unit, "density_kg_per_m3": density_kg_per_m3}

@@ -36,9 +36,8 @@ def ask(verb: str, *files: Any, progress: bool = False, **options: Any) -> Answe
         elif progress:
             print(line, file=sys.stderr)
 
-    arguments = [verb, *(argument for name, value in options.items() for argument in _spelled(name, value))]
-    # What a file is called is no option, whatever it begins with.
-    parts = _native.ask([*arguments, "--", *(os.fspath(file) for file in files)], hear)
+    named = [argument for name, value in options.items() for argument in _spelled(name, value)]
+    parts = _native.ask([verb, *map(_place, files), *named], hear)
     assert parts is not None, f"{verb} prints what it makes"
     answered = Answered(*parts)
     for warning in answered.warnings:
@@ -52,6 +51,12 @@ def warn(text: str) -> None:
     while frame.f_back is not None and frame.f_code.co_filename.startswith(_HERE):
         depth, frame = depth + 1, frame.f_back
     warnings.warn(text, stacklevel=depth)
+
+
+def _place(file: Any) -> str:
+    """A path as it is typed: no option, whatever it begins with."""
+    path = str(os.fspath(file))
+    return os.path.join(".", path) if path.startswith("-") else path
 
 
 def _spelled(name: str, value: Any) -> list[str]:

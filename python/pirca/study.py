@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import csv
 import io
 import json
 import tempfile
 from collections.abc import Mapping, Sequence
+from csv import writer as csv_writer
 from pathlib import Path
 from typing import Any
 
@@ -80,6 +80,7 @@ class Study:
         out: Path_ | None = None,
         solver: str | None = None,
         beside: Path_ | None = None,
+        csv: bool = False,
         report: bool = False,
         progress: bool = False,
     ) -> Run:
@@ -93,13 +94,22 @@ class Study:
             Solver in the place of the study's.
         beside : path, optional
             Folder of an earlier run of the study, whose means are drawn into the figure.
+        csv : bool
+            Write `members.csv` and `steps.csv` as well.
         report : bool
             Write `report.html` as well.
         progress : bool
             Say on standard error how far it is.
         """
         answered = self._ask(
-            "run", out=out, solver=solver, beside=beside, report=report, members=self._members, progress=progress
+            "run",
+            out=out,
+            solver=solver,
+            beside=beside,
+            csv=csv,
+            report=report,
+            members=self._members,
+            progress=progress,
         )
         assert answered.out is not None, "a run has a folder"
         return Run(answered.out, answered.text)
@@ -359,7 +369,7 @@ def _csv(table: Any) -> str:
     if len({len(values) for values in columns.values()}) > 1:
         raise UsageError("measured: the columns are not of the same length")
     text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
+    writer = csv_writer(text, lineterminator="\n")
     writer.writerow(columns)
     writer.writerows(zip(*columns.values()))
     return text.getvalue()

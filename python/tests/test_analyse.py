@@ -110,6 +110,7 @@ def test_options_are_those_of_the_command_line(told):
     assert "uncertain" in ranges
 
 
+@pytest.mark.filterwarnings("ignore:.*gap")
 def test_a_unit_scales_and_a_generated_wall_is_taken(told, studies):
     in_mm = [(1000 * vertices, faces) for vertices, faces in tower()]
     ours = pirca.analyse(in_mm, phi_deg=35, fixed=[0], density_kg_per_m3=2400, unit="mm")

@@ -40,7 +40,7 @@ def test_what_is_out_of_range_is_refused_as_by_the_command_line(studies, pirca_c
     study = studies / "joint-arrangement"
     with pytest.raises(pirca.UsageError) as raised:
         pirca.Study(study, members=0).run()
-    assert str(raised.value) == pirca_command("run", "--members=0", "--", study, code=2).stderr.strip()
+    assert str(raised.value) == pirca_command("run", study, "--members=0", code=2).stderr.strip()
 
 
 def test_errors_are_also_those_that_python_has():
@@ -57,3 +57,10 @@ def test_what_looks_odd_is_a_warning_and_stops_the_command_where_that_is_an_erro
         warnings.simplefilter("error")
         with pytest.raises(UserWarning, match="averages out"):
             ask()
+
+
+def test_a_name_that_looks_like_an_option_is_a_name(studies, pirca_command):
+    shutil.copytree(studies / "joint-arrangement", "--json")
+    assert pirca.Study("--json").name == "--json"
+    with pytest.raises(pirca.InputError, match="./-nowhere"):
+        pirca.Study("-nowhere")

@@ -10,7 +10,7 @@ from nbclient import NotebookClient
 EXAMPLES = ROOT / "python/examples"
 #: What the outputs of each must hold.
 SHOWN = {
-    "survey_to_capacity": ["image/png", "image/svg+xml", "5 % quantile", "together", "apart"],
+    "survey_to_capacity": ["image/png", "image/svg+xml", "of walls lie below", "together", "apart"],
     "campaign_to_verdict": ["collapse_angle", "image/svg+xml", "written to verdict", "CBL"],
     "mesh_to_picture": ["image/svg+xml", "The wall collapses at a tilt of", "implicit solver"],
 }

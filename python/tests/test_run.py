@@ -34,7 +34,7 @@ def test_the_files_are_those_of_the_command_line(studies, run, pirca_command):
     ours, theirs = [
         json.loads((folder / "command.json").read_text()) for folder in (run.out, run.out.parent.parent / "theirs")
     ]
-    assert ours["command"].startswith("pirca run --members=2 -- "), ours
+    assert ours["command"] == f"pirca run {studies / 'joint-arrangement'} --members=2"
     assert ours["study"] == theirs["study"]
 
 
@@ -68,7 +68,7 @@ def test_a_notebook_shows_figure_and_words(run):
     assert "<svg" in shown and "joint-arrangement: 4 walls" in shown
     with pytest.raises(pirca.RunError, match="there is no figure none; there is figure-10"):
         run.figure("none")
-    assert run.report().read_text(encoding="utf-8").startswith("<!doctype html>")
+    assert run.report().read_text(encoding="utf-8").lower().startswith("<!doctype html>")
 
 
 def test_a_folder_without_a_run_is_refused_as_by_the_command_line(pirca_command, empty_folder):
