@@ -3,11 +3,12 @@
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
+use crate::report::capacity::text::method;
 use crate::report::capacity::{Answer, CapacityGroup, CapacitySummary, Question};
 use crate::report::csv::{cell, ends, quoted};
 use crate::report::draw::Figure;
 use crate::report::marker::colour;
-use crate::report::number::{compact, range, shortened, significant};
+use crate::report::number::{compact, range, shortened};
 use crate::report::pen::{Drawn, LINE, Pen};
 use crate::report::plot::{BAND_ALPHA, PLOT_HEIGHT, WIDTH, decimals};
 
@@ -157,11 +158,11 @@ impl<'c> CapacityPlot<'c> {
             let kn = group.kn_pa_per_m.map_or(String::new(), |kn| format!(", kn = {}", compact(kn)));
             let runs = match &group.repeats {
                 Some(repeats) => {
-                    format!("; faint: {} runs of subset simulation", repeats.probabilities.len())
+                    format!("; faint: {} runs of {}", repeats.probabilities.len(), method(group))
                 }
                 None => String::new(),
             };
-            let walls = significant(group.walls as f64, 7);
+            let walls = group.walls;
             let name = shortened(&group.name, LONGEST_NAME);
             self.pen.words(area, index, &format!("{name}{kn}: {walls} walls{runs}; bar: 95 % interval"))?;
         }

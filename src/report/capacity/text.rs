@@ -43,10 +43,13 @@ fn conclusion(summary: &CapacitySummary, group: &CapacityGroup) -> String {
     let shown = |x: f64| summary.shown.shown(x);
     let name = name(group);
     if !group.random {
-        let value = or_dash(group.answer.value().map(shown), 3);
-        return match summary.question {
-            Question::Quantile(_) => format!("{name}: nothing is drawn, every wall has {value} {unit}."),
-            _ => format!("{name}: nothing is drawn, every wall is alike."),
+        // Where the load path ends before the wall falls its value is not known.
+        let value = group.answer.value().filter(|_| matches!(summary.question, Question::Quantile(_)));
+        return match value {
+            Some(value) => {
+                format!("{name}: nothing is drawn, every wall has {} {unit}.", significant(shown(value), 3))
+            }
+            None => format!("{name}: nothing is drawn, every wall is alike."),
         };
     }
     if let Some(repeats) = &group.repeats {
