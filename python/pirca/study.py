@@ -36,6 +36,8 @@ class Study:
         A named variant of the study; see `variants`.
     threads : int, optional
         Worker threads; one per processor without it. No result depends on their number.
+    **keys
+        Keys of the study with other values, by their paths: `**{"joint.phi_deg": 32}`. `pirca check STUDY --keys` lists all.
 
     Raises
     ------
@@ -62,8 +64,12 @@ class Study:
         seed: int | None = None,
         variant: str | None = None,
         threads: int | None = None,
+        **keys: str | float | Sequence[Any] | Mapping[str, Any],
     ) -> None:
         self.path = Path(study)
+        # What is written as JSON is read as TOML, but for objects.
+        set_ = [f"{path}={_toml(value)}" for path, value in keys.items()]
+        variant = "+".join([*([variant] if variant else []), *set_]) or None
         self._variant, self._members, self._seed, self._threads = variant, members, seed, threads
         checked = ask("check", self.path, variant=variant)
         self.text: str = checked.text
@@ -373,3 +379,12 @@ def _csv(table: Any) -> str:
     writer.writerow(columns)
     writer.writerows(zip(*columns.values()))
     return text.getvalue()
+
+
+def _toml(value: str | float | Sequence[Any] | Mapping[str, Any]) -> str:
+    """A value as TOML has it, in one line; without a plus, which stands between variants."""
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{json.dumps(key)} = {_toml(own)}" for key, own in value.items()) + " }"
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        return "[" + ", ".join(_toml(own) for own in value) + "]"
+    return json.dumps(value).replace("e+", "e")

@@ -47,6 +47,16 @@ def test_a_seed_and_a_solver_are_those_that_are_asked_for(studies, pirca_command
     assert (ours.summary["seed"], ours.out.name) == (5, "ours")
 
 
+def test_keys_are_set_by_their_paths(studies, pirca_command):
+    study = pirca.Study(studies / "joint-arrangement", members=2, **{"joint.phi_deg": 32, "study.seed": 7})
+    ours = study.run(out="ours")
+    options = ["--variant", "joint.phi_deg=32+study.seed=7", "--members", 2, "--out", "theirs"]
+    pirca_command("run", studies / "joint-arrangement", *options)
+    assert ours.summary == pirca.Run("theirs").summary
+    with pytest.raises(pirca.InputError, match="joint.phi_deg = 95: allowed is"):
+        pirca.Study(studies / "joint-arrangement", **{"joint.phi_deg": 95})
+
+
 def test_tables_are_taken_by_polars_pandas_and_pyarrow(run):
     for table, file in [(run.members, "members.parquet"), (run.steps, "steps.parquet")]:
         theirs = polars.read_parquet(run.out / file)

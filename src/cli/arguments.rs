@@ -244,7 +244,8 @@ pub(crate) struct Init {
 pub(crate) struct Which {
     /// The study: its folder, or the study.toml in it.
     pub study: PathBuf,
-    /// A named variant of the study; `pirca check` lists them.
+    /// A named variant of the study (`pirca check` lists them), or a key with another value: joint.phi_deg=32, arm.random.members=5.
+    /// Several are joined by +.
     #[arg(long, value_name = "NAME", help_heading = STUDY)]
     pub variant: Option<String>,
     /// Print one JSON object on standard output instead of text.

@@ -115,8 +115,10 @@ pub(crate) fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
 /// Where the results of a study are written by default: by its name and its variant's, so that no variant takes another's place.
 /// `what` they are comes behind; empty for those of a run.
 pub(crate) fn default_folder(study: &Study, what: &str) -> PathBuf {
-    let parts =
-        [Some(study.name.as_str()), study.variant.as_deref(), Some(what).filter(|what| !what.is_empty())];
+    // A variant may say what it sets, and a value hold what no folder is called by.
+    let plain = |c: char| if c.is_alphanumeric() || "-_.=+".contains(c) { c } else { '_' };
+    let variant = study.variant.as_ref().map(|variant| variant.chars().map(plain).collect::<String>());
+    let parts = [Some(study.name.as_str()), variant.as_deref(), Some(what).filter(|what| !what.is_empty())];
     PathBuf::from("runs").join(parts.into_iter().flatten().collect::<Vec<_>>().join("-"))
 }
 

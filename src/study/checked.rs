@@ -14,6 +14,7 @@ use crate::stats::Statistic;
 use crate::study::measured::Measurement;
 use crate::study::mechanism::Mechanisms;
 use crate::study::uncertain::{Uncertain, parameters};
+use crate::study::variant;
 
 /// A study whose every value has been checked.
 #[derive(Clone, Debug, PartialEq)]
@@ -97,6 +98,11 @@ pub struct Arm {
 }
 
 impl Study {
+    /// Whether its variant says itself what it sets a key to, as `--variant joint.phi_deg=32` does.
+    pub fn is_asked_for(&self, key: &str) -> bool {
+        self.variant.as_deref().is_some_and(|variant| variant::says(variant, key))
+    }
+
     /// The random streams of a member: what is drawn once per wall by the study's design, all else by itself.
     pub fn streams(&self, member: u64) -> Streams {
         let own = self.placed(member).after(self.moves.clone());

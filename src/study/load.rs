@@ -302,16 +302,17 @@ fn measurements(folder: &Path, inputs: &mut Vec<InputFile>, faults: &mut Vec<Fau
     Some(file)
 }
 
-/// The variants asked for, in the order of the file.
-fn choose<'v>(
+/// The variants asked for, those with names in the order of the file, then those that say what they set.
+fn choose(
     wanted: Option<&str>,
-    variants: &'v [Variant],
+    variants: &[Variant],
     root: Option<&Node>,
     faults: &mut Vec<Fault>,
-) -> Vec<&'v Variant> {
+) -> Vec<Variant> {
     let Some(wanted) = wanted.filter(|_| root.is_some()) else { return Vec::new() };
     let names: Vec<&str> = variants.iter().map(|v| v.name.as_str()).collect();
-    let wanted: Vec<&str> = wanted.split(variant::TOGETHER).collect();
+    let (set, wanted): (Vec<&str>, Vec<&str>) =
+        wanted.split(variant::TOGETHER).partition(|own| own.contains(variant::SETS));
     for unknown in wanted.iter().filter(|name| !names.contains(name)) {
         let words = format!("has no variant \"{unknown}\"");
         let allowed = if names.is_empty() {
@@ -321,7 +322,10 @@ fn choose<'v>(
         };
         faults.push(Fault::of_file("study.toml", 0, &words, &allowed, suggestion(unknown, &names)));
     }
-    let chosen: Vec<&Variant> = variants.iter().filter(|v| wanted.contains(&v.name.as_str())).collect();
+    let named = variants.iter().filter(|v| wanted.contains(&v.name.as_str())).cloned();
+    let set =
+        set.into_iter().filter_map(|own| variant::asked_for(own).map_err(|fault| faults.push(*fault)).ok());
+    let chosen: Vec<Variant> = named.chain(set).collect();
     for (index, one) in chosen.iter().enumerate() {
         for other in &chosen[..index] {
             if let Some(key) = variant::shared_key(&one.keys(), &other.keys()) {
@@ -341,7 +345,7 @@ fn choose<'v>(
 }
 
 /// The name of variants that are read together; `None` of the base.
-fn joined(chosen: &[&Variant]) -> Option<String> {
+fn joined(chosen: &[Variant]) -> Option<String> {
     let names: Vec<String> = chosen.iter().map(|variant| variant.name.clone()).collect();
     reading_name(&names)
 }
@@ -350,22 +354,23 @@ fn joined(chosen: &[&Variant]) -> Option<String> {
 pub(super) fn read_all(
     root: &Node,
     variants: &[Variant],
-    chosen: &[&Variant],
+    chosen: &[Variant],
     catalogue: &mut Catalogue,
     faults: &mut Vec<Fault>,
 ) -> Reading {
     let mut answer = read_one(root, catalogue);
     faults.append(&mut answer.notes.faults.clone());
     for variant in variants {
-        let reading = read_changed(root, &[variant], catalogue, faults);
+        let reading = read_changed(root, std::slice::from_ref(variant), catalogue, faults);
         if let [alone] = chosen
             && alone.name == variant.name
         {
             answer = reading;
         }
     }
-    // Variants that are sound alone may still not go together.
-    if chosen.len() > 1 && faults.is_empty() {
+    // Variants that are sound alone may still not go together, and one that says what it sets has not been read yet.
+    let is_named = |own: &Variant| variants.iter().any(|variant| variant.name == own.name);
+    if (chosen.len() > 1 || !chosen.iter().all(is_named)) && faults.is_empty() {
         answer = read_changed(root, chosen, catalogue, faults);
     }
     answer
@@ -374,7 +379,7 @@ pub(super) fn read_all(
 /// The reading of variants together; faults that are not there yet are put to the others.
 fn read_changed(
     root: &Node,
-    variants: &[&Variant],
+    variants: &[Variant],
     catalogue: &mut Catalogue,
     faults: &mut Vec<Fault>,
 ) -> Reading {

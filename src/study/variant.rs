@@ -1,8 +1,10 @@
 //! Named variants: key paths set to other values in the raw tree, before anything is checked.
 
-use crate::study::fault::{Fault, Found, Place};
+use std::sync::Arc;
+
+use crate::study::fault::{Fault, Found, Place, Source};
 use crate::study::keys;
-use crate::study::raw::{Entry, Node, Table, Value};
+use crate::study::raw::{self, Entry, Node, Table, Value};
 use crate::study::reader::{Notes, Reader, table_name};
 use crate::study::schema::{Kind, Section, suggestion};
 
@@ -31,6 +33,49 @@ struct Edit {
 struct NoSuchKey {
     allowed: String,
     fix: String,
+}
+
+/// What stands between the path of a key and the value that it is set to, where a variant is no name.
+pub const SETS: char = '=';
+
+/// A variant that is asked for by what it sets, as `joint.phi_deg=32`; text needs no quotes.
+///
+/// # Errors
+/// What is wrong with the path or the value.
+pub fn asked_for(setting: &str) -> Result<Variant, Box<Fault>> {
+    let (path, value) = setting.split_once(SETS).unwrap_or((setting, ""));
+    let (path, value) = (path.trim(), value.trim());
+    let parsed = |value: &str| {
+        let text = format!("{:?} = {value}", path);
+        raw::parse(&Arc::new(Source { name: ASKED_FOR.to_owned(), rank: 0, text }))
+    };
+    // A word that is no value of TOML is a text.
+    let is_word = !value.is_empty() && !value.contains(['"', '{', '[', '\\']);
+    let node = parsed(value).or_else(|fault| match is_word {
+        true => parsed(&format!("\"{value}\"")),
+        false => Err(fault),
+    })?;
+    let Value::Table(table) = &node.value else { return Ok(Variant::of(setting, Vec::new())) };
+    Ok(Variant::of(&format!("{path}{SETS}{value}"), edits(table)))
+}
+
+/// Whether a variant, by its name, says itself what it sets a key to.
+pub fn says(variant: &str, key: &str) -> bool {
+    let sets = |own: &str| own.strip_prefix(key).is_some_and(|rest| rest.starts_with(SETS));
+    variant.split(TOGETHER).any(sets)
+}
+
+/// Name of the source of a setting that is asked for.
+const ASKED_FOR: &str = "--variant";
+
+/// A change for each path of a table.
+fn edits(table: &Table) -> Vec<Edit> {
+    let edit = |(path, entry): (&String, &Entry)| Edit {
+        path: path.split('.').map(str::to_owned).collect(),
+        place: entry.key_place.clone(),
+        entry: Some(entry.clone()),
+    };
+    table.iter().map(edit).collect()
 }
 
 /// All variants of a study.
@@ -65,13 +110,7 @@ fn read_one(node: &Node, path: &str, notes: &mut Notes) -> Option<Variant> {
     let mut edits = unsets(&mut reader);
     if let Some((node, key)) = reader.given("set") {
         match &node.value {
-            Value::Table(table) if !table.is_empty() => {
-                edits.extend(table.iter().map(|(path, entry)| Edit {
-                    path: path.split('.').map(str::to_owned).collect(),
-                    place: entry.key_place.clone(),
-                    entry: Some(entry.clone()),
-                }))
-            }
+            Value::Table(table) if !table.is_empty() => edits.extend(self::edits(table)),
             Value::Table(_) => reader.refuse(&node, key, "set at least one key"),
             _ => reader.refuse(&node, key, "write [variant.set] above the settings"),
         }
@@ -100,6 +139,11 @@ fn unsets(reader: &mut Reader<'_>) -> Vec<Edit> {
 }
 
 impl Variant {
+    /// One that is asked for, with its changes.
+    fn of(name: &str, edits: Vec<Edit>) -> Variant {
+        Variant { name: name.to_owned(), why: "asked for".to_owned(), edits }
+    }
+
     /// The paths of the keys that it sets or takes away.
     pub fn keys(&self) -> Vec<String> {
         self.edits.iter().map(|edit| edit.path.join(".")).collect()
@@ -111,7 +155,10 @@ impl Variant {
         for edit in &self.edits {
             let path: Vec<&str> = edit.path.iter().map(String::as_str).collect();
             if let Err(no) = change(&mut changed, &keys::STUDY, &path, edit) {
-                let key = format!("variant.{}: \"{}\"", self.name, edit.path.join("."));
+                let key = match edit.place.source.name == ASKED_FOR {
+                    true => edit.path.join("."),
+                    false => format!("variant.{}: \"{}\"", self.name, edit.path.join(".")),
+                };
                 let words = if edit.entry.is_some() {
                     "sets what does not exist"
                 } else {

@@ -199,6 +199,11 @@ fn a_study_and_a_wall_come_on_a_page_by_their_own_names() {
     assert!(!folder.path("runs/tiny/report.html").exists());
     let (_, error) = told(&["report", "studies/tiny", "--study", "studies/tiny"], 2);
     assert!(error.contains("--study is for the folder of a run"), "{error}");
+    // A variant that says what it sets is known again by that.
+    told(&["run", "studies/tiny", "--members", "2", "--variant", "joint.phi_deg=32"], 0);
+    told(&["report", "runs/tiny-joint.phi_deg=32"], 0);
+    let page = fs::read_to_string(folder.path("runs/tiny-joint.phi_deg=32/report.html")).unwrap();
+    assert!(page.contains("<td>joint.phi_deg</td><td>32.0</td><td>asked for with the command</td>"));
     // A wall is analysed as is asked behind the dashes.
     fs::write(folder.path("tower.obj"), walls::GOOD_OBJ).unwrap();
     let (said, _) = told(&["report", "tower.obj", "--out", "tower.html", "--", "--phi-deg", "35"], 0);

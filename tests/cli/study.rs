@@ -32,6 +32,30 @@ fn a_variant_changes_what_it_names_and_nothing_else() {
     assert_eq!(cut.arms[2].layout.limits, base.arms[2].layout.limits);
 }
 
+/// What is asked for in the place of a name is what the file would state.
+#[test]
+fn a_variant_may_say_what_it_sets() {
+    let (asked, edited) = (Scratch::new("asked-for"), Scratch::new("edited"));
+    edited.replace(STUDY, "phi_deg = 30", "phi_deg = 32");
+    assert_eq!(hash(&asked, Some("joint.phi_deg=32")), hash(&edited, None));
+    assert_eq!(hash(&asked, Some("corners+joint.phi_deg = 32")), hash(&edited, Some("corners")));
+    // A word needs no quotes.
+    for corners in ["joint.sampling=vertices", "joint.sampling=\"vertices\""] {
+        assert_eq!(hash(&asked, Some(corners)), hash(&asked, Some("corners")));
+    }
+    let named = asked.load(Some("joint.phi_deg = 32+corners")).expect("sound").study;
+    assert_eq!(named.variant.as_deref(), Some("corners+joint.phi_deg=32"));
+    let refused = |variant: &str, words: &[&str]| {
+        let said = asked.load(Some(variant)).expect_err(variant).to_string();
+        assert!(words.iter().all(|word| said.contains(word)), "{variant}: {said}");
+    };
+    refused("joint.phi_deg=95", &["joint.phi_deg = 95", "allowed is"]);
+    refused("joint.phi=32", &["--variant:1", "joint.phi", "sets what does not exist", "phi_deg"]);
+    refused("joint.phi_deg=", &["cannot be read as TOML"]);
+    refused("joint.phi_deg=32+joint.phi_deg=33", &["changes joint.phi_deg in both"]);
+    refused("corners+joint.sampling=area", &["changes joint.sampling in both"]);
+}
+
 /// A path may be written in quotes, or as TOML's own dotted key or table: the same three keys are meant.
 #[test]
 fn a_path_may_be_quoted_or_nested() {

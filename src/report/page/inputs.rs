@@ -15,7 +15,7 @@ pub fn inputs(study: &Study, loaded: &Loaded) -> Vec<Table> {
         let own = entries(&study.effective).filter(|(key, _)| belongs(key));
         let rows = own.map(|(key, value)| {
             let used = loaded.used.iter().find(|used| used.key == *key);
-            let changed = loaded.study.effective.get(key) != Some(value);
+            let changed = loaded.study.effective.get(key) != Some(value) || study.is_asked_for(key);
             let marked = used.is_some_and(|used| used.status == "assumed");
             let source = source(used, changed, loaded.stated.states(key));
             Line { cells: vec![key.clone(), shown(value), source], marked, ..Line::default() }
