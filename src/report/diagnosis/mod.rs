@@ -20,6 +20,8 @@ mod words;
 pub use conclusion::headline;
 pub use family::FamilyFigure;
 pub use fit::FitFigure;
+#[cfg(test)]
+pub use fit::Misfit;
 pub use page::{DiagnosisPage, diagnosis_page};
 #[cfg(test)]
 pub use residual::{ExpectedEntry, GroupEntry};

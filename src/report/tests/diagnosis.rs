@@ -11,7 +11,7 @@ use crate::critic::{
     cause_curves, fitted_curves, made,
 };
 use crate::report::diagnosis::{
-    DataEntry, DiagnosisPage, DiagnosisSummary, ExpectedEntry, FamilyFigure, FitFigure, GroupEntry,
+    DataEntry, DiagnosisPage, DiagnosisSummary, ExpectedEntry, FamilyFigure, FitFigure, GroupEntry, Misfit,
     diagnosis_page, diagnosis_text, headline, lines, write_diagnosis,
 };
 use crate::report::draw::is_whole;
@@ -378,7 +378,7 @@ fn the_text_the_page_and_the_files_show_what_was_measured_beside_what_was_simula
         "About 1 in 1,000 simulated campaigns",
         "<td>joints that go on moving under load (creep)</td><td>0.600</td><td>0.45</td><td>0.40</td><td>may be it</td>",
         "excluded: the evidence leaves it less than 1 in 100",
-        "Two stones are pressed",
+        "A stone under a constant load slips step by step",
         "<td>sbl: collapse angle</td>",
         "<td>not in catalogue</td><td>0.250</td>",
         "lines 9, 7 (the weight of a single block); line 12 (read at a tilt that the wall had come to before)",
@@ -544,9 +544,15 @@ fn a_headline_tells_what_its_own_tables_hold_against_it() {
 fn both_models_are_drawn_with_what_the_base_model_misses_most_first() {
     let (.., fit) = diagnosed(&made());
     let misfits = fit.misfits();
-    assert!(misfits[0].what.starts_with("sbl: displacement"), "{misfits:?}");
-    // 11.7 mm of 1.7 mm are missed by fitted joints as well.
-    assert!(misfits[0].base > 3.0 && misfits.iter().all(|own| own.cause.is_some()), "{misfits:?}");
+    let family = |own: &Misfit| own.what.split(':').next().unwrap_or_default().to_owned();
+    let worst = |name: &str| {
+        let own = misfits.iter().filter(|own| family(own) == name);
+        own.map(|own| own.base).fold(0.0, f64::max)
+    };
+    let order: Vec<f64> = fit.rows.iter().map(|row| worst(&row.base.family)).collect();
+    assert!(order.is_sorted_by(|a, b| a >= b) && order[0] > 3.0, "{misfits:?}");
+    // 11.7 mm where 1.7 mm are simulated are missed by fitted joints as well.
+    assert!(worst("sbl") > 3.0 && misfits.iter().all(|own| own.cause.is_some()), "{misfits:?}");
     assert_eq!(fit.rows.len(), 3);
     assert!(fit.rows.iter().all(|row| row.base.panels.len() == 1), "one quantity each");
 }
