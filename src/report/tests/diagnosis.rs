@@ -383,7 +383,7 @@ fn the_text_the_page_and_the_files_show_what_was_measured_beside_what_was_simula
         "<td>not in catalogue</td><td>0.250</td>",
         "lines 9, 7 (the weight of a single block); line 12 (read at a tilt that the wall had come to before)",
         "<p>Note: line 3: a doubt.</p>",
-        "for pirca run: extended/creep.",
+        "for pirca run: extended&#x2f;creep.",
         "<td>walls.csv</td>",
         "<td>0ab1</td>",
     ] {

@@ -7,7 +7,9 @@ const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00
 const DASHES = [[], [8, 4], [2, 3], [12, 3, 2, 3]];
 
 function short(x) {
-  return x === null || x === undefined ? "-" : Number(x.toPrecision(4)).toString();
+  if (x === null || x === undefined) return "-";
+  const own = Number(x.toPrecision(4));
+  return Math.abs(own) < 1e5 ? own.toString() : own.toExponential().replace("e+", "e");
 }
 
 function table(line) {
