@@ -61,7 +61,7 @@ fn judged(arguments: &Diagnose) -> Result<Answer, Failure> {
     let (base, causes, fitted, best) = doing("simulating the curves of the figures", |_| {
         let causes = cause_curves(&world, &design, &diagnosis, drawn);
         let fitted = fitted_curves(&world, &design, &measured, drawn);
-        let best = best_curves(&world, &design, &diagnosis, drawn);
+        let best = best_curves(&world, &design, &diagnosis, &causes, drawn);
         (base_curves(&world, &design, drawn), causes, fitted, best)
     });
     let families = FamilyFigure::all(&study, &mechanisms, &residuals, &base, &causes);

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use crate::report::page::cite::{Citation, citation};
 use crate::report::page::drawing::Drawing;
-use crate::report::page::inputs::{about_inputs, assumed, inputs};
+use crate::report::page::inputs::Given;
 use crate::report::page::limits;
 use crate::report::page::origin::PageOrigin;
 use crate::report::page::table::Table;
@@ -39,10 +39,7 @@ struct Filled<'a> {
     tables: &'a [Table],
     charts: bool,
     figures: &'a [Drawing],
-    about_wall: String,
-    about_inputs: &'static str,
-    assumed: Vec<String>,
-    inputs: Vec<Table>,
+    given: Given,
     limits: Vec<String>,
     provenance: Table,
     methods: String,
@@ -54,7 +51,6 @@ struct Filled<'a> {
 /// # Errors
 /// A template that is faulty.
 pub fn answer_page(asked: &Asked, (study, loaded): (&Study, &Loaded), origin: &PageOrigin) -> Result<String> {
-    let assumed = assumed(loaded);
     let mut limits = asked.limits.clone();
     limits.extend(limits::of_study(study, loaded));
     filled(
@@ -66,10 +62,7 @@ pub fn answer_page(asked: &Asked, (study, loaded): (&Study, &Loaded), origin: &P
             tables: &asked.tables,
             charts: asked.figures.iter().any(|drawing| drawing.chart.is_some()),
             figures: &asked.figures,
-            about_wall: limits::built(study),
-            about_inputs: about_inputs(&assumed),
-            assumed,
-            inputs: inputs(study, loaded),
+            given: Given::of(study, loaded),
             limits,
             provenance: origin.of_study(study),
             methods: limits::evaluated(study, &asked.methods),

@@ -2,15 +2,47 @@
 
 use std::collections::BTreeMap;
 
+use serde::Serialize;
+
+use crate::report::page::limits::built;
 use crate::report::page::table::{Line, Table};
 use crate::study::{Loaded, Study, Used};
 
 /// Keys that name things and set nothing.
 const NAMES: [&str; 3] = ["arm", "revision of laws and solvers", "study.arms"];
 
+/// Wall and inputs, as a page shows them.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Given {
+    /// What was built and loaded.
+    about_wall: String,
+    /// What the tables are, before those inputs are named that are only assumed.
+    about: &'static str,
+    /// The inputs that are only assumed.
+    assumed: Vec<String>,
+    /// All of them.
+    tables: Vec<Table>,
+}
+
+impl Given {
+    /// Of a study; `loaded` is the study as its files state it.
+    pub fn of(study: &Study, loaded: &Loaded) -> Given {
+        let assumed = assumed(loaded);
+        let about = match assumed.is_empty() {
+            true => {
+                "Below is every value that decides a result, with its source. Units stand at the end of the keys."
+            }
+            false => {
+                "Below is every value that decides a result, with its source. Units stand at the end of the keys. Only assumed:"
+            }
+        };
+        Given { about_wall: built(study), about, assumed, tables: inputs(study, loaded) }
+    }
+}
+
 /// The inputs of a study: those that all arms share, and those of each arm. `loaded` is the study as its files state it, before
 /// anything was asked for in the place of its values.
-pub fn inputs(study: &Study, loaded: &Loaded) -> Vec<Table> {
+fn inputs(study: &Study, loaded: &Loaded) -> Vec<Table> {
     let of = |name: &str, belongs: &dyn Fn(&str) -> bool| {
         let own = entries(&study.effective).filter(|(key, _)| belongs(key));
         let rows = own.map(|(key, value)| {
@@ -39,18 +71,6 @@ pub fn inputs(study: &Study, loaded: &Loaded) -> Vec<Table> {
 pub fn assumed(loaded: &Loaded) -> Vec<String> {
     let own = loaded.used.iter().filter(|used| used.status == "assumed");
     own.map(|used| format!("{}: {} ({})", used.key, used.reference, used.source)).collect()
-}
-
-/// What the tables of inputs are, before those that are only assumed are named.
-pub fn about_inputs(assumed: &[String]) -> &'static str {
-    match assumed.is_empty() {
-        true => {
-            "Below is every value that decides a result, with its source. Units stand at the end of the keys."
-        }
-        false => {
-            "Below is every value that decides a result, with its source. Units stand at the end of the keys. Only assumed:"
-        }
-    }
 }
 
 /// The values that are inputs: a distribution as one, not by its parts.

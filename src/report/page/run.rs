@@ -12,7 +12,7 @@ use crate::report::number::{compact, or_dash, significant, stiffness, with_inter
 use crate::report::page::cite::{Citation, citation};
 use crate::report::page::drawing::Drawing;
 use crate::report::page::figures::figures;
-use crate::report::page::inputs::{about_inputs, assumed, inputs};
+use crate::report::page::inputs::Given;
 use crate::report::page::limits;
 use crate::report::page::origin::PageOrigin;
 use crate::report::page::solid::{Solid, SolidWall};
@@ -77,10 +77,7 @@ struct Filled {
     solid: Option<Solid>,
     about_walls: String,
     walls: Vec<Table>,
-    about_wall: String,
-    about_inputs: &'static str,
-    assumed: Vec<String>,
-    inputs: Vec<Table>,
+    given: Given,
     limits: Vec<String>,
     provenance: Table,
     methods: String,
@@ -117,7 +114,6 @@ pub fn chosen_walls(study: &Study, rows: &[Row]) -> Vec<(&'static str, Task)> {
 pub fn run_page(of: &RunPage<'_>) -> Result<String> {
     let (study, summary) = (of.study, summarise(of.study, of.rows));
     let quantity = Quantity::of(&study.protocol);
-    let assumed = assumed(of.loaded);
     let has_rows = of.rows.len() <= MOST_ROWS;
     let caption = "A mark for every wall that brings a value, stacked where walls are alike. Black: drawn below. Hollow: stood to the \
                    end of the load path, its value lies above.";
@@ -165,10 +161,7 @@ pub fn run_page(of: &RunPage<'_>) -> Result<String> {
             ),
         },
         walls: if has_rows { walls(of) } else { Vec::new() },
-        about_wall: limits::built(study),
-        about_inputs: about_inputs(&assumed),
-        assumed,
-        inputs: inputs(study, of.loaded),
+        given: Given::of(study, of.loaded),
         limits: limits::of_run(study, of.loaded, &summary),
         provenance: of.origin.of_study(study),
         methods: limits::methods(study),

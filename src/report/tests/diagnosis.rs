@@ -110,7 +110,7 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>, FitFigure) {
     let (base, under) = (base_curves(&world, &design, 4), cause_curves(&world, &design, &diagnosis, 4));
     let families = FamilyFigure::all(&made.study, &made.mechanisms, &residuals, &base, &under);
     let fitted = fitted_curves(&world, &design, &measured, 4);
-    let best = best_curves(&world, &design, &diagnosis, 4);
+    let best = best_curves(&world, &design, &diagnosis, &under, 4);
     let fit = FitFigure::of(&made.study, &made.mechanisms, &residuals, &fitted, best.as_ref(), true);
     (summary, families, fit)
 }
