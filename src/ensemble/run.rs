@@ -16,7 +16,8 @@ use crate::ensemble::journal::{Entry, Journal, Recorded};
 use crate::ensemble::manifest::MANIFEST;
 use crate::ensemble::walls::WallKeys;
 use crate::ensemble::{
-    Grown, Manifest, MemberFault, Progress, Row, RunError, Task, evaluate, files, plan, table,
+    AddedColumns, Grown, Manifest, MemberFault, Progress, Row, RunError, Tables, Task, evaluate, files, plan,
+    table,
 };
 use crate::interrupt::{self, Stopped};
 use crate::study::Study;
@@ -180,11 +181,9 @@ impl<'s> Evaluations<'s> {
             entries.into_iter().filter(|(task, _)| asked.contains(task)).map(|(_, entry)| entry).collect();
         files::replace_file(&out.join("timing.csv"), table::timing(&entries).as_bytes())?;
         let rows: Vec<Row> = entries.into_iter().map(|entry| entry.row).collect();
-        files::replace_file(&out.join("members.parquet"), &table::members(&rows)?)?;
-        files::replace_file(&out.join("steps.parquet"), &table::steps(&rows)?)?;
-        for (name, schema) in table::schemas(&rows) {
-            files::replace_file(&out.join(name), schema.as_bytes())?;
-        }
+        let mut tables = Tables::begin(&out, AddedColumns::of(&rows))?;
+        rows.iter().try_for_each(|row| tables.take(row))?;
+        tables.end()?;
         let json = serde_json::to_string_pretty(&manifest).expect("a manifest has string keys only");
         files::replace_file(&out.join(MANIFEST), format!("{json}\n").as_bytes())?;
         Ok(rows)

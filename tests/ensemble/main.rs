@@ -10,4 +10,5 @@ mod machinery;
 mod mechanisms;
 mod refusal;
 mod same_walls;
+mod tables;
 mod threads;
