@@ -8,6 +8,7 @@ mod grow;
 mod kill;
 mod machinery;
 mod mechanisms;
+mod memory;
 mod refusal;
 mod same_walls;
 mod tables;

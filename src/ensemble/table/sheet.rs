@@ -58,14 +58,14 @@ impl<T: Table> Sheet<T> {
         if self.lines == GROUP { self.write_group() } else { Ok(()) }
     }
 
-    /// Writes the last lines and the footer, and puts the table in place.
-    pub fn end(mut self) -> Result<(), RunError> {
+    /// Writes the last lines and the footer: the whole table, not yet in its place.
+    pub fn end(mut self) -> Result<Replacement, RunError> {
         if self.lines > 0 {
             self.write_group()?;
         }
         self.encoder.finish().map_err(|error| fault(self.name, error))?;
         self.file.write(&self.encoded.held())?;
-        self.file.end()
+        Ok(self.file)
     }
 
     fn write_group(&mut self) -> Result<(), RunError> {

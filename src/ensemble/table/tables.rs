@@ -49,8 +49,10 @@ impl Tables {
     /// # Errors
     /// See [`Tables::begin`].
     pub fn end(self) -> Result<(), RunError> {
-        self.members.end()?;
-        self.steps.end()?;
+        // Nothing is in place before both are whole.
+        let (members, steps) = (self.members.end()?, self.steps.end()?);
+        members.end()?;
+        steps.end()?;
         for (name, schema) in schemas(&self.added) {
             replace_file(&self.folder.join(name), schema.as_bytes())?;
         }
