@@ -15,6 +15,7 @@ mod influence;
 mod journal;
 mod kept;
 mod lines;
+mod machine;
 mod manifest;
 mod progress;
 mod quantity;
@@ -23,6 +24,7 @@ mod record;
 mod run;
 mod schema;
 mod selection;
+pub mod shard;
 mod table;
 mod walls;
 

@@ -7,7 +7,7 @@ use polars::prelude::DataFrame;
 use polars_io::prelude::ParquetWriter;
 
 use crate::ensemble::columns::{Column, Step, Table, Value, of_members, of_steps};
-use crate::ensemble::journal::Entry;
+use crate::ensemble::journal::{Entry, Place, Timing};
 use crate::ensemble::schema::schema;
 use crate::ensemble::{AddedColumns, Row, RunError};
 
@@ -69,15 +69,20 @@ pub(crate) fn parquet(
     Ok(bytes)
 }
 
-/// What each member took, on which machine: kept apart from the results, which must not depend on it.
-pub(crate) fn timing(entries: &[Entry]) -> String {
-    let mut text = String::from("arm,point,member,seconds,threads,host\n");
-    for Entry { seconds, threads, host, row, .. } in entries {
-        let line =
-            format!("{},{},{},{seconds:.6},{threads},{host}\n", quoted(&row.arm), row.point, row.member);
-        text.push_str(&line);
-    }
-    text
+/// Name of the file of what each member took.
+pub(crate) const TIMING: &str = "timing.csv";
+/// Heads of its columns.
+pub(crate) const TIMING_HEADS: &str = "arm,point,member,seconds,threads,host,processor\n";
+
+/// What each member took, on which machine: kept apart from the results, which must not depend on it. Without the heads.
+pub(crate) fn timing<'e>(entries: impl Iterator<Item = &'e Entry>) -> String {
+    let line = |entry: &Entry| {
+        let (row, Timing { seconds, place }) = (&entry.row, entry.timing.as_ref()?);
+        let Place { threads, host, processor } = place;
+        let [arm, host, processor] = [&row.arm, host, processor].map(|text| quoted(text));
+        Some(format!("{arm},{},{},{seconds:.6},{threads},{host},{processor}\n", row.point, row.member))
+    };
+    entries.filter_map(line).collect()
 }
 
 /// A CSV field: quoted when it holds what would end it.

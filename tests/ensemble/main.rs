@@ -1,5 +1,6 @@
 //! Runs as a user starts them: worker counts, kills, changed studies, full disks, shared random numbers.
 
+mod batches;
 mod columns;
 mod enough;
 mod failed_members;
@@ -11,5 +12,6 @@ mod mechanisms;
 mod memory;
 mod refusal;
 mod same_walls;
+mod shards;
 mod tables;
 mod threads;
