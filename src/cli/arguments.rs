@@ -4,21 +4,26 @@ use std::ffi::OsString;
 use std::num::NonZero;
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 use crate::cli::analyse::Analyse;
+use crate::cli::bank::POINTS;
 use crate::cli::help::{
     ANALYSE, BANK, CAPACITY, CHECK, CITE, COMPARE, COMPLETIONS, DIAGNOSE, GENERATE, INFLUENCE, INIT, MAN,
-    MEASURED, MECHANISMS, PICTURE, PLAN_TESTS, READINGS, REPORT, RUN, SCHEMA, SENSITIVITY, WHOLE,
+    MEASURED, MECHANISMS, MERGE, PICTURE, PLAN_TESTS, READINGS, REPORT, RUN, SCHEMA, SENSITIVITY, SHARD,
+    STATUS, WHOLE,
 };
 use crate::cli::rare::Method;
+use crate::cli::shard::Engine;
 use crate::cli::{influence, question, sensitivity};
 
 /// Headings of the options that several verbs share.
 const STUDY: &str = "Study";
 const WALL: &str = "Wall";
 pub(super) const SOLUTION: &str = "Solution";
+const SHARES: &str = "Shards";
+const BANKS: &str = "Bank";
 pub(super) const OUTPUT: &str = "Output";
 pub(super) const JOINTS: &str = "Joints";
 pub(super) const LOAD: &str = "Load";
@@ -61,6 +66,20 @@ pub(crate) enum Verb {
     /// A run that was stopped goes on where it stood.
     #[command(after_help = RUN)]
     Run(Run),
+    /// Compute a part of a study's walls, for many machines.
+    ///
+    /// With --plan it says into how many shards the walls are best shared out and prints what starts them. With --index it computes one:
+    /// as often as it is started, by any engine, on any machine that sees the output folder.
+    #[command(after_help = SHARD)]
+    Shard(Shard),
+    /// Say which shards are complete, and which are missing.
+    #[command(after_help = STATUS)]
+    Status(Status),
+    /// Put shards together: the files of a run on one machine.
+    ///
+    /// Tables, statistics and figures are those that `pirca run` writes, byte for byte.
+    #[command(after_help = MERGE)]
+    Merge(Merge),
     /// Put a run, a study or a wall on a page: answer, figures, sources.
     ///
     /// One HTML file that any browser opens without a network: question, answer, figures, every wall, the weakest, the median and the
@@ -204,6 +223,8 @@ impl Verb {
             Verb::Init(Init { json, .. })
             | Verb::Cite(Cite { json, .. })
             | Verb::Mechanisms(Mechanisms { json, .. })
+            | Verb::Merge(Merge { json, .. })
+            | Verb::Status(Status { json, .. })
             | Verb::Readings(Readings { json, .. }) => *json,
             Verb::Analyse(own) => own.json,
             // Of a wall it may stand among what is asked of the wall.
@@ -212,6 +233,7 @@ impl Verb {
             | Verb::Generate(Generate { which, .. })
             | Verb::Picture(Picture { which, .. })
             | Verb::Run(Run { which, .. })
+            | Verb::Shard(Shard { which, .. })
             | Verb::Capacity(Capacity { which, .. })
             | Verb::Influence(Influence { which, .. })
             | Verb::Compare(Compare { which, .. })
@@ -422,6 +444,77 @@ impl Run {
     }
 }
 
+/// Arguments of `shard`.
+#[derive(Args, Debug)]
+#[command(group = ArgGroup::new("what").required(true).args(["plan", "index"]))]
+pub(crate) struct Shard {
+    #[command(flatten)]
+    pub which: Which,
+    /// Say how many shards there are best and what they take, by timing some walls; or print the script of an engine.
+    #[arg(long, value_name = "ENGINE", num_args = 0..=1, help_heading = SHARES)]
+    pub plan: Option<Option<Engine>>,
+    /// Minutes that a shard of a plan takes on one processor.
+    #[arg(long, value_name = "MIN", default_value_t = 20.0, value_parser = question::minutes, conflicts_with = "index", help_heading = SHARES)]
+    pub minutes: f64,
+    /// Compute the shard of this number, from 0.
+    #[arg(long, value_name = "I", requires = "of", help_heading = SHARES)]
+    pub index: Option<u32>,
+    /// The number of shards.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000), help_heading = SHARES)]
+    pub of: Option<u32>,
+    /// Output folder, the same one for all shards, on a file system that all machines see; that of a batch is its own.
+    #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
+    pub out: Option<PathBuf>,
+    #[command(flatten)]
+    pub ensemble: Ensemble,
+    /// Worker threads [default: one per processor]. No result depends on their number.
+    #[arg(long, value_name = "T", help_heading = SOLUTION)]
+    pub threads: Option<NonZero<usize>>,
+    /// Solver instead of the study's, with its defaults; the study's own settings if it is the study's own solver.
+    #[arg(long, value_name = "NAME", help_heading = SOLUTION)]
+    pub solver: Option<SolverName>,
+    /// The walls of `pirca bank`, in the place of the study's own.
+    #[arg(long, help_heading = BANKS)]
+    pub bank: bool,
+    /// What was measured [default: the study's measured.csv].
+    #[arg(long, value_name = "FILE", help_heading = BANKS)]
+    pub measured: Option<PathBuf>,
+    /// Points in the priors for each mechanism [default: 60].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(10..=100_000), help_heading = BANKS)]
+    pub points: Option<u64>,
+}
+
+/// Arguments of `status`.
+#[derive(Args, Debug)]
+pub(crate) struct Status {
+    /// The output folder of the shards.
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+    /// Print one JSON object on standard output instead of text.
+    #[arg(long, help_heading = OUTPUT)]
+    pub json: bool,
+}
+
+/// Arguments of `merge`.
+#[derive(Args, Debug)]
+pub(crate) struct Merge {
+    /// The output folder of the shards.
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+    /// Take the shards that are there; the summary says of how many walls it is.
+    #[arg(long)]
+    pub partial: bool,
+    /// Folder of the study, where it is not where the first shard found it.
+    #[arg(long, value_name = "STUDY")]
+    pub study: Option<PathBuf>,
+    /// Worker threads [default: one per processor]. No result depends on their number.
+    #[arg(long, value_name = "T", help_heading = SOLUTION)]
+    pub threads: Option<NonZero<usize>>,
+    /// Print one JSON object on standard output instead of text.
+    #[arg(long, help_heading = OUTPUT)]
+    pub json: bool,
+}
+
 /// Arguments of `report`.
 #[derive(Args, Debug)]
 pub(crate) struct Report {
@@ -462,6 +555,9 @@ pub(crate) struct Capacity {
     /// How further walls are drawn and counted [default: the one that is expected to take the fewest walls].
     #[arg(long, value_name = "NAME", requires = "walls", conflicts_with = "quantile", help_heading = STUDY)]
     pub method: Option<Method>,
+    /// Write the further walls down as batches for `pirca shard`, one after the other, and evaluate none of them here.
+    #[arg(long, requires = "walls", conflicts_with_all = ["measured", "quantile", "half_width"], help_heading = STUDY)]
+    pub batches: bool,
     /// Add walls, up to --walls, until half the width of a quantile's interval is below this share of the quantile.
     #[arg(long, value_name = "H", conflicts_with_all = ["measured", "members", "below_deg", "above_m", "below_n"], value_parser = question::relative, allow_negative_numbers = true, help_heading = STUDY)]
     pub half_width: Option<f64>,
@@ -695,7 +791,7 @@ pub(crate) struct Diagnose {
     #[arg(long, value_name = "DIR", help_heading = SOLUTION)]
     pub bank: Option<PathBuf>,
     /// Points in the priors for each mechanism that the bank has.
-    #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u64).range(10..=100_000), help_heading = SOLUTION)]
+    #[arg(long, value_name = "N", default_value_t = POINTS, value_parser = clap::value_parser!(u64).range(10..=100_000), help_heading = SOLUTION)]
     pub points: u64,
     /// Stop with the command to run, where there is no bank.
     #[arg(long, help_heading = SOLUTION)]
@@ -732,7 +828,7 @@ pub(crate) struct Bank {
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub out: Option<PathBuf>,
     /// Points in the priors for each mechanism; twice as many for the base model.
-    #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u64).range(10..=100_000), help_heading = SOLUTION)]
+    #[arg(long, value_name = "N", default_value_t = POINTS, value_parser = clap::value_parser!(u64).range(10..=100_000), help_heading = SOLUTION)]
     pub points: u64,
     /// Simulated campaigns of each mechanism that the self-test judges by all that a diagnosis does (seconds each), and five times as
     /// many with nothing hidden; 100 of each are judged by how they seem.
@@ -755,4 +851,15 @@ pub(crate) enum SolverName {
     Implicit,
     /// Limit analysis of rigid blocks: the collapse load alone.
     Limit,
+}
+
+impl SolverName {
+    /// Its name in studies.
+    pub fn name(self) -> &'static str {
+        match self {
+            SolverName::Explicit => "explicit",
+            SolverName::Implicit => "implicit",
+            SolverName::Limit => "limit",
+        }
+    }
 }

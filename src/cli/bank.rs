@@ -13,6 +13,9 @@ use crate::protocol::Protocol;
 use crate::solve::Solver;
 use crate::study::{Described, Loaded, Nuisance, Study, described, nuisances};
 
+/// Points in the priors for each mechanism, unless others are asked for.
+pub(crate) const POINTS: u64 = 60;
+
 /// What a bank is made of.
 pub(crate) struct Prepared {
     pub mechanisms: Vec<Described>,

@@ -1,8 +1,12 @@
 //! `pirca capacity`: what walls of a kind may be counted on to bear.
 
+use serde_json::json;
+
 use crate::cli::answer::Answer;
 use crate::cli::arguments::Capacity;
 use crate::cli::failure::Failure;
+use crate::cli::origin::quoted;
+use crate::cli::rare::Waiting;
 use crate::cli::{locate, output, progress, question, rare, report as page, threads};
 use crate::ensemble::{self, Quantity, Settings, is_random};
 use crate::report::{CapacitySummary, Question, capacity_page, capacity_text, write_capacity};
@@ -52,7 +56,12 @@ pub(crate) fn capacity(arguments: &Capacity) -> Result<Answer, Failure> {
     let mut summary = CapacitySummary::simulated(&study, &rows, question, known);
     if let (Some(budget), Question::Below(_) | Question::Above(_)) = (arguments.walls, question) {
         let aim = rare::Aim { budget, cov: arguments.cov, method: arguments.method };
-        threads::on(arguments.threads, || rare::ask(&study, &rows, &mut summary, aim, &out))?;
+        let place = locate::folder(&arguments.which.study)?;
+        let batched = arguments.batches.then_some(place.as_path());
+        let asked = || rare::ask(&study, &rows, &mut summary, aim, (&out, batched));
+        if let Some(waiting) = threads::on(arguments.threads, asked)? {
+            return waits(&waiting);
+        }
     }
     write_capacity(&summary, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
     page::beside(&out, (arguments.report, &arguments.which, arguments.threads), |origin| {
@@ -60,6 +69,18 @@ pub(crate) fn capacity(arguments: &Capacity) -> Result<Answer, Failure> {
     })?;
     let text = format!("{}\nwritten to {}\n", capacity_text(&summary), out.display());
     Ok(Answer::of(text, &summary)?.in_place(&out))
+}
+
+/// That the answer waits for walls, and how they are evaluated.
+fn waits(waiting: &Waiting) -> Result<Answer, Failure> {
+    let Waiting { batch, walls } = waiting;
+    let batch = batch.display().to_string();
+    let text = format!(
+        "{walls} more walls are to be evaluated, as shards of {batch}:\n  pirca shard {0} --plan\n\
+         then start this command again: it goes on from there\n",
+        quoted(&batch)
+    );
+    Answer::of(text, &json!({"batch": batch, "walls": walls}))
 }
 
 /// Most walls of an arm that are added towards a quantile, unless another number is asked for.
@@ -70,6 +91,9 @@ fn enough(study: Study, question: Question, arguments: &Capacity) -> Result<Stud
     let Question::Quantile(share) = question else { return Ok(study) };
     let refused = |text: &str| Err(Failure::Usage(text.to_owned()));
     match (arguments.half_width, arguments.walls) {
+        _ if arguments.batches => refused(
+            "--batches: it is for the walls of a level; name one (--below-deg, --above-m or --below-n)",
+        ),
         _ if arguments.method.is_some() => refused(
             "--method: it finds the probability of a level; name one (--below-deg, --above-m or --below-n)",
         ),

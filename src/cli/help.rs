@@ -15,12 +15,13 @@ const TYPED: usize = 8;
 const INDENT: usize = 10;
 
 /// The verbs in the order in which they are met, under what they are about.
-const GROUPS: [(&str, &[&str]); 4] = [
+const GROUPS: [(&str, &[&str]); 5] = [
     ("One wall", &["analyse", "generate", "picture"]),
     (
         "Many walls",
         &["init", "check", "run", "report", "cite", "capacity", "compare", "influence", "readings"],
     ),
+    ("Many machines", &["shard", "status", "merge"]),
     ("Measured walls", &["plan-tests", "measured", "sensitivity", "bank", "diagnose", "mechanisms"]),
     ("Shell and editor", &["completions", "man", "schema"]),
 ];
@@ -104,6 +105,47 @@ Example: pirca run studies/joint-arrangement --members 5 --out runs/first-try
 Stopped and started again with the same arguments, it goes on where it stood and ends with the same files. With more members, \
 another stiffness or another arm in the same folder it computes only what is new, and says what it takes over. A wall that falls or \
 cannot be built is counted in the results; it is no error.
+
+",
+    codes!()
+);
+
+/// Of `shard`.
+pub(super) const SHARD: &str = concat!(
+    "\
+Example: pirca shard studies/arrangements --plan --out runs/shared
+         pirca shard studies/arrangements --plan slurm --out runs/shared > shards.sh
+         pirca shard studies/arrangements --index 3 --of 64 --out runs/shared
+         pirca shard studies/tilting-table --bank --index 3 --of 64 --out runs/bank
+
+Shard I of N has the walls whose place in the order of the results leaves I when divided by N. A shard that is complete is not computed \
+again, a damaged one is; of one that was stopped the walls that had ended are taken over. Shards of another study, seed, version \
+or N are never mixed: that is an error, and nothing is changed. A wall that fails is a row of the results and no error; an exit code \
+other than 0 means that the shard is not complete.
+
+",
+    codes!()
+);
+
+/// Of `status`.
+pub(super) const STATUS: &str = concat!(
+    "\
+Example: pirca status runs/shared
+
+What is missing is written as Slurm takes it: sbatch --array=$(pirca status runs/shared --json | jq -r .missing)
+
+",
+    codes!()
+);
+
+/// Of `merge`.
+pub(super) const MERGE: &str = concat!(
+    "\
+Example: pirca merge runs/shared
+         pirca merge runs/shared --partial
+
+Every line of every shard is checked on the way. Shards that are missing end it with their numbers, unless --partial says that some \
+are enough. Memory does not grow with the load steps of the walls, unless the study compares with measurements or shears its walls.
 
 ",
     codes!()

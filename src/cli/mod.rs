@@ -40,6 +40,7 @@ mod run;
 mod schema;
 mod sensitivity;
 mod session;
+mod shard;
 mod threads;
 
 use std::ffi::OsString;
@@ -128,6 +129,9 @@ fn done(verb: &Verb) -> Result<Option<Answer>, Failure> {
         Verb::Picture(arguments) => picture::picture(arguments),
         Verb::Report(arguments) => report::report(arguments),
         Verb::Run(arguments) => run::run(arguments),
+        Verb::Shard(arguments) => shard::shard(arguments),
+        Verb::Status(arguments) => shard::status(arguments),
+        Verb::Merge(arguments) => shard::merge(arguments),
     };
     answer.map(Some)
 }

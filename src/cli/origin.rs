@@ -63,12 +63,19 @@ impl Origin {
 
 /// A command line that a shell takes as these arguments.
 fn command(arguments: impl Iterator<Item = String>) -> String {
+    std::iter::once("pirca".to_owned())
+        .chain(arguments.map(|argument| quoted(&argument)))
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+/// An argument as a shell takes it.
+pub(super) fn quoted(argument: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+,:".contains(c);
-    let quoted = arguments.map(|argument| match !argument.is_empty() && argument.chars().all(plain) {
-        true => argument,
+    match !argument.is_empty() && argument.chars().all(plain) {
+        true => argument.to_owned(),
         false => format!("'{}'", argument.replace('\'', "'\\''")),
-    });
-    std::iter::once("pirca".to_owned()).chain(quoted).collect::<Vec<_>>().join(" ")
+    }
 }
 
 /// The date and the time of so many seconds after the beginning of 1970, by the Gregorian calendar.

@@ -54,6 +54,11 @@ pub(crate) fn level(text: &str) -> Result<f64, String> {
     number(text, "a number above 0", |x| x > 0.0 && x.is_finite())
 }
 
+/// Minutes of work above 0.
+pub(crate) fn minutes(text: &str) -> Result<f64, String> {
+    number(text, "a number of minutes above 0", |x| x > 0.0 && x.is_finite())
+}
+
 /// A confidence of a half or more.
 pub(crate) fn confidence(text: &str) -> Result<f64, String> {
     number(text, "a number from 0.5, below 1 (0.95 is 95 %)", |p| (0.5..1.0).contains(&p))

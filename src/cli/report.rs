@@ -148,7 +148,7 @@ fn place(arguments: &Report, manifest: &Manifest, origin: &Origin) -> Result<Pat
 }
 
 /// The study with the seed, the walls and the solver of the run, which may have been asked for in the place of its own.
-fn as_run(study: Study, manifest: &Manifest) -> Result<Study, Failure> {
+pub(crate) fn as_run(study: Study, manifest: &Manifest) -> Result<Study, Failure> {
     let mut study = study.with_seed(manifest.seed);
     if study.solver.name() != manifest.solver {
         study = study.with_solver(&manifest.solver)?;

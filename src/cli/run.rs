@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::cli::answer::Answer;
-use crate::cli::arguments::{Run, SolverName};
+use crate::cli::arguments::{Ensemble, Run, SolverName};
 use crate::cli::failure::Failure;
 use crate::cli::origin::Origin;
 use crate::cli::{elements, locate, output, progress, report};
@@ -23,7 +23,7 @@ pub(crate) fn with_page(arguments: &Run, page: Option<PathBuf>) -> Result<Answer
         return elements::run(&folder, arguments);
     }
     let loaded = locate::study(&arguments.which)?;
-    let study = asked(loaded.study.clone(), arguments)?;
+    let study = asked(loaded.study.clone(), arguments.solver, &arguments.ensemble)?;
     let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, ""));
     let quantity = Quantity::of(&study.protocol);
     let beside = arguments.beside.as_ref().map(|dir| Earlier::read(dir, &study.name, quantity));
@@ -48,15 +48,14 @@ pub(crate) fn with_page(arguments: &Run, page: Option<PathBuf>) -> Result<Answer
     Ok(Answer::of(text, &summary)?.in_place(&out))
 }
 
-/// The study with what the arguments put in the place of its own values.
-fn asked(mut study: Study, arguments: &Run) -> Result<Study, Failure> {
-    if let Some(name) = arguments.solver {
-        let name = match name {
-            SolverName::Explicit => "explicit",
-            SolverName::Implicit => "implicit",
-            SolverName::Limit => "limit",
-        };
-        study = study.with_solver(name).map_err(|faults| Failure::Usage(faults.to_string()))?;
+/// The study with what is asked for in the place of its own values.
+pub(crate) fn asked(
+    mut study: Study,
+    solver: Option<SolverName>,
+    ensemble: &Ensemble,
+) -> Result<Study, Failure> {
+    if let Some(name) = solver {
+        study = study.with_solver(name.name()).map_err(|faults| Failure::Usage(faults.to_string()))?;
     }
-    locate::with_ensemble(study, &arguments.ensemble)
+    locate::with_ensemble(study, ensemble)
 }

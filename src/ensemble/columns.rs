@@ -1,12 +1,30 @@
 //! The columns of a run's tables: name, unit, meaning, and where each value comes from. Tables, their documentation and their schemas are
 //! made from this one list.
 
-use std::collections::BTreeSet;
+use crate::ensemble::{AddedColumns, Row, StepRow};
 
-use crate::ensemble::{Row, StepRow};
+/// A table, by what a line of it is.
+pub trait Table {
+    /// A line, for as long as its row is there.
+    type Line<'r>: Copy;
+}
 
-/// A column of a table whose lines are of one type.
-pub struct Column<T> {
+/// The table with a line per wall and stiffness.
+pub enum Members {}
+
+impl Table for Members {
+    type Line<'r> = &'r Row;
+}
+
+/// The table with a line per load step of each.
+pub enum Steps {}
+
+impl Table for Steps {
+    type Line<'r> = Step<'r>;
+}
+
+/// A column of a table.
+pub struct Column<T: Table> {
     /// Its name.
     pub name: String,
     /// Its unit; empty where it has none.
@@ -18,16 +36,19 @@ pub struct Column<T> {
 }
 
 /// Where a value comes from.
-pub enum Value<T> {
+pub enum Value<T: Table> {
     /// A text, or nothing.
-    Text(fn(T) -> Option<String>),
+    Text(TextOf<T>),
     /// A count.
-    Count(fn(T) -> u64),
+    Count(for<'r> fn(T::Line<'r>) -> u64),
     /// A number, or nothing.
-    Real(fn(T) -> Option<f64>),
+    Real(RealOf<T>),
     /// What a wall drew of the parameter of this name, or nothing.
-    Drawn(fn(T, &str) -> Option<f64>, String),
+    Drawn(for<'r> fn(T::Line<'r>, &str) -> Option<f64>, String),
 }
+
+type TextOf<T> = for<'r> fn(<T as Table>::Line<'r>) -> Option<String>;
+type RealOf<T> = for<'r> fn(<T as Table>::Line<'r>) -> Option<f64>;
 
 /// A load step of a member with its number.
 #[derive(Clone, Copy)]
@@ -42,40 +63,39 @@ const ANY_KEY: &str = "KEY";
 const DRAWN: &str =
     "what was drawn for this wall in the place of the number of that name in study.toml, in its unit";
 
-fn text<T>(name: &str, meaning: &'static str, of: fn(T) -> Option<String>) -> Column<T> {
+fn text<T: Table>(name: &str, meaning: &'static str, of: TextOf<T>) -> Column<T> {
     Column { name: name.to_owned(), unit: "", meaning, value: Value::Text(of) }
 }
 
-fn count<T>(name: &str, meaning: &'static str, of: fn(T) -> u64) -> Column<T> {
+fn count<T: Table>(name: &str, meaning: &'static str, of: for<'r> fn(T::Line<'r>) -> u64) -> Column<T> {
     Column { name: name.to_owned(), unit: "", meaning, value: Value::Count(of) }
 }
 
-fn real<T>(name: &str, unit: &'static str, meaning: &'static str, of: fn(T) -> Option<f64>) -> Column<T> {
+fn real<T: Table>(name: &str, unit: &'static str, meaning: &'static str, of: RealOf<T>) -> Column<T> {
     Column { name: name.to_owned(), unit, meaning, value: Value::Real(of) }
 }
 
-/// The columns of `members.parquet`, a line per wall and stiffness.
-pub fn of_members<'r>(rows: &[Row]) -> Vec<Column<&'r Row>> {
+/// The columns of `members.parquet`.
+pub fn of_members(added: &AddedColumns) -> Vec<Column<Members>> {
     let mut columns = every_member();
-    if rows.iter().any(|row| row.shear.is_some()) {
+    if added.sheared {
         columns.extend(sheared_members());
     }
-    let drawn: BTreeSet<&str> = rows.iter().flat_map(|row| row.drawn.keys().map(String::as_str)).collect();
-    columns.extend(drawn.into_iter().map(drawn_column));
+    columns.extend(added.drawn.iter().map(|key| drawn_column(key)));
     columns
 }
 
-/// The columns of `steps.parquet`, a line per load step of each.
-pub fn of_steps<'r>(lines: &[Step<'_>]) -> Vec<Column<Step<'r>>> {
+/// The columns of `steps.parquet`.
+pub fn of_steps(added: &AddedColumns) -> Vec<Column<Steps>> {
     let mut columns = every_step();
-    if lines.iter().any(|line| line.step.force_n.is_some()) {
+    if added.pushed {
         columns.extend(sheared_steps());
     }
     columns
 }
 
 /// All columns that a table of members, and one of steps, may have.
-pub fn documented<'r>() -> (Vec<Column<&'r Row>>, Vec<Column<Step<'r>>>) {
+pub fn documented() -> (Vec<Column<Members>>, Vec<Column<Steps>>) {
     let (mut members, mut steps) = (every_member(), every_step());
     members.extend(sheared_members());
     members.push(drawn_column(ANY_KEY));
@@ -83,12 +103,13 @@ pub fn documented<'r>() -> (Vec<Column<&'r Row>>, Vec<Column<Step<'r>>>) {
     (members, steps)
 }
 
-fn drawn_column<'r>(key: &str) -> Column<&'r Row> {
-    let of = |row: &'r Row, key: &str| row.drawn.get(key).copied();
-    Column { name: format!("drawn {key}"), unit: "", meaning: DRAWN, value: Value::Drawn(of, key.to_owned()) }
+fn drawn_column(key: &str) -> Column<Members> {
+    type R<'r> = &'r Row;
+    let value = Value::Drawn(|row: R, key: &str| row.drawn.get(key).copied(), key.to_owned());
+    Column { name: format!("drawn {key}"), unit: "", meaning: DRAWN, value }
 }
 
-fn every_member<'r>() -> Vec<Column<&'r Row>> {
+fn every_member() -> Vec<Column<Members>> {
     type R<'r> = &'r Row;
     vec![
         text("arm", "name of the arm", |r: R| Some(r.arm.clone())),
@@ -213,7 +234,7 @@ fn every_member<'r>() -> Vec<Column<&'r Row>> {
     ]
 }
 
-fn sheared_members<'r>() -> Vec<Column<&'r Row>> {
+fn sheared_members() -> Vec<Column<Members>> {
     type R<'r> = &'r Row;
     vec![
         real("capacity_n", "N", "the largest push that the wall bore", |r: R| {
@@ -243,7 +264,7 @@ fn sheared_members<'r>() -> Vec<Column<&'r Row>> {
     ]
 }
 
-fn every_step<'r>() -> Vec<Column<Step<'r>>> {
+fn every_step() -> Vec<Column<Steps>> {
     type S<'r> = Step<'r>;
     vec![
         text("arm", "name of the arm", |s: S| Some(s.row.arm.clone())),
@@ -287,7 +308,7 @@ fn every_step<'r>() -> Vec<Column<Step<'r>>> {
     ]
 }
 
-fn sheared_steps<'r>() -> Vec<Column<Step<'r>>> {
+fn sheared_steps() -> Vec<Column<Steps>> {
     type S<'r> = Step<'r>;
     vec![
         real(

@@ -22,13 +22,15 @@ pub fn plan(study: &Study) -> Vec<Task> {
 
 /// The same with so many walls in each arm.
 pub(super) fn plan_of(study: &Study, members: &[u64]) -> Vec<Task> {
-    let mut tasks = Vec::new();
-    for ((arm, &members), index) in study.arms.iter().zip(members).zip(0u32..) {
-        for point in 0..arm.kn_points.len() as u32 {
-            tasks.extend((0..members).map(|member| Task { arm: index, point, member }));
-        }
-    }
-    tasks
+    in_order(study, members).collect()
+}
+
+/// The same one after the other, of runs whose tasks do not fit into memory.
+pub(super) fn in_order(study: &Study, members: &[u64]) -> impl Iterator<Item = Task> {
+    let points = study.arms.iter().zip(members).zip(0u32..).flat_map(|((arm, &members), index)| {
+        (0..arm.kn_points.len() as u32).map(move |point| (index, point, members))
+    });
+    points.flat_map(|(arm, point, members)| (0..members).map(move |member| Task { arm, point, member }))
 }
 
 /// Whether the walls of an arm differ from member to member, see [`Arm::is_random`].

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::ensemble::Task;
+use crate::ensemble::shard::ShardError;
 
 /// Why a run ended without its results. What was recorded before stays in the journal, and the same run started
 /// again goes on from there.
@@ -62,6 +63,9 @@ pub enum RunError {
         /// The members, in order.
         faults: Vec<MemberFault>,
     },
+    /// The shards of a study's walls.
+    #[error(transparent)]
+    Shard(#[from] ShardError),
     /// No worker threads could be started.
     #[error("cannot start the worker threads: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),

@@ -6,9 +6,10 @@ use std::path::Path;
 
 use crate::ensemble::design::plan_of;
 use crate::ensemble::enough::{first_looks, next_looks};
-use crate::ensemble::journal::{JOURNAL, Journal, Recorded};
+use crate::ensemble::journal::{JOURNAL, Journal};
 use crate::ensemble::manifest::MANIFEST;
 use crate::ensemble::run::taken;
+use crate::ensemble::shard::{self, Work};
 use crate::ensemble::walls::WallKeys;
 use crate::ensemble::{Manifest, Row, RunError, Task};
 use crate::study::Study;
@@ -62,14 +63,16 @@ pub fn finished(study: &Study, folder: &Path) -> Result<Vec<Row>, RunError> {
         let found = format!("the study is another one than was run ({})", differences.join("; "));
         return refused(folder, found, "give the study as it was with --study, or run it again");
     }
-    if !folder.join(JOURNAL).is_file() {
+    let mut walls = shard::recorded(folder)?;
+    if folder.join(JOURNAL).is_file() {
+        walls.extend(Journal::open(folder)?.1.walls);
+    } else if !Work::is_in(folder) {
         return refused(
             folder,
             format!("its {JOURNAL} is gone, which holds the walls"),
             "run the study again",
         );
     }
-    let (_, Recorded { mut walls, .. }) = Journal::open(folder)?;
     let keys = WallKeys::of(&manifest);
     let mut rows: BTreeMap<Task, Row> = BTreeMap::new();
     let mut members = first_looks(study);

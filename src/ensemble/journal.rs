@@ -14,6 +14,7 @@ use std::sync::Mutex;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
+use crate::ensemble::shard::Work;
 use crate::ensemble::walls::WallKeys;
 use crate::ensemble::{Manifest, Row, RunError};
 
@@ -29,14 +30,33 @@ pub(crate) struct Entry {
     /// Hash of what decides the row. Journals of before there were any have none: it follows from their head.
     #[serde(default)]
     pub wall: Option<String>,
+    /// What it took. Shards keep it in files of their own.
+    #[serde(flatten)]
+    pub timing: Option<Timing>,
+    /// The result.
+    pub row: Row,
+}
+
+/// What a wall took, and where.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Timing {
     /// Wall-clock time (s).
     pub seconds: f64,
+    /// Where.
+    #[serde(flatten)]
+    pub place: Place,
+}
+
+/// Where a wall was evaluated.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Place {
     /// Worker threads of the run.
     pub threads: u32,
     /// Name of the machine.
     pub host: String,
-    /// The result.
-    pub row: Row,
+    /// Kind of its processor. Journals of before it was kept have none.
+    #[serde(default)]
+    pub processor: String,
 }
 
 impl Entry {
@@ -62,6 +82,7 @@ pub(crate) struct Journal {
 }
 
 /// What a journal holds.
+#[derive(Default)]
 pub(crate) struct Recorded {
     /// The run that it was last; `None` of a new one.
     pub head: Option<Manifest>,
@@ -82,13 +103,8 @@ impl Journal {
         refuse_orphans(folder, &path)?;
         let file = OpenOptions::new().read(true).append(true).create(true).open(&path);
         let file = file.map_err(|e| RunError::file("open", &path, e))?;
-        match file.try_lock() {
-            Err(TryLockError::WouldBlock) => return Err(RunError::Busy { folder: folder.to_path_buf() }),
-            // A file system that knows no locks is no reason not to run.
-            Err(TryLockError::Error(e)) if e.kind() != ErrorKind::Unsupported => {
-                return Err(RunError::file("lock", &path, e));
-            }
-            Err(TryLockError::Error(_)) | Ok(()) => {}
+        if !locked(&file, &path)? {
+            return Err(RunError::Busy { folder: folder.to_path_buf() });
         }
         let read = |e| RunError::file("read", &path, e);
         let length = match file.metadata().map_err(read)? {
@@ -96,24 +112,32 @@ impl Journal {
             // A device (/dev/null) can be written to, but holds nothing to go on from.
             _ => 0,
         };
-        let (mut whole, mut recorded) = (0, Recorded { head: None, walls: BTreeMap::new(), keys: None });
+        let mut recorded = Recorded::default();
+        let mut whole = 0;
         if length > 0 {
-            let mut reader = BufReader::new(&file);
-            let mut line = Vec::new();
-            while reader.read_until(b'\n', &mut line).map_err(read)? > 0 && line.ends_with(b"\n") {
-                let json = std::str::from_utf8(&line).ok().and_then(|text| unsealed(text.trim_end()));
-                recorded.take(json, whole == 0);
-                whole += line.len() as u64;
-                line.clear();
-            }
+            let torn;
+            (whole, torn) = recorded.read(&file).map_err(read)?;
             let torn_head =
-                whole == 0 && (line.starts_with(HEAD.as_bytes()) || HEAD.as_bytes().starts_with(&line));
+                whole == 0 && (torn.starts_with(HEAD.as_bytes()) || HEAD.as_bytes().starts_with(&torn));
             if recorded.head.is_none() && !torn_head {
                 let found = format!("its {JOURNAL} does not begin with the head of a run");
                 return Err(RunError::NotOurs { folder: folder.to_path_buf(), found });
             }
         }
         Ok((Journal { path, file: Mutex::new(file), length, whole }, recorded))
+    }
+
+    /// Begins a journal at a path where there is none yet, and locks it.
+    ///
+    /// # Errors
+    /// [`RunError::File`] when it cannot be written.
+    pub fn begin(path: PathBuf, head: &Manifest) -> Result<Self, RunError> {
+        let file = OpenOptions::new().append(true).create_new(true).open(&path);
+        let file = file.map_err(|e| RunError::file("open", &path, e))?;
+        locked(&file, &path)?;
+        let journal = Journal { path, file: Mutex::new(file), length: 0, whole: 0 };
+        journal.go_on(Some(head))?;
+        Ok(journal)
     }
 
     /// Cuts off a torn end, so that walls may follow; where the run is new or has grown, they follow its head.
@@ -141,7 +165,35 @@ impl Journal {
     }
 }
 
+/// Locks a file; false where another process has it locked. A file system that knows no locks is no reason not to run.
+///
+/// # Errors
+/// [`RunError::File`].
+pub(super) fn locked(file: &File, path: &Path) -> Result<bool, RunError> {
+    match file.try_lock() {
+        Err(TryLockError::WouldBlock) => Ok(false),
+        Err(TryLockError::Error(e)) if e.kind() != ErrorKind::Unsupported => {
+            Err(RunError::file("lock", path, e))
+        }
+        Err(TryLockError::Error(_)) | Ok(()) => Ok(true),
+    }
+}
+
 impl Recorded {
+    /// Takes the whole lines of a file, which another process may be writing to. Gives their bytes, and the line behind them that is not
+    /// whole.
+    pub fn read(&mut self, file: &File) -> std::io::Result<(u64, Vec<u8>)> {
+        let mut reader = BufReader::new(file);
+        let (mut whole, mut line) = (0, Vec::new());
+        while reader.read_until(b'\n', &mut line)? > 0 && line.ends_with(b"\n") {
+            let json = std::str::from_utf8(&line).ok().and_then(|text| unsealed(text.trim_end()));
+            self.take(json, whole == 0);
+            whole += line.len() as u64;
+            line.clear();
+        }
+        Ok((whole, line))
+    }
+
     /// Takes a line: the first one must be a head.
     fn take(&mut self, json: Option<&str>, is_first: bool) {
         let head = || json.and_then(|json| serde_json::from_str::<Manifest>(json).ok());
@@ -168,7 +220,8 @@ impl Recorded {
 
 /// Results without a journal cannot be told to be ours: they are not overwritten.
 fn refuse_orphans(folder: &Path, journal: &Path) -> Result<(), RunError> {
-    if journal.symlink_metadata().is_ok() {
+    // Shards say themselves of which run they are.
+    if journal.symlink_metadata().is_ok() || Work::is_in(folder) {
         return Ok(());
     }
     match ["members.parquet", "steps.parquet", "summary.json"].iter().find(|name| folder.join(name).exists())

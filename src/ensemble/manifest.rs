@@ -1,9 +1,11 @@
 //! What decides the results of a run: written beside them, and compared before a run goes on.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use crate::ensemble::{RunError, replace_file};
 use crate::study::Study;
 
 /// Name of its file in the output folder.
@@ -48,6 +50,15 @@ impl Manifest {
             values: study.effective.clone(),
             inputs: study.inputs.iter().map(|f| (f.path.display().to_string(), f.sha256.clone())).collect(),
         }
+    }
+
+    /// Writes it into the output folder.
+    ///
+    /// # Errors
+    /// [`RunError::File`].
+    pub(super) fn write(&self, out: &Path) -> Result<(), RunError> {
+        let json = serde_json::to_string_pretty(self).expect("a manifest has string keys only");
+        replace_file(&out.join(MANIFEST), format!("{json}\n").as_bytes())
     }
 
     /// What makes `wanted` another run than the recorded `self`, one sentence each; empty when it is the same run.

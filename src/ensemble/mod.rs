@@ -1,5 +1,6 @@
 //! From a study to a table of members: plan, evaluate in parallel, record, resume.
 
+mod added_columns;
 mod columns;
 mod design;
 mod draws;
@@ -14,6 +15,7 @@ mod influence;
 mod journal;
 mod kept;
 mod lines;
+mod machine;
 mod manifest;
 mod progress;
 mod quantity;
@@ -22,6 +24,7 @@ mod record;
 mod run;
 mod schema;
 mod selection;
+pub mod shard;
 mod table;
 mod walls;
 
@@ -31,6 +34,7 @@ pub use crate::generate::Generated;
 pub use crate::random::RANDOMISATIONS;
 /// What is known of a parameter of a wall that is given.
 pub use crate::random::{Scale, Spread};
+pub use added_columns::AddedColumns;
 pub use design::{Task, is_random, plan};
 pub use draws::{Draws, Evaluated, drawn};
 pub use elements::{ElementRow, Timed, evaluate_element, run_elements};
@@ -54,4 +58,4 @@ pub use run::{Evaluations, Settings, run, run_with};
 pub use schema::column_reference;
 pub use selection::{Compared, Contest, Hopeless};
 pub(crate) use table::parquet;
-pub use table::tables_as_csv;
+pub use table::{Tables, tables_as_csv};

@@ -12,11 +12,13 @@ use rayon::prelude::*;
 
 use crate::ensemble::design::plan_of;
 use crate::ensemble::enough::{first_looks, next_looks};
-use crate::ensemble::journal::{Entry, Journal, Recorded};
-use crate::ensemble::manifest::MANIFEST;
+use crate::ensemble::journal::{Entry, Journal, Place, Recorded, Timing};
+use crate::ensemble::shard::{self, Work};
+use crate::ensemble::table::{TIMING, TIMING_HEADS};
 use crate::ensemble::walls::WallKeys;
 use crate::ensemble::{
-    Grown, Manifest, MemberFault, Progress, Row, RunError, Task, evaluate, files, plan, table,
+    AddedColumns, Grown, Manifest, MemberFault, Progress, Row, RunError, Tables, Task, evaluate, files,
+    machine, plan, table,
 };
 use crate::interrupt::{self, Stopped};
 use crate::study::Study;
@@ -90,22 +92,14 @@ impl<'s> Evaluations<'s> {
         settings: &Settings,
         progress: &dyn Progress,
     ) -> Result<Evaluations<'s>, RunError> {
-        let (manifest, out) = (Manifest::of(study), settings.out.clone());
+        let out = settings.out.clone();
         fs::create_dir_all(&out).map_err(|e| RunError::file("create the folder", &out, e))?;
-        let (journal, Recorded { head, walls, .. }) = Journal::open(&out)?;
-        let threads =
-            settings.threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
-        let mut evaluations = Evaluations {
-            study,
-            keys: WallKeys::of(&manifest),
-            manifest,
-            out,
-            pool: rayon::ThreadPoolBuilder::new().num_threads(threads).build()?,
-            journal,
-            recorded: walls,
-            entries: BTreeMap::new(),
-            asked: BTreeSet::new(),
-        };
+        let (journal, Recorded { head: of_journal, mut walls, .. }) = Journal::open(&out)?;
+        // Walls in shards are as good as those in the journal.
+        walls.extend(shard::recorded(&out)?);
+        let shared = Work::is_in(&out).then(|| Work::read(&out)).transpose()?;
+        let head = of_journal.clone().or(shared.map(|work| work.manifest));
+        let mut evaluations = Evaluations::recorded_in(journal, walls, study, settings)?;
         evaluations.take_over(&plan(study));
         let differences = head.as_ref().map_or_else(Vec::new, |head| head.differences(&evaluations.manifest));
         if !differences.is_empty() {
@@ -115,9 +109,32 @@ impl<'s> Evaluations<'s> {
             let left = evaluations.recorded.len();
             progress.grown(&Grown::of(study, differences.clone(), evaluations.entries.keys(), left));
         }
-        let is_new = head.is_none() || !differences.is_empty();
+        let is_new = of_journal.is_none() || !differences.is_empty();
         evaluations.journal.go_on(is_new.then_some(&evaluations.manifest))?;
         Ok(evaluations)
+    }
+
+    /// With a journal of its own that is open for more walls, and what is known of walls.
+    pub(super) fn recorded_in(
+        journal: Journal,
+        recorded: BTreeMap<String, Entry>,
+        study: &'s Study,
+        settings: &Settings,
+    ) -> Result<Evaluations<'s>, RunError> {
+        let manifest = Manifest::of(study);
+        let threads =
+            settings.threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
+        Ok(Evaluations {
+            study,
+            keys: WallKeys::of(&manifest),
+            manifest,
+            out: settings.out.clone(),
+            pool: rayon::ThreadPoolBuilder::new().num_threads(threads).build()?,
+            journal,
+            recorded,
+            entries: BTreeMap::new(),
+            asked: BTreeSet::new(),
+        })
     }
 
     /// Finds tasks among what is recorded.
@@ -151,8 +168,11 @@ impl<'s> Evaluations<'s> {
             journal: &self.journal,
             keys: &self.keys,
             progress,
-            threads: self.pool.current_num_threads() as u32,
-            host: host(),
+            place: Place {
+                threads: self.pool.current_num_threads() as u32,
+                host: machine::host(),
+                processor: machine::processor(),
+            },
             stop: AtomicBool::new(false),
         };
         let results: Vec<Result<Entry, Missed>> = self
@@ -162,6 +182,13 @@ impl<'s> Evaluations<'s> {
         // On a worker a panic is a fault of its member; here it stops the run.
         interrupt::look();
         gather(&missing, results, &mut self.entries)
+    }
+
+    /// What was asked for, in the order arm, point, member.
+    pub(super) fn entries(self) -> BTreeMap<Task, Entry> {
+        let Evaluations { asked, mut entries, .. } = self;
+        entries.retain(|task, _| asked.contains(task));
+        entries
     }
 
     /// The row of a task, if it is recorded.
@@ -175,18 +202,15 @@ impl<'s> Evaluations<'s> {
     /// # Errors
     /// [`RunError::File`] and [`RunError::Table`].
     pub fn end(self) -> Result<Vec<Row>, RunError> {
-        let Evaluations { out, manifest, asked, entries, .. } = self;
-        let entries: Vec<Entry> =
-            entries.into_iter().filter(|(task, _)| asked.contains(task)).map(|(_, entry)| entry).collect();
-        files::replace_file(&out.join("timing.csv"), table::timing(&entries).as_bytes())?;
+        let (out, manifest) = (self.out.clone(), self.manifest.clone());
+        let entries: Vec<Entry> = self.entries().into_values().collect();
+        let timing = TIMING_HEADS.to_owned() + &table::timing(entries.iter());
+        files::replace_file(&out.join(TIMING), timing.as_bytes())?;
         let rows: Vec<Row> = entries.into_iter().map(|entry| entry.row).collect();
-        files::replace_file(&out.join("members.parquet"), &table::members(&rows)?)?;
-        files::replace_file(&out.join("steps.parquet"), &table::steps(&rows)?)?;
-        for (name, schema) in table::schemas(&rows) {
-            files::replace_file(&out.join(name), schema.as_bytes())?;
-        }
-        let json = serde_json::to_string_pretty(&manifest).expect("a manifest has string keys only");
-        files::replace_file(&out.join(MANIFEST), format!("{json}\n").as_bytes())?;
+        let mut tables = Tables::begin(&out, AddedColumns::of(&rows))?;
+        rows.iter().try_for_each(|row| tables.take(row))?;
+        tables.end()?;
+        manifest.write(&out)?;
         Ok(rows)
     }
 }
@@ -204,7 +228,7 @@ pub(super) fn taken(
 }
 
 /// The hash of what decides a task's row.
-fn key_of(study: &Study, keys: &WallKeys, task: Task) -> Option<String> {
+pub(super) fn key_of(study: &Study, keys: &WallKeys, task: Task) -> Option<String> {
     let arm = &study.arms[task.arm as usize];
     keys.key(&arm.name, arm.kn_points[task.point as usize], task.member)
 }
@@ -216,8 +240,7 @@ struct Realisation<'a> {
     journal: &'a Journal,
     keys: &'a WallKeys,
     progress: &'a dyn Progress,
-    threads: u32,
-    host: String,
+    place: Place,
     /// Set when the journal cannot be written, as what is not recorded would be lost, and when the run is told to stop: nothing more is
     /// begun.
     stop: AtomicBool,
@@ -242,7 +265,8 @@ impl Realisation<'_> {
             let row = (self.evaluate)(self.study, task);
             let seconds = begun.elapsed().as_secs_f64();
             let wall = key_of(self.study, self.keys, task);
-            let entry = Entry { wall, seconds, threads: self.threads, host: self.host.clone(), row };
+            let timing = Some(Timing { seconds, place: self.place.clone() });
+            let entry = Entry { wall, timing, row };
             let line = entry.line();
             (entry, line)
         }));
@@ -292,14 +316,4 @@ fn gather(
         None if faults.is_empty() => Ok(()),
         None => Err(RunError::Broken { faults }),
     }
-}
-
-/// The machine's name, for the timing file only.
-fn host() -> String {
-    let named =
-        fs::read_to_string("/proc/sys/kernel/hostname").ok().or_else(|| std::env::var("HOSTNAME").ok());
-    named
-        .map(|name| name.trim().to_string())
-        .filter(|name| !name.is_empty())
-        .unwrap_or_else(|| "unknown".to_string())
 }

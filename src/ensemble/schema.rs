@@ -6,10 +6,10 @@
 
 use serde_json::{Value as Json, json};
 
-use crate::ensemble::columns::{Column, Value, documented};
+use crate::ensemble::columns::{Column, Table, Value, documented};
 
 /// The schema of a table with these columns; `key` names its lines.
-pub(crate) fn schema<T>(columns: &[Column<T>], key: &[&str]) -> String {
+pub(crate) fn schema<T: Table>(columns: &[Column<T>], key: &[&str]) -> String {
     let field = |column: &Column<T>| {
         let mut field = json!({
             "name": column.name, "type": kind(&column.value), "description": column.meaning,
@@ -40,13 +40,13 @@ pub fn column_reference() -> String {
     text
 }
 
-fn line<T>(column: &Column<T>) -> String {
+fn line<T: Table>(column: &Column<T>) -> String {
     let unit = if column.unit.is_empty() { "-" } else { column.unit };
     format!("  {:<33} {unit:<5} {:<8} {}\n", column.name, kind(&column.value), column.meaning)
 }
 
 /// The type in the words of the standard.
-fn kind<T>(value: &Value<T>) -> &'static str {
+fn kind<T: Table>(value: &Value<T>) -> &'static str {
     match value {
         Value::Text(_) => "string",
         Value::Count(_) => "integer",

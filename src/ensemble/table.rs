@@ -1,39 +1,32 @@
 //! Rows as tables: `members.parquet` and `steps.parquet`, the same as CSV, their schemas, and `timing.csv`. The bytes depend on the rows alone.
 
-use polars::prelude::{DataFrame, NamedFrom, Series};
+mod sheet;
+mod tables;
+
+use polars::prelude::DataFrame;
 use polars_io::prelude::ParquetWriter;
 
-use crate::ensemble::columns::{Column, Step, Value, of_members, of_steps};
-use crate::ensemble::journal::Entry;
+use crate::ensemble::columns::{Column, Step, Table, Value, of_members, of_steps};
+use crate::ensemble::journal::{Entry, Place, Timing};
 use crate::ensemble::schema::schema;
-use crate::ensemble::{Row, RunError};
+use crate::ensemble::{AddedColumns, Row, RunError};
 
-/// One row per member, in the order given; a value that a member does not have is null.
-pub(crate) fn members(rows: &[Row]) -> Result<Vec<u8>, RunError> {
-    let lines: Vec<&Row> = rows.iter().collect();
-    let columns = of_members(rows).iter().map(|column| encoded(column, &lines)).collect();
-    parquet("members.parquet", rows.len(), columns)
-}
+pub use tables::Tables;
 
-/// One row per load step of every member, in the order given.
-pub(crate) fn steps(rows: &[Row]) -> Result<Vec<u8>, RunError> {
-    let lines = steps_of(rows);
-    let columns = of_steps(&lines).iter().map(|column| encoded(column, &lines)).collect();
-    parquet("steps.parquet", lines.len(), columns)
-}
-
-/// `members.csv` and `steps.csv`: the same tables as text. What a member does not have is empty; numbers read back to the same bits.
+/// `members.csv` and `steps.csv`: the tables as text. What a member does not have is empty; numbers read back to the same bits.
 pub fn tables_as_csv(rows: &[Row]) -> [(&'static str, String); 2] {
-    let (lines, steps) = (rows.iter().collect::<Vec<_>>(), steps_of(rows));
-    [("members.csv", csv(&of_members(rows), &lines)), ("steps.csv", csv(&of_steps(&steps), &steps))]
+    let added = AddedColumns::of(rows);
+    [
+        ("members.csv", csv(&of_members(&added), rows.iter())),
+        ("steps.csv", csv(&of_steps(&added), steps_of(rows))),
+    ]
 }
 
-/// The schemas of the tables of a run with these rows, see [`schema`].
-pub(crate) fn schemas(rows: &[Row]) -> [(&'static str, String); 2] {
-    let steps = steps_of(rows);
+/// The schemas of the tables with these columns, see [`schema`].
+fn schemas(added: &AddedColumns) -> [(&'static str, String); 2] {
     [
-        ("members.schema.json", schema(&of_members(rows), &MEMBER)),
-        ("steps.schema.json", schema(&of_steps(&steps), &STEP)),
+        ("members.schema.json", schema(&of_members(added), &MEMBER)),
+        ("steps.schema.json", schema(&of_steps(added), &STEP)),
     ]
 }
 
@@ -41,24 +34,13 @@ pub(crate) fn schemas(rows: &[Row]) -> [(&'static str, String); 2] {
 const MEMBER: [&str; 3] = ["arm", "point", "member"];
 const STEP: [&str; 4] = ["arm", "point", "member", "load_step"];
 
-fn steps_of(rows: &[Row]) -> Vec<Step<'_>> {
+fn steps_of(rows: &[Row]) -> impl Iterator<Item = Step<'_>> {
     let numbered = rows.iter().flat_map(|row| (0u64..).zip(&row.load_steps).map(move |of| (row, of)));
-    numbered.map(|(row, (number, step))| Step { row, number, step }).collect()
+    numbered.map(|(row, (number, step))| Step { row, number, step })
 }
 
-fn encoded<T: Copy>(column: &Column<T>, lines: &[T]) -> polars::prelude::Column {
-    let name = column.name.as_str().into();
-    let lines = lines.iter().copied();
-    polars::prelude::Column::from(match &column.value {
-        Value::Text(of) => Series::new(name, lines.map(of).collect::<Vec<_>>()),
-        Value::Count(of) => Series::new(name, lines.map(of).collect::<Vec<_>>()),
-        Value::Real(of) => Series::new(name, lines.map(of).collect::<Vec<_>>()),
-        Value::Drawn(of, key) => Series::new(name, lines.map(|line| of(line, key)).collect::<Vec<_>>()),
-    })
-}
-
-fn csv<T: Copy>(columns: &[Column<T>], lines: &[T]) -> String {
-    let cell = |column: &Column<T>, line: T| match &column.value {
+fn csv<'r, T: Table>(columns: &[Column<T>], lines: impl Iterator<Item = T::Line<'r>>) -> String {
+    let cell = |column: &Column<T>, line: T::Line<'r>| match &column.value {
         Value::Text(of) => of(line).map_or_else(String::new, |text| quoted(&text)),
         Value::Count(of) => of(line).to_string(),
         Value::Real(of) => of(line).map_or_else(String::new, |x| x.to_string()),
@@ -67,14 +49,14 @@ fn csv<T: Copy>(columns: &[Column<T>], lines: &[T]) -> String {
     let heads: Vec<String> = columns.iter().map(|column| quoted(&column.name)).collect();
     let mut text = heads.join(",") + "\n";
     for line in lines {
-        let cells: Vec<String> = columns.iter().map(|column| cell(column, *line)).collect();
+        let cells: Vec<String> = columns.iter().map(|column| cell(column, line)).collect();
         text.push_str(&cells.join(","));
         text.push('\n');
     }
     text
 }
 
-/// Encodes sequentially, so that no thread count enters.
+/// A table in Parquet. Encodes sequentially, so that no thread count enters.
 pub(crate) fn parquet(
     table: &'static str,
     height: usize,
@@ -87,15 +69,20 @@ pub(crate) fn parquet(
     Ok(bytes)
 }
 
-/// What each member took, on which machine: kept apart from the results, which must not depend on it.
-pub(crate) fn timing(entries: &[Entry]) -> String {
-    let mut text = String::from("arm,point,member,seconds,threads,host\n");
-    for Entry { seconds, threads, host, row, .. } in entries {
-        let line =
-            format!("{},{},{},{seconds:.6},{threads},{host}\n", quoted(&row.arm), row.point, row.member);
-        text.push_str(&line);
-    }
-    text
+/// Name of the file of what each member took.
+pub(crate) const TIMING: &str = "timing.csv";
+/// Heads of its columns.
+pub(crate) const TIMING_HEADS: &str = "arm,point,member,seconds,threads,host,processor\n";
+
+/// What each member took, on which machine: kept apart from the results, which must not depend on it. Without the heads.
+pub(crate) fn timing<'e>(entries: impl Iterator<Item = &'e Entry>) -> String {
+    let line = |entry: &Entry| {
+        let (row, Timing { seconds, place }) = (&entry.row, entry.timing.as_ref()?);
+        let Place { threads, host, processor } = place;
+        let [arm, host, processor] = [&row.arm, host, processor].map(|text| quoted(text));
+        Some(format!("{arm},{},{},{seconds:.6},{threads},{host},{processor}\n", row.point, row.member))
+    };
+    entries.filter_map(line).collect()
 }
 
 /// A CSV field: quoted when it holds what would end it.

@@ -59,7 +59,7 @@ pub struct Comparison {
 pub fn ratio(above: &Population, below: &Population) -> Ratio {
     let (a, b) = (above.complete(), below.complete());
     let walls = a.len() as u64;
-    let (Some(mean_a), Some(mean_b)) = (stats::mean(&a), stats::mean(&b)) else {
+    let (Some(mean_a), Some(mean_b)) = (stats::mean(a), stats::mean(b)) else {
         return Ratio { value: None, interval: None, basis: Basis::Undefined, walls };
     };
     // A single value handed to `ratio_of_means` counts as known without scatter: only a fixed arm may do that.
@@ -69,38 +69,33 @@ pub fn ratio(above: &Population, below: &Population) -> Ratio {
             (Estimate { value, interval: value.map(|ratio| [ratio, ratio]) }, Basis::Exact)
         }
         (false, true) if above.randomisations > 1 => {
-            let pairs: Vec<(u64, [f64; 2])> = above.values.iter().map(|(m, x)| (*m, [*x, mean_b])).collect();
+            let pairs: Vec<(u64, [f64; 2])> = above.values.iter().map(|(m, x)| (m, [x, mean_b])).collect();
             (randomised(&pairs, above.randomisations), Basis::OneArmFixed)
         }
         (true, false) if below.randomisations > 1 => {
-            let pairs: Vec<(u64, [f64; 2])> = below.values.iter().map(|(m, y)| (*m, [mean_a, *y])).collect();
+            let pairs: Vec<(u64, [f64; 2])> = below.values.iter().map(|(m, y)| (m, [mean_a, y])).collect();
             (randomised(&pairs, below.randomisations), Basis::OneArmFixed)
         }
-        (false, true) => (stats::ratio_of_means(&a, &[mean_b]), Basis::OneArmFixed),
-        (true, false) => (stats::ratio_of_means(&[mean_a], &b), Basis::OneArmFixed),
+        (false, true) => (stats::ratio_of_means(a, &[mean_b]), Basis::OneArmFixed),
+        (true, false) => (stats::ratio_of_means(&[mean_a], b), Basis::OneArmFixed),
         (false, false) if above.planned == below.planned => return paired(above, below),
         (false, false) if a.len() < 2 || b.len() < 2 => {
-            (Estimate { interval: None, ..stats::ratio_of_means(&a, &b) }, Basis::Independent)
+            (Estimate { interval: None, ..stats::ratio_of_means(a, b) }, Basis::Independent)
         }
-        (false, false) => (stats::ratio_of_means(&a, &b), Basis::Independent),
+        (false, false) => (stats::ratio_of_means(a, b), Basis::Independent),
     };
     Ratio { value: estimate.value, interval: estimate.interval, basis, walls }
 }
 
 fn paired(above: &Population, below: &Population) -> Ratio {
-    let pairs: Vec<(u64, [f64; 2])> = above
-        .values
-        .iter()
-        .filter_map(|(member, x)| below.values.get(member).map(|y| (*member, [*x, *y])))
-        .collect();
-    let walls = pairs.len() as u64;
-    let Estimate { value, interval } = if above.randomisations > 1 {
-        randomised(&pairs, above.randomisations)
+    let (walls, Estimate { value, interval }) = if above.randomisations > 1 {
+        let pairs: Vec<(u64, [f64; 2])> = above.values.pairs(&below.values).collect();
+        (pairs.len(), randomised(&pairs, above.randomisations))
     } else {
-        let (a, b): (Vec<f64>, Vec<f64>) = pairs.iter().map(|(_, [x, y])| (*x, *y)).unzip();
-        stats::paired_ratio_of_means(&a, &b)
+        let [a, b] = above.values.paired(&below.values);
+        (a.len(), stats::paired_ratio_of_means(&a, &b))
     };
-    Ratio { value, interval, basis: Basis::Paired, walls }
+    Ratio { value, interval, basis: Basis::Paired, walls: walls as u64 }
 }
 
 /// Ratio of the means of pairs, by member, that share the randomisations of a design in turn.

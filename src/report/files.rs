@@ -13,9 +13,11 @@ use crate::report::drift::{DriftPlot, drift_csv, drift_curves};
 use crate::report::figure::{curves, ladders, title};
 use crate::report::force_drift::{ForceDriftPlot, force_curves, force_drift_csv};
 use crate::report::fragility::FragilityPlot;
+use crate::report::gathered::{Gathered, populations};
 use crate::report::measured::{CalibrationPlot, calibration_csv, comparison_csv};
 use crate::report::plot::Plot;
-use crate::report::summary::{Summary, summarise};
+use crate::report::population::Population;
+use crate::report::summary::{Summary, summary_of};
 use crate::study::Study;
 
 /// File name of the summary.
@@ -41,7 +43,31 @@ pub const CALIBRATION: &str = "calibration";
 /// # Errors
 /// The file that could not be written, and why.
 pub fn write_all(study: &Study, rows: &[Row], dir: &Path, beside: Option<&Earlier>) -> Result<Summary> {
-    let summary = summarise(study, rows);
+    write_results(study, populations(study, rows), rows, (dir, beside))
+}
+
+/// The same from rows that were gathered one by one; the study is the one that they were gathered for, with the number of walls that each
+/// arm came to.
+///
+/// # Errors
+/// As of [`write_all`].
+pub fn write_gathered(
+    study: &Study,
+    gathered: Gathered,
+    dir: &Path,
+    beside: Option<&Earlier>,
+) -> Result<Summary> {
+    let (populations, rows) = gathered.end(study);
+    write_results(study, populations, &rows, (dir, beside))
+}
+
+fn write_results(
+    study: &Study,
+    populations: Vec<Population>,
+    rows: &[Row],
+    (dir, beside): (&Path, Option<&Earlier>),
+) -> Result<Summary> {
+    let summary = summary_of(study, populations, rows);
     write_summary(&summary, dir, beside)?;
     write_force_drift(study, rows, &title(&summary), dir)?;
     Ok(summary)

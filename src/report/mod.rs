@@ -3,6 +3,7 @@
 
 mod advice;
 mod beside;
+mod by_member;
 mod capacity;
 mod compare;
 mod conclusion;
@@ -17,6 +18,7 @@ mod files;
 mod force_drift;
 mod fragility;
 mod gain;
+mod gathered;
 mod gltf;
 mod influence;
 mod joint_law;
@@ -57,8 +59,9 @@ pub use diagnosis::{
 };
 pub use elements::{element_table, write_elements};
 pub use extended::{EXTENDED, Origin, extended_name, remove_extended, write_extended};
-pub use files::{FRAGILITY, SUMMARY_JSON, write_all};
+pub use files::{FRAGILITY, SUMMARY_JSON, write_all, write_gathered};
 pub use gain::GainSummary;
+pub use gathered::Gathered;
 pub use gltf::{Actor, Role, write_glb};
 pub use influence::{InfluenceSummary, ShareEntry, influence_page, influence_text, running, write_influence};
 pub use joint_law::{LawSummary, law_text, remove_law, write_law};

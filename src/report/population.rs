@@ -2,12 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use crate::ensemble::{Mechanism, Observed, Quantity, Row, is_random};
+use crate::ensemble::{Mechanism, Observed, Quantity, Row};
+use crate::report::by_member::ByMember;
 use crate::report::number::significant;
-use crate::stats::Sample;
-use crate::study::Study;
+use crate::stats::{Sample, Trials};
+use crate::study::{Claim, ClaimTest};
 
-/// One arm at one kn: what was planned, how it ended, and the values of the walls that stand.
+/// One arm at one kn: what was planned, how it ended, and the values of the walls that stand. Of a wall that brings a value it keeps that
+/// value alone, of all others no more than their count.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Population {
     /// Name of the arm.
@@ -23,77 +25,89 @@ pub struct Population {
     /// What is observed.
     pub quantity: Quantity,
     /// Its value by member, of the walls that bring one.
-    pub values: BTreeMap<u64, f64>,
-    /// By member, what the value is known to exceed, of walls that stood to the end of the load path.
-    pub above: BTreeMap<u64, f64>,
+    pub values: ByMember,
+    /// What the value is known to exceed, of walls that stood to the end of the load path, in the order of the members.
+    pub above: Vec<f64>,
     /// Number of walls by the name of the mechanism by which they fell.
     pub modes: BTreeMap<String, u64>,
-    /// The mechanisms of the walls that fell, by member.
-    pub mechanisms: Vec<(u64, Mechanism)>,
+    /// How often the walls that fell did so as a published statement says, by its test.
+    pub stated: Vec<(ClaimTest, Trials)>,
     /// Randomisations of a design that its members share in turn; 1 where each is drawn by itself.
     pub randomisations: u64,
+    /// The last member that was taken.
+    last: Option<u64>,
 }
 
 impl Population {
-    /// Collects the rows of one arm at one kn, whatever their order.
-    ///
-    /// A row that did not end as the quantity needs it is counted by its outcome and brings no value.
-    pub fn collect<'a>(
-        arm: &str,
-        fixed: bool,
-        kn: f64,
-        planned: u64,
+    /// One without a wall, to be judged by the claims about how this arm's walls fall.
+    pub fn new(
+        (arm, fixed): (&str, bool),
+        (kn, planned): (f64, u64),
         quantity: Quantity,
-        rows: impl Iterator<Item = &'a Row>,
-    ) -> Self {
-        let mut population = Population {
+        randomisations: u64,
+        claims: &[Claim],
+    ) -> Population {
+        let stated = claims.iter().map(|claim| &claim.test);
+        let stated = stated.filter(|test| matches!(test, ClaimTest::Mechanism { arm: of, .. } if of == arm));
+        Population {
             arm: arm.into(),
             fixed,
             kn,
             planned,
             outcomes: BTreeMap::new(),
             quantity,
-            values: BTreeMap::new(),
-            above: BTreeMap::new(),
+            values: ByMember::default(),
+            above: Vec::new(),
             modes: BTreeMap::new(),
-            mechanisms: Vec::new(),
-            randomisations: 1,
-        };
-        for row in rows {
-            *population.outcomes.entry(row.outcome.name().to_string()).or_insert(0) += 1;
-            if let Some(mechanism) = &row.mechanism {
-                *population.modes.entry(mechanism.mode.name().to_string()).or_insert(0) += 1;
-                population.mechanisms.push((row.member, *mechanism));
-            }
-            let earlier = match quantity.observed(row) {
-                Observed::Value(value) => population.values.insert(row.member, value),
-                Observed::Above(limit) => population.above.insert(row.member, limit),
-                Observed::Nothing => None,
-            };
-            crate::check!(earlier.is_none(), "member {} of arm {arm} has two rows at kn {kn}", row.member);
+            stated: stated.map(|test| (test.clone(), Trials::none(randomisations))).collect(),
+            randomisations,
+            last: None,
         }
-        population
     }
 
-    /// The values in the order of the members.
-    pub fn ordered(&self) -> Vec<f64> {
-        self.values.values().copied().collect()
+    /// The same with another number of walls planned.
+    pub fn of(self, planned: u64) -> Population {
+        Population { planned, ..self }
     }
 
-    /// The values of which moments can be taken: none where some wall stood to the end, as its value is not known.
-    pub fn complete(&self) -> Vec<f64> {
-        if self.above.is_empty() { self.ordered() } else { Vec::new() }
+    /// Takes the row of the next member.
+    ///
+    /// A row that did not end as the quantity needs it is counted by its outcome and brings no value.
+    pub fn take(&mut self, row: &Row) {
+        crate::check!(
+            self.last.is_none_or(|last| last < row.member),
+            "member {} of arm {} at kn {} has two rows, or comes too late",
+            row.member,
+            self.arm,
+            self.kn
+        );
+        self.last = Some(row.member);
+        count(&mut self.outcomes, row.outcome.name());
+        if let Some(mechanism) = &row.mechanism {
+            count(&mut self.modes, mechanism.mode.name());
+            for (test, trials) in &mut self.stated {
+                trials.take(row.member, falls_so(test, mechanism));
+            }
+        }
+        match self.quantity.observed(row) {
+            Observed::Value(value) => self.values.push(row.member, value),
+            Observed::Above(limit) => self.above.push(limit),
+            Observed::Nothing => {}
+        }
     }
 
-    /// The values of which moments can be taken, with what their intervals rest on.
-    pub fn sample(&self) -> Sample {
-        let values = self.values.iter().map(|(member, value)| (*member, *value));
-        Sample::of(values.filter(|_| self.above.is_empty()), self.randomisations)
+    /// The values of which moments can be taken, in the order of the members: none where some wall stood to the end, as its value is
+    /// not known.
+    pub fn complete(&self) -> &[f64] {
+        if self.above.is_empty() { self.values.values() } else { &[] }
     }
 
-    /// What the values of walls that stood to the end are known to exceed, in the order of the members.
-    pub fn limits(&self) -> Vec<f64> {
-        self.above.values().copied().collect()
+    /// The same, with what their intervals rest on.
+    pub fn sample(&self) -> Sample<'_> {
+        match self.randomisations {
+            ..2 => Sample::Independent(self.complete().into()),
+            more => Sample::of(self.values.iter().filter(|_| self.above.is_empty()), more),
+        }
     }
 
     /// Walls that were planned and say nothing: failed or missing.
@@ -105,7 +119,7 @@ impl Population {
     pub fn note(&self) -> Option<String> {
         let mut parts = Vec::new();
         if !self.above.is_empty() {
-            let least = self.limits().into_iter().fold(f64::INFINITY, f64::min);
+            let least = self.above.iter().copied().fold(f64::INFINITY, f64::min);
             parts.push(format!(
                 "{} of {} walls stood to the end of the load path ({} {}): mean, sigma and COV are not defined",
                 self.above.len(),
@@ -149,18 +163,20 @@ impl Population {
     }
 }
 
-/// Every population of a study, arm by arm in the order of the study, kn ascending.
-pub fn populations(study: &Study, rows: &[Row]) -> Vec<Population> {
-    let quantity = Quantity::of(&study.protocol);
-    let mut all = Vec::new();
-    for (arm_index, arm) in study.arms.iter().enumerate() {
-        for (point, &kn) in arm.kn_points.iter().enumerate() {
-            let own =
-                rows.iter().filter(|row| row.arm_index as usize == arm_index && row.point as usize == point);
-            let fixed = !is_random(arm);
-            let own = Population::collect(&arm.name, fixed, kn, arm.members, quantity, own);
-            all.push(Population { randomisations: study.randomisations(), ..own });
-        }
+/// Counts one more of a name.
+fn count(counts: &mut BTreeMap<String, u64>, name: &str) {
+    match counts.get_mut(name) {
+        Some(count) => *count += 1,
+        None => drop(counts.insert(name.to_owned(), 1)),
     }
-    all
+}
+
+/// Whether a wall falls as it is stated of its arm.
+fn falls_so(test: &ClaimTest, mechanism: &Mechanism) -> bool {
+    let ClaimTest::Mechanism { mode, weight_share, length_share, place, .. } = test else { return false };
+    let holds = |x: f64, [low, high]: &[f64; 2]| *low <= x && x <= *high;
+    mode.is_none_or(|mode| mechanism.mode == mode)
+        && holds(mechanism.weight_share, weight_share)
+        && holds(mechanism.length_share, length_share)
+        && holds(mechanism.place, place)
 }

@@ -5,7 +5,7 @@ use crate::report::compare::{arm_names, at, of_arm, ratio};
 use crate::report::number::{significant, stiffness};
 use crate::report::population::Population;
 use crate::report::standing::{Number, Standing, spread};
-use crate::stats::{Estimate, Sample};
+use crate::stats::Estimate;
 use crate::study::{Claim, ClaimTest};
 
 /// What our numbers say about a statement.
@@ -81,7 +81,7 @@ pub fn judge(claim: &Claim, populations: &[Population]) -> Published {
             Evidence::within(&numbers, *low, *high, theirs, &[arm])
         }
         ClaimTest::Mechanism { arm, stated, least_share, .. } => {
-            let numbers = failing_so(populations, &claim.test);
+            let numbers = failing_so(populations, arm, &claim.test);
             let theirs = format!("{stated} (accepted: a share of the walls of {least_share} or more)");
             Evidence::within(&numbers, *least_share, 1.0, theirs, &[arm])
         }
@@ -206,27 +206,16 @@ fn ratios_of_sines(populations: &[Population], arm: &str, over: &str, at_kn: Opt
         .collect()
 }
 
-/// The share of an arm's fallen walls whose mechanism is as stated, with the interval of Clopper and Pearson.
-fn failing_so(populations: &[Population], test: &ClaimTest) -> Vec<Number> {
-    let ClaimTest::Mechanism { arm, mode, weight_share, length_share, place, .. } = test else {
-        return Vec::new();
+/// The share of an arm's fallen walls whose mechanism is as stated, with its interval.
+fn failing_so(populations: &[Population], arm: &str, test: &ClaimTest) -> Vec<Number> {
+    let share = |population: &Population| {
+        let own = population.stated.iter().find(|(own, _)| own == test);
+        crate::check!(own.is_some(), "the walls of arm {arm} were not watched for a statement about them");
+        let Estimate { value, interval } = own.map_or(Estimate::UNDEFINED, |(_, trials)| trials.share());
+        let interval = if population.fixed { value.map(|value| [value, value]) } else { interval };
+        Number::at(population.kn, value, interval)
     };
-    let holds = |x: f64, [low, high]: &[f64; 2]| *low <= x && x <= *high;
-    of_arm(populations, arm)
-        .into_iter()
-        .map(|population| {
-            let so = population.mechanisms.iter().map(|(member, m)| {
-                let so = mode.is_none_or(|mode| m.mode == mode)
-                    && holds(m.weight_share, weight_share)
-                    && holds(m.length_share, length_share)
-                    && holds(m.place, place);
-                (*member, f64::from(u8::from(so)))
-            });
-            let Estimate { value, interval } = Sample::of(so, population.randomisations).share();
-            let interval = if population.fixed { value.map(|value| [value, value]) } else { interval };
-            Number::at(population.kn, value, interval)
-        })
-        .collect()
+    of_arm(populations, arm).into_iter().map(share).collect()
 }
 
 fn covs(populations: &[Population], arm: &str) -> Vec<Number> {

@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 
 use crate::ensemble::{Look, Quantity, Row};
 use crate::report::compare::{Comparison, comparisons};
+use crate::report::gathered::populations;
 use crate::report::measured::{MeasuredSummary, measured};
-use crate::report::population::{Population, populations};
+use crate::report::population::Population;
 use crate::report::published::{Published, judge_all};
-use crate::stats::{self, EmpiricalStep, Estimate, Sample, Statistic};
+use crate::stats::{self, EmpiricalStep, Estimate, Sorted, Statistic};
 use crate::study::{Arm, Study, Until};
 
 /// What came out of a study. Intervals are at 95 %; what is not defined is null, never zero.
@@ -72,18 +73,18 @@ pub struct ArmSummary {
     pub sigma: Option<f64>,
     /// Its interval (chi-square, exact for normal values).
     pub sigma_ci: Option<[f64; 2]>,
-    /// Its interval by bootstrap (BCa); null of a design.
+    /// Its interval by bootstrap (BCa); null of a design, and of more than 50,000 walls, where it takes too long.
     pub sigma_bootstrap_ci: Option<[f64; 2]>,
     /// Coefficient of variation, a fraction.
     pub cov: Option<f64>,
     /// Its interval (modified McKay, Vangel 1996).
     pub cov_ci: Option<[f64; 2]>,
-    /// Its interval by bootstrap (BCa); null of a design.
+    /// Its interval by bootstrap (BCa); null where that of sigma is.
     pub cov_bootstrap_ci: Option<[f64; 2]>,
     /// Quantiles.
     pub quantiles: Vec<QuantileEntry>,
-    /// The empirical distribution of the capacity, P(collapse | load), in the quantity's unit, with its 95 % bands;
-    /// left out of a design, whose walls are not independent.
+    /// The empirical distribution of the capacity, P(collapse | load), in the quantity's unit, with its 95 % bands; at most 10,000
+    /// steps of it, see [`empirical`](crate::stats::empirical). Left out of a design, whose walls are not independent.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub fragility: Vec<EmpiricalStep>,
     /// When the arm had walls enough; left out where their number was fixed.
@@ -118,7 +119,7 @@ pub struct EnoughEntry {
 impl EnoughEntry {
     /// At the walls of an arm at one stiffness.
     pub(crate) fn of(until: Until, population: &Population) -> EnoughEntry {
-        let look = Look::at(until, &population.ordered(), population.above.len());
+        let look = Look::at(until, population.values.values(), population.above.len());
         EnoughEntry {
             of: until.of.name(),
             value: look.estimate.value,
@@ -133,10 +134,9 @@ impl EnoughEntry {
 
 impl ArmSummary {
     /// With the last look at an arm that has walls enough: its interval is that of the statistic.
-    fn stopped(mut self, until: Option<Until>, population: &Population) -> ArmSummary {
-        let Some(until) = until else { return self };
-        let entry = EnoughEntry::of(until, population);
-        match until.of {
+    fn stopped(mut self, last: Option<(Statistic, EnoughEntry)>) -> ArmSummary {
+        let Some((statistic, entry)) = last else { return self };
+        match statistic {
             Statistic::Mean => self.mean_ci = entry.ci,
             Statistic::Sigma => self.sigma_ci = entry.ci,
             Statistic::Quantile(share) => {
@@ -165,28 +165,34 @@ pub struct QuantileEntry {
 }
 
 impl QuantileEntry {
-    fn of(sample: &Sample, probability: f64) -> Self {
-        let Estimate { value, interval } = sample.quantile(probability);
+    fn of(probability: f64, Estimate { value, interval }: Estimate) -> Self {
         QuantileEntry { probability, value, ci: interval }
     }
 }
 
 /// Resamples of a bootstrap; 2000 keep the Monte Carlo error of an interval's ends small beside its width.
 const REPLICATES: usize = 2000;
+/// Most walls of a bootstrap. Its jackknife leaves out each of them in turn: at 50,000 walls it takes half a minute, at a million hours.
+const MOST_BOOTSTRAPPED: usize = 50_000;
 /// Probabilities of the quantiles given.
 const PROBABILITIES: [f64; 3] = [0.05, 0.5, 0.95];
 
-/// Sums up the rows of a study.
+/// Sums up the rows of a study, which come in the order of the results (arm, point, member). Who has too many rows to hold them at once
+/// gathers them one by one, see [`Gathered`](crate::report::Gathered).
 pub fn summarise(study: &Study, rows: &[Row]) -> Summary {
-    let populations = populations(study, rows);
-    let arms = populations
-        .iter()
-        .map(|population| {
-            let arm = study.arms.iter().find(|arm| arm.name == population.arm);
-            describe(population, study.seed, arm.map_or_else(BTreeMap::new, parameters))
-                .stopped(arm.and_then(|arm| arm.until), population)
-        })
-        .collect();
+    summary_of(study, populations(study, rows), rows)
+}
+
+/// The summary of populations, and of rows as far as it needs them. Each population gives up its values for its quantiles.
+pub(super) fn summary_of(study: &Study, populations: Vec<Population>, rows: &[Row]) -> Summary {
+    let comparisons = comparisons(&populations, &study.published);
+    let published = judge_all(&study.published, &populations);
+    let arms = populations.into_iter().map(|population| {
+        let arm = study.arms.iter().find(|arm| arm.name == population.arm);
+        let until = arm.and_then(|arm| arm.until);
+        let last = until.map(|until| (until.of, EnoughEntry::of(until, &population)));
+        describe(population, study.seed, arm.map_or_else(BTreeMap::new, parameters)).stopped(last)
+    });
     Summary {
         study: study.name.clone(),
         question: study.question.clone(),
@@ -194,32 +200,25 @@ pub fn summarise(study: &Study, rows: &[Row]) -> Summary {
         solver: study.solver.name(),
         seed: study.seed,
         study_hash: study.hash.clone(),
-        arms,
-        comparisons: comparisons(&populations, &study.published),
-        published: judge_all(&study.published, &populations),
+        arms: arms.collect(),
+        comparisons,
+        published,
         measured: measured(study, rows),
     }
 }
 
 /// The statistics of one population.
 pub(crate) fn describe(
-    population: &Population,
+    population: Population,
     seed: u64,
     parameters: BTreeMap<String, serde_json::Value>,
 ) -> ArmSummary {
-    let sample = population.sample();
     let statistics = match population.quantity {
-        Quantity::CollapseAngle | Quantity::ShearCapacity => sample.summary_of_positive(),
-        Quantity::TopDisplacement => sample.summary(),
+        Quantity::CollapseAngle | Quantity::ShearCapacity => population.sample().summary_of_positive(),
+        Quantity::TopDisplacement => population.sample().summary(),
     };
-    let name = format!("{} {:e}", population.arm, population.kn);
-    // A bootstrap draws values as independent ones, and so does a band of the distribution.
-    let [sigma_bootstrap, cov_bootstrap] = match &sample {
-        Sample::Independent(values) => stats::spread_bootstrap(values, REPLICATES, seed, &name),
-        Sample::Randomised(_) => [Estimate::UNDEFINED; 2],
-    };
-    let bands = matches!(sample, Sample::Independent(_));
-    ArmSummary {
+    let [sigma_bootstrap, cov_bootstrap] = bootstraps(&population, seed);
+    let entry = ArmSummary {
         arm: population.arm.clone(),
         parameters,
         kn_pa_per_m: population.kn,
@@ -239,16 +238,43 @@ pub(crate) fn describe(
         cov: statistics.cov.value,
         cov_ci: statistics.cov.interval,
         cov_bootstrap_ci: cov_bootstrap.interval,
-        quantiles: PROBABILITIES.map(|p| QuantileEntry::of(&sample, p)).to_vec(),
-        fragility: match population.quantity {
-            Quantity::TopDisplacement | Quantity::ShearCapacity => Vec::new(),
-            Quantity::CollapseAngle if !bands => Vec::new(),
-            Quantity::CollapseAngle => stats::empirical(&population.ordered(), &population.limits()),
-        },
+        quantiles: Vec::new(),
+        fragility: Vec::new(),
         enough: None,
         note: population.note(),
         shown: population.quantity,
+    };
+    let (quantiles, fragility) = distribution(population);
+    ArmSummary { quantiles, fragility, ..entry }
+}
+
+/// Sigma and COV by bootstrap, where its values are independent as its draws are, and not too many.
+fn bootstraps(population: &Population, seed: u64) -> [Estimate; 2] {
+    let values = population.complete();
+    if population.randomisations > 1 || values.len() > MOST_BOOTSTRAPPED {
+        return [Estimate::UNDEFINED; 2];
     }
+    let name = format!("{} {:e}", population.arm, population.kn);
+    stats::spread_bootstrap(values, REPLICATES, seed, &name)
+}
+
+/// Quantiles and the empirical distribution of a capacity. They rest on the values in ascending order, which are sorted where they lie.
+fn distribution(population: Population) -> (Vec<QuantileEntry>, Vec<EmpiricalStep>) {
+    let quantiles =
+        |of: &dyn Fn(f64) -> Estimate| PROBABILITIES.map(|p| QuantileEntry::of(p, of(p))).to_vec();
+    if population.randomisations > 1 {
+        // The bands of a distribution are those of independent values.
+        let sample = population.sample();
+        return (quantiles(&|p| sample.quantile(p)), Vec::new());
+    }
+    let Population { quantity, values, above, .. } = population;
+    let sorted = Sorted::of(values.into_values());
+    let of = |p| if above.is_empty() { sorted.quantile(p) } else { Estimate::UNDEFINED };
+    let steps = match quantity {
+        Quantity::TopDisplacement | Quantity::ShearCapacity => Vec::new(),
+        Quantity::CollapseAngle => stats::empirical_of(&sorted, &above),
+    };
+    (quantiles(&of), steps)
 }
 
 /// What sets an arm apart: its walls, its joints and what holds it.

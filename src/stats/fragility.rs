@@ -1,9 +1,13 @@
 //! The empirical distribution of a capacity, P(collapse | load), with pointwise and simultaneous bands.
 
 use super::moments::check_values;
+use super::order::Sorted;
 use super::reference::TAIL;
 use crate::math::ln;
 use statrs::distribution::{Beta, ContinuousCDF};
+
+/// Most steps of an empirical distribution: what a figure or a reader can tell apart. Its bands alone would take hours at millions of steps.
+const MOST_STEPS: usize = 10_000;
 
 /// One step of an empirical distribution: at this value the probability jumps to what is stated.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -24,31 +28,42 @@ pub struct EmpiricalStep {
 ///
 /// `censored` gives for each member that was still standing how far it was loaded (its capacity lies above). The steps end
 /// at the lowest of these: up to there every member counts, beyond it nothing is known of some.
+///
+/// Of more than 10,000 steps so many are kept, evenly by number and with the first and the last. What is said at each of them
+/// is that of the whole sample; between two of them the distribution rises by what lies between their probabilities.
 pub fn empirical(values: &[f64], censored: &[f64]) -> Vec<EmpiricalStep> {
-    check_values(values);
+    empirical_of(&Sorted::of(values.to_vec()), censored)
+}
+
+/// The same of a sample in ascending order.
+pub fn empirical_of(sorted: &Sorted, censored: &[f64]) -> Vec<EmpiricalStep> {
     check_values(censored);
-    let n = values.len() + censored.len();
+    let n = sorted.values().len() + censored.len();
     let end = censored.iter().fold(f64::INFINITY, |low, c| low.min(*c));
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
+    let known = &sorted.values()[..sorted.values().partition_point(|value| *value <= end)];
     let half = if n > 0 { dkw_half_width(n) } else { 0.0 };
-    let mut steps: Vec<EmpiricalStep> = Vec::new();
-    for (index, &value) in sorted.iter().enumerate().take_while(|(_, value)| **value <= end) {
-        let count = index + 1;
+    // How many values lie up to each different one, itself included.
+    let counts = || (1..=known.len()).filter(|count| known.get(*count) != Some(&known[count - 1]));
+    let steps = counts().count();
+    let is_kept = |step: usize| steps <= MOST_STEPS || is_spread(step, steps);
+    let kept = counts().enumerate().filter(|(step, _)| is_kept(*step));
+    kept.map(|(_, count)| {
         let probability = count as f64 / n as f64;
-        let step = EmpiricalStep {
-            value,
+        EmpiricalStep {
+            value: known[count - 1],
             count: count as u64,
             probability,
             pointwise: clopper_pearson(count, n),
             simultaneous: [(probability - half).max(0.0), (probability + half).min(1.0)],
-        };
-        match steps.last_mut() {
-            Some(last) if last.value == value => *last = step,
-            _ => steps.push(step),
         }
-    }
-    steps
+    })
+    .collect()
+}
+
+/// Whether a step is one of [`MOST_STEPS`] that are spread evenly over more, the first and the last among them.
+fn is_spread(step: usize, steps: usize) -> bool {
+    let place = |step: usize| step * (MOST_STEPS - 1) / (steps - 1);
+    step == 0 || place(step) > place(step - 1)
 }
 
 /// 95 % interval of a probability from `k` hits in `n` trials (Clopper and Pearson 1934): exact, coverage at least 95 %. As hits are
@@ -130,5 +145,24 @@ mod tests {
         let seen: Vec<(f64, f64)> = steps.iter().map(|s| (s.value, s.probability)).collect();
         assert_eq!(seen, [(1.0, 0.2), (2.0, 0.4)]);
         assert!(empirical(&[], &[]).is_empty() && empirical(&[], &[5.0]).is_empty());
+    }
+
+    #[test]
+    fn of_very_many_steps_ten_thousand_are_kept_evenly_and_each_as_it_was() {
+        let values: Vec<f64> = (0..25_001).map(|k| f64::from(k * 7919 % 25_001)).collect();
+        let steps = empirical(&values, &[30_000.0]);
+        assert_eq!(steps.len(), 10_000);
+        assert_eq!((steps[0].value, steps[0].count), (0.0, 1));
+        assert_eq!((steps[9_999].value, steps[9_999].count), (25_000.0, 25_001));
+        assert!(steps.windows(2).all(|pair| [2, 3].contains(&(pair[1].count - pair[0].count))));
+        for step in steps.iter().step_by(999) {
+            assert_eq!(step.count, step.value as u64 + 1);
+            assert_eq!(step.probability, step.count as f64 / 25_002.0);
+            assert_eq!(step.pointwise, clopper_pearson(step.count as usize, 25_002));
+        }
+        // So many and no more are given one by one.
+        assert_eq!(empirical(&values[..9_999], &[]).len(), 9_999);
+        assert_eq!(empirical(&values[..10_000], &[]).len(), 10_000);
+        assert_eq!(empirical(&values[..10_001], &[]).len(), 10_000);
     }
 }

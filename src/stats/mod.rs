@@ -29,6 +29,7 @@ pub mod strata;
 pub mod subset;
 mod summary;
 mod test_plan;
+mod trials;
 
 pub use always_valid::{always_valid_mean, always_valid_quantile, always_valid_share};
 pub use bootstrap::{bootstrap_bca, cov_bootstrap, sigma_bootstrap};
@@ -38,11 +39,13 @@ pub use characteristic::{
 };
 pub use dominance::{Distributed, Dominance, dominance};
 pub use estimate::Estimate;
-pub use fragility::{EmpiricalStep, clopper_pearson, clopper_pearson_at, dkw_half_width, empirical};
+pub use fragility::{
+    EmpiricalStep, clopper_pearson, clopper_pearson_at, dkw_half_width, empirical, empirical_of,
+};
 pub use influence::{BasePoint, Influence, Share, influence};
 pub use kolmogorov::{ks_p_value, ks_statistic};
 pub use moments::{correlation, cov, mean, sigma, sum};
-pub use order::{predictive_quantile, quantile, quantile_interval, smallest};
+pub use order::{Sorted, predictive_quantile, quantile, quantile_interval, smallest};
 pub use paired::{NextPair, next_pair, probability_above};
 pub use randomised::{Sample, by_randomisations};
 pub use ratio::{paired_ratio_of_means, ratio_of_means};
@@ -54,3 +57,4 @@ pub use test_plan::{
     Aim, characteristic_loss, pairs_to_see, power_of_groups, smallest_seen, specimens_for_characteristic,
     specimens_to_see,
 };
+pub use trials::Trials;

@@ -46,8 +46,12 @@ pub fn correlation(a: &[f64], b: &[f64]) -> Option<f64> {
 
 /// Sample covariance (divisor n - 1) of two samples of the same length, at least 2, about their given means.
 pub(super) fn comoment(a: &[f64], mean_a: f64, b: &[f64], mean_b: f64) -> f64 {
-    let products = a.iter().zip(b).map(|(x, y)| (x - mean_a) * (y - mean_b));
-    total(products) / (a.len() - 1) as f64
+    covariance(a.iter().zip(b).map(|(x, y)| (x - mean_a, y - mean_b)), a.len())
+}
+
+/// Sample covariance (divisor n - 1) of `n` pairs, at least 2, of what they differ by from their means.
+pub(super) fn covariance(pairs: impl Iterator<Item = (f64, f64)>, n: usize) -> f64 {
+    total(pairs.map(|(x, y)| x * y)) / (n - 1) as f64
 }
 
 /// Stops on values that no statistic of this module is defined for.

@@ -1,5 +1,6 @@
 //! Quantiles of a sample and their distribution-free interval.
 
+use super::Estimate;
 use super::moments::check_values;
 use super::reference::TAIL;
 use statrs::distribution::{Binomial, DiscreteCDF};
@@ -7,12 +8,48 @@ use statrs::distribution::{Binomial, DiscreteCDF};
 /// A place among order statistics that is so near to a whole one is that.
 const WHOLE: f64 = 1e-9;
 
+/// A sample in ascending order: sorted once, in place, it gives any number of quantiles without another copy.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sorted(Vec<f64>);
+
+impl Sorted {
+    /// Sorts a sample of finite values.
+    pub fn of(mut values: Vec<f64>) -> Sorted {
+        check_values(&values);
+        // Values that this order takes for equal have the same bits, so that the places of equal ones do not matter.
+        values.sort_unstable_by(f64::total_cmp);
+        Sorted(values)
+    }
+
+    /// The values, ascending.
+    pub fn values(&self) -> &[f64] {
+        &self.0
+    }
+
+    /// The quantile at `p` with its interval: see [`quantile`] and [`quantile_interval`].
+    pub fn quantile(&self, p: f64) -> Estimate {
+        Estimate { value: quantile_of_sorted(&self.0, p), interval: self.interval(p, TAIL) }
+    }
+
+    /// An interval of the quantile that leaves out `tail` (a probability) at each end.
+    fn interval(&self, p: f64, tail: f64) -> Option<[f64; 2]> {
+        check_probability(p);
+        let n = self.0.len();
+        let below = Binomial::new(p, n as u64).ok()?;
+        // The k-th smallest value (from 1) exceeds the quantile with probability P(at most k - 1 values below it).
+        let exceeds = |k: usize| below.cdf(k as u64 - 1);
+        let low = last_rank(n, |k| exceeds(k) <= tail)?;
+        let high = last_rank(n, |k| exceeds(k) < 1.0 - tail).unwrap_or(0) + 1;
+        (high <= n).then(|| [self.0[low - 1], self.0[high - 1]])
+    }
+}
+
 /// Quantile at `p` in [0, 1] of a sample in any order; `None` for an empty one.
 ///
 /// Type 7 of Hyndman and Fan (1996), the default of R and NumPy: linear between the order statistics, with the
 /// smallest value at p = 0 and the largest at p = 1.
 pub fn quantile(values: &[f64], p: f64) -> Option<f64> {
-    quantile_of_sorted(&sorted(values), p)
+    quantile_of_sorted(Sorted::of(values.to_vec()).values(), p)
 }
 
 /// Value below which one more of the same population lies with probability `p`, averaged over samples like this one: linear between
@@ -26,7 +63,7 @@ pub fn quantile(values: &[f64], p: f64) -> Option<f64> {
 /// ```
 pub fn predictive_quantile(values: &[f64], p: f64) -> Option<f64> {
     check_probability(p);
-    let values = sorted(values);
+    let Sorted(values) = Sorted::of(values.to_vec());
     // What rounding leaves of a whole place.
     let place = p * (values.len() + 1) as f64;
     let place = if (place - place.round()).abs() < WHOLE { place.round() } else { place };
@@ -50,15 +87,7 @@ pub fn quantile_interval(values: &[f64], p: f64) -> Option<[f64; 2]> {
 
 /// The same with another probability left out at each end.
 pub(super) fn order_interval(values: &[f64], p: f64, tail: f64) -> Option<[f64; 2]> {
-    check_probability(p);
-    let values = sorted(values);
-    let n = values.len();
-    let below = Binomial::new(p, n as u64).ok()?;
-    // The k-th smallest value (from 1) exceeds the quantile with probability P(at most k - 1 values below it).
-    let exceeds = |k: usize| below.cdf(k as u64 - 1);
-    let low = last_rank(n, |k| exceeds(k) <= tail)?;
-    let high = last_rank(n, |k| exceeds(k) < 1.0 - tail).unwrap_or(0) + 1;
-    (high <= n).then(|| [values[low - 1], values[high - 1]])
+    Sorted::of(values.to_vec()).interval(p, tail)
 }
 
 /// Places of the `count` smallest of values that come with their places, smallest first; of equal ones the lower place. All
@@ -97,13 +126,6 @@ fn last_rank(n: usize, passes: impl Fn(usize) -> bool) -> Option<usize> {
         }
     }
     (passed > 0).then_some(passed)
-}
-
-fn sorted(values: &[f64]) -> Vec<f64> {
-    check_values(values);
-    let mut values = values.to_vec();
-    values.sort_by(f64::total_cmp);
-    values
 }
 
 fn check_probability(p: f64) {

@@ -5,10 +5,12 @@
 //! statistic is taken without one of them in turn. Of a mean over equally large randomisations it is the standard error of their
 //! means. Intervals are Student's with one degree of freedom fewer than there are randomisations.
 
+use std::borrow::Cow;
+
 use super::moments::{cov, mean, sigma, sum};
-use super::order::{quantile, quantile_interval};
+use super::order::{Sorted, quantile};
 use super::reference::student;
-use super::{Estimate, Summary, clopper_pearson};
+use super::{Estimate, Summary};
 use crate::math::exp;
 
 /// Fewer randomisations tell no error.
@@ -67,17 +69,17 @@ fn above_0(Estimate { value, interval }: Estimate) -> Estimate {
 
 /// Values of an ensemble: independent of each other, or the points of randomisations of a design.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Sample {
+pub enum Sample<'v> {
     /// Independent.
-    Independent(Vec<f64>),
+    Independent(Cow<'v, [f64]>),
     /// By randomisation.
     Randomised(Vec<Vec<f64>>),
 }
 
-impl Sample {
+impl Sample<'_> {
     /// From values with the numbers of their members, of which `randomisations` share the design in turn; 1 where each member is drawn
     /// by itself.
-    pub fn of(values: impl IntoIterator<Item = (u64, f64)>, randomisations: u64) -> Sample {
+    pub fn of(values: impl IntoIterator<Item = (u64, f64)>, randomisations: u64) -> Self {
         if randomisations < 2 {
             return Sample::Independent(values.into_iter().map(|(_, value)| value).collect());
         }
@@ -129,31 +131,11 @@ impl Sample {
     /// The quantile at `p` of type 7 with its interval; `None` where the sample does not bound it on both sides.
     pub fn quantile(&self, p: f64) -> Estimate {
         match self {
-            Sample::Independent(values) => {
-                Estimate { value: quantile(values, p), interval: quantile_interval(values, p) }
-            }
+            Sample::Independent(values) => Sorted::of(values.to_vec()).quantile(p),
             Sample::Randomised(shared) => {
                 let all = shared.concat();
                 let value = quantile(&all, p);
                 Estimate { value, interval: value.and_then(|value| between_quantiles(shared, &all, value)) }
-            }
-        }
-    }
-
-    /// The share of values that are above a half, as 1 is of 0 and 1.
-    pub fn share(&self) -> Estimate {
-        let of = |values: &[f64]| values.iter().filter(|x| **x > 0.5).count();
-        match self {
-            Sample::Independent(values) if values.is_empty() => Estimate::UNDEFINED,
-            Sample::Independent(values) => Estimate {
-                value: Some(of(values) as f64 / values.len() as f64),
-                interval: Some(clopper_pearson(of(values), values.len())),
-            },
-            Sample::Randomised(shared) => {
-                let share =
-                    |values: &[f64]| (!values.is_empty()).then(|| of(values) as f64 / values.len() as f64);
-                let Estimate { value, interval } = by_randomisations(shared, share);
-                Estimate { value, interval: interval.map(|ends| ends.map(|end| end.clamp(0.0, 1.0))) }
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Ratio of two means with Fieller's interval.
 
 use super::Estimate;
-use super::moments::{check_values, comoment, mean};
+use super::moments::{check_values, comoment, covariance, mean};
 use super::reference::student;
 
 /// Mean of `a` over mean of `b`, two independent samples, with Fieller's 95 % interval (Fieller 1954).
@@ -49,12 +49,12 @@ pub fn paired_ratio_of_means(a: &[f64], b: &[f64]) -> Estimate {
     if n == 1 {
         return Estimate { value: Some(ratio), interval: None };
     }
-    let residuals: Vec<f64> = a.iter().zip(b).map(|(x, y)| x - ratio * y).collect();
     let centre = mean_a - ratio * mean_b;
+    let residuals = || a.iter().zip(b).map(|(x, y)| x - ratio * y - centre);
     let count = n as f64;
     let scatter = Scatter {
-        residual: comoment(&residuals, centre, &residuals, centre) / count,
-        shared: comoment(&residuals, centre, b, mean_b) / count,
+        residual: covariance(residuals().map(|residual| (residual, residual)), n) / count,
+        shared: covariance(residuals().zip(b).map(|(residual, y)| (residual, y - mean_b)), n) / count,
         denominator: comoment(b, mean_b, b, mean_b) / count,
         freedom: count - 1.0,
     };

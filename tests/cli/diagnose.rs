@@ -188,6 +188,30 @@ fn the_self_test_is_kept_beside_the_bank(folder: &Folder, computed: &Value) {
     assert_eq!(told_with(&seed)[1]["judged"]["campaigns"], 1);
 }
 
+#[test]
+fn a_bank_is_shared_out_to_shards() {
+    let folder = folder(TOWERS);
+    let asked = ["studies/tiny", "--measured", "tests.csv", "--points", "10"];
+    for index in ["2", "0", "1"] {
+        let shard = ["--bank", "--index", index, "--of", "3", "--out", "shared"];
+        ends_with(&folder, 0, &[&["shard"], &asked[..], &shard].concat());
+    }
+    let merged = ends_with(&folder, 0, &["merge", "shared"]);
+    assert!(String::from_utf8_lossy(&merged.stdout).contains("written to shared"));
+    // Whether so few points are enough to judge by is another question.
+    folder.pirca(&[&["bank"], &asked[..], &["--judged", "0", "--out", "whole"]].concat());
+    for name in ["bank.parquet", "members.parquet", "steps.parquet", "manifest.json"] {
+        let [own, wanted] = ["shared", "whole"].map(|out| fs::read(folder.path(out).join(name)).unwrap());
+        assert!(own == wanted, "{name}");
+    }
+    let other = ["--bank", "--index", "0", "--of", "3", "--out", "shared"];
+    let other = ends_with(&folder, 1, &[&["shard"], &asked[..3], &["--points", "11"], &other].concat());
+    assert!(stderr(&other).contains("bank.points: 10 recorded, 11 asked for"), "{}", stderr(&other));
+    fs::remove_file(folder.path("shared/shards/0001-of-0003.jsonl")).unwrap();
+    let partial = ends_with(&folder, 2, &["merge", "shared", "--partial"]);
+    assert!(stderr(&partial).contains("a bank is of all its walls"), "{}", stderr(&partial));
+}
+
 /// What a named offset of the gauge writes: a study that is checked and run from any place. Its bytes.
 fn extended_by_an_offset(folder: &Folder) -> Vec<u8> {
     let written = folder.path("runs/tiny-diagnosis/extended/gauge_offset");

@@ -23,7 +23,7 @@ fn lines(folder: &Folder) -> usize {
 }
 
 /// Starts the program and kills it as soon as `ripe` says so; false when it ended before.
-fn kill_when(folder: &Folder, arguments: &[&str], ripe: impl Fn() -> bool) -> bool {
+pub fn kill_when(folder: &Folder, arguments: &[&str], ripe: impl Fn() -> bool) -> bool {
     let mut child: Child =
         folder.command(arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
     let begun = Instant::now();
@@ -88,7 +88,7 @@ fn a_kill_while_results_are_written_leaves_whole_files() {
 }
 
 /// Columns of full-width courses that slide on random beds, solved in a fraction of a millisecond, in two arms that are alike.
-fn columns() -> String {
+pub fn columns() -> String {
     let text = include_str!("../peers/column/study.toml");
     let twin = text[text.find("[[arm]]").unwrap()..].replace("\"column\"", "\"twin\"");
     format!("{text}\n{twin}")

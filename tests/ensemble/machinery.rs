@@ -21,18 +21,18 @@ const JOURNAL: &str = "journal.jsonl";
 const EVALUATIONS: usize = 2 + 2 * 8;
 
 /// A folder to write into.
-fn new_folder() -> Folder {
+pub fn new_folder() -> Folder {
     Folder::with_study(STUDY)
 }
 
 /// The study of the fixture; its walls are never built here.
-fn study() -> Study {
+pub fn study() -> Study {
     let folder = new_folder();
     Study::load(&folder.path("studies/tiny"), None).unwrap().study
 }
 
 /// Numbers that are a pure function of the task, with awkward bits; every fourth member of the random arm collapses.
-fn made_up(study: &Study, task: Task) -> Row {
+pub fn made_up(study: &Study, task: Task) -> Row {
     let Task { arm, point, member } = task;
     let kn = study.arms[arm as usize].kn_points[point as usize];
     let mut stream = Streams::new(study.seed, member).of("made up");

@@ -1,5 +1,6 @@
 //! Runs as a user starts them: worker counts, kills, changed studies, full disks, shared random numbers.
 
+mod batches;
 mod columns;
 mod enough;
 mod failed_members;
@@ -8,6 +9,9 @@ mod grow;
 mod kill;
 mod machinery;
 mod mechanisms;
+mod memory;
 mod refusal;
 mod same_walls;
+mod shards;
+mod tables;
 mod threads;

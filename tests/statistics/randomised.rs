@@ -1,7 +1,7 @@
 //! Intervals from independent randomisations of a design.
 
 use pirca::random::{Design, Place, RANDOMISATIONS};
-use pirca::stats::{Sample, by_randomisations, mean, sigma, student_quantile};
+use pirca::stats::{Sample, Trials, by_randomisations, mean, sigma, student_quantile};
 
 #[test]
 fn the_interval_of_a_mean_is_students_over_the_means_of_the_randomisations() {
@@ -47,4 +47,28 @@ fn designs_have_short_intervals_that_hold_the_truth() {
     // 256 independent points: 2 x 1.97 x 0.517 / 16 = 0.127. What is left of a Latin hypercube's error is the interaction of x and y,
     // which a net evens out as well.
     assert!(lengths[0] < 0.02 && lengths[1] < 0.8 * lengths[0], "{lengths:?}");
+}
+
+/// The share of walls that fall in some way is the mean of ones and zeros, and so is its interval over the randomisations.
+#[test]
+fn a_share_from_counts_is_that_of_ones_and_zeros() {
+    let falls_so = |member: u64| member.is_multiple_of(3) || member.is_multiple_of(7);
+    let mut trials = Trials::none(RANDOMISATIONS);
+    let mut shared = vec![Vec::new(); RANDOMISATIONS as usize];
+    // The last walls are missing, so that the randomisations differ in size.
+    for member in 0..10 * RANDOMISATIONS - 5 {
+        trials.take(member, falls_so(member));
+        shared[(member % RANDOMISATIONS) as usize].push(f64::from(u8::from(falls_so(member))));
+    }
+    let (found, wanted) = (trials.share(), by_randomisations(&shared, mean));
+    assert!((found.value.unwrap() - wanted.value.unwrap()).abs() < 1e-14);
+    for (found, wanted) in found.interval.unwrap().into_iter().zip(wanted.interval.unwrap()) {
+        assert!((found - wanted).abs() < 1e-12, "{found} {wanted}");
+    }
+    // An interval of a probability ends at 0 and 1, and without a trial there is none.
+    let mut rare = Trials::none(RANDOMISATIONS);
+    (0..64).for_each(|member| rare.take(member, member == 5));
+    assert_eq!(rare.share().interval.unwrap()[0], 0.0);
+    assert_eq!(Trials::none(RANDOMISATIONS).share().value, None);
+    assert_eq!(Trials::none(1).share().interval, None);
 }

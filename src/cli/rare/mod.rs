@@ -4,7 +4,7 @@
 mod method;
 mod repeats;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::cli::failure::Failure;
@@ -12,7 +12,7 @@ use crate::cli::output;
 pub(crate) use crate::cli::rare::method::Method;
 use crate::cli::rare::method::expected;
 use crate::cli::rare::repeats::{Way, repeated};
-use crate::ensemble::rare::{limit_study, pilot};
+use crate::ensemble::rare::{Batches, limit_study, pilot};
 use crate::ensemble::{Draws, RareWalls, Row, replace_file};
 use crate::report::{CapacityGroup, CapacitySummary, Question};
 use crate::study::Study;
@@ -37,18 +37,28 @@ pub(super) struct Aim {
     pub method: Option<Method>,
 }
 
-/// Answers by further walls what those of a random arm do not tell; the rows are those of these walls.
+/// Walls that are evaluated elsewhere before the answer is known.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Waiting {
+    /// The folder of the batch.
+    pub batch: PathBuf,
+    /// Its walls.
+    pub walls: usize,
+}
+
+/// Answers by further walls what those of a random arm do not tell; the rows are those of these walls. Where the study's folder is given,
+/// the walls are evaluated elsewhere, batch by batch: then it gives what it waits for.
 pub(super) fn ask(
     study: &Study,
     rows: &[Row],
     summary: &mut CapacitySummary,
     aim: Aim,
-    out: &Path,
-) -> Result<(), Failure> {
+    (out, batched): (&Path, Option<&Path>),
+) -> Result<Option<Waiting>, Failure> {
     let (level, is_high) = match summary.question {
         Question::Below(level) => (level, false),
         Question::Above(level) => (level, true),
-        Question::Quantile(_) => return Ok(()),
+        Question::Quantile(_) => return Ok(None),
     };
     let places = study
         .arms
@@ -58,6 +68,7 @@ pub(super) fn ask(
     let draws = Draws::open(out, study)?;
     let by_limit = limit_study(study);
     let limit_draws = by_limit.as_ref().map(|limit| Draws::of_limit_analysis(out, limit)).transpose()?;
+    let batches = batched.map(|place| Batches::open(out, place, study, &draws)).transpose()?;
     for ((arm, point), group) in places.zip(&mut summary.groups) {
         if !group.random {
             continue;
@@ -70,13 +81,22 @@ pub(super) fn ask(
                     output::note(&format!("{}: {} walls evaluated", group.name, before + more));
                 }
             };
-            let walls = RareWalls { study, arm, point, is_high, draws: &draws, tell: &tell };
+            let walls = RareWalls {
+                study,
+                arm,
+                point,
+                is_high,
+                draws: &draws,
+                tell: &tell,
+                batches: batches.as_ref(),
+            };
             let level = walls.signed(level);
             let quietly = |_: usize| {};
             let screen = by_limit.as_ref().zip(limit_draws.as_ref()).map(|(study, draws)| RareWalls {
                 study,
                 draws,
                 tell: &quietly,
+                batches: None,
                 ..walls
             });
             let pilot = pilot(&walls, screen.as_ref(), rows, level);
@@ -87,7 +107,10 @@ pub(super) fn ask(
             };
             method::tell(&group.name, &all, own.method, aim.cov.unwrap_or(COV));
             let way = Way { walls: &walls, screen: screen.as_ref(), pilot: &pilot, expected: *own, level };
-            let repeats = repeated(&way, aim, &group.name);
+            let Some(repeats) = repeated(&way, aim, &group.name) else {
+                let asked = batches.as_ref().map(Batches::write).transpose()?.flatten();
+                return Ok(asked.map(|(batch, walls)| Waiting { batch, walls }));
+            };
             if let Some(fault) = draws.fault().or_else(|| limit_draws.as_ref()?.fault()) {
                 return Err(fault.into());
             }
@@ -105,7 +128,7 @@ pub(super) fn ask(
         }
     }
     replace_file(&out.join(EVALUATIONS), &draws.table(is_high)?)?;
-    Ok(())
+    Ok(None)
 }
 
 /// Whether enough walls are on the worse side.

@@ -52,6 +52,20 @@ impl Way<'_, '_> {
         }
     }
 
+    /// The run of this number. Where its walls are evaluated elsewhere it asks for them, `None`, and so do the runs up to another number
+    /// that will be done whatever this one finds; those of subset simulation ask level by level.
+    fn begun(&self, count: usize, number: u64, end: u64) -> Option<Ended> {
+        let Some(batches) = self.walls.batches else { return Some(self.once(count, number)) };
+        let run = batches.deferred(|| self.once(count, number));
+        if run.is_none() && self.expected.method != Method::Subset {
+            for later in number + 1..end {
+                // What it asks for is what counts; it is done again when that is known.
+                let _ = batches.deferred(|| self.once(count, later));
+            }
+        }
+        run
+    }
+
     /// Walls of a run: a tenth of what is expected to be enough, and of what the first ten may take.
     fn count(&self, aim: Aim) -> usize {
         let [budget, enough] = match aim.cov {
@@ -67,8 +81,9 @@ impl Way<'_, '_> {
     }
 }
 
-/// Independent runs: as many as the budget has room for up to ten, or until the answer is known well enough.
-pub(super) fn repeated(way: &Way<'_, '_>, aim: Aim, name: &str) -> Repeats {
+/// Independent runs: as many as the budget has room for up to ten, or until the answer is known well enough. `None` where they wait for
+/// walls that are evaluated elsewhere.
+pub(super) fn repeated(way: &Way<'_, '_>, aim: Aim, name: &str) -> Option<Repeats> {
     let (budget, count) = (aim.budget as usize, way.count(aim));
     // No run takes fewer walls than its points: there are no more runs than this.
     let most = aim.cov.map_or(REPEATS, |_| (aim.budget / count as u64).max(REPEATS));
@@ -82,14 +97,17 @@ pub(super) fn repeated(way: &Way<'_, '_>, aim: Aim, name: &str) -> Repeats {
         if used(&runs) + next > budget {
             break;
         }
-        runs.push(way.once(count, runs.len() as u64));
+        let number = runs.len() as u64;
+        let room = ((budget - used(&runs)) / next) as u64;
+        let look = looks.sizes().iter().copied().find(|size| *size > number).unwrap_or(most);
+        runs.push(way.begun(count, number, look.min(number + room))?);
         tell_answer(&runs, miss, used(&runs), name);
         let is_look = looks.sizes().contains(&(runs.len() as u64));
         if is_look && aim.cov.is_some_and(|cov| cov_of_mean(&runs).is_some_and(|own| own <= cov)) {
             break;
         }
     }
-    summed_up(way, &runs, miss)
+    Some(summed_up(way, &runs, miss))
 }
 
 fn summed_up(way: &Way<'_, '_>, runs: &[Ended], miss: f64) -> Repeats {

@@ -1,6 +1,7 @@
 //! Walls of rare values: the numbers that a wall is made of are moved or shifted until its value is rare. One run of each method, and
 //! what the study's own walls say of which one pays.
 
+mod batch;
 mod once;
 mod pilot;
 
@@ -10,12 +11,13 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::ensemble::draws::Draws;
-use crate::ensemble::{Observed, Quantity, Task, evaluate};
+use crate::ensemble::{Observed, Quantity, Row, Task, evaluate};
 use crate::random::Move;
 use crate::random::standard_normal::quantile;
 use crate::stats::subset::Rare;
 use crate::study::{Study, WallParameter as Parameter};
 
+pub use batch::{Batch, Batches};
 pub use once::{Ended, First, importance, plain, stratified, subset};
 pub use pilot::{Leaning, Pilot, Sorted, limit_study, pilot};
 
@@ -86,6 +88,17 @@ pub struct RareWalls<'s> {
     pub draws: &'s Draws<'s>,
     /// Told how many more were computed.
     pub tell: &'s (dyn Fn(usize) + Sync),
+    /// Where walls are asked for that are not to be evaluated here.
+    pub batches: Option<&'s Batches<'s>>,
+}
+
+/// What the event is a low value of; a wall that stood to the end of its load path lies beyond all levels.
+fn signed_value(study: &Study, is_high: bool, row: &Row) -> Option<f64> {
+    match Quantity::of(&study.protocol).observed(row) {
+        Observed::Value(value) => Some(if is_high { -value } else { value }),
+        Observed::Above(_) => Some(f64::MAX),
+        Observed::Nothing => None,
+    }
 }
 
 impl RareWalls<'_> {
@@ -94,15 +107,10 @@ impl RareWalls<'_> {
         if self.is_high { -value } else { value }
     }
 
-    /// The signed value of a wall; one that stood to the end of its load path lies beyond all levels.
+    /// The signed value of a wall.
     fn value(&self, draw: &Draw) -> Option<f64> {
         let task = Task { arm: self.arm, point: self.point, member: draw.member };
-        let row = evaluate(&draw.study(self.study), task);
-        match Quantity::of(&self.study.protocol).observed(&row) {
-            Observed::Value(value) => Some(self.signed(value)),
-            Observed::Above(_) => Some(f64::MAX),
-            Observed::Nothing => None,
-        }
+        signed_value(self.study, self.is_high, &evaluate(&draw.study(self.study), task))
     }
 }
 
@@ -126,6 +134,9 @@ impl Rare for RareWalls<'_> {
             if !open.contains(&draw) {
                 open.push(draw);
             }
+        }
+        if let Some(batches) = self.batches.filter(|_| !open.is_empty()) {
+            batches.ask((self.arm, self.point, self.is_high), &open);
         }
         // In pieces: a run that is stopped has lost no more than one.
         for piece in open.chunks(rayon::current_num_threads().max(1) * PIECE) {

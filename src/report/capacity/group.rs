@@ -185,8 +185,8 @@ impl CapacityGroup {
         until: Option<Until>,
     ) -> CapacityGroup {
         let known = Known {
-            values: own.ordered(),
-            above: own.limits(),
+            values: own.values.values().to_vec(),
+            above: own.above.clone(),
             lost: own.lost(),
             worse_is_high: own.quantity == Quantity::TopDisplacement,
         };

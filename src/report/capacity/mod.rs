@@ -24,7 +24,8 @@ use crate::ensemble::{Quantity, Row, replace_file};
 use crate::math::degrees;
 use crate::report::draw::IMAGE_SCALE;
 use crate::report::files::write_figure;
-use crate::report::population::{Population, populations};
+use crate::report::gathered::populations;
+use crate::report::population::Population;
 use crate::stats::{DESIGN_PROBABILITY, Variation};
 use crate::study::{MeasuredKind, MeasuredQuantity, Measurement, Study};
 

@@ -1,7 +1,7 @@
 //! What a reading gives: every statement with its verdict.
 
 use crate::ensemble::Row;
-use crate::report::population::populations;
+use crate::report::gathered::populations;
 use crate::report::published::{Published, Verdict, judge_all};
 use crate::study::Study;
 

@@ -52,14 +52,12 @@ impl SelectedArm {
         let quantity = Quantity::of(&contest.study.protocol);
         let own: Vec<&Row> = rows.iter().filter(|row| row.arm_index == index).collect();
         let walls = own.len() as u64;
-        let population =
-            Population::collect(&arm.name, !is_random(arm), kn, walls, quantity, own.iter().copied());
-        let values: Vec<f64> = [population.ordered(), population.limits()].concat();
+        let mut population = Population::new((&arm.name, !is_random(arm)), (kn, walls), quantity, 1, &[]);
+        own.iter().for_each(|row| population.take(row));
+        let values: Vec<f64> = [population.values.values(), &population.above].concat();
         let summary = Summary::of(&values);
         let mean_of = |of: fn(&crate::ensemble::Mechanism) -> f64| {
-            stats::mean(
-                &population.mechanisms.iter().map(|(_, mechanism)| of(mechanism)).collect::<Vec<f64>>(),
-            )
+            stats::mean(&own.iter().filter_map(|row| row.mechanism.as_ref().map(of)).collect::<Vec<f64>>())
         };
         SelectedArm {
             name: arm.name.clone(),
@@ -75,7 +73,7 @@ impl SelectedArm {
             hinge_height_m: mean_of(|m| m.hinge_height_m),
             moving_weight_share: mean_of(|m| m.weight_share),
             moving_length_share: mean_of(|m| m.length_share),
-            steps: empirical(&population.ordered(), &population.limits()),
+            steps: empirical(population.values.values(), &population.above),
         }
     }
 

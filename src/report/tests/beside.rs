@@ -29,7 +29,7 @@ fn drawn(beside: Option<&Earlier>) -> String {
 fn the_summary_of_an_earlier_run_is_read_back_in_the_unit_of_the_figure() {
     let dir = folder("earlier");
     let mut populations = three_arms();
-    populations[1].values.clear();
+    populations[1].values = Default::default();
     let summary = summary_of(&populations, &[]);
     write_summary(&summary, &dir, None).unwrap();
     let read = Earlier::read(&dir, "hand-made", Quantity::TopDisplacement).unwrap();

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 
-use super::{KN, claim, failed, summary_of};
+use super::{KN, claim, collected, failed, summary_of};
 use crate::ensemble::{Mechanism, Quantity, Row};
 use crate::model::{Level, Outcome};
 use crate::report::files::write_summary;
@@ -11,7 +11,7 @@ use crate::report::population::Population;
 use crate::report::published::{Verdict, judge_all};
 use crate::report::table::terminal_table;
 use crate::stats::{clopper_pearson, dkw_half_width};
-use crate::study::ClaimTest;
+use crate::study::{Claim, ClaimTest};
 
 fn fell(member: u64, angle: f64) -> Row {
     let mode = if member == 0 { "sliding" } else { "rocking" };
@@ -32,7 +32,7 @@ fn stood(member: u64, tilt: f64) -> Row {
 }
 
 fn capacity(rows: &[Row]) -> Population {
-    Population::collect("irregular", false, KN[0], rows.len() as u64, Quantity::CollapseAngle, rows.iter())
+    collected(("irregular", false), (KN[0], rows.len() as u64), Quantity::CollapseAngle, rows)
 }
 
 #[test]
@@ -94,12 +94,16 @@ fn the_files_of_a_capacity_are_whole_and_hold_the_numbers() {
 
 #[test]
 fn a_mean_a_ratio_of_forces_and_a_mechanism_are_judged() {
-    let arm = |name: &str, angles: &[f64]| {
-        let rows: Vec<Row> = angles.iter().zip(0u64..).map(|(angle, member)| fell(member, *angle)).collect();
-        Population::collect(name, false, KN[0], angles.len() as u64, Quantity::CollapseAngle, rows.iter())
+    let arm = |name: &str, angles: &[f64], claims: &[Claim]| {
+        let mut own = Population::new((name, false), (KN[0], 4), Quantity::CollapseAngle, 1, claims);
+        angles.iter().zip(0..).for_each(|(angle, member)| own.take(&fell(member, *angle)));
+        own
     };
-    let populations = [arm("strong", &[29.9, 30.0, 30.1, 30.0]), arm("weak", &[14.4, 14.5, 14.5, 14.6])];
-    let told = |test: ClaimTest| judge_all(&[claim(test)], &populations).remove(0);
+    let told = |test: ClaimTest| {
+        let claims = [claim(test)];
+        let strong = arm("strong", &[29.9, 30.0, 30.1, 30.0], &claims);
+        judge_all(&claims, &[strong, arm("weak", &[14.4, 14.5, 14.5, 14.6], &claims)]).remove(0)
+    };
     let name = |name: &str| name.to_string();
     let mean = |low, high| ClaimTest::Mean { arm: name("strong"), at_kn: None, stated: 30.0, low, high };
     assert_eq!(told(mean(29.5, 30.5)).verdict, Verdict::Reproduced);
@@ -136,7 +140,7 @@ fn a_mean_a_ratio_of_forces_and_a_mechanism_are_judged() {
 #[test]
 fn a_statement_about_an_arm_that_is_left_out_is_not_judged() {
     let rows = [fell(0, 10.0), fell(1, 11.0)];
-    let here = Population::collect("here", false, KN[0], 2, Quantity::CollapseAngle, rows.iter());
+    let here = collected(("here", false), (KN[0], 2), Quantity::CollapseAngle, &rows);
     let of =
         |arm: &str| claim(ClaimTest::Cov { arm: arm.into(), stated: "0.05".into(), low: 0.0, high: 1.0 });
     assert_eq!(judge_all(&[of("here"), of("elsewhere")], &[here]).len(), 1);

@@ -27,7 +27,7 @@ fn drawn(populations: &[Population]) -> String {
 fn nothing_stands() -> Vec<Population> {
     let mut all = three_arms();
     for population in &mut all {
-        population.values.clear();
+        population.values = Default::default();
         population.outcomes = [("collapsed".to_string(), population.planned)].into();
     }
     all
@@ -147,7 +147,7 @@ fn studies_of_other_shapes_are_drawn_too() {
         own.map(|line| line.split("points=").nth(1).map_or(0, |points| points.matches(',').count())).collect()
     };
     assert_eq!(lines(&drawn(&gap)), [3, 2]);
-    gap[1].values.clear();
+    gap[1].values = Default::default();
     gap[1].outcomes = [("not_converged".to_string(), 1)].into();
     let cut = drawn(&gap);
     assert_eq!(lines(&cut), [1, 1, 2]);

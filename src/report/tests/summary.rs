@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use super::{KN, failed, fixed_arm, population, random_arm, standing, summary_of, three_arms};
+use super::{
+    KN, collected, failed, fixed_arm, population, random_arm, standing, summary_of, three_arms, without,
+};
 use crate::ensemble::{Quantity, Row};
 use crate::model::{Level, Outcome};
 use crate::report::compare::{Basis, comparisons, ratio};
 use crate::report::number::{significant, with_interval};
-use crate::report::population::Population;
 use crate::report::summary::describe;
 use crate::report::table::terminal_table;
 use crate::study::{Claim, ClaimTest};
@@ -24,7 +25,7 @@ fn four_walls_give_the_numbers_worked_out_by_hand() {
     // 1, 2, 3, 4 mm: mean 2.5, sum of squared deviations 5, sigma sqrt(5/3); t(3) = 3.1824463;
     // chi-square(3) at 2.5 and 97.5 %: 0.21579528 and 9.3484036.
     let entry =
-        describe(&population("irregular", false, KN[0], &[1e-3, 2e-3, 3e-3, 4e-3]), 1, BTreeMap::new());
+        describe(population("irregular", false, KN[0], &[1e-3, 2e-3, 3e-3, 4e-3]), 1, BTreeMap::new());
     let sigma = (5.0_f64 / 3.0).sqrt() * 1e-3;
     close(entry.mean.unwrap(), 2.5e-3);
     let [low, high] = entry.mean_ci.unwrap();
@@ -47,15 +48,15 @@ fn four_walls_give_the_numbers_worked_out_by_hand() {
 #[test]
 fn failed_walls_are_counted_and_enter_no_mean() {
     let rows = [
-        failed(4, Outcome::InvalidGeometry { reason: "beds cross".into() }),
-        standing(2, 3e-3),
+        standing(0, 1e-3),
         // Its last displacement is no answer, should a row ever carry it.
         Row { top_displacement_m: Some(90e-3), ..failed(1, Outcome::Collapsed { at: Level::Factor(0.5) }) },
-        standing(0, 1e-3),
+        standing(2, 3e-3),
         failed(3, Outcome::NonFinite { at: Level::Factor(1.0) }),
+        failed(4, Outcome::InvalidGeometry { reason: "beds cross".into() }),
     ];
     let entry = describe(
-        &Population::collect("irregular", false, KN[0], 6, Quantity::TopDisplacement, rows.iter()),
+        collected(("irregular", false), (KN[0], 6), Quantity::TopDisplacement, &rows),
         1,
         BTreeMap::new(),
     );
@@ -72,20 +73,14 @@ fn failed_walls_are_counted_and_enter_no_mean() {
 #[test]
 #[should_panic(expected = "has two rows")]
 fn a_member_that_appears_twice_is_our_own_fault() {
-    Population::collect(
-        "irregular",
-        false,
-        KN[0],
-        2,
-        Quantity::TopDisplacement,
-        [standing(0, 1e-3), standing(0, 2e-3)].iter(),
-    );
+    let rows = [standing(0, 1e-3), standing(0, 2e-3)];
+    collected(("irregular", false), (KN[0], 2), Quantity::TopDisplacement, &rows);
 }
 
 #[test]
 fn one_wall_and_no_wall_give_null_never_zero_or_nan() {
     let one = population("irregular", false, KN[0], &[1e-3]);
-    let json = serde_json::to_value(describe(&one, 1, BTreeMap::new())).unwrap();
+    let json = serde_json::to_value(describe(one, 1, BTreeMap::new())).unwrap();
     assert_eq!(json["mean"], 1e-3);
     for key in
         ["mean_ci", "sigma", "sigma_ci", "sigma_bootstrap_ci", "cov", "cov_ci", "cov_bootstrap_ci", "note"]
@@ -93,8 +88,8 @@ fn one_wall_and_no_wall_give_null_never_zero_or_nan() {
         assert!(json[key].is_null(), "{key} is {}", json[key]);
     }
     let rows = [failed(0, Outcome::Collapsed { at: Level::Factor(1.0) })];
-    let none = Population::collect("irregular", false, KN[0], 1, Quantity::TopDisplacement, rows.iter());
-    let json = serde_json::to_value(describe(&none, 1, BTreeMap::new())).unwrap();
+    let none = collected(("irregular", false), (KN[0], 1), Quantity::TopDisplacement, &rows);
+    let json = serde_json::to_value(describe(none, 1, BTreeMap::new())).unwrap();
     assert!(json["mean"].is_null() && json["quantiles"][1]["value"].is_null());
     assert_eq!(json["note"], "over 0 of 1 walls; not in the numbers: 1 collapsed");
 }
@@ -129,8 +124,7 @@ fn the_interval_of_a_ratio_rests_on_what_is_random() {
 
 #[test]
 fn pairs_are_compared_over_the_walls_that_stand_in_both_arms() {
-    let (mut a, b) = (random_arm("a", &[1e-3]).remove(0), random_arm("b", &[2e-3]).remove(0));
-    a.values.remove(&0);
+    let (a, b) = (without(&random_arm("a", &[1e-3])[0], 0), random_arm("b", &[2e-3]).remove(0));
     let ratio = ratio(&a, &b);
     assert_eq!((ratio.basis, ratio.walls), (Basis::Paired, 7));
     close(ratio.value.unwrap(), 0.5);

@@ -118,7 +118,7 @@ fn a_mean_that_falls_with_kn() {
 #[test]
 fn lost_walls_are_named_and_one_refutation_outweighs_a_gap() {
     let mut arm = fixed_arm("a", &[0.6, 0.9]);
-    arm[0].values.clear();
+    arm[0].values = Default::default();
     let judged = judged(ratio(0.5, 0.7), &[arm, fixed_arm("b", &[1.0, 1.0])]);
     assert_eq!(judged.verdict, Verdict::NotReproduced);
     assert!(
