@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from numbers import Integral, Real
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -27,17 +27,24 @@ class Answered(NamedTuple):
     warnings: list[str]
 
 
-def ask(verb: str, *files: Any, progress: bool = False, **options: Any) -> Answered:
-    """Do what a verb does; options are those of the command line, with `_` for `-`. Warnings are Python's."""
+def ask(
+    verb: str, *files: Any, progress: bool = False, hear: Callable[[str], object] | None = None, **options: Any
+) -> Answered:
+    """Do what a verb does; options are those of the command line, with `_` for `-`. Warnings are Python's.
 
-    def hear(line: str) -> None:
+    What else it says is printed with `progress`, or goes to who is to `hear` it; what that raises stops the verb.
+    """
+
+    def said(line: str) -> None:
         if line.startswith("warning: "):
             warn(line.removeprefix("warning: "))
+        elif hear:
+            hear(line)
         elif progress:
             print(line, file=sys.stderr)
 
     named = [argument for name, value in options.items() for argument in _spelled(name, value)]
-    parts = _native.ask([verb, *map(_place, files), *named], hear)
+    parts = _native.ask([verb, *map(_place, files), *named], said)
     assert parts is not None, f"{verb} prints what it makes"
     answered = Answered(*parts)
     for warning in answered.warnings:

@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import io
 import json
+import re
 import tempfile
 from collections.abc import Mapping, Sequence
 from csv import writer as csv_writer
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pirca.answer import Answer
 from pirca.command import Answered, ask
 from pirca.errors import InputError, UsageError
 from pirca.run import Run
 from pirca.wall import Wall
+
+if TYPE_CHECKING:
+    from distributed import Client
 
 __all__ = ["Study"]
 
@@ -89,6 +93,8 @@ class Study:
         csv: bool = False,
         report: bool = False,
         progress: bool = False,
+        client: Client | None = None,
+        shards: int | None = None,
     ) -> Run:
         """Build and solve all walls: as `pirca run`, whose files it writes. A run that was stopped goes on where it stood.
 
@@ -106,19 +112,64 @@ class Study:
             Write `report.html` as well.
         progress : bool
             Say on standard error how far it is.
+        client : distributed.Client, optional
+            Have the walls computed by the workers of a Dask cluster, which see the same folders and have the same pirca. Each uses the
+            threads that it has. The files are the same to the byte.
+        shards : int, optional
+            Into how many shards the walls are divided for the workers; by what a few walls take without it.
+
+        Raises
+        ------
+        pirca.RunError
+            Of a worker that has another version or sees other folders, or of shards that workers die of.
         """
-        answered = self._ask(
-            "run",
-            out=out,
-            solver=solver,
-            beside=beside,
-            csv=csv,
-            report=report,
-            members=self._members,
-            progress=progress,
-        )
+        if client is not None:
+            out = out or self._folder()
+            self._on(client, out, shards, progress, members=self._members, seed=self._seed, solver=solver)
+            answered = ask("merge", out, study=self.path)
+        if client is None or beside or csv or report:
+            answered = self._ask(
+                "run",
+                out=out,
+                solver=solver,
+                beside=beside,
+                csv=csv,
+                report=report,
+                members=self._members,
+                progress=progress,
+            )
         assert answered.out is not None, "a run has a folder"
         return Run(answered.out, answered.text)
+
+    def bank(
+        self,
+        client: Client,
+        *,
+        measured: Any = None,
+        points: int | None = None,
+        out: Path_ | None = None,
+        shards: int | None = None,
+        progress: bool = False,
+    ) -> Path:
+        """Have the walls that diagnoses rest on computed by the workers of a Dask cluster; the folder, for `diagnose(bank=...)`.
+
+        Without it `diagnose` computes them on this machine.
+
+        Parameters
+        ----------
+        client, shards, progress
+            As of `run`.
+        measured, points
+            As of `diagnose`, which needs the same.
+        out : path, optional
+            Folder of the bank; `runs/NAME-bank` without it.
+        """
+        out = Path(out or self._folder("bank"))
+        measured = self._file_of(measured, out)
+        absolute = measured and Path(measured).absolute()
+        self._on(client, out, shards, progress, bank=True, measured=absolute, points=points)
+        ask("merge", out, study=self.path)
+        return out
 
     def wall(self, arm: str | None = None, member: int = 0, *, point: int = 0, base: bool = False) -> Wall:
         """Build one wall, as `pirca generate`.
@@ -341,6 +392,19 @@ class Study:
     def _ask(self, verb: str, **options: Any) -> Answered:
         given = {"variant": self._variant, "seed": self._seed, "threads": self._threads, **options}
         return ask(verb, self.path, **given)
+
+    def _on(self, client: Client, out: Path_, shards: int | None, progress: bool, **options: Any) -> None:
+        """Compute shards of walls on workers."""
+        # Dask is there where somebody has a client.
+        from pirca.shards import Work, shards_on
+
+        work = Work(self.name, self.path, Path(out), {"variant": self._variant, **options})
+        shards_on(client, work, shards, progress=progress)
+
+    def _folder(self, what: str = "") -> Path:
+        """The folder of results that the command line takes where none is named."""
+        variant = re.sub(r"[^\w.=+-]", "_", self._variant or "")
+        return Path("runs") / "-".join(part for part in (self.name, variant, what) if part)
 
     def _file_of(self, measured: Any, out: Path_ | None) -> Path | None:
         """The file of what was measured. It stays, so that what was said of it can be said again."""

@@ -10,7 +10,7 @@ from pirca import Study, analyse
 
 #: By verb: what is asked in Python; arguments of its own; options that are said otherwise: of the study, by what is answered, by others.
 VERBS = {
-    "run": (Study.run, {"progress"}, {"variant", "json", "members", "seed", "threads"}),
+    "run": (Study.run, {"progress", "client", "shards"}, {"variant", "json", "members", "seed", "threads"}),
     "capacity": (Study.capacity, {"progress"}, {"variant", "json", "members", "seed", "threads"}),
     "influence": (Study.influence, {"progress"}, {"variant", "json", "seed", "threads"}),
     "compare": (Study.compare, {"progress"}, {"variant", "json", "seed", "threads"}),
@@ -19,6 +19,7 @@ VERBS = {
         {"progress", "build", "gain"},
         {"variant", "json", "seed", "threads", "no_build", "no_gain"},
     ),
+    "bank": (Study.bank, {"progress", "client", "shards"}, {"variant", "json", "seed", "threads", "judged"}),
     "analyse": (analyse, {"progress", "wall", "fixed"}, {"json"}),
     "generate": (
         Study.wall,
