@@ -1,4 +1,4 @@
-"""A Slurm cluster of two nodes on one machine, as a user of it sees one. Everything of it lies in a folder and listens on loopback."""
+"""A Slurm cluster of two nodes on one machine, as its user sees one. All of it lies in a folder and listens on loopback."""
 
 import os
 import pwd
