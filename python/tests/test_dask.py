@@ -324,6 +324,17 @@ def test_a_bank_is_that_of_one_machine(cluster, studies, pirca_command):
     assert (bank / "bank.parquet").read_bytes() == Path("theirs/bank.parquet").read_bytes()
 
 
+def test_the_walls_that_a_capacity_needs_further_are_shared_out(cluster, capfd):
+    study = pirca.Study(ROOT / "tests/peers/column", members=64)
+    asked = {"below_deg": 18.8, "walls": 1500, "method": "subset"}
+    ours = study.capacity(**asked, client=cluster.client, out="ours", progress=True)
+    assert "column: 8 of 8 shards to compute, on 2 workers" in capfd.readouterr().err
+    assert len(list(Path("ours/batches").iterdir())) > 1
+    assert dict(ours) == dict(study.capacity(**asked, out="theirs"))
+    for name in ("capacity.json", "evaluations.parquet", "members.parquet"):
+        assert Path("ours", name).read_bytes() == Path("theirs", name).read_bytes(), name
+
+
 def test_nobody_else_can_reach_it(cluster):
     listening = {}
     for table in ("tcp", "tcp6"):
