@@ -73,7 +73,7 @@ pub struct ArmSummary {
     pub sigma: Option<f64>,
     /// Its interval (chi-square, exact for normal values).
     pub sigma_ci: Option<[f64; 2]>,
-    /// Its interval by bootstrap (BCa); null of a design, and of more than 50,000 walls, where it takes too long.
+    /// Its interval by bootstrap (BCa); null of a design, and of more than 200,000 walls, where it takes too long.
     pub sigma_bootstrap_ci: Option<[f64; 2]>,
     /// Coefficient of variation, a fraction.
     pub cov: Option<f64>,
@@ -172,8 +172,8 @@ impl QuantileEntry {
 
 /// Resamples of a bootstrap; 2000 keep the Monte Carlo error of an interval's ends small beside its width.
 const REPLICATES: usize = 2000;
-/// Most walls of a bootstrap. Its jackknife leaves out each of them in turn: at 50,000 walls it takes half a minute, at a million hours.
-const MOST_BOOTSTRAPPED: usize = 50_000;
+/// Most walls of a bootstrap. With so many it takes some ten seconds of each arm and stiffness, and in proportion with more.
+const MOST_BOOTSTRAPPED: usize = 200_000;
 /// Probabilities of the quantiles given.
 const PROBABILITIES: [f64; 3] = [0.05, 0.5, 0.95];
 

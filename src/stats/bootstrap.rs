@@ -45,7 +45,7 @@ fn interval(
     replicates: usize,
     stream: &mut Stream,
 ) -> Option<[f64; 2]> {
-    let acceleration = acceleration(values, statistic)?;
+    let acceleration = acceleration(values, statistic, GROUPS)?;
     let replicas = resample(values, statistic, replicates, stream)?;
     if replicas.iter().all(|&r| r == value) {
         return Some([value, value]);
@@ -86,17 +86,43 @@ fn resample(
     Some(replicas)
 }
 
+/// Most groups of values of which each is left out in turn.
+const GROUPS: usize = 1000;
+
 /// A sixth of the skewness of the jackknife's influences (Efron and Tibshirani 1993, Eq. 14.15); 0 where the statistic
 /// does not change.
-fn acceleration(values: &[f64], statistic: &impl Fn(&[f64]) -> Option<f64>) -> Option<f64> {
-    let mut left_out = Vec::with_capacity(values.len());
-    for skipped in 0..values.len() {
-        let rest: Vec<f64> = [&values[..skipped], &values[skipped + 1..]].concat();
+///
+/// Of more values than groups, groups of equal size are left out in place of single values, as each of these costs a look at all others. The
+/// skewness of what n independent influences add up to is the same in groups. Its estimate is uncertain by the root of 15 over the
+/// number of groups, which moves an end of the interval by 0.003 of its distance from the value.
+fn acceleration(values: &[f64], statistic: &impl Fn(&[f64]) -> Option<f64>, groups: usize) -> Option<f64> {
+    let size = values.len().div_ceil(groups);
+    let mut left_out = Vec::with_capacity(values.len().div_ceil(size));
+    for skipped in (0..values.len()).step_by(size) {
+        let rest: Vec<f64> = [&values[..skipped], &values[(skipped + size).min(values.len())..]].concat();
         left_out.push(statistic(&rest)?);
     }
     let centre = mean(&left_out)?;
-    let squares = comoment(&left_out, centre, &left_out, centre) * (values.len() - 1) as f64;
+    let squares = comoment(&left_out, centre, &left_out, centre) * (left_out.len() - 1) as f64;
     let cubes: Vec<f64> = left_out.iter().map(|v| (centre - v) * (centre - v) * (centre - v)).collect();
     let skewness = sum(&cubes) / (squares * squares.sqrt());
     Some(if skewness.is_finite() { skewness / 6.0 } else { 0.0 })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::exp;
+    use crate::random::Streams;
+
+    #[test]
+    fn groups_that_are_left_out_tell_the_same_skewness_as_single_values() {
+        let mut stream = Streams::new(3, 0).of("skewed values");
+        let values: Vec<f64> =
+            (0..5000).map(|_| exp(0.5 * standard_normal::quantile(stream.uniform()))).collect();
+        let single = acceleration(&values, &sigma, values.len()).unwrap();
+        let grouped = acceleration(&values, &sigma, GROUPS).unwrap();
+        // The root of 15 over 1000 groups is 0.0039, over 6.
+        assert!(single > 0.02 && (grouped - single).abs() < 3.0 * 0.0039 / 6.0, "{single} {grouped}");
+    }
 }

@@ -13,7 +13,7 @@ out=@OUT@
 missing() {
     local part list=0-@LAST@
     if [ -e "$out/shards/work.json" ]; then
-        list=$(echo 0-@LAST@)
+        list=$(pirca status "$out" --json | sed -n 's/.*"missing": *"\([^"]*\)".*/\1/p')
     fi
     for part in ${list//,/ }; do seq "${part%-*}" "${part#*-}"; done
 }

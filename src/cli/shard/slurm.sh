@@ -14,6 +14,7 @@ set -euo pipefail
 out=@OUT@
 name=pirca-@NAME@-$(cksum <<<"$out" | cut -d ' ' -f 1)
 minutes=@MINUTES@ # limit of a shard; one that is cut off goes on where it was
+merge_minutes=60  # limit of the merge
 at_once=500       # shards of an array that run at the same time
 tries=3           # submissions without one more complete shard before the merge gives up
 
@@ -66,8 +67,8 @@ submit_all() {
     if [ -n "$list" ] && [ -z "$jobs" ]; then exit 1; fi
     if [ -n "$jobs" ]; then echo "shards $list: submitted as ${jobs#:}, logs in $out/shards/log"; fi
     # After any end, as afterok waits forever once a shard has failed.
-    job=$(submit --job-name="$name-merge" ${jobs:+--dependency=afterany$jobs} --output="$log/merge-%j.txt" \
-        "$0" merge "$try" "$(count "$list")")
+    job=$(submit --job-name="$name-merge" --time="$merge_minutes" ${jobs:+--dependency=afterany$jobs} \
+        --output="$log/merge-%j.txt" "$0" merge "$try" "$(count "$list")")
     echo "merge: submitted as ${job%%;*}"
 }
 

@@ -121,8 +121,8 @@ fn very_many_walls_have_every_interval_but_the_bootstraps() {
         let own = collected(("irregular", false), (KN[0], count), Quantity::TopDisplacement, &rows);
         describe(own, 1, BTreeMap::new())
     };
-    let many = of(50_001);
-    assert_eq!((many.in_mean, many.sigma_bootstrap_ci, many.cov_bootstrap_ci), (50_001, None, None));
+    let many = of(200_001);
+    assert_eq!((many.in_mean, many.sigma_bootstrap_ci, many.cov_bootstrap_ci), (200_001, None, None));
     assert!(many.sigma_ci.is_some() && many.cov_ci.is_some() && many.quantiles[0].ci.is_some());
     assert!(of(200).sigma_bootstrap_ci.is_some());
 }
