@@ -314,6 +314,15 @@ def test_the_command_alone_will_do(cluster, quick, plain):
     assert refused.returncode != 0 and "holds shards of other work" in refused.stderr
 
 
+def test_the_script_that_is_printed_needs_the_address_alone(cluster, quick, plain, pirca_command):
+    planned = ["--plan", "dask", "--members", 2, "--of", 3, "--out", "planned by pirca"]
+    Path("shards.py").write_text(pirca_command("shard", quick.path, *planned).stdout)
+    command = [sys.executable, "shards.py", cluster.client.scheduler.address]
+    done = subprocess.run(command, capture_output=True, text=True, env=cluster.environment, check=False)
+    assert done.returncode == 0, done.stderr
+    assert len(shards("planned by pirca")) == 3 and sums("planned by pirca") == plain[quick.name]
+
+
 def test_a_bank_is_that_of_one_machine(cluster, studies, pirca_command):
     study, measured = studies / "hidden-effects/example", ROOT / "tests/cli/fixtures/diagnose/gauge-offset.csv"
     bank = pirca.Study(study).bank(cluster.client, measured=measured, points=10, shards=3)
