@@ -58,7 +58,8 @@ pub struct Gathered {
 impl Gathered {
     /// Without a wall, of a study.
     pub fn new(study: &Study) -> Gathered {
-        let keeps_rows = !study.measured.is_empty() || Quantity::of(&study.protocol) == Quantity::ShearCapacity;
+        let keeps_rows =
+            !study.measured.is_empty() || Quantity::of(&study.protocol) == Quantity::ShearCapacity;
         Gathered { populations: Populations::new(study), keeps_rows, rows: Vec::new() }
     }
 
