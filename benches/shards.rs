@@ -29,7 +29,7 @@ fn main() {
 
 /// Rows, shards and merge of so many walls of the irregular arm.
 fn one(rows: u64) {
-    let place = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/tilting-block");
+    let place = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/arrangements");
     let study = Study::load(&place, None).and_then(|loaded| loaded.study.with_solver("limit"));
     let study = study.unwrap_or_else(|faults| panic!("{faults}"));
     let kinds: u64 =

@@ -43,12 +43,14 @@ _ONE = threading.Lock()
 
 
 class Work(NamedTuple):
-    """What is shared out: walls of a study, asked for with the options of `pirca shard`, and the folder for them."""
+    """Walls that are shared out: of a study or a batch, asked for with options of `pirca shard`, and the folder of the shards."""
 
     name: str
     study: Path
     out: Path
     options: Mapping[str, Any]
+    #: How many there are, where so few that none is timed first.
+    walls: int | None = None
 
     def status(self) -> dict[str, Any]:
         """What `pirca status --json` says; empty before the first shard is begun."""
@@ -67,6 +69,8 @@ class Work(NamedTuple):
         """Into how many shards: as the folder has begun with, or as `pirca shard --plan` advises and enough for every worker."""
         if begun := self.status():
             return int(begun["shards"])
+        if self.walls:
+            return min(_EACH * workers, self.walls)
         plan = json.loads(ask("shard", self.study, plan=True, progress=progress, **self.options).json)
         return int(min(max(plan["shards"], _EACH * workers), plan["evaluations"]))
 
@@ -109,7 +113,6 @@ def _round(
 ) -> BaseException | None:
     """Hand these shards out until each was computed or given up. Gives why one was given up, if workers died of it."""
     study = os.path.abspath(work.study)
-    options = {**work.options, "of": of, "out": mark.parent}
     waiting, done = list(reversed(todo)), set[int]()
     running: dict[Future[int], int] = {}
     died = None
@@ -119,7 +122,9 @@ def _round(
             while waiting and len(running) < max(1, len(client.nthreads())):
                 index = waiting.pop()
                 key = f"shard-{index}-of-{of}-{uuid4().hex}"
-                task = client.submit(compute, study, index, options, mark, key=key, pure=False, retries=_RETRIES)
+                task = client.submit(
+                    compute, study, index, of, work.options, mark, key=key, pure=False, retries=_RETRIES
+                )
                 running[task] = index
             for task in _ended(running):
                 index = running.pop(task)
@@ -150,7 +155,7 @@ def _ended(running: Mapping[Future[int], int]) -> list[Future[int]]:
     return [task for task in running if task.status != "pending"]
 
 
-def compute(study: str, index: int, options: Mapping[str, Any], mark: Path) -> int:
+def compute(study: str, index: int, of: int, options: Mapping[str, Any], mark: Path) -> int:
     """Compute a shard, on a worker, with as many threads as that has; the number of the shard."""
     worker = get_worker()
     key = worker.get_current_task()
@@ -166,7 +171,7 @@ def compute(study: str, index: int, options: Mapping[str, Any], mark: Path) -> i
             raise RunError(_unseen(mark.parent))
         with _ONE:
             look()
-            ask("shard", study, hear=look, index=index, threads=worker.state.nthreads, **options)
+            ask("shard", study, hear=look, index=index, of=of, threads=worker.state.nthreads, **options)
     except Error as error:
         raise type(error)(f"{error} (on worker {worker.address})") from None
     return index

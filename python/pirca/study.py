@@ -125,7 +125,8 @@ class Study:
         """
         if client is not None:
             out = out or self._folder()
-            self._on(client, out, shards, progress, members=self._members, seed=self._seed, solver=solver)
+            asked = {"members": self._members, "seed": self._seed, "solver": solver}
+            self._on(client, out, shards, progress, asked)
             answered = ask("merge", out, study=self.path)
         if client is None or beside or csv or report:
             answered = self._ask(
@@ -167,7 +168,7 @@ class Study:
         out = Path(out or self._folder("bank"))
         measured = self._file_of(measured, out)
         absolute = measured and Path(measured).absolute()
-        self._on(client, out, shards, progress, bank=True, measured=absolute, points=points)
+        self._on(client, out, shards, progress, {"bank": True, "measured": absolute, "points": points})
         ask("merge", out, study=self.path)
         return out
 
@@ -218,6 +219,8 @@ class Study:
         out: Path_ | None = None,
         report: bool = False,
         progress: bool = False,
+        client: Client | None = None,
+        shards: int | None = None,
     ) -> Answer:
         """Say what walls may be counted on to bear, as `pirca capacity`: without a question the 5 % quantile.
 
@@ -235,10 +238,13 @@ class Study:
             Coefficient of variation of such walls, where more than these walls tell it: 0.1 is 10 %.
         out, report, progress
             As of `run`.
+        client, shards
+            As of `run`, for the further walls.
         """
         own = {} if measured else {"members": self._members}
-        return Answer(
-            self._ask(
+
+        def answered() -> Answered:
+            return self._ask(
                 "capacity",
                 measured=measured,
                 quantile=quantile,
@@ -250,12 +256,20 @@ class Study:
                 method=method,
                 half_width=half_width,
                 known_cov=known_cov,
+                batches=client is not None,
                 out=out,
                 report=report,
                 progress=progress,
                 **own,
             )
-        )
+
+        answer = answered()
+        # Which walls are needed next depends on what came of the last ones.
+        while client is not None and "batch" in (waits := json.loads(answer.json)):
+            batch = Path(waits["batch"])
+            _share(client, shards, progress, self.name, batch, batch, {}, waits["walls"])
+            answer = answered()
+        return Answer(answer)
 
     def influence(
         self,
@@ -393,13 +407,10 @@ class Study:
         given = {"variant": self._variant, "seed": self._seed, "threads": self._threads, **options}
         return ask(verb, self.path, **given)
 
-    def _on(self, client: Client, out: Path_, shards: int | None, progress: bool, **options: Any) -> None:
-        """Compute shards of walls on workers."""
-        # Dask is there where somebody has a client.
-        from pirca.shards import Work, shards_on
-
-        work = Work(self.name, self.path, Path(out), {"variant": self._variant, **options})
-        shards_on(client, work, shards, progress=progress)
+    def _on(self, client: Client, out: Path_, shards: int | None, progress: bool, asked: Mapping[str, Any]) -> None:
+        """Compute shards of walls of this study on workers."""
+        options = {"variant": self._variant, "out": Path(out).absolute(), **asked}
+        _share(client, shards, progress, self.name, self.path, Path(out), options)
 
     def _folder(self, what: str = "") -> Path:
         """The folder of results that the command line takes where none is named."""
@@ -421,6 +432,13 @@ class Study:
 
     def __str__(self) -> str:
         return self.text
+
+
+def _share(client: Client, shards: int | None, progress: bool, *walls: Any) -> None:
+    # Dask is there where somebody has a client.
+    from pirca.shards import Work, shards_on
+
+    shards_on(client, Work(*walls), shards, progress=progress)
 
 
 def _csv(table: Any) -> str:

@@ -314,6 +314,15 @@ def test_the_command_alone_will_do(cluster, quick, plain):
     assert refused.returncode != 0 and "holds shards of other work" in refused.stderr
 
 
+def test_the_script_that_is_printed_needs_the_address_alone(cluster, quick, plain, pirca_command):
+    planned = ["--plan", "dask", "--members", 2, "--of", 3, "--out", "planned by pirca"]
+    Path("shards.py").write_text(pirca_command("shard", quick.path, *planned).stdout)
+    command = [sys.executable, "shards.py", cluster.client.scheduler.address]
+    done = subprocess.run(command, capture_output=True, text=True, env=cluster.environment, check=False)
+    assert done.returncode == 0, done.stderr
+    assert len(shards("planned by pirca")) == 3 and sums("planned by pirca") == plain[quick.name]
+
+
 def test_a_bank_is_that_of_one_machine(cluster, studies, pirca_command):
     study, measured = studies / "hidden-effects/example", ROOT / "tests/cli/fixtures/diagnose/gauge-offset.csv"
     bank = pirca.Study(study).bank(cluster.client, measured=measured, points=10, shards=3)
@@ -322,6 +331,17 @@ def test_a_bank_is_that_of_one_machine(cluster, studies, pirca_command):
     pirca_command("shard", study, *whole)
     pirca_command("merge", "theirs")
     assert (bank / "bank.parquet").read_bytes() == Path("theirs/bank.parquet").read_bytes()
+
+
+def test_the_walls_that_a_capacity_needs_further_are_shared_out(cluster, capfd):
+    study = pirca.Study(ROOT / "tests/peers/column", members=64)
+    asked = {"below_deg": 18.8, "walls": 1500, "method": "subset"}
+    ours = study.capacity(**asked, client=cluster.client, out="ours", progress=True)
+    assert "column: 8 of 8 shards to compute, on 2 workers" in capfd.readouterr().err
+    assert len(list(Path("ours/batches").iterdir())) > 1
+    assert dict(ours) == dict(study.capacity(**asked, out="theirs"))
+    for name in ("capacity.json", "evaluations.parquet", "members.parquet"):
+        assert Path("ours", name).read_bytes() == Path("theirs", name).read_bytes(), name
 
 
 def test_nobody_else_can_reach_it(cluster):

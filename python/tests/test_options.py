@@ -11,7 +11,11 @@ from pirca import Study, analyse
 #: By verb: what is asked in Python; arguments of its own; options that are said otherwise: of the study, by what is answered, by others.
 VERBS = {
     "run": (Study.run, {"progress", "client", "shards"}, {"variant", "json", "members", "seed", "threads"}),
-    "capacity": (Study.capacity, {"progress"}, {"variant", "json", "members", "seed", "threads"}),
+    "capacity": (
+        Study.capacity,
+        {"progress", "client", "shards"},
+        {"variant", "json", "members", "seed", "threads", "batches"},
+    ),
     "influence": (Study.influence, {"progress"}, {"variant", "json", "seed", "threads"}),
     "compare": (Study.compare, {"progress"}, {"variant", "json", "seed", "threads"}),
     "diagnose": (

@@ -1,7 +1,6 @@
 //! The rows of a study taken one by one, with no more of each than its summary needs.
 
 use crate::ensemble::{Quantity, Row, is_random};
-use crate::protocol::Protocol;
 use crate::report::population::Population;
 use crate::study::Study;
 
@@ -59,7 +58,8 @@ pub struct Gathered {
 impl Gathered {
     /// Without a wall, of a study.
     pub fn new(study: &Study) -> Gathered {
-        let keeps_rows = !study.measured.is_empty() || matches!(study.protocol, Protocol::Shear(_));
+        let keeps_rows =
+            !study.measured.is_empty() || Quantity::of(&study.protocol) == Quantity::ShearCapacity;
         Gathered { populations: Populations::new(study), keeps_rows, rows: Vec::new() }
     }
 

@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::cli::arguments::{Shard, Which};
+use crate::cli::arguments::Which;
 use crate::cli::bank::{self, Prepared};
 use crate::cli::failure::Failure;
+use crate::cli::shard::arguments::Shard;
 use crate::cli::{locate, report, run};
 use crate::ensemble::rare::Batch;
 use crate::ensemble::shard::{ShardError, Walls, Work};

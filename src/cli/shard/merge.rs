@@ -7,10 +7,10 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::cli::answer::Answer;
-use crate::cli::arguments::Merge as Arguments;
 use crate::cli::bank::Prepared;
 use crate::cli::failure::Failure;
 use crate::cli::origin::Origin;
+use crate::cli::shard::arguments::Merge as Arguments;
 use crate::cli::shard::job::{Job, Made};
 use crate::cli::threads;
 use crate::critic::{self, BANK};

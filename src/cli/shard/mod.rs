@@ -1,5 +1,6 @@
 //! `pirca shard`, `pirca status` and `pirca merge`: the walls of a study on many machines.
 
+pub(crate) mod arguments;
 mod engine;
 mod job;
 mod merge;
@@ -13,9 +14,9 @@ pub(crate) use status::status;
 use serde_json::json;
 
 use crate::cli::answer::Answer;
-use crate::cli::arguments::Shard;
 use crate::cli::failure::Failure;
 use crate::cli::progress;
+use crate::cli::shard::arguments::Shard;
 use crate::cli::shard::job::{Job, Made};
 use crate::ensemble::Settings;
 use crate::ensemble::shard::{Share, Work, compute};

@@ -7,12 +7,12 @@ use std::time::{Duration, Instant};
 use serde_json::json;
 
 use crate::cli::answer::Answer;
-use crate::cli::arguments::Shard;
 use crate::cli::doing::doing;
 use crate::cli::failure::Failure;
 use crate::cli::origin::quoted;
 use crate::cli::output;
 use crate::cli::shard::Engine;
+use crate::cli::shard::arguments::Shard;
 use crate::cli::shard::engine::Asked;
 use crate::cli::shard::job::{Job, Made};
 use crate::ensemble::Task;

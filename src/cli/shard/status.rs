@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use crate::cli::answer::Answer;
-use crate::cli::arguments::Status as Arguments;
 use crate::cli::failure::Failure;
+use crate::cli::shard::arguments::Status as Arguments;
 use crate::ensemble::shard;
 
 /// So many shards that are begun are named.
