@@ -7,6 +7,10 @@ use crate::ensemble::{AddedColumns, Row, StepRow};
 pub trait Table {
     /// A line, for as long as its row is there.
     type Line<'r>: Copy;
+
+    /// Lines that are written at a time, in a row group of the file. So many are some 40 MB in memory, and what the file's end says of
+    /// each group, which is kept until then, is little beside its lines.
+    const GROUP: usize;
 }
 
 /// The table with a line per wall and stiffness.
@@ -14,6 +18,8 @@ pub enum Members {}
 
 impl Table for Members {
     type Line<'r> = &'r Row;
+
+    const GROUP: usize = 65_536;
 }
 
 /// The table with a line per load step of each.
@@ -21,6 +27,8 @@ pub enum Steps {}
 
 impl Table for Steps {
     type Line<'r> = Step<'r>;
+
+    const GROUP: usize = 262_144;
 }
 
 /// A column of a table.

@@ -30,8 +30,12 @@ impl Populations {
 
     /// All of them, of the study with the number of walls that each arm came to.
     pub fn end(self, study: &Study) -> Vec<Population> {
-        let arms = study.arms.iter().zip(self.0);
-        let come_to = arms.flat_map(|(arm, own)| own.into_iter().map(|own| own.of(arm.members)));
+        let come_to = study.arms.iter().zip(self.0).flat_map(|(arm, own)| {
+            own.into_iter().map(|mut own| {
+                own.planned = arm.members;
+                own
+            })
+        });
         come_to.collect()
     }
 }

@@ -8,8 +8,8 @@ use crate::report::number::significant;
 use crate::stats::{Sample, Trials};
 use crate::study::{Claim, ClaimTest};
 
-/// One arm at one kn: what was planned, how it ended, and the values of the walls that stand. Of a wall that brings a value it keeps that
-/// value alone, of all others no more than their count.
+/// One arm at one kn: what was planned, how it ended, and the values of its walls. Of a wall it keeps the value, or what its value is
+/// known to exceed, and counts all else.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Population {
     /// Name of the arm.
@@ -39,7 +39,7 @@ pub struct Population {
 }
 
 impl Population {
-    /// One without a wall, to be judged by the claims about how this arm's walls fall.
+    /// One without a wall. How its walls fall is counted for those of the claims that say something of it.
     pub fn new(
         (arm, fixed): (&str, bool),
         (kn, planned): (f64, u64),
@@ -63,11 +63,6 @@ impl Population {
             randomisations,
             last: None,
         }
-    }
-
-    /// The same with another number of walls planned.
-    pub fn of(self, planned: u64) -> Population {
-        Population { planned, ..self }
     }
 
     /// Takes the row of the next member.

@@ -3,6 +3,7 @@
 use super::moments::check_values;
 use super::order::Sorted;
 use super::reference::TAIL;
+use super::very_many::{self, VERY_MANY};
 use crate::math::ln;
 use statrs::distribution::{Beta, ContinuousCDF};
 
@@ -77,6 +78,9 @@ pub fn clopper_pearson_at(k: usize, n: usize, level: f64) -> [f64; 2] {
     let tail = 0.5 * (1.0 - level);
     crate::check!(k <= n && n > 0, "{k} hits in {n} trials");
     let quantile = |a: usize, b: usize, p: f64| {
+        if n as f64 > VERY_MANY {
+            return very_many::beta(a as f64, b as f64, p);
+        }
         let beta = Beta::new(a as f64, b as f64);
         crate::check!(beta.is_ok(), "there is no beta distribution of {a} and {b}");
         beta.map_or(f64::NAN, |beta| beta.inverse_cdf(p))

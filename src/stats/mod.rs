@@ -30,6 +30,7 @@ pub mod subset;
 mod summary;
 mod test_plan;
 mod trials;
+mod very_many;
 
 pub use always_valid::{always_valid_mean, always_valid_quantile, always_valid_share};
 pub use bootstrap::{bootstrap_bca, cov_bootstrap, sigma_bootstrap};

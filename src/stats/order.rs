@@ -3,6 +3,7 @@
 use super::Estimate;
 use super::moments::check_values;
 use super::reference::TAIL;
+use super::very_many::VERY_MANY;
 use statrs::distribution::{Binomial, DiscreteCDF};
 
 /// A place among order statistics that is so near to a whole one is that.
@@ -33,15 +34,24 @@ impl Sorted {
 
     /// An interval of the quantile that leaves out `tail` (a probability) at each end.
     fn interval(&self, p: f64, tail: f64) -> Option<[f64; 2]> {
-        check_probability(p);
-        let n = self.0.len();
-        let below = Binomial::new(p, n as u64).ok()?;
-        // The k-th smallest value (from 1) exceeds the quantile with probability P(at most k - 1 values below it).
-        let exceeds = |k: usize| below.cdf(k as u64 - 1);
-        let low = last_rank(n, |k| exceeds(k) <= tail)?;
-        let high = last_rank(n, |k| exceeds(k) < 1.0 - tail).unwrap_or(0) + 1;
-        (high <= n).then(|| [self.0[low - 1], self.0[high - 1]])
+        ranks(self.0.len(), p, tail).map(|ranks| ranks.map(|rank| self.0[rank - 1]))
     }
+}
+
+/// The ranks (from 1) of the order statistics that an interval of the quantile at `p` lies between.
+fn ranks(n: usize, p: f64, tail: f64) -> Option<[usize; 2]> {
+    check_probability(p);
+    let below = Binomial::new(p, n as u64).ok()?;
+    let (mean, spread) = (p * n as f64, (p * (1.0 - p) * n as f64).sqrt());
+    // The k-th smallest value exceeds the quantile with probability P(at most k - 1 values below it). Of very many values that
+    // probability is not reliable near the mean, where it is no rarity, which is all that is asked.
+    let exceeds = |k: usize| match n as f64 > VERY_MANY && (k as f64 - mean).abs() < spread {
+        true => 0.5,
+        false => below.cdf(k as u64 - 1),
+    };
+    let low = last_rank(n, |k| exceeds(k) <= tail)?;
+    let high = last_rank(n, |k| exceeds(k) < 1.0 - tail).unwrap_or(0) + 1;
+    (high <= n).then_some([low, high])
 }
 
 /// Quantile at `p` in [0, 1] of a sample in any order; `None` for an empty one.
@@ -130,4 +140,22 @@ fn last_rank(n: usize, passes: impl Fn(usize) -> bool) -> Option<usize> {
 
 fn check_probability(p: f64) {
     crate::check!((0.0..=1.0).contains(&p), "a quantile was asked at {p}, outside [0, 1]");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranks_of_very_many_values_lie_as_far_from_the_middle_as_the_normal_distribution_says() {
+        for (n, p) in
+            [(10_000_000_usize, 0.5), (100_000_000, 0.5), (100_000_000, 0.05), (1_000_000_000, 0.95)]
+        {
+            let [low, high] = ranks(n, p, TAIL).expect("there are enough");
+            let (mean, half) = (p * n as f64, 1.959964 * (p * (1.0 - p) * n as f64).sqrt());
+            let apart = [mean - low as f64, high as f64 - mean];
+            // A rank is a whole number, and the binomial distribution is skewed by about as much.
+            assert!(apart.iter().all(|apart| (apart - half).abs() < 3.0), "{n} {p}: {apart:?} for {half}");
+        }
+    }
 }

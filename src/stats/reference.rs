@@ -1,5 +1,6 @@
 //! Quantiles of the distributions that intervals are read from.
 
+use super::very_many::{self, VERY_MANY};
 use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
 
 /// Probability left out at each end of a 95 % interval.
@@ -12,6 +13,9 @@ pub(super) fn student(freedom: f64) -> f64 {
 
 /// Quantile at `probability` in (0, 1) of Student's t with `freedom` degrees of freedom (any positive number).
 pub fn student_quantile(probability: f64, freedom: f64) -> f64 {
+    if freedom > VERY_MANY {
+        return very_many::student(probability, freedom);
+    }
     let t = StudentsT::new(0.0, 1.0, freedom);
     crate::check!(t.is_ok(), "Student's t has no {freedom} degrees of freedom");
     t.map_or(f64::NAN, |t| t.inverse_cdf(probability))
@@ -19,6 +23,9 @@ pub fn student_quantile(probability: f64, freedom: f64) -> f64 {
 
 /// Lower and upper 2.5 % point of chi-square with `freedom` degrees of freedom (any positive number).
 pub(super) fn chi_square(freedom: f64) -> [f64; 2] {
+    if freedom > VERY_MANY {
+        return [TAIL, 1.0 - TAIL].map(|probability| very_many::chi_square(probability, freedom));
+    }
     let c = ChiSquared::new(freedom);
     crate::check!(c.is_ok(), "chi-square has no {freedom} degrees of freedom");
     c.map_or([f64::NAN; 2], |c| [c.inverse_cdf(TAIL), c.inverse_cdf(1.0 - TAIL)])

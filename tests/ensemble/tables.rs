@@ -24,13 +24,13 @@ fn read(path: &Path) -> (DataFrame, Vec<usize>) {
 
 #[test]
 fn many_walls_are_written_in_groups_of_one_size_and_in_their_order() {
-    let (folder, rows) = (new_folder(), rows(70_000));
+    let (folder, rows) = (new_folder(), rows(140_000));
     let mut tables = Tables::begin(&folder.path(""), AddedColumns::of(&rows)).unwrap();
     rows.iter().for_each(|row| tables.take(row).unwrap());
     tables.end().unwrap();
 
     let (members, groups) = read(&folder.path("members.parquet"));
-    assert_eq!(groups, [65_536, 4_464]);
+    assert_eq!(groups, [65_536, 65_536, 8_928]);
     let column = |name: &str| members.column(name).unwrap().f64().unwrap().iter().collect::<Vec<_>>();
     assert_eq!(
         column("top_displacement_m"),
@@ -39,10 +39,10 @@ fn many_walls_are_written_in_groups_of_one_size_and_in_their_order() {
     assert_eq!(column("dip_sd_deg"), rows.iter().map(|row| row.dip_sd_deg).collect::<Vec<_>>());
 
     let (steps, groups) = read(&folder.path("steps.parquet"));
-    assert_eq!(groups, [65_536, 65_536, 8_928]);
+    assert_eq!(groups, [262_144, 17_856]);
     let column = |name: &str| steps.column(name).unwrap().u64().unwrap().iter().flatten().collect::<Vec<_>>();
-    assert_eq!(column("member"), (0..140_000).map(|line| line / 2).collect::<Vec<_>>());
-    assert_eq!(column("load_step"), (0..140_000).map(|line| line % 2).collect::<Vec<_>>());
+    assert_eq!(column("member"), (0..280_000).map(|line| line / 2).collect::<Vec<_>>());
+    assert_eq!(column("load_step"), (0..280_000).map(|line| line % 2).collect::<Vec<_>>());
 }
 
 #[test]

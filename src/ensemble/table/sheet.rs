@@ -15,11 +15,8 @@ use crate::ensemble::RunError;
 use crate::ensemble::columns::{Column, Table, Value};
 use crate::ensemble::files::Replacement;
 
-/// Lines of a row group. What is not yet written of a table of members then takes some 30 MB, and what the footer says of each group
-/// weighs less than a thousandth of it. No other group size may come from anywhere: the bytes of a table follow from its lines alone.
-const GROUP: usize = 65_536;
-
-/// A table that is being written: its lines are kept until they fill a row group.
+/// A table that is being written: its lines are kept until they fill a row group. All groups but the last are as large as the table says,
+/// so that its bytes follow from its lines alone.
 pub(super) struct Sheet<T: Table> {
     name: &'static str,
     columns: Vec<Column<T>>,
@@ -55,7 +52,7 @@ impl<T: Table> Sheet<T> {
             kept.take(&column.value, line);
         }
         self.lines += 1;
-        if self.lines == GROUP { self.write_group() } else { Ok(()) }
+        if self.lines == T::GROUP { self.write_group() } else { Ok(()) }
     }
 
     /// Writes the last lines and the footer: the whole table, not yet in its place.
