@@ -349,7 +349,7 @@ fn timing_stands_beside_the_results_with_a_line_per_member() {
     run_with(&study(), &settings(&folder.path("out"), 2), &Silent, &made_up).unwrap();
     let text = fs::read_to_string(folder.path("out/timing.csv")).unwrap();
     let lines: Vec<_> = text.lines().collect();
-    assert_eq!(lines[0], "arm,point,member,seconds,threads,host");
+    assert_eq!(lines[0], "arm,point,member,seconds,threads,host,processor");
     assert_eq!(lines.len(), 1 + EVALUATIONS);
     assert!(lines[18].starts_with("random,1,7,"), "{}", lines[18]);
     assert_eq!(lines[18].split(',').nth(4), Some("2"));
