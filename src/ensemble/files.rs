@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use crate::ensemble::{RunError, machine};
 
 /// Replaces a file by `bytes` so that a reader, or the next run after a kill, sees the old file or the new one and
-/// never a part: see [`Replacement`].
+/// never a part: it is written beside it, brought to the disk and renamed.
 ///
 /// # Errors
 /// [`RunError::File`] when it cannot be written; an old file of that name is then untouched.

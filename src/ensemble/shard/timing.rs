@@ -11,7 +11,7 @@ use crate::ensemble::shard::{Work, array};
 use crate::ensemble::table::{TIMING, TIMING_HEADS};
 
 /// Puts the times of all shards together, shard by shard, and gives the numbers of the shards that were computed on each kind of
-/// processor, as [`array`] writes them. A shard whose file is gone has no times; no result depends on them.
+/// processor, as [`array()`] writes them. A shard whose file is gone has no times; no result depends on them.
 ///
 /// # Errors
 /// [`RunError::File`].
