@@ -10,7 +10,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use pirca::ensemble::shard::{Share, Walls, Work, compute};
-use pirca::ensemble::{Row, Settings, Silent, Task, evaluate};
+use pirca::ensemble::{Row, Settings, Silent, Task, evaluate, evaluations};
 use pirca::study::Study;
 
 /// Rows of a shard.
@@ -35,7 +35,7 @@ fn one(rows: u64) {
     let kinds: u64 =
         study.arms.iter().filter(|arm| arm.members > 1).map(|arm| arm.kn_points.len() as u64).sum();
     let study = study.with_members((rows / kinds).max(2));
-    let rows: u64 = study.arms.iter().map(|arm| arm.members * arm.kn_points.len() as u64).sum();
+    let rows = evaluations(&study);
     let templates: Vec<Vec<Row>> = (0u32..)
         .zip(&study.arms)
         .map(|(arm, own)| {

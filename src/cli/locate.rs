@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::cli::arguments::{Ensemble, Which};
 use crate::cli::failure::Failure;
 use crate::cli::output;
+use crate::ensemble::Manifest;
 use crate::math::edit_distance;
 use crate::study::{Distributions, ElementStudy, Fault, Loaded, Study, built_in_studies};
 
@@ -81,6 +82,43 @@ pub(crate) fn folder(path: &Path) -> Result<PathBuf, Failure> {
         Ok(_) => format!("{} is a file, but not a study.toml", path.display()),
     };
     Err(Failure::Input(format!("no study: {found}\n{}", known(path))))
+}
+
+/// Where the study of results in a folder lies: where it is named, or where it was run from, or else among the studies.
+pub(crate) fn again(
+    named: Option<&Path>,
+    before: &Path,
+    manifest: &Manifest,
+    results: &Path,
+) -> Result<PathBuf, Failure> {
+    if let Some(study) = named {
+        return folder(study);
+    }
+    let usual = Path::new("studies").join(&manifest.study);
+    let known = [before.to_path_buf(), usual];
+    known.into_iter().find(|folder| folder.join("study.toml").is_file()).ok_or_else(|| {
+        Failure::Input(format!(
+            "{}: the study {} of the run is neither where it was run from nor in studies/; name its folder with --study",
+            results.display(),
+            manifest.study
+        ))
+    })
+}
+
+/// The study in a folder, as its files state it, and with the seed, the walls and the solver of a run, which may have been asked for in the
+/// place of its own.
+pub(crate) fn as_run(place: &Path, manifest: &Manifest) -> Result<(Loaded, Study), Failure> {
+    let loaded = Study::load(place, manifest.variant.as_deref())?;
+    let mut study = loaded.study.clone().with_seed(manifest.seed);
+    if study.solver.name() != manifest.solver {
+        study = study.with_solver(&manifest.solver)?;
+    }
+    if let Some(&members) = manifest.members.values().max()
+        && Manifest::of(&study).members != manifest.members
+    {
+        study = study.with_members(members);
+    }
+    Ok((loaded, study))
 }
 
 /// Where the study that the arguments name takes its distributions from.

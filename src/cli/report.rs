@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::num::NonZero;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use clap::Parser;
 use serde_json::json;
@@ -16,7 +16,7 @@ use crate::cli::failure::Failure;
 use crate::cli::one_wall::OneWall;
 use crate::cli::origin::Origin;
 use crate::cli::{locate, picture, run};
-use crate::ensemble::{self, Manifest, Row, replace_file};
+use crate::ensemble::{self, Row, replace_file};
 use crate::report::{DrawnWall, PageOrigin, RunPage, chosen_walls, run_page};
 use crate::study::{Loaded, Study};
 
@@ -75,9 +75,8 @@ fn of_run(arguments: &Report) -> Result<Answer, Failure> {
     let folder = &arguments.of;
     let manifest = ensemble::identity(folder)?;
     let origin = Origin::read(folder).unwrap_or_default();
-    let place = place(arguments, &manifest, &origin)?;
-    let loaded = Study::load(&place, manifest.variant.as_deref())?;
-    let study = as_run(loaded.study.clone(), &manifest)?;
+    let place = locate::again(arguments.study.as_deref(), &origin.study, &manifest, folder)?;
+    let (loaded, study) = locate::as_run(&place, &manifest)?;
     let rows = ensemble::finished(&study, folder)?;
     let study = ensemble::come_to(study, &rows);
     let page = arguments.out.clone().unwrap_or_else(|| folder.join(PAGE));
@@ -129,32 +128,4 @@ pub(crate) fn beside(
     let origin = Origin::now(&locate::folder(&which.study)?, threads).of_page();
     let text = page(&origin).map_err(|error| Failure::Run(format!("{error:#}")))?;
     Ok(replace_file(&file, text.as_bytes())?)
-}
-
-/// Where the study of a run lies: where it was run from, or else among the studies.
-fn place(arguments: &Report, manifest: &Manifest, origin: &Origin) -> Result<PathBuf, Failure> {
-    if let Some(study) = &arguments.study {
-        return locate::folder(study);
-    }
-    let usual = Path::new("studies").join(&manifest.study);
-    let known = [origin.study.clone(), usual];
-    known.into_iter().find(|folder| folder.join("study.toml").is_file()).ok_or_else(|| {
-        Failure::Input(format!(
-            "{}: the study {} of the run is neither where it was run from nor in studies/; name its folder with --study",
-            arguments.of.display(),
-            manifest.study
-        ))
-    })
-}
-
-/// The study with the seed, the walls and the solver of the run, which may have been asked for in the place of its own.
-pub(crate) fn as_run(study: Study, manifest: &Manifest) -> Result<Study, Failure> {
-    let mut study = study.with_seed(manifest.seed);
-    if study.solver.name() != manifest.solver {
-        study = study.with_solver(&manifest.solver)?;
-    }
-    match manifest.members.values().max() {
-        Some(&members) if Manifest::of(&study).members != manifest.members => Ok(study.with_members(members)),
-        _ => Ok(study),
-    }
 }

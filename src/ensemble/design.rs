@@ -16,18 +16,26 @@ pub struct Task {
 /// Every evaluation that a study asks for: arm by arm, point by point, member by member. Of an arm that may have enough walls before,
 /// all that it may come to.
 pub fn plan(study: &Study) -> Vec<Task> {
-    let all: Vec<u64> = study.arms.iter().map(|arm| arm.members).collect();
-    plan_of(study, &all)
+    all_in_order(study).collect()
+}
+
+/// The same one after the other, of runs whose tasks do not fit into memory.
+pub(super) fn all_in_order(study: &Study) -> impl Iterator<Item = Task> {
+    in_order(study, study.arms.iter().map(|arm| arm.members))
+}
+
+/// How many a study asks for.
+pub fn evaluations(study: &Study) -> u64 {
+    study.arms.iter().map(|arm| arm.members * arm.kn_points.len() as u64).sum()
 }
 
 /// The same with so many walls in each arm.
 pub(super) fn plan_of(study: &Study, members: &[u64]) -> Vec<Task> {
-    in_order(study, members).collect()
+    in_order(study, members.iter().copied()).collect()
 }
 
-/// The same one after the other, of runs whose tasks do not fit into memory.
-pub(super) fn in_order(study: &Study, members: &[u64]) -> impl Iterator<Item = Task> {
-    let points = study.arms.iter().zip(members).zip(0u32..).flat_map(|((arm, &members), index)| {
+fn in_order(study: &Study, members: impl Iterator<Item = u64>) -> impl Iterator<Item = Task> {
+    let points = study.arms.iter().zip(members).zip(0u32..).flat_map(|((arm, members), index)| {
         (0..arm.kn_points.len() as u32).map(move |point| (index, point, members))
     });
     points.flat_map(|(arm, point, members)| (0..members).map(move |member| Task { arm, point, member }))

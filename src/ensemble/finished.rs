@@ -9,7 +9,7 @@ use crate::ensemble::enough::{first_looks, next_looks};
 use crate::ensemble::journal::{JOURNAL, Journal};
 use crate::ensemble::manifest::MANIFEST;
 use crate::ensemble::run::taken;
-use crate::ensemble::shard::{self, Work};
+use crate::ensemble::shard;
 use crate::ensemble::walls::WallKeys;
 use crate::ensemble::{Manifest, Row, RunError, Task};
 use crate::study::Study;
@@ -63,10 +63,12 @@ pub fn finished(study: &Study, folder: &Path) -> Result<Vec<Row>, RunError> {
         let found = format!("the study is another one than was run ({})", differences.join("; "));
         return refused(folder, found, "give the study as it was with --study, or run it again");
     }
-    let mut walls = shard::recorded(folder)?;
+    let shared = shard::recorded(folder)?;
+    let is_shared = shared.is_some();
+    let mut walls = shared.unwrap_or_default().walls;
     if folder.join(JOURNAL).is_file() {
         walls.extend(Journal::open(folder)?.1.walls);
-    } else if !Work::is_in(folder) {
+    } else if !is_shared {
         return refused(
             folder,
             format!("its {JOURNAL} is gone, which holds the walls"),

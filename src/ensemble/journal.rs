@@ -179,10 +179,28 @@ pub(super) fn locked(file: &File, path: &Path) -> Result<bool, RunError> {
     }
 }
 
+/// The walls that can be read in a file of such lines, a journal or a shard, which another process may be writing to: by the hash of what
+/// decides each. None where there is no such file.
+///
+/// # Errors
+/// [`RunError::File`] where it cannot be read.
+pub(super) fn walls(path: &Path) -> Result<BTreeMap<String, Entry>, RunError> {
+    let mut recorded = Recorded::default();
+    match File::open(path).and_then(|file| recorded.read(&file)) {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(RunError::file("read", path, error)),
+        _ => Ok(recorded.walls),
+    }
+}
+
 impl Recorded {
+    /// Walls of a run, by the hash of what decides them.
+    pub fn of(head: Manifest, walls: BTreeMap<String, Entry>) -> Recorded {
+        Recorded { head: Some(head), walls, keys: None }
+    }
+
     /// Takes the whole lines of a file, which another process may be writing to. Gives their bytes, and the line behind them that is not
     /// whole.
-    pub fn read(&mut self, file: &File) -> std::io::Result<(u64, Vec<u8>)> {
+    fn read(&mut self, file: &File) -> std::io::Result<(u64, Vec<u8>)> {
         let mut reader = BufReader::new(file);
         let (mut whole, mut line) = (0, Vec::new());
         while reader.read_until(b'\n', &mut line)? > 0 && line.ends_with(b"\n") {

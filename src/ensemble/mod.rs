@@ -35,7 +35,7 @@ pub use crate::random::RANDOMISATIONS;
 /// What is known of a parameter of a wall that is given.
 pub use crate::random::{Scale, Spread};
 pub use added_columns::AddedColumns;
-pub use design::{Task, is_random, plan};
+pub use design::{Task, evaluations, is_random, plan};
 pub use draws::{Draws, Evaluated, drawn};
 pub use elements::{ElementRow, Timed, evaluate_element, run_elements};
 pub use enough::{Look, come_to};

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use crate::ensemble::design::plan_of;
 use crate::ensemble::enough::{first_looks, next_looks};
 use crate::ensemble::journal::{Entry, Journal, Place, Recorded, Timing};
-use crate::ensemble::shard::{self, Work};
+use crate::ensemble::shard;
 use crate::ensemble::table::{TIMING, TIMING_HEADS};
 use crate::ensemble::walls::WallKeys;
 use crate::ensemble::{
@@ -94,11 +94,12 @@ impl<'s> Evaluations<'s> {
     ) -> Result<Evaluations<'s>, RunError> {
         let out = settings.out.clone();
         fs::create_dir_all(&out).map_err(|e| RunError::file("create the folder", &out, e))?;
-        let (journal, Recorded { head: of_journal, mut walls, .. }) = Journal::open(&out)?;
+        let (journal, Recorded { head, mut walls, .. }) = Journal::open(&out)?;
+        let is_begun = head.is_some();
         // Walls in shards are as good as those in the journal.
-        walls.extend(shard::recorded(&out)?);
-        let shared = Work::is_in(&out).then(|| Work::read(&out)).transpose()?;
-        let head = of_journal.clone().or(shared.map(|work| work.manifest));
+        let shared = shard::recorded(&out)?.unwrap_or_default();
+        walls.extend(shared.walls);
+        let head = head.or(shared.head);
         let mut evaluations = Evaluations::recorded_in(journal, walls, study, settings)?;
         evaluations.take_over(&plan(study));
         let differences = head.as_ref().map_or_else(Vec::new, |head| head.differences(&evaluations.manifest));
@@ -109,7 +110,7 @@ impl<'s> Evaluations<'s> {
             let left = evaluations.recorded.len();
             progress.grown(&Grown::of(study, differences.clone(), evaluations.entries.keys(), left));
         }
-        let is_new = of_journal.is_none() || !differences.is_empty();
+        let is_new = !is_begun || !differences.is_empty();
         evaluations.journal.go_on(is_new.then_some(&evaluations.manifest))?;
         Ok(evaluations)
     }

@@ -243,7 +243,10 @@ fn a_damaged_shard_is_told_and_computed_again() {
             "{status}"
         );
         assert!(!is_seen_at_once || status.contains(said), "{status}");
+        // What is refused has written nothing.
+        let _ = fs::remove_file(folder.path("out/timing.csv"));
         let found = refused(&folder.pirca(&["merge", "out"]), 1);
+        assert!(!folder.path("out/timing.csv").exists());
         let wanted_words = if is_seen_at_once { "1 of 3 shards are missing: 1" } else { said };
         assert!(found.contains(wanted_words), "{found}");
         done(&folder.pirca(&shard("1", "3", "out", &[])));

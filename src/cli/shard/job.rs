@@ -6,7 +6,7 @@ use crate::cli::arguments::Which;
 use crate::cli::bank::{self, Prepared};
 use crate::cli::failure::Failure;
 use crate::cli::shard::arguments::Shard;
-use crate::cli::{locate, report, run};
+use crate::cli::{locate, run};
 use crate::ensemble::rare::Batch;
 use crate::ensemble::shard::{ShardError, Walls, Work};
 use crate::ensemble::{Manifest, Row, RunError, Task, evaluate};
@@ -84,13 +84,12 @@ impl Job {
         let job = match &work.walls {
             Walls::Batch => Job::of_batch(out, study)?,
             Walls::Own => {
-                let place = place(out, &work.study, &work.manifest, study)?;
-                let loaded = Study::load(&place, work.manifest.variant.as_deref())?;
-                let study = report::as_run(loaded.study, &work.manifest)?;
+                let place = locate::again(study, &work.study, &work.manifest, out)?;
+                let (_, study) = locate::as_run(&place, &work.manifest)?;
                 Job { place, kind: Walls::Own, study, made: Made::Own }
             }
             Walls::Bank { measured, points } => {
-                let place = place(out, &work.study, &work.manifest, study)?;
+                let place = locate::again(study, &work.study, &work.manifest, out)?;
                 let variant = work.manifest.variant.clone();
                 let which = Which { study: place.clone(), variant, json: false };
                 Job::of_bank(place, &which, measured.clone(), *points)?
@@ -113,9 +112,8 @@ impl Job {
 
     fn of_batch(folder: &Path, study: Option<&Path>) -> Result<Job, Failure> {
         let batch = Batch::read(folder)?;
-        let place = place(folder, &batch.study, &batch.manifest, study)?;
-        let loaded = Study::load(&place, batch.manifest.variant.as_deref())?;
-        let study = report::as_run(loaded.study, &batch.manifest)?;
+        let place = locate::again(study, &batch.study, &batch.manifest, folder)?;
+        let (_, study) = locate::as_run(&place, &batch.manifest)?;
         as_begun(folder, &batch.manifest, &study)?;
         let walls = batch.walls(&study);
         Ok(Job { place, kind: Walls::Batch, study, made: Made::Batch(batch, walls) })
@@ -137,20 +135,6 @@ impl Job {
             Made::Bank(bank) => bank.plan.evaluate(task),
             Made::Batch(batch, _) => batch.evaluate(&self.study, task),
         }
-    }
-}
-
-/// Where a study lies: where it is named, or else where it was found before.
-fn place(out: &Path, known: &Path, manifest: &Manifest, named: Option<&Path>) -> Result<PathBuf, Failure> {
-    match named {
-        Some(named) => locate::folder(named),
-        None if known.join("study.toml").is_file() => Ok(known.to_path_buf()),
-        None => Err(Failure::Input(format!(
-            "{}: the study {} is not at {} any more, where it was found before; name its folder with --study",
-            out.display(),
-            manifest.study,
-            known.display()
-        ))),
     }
 }
 

@@ -39,6 +39,11 @@ fn merged(arguments: &Arguments) -> Result<Answer, Failure> {
     let work = Work::read(out)?;
     let job = Job::of_work(out, &work, arguments.study.as_deref())?;
     let merge = Merge::of(job.walls(), &work, out, arguments.partial)?;
+    let (text, found) = match &job.made {
+        Made::Own => of_study(&merge, out)?,
+        Made::Bank(bank) => of_bank(&job, bank, &merge, out)?,
+        Made::Batch(..) => of_batch(&job, &merge, out)?,
+    };
     let processors = merged_timing(&work, out)?;
     let mut warnings = Vec::new();
     if !merge.missing.is_empty() {
@@ -56,11 +61,6 @@ fn merged(arguments: &Arguments) -> Result<Answer, Failure> {
             kinds.join("; ")
         ));
     }
-    let (text, found) = match &job.made {
-        Made::Own => of_study(&merge, out)?,
-        Made::Bank(bank) => of_bank(&job, bank, &merge, out)?,
-        Made::Batch(..) => of_batch(&job, &merge, out)?,
-    };
     let object =
         Object { found, missing: array(&merge.missing), processors: &processors, warnings: &warnings };
     let answer = Answer::of(text, &object)?;

@@ -15,7 +15,7 @@ use crate::cli::shard::Engine;
 use crate::cli::shard::arguments::Shard;
 use crate::cli::shard::engine::Asked;
 use crate::cli::shard::job::{Job, Made};
-use crate::ensemble::Task;
+use crate::ensemble::{Task, evaluations};
 use crate::study::Study;
 
 /// Walls that are timed, if that takes no longer than this; four at least.
@@ -39,7 +39,7 @@ struct Timed {
 /// Says how the walls are best shared out, or prints the script of an engine.
 pub(super) fn plan(job: &Job, arguments: &Shard, engine: Option<Engine>) -> Result<Answer, Failure> {
     let study = job.walls();
-    let evaluations: u64 = study.arms.iter().map(|arm| arm.members * arm.kn_points.len() as u64).sum();
+    let evaluations = evaluations(study);
     let timed = timed(job, evaluations);
     let total = timed.mean * evaluations as f64;
     let proposed = (total / (60.0 * arguments.minutes)).ceil().clamp(1.0, MOST_SHARDS as f64) as u64;

@@ -1,6 +1,6 @@
 //! Computing one shard.
 
-use crate::ensemble::design::in_order;
+use crate::ensemble::design::all_in_order;
 use crate::ensemble::files::publish;
 use crate::ensemble::journal::Entry;
 use crate::ensemble::run::{Evaluations, key_of};
@@ -23,7 +23,8 @@ pub struct Computed {
 }
 
 /// Computes a shard of a study's walls, as far as it has not been: a shard that is complete is read through and left alone; of a damaged
-/// one the walls that cannot be read are computed again; those in parts that others left are taken over. `evaluate` must be a pure function of its arguments.
+/// one the walls that cannot be read are computed again; those in parts that others left are taken over. `evaluate` must be a pure
+/// function of its arguments.
 ///
 /// # Errors
 /// [`ShardError`] where the folder or the file of the shard is of other work, and as of [`run`](crate::ensemble::run); what was evaluated
@@ -42,8 +43,7 @@ pub fn compute(
     if let Found::Foreign(found) = found {
         return Err(ShardError::Foreign { file: share.file(out), found }.into());
     }
-    let members: Vec<u64> = study.arms.iter().map(|arm| arm.members).collect();
-    let own = (0u64..).zip(in_order(study, &members));
+    let own = (0u64..).zip(all_in_order(study));
     let own = own.filter(|(place, _)| place % u64::from(share.of) == u64::from(share.index));
     let tasks: Vec<Task> = own.map(|(_, task)| task).collect();
     let keys = WallKeys::of(&work.manifest);
@@ -54,8 +54,9 @@ pub fn compute(
     {
         return Ok(Computed { walls, before: walls, was_complete: true });
     }
+    let parts = part::of(out, share)?;
     let mut recorded = file::walls(out, share)?;
-    recorded.extend(part::evaluated(out, share)?);
+    recorded.extend(part::evaluated(&parts)?);
     let is_known = |task: &&Task| key(task).is_some_and(|key| recorded.contains_key(&key));
     let before = tasks.iter().filter(is_known).count() as u64;
     let journal = part::begin(out, work, share)?;
@@ -65,6 +66,6 @@ pub fn compute(
     let text = TIMING_HEADS.to_owned() + &timing(entries.iter());
     publish(&share.timing_file(out), |file| file.write_all(text.as_bytes()))?;
     file::write(out, work, share, &entries)?;
-    part::take_away(out, share)?;
+    part::take_away(&part::of(out, share)?)?;
     Ok(Computed { walls, before, was_complete: false })
 }

@@ -2,14 +2,14 @@
 //! the order of the results. Every line has its check, as those of the journal, and the bytes depend on the walls alone.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{BufRead, BufReader, ErrorKind, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
 use crate::ensemble::files::publish;
-use crate::ensemble::journal::{Entry, sealed, unsealed};
+use crate::ensemble::journal::{self, Entry, Recorded, sealed, unsealed};
 use crate::ensemble::shard::{ShardError, Share, Work};
 use crate::ensemble::{AddedColumns, Manifest, RunError};
 
@@ -260,30 +260,21 @@ const PIECE: usize = 1 << 20;
 /// # Errors
 /// [`RunError::File`] where the file cannot be read.
 pub(super) fn walls(out: &Path, share: Share) -> Result<BTreeMap<String, Entry>, RunError> {
-    let path = share.file(out);
-    let bytes = match fs::read(&path) {
-        Ok(bytes) => bytes,
-        Err(error) if error.kind() == ErrorKind::NotFound => Vec::new(),
-        Err(error) => return Err(RunError::file("read", &path, error)),
-    };
-    let text = String::from_utf8_lossy(&bytes);
-    let entries = text.lines().filter_map(|line| {
-        let entry: Entry = serde_json::from_str(unsealed(line)?).ok()?;
-        Some((entry.wall.clone()?, entry))
-    });
-    Ok(entries.collect())
+    journal::walls(&share.file(out))
 }
 
-/// The walls of all shards in a folder, as far as they can be read; none where it holds no shards.
+/// What the shards in a folder are of, with their walls as far as these can be read; `None` where it holds no shards.
 ///
 /// # Errors
-/// [`RunError::File`] where a file cannot be read.
-pub fn recorded(out: &Path) -> Result<BTreeMap<String, Entry>, RunError> {
-    let mut all = BTreeMap::new();
-    if Work::is_in(out) {
-        for share in Work::read(out)?.shares() {
-            all.extend(walls(out, share)?);
-        }
+/// As of [`Work::read`], and [`RunError::File`] where a file cannot be read.
+pub fn recorded(out: &Path) -> Result<Option<Recorded>, RunError> {
+    if !Work::is_in(out) {
+        return Ok(None);
     }
-    Ok(all)
+    let work = Work::read(out)?;
+    let mut all = BTreeMap::new();
+    for share in work.shares() {
+        all.extend(walls(out, share)?);
+    }
+    Ok(Some(Recorded::of(work.manifest, all)))
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-use crate::ensemble::design::in_order;
+use crate::ensemble::design::all_in_order;
 use crate::ensemble::enough::{first_looks, next_looks};
 use crate::ensemble::journal::Entry;
 use crate::ensemble::run::key_of;
@@ -106,9 +106,8 @@ impl<'s> Merge<'s> {
             is_there.then(|| Reader::open(self.out, share, piece)).transpose()
         });
         let mut readers: Vec<Option<Reader>> = readers.collect::<Result<_, _>>()?;
-        let all: Vec<u64> = self.study.arms.iter().map(|arm| arm.members).collect();
         let mut next: Vec<(Task, u32, String)> = Vec::with_capacity(LINES);
-        for (place, task) in (0u64..).zip(in_order(self.study, &all)) {
+        for (place, task) in (0u64..).zip(all_in_order(self.study)) {
             let index = (place % self.of) as u32;
             let Some(reader) = &mut readers[index as usize] else { continue };
             let line = reader.line()?;

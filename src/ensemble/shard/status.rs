@@ -1,6 +1,6 @@
 //! How far shared work is.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
@@ -59,7 +59,7 @@ impl Status {
             damaged: Vec::new(),
             foreign: Vec::new(),
         };
-        let mut missing = Vec::new();
+        let (mut missing, parts) = (Vec::new(), part::all(out)?);
         for share in work.shares() {
             match look(out, &work, share)? {
                 Found::Complete(head) => {
@@ -72,7 +72,10 @@ impl Status {
                     continue;
                 }
                 Found::Damaged(found) => status.damaged.push((share.index, found)),
-                Found::Missing => status.begun.extend(begun(out, &work, share)?),
+                Found::Missing => {
+                    let own = parts.get(&share.name()).map_or(&[][..], Vec::as_slice);
+                    status.begun.extend(begun(&work, share, own)?);
+                }
             }
             missing.push(share.index);
         }
@@ -81,9 +84,9 @@ impl Status {
     }
 }
 
-fn begun(out: &Path, work: &Work, share: Share) -> Result<Option<Begun>, RunError> {
-    let walls = part::evaluated(out, share)?.len() as u64;
-    let writing = part::is_written(out, share)?;
+fn begun(work: &Work, share: Share, parts: &[PathBuf]) -> Result<Option<Begun>, RunError> {
+    let walls = part::evaluated(parts)?.len() as u64;
+    let writing = part::is_written(parts)?;
     let of = share.count(work.evaluations);
     Ok((walls > 0 || writing).then_some(Begun { index: share.index, walls, of, writing }))
 }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::ensemble::files::publish;
 use crate::ensemble::shard::{SHARDS, ShardError};
-use crate::ensemble::{Manifest, RunError};
+use crate::ensemble::{Manifest, RunError, evaluations};
 use crate::study::Study;
 
 /// Name of the file in the folder of the shards.
@@ -82,8 +82,7 @@ impl Work {
     /// A study's walls, shared out into so many shards.
     pub fn of(study: &Study, place: &Path, walls: Walls, of: u32) -> Work {
         let place = place.canonicalize().unwrap_or_else(|_| place.to_path_buf());
-        let evaluations = study.arms.iter().map(|arm| arm.members * arm.kn_points.len() as u64).sum::<u64>();
-        Work { study: place, walls, of, evaluations, manifest: Manifest::of(study) }
+        Work { study: place, walls, of, evaluations: evaluations(study), manifest: Manifest::of(study) }
     }
 
     /// Whether a folder holds shards.
