@@ -16,8 +16,9 @@ use pirca::law::{CohesionAfterSlip, Coulomb, NormalLaw, Sampling};
 use pirca::math::{Vec3, atan, cos, degrees, radians, sin, tan};
 use pirca::model::{Outcome, Wall};
 use pirca::protocol::{self, Ends, Protocol, Restraint, Tilting};
-use pirca::solve::implicit::{self, DOF, Equilibrium, System, held};
+use pirca::solve::implicit::{self, Equilibrium};
 use pirca::solve::joints::Anchor;
+use pirca::solve::system::{DOF, System, held};
 use pirca::solve::{Assembly, Equilibrate, STANDARD_GRAVITY, Solver, Status};
 use pirca::study::Study;
 
@@ -131,7 +132,7 @@ fn assemble(system: &mut System, assembly: &mut Assembly<'_>, anchors: &[Anchor]
     system.clear();
     joints.each_slope(bodies, anchors, |joint, slopes| {
         symmetric &= !slopes.slips && !slopes.opens;
-        system.add_joint(joint, bodies, slopes);
+        system.add_joint(joint, bodies, &slopes.stiffness);
     });
     for (index, body) in bodies.iter().enumerate() {
         for &unknown in held(body) {

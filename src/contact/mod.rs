@@ -8,6 +8,7 @@ mod separation;
 mod survey;
 #[cfg(test)]
 mod tests;
+mod vertices;
 
 pub use broad::{candidate_pairs, candidate_pairs_up_to};
 pub use cells::{Cell, corners, divide};
@@ -15,3 +16,4 @@ use cells::{contains, patches};
 pub use patch::{Feature, Patch, Settings, facing, find_patch};
 pub use separation::{EdgeAxis, FaceAxis, best_edge_axis, best_face_axis};
 pub use survey::{Pair, Survey, survey};
+pub use vertices::{area_shares, distinct, middle_line};

@@ -211,17 +211,17 @@ impl<'t, 'a> Judge<'t, 'a> {
 
 /// Lets a wall that runs away go as far again, and reads the mechanism off that motion: by then the elastic rebound of what
 /// stays has died away. If it is caught on the way, the whole motion since the last state at rest counts.
-pub fn watch_fall(
+pub fn watch_fall<'a>(
     task: &Task<'_>,
     at_rest: &Assembly<'_>,
-    mut falling: Simulation<'_>,
+    mut falling: impl Equilibrate<'a>,
     watch: &Watch,
 ) -> Failure {
-    let before = falling.assembly.bodies.all.clone();
+    let before = falling.assembly().bodies.all.clone();
     let moved = |bodies: &Bodies| watch.moved_between(&at_rest.bodies, bodies);
-    let far = 2.0 * moved(&falling.assembly.bodies);
+    let far = 2.0 * moved(&falling.assembly().bodies);
     let settled = falling.settle(&mut |bodies| moved(bodies) > far);
-    let after = &falling.assembly.bodies;
+    let after = &falling.assembly().bodies;
     let from = if settled.status == Status::Stopped { &before } else { &at_rest.bodies.all };
     failure(task.wall, at_rest, from, after, task.path.direction())
 }

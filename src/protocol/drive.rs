@@ -3,7 +3,7 @@
 
 use crate::model::{Level, Outcome};
 use crate::protocol::back::back_to_0;
-use crate::protocol::confirm::{Fall, Judge, Told};
+use crate::protocol::confirm::{Fall, Judge, Told, watch_fall};
 use crate::protocol::events::Events;
 use crate::protocol::kept::keeps_contacts;
 use crate::protocol::mechanism::{Failure, failure, joint_states};
@@ -17,6 +17,7 @@ use crate::protocol::{Run, Task, Witness};
 use crate::solve::bodies::Body;
 use crate::solve::explicit::Simulation;
 use crate::solve::implicit::{self, Equilibrium};
+use crate::solve::nonsmooth;
 use crate::solve::{Ahead, Assembly, Equilibrate, Followed, Solver, Status, Way};
 
 /// Takes an assembly along a load path with the solver asked for.
@@ -36,6 +37,9 @@ pub fn drive_seen_by(task: &Task<'_>, solver: &Solver, witness: Witness<'_>) -> 
             let max_halvings = if brackets { 0 } else { settings.max_halvings };
             let of = |assembly| Equilibrium::of(assembly, implicit::Settings { max_halvings, ..*settings });
             climb_seen_by(task, &of, witness)
+        }
+        Solver::Nonsmooth(settings) => {
+            climb_seen_by(task, &|assembly| nonsmooth::Simulation::of(assembly, *settings), witness)
         }
         Solver::Limit(settings) => rigid(task, *settings, witness),
     }
@@ -274,7 +278,10 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
             Tried::Away(next, ratio) if is_final => {
                 let away = next.assembly().clone();
                 let fall = self.judge.fall(from.assembly(), away, &self.watch, level, ratio);
-                let failure = self.judge.failure(&fall, &self.watch);
+                let failure = match next.follows_falls() {
+                    true => watch_fall(self.task, from.assembly(), next.clone(), &self.watch),
+                    false => self.judge.failure(&fall, &self.watch),
+                };
                 self.ended(Why::Fell, next.assembly(), level, ratio, Some(failure))
             }
             Tried::Away(..) => Verdict::GoBack,

@@ -81,7 +81,9 @@ pub fn run_seen_by(
                     Rate::Dynamic(turning) => {
                         let at_rest = match solver {
                             Solver::Explicit(settings) => *settings,
-                            Solver::Implicit(_) | Solver::Limit(_) => explicit::Settings::default(),
+                            Solver::Implicit(_) | Solver::Nonsmooth(_) | Solver::Limit(_) => {
+                                explicit::Settings::default()
+                            }
                         };
                         turn(&task, &turning, at_rest, witness)
                     }
@@ -96,6 +98,7 @@ pub fn run_seen_by(
                 Solver::Limit(settings) => by_limit(task, shear.vertical_load, *settings, witness),
                 Solver::Implicit(settings) => push(&task, shear, Begin::Implicit(*settings), witness),
                 Solver::Explicit(settings) => push(&task, shear, Begin::Explicit(*settings), witness),
+                Solver::Nonsmooth(settings) => push(&task, shear, Begin::Nonsmooth(*settings), witness),
             }
         }
     };

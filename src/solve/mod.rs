@@ -1,4 +1,5 @@
-//! Solvers: assembly into arrays, joints, status; `explicit` is the DEM of blocks, `grains` that of bodies made of spheres, `limit` rigid limit analysis.
+//! Solvers: assembly into arrays, joints, status; `explicit` is the DEM of blocks, `nonsmooth` contact dynamics of rigid blocks, `grains` the DEM of
+//! bodies made of spheres, `limit` rigid limit analysis.
 
 pub mod assembly;
 pub mod bodies;
@@ -9,7 +10,9 @@ pub mod implicit;
 pub mod joints;
 pub mod limit;
 mod mount;
+pub mod nonsmooth;
 mod status;
+pub mod system;
 mod ties;
 
 pub use assembly::{Assembly, STANDARD_GRAVITY};
@@ -29,6 +32,8 @@ pub enum Solver {
     Explicit(explicit::Settings),
     /// Newton's method from equilibrium to equilibrium; what it cannot find is confirmed by the explicit solver.
     Implicit(implicit::Settings),
+    /// Contact dynamics of rigid blocks with Coulomb friction: LMGC90-like.
+    Nonsmooth(nonsmooth::Settings),
     /// Limit analysis: the load at which rigid blocks fall, without steps and without displacements.
     Limit(limit::Settings),
 }
@@ -39,6 +44,7 @@ impl Solver {
         match self {
             Solver::Explicit(_) => "explicit",
             Solver::Implicit(_) => "implicit",
+            Solver::Nonsmooth(_) => "nonsmooth",
             Solver::Limit(_) => "limit",
         }
     }

@@ -104,6 +104,11 @@ pub trait Equilibrate<'a>: Clone {
         self.settle(stop)
     }
 
+    /// Whether a wall that runs away is best followed by this solver itself, in time; else the explicit solver does it.
+    fn follows_falls(&self) -> bool {
+        false
+    }
+
     /// Goes on until the assembly is at rest, `stop` says so, or it cannot be brought to rest.
     fn settle(&mut self, stop: &mut dyn FnMut(&Bodies) -> bool) -> Settled;
 }

@@ -91,6 +91,14 @@ impl Held {
         body.torque += lever.cross(&force);
     }
 
+    /// By what each component of the body's displacement and turn stretches it, and its slope (N/m).
+    pub fn stretch(&self, body: &Body, load_factor: f64) -> ([f64; 6], f64) {
+        let (lever, u) = self.place(body, load_factor);
+        let (direction, turn) = (self.tie.direction, lever.cross(&self.tie.direction));
+        let row = [direction.x, direction.y, direction.z, turn.x, turn.y, turn.z];
+        (row, self.tie.pull(u).1)
+    }
+
     /// The negative derivatives of force and moment on the body (rows) with respect to its displacement and turn (rad,
     /// world axes; columns), with the change of the moment arm: `d(r x F) = (w x r) x F + r x dF`.
     pub fn stiffness(&self, body: &Body, load_factor: f64) -> Stiffness {

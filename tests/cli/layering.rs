@@ -51,7 +51,7 @@ const HOUSE: &[(&str, &[&str])] = &[
 ];
 
 /// The solvers check each other, so none may lean on another.
-const SOLVERS: [&str; 4] = ["explicit", "grains", "implicit", "limit"];
+const SOLVERS: [&str; 5] = ["explicit", "grains", "implicit", "limit", "nonsmooth"];
 
 /// The stages of the critic, in the order of the method: the folder, and the folders that it may import besides itself.
 const STAGES: &[(&str, &[&str])] = &[

@@ -21,6 +21,7 @@ mod limit_solver;
 mod mechanisms_alike;
 mod mechanisms_joints;
 mod mechanisms_loading;
+mod nonsmooth;
 mod objectivity;
 mod pressure;
 mod remainders;

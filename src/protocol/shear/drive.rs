@@ -12,11 +12,14 @@ use crate::protocol::{LoadStep, Run, Task, Witness};
 use crate::solve::bodies::Bodies;
 use crate::solve::explicit::{self, Simulation};
 use crate::solve::implicit::{self, Equilibrium};
+use crate::solve::nonsmooth;
 use crate::solve::{Assembly, Equilibrate, Settled, Status};
 
 /// Time steps over which the jack goes from one level to the next. A jack that went at once would be a blow, under which joints
 /// slip that would have held: with 0.1 mm at a time walls bore two thirds of what they bear.
 const RAMP: u32 = 500;
+/// The same with rigid blocks, whose steps are so much longer.
+const STEPS_OF_RAMP: u32 = 20;
 /// The jack aims so far (share of a step) beyond the drift at which it turns back, so that this is reached.
 const BEYOND: f64 = 0.01;
 /// A jack that has gone so many times as far as it should has a wall before it that does not move.
@@ -35,6 +38,7 @@ const LET_GO: explicit::Settings = explicit::Settings {
 enum Pushed<'a> {
     Implicit(Box<Equilibrium<'a>>),
     Explicit(Box<Assembly<'a>>, explicit::Settings),
+    Nonsmooth(Box<nonsmooth::Simulation<'a>>),
 }
 
 impl<'a> Pushed<'a> {
@@ -42,6 +46,7 @@ impl<'a> Pushed<'a> {
         match self {
             Pushed::Implicit(equilibrium) => equilibrium.assembly(),
             Pushed::Explicit(assembly, _) => assembly,
+            Pushed::Nonsmooth(simulation) => simulation.assembly(),
         }
     }
 
@@ -52,6 +57,20 @@ impl<'a> Pushed<'a> {
             Pushed::Explicit(assembly, settings) => {
                 let (assembly, settled) = let_go(task, assembly, [from, to], *settings, &mut stop);
                 (Pushed::Explicit(Box::new(assembly), *settings), settled)
+            }
+            Pushed::Nonsmooth(at_rest) => {
+                let mut next = at_rest.clone();
+                let ramp = if from == to { 0 } else { STEPS_OF_RAMP };
+                for step in 1..=ramp {
+                    let (gravity, factor) =
+                        task.path.loads(from + (to - from) * f64::from(step) / f64::from(ramp));
+                    next.set_loads(gravity, factor);
+                    next.step_once();
+                }
+                let (gravity, factor) = task.path.loads(to);
+                next.set_loads(gravity, factor);
+                let settled = next.settle(&mut stop);
+                (Pushed::Nonsmooth(next), Settled { steps: settled.steps + u64::from(ramp), ..settled })
             }
             Pushed::Implicit(at_rest) => {
                 let mut next = at_rest.clone();
@@ -123,6 +142,8 @@ pub enum Begin {
     Implicit(implicit::Settings),
     /// In time.
     Explicit(explicit::Settings),
+    /// In time, with rigid blocks.
+    Nonsmooth(nonsmooth::Settings),
 }
 
 /// Takes a wall with its beam and jack, the first of the task's ties, along the history of a test.
@@ -134,6 +155,9 @@ pub fn push(task: &Task<'_>, shear: &Shear, begin: Begin, witness: Witness<'_>) 
     let start = match begin {
         Begin::Implicit(settings) => Pushed::Implicit(Box::new(Equilibrium::of(built.clone(), settings))),
         Begin::Explicit(settings) => Pushed::Explicit(Box::new(built.clone()), settings),
+        Begin::Nonsmooth(settings) => {
+            Pushed::Nonsmooth(Box::new(nonsmooth::Simulation::of(built.clone(), settings)))
+        }
     };
     let (mut state, settled) = start.go(task, [0.0; 2], &watch);
     let mut test = Test { steps: Vec::new(), shear: *shear, zero: 0.0 };

@@ -2,7 +2,7 @@
 
 use crate::math::Vec3;
 use crate::solve::implicit::newton::{GOOD_CONTRACTION, Newton, POOR_CONTRACTION, dot, norm};
-use crate::solve::implicit::{DOF, held};
+use crate::solve::system::{DOF, held};
 
 /// Iterations of a step along the path of equilibria.
 const MOST_ARC_ITERATIONS: u32 = 10;

@@ -4,9 +4,10 @@ use crate::contact;
 use crate::math::Vec3;
 use crate::model::{JointLaws, Wall};
 use crate::solve::bodies::Bodies;
+use crate::solve::implicit::Settings;
 use crate::solve::implicit::loose::land;
 use crate::solve::implicit::newton::{Effort, Newton};
-use crate::solve::implicit::{Settings, System};
+use crate::solve::system::System;
 use crate::solve::{Ahead, Assembly, Equilibrate, Followed, Settled, Status};
 
 /// Rounds of looking for contacts anew and solving again at the same loads.

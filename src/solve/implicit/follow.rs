@@ -8,10 +8,11 @@
 //! ```
 
 use crate::solve::bodies::Body;
+use crate::solve::implicit::Equilibrium;
 use crate::solve::implicit::arc::Arc;
 use crate::solve::implicit::newton::Newton;
-use crate::solve::implicit::{Equilibrium, System};
 use crate::solve::joints::Anchor;
+use crate::solve::system::System;
 use crate::solve::{Ahead, Equilibrate, Followed, Way};
 
 /// Steps along the path before the search is given up.

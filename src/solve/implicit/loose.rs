@@ -3,7 +3,7 @@
 use crate::math::Vec3;
 use crate::solve::Assembly;
 use crate::solve::bodies::{Body, Freedom};
-use crate::solve::implicit::DOF;
+use crate::solve::system::DOF;
 
 /// A pivot below this share of the diagonal counts as none.
 const SINGULAR: f64 = 1e-6;

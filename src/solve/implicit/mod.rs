@@ -11,16 +11,13 @@
 //! K serves for as many steps as bring the residual down well.
 
 mod arc;
-mod elimination;
 mod equilibrium;
 mod follow;
 mod loose;
 mod newton;
-mod system;
 
 pub use equilibrium::Equilibrium;
 pub use newton::Effort;
-pub use system::{DOF, Kind, System, held};
 
 /// Settings of the implicit solver.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]

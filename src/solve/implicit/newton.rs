@@ -3,10 +3,10 @@
 use crate::math::Vec3;
 use crate::solve::Assembly;
 use crate::solve::bodies::{Body, Freedom};
+use crate::solve::implicit::Settings;
 use crate::solve::implicit::loose::is_singular;
-use crate::solve::implicit::system::{DOF, System, held};
-use crate::solve::implicit::{Kind, Settings};
 use crate::solve::joints::Anchor;
+use crate::solve::system::{DOF, Kind, System, held};
 
 /// A residual that falls to less than this share in a step needs no new matrix.
 pub(super) const GOOD_CONTRACTION: f64 = 0.3;
@@ -118,7 +118,7 @@ impl Newton<'_, '_> {
         joints.each_slope(bodies, self.anchors, |joint, slopes| {
             slips |= slopes.slips;
             opens |= slopes.opens;
-            self.system.add_joint(joint, bodies, slopes);
+            self.system.add_joint(joint, bodies, &slopes.stiffness);
         });
         self.loose.clear();
         for (index, body) in bodies.iter().enumerate().filter(|(_, body)| body.moves()) {

@@ -182,7 +182,7 @@ fn tears(law: &Coulomb, cell: &Cell, gap: &Gap) -> bool {
 
 impl Pose {
     /// A force in world coordinates from its components along the pressure and the two axes of shear.
-    pub(super) fn world(&self, normal: f64, shear: [f64; 2]) -> Vec3 {
+    pub(in crate::solve) fn world(&self, normal: f64, shear: [f64; 2]) -> Vec3 {
         self.push * normal + self.e1 * shear[0] + self.e2 * shear[1]
     }
 

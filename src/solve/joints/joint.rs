@@ -1,6 +1,6 @@
 //! One joint: its geometry in its bodies' own axes, where it is now, and what it takes over from its past.
 
-use crate::contact::{self, Cell, Patch, corners, divide};
+use crate::contact::{self, Cell, Feature, Patch, corners, divide};
 use crate::law::{Coulomb, PATCHES_ALONG, Sampling, SubContact};
 use crate::math::Vec3;
 use crate::shape::{Moments, Polygon};
@@ -25,10 +25,12 @@ pub struct Joint {
     /// A point of the reference plane and its outward normal in the reference body's axes.
     plane_point: Vec3,
     plane_normal: Vec3,
+    /// Which features of the two blocks meet.
+    pub feature: Feature,
     /// Distance (m) at which the faces begin to press; see [`contact::Settings::touch`].
     pub(super) touch: f64,
     /// The polygon, and the integrals over it or over the patches of it that can touch.
-    pub(super) polygon: Polygon,
+    pub(in crate::solve) polygon: Polygon,
     pub(super) whole: Moments,
     /// Sub-contacts.
     pub(super) cells: Vec<Cell>,
@@ -43,7 +45,7 @@ pub struct Joint {
 /// The gap between incident face and reference plane, less the distance at which they begin to press, at plane
 /// coordinates (s, t): `g0 + gs s + gt t` (m).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Gap {
+pub(in crate::solve) struct Gap {
     pub g0: f64,
     pub gs: f64,
     pub gt: f64,
@@ -56,7 +58,7 @@ impl Gap {
 }
 
 /// Where the joint is in the world, at this step.
-pub(super) struct Pose {
+pub(in crate::solve) struct Pose {
     pub origin: Vec3,
     pub s: Vec3,
     pub t: Vec3,
@@ -103,6 +105,7 @@ impl Joint {
             t: i.rotation.tr_mul(&patch.frame.t),
             plane_point: r.rotation.tr_mul(&(on_plane - r.position)),
             plane_normal: r.rotation.tr_mul(&patch.plane.normal),
+            feature: patch.feature,
             touch: settings.touch,
             whole,
             polygon: patch.polygon.clone(),
@@ -121,6 +124,16 @@ impl Joint {
         }
     }
 
+    /// Whether its blocks met on the way, so that what would hold them was never there.
+    pub(in crate::solve) fn is_met(&self) -> bool {
+        self.states.iter().any(|state| state.broken)
+    }
+
+    /// Notes that it slips, all of it.
+    pub(in crate::solve) fn slips(&mut self) {
+        self.states.iter_mut().for_each(|state| state.slipped = true);
+    }
+
     /// The two blocks, lower id first.
     pub fn pair(&self) -> (u32, u32) {
         self.blocks
@@ -132,7 +145,7 @@ impl Joint {
     }
 
     /// The points of all sub-contacts when they are closed: places in the plane and areas.
-    fn closed_points(&self) -> Vec<([f64; 2], f64)> {
+    pub(in crate::solve) fn closed_points(&self) -> Vec<([f64; 2], f64)> {
         let mut all = Vec::with_capacity(self.states.len());
         for (cell, spread) in self.cells.iter().zip(&self.spreads) {
             match self.points_each() {
@@ -167,7 +180,7 @@ impl Joint {
         }
     }
 
-    pub(super) fn pose(&self, bodies: &[Body]) -> Pose {
+    pub(in crate::solve) fn pose(&self, bodies: &[Body]) -> Pose {
         let (i, r) = (&bodies[self.incident as usize], &bodies[self.reference as usize]);
         let origin = i.position + i.rotation * self.origin;
         let (s, t) = (i.rotation * self.s, i.rotation * self.t);

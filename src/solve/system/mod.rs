@@ -1,7 +1,9 @@
-//! The linear system of a Newton step: its pattern, its matrix, its factorisation.
+//! The sparse linear system of bodies coupled by joints: its pattern, its matrix, its factorisation.
 //!
 //! Every body has six columns, displacement then turn (rad, world axes about the centroid). What a body cannot do, or
 //! a fixed one, has a diagonal entry alone.
+
+mod elimination;
 
 use std::sync::Arc;
 
@@ -12,8 +14,8 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{ColMut, Side};
 
 use crate::solve::bodies::{Body, Freedom};
-use crate::solve::implicit::elimination::{Elimination, Order};
-use crate::solve::joints::{Joints, Slopes};
+use crate::solve::joints::Joints;
+use elimination::{Elimination, Order};
 
 /// Unknowns per body.
 pub const DOF: usize = 6;
@@ -126,8 +128,8 @@ impl System {
         self.values.fill(0.0);
     }
 
-    /// Adds the stiffness of a joint.
-    pub fn add_joint(&mut self, joint: usize, bodies: &[Body], slopes: &Slopes) {
+    /// Adds what couples the two bodies of a joint, by row and column: the incident body's six unknowns, then the reference body's.
+    pub fn add_joint(&mut self, joint: usize, bodies: &[Body], what: &[[f64; 2 * DOF]; 2 * DOF]) {
         let (i, r) = self.pairs[joint];
         for (block, place) in self.places[joint].into_iter().enumerate() {
             let column = if block % 2 == 0 { i } else { r } as usize;
@@ -138,7 +140,7 @@ impl System {
             for c in 0..DOF {
                 let start = place + c * self.heights[column];
                 for (k, value) in self.values[start..start + DOF].iter_mut().enumerate() {
-                    *value += slopes.stiffness[DOF * (block / 2) + k][DOF * (block % 2) + c];
+                    *value += what[DOF * (block / 2) + k][DOF * (block % 2) + c];
                 }
             }
         }

@@ -20,7 +20,7 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::amd;
 use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
 
-use crate::solve::implicit::DOF;
+use crate::solve::system::DOF;
 
 /// A block by columns.
 type Block = [[f64; DOF]; DOF];

@@ -1,0 +1,234 @@
+//! Newton's method for the problem of a step.
+//!
+//! Impulses are those of the augmented Lagrangian, `r = P(from - rho u)`, with a large weight `rho`: the balance `M (v - free) = H r(v)` is a
+//! semismooth equation of the velocities alone, regular however many contacts a stone has. It is solved by Newton's method with a line search;
+//! then `from` becomes `r`, until that changes nothing. One sparse factorisation an iteration; a few serve, however many courses a wall has,
+//! as nothing travels from contact to contact.
+
+use crate::math::Vec3;
+use crate::solve::bodies::Body;
+use crate::solve::nonsmooth::point::{Point, Slope, State};
+use crate::solve::nonsmooth::{Friction, Problem, Residual};
+use crate::solve::system::{DOF, System};
+
+/// Largest weight of the velocity over the inertia at a point. Each update of the impulses takes the error off by about as much, times how little
+/// the contacts are coupled.
+const WEIGHT: f64 = 1e5;
+/// The weight begins with this, and grows by this factor.
+const FIRST: f64 = 1e3;
+const GROWS: f64 = 10.0;
+/// So many iterations in a row that take off less than half are too slow.
+const SLOW: u32 = 12;
+/// So often between two updates the whole step is taken although it adds unbalance.
+const LEAPS: u32 = 6;
+/// What is left within this factor of the unbalance asked for is rounding.
+const BALANCED: f64 = 1e4;
+/// Velocities are rounded by so much, and the weight multiplies it: in fast motion it is less.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+/// A step of Newton's method is halved at most so often.
+const HALVINGS: u32 = 8;
+/// A step that takes off less than this share of the unbalance times its length is too long.
+const DECREASE: f64 = 1e-2;
+/// It goes on below the tolerance, as that costs little: to this share of it, or until so many updates have brought nothing.
+const AIM: f64 = 0.1;
+const IDLE: u32 = 3;
+/// Newton's iterations between two updates of the impulses end at this share of the tolerance.
+const INNER: f64 = 1e-3;
+
+/// What Newton's method came to.
+#[derive(Clone, Debug)]
+pub(super) struct Solved {
+    pub impulses: Vec<[f64; 3]>,
+    pub residual: Residual,
+    /// Factorisations.
+    pub factorisations: u32,
+    /// The weight with which it got there: the next step begins with it.
+    pub weight: f64,
+}
+
+/// Where the method begins: velocities of the bodies (six each), impulses of the points, and the weight.
+pub(super) struct Start<'s> {
+    pub velocities: &'s [f64],
+    pub impulses: &'s [[f64; 3]],
+    pub weight: f64,
+}
+
+/// The point at which a set of velocities is looked at.
+struct Trial {
+    v: Vec<f64>,
+    impulses: Vec<[f64; 3]>,
+    unbalance: Vec<f64>,
+    energy: f64,
+}
+
+/// Solves a problem from velocities and impulses nearby. What is reached in the end is in [`Solved::residual`]; `None` where a matrix is singular.
+///
+/// The weight grows from update to update. Where Newton's method loses its way it starts again from the last update with less.
+pub(super) fn newton(
+    problem: &Problem,
+    system: &mut System,
+    bodies: &[Body],
+    start: Start<'_>,
+    (tolerance, max_iterations): (f64, u32),
+) -> Option<Solved> {
+    let mut from = start.impulses.to_vec();
+    let mut v = start.velocities.to_vec();
+    // Of a body of the mean mass the impulse of the tolerance must be more than what the weight makes of the rounding.
+    let most =
+        WEIGHT.min(0.1 * AIM * tolerance * problem.weight / (problem.mean_mass * ROUNDING * problem.fastest));
+    let mut weight = most.min(start.weight.max(FIRST));
+    // An impulse of the tolerance on a body of the mean mass.
+    let unit = problem.weight * problem.weight / problem.mean_mass;
+    let enough = 0.5 * unit * (INNER * tolerance).powi(2);
+    let (mut factorisations, mut updates, mut idle) = (0, 0, 0);
+    let mut best: Option<Solved> = None;
+    loop {
+        let mut now = Trial::at(problem, v.clone(), &from, weight);
+        let (mut slow, mut leaps) = (0, 0);
+        while now.energy > enough && slow < SLOW && factorisations < max_iterations {
+            system.clear();
+            let slides = assemble(problem, system, bodies, (&now.v, &from, weight));
+            system.factorise(!slides)?;
+            factorisations += 1;
+            let change = system.solve(&now.unbalance);
+            let next = search(problem, &now, &change, &from, weight);
+            // At a kink no length takes anything off; beyond it the method goes on.
+            let next = match next.energy < now.energy {
+                true => next,
+                false if leaps < LEAPS && now.energy > BALANCED * enough => {
+                    leaps += 1;
+                    let v = now.v.iter().zip(&change).map(|(v, change)| v - change).collect();
+                    Trial::at(problem, v, &from, weight)
+                }
+                false => break,
+            };
+            slow = if next.energy > 0.5 * now.energy { slow + 1 } else { 0 };
+            now = next;
+        }
+        updates += 1;
+        let velocities = problem.velocities(&now.impulses);
+        let residual = Residual::of(problem, Friction::Coulomb, &velocities, &now.impulses);
+        let improves = best.as_ref().is_none_or(|best| residual.natural_map < best.residual.natural_map);
+        idle = if improves { 0 } else { idle + 1 };
+        if improves {
+            best = Some(Solved { impulses: now.impulses.clone(), residual, factorisations, weight });
+        }
+        let reached = best.as_ref().map_or(f64::INFINITY, |best| best.residual.natural_map);
+        let is_enough = reached <= AIM * tolerance || (reached <= tolerance && idle >= IDLE);
+        if is_enough || factorisations >= max_iterations || updates >= max_iterations {
+            return best.map(|best| Solved { factorisations, ..best });
+        }
+        if now.energy <= BALANCED * enough {
+            (from, v) = (now.impulses, now.v);
+            weight = most.min(GROWS * weight);
+        } else {
+            weight /= GROWS * GROWS;
+        }
+    }
+}
+
+impl Trial {
+    fn at(problem: &Problem, v: Vec<f64>, from: &[[f64; 3]], weight: f64) -> Trial {
+        let response = |(point, from): (&Point, &[f64; 3])| {
+            point.response(&point.relative_velocity(&v), from, weight * point.inertia).impulse
+        };
+        let impulses: Vec<[f64; 3]> = problem.points.iter().zip(from).map(response).collect();
+        let unbalance = problem.unbalance(&v, &impulses);
+        let energy = problem.energy(&unbalance);
+        Trial { v, impulses, unbalance, energy }
+    }
+}
+
+/// Goes along a change of the velocities, as far as that takes unbalance off.
+fn search(problem: &Problem, now: &Trial, change: &[f64], from: &[[f64; 3]], weight: f64) -> Trial {
+    let mut length = 1.0;
+    let mut best: Option<Trial> = None;
+    for _ in 0..=HALVINGS {
+        let v = now.v.iter().zip(change).map(|(v, change)| v - length * change).collect();
+        let next = Trial::at(problem, v, from, weight);
+        let enough = next.energy <= (1.0 - DECREASE * length) * now.energy;
+        if best.as_ref().is_none_or(|best| next.energy < best.energy) {
+            best = Some(next);
+        }
+        if enough {
+            break;
+        }
+        length *= 0.5;
+    }
+    best.expect("one length at least was tried")
+}
+
+/// The derivative of the unbalance with the velocities; says whether a point slides, which makes it unsymmetric.
+fn assemble(
+    problem: &Problem,
+    system: &mut System,
+    bodies: &[Body],
+    (v, from, weight): (&[f64], &[[f64; 3]], f64),
+) -> bool {
+    let mut slides = false;
+    let points = || problem.points.iter().zip(from);
+    let mut at = 0;
+    while at < problem.points.len() {
+        let joint = problem.points[at].joint;
+        let end = at + problem.points[at..].iter().take_while(|point| point.joint == joint).count();
+        let first = &problem.points[at];
+        let mut sum = [[0.0; DOF]; DOF];
+        let mut touches = false;
+        for (point, from) in points().skip(at).take(end - at) {
+            let (u, rho) = (point.relative_velocity(v), weight * point.inertia);
+            let state = point.response(&u, from, rho).state;
+            let slope = point.slope(&u, from, rho, true);
+            if slope != Slope::default() {
+                slides |= state == State::Slides && point.friction > 0.0;
+                touches = true;
+                add(&mut sum, &(point.arms[0] - first.arms[0]), &point.axes, &slope);
+            }
+        }
+        if touches {
+            system.add_joint(joint, bodies, &both(&sum, &first.arms));
+        }
+        at = end;
+    }
+    for (b, inertia) in problem.inertias.iter().enumerate() {
+        system.add_own(b, &inertia.matrix);
+        inertia.held.iter().for_each(|&k| system.hold(b, k, inertia.matrix[k][k]));
+    }
+    slides
+}
+
+/// Adds to the slope of force and moment about a joint's first point by its relative velocity and spin.
+fn add(sum: &mut [[f64; DOF]; DOF], offset: &Vec3, axes: &[Vec3; 3], slope: &Slope) {
+    // The velocity at the point along its axes: `axis . (u + w x d) = axis . u + (d x axis) . w`.
+    let rows: [[f64; DOF]; 3] = std::array::from_fn(|k| {
+        let turn = offset.cross(&axes[k]);
+        [axes[k].x, axes[k].y, axes[k].z, turn.x, turn.y, turn.z]
+    });
+    for (k, row) in rows.iter().enumerate() {
+        for (l, column) in rows.iter().enumerate().filter(|(l, _)| slope[k][*l] != 0.0) {
+            for (sums, row) in sum.iter_mut().zip(row) {
+                sums.iter_mut().zip(column).for_each(|(sum, column)| *sum += slope[k][l] * row * column);
+            }
+        }
+    }
+}
+
+/// The same for the velocities of the two bodies, from whose centroids the arms lead to the point.
+fn both(sum: &[[f64; DOF]; DOF], arms: &[Vec3; 2]) -> [[f64; 2 * DOF]; 2 * DOF] {
+    // u = v - a x w for the incident body, and the negative for the reference body.
+    let columns: [[f64; DOF]; 2 * DOF] = std::array::from_fn(|c| {
+        let (arm, sign) = if c < DOF { (&arms[0], 1.0) } else { (&arms[1], -1.0) };
+        let unit = Vec3::ith(c % 3, sign);
+        match c % DOF {
+            0..3 => [unit.x, unit.y, unit.z, 0.0, 0.0, 0.0],
+            _ => {
+                let u = unit.cross(arm);
+                [u.x, u.y, u.z, unit.x, unit.y, unit.z]
+            }
+        }
+    });
+    let half: [[f64; DOF]; 2 * DOF] = columns
+        .map(|column| std::array::from_fn(|row| sum[row].iter().zip(&column).map(|(a, b)| a * b).sum()));
+    std::array::from_fn(|row| {
+        std::array::from_fn(|column| columns[row].iter().zip(&half[column]).map(|(a, b)| a * b).sum())
+    })
+}

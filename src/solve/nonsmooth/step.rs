@@ -1,0 +1,276 @@
+//! The time loop.
+
+use crate::contact;
+use crate::math::Vec3;
+use crate::model::{JointLaws, Wall};
+use crate::solve::bodies::{Bodies, Body};
+use crate::solve::nonsmooth::cone_program::cone_program;
+use crate::solve::nonsmooth::contacts::Contacts;
+use crate::solve::nonsmooth::newton::{Start, newton};
+use crate::solve::nonsmooth::problem::{Inertia, Matrix};
+use crate::solve::nonsmooth::project::project;
+use crate::solve::nonsmooth::sweeps::sweeps;
+use crate::solve::nonsmooth::{Friction, Normal, Problem, Residual, Settings, StepSolver};
+use crate::solve::system::{DOF, System};
+use crate::solve::{Assembly, Equilibrate, STANDARD_GRAVITY, Settled, Status};
+
+/// While a wall comes to rest each step is so much longer than the one before, up to so many times the time step.
+const LENGTHENS: f64 = 1.25;
+const LONGEST: f64 = 10.0;
+/// What moves slower (m/s) is at rest as far as rounding goes.
+const LEAST_SPEED: f64 = 1e-9;
+/// Rigid joints that overlap by more than this share of the reach of the contact search are pushed apart.
+const OVERLAP: f64 = 1e-6;
+
+/// What a step came to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+pub struct Stepped {
+    /// What is left over of the contact problem.
+    pub residual: Residual,
+    /// Iterations: factorisations, cone programs or sweeps.
+    pub iterations: u32,
+    /// Whether the residual is small enough.
+    pub is_solved: bool,
+    /// Largest speed (m/s) of a body after the step: of its centroid, or of its turning at its radius.
+    pub speed: f64,
+    /// By how much energy grew (J): of motion, less the work of gravity and dead loads; without what springs store. At most rounding in a
+    /// step with rigid joints.
+    pub energy_gain: f64,
+    /// Work (J) of pushing joints apart that overlapped, done on the weights of the bodies apart from their velocities.
+    pub projection_work: f64,
+    /// Largest overlap (m) that was pushed apart.
+    pub projected: f64,
+}
+
+/// An assembly stepped in time.
+#[derive(Clone)]
+pub struct Simulation<'a> {
+    /// Bodies, joints and loads.
+    pub assembly: Assembly<'a>,
+    /// Steps taken since the start.
+    pub steps: u64,
+    settings: Settings,
+    contacts: Contacts,
+    system: System,
+    /// With which Newton's method begins.
+    weight: f64,
+}
+
+impl<'a> Simulation<'a> {
+    /// Blocks at rest in the positions of the wall, under gravity along -z.
+    pub fn new(wall: &Wall, laws: &'a dyn JointLaws, settings: Settings, contact: contact::Settings) -> Self {
+        Simulation::of(Assembly::new(wall, laws, contact), settings)
+    }
+
+    /// Goes on from an assembly as it stands.
+    pub fn of(assembly: Assembly<'a>, settings: Settings) -> Self {
+        let bodies = &assembly.bodies.all;
+        let contacts = Contacts::find(&assembly.joints, bodies, settings.normal, &Default::default());
+        let system = System::new(bodies, &assembly.joints);
+        Simulation { assembly, steps: 0, settings, contacts, system, weight: 0.0 }
+    }
+
+    /// Looks for contacts anew.
+    pub fn refresh(&mut self) {
+        let past = self.contacts.past(&self.assembly.joints, &self.assembly.bodies.all);
+        self.assembly.refresh();
+        let (bodies, joints) = (&self.assembly.bodies.all, &self.assembly.joints);
+        self.contacts = Contacts::find(joints, bodies, self.settings.normal, &past);
+        if !self.system.fits(joints) {
+            self.system = System::new(bodies, joints);
+        }
+    }
+
+    /// The contact problem of a step of length `step` (s) from here, and the bodies half a step ahead.
+    pub fn problem(&mut self, step: f64) -> Problem {
+        self.assembly.apply_loads();
+        let now = &self.assembly.bodies.all;
+        let half_way: Vec<Body> = now.iter().map(|body| ahead(body, 0.5 * step)).collect();
+        let springs = self.springs(step);
+        let inertias: Vec<Inertia> = half_way
+            .iter()
+            .zip(&springs)
+            .map(|(body, springs)| Inertia::of(body, &body.rotation, springs))
+            .collect();
+        let mut free = Vec::with_capacity(DOF * now.len());
+        for (body, inertia) in now.iter().zip(&inertias) {
+            let linear = body.velocity * (body.mass * body.inertia_scale) + body.force * step;
+            let angular = body.angular_momentum + body.torque * step;
+            free.extend(inertia.velocity(&[linear.x, linear.y, linear.z, angular.x, angular.y, angular.z]));
+        }
+        let moving: Vec<f64> = now.iter().filter(|body| body.moves()).map(|body| body.mass).collect();
+        let mass: f64 = moving.iter().sum();
+        let (joints, normal) = (&self.assembly.joints, self.settings.normal);
+        let points = self.contacts.points(joints, (now, &half_way), &inertias, normal, step);
+        Problem {
+            inertias,
+            free,
+            points,
+            step,
+            weight: mass * STANDARD_GRAVITY * step,
+            fastest: self.speed().max(LEAST_SPEED),
+            mean_mass: mass / moving.len().max(1) as f64,
+        }
+    }
+
+    /// Stiffness of ties and of the platform's springs by body, times the square of the step.
+    fn springs(&self, step: f64) -> Vec<Matrix> {
+        let bodies = &self.assembly.bodies.all;
+        let mut springs = vec![[[0.0; DOF]; DOF]; bodies.len()];
+        for tie in self.assembly.ties() {
+            let body = &bodies[tie.tie.body];
+            let (row, slope) = tie.stretch(body, self.assembly.load_factor);
+            for (k, a) in row.iter().enumerate() {
+                row.iter()
+                    .enumerate()
+                    .for_each(|(l, b)| springs[tie.tie.body][k][l] += step * step * slope * a * b);
+            }
+        }
+        if let Some(mounted) = self.assembly.mounted() {
+            let own = &mut springs[mounted.mount.body];
+            mounted.stiffness().iter().enumerate().for_each(|(k, spring)| own[k][k] += step * step * spring);
+        }
+        springs
+    }
+
+    /// One time step, of the length of the settings.
+    pub fn step_once(&mut self) -> Stepped {
+        self.step(self.settings.time_step)
+    }
+
+    /// One time step of length `step` (s).
+    pub fn step(&mut self, step: f64) -> Stepped {
+        let problem = self.problem(step);
+        let start = self.contacts.impulses(&problem.points, step);
+        let (impulses, residual, iterations) = self.solve(&problem, &start);
+        let v = problem.velocities(&impulses);
+        let energy_gain = self.advance(&problem, &v, step);
+        self.contacts.remember(&mut self.assembly.joints, &problem.points, &impulses, step);
+        self.steps += 1;
+        let mut stepped = Stepped {
+            residual,
+            iterations,
+            is_solved: residual.natural_map <= self.settings.tolerance,
+            speed: self.speed(),
+            energy_gain,
+            ..Stepped::default()
+        };
+        if self.settings.normal != Normal::Compliant {
+            let enough = OVERLAP * self.assembly.contact.reach;
+            let Simulation { assembly, contacts, system, .. } = self;
+            if let Some((overlap, work)) = project(assembly, contacts, system, enough) {
+                (stepped.projected, stepped.projection_work) = (overlap, work);
+            }
+        }
+        if self.assembly.has_moved() {
+            self.refresh();
+        }
+        stepped
+    }
+
+    /// Solves the problem of a step from impulses nearby.
+    fn solve(&mut self, problem: &Problem, start: &[[f64; 3]]) -> (Vec<[f64; 3]>, Residual, u32) {
+        let Settings { solver, friction, tolerance, max_iterations, .. } = self.settings;
+        let bodies = &self.assembly.bodies.all;
+        if solver == StepSolver::Newton && friction == Friction::Coulomb {
+            let v = velocities(bodies);
+            let from = Start { velocities: &v, impulses: start, weight: self.weight };
+            let solved = newton(problem, &mut self.system, bodies, from, (tolerance, max_iterations));
+            if let Some(solved) = solved
+                && solved.residual.natural_map <= tolerance
+            {
+                self.weight = solved.weight;
+                return (solved.impulses, solved.residual, solved.factorisations);
+            }
+        }
+        if solver == StepSolver::Sweeps && friction == Friction::Coulomb {
+            return sweeps(problem, start, tolerance, max_iterations);
+        }
+        cone_program(problem, friction, tolerance, max_iterations)
+    }
+
+    /// Moves the bodies at velocities for a step; says by how much their energy grows.
+    fn advance(&mut self, problem: &Problem, v: &[f64], step: f64) -> f64 {
+        let mut gain = 0.0;
+        for (b, body) in self.assembly.bodies.all.iter_mut().enumerate().filter(|(_, body)| body.moves()) {
+            let v = &v[DOF * b..DOF * b + DOF];
+            let (velocity, spin) = (Vec3::new(v[0], v[1], v[2]), Vec3::new(v[3], v[4], v[5]));
+            let mass = body.mass * body.inertia_scale;
+            let before = mass * body.velocity.norm_squared() + body.spin.dot(&body.angular_momentum);
+            let moments = &problem.inertias[b].matrix;
+            let row =
+                |k: usize| moments[3 + k][3] * v[3] + moments[3 + k][4] * v[4] + moments[3 + k][5] * v[5];
+            body.velocity = velocity;
+            body.angular_momentum = Vec3::new(row(0), row(1), row(2));
+            body.spin = spin;
+            let after = mass * velocity.norm_squared() + spin.dot(&body.angular_momentum);
+            let from = body.clone();
+            body.place(&from, &(velocity * step), &(spin * step));
+            gain += 0.5 * (after - before) - step * (body.force.dot(&velocity) + body.torque.dot(&spin));
+        }
+        gain
+    }
+
+    /// Largest speed of a body (m/s).
+    fn speed(&self) -> f64 {
+        let of = |body: &Body| body.velocity.norm().max(body.spin.norm() * body.radius);
+        self.assembly.bodies.all.iter().map(of).fold(0.0, f64::max)
+    }
+}
+
+/// The velocities of all bodies (m/s, rad/s), six each.
+fn velocities(bodies: &[Body]) -> Vec<f64> {
+    let of = |body: &Body| {
+        let (v, w) = (body.velocity, body.spin);
+        [v.x, v.y, v.z, w.x, w.y, w.z]
+    };
+    bodies.iter().flat_map(of).collect()
+}
+
+/// A body where its velocity takes it in a time (s).
+fn ahead(body: &Body, time: f64) -> Body {
+    let mut moved = body.clone();
+    if body.moves() {
+        moved.place(body, &(body.velocity * time), &(body.spin * time));
+    }
+    moved
+}
+
+impl<'a> Equilibrate<'a> for Simulation<'a> {
+    fn assembly(&self) -> &Assembly<'a> {
+        &self.assembly
+    }
+
+    fn assembly_mut(&mut self) -> &mut Assembly<'a> {
+        &mut self.assembly
+    }
+
+    fn follows_falls(&self) -> bool {
+        true
+    }
+
+    fn settle(&mut self, stop: &mut dyn FnMut(&Bodies) -> bool) -> Settled {
+        let mut step = self.settings.time_step;
+        let mut unbalanced_ratio = f64::INFINITY;
+        for steps in 1..=self.settings.max_steps {
+            let stepped = self.step(step);
+            let ended = |status, unbalanced_ratio| Settled { status, unbalanced_ratio, steps };
+            if !self.assembly.is_finite() || !stepped.speed.is_finite() {
+                return ended(Status::NonFinite, f64::NAN);
+            }
+            unbalanced_ratio = stepped.residual.natural_map;
+            if !stepped.is_solved {
+                return ended(Status::NoEquilibrium, unbalanced_ratio);
+            }
+            if stepped.speed < self.settings.rest_speed {
+                self.assembly.bodies.stop();
+                return ended(Status::Equilibrium, unbalanced_ratio);
+            }
+            if stop(&self.assembly.bodies) {
+                return ended(Status::Stopped, unbalanced_ratio);
+            }
+            step = (step * LENGTHENS).min(LONGEST * self.settings.time_step);
+        }
+        Settled { status: Status::StepsSpent, unbalanced_ratio, steps: self.settings.max_steps }
+    }
+}
