@@ -26,6 +26,7 @@ mod pressure;
 mod remainders;
 mod replay;
 mod ropes;
+mod roughness;
 mod shapes;
 mod shear;
 mod table;
