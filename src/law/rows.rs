@@ -84,9 +84,9 @@ impl RegularRows {
         self.arc() * (1.0 - cos(self.steepest()))
     }
 
-    /// Height (m) of the upper bed's centres over the lower one's, in the hollow or on the crest.
-    pub fn height(&self, in_hollow: bool) -> f64 {
-        if in_hollow { self.arc() * cos(self.steepest()) } else { self.arc() }
+    /// Height (m) of the upper bed's centres over the lower one's at a way (m) behind a crest.
+    pub fn height(&self, way: f64) -> f64 {
+        self.arc() * cos(self.slope(way))
     }
 
     /// Normal stiffness of the joint in the hollow or on the crest, over that of as many balls that stand ball on ball:
@@ -95,7 +95,8 @@ impl RegularRows {
     /// As long as the contacts stick: `(ks / kn) tan(angle) <= tan(phi)`.
     pub fn stiffening(&self, in_hollow: bool, ks_over_kn: f64) -> f64 {
         let contacts = (if self.between { 2.0 } else { 1.0 }) * (if in_hollow { 2.0 } else { 1.0 });
-        let c = self.height(in_hollow) / (2.0 * self.radius);
+        let way = if in_hollow { 0.5 * self.spacing } else { 0.0 };
+        let c = self.height(way) / (2.0 * self.radius);
         contacts * (c * c + ks_over_kn * (1.0 - c * c))
     }
 }
@@ -135,7 +136,7 @@ mod tests {
         assert_relative_eq!(rows.arc(), 0.01 * 3.0_f64.sqrt(), max_relative = 1e-14);
         assert_relative_eq!(sin(rows.steepest()), 1.0 / 3.0_f64.sqrt(), max_relative = 1e-14);
         assert_relative_eq!(tan(rows.level_friction()), 2.0 / 3.0, max_relative = 1e-14);
-        assert_relative_eq!(rows.height(true), 0.01 * 2.0_f64.sqrt(), max_relative = 1e-14);
+        assert_relative_eq!(rows.height(0.01), 0.01 * 2.0_f64.sqrt(), max_relative = 1e-14);
         // Four contacts at 45 degrees: 4 (1/2 + 1/2 ks/kn).
         assert_relative_eq!(rows.stiffening(true, 0.5), 3.0, max_relative = 1e-14);
         assert_relative_eq!(touching(false, 30.0).stiffening(false, 0.5), 1.0, max_relative = 1e-14);

@@ -17,7 +17,8 @@ pub struct Rows {
     /// Where the rows of faces that look down begin, as a share of the spacing from their edge, in [0, 1). Those of other
     /// faces begin at the edge. 0: beds meet ball on ball. 0.5: balls meet the hollows of an equal bed below.
     ///
-    /// Shifted rows leave out the edges of their face, which the faces beside it would fill otherwise.
+    /// Shifted rows leave out the edges of their face, which the faces beside it would fill otherwise. They lie as far below the
+    /// face as they need to touch the balls of an equal bed below, so that stones laid face on face interlock without a gap.
     pub phase: f64,
 }
 
@@ -30,6 +31,16 @@ pub enum OutlineFault {
         .0.radius, .0.spacing, .0.phase
     )]
     Rows(Rows),
+    /// Shifted rows would fall through the bed below.
+    #[error(
+        "balls of radius {radius} m fall between others that are {spacing} m apart: take a smaller spacing or a phase of 0"
+    )]
+    TooWide {
+        /// Their radius (m).
+        radius: f64,
+        /// The spacing asked for (m).
+        spacing: f64,
+    },
     /// No centre is a radius away from all faces.
     #[error("balls of radius {radius} m do not fit into a solid {width} m thick: take a smaller radius")]
     TooThin {
@@ -83,7 +94,7 @@ impl Rows {
             }
         }
         for (face, shifted) in shifted.iter().enumerate() {
-            self.over(&inner, face, *shifted, &mut centres);
+            self.over(&inner, face, *shifted, &mut centres)?;
         }
         Ok(centres.into_iter().map(|centre| Ball { centre, radius: self.radius }).collect())
     }
@@ -131,7 +142,9 @@ impl Rows {
             let length = ((bx - ax) * (bx - ax) + (bz - az) * (bz - az)).sqrt();
             let at = |share: f64| [ax + (bx - ax) * share, az + (bz - az) * share];
             if shifted(k) {
-                centres.extend(self.begun(length).map(at));
+                let deep = self.deep(&[self.fitted(length)])? / length;
+                let lower = |[x, z]: [f64; 2]| [x + (bz - az) * deep, z - (bx - ax) * deep];
+                centres.extend(self.begun(length).map(at).map(lower));
             } else {
                 centres.extend(self.between(length).map(at));
             }
@@ -182,8 +195,25 @@ impl Rows {
         (0..n).map(move |i| (f64::from(i) + phase) / f64::from(n))
     }
 
+    /// How far shifted rows lie below their face (m), given the distances of neighbours along their axes (m).
+    fn deep(&self, spacings: &[f64]) -> Result<f64, OutlineFault> {
+        let aside = self.phase.min(1.0 - self.phase);
+        let square = |s: &f64| (aside * s) * (aside * s);
+        let height = 4.0 * self.radius * self.radius - spacings.iter().map(square).sum::<f64>();
+        if height <= 0.0 {
+            return Err(OutlineFault::TooWide { radius: self.radius, spacing: self.spacing });
+        }
+        Ok(2.0 * self.radius - height.sqrt())
+    }
+
     /// Adds the centres over a face, without those on its edges.
-    fn over(&self, inner: &Polyhedron, face: usize, shifted: bool, centres: &mut Vec<Vec3>) {
+    fn over(
+        &self,
+        inner: &Polyhedron,
+        face: usize,
+        shifted: bool,
+        centres: &mut Vec<Vec3>,
+    ) -> Result<(), OutlineFault> {
         let corners: Vec<Vec3> = inner.face_vertices(face).collect();
         let edge = |k: usize| corners[(k + 1) % corners.len()] - corners[k];
         let longer = |best: usize, k: usize| {
@@ -201,11 +231,13 @@ impl Rows {
             let Some([from, to]) = chord(&flat, t) else { continue };
             let at = |share: f64| frame.lift([from + (to - from) * share, t]);
             if shifted {
-                centres.extend(self.begun(to - from).map(at));
+                let deep = self.deep(&[self.fitted(to - from), self.fitted(breadth)])?;
+                centres.extend(self.begun(to - from).map(|share| at(share) + normal * deep));
             } else {
                 centres.extend(self.between(to - from).map(at));
             }
         }
+        Ok(())
     }
 }
 
@@ -256,7 +288,8 @@ mod tests {
         let rows = Rows { phase: 0.5, ..ROWS };
         let balls = rows.around(&stone()).unwrap();
         let at = |z: f64| balls.iter().filter(|b| (b.centre.z - z).abs() < 1e-12).collect::<Vec<_>>();
-        let (below, above) = (at(0.06), at(0.10));
+        // As far below the face as the hollow is deep: a ball on four has its centre sqrt(2) r higher than theirs.
+        let (below, above) = (at(0.06 - 0.01 * (2.0 - 2.0_f64.sqrt())), at(0.10));
         // 9 x 5 hollows of 10 x 6.
         assert_eq!((below.len(), above.len()), (45, 60));
         let reach = |ball: &Ball| {
@@ -277,6 +310,9 @@ mod tests {
         let shifted = Rows { phase: 0.5, ..ROWS }.around_section(&stone()).unwrap();
         // Nine below, ten above, one beside them at either end.
         assert_eq!(shifted.len(), 9 + 10 + 2);
+        let lowest = shifted.iter().map(|b| b.centre.z).fold(f64::INFINITY, f64::min);
+        // On two balls, sqrt(3) r.
+        assert!((lowest - (0.06 - 0.01 * (2.0 - 3.0_f64.sqrt()))).abs() < 1e-15);
     }
 
     #[test]
@@ -310,6 +346,8 @@ mod tests {
             };
             assert!(radius == 0.04 && (width - 0.06).abs() < 1e-15);
         }
+        let wide = Rows { spacing: 0.04, phase: 0.5, ..ROWS };
+        assert!(matches!(wide.around(&stone()), Err(OutlineFault::TooWide { .. })));
         for rows in
             [Rows { radius: 0.0, ..ROWS }, Rows { spacing: f64::NAN, ..ROWS }, Rows { phase: 1.0, ..ROWS }]
         {

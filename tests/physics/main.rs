@@ -27,6 +27,8 @@ mod remainders;
 mod replay;
 mod ropes;
 mod roughness;
+mod roughness_tables;
+mod roughness_walls;
 mod shapes;
 mod shear;
 mod table;
