@@ -29,10 +29,10 @@ pub enum Filling {
     Solid(MassProperties),
 }
 
-/// The outline that hollow clumps follow.
+/// Which outline hollow clumps follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Model {
+pub enum Hollow {
     /// The whole surface of the stone.
     Space,
     /// Its section normal to y, one sphere deep: a plane model, as made of discs. A stone that is free cannot move along y nor
@@ -91,13 +91,13 @@ impl Clump {
     pub fn hollow(
         solid: &Polyhedron,
         density: f64,
-        model: Model,
+        model: Hollow,
         rows: &Rows,
         material: Frictional,
     ) -> Result<Clump, OutlineFault> {
         let (spheres, support) = match model {
-            Model::Space => (rows.around(solid)?, Support::Free),
-            Model::Plane => (rows.around_section(solid)?, Support::OutOfPlane),
+            Hollow::Space => (rows.around(solid)?, Support::Free),
+            Hollow::Plane => (rows.around_section(solid)?, Support::OutOfPlane),
         };
         Ok(Clump { spheres, filling: Filling::Solid(solid.mass_properties()), density, material, support })
     }
@@ -126,7 +126,12 @@ impl Heap {
     ///
     /// # Errors
     /// [`HollowFault`], the first one.
-    pub fn hollow(wall: &Wall, model: Model, rows: &Rows, material: Frictional) -> Result<Heap, HollowFault> {
+    pub fn hollow(
+        wall: &Wall,
+        model: Hollow,
+        rows: &Rows,
+        material: Frictional,
+    ) -> Result<Heap, HollowFault> {
         let clump = |(id, block): (usize, &Block)| {
             if let Some(group) = &block.group {
                 return Err(HollowFault::Part { block: id, group: group.clone() });
@@ -160,7 +165,7 @@ mod tests {
     #[test]
     fn a_hollow_clump_weighs_as_its_stone() {
         let stone = block(Support::Free, None).shape;
-        for (model, support) in [(Model::Space, Support::Free), (Model::Plane, Support::OutOfPlane)] {
+        for (model, support) in [(Hollow::Space, Support::Free), (Hollow::Plane, Support::OutOfPlane)] {
             let clump = Clump::hollow(&stone, 2400.0, model, &ROWS, MATERIAL).unwrap();
             assert_eq!((clump.mass_properties(), clump.support), (stone.mass_properties(), support));
             let own = union_of_balls(&clump.spheres).volume;
@@ -172,7 +177,7 @@ mod tests {
     fn a_wall_keeps_its_ids_and_its_supports() {
         let supports = [Support::Fixed, Support::Free, Support::Absent, Support::Upright];
         let wall = Wall { blocks: supports.iter().map(|s| block(*s, None)).collect() };
-        let heap = Heap::hollow(&wall, Model::Plane, &ROWS, MATERIAL).unwrap();
+        let heap = Heap::hollow(&wall, Hollow::Plane, &ROWS, MATERIAL).unwrap();
         let held: Vec<Support> = heap.clumps.iter().map(|c| c.support).collect();
         assert_eq!(held, [Support::Fixed, Support::OutOfPlane, Support::Absent, Support::Upright]);
         assert_eq!(
@@ -184,10 +189,10 @@ mod tests {
     #[test]
     fn what_cannot_be_hollow_is_named() {
         let wall = Wall { blocks: vec![block(Support::Free, None), block(Support::Free, Some("corner"))] };
-        let fault = Heap::hollow(&wall, Model::Space, &ROWS, MATERIAL).unwrap_err();
+        let fault = Heap::hollow(&wall, Hollow::Space, &ROWS, MATERIAL).unwrap_err();
         assert!(fault.to_string().starts_with("block 1 is a part of the stone \"corner\""), "{fault}");
         let rows = Rows { radius: 0.05, ..ROWS };
-        let fault = Heap::hollow(&wall, Model::Space, &rows, MATERIAL).unwrap_err();
+        let fault = Heap::hollow(&wall, Hollow::Space, &rows, MATERIAL).unwrap_err();
         assert!(fault.to_string().starts_with("block 0: balls of radius 0.05 m do not fit"), "{fault}");
     }
 }

@@ -2,7 +2,7 @@
 
 use pirca::law::{Frictional, RegularRows};
 use pirca::math::{Vec3, degrees, radians};
-use pirca::model::{Clump, Heap, Model, Support};
+use pirca::model::{Clump, Heap, Hollow, Support};
 use pirca::protocol::{Slid, Slide, slide};
 use pirca::shape::{Polyhedron, Rows};
 use pirca::solve::{STANDARD_GRAVITY as G, Status, grains};
@@ -16,7 +16,7 @@ const BROAD: u32 = 2;
 /// Two beds of balls: the lower one fixed, the upper one on it by its balls' places.
 pub struct Beds {
     pub rows: RegularRows,
-    pub model: Model,
+    pub model: Hollow,
     /// How far behind the crests it stands along x, as a share of the spacing: 0 on them, 0.5 in the hollows.
     pub offset: f64,
     /// Closure of one ball on one ball (m) under the weight, shared by the balls of the upper bed.
@@ -26,8 +26,8 @@ pub struct Beds {
 impl Beds {
     fn balls(&self) -> f64 {
         match self.model {
-            Model::Plane => f64::from(LONG + 1),
-            Model::Space => f64::from((LONG + 1) * (BROAD + 1)),
+            Hollow::Plane => f64::from(LONG + 1),
+            Hollow::Space => f64::from((LONG + 1) * (BROAD + 1)),
         }
     }
 
@@ -42,10 +42,10 @@ impl Beds {
         let RegularRows { radius, spacing, between, phi } = self.rows;
         let x = spacing * (1.0 + self.offset);
         let across = match self.model {
-            Model::Plane => 0.0,
-            Model::Space => spacing * if between { 1.5 } else { 1.0 },
+            Hollow::Plane => 0.0,
+            Hollow::Space => spacing * if between { 1.5 } else { 1.0 },
         };
-        let broad = if self.model == Model::Space { BROAD + 2 } else { BROAD };
+        let broad = if self.model == Hollow::Space { BROAD + 2 } else { BROAD };
         // Below, centres begin at the origin and end at a height of twice the spacing.
         let lower = self.stone(Vec3::zeros(), LONG + 6, broad);
         let z = 2.0 * spacing + self.rows.height(self.offset * spacing);
@@ -84,12 +84,12 @@ pub fn rows(radius: f64, spacing: f64, between: bool, phi_deg: f64) -> RegularRo
 #[test]
 fn pressed_beds_close_as_their_contacts_say() {
     for (model, between, in_hollow) in [
-        (Model::Plane, false, false),
-        (Model::Plane, false, true),
-        (Model::Space, false, false),
-        (Model::Space, false, true),
-        (Model::Space, true, false),
-        (Model::Space, true, true),
+        (Hollow::Plane, false, false),
+        (Hollow::Plane, false, true),
+        (Hollow::Space, false, false),
+        (Hollow::Space, false, true),
+        (Hollow::Space, true, false),
+        (Hollow::Space, true, true),
     ] {
         let rows = rows(0.01, 0.02, between, 40.0);
         let offset = if in_hollow { 0.5 } else { 0.0 };
@@ -113,7 +113,7 @@ fn a_joint_of_hollow_clumps_has_the_kn_it_was_mapped_from() {
     let material = Frictional::for_joint(kn, KS_OVER_KN, radians(30.0), radius, 1.0 / (spacing * spacing));
     let stone = |z: f64| Polyhedron::cuboid(Vec3::new(0.0, 0.0, z), Vec3::new(0.2, 0.12, z + 0.06));
     let rows = Rows { radius, spacing, phase: 0.0 };
-    let hollow = |z: f64| Clump::hollow(&stone(z), DENSITY, Model::Space, &rows, material).unwrap();
+    let hollow = |z: f64| Clump::hollow(&stone(z), DENSITY, Hollow::Space, &rows, material).unwrap();
     let clumps = vec![Clump { support: Support::Fixed, ..hollow(0.0) }, hollow(0.06)];
     let heap = Heap { clumps, planes: Vec::new(), plane_material: material };
     let still = Slide { body: 1, speed: 1.0, way: 0.0, readings: 0, rest_ratio: 1e-9 };
@@ -172,11 +172,11 @@ fn compare(beds: &Beds) {
 #[test]
 fn rows_on_rows_slip_as_the_closed_form_says() {
     for offset in [0.0, 0.25, 0.5] {
-        compare(&Beds { rows: rows(0.01, 0.02, false, 25.0), model: Model::Plane, offset, closure: 1e-5 });
+        compare(&Beds { rows: rows(0.01, 0.02, false, 25.0), model: Hollow::Plane, offset, closure: 1e-5 });
     }
 }
 
 #[test]
 fn balls_in_pockets_slip_over_the_saddles_between_them() {
-    compare(&Beds { rows: rows(0.01, 0.016, true, 25.0), model: Model::Space, offset: 0.5, closure: 1e-5 });
+    compare(&Beds { rows: rows(0.01, 0.016, true, 25.0), model: Hollow::Space, offset: 0.5, closure: 1e-5 });
 }
