@@ -2,7 +2,6 @@
 
 use crate::math::Vec3;
 use crate::model::{Heap, Level, Outcome};
-use crate::protocol::Tilting;
 use crate::protocol::path::LoadPath;
 use crate::protocol::route::Route;
 use crate::solve::bodies::Body;
@@ -38,21 +37,20 @@ pub struct TiltedHeap {
 /// Lets a heap come to rest under gravity, and turns gravity in steps as [`run`](crate::protocol::run) does with a wall of
 /// polyhedra: after a failure back to the last tilt borne and half the step, until the angle is bracketed.
 ///
-/// Of `tilting` count the direction, the steps, the end and the bracket. It has fallen when a body has moved by
-/// `runaway` (m) since the last state at rest; at rest it is when the unbalanced force ratio is below `rest_ratio`.
+/// The path is that of a tilt, see [`LoadPath::tilt`](crate::protocol::LoadPath::tilt); the load is not let back on the way. A heap has fallen when a body has moved by
+/// `runaway` (m) since the last state at rest; it is at rest when the unbalanced force ratio is below `rest_ratio`.
 pub fn tilt_heap(
     heap: &Heap,
     settings: grains::Settings,
-    tilting: &Tilting,
+    path: &LoadPath,
     rest_ratio: f64,
     runaway: f64,
 ) -> TiltedHeap {
-    let path = tilting.path();
-    let mut route = Route::new(path);
+    let mut route = Route::new(*path);
     let mut rest = Simulation::new(heap, settings);
     let mut tilted =
         TiltedHeap { outcome: Outcome::Equilibrium, bracket: None, steps: Vec::new(), cycles: 0 };
-    let settled = settle(&mut rest, &path, 0.0, rest_ratio, runaway);
+    let settled = settle(&mut rest, path, 0.0, rest_ratio, runaway);
     tilted.cycles += settled.steps;
     if settled.status != Status::Equilibrium {
         tilted.outcome = match settled.status {
@@ -73,7 +71,7 @@ pub fn tilt_heap(
     while let Some(place) = route.next() {
         let tilt = path.after(place);
         let mut next = rest.clone();
-        let settled = settle(&mut next, &path, tilt, rest_ratio, runaway);
+        let settled = settle(&mut next, path, tilt, rest_ratio, runaway);
         tilted.cycles += settled.steps;
         match settled.status {
             Status::Equilibrium => {

@@ -15,6 +15,8 @@ use crate::fixture::{dry, stone};
 /// Depth of the columns along y (m): a whole stone of the canonical walls.
 const DEPTH: f64 = 0.2;
 const KS_OVER_KN: f64 = 0.5;
+/// A column in its plane.
+pub const IN_PLANE: (Hollow, Direction) = (Hollow::Plane, Direction::XPlus);
 
 /// A stone of the column with its thickness along x, between two heights (m).
 fn course(low: f64, high: f64) -> Block {
@@ -62,12 +64,16 @@ pub fn table(towards: Direction) -> Tilting {
 }
 
 /// A wall in hollow clumps; joints of `kn` (Pa/m), balls of `phi_deg`.
-pub fn in_clumps(wall: &Wall, model: Hollow, rows: &Rows, kn: f64, phi_deg: f64) -> TiltedHeap {
+pub fn in_clumps(
+    wall: &Wall,
+    (model, towards): (Hollow, Direction),
+    rows: &Rows,
+    [kn, phi_deg]: [f64; 2],
+) -> TiltedHeap {
     let material = material(rows, model, kn, phi_deg);
     let heap =
         Heap::hollow(&on_its_like(wall), model, rows, material).unwrap_or_else(|fault| panic!("{fault}"));
-    let towards = if model == Hollow::Plane { Direction::XPlus } else { Direction::YPlus };
-    tilt_heap(&heap, grains::Settings::default(), &table(towards), 1e-4, 0.1 * THICKNESS)
+    tilt_heap(&heap, grains::Settings::default(), &table(towards).path(), 1e-4, 0.1 * THICKNESS)
 }
 
 /// The same in polyhedra.
@@ -85,8 +91,7 @@ pub fn middle(bracket: Option<[f64; 2]>) -> f64 {
 #[test]
 fn a_stone_in_the_hollows_slides_at_the_friction_of_its_balls_and_their_slope() {
     // Balls half a diameter apart: sin(theta) = 1/4.
-    let tilted =
-        |in_hollows| in_clumps(&column(1), Hollow::Plane, &rows(0.0095, 1.0, in_hollows), 1e10, 10.5);
+    let tilted = |in_hollows| in_clumps(&column(1), IN_PLANE, &rows(0.0095, 1.0, in_hollows), [1e10, 10.5]);
     let expected = 10.5 + degrees(asin(0.25));
     let slides = tilted(true);
     println!("slides at {:.2} deg, closed form {expected:.2}", middle(slides.bracket));
@@ -110,7 +115,7 @@ fn a_stiff_stone_topples_over_its_last_contact() {
     // within that, and its contact with the one ahead half of that back, half as deep below the bed as the ball reaches.
     let deep = radius * (2.0 - 3.0_f64.sqrt());
     for (in_hollows, inset, below) in [(false, radius, 0.0), (true, 1.5 * radius, 0.5 * deep)] {
-        let tilted = in_clumps(&wall, Hollow::Plane, &rows(radius, 2.0, in_hollows), 1e12, 40.0);
+        let tilted = in_clumps(&wall, IN_PLANE, &rows(radius, 2.0, in_hollows), [1e12, 40.0]);
         let expected = degrees(atan((0.5 * THICKNESS - inset) / (0.5 * height + below)));
         println!(
             "in hollows {in_hollows}: topples at {:.2} deg, rigid {expected:.2}",
@@ -128,7 +133,7 @@ fn a_soft_wall_ball_on_ball_falls_as_one_of_polyhedra() {
     let polyhedra =
         |inset| middle(in_polyhedra(&column(9), Direction::XPlus, [kn, phi, inset], &implicit).bracket);
     let clumps = |in_hollows| {
-        middle(in_clumps(&column(9), Hollow::Plane, &rows(0.005, 2.0, in_hollows), kn, phi).bracket)
+        middle(in_clumps(&column(9), IN_PLANE, &rows(0.005, 2.0, in_hollows), [kn, phi]).bracket)
     };
     let [on_balls, in_hollows] = [false, true].map(clumps);
     let [full, inset, rigid] = [0.0, 0.005, 0.0075].map(polyhedra);
