@@ -14,7 +14,7 @@ const LOOKS: u32 = 20;
 pub struct Slide {
     /// The clump that is led; it moves up and down freely, and does not turn.
     pub body: usize,
-    /// Speed along x (m/s). It must be small beside `sqrt(g d)`, d being the closure of the joint under the weight: the body rings
+    /// Speed along x (m/s), above 0. It must be small beside `sqrt(g d)`, d being the closure of the joint under the weight: the body rings
     /// where the slope changes at once, and local damping, which looks at the sign of the velocity only, takes nothing from a
     /// ringing slower than the body's own rise. At a tenth of it forces came out 1 to 4 % too high on slopes of up to
     /// 30 degrees, at a fiftieth up to 1 %.
