@@ -35,13 +35,29 @@ impl Frictional {
     /// with `v` the ratio of shear to normal stiffness. A plane takes the part of an equal sphere: `kn = E r` where
     /// the materials are the same.
     ///
-    /// A joint of such spheres with `c` contacts per area has `kn c` (Pa/m): a square mesh of equal spheres of radius r
-    /// has one contact per `4 r^2`, so `E = 4 r kn_joint`.
+    /// A joint of such spheres is as stiff per area as its contacts are together, see [`Frictional::joint_stiffness`].
     pub fn spring(&self, radius: f64, other: &Frictional, other_radius: f64) -> SphereSpring {
         let (a, b) = (self.young * radius, other.young * other_radius);
         let (sa, sb) = (a * self.ks_over_kn, b * other.ks_over_kn);
         let ks = if sa + sb > 0.0 { 2.0 * sa * sb / (sa + sb) } else { 0.0 };
         SphereSpring { kn: 2.0 * a * b / (a + b), ks, tan_phi: tan(self.phi.min(other.phi)) }
+    }
+}
+
+impl Frictional {
+    /// The material whose spheres of one radius (m), ball on ball, give a joint the normal stiffness `kn` (Pa/m): each of
+    /// `contacts_per_area` (1/m^2) has `E r` (N/m), so `E = kn / (r c)`.
+    ///
+    /// Balls at the distance s in square rows have one contact per `s^2`; in a plane model of depth b (m) one per `s b`. Where
+    /// they touch, `s = 2 r` and `E = 4 r kn`. Balls in the hollows of the bed below are stiffer or softer than that, see
+    /// [`RegularRows::stiffening`](crate::law::RegularRows::stiffening).
+    pub fn for_joint(kn: f64, ks_over_kn: f64, phi: f64, radius: f64, contacts_per_area: f64) -> Frictional {
+        Frictional { young: kn / (radius * contacts_per_area), ks_over_kn, phi }
+    }
+
+    /// The way back: normal stiffness (Pa/m) of a joint of `contacts_per_area` (1/m^2) spheres of a radius (m), ball on ball.
+    pub fn joint_stiffness(&self, radius: f64, contacts_per_area: f64) -> f64 {
+        self.young * radius * contacts_per_area
     }
 }
 
@@ -87,6 +103,16 @@ mod tests {
         assert_relative_eq!(spring.ks, 7.5e4, max_relative = 1e-14);
         assert_relative_eq!(spring.tan_phi, 0.309_336_249_609_623_2, max_relative = 1e-14);
         assert_eq!(spring, other.spring(0.1, &STONE, 0.2));
+    }
+
+    #[test]
+    fn a_square_mesh_has_one_contact_for_four_square_radii() {
+        let (kn, r) = (5e7, 0.01);
+        let material = Frictional::for_joint(kn, 0.5, 0.6, r, 1.0 / (4.0 * r * r));
+        assert_relative_eq!(material.young, 4.0 * r * kn, max_relative = 1e-14);
+        assert_relative_eq!(material.joint_stiffness(r, 2500.0), kn, max_relative = 1e-14);
+        // One contact has E r: 4 r^2 of the joint.
+        assert_relative_eq!(material.spring(r, &material, r).kn, 4.0 * r * r * kn, max_relative = 1e-14);
     }
 
     #[test]

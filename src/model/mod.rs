@@ -8,7 +8,7 @@ mod replay;
 mod wall;
 
 pub use block::{Block, Support, Tag};
-pub use clump::{Clump, Heap};
+pub use clump::{Clump, Filling, Heap, Hollow, HollowFault};
 pub use movement::Movement;
 pub use outcome::{Level, Outcome};
 pub use replay::{BuiltJoint, JointReading, Replay, ReplayState};

@@ -1,6 +1,7 @@
-//! Convex polygons and polyhedra: cut, clip, inertia, overlap, validity; unions of balls. Knows shapes, never the world.
+//! Convex polygons and polyhedra: cut, clip, inertia, overlap, validity; unions of balls, outlines in balls. Knows shapes, never the world.
 
 mod balls;
+mod outline;
 mod overlap;
 mod plane;
 mod polygon;
@@ -10,6 +11,7 @@ mod tests;
 mod union;
 
 pub use balls::{Ball, union_of_balls};
+pub use outline::{OutlineFault, Rows};
 pub use overlap::overlap_depth;
 pub use plane::{Frame, Plane};
 pub use polygon::{Moments, Polygon};

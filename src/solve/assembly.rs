@@ -136,7 +136,7 @@ impl<'a> Assembly<'a> {
         for body in &mut self.bodies.all {
             body.force = match body.freedom {
                 Freedom::Mounted => Vec3::zeros(),
-                Freedom::Free | Freedom::Fixed | Freedom::InPlane | Freedom::Upright => {
+                Freedom::Free | Freedom::Fixed | Freedom::InPlane | Freedom::Upright | Freedom::Led => {
                     self.gravity * body.mass
                 }
             };

@@ -19,6 +19,8 @@ pub enum Freedom {
     InPlane,
     /// It moves in the plane (x and z) without turning.
     Upright,
+    /// It goes along x and y at the velocity that it has, whatever pushes it there; it moves up and down, and does not turn.
+    Led,
     /// It moves up and down and turns about x, on springs; its own weight does not act.
     Mounted,
 }
@@ -245,7 +247,7 @@ impl Body {
     /// Angular velocity (rad/s) of an attitude with this body's angular momentum.
     fn spin_at(&self, rotation: &Mat3) -> Vec3 {
         match self.freedom {
-            Freedom::Fixed | Freedom::Upright => Vec3::zeros(),
+            Freedom::Fixed | Freedom::Upright | Freedom::Led => Vec3::zeros(),
             Freedom::Free => {
                 let local = rotation.tr_mul(&self.angular_momentum);
                 rotation * (local.component_div(&self.inertia) / self.inertia_scale)
@@ -303,7 +305,7 @@ impl Body {
             return;
         }
         match self.freedom {
-            Freedom::Free | Freedom::Fixed => {}
+            Freedom::Free | Freedom::Fixed | Freedom::Led => {}
             Freedom::InPlane => {
                 self.force.y = 0.0;
                 self.torque = Vec3::new(0.0, self.torque.y, 0.0);
@@ -316,6 +318,13 @@ impl Body {
                 self.force = Vec3::new(0.0, 0.0, self.force.z);
                 self.torque = Vec3::new(self.torque.x, 0.0, 0.0);
             }
+        }
+        if self.freedom == Freedom::Led {
+            let (force, speed) = (Vec3::z() * self.force.z, Vec3::z() * self.velocity.z);
+            let damped = force + crate::law::local_damping(damping, &force, &speed);
+            self.velocity.z += damped.z * (dt / (self.mass * self.inertia_scale));
+            self.position += self.velocity * dt;
+            return;
         }
         let (mut force, mut torque) = (self.force, self.torque);
         if damping > 0.0 {

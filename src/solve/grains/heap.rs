@@ -2,8 +2,8 @@
 
 use crate::law::Frictional;
 use crate::math::{Mat3, Vec3};
-use crate::model::{Heap, Support};
-use crate::shape::{Ball, Plane, union_of_balls};
+use crate::model::{Filling, Heap};
+use crate::shape::{Ball, Plane};
 use crate::solve::STANDARD_GRAVITY;
 use crate::solve::bodies::Body;
 use crate::solve::grains::contacts::Contacts;
@@ -31,8 +31,8 @@ pub struct Grains {
     pub(super) spheres: Spheres,
     /// What each body is made of.
     pub(super) materials: Vec<Frictional>,
-    /// Density of each body (kg/m^3).
-    pub(super) densities: Vec<f64>,
+    /// Density of the spheres of each body (kg/m^3); `None` where its mass is that of a solid.
+    pub(super) densities: Vec<Option<f64>>,
     pub(super) planes: Vec<Plane>,
     pub(super) plane_material: Frictional,
     pub(super) contacts: Contacts,
@@ -53,7 +53,11 @@ impl Grains {
             gravity: Vec3::new(0.0, 0.0, -STANDARD_GRAVITY),
             spheres: Spheres::default(),
             materials: heap.clumps.iter().map(|c| c.material).collect(),
-            densities: heap.clumps.iter().map(|c| c.density).collect(),
+            densities: heap
+                .clumps
+                .iter()
+                .map(|c| (c.filling == Filling::Spheres).then_some(c.density))
+                .collect(),
             planes: heap.planes.clone(),
             plane_material: heap.plane_material,
             contacts: Contacts::default(),
@@ -62,12 +66,12 @@ impl Grains {
             skin,
         };
         for (clump, id) in heap.clumps.iter().zip(0u32..) {
-            let properties = union_of_balls(&clump.spheres);
+            let properties = clump.mass_properties();
             let centroid = properties.centroid;
             let reach = |add: f64| move |ball: &Ball| (ball.centre - centroid).norm() + add * ball.radius;
             let radius = clump.spheres.iter().map(reach(1.0)).fold(0.0, f64::max);
             grains.arms.push(clump.spheres.iter().map(reach(0.0)).fold(0.0, f64::max));
-            let body = Body::at_rest(&properties, clump.density, Support::Free, radius);
+            let body = Body::at_rest(&properties, clump.density, clump.support, radius);
             for ball in &clump.spheres {
                 grains.spheres.local.push(body.rotation.tr_mul(&(ball.centre - body.position)));
                 grains.spheres.radius.push(ball.radius);
@@ -147,17 +151,18 @@ impl Grains {
         self.bodies.iter().all(|b| (b.position.sum() + b.force.sum() + b.torque.sum()).is_finite())
     }
 
-    /// Mean unbalanced force of the bodies over the mean force of the contacts that carry, after the forces were last
+    /// Mean unbalanced force of the bodies that move over the mean force of the contacts that carry, after the forces were last
     /// summed up (YADE's definition); an unbalanced moment counts as a force at the radius of gyration, as in
     /// [`crate::solve::Assembly::unbalanced_ratio`]. 1 when no contact carries.
     pub fn unbalanced_ratio(&self) -> f64 {
-        let unbalanced: f64 = self.bodies.iter().map(Body::unbalanced).sum();
+        let moving = || self.bodies.iter().filter(|body| body.moves());
+        let unbalanced: f64 = moving().map(Body::unbalanced).sum();
         let (mut carried, mut carrying) = (0.0, 0u32);
         for force in self.contacts.carrying() {
             carried += force;
             carrying += 1;
         }
-        match (self.bodies.len(), carrying) {
+        match (moving().count(), carrying) {
             (0, _) => 0.0,
             (_, 0) => 1.0,
             (moving, _) => (unbalanced / moving as f64) / (carried / f64::from(carrying)),

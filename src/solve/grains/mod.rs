@@ -1,6 +1,8 @@
 //! Rigid bodies made of spheres in time: central differences, local damping, springs of Cundall and Strack (1979) between
 //! spheres, fixed planes.
 //!
+//! A body has the mass of its spheres, or that of a solid whose outline they are ([`crate::model::Filling`]).
+//!
 //! The laws are YADE's for its `FrictMat`: see [`crate::law::Frictional`] for the springs and for what its kn in N/m means
 //! beside a joint's kn in Pa/m. Where we depart from YADE: local damping works on the vector of the force, not on each
 //! component, and slip is measured where the force acts, so that forces do the work that the springs store and pairs keep

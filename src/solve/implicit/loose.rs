@@ -47,6 +47,7 @@ fn in_the_air(assembly: &Assembly<'_>) -> Vec<usize> {
 fn pull(body: &Body) -> Vec3 {
     match body.freedom {
         Freedom::InPlane | Freedom::Upright => Vec3::new(body.force.x, 0.0, body.force.z),
+        Freedom::Led => Vec3::new(0.0, 0.0, body.force.z),
         // Its springs hold it.
         Freedom::Mounted => Vec3::zeros(),
         Freedom::Free | Freedom::Fixed => body.force,

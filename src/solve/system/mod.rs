@@ -251,6 +251,7 @@ pub fn held(body: &Body) -> &'static [usize] {
         Freedom::InPlane => &[1, 3, 5],
         // Nor about y.
         Freedom::Upright => &[1, 3, 4, 5],
+        Freedom::Led => &[0, 1, 3, 4, 5],
         Freedom::Mounted => &[0, 1, 4, 5],
     }
 }
