@@ -9,8 +9,11 @@ mod fault;
 mod fourier;
 mod generate;
 mod measures;
+mod peak;
 mod pulse;
 mod read;
+#[cfg(test)]
+mod tests;
 
 pub use accelerogram::Accelerogram;
 pub use base::Motion;
