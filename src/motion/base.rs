@@ -135,6 +135,7 @@ impl Motion {
 
     /// Turned about the vertical by an angle (rad), positive from x (along the wall) to y (out of plane).
     pub fn turned(&self, angle: f64) -> Motion {
+        crate::check!(angle.is_finite(), "a motion was turned by {angle}");
         let (c, s) = (cos(angle), sin(angle));
         self.with_directions(|a| Vec3::new(c * a.x - s * a.y, s * a.x + c * a.y, a.z))
     }
@@ -198,6 +199,7 @@ impl Motion {
     /// A record has its own samples. A pulse is sampled, with a thousand steps to its period, or at those of the record that it goes
     /// with: for measures and figures, never for a solver.
     pub fn accelerogram(&self, direction: &Vec3) -> Accelerogram {
+        crate::check!(direction.norm() > 0.0, "a part was asked for along no direction");
         let unit = direction.normalize();
         let end = self.duration();
         let step = self.step().unwrap_or_else(|| {

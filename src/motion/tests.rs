@@ -7,8 +7,8 @@ const G: f64 = 9.81;
 /// Step of the explicit integration (s), and the share that it may err by.
 const STEP: f64 = 1e-5;
 
-/// Largest slip, where it begins and where it first ends, and the slip at the end of all movement, of a block with friction `mu`: Coulomb's law in
-/// the frame of the base, slips against the base's acceleration positive.
+/// Of a block with friction `mu`: its largest slip (m), when it begins and when it first ends (s), and the slip that is left. Coulomb's law in
+/// the frame of the base; a slip against the acceleration of the base is positive.
 fn slip(motion: &Motion, mu: f64) -> [f64; 4] {
     let (mut u, mut v, mut largest, mut begin, mut end) = (0.0_f64, 0.0_f64, 0.0_f64, -1.0, -1.0);
     let limit = mu * G;

@@ -9,8 +9,8 @@ const TERMS: usize = 24;
 /// How much of a motion of the high-pass is left at the end of a record.
 const LEFT: f64 = 1e-4;
 
-/// The second derivative of `x` in `x'' + 2 zeta omega x' + omega^2 x = z`: the second filter of Clough and Penzien, and with `zeta` = 1 that of
-/// Rezaeian and Der Kiureghian (2010). Its gain is `omega_z^2/|omega^2 - omega_z^2 + 2 i zeta omega omega_z|` at the frequency `omega_z`.
+/// The second derivative of `x` in `x'' + 2 zeta omega x' + omega^2 x = z`: the second filter of Clough and Penzien, and with `zeta` = 1
+/// that of Rezaeian and Der Kiureghian (2010). Its gain is `omega_z^2/|omega^2 - omega_z^2 + 2 i zeta omega omega_z|` at the frequency `omega_z`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct HighPass {
     /// Corner (rad/s).

@@ -15,8 +15,8 @@ const STREAM: &str = "ground motion of Kanai and Tajimi";
 /// White noise through a layer of soil (Kanai 1957, Tajimi 1960), times an envelope, then through the second filter of Clough and Penzien.
 ///
 /// The two-sided spectral density of the acceleration before the envelope and the second filter is
-/// `S(w) = S0 (wg^4 + 4 zg^2 wg^2 w^2)/((wg^2 - w^2)^2 + 4 zg^2 wg^2 w^2)`, so that its variance is `pi S0 wg (1 + 4 zg^2)/(2 zg)`; the filter
-/// multiplies it by `w^4/((wf^2 - w^2)^2 + 4 zf^2 wf^2 w^2)`. What lies above the highest frequency of the step, `pi/step`, is left out.
+/// `S(w) = S0 (wg^4 + 4 zg^2 wg^2 w^2)/((wg^2 - w^2)^2 + 4 zg^2 wg^2 w^2)`, so that its variance is
+/// `pi S0 wg (1 + 4 zg^2)/(2 zg)`; the filter multiplies it by `w^4/((wf^2 - w^2)^2 + 4 zf^2 wf^2 w^2)`. What lies above the highest frequency of the step, `pi/step`, is left out.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct KanaiTajimi {
     /// Density `S0` of the white noise (m^2/s^3), two-sided over rad/s.
@@ -48,8 +48,8 @@ impl KanaiTajimi {
     /// The process, ready to draw records of.
     ///
     /// # Errors
-    /// Every parameter that is wrong: densities, frequencies and damping ratios that are not above 0 or out of any use, a corner that is not
-    /// below the frequency of the ground, a step too long for that (a period has at least 8 samples), a duration that makes no record.
+    /// Every parameter that is wrong: densities, frequencies and damping ratios that are not above 0 or out of any use, a corner that is
+    /// not below the frequency of the ground, a step too long for that (a period has at least 8 samples), a duration that makes no record.
     ///
     /// ```
     /// use pirca::motion::{Envelope, KanaiTajimi};
@@ -142,7 +142,7 @@ impl KanaiTajimiProcess {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{Vec3, cos, sin};
+    use crate::math::{Vec3, cos, exp, sin};
 
     fn firm() -> KanaiTajimi {
         KanaiTajimi {
@@ -229,6 +229,22 @@ mod tests {
         assert!(m.end_velocity_m_per_s.abs() < 1e-3 * m.pgv_m_per_s, "{m:?}");
         assert!(m.end_displacement_m.abs() < 5e-3 * m.pgd_m, "{m:?}");
         assert_eq!(one.name, "Kanai and Tajimi, seed 3, record 5");
+    }
+
+    /// With the random numbers of a constant one, so that the shares are those of the envelope: over half a second about 1 s the root of the
+    /// mean of (t/2)^4, about 15 s exp(-0.5 x 7). Single peaks weigh more than others, and the high-pass remembers a second.
+    #[test]
+    fn a_record_follows_its_envelope() {
+        let streams = Streams::new(3, 5);
+        let envelope = Envelope::RiseAndDecay { rise: 2.0, fall: 8.0, decay: 0.5 };
+        let size = |own: KanaiTajimi, from: usize| {
+            let record = own.process().expect("good parameters").record(&streams).accelerogram(&Vec3::x());
+            record.samples()[from..from + 100].iter().map(|a| a * a).sum::<f64>().sqrt()
+        };
+        for (from, expected) in [(150, 0.265), (900, 1.0), (2950, exp(-3.5))] {
+            let found = size(KanaiTajimi { envelope, ..firm() }, from) / size(firm(), from);
+            assert!((found / expected - 1.0).abs() < 0.3, "{from}: {found} {expected}");
+        }
     }
 
     #[test]

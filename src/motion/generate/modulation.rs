@@ -17,7 +17,7 @@ pub(super) const LARGEST_RATIO: f64 = 4.92;
 /// Smallest one: that of the largest shape is 0.0104.
 pub(super) const SMALLEST_RATIO: f64 = 0.011;
 
-/// Gamma modulation `q(t) = alpha1 t^(alpha2 - 1) exp(-alpha3 t)` (Rezaeian and Der Kiureghian 2010, Eq. 4, beginning at 0): the standard
+/// Gamma modulation `q(t) = alpha1 t^(alpha2 - 1) exp(-alpha3 t)` (Rezaeian and Der Kiureghian 2010, beginning at 0): the standard
 /// deviation of the acceleration. Its square is a gamma density of shape `2 alpha2 - 1` and rate `2 alpha3`, times `2 g/pi` Arias
 /// intensities.
 #[derive(Clone, Copy, Debug, PartialEq)]

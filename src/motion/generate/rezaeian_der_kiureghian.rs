@@ -21,8 +21,8 @@ const WITHIN: f64 = 0.99;
 
 /// Modulated filtered white noise with changing frequency (Rezaeian and Der Kiureghian 2010).
 ///
-/// The answer of an oscillator of frequency `w(t)` and damping `zeta` to white noise is divided by its own standard deviation and multiplied
-/// by a gamma modulation, which has the intensity, the duration and the middle that are asked for. Means over records are meant.
+/// The answer of an oscillator of frequency `w(t)` and damping `zeta` to white noise is divided by its own standard deviation and
+/// multiplied by a gamma modulation, which has the intensity, the duration and the middle that are asked for. Means over records are meant.
 ///
 /// The high-pass comes afterwards, as in the paper, and takes with it of the Arias intensity about the share `3 zeta wc/wm`, where `wc` is
 /// the corner, and `wm` is `w(t)` about the middle; below that the noise of an oscillator is white. The record is linear between samples,
@@ -58,8 +58,8 @@ impl RezaeianDerKiureghian {
     /// The process, ready to draw records of.
     ///
     /// # Errors
-    /// Every parameter that is wrong: an intensity or times that are not above 0, a duration of the strong shaking that is not within 0.011 to
-    /// 4.92 times its middle, a frequency of which a period has fewer than 12 samples at any time, a damping ratio outside 0.02 to 0.95, a
+    /// Every parameter that is wrong: an intensity or times that are not above 0, a duration of the strong shaking that is not within 0.011
+    /// to 4.92 times its middle, a frequency of which a period has fewer than 12 samples at any time, a damping ratio outside 0.02 to 0.95, a
     /// corner outside 0.01 to 2 Hz, a duration within which less than 99 % of the intensity is expected.
     pub fn process(&self) -> Result<RezaeianDerKiureghianProcess, Vec<BadParameter>> {
         let mut faults = Faults::default();
@@ -131,7 +131,7 @@ impl RezaeianDerKiureghianProcess {
         RezaeianDerKiureghianProcess { parameters: *parameters, factors }
     }
 
-    /// The shaking (m/s^2) before the high-pass (Eq. 3 in discrete time, Eq. 9).
+    /// The shaking (m/s^2) before the high-pass, in discrete time.
     fn modulated(&self, streams: &Streams) -> Vec<f64> {
         let n = self.factors.len();
         let mut stream = streams.of(STREAM);
@@ -174,7 +174,7 @@ impl RezaeianDerKiureghianProcess {
     }
 }
 
-/// Answer of the filter, as it is at sample `i`, to a pulse then, at each later sample (Eq. 6): `w/sqrt(1 - zeta^2) exp(-zeta w t) sin(w
+/// Answer of the filter, as it is at sample `i`, to a pulse then, at each later sample: `w/sqrt(1 - zeta^2) exp(-zeta w t) sin(w
 /// sqrt(1 - zeta^2) t)`. It is followed until it has died away.
 fn answer(parameters: &RezaeianDerKiureghian, i: usize, samples: usize, mut add: impl FnMut(usize, f64)) {
     let (step, zeta) = (parameters.step, parameters.zeta);
@@ -218,8 +218,8 @@ mod tests {
         [mean, (squares / (n - 1.0) / n).sqrt()]
     }
 
-    /// Of 500 records: means of Arias intensity and rate of rising through 0 within 3.5 standard errors of what was asked for, after what the
-    /// documentation says that high-pass and step take. Durations of single records scatter about that of the mean intensity, and their
+    /// Of 500 records: means of Arias intensity and rate of rising through 0 within 3.5 standard errors of what was asked for, after what
+    /// the documentation says that high-pass and step take. Durations of single records scatter about that of the mean intensity, and their
     /// mean is a little shorter (noise reaches 5 % later and 95 % earlier in one record than on average): 1 % is allowed for that.
     #[test]
     fn means_over_records_are_what_was_asked_for() {

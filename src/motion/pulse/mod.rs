@@ -31,8 +31,8 @@ pub enum Pulse {
         /// How long, `T` (s): half of the period.
         duration: f64,
     },
-    /// `a = A sin(2 pi f t)` for whole cycles. The base ends at rest, displaced by `n A/(2 pi f^2)`; one cycle is the forward pulse (type A)
-    /// of Makris and Roussos (2000).
+    /// `a = A sin(2 pi f t)` for whole cycles. The base ends at rest, displaced by `n A/(2 pi f^2)`; one cycle is the forward pulse (type
+    /// A) of Makris and Roussos (2000).
     Sine {
         /// Peak acceleration `A` (m/s^2).
         amplitude: f64,
@@ -60,7 +60,7 @@ pub enum Pulse {
         /// Frequency `f` (Hz) at which its spectrum is largest.
         frequency: f64,
     },
-    /// Near-fault pulse of Mavroeidis and Papageorgiou (2003, Eq. 3), given by its velocity
+    /// Near-fault pulse of Mavroeidis and Papageorgiou (2003), given by its velocity
     /// `v = A/2 (1 + cos(2 pi fp s/gamma)) cos(2 pi fp s + nu)` for `|s| <= gamma/(2 fp)`, `s` from its middle.
     ///
     /// The base ends at rest, displaced by `-A cos(nu) sin(pi gamma)/(2 pi fp (gamma^2 - 1))`: nothing for a whole `gamma` from 2 on or for
@@ -255,8 +255,8 @@ fn sine(a: f64, omega: f64, t: f64) -> State {
     }
 }
 
-/// The pulse of Mavroeidis and Papageorgiou at `t` from its beginning, by its three harmonics: of `omega` with half of the amplitude, and of
-/// `omega (1 +- 1/gamma)` with a quarter each.
+/// The pulse of Mavroeidis and Papageorgiou at `t` from its beginning, by its three harmonics: of `omega` with half of the amplitude, and
+/// of `omega (1 +- 1/gamma)` with a quarter each.
 fn near_fault(a: f64, omega: f64, gamma: f64, nu: f64, t: f64) -> State {
     let begin = -PI * gamma / omega;
     let s = t + begin;

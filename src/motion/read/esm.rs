@@ -8,7 +8,7 @@ use crate::motion::read::number::{number, shortened};
 use crate::motion::read::samples::{Samples, Unit, checked_step};
 use crate::motion::{BadRecord, Motion};
 
-/// Largest difference between the peak that the header states and that of the values, as a share, before it is noted.
+/// Largest difference between the peak that the header states and that of the values, as a share, up to which they agree.
 const SAME_PEAK: f64 = 0.01;
 
 /// Whether a line belongs to such a file alone.
@@ -60,14 +60,14 @@ pub(super) fn read(name: &str, lines: Lines) -> Result<Motion, BadRecord> {
         return Err(BadRecord::at(line, found, "as many as stated", "get the whole file"));
     }
     let peak = samples.peak();
-    if let Some(fault) = samples.weakness(unit) {
+    let said = numeric(&header, "PGA_CM/S^2")?.filter(|_| unit == Unit::CentimetrePerSquareSecond);
+    let is_said = said.is_some_and(|(_, said)| (said.abs() - peak).abs() <= SAME_PEAK * peak);
+    // A weak record is none of another unit if the header states its peak.
+    if let Some(fault) = samples.weakness(unit).filter(|_| !is_said || peak == 0.0) {
         return Err(fault);
     }
     let (record, mut notes) = samples.record(step, unit)?;
-    if let Some((_, said)) = numeric(&header, "PGA_CM/S^2")?
-        && unit == Unit::CentimetrePerSquareSecond
-        && (said.abs() - peak).abs() > SAME_PEAK * peak
-    {
+    if let Some((_, said)) = said.filter(|_| !is_said) {
         notes.push(format!("the header states a peak of {said} cm/s^2, and that of the values is {peak}"));
     }
     let motion = Motion::of_record(name, record).noted(notes);

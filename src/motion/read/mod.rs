@@ -30,8 +30,8 @@ impl Motion {
     /// standard gravity. The first sample lies at the time 0. [`Motion::notes`] say what the user should know.
     ///
     /// # Errors
-    /// The first fault of the file: its line, what was found, what is allowed, and how to mend it. Refused are also a peak above 5 g or below
-    /// 5e-4 g, which is nearly always a slip of the unit, times that are not at equal steps, and a count that is not the one stated.
+    /// The first fault of the file: its line, what was found, what is allowed, and how to mend it. Refused are also a peak above 5 g or
+    /// below 5e-4 g, which is nearly always a slip of the unit (unless a header of ESM states that peak), times that are not at equal steps, and a count that is not the one stated.
     pub fn read(path: &Path) -> Result<Motion, BadRecord> {
         let name = path.display().to_string();
         let named = |fault: BadRecord| BadRecord { file: name.clone(), ..fault };

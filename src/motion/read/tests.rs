@@ -78,6 +78,9 @@ fn esm_is_read_along_x_or_z() {
     let said = "the header states a peak of -95 cm/s^2, and that of the values is 98.1";
     assert!(odd.notes.iter().any(|note| note == said), "{:?}", odd.notes);
     assert!(!motion.notes.iter().any(|note| note.contains("peak")), "{:?}", motion.notes);
+    // Weak, but not by a slip of the unit.
+    let weak = format!("{ESM}0.1\n0.2\n-0.3\n0.1\n").replace("-98.1", "-0.3000");
+    assert_eq!(samples(&read(&weak).expect("a good record"), &Vec3::x())[2], -0.003);
     for (unit, size) in [("m/s^2", 1.0), ("g", STANDARD_GRAVITY)] {
         let head = ESM.replace("UNITS: cm/s^2", &format!("UNITS: {unit}"));
         let motion = read(&format!("{head}1.5\n-3.0\n2.0\n-0.5\n")).expect("a good record");
@@ -90,6 +93,9 @@ fn tables_are_read_by_their_headers() {
     let one = read("t_s,a_g\n0.00,0.1\n0.01,-0.2\n0.02,0.1\n").expect("a good record");
     assert!((one.acceleration(0.01).x + 0.2 * STANDARD_GRAVITY).abs() < 1e-15);
     assert!((one.step().expect("a record") - 0.01).abs() < 1e-17);
+    // The mark of UTF-8 before it, and a comment that speaks of other formats.
+    let marked = "\u{feff}t_s,a_g\n# from NPTS= 4000, DT= .0050 SEC\n0.00,0.1\n0.01,-0.2\n0.02,0.1\n";
+    assert_eq!(read(marked).expect("a good record"), one);
     // Three axes, in units and an order of their own, with semicolons, quotes, comments and blanks.
     let text = "# from a table\n#dt_s: 0.01\n\n\"az_cm_per_s2\"; ay_m_per_s2 ;AX_G\n 98 ;1.0; 0.1\n# between\n0;-1.0;0.2\n0;0;0\n";
     let three = read(text).expect("a good record");
@@ -163,6 +169,7 @@ fn cases() -> Vec<Case> {
         (with(at2, "ACCELERATION TIME SERIES IN UNITS OF G\n", ""), 0, "the header states no unit"),
         (with(at2, "ACCELERATION TIME SERIES IN UNITS OF G", "VELOCITY TIME SERIES IN UNITS OF CM/S"), 3, "give the file of accelerations"),
         (with(at2, "ACCELERATION TIME SERIES IN UNITS OF G", "DISPLACEMENT TIME SERIES IN UNITS OF CM"), 3, "the header says \"DISPLACEMENT TIME SERIES IN UNITS OF CM\""),
+        (with(at2, "ACCELERATION TIME SERIES", "VELOCITY TIME SERIES"), 3, "give the file of accelerations"),
         (with(at2, "UNITS OF G", "UNITS OF CM/SEC/SEC"), 3, "convert it to CSV"),
         // PEER: values
         (with(at2, "NPTS=      7", "NPTS=      6"), 4, "the header states 6 values, and there are 7; allowed is as many as stated"),
