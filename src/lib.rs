@@ -83,6 +83,7 @@
 //! | [`shape`] | convex polygons and polyhedra: cut, clip, inertia, overlap, validity; unions of balls |
 //! | [`random`] | seed streams keyed by (seed, member, quantity); distribution families |
 //! | [`stats`] | moments, COV, intervals, bootstrap, ratios, distances |
+//! | [`motion`] | ground motions: records read, generated, measured |
 //! | [`law`] | constitutive laws: normal laws, Coulomb, weakening, contact of spheres, damping |
 //! | [`model`] | the nouns: block, wall, clump of spheres, outcome |
 //! | [`exchange`] | walls from and to other programs: wall.json, OBJ; names their faults |
@@ -111,6 +112,7 @@ pub mod interrupt;
 pub mod law;
 pub mod math;
 pub mod model;
+pub mod motion;
 pub mod protocol;
 pub mod random;
 pub mod report;

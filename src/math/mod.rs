@@ -1,5 +1,5 @@
 //! Vectors, elementary functions on libm, angles at the border, and the invariant check that stays on in release;
-//! monotone curves, and how far words are apart.
+//! monotone curves, how far words are apart, and standard gravity.
 
 mod curve;
 mod elementary;
@@ -13,6 +13,9 @@ pub use elementary::*;
 pub use exponentials::exp_all;
 pub use monotone::monotone_slopes;
 pub use words::edit_distance;
+
+/// Standard gravity (m/s^2).
+pub const STANDARD_GRAVITY: f64 = 9.806_65;
 
 /// A vector or a position in metres (or whatever unit the user of it states); x along the wall, y out of plane
 /// (positive downhill), z up.

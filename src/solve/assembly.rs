@@ -1,15 +1,12 @@
 //! What every solver works on: bodies, their joints and ties, and the loads that act on them.
 
 use crate::contact;
-use crate::math::{Mat3, Vec3};
+use crate::math::{Mat3, STANDARD_GRAVITY, Vec3};
 use crate::model::{JointLaws, Support, Wall};
 use crate::solve::bodies::{Bodies, Freedom};
 use crate::solve::joints::Joints;
 use crate::solve::mount::{Mount, Mounted};
 use crate::solve::ties::{Held, Tie};
-
-/// Standard gravity (m/s^2).
-pub const STANDARD_GRAVITY: f64 = 9.806_65;
 
 /// A body that has moved by less than this share of what makes contacts be looked for keeps those it has, where the other
 /// has not moved either.

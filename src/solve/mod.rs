@@ -15,7 +15,8 @@ mod status;
 pub mod system;
 mod ties;
 
-pub use assembly::{Assembly, STANDARD_GRAVITY};
+pub use crate::math::STANDARD_GRAVITY;
+pub use assembly::Assembly;
 pub use mount::{Mount, Mounted};
 pub use status::{Ahead, Equilibrate, Followed, Settled, Status, Way};
 pub use ties::{Held, Tie};

@@ -12,6 +12,7 @@ const HOUSE: &[(&str, &[&str])] = &[
     ("shape", &["math"]),
     ("random", &["math"]),
     ("stats", &["math", "random"]),
+    ("motion", &["math", "random"]),
     ("law", &["math"]),
     ("model", &["math", "shape", "law"]),
     ("exchange", &["math", "shape", "model"]),
