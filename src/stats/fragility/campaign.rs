@@ -1,10 +1,10 @@
 //! Outcomes of walls under records at several intensities.
 
-use super::super::Estimate;
-use super::super::empirical::clopper_pearson;
 use super::crossed::Crossed;
 use super::probit::Point;
 use crate::math::ln;
+use crate::stats::Estimate;
+use crate::stats::empirical::clopper_pearson;
 
 /// How one wall came through one record at one intensity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]

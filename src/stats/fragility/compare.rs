@@ -1,10 +1,10 @@
 //! Two arrangements under the same records, and two measures of intensity on the same outcomes.
 
-use super::super::Estimate;
 use super::campaign::Campaign;
 use super::crossed::Crossed;
 use super::lognormal::{Method, estimates, exponential, maximum};
 use crate::math::ln;
+use crate::stats::Estimate;
 
 /// How the walls of two campaigns belong together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! Intervals of statistics of trials that share records and walls.
 
-use super::super::Estimate;
-use super::super::reference::student;
 use crate::random::Stream;
+use crate::stats::Estimate;
+use crate::stats::reference::student;
 
 /// Records and walls that cross: each record meets each wall. Walls may come in several groups, as those of two arrangements, which are
 /// sampled apart.

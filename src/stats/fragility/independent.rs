@@ -1,13 +1,13 @@
 //! Intervals of a lognormal curve whose trials are independent: a record of its own for each. Where records are shared they are far too
 //! short: [`lognormal`](super::lognormal()) is for those.
 
-use super::super::order::quantile_of_sorted;
-use super::super::reference::TAIL;
 use super::campaign::Stripe;
 use super::lognormal::{Lognormal, fitted};
 use super::probit::{self, Point};
 use crate::math::{exp, ln};
 use crate::random::{Stream, standard_normal};
+use crate::stats::order::quantile_of_sorted;
+use crate::stats::reference::TAIL;
 
 /// 95 % intervals of theta and beta by Wald: from the observed information at the curve, ln theta and beta taken for normal. `None` where the
 /// trials tell no curve.

@@ -1,9 +1,5 @@
 //! The share of collapses as a curve that rises and is nothing else, and whether a lognormal one agrees with it.
 
-use super::super::Estimate;
-use super::super::empirical::clopper_pearson;
-use super::super::order::quantile_of_sorted;
-use super::super::reference::student;
 use super::campaign::{Campaign, Order};
 use super::latent::Latent;
 use super::lognormal::{Lognormal, Method, maximum};
@@ -11,6 +7,10 @@ use super::probit::Point;
 use super::shares::shares;
 use crate::random::Stream;
 use crate::random::standard_normal::cdf;
+use crate::stats::Estimate;
+use crate::stats::empirical::clopper_pearson;
+use crate::stats::order::quantile_of_sorted;
+use crate::stats::reference::student;
 
 /// The isotonic curve at one intensity.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]

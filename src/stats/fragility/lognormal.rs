@@ -1,11 +1,11 @@
 //! The lognormal fragility curve, and what can be said where the trials do not tell one.
 
-use super::super::Estimate;
 use super::campaign::{Campaign, Stripe};
 use super::crossed::Crossed;
 use super::probit::{self, Point, Probit};
 use crate::math::{exp, ln, ln_gamma};
 use crate::random::standard_normal::cdf;
+use crate::stats::Estimate;
 
 /// P(collapse | x) = Phi(ln(x / theta) / beta).
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -42,13 +42,13 @@ pub enum Told {
     Curve,
     /// Nothing: there is no trial.
     NoTrial,
-    /// All trials are at one intensity: the share of collapses there and no curve; see [`isotonic`](super::isotonic).
+    /// All trials are at one intensity: the share of collapses there and no curve; see [`isotonic`](super::isotonic()).
     OneIntensity {
         /// That intensity.
         intensity: f64,
     },
     /// No wall collapses. Theta lies above what was tested, if not by chance; how probable collapse may be there is said by
-    /// [`isotonic`](super::isotonic).
+    /// [`isotonic`](super::isotonic()).
     NoneCollapsed {
         /// The highest intensity of a trial.
         highest: f64,

@@ -1,12 +1,12 @@
 //! Where the scatter of capacities comes from: the records, the walls, what is particular to a pair of them, and the rest.
 
-use super::super::Estimate;
-use super::super::reference::{TAIL, fisher};
 use super::campaign::{Campaign, Order};
 use super::lognormal::probit_curve;
 use super::probit::{At, Probit};
 use crate::math::{cos, exp, sin};
 use crate::random::standard_normal::quantile;
+use crate::stats::Estimate;
+use crate::stats::reference::{TAIL, fisher};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
@@ -43,8 +43,14 @@ pub struct Shares {
 ///   independent pairs that are worth as much as these (after Korn and Graubard 1998), as it must hold where nothing is seen as well.
 ///
 /// The interaction is what the others leave; its interval follows from that of what neither record nor wall explains and from that of the
-/// rest, taken for independent (Zou and Donner 2008). It leaves out and fits each record, wall and pair in turn: some 20 ms for 20 records,
-/// 5 walls and 6 stripes, some seconds for ten times as many pairs.
+/// rest, taken for independent (Zou and Donner 2008).
+///
+/// In simulated campaigns of 10 to 20 records, 5 to 10 walls and 6 stripes the intervals hold the share of the record in 85 to 97 of 100, of
+/// the wall in 96 to 98, of the interaction in 98 to 100, and of the rest in 89 to 100. The value of a small rest is mostly 0, as stripes
+/// show it by few events or none, and the interaction's is larger by as much.
+///
+/// The fit is repeated without each record, wall and pair: some 30 ms for 20 records, 5 walls and 6 stripes, and as the square of the
+/// number of pairs for more.
 pub fn shares(campaign: &Campaign) -> Shares {
     const NOTHING: Shares = Shares {
         record: Estimate::UNDEFINED,
@@ -105,7 +111,7 @@ const TERMS: usize = 40;
 
 /// Correlations of trials that share a record (and no wall), and a wall (and no record).
 ///
-/// The expected product of two generalised residuals is a power series of the correlation: Mehler's, whose n-th term is
+/// The expected product of two generalised residuals is a power series of the correlation: that of Mehler (1866), whose n-th term is
 /// w(eta) He_(n-1)(eta) / root of n! at the one trial times the same at the other, with w = phi^2 / (p (1 - p)).
 fn by_variance(campaign: &Campaign, order: &Order, reached: &Reached) -> Option<[Estimate; 2]> {
     let outcomes = campaign.outcomes();
