@@ -201,7 +201,8 @@ mod tests {
             let all: f64 = weights.iter().sum();
             (all > 0.0).then(|| [weights.iter().enumerate().map(|(k, w)| k as f64 * w).sum::<f64>() / all])
         };
-        assert_eq!(Crossed::new(1, &[3]).estimates(share)[0], Estimate { value: Some(1.0), interval: None });
+        let all = |weights: &[f64]| Some([weights.iter().sum()]);
+        assert_eq!(Crossed::new(1, &[3]).estimates(all)[0], Estimate { value: Some(3.0), interval: None });
         // Values 0, 1, 2 of three records: mean 1, standard error 1 / sqrt 3, two degrees of freedom.
         let [low, high] = Crossed::new(3, &[1]).estimates(share)[0].interval.unwrap();
         let half = student(2.0) / 3.0_f64.sqrt();

@@ -37,7 +37,9 @@ mod isotonic;
 mod latent;
 mod lognormal;
 mod probit;
+mod reached;
 mod shares;
+mod violations;
 
 pub use campaign::{Campaign, Counts, Outcome, Stripe};
 pub use compare::{Measures, Ratios, Walls, measures, ratios};
