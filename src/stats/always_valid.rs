@@ -1,7 +1,7 @@
 //! Intervals that hold at every number of values at once, so that whoever looks after each further value and stops when he likes is
 //! still right with the stated confidence (confidence sequences: Robbins 1970).
 
-use super::fragility::clopper_pearson_at;
+use super::empirical::clopper_pearson_at;
 use super::moments::{check_values, mean, sigma};
 use super::order::order_interval;
 use crate::math::{exp, ln, pow};

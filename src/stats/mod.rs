@@ -11,8 +11,9 @@ mod bootstrap;
 mod characteristic;
 mod dominance;
 pub mod effort;
+mod empirical;
 mod estimate;
-mod fragility;
+pub mod fragility;
 pub mod importance;
 mod influence;
 mod kolmogorov;
@@ -39,10 +40,10 @@ pub use characteristic::{
     tolerance_factor,
 };
 pub use dominance::{Distributed, Dominance, dominance};
-pub use estimate::Estimate;
-pub use fragility::{
+pub use empirical::{
     EmpiricalStep, clopper_pearson, clopper_pearson_at, dkw_half_width, empirical, empirical_of,
 };
+pub use estimate::Estimate;
 pub use influence::{BasePoint, Influence, Share, influence};
 pub use kolmogorov::{ks_p_value, ks_statistic};
 pub use moments::{correlation, cov, mean, sigma, sum};

@@ -1,7 +1,7 @@
 //! Quantiles of the distributions that intervals are read from.
 
 use super::very_many::{self, VERY_MANY};
-use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
+use statrs::distribution::{Beta, ChiSquared, ContinuousCDF, StudentsT};
 
 /// Probability left out at each end of a 95 % interval.
 pub(super) const TAIL: f64 = 0.025;
@@ -29,4 +29,27 @@ pub(super) fn chi_square(freedom: f64) -> [f64; 2] {
     let c = ChiSquared::new(freedom);
     crate::check!(c.is_ok(), "chi-square has no {freedom} degrees of freedom");
     c.map_or([f64::NAN; 2], |c| [c.inverse_cdf(TAIL), c.inverse_cdf(1.0 - TAIL)])
+}
+
+/// Lower and upper 2.5 % point of Fisher's F, the ratio of two mean squares with these degrees of freedom (any positive numbers).
+pub(super) fn fisher(above: f64, below: f64) -> [f64; 2] {
+    // The share of the first sum of squares in both has a beta distribution.
+    let beta = Beta::new(0.5 * above, 0.5 * below);
+    crate::check!(beta.is_ok(), "Fisher's F has no {above} and {below} degrees of freedom");
+    let of = |share: f64| share / (1.0 - share) * below / above;
+    [TAIL, 1.0 - TAIL].map(|probability| beta.map_or(f64::NAN, |beta| of(beta.inverse_cdf(probability))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::fisher;
+
+    #[test]
+    fn points_of_fishers_f_are_those_of_printed_tables() {
+        // Upper 2.5 % points, and the lower ones as the reciprocals of the upper ones with the degrees exchanged.
+        for (above, below, known) in [(4.0, 10.0, 4.468), (10.0, 4.0, 8.844), (1.0, 20.0, 5.872)] {
+            assert!((fisher(above, below)[1] - known).abs() < 6e-4, "{:?}", fisher(above, below));
+            assert!((fisher(below, above)[0] * known - 1.0).abs() < 2e-4);
+        }
+    }
 }

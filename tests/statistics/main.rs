@@ -8,6 +8,7 @@ mod characteristic;
 mod coverage;
 mod effort;
 mod families;
+mod fragility;
 mod influence;
 mod order;
 mod printed;
