@@ -2,6 +2,7 @@
 
 mod amplified;
 mod back;
+mod base_motion;
 mod bounds;
 mod changes;
 mod closing;
@@ -34,6 +35,7 @@ mod watch;
 mod witness;
 
 pub use amplified::amplified;
+pub use base_motion::{Energy, Extreme, InTime, Shaken, Shaking, Verdict, shake, shake_twice};
 pub use bounds::{Agreement, Bounds};
 pub use changes::{Changes, Creep, Loss};
 pub use closing::Closing;

@@ -20,7 +20,7 @@ const HOUSE: &[(&str, &[&str])] = &[
     ("generate", &["math", "shape", "random", "law", "model"]),
     ("solve", &["interrupt", "math", "shape", "law", "model", "contact"]),
     // `shape`, beyond the house's first plan: a pressure is integrated over faces, and end blocks are shapes.
-    ("protocol", &["math", "shape", "law", "model", "contact", "solve"]),
+    ("protocol", &["math", "shape", "law", "motion", "model", "contact", "solve"]),
     ("study", &["math", "random", "stats", "law", "model", "generate", "solve", "protocol"]),
     (
         "ensemble",

@@ -1,6 +1,7 @@
 //! Laws of physics and closed forms: every test holds its own answer.
 
 mod agreement;
+mod base_motion;
 mod closed_form_cases;
 mod closed_forms;
 mod crushing;

@@ -1,8 +1,10 @@
 //! The explicit solver (3DEC- and YADE-like): central differences, local damping, automatic critical step.
 
 mod critical;
+mod rayleigh;
 mod step;
 
+pub use rayleigh::Rayleigh;
 pub use step::Simulation;
 
 /// Settings of the explicit solver.

@@ -3,7 +3,7 @@
 use crate::contact;
 use crate::model::{JointLaws, Wall};
 use crate::solve::bodies::Bodies;
-use crate::solve::explicit::{Settings, critical};
+use crate::solve::explicit::{Rayleigh, Settings, critical};
 use crate::solve::{Assembly, Equilibrate, Settled, Status};
 
 /// Steps between two looks at the unbalanced force ratio.
@@ -21,6 +21,7 @@ pub struct Simulation<'a> {
     /// Steps taken since the start.
     pub steps: u64,
     settings: Settings,
+    rayleigh: Rayleigh,
     /// Length of the step that led to the positions now (s); 0 before the first one.
     last_dt: f64,
 }
@@ -33,9 +34,17 @@ impl<'a> Simulation<'a> {
 
     /// Goes on from an assembly as it stands.
     pub fn of(assembly: Assembly<'a>, settings: Settings) -> Self {
-        let mut simulation = Simulation { assembly, dt: 1.0, steps: 0, settings, last_dt: 0.0 };
+        let mut simulation =
+            Simulation { assembly, dt: 1.0, steps: 0, settings, rayleigh: Rayleigh::default(), last_dt: 0.0 };
         simulation.adapt_step();
         simulation
+    }
+
+    /// Damped as well in proportion to mass and stiffness. With scaled inertia that has no meaning.
+    pub fn damped(mut self, rayleigh: Rayleigh) -> Self {
+        self.rayleigh = rayleigh;
+        self.adapt_step();
+        self
     }
 
     /// [`Equilibrate::settle`] with the status and the unbalanced force ratio alone.
@@ -70,7 +79,18 @@ impl<'a> Simulation<'a> {
     pub fn step(&mut self) {
         self.assembly.apply_loads();
         let Assembly { bodies, joints, .. } = &mut self.assembly;
-        joints.apply(&mut bodies.all, self.last_dt);
+        let Rayleigh { mass, stiffness } = self.rayleigh;
+        if stiffness > 0.0 {
+            joints.apply_damped(&mut bodies.all, self.last_dt, stiffness);
+        } else {
+            joints.apply(&mut bodies.all, self.last_dt);
+        }
+        if mass > 0.0 {
+            for body in &mut bodies.all {
+                body.force -= body.velocity * (mass * body.mass);
+                body.torque -= body.angular_momentum * mass;
+            }
+        }
         for body in &mut bodies.all {
             body.advance(self.dt, self.settings.damping);
         }
@@ -106,7 +126,8 @@ impl<'a> Simulation<'a> {
             self.dt = 1.0;
         } else {
             let largest = bounds.iter().fold(0.0, |a: f64, &b| a.max(b));
-            self.dt = self.settings.longest_step.min(safety * 2.0 / (2.0 * largest).sqrt());
+            let critical = self.rayleigh.step_factor() * 2.0 / (2.0 * largest).sqrt();
+            self.dt = self.settings.longest_step.min(safety * critical);
         }
     }
 }

@@ -76,20 +76,20 @@ impl Joint {
     }
 
     /// An open joint forgets its shear and has no force.
-    fn let_go(&mut self) {
+    pub(super) fn let_go(&mut self) {
         self.states.iter_mut().for_each(SubContact::forget_shear);
         self.force = 0.0;
     }
 
     /// Pressure and shear over the joint; its sub-contacts remember the shear from now on.
-    fn sums(&mut self, gap: &Gap, motion: &Motion, scratch: &mut Vec<Pressed>) -> Sums {
+    pub(super) fn sums(&mut self, gap: &Gap, motion: &Motion, scratch: &mut Vec<Pressed>) -> Sums {
         let pressure = self.press(gap, scratch);
         let shear = self.law.shear(&mut self.states, scratch, motion);
         Sums { pressure, shear }
     }
 
     /// Adds the force to both bodies.
-    fn add(&mut self, bodies: &mut [Body], pose: &Pose, sums: &Sums) {
+    pub(super) fn add(&mut self, bodies: &mut [Body], pose: &Pose, sums: &Sums) {
         let force = pose.world(sums.pressure.force, sums.shear.force);
         let moment = pose.moment(sums);
         self.force = force.norm();
@@ -207,7 +207,7 @@ impl Pose {
 }
 
 /// Shear displacement increments of the incident against the reference body over a step.
-fn relative_motion(i: &Body, r: &Body, pose: &Pose, dt: f64) -> Motion {
+pub(super) fn relative_motion(i: &Body, r: &Body, pose: &Pose, dt: f64) -> Motion {
     let slip = i.velocity + i.spin.cross(&(pose.origin - i.position))
         - r.velocity
         - r.spin.cross(&(pose.origin - r.position));

@@ -6,6 +6,7 @@ use crate::math::Vec3;
 use crate::shape::{Moments, Polygon};
 use crate::solve::bodies::{Bodies, Body};
 use crate::solve::joints::points::{POINTS, Spread};
+use crate::solve::joints::viscous::Branch;
 
 /// A joint between two bodies, its geometry stored in the bodies' own axes.
 #[derive(Clone, Debug)]
@@ -40,6 +41,8 @@ pub struct Joint {
     pub(super) states: Vec<SubContact>,
     /// Size of the force at the last evaluation (N).
     pub force: f64,
+    /// What damps it, if anything does and it touches.
+    pub(super) branch: Option<Box<Branch>>,
 }
 
 /// The gap between incident face and reference plane, less the distance at which they begin to press, at plane
@@ -113,6 +116,7 @@ impl Joint {
             spreads: cells.iter().map(|cell| Spread::new(&cell.moments)).collect(),
             cells,
             force: 0.0,
+            branch: None,
         }
     }
 

@@ -7,6 +7,7 @@ mod pressure;
 mod slopes;
 #[cfg(test)]
 mod tests;
+mod viscous;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -123,6 +124,14 @@ impl Joints {
         interrupt::look();
         for joint in &mut self.all {
             joint.apply(bodies, dt, &mut self.scratch);
+        }
+    }
+
+    /// The same with damping of `beta` (s) times the stiffness of each joint that touches.
+    pub fn apply_damped(&mut self, bodies: &mut [Body], dt: f64, beta: f64) {
+        interrupt::look();
+        for joint in &mut self.all {
+            joint.apply_damped(bodies, (dt, beta), &mut self.scratch);
         }
     }
 

@@ -33,7 +33,9 @@ const DECREASE: f64 = 1e-2;
 const AIM: f64 = 0.1;
 const IDLE: u32 = 3;
 /// Newton's iterations between two updates of the impulses end at this share of the tolerance.
-const INNER: f64 = 1e-3;
+const INNER: f64 = 1e-2;
+/// A matrix from before serves as long as it takes off all but so much.
+const SERVES: f64 = 1e-4;
 
 /// What Newton's method came to.
 #[derive(Clone, Debug)]
@@ -53,10 +55,25 @@ pub(super) struct Start<'s> {
     pub weight: f64,
 }
 
+/// For which matrix the system is factorised. It is forgotten when contacts are looked for anew.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Kept {
+    states: Vec<State>,
+    weight: f64,
+    step: f64,
+}
+
+impl Kept {
+    fn serves(&self, states: &[State], weight: f64, step: f64) -> bool {
+        self.weight == weight && self.step == step && self.states == states
+    }
+}
+
 /// The point at which a set of velocities is looked at.
 struct Trial {
     v: Vec<f64>,
     impulses: Vec<[f64; 3]>,
+    states: Vec<State>,
     unbalance: Vec<f64>,
     energy: f64,
 }
@@ -66,7 +83,7 @@ struct Trial {
 /// The weight grows from update to update. Where Newton's method loses its way it starts again from the last update with less.
 pub(super) fn newton(
     problem: &Problem,
-    system: &mut System,
+    (system, kept): (&mut System, &mut Kept),
     bodies: &[Body],
     start: Start<'_>,
     (tolerance, max_iterations): (f64, u32),
@@ -74,8 +91,12 @@ pub(super) fn newton(
     let mut from = start.impulses.to_vec();
     let mut v = start.velocities.to_vec();
     // Of a body of the mean mass the impulse of the tolerance must be more than what the weight makes of the rounding.
-    let most =
-        WEIGHT.min(0.1 * AIM * tolerance * problem.weight / (problem.mean_mass * ROUNDING * problem.fastest));
+    let limit = 0.1 * AIM * tolerance * problem.weight / (problem.mean_mass * ROUNDING * problem.fastest);
+    // A tenth of a tenth, so that the matrix of one step serves the next.
+    let mut most = WEIGHT;
+    while most > limit {
+        most /= GROWS;
+    }
     let mut weight = most.min(start.weight.max(FIRST));
     // An impulse of the tolerance on a body of the mean mass.
     let unit = problem.weight * problem.weight / problem.mean_mass;
@@ -86,10 +107,21 @@ pub(super) fn newton(
         let mut now = Trial::at(problem, v.clone(), &from, weight);
         let (mut slow, mut leaps) = (0, 0);
         while now.energy > enough && slow < SLOW && factorisations < max_iterations {
+            // The matrix of the last step serves where points stick, slide and open as they did there, if it takes off well.
+            if kept.serves(&now.states, weight, problem.step) {
+                let change = system.solve(&now.unbalance);
+                let v = now.v.iter().zip(&change).map(|(v, change)| v - change).collect();
+                let next = Trial::at(problem, v, &from, weight);
+                if next.energy < SERVES * now.energy {
+                    now = next;
+                    continue;
+                }
+            }
             system.clear();
             let slides = assemble(problem, system, bodies, (&now.v, &from, weight));
             system.factorise(!slides)?;
             factorisations += 1;
+            *kept = Kept { states: now.states.clone(), weight, step: problem.step };
             let change = system.solve(&now.unbalance);
             let next = search(problem, &now, &change, &from, weight);
             // At a kink no length takes anything off; beyond it the method goes on.
@@ -130,12 +162,14 @@ pub(super) fn newton(
 impl Trial {
     fn at(problem: &Problem, v: Vec<f64>, from: &[[f64; 3]], weight: f64) -> Trial {
         let response = |(point, from): (&Point, &[f64; 3])| {
-            point.response(&point.relative_velocity(&v), from, weight * point.inertia).impulse
+            let response = point.response(&point.relative_velocity(&v), from, weight * point.inertia);
+            (response.impulse, response.state)
         };
-        let impulses: Vec<[f64; 3]> = problem.points.iter().zip(from).map(response).collect();
+        let (impulses, states): (Vec<[f64; 3]>, Vec<State>) =
+            problem.points.iter().zip(from).map(response).unzip();
         let unbalance = problem.unbalance(&v, &impulses);
         let energy = problem.energy(&unbalance);
-        Trial { v, impulses, unbalance, energy }
+        Trial { v, impulses, states, unbalance, energy }
     }
 }
 

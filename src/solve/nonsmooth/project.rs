@@ -8,7 +8,7 @@ use crate::math::Vec3;
 use crate::solve::Assembly;
 use crate::solve::nonsmooth::Normal;
 use crate::solve::nonsmooth::contacts::Contacts;
-use crate::solve::nonsmooth::newton::{Start, newton};
+use crate::solve::nonsmooth::newton::{Kept, Start, newton};
 use crate::solve::nonsmooth::point::Bearing;
 use crate::solve::nonsmooth::problem::{Inertia, Problem};
 use crate::solve::system::{DOF, System};
@@ -25,7 +25,7 @@ const STAYS: f64 = 0.5;
 pub(super) fn project(
     assembly: &mut Assembly<'_>,
     contacts: &Contacts,
-    system: &mut System,
+    (system, kept): (&mut System, &mut Kept),
     enough: f64,
 ) -> Option<(f64, f64)> {
     let bodies = &assembly.bodies.all;
@@ -56,8 +56,11 @@ pub(super) fn project(
         fastest: overlap,
         mean_mass,
     };
+    // What the last step's matrix was for is nothing here, and what this one is for nothing to the next step.
+    *kept = Kept::default();
     let start = Start { velocities: &free, impulses: &start, weight: 0.0 };
-    let solved = newton(&problem, system, bodies, start, (TOLERANCE, MOST))?;
+    let solved = newton(&problem, (system, kept), bodies, start, (TOLERANCE, MOST))?;
+    *kept = Kept::default();
     let moved = problem.velocities(&solved.impulses);
     let mut work = 0.0;
     for (b, body) in assembly.bodies.all.iter_mut().enumerate().filter(|(_, body)| body.moves()) {

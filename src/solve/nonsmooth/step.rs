@@ -6,7 +6,8 @@ use crate::model::{JointLaws, Wall};
 use crate::solve::bodies::{Bodies, Body};
 use crate::solve::nonsmooth::cone_program::cone_program;
 use crate::solve::nonsmooth::contacts::Contacts;
-use crate::solve::nonsmooth::newton::{Start, newton};
+use crate::solve::nonsmooth::newton::{Kept, Start, newton};
+use crate::solve::nonsmooth::point::Point;
 use crate::solve::nonsmooth::problem::{Inertia, Matrix};
 use crate::solve::nonsmooth::project::project;
 use crate::solve::nonsmooth::sweeps::sweeps;
@@ -36,6 +37,8 @@ pub struct Stepped {
     /// By how much energy grew (J): of motion, less the work of gravity and dead loads; without what springs store. At most rounding in a
     /// step with rigid joints.
     pub energy_gain: f64,
+    /// Work (J) that sliding joints took: shear impulses times sliding velocities.
+    pub friction_work: f64,
     /// Work (J) of pushing joints apart that overlapped, done on the weights of the bodies apart from their velocities.
     pub projection_work: f64,
     /// Largest overlap (m) that was pushed apart.
@@ -52,6 +55,8 @@ pub struct Simulation<'a> {
     settings: Settings,
     contacts: Contacts,
     system: System,
+    /// What the system is factorised for.
+    kept: Kept,
     /// With which Newton's method begins.
     weight: f64,
 }
@@ -67,11 +72,12 @@ impl<'a> Simulation<'a> {
         let bodies = &assembly.bodies.all;
         let contacts = Contacts::find(&assembly.joints, bodies, settings.normal, &Default::default());
         let system = System::new(bodies, &assembly.joints);
-        Simulation { assembly, steps: 0, settings, contacts, system, weight: 0.0 }
+        Simulation { assembly, steps: 0, settings, contacts, system, kept: Kept::default(), weight: 0.0 }
     }
 
     /// Looks for contacts anew.
     pub fn refresh(&mut self) {
+        self.kept = Kept::default();
         let past = self.contacts.past(&self.assembly.joints, &self.assembly.bodies.all);
         self.assembly.refresh();
         let (bodies, joints) = (&self.assembly.bodies.all, &self.assembly.joints);
@@ -153,12 +159,13 @@ impl<'a> Simulation<'a> {
             is_solved: residual.natural_map <= self.settings.tolerance,
             speed: self.speed(),
             energy_gain,
+            friction_work: friction_work(&problem, &v, &impulses),
             ..Stepped::default()
         };
         if self.settings.normal != Normal::Compliant {
             let enough = OVERLAP * self.assembly.contact.reach;
-            let Simulation { assembly, contacts, system, .. } = self;
-            if let Some((overlap, work)) = project(assembly, contacts, system, enough) {
+            let Simulation { assembly, contacts, system, kept, .. } = self;
+            if let Some((overlap, work)) = project(assembly, contacts, (system, kept), enough) {
                 (stepped.projected, stepped.projection_work) = (overlap, work);
             }
         }
@@ -175,7 +182,13 @@ impl<'a> Simulation<'a> {
         if solver == StepSolver::Newton && friction == Friction::Coulomb {
             let v = velocities(bodies);
             let from = Start { velocities: &v, impulses: start, weight: self.weight };
-            let solved = newton(problem, &mut self.system, bodies, from, (tolerance, max_iterations));
+            let solved = newton(
+                problem,
+                (&mut self.system, &mut self.kept),
+                bodies,
+                from,
+                (tolerance, max_iterations),
+            );
             if let Some(solved) = solved
                 && solved.residual.natural_map <= tolerance
             {
@@ -216,6 +229,15 @@ impl<'a> Simulation<'a> {
         let of = |body: &Body| body.velocity.norm().max(body.spin.norm() * body.radius);
         self.assembly.bodies.all.iter().map(of).fold(0.0, f64::max)
     }
+}
+
+/// What joints take that slide (J).
+fn friction_work(problem: &Problem, v: &[f64], impulses: &[[f64; 3]]) -> f64 {
+    let of = |(point, impulse): (&Point, &[f64; 3])| {
+        let u = point.relative_velocity(v);
+        -(u[1] * impulse[1] + u[2] * impulse[2])
+    };
+    problem.points.iter().zip(impulses).map(of).sum()
 }
 
 /// The velocities of all bodies (m/s, rad/s), six each.

@@ -1,0 +1,13 @@
+//! A wall on a base that shakes.
+//!
+//! Motions are those against the base: on every block acts `-m a` of the base's acceleration `a` beside gravity, which is exact for a rigid base.
+//! The wall first comes to rest under gravity. Then it is followed in time, through the motion and until it has come to rest or has lost most of
+//! its weight.
+
+mod observe;
+mod settings;
+mod shake;
+
+pub use observe::{Energy, Extreme, Shaken, Verdict};
+pub use settings::{InTime, Shaking};
+pub use shake::{shake, shake_twice};

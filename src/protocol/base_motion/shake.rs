@@ -1,0 +1,206 @@
+//! The loop over time.
+
+use crate::math::Vec3;
+use crate::motion::Motion;
+use crate::protocol::Task;
+use crate::protocol::base_motion::observe::{Observer, Shaken, Verdict};
+use crate::protocol::base_motion::settings::{InTime, Shaking};
+use crate::protocol::observe::extent;
+use crate::solve::bodies::Bodies;
+use crate::solve::{Assembly, Equilibrate, Status, explicit, nonsmooth};
+
+/// Between two looks at a wall pass at least so many seconds.
+const BETWEEN_LOOKS: f64 = 1e-3;
+/// After the motion a wall whose fastest body is slower than this (m/s) is at rest.
+const RESTS: f64 = 1e-4;
+/// Looks in a row at which it has to be, as what swings is slow where it turns back.
+const LOOKS_AT_REST: u32 = 100;
+/// By so much (m/s) the stones of the twin of a wall move at the start, to and fro in turn.
+const PERTURBED: f64 = 1e-9;
+
+/// A wall in time.
+enum Mover<'a> {
+    Explicit(Box<explicit::Simulation<'a>>),
+    Nonsmooth(Box<nonsmooth::Simulation<'a>>, f64),
+}
+
+/// Shakes a wall. The task says what stands where; its load path plays no part.
+pub fn shake(task: &Task<'_>, shaking: &Shaking) -> Shaken {
+    match at_rest(task, shaking) {
+        Ok(assembly) => follow(task, shaking, &assembly, assembly.clone()),
+        Err(verdict) => Shaken { verdict, ..Shaken::nothing_yet() },
+    }
+}
+
+/// Shakes a wall, and the same once more with stones that move by next to nothing at the start. Where the two come to different verdicts that of the first is
+/// [`Verdict::Undecided`].
+pub fn shake_twice(task: &Task<'_>, shaking: &Shaking) -> [Shaken; 2] {
+    let assembly = match at_rest(task, shaking) {
+        Ok(assembly) => assembly,
+        Err(verdict) => {
+            let none = Shaken { verdict, ..Shaken::nothing_yet() };
+            return [none.clone(), none];
+        }
+    };
+    let mut first = follow(task, shaking, &assembly, assembly.clone());
+    let mut moved = assembly.clone();
+    let mut sign = 1.0;
+    for body in moved.bodies.all.iter_mut().filter(|body| body.moves()) {
+        body.velocity = Vec3::new(0.0, PERTURBED * sign, 0.0);
+        sign = -sign;
+    }
+    let second = follow(task, shaking, &assembly, moved);
+    if first.verdict != second.verdict {
+        first.verdict = Verdict::Undecided;
+    }
+    [first, second]
+}
+
+/// The wall at rest under gravity.
+fn at_rest<'a>(task: &Task<'a>, shaking: &Shaking) -> Result<Assembly<'a>, Verdict> {
+    let mut built = task.assembled();
+    let (gravity, _) = task.path.loads(0.0);
+    built.gravity = gravity;
+    built.load_factor = 1.0;
+    let from: Vec<Vec3> = built.bodies.all.iter().map(|body| body.position).collect();
+    let far = shaking.fallen_moved * thickness(task);
+    let mut stop = |bodies: &Bodies| {
+        bodies.all.iter().zip(&from).any(|(body, from)| (body.position - from).norm() > far)
+    };
+    let (settled, assembly) = match shaking.solver {
+        InTime::Explicit(settings, _) => {
+            let mut simulation = explicit::Simulation::of(built, settings);
+            (simulation.settle(&mut stop), simulation.assembly)
+        }
+        InTime::Nonsmooth(settings) => {
+            let mut simulation = nonsmooth::Simulation::of(built, settings);
+            (simulation.settle(&mut stop), simulation.assembly)
+        }
+    };
+    match settled.status {
+        Status::Equilibrium => {
+            let mut assembly = assembly;
+            assembly.bodies.stop();
+            assembly.bodies.all.iter_mut().for_each(|body| body.rescale(1.0));
+            Ok(assembly)
+        }
+        Status::Stopped => Err(Verdict::UnstableAtRest),
+        Status::StepsSpent | Status::NoEquilibrium | Status::NonFinite => Err(Verdict::NotSolved),
+    }
+}
+
+/// Thickness of the wall (m).
+fn thickness(task: &Task<'_>) -> f64 {
+    let (low, high) = extent(task.wall);
+    high.y - low.y
+}
+
+/// Follows a wall from the beginning of the motion.
+fn follow(task: &Task<'_>, shaking: &Shaking, at_rest: &Assembly<'_>, start: Assembly<'_>) -> Shaken {
+    let limits = [shaking.fallen_moved, shaking.fallen_down];
+    let mut observer = Observer::new(task.wall, at_rest, (thickness(task), limits), shaking.shares);
+    let gravity = start.gravity;
+    let mut mover = Mover::new(start, &shaking.solver);
+    let motion = &shaking.motion;
+    let (shakes, end) = (motion.duration(), motion.duration() + shaking.after);
+    let (mut time, mut looked, mut resting) = (0.0, 0.0, 0);
+    let (mut steps, mut unsolved, mut base, mut weight, mut friction) = (0, 0, 0.0, 0.0, 0.0);
+    while time < end {
+        let acceleration = mover.acceleration(motion, time);
+        let before: Vec<Vec3> = mover.assembly().bodies.all.iter().map(|body| body.position).collect();
+        let stepped = mover.step(gravity, acceleration);
+        time += stepped.seconds;
+        steps += 1;
+        unsolved += u64::from(!stepped.is_solved);
+        friction += stepped.friction;
+        let bodies = &mover.assembly().bodies;
+        for (body, before) in bodies.all.iter().zip(&before).filter(|(body, _)| body.moves()) {
+            let way = body.position - before;
+            base -= body.mass * acceleration.dot(&way);
+            weight += body.mass * gravity.dot(&way);
+        }
+        if time - looked < BETWEEN_LOOKS {
+            continue;
+        }
+        looked = time;
+        if !mover.assembly().is_finite() {
+            return Shaken { verdict: Verdict::NotSolved, time_s: time, steps, ..observer.seen };
+        }
+        observer.read(bodies, time);
+        if observer.is_over() {
+            break;
+        }
+        resting = if time > shakes && fastest(bodies) < RESTS { resting + 1 } else { 0 };
+        if resting >= LOOKS_AT_REST {
+            break;
+        }
+    }
+    let bodies = mover.assembly().bodies.clone();
+    let mut seen = observer.end(&bodies);
+    let kinetic = bodies.kinetic_energy();
+    seen.energy.base_work_j = base;
+    seen.energy.gravity_work_j = weight;
+    seen.energy.kinetic_j = kinetic;
+    seen.energy.lost_j = base + weight - kinetic;
+    seen.energy.friction_j = matches!(mover, Mover::Nonsmooth(..)).then_some(friction);
+    Shaken { time_s: time, steps, unsolved_steps: unsolved, ..seen }
+}
+
+/// Largest speed of a body (m/s).
+fn fastest(bodies: &Bodies) -> f64 {
+    let of = |body: &crate::solve::bodies::Body| body.velocity.norm().max(body.spin.norm() * body.radius);
+    bodies.all.iter().filter(|body| body.moves()).map(of).fold(0.0, f64::max)
+}
+
+/// What a step took.
+struct Step {
+    seconds: f64,
+    is_solved: bool,
+    friction: f64,
+}
+
+impl<'a> Mover<'a> {
+    fn new(assembly: Assembly<'a>, solver: &InTime) -> Self {
+        match *solver {
+            InTime::Explicit(settings, rayleigh) => {
+                let settings = explicit::Settings { damping: 0.0, scaled_inertia: false, ..settings };
+                Mover::Explicit(Box::new(explicit::Simulation::of(assembly, settings).damped(rayleigh)))
+            }
+            InTime::Nonsmooth(settings) => {
+                Mover::Nonsmooth(Box::new(nonsmooth::Simulation::of(assembly, settings)), settings.time_step)
+            }
+        }
+    }
+
+    fn assembly(&self) -> &Assembly<'a> {
+        match self {
+            Mover::Explicit(simulation) => &simulation.assembly,
+            Mover::Nonsmooth(simulation, _) => &simulation.assembly,
+        }
+    }
+
+    /// The acceleration of the base (m/s^2) that a step from a time (s) on takes: that of the moment where forces are taken at the positions of the moment, else
+    /// the mean over the step.
+    fn acceleration(&self, motion: &Motion, time: f64) -> Vec3 {
+        match self {
+            Mover::Explicit(_) => motion.acceleration(time),
+            Mover::Nonsmooth(_, step) => (motion.velocity(time + step) - motion.velocity(time)) / *step,
+        }
+    }
+
+    fn step(&mut self, gravity: Vec3, base: Vec3) -> Step {
+        match self {
+            Mover::Explicit(simulation) => {
+                simulation.assembly.gravity = gravity - base;
+                let seconds = simulation.dt;
+                simulation.step();
+                Step { seconds, is_solved: true, friction: 0.0 }
+            }
+            Mover::Nonsmooth(simulation, step) => {
+                simulation.assembly.gravity = gravity - base;
+                let stepped = simulation.step(*step);
+                Step { seconds: *step, is_solved: stepped.is_solved, friction: stepped.friction_work }
+            }
+        }
+    }
+}
