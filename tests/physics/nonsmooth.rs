@@ -213,7 +213,7 @@ fn a_compliant_joint_rests_where_its_springs_bear_the_block() {
     let (area, weight) = (size[0] * size[1], size[0] * size[1] * size[2] * 2400.0 * G);
     let (down, along) = (weight * pirca::math::cos(radians(tilt)), weight * sin(radians(tilt)));
     // Sunk by N / (kn A), leant by the moment of the weight about the bed over kn I, and gone along by T / (ks A) and the lean.
-    let lean = along * 0.5 * size[2] / (kn * size[0] * size[1].powi(3) / 12.0);
+    let lean = along * 0.5 * size[2] / (kn * size[0] * (size[1] * size[1] * size[1]) / 12.0);
     let moved = body.position - from;
     // The lean turns the block, a second-order effect of 1e-5 of it; rest is reached at 1e-8 m/s.
     assert!((moved.z + down / (kn * area)).abs() < 1e-3 * down / (kn * area), "{moved}");

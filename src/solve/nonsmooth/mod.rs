@@ -103,6 +103,13 @@ pub struct Settings {
     pub max_steps: u64,
 }
 
+impl Settings {
+    /// Whether joints have no stiffness.
+    pub fn is_rigid(&self) -> bool {
+        self.normal != Normal::Compliant
+    }
+}
+
 impl Default for Settings {
     fn default() -> Self {
         Settings {

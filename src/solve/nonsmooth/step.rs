@@ -249,7 +249,17 @@ impl<'a> Equilibrate<'a> for Simulation<'a> {
         true
     }
 
+    fn lower(&mut self, down: &[(usize, f64)], stop: &mut dyn FnMut(&Bodies) -> bool) -> Settled {
+        self.assembly.lower(down);
+        self.refresh();
+        self.settle(stop)
+    }
+
     fn settle(&mut self, stop: &mut dyn FnMut(&Bodies) -> bool) -> Settled {
+        self.contacts.forget(&self.assembly.joints);
+        if !self.system.fits(&self.assembly.joints) {
+            self.system = System::new(&self.assembly.bodies.all, &self.assembly.joints);
+        }
         let mut step = self.settings.time_step;
         let mut unbalanced_ratio = f64::INFINITY;
         for steps in 1..=self.settings.max_steps {
