@@ -32,6 +32,7 @@
 
 mod cone_program;
 mod contacts;
+mod global;
 mod newton;
 mod point;
 mod problem;
@@ -40,6 +41,7 @@ mod residual;
 mod step;
 mod sweeps;
 
+pub use global::{GlobalProblem, Solution, Triplets};
 pub use problem::Problem;
 pub use residual::Residual;
 pub use step::{Simulation, Stepped};

@@ -113,6 +113,18 @@ impl<'a> Simulation<'a> {
         }
     }
 
+    /// Length of a step (s).
+    pub(super) fn time_step(&self) -> f64 {
+        self.settings.time_step
+    }
+
+    /// The impulses (N s) that solve the problem of a step from here, and what is left over.
+    pub(super) fn impulses_of(&mut self, problem: &Problem) -> (Vec<[f64; 3]>, Residual) {
+        let start = self.contacts.impulses(&problem.points, problem.step);
+        let (impulses, residual, _) = self.solve(problem, &start);
+        (impulses, residual)
+    }
+
     /// Stiffness of ties and of the platform's springs by body, times the square of the step.
     fn springs(&self, step: f64) -> Vec<Matrix> {
         let bodies = &self.assembly.bodies.all;
