@@ -613,9 +613,12 @@ fn help_shows_an_example_the_format_and_the_exit_codes() {
 fn joints_carry_what_stands_on_them_and_a_tower_turns_about_its_foot() {
     let folder = Folder::new();
     let path = example("leaning-tower.json").display().to_string();
-    for (solver, kn, close_to) in
-        [("limit", "", 1e-6), ("implicit", "--kn=1e9", 1e-3), ("explicit", "--kn=1e9", 1e-2)]
-    {
+    for (solver, kn, close_to) in [
+        ("limit", "", 1e-6),
+        ("implicit", "--kn=1e9", 1e-3),
+        ("explicit", "--kn=1e9", 1e-2),
+        ("nonsmooth", "", 1e-6),
+    ] {
         let mut asked = vec!["analyse", &path, "--phi-deg", "35", "--solver", solver, "--out", solver];
         asked.extend((!kn.is_empty()).then_some(kn));
         let output = folder.pirca(&asked);
