@@ -53,8 +53,8 @@ pub(crate) struct Analyse {
         help_heading = LOAD
     )]
     pub dead_loads: Vec<(u64, f64)>,
-    /// A fixed block that goes down by so many metres, gradually, under the wall at rest before the load grows; not for
-    /// limit. For several supports, several times: they go down together.
+    /// A fixed block that goes down by so many metres, gradually, under the wall at rest before the load grows; for implicit and
+    /// explicit. For several supports, several times: they go down together.
     #[arg(
         long = "settle",
         value_name = "ID=M",

@@ -48,7 +48,7 @@ pub(crate) fn write(
         LoadName::Lateral => json!({ "kind": "lateral", "multiplier": level }),
     };
     let object = object(&asked.title(), file, (&problem, &solution), load);
-    replace_file(path, format!("{object:#}\n").as_bytes())?;
+    replace_file(path, format!("{object}\n").as_bytes())?;
     Ok(())
 }
 

@@ -180,6 +180,13 @@ fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
         let method = arguments.solver.method();
         warnings.push(format!("{method} is of rigid blocks: --kn and --ks do not matter"));
     }
+    if arguments.solver == MethodName::Nonsmooth && !arguments.settlements.is_empty() {
+        return Err(Failure::Usage(
+            "--settle is for elastic joints: rigid blocks drop after a support that goes down, and what their impacts leave is another state \
+             than that of a gradual settlement; ask --solver implicit --kn PA_PER_M, or move the support in the file"
+                .to_owned(),
+        ));
+    }
     if arguments.solver == MethodName::Limit {
         if !arguments.settlements.is_empty() {
             return Err(Failure::Usage(
