@@ -83,6 +83,8 @@ def analyse(
     walls: int | None = None,
     seed: int | None = None,
     colour: str | None = None,
+    fclib: str | Path | None = None,
+    at_deg: float | None = None,
     out: str | Path | None = None,
     report: bool = False,
     progress: bool = False,
@@ -103,8 +105,8 @@ def analyse(
         Density of all blocks, or of each; of an OBJ file, of the objects that have none. 2400 with a warning without it.
     unit : {"m", "cm", "mm"}, optional
         Unit of the coordinates of blocks, or of an OBJ file; "m" without it.
-    solver : {"limit", "implicit", "explicit"}
-        Limit analysis of rigid blocks, or elastic joints, which need `kn`.
+    solver : {"limit", "implicit", "explicit", "nonsmooth"}
+        Limit analysis of rigid blocks, elastic joints, which need `kn`, or contact dynamics of rigid blocks.
     load : {"tilt", "lateral"}
         Gravity turns towards the direction, or a multiple of the weight pushes there.
     direction : str or float, optional
@@ -115,6 +117,8 @@ def analyse(
         Normal and shear stiffness of the joints per area (Pa/m); ks is kn / 2 without it.
     worst_direction, vertical, cohesion, flow, step_deg, touch_tolerance, flatness, up, density, walls, seed, colour
         As the options of `pirca analyse`; see its help.
+    fclib : path, optional
+        File for the contact problem of one step, at the tilt `at_deg`: as the option of `pirca analyse`.
     out : path, optional
         Folder for a page of it all, the picture of the mechanism, files for ParaView, tables of blocks and joints, and the blocks
         themselves (`wall.json`).
@@ -149,6 +153,8 @@ def analyse(
         "walls": walls,
         "seed": seed,
         "colour": colour,
+        "fclib": fclib,
+        "at_deg": at_deg,
         "out": out,
         "report": report,
         "progress": progress,

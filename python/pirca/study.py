@@ -102,7 +102,7 @@ class Study:
         ----------
         out : path, optional
             Folder of the results; `runs/NAME` without it, with `-VARIANT` behind.
-        solver : {"explicit", "implicit", "limit"}, optional
+        solver : {"explicit", "implicit", "nonsmooth", "limit"}, optional
             Solver in the place of the study's.
         beside : path, optional
             Folder of an earlier run of the study, whose means are drawn into the figure.

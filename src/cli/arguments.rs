@@ -776,6 +776,8 @@ pub(crate) enum SolverName {
     Explicit,
     /// Newton's method from equilibrium to equilibrium.
     Implicit,
+    /// Contact dynamics of rigid blocks with Coulomb friction.
+    Nonsmooth,
     /// Limit analysis of rigid blocks: the collapse load alone.
     Limit,
 }
@@ -786,6 +788,7 @@ impl SolverName {
         match self {
             SolverName::Explicit => "explicit",
             SolverName::Implicit => "implicit",
+            SolverName::Nonsmooth => "nonsmooth",
             SolverName::Limit => "limit",
         }
     }

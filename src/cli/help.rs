@@ -373,6 +373,7 @@ Example: pirca analyse wall.json --phi-deg 30
          pirca analyse wall.json --phi-deg 35 --worst-direction --out seen
          pirca analyse wall.json --phi-deg 35 --load lateral --vertical 0.3 --dead-load 12=1500
          pirca analyse wall.json --phi-deg 35 --solver implicit --kn 1e9 --settle 0=0.01
+         pirca analyse wall.json --phi-deg 35 --solver nonsmooth --fclib step.json --at-deg 5
          pirca analyse wall.json --phi-deg 30..38 --solver implicit --kn 5e7..5e8 --density normal(2200,80)
 
 Ranges: of --phi-deg, --kn and --density a number, LOW..HIGH, or uniform(low, high), triangular(low, mode, high), normal(mean, sd), \

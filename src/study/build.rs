@@ -5,7 +5,8 @@ use crate::protocol::{
     Direction, Ends, EventShares, History, Lateral, Observes, Protocol, Rate, Shear, Tilting, Turning,
 };
 use crate::random::{Design, RANDOMISATIONS};
-use crate::solve::{Solver, explicit, implicit, limit};
+use crate::solve::nonsmooth::{Normal, StepSolver};
+use crate::solve::{Solver, explicit, implicit, limit, nonsmooth};
 use crate::study::arm;
 use crate::study::averaged;
 use crate::study::catalogue::Catalogue;
@@ -58,41 +59,61 @@ pub fn parts(root: &Node, notes: &mut Notes, catalogue: &mut Catalogue) -> Optio
     check_mechanisms(&mut top, &arms, &protocol, agreement)?;
     check_design(&mut top, &arms, design)?;
     averaged::warn(root, &arms, top.notes);
-    if matches!(solver, Solver::Limit(_)) {
-        for unfit in unfit_for_limit(&arms, &protocol, agreement) {
-            let place = top.place_of("solver").clone();
-            top.notes.faults.push(beyond_limit(&place, unfit));
-        }
+    for unfit in unfit_for(&solver, &arms, &protocol, agreement) {
+        let place = top.place_of("solver").clone();
+        top.notes.faults.push(beyond(&place, &solver, unfit));
     }
     Some(Parts { question, seed, design, arms, protocol, solver, agreement })
 }
 
-/// What a study asks for that rigid blocks do not have, in words.
-pub fn unfit_for_limit(arms: &[Arm], protocol: &Protocol, agreement: bool) -> Vec<String> {
-    let mechanisms = arms.iter().flat_map(Arm::unfit_for_limit_analysis);
-    let mut unfit: Vec<String> = mechanisms.map(|unfit| unfit.to_string()).collect();
+/// What a study asks for that a solver does not have, in words.
+pub fn unfit_for(solver: &Solver, arms: &[Arm], protocol: &Protocol, agreement: bool) -> Vec<String> {
+    let is_limit = matches!(solver, Solver::Limit(_));
+    let of_arm = |arm: &Arm| match solver {
+        Solver::Limit(_) => arm.unfit_for_limit_analysis(),
+        Solver::Nonsmooth(settings) => arm.unfit_for_contact_dynamics(settings.is_rigid()),
+        Solver::Explicit(_) | Solver::Implicit(_) => Vec::new(),
+    };
+    let mut unfit: Vec<String> = arms.iter().flat_map(of_arm).map(|unfit| unfit.to_string()).collect();
     unfit.sort();
     unfit.dedup();
+    let is_rigid = match solver {
+        Solver::Limit(_) => true,
+        Solver::Nonsmooth(settings) => settings.is_rigid(),
+        Solver::Explicit(_) | Solver::Implicit(_) => false,
+    };
     if let Protocol::Tilting(tilting) = protocol {
+        let turns = matches!(tilting.rate, Rate::Dynamic(_));
         let asked = [
-            (matches!(tilting.rate, Rate::Dynamic(_)), "load.turning: limit analysis knows no time"),
+            (turns && is_limit, "load.turning: limit analysis knows no time"),
             (
-                tilting.observes == Observes::Displacement,
+                turns && matches!(solver, Solver::Nonsmooth(_)),
+                "load.turning: a platform that turns steadily is followed by the explicit solver alone",
+            ),
+            (
+                is_rigid && tilting.observes == Observes::Displacement,
                 "load.observes = \"displacement\": rigid blocks do not move before they fall",
             ),
-            (tilting.remainders, "load.remainders: rigid blocks do not move before they fall"),
+            (is_rigid && tilting.remainders, "load.remainders: rigid blocks do not move before they fall"),
         ];
         unfit.extend(asked.iter().filter(|(asked, _)| *asked).map(|(_, words)| (*words).to_owned()));
     }
-    if agreement {
+    if matches!(protocol, Protocol::Lateral(_)) && is_rigid && !is_limit {
+        unfit.push(
+            "load.protocol = \"lateral\", which observes a displacement: rigid blocks do not move before they fall \
+             (normal = \"compliant\" has joints that give way)"
+                .to_owned(),
+        );
+    }
+    if agreement && is_limit {
         unfit.push("solver.agreement: it would be compared with itself".to_owned());
     }
     unfit
 }
 
-/// The fault of a study that asks limit analysis for what it does not have.
-pub fn beyond_limit(place: &Place, unfit: String) -> Fault {
-    let found = Found::Words(format!("is \"limit\", which does not go with {unfit}"));
+/// The fault of a study that asks a solver for what it does not have.
+pub fn beyond(place: &Place, solver: &Solver, unfit: String) -> Fault {
+    let found = Found::Words(format!("is \"{}\", which does not go with {unfit}", solver.name()));
     Fault::at(
         place,
         "solver.name",
@@ -339,6 +360,7 @@ pub fn solver(t: &mut Reader<'_>) -> Option<Solver> {
             let flow = t.choice("flow")?;
             Some(Solver::Limit(limit::Settings { flow, ..limit::Settings::default() }))
         }
+        "nonsmooth" => nonsmooth(t).map(Solver::Nonsmooth),
         _ => implicit(t).map(Solver::Implicit),
     }
 }
@@ -366,5 +388,36 @@ fn implicit(t: &mut Reader<'_>) -> Option<implicit::Settings> {
         max_factorisations: max_factorisations?,
         max_halvings: max_halvings?,
         stabilisation,
+    })
+}
+
+fn nonsmooth(t: &mut Reader<'_>) -> Option<nonsmooth::Settings> {
+    let reals = t.reals(["time_step_s", "tolerance"]);
+    let max_steps = t.whole("max_steps");
+    let restitution = if t.has("restitution") { Some(t.real("restitution")?) } else { None };
+    let (law, solver) = (t.choice_name("normal")?, t.choice::<StepSolver>("step_solver")?);
+    if restitution.is_some() && law != "velocity" {
+        let fix = "set normal = \"velocity\", or remove it";
+        t.fault("restitution", "none but with normal = \"velocity\"", fix);
+        return None;
+    }
+    if law == "compliant" && solver == StepSolver::ConeProgram {
+        let fix = "take one of these, or a rigid normal law";
+        t.fault("step_solver", "\"newton\" or \"sweeps\" with normal = \"compliant\"", fix);
+        return None;
+    }
+    let normal = match law {
+        "velocity" => Normal::Velocity { restitution: restitution.unwrap_or(0.0) },
+        "compliant" => Normal::Compliant,
+        _ => Normal::Gap,
+    };
+    let ([time_step, tolerance], max_steps) = (reals?, max_steps?);
+    Some(nonsmooth::Settings {
+        time_step,
+        normal,
+        solver,
+        tolerance,
+        max_steps,
+        ..nonsmooth::Settings::default()
     })
 }

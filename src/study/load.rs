@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::solve::{REVISION, Solver};
+use crate::solve::REVISION;
 use crate::study::build::{self, Parts};
 use crate::study::catalogue::{Catalogue, Used};
 use crate::study::checked::{Arm, InputFile, Study, Until};
@@ -161,11 +161,11 @@ impl Study {
         self
     }
 
-    /// The same study with the solver of that name, `explicit`, `implicit` or `limit`: with the study's own settings if it is the
+    /// The same study with the solver of that name, `explicit`, `implicit`, `nonsmooth` or `limit`: with the study's own settings if it is the
     /// study's own solver, else with that solver's defaults.
     ///
     /// # Errors
-    /// The fault, where no solver has that name, or where limit analysis does not go with what the study asks for.
+    /// The fault, where no solver has that name, or where that solver does not go with what the study asks for.
     pub fn with_solver(mut self, name: &str) -> Result<Study, Faults> {
         if self.effective.get("solver.name").is_some_and(|own| own == name) {
             return Ok(self);
@@ -177,13 +177,11 @@ impl Study {
         let solver =
             Reader::open(&node, "solver", &keys::SOLVER, &mut notes).and_then(|mut t| build::solver(&mut t));
         let Some(solver) = solver else { return Err(Faults::sorted(notes.faults)) };
-        if matches!(solver, Solver::Limit(_)) {
-            let unfit = build::unfit_for_limit(&self.arms, &self.protocol, self.agreement);
-            let faults: Vec<Fault> =
-                unfit.into_iter().map(|unfit| build::beyond_limit(&node.place, unfit)).collect();
-            if !faults.is_empty() {
-                return Err(Faults::sorted(faults));
-            }
+        let unfit = build::unfit_for(&solver, &self.arms, &self.protocol, self.agreement);
+        let faults: Vec<Fault> =
+            unfit.into_iter().map(|unfit| build::beyond(&node.place, &solver, unfit)).collect();
+        if !faults.is_empty() {
+            return Err(Faults::sorted(faults));
         }
         self.solver = solver;
         self.effective.retain(|key, _| !key.starts_with("solver.") || key == "solver.agreement");

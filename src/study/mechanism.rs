@@ -107,7 +107,7 @@ pub struct EndRelease {
     pub stiffness: f64,
 }
 
-/// What rigid blocks cannot have: why limit analysis refuses it.
+/// What rigid blocks or a solver cannot have: why limit analysis, or contact dynamics, refuses it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Unfit {
     /// Rigid blocks have no closure.
@@ -131,6 +131,18 @@ pub enum Unfit {
     /// It looks at forces at corners, not at stresses.
     #[error("joint.compressive_strength_pa: limit analysis takes joints to bear any pressure")]
     Crushing,
+    /// Contact dynamics bounds no pressure.
+    #[error("joint.compressive_strength_pa: joints of contact dynamics bear any pressure")]
+    NoCrushing,
+    /// Nor does its friction fall.
+    #[error("mechanism.friction.residual_share: friction of contact dynamics does not weaken with slip")]
+    Weakening,
+    /// Shear of its joints is what balances the loads, or a spring's; neither relaxes.
+    #[error("creep: shear of contact dynamics does not relax")]
+    Relaxation,
+    /// Its rigid joints touch at the corners of their areas.
+    #[error("contact_area: rigid joints of contact dynamics touch over their whole area")]
+    Patches,
 }
 
 impl Mechanisms {
@@ -229,5 +241,22 @@ impl Arm {
         ];
         let mechanisms = self.mechanisms.unfit_for_limit_analysis();
         mechanisms.into_iter().chain(asked.into_iter().flatten()).collect()
+    }
+
+    /// What contact dynamics refuses of its joints and mechanisms, with joints that are rigid or have a stiffness.
+    pub fn unfit_for_contact_dynamics(&self, is_rigid: bool) -> Vec<Unfit> {
+        let Mechanisms { joint_closure, stress_stiffening, friction, creep, contact_area, .. } =
+            &self.mechanisms;
+        let is_table = matches!(self.joint.normal_law, StatedLaw::Table(_));
+        let asked = [
+            (is_rigid && joint_closure.is_some(), Unfit::JointClosure),
+            (is_rigid && stress_stiffening.is_some(), Unfit::StressStiffening),
+            (is_rigid && is_table, Unfit::Table),
+            (is_rigid && contact_area.is_some(), Unfit::Patches),
+            (self.joint.compressive_strength.is_some(), Unfit::NoCrushing),
+            (friction.is_some_and(|change| change.residual < 1.0), Unfit::Weakening),
+            (creep.is_some(), Unfit::Relaxation),
+        ];
+        asked.into_iter().filter_map(|(asked, unfit)| asked.then_some(unfit)).collect()
     }
 }

@@ -613,9 +613,12 @@ fn help_shows_an_example_the_format_and_the_exit_codes() {
 fn joints_carry_what_stands_on_them_and_a_tower_turns_about_its_foot() {
     let folder = Folder::new();
     let path = example("leaning-tower.json").display().to_string();
-    for (solver, kn, close_to) in
-        [("limit", "", 1e-6), ("implicit", "--kn=1e9", 1e-3), ("explicit", "--kn=1e9", 1e-2)]
-    {
+    for (solver, kn, close_to) in [
+        ("limit", "", 1e-6),
+        ("implicit", "--kn=1e9", 1e-3),
+        ("explicit", "--kn=1e9", 1e-2),
+        ("nonsmooth", "", 1e-6),
+    ] {
         let mut asked = vec!["analyse", &path, "--phi-deg", "35", "--solver", solver, "--out", solver];
         asked.extend((!kn.is_empty()).then_some(kn));
         let output = folder.pirca(&asked);
@@ -649,7 +652,9 @@ fn joints_carry_what_stands_on_them_and_a_tower_turns_about_its_foot() {
             assert!((out / (-turn * lever) - 1.0).abs() < 0.2, "{solver} {block}");
         }
         let opened = joints[0]["opening"].as_f64().expect("an opening");
-        assert!(joints.iter().all(|joint| joint["opening"].as_f64() <= Some(opened)) && opened > 0.0);
+        // Joints that are rigid do not open before the fall.
+        let widest = if solver == "nonsmooth" { 1e-9 } else { opened };
+        assert!(joints.iter().all(|joint| joint["opening"].as_f64() <= Some(widest)) && opened > 0.0);
         for (name, lines) in [("blocks.csv", 8), ("joints.csv", 7)] {
             assert_eq!(file(name).lines().count(), lines, "{name}");
             let columns = |line: &str| line.split(',').count();

@@ -25,6 +25,7 @@ mod measured;
 mod measured_verb;
 mod mechanisms;
 mod mutated_walls;
+mod nonsmooth;
 mod pages;
 mod picture;
 mod plan_tests;

@@ -142,7 +142,7 @@ fn a_solver_that_is_named_and_not_described_has_its_own_defaults() {
         own.with_solver("magic")
             .unwrap_err()
             .to_string()
-            .contains("allowed is one of \"explicit\", \"implicit\", \"limit\"")
+            .contains("allowed is one of \"explicit\", \"implicit\", \"nonsmooth\", \"limit\"")
     );
 }
 

@@ -1,12 +1,14 @@
 //! Contact dynamics of rigid blocks against closed forms: sliding, impact, tilting, standing; and its step solvers against one another.
 
-use crate::fixture::{G, dry, irregular, on_floor, resting, tilted};
+use crate::fixture::{G, dry, irregular, on_floor, resting, stone, tilted};
 use pirca::contact;
 use pirca::generate::canonical;
 use pirca::law::{Coulomb, NormalLaw};
 use pirca::math::{Vec3, atan, degrees, radians, sin, tan};
 use pirca::model::Wall;
+use pirca::shape::Polyhedron;
 use pirca::solve::Equilibrate;
+use pirca::solve::STANDARD_GRAVITY;
 use pirca::solve::Status;
 use pirca::solve::nonsmooth::{Friction, Normal, Settings, Simulation, StepSolver, Stepped};
 
@@ -213,7 +215,7 @@ fn a_compliant_joint_rests_where_its_springs_bear_the_block() {
     let (area, weight) = (size[0] * size[1], size[0] * size[1] * size[2] * 2400.0 * G);
     let (down, along) = (weight * pirca::math::cos(radians(tilt)), weight * sin(radians(tilt)));
     // Sunk by N / (kn A), leant by the moment of the weight about the bed over kn I, and gone along by T / (ks A) and the lean.
-    let lean = along * 0.5 * size[2] / (kn * size[0] * size[1].powi(3) / 12.0);
+    let lean = along * 0.5 * size[2] / (kn * size[0] * (size[1] * size[1] * size[1]) / 12.0);
     let moved = body.position - from;
     // The lean turns the block, a second-order effect of 1e-5 of it; rest is reached at 1e-8 m/s.
     assert!((moved.z + down / (kn * area)).abs() < 1e-3 * down / (kn * area), "{moved}");
@@ -254,4 +256,26 @@ fn a_bouncing_block_comes_up_with_its_restitution() {
     block.step(1e-6);
     // Gravity over 1e-6 s.
     assert!((block.assembly.bodies.all[0].velocity.z - 0.6).abs() < 2e-5);
+}
+
+#[test]
+fn a_stone_that_is_taken_out_takes_its_contact_points_with_it() {
+    // Of two stones side by side the first is taken out; the other, which is longer, keeps its own points and weighs on them.
+    let at = |x: [f64; 2]| Polyhedron::cuboid(Vec3::new(x[0], -0.1, 0.0), Vec3::new(x[1], 0.1, 0.2));
+    let stones = vec![stone(at([-0.5, -0.3]), 2400.0), stone(at([0.0, 0.6]), 2400.0)];
+    let wall = on_floor(stones);
+    let law = dry(1e9, 30.0);
+    let mut left = simulation(&wall, &law, Settings::default());
+    assert_eq!(left.settle(&mut |_| false).status, Status::Equilibrium);
+    left.assembly.remove(0);
+    let before = places(&left);
+    assert_eq!(left.settle(&mut |_| false).status, Status::Equilibrium);
+    assert!(moved(&left, &before) < 1e-9, "{:e}", moved(&left, &before));
+    let joints = &left.assembly.joints.all;
+    let carried = joints[0].carried(&left.assembly.bodies.all);
+    // A step's problem is solved to 1e-8 of the weight.
+    assert!(
+        joints.len() == 1
+            && (carried.norm() / (left.assembly.bodies.all[1].mass * STANDARD_GRAVITY) - 1.0).abs() < 1e-7
+    );
 }

@@ -78,7 +78,7 @@ fn halving_the_unbalanced_ratio_changes_no_displacement() {
         let own = match &mut fine.solver {
             Solver::Explicit(settings) => &mut settings.unbalanced_ratio,
             Solver::Implicit(settings) => &mut settings.unbalanced_ratio,
-            Solver::Limit(_) => panic!("limit analysis has no displacements"),
+            Solver::Nonsmooth(_) | Solver::Limit(_) => panic!("the study has elastic joints"),
         };
         assert_eq!(*own, ratio, "the study's own stop rule");
         *own *= 0.5;

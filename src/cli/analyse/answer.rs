@@ -80,6 +80,16 @@ impl Answer {
         }
     }
 
+    /// The last load that it bears (rad or a multiplier): 0 where it does not stand at rest, and the largest asked for where it stands.
+    pub fn borne(&self, largest: f64) -> f64 {
+        match &self.outcome {
+            Outcome::Collapsed { at: Level::Settlement(_) } | Outcome::UnstableAtRest => 0.0,
+            Outcome::Equilibrium | Outcome::Unbounded => largest,
+            Outcome::Collapsed { at } | Outcome::NotConverged { at, .. } => at.value(),
+            _ => 0.0,
+        }
+    }
+
     /// The bracket in the unit of the load: degrees, or multipliers.
     fn shown_bracket(&self, asked: &Analyse) -> Option<[f64; 2]> {
         self.bracket.map(|ends| match asked.load {
@@ -158,6 +168,7 @@ impl Answer {
             "joints": fit.joints,
             "mechanism": ids(&self.moving),
             "moving_weight_share": (!self.moving.is_empty()).then(|| self.moving_share(&file.wall)),
+            "fclib": asked.fclib,
             "loose": self.loose.as_deref().map(ids),
             "seconds": seconds,
             "warnings": warnings,

@@ -20,7 +20,7 @@ const SEEN: &str = "seen";
 pub(crate) struct Analyse {
     /// The wall: a .json or .obj file.
     pub wall: PathBuf,
-    /// Solver. Limit analysis takes rigid blocks and needs no stiffness.
+    /// Solver. Limit analysis and contact dynamics take rigid blocks and need no stiffness.
     #[arg(long, value_name = "NAME", default_value = "limit", help_heading = SOLUTION)]
     pub solver: MethodName,
     /// Load: gravity turns towards the direction (to at most 89 deg), or a multiple of the weight pushes there (to at most 10).
@@ -79,7 +79,7 @@ pub(crate) struct Analyse {
     /// Whether joints dilate when they slide, for limit analysis [default: associative, an upper bound].
     #[arg(long, value_name = "NAME", help_heading = SOLUTION)]
     pub flow: Option<FlowName>,
-    /// Step of the tilt (deg) for implicit and explicit [default: 0.5]; with --load lateral its tangent is the step.
+    /// Step of the tilt (deg), but for limit [default: 0.5]; with --load lateral its tangent is the step.
     #[arg(long, value_name = "F", value_parser = numbers::step, allow_negative_numbers = true, help_heading = LOAD)]
     pub step_deg: Option<f64>,
     /// Blocks closer than this touch: a length with its unit (2mm, 0.5cm, 0.002 m; at most a tenth of a stone), or a share of the
@@ -119,6 +119,22 @@ pub(crate) struct Analyse {
     /// Where the page goes without its folder, if not here.
     #[arg(skip)]
     pub page: Option<PathBuf>,
+    /// Write the contact problem of one step of contact dynamics, 2 ms from rest in the wall as built, as JSON: masses M, H, f, w and
+    /// friction mu of an FCLib global problem, M v = H r + f and u = H^T v + w, as triplets in SI units, with a solution v, u, r and
+    /// its residual. For dry joints. FCLib keeps such problems in HDF5, which this program does not write: it would need a library
+    /// of the system.
+    #[arg(long, value_name = "FILE", help_heading = OUTPUT)]
+    pub fclib: Option<PathBuf>,
+    /// Tilt (deg) at which --fclib writes it [default: the last that the wall bears]; with --load lateral its tangent is the multiplier.
+    #[arg(
+        long,
+        value_name = "F",
+        value_parser = numbers::tilt,
+        requires = "fclib",
+        allow_negative_numbers = true,
+        help_heading = OUTPUT
+    )]
+    pub at_deg: Option<f64>,
     /// What joints are coloured by in the picture.
     #[arg(long, value_name = "NAME", default_value = "opening", requires = SEEN, help_heading = OUTPUT)]
     pub colour: Measure,
@@ -168,6 +184,28 @@ names! {
         Implicit = "implicit",
         /// Elastic joints, steps in time with damping (DEM).
         Explicit = "explicit",
+        /// Rigid blocks, steps in time with Coulomb friction (contact dynamics).
+        Nonsmooth = "nonsmooth",
+    }
+}
+
+impl MethodName {
+    /// What it is called in a sentence.
+    pub fn method(self) -> &'static str {
+        match self {
+            MethodName::Limit => "limit analysis",
+            MethodName::Implicit => "the implicit solver",
+            MethodName::Explicit => "the explicit solver",
+            MethodName::Nonsmooth => "contact dynamics",
+        }
+    }
+
+    /// Whether joints have a stiffness.
+    pub fn is_elastic(self) -> bool {
+        match self {
+            MethodName::Implicit | MethodName::Explicit => true,
+            MethodName::Limit | MethodName::Nonsmooth => false,
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 mod answer;
 mod arguments;
 mod fall;
+mod fclib;
 mod files;
 mod joints;
 mod known;

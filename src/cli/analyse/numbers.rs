@@ -31,6 +31,11 @@ pub(crate) fn step(text: &str) -> Result<f64, String> {
     within(text, 0.01..=45.0, "degrees")
 }
 
+/// A tilt (deg).
+pub(crate) fn tilt(text: &str) -> Result<f64, String> {
+    within(text, 0.0..=89.0, "degrees")
+}
+
 /// Vertical share of the load, over its horizontal one.
 pub(crate) fn vertical(text: &str) -> Result<f64, String> {
     within(text, -2.0..=2.0, "of the horizontal load")

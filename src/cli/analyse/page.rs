@@ -96,7 +96,7 @@ fn inputs(asked: &Analyse) -> Vec<(&'static str, String)> {
         ("cohesion of the joints", format!("{} Pa", asked.cohesion)),
     ];
     let stiffness = |own: f64| format!("{own:.3e} Pa/m");
-    if let Some(kn) = asked.kn.as_ref().filter(|_| asked.solver != MethodName::Limit) {
+    if let Some(kn) = asked.kn.as_ref().filter(|_| asked.solver.is_elastic()) {
         all.push(("normal stiffness of the joints", kn.said(stiffness)));
         let ks = asked.ks.map_or_else(|| "half the normal one".to_owned(), stiffness);
         all.push(("shear stiffness of the joints", ks));

@@ -16,9 +16,9 @@ use crate::protocol::{
 };
 use crate::solve::explicit;
 use crate::solve::implicit::{self, Equilibrium};
-use crate::solve::{Equilibrate, Solver, limit};
+use crate::solve::{Equilibrate, Solver, limit, nonsmooth};
 
-/// Limit analysis needs no stiffness, but a law has one.
+/// Rigid blocks need no stiffness, but a law has one; where contact dynamics loses a wall, the explicit solver asks on with it.
 const ANY_STIFFNESS: f64 = 1e9;
 /// A block is part of a mechanism when it moves at this share of the fastest corner.
 const MOVES: f64 = 0.01;
@@ -34,10 +34,11 @@ const RUNS_AWAY: f64 = 0.1;
 
 /// The law of all joints, with the middle of what is not known exactly: no tension, cohesion kept after slip, ks = kn / 2 unless it is given.
 pub(crate) fn law(arguments: &Analyse) -> Coulomb {
-    let kn = arguments.kn.as_ref().map_or(ANY_STIFFNESS, Known::middle);
+    let is_elastic = arguments.solver.is_elastic();
+    let kn = arguments.kn.as_ref().filter(|_| is_elastic).map_or(ANY_STIFFNESS, Known::middle);
     Coulomb {
         normal: NormalLaw::Linear { kn },
-        ks: arguments.ks.unwrap_or(0.5 * kn),
+        ks: arguments.ks.filter(|_| is_elastic).unwrap_or(0.5 * kn),
         tan_phi: tan(radians(arguments.phi_deg.middle())),
         cohesion: arguments.cohesion,
         tension: 0.0,
@@ -86,11 +87,18 @@ pub(crate) fn solve_seen_by(
             let solver = Solver::Explicit(explicit::Settings::default());
             by_steps(drive_seen_by(&task(arguments, (wall, settlements), law, fit), &solver, witness))
         }
+        MethodName::Nonsmooth => {
+            let solver = Solver::Nonsmooth(nonsmooth::Settings::default());
+            let (answer, found) =
+                by_steps(drive_seen_by(&task(arguments, (wall, settlements), law, fit), &solver, witness));
+            let meaning = format!("{}; rigid blocks without dilatancy, in time", answer.meaning);
+            (Answer { meaning, ..answer }, found)
+        }
     }
 }
 
-/// The load path of the elastic solvers.
-fn task<'t>(
+/// The load path of the solvers that go by steps.
+pub(super) fn task<'t>(
     arguments: &Analyse,
     (wall, settlements): (&'t Wall, &[Settlement]),
     law: &'t Coulomb,

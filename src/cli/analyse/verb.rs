@@ -5,6 +5,7 @@ use std::time::Instant;
 use serde_json::json;
 
 use crate::cli::analyse::arguments::{Analyse, FlowName, LoadName, MethodName, UpName};
+use crate::cli::analyse::fclib;
 use crate::cli::analyse::files::{self, Seen};
 use crate::cli::analyse::known::Known;
 use crate::cli::analyse::loads::{loaded, settlements};
@@ -73,12 +74,18 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
     let given = Given { arguments, file: &read, fit: &fit, settlements: &settlements };
     let sure = given.how_sure(asked(arguments), (&file.wall, &answer, &found))?;
     let seconds = begun.elapsed().as_secs_f64();
+    if let Some(path) = &arguments.fclib {
+        fclib::write(path, arguments, &file, (&law, &fit), &answer)?;
+    }
     let mut object = answer.object(arguments, &file, &fit, (&warnings, &directions), seconds);
     if let Some(sure) = &sure {
         object["uncertain"] = json!(sure);
     }
     let mut text = answer.text(arguments, &file, &fit, seconds);
     text += &sure.as_ref().map(uncertainty_text).unwrap_or_default();
+    text += &arguments.fclib.as_ref().map_or_else(String::new, |path| {
+        format!("  contact problem of a step written to {}\n", path.display())
+    });
     if arguments.worst_direction {
         text += &match weakest(&directions) {
             Some(_) => format!("  the weakest of {} directions that were tried\n", directions.len()),
@@ -164,6 +171,22 @@ fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
                 .to_owned(),
         ));
     }
+    if arguments.fclib.is_some() && arguments.cohesion > 0.0 {
+        return Err(Failure::Usage(
+            "--fclib is for dry joints: its form knows no cohesion; leave --cohesion out".to_owned(),
+        ));
+    }
+    if !arguments.solver.is_elastic() && (arguments.kn.is_some() || arguments.ks.is_some()) {
+        let method = arguments.solver.method();
+        warnings.push(format!("{method} is of rigid blocks: --kn and --ks do not matter"));
+    }
+    if arguments.solver == MethodName::Nonsmooth && !arguments.settlements.is_empty() {
+        return Err(Failure::Usage(
+            "--settle is for elastic joints: rigid blocks drop after a support that goes down, and what their impacts leave is another state \
+             than that of a gradual settlement; ask --solver implicit --kn PA_PER_M, or move the support in the file"
+                .to_owned(),
+        ));
+    }
     if arguments.solver == MethodName::Limit {
         if !arguments.settlements.is_empty() {
             return Err(Failure::Usage(
@@ -172,17 +195,14 @@ fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
                     .to_owned(),
             ));
         }
-        if arguments.kn.is_some() || arguments.ks.is_some() {
-            warnings.push("limit analysis is of rigid blocks: --kn and --ks do not matter".to_owned());
-        }
         if arguments.step_deg.is_some() {
             warnings.push("limit analysis takes no steps: --step-deg does not matter".to_owned());
         }
         return Ok(warnings);
     }
-    if arguments.kn.is_none() {
+    if arguments.solver.is_elastic() && arguments.kn.is_none() {
         return Err(Failure::Usage(format!(
-            "--kn PA_PER_M is required for the {solver} solver: the normal stiffness of the joints per area, for example --kn 1e9; --solver limit needs none"
+            "--kn PA_PER_M is required for the {solver} solver: the normal stiffness of the joints per area, for example --kn 1e9; --solver limit and nonsmooth need none"
         )));
     }
     if arguments.flow == Some(FlowName::Associative) {
@@ -196,7 +216,7 @@ fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
 
 /// Blocks that overlap as built press on each other from the start: how hard, for the solvers that are elastic.
 fn prestress(arguments: &Analyse, wall: &Wall, fit: &Fit) -> Option<String> {
-    let kn = arguments.kn.as_ref().filter(|_| arguments.solver != MethodName::Limit)?.middle();
+    let kn = arguments.kn.as_ref().filter(|_| arguments.solver.is_elastic())?.middle();
     let (low, high) = bounds(wall);
     let moving = wall.blocks.iter().filter(|b| b.support != Support::Fixed);
     let heaviest = moving.map(|b| b.density).fold(0.0, f64::max);

@@ -19,6 +19,11 @@ pub fn of_solver(name: &str) -> &'static str {
             "The implicit solver goes from equilibrium to equilibrium on elastic joints without tension. It follows no motion after \
              the collapse; a load that passes quickly is another question."
         }
+        "nonsmooth" => {
+            "The nonsmooth solver steps rigid blocks with Coulomb friction, which does not dilate, in time until they rest or fall. With \
+             rigid joints there are no displacements before the fall; where several equilibria exist, the answer is of the one that \
+             motion leads to."
+        }
         _ => {
             "The explicit solver damps every motion until the wall rests or falls. Its steps in time are a way to equilibrium, and \
              no record of how the wall would move."

@@ -46,8 +46,12 @@ impl Joint {
         self.add(bodies, &pose, &sums);
     }
 
-    /// The force (N, world axes) on the incident body as the joint stands, with the shear that it remembers.
+    /// The force (N, world axes) on the incident body as the joint stands, with the shear that it remembers; or as a solver of rigid
+    /// blocks found it.
     pub fn carried(&self, bodies: &[Body]) -> Vec3 {
+        if let Some(force) = self.given {
+            return force;
+        }
         let pose = self.pose(bodies);
         if self.is_wide_open(&pose.gap) {
             return Vec3::zeros();
@@ -79,6 +83,7 @@ impl Joint {
     pub(super) fn let_go(&mut self) {
         self.states.iter_mut().for_each(SubContact::forget_shear);
         self.force = 0.0;
+        self.given = None;
     }
 
     /// Pressure and shear over the joint; its sub-contacts remember the shear from now on.

@@ -43,6 +43,8 @@ pub struct Joint {
     pub force: f64,
     /// What damps it, if anything does and it touches.
     pub(super) branch: Option<Box<Branch>>,
+    /// The force (N, world axes) on the incident body, where a solver found it that does not go by the joint's own law.
+    pub(in crate::solve) given: Option<Vec3>,
 }
 
 /// The gap between incident face and reference plane, less the distance at which they begin to press, at plane
@@ -117,6 +119,7 @@ impl Joint {
             cells,
             force: 0.0,
             branch: None,
+            given: None,
         }
     }
 
@@ -166,6 +169,7 @@ impl Joint {
         let (now, then) = (self.pose(&bodies.all), before.pose(&bodies.all));
         // Traction is kept for the incident body; when the roles have changed, its reaction acts there.
         let sign = if self.incident == before.incident { 1.0 } else { -1.0 };
+        self.given = before.given.map(|force| force * sign);
         let place = |pose: &Pose, [s, t]: [f64; 2]| pose.origin + pose.s * s + pose.t * t;
         let old: Vec<Vec3> = before.closed_points().into_iter().map(|(at, _)| place(&then, at)).collect();
         for ((at, whole), state) in self.closed_points().into_iter().zip(&mut self.states) {

@@ -1,6 +1,6 @@
 //! The contact points of all joints, and what they remember from step to step.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::contact::{Feature, area_shares, distinct, middle_line};
 use crate::law::CohesionAfterSlip;
@@ -14,6 +14,8 @@ use crate::solve::nonsmooth::problem::{Inertia, inertia_along};
 /// What a joint's points remember. They keep their places on the incident body for as long as the joint does.
 #[derive(Clone, Debug)]
 pub(super) struct Memory {
+    /// The two blocks of the joint.
+    pair: (u32, u32),
     /// Where they lie in the joint's plane coordinates (m), and their shares of its area (m^2).
     places: Vec<([f64; 2], f64)>,
     /// Force of the last step (N), along normal and in-plane axes.
@@ -77,14 +79,27 @@ impl Contacts {
             let places = places(joint, normal);
             let n = places.len();
             let met = joint.is_met();
-            let mut memory =
-                Memory { places, forces: vec![[0.0; 3]; n], broken: vec![met; n], slipped: vec![false; n] };
+            let mut memory = Memory {
+                pair: joint.pair(),
+                places,
+                forces: vec![[0.0; 3]; n],
+                broken: vec![met; n],
+                slipped: vec![false; n],
+            };
             if let Some(past) = past.get(&joint.pair()) {
                 memory.inherit(joint, bodies, past);
             }
             memory
         };
         Contacts { memories: joints.all.iter().map(of).collect() }
+    }
+
+    /// Forgets joints that are gone with blocks that were taken out.
+    pub fn forget(&mut self, joints: &Joints) {
+        if self.memories.len() > joints.all.len() {
+            let left: BTreeSet<(u32, u32)> = joints.all.iter().map(Joint::pair).collect();
+            self.memories.retain(|memory| left.contains(&memory.pair));
+        }
     }
 
     /// The points of all joints in a step of length `step` (s): gaps where the bodies are now, everything else where they are half way.
@@ -160,13 +175,12 @@ impl Contacts {
 
     /// What the impulses (N s) of a step did to the points, which are in the order of [`points`](Contacts::points).
     pub fn remember(&mut self, joints: &mut Joints, points: &[Point], impulses: &[[f64; 3]], step: f64) {
-        joints.all.iter_mut().for_each(|joint| joint.force = 0.0);
-        let mut sums = vec![[0.0; 3]; joints.all.len()];
+        let mut sums = vec![Vec3::zeros(); joints.all.len()];
         for (point, impulse) in points.iter().zip(impulses) {
             let (joint, memory) = (&mut joints.all[point.joint], &mut self.memories[point.joint]);
             let force = impulse.map(|x| x / step);
             memory.forces[point.own] = force;
-            (0..3).for_each(|k| sums[point.joint][k] += force[k]);
+            (0..3).for_each(|k| sums[point.joint] += point.axes[k] * force[k]);
             if point.least < 0.0 && impulse[0] <= point.least {
                 memory.broken[point.own] = true;
             }
@@ -177,7 +191,7 @@ impl Contacts {
             }
         }
         for (joint, sum) in joints.all.iter_mut().zip(sums) {
-            joint.force = (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]).sqrt();
+            (joint.force, joint.given) = (sum.norm(), Some(sum));
         }
     }
 

@@ -32,6 +32,7 @@
 
 mod cone_program;
 mod contacts;
+mod global;
 mod newton;
 mod point;
 mod problem;
@@ -40,6 +41,7 @@ mod residual;
 mod step;
 mod sweeps;
 
+pub use global::{GlobalProblem, Solution, Triplets};
 pub use problem::Problem;
 pub use residual::Residual;
 pub use step::{Simulation, Stepped};
@@ -101,6 +103,13 @@ pub struct Settings {
     pub rest_speed: f64,
     /// Steps per load step before the run is called not converged; default 20 000.
     pub max_steps: u64,
+}
+
+impl Settings {
+    /// Whether joints have no stiffness.
+    pub fn is_rigid(&self) -> bool {
+        self.normal != Normal::Compliant
+    }
 }
 
 impl Default for Settings {

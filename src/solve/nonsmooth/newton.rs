@@ -100,7 +100,8 @@ pub(super) fn newton(
     let mut weight = most.min(start.weight.max(FIRST));
     // An impulse of the tolerance on a body of the mean mass.
     let unit = problem.weight * problem.weight / problem.mean_mass;
-    let enough = 0.5 * unit * (INNER * tolerance).powi(2);
+    let share = INNER * tolerance;
+    let enough = 0.5 * unit * share * share;
     let (mut factorisations, mut updates, mut idle) = (0, 0, 0);
     let mut best: Option<Solved> = None;
     loop {

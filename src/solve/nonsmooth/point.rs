@@ -6,6 +6,10 @@ use crate::solve::system::DOF;
 
 /// What a point bears.
 #[derive(Clone, Copy, Debug)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "all points of a problem have the same variant; a box each would cost more"
+)]
 pub(super) enum Bearing {
     /// Nothing that is pressed: `r_N >= least` (N s) where `u_N + offset >= 0`.
     Rigid {

@@ -119,6 +119,18 @@ impl<'a> Simulation<'a> {
         }
     }
 
+    /// Length of a step (s).
+    pub(super) fn time_step(&self) -> f64 {
+        self.settings.time_step
+    }
+
+    /// The impulses (N s) that solve the problem of a step from here, and what is left over.
+    pub(super) fn impulses_of(&mut self, problem: &Problem) -> (Vec<[f64; 3]>, Residual) {
+        let start = self.contacts.impulses(&problem.points, problem.step);
+        let (impulses, residual, _) = self.solve(problem, &start);
+        (impulses, residual)
+    }
+
     /// Stiffness of ties and of the platform's springs by body, times the square of the step.
     fn springs(&self, step: f64) -> Vec<Matrix> {
         let bodies = &self.assembly.bodies.all;
@@ -271,7 +283,17 @@ impl<'a> Equilibrate<'a> for Simulation<'a> {
         true
     }
 
+    fn lower(&mut self, down: &[(usize, f64)], stop: &mut dyn FnMut(&Bodies) -> bool) -> Settled {
+        self.assembly.lower(down);
+        self.refresh();
+        self.settle(stop)
+    }
+
     fn settle(&mut self, stop: &mut dyn FnMut(&Bodies) -> bool) -> Settled {
+        self.contacts.forget(&self.assembly.joints);
+        if !self.system.fits(&self.assembly.joints) {
+            self.system = System::new(&self.assembly.bodies.all, &self.assembly.joints);
+        }
         let mut step = self.settings.time_step;
         let mut unbalanced_ratio = f64::INFINITY;
         for steps in 1..=self.settings.max_steps {

@@ -11,6 +11,7 @@ const RUNS_AWAY: &[&str] = &["tilting", "shear"];
 const EXPLICIT: &[&str] = &["explicit"];
 const IMPLICIT: &[&str] = &["implicit"];
 const LIMIT: &[&str] = &["limit"];
+const NONSMOOTH: &[&str] = &["nonsmooth"];
 const RATIO_OF_FORCES: Kind = Kind::Real { unit: "1", within: Interval::open(0.0, 1.0) };
 const AT_REST: &str = "At rest when the unbalanced force ratio falls below this.";
 
@@ -278,10 +279,10 @@ pub static SOLVER: Section = Section {
     keys: &[&[
         Key::new(
             "name",
-            Kind::Choice(&["explicit", "implicit", "limit"]),
+            Kind::Choice(&["explicit", "implicit", "nonsmooth", "limit"]),
             Default("\"explicit\""),
-            "Central differences with local damping; Newton's method from equilibrium to equilibrium; or limit analysis of \
-             rigid blocks, which gives the collapse load and no displacements.",
+            "Central differences with local damping; Newton's method from equilibrium to equilibrium; contact dynamics of rigid \
+             blocks with Coulomb friction; or limit analysis of rigid blocks, which gives the collapse load and no displacements.",
         ),
         Key::new(
             "flow",
@@ -355,5 +356,50 @@ pub static SOLVER: Section = Section {
             "Stiffness added to the diagonal, as a share of the largest there; in the matrix only, not in the balance.",
         )
         .only(IMPLICIT),
+        Key::new(
+            "time_step_s",
+            real("s", Interval::closed(1e-6, 0.1)),
+            Default("2e-3"),
+            "Time step; while a wall comes to rest it grows up to ten times as long.",
+        )
+        .only(NONSMOOTH),
+        Key::new(
+            "normal",
+            Kind::Choice(&["gap", "velocity", "compliant"]),
+            Default("\"gap\""),
+            "Joints that bear pressure where their gap closes within the step; where they touch, by velocities with a restitution; \
+             or by the stiffness of the joints. The first two are rigid, and the joints' stiffness has no bearing on them.",
+        )
+        .only(NONSMOOTH),
+        Key::new(
+            "restitution",
+            real("1", Interval::closed(0.0, 1.0)),
+            Optional,
+            "Share of the closing velocity with which a joint opens after an impact, where normal = \"velocity\"; 0 where it is not \
+             given.",
+        )
+        .only(NONSMOOTH),
+        Key::new(
+            "step_solver",
+            Kind::Choice(&["newton", "cone_program", "sweeps"]),
+            Default("\"newton\""),
+            "How a step is solved: Newton's method, and cone programs where it does not converge; a fixed point of cone programs; \
+             or non-linear Gauss-Seidel.",
+        )
+        .only(NONSMOOTH),
+        Key::new(
+            "tolerance",
+            RATIO_OF_FORCES,
+            Default("1e-8"),
+            "A step is solved when no impulse is off by more than this share of the impulse of all weights.",
+        )
+        .only(NONSMOOTH),
+        Key::new(
+            "max_steps",
+            Kind::Whole { low: 1, high: 1_000_000_000 },
+            Default("20000"),
+            "Time steps per load step before a wall is called not converged.",
+        )
+        .only(NONSMOOTH),
     ]],
 };
