@@ -94,10 +94,7 @@ pub fn unfit_for(solver: &Solver, arms: &[Arm], protocol: &Protocol, agreement: 
                 is_rigid && tilting.observes == Observes::Displacement,
                 "load.observes = \"displacement\": rigid blocks do not move before they fall",
             ),
-            (
-                is_rigid && tilting.remainders,
-                "load.remainders: rigid blocks do not move before they fall",
-            ),
+            (is_rigid && tilting.remainders, "load.remainders: rigid blocks do not move before they fall"),
         ];
         unfit.extend(asked.iter().filter(|(asked, _)| *asked).map(|(_, words)| (*words).to_owned()));
     }

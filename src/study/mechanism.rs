@@ -245,7 +245,8 @@ impl Arm {
 
     /// What contact dynamics refuses of its joints and mechanisms, with joints that are rigid or have a stiffness.
     pub fn unfit_for_contact_dynamics(&self, is_rigid: bool) -> Vec<Unfit> {
-        let Mechanisms { joint_closure, stress_stiffening, friction, creep, contact_area, .. } = &self.mechanisms;
+        let Mechanisms { joint_closure, stress_stiffening, friction, creep, contact_area, .. } =
+            &self.mechanisms;
         let is_table = matches!(self.joint.normal_law, StatedLaw::Table(_));
         let asked = [
             (is_rigid && joint_closure.is_some(), Unfit::JointClosure),
