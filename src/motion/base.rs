@@ -147,7 +147,7 @@ impl Motion {
     }
 
     /// Whether any component has a horizontal part.
-    pub(super) fn moves_horizontally(&self) -> bool {
+    pub fn is_horizontal(&self) -> bool {
         self.components.iter().any(|own| own.along.x != 0.0 || own.along.y != 0.0)
     }
 

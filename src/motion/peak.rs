@@ -22,7 +22,7 @@ impl Motion {
 
     /// The components that peaks are taken of.
     fn peaking(&self) -> Vec<Accelerogram> {
-        let horizontal = self.moves_horizontally();
+        let horizontal = self.is_horizontal();
         let axes = if horizontal { vec![Vec3::x(), Vec3::y()] } else { vec![Vec3::z()] };
         axes.iter().map(|axis| self.accelerogram(axis)).collect()
     }

@@ -37,6 +37,7 @@ const HOUSE: &[(&str, &[&str])] = &[
             "math",
             "shape",
             "law",
+            "motion",
             "model",
             "exchange",
             "contact",

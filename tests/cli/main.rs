@@ -5,6 +5,7 @@ mod analyse_loads;
 mod analyse_ranges;
 mod averaged;
 mod bad_walls;
+mod base_motion;
 mod capacity;
 mod catalogue;
 mod commands;

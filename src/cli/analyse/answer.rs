@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::cli::analyse::arguments::{Analyse, LoadName, MethodName};
+use crate::cli::analyse::arguments::{Analyse, Growing, MethodName};
 use crate::cli::analyse::joints;
 use crate::cli::analyse::loads::listed;
 use crate::cli::analyse::meetings::Fit;
@@ -66,7 +66,7 @@ impl Answer {
     /// dry joints of rigid blocks bear the same then.
     fn as_seismic_coefficient(&self, asked: &Analyse) -> Option<String> {
         let is_near =
-            asked.load == LoadName::Tilt && (asked.solver != MethodName::Limit || asked.cohesion > 0.0);
+            asked.growing() == Growing::Tilt && (asked.solver != MethodName::Limit || asked.cohesion > 0.0);
         let near = if is_near { ", nearly; --load lateral gives it itself" } else { "" };
         self.collapse_multiplier().map(|_| format!("{SEISMIC}{near}"))
     }
@@ -92,9 +92,9 @@ impl Answer {
 
     /// The bracket in the unit of the load: degrees, or multipliers.
     fn shown_bracket(&self, asked: &Analyse) -> Option<[f64; 2]> {
-        self.bracket.map(|ends| match asked.load {
-            LoadName::Tilt => ends.map(degrees),
-            LoadName::Lateral => ends,
+        self.bracket.map(|ends| match asked.growing() {
+            Growing::Tilt => ends.map(degrees),
+            Growing::Lateral => ends,
         })
     }
 
@@ -111,9 +111,9 @@ impl Answer {
 
     /// Multipliers as the load is stated: tilts (deg), or multipliers.
     fn in_unit(&self, asked: &Analyse, ends: [f64; 2]) -> [f64; 2] {
-        match asked.load {
-            LoadName::Tilt => ends.map(|x| degrees(atan(x))),
-            LoadName::Lateral => ends,
+        match asked.growing() {
+            Growing::Tilt => ends.map(|x| degrees(atan(x))),
+            Growing::Lateral => ends,
         }
     }
 
@@ -150,11 +150,11 @@ impl Answer {
             "as_seismic_coefficient": self.as_seismic_coefficient(asked),
             "between": self.between.map(|ends| self.in_unit(asked, ends)),
             "bracket": self.shown_bracket(asked),
-            "bracket_unit": self.bracket.map(|_| if asked.load == LoadName::Tilt { "deg" } else { "1" }),
+            "bracket_unit": self.bracket.map(|_| if asked.growing() == Growing::Tilt { "deg" } else { "1" }),
             "meaning": self.meaning,
             "solver": asked.solver.name(),
-            "load": asked.load.name(),
-            "vertical": (asked.load == LoadName::Lateral).then(|| asked.vertical.unwrap_or(0.0)),
+            "load": asked.growing().name(),
+            "vertical": (asked.growing() == Growing::Lateral).then(|| asked.vertical.unwrap_or(0.0)),
             "dead_loads": listed(&asked.dead_loads, "weight_n"),
             "settlements": listed(&asked.settlements, "down_m"),
             "settled_share": self.settled_share(asked),
@@ -178,7 +178,7 @@ impl Answer {
     /// What came out, in a sentence.
     pub fn headline(&self, asked: &Analyse) -> String {
         let to = asked.direction;
-        let said = match (&self.outcome, asked.load, self.collapse()) {
+        let said = match (&self.outcome, asked.growing(), self.collapse()) {
             (_, _, (Some(angle), _)) => {
                 let multiplier = self.collapse_multiplier().unwrap_or_default();
                 format!(
@@ -196,8 +196,8 @@ impl Answer {
                 )
             }
             (Outcome::Collapsed { at }, ..) => format!("collapses at {at}, before the load grows"),
-            (Outcome::Equilibrium, LoadName::Tilt, _) => format!("stands to the largest tilt towards {to}"),
-            (Outcome::Equilibrium, LoadName::Lateral, _) => {
+            (Outcome::Equilibrium, Growing::Tilt, _) => format!("stands to the largest tilt towards {to}"),
+            (Outcome::Equilibrium, Growing::Lateral, _) => {
                 format!("stands to the largest horizontal load towards {to}")
             }
             (other, ..) => format!("is {}: {}", self.name().replace('_', " "), other.reason()),
@@ -215,11 +215,11 @@ impl Answer {
             text.push_str(&format!("  seismic coefficient {multiplier:.4}: {what}\n"));
         }
         if let Some([low, high]) = self.shown_bracket(asked) {
-            let unit = if asked.load == LoadName::Tilt { "deg" } else { "of its weight" };
+            let unit = if asked.growing() == Growing::Tilt { "deg" } else { "of its weight" };
             text.push_str(&format!("  bracket: {low:.4} to {high:.4} {unit}\n"));
         }
         if let Some([low, high]) = self.between.map(|ends| self.in_unit(asked, ends)) {
-            let unit = if asked.load == LoadName::Tilt { "deg" } else { "of its weight" };
+            let unit = if asked.growing() == Growing::Tilt { "deg" } else { "of its weight" };
             text.push_str(&format!("  between {low:.4} and {high:.4} {unit}\n"));
         }
         let moves =

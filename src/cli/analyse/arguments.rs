@@ -10,6 +10,7 @@ use crate::cli::arguments::{FILE, JOINTS, LOAD, Measure, OUTPUT, SOLUTION};
 use crate::cli::influence;
 use crate::cli::report::PAGE;
 use crate::protocol::Direction;
+use crate::solve::explicit::Rayleigh;
 
 /// What shows a wall: its folder, or its page alone.
 const SEEN: &str = "seen";
@@ -23,7 +24,8 @@ pub(crate) struct Analyse {
     /// Solver. Limit analysis and contact dynamics take rigid blocks and need no stiffness.
     #[arg(long, value_name = "NAME", default_value = "limit", help_heading = SOLUTION)]
     pub solver: MethodName,
-    /// Load: gravity turns towards the direction (to at most 89 deg), or a multiple of the weight pushes there (to at most 10).
+    /// Load: gravity turns towards the direction (to at most 89 deg), a multiple of the weight pushes there (to at most 10), or the ground
+    /// moves as --record says, for nonsmooth and explicit.
     #[arg(long, value_name = "NAME", default_value = "tilt", help_heading = LOAD)]
     pub load: LoadName,
     /// Direction of the load: x+, x-, y+ or y-, or an angle in degrees from x+, counter-clockwise seen from above (90 is y+).
@@ -39,6 +41,20 @@ pub(crate) struct Analyse {
     /// Look for the horizontal direction in which the wall bears least, and answer for that one.
     #[arg(long, conflicts_with = "direction", help_heading = LOAD)]
     pub worst_direction: bool,
+    /// Record of the ground's motion, for --load base-motion: PEER .AT2, ESM ASCII, or CSV whose heads state their units (t_s, a_g, ax_m_per_s2,
+    /// ...). Its y axis, or its only component, is turned to --direction.
+    #[arg(long, value_name = "FILE", help_heading = LOAD)]
+    pub record: Option<PathBuf>,
+    /// Factor on the record [default: 1].
+    #[arg(long, value_name = "X", value_parser = numbers::scale, requires = "record", help_heading = LOAD)]
+    pub scale: Option<f64>,
+    /// Rayleigh damping of the explicit solver: a share of critical at two frequencies (Hz), as 0.05,1,10. Its part in proportion to mass slows
+    /// toppling [default: none].
+    #[arg(long, value_name = "RATIO,HZ,HZ", value_parser = numbers::rayleigh, requires = "record", help_heading = LOAD)]
+    pub rayleigh: Option<Rayleigh>,
+    /// Time step of contact dynamics under a base motion (s) [default: 0.002].
+    #[arg(long, value_name = "S", value_parser = numbers::time_step, requires = "record", help_heading = LOAD)]
+    pub time_step: Option<f64>,
     /// Vertical share of --load lateral: a multiplier x pushes with V x times the weight upwards besides, which lightens the wall;
     /// downwards where V is below 0. A number from -2 to 2 [default: 0].
     #[arg(long, value_name = "V", value_parser = numbers::vertical, allow_negative_numbers = true, help_heading = LOAD)]
@@ -144,6 +160,14 @@ pub(crate) struct Analyse {
 }
 
 impl Analyse {
+    /// What grows until the wall falls. Under a base motion nothing does, and nobody asks.
+    pub fn growing(&self) -> Growing {
+        match self.load {
+            LoadName::Tilt | LoadName::BaseMotion => Growing::Tilt,
+            LoadName::Lateral => Growing::Lateral,
+        }
+    }
+
     /// Where its page is written without its folder, if it is.
     pub fn page_alone(&self) -> Option<PathBuf> {
         let stem = self.wall.file_stem().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
@@ -210,13 +234,24 @@ impl MethodName {
 }
 
 names! {
-    /// What grows until the wall falls.
+    /// What the wall is under.
     LoadName {
         /// Gravity turns towards the direction.
         Tilt = "tilt",
         /// A multiple of the weight pushes in the direction.
         Lateral = "lateral",
+        /// The ground moves as a record says.
+        BaseMotion = "base-motion",
     }
+}
+
+/// What grows until the wall falls.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Growing {
+    /// The tilt of gravity.
+    Tilt,
+    /// The multiple of the weight.
+    Lateral,
 }
 
 names! {

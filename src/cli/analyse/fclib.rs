@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use crate::cli::analyse::answer::Answer;
-use crate::cli::analyse::arguments::{Analyse, LoadName};
+use crate::cli::analyse::arguments::{Analyse, Growing};
 use crate::cli::analyse::meetings::Fit;
 use crate::cli::analyse::solve::{LARGEST_MULTIPLIER, LARGEST_TILT_DEG, task};
 use crate::cli::failure::Failure;
@@ -31,11 +31,11 @@ pub(crate) fn write(
     answer: &Answer,
 ) -> Result<(), Failure> {
     let task = task(asked, (&file.wall, &[]), law, fit);
-    let level = match (asked.load, asked.at_deg.map(radians)) {
-        (LoadName::Tilt, Some(tilt)) => tilt,
-        (LoadName::Lateral, Some(tilt)) => tan(tilt),
-        (LoadName::Tilt, None) => answer.borne(radians(LARGEST_TILT_DEG)),
-        (LoadName::Lateral, None) => answer.borne(LARGEST_MULTIPLIER),
+    let level = match (asked.growing(), asked.at_deg.map(radians)) {
+        (Growing::Tilt, Some(tilt)) => tilt,
+        (Growing::Lateral, Some(tilt)) => tan(tilt),
+        (Growing::Tilt, None) => answer.borne(radians(LARGEST_TILT_DEG)),
+        (Growing::Lateral, None) => answer.borne(LARGEST_MULTIPLIER),
     };
     let mut wall = Simulation::new(&file.wall, law, Settings::default(), task.contact);
     let (gravity, factor) = task.path.loads(level);
@@ -43,9 +43,9 @@ pub(crate) fn write(
     let Some((problem, solution)) = wall.global_problem() else {
         return Err(Failure::Run("the joints are not dry: --fclib has no form for them".to_owned()));
     };
-    let load = match asked.load {
-        LoadName::Tilt => json!({ "kind": "tilt", "tilt_deg": degrees(level) }),
-        LoadName::Lateral => json!({ "kind": "lateral", "multiplier": level }),
+    let load = match asked.growing() {
+        Growing::Tilt => json!({ "kind": "tilt", "tilt_deg": degrees(level) }),
+        Growing::Lateral => json!({ "kind": "lateral", "multiplier": level }),
     };
     let object = object(&asked.title(), file, (&problem, &solution), load);
     replace_file(path, format!("{object}\n").as_bytes())?;

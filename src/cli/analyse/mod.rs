@@ -11,6 +11,7 @@ mod loads;
 mod meetings;
 mod numbers;
 mod page;
+mod shaken;
 mod solve;
 mod state;
 mod unsure;

@@ -3,6 +3,7 @@
 use std::ops::RangeInclusive;
 
 use crate::protocol::Direction;
+use crate::solve::explicit::Rayleigh;
 
 /// Friction angles (deg): at 90 degrees friction would be infinite.
 pub(super) const FRICTION_ANGLES: RangeInclusive<f64> = 0.0..=89.0;
@@ -39,6 +40,29 @@ pub(crate) fn tilt(text: &str) -> Result<f64, String> {
 /// Vertical share of the load, over its horizontal one.
 pub(crate) fn vertical(text: &str) -> Result<f64, String> {
     within(text, -2.0..=2.0, "of the horizontal load")
+}
+
+/// Factor on a record.
+pub(crate) fn scale(text: &str) -> Result<f64, String> {
+    within(text, 1e-3..=1e3, "times the record")
+}
+
+/// Time step (s).
+pub(crate) fn time_step(text: &str) -> Result<f64, String> {
+    within(text, 1e-6..=0.02, "s")
+}
+
+/// Rayleigh damping, as `0.05,1,10`: share of critical and two frequencies (Hz).
+pub(crate) fn rayleigh(text: &str) -> Result<Rayleigh, String> {
+    let form = "allowed is RATIO,HZ,HZ, as 0.05,1,10";
+    let parts: Vec<&str> = text.split(',').map(str::trim).collect();
+    let [ratio, low, high] = parts[..] else { return Err(form.to_owned()) };
+    let ratio = within(ratio, 0.0..=0.5, "of critical")?;
+    let (low, high) = (within(low, 0.01..=1e4, "Hz")?, within(high, 0.01..=1e4, "Hz")?);
+    if low >= high {
+        return Err(format!("the first frequency, {low} Hz, is not below the second, {high} Hz; {form}"));
+    }
+    Ok(Rayleigh::of(ratio, [low, high]))
 }
 
 /// A weight (N) on a block, as `12=1500`.

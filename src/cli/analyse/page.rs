@@ -3,7 +3,7 @@
 use std::fs;
 
 use crate::cli::analyse::answer::Answer;
-use crate::cli::analyse::arguments::{Analyse, LoadName, MethodName};
+use crate::cli::analyse::arguments::{Analyse, Growing, MethodName};
 use crate::cli::analyse::state::State;
 use crate::cli::failure::Failure;
 use crate::cli::origin::Origin;
@@ -71,13 +71,13 @@ pub(crate) fn page(
 /// What was asked, as a question.
 fn question(asked: &Analyse) -> String {
     let towards = asked.direction;
-    match (asked.load, asked.worst_direction) {
-        (LoadName::Tilt, false) => format!("At which tilt towards {towards} does the wall fall?"),
-        (LoadName::Tilt, true) => "In which direction can the wall be tilted least, and how far?".to_owned(),
-        (LoadName::Lateral, false) => {
+    match (asked.growing(), asked.worst_direction) {
+        (Growing::Tilt, false) => format!("At which tilt towards {towards} does the wall fall?"),
+        (Growing::Tilt, true) => "In which direction can the wall be tilted least, and how far?".to_owned(),
+        (Growing::Lateral, false) => {
             format!("Which share of its weight, pushing towards {towards}, does the wall bear?")
         }
-        (LoadName::Lateral, true) => {
+        (Growing::Lateral, true) => {
             "In which direction does the wall bear the least push, and how much?".to_owned()
         }
     }
@@ -87,7 +87,7 @@ fn question(asked: &Analyse) -> String {
 fn inputs(asked: &Analyse) -> Vec<(&'static str, String)> {
     let mut all = vec![
         ("solver", asked.solver.name().to_owned()),
-        ("load", asked.load.name().to_owned()),
+        ("load", asked.growing().name().to_owned()),
         ("direction", asked.direction.to_string()),
         (
             "friction angle of the joints",

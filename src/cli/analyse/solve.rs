@@ -1,7 +1,7 @@
 //! From the arguments to a solver and its answer.
 
 use crate::cli::analyse::answer::Answer;
-use crate::cli::analyse::arguments::{Analyse, FlowName, LoadName, MethodName};
+use crate::cli::analyse::arguments::{Analyse, FlowName, Growing, MethodName};
 use crate::cli::analyse::known::Known;
 use crate::cli::analyse::meetings::Fit;
 use crate::cli::analyse::state::Found;
@@ -105,9 +105,9 @@ pub(super) fn task<'t>(
     fit: &Fit,
 ) -> Task<'t> {
     let (towards, step) = (arguments.direction, radians(arguments.step_deg.unwrap_or(STEP_DEG)));
-    let path = match arguments.load {
-        LoadName::Tilt => LoadPath::tilt(towards, step, radians(LARGEST_TILT_DEG), radians(BRACKET_DEG)),
-        LoadName::Lateral => LoadPath::multiplier(towards, tan(step), LARGEST_MULTIPLIER, BRACKET)
+    let path = match arguments.growing() {
+        Growing::Tilt => LoadPath::tilt(towards, step, radians(LARGEST_TILT_DEG), radians(BRACKET_DEG)),
+        Growing::Lateral => LoadPath::multiplier(towards, tan(step), LARGEST_MULTIPLIER, BRACKET)
             .with_vertical(arguments.vertical.unwrap_or(0.0)),
     };
     Task {
@@ -156,9 +156,9 @@ fn by_limit_analysis(
     let settings = limit::Settings { flow, closed_gap: fit.contact.touch, ..limit::Settings::default() };
     let analysis = limit::Analysis::new(wall, law, fit.contact, settings);
     let direction = arguments.direction.unit();
-    let found = match arguments.load {
-        LoadName::Tilt => analysis.tilt(direction, &[]),
-        LoadName::Lateral => {
+    let found = match arguments.growing() {
+        Growing::Tilt => analysis.tilt(direction, &[]),
+        Growing::Lateral => {
             analysis.multiplier(&limit::Loads::seismic(direction, arguments.vertical.unwrap_or(0.0)))
         }
     };
@@ -169,14 +169,14 @@ fn by_limit_analysis(
     let fastest = (0..found.mechanism.len()).map(speed).fold(0.0, f64::max);
     // What a solver leaves where nothing collapses is no mechanism.
     let falls = matches!(found.outcome, Outcome::Collapsed { .. } | Outcome::UnstableAtRest);
-    let scale = match arguments.load {
-        LoadName::Tilt => cos(atan(found.multiplier)),
-        LoadName::Lateral => 1.0,
+    let scale = match arguments.growing() {
+        Growing::Tilt => cos(atan(found.multiplier)),
+        Growing::Lateral => 1.0,
     };
     if let Some(recorder) = witness.recorder {
-        let level = match arguments.load {
-            LoadName::Tilt => Level::Tilt(atan(found.multiplier)),
-            LoadName::Lateral => Level::Multiplier(found.multiplier),
+        let level = match arguments.growing() {
+            Growing::Tilt => Level::Tilt(atan(found.multiplier)),
+            Growing::Lateral => Level::Multiplier(found.multiplier),
         };
         recorder.takes(amplified((wall, &fit.contact), &found, (level, scale), falls));
     }

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use crate::cli::analyse::answer::Answer;
-use crate::cli::analyse::arguments::{Analyse, LoadName};
+use crate::cli::analyse::arguments::{Analyse, Growing};
 use crate::cli::analyse::fall::Fall;
 use crate::cli::analyse::known::Known;
 use crate::cli::analyse::loads::loaded;
@@ -175,16 +175,16 @@ impl Given<'_> {
     }
 
     fn largest(&self) -> f64 {
-        match self.arguments.load {
-            LoadName::Tilt => LARGEST_TILT_DEG,
-            LoadName::Lateral => LARGEST_MULTIPLIER,
+        match self.arguments.growing() {
+            Growing::Tilt => LARGEST_TILT_DEG,
+            Growing::Lateral => LARGEST_MULTIPLIER,
         }
     }
 
     fn answered(&self) -> Answered {
-        match self.arguments.load {
-            LoadName::Tilt => Answered { name: "collapse_angle_deg", unit: "deg", resolution: BRACKET_DEG },
-            LoadName::Lateral => Answered { name: "multiplier", unit: "of its weight", resolution: BRACKET },
+        match self.arguments.growing() {
+            Growing::Tilt => Answered { name: "collapse_angle_deg", unit: "deg", resolution: BRACKET_DEG },
+            Growing::Lateral => Answered { name: "multiplier", unit: "of its weight", resolution: BRACKET },
         }
     }
 }

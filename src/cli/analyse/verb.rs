@@ -4,13 +4,14 @@ use std::time::Instant;
 
 use serde_json::json;
 
-use crate::cli::analyse::arguments::{Analyse, FlowName, LoadName, MethodName, UpName};
+use crate::cli::analyse::arguments::{Analyse, FlowName, Growing, LoadName, MethodName, UpName};
 use crate::cli::analyse::fclib;
 use crate::cli::analyse::files::{self, Seen};
 use crate::cli::analyse::known::Known;
 use crate::cli::analyse::loads::{loaded, settlements};
 use crate::cli::analyse::meetings::{Fit, bounds, look};
 use crate::cli::analyse::page::Told;
+use crate::cli::analyse::shaken::{self, shaken};
 use crate::cli::analyse::solve::{law, solve, solve_seen_by};
 use crate::cli::analyse::state::State;
 use crate::cli::analyse::unsure::{Given, asked, refused};
@@ -52,6 +53,9 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
     warnings.extend(fit.warnings.iter().cloned());
     warnings.extend(prestress(arguments, &file.wall, &fit));
     let law = law(arguments);
+    if arguments.load == LoadName::BaseMotion {
+        return shaken(arguments, &file, (&law, &fit), warnings, begun);
+    }
     let settlements = settlements(&file, &arguments.settlements)?;
     let wall = (&file.wall, &settlements[..]);
     let directions = directions(arguments, wall, &law, &fit);
@@ -155,6 +159,7 @@ fn is_obj(arguments: &Analyse) -> bool {
 /// Arguments that are missing, and warnings of those that mean nothing for what is asked.
 fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
     refused(arguments)?;
+    shaken::refused(arguments)?;
     let solver = arguments.solver.name();
     let mut warnings = Vec::new();
     if !is_obj(arguments) && (arguments.unit.is_some() || arguments.density_kg_per_m3.is_some()) {
@@ -165,7 +170,7 @@ fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
     if !is_obj(arguments) && arguments.up.is_some() {
         return Err(Failure::Usage("--up is for .obj files; in a wall.json z points up".to_owned()));
     }
-    if arguments.vertical.is_some() && arguments.load == LoadName::Tilt {
+    if arguments.vertical.is_some() && arguments.growing() == Growing::Tilt {
         return Err(Failure::Usage(
             "--vertical is for --load lateral, whose force has a direction; a tilt turns the whole weight: ask for that load, or leave --vertical out"
                 .to_owned(),
@@ -208,7 +213,7 @@ fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
     if arguments.flow == Some(FlowName::Associative) {
         warnings.push(format!("--flow is for limit analysis; joints of the {solver} solver do not dilate"));
     }
-    if arguments.load == LoadName::Lateral && arguments.step_deg.is_some() {
+    if arguments.growing() == Growing::Lateral && arguments.step_deg.is_some() {
         warnings.push("the steps of the multiplier are the tangent of --step-deg".to_owned());
     }
     Ok(warnings)
