@@ -153,7 +153,7 @@ impl Answer {
             "bracket_unit": self.bracket.map(|_| if asked.growing() == Growing::Tilt { "deg" } else { "1" }),
             "meaning": self.meaning,
             "solver": asked.solver.name(),
-            "load": asked.growing().name(),
+            "load": asked.load.name(),
             "vertical": (asked.growing() == Growing::Lateral).then(|| asked.vertical.unwrap_or(0.0)),
             "dead_loads": listed(&asked.dead_loads, "weight_n"),
             "settlements": listed(&asked.settlements, "down_m"),

@@ -87,7 +87,7 @@ fn question(asked: &Analyse) -> String {
 fn inputs(asked: &Analyse) -> Vec<(&'static str, String)> {
     let mut all = vec![
         ("solver", asked.solver.name().to_owned()),
-        ("load", asked.growing().name().to_owned()),
+        ("load", asked.load.name().to_owned()),
         ("direction", asked.direction.to_string()),
         (
             "friction angle of the joints",

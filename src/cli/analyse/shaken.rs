@@ -13,7 +13,7 @@ use crate::cli::doing::doing;
 use crate::cli::failure::Failure;
 use crate::exchange::WallFile;
 use crate::law::Coulomb;
-use crate::math::{Vec3, radians};
+use crate::math::radians;
 use crate::motion::Motion;
 use crate::protocol::{Extreme, InTime, Shaken, Shaking, Verdict, shake_twice};
 use crate::solve::explicit;
@@ -105,7 +105,7 @@ pub(crate) fn shaken(
     begun: Instant,
 ) -> Result<Answer, Failure> {
     let motion = motion(asked)?;
-    warnings.extend(motion.notes().iter().cloned());
+    warnings.extend(motion.notes.iter().cloned());
     let solver = match asked.solver {
         MethodName::Explicit => {
             InTime::Explicit(explicit::Settings::default(), asked.rayleigh.unwrap_or_default())
@@ -159,7 +159,7 @@ impl Told<'_> {
             "solver": asked.solver.name(),
             "load": asked.load.name(),
             "record": {
-                "name": motion.name(),
+                "name": motion.name,
                 "scale": asked.scale.unwrap_or(1.0),
                 "components": motion.components(),
                 "duration_s": motion.duration(),
@@ -209,7 +209,7 @@ impl Told<'_> {
             Verdict::UnstableAtRest => "The wall does not stand under its own weight.".to_owned(),
             Verdict::NotSolved => "The solver lost the wall on its way; this is no answer.".to_owned(),
         };
-        let mut text = format!("{headline}\n  {} solver; {}", asked.solver.name(), motion.name());
+        let mut text = format!("{headline}\n  {} solver; {}", asked.solver.name(), motion.name);
         text += &format!(
             ", peak {:.2} m/s2 and {:.3} m/s in all; towards {} deg\n",
             motion.pga(),
