@@ -233,7 +233,7 @@ impl Told<'_> {
         ] {
             if own.value > 0.0 {
                 text += &format!(
-                    "  largest {what} {:.3e} {unit} (block {}, {:.2} s)\n",
+                    "  largest {what} {:.3e} {unit} ({}, {:.2} s)\n",
                     own.value,
                     self.name(own.block),
                     own.at_s
