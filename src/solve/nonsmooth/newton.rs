@@ -92,7 +92,7 @@ pub(super) fn newton(
     let mut v = start.velocities.to_vec();
     // Of a body of the mean mass the impulse of the tolerance must be more than what the weight makes of the rounding.
     let limit = 0.1 * AIM * tolerance * problem.weight / (problem.mean_mass * ROUNDING * problem.fastest);
-    // A tenth of a tenth, so that the matrix of one step serves the next.
+    // In powers of ten, so that the matrix of one step serves the next.
     let mut most = WEIGHT;
     while most > limit {
         most /= GROWS;
