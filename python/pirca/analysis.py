@@ -36,25 +36,25 @@ class Analysis(Answer):
     @property
     def collapse_angle_deg(self) -> float | None:
         """Tilt at which it falls (deg), if it is tilted."""
-        angle: float | None = self["collapse_angle_deg"]
+        angle: float | None = self.get("collapse_angle_deg")
         return angle
 
     @property
     def multiplier(self) -> float | None:
         """Horizontal load over the weight at which it falls, if it is pushed."""
-        multiplier: float | None = self["multiplier"]
+        multiplier: float | None = self.get("multiplier")
         return multiplier
 
     @property
     def collapse_multiplier(self) -> float | None:
         """The same of either load; of a tilt its tangent."""
-        multiplier: float | None = self["collapse_multiplier"]
+        multiplier: float | None = self.get("collapse_multiplier")
         return multiplier
 
     @property
     def moves(self) -> list[int]:
-        """Ids of the blocks that move at collapse."""
-        return list(self["mechanism"])
+        """Ids of the blocks that move at collapse; none of a wall that was shaken, whose `fallen` says what fell when."""
+        return list(self.get("mechanism", ()))
 
 
 def analyse(
@@ -85,6 +85,10 @@ def analyse(
     colour: str | None = None,
     fclib: str | Path | None = None,
     at_deg: float | None = None,
+    record: str | Path | None = None,
+    scale: float | None = None,
+    rayleigh: tuple[float, float, float] | None = None,
+    time_step: float | None = None,
     out: str | Path | None = None,
     report: bool = False,
     progress: bool = False,
@@ -107,8 +111,8 @@ def analyse(
         Unit of the coordinates of blocks, or of an OBJ file; "m" without it.
     solver : {"limit", "implicit", "explicit", "nonsmooth"}
         Limit analysis of rigid blocks, elastic joints, which need `kn`, or contact dynamics of rigid blocks.
-    load : {"tilt", "lateral"}
-        Gravity turns towards the direction, or a multiple of the weight pushes there.
+    load : {"tilt", "lateral", "base-motion"}
+        Gravity turns towards the direction, a multiple of the weight pushes there, or the ground moves as `record` says.
     direction : str or float, optional
         "x+", "x-", "y+", "y-", or an angle (deg) from x+ seen from above; "y+" without it.
     dead_load, settle : dict, optional
@@ -119,6 +123,14 @@ def analyse(
         As the options of `pirca analyse`; see its help.
     fclib : path, optional
         File for the contact problem of one step, at the tilt `at_deg`: as the option of `pirca analyse`.
+    record : path, optional
+        Record of the ground's motion, for `load="base-motion"`: PEER .AT2, ESM ASCII, or CSV with units in its heads.
+    scale : float, optional
+        Factor on the record; 1 without it.
+    rayleigh : (float, float, float), optional
+        Rayleigh damping of the explicit solver: share of critical, and two frequencies (Hz) at which it is so.
+    time_step : float, optional
+        Time step of contact dynamics under a base motion (s); 0.002 without it.
     out : path, optional
         Folder for a page of it all, the picture of the mechanism, files for ParaView, tables of blocks and joints, and the blocks
         themselves (`wall.json`).
@@ -155,6 +167,10 @@ def analyse(
         "colour": colour,
         "fclib": fclib,
         "at_deg": at_deg,
+        "record": record,
+        "scale": scale,
+        "rayleigh": None if rayleigh is None else ",".join(map(str, rayleigh)),
+        "time_step": time_step,
         "out": out,
         "report": report,
         "progress": progress,

@@ -269,7 +269,8 @@ def test_what_is_no_client_that_waits_is_refused(quick):
 
 
 def test_ctrl_c_frees_the_workers_and_what_was_recorded_stays(cluster, studies):
-    study = pirca.Study(studies / "tilting-block", members=60)
+    # So many walls that none is at its end when it is interrupted.
+    study = pirca.Study(studies / "tilting-block", members=600)
 
     def interrupt():
         until(lambda: begun("stopped"))
@@ -280,7 +281,7 @@ def test_ctrl_c_frees_the_workers_and_what_was_recorded_stays(cluster, studies):
         study.run(client=cluster.client, shards=2, out="stopped")
     begin = time.monotonic()
     until(lambda: not any(cluster.client.run(lambda: __import__("pirca.shards").shards._ONE.locked()).values()))
-    # A shard has 90 walls, and looks whether it was cancelled at every ninth. As a notebook would, somebody still holds the error.
+    # A shard has 900 walls, and looks whether it was cancelled at every ninth. As a notebook would, somebody still holds the error.
     assert not shards("stopped") and begun("stopped"), f"{time.monotonic() - begin} s from {stopped} on"
 
 
