@@ -268,7 +268,10 @@ fn both_solvers_overturn_the_same_of_200_blocks_but_within_2_percent_of_the_boun
     let mut differ = Vec::new();
     for case in 0..200 {
         // Spread evenly by the golden ratio and its powers (Roberts' sequence): slenderness, size, frequency, amplitude.
-        let at = |k: i32| (0.5 + f64::from(case) * 0.856_674_883_854_502_9f64.powi(k)).fract();
+        let at = |k: u32| {
+            let power = (0..k).fold(1.0, |power, _| power * 0.856_674_883_854_502_9);
+            (0.5 + f64::from(case) * power).fract()
+        };
         let h = 0.3 + 0.9 * at(1);
         let b = h * (0.1 + 0.3 * at(2));
         let w = (1.0 + 4.0 * at(3)) * frequency(b, h);
