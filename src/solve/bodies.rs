@@ -182,6 +182,12 @@ impl Bodies {
         self.carriers[body] = carrier;
     }
 
+    /// Largest speed of a body (m/s): of its centroid, or of its turning at its radius.
+    pub fn fastest(&self) -> f64 {
+        let of = |body: &Body| body.velocity.norm().max(body.spin.norm() * body.radius);
+        self.all.iter().map(of).fold(0.0, f64::max)
+    }
+
     /// Kinetic energy of all bodies (J).
     pub fn kinetic_energy(&self) -> f64 {
         self.all
@@ -237,6 +243,12 @@ impl Body {
     /// Radius of gyration (m), the mean over all axes.
     pub fn gyration(&self) -> f64 {
         (0.5 * self.inertia.sum() / self.mass).sqrt()
+    }
+
+    /// Its velocity (m/s) and its spin (rad/s).
+    pub fn twist(&self) -> [f64; 6] {
+        let (v, w) = (self.velocity, self.spin);
+        [v.x, v.y, v.z, w.x, w.y, w.z]
     }
 
     /// Size of the force that is left on it (N); a moment counts as a force at the radius of gyration.

@@ -2,16 +2,13 @@
 
 use std::f64::consts::PI;
 
-use crate::fixture::{G, dry, on_floor, resting};
+use crate::fixture::{G, dry, on_floor, path, resting};
 use pirca::contact;
 use pirca::law::Coulomb;
 use pirca::math::{Vec3, acos, atan, cos, degrees, ln, sin, tan};
 use pirca::model::Wall;
 use pirca::motion::{Motion, Pulse};
-use pirca::protocol::{
-    Changes, Confirmation, Criterion, Direction, InTime, LoadPath, Shaken, Shaking, Task, Verdict, shake,
-    shake_twice,
-};
+use pirca::protocol::{Direction, InTime, LoadPath, Shaken, Shaking, Task, Verdict, shake, shake_twice};
 use pirca::solve::explicit::{self, Rayleigh};
 use pirca::solve::nonsmooth;
 
@@ -24,19 +21,9 @@ fn shaken(wall: &Wall, law: &Coulomb, shaking: &Shaking) -> Shaken {
     shake(&task(wall, law), shaking)
 }
 
+/// Its load path plays no part.
 fn task<'t>(wall: &'t Wall, law: &'t Coulomb) -> Task<'t> {
-    Task {
-        wall,
-        laws: law,
-        contact: contact::Settings::for_size(0.2, [2, 2]),
-        loads: Vec::new(),
-        ties: Vec::new(),
-        platform: None,
-        changes: Changes::default(),
-        path: LoadPath::tilt(Direction::YPlus, 0.01, 1.0, 1e-4),
-        criterion: Criterion::AnyBlock(0.1),
-        confirmation: Confirmation::for_thickness(0.3),
-    }
+    path(wall, law, LoadPath::tilt(Direction::YPlus, 0.01, 1.0, 1e-4))
 }
 
 fn nonsmooth(time_step: f64) -> InTime {

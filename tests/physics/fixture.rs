@@ -7,6 +7,7 @@ use pirca::generate::{
 use pirca::law::{CohesionAfterSlip, Coulomb, NormalLaw, Sampling};
 use pirca::math::{Vec3, cos, radians, sin, tan};
 use pirca::model::{Block, Support, Tag, Wall};
+use pirca::protocol::{Changes, Confirmation, Criterion, LoadPath, Task};
 use pirca::random::{Family, Streams};
 use pirca::shape::Polyhedron;
 use pirca::solve::explicit::{Settings, Simulation};
@@ -56,6 +57,22 @@ pub fn tilted(tilt_deg: f64) -> Vec3 {
 /// A simulation with the contact tolerances of stones of the given size and 2 x 2 sub-contacts.
 pub fn simulation<'a>(wall: &Wall, law: &'a Coulomb, settings: Settings, size: f64) -> Simulation<'a> {
     Simulation::new(wall, law, settings, contact::Settings::for_size(size, [2, 2]))
+}
+
+/// A path of any kind for blocks as they are, supports included.
+pub fn path<'t>(wall: &'t Wall, law: &'t Coulomb, path: LoadPath) -> Task<'t> {
+    Task {
+        wall,
+        laws: law,
+        contact: contact::Settings::for_size(0.2, [2, 2]),
+        loads: Vec::new(),
+        ties: Vec::new(),
+        platform: None,
+        changes: Changes::default(),
+        path,
+        criterion: Criterion::AnyBlock(0.04),
+        confirmation: Confirmation::for_thickness(0.4),
+    }
 }
 
 /// Undamped motion in true time, at a share of the critical step.

@@ -6,16 +6,13 @@ use pirca::generate::canonical;
 use pirca::law::Coulomb;
 use pirca::math::{Vec3, asin, atan, cos, degrees, radians, tan};
 use pirca::model::{Block, JointLaws, Level, Outcome, Support, Wall};
-use pirca::protocol::{
-    Base, Changes, Confirmation, Criterion, Direction, Ends, LoadPath, Protocol, Restraint, Run, Task,
-    Tilting, drive, run,
-};
+use pirca::protocol::{Base, Direction, Ends, LoadPath, Protocol, Restraint, Run, Tilting, drive, run};
 use pirca::shape::Polyhedron;
 use pirca::solve::explicit::{self, Simulation};
 use pirca::solve::implicit::{Equilibrium, Settings};
 use pirca::solve::{Ahead, Equilibrate, Followed, Solver, Status, Way};
 
-use crate::fixture::{G, dry, on_floor, resting, stone, tilted};
+use crate::fixture::{G, dry, on_floor, path, resting, stone, tilted};
 
 fn exact() -> Settings {
     Settings { unbalanced_ratio: 1e-10, ..Settings::default() }
@@ -286,22 +283,6 @@ fn an_upright_pillar_is_an_equilibrium_only_while_it_is_stable() {
         // One direction of instability, and two: the determinant alone would not tell.
         assert_eq!(pillar(width, 1.02 * critical), Status::Equilibrium, "width {width}");
         assert_eq!(pillar(width, 0.98 * critical), Status::NoEquilibrium, "width {width}");
-    }
-}
-
-/// A path of any kind for blocks as they are, supports included.
-fn path<'t>(wall: &'t Wall, law: &'t Coulomb, path: LoadPath) -> Task<'t> {
-    Task {
-        wall,
-        laws: law,
-        contact: contact::Settings::for_size(0.2, [2, 2]),
-        loads: Vec::new(),
-        ties: Vec::new(),
-        platform: None,
-        changes: Changes::default(),
-        path,
-        criterion: Criterion::AnyBlock(0.04),
-        confirmation: Confirmation::for_thickness(0.4),
     }
 }
 

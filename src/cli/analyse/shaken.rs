@@ -1,5 +1,6 @@
 //! A wall from elsewhere on ground that moves as a record says.
 
+use std::path::Path;
 use std::time::Instant;
 
 use serde_json::{Value, json};
@@ -77,10 +78,7 @@ pub(crate) fn refused(asked_for: &Analyse) -> Result<(), Failure> {
 }
 
 /// The record as asked for: its y axis, or its only component, towards the direction.
-fn motion(asked: &Analyse) -> Result<Motion, Failure> {
-    let Some(path) = &asked.record else {
-        return Err(Failure::Usage("--load base-motion needs --record FILE".to_owned()));
-    };
+fn motion(asked: &Analyse, path: &Path) -> Result<Motion, Failure> {
     let read = Motion::read(path).map_err(|fault| Failure::Input(fault.to_string()))?;
     if !read.is_horizontal() {
         return Err(Failure::Input(format!(
@@ -99,12 +97,13 @@ fn motion(asked: &Analyse) -> Result<Motion, Failure> {
 /// Shakes a wall from a file.
 pub(crate) fn shaken(
     asked: &Analyse,
+    record: &Path,
     file: &WallFile,
     (law, fit): (&Coulomb, &Fit),
     mut warnings: Vec<String>,
     begun: Instant,
 ) -> Result<Answer, Failure> {
-    let motion = motion(asked)?;
+    let motion = motion(asked, record)?;
     warnings.extend(motion.notes.iter().cloned());
     let solver = match asked.solver {
         MethodName::Explicit => {

@@ -98,6 +98,14 @@ struct Stone {
     has_fallen: bool,
 }
 
+impl Stone {
+    /// How far it has gone (m) and turned (rad) since the start.
+    fn gone(&self, bodies: &Bodies, start: &[Body]) -> (Vec3, f64) {
+        let carrier = bodies.carriers[self.block];
+        (bodies.centroid(self.block) - self.from, bodies.all[carrier].turn_since(&start[carrier]).norm())
+    }
+}
+
 /// A corner of a joint as it was at rest: the two blocks, where it lies in the axes of their bodies, and the normal in those of the second.
 struct Corner {
     bodies: [usize; 2],
@@ -167,10 +175,9 @@ impl Observer {
     pub fn read(&mut self, bodies: &Bodies, time: f64) {
         let mut fell = vec![false; bodies.all.len()];
         for stone in &mut self.stones {
-            let moved = bodies.centroid(stone.block) - stone.from;
             let carrier = bodies.carriers[stone.block];
             if !stone.has_fallen {
-                let turn = bodies.all[carrier].turn_since(&self.start[carrier]).norm();
+                let (moved, turn) = stone.gone(bodies, &self.start);
                 self.seen.displacement.grow(moved.norm(), stone.block, time);
                 self.seen.rotation.grow(turn, stone.block, time);
                 let [far, down] = self.limits;
@@ -225,13 +232,9 @@ impl Observer {
         };
         if self.seen.verdict != Verdict::Collapsed {
             let left = || self.stones.iter().filter(|stone| !stone.has_fallen);
-            let moved = |stone: &Stone| (bodies.centroid(stone.block) - stone.from).norm();
-            let turned = |stone: &Stone| {
-                let carrier = bodies.carriers[stone.block];
-                bodies.all[carrier].turn_since(&self.start[carrier]).norm()
-            };
-            self.seen.residual_m = Some(left().map(moved).fold(0.0, f64::max));
-            self.seen.residual_rad = Some(left().map(turned).fold(0.0, f64::max));
+            let gone = |stone: &Stone| stone.gone(bodies, &self.start);
+            self.seen.residual_m = Some(left().map(|stone| gone(stone).0.norm()).fold(0.0, f64::max));
+            self.seen.residual_rad = Some(left().map(|stone| gone(stone).1).fold(0.0, f64::max));
         }
         self.seen
     }

@@ -103,11 +103,13 @@ fn follow(task: &Task<'_>, shaking: &Shaking, at_rest: &Assembly<'_>, start: Ass
     let mut mover = Mover::new(start, &shaking.solver);
     let motion = &shaking.motion;
     let (shakes, end) = (motion.duration(), motion.duration() + shaking.after);
+    let mut before: Vec<Vec3> = Vec::new();
     let (mut time, mut looked, mut resting) = (0.0, 0.0, 0);
     let (mut steps, mut unsolved, mut base, mut weight, mut friction) = (0, 0, 0.0, 0.0, 0.0);
     while time < end {
         let acceleration = mover.acceleration(motion, time);
-        let before: Vec<Vec3> = mover.assembly().bodies.all.iter().map(|body| body.position).collect();
+        before.clear();
+        before.extend(mover.assembly().bodies.all.iter().map(|body| body.position));
         let stepped = mover.step(gravity, acceleration);
         time += stepped.seconds;
         steps += 1;
@@ -130,7 +132,7 @@ fn follow(task: &Task<'_>, shaking: &Shaking, at_rest: &Assembly<'_>, start: Ass
         if observer.is_over() {
             break;
         }
-        resting = if time > shakes && fastest(bodies) < RESTS { resting + 1 } else { 0 };
+        resting = if time > shakes && bodies.fastest() < RESTS { resting + 1 } else { 0 };
         if resting >= LOOKS_AT_REST {
             break;
         }
@@ -144,12 +146,6 @@ fn follow(task: &Task<'_>, shaking: &Shaking, at_rest: &Assembly<'_>, start: Ass
     seen.energy.lost_j = base + weight - kinetic;
     seen.energy.friction_j = matches!(mover, Mover::Nonsmooth(..)).then_some(friction);
     Shaken { time_s: time, steps, unsolved_steps: unsolved, ..seen }
-}
-
-/// Largest speed of a body (m/s).
-fn fastest(bodies: &Bodies) -> f64 {
-    let of = |body: &crate::solve::bodies::Body| body.velocity.norm().max(body.spin.norm() * body.radius);
-    bodies.all.iter().filter(|body| body.moves()).map(of).fold(0.0, f64::max)
 }
 
 /// What a step took.

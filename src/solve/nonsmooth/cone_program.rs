@@ -14,6 +14,7 @@ use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SupportedConeT}
 
 use crate::solve::STANDARD_GRAVITY;
 use crate::solve::nonsmooth::point::Point;
+use crate::solve::nonsmooth::problem::wrench;
 use crate::solve::nonsmooth::{Friction, Problem, Residual};
 use crate::solve::system::DOF;
 
@@ -151,9 +152,7 @@ impl Program {
         let (mut matrix, mut right, mut cones) = (Triplets::default(), Vec::new(), Vec::new());
         let add = |matrix: &mut Triplets, row: usize, point: &Point, axis: usize, factor: f64| {
             for (side, sign) in [(0, factor), (1, -factor)] {
-                let direction = point.axes[axis];
-                let turn = point.arms[side].cross(&direction);
-                let entries = [direction.x, direction.y, direction.z, turn.x, turn.y, turn.z];
+                let entries = wrench(&point.arms[side], &point.axes[axis]);
                 for (k, entry) in entries.into_iter().enumerate() {
                     if let Some(column) = columns[DOF * point.bodies[side] + k] {
                         matrix.add(row, column, entry * sign);
@@ -177,7 +176,7 @@ impl Program {
             add(&mut matrix, right.len(), point, 0, -1.0);
             matrix.add(right.len(), velocities + k, point.friction);
             right.push(point.offset().unwrap_or_default() / velocity);
-            linear[velocities + k] = (point.cohesion + point.friction * point.least).max(0.0) / unit;
+            linear[velocities + k] = point.limit(point.least) / unit;
         }
         cones.push(NonnegativeConeT(right.len() - held));
         for (k, (at, point)) in sliding().enumerate() {

@@ -102,6 +102,15 @@ impl Contacts {
         }
     }
 
+    /// How deep joints overlap at most where the bodies are (m).
+    pub fn overlap(&self, joints: &Joints, bodies: &[Body]) -> f64 {
+        let of = |(joint, memory): (&Joint, &Memory)| {
+            let gap = joint.pose(bodies).gap;
+            memory.places.iter().map(|(place, _)| -gap.at(place)).fold(0.0, f64::max)
+        };
+        joints.all.iter().zip(&self.memories).map(of).fold(0.0, f64::max)
+    }
+
     /// The points of all joints in a step of length `step` (s): gaps where the bodies are now, everything else where they are half way.
     pub fn points(
         &self,
@@ -137,18 +146,8 @@ impl Contacts {
                 point.bearing = match normal {
                     Normal::Gap => Bearing::Rigid { offset: gap.max(0.0) / step },
                     Normal::Velocity { restitution } => {
-                        let v = |body: usize| {
-                            let own = &now[body];
-                            [
-                                own.velocity.x,
-                                own.velocity.y,
-                                own.velocity.z,
-                                own.spin.x,
-                                own.spin.y,
-                                own.spin.z,
-                            ]
-                        };
-                        let closing = point.between(&v(bodies[0]), &v(bodies[1]))[0];
+                        let [i, r] = bodies.map(|body| now[body].twist());
+                        let closing = point.between(&i, &r)[0];
                         // Open now and half a step ahead: it does not touch in this step.
                         let is_open = gap > 0.0 && gap + 0.5 * step * closing > 0.0;
                         let offset = if is_open { f64::INFINITY } else { restitution * closing.min(0.0) };

@@ -2,6 +2,7 @@
 //! `M v = H r + f`, `u = H^T v + w`, and at each point `-(u + mu |u_T| n)` in the normal cone of Coulomb's cone at `r`.
 
 use crate::solve::nonsmooth::point::Point;
+use crate::solve::nonsmooth::problem::wrench;
 use crate::solve::nonsmooth::{Problem, Residual, Simulation};
 use crate::solve::system::DOF;
 
@@ -64,7 +65,7 @@ impl Simulation<'_> {
         if !problem.points.iter().all(is_dry) {
             return None;
         }
-        let (impulses, residual) = self.impulses_of(&problem);
+        let (impulses, residual, _) = self.solve(&problem);
         let global = GlobalProblem::of(&problem);
         let all = problem.velocities(&impulses);
         let v = global.bodies.iter().flat_map(|body| all[DOF * body..DOF * body + DOF].to_vec()).collect();
@@ -95,10 +96,7 @@ impl GlobalProblem {
             for ((body, arm), sign) in point.bodies.iter().zip(&point.arms).zip([1.0, -1.0]) {
                 let Some(row) = row_of(*body) else { continue };
                 for (k, axis) in point.axes.iter().enumerate() {
-                    let moment = arm.cross(axis);
-                    for (dof, value) in
-                        [axis.x, axis.y, axis.z, moment.x, moment.y, moment.z].iter().enumerate()
-                    {
+                    for (dof, value) in wrench(arm, axis).iter().enumerate() {
                         if *value != 0.0 && !problem.inertias[*body].held.contains(&dof) {
                             h.push((row + dof, 3 * at + k, sign * value));
                         }

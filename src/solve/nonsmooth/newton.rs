@@ -8,6 +8,7 @@
 use crate::math::Vec3;
 use crate::solve::bodies::Body;
 use crate::solve::nonsmooth::point::{Point, Slope, State};
+use crate::solve::nonsmooth::problem::wrench;
 use crate::solve::nonsmooth::{Friction, Problem, Residual};
 use crate::solve::system::{DOF, System};
 
@@ -119,7 +120,7 @@ pub(super) fn newton(
                 }
             }
             system.clear();
-            let slides = assemble(problem, system, bodies, (&now.v, &from, weight));
+            let slides = assemble(problem, system, bodies, (&now, &from, weight));
             system.factorise(!slides)?;
             factorisations += 1;
             *kept = Kept { states: now.states.clone(), weight, step: problem.step };
@@ -198,10 +199,10 @@ fn assemble(
     problem: &Problem,
     system: &mut System,
     bodies: &[Body],
-    (v, from, weight): (&[f64], &[[f64; 3]], f64),
+    (now, from, weight): (&Trial, &[[f64; 3]], f64),
 ) -> bool {
     let mut slides = false;
-    let points = || problem.points.iter().zip(from);
+    let points = || problem.points.iter().zip(from).zip(&now.states);
     let mut at = 0;
     while at < problem.points.len() {
         let joint = problem.points[at].joint;
@@ -209,12 +210,10 @@ fn assemble(
         let first = &problem.points[at];
         let mut sum = [[0.0; DOF]; DOF];
         let mut touches = false;
-        for (point, from) in points().skip(at).take(end - at) {
-            let (u, rho) = (point.relative_velocity(v), weight * point.inertia);
-            let state = point.response(&u, from, rho).state;
-            let slope = point.slope(&u, from, rho, true);
+        for ((point, from), state) in points().skip(at).take(end - at) {
+            let slope = point.slope(&point.relative_velocity(&now.v), from, weight * point.inertia);
             if slope != Slope::default() {
-                slides |= state == State::Slides && point.friction > 0.0;
+                slides |= *state == State::Slides && point.friction > 0.0;
                 touches = true;
                 add(&mut sum, &(point.arms[0] - first.arms[0]), &point.axes, &slope);
             }
@@ -234,10 +233,7 @@ fn assemble(
 /// Adds to the slope of force and moment about a joint's first point by its relative velocity and spin.
 fn add(sum: &mut [[f64; DOF]; DOF], offset: &Vec3, axes: &[Vec3; 3], slope: &Slope) {
     // The velocity at the point along its axes: `axis . (u + w x d) = axis . u + (d x axis) . w`.
-    let rows: [[f64; DOF]; 3] = std::array::from_fn(|k| {
-        let turn = offset.cross(&axes[k]);
-        [axes[k].x, axes[k].y, axes[k].z, turn.x, turn.y, turn.z]
-    });
+    let rows = axes.map(|axis| wrench(offset, &axis));
     for (k, row) in rows.iter().enumerate() {
         for (l, column) in rows.iter().enumerate().filter(|(l, _)| slope[k][*l] != 0.0) {
             for (sums, row) in sum.iter_mut().zip(row) {

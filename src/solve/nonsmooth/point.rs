@@ -109,6 +109,11 @@ impl Point {
         }
     }
 
+    /// Largest shear impulse (N s) under a normal one.
+    pub(super) fn limit(&self, normal: f64) -> f64 {
+        (self.cohesion + self.friction * normal).max(0.0)
+    }
+
     /// Whether it holds whatever acts.
     pub(super) fn is_bonded(&self) -> bool {
         self.least == f64::NEG_INFINITY
@@ -136,7 +141,7 @@ impl Point {
         if mu == 0.0 {
             return clipped(normal, self.cohesion);
         }
-        clipped(self.least, (self.cohesion + mu * self.least).max(0.0))
+        clipped(self.least, self.limit(self.least))
     }
 
     /// Adds the impulse (times `factor`) to the sums over the bodies.
@@ -182,13 +187,13 @@ impl Point {
 
     /// By what a trial shear is multiplied under a normal impulse.
     fn slides_back(&self, normal: f64, [a, b]: [f64; 2]) -> (f64, State) {
-        let limit = (self.cohesion + self.friction * normal).max(0.0);
+        let limit = self.limit(normal);
         let size = (a * a + b * b).sqrt();
         if size <= limit { (1.0, State::Sticks) } else { (limit / size, State::Slides) }
     }
 
-    /// The slope of [`response`](Point::response); with `coupled` false without what the normal impulse does to friction, which is symmetric.
-    pub(super) fn slope(&self, u: &[f64; 3], from: &[f64; 3], rho: f64, coupled: bool) -> Slope {
+    /// The slope of [`response`](Point::response): unsymmetric where it slides, as friction grows with the normal impulse.
+    pub(super) fn slope(&self, u: &[f64; 3], from: &[f64; 3], rho: f64) -> Slope {
         let (trial, shear, [kn, ks]) = self.trial(u, from, rho);
         let (normal, kn) = if trial > self.least { (trial, kn) } else { (self.least, 0.0) };
         let (factor, state) = self.slides_back(normal, shear);
@@ -201,7 +206,7 @@ impl Point {
         }
         let size = (shear[0] * shear[0] + shear[1] * shear[1]).sqrt();
         let (x, y, share) = (shear[0] / size, shear[1] / size, ks * factor);
-        let grows = if coupled && factor > 0.0 { self.friction * kn } else { 0.0 };
+        let grows = if factor > 0.0 { self.friction * kn } else { 0.0 };
         [
             [kn, 0.0, 0.0],
             [grows * x, share * (1.0 - x * x), -share * x * y],

@@ -121,11 +121,23 @@ impl Problem {
     }
 }
 
+/// Force and moment about a centroid of a unit force along a direction, whose arm is given.
+pub(super) fn wrench(arm: &Vec3, direction: &Vec3) -> [f64; DOF] {
+    let moment = arm.cross(direction);
+    [direction.x, direction.y, direction.z, moment.x, moment.y, moment.z]
+}
+
+/// Mass of all bodies that move, and their mean (kg).
+pub(super) fn masses(bodies: &[Body]) -> (f64, f64) {
+    let moving: Vec<f64> = bodies.iter().filter(|body| body.moves()).map(|body| body.mass).collect();
+    let mass: f64 = moving.iter().sum();
+    (mass, mass / moving.len().max(1) as f64)
+}
+
 /// One over the velocity along a direction that a unit impulse gives there (kg).
 pub(super) fn inertia_along(inertias: [&Inertia; 2], arms: &[Vec3; 2], direction: &Vec3) -> f64 {
     let given = |inertia: &Inertia, arm: &Vec3| {
-        let moment = arm.cross(direction);
-        let impulse = [direction.x, direction.y, direction.z, moment.x, moment.y, moment.z];
+        let impulse = wrench(arm, direction);
         impulse.iter().zip(inertia.velocity(&impulse)).map(|(x, v)| x * v).sum::<f64>()
     };
     1.0 / (given(inertias[0], &arms[0]) + given(inertias[1], &arms[1]))

@@ -10,7 +10,7 @@ use crate::solve::nonsmooth::Normal;
 use crate::solve::nonsmooth::contacts::Contacts;
 use crate::solve::nonsmooth::newton::{Kept, Start, newton};
 use crate::solve::nonsmooth::point::Bearing;
-use crate::solve::nonsmooth::problem::{Inertia, Problem};
+use crate::solve::nonsmooth::problem::{Inertia, Problem, masses};
 use crate::solve::system::{DOF, System};
 
 /// Accuracy of the motion, over a unit of the overlap at the mean mass.
@@ -29,13 +29,13 @@ pub(super) fn project(
     enough: f64,
 ) -> Option<(f64, f64)> {
     let bodies = &assembly.bodies.all;
-    let none = [[0.0; DOF]; DOF];
-    let inertias: Vec<Inertia> = bodies.iter().map(|body| Inertia::of(body, &body.rotation, &none)).collect();
-    let mut points = contacts.points(&assembly.joints, (bodies, bodies), &inertias, Normal::Gap, 1.0);
-    let overlap = points.iter().map(|point| -point.gap).fold(0.0, f64::max);
+    let overlap = contacts.overlap(&assembly.joints, bodies);
     if overlap <= enough {
         return None;
     }
+    let none = [[0.0; DOF]; DOF];
+    let inertias: Vec<Inertia> = bodies.iter().map(|body| Inertia::of(body, &body.rotation, &none)).collect();
+    let mut points = contacts.points(&assembly.joints, (bodies, bodies), &inertias, Normal::Gap, 1.0);
     for point in &mut points {
         (point.friction, point.cohesion, point.least) = (0.0, 0.0, 0.0);
         // What overlaps is brought to a share of what is allowed; the rest must not come to overlap.
@@ -43,8 +43,7 @@ pub(super) fn project(
             if point.gap < 0.0 { point.gap.min(-STAYS * enough) + STAYS * enough } else { point.gap };
         point.bearing = Bearing::Rigid { offset };
     }
-    let moving: Vec<f64> = bodies.iter().filter(|body| body.moves()).map(|body| body.mass).collect();
-    let mean_mass = moving.iter().sum::<f64>() / moving.len().max(1) as f64;
+    let (_, mean_mass) = masses(bodies);
     let free = vec![0.0; DOF * bodies.len()];
     let start = vec![[0.0; 3]; points.len()];
     let problem = Problem {

@@ -28,7 +28,7 @@ impl Residual {
             let u = point.relative_velocity(v);
             let slides = (u[1] * u[1] + u[2] * u[2]).sqrt();
             let shear = (impulse[1] * impulse[1] + impulse[2] * impulse[2]).sqrt();
-            let limit = (point.cohesion + point.friction * impulse[0]).max(0.0);
+            let limit = point.limit(impulse[0]);
             let projected = match point.offset() {
                 Some(offset) => {
                     let opens = if friction == Friction::Coulomb { point.friction * slides } else { 0.0 };

@@ -8,7 +8,7 @@ use crate::solve::nonsmooth::cone_program::cone_program;
 use crate::solve::nonsmooth::contacts::Contacts;
 use crate::solve::nonsmooth::newton::{Kept, Start, newton};
 use crate::solve::nonsmooth::point::Point;
-use crate::solve::nonsmooth::problem::{Inertia, Matrix};
+use crate::solve::nonsmooth::problem::{Inertia, Matrix, masses};
 use crate::solve::nonsmooth::project::project;
 use crate::solve::nonsmooth::sweeps::sweeps;
 use crate::solve::nonsmooth::{Friction, Normal, Problem, Residual, Settings, StepSolver};
@@ -82,8 +82,14 @@ impl<'a> Simulation<'a> {
         self.assembly.refresh();
         let (bodies, joints) = (&self.assembly.bodies.all, &self.assembly.joints);
         self.contacts = Contacts::find(joints, bodies, self.settings.normal, &past);
-        if !self.system.fits(joints) {
-            self.system = System::new(bodies, joints);
+        self.fit();
+    }
+
+    /// Fits the system to the joints as they are.
+    fn fit(&mut self) {
+        if !self.system.fits(&self.assembly.joints) {
+            self.kept = Kept::default();
+            self.system = System::new(&self.assembly.bodies.all, &self.assembly.joints);
         }
     }
 
@@ -104,8 +110,7 @@ impl<'a> Simulation<'a> {
             let angular = body.angular_momentum + body.torque * step;
             free.extend(inertia.velocity(&[linear.x, linear.y, linear.z, angular.x, angular.y, angular.z]));
         }
-        let moving: Vec<f64> = now.iter().filter(|body| body.moves()).map(|body| body.mass).collect();
-        let mass: f64 = moving.iter().sum();
+        let (mass, mean_mass) = masses(now);
         let (joints, normal) = (&self.assembly.joints, self.settings.normal);
         let points = self.contacts.points(joints, (now, &half_way), &inertias, normal, step);
         Problem {
@@ -114,21 +119,14 @@ impl<'a> Simulation<'a> {
             points,
             step,
             weight: mass * STANDARD_GRAVITY * step,
-            fastest: self.speed().max(LEAST_SPEED),
-            mean_mass: mass / moving.len().max(1) as f64,
+            fastest: self.assembly.bodies.fastest().max(LEAST_SPEED),
+            mean_mass,
         }
     }
 
     /// Length of a step (s).
     pub(super) fn time_step(&self) -> f64 {
         self.settings.time_step
-    }
-
-    /// The impulses (N s) that solve the problem of a step from here, and what is left over.
-    pub(super) fn impulses_of(&mut self, problem: &Problem) -> (Vec<[f64; 3]>, Residual) {
-        let start = self.contacts.impulses(&problem.points, problem.step);
-        let (impulses, residual, _) = self.solve(problem, &start);
-        (impulses, residual)
     }
 
     /// Stiffness of ties and of the platform's springs by body, times the square of the step.
@@ -159,8 +157,7 @@ impl<'a> Simulation<'a> {
     /// One time step of length `step` (s).
     pub fn step(&mut self, step: f64) -> Stepped {
         let problem = self.problem(step);
-        let start = self.contacts.impulses(&problem.points, step);
-        let (impulses, residual, iterations) = self.solve(&problem, &start);
+        let (impulses, residual, iterations) = self.solve(&problem);
         let v = problem.velocities(&impulses);
         let energy_gain = self.advance(&problem, &v, step);
         self.contacts.remember(&mut self.assembly.joints, &problem.points, &impulses, step);
@@ -169,7 +166,7 @@ impl<'a> Simulation<'a> {
             residual,
             iterations,
             is_solved: residual.natural_map <= self.settings.tolerance,
-            speed: self.speed(),
+            speed: self.assembly.bodies.fastest(),
             energy_gain,
             friction_work: friction_work(&problem, &v, &impulses),
             ..Stepped::default()
@@ -187,13 +184,14 @@ impl<'a> Simulation<'a> {
         stepped
     }
 
-    /// Solves the problem of a step from impulses nearby.
-    fn solve(&mut self, problem: &Problem, start: &[[f64; 3]]) -> (Vec<[f64; 3]>, Residual, u32) {
+    /// The impulses (N s) that solve the problem of a step from here, what is left over, and the iterations that it took.
+    pub(super) fn solve(&mut self, problem: &Problem) -> (Vec<[f64; 3]>, Residual, u32) {
+        let start = self.contacts.impulses(&problem.points, problem.step);
         let Settings { solver, friction, tolerance, max_iterations, .. } = self.settings;
         let bodies = &self.assembly.bodies.all;
         if solver == StepSolver::Newton && friction == Friction::Coulomb {
-            let v = velocities(bodies);
-            let from = Start { velocities: &v, impulses: start, weight: self.weight };
+            let v: Vec<f64> = bodies.iter().flat_map(Body::twist).collect();
+            let from = Start { velocities: &v, impulses: &start, weight: self.weight };
             let solved = newton(
                 problem,
                 (&mut self.system, &mut self.kept),
@@ -209,7 +207,7 @@ impl<'a> Simulation<'a> {
             }
         }
         if solver == StepSolver::Sweeps && friction == Friction::Coulomb {
-            return sweeps(problem, start, tolerance, max_iterations);
+            return sweeps(problem, &start, tolerance, max_iterations);
         }
         cone_program(problem, friction, tolerance, max_iterations)
     }
@@ -235,12 +233,6 @@ impl<'a> Simulation<'a> {
         }
         gain
     }
-
-    /// Largest speed of a body (m/s).
-    fn speed(&self) -> f64 {
-        let of = |body: &Body| body.velocity.norm().max(body.spin.norm() * body.radius);
-        self.assembly.bodies.all.iter().map(of).fold(0.0, f64::max)
-    }
 }
 
 /// What joints take that slide (J).
@@ -250,15 +242,6 @@ fn friction_work(problem: &Problem, v: &[f64], impulses: &[[f64; 3]]) -> f64 {
         -(u[1] * impulse[1] + u[2] * impulse[2])
     };
     problem.points.iter().zip(impulses).map(of).sum()
-}
-
-/// The velocities of all bodies (m/s, rad/s), six each.
-fn velocities(bodies: &[Body]) -> Vec<f64> {
-    let of = |body: &Body| {
-        let (v, w) = (body.velocity, body.spin);
-        [v.x, v.y, v.z, w.x, w.y, w.z]
-    };
-    bodies.iter().flat_map(of).collect()
 }
 
 /// A body where its velocity takes it in a time (s).
@@ -291,9 +274,7 @@ impl<'a> Equilibrate<'a> for Simulation<'a> {
 
     fn settle(&mut self, stop: &mut dyn FnMut(&Bodies) -> bool) -> Settled {
         self.contacts.forget(&self.assembly.joints);
-        if !self.system.fits(&self.assembly.joints) {
-            self.system = System::new(&self.assembly.bodies.all, &self.assembly.joints);
-        }
+        self.fit();
         let mut step = self.settings.time_step;
         let mut unbalanced_ratio = f64::INFINITY;
         for steps in 1..=self.settings.max_steps {

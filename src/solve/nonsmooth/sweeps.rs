@@ -5,6 +5,7 @@ use nalgebra::Matrix3;
 
 use crate::math::Vec3;
 use crate::solve::nonsmooth::point::Point;
+use crate::solve::nonsmooth::problem::wrench;
 use crate::solve::nonsmooth::{Friction, Problem, Residual};
 use crate::solve::system::DOF;
 
@@ -66,11 +67,9 @@ impl Local {
     fn of(problem: &Problem, point: &Point) -> Local {
         let given = std::array::from_fn(|side| {
             std::array::from_fn(|k| {
-                let (axis, sign) = (point.axes[k], if side == 0 { 1.0 } else { -1.0 });
-                let moment = point.arms[side].cross(&axis) * sign;
-                let axis = axis * sign;
-                problem.inertias[point.bodies[side]]
-                    .velocity(&[axis.x, axis.y, axis.z, moment.x, moment.y, moment.z])
+                let sign = if side == 0 { 1.0 } else { -1.0 };
+                let impulse = wrench(&point.arms[side], &point.axes[k]).map(|x| x * sign);
+                problem.inertias[point.bodies[side]].velocity(&impulse)
             })
         });
         let mut delassus = Matrix3::zeros();
@@ -138,8 +137,7 @@ impl Local {
             let det = a * d - b * c;
             Vec3::new(n, -(d * x - b * y) / det, -(a * y - c * x) / det)
         };
-        let beyond =
-            |r: &Vec3| (r.y * r.y + r.z * r.z).sqrt() - (point.cohesion + point.friction * r.x).max(0.0);
+        let beyond = |r: &Vec3| (r.y * r.y + r.z * r.z).sqrt() - point.limit(r.x);
         let unit = w.trace();
         let (mut low, mut high) = (0.0, 1e-3 * unit);
         for _ in 0..HALVINGS {
@@ -156,8 +154,7 @@ impl Local {
             if beyond(&at(middle)) > 0.0 { low = middle } else { high = middle }
         }
         let r = at(high);
-        let (limit, size) =
-            ((point.cohesion + point.friction * r.x).max(0.0), (r.y * r.y + r.z * r.z).sqrt());
+        let (limit, size) = (point.limit(r.x), (r.y * r.y + r.z * r.z).sqrt());
         let factor = if size > limit { limit / size } else { 1.0 };
         Vec3::new(r.x, r.y * factor, r.z * factor)
     }
@@ -172,7 +169,7 @@ impl Local {
             if left.norm() <= 1e-15 * (1.0 + free.norm()) {
                 break;
             }
-            let slope = point.slope(&own, &[0.0; 3], 0.0, true);
+            let slope = point.slope(&own, &[0.0; 3], 0.0);
             let tangent = Matrix3::identity() + self.delassus * Matrix3::from_fn(|r, c| slope[r][c]);
             let Some(inverse) = tangent.try_inverse() else { break };
             u -= inverse * left;
