@@ -234,11 +234,26 @@ fn a_pair_that_next_to_nothing_decides_is_undecided_and_a_clear_one_is_not() {
     let wall = block(b, h);
     let law = dry(1e9, degrees(atan(3.0)));
     let w = 2.0 * frequency(b, h);
-    for (factor, wanted) in [(0.9, Verdict::Stands), (1.1, Verdict::Collapsed)] {
+    let pair = |factor: f64| {
         let pulse = Pulse::HalfSine { amplitude: factor * 5.89 * G / 9.81, duration: PI / w };
-        let shaking = Shaking::new(across(pulse), nonsmooth(1e-3));
-        let [first, second] = shake_twice(&task(&wall, &law), &shaking);
-        assert_eq!((first.verdict, second.verdict), (wanted, wanted));
+        let [first, second] = shake_twice(&task(&wall, &law), &Shaking::new(across(pulse), nonsmooth(1e-3)));
+        [first.verdict, second.verdict]
+    };
+    let (mut low, mut high) = (0.9, 1.1);
+    assert_eq!(pair(low), [Verdict::Stands; 2]);
+    assert_eq!(pair(high), [Verdict::Collapsed; 2]);
+    // Ever closer to the boundary, which 1e-9 m/s move as well: there is an amplitude between the two places.
+    loop {
+        let middle = 0.5 * (low + high);
+        assert!(low < middle && middle < high, "no amplitude is undecided");
+        match pair(middle) {
+            [Verdict::Undecided, second] => {
+                assert!(second == Verdict::Stands || second == Verdict::Collapsed, "{second:?}");
+                break;
+            }
+            [Verdict::Collapsed, _] => high = middle,
+            _ => low = middle,
+        }
     }
 }
 
