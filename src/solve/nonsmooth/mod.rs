@@ -68,7 +68,7 @@ pub enum Normal {
 pub enum Friction {
     /// Without dilatancy.
     Coulomb,
-    /// Opening by tan(phi) as they slide: the convex problem that is sometimes solved instead. By cone programs only.
+    /// Opening by tan(phi) as they slide: the convex problem that is sometimes solved instead. Of rigid joints, by cone programs only.
     Dilating,
 }
 
@@ -76,9 +76,9 @@ pub enum Friction {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum StepSolver {
-    /// Newton's method; cone programs where it does not converge.
+    /// Newton's method; cone programs where it does not converge, or sweeps where joints are springs.
     Newton,
-    /// A fixed point of cone programs.
+    /// A fixed point of cone programs; sweeps where joints are springs.
     ConeProgram,
     /// Non-linear Gauss-Seidel.
     Sweeps,

@@ -11,7 +11,7 @@ use crate::solve::nonsmooth::point::Point;
 use crate::solve::nonsmooth::problem::{Inertia, Matrix, masses};
 use crate::solve::nonsmooth::project::project;
 use crate::solve::nonsmooth::sweeps::sweeps;
-use crate::solve::nonsmooth::{Friction, Normal, Problem, Residual, Settings, StepSolver};
+use crate::solve::nonsmooth::{Friction, Problem, Residual, Settings, StepSolver};
 use crate::solve::system::{DOF, System};
 use crate::solve::{Assembly, Equilibrate, STANDARD_GRAVITY, Settled, Status};
 
@@ -171,7 +171,7 @@ impl<'a> Simulation<'a> {
             friction_work: friction_work(&problem, &v, &impulses),
             ..Stepped::default()
         };
-        if self.settings.normal != Normal::Compliant {
+        if self.settings.is_rigid() {
             let enough = OVERLAP * self.assembly.contact.reach;
             let Simulation { assembly, contacts, system, kept, .. } = self;
             if let Some((overlap, work)) = project(assembly, contacts, (system, kept), enough) {
@@ -206,7 +206,8 @@ impl<'a> Simulation<'a> {
                 return (solved.impulses, solved.residual, solved.factorisations);
             }
         }
-        if solver == StepSolver::Sweeps && friction == Friction::Coulomb {
+        // Cone programs know no springs.
+        if !self.settings.is_rigid() || (solver == StepSolver::Sweeps && friction == Friction::Coulomb) {
             return sweeps(problem, &start, tolerance, max_iterations);
         }
         cone_program(problem, friction, tolerance, max_iterations)
