@@ -94,7 +94,7 @@ pub(crate) fn prepared(study: &Study, which: &Which, points: u64) -> Result<Prep
     let (done, needed) = match study.protocol {
         Protocol::Tilting(_) => ("tilted", "collapse angles or displacements"),
         Protocol::Shear(_) => ("sheared", "readings of force_at_drift"),
-        Protocol::Lateral(_) => {
+        Protocol::Lateral(_) | Protocol::BaseMotion(_) => {
             let text =
                 "the study neither tilts nor shears its walls: diagnoses are of such tests (load.protocol)";
             return Err(Failure::Input(format!("{}: {text}", study.name)));

@@ -21,7 +21,7 @@ pub(crate) fn capacity(arguments: &Capacity) -> Result<Answer, Failure> {
     let loaded = locate::study(&arguments.which)?;
     let study = locate::with_ensemble(loaded.study.clone(), &arguments.ensemble)?;
     let known = arguments.known_cov.map_or(Variation::Unknown, Variation::Known);
-    let quantity = if arguments.measured { Quantity::CollapseAngle } else { Quantity::of(&study.protocol) };
+    let quantity = if arguments.measured { Quantity::CollapseAngle } else { Quantity::of(&study) };
     let question = question::asked(&arguments.question, quantity, &study)?
         .unwrap_or(Question::Quantile(CHARACTERISTIC_PROBABILITY));
     let study = enough(study, question, arguments)?;

@@ -23,7 +23,7 @@ pub(crate) fn compare(arguments: &Compare) -> Result<Answer, Failure> {
         None => loaded.study.clone(),
     };
     question::needs_independent_walls(&study, "a comparison of arms")?;
-    let quantity = Quantity::of(&study.protocol);
+    let quantity = Quantity::of(&study);
     let question = question::asked(&arguments.question, quantity, &study)?;
     let contest = Contest {
         study: &study,
@@ -158,7 +158,7 @@ fn same_within(
 
 /// What keeps walls from being compared, how it was found, and what to do.
 fn hopeless(contest: &Contest<'_>, rows: &[Row], look: &Compared, why: Hopeless) -> Failure {
-    let quantity = Quantity::of(&contest.study.protocol);
+    let quantity = Quantity::of(&contest.study);
     match why {
         Hopeless::NoValue(place) => {
             let index = contest.arms[place];

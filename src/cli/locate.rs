@@ -10,8 +10,27 @@ use crate::ensemble::Manifest;
 use crate::math::edit_distance;
 use crate::study::{Distributions, ElementStudy, Fault, Loaded, Study, built_in_studies};
 
-/// Loads the study that the arguments name, in the variant asked for, and passes its warnings on to standard error.
+/// The study that the arguments name, for a verb that asks for one number of each wall: see [`any_study`].
 pub(crate) fn study(which: &Which) -> Result<Loaded, Failure> {
+    let loaded = any_study(which)?;
+    one_number(&loaded.study)?;
+    Ok(loaded)
+}
+
+/// That a study finds one number of each wall, and not one of every record and intensity.
+pub(crate) fn one_number(study: &Study) -> Result<(), Failure> {
+    match study.earthquakes {
+        None => Ok(()),
+        Some(_) => Err(Failure::Input(format!(
+            "{}: load.protocol is \"base_motion\", which finds a fragility curve of each arm and no single number of each wall: \
+             run, check, generate, picture, shard and merge take it, and run compares its arms",
+            study.name
+        ))),
+    }
+}
+
+/// Loads the study that the arguments name, in the variant asked for, and passes its warnings on to standard error.
+pub(crate) fn any_study(which: &Which) -> Result<Loaded, Failure> {
     let folder = folder(&which.study)?;
     if ElementStudy::is_in(&folder) {
         let text =

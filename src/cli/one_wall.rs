@@ -27,7 +27,7 @@ pub(crate) struct OneWall {
 impl OneWall {
     /// Builds the wall that the arguments name.
     pub fn of(which: &Which, arguments: &Arguments) -> Result<OneWall, Failure> {
-        let mut study = locate::study(which)?.study;
+        let mut study = locate::any_study(which)?.study;
         if let Some(seed) = arguments.seed {
             study = study.with_seed(seed);
         }

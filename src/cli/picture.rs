@@ -124,5 +124,6 @@ fn direction(protocol: &Protocol) -> Direction {
         Protocol::Lateral(_) => Direction::YPlus,
         Protocol::Tilting(tilting) => tilting.towards,
         Protocol::Shear(_) => Direction::XPlus,
+        Protocol::BaseMotion(base) => base.towards,
     }
 }

@@ -95,6 +95,7 @@ pub(crate) fn write(
     rows: &[Row],
     origin: &Origin,
 ) -> Result<(), Failure> {
+    locate::one_number(study)?;
     let mut drawn = Vec::new();
     for (which, task) in chosen_walls(study, rows) {
         let kn = study.arms[task.arm as usize].kn_points[task.point as usize];

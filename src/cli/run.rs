@@ -22,10 +22,13 @@ pub(crate) fn with_page(arguments: &Run, page: Option<PathBuf>) -> Result<Answer
     if ElementStudy::is_in(&folder) {
         return elements::run(&folder, arguments);
     }
-    let loaded = locate::study(&arguments.which)?;
+    let loaded = locate::any_study(&arguments.which)?;
     let study = asked(loaded.study.clone(), arguments.solver, &arguments.ensemble)?;
+    if arguments.report || arguments.beside.is_some() {
+        locate::one_number(&study)?;
+    }
     let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, ""));
-    let quantity = Quantity::of(&study.protocol);
+    let quantity = Quantity::of(&study);
     let beside = arguments.beside.as_ref().map(|dir| Earlier::read(dir, &study.name, quantity));
     let beside = beside.transpose().map_err(|error| Failure::Usage(format!("--beside: {error:#}")))?;
     let settings = Settings { out: out.clone(), threads: arguments.threads };

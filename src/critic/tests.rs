@@ -61,6 +61,7 @@ pub fn fallen(member: u64, point: u32, angle: f64) -> Row {
         right_remainder_m: None,
         unbalanced_ratio: None,
         solver_steps: 1,
+        shaken: None,
     };
     let mut load_steps: Vec<StepRow> =
         [0.0, 5.0, 10.0].into_iter().filter(|t| *t < angle).map(step).collect();

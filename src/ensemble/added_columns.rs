@@ -16,6 +16,9 @@ pub struct AddedColumns {
     pub sheared: bool,
     /// Whether some wall is pushed by a jack: the columns of its drift and force in the table of load steps.
     pub pushed: bool,
+    /// Whether some wall is shaken: the columns of what came of each record, in both tables.
+    #[serde(default)]
+    pub shaken: bool,
 }
 
 impl AddedColumns {
@@ -33,6 +36,7 @@ impl AddedColumns {
         }
         self.sheared |= row.shear.is_some();
         self.pushed |= row.load_steps.iter().any(is_pushed);
+        self.shaken |= row.load_steps.iter().any(is_shaken);
     }
 
     /// Adds those that other rows need.
@@ -40,6 +44,7 @@ impl AddedColumns {
         self.drawn.extend(other.drawn.iter().cloned());
         self.sheared |= other.sheared;
         self.pushed |= other.pushed;
+        self.shaken |= other.shaken;
     }
 
     /// Whether a row finds a place for all that it holds.
@@ -47,7 +52,12 @@ impl AddedColumns {
         row.drawn.keys().all(|key| self.drawn.contains(key))
             && (self.sheared || row.shear.is_none())
             && (self.pushed || !row.load_steps.iter().any(is_pushed))
+            && (self.shaken || !row.load_steps.iter().any(is_shaken))
     }
+}
+
+fn is_shaken(step: &StepRow) -> bool {
+    step.shaken.is_some()
 }
 
 fn is_pushed(step: &StepRow) -> bool {

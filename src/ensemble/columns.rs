@@ -1,6 +1,8 @@
 //! The columns of a run's tables: name, unit, meaning, and where each value comes from. Tables, their documentation and their schemas are
 //! made from this one list.
 
+mod shaken;
+
 use crate::ensemble::{AddedColumns, Row, StepRow};
 
 /// A table, by what a line of it is.
@@ -89,6 +91,9 @@ pub fn of_members(added: &AddedColumns) -> Vec<Column<Members>> {
     if added.sheared {
         columns.extend(sheared_members());
     }
+    if added.shaken {
+        columns.extend(shaken::members());
+    }
     columns.extend(added.drawn.iter().map(|key| drawn_column(key)));
     columns
 }
@@ -99,6 +104,9 @@ pub fn of_steps(added: &AddedColumns) -> Vec<Column<Steps>> {
     if added.pushed {
         columns.extend(sheared_steps());
     }
+    if added.shaken {
+        columns.extend(shaken::steps());
+    }
     columns
 }
 
@@ -106,8 +114,10 @@ pub fn of_steps(added: &AddedColumns) -> Vec<Column<Steps>> {
 pub fn documented() -> (Vec<Column<Members>>, Vec<Column<Steps>>) {
     let (mut members, mut steps) = (every_member(), every_step());
     members.extend(sheared_members());
+    members.extend(shaken::members());
     members.push(drawn_column(ANY_KEY));
     steps.extend(sheared_steps());
+    steps.extend(shaken::steps());
     (members, steps)
 }
 
@@ -281,7 +291,11 @@ fn every_step() -> Vec<Column<Steps>> {
             Some(s.row.kn_pa_per_m)
         }),
         count("member", "number of the wall in its arm, from 0", |s: S| s.row.member),
-        count("load_step", "number of the load step; 0 is gravity alone", |s: S| s.number),
+        count(
+            "load_step",
+            "number of the load step; 0 is gravity alone; of walls that are shaken the number of the run",
+            |s: S| s.number,
+        ),
         real("load_factor", "", "share of the full load; none on a tilting table", |s: S| s.step.load_factor),
         real("tilt_deg", "deg", "tilt of the platform", |s: S| s.step.tilt_deg),
         real(

@@ -1,5 +1,6 @@
 //! One member: its wall, its joints, its protocol, its row. A pure function of study, seed and task.
 
+use crate::ensemble::shaken::shaken;
 use crate::ensemble::{LimitAnalysis, Mechanism, Row, ShearRow, StepRow, Task};
 use crate::generate::{Generated, InvalidGeometry, generate};
 use crate::interrupt;
@@ -30,7 +31,10 @@ pub fn build(study: &Study, arm: u32, member: u64) -> Result<Generated, InvalidG
 pub fn evaluate(study: &Study, task: Task) -> Row {
     interrupt::look();
     match build(study, task.arm, task.member) {
-        Ok(generated) => solved(study, task, &generated),
+        Ok(generated) => match &study.earthquakes {
+            Some(earthquakes) => shaken(study, earthquakes, task, &generated),
+            None => solved(study, task, &generated),
+        },
         Err(fault) => Row {
             attempts: fault.attempts,
             redraws: fault.redraws,
@@ -51,7 +55,7 @@ pub fn solve(study: &Study, task: Task, wall: &Wall, witness: Witness<'_>) -> pr
 }
 
 /// The laws of the joints of a task's member, from its arm as drawn.
-fn laws<'a>(study: &Study, task: Task, arm: &'a Arm, wall: &Wall) -> DrawnJoints<'a> {
+pub(super) fn laws<'a>(study: &Study, task: Task, arm: &'a Arm, wall: &Wall) -> DrawnJoints<'a> {
     let kn = arm.kn_points[task.point as usize];
     DrawnJoints::new(&arm.joint, kn, study.streams(task.member)).altered(&arm.mechanisms, wall)
 }
@@ -78,8 +82,8 @@ fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
         right_remainder_m: step.remainders.and_then(|[.., right]| read(number, right)),
         unbalanced_ratio: finite(step.unbalanced_ratio),
         solver_steps: step.solver_steps,
+        shaken: None,
     });
-    let realised = &generated.realised;
     Row {
         top_displacement_m: last
             .filter(|_| at_rest)
@@ -123,8 +127,19 @@ fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
             mode: shear.mode,
             opening_m: shear.opening.and_then(finite),
         }),
-        stones: wall.stones().count() as u32,
         joints: run.joints as u32,
+        solver_steps: run.steps.iter().map(|step| step.solver_steps).sum(),
+        unbalanced_ratio: last.and_then(|step| finite(step.unbalanced_ratio)),
+        load_steps: load_steps.collect(),
+        ..built(study, task, generated, run.outcome)
+    }
+}
+
+/// A row that says what was built and how it ended, with nothing observed.
+pub(super) fn built(study: &Study, task: Task, generated: &Generated, outcome: Outcome) -> Row {
+    let realised = &generated.realised;
+    Row {
+        stones: generated.wall.stones().count() as u32,
         wedges: realised.wedges,
         headers: realised.headers,
         attempts: generated.attempts,
@@ -135,11 +150,8 @@ fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
         first_dip_sd_deg: stats::sigma(&realised.first_dips).map(degrees),
         length_mean_m: stats::mean(&realised.lengths),
         height_mean_m: stats::mean(&realised.heights),
-        weight_n: Some(weight(wall)),
-        solver_steps: run.steps.iter().map(|step| step.solver_steps).sum(),
-        unbalanced_ratio: last.and_then(|step| finite(step.unbalanced_ratio)),
-        load_steps: load_steps.collect(),
-        ..unsolved(study, task, run.outcome)
+        weight_n: Some(weight(&generated.wall)),
+        ..unsolved(study, task, outcome)
     }
 }
 
@@ -257,6 +269,6 @@ fn drift(level: Level) -> Option<f64> {
 }
 
 /// A value that a table can hold: NaN and infinity are "not observed".
-fn finite(value: f64) -> Option<f64> {
+pub(super) fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }

@@ -1,8 +1,9 @@
 //! What a study's protocol measures of each wall.
 
-use crate::ensemble::Row;
-use crate::model::Outcome;
+use crate::ensemble::{Row, ShakenRow};
+use crate::model::{Level, Outcome};
 use crate::protocol::{Observes, Protocol};
+use crate::study::{Measure, Study};
 
 /// The quantity that a study is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,6 +14,10 @@ pub enum Quantity {
     CollapseAngle,
     /// The largest push that a wall bears along itself under a constant vertical load (N).
     ShearCapacity,
+    /// The lowest intensity at which some record brings the wall down, as a peak ground acceleration (m/s^2).
+    CollapseAcceleration,
+    /// The same as a peak ground velocity (m/s).
+    CollapseVelocity,
 }
 
 /// What a wall says about the quantity.
@@ -27,15 +32,19 @@ pub enum Observed {
 }
 
 impl Quantity {
-    /// That of a protocol.
-    pub fn of(protocol: &Protocol) -> Quantity {
-        match protocol {
+    /// That of a study.
+    pub fn of(study: &Study) -> Quantity {
+        match &study.protocol {
             Protocol::Lateral(_) => Quantity::TopDisplacement,
             Protocol::Tilting(tilting) => match tilting.observes {
                 Observes::CollapseAngle => Quantity::CollapseAngle,
                 Observes::Displacement => Quantity::TopDisplacement,
             },
             Protocol::Shear(_) => Quantity::ShearCapacity,
+            Protocol::BaseMotion(_) => match study.earthquakes.as_ref().map(|own| own.measure) {
+                Some(Measure::Pgv) => Quantity::CollapseVelocity,
+                Some(Measure::Pga) | None => Quantity::CollapseAcceleration,
+            },
         }
     }
 
@@ -43,7 +52,10 @@ impl Quantity {
     pub fn strength(self, value: f64) -> f64 {
         match self {
             Quantity::TopDisplacement => -value,
-            Quantity::CollapseAngle | Quantity::ShearCapacity => value,
+            Quantity::CollapseAngle
+            | Quantity::ShearCapacity
+            | Quantity::CollapseAcceleration
+            | Quantity::CollapseVelocity => value,
         }
     }
 
@@ -59,7 +71,25 @@ impl Quantity {
             (Quantity::ShearCapacity, Outcome::Collapsed { .. } | Outcome::Equilibrium) => {
                 value(row.shear.and_then(|shear| shear.capacity_n))
             }
+            (
+                Quantity::CollapseAcceleration | Quantity::CollapseVelocity,
+                Outcome::Collapsed { at: Level::Acceleration(x) | Level::Velocity(x) },
+            ) => Observed::Value(*x),
+            (Quantity::CollapseAcceleration | Quantity::CollapseVelocity, Outcome::Equilibrium) => {
+                row.strongest(self).map_or(Observed::Nothing, Observed::Above)
+            }
             _ => Observed::Nothing,
         }
+    }
+}
+
+impl Row {
+    /// The strongest shaking that the wall met, by the quantity's measure.
+    fn strongest(&self, quantity: Quantity) -> Option<f64> {
+        let peak = |shaken: &ShakenRow| match quantity {
+            Quantity::CollapseVelocity => shaken.pgv_m_per_s,
+            _ => shaken.pga_m_per_s2,
+        };
+        self.load_steps.iter().filter_map(|step| step.shaken.as_ref().map(peak)).reduce(f64::max)
     }
 }

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use crate::model::Outcome;
-use crate::protocol::{Agreement, FailureMode, ShearMode};
+use crate::protocol::{Agreement, FailureMode, ShearMode, Verdict};
+use crate::stats::fragility::Outcome as CollapseUnder;
 
 /// One member of one arm at one kn: what was drawn, how it ended, what was observed.
 ///
@@ -138,8 +139,8 @@ pub struct LimitAnalysis {
     pub ratio: Option<f64>,
 }
 
-/// One load step of a member.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+/// One load step of a member; by default with nothing observed.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct StepRow {
     /// Load factor: 0 under gravity alone, 1 at the full load; `None` on a tilting table.
     pub load_factor: Option<f64>,
@@ -170,4 +171,50 @@ pub struct StepRow {
     pub unbalanced_ratio: Option<f64>,
     /// Time steps taken.
     pub solver_steps: u64,
+    /// What came of a record at an intensity; `None` unless the wall is shaken.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shaken: Option<ShakenRow>,
+}
+
+/// A wall under a record at an intensity; see [`crate::protocol::Shaken`]. Displacements are against the base, since rest.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct ShakenRow {
+    /// Index of the record in the study.
+    pub record: u32,
+    /// Index of the intensity.
+    pub stripe: u32,
+    /// Peak ground acceleration (m/s^2).
+    pub pga_m_per_s2: f64,
+    /// Peak ground velocity (m/s).
+    pub pgv_m_per_s: f64,
+    /// Whether what counts as the wall's collapse came about; `None` where the run and its twin do not tell.
+    pub collapse: Option<CollapseUnder>,
+    /// How the wall came through.
+    pub verdict: Verdict,
+    /// How it came through from the start that differs by next to nothing; the same where there was none.
+    pub twin: Verdict,
+    /// When the first stone fell (s from the beginning of the record).
+    pub first_stone_s: Option<f64>,
+    /// When `part_share` of the weight had fallen (s).
+    pub part_s: Option<f64>,
+    /// When `most_share` of it had fallen (s); the run ends there.
+    pub most_s: Option<f64>,
+    /// Stones that fell.
+    pub fallen: u32,
+    /// Largest displacement of a stone that had not fallen (m).
+    pub displacement_m: f64,
+    /// Largest rotation of one (rad).
+    pub rotation_rad: f64,
+    /// Widest opening of a joint (m).
+    pub uplift_m: f64,
+    /// Largest slip in a joint (m).
+    pub slip_m: f64,
+    /// Largest displacement left at the end (m).
+    pub residual_m: Option<f64>,
+    /// Largest rotation left at the end (rad).
+    pub residual_rad: Option<f64>,
+    /// Time followed (s).
+    pub time_s: f64,
+    /// Steps that were not solved to the tolerance.
+    pub unsolved_steps: u64,
 }

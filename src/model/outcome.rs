@@ -18,6 +18,10 @@ pub enum Level {
     Drift(f64),
     /// Share of the way that supports go down before the load grows.
     Settlement(f64),
+    /// Peak ground acceleration (m/s^2).
+    Acceleration(f64),
+    /// Peak ground velocity (m/s).
+    Velocity(f64),
 }
 
 impl Level {
@@ -28,7 +32,9 @@ impl Level {
             | Level::Tilt(x)
             | Level::Multiplier(x)
             | Level::Drift(x)
-            | Level::Settlement(x) => x,
+            | Level::Settlement(x)
+            | Level::Acceleration(x)
+            | Level::Velocity(x) => x,
         }
     }
 }
@@ -41,6 +47,8 @@ impl fmt::Display for Level {
             Level::Multiplier(x) => write!(f, "a load multiplier of {x:.6}"),
             Level::Drift(x) => write!(f, "a drift of {:.4} %", 100.0 * x),
             Level::Settlement(x) => write!(f, "{:.2} % of the settlement of its supports", 100.0 * x),
+            Level::Acceleration(x) => write!(f, "a peak ground acceleration of {x} m/s2"),
+            Level::Velocity(x) => write!(f, "a peak ground velocity of {x} m/s"),
         }
     }
 }

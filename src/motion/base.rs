@@ -1,8 +1,9 @@
 //! The acceleration of the base: up to several components, each a record or a pulse along a direction.
 
+use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-use crate::math::{Vec3, cos, sin};
+use crate::math::{Vec3, atan2, cos, sin};
 use crate::motion::accelerogram::State;
 use crate::motion::{Accelerogram, BadParameter, Measures, Pulse};
 
@@ -111,6 +112,23 @@ impl Motion {
         }
         let factor = self.components[0].along.norm();
         Ok(self.with_directions(|_| direction * (factor / length)))
+    }
+
+    /// Under another name.
+    pub fn named(mut self, name: &str) -> Motion {
+        self.name = name.to_owned();
+        self
+    }
+
+    /// With its y axis, or its only component, along a horizontal direction of any length but 0.
+    ///
+    /// # Errors
+    /// A direction that is none.
+    pub fn towards(&self, direction: &Vec3) -> Result<Motion, BadParameter> {
+        match self.components() {
+            1 => self.along(direction),
+            _ => Ok(self.turned(atan2(direction.y, direction.x) - FRAC_PI_2)),
+        }
     }
 
     /// Both together, as the components of one station.

@@ -51,7 +51,8 @@ impl Agreement {
 
 impl Bounds {
     /// Asks limit analysis about a wall of stones as [`crate::protocol::run`] would load it. Joints are those of the wall as
-    /// built; stiffnesses play no part, and ropes do not stretch.
+    /// built; stiffnesses play no part, and ropes do not stretch. A wall on a base that shakes is tilted towards where that pushes: the
+    /// load of the same direction that grows slowly.
     pub fn of(
         wall: &Wall,
         laws: &dyn JointLaws,
@@ -61,7 +62,7 @@ impl Bounds {
     ) -> Bounds {
         let mut stage = Stage::new(wall, laws, protocol, restraint, contacts.into());
         let (growing, loads) = match protocol {
-            Protocol::Tilting(_) => (Growing::Tilt(stage.towards), Vec::new()),
+            Protocol::Tilting(_) | Protocol::BaseMotion(_) => (Growing::Tilt(stage.towards), Vec::new()),
             Protocol::Lateral(lateral) => (Growing::Factor, back_loads(wall, lateral)),
             // The jack is the load.
             Protocol::Shear(shear) => {

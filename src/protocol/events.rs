@@ -19,6 +19,26 @@ pub enum Event {
     Most,
 }
 
+impl Event {
+    /// Name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Event::FirstStone => "first_stone",
+            Event::Part => "part",
+            Event::Most => "most",
+        }
+    }
+
+    /// What has come about, in a sentence on a wall.
+    pub fn words(self) -> &'static str {
+        match self {
+            Event::FirstStone => "its first stone has fallen",
+            Event::Part => "a part of its weight has fallen",
+            Event::Most => "most of its weight has fallen",
+        }
+    }
+}
+
 /// Which shares of a wall's weight are looked at, and which of them is its capacity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EventShares {

@@ -35,7 +35,9 @@ mod watch;
 mod witness;
 
 pub use amplified::amplified;
-pub use base_motion::{Energy, Extreme, InTime, Shaken, Shaking, Verdict, shake, shake_twice};
+pub use base_motion::{
+    BaseMotion, Energy, Extreme, InTime, Shaken, Shaking, Verdict, shake, shake_twice, shake_wall,
+};
 pub use bounds::{Agreement, Bounds};
 pub use changes::{Changes, Creep, Loss};
 pub use closing::Closing;

@@ -16,7 +16,8 @@ use crate::solve::{Solver, explicit};
 /// Takes a wall of stones through a protocol: gravity first, then the load.
 ///
 /// `wall` holds the stones only; base, strip and ends are added here as `restraint` says, with ids behind the stones'.
-/// `contacts` may be the numbers of sub-contacts of a joint along its longer and its shorter extent alone.
+/// `contacts` may be the numbers of sub-contacts of a joint along its longer and its shorter extent alone. Of a base that shakes this is
+/// the wall at rest before; the rest is [`shake_wall`](crate::protocol::shake_wall)'s.
 pub fn run(
     wall: &Wall,
     laws: &dyn JointLaws,
@@ -101,6 +102,11 @@ pub fn run_seen_by(
                 Solver::Nonsmooth(settings) => push(&task, shear, Begin::Nonsmooth(*settings), witness),
             }
         }
+        Protocol::BaseMotion(base) => {
+            let criterion = Criterion::AnyBlock(base.fallen_moved * thickness);
+            let task = task(&stage, &stage.assembly, LoadPath::factor(1), criterion, thickness);
+            drive_seen_by(&task, solver, witness)
+        }
     };
     run.displacements.truncate(wall.blocks.len());
     run.turns.truncate(wall.blocks.len());
@@ -108,7 +114,7 @@ pub fn run_seen_by(
 }
 
 /// What is left of a wall in its surroundings, with its joints as built.
-fn task<'t>(
+pub(super) fn task<'t>(
     stage: &'t Stage<'_>,
     left: &'t Wall,
     path: LoadPath,

@@ -1,5 +1,6 @@
 //! The protocols and their settings, as a study states them.
 
+use crate::protocol::base_motion::BaseMotion;
 use crate::protocol::direction::Direction;
 use crate::protocol::events::EventShares;
 use crate::protocol::shear::Shear;
@@ -194,4 +195,6 @@ pub enum Protocol {
     Tilting(Tilting),
     /// Shear in the wall's plane under a constant vertical load.
     Shear(Shear),
+    /// A base that shakes, see [`shake_wall`](crate::protocol::shake_wall).
+    BaseMotion(BaseMotion),
 }

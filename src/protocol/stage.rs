@@ -38,6 +38,7 @@ impl<'a> Stage<'a> {
             Protocol::Lateral(_) => Direction::YPlus,
             Protocol::Tilting(tilting) => tilting.towards,
             Protocol::Shear(_) => Direction::XPlus,
+            Protocol::BaseMotion(base) => base.towards,
         };
         let mut assembly = restrain(wall, restraint, towards);
         let mut ties = Vec::new();

@@ -17,6 +17,7 @@ use crate::report::gathered::{Gathered, populations};
 use crate::report::measured::{CalibrationPlot, calibration_csv, comparison_csv};
 use crate::report::plot::Plot;
 use crate::report::population::Population;
+use crate::report::shaken::write_shaken;
 use crate::report::summary::{Summary, summary_of};
 use crate::study::Study;
 
@@ -90,6 +91,9 @@ pub(crate) fn write_summary(summary: &Summary, dir: &Path, beside: Option<&Earli
     let title = title(summary);
     let json = serde_json::to_string_pretty(summary).context("the summary cannot be written as JSON")? + "\n";
     replace_file(&dir.join(SUMMARY_JSON), json.as_bytes())?;
+    if let Some(shaken) = &summary.shaken {
+        return write_shaken(shaken, &title, dir);
+    }
     let name = curves.first().map_or("figure", |curve| curve.quantity.figure());
     replace_file(&dir.join(format!("{name}.csv")), csv(&curves).as_bytes())?;
     let plot = |scale| Plot::new(&title, &curves, scale).beside(beside);

@@ -10,7 +10,7 @@ pub struct Populations(Vec<Vec<Population>>);
 impl Populations {
     /// Without a wall.
     pub fn new(study: &Study) -> Populations {
-        let (quantity, randomisations) = (Quantity::of(&study.protocol), study.randomisations());
+        let (quantity, randomisations) = (Quantity::of(&study), study.randomisations());
         let of_arm = study.arms.iter().map(|arm| {
             let at = |kn: &f64| {
                 let own = (&arm.name[..], !is_random(arm));
@@ -51,8 +51,8 @@ pub fn populations(study: &Study, rows: &[Row]) -> Vec<Population> {
 /// [`summarise`](crate::report::summarise) and [`write_all`](crate::report::write_all) make them from all rows at once.
 ///
 /// A wall that brings a value takes 8 bytes, and where walls between bring none some 16 more per gap; a wall without a value takes
-/// none. Only where something was measured, or walls are sheared, rows are kept whole, with their load steps (1 to 5 kB each): the
-/// measured readings and the curves of push over drift are compared step by step.
+/// none. Only where something was measured, or walls are sheared or shaken, rows are kept whole, with their load steps (0.5 kB each): the
+/// measured readings, the curves of push over drift and the runs under records are compared step by step.
 pub struct Gathered {
     populations: Populations,
     keeps_rows: bool,
@@ -62,8 +62,7 @@ pub struct Gathered {
 impl Gathered {
     /// Without a wall, of a study.
     pub fn new(study: &Study) -> Gathered {
-        let keeps_rows =
-            !study.measured.is_empty() || Quantity::of(&study.protocol) == Quantity::ShearCapacity;
+        let keeps_rows = !study.measured.is_empty() || Quantity::of(&study) == Quantity::ShearCapacity;
         Gathered { populations: Populations::new(study), keeps_rows, rows: Vec::new() }
     }
 

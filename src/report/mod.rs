@@ -36,6 +36,7 @@ mod quantity;
 mod readings;
 mod selection;
 mod sensitivity;
+mod shaken;
 mod standing;
 mod summary;
 mod table;
@@ -79,6 +80,7 @@ pub use selection::{
     selection_text, write_selection,
 };
 pub use sensitivity::{SensitivitySummary, sensitivity_text, write_sensitivity};
+pub use shaken::{MeasureEntry, RatioEntry, RecordEntry, ShakenCurve, ShakenSummary, StripeEntry, TiltEntry};
 pub use summary::{ArmSummary, EnoughEntry, QuantileEntry, Summary, summarise};
 pub use table::terminal_table;
 pub use test_plan::{

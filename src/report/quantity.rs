@@ -9,6 +9,7 @@ impl Quantity {
             Quantity::TopDisplacement => "equilibrium",
             Quantity::CollapseAngle => "collapsed",
             Quantity::ShearCapacity => "equilibrium",
+            Quantity::CollapseAcceleration | Quantity::CollapseVelocity => "collapsed",
         }
     }
 
@@ -18,6 +19,8 @@ impl Quantity {
             Quantity::TopDisplacement => "top_displacement",
             Quantity::CollapseAngle => "collapse_angle",
             Quantity::ShearCapacity => "shear_capacity",
+            Quantity::CollapseAcceleration => "collapse_acceleration",
+            Quantity::CollapseVelocity => "collapse_velocity",
         }
     }
 
@@ -27,6 +30,8 @@ impl Quantity {
             Quantity::TopDisplacement => "m",
             Quantity::CollapseAngle => "deg",
             Quantity::ShearCapacity => "N",
+            Quantity::CollapseAcceleration => "m/s2",
+            Quantity::CollapseVelocity => "m/s",
         }
     }
 
@@ -36,6 +41,8 @@ impl Quantity {
             Quantity::TopDisplacement => "mm",
             Quantity::CollapseAngle => "deg",
             Quantity::ShearCapacity => "kN",
+            Quantity::CollapseAcceleration => "m/s2",
+            Quantity::CollapseVelocity => "m/s",
         }
     }
 
@@ -45,6 +52,7 @@ impl Quantity {
             Quantity::TopDisplacement => x * 1e3,
             Quantity::CollapseAngle => x,
             Quantity::ShearCapacity => x * 1e-3,
+            Quantity::CollapseAcceleration | Quantity::CollapseVelocity => x,
         }
     }
 
@@ -54,6 +62,8 @@ impl Quantity {
             Quantity::TopDisplacement => "out-of-plane displacement at the top (mm)",
             Quantity::CollapseAngle => "collapse angle (deg)",
             Quantity::ShearCapacity => "largest push along the wall (kN)",
+            Quantity::CollapseAcceleration => "lowest PGA of a collapse (m/s2)",
+            Quantity::CollapseVelocity => "lowest PGV of a collapse (m/s)",
         }
     }
 
@@ -63,6 +73,7 @@ impl Quantity {
             Quantity::TopDisplacement => "figure-10",
             Quantity::CollapseAngle => "capacity",
             Quantity::ShearCapacity => "shear",
+            Quantity::CollapseAcceleration | Quantity::CollapseVelocity => "fragility",
         }
     }
 
@@ -78,6 +89,12 @@ impl Quantity {
             Quantity::ShearCapacity => {
                 "the largest push along the wall that it bears under its constant vertical load"
             }
+            Quantity::CollapseAcceleration => {
+                "the lowest peak ground acceleration at which some record brings the wall down"
+            }
+            Quantity::CollapseVelocity => {
+                "the lowest peak ground velocity at which some record brings the wall down"
+            }
         }
     }
 
@@ -87,6 +104,9 @@ impl Quantity {
             Quantity::TopDisplacement => "collapsed, not converged, non-finite, invalid geometry",
             Quantity::CollapseAngle => "not standing at rest, not converged, non-finite, invalid geometry",
             Quantity::ShearCapacity => "not standing at rest, not converged, non-finite, invalid geometry",
+            Quantity::CollapseAcceleration | Quantity::CollapseVelocity => {
+                "not standing at rest, undecided, without a verdict, invalid geometry"
+            }
         }
     }
 }

@@ -8,6 +8,7 @@ use crate::report::gathered::populations;
 use crate::report::measured::{MeasuredSummary, measured};
 use crate::report::population::Population;
 use crate::report::published::{Published, judge_all};
+use crate::report::shaken::{ShakenSummary, shaken};
 use crate::stats::{self, EmpiricalStep, Estimate, Sorted, Statistic};
 use crate::study::{Arm, Study, Until};
 
@@ -35,6 +36,9 @@ pub struct Summary {
     /// What was measured beside our numbers; left out where nothing was.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measured: Option<MeasuredSummary>,
+    /// What comes of walls that are shaken; left out of others.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shaken: Option<ShakenSummary>,
 }
 
 /// One arm at one kn.
@@ -204,6 +208,7 @@ pub(super) fn summary_of(study: &Study, populations: Vec<Population>, rows: &[Ro
         comparisons,
         published,
         measured: measured(study, rows),
+        shaken: shaken(study, rows),
     }
 }
 
@@ -214,7 +219,10 @@ pub(crate) fn describe(
     parameters: BTreeMap<String, serde_json::Value>,
 ) -> ArmSummary {
     let statistics = match population.quantity {
-        Quantity::CollapseAngle | Quantity::ShearCapacity => population.sample().summary_of_positive(),
+        Quantity::CollapseAngle
+        | Quantity::ShearCapacity
+        | Quantity::CollapseAcceleration
+        | Quantity::CollapseVelocity => population.sample().summary_of_positive(),
         Quantity::TopDisplacement => population.sample().summary(),
     };
     let [sigma_bootstrap, cov_bootstrap] = bootstraps(&population, seed);
@@ -271,7 +279,10 @@ fn distribution(population: Population) -> (Vec<QuantileEntry>, Vec<EmpiricalSte
     let sorted = Sorted::of(values.into_values());
     let of = |p| if above.is_empty() { sorted.quantile(p) } else { Estimate::UNDEFINED };
     let steps = match quantity {
-        Quantity::TopDisplacement | Quantity::ShearCapacity => Vec::new(),
+        Quantity::TopDisplacement
+        | Quantity::ShearCapacity
+        | Quantity::CollapseAcceleration
+        | Quantity::CollapseVelocity => Vec::new(),
         Quantity::CollapseAngle => stats::empirical_of(&sorted, &above),
     };
     (quantiles(&of), steps)

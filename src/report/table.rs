@@ -6,6 +6,7 @@ use crate::report::measured;
 use crate::report::number::{
     compact, or_dash, shortened, significant, stiffness, with_interval, with_interval_against,
 };
+use crate::report::shaken::text as shaken_text;
 use crate::report::summary::{ArmSummary, EnoughEntry, Summary};
 
 /// Widest line of text and of tables that are split.
@@ -24,6 +25,9 @@ pub(super) fn explanation(quantity: Quantity) -> String {
 
 /// The summary as text for a terminal: the conclusion, then what it rests on under headings.
 pub fn terminal_table(summary: &Summary) -> String {
+    if let Some(shaken) = &summary.shaken {
+        return shaken_text(summary, shaken);
+    }
     let mut text = conclusion(summary);
     text.push_str(&format!("\nResults ({} solver, seed {})\n", summary.solver, summary.seed));
     if let Some(arm) = summary.arms.first() {

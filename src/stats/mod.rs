@@ -46,13 +46,13 @@ pub use empirical::{
 pub use estimate::Estimate;
 pub use influence::{BasePoint, Influence, Share, influence};
 pub use kolmogorov::{ks_p_value, ks_statistic};
-pub use moments::{correlation, cov, mean, sigma, sum};
+pub use moments::{correlation, correlation_estimate, cov, mean, sigma, sum};
 pub use order::{Sorted, predictive_quantile, quantile, quantile_interval, smallest};
 pub use paired::{NextPair, next_pair, probability_above};
 pub use randomised::{Sample, by_randomisations};
 pub use ratio::{paired_ratio_of_means, ratio_of_means};
 pub use reference::student_quantile;
-pub use seeded::spread_bootstrap;
+pub use seeded::{spread_bootstrap, stream_of};
 pub use sequential::{Looks, Statistic, relative_half_width};
 pub use summary::{Summary, above_zero, sigma_factors};
 pub use test_plan::{

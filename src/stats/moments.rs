@@ -1,5 +1,9 @@
 //! Mean, standard deviation and COV, summed in index order.
 
+use crate::math::{exp, ln};
+use crate::random::standard_normal::quantile;
+use crate::stats::Estimate;
+
 /// Sum in index order with Neumaier's compensation (Neumaier 1974): the error is a few roundings of the result and of
 /// the sum of magnitudes times 1e-32 per term.
 pub fn sum(values: &[f64]) -> f64 {
@@ -42,6 +46,24 @@ pub fn correlation(a: &[f64], b: &[f64]) -> Option<f64> {
     let ((mean_a, mean_b), (sigma_a, sigma_b)) = (mean(a).zip(mean(b))?, sigma(a).zip(sigma(b))?);
     let spread = sigma_a * sigma_b;
     (spread > 0.0).then(|| (comoment(a, mean_a, b, mean_b) / spread).clamp(-1.0, 1.0))
+}
+
+/// The same with its 95 % interval for pairs that are normal: Fisher's z, whose standard error is `1 / sqrt(n - 3)`. No interval below four
+/// pairs, and none of a correlation of 1 or -1.
+///
+/// ```
+/// use pirca::stats::correlation_estimate;
+/// let found = correlation_estimate(&[1.0, 2.0, 3.0, 4.0, 5.0], &[1.0, 3.0, 2.0, 5.0, 4.0]);
+/// let [low, high] = found.interval.unwrap();
+/// assert!((found.value.unwrap() - 0.8).abs() < 1e-12 && (low + 0.2796).abs() < 1e-4 && (high - 0.9862).abs() < 1e-4);
+/// ```
+pub fn correlation_estimate(a: &[f64], b: &[f64]) -> Estimate {
+    let value = correlation(a, b);
+    let interval = value.filter(|r| a.len() > 3 && r.abs() < 1.0).map(|r| {
+        let (z, error) = (0.5 * ln((1.0 + r) / (1.0 - r)), quantile(0.975) / ((a.len() - 3) as f64).sqrt());
+        [z - error, z + error].map(|z| 1.0 - 2.0 / (exp(2.0 * z) + 1.0))
+    });
+    Estimate { value, interval }
 }
 
 /// Sample covariance (divisor n - 1) of two samples of the same length, at least 2, about their given means.

@@ -2,15 +2,18 @@
 
 use crate::math::radians;
 use crate::protocol::{
-    Direction, Ends, EventShares, History, Lateral, Observes, Protocol, Rate, Shear, Tilting, Turning,
+    BaseMotion, Direction, Ends, EventShares, History, Lateral, Observes, Protocol, Rate, Shear, Tilting,
+    Turning,
 };
 use crate::random::{Design, RANDOMISATIONS};
+use crate::solve::explicit::Rayleigh;
 use crate::solve::nonsmooth::{Normal, StepSolver};
 use crate::solve::{Solver, explicit, implicit, limit, nonsmooth};
 use crate::study::arm;
 use crate::study::averaged;
 use crate::study::catalogue::Catalogue;
 use crate::study::checked::Arm;
+use crate::study::earthquakes::Earthquakes;
 use crate::study::fault::{Fault, Found, Place};
 use crate::study::keys;
 use crate::study::mechanism::Mechanisms;
@@ -27,6 +30,7 @@ pub struct Parts {
     pub design: Design,
     pub arms: Vec<Arm>,
     pub protocol: Protocol,
+    pub earthquakes: Option<Earthquakes>,
     pub solver: Solver,
     pub agreement: bool,
 }
@@ -41,7 +45,8 @@ pub fn parts(root: &Node, notes: &mut Notes, catalogue: &mut Catalogue) -> Optio
         Some((question?, seed?, only, design))
     });
     let shared = Setting::of_study(&mut top, catalogue);
-    let protocol = top.table("load").and_then(|mut t| load(&mut t));
+    let loaded = top.table("load").and_then(|mut t| load(&mut t, catalogue));
+    let (protocol, earthquakes) = loaded.unzip();
     let solved = top.table("solver").and_then(|mut t| {
         let agreement = t.flag("agreement");
         solver(&mut t).zip(agreement)
@@ -55,6 +60,7 @@ pub fn parts(root: &Node, notes: &mut Notes, catalogue: &mut Catalogue) -> Optio
         None => arms?,
     };
     let protocol = protocol?;
+    let earthquakes = earthquakes.flatten().map(|own| own.seeded(seed));
     check_shear(&mut top, &arms, &protocol)?;
     check_mechanisms(&mut top, &arms, &protocol, agreement)?;
     check_design(&mut top, &arms, design)?;
@@ -63,7 +69,7 @@ pub fn parts(root: &Node, notes: &mut Notes, catalogue: &mut Catalogue) -> Optio
         let place = top.place_of("solver").clone();
         top.notes.faults.push(beyond(&place, &solver, unfit));
     }
-    Some(Parts { question, seed, design, arms, protocol, solver, agreement })
+    Some(Parts { question, seed, design, arms, protocol, earthquakes, solver, agreement })
 }
 
 /// What a study asks for that a solver does not have, in words.
@@ -105,6 +111,17 @@ pub fn unfit_for(solver: &Solver, arms: &[Arm], protocol: &Protocol, agreement: 
                 .to_owned(),
         );
     }
+    if let Protocol::BaseMotion(base) = protocol {
+        match solver {
+            Solver::Implicit(_) | Solver::Limit(_) => {
+                unfit.push("load.protocol = \"base_motion\", which follows walls in time".to_owned());
+            }
+            Solver::Nonsmooth(_) if base.rayleigh != Rayleigh::default() => {
+                unfit.push("load.rayleigh_ratio: impacts and friction take the energy".to_owned());
+            }
+            Solver::Nonsmooth(_) | Solver::Explicit(_) => {}
+        }
+    }
     if agreement && is_limit {
         unfit.push("solver.agreement: it would be compared with itself".to_owned());
     }
@@ -114,13 +131,11 @@ pub fn unfit_for(solver: &Solver, arms: &[Arm], protocol: &Protocol, agreement: 
 /// The fault of a study that asks a solver for what it does not have.
 pub fn beyond(place: &Place, solver: &Solver, unfit: String) -> Fault {
     let found = Found::Words(format!("is \"{}\", which does not go with {unfit}", solver.name()));
-    Fault::at(
-        place,
-        "solver.name",
-        found,
-        "explicit or implicit for that",
-        "take another solver, or remove it",
-    )
+    let allowed = match unfit.contains("base_motion") {
+        true => "nonsmooth or explicit for that",
+        false => "explicit or implicit for that",
+    };
+    Fault::at(place, "solver.name", found, allowed, "take another solver, or remove it")
 }
 
 /// The arms of these names, in the order of the names. What the others say decides nothing.
@@ -212,12 +227,14 @@ fn check_shear(top: &mut Reader<'_>, arms: &[Arm], protocol: &Protocol) -> Optio
                     );
                 }
             }
-            Protocol::Lateral(_) | Protocol::Tilting(_) if arm.vertical_load.is_some() => {
+            Protocol::Lateral(_) | Protocol::Tilting(_) | Protocol::BaseMotion(_)
+                if arm.vertical_load.is_some() =>
+            {
                 let (key, found) =
                     (format!("arm.{}.vertical_load_n", arm.name), "has no beam to weigh".to_owned());
                 fault("arm", &key, found, "load.protocol = \"shear\"", "remove it, or shear the walls");
             }
-            Protocol::Lateral(_) | Protocol::Tilting(_) => {}
+            Protocol::Lateral(_) | Protocol::Tilting(_) | Protocol::BaseMotion(_) => {}
         }
     }
     (top.notes.faults.len() == before).then_some(())
@@ -273,12 +290,45 @@ fn check_mechanisms(top: &mut Reader<'_>, arms: &[Arm], protocol: &Protocol, agr
     (top.notes.faults.len() == before).then_some(())
 }
 
-fn load(t: &mut Reader<'_>) -> Option<Protocol> {
+/// What is done to each wall, and the records of a base that shakes.
+fn load(t: &mut Reader<'_>, catalogue: &mut Catalogue) -> Option<(Protocol, Option<Earthquakes>)> {
+    let alone = |protocol| (protocol, None);
     match t.chosen()? {
-        "lateral" => lateral(t).map(Protocol::Lateral),
-        "shear" => shear(t).map(Protocol::Shear),
-        _ => tilting(t).map(Protocol::Tilting),
+        "lateral" => lateral(t).map(Protocol::Lateral).map(alone),
+        "shear" => shear(t).map(Protocol::Shear).map(alone),
+        "base_motion" => {
+            let towards = towards(t);
+            let (base, earthquakes) = (base_motion(t, towards), Earthquakes::read(t, towards, catalogue));
+            Some((Protocol::BaseMotion(base?), Some(earthquakes?)))
+        }
+        _ => tilting(t).map(Protocol::Tilting).map(alone),
     }
+}
+
+fn base_motion(t: &mut Reader<'_>, towards: Option<Direction>) -> Option<BaseMotion> {
+    let reals = t.reals(["after_s", "fallen_moved", "fallen_down"]);
+    let (twice, shares, rayleigh) = (t.flag("twice"), events(t), rayleigh(t));
+    let [after, fallen_moved, fallen_down] = reals?;
+    let (towards, shares, rayleigh, twice) = (towards?, shares?, rayleigh?, twice?);
+    Some(BaseMotion { towards, after, fallen_moved, fallen_down, shares, rayleigh, twice })
+}
+
+/// Damping by a ratio at two frequencies; none where neither is given.
+fn rayleigh(t: &mut Reader<'_>) -> Option<Rayleigh> {
+    let keys = ["rayleigh_ratio", "rayleigh_hz"];
+    if !keys.iter().any(|key| t.has(key)) {
+        return Some(Rayleigh::default());
+    }
+    if let Some(missing) = keys.iter().find(|key| !t.has(key)) {
+        t.fault(missing, "both rayleigh_ratio and rayleigh_hz, or neither", format!("add {missing}"));
+        return None;
+    }
+    let (ratio, hz) = (t.real("rayleigh_ratio"), t.list("rayleigh_hz")?);
+    let [low, high] = hz[..] else {
+        t.fault("rayleigh_hz", "two frequencies", "give the lower and the higher one");
+        return None;
+    };
+    Some(Rayleigh::of(ratio?, [low, high]))
 }
 
 fn lateral(t: &mut Reader<'_>) -> Option<Lateral> {

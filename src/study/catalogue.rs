@@ -3,14 +3,15 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use crate::motion::Motion;
 use crate::random::Family;
 use crate::study::checked::InputFile;
 use crate::study::distributions::{Distributions, Origin, is_prior};
-use crate::study::fault::{Fault, Faults, Found};
+use crate::study::fault::{Fault, Faults, Found, Place};
 use crate::study::keys;
 use crate::study::quantity::family;
 use crate::study::raw::{self, Entry, Node, Table, Value};
-use crate::study::reader::{Notes, Reader, is_name};
+use crate::study::reader::{Notes, Reader, is_name, join};
 use crate::study::schema::suggestion;
 use crate::study::survey::{Asked, Surveys};
 
@@ -125,6 +126,28 @@ impl Catalogue {
         let stones = self.surveys.pairs(file, ["length_m", "height_m"], asked)?;
         self.note_survey(file, asked.path, stones.as_ref().map(Vec::len));
         Ok(stones)
+    }
+
+    /// The records that `files` of a table lists, each with where it is named; `None` where one of them is faulty.
+    pub fn records(&mut self, t: &mut Reader<'_>) -> Option<Vec<(Motion, Place)>> {
+        let files = t.files("files")?;
+        let path = join(&t.path, "files");
+        let (mut read, mut known) = (Vec::new(), Vec::new());
+        for (file, node) in &files {
+            let fault = |allowed: String, fix: &str| {
+                let found = Found::Value(node.shown.clone());
+                Box::new(Fault::at(&node.place, &path, found, allowed, fix))
+            };
+            match self.surveys.record(file, &fault) {
+                Ok((motion, sha256)) => {
+                    known.push(format!("{file} {sha256}"));
+                    read.push((motion, node.place.clone()));
+                }
+                Err(fault) => t.notes.faults.push(*fault),
+            }
+        }
+        t.record("files", known.join(", "));
+        (read.len() == files.len()).then_some(read)
     }
 
     fn note_survey(&mut self, reference: &str, path: &str, rows: Option<usize>) {

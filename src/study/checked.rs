@@ -6,11 +6,12 @@ use std::sync::Arc;
 
 use crate::generate::{BatteredFace, Layout};
 use crate::law::{ClosureTable, CohesionAfterSlip, Sampling};
-use crate::protocol::{FailureMode, Protocol, Restraint, Shear};
+use crate::protocol::{BaseMotion, FailureMode, Protocol, Restraint, Shear};
 use crate::random::standard_normal::{cdf, quantile};
 use crate::random::{Design, Family, Move, Place, Quantities, RANDOMISATIONS, Streams, Taken};
 use crate::solve::Solver;
 use crate::stats::Statistic;
+use crate::study::earthquakes::Earthquakes;
 use crate::study::measured::Measurement;
 use crate::study::mechanism::Mechanisms;
 use crate::study::uncertain::{Uncertain, parameters};
@@ -39,6 +40,8 @@ pub struct Study {
     pub arms: Vec<Arm>,
     /// What is done to each wall.
     pub protocol: Protocol,
+    /// The records of walls that are shaken, with the intensities that they are scaled to; `None` of other protocols.
+    pub earthquakes: Option<Earthquakes>,
     /// Which solver, with its settings.
     pub solver: Solver,
     /// Whether limit analysis is asked about every wall as well.
@@ -173,6 +176,14 @@ impl Study {
                 Protocol::Shear(Shear { vertical_load, ..shear })
             }
             (protocol, _) => protocol,
+        }
+    }
+
+    /// What all motions of walls that are shaken have in common; `None` of other protocols.
+    pub fn base_motion(&self) -> Option<BaseMotion> {
+        match self.protocol {
+            Protocol::BaseMotion(base) => Some(base),
+            _ => None,
         }
     }
 

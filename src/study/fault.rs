@@ -155,6 +155,11 @@ impl Fault {
         }
     }
 
+    /// The same fault, of a line (from 1) of its file.
+    pub(super) fn in_line(self, line: usize) -> Fault {
+        Fault { line, ..self }
+    }
+
     /// The same fault, said to arise only under a variant.
     pub(super) fn in_variant(mut self, variant: &str) -> Fault {
         self.fix = format!("{} (variant \"{variant}\")", self.fix);

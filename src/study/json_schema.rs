@@ -240,6 +240,9 @@ fn values(kind: &Kind, below: Stated, definitions: &mut Definitions) -> Value {
             json!({ "type": "array", "items": definitions.reference(section, Stated::Whole), "minItems": 1 })
         }
         Kind::Settings => json!({ "type": "object", "minProperties": 1 }),
+        Kind::Files { at_most } => json!({
+            "type": "array", "items": { "type": "string", "minLength": 1 }, "minItems": 1, "maxItems": at_most, "uniqueItems": true,
+        }),
         Kind::Paths => json!({ "type": "array", "items": { "type": "string" } }),
     }
 }

@@ -131,6 +131,7 @@ impl Study {
                     variant: joined(&chosen),
                     arms: parts.arms,
                     protocol: parts.protocol,
+                    earthquakes: parts.earthquakes,
                     solver: parts.solver,
                     agreement: parts.agreement,
                     published: claims,
@@ -156,6 +157,7 @@ impl Study {
     /// The same study with another seed.
     pub fn with_seed(mut self, seed: u64) -> Study {
         self.seed = seed;
+        self.earthquakes = self.earthquakes.map(|own| own.seeded(seed));
         self.effective.insert("study.seed".to_owned(), seed.to_string());
         self.hash = hash_of(&self.effective);
         self

@@ -356,6 +356,32 @@ impl<'n> Reader<'n> {
         Some(values)
     }
 
+    /// Files beside the study, each with its node; which of them there are is not looked at.
+    pub fn files(&mut self, name: &str) -> Option<Vec<(String, Node)>> {
+        let (node, key) = self.given(name)?;
+        let (Kind::Files { at_most }, Value::List(list)) = (key.kind, &node.value) else {
+            self.refuse_kind(&node, key);
+            return None;
+        };
+        let mut files: Vec<(String, Node)> = Vec::new();
+        for own in list {
+            let Value::Text(file) = &own.value else {
+                self.refuse_kind(own, key);
+                return None;
+            };
+            if files.iter().any(|(known, _)| known == file) {
+                self.refuse(own, key, "drop repeated files");
+                return None;
+            }
+            files.push((file.clone(), own.clone()));
+        }
+        if files.is_empty() || files.len() > at_most {
+            self.refuse(&node, key, format!("it has {} entries", files.len()));
+            return None;
+        }
+        Some(files)
+    }
+
     /// A list of numbers.
     pub fn list(&mut self, name: &str) -> Option<Vec<f64>> {
         let (node, key) = self.given(name)?;

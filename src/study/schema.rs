@@ -130,6 +130,11 @@ pub enum Kind {
     NamePair,
     /// A list of names, each once.
     Names,
+    /// A list of files beside the study, each once.
+    Files {
+        /// Largest number of them.
+        at_most: usize,
+    },
     /// A table.
     Table(&'static Section),
     /// A list of tables, each with a `name` or a number.
@@ -249,6 +254,9 @@ impl Kind {
             Kind::Pair { low, high } => format!("a list of two whole numbers within {low} to {high}"),
             Kind::NamePair => "a list of two different names".to_owned(),
             Kind::Names => "a list of names, each once".to_owned(),
+            Kind::Files { at_most } => {
+                format!("1 to {at_most} files in the study's folder, each once, as [\"records/one.at2\"]")
+            }
             Kind::Table(section) => format!("a table {}", section.title),
             Kind::Tables(section) => format!("one or more tables {}", section.title),
             Kind::Settings => {

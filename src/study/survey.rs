@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
+use crate::motion::Motion;
 use crate::study::checked::InputFile;
 use crate::study::csv::cells::{self, Cell, Line};
 use crate::study::csv::numbers::Numbers;
@@ -104,24 +105,68 @@ impl Surveys {
 
     /// The file of that name, read once; `None` where it is faulty.
     fn survey(&mut self, file: &str, asked: Asked) -> Result<Option<Arc<Survey>>, Box<Fault>> {
-        let Some(folder) = &self.folder else {
-            return Err(asked.fault("numbers".to_owned(), "write them here: no file lies beside this"));
-        };
-        let is_beside = |path: &Path| path.components().all(|part| matches!(part, Component::Normal(_)));
-        if file.is_empty() || !is_beside(Path::new(file)) {
-            let fix = "put the table beside study.toml, and give its name";
-            return Err(asked.fault("a table in the folder of the study, as \"survey.csv\"".to_owned(), fix));
-        }
-        let path = folder.join(file);
-        if !path.exists() {
-            let allowed = format!("a table in the folder of the study, which has no {file}");
-            return Err(asked.fault(allowed, files::similar(&path)));
-        }
+        let fault = |allowed: String, fix: &str| asked.fault(allowed, fix);
+        let path = self.beside_study(file, "a table", "survey.csv", &fault)?;
         if !self.files.contains_key(file) {
             let read = self.read(file, &path).map(Arc::new);
             self.files.insert(file.to_owned(), read);
         }
         Ok(self.files.get(file).cloned().flatten())
+    }
+
+    /// The path of a file in the study's folder; `what` it is, as the file `like`.
+    ///
+    /// # Errors
+    /// A fault, from what is allowed and how to mend it, where no such file lies there.
+    pub fn beside_study(
+        &self,
+        file: &str,
+        what: &str,
+        like: &str,
+        fault: &dyn Fn(String, &str) -> Box<Fault>,
+    ) -> Result<PathBuf, Box<Fault>> {
+        let Some(folder) = &self.folder else {
+            return Err(fault("numbers".to_owned(), "write them here: no file lies beside this"));
+        };
+        let is_beside = |path: &Path| path.components().all(|part| matches!(part, Component::Normal(_)));
+        if file.is_empty() || !is_beside(Path::new(file)) {
+            let fix = "put it beside study.toml, and give its name";
+            return Err(fault(format!("{what} in the folder of the study, as \"{like}\""), fix));
+        }
+        let path = folder.join(file);
+        if !path.exists() {
+            let allowed = format!("{what} in the folder of the study, which has no {file}");
+            return Err(fault(allowed, &files::similar(&path)));
+        }
+        Ok(path)
+    }
+
+    /// A record of ground motion in the study's folder, and the hash of its file.
+    ///
+    /// # Errors
+    /// A fault, from what is allowed and how to mend it, where no such file lies there, or it holds no record.
+    pub fn record(
+        &mut self,
+        file: &str,
+        fault: &dyn Fn(String, &str) -> Box<Fault>,
+    ) -> Result<(Motion, String), Box<Fault>> {
+        let path = self.beside_study(file, "a record", "records/one.at2", fault)?;
+        let rank = 2000 + self.inputs.len();
+        let motion = Motion::read(&path).map_err(|bad| {
+            Box::new(Fault::of_file(file, rank, &bad.found, &bad.allowed, &bad.fix).in_line(bad.line))
+        })?;
+        let bytes = std::fs::read(&path).map_err(|error| {
+            Box::new(Fault::of_file(
+                file,
+                rank,
+                &format!("cannot be read: {error}"),
+                "a file",
+                "check its permissions",
+            ))
+        })?;
+        let sha256 = files::sha256(&bytes);
+        self.inputs.push(InputFile { path: PathBuf::from(file), sha256: sha256.clone() });
+        Ok((motion.named(file), sha256))
     }
 
     fn read(&mut self, file: &str, path: &Path) -> Option<Survey> {

@@ -21,7 +21,7 @@ const HOUSE: &[(&str, &[&str])] = &[
     ("solve", &["interrupt", "math", "shape", "law", "model", "contact"]),
     // `shape`, beyond the house's first plan: a pressure is integrated over faces, and end blocks are shapes.
     ("protocol", &["math", "shape", "law", "motion", "model", "contact", "solve"]),
-    ("study", &["math", "random", "stats", "law", "model", "generate", "solve", "protocol"]),
+    ("study", &["math", "random", "stats", "motion", "law", "model", "generate", "solve", "protocol"]),
     (
         "ensemble",
         &["interrupt", "math", "random", "stats", "model", "generate", "solve", "protocol", "study"],

@@ -52,6 +52,7 @@ pub fn made_up(study: &Study, task: Task) -> Row {
         top_displacement_m: Some(top * share),
         unbalanced_ratio: (!collapsed).then_some(1e-5 / (3.0 + member as f64)),
         solver_steps: 100 + member,
+        shaken: None,
     };
     Row {
         arm_index: arm,

@@ -12,6 +12,7 @@ mod mechanisms;
 mod memory;
 mod refusal;
 mod same_walls;
+mod shaken;
 mod shards;
 mod tables;
 mod threads;

@@ -14,7 +14,6 @@ use crate::cli::doing::doing;
 use crate::cli::failure::Failure;
 use crate::exchange::WallFile;
 use crate::law::Coulomb;
-use crate::math::radians;
 use crate::motion::Motion;
 use crate::protocol::{Extreme, InTime, Shaken, Shaking, Verdict, shake_twice};
 use crate::solve::explicit;
@@ -86,11 +85,7 @@ fn motion(asked: &Analyse, path: &Path) -> Result<Motion, Failure> {
             path.display()
         )));
     }
-    let towards = asked.direction;
-    let turned = match read.components() {
-        1 => read.along(&towards.unit()).map_err(|fault| Failure::Input(fault.to_string()))?,
-        _ => read.turned(radians(towards.angle_deg() - 90.0)),
-    };
+    let turned = read.towards(&asked.direction.unit()).map_err(|fault| Failure::Input(fault.to_string()))?;
     Ok(turned.scaled(asked.scale.unwrap_or(1.0)))
 }
 
@@ -208,9 +203,9 @@ impl Told<'_> {
             Verdict::UnstableAtRest => "The wall does not stand under its own weight.".to_owned(),
             Verdict::NotSolved => "The solver lost the wall on its way; this is no answer.".to_owned(),
         };
-        let mut text = format!("{headline}\n  {} solver; {}", asked.solver.name(), motion.name);
+        let mut text = format!("{headline}\n  {} solver; record {}", asked.solver.name(), motion.name);
         text += &format!(
-            ", peak {:.2} m/s2 and {:.3} m/s in all; towards {} deg\n",
+            ", PGA {:.2} m/s2, PGV {:.3} m/s, towards {} deg from x+\n",
             motion.pga(),
             motion.pgv(),
             asked.direction.angle_deg()
@@ -241,7 +236,7 @@ impl Told<'_> {
         }
         if let Some(residual) = seen.residual_m {
             text += &format!(
-                "  left at the end: {residual:.3e} m, {:.3e} rad\n",
+                "  residual displacement {residual:.3e} m, residual rotation {:.3e} rad\n",
                 seen.residual_rad.unwrap_or(0.0)
             );
         }

@@ -68,7 +68,7 @@ impl Job {
         }
         if !arguments.bank {
             none_of(&["--points", "--measured"], "is for the walls of a --bank")?;
-            let loaded = locate::study(&arguments.which)?;
+            let loaded = locate::any_study(&arguments.which)?;
             let study = run::asked(loaded.study, arguments.solver, &arguments.ensemble)?;
             return Ok(Job { place, kind: Walls::Own, study, made: Made::Own });
         }

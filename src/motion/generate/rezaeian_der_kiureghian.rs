@@ -55,6 +55,11 @@ impl RezaeianDerKiureghian {
         (self.omega_mid + self.omega_rate * (time - self.t_mid)).max(LOWEST)
     }
 
+    /// How long (s) it has to shake for 99 % of the intensity, which a process asks of its duration.
+    pub fn lasting(&self) -> f64 {
+        Modulation::of(self.arias, self.d5_95, self.t_mid).time_of(WITHIN)
+    }
+
     /// The process, ready to draw records of.
     ///
     /// # Errors

@@ -7,7 +7,9 @@
 mod observe;
 mod settings;
 mod shake;
+mod wall;
 
 pub use observe::{Energy, Extreme, Shaken, Verdict};
-pub use settings::{InTime, Shaking};
+pub use settings::{BaseMotion, InTime, Shaking};
 pub use shake::{shake, shake_twice};
+pub use wall::shake_wall;

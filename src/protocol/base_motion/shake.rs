@@ -26,48 +26,66 @@ enum Mover<'a> {
 
 /// Shakes a wall. The task says what stands where; its load path plays no part.
 pub fn shake(task: &Task<'_>, shaking: &Shaking) -> Shaken {
-    match at_rest(task, shaking) {
-        Ok(assembly) => follow(task, shaking, &assembly, assembly.clone()),
-        Err(verdict) => Shaken { verdict, ..Shaken::nothing_yet() },
-    }
+    Rested::of(task, shaking.fallen_moved, &shaking.solver).shaken(shaking)
 }
 
 /// Shakes a wall, and the same once more with stones that move by next to nothing at the start. Where the two come to different verdicts that of the first is
 /// [`Verdict::Undecided`].
 pub fn shake_twice(task: &Task<'_>, shaking: &Shaking) -> [Shaken; 2] {
-    let assembly = match at_rest(task, shaking) {
-        Ok(assembly) => assembly,
-        Err(verdict) => {
-            let none = Shaken { verdict, ..Shaken::nothing_yet() };
-            return [none.clone(), none];
+    Rested::of(task, shaking.fallen_moved, &shaking.solver).shaken_twice(shaking)
+}
+
+/// A wall at rest under gravity, which any number of motions may begin at.
+pub(super) struct Rested<'t> {
+    task: &'t Task<'t>,
+    /// Or why it is not at rest.
+    assembly: Result<Assembly<'t>, Verdict>,
+}
+
+impl<'t> Rested<'t> {
+    /// By the solver that it is shaken with; `fallen_moved` as of [`Shaking`].
+    pub fn of(task: &'t Task<'t>, fallen_moved: f64, solver: &InTime) -> Rested<'t> {
+        Rested { task, assembly: at_rest(task, fallen_moved, solver) }
+    }
+
+    /// As of [`shake`].
+    pub fn shaken(&self, shaking: &Shaking) -> Shaken {
+        match &self.assembly {
+            Ok(assembly) => follow(self.task, shaking, assembly, assembly.clone()),
+            Err(verdict) => Shaken { verdict: *verdict, ..Shaken::nothing_yet() },
         }
-    };
-    let mut first = follow(task, shaking, &assembly, assembly.clone());
-    let mut moved = assembly.clone();
-    let mut sign = 1.0;
-    for body in moved.bodies.all.iter_mut().filter(|body| body.moves()) {
-        body.velocity = Vec3::new(0.0, PERTURBED * sign, 0.0);
-        sign = -sign;
     }
-    let second = follow(task, shaking, &assembly, moved);
-    if first.verdict != second.verdict {
-        first.verdict = Verdict::Undecided;
+
+    /// As of [`shake_twice`].
+    pub fn shaken_twice(&self, shaking: &Shaking) -> [Shaken; 2] {
+        let mut first = self.shaken(shaking);
+        let Ok(assembly) = &self.assembly else { return [first.clone(), first] };
+        let mut moved = assembly.clone();
+        let mut sign = 1.0;
+        for body in moved.bodies.all.iter_mut().filter(|body| body.moves()) {
+            body.velocity = Vec3::new(0.0, PERTURBED * sign, 0.0);
+            sign = -sign;
+        }
+        let second = follow(self.task, shaking, assembly, moved);
+        if first.verdict != second.verdict {
+            first.verdict = Verdict::Undecided;
+        }
+        [first, second]
     }
-    [first, second]
 }
 
 /// The wall at rest under gravity.
-fn at_rest<'a>(task: &Task<'a>, shaking: &Shaking) -> Result<Assembly<'a>, Verdict> {
+fn at_rest<'a>(task: &Task<'a>, fallen_moved: f64, solver: &InTime) -> Result<Assembly<'a>, Verdict> {
     let mut built = task.assembled();
     let (gravity, _) = task.path.loads(0.0);
     built.gravity = gravity;
     built.load_factor = 1.0;
     let from: Vec<Vec3> = built.bodies.all.iter().map(|body| body.position).collect();
-    let far = shaking.fallen_moved * thickness(task);
+    let far = fallen_moved * thickness(task);
     let mut stop = |bodies: &Bodies| {
         bodies.all.iter().zip(&from).any(|(body, from)| (body.position - from).norm() > far)
     };
-    let (settled, assembly) = match shaking.solver {
+    let (settled, assembly) = match *solver {
         InTime::Explicit(settings, _) => {
             let mut simulation = explicit::Simulation::of(built, settings);
             (simulation.settle(&mut stop), simulation.assembly)

@@ -32,7 +32,7 @@ pub struct Reading {
 /// The readings that the walls of a study allow, at one kn point: its quantity, then displacements at levels that all walls with a value
 /// of the quantity came to rest at.
 pub fn readings(study: &Study, rows: &[Row], asked: &Asked) -> Vec<Reading> {
-    let quantity = Quantity::of(&study.protocol);
+    let quantity = Quantity::of(&study);
     let own: Vec<&Row> = rows.iter().filter(|row| row.point == asked.point).collect();
     let by_arm = |value: &dyn Fn(&Row) -> Option<f64>| -> Vec<BTreeMap<u64, f64>> {
         let of = |arm: usize| {
@@ -48,8 +48,8 @@ pub fn readings(study: &Study, rows: &[Row], asked: &Asked) -> Vec<Reading> {
     let error = match quantity {
         Quantity::CollapseAngle => asked.error_deg,
         Quantity::TopDisplacement => asked.error_m,
-        // A load cell is exact beside the scatter of walls.
-        Quantity::ShearCapacity => 0.0,
+        // A load cell, and a shaking table, are exact beside the scatter of walls.
+        Quantity::ShearCapacity | Quantity::CollapseAcceleration | Quantity::CollapseVelocity => 0.0,
     };
     let mut all = vec![Reading {
         name: quantity.name().replace('_', " "),

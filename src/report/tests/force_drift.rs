@@ -25,6 +25,7 @@ fn pushed(member: u64, force: f64, to: f64, outcome: Outcome) -> Row {
         right_remainder_m: None,
         unbalanced_ratio: None,
         solver_steps: 1,
+        shaken: None,
     };
     let load_steps = vec![at(0.0, 0.0), at(0.005, force), at(to, force)];
     Row { arm: "ws-175".into(), kn_pa_per_m: 7e9, load_steps, ..failed(member, outcome) }

@@ -127,6 +127,7 @@ pub(super) fn summary_of(populations: &[Population], claims: &[Claim]) -> Summar
         comparisons: comparisons(populations, claims),
         published: judge_all(claims, populations),
         measured: None,
+        shaken: None,
     }
 }
 

@@ -1,6 +1,7 @@
 //! Every key of study.toml, published.toml and the files below `distributions`: name, kind, unit, range, default, meaning.
 //! What is done to a wall, and by which solver, is in `run`; statements of others are in `published`.
 
+mod base_motion;
 mod elements;
 mod mechanism;
 mod published;

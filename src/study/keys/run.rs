@@ -1,12 +1,17 @@
 //! Keys of what is done to a wall: load, restraint, solver.
 
+use crate::study::keys::base_motion::RECORDS;
 use crate::study::keys::{SIZE, real};
-use crate::study::schema::Presence::{Default, Optional, Required};
+use crate::study::schema::Presence::{Default, Optional, Required, Unless};
 use crate::study::schema::{Interval, Key, Kind, Section};
 
 const LATERAL: &[&str] = &["lateral"];
 const TILTING: &[&str] = &["tilting"];
 const SHEAR: &[&str] = &["shear"];
+const BASE_MOTION: &[&str] = &["base_motion"];
+const FALLS_IN_PARTS: &[&str] = &["tilting", "base_motion"];
+/// More intensities than anybody needs for a curve.
+const MOST_INTENSITIES: usize = 50;
 const RUNS_AWAY: &[&str] = &["tilting", "shear"];
 const EXPLICIT: &[&str] = &["explicit"];
 const IMPLICIT: &[&str] = &["implicit"];
@@ -17,15 +22,16 @@ const AT_REST: &str = "At rest when the unbalanced force ratio falls below this.
 
 pub static LOAD: Section = Section {
     title: "[load]",
-    doc: "Gravity, then a trapezoidal pressure on the back face in equal steps, a platform that tilts, or a beam on the wall's \
-          top that is pushed along the wall.",
+    doc: "Gravity, then a trapezoidal pressure on the back face in equal steps, a platform that tilts, a beam on the wall's \
+          top that is pushed along the wall, or a base that shakes.",
     chooser: Some("protocol"),
     keys: &[&[
         Key::new(
             "protocol",
-            Kind::Choice(&["lateral", "tilting", "shear"]),
+            Kind::Choice(&["lateral", "tilting", "shear", "base_motion"]),
             Required,
-            "What is done to each wall: pressure on its back, a tilting table, or shear in its plane under a constant load.",
+            "What is done to each wall: pressure on its back, a tilting table, shear in its plane under a constant load, or a base that \
+             shakes: every wall under every record at every intensity.",
         ),
         Key::new(
             "mean_pressure_pa",
@@ -105,22 +111,22 @@ pub static LOAD: Section = Section {
             Optional,
             "A part of the wall has fallen when this share of its weight has; 0.1 where it is not given.",
         )
-        .only(TILTING),
+        .only(FALLS_IN_PARTS),
         Key::new(
             "most_share",
             real("1", Interval::above(0.0, 1.0)),
             Optional,
             "Most of the wall has fallen when this share of its weight has; 0.5 where it is not given.",
         )
-        .only(TILTING),
+        .only(FALLS_IN_PARTS),
         Key::new(
             "capacity",
             Kind::Choice(&["first_stone", "part", "most"]),
             Optional,
-            "Whose fall is the wall's collapse angle: that of its first stone, of part_share of its weight, or of most_share. \
-             The other two are columns of members.parquet. \"most\" where it is not given.",
+            "Whose fall is the wall's collapse: that of its first stone, of part_share of its weight, or of most_share. \
+             The others are columns of the tables. \"most\" where it is not given.",
         )
-        .only(TILTING),
+        .only(FALLS_IN_PARTS),
         Key::new(
             "remainders",
             Kind::Flag,
@@ -178,8 +184,84 @@ pub static LOAD: Section = Section {
             "Drift from step to step.",
         )
         .only(SHEAR),
+        Key::new(
+            "pga_m_per_s2",
+            intensities("m/s2", 50.0),
+            Unless("pgv_m_per_s"),
+            "Intensities: each record is scaled to each of these peak ground accelerations, its largest horizontal vector.",
+        )
+        .only(BASE_MOTION),
+        Key::new(
+            "pgv_m_per_s",
+            intensities("m/s", 10.0),
+            Optional,
+            "The same as peak ground velocities, instead of pga_m_per_s2.",
+        )
+        .only(BASE_MOTION),
+        Key::new("records", Kind::Table(&RECORDS), Required, "The records.").only(BASE_MOTION),
+        Key::new(
+            "towards",
+            Kind::Choice(&["x+", "x-", "y+", "y-"]),
+            Default("\"y+\""),
+            "Where the y axis of a record points in plan, or its only component: y+ is out of plane, x+ along the wall.",
+        )
+        .only(BASE_MOTION),
+        Key::new(
+            "towards_deg",
+            real("deg", Interval::closed(-360.0, 360.0)),
+            Optional,
+            "The same as an angle from x+, counter-clockwise seen from above (90 is y+), instead of towards.",
+        )
+        .only(BASE_MOTION),
+        Key::new(
+            "after_s",
+            real("s", Interval::closed(0.0, 600.0)),
+            Default("5"),
+            "How long a wall is followed after a record has ended, if it does not come to rest before.",
+        )
+        .only(BASE_MOTION),
+        Key::new(
+            "fallen_moved",
+            real("1", Interval::above(0.0, 10.0)),
+            Default("0.75"),
+            "A stone has fallen when its centroid has moved by this share of the wall's base thickness,",
+        )
+        .only(BASE_MOTION),
+        Key::new(
+            "fallen_down",
+            real("1", Interval::above(0.0, 10.0)),
+            Default("0.5"),
+            "or when it has gone down by this share of its own height.",
+        )
+        .only(BASE_MOTION),
+        Key::new(
+            "twice",
+            Kind::Flag,
+            Default("true"),
+            "Every run is done once more from a start that differs by 1e-9 m/s; where the two end otherwise the pair is undecided. It \
+             doubles the time.",
+        )
+        .only(BASE_MOTION),
+        Key::new(
+            "rayleigh_ratio",
+            real("1", Interval::below(0.0, 1.0)),
+            Optional,
+            "Damping, as a share of critical, at both frequencies of rayleigh_hz; for the explicit solver. None without it.",
+        )
+        .only(BASE_MOTION),
+        Key::new(
+            "rayleigh_hz",
+            Kind::Reals { unit: "Hz", within: Interval::above(0.0, 1e4), at_most: 2, ascending: true },
+            Optional,
+            "The two frequencies of rayleigh_ratio.",
+        )
+        .only(BASE_MOTION),
     ]],
 };
+
+const fn intensities(unit: &'static str, most: f64) -> Kind {
+    Kind::Reals { unit, within: Interval::above(0.0, most), at_most: MOST_INTENSITIES, ascending: true }
+}
 
 static TURNING: Section = Section {
     title: "[load.turning]",

@@ -32,7 +32,7 @@ impl Test {
     pub fn of(study: &Study) -> Test {
         match study.protocol {
             Protocol::Shear(shear) => Test::Shear { widest: shear.history.widest() },
-            Protocol::Tilting(_) | Protocol::Lateral(_) => Test::Tilting,
+            Protocol::Tilting(_) | Protocol::Lateral(_) | Protocol::BaseMotion(_) => Test::Tilting,
         }
     }
 
@@ -98,6 +98,6 @@ pub fn stand_in(study: &Study, family: usize) -> usize {
     };
     match study.protocol {
         Protocol::Shear(_) => study.arms.iter().position(alike).unwrap_or(family),
-        Protocol::Tilting(_) | Protocol::Lateral(_) => family,
+        Protocol::Tilting(_) | Protocol::Lateral(_) | Protocol::BaseMotion(_) => family,
     }
 }
