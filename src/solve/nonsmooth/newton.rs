@@ -15,8 +15,9 @@ use crate::solve::system::{DOF, System};
 /// Largest weight of the velocity over the inertia at a point. Each update of the impulses takes the error off by about as much, times how little
 /// the contacts are coupled.
 const WEIGHT: f64 = 1e6;
-/// Every step begins with this weight, and it grows by this factor. The weight with which the last step ended suits a start as near as that
-/// one's end: where a stone hits or begins to slide, Newton's method then throws velocities a hundred times as fast at its contacts and is lost.
+/// A step begins with the weight with which the last one ended, as long as every iteration takes off half: that suits a start as near as that
+/// one's end. Where a stone hits or begins to slide, it throws Newton's method off its way, and the step begins anew with this weight. It grows by
+/// this factor.
 const FIRST: f64 = 1e3;
 const GROWS: f64 = 10.0;
 /// So many iterations in a row that take off less than half are too slow.
@@ -48,12 +49,15 @@ pub(super) struct Solved {
     pub residual: Residual,
     /// Factorisations.
     pub factorisations: u32,
+    /// The weight with which it got there: the next step tries it first.
+    pub weight: f64,
 }
 
-/// Where the method begins: velocities of the bodies (six each) and impulses of the points.
+/// Where the method begins: velocities of the bodies (six each), impulses of the points, and the weight.
 pub(super) struct Start<'s> {
     pub velocities: &'s [f64],
     pub impulses: &'s [[f64; 3]],
+    pub weight: f64,
 }
 
 /// For which matrix the system is factorised. It is forgotten when contacts are looked for anew.
@@ -99,7 +103,7 @@ pub(super) fn newton(
     while most > limit {
         most /= GROWS;
     }
-    let (mut weight, mut allowed) = (most.min(FIRST), most);
+    let (mut weight, mut allowed) = (most.min(start.weight.max(FIRST)), most);
     // An impulse of the tolerance on a body of the mean mass.
     let unit = problem.weight * problem.weight / problem.mean_mass;
     let share = INNER * tolerance;
@@ -109,6 +113,7 @@ pub(super) fn newton(
     loop {
         let mut now = Trial::at(problem, v.clone(), &from, weight);
         let mut slow = 0;
+        let tries = updates == 0 && weight > FIRST;
         while now.energy > enough && slow < SLOW && factorisations < max_iterations {
             // The matrix of the last step serves where points stick, slide and open as they did there, if it takes off well.
             if kept.serves(&now.states, weight, problem.step) {
@@ -133,6 +138,9 @@ pub(super) fn newton(
             }
             slow = if next.energy > 0.5 * now.energy { slow + 1 } else { 0 };
             now = next;
+            if tries && slow > 0 {
+                break;
+            }
         }
         updates += 1;
         let velocities = problem.velocities(&now.impulses);
@@ -140,7 +148,7 @@ pub(super) fn newton(
         let before = best.as_ref().map_or(f64::INFINITY, |best| best.residual.natural_map);
         idle = if residual.natural_map < LEFT * before { 0 } else { idle + 1 };
         if best.is_none() || residual.natural_map < before {
-            best = Some(Solved { impulses: now.impulses.clone(), residual, factorisations });
+            best = Some(Solved { impulses: now.impulses.clone(), residual, factorisations, weight });
         }
         let reached = best.as_ref().map_or(f64::INFINITY, |best| best.residual.natural_map);
         let is_enough = reached <= AIM * tolerance || (reached <= tolerance && idle >= IDLE);
@@ -154,6 +162,8 @@ pub(super) fn newton(
                 allowed = most.min(GROWS * allowed);
             }
             weight = allowed.min(GROWS * weight);
+        } else if tries {
+            weight = most.min(FIRST);
         } else {
             (allowed, trusted) = (weight / GROWS, 0);
             weight /= GROWS * GROWS;

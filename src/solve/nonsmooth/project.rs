@@ -57,7 +57,7 @@ pub(super) fn project(
     };
     // What the last step's matrix was for is nothing here, and what this one is for nothing to the next step.
     *kept = Kept::default();
-    let start = Start { velocities: &free, impulses: &start };
+    let start = Start { velocities: &free, impulses: &start, weight: 0.0 };
     let solved = newton(&problem, (system, kept), bodies, start, (TOLERANCE, MOST))?;
     *kept = Kept::default();
     let moved = problem.velocities(&solved.impulses);

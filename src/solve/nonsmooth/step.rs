@@ -57,6 +57,8 @@ pub struct Simulation<'a> {
     system: System,
     /// What the system is factorised for.
     kept: Kept,
+    /// With which Newton's method begins.
+    weight: f64,
 }
 
 impl<'a> Simulation<'a> {
@@ -70,7 +72,7 @@ impl<'a> Simulation<'a> {
         let bodies = &assembly.bodies.all;
         let contacts = Contacts::find(&assembly.joints, bodies, settings.normal, &Default::default());
         let system = System::new(bodies, &assembly.joints);
-        Simulation { assembly, steps: 0, settings, contacts, system, kept: Kept::default() }
+        Simulation { assembly, steps: 0, settings, contacts, system, kept: Kept::default(), weight: 0.0 }
     }
 
     /// Looks for contacts anew.
@@ -190,7 +192,7 @@ impl<'a> Simulation<'a> {
         let mut nearest = None;
         if solver == StepSolver::Newton && friction == Friction::Coulomb {
             let v: Vec<f64> = bodies.iter().flat_map(Body::twist).collect();
-            let from = Start { velocities: &v, impulses: &start };
+            let from = Start { velocities: &v, impulses: &start, weight: self.weight };
             let solved = newton(
                 problem,
                 (&mut self.system, &mut self.kept),
@@ -201,6 +203,7 @@ impl<'a> Simulation<'a> {
             if let Some(solved) = solved {
                 let found = (solved.impulses, solved.residual, solved.factorisations);
                 if found.1.natural_map <= tolerance {
+                    self.weight = solved.weight;
                     return found;
                 }
                 nearest = Some(found);
