@@ -159,7 +159,7 @@ fn follow(task: &Task<'_>, shaking: &Shaking, at_rest: &Assembly<'_>, start: Ass
     seen.energy.lost_j = base + weight - kinetic;
     seen.energy.friction_j = matches!(mover, Mover::Nonsmooth(..)).then_some(friction);
     // Also where it is not a number. A collapse is on the safe side.
-    let is_off = !(left_over <= LEFT_OVER * shaking.motion.pgv());
+    let is_off = left_over.is_nan() || left_over > LEFT_OVER * shaking.motion.pgv();
     if is_off && seen.verdict != Verdict::Collapsed {
         seen.verdict = Verdict::NotSolved;
     }
