@@ -257,6 +257,32 @@ fn a_pair_that_next_to_nothing_decides_is_undecided_and_a_clear_one_is_not() {
     }
 }
 
+#[test]
+fn a_block_is_not_told_to_stand_on_steps_that_were_not_solved() {
+    // Two cone programs a step: at rest the first is exact, while the block slides they leave tan^4 / (1 + tan^2)^2 = 2 % of the slope by which it
+    // wrongly rises. Over 0.3 s that adds up to more than a tenth of the base's speed.
+    let wall = block(0.4, 0.1);
+    let law = dry(1e9, degrees(atan(0.4)));
+    let pulse = Pulse::Sine { amplitude: 0.5 * G, frequency: 1.0, cycles: 1 };
+    let settings = nonsmooth::Settings {
+        time_step: 1e-3,
+        solver: nonsmooth::StepSolver::ConeProgram,
+        ..nonsmooth::Settings::default()
+    };
+    let with = |max_iterations| {
+        let settings = nonsmooth::Settings { max_iterations, ..settings };
+        let shaking = Shaking::new(across(pulse), InTime::Nonsmooth(settings));
+        (shaken(&wall, &law, &shaking), shake_twice(&task(&wall, &law), &shaking)[0].verdict)
+    };
+    let (seen, twice) = with(2);
+    assert!(seen.unsolved_steps > 100 && seen.largest_residual > 1e-3, "{seen:?}");
+    assert_eq!([seen.verdict, twice], [Verdict::NotSolved; 2], "{seen:?}");
+    // With as many as it takes it stands.
+    let (seen, twice) = with(100);
+    assert_eq!([seen.verdict, twice], [Verdict::Stands; 2], "{seen:?}");
+    assert!(seen.left_over_m_per_s < 1e-6, "{seen:?}");
+}
+
 /// Blocks, pulses and amplitudes over a range about the boundary; elastic joints of 1e12 Pa/m are close to rigid ones (of 1e10 ten blocks differ). Where the two solvers differ the block
 /// is within 2 % of the boundary: so much more or less amplitude changes the verdict of contact dynamics.
 #[test]

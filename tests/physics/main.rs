@@ -23,6 +23,7 @@ mod mechanisms_alike;
 mod mechanisms_joints;
 mod mechanisms_loading;
 mod nonsmooth;
+mod nonsmooth_random;
 mod objectivity;
 mod pressure;
 mod remainders;

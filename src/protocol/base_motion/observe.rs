@@ -21,7 +21,7 @@ pub enum Verdict {
     Undecided,
     /// It does not stand under gravity.
     UnstableAtRest,
-    /// The solver could not go on.
+    /// The solver could not go on, or what its steps left over may be what holds the wall up.
     NotSolved,
 }
 
@@ -84,6 +84,11 @@ pub struct Shaken {
     pub steps: u64,
     /// Steps whose contact problem was not solved to the tolerance.
     pub unsolved_steps: u64,
+    /// Largest natural map of a step, see [`Residual`](crate::solve::nonsmooth::Residual); 0 of a solver that has none.
+    pub largest_residual: f64,
+    /// What those steps left over: the speed (m/s) that it gives a stone of the mean mass, all blows in one direction. A wall that does not collapse
+    /// has an answer only where this is little beside the speed of the base.
+    pub left_over_m_per_s: f64,
 }
 
 /// Faces within this share of the thickness touch, as far as slip is concerned.
@@ -267,6 +272,8 @@ impl Shaken {
             time_s: 0.0,
             steps: 0,
             unsolved_steps: 0,
+            largest_residual: 0.0,
+            left_over_m_per_s: 0.0,
         }
     }
 }

@@ -14,14 +14,16 @@ use crate::solve::system::{DOF, System};
 
 /// Largest weight of the velocity over the inertia at a point. Each update of the impulses takes the error off by about as much, times how little
 /// the contacts are coupled.
-const WEIGHT: f64 = 1e5;
-/// The weight begins with this, and grows by this factor.
+const WEIGHT: f64 = 1e6;
+/// A step begins with the weight with which the last one ended, as long as every iteration takes off half: that suits a start as near as that
+/// one's end. Where a stone hits or begins to slide, it throws Newton's method off its way, and the step begins anew with this weight. It grows by
+/// this factor.
 const FIRST: f64 = 1e3;
 const GROWS: f64 = 10.0;
 /// So many iterations in a row that take off less than half are too slow.
-const SLOW: u32 = 12;
-/// So often between two updates the whole step is taken although it adds unbalance.
-const LEAPS: u32 = 6;
+const SLOW: u32 = 6;
+/// A weight with which it lost its way is not tried again before so many updates have come off.
+const TRUSTED: u32 = 2;
 /// What is left within this factor of the unbalance asked for is rounding.
 const BALANCED: f64 = 1e4;
 /// Velocities are rounded by so much, and the weight multiplies it: in fast motion it is less.
@@ -30,9 +32,11 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 const HALVINGS: u32 = 8;
 /// A step that takes off less than this share of the unbalance times its length is too long.
 const DECREASE: f64 = 1e-2;
-/// It goes on below the tolerance, as that costs little: to this share of it, or until so many updates have brought nothing.
+/// It goes on below the tolerance, as that costs little: to this share of it, or until so many updates have left more than a share. Impulses
+/// that hardly any motion decides creep from contact to contact for dozens of updates.
 const AIM: f64 = 0.1;
 const IDLE: u32 = 3;
+const LEFT: f64 = 0.7;
 /// Newton's iterations between two updates of the impulses end at this share of the tolerance.
 const INNER: f64 = 1e-2;
 /// A matrix from before serves as long as it takes off all but so much.
@@ -45,7 +49,7 @@ pub(super) struct Solved {
     pub residual: Residual,
     /// Factorisations.
     pub factorisations: u32,
-    /// The weight with which it got there: the next step begins with it.
+    /// The weight with which it got there: the next step tries it first.
     pub weight: f64,
 }
 
@@ -81,7 +85,8 @@ struct Trial {
 
 /// Solves a problem from velocities and impulses nearby. What is reached in the end is in [`Solved::residual`]; `None` where a matrix is singular.
 ///
-/// The weight grows from update to update. Where Newton's method loses its way it starts again from the last update with less.
+/// The weight grows from update to update. Where Newton's method loses its way it starts again from the last update with less, and the weight
+/// stays below the one that failed until it has proved itself.
 pub(super) fn newton(
     problem: &Problem,
     (system, kept): (&mut System, &mut Kept),
@@ -98,16 +103,17 @@ pub(super) fn newton(
     while most > limit {
         most /= GROWS;
     }
-    let mut weight = most.min(start.weight.max(FIRST));
+    let (mut weight, mut allowed) = (most.min(start.weight.max(FIRST)), most);
     // An impulse of the tolerance on a body of the mean mass.
     let unit = problem.weight * problem.weight / problem.mean_mass;
     let share = INNER * tolerance;
     let enough = 0.5 * unit * share * share;
-    let (mut factorisations, mut updates, mut idle) = (0, 0, 0);
+    let (mut factorisations, mut updates, mut idle, mut trusted) = (0, 0, 0, 0);
     let mut best: Option<Solved> = None;
     loop {
         let mut now = Trial::at(problem, v.clone(), &from, weight);
-        let (mut slow, mut leaps) = (0, 0);
+        let mut slow = 0;
+        let tries = updates == 0 && weight > FIRST;
         while now.energy > enough && slow < SLOW && factorisations < max_iterations {
             // The matrix of the last step serves where points stick, slide and open as they did there, if it takes off well.
             if kept.serves(&now.states, weight, problem.step) {
@@ -126,25 +132,22 @@ pub(super) fn newton(
             *kept = Kept { states: now.states.clone(), weight, step: problem.step };
             let change = system.solve(&now.unbalance);
             let next = search(problem, &now, &change, &from, weight);
-            // At a kink no length takes anything off; beyond it the method goes on.
-            let next = match next.energy < now.energy {
-                true => next,
-                false if leaps < LEAPS && now.energy > BALANCED * enough => {
-                    leaps += 1;
-                    let v = now.v.iter().zip(&change).map(|(v, change)| v - change).collect();
-                    Trial::at(problem, v, &from, weight)
-                }
-                false => break,
-            };
+            // A kink at which no length takes anything off is left by the update with less weight: beyond it lies no better place.
+            if next.energy >= now.energy {
+                break;
+            }
             slow = if next.energy > 0.5 * now.energy { slow + 1 } else { 0 };
             now = next;
+            if tries && slow > 0 {
+                break;
+            }
         }
         updates += 1;
         let velocities = problem.velocities(&now.impulses);
         let residual = Residual::of(problem, Friction::Coulomb, &velocities, &now.impulses);
-        let improves = best.as_ref().is_none_or(|best| residual.natural_map < best.residual.natural_map);
-        idle = if improves { 0 } else { idle + 1 };
-        if improves {
+        let before = best.as_ref().map_or(f64::INFINITY, |best| best.residual.natural_map);
+        idle = if residual.natural_map < LEFT * before { 0 } else { idle + 1 };
+        if best.is_none() || residual.natural_map < before {
             best = Some(Solved { impulses: now.impulses.clone(), residual, factorisations, weight });
         }
         let reached = best.as_ref().map_or(f64::INFINITY, |best| best.residual.natural_map);
@@ -154,8 +157,15 @@ pub(super) fn newton(
         }
         if now.energy <= BALANCED * enough {
             (from, v) = (now.impulses, now.v);
-            weight = most.min(GROWS * weight);
+            trusted += 1;
+            if trusted >= TRUSTED {
+                allowed = most.min(GROWS * allowed);
+            }
+            weight = allowed.min(GROWS * weight);
+        } else if tries {
+            weight = most.min(FIRST);
         } else {
+            (allowed, trusted) = (weight / GROWS, 0);
             weight /= GROWS * GROWS;
         }
     }

@@ -189,6 +189,7 @@ impl<'a> Simulation<'a> {
         let start = self.contacts.impulses(&problem.points, problem.step);
         let Settings { solver, friction, tolerance, max_iterations, .. } = self.settings;
         let bodies = &self.assembly.bodies.all;
+        let mut nearest = None;
         if solver == StepSolver::Newton && friction == Friction::Coulomb {
             let v: Vec<f64> = bodies.iter().flat_map(Body::twist).collect();
             let from = Start { velocities: &v, impulses: &start, weight: self.weight };
@@ -199,18 +200,25 @@ impl<'a> Simulation<'a> {
                 from,
                 (tolerance, max_iterations),
             );
-            if let Some(solved) = solved
-                && solved.residual.natural_map <= tolerance
-            {
-                self.weight = solved.weight;
-                return (solved.impulses, solved.residual, solved.factorisations);
+            if let Some(solved) = solved {
+                let found = (solved.impulses, solved.residual, solved.factorisations);
+                if found.1.natural_map <= tolerance {
+                    self.weight = solved.weight;
+                    return found;
+                }
+                nearest = Some(found);
             }
         }
         // Cone programs know no springs.
         if !self.settings.is_rigid() || (solver == StepSolver::Sweeps && friction == Friction::Coulomb) {
             return sweeps(problem, &start, tolerance, max_iterations);
         }
-        cone_program(problem, friction, tolerance, max_iterations)
+        let found = cone_program(problem, friction, tolerance, max_iterations);
+        // Where neither gets there, what is nearer goes on.
+        match nearest {
+            Some(nearest) if nearest.1.natural_map < found.1.natural_map => nearest,
+            _ => found,
+        }
     }
 
     /// Moves the bodies at velocities for a step; says by how much their energy grows.
