@@ -24,7 +24,7 @@ fn elastic() -> InTime {
 fn overturns_at([b, h]: [f64; 2], wanted: f64, pulse: impl Fn(f64) -> Pulse, solver: InTime) -> f64 {
     let wall = block(b, h);
     let law = dry(STIFF, degrees(atan(3.0)));
-    let [mut low, mut high] = [0.98 * wanted, 1.02 * wanted];
+    let [mut low, mut high] = [0.8 * wanted, 1.02 * wanted];
     while high - low > 1e-4 * wanted {
         let middle = 0.5 * (low + high);
         let shaking = Shaking { after: 4.0, ..Shaking::new(across(pulse(middle)), solver) };
