@@ -35,7 +35,7 @@ fn overturns_at([b, h]: [f64; 2], wanted: f64, pulse: impl Fn(f64) -> Pulse, sol
 }
 
 #[test]
-#[ignore = "slow: minutes, prints a table of a study"]
+#[ignore = "slow: half a minute, prints a table of a study"]
 fn amplitudes_that_overturn() {
     println!("| pulse | asked (m/s^2) | contact dynamics | less asked (%) | explicit | less asked (%) |");
     let told = |name: &str, half: [f64; 2], wanted: f64, pulse: &dyn Fn(f64) -> Pulse, step: f64| {
