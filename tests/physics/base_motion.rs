@@ -13,11 +13,11 @@ use pirca::solve::explicit::{self, Rayleigh};
 use pirca::solve::nonsmooth;
 
 /// The pulse along y.
-fn across(pulse: Pulse) -> Motion {
+pub fn across(pulse: Pulse) -> Motion {
     Motion::of_pulse(pulse).expect("a pulse").along(&Vec3::y()).expect("one component")
 }
 
-fn shaken(wall: &Wall, law: &Coulomb, shaking: &Shaking) -> Shaken {
+pub fn shaken(wall: &Wall, law: &Coulomb, shaking: &Shaking) -> Shaken {
     shake(&task(wall, law), shaking)
 }
 
@@ -26,17 +26,17 @@ fn task<'t>(wall: &'t Wall, law: &'t Coulomb) -> Task<'t> {
     path(wall, law, LoadPath::tilt(Direction::YPlus, 0.01, 1.0, 1e-4))
 }
 
-fn nonsmooth(time_step: f64) -> InTime {
+pub fn nonsmooth(time_step: f64) -> InTime {
     InTime::Nonsmooth(nonsmooth::Settings { time_step, ..nonsmooth::Settings::default() })
 }
 
 /// A block of half width `b` and half height `h` on a rough floor.
-fn block(b: f64, h: f64) -> Wall {
+pub fn block(b: f64, h: f64) -> Wall {
     on_floor(vec![resting([0.4, 2.0 * b, 2.0 * h], 2400.0)])
 }
 
 /// `p` of a block (1/s).
-fn frequency(b: f64, h: f64) -> f64 {
+pub fn frequency(b: f64, h: f64) -> f64 {
     (0.75 * G / (b * b + h * h).sqrt()).sqrt()
 }
 
