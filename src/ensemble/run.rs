@@ -66,6 +66,9 @@ pub fn run_with(
     }
 }
 
+/// With so many runs of a wall for each thread, the last ones of a wall leave few threads idle.
+const RUNS_A_THREAD: usize = 8;
+
 /// The evaluations of a study in an output folder, where those that were recorded before are not done again. What is to be evaluated next
 /// may depend on what was found before.
 pub struct Evaluations<'s> {
@@ -176,13 +179,23 @@ impl<'s> Evaluations<'s> {
             },
             stop: AtomicBool::new(false),
         };
-        let results: Vec<Result<Entry, Missed>> = self
-            .pool
-            .install(|| missing.par_iter().with_max_len(1).map(|&task| realisation.of(task)).collect());
+        let results: Vec<Result<Entry, Missed>> = self.pool.install(|| {
+            if self.one_wall_is_enough() {
+                return missing.iter().map(|&task| realisation.of(task)).collect();
+            }
+            missing.par_iter().with_max_len(1).map(|&task| realisation.of(task)).collect()
+        });
         progress.end();
         // On a worker a panic is a fault of its member; here it stops the run.
         interrupt::look();
         gather(&missing, results, &mut self.entries)
+    }
+
+    /// Whether the runs of one wall that is shaken keep all threads at work. Walls then come one after the other: side by side they would be
+    /// recorded late, and all of them lost when the run is stopped.
+    fn one_wall_is_enough(&self) -> bool {
+        let runs = self.study.earthquakes.as_ref().map_or(0, |own| own.records.len() * own.intensities.len());
+        runs >= RUNS_A_THREAD * self.pool.current_num_threads()
     }
 
     /// What was asked for, in the order arm, point, member.

@@ -185,7 +185,7 @@ fn what_cannot_be_is_refused_with_line_and_reason() {
         &["does not go with load.rayleigh_ratio"],
     );
     refused("files = [\"pulse.csv\"]", "", &["load.records.files is missing"]);
-    refused("\"pulse.csv\"", "\"pulse.cvs\"", &["study.toml:26", "did you mean \"pulse.csv\"?"]);
+    refused("\"pulse.csv\"", "\"pulse.cvs\"", &["study.toml:28", "did you mean \"pulse.csv\"?"]);
     refused("\"pulse.csv\"", "\"pulse.csv\", \"pulse.csv\"", &["drop repeated files"]);
     refused("\"pulse.csv\"", "\"../tiny/pulse.csv\"", &["in the folder of the study"]);
     refused("from = \"files\"", "from = \"file\"", &["did you mean \"files\"?"]);

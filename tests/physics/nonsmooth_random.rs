@@ -46,13 +46,16 @@ fn agrees(member: u64) -> bool {
 
 #[test]
 fn random_walls_fall_where_limit_analysis_without_dilatancy_says() {
-    assert!([0, 3].map(agrees).iter().all(|agrees| *agrees));
+    // Two that are quick: most take ten times as long.
+    assert!([13, 46].map(agrees).iter().all(|agrees| *agrees));
 }
 
 #[test]
-#[ignore = "fifty walls: a quarter of an hour or more on one core"]
-fn nine_in_ten_of_fifty_random_walls_fall_where_limit_analysis_without_dilatancy_says() {
-    // Several states may be in balance without dilatancy: the one that motion finds is not always that of limit analysis. Nine in ten are asked.
+#[ignore = "fifty walls: twenty minutes on one core"]
+fn fifty_random_walls_are_solved_and_46_fall_where_limit_analysis_without_dilatancy_says() {
+    // Several states may be in balance without dilatancy: the one that motion finds is not always that of limit analysis. Members 1, 17, 22 and 29
+    // fall 0.07, 0.17, 0.49 and 1.18 deg earlier; the others within 0.022 deg. Elastic joints are no third
+    // witness: by the implicit solver these four and member 0 fall 0.4 to 2 deg earlier at 1e10 and 1e11 Pa/m, as joints slip one after another.
     let agree = (0..50).filter(|member| agrees(*member)).count();
-    assert!(agree >= 45, "{agree} of 50");
+    assert!(agree >= 46, "{agree} of 50");
 }

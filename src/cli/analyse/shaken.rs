@@ -181,6 +181,7 @@ impl Told<'_> {
             "time_s": seen.time_s,
             "steps": seen.steps,
             "unsolved_steps": seen.unsolved_steps,
+            "left_over_m_per_s": seen.left_over_m_per_s,
             "blocks": file.wall.blocks.len(),
             "joints": fit.joints,
             "seconds": seconds,
