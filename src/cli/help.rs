@@ -54,7 +54,7 @@ Example: pirca init my-wall
          pirca run my-wall
          pirca init my-tests --from tilting-table
 
-Built in are arrangements, dry-shear-walls, edge-restraint, element-types, joint-arrangement, sources-of-scatter, tilting-block and \
+Built in are arrangements, dry-shear-walls, earthquake, edge-restraint, element-types, joint-arrangement, sources-of-scatter, tilting-block and \
 tilting-table. A folder that exists is left alone: choose another name.
 
 ",

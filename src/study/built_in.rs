@@ -60,6 +60,7 @@ const STUDIES: &[(&str, &str)] = texts![
     "studies/dry-shear-walls/distributions/nuisance/kn_factor.toml",
     "studies/dry-shear-walls/measured.csv",
     "studies/dry-shear-walls/study.toml",
+    "studies/earthquake/study.toml",
     "studies/edge-restraint/published.toml",
     "studies/edge-restraint/study.toml",
     "studies/element-types/published.toml",

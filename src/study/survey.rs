@@ -130,8 +130,8 @@ impl Surveys {
         };
         let is_beside = |path: &Path| path.components().all(|part| matches!(part, Component::Normal(_)));
         if file.is_empty() || !is_beside(Path::new(file)) {
-            let fix = "put it beside study.toml, and give its name";
-            return Err(fault(format!("{what} in the folder of the study, as \"{like}\""), fix));
+            let fix = format!("put {} beside study.toml, and give its name", what.replacen("a ", "the ", 1));
+            return Err(fault(format!("{what} in the folder of the study, as \"{like}\""), &fix));
         }
         let path = folder.join(file);
         if !path.exists() {
