@@ -158,7 +158,7 @@ fn same_within(
 
 /// What keeps walls from being compared, how it was found, and what to do.
 fn hopeless(contest: &Contest<'_>, rows: &[Row], look: &Compared, why: Hopeless) -> Failure {
-    let quantity = Quantity::of(&contest.study);
+    let quantity = Quantity::of(contest.study);
     match why {
         Hopeless::NoValue(place) => {
             let index = contest.arms[place];

@@ -14,7 +14,7 @@ use crate::study::Study;
 /// A progress on standard error, fit for what standard error is.
 pub(crate) fn on_stderr(study: &Study) -> Box<dyn Progress> {
     let name = study.name.clone();
-    let quantity = Quantity::of(&study);
+    let quantity = Quantity::of(study);
     match output::can_draw() {
         true => Box::new(Bar { bar: ProgressBar::hidden(), tally: Mutex::new(Tally::new(quantity)) }),
         false => Box::new(Lines { name, quantity, state: Mutex::new(None) }),

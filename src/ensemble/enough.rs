@@ -60,7 +60,7 @@ pub(super) fn next_looks<'r>(
     let next = |index: usize, own: u64| {
         let arm = &study.arms[index];
         let Some(until) = arm.until else { return own };
-        let quantity = Quantity::of(&study);
+        let quantity = Quantity::of(study);
         let enough = |point: usize| {
             let task = |member| Task { arm: index as u32, point: point as u32, member };
             let seen: Vec<Observed> =

@@ -185,7 +185,7 @@ impl InfluenceWalls<'_> {
                 evaluate(&study, task(own))
             }
         };
-        let (value, outcome) = match Quantity::of(&self.study).observed(&row) {
+        let (value, outcome) = match Quantity::of(self.study).observed(&row) {
             Observed::Value(value) => (Some(value), row.outcome.name()),
             Observed::Above(_) => (None, "stood_to_the_end"),
             Observed::Nothing => (None, row.outcome.name()),

@@ -56,7 +56,7 @@ impl Contest<'_> {
     /// The strength of a wall, of which larger is better; none where it brought no value. A wall that stood to the end of its load path
     /// counts as falling there: it is as strong as anybody asked.
     pub fn strength(&self, row: &Row) -> Option<f64> {
-        let quantity = Quantity::of(&self.study);
+        let quantity = Quantity::of(self.study);
         match quantity.observed(row) {
             Observed::Value(value) | Observed::Above(value) => Some(quantity.strength(value)),
             Observed::Nothing => None,
@@ -97,7 +97,7 @@ impl Contest<'_> {
 
     /// Strengths no further apart than this are a tie: the bracket of a collapse angle (deg).
     pub fn tie(&self) -> f64 {
-        match (&self.study.protocol, Quantity::of(&self.study)) {
+        match (&self.study.protocol, Quantity::of(self.study)) {
             (Protocol::Tilting(tilting), Quantity::CollapseAngle) => degrees(tilting.bracket),
             _ => 0.0,
         }

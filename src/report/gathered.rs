@@ -10,7 +10,7 @@ pub struct Populations(Vec<Vec<Population>>);
 impl Populations {
     /// Without a wall.
     pub fn new(study: &Study) -> Populations {
-        let (quantity, randomisations) = (Quantity::of(&study), study.randomisations());
+        let (quantity, randomisations) = (Quantity::of(study), study.randomisations());
         let of_arm = study.arms.iter().map(|arm| {
             let at = |kn: &f64| {
                 let own = (&arm.name[..], !is_random(arm));
@@ -62,7 +62,9 @@ pub struct Gathered {
 impl Gathered {
     /// Without a wall, of a study.
     pub fn new(study: &Study) -> Gathered {
-        let keeps_rows = !study.measured.is_empty() || Quantity::of(&study) == Quantity::ShearCapacity;
+        let keeps_rows = !study.measured.is_empty()
+            || study.earthquakes.is_some()
+            || Quantity::of(study) == Quantity::ShearCapacity;
         Gathered { populations: Populations::new(study), keeps_rows, rows: Vec::new() }
     }
 

@@ -144,6 +144,17 @@ fn generated_records_are_shared_by_arms_and_belong_to_the_seed_whatever_the_thre
     }
     let collapsed = [0, 1].map(|arm| curves[arm]["counts"]["collapsed"].as_u64());
     assert!(collapsed[0] < collapsed[1], "the thicker block stands more: {collapsed:?}");
+    for index in ["0", "1"] {
+        let shard = ["shard", "studies/tiny", "--index", index, "--of", "2", "--out", "shards"];
+        let output = folder.pirca(&shard);
+        assert!(output.status.success(), "{}", stderr(&output));
+    }
+    let output = folder.pirca(&["merge", "shards"]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    for file in ["members.parquet", "steps.parquet", "fragility.csv", "curves.csv", "summary.json"] {
+        let of = |out: &str| fs::read(folder.path(out).join(file)).expect("a file");
+        assert_eq!(of("1"), of("shards"), "{file}");
+    }
     let other = run(&folder, "other", &["--seed", "8"]);
     assert_ne!(shaken["records"], other["shaken"]["records"]);
     // What was run is found again, and nothing is run anew.

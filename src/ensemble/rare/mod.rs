@@ -94,7 +94,7 @@ pub struct RareWalls<'s> {
 
 /// What the event is a low value of; a wall that stood to the end of its load path lies beyond all levels.
 fn signed_value(study: &Study, is_high: bool, row: &Row) -> Option<f64> {
-    match Quantity::of(&study).observed(row) {
+    match Quantity::of(study).observed(row) {
         Observed::Value(value) => Some(if is_high { -value } else { value }),
         Observed::Above(_) => Some(f64::MAX),
         Observed::Nothing => None,

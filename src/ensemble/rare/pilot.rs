@@ -82,7 +82,7 @@ pub fn limit_study(study: &Study) -> Option<Study> {
 
 /// What the rows of an arm's own walls say of a level of signed values.
 pub fn pilot(walls: &RareWalls<'_>, screen: Option<&RareWalls<'_>>, rows: &[Row], level: f64) -> Pilot {
-    let quantity = Quantity::of(&walls.study);
+    let quantity = Quantity::of(walls.study);
     let own: Vec<&Row> =
         rows.iter().filter(|row| (row.arm_index, row.point) == (walls.arm, walls.point)).collect();
     let (draws, values): (Vec<Draw>, Vec<f64>) = own

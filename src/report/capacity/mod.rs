@@ -80,7 +80,7 @@ impl CapacitySummary {
             CapacityGroup::simulated(own, question, known, study.solver.name(), until(own))
         };
         let groups = groups.iter().map(of).collect();
-        CapacitySummary::new(study, Quantity::of(&study), question, known, groups)
+        CapacitySummary::new(study, Quantity::of(study), question, known, groups)
     }
 
     /// From the collapse angles of a study's specimens alone; families without any are left out.

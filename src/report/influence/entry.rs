@@ -70,7 +70,7 @@ impl InfluenceSummary {
         randomisations: u64,
     ) -> InfluenceSummary {
         let found = influence(&base_points(evaluated), randomisations as usize);
-        let quantity = Quantity::of(&study);
+        let quantity = Quantity::of(study);
         let groups = sources.iter().zip(&found.shares).map(|(source, share)| ShareEntry {
             name: source.name.clone(),
             is_in_layout: source.is_in_layout,

@@ -86,7 +86,7 @@ struct Filled {
 
 /// The weakest, the median and the strongest wall of the first arm that is random, at its first stiffness; the one wall where none is.
 pub fn chosen_walls(study: &Study, rows: &[Row]) -> Vec<(&'static str, Task)> {
-    let quantity = Quantity::of(&study);
+    let quantity = Quantity::of(study);
     let arm = study.arms.iter().position(is_random).unwrap_or(0);
     let own = rows.iter().filter(|row| row.arm_index as usize == arm && row.point == 0);
     let mut found: Vec<(f64, u64)> = own
@@ -113,7 +113,7 @@ pub fn chosen_walls(study: &Study, rows: &[Row]) -> Vec<(&'static str, Task)> {
 /// A figure that cannot be drawn, or a template that is faulty.
 pub fn run_page(of: &RunPage<'_>) -> Result<String> {
     let (study, summary) = (of.study, summarise(of.study, of.rows));
-    let quantity = Quantity::of(&study);
+    let quantity = Quantity::of(study);
     let has_rows = of.rows.len() <= MOST_ROWS;
     let caption = "A mark for every wall that brings a value, stacked where walls are alike. Black: drawn below. Hollow: stood to the \
                    end of the load path, its value lies above.";
@@ -186,7 +186,7 @@ fn figure_id(which: &str) -> String {
 
 /// The marks of the distribution, a line for each arm and stiffness that has any.
 fn marks(of: &RunPage<'_>, has_rows: bool) -> Vec<strip::Row> {
-    let quantity = Quantity::of(&of.study);
+    let quantity = Quantity::of(of.study);
     let mut lines: Vec<strip::Row> = Vec::new();
     for same in of.rows.chunk_by(|a, b| (a.arm_index, a.point) == (b.arm_index, b.point)) {
         let mark = |row: &Row| {
@@ -250,7 +250,7 @@ fn about_drawn(study: &Study, drawn: &[DrawnWall]) -> String {
 }
 
 fn drawing(of: &RunPage<'_>, own: &DrawnWall) -> Drawing {
-    let quantity = Quantity::of(&of.study);
+    let quantity = Quantity::of(of.study);
     let row = of.rows.iter().find(|row| task(row) == own.task);
     let value = row.map_or(Observed::Nothing, |row| quantity.observed(row));
     let shown = |x: f64| format!("{} {}", significant(quantity.shown(x), 4), quantity.shown_unit());
@@ -265,7 +265,7 @@ fn drawing(of: &RunPage<'_>, own: &DrawnWall) -> Drawing {
 
 /// A table of walls for each arm.
 fn walls(of: &RunPage<'_>) -> Vec<Table> {
-    let quantity = Quantity::of(&of.study);
+    let quantity = Quantity::of(of.study);
     let value = format!("value {}", quantity.shown_unit());
     let heads = [
         "kn Pa/m",

@@ -49,7 +49,7 @@ impl SelectedArm {
     pub fn of(contest: &Contest<'_>, index: u32, rows: &[Row], question: Option<Question>) -> SelectedArm {
         let arm = &contest.study.arms[index as usize];
         let kn = arm.kn_points[contest.point as usize];
-        let quantity = Quantity::of(&contest.study);
+        let quantity = Quantity::of(contest.study);
         let own: Vec<&Row> = rows.iter().filter(|row| row.arm_index == index).collect();
         let walls = own.len() as u64;
         let mut population = Population::new((&arm.name, !is_random(arm)), (kn, walls), quantity, 1, &[]);

@@ -86,7 +86,7 @@ impl ArmDifference {
                 probability_above(&told, 0.0)
             },
             distribution: dominance(distributed(a), distributed(b), miss)
-                .map(|own| levels(own, Quantity::of(&contest.study))),
+                .map(|own| levels(own, Quantity::of(contest.study))),
         }
     }
 }

@@ -78,7 +78,7 @@ impl SelectionSummary {
         rows: &[Row],
         look: &Compared,
     ) -> SelectionSummary {
-        let shown = Quantity::of(&contest.study);
+        let shown = Quantity::of(contest.study);
         let behind = |place: usize| look.standing.differences[place].and_then(|own| own.value).unwrap_or(0.0);
         let mut order: Vec<usize> =
             (0..look.kinds.len()).filter(|place| *place != look.standing.best).collect();

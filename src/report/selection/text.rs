@@ -23,7 +23,7 @@ pub fn selection_text(summary: &SelectionSummary) -> String {
 
 /// Where a comparison stands, in one line.
 pub fn selection_running(contest: &Contest<'_>, look: &Compared) -> String {
-    let quantity = Quantity::of(&contest.study);
+    let quantity = Quantity::of(contest.study);
     let is_share = matches!(contest.measure, Measure::ShareBelow(_));
     let shown = |x: f64| if is_share { x } else { quantity.shown(x) };
     let unit = if is_share { String::new() } else { format!(" {}", quantity.shown_unit()) };

@@ -59,7 +59,7 @@ pub struct TestPlan {
 impl TestPlan {
     /// From the rows of a study.
     pub fn of(study: &Study, rows: &[Row], asked: Asked) -> TestPlan {
-        let quantity = Quantity::of(&study);
+        let quantity = Quantity::of(study);
         let readings = readings(study, rows, &asked);
         let arms = readings.iter().filter(|own| own.is_quantity).flat_map(|reading| {
             study

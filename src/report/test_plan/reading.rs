@@ -32,7 +32,7 @@ pub struct Reading {
 /// The readings that the walls of a study allow, at one kn point: its quantity, then displacements at levels that all walls with a value
 /// of the quantity came to rest at.
 pub fn readings(study: &Study, rows: &[Row], asked: &Asked) -> Vec<Reading> {
-    let quantity = Quantity::of(&study);
+    let quantity = Quantity::of(study);
     let own: Vec<&Row> = rows.iter().filter(|row| row.point == asked.point).collect();
     let by_arm = |value: &dyn Fn(&Row) -> Option<f64>| -> Vec<BTreeMap<u64, f64>> {
         let of = |arm: usize| {
