@@ -155,6 +155,10 @@ fn generated_records_are_shared_by_arms_and_belong_to_the_seed_whatever_the_thre
         let of = |out: &str| fs::read(folder.path(out).join(file)).expect("a file");
         assert_eq!(of("1"), of("shards"), "{file}");
     }
+    let output = folder.pirca(&["run", "studies/tiny", "--out", "1"]);
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(text.contains("P(collapse)") && text.contains("\nRatios of arms"), "{text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
     let other = run(&folder, "other", &["--seed", "8"]);
     assert_ne!(shaken["records"], other["shaken"]["records"]);
     // What was run is found again, and nothing is run anew.

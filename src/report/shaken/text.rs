@@ -91,17 +91,18 @@ fn explanation(shaken: &ShakenSummary) -> String {
 }
 
 fn curves(shaken: &ShakenSummary) -> String {
-    let heads = ["arm", "kn Pa/m", "walls", "collapsed", "stands", "undecided", "none", "theta", "beta"];
-    let mut rows = vec![heads.map(String::from).to_vec()];
+    let heads = ["arm", "kn Pa/m", "walls", "collapsed", "stands", "undecided", "no verdict"];
+    let mut runs = vec![heads.map(String::from).to_vec()];
+    let mut fits = vec![["arm", "kn Pa/m", "theta", "beta"].map(String::from).to_vec()];
     for curve in &shaken.curves {
         let counts = curve.counts;
         let counted = [curve.walls, counts.collapsed, counts.stands, counts.undecided, counts.without];
-        let mut row = vec![curve.arm.clone(), compact(curve.kn_pa_per_m)];
-        row.extend(counted.map(|count| count.to_string()));
-        row.extend([shown(curve.lognormal.theta, 3), shown(curve.lognormal.beta, 2)]);
-        rows.push(row);
+        let head = [curve.arm.clone(), compact(curve.kn_pa_per_m)];
+        runs.push(head.iter().cloned().chain(counted.map(|count| count.to_string())).collect());
+        let fit = [shown(curve.lognormal.theta, 3), shown(curve.lognormal.beta, 2)];
+        fits.push(head.into_iter().chain(fit).collect());
     }
-    let mut text = aligned(rows);
+    let mut text = format!("{}\n{}", aligned(runs), aligned(fits));
     for curve in &shaken.curves {
         let notes = [told(shaken, curve), unlike(curve), not_monotone(curve), unsolved(curve)];
         for note in notes.into_iter().flatten() {
@@ -175,19 +176,30 @@ fn unsolved(curve: &ShakenCurve) -> Option<String> {
     })
 }
 
+/// A share in whole per cent: no campaign tells it better.
+fn percent(share: Estimate) -> String {
+    // Rounding first and adding 0 takes the sign from a zero.
+    let whole = |x: f64| format!("{:.0}", (100.0 * x).round() + 0.0);
+    match (share.value, share.interval) {
+        (None, _) => "-".to_owned(),
+        (Some(value), None) => whole(value),
+        (Some(value), Some([low, high])) => format!("{} [{}, {}]", whole(value), whole(low), whole(high)),
+    }
+}
+
 /// Where the scatter of capacities comes from.
 fn shares(shaken: &ShakenSummary) -> String {
     let mut rows = vec![["arm", "kn Pa/m", "record", "wall", "pair", "rest"].map(String::from).to_vec()];
     for curve in &shaken.curves {
         let Some(own) = curve.shares.filter(|own| own.record.value.is_some()) else { continue };
         let mut row = vec![curve.arm.clone(), compact(curve.kn_pa_per_m)];
-        row.extend([own.record, own.wall, own.interaction, own.rest].map(|share| shown(share, 2)));
+        row.extend([own.record, own.wall, own.interaction, own.rest].map(percent));
         rows.push(row);
     }
     if rows.len() == 1 {
         return String::new();
     }
-    format!("\nShares of the variance of the logarithm of capacity\n{}", aligned(rows))
+    format!("\nShares of the variance of the logarithm of capacity (%)\n{}", aligned(rows))
 }
 
 fn ratios(shaken: &ShakenSummary) -> String {
