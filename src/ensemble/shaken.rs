@@ -30,7 +30,7 @@ pub(super) fn shaken(study: &Study, earthquakes: &Earthquakes, task: Task, gener
         };
         (0..runs).into_par_iter().with_max_len(1).map(of).collect::<Vec<StepRow>>()
     });
-    let steps = steps.expect("a study is read with a solver that knows time");
+    let (steps, joints) = steps.expect("a study is read with a solver that knows time");
     let limit = study.agreement.then(|| {
         let bounds = Bounds::of(wall, &laws, protocol, &arm.restraint, contacts);
         LimitAnalysis {
@@ -45,6 +45,7 @@ pub(super) fn shaken(study: &Study, earthquakes: &Earthquakes, task: Task, gener
     let outcome = outcome(earthquakes, &steps);
     Row {
         limit,
+        joints: joints as u32,
         solver_steps: steps.iter().map(|step| step.solver_steps).sum(),
         load_steps: steps,
         ..built(study, task, generated, outcome)

@@ -21,6 +21,10 @@ fn studies() -> Vec<String> {
     let tilting = "protocol = \"tilting\"\ntowards = \"y+\"\nstep_deg = 4\nbracket_deg = 0.5";
     let shear = "protocol = \"shear\"\nvertical_load_n = 2e3\nforce_height_m = 0.32\nhead = \"turns\"\n\
                  drift_percent = 0.4\nstep_percent = 0.1";
+    // One that hardly moves them, and one that throws them off.
+    let shaken = "protocol = \"base_motion\"\npga_m_per_s2 = [1, 40]\nafter_s = 1\ntwice = false\n\n[load.records]\n\
+                  from = \"kanai_tajimi\"\ncount = 1\nground_hz = 1\ncorner_hz = 0.4\ncorner_damping = 1\nrise_s = 0.2\n\
+                  strong_s = 1\ndecay_per_s = 8";
     let uncertain = "\n[uncertain]\n\"joint.phi_deg\" = { family = \"uniform\", low = 30, high = 40 }\n";
     let without_phi_variant = |text: String| text[..text.find("[[variant]]").expect("a variant")].to_owned();
     vec![
@@ -31,6 +35,7 @@ fn studies() -> Vec<String> {
         loaded(tilting, "name = \"limit\"\nflow = \"non-associative\""),
         loaded(&format!("{tilting}\nremainders = true"), "name = \"implicit\"\nagreement = true"),
         loaded(shear, "name = \"implicit\""),
+        loaded(shaken, "name = \"explicit\""),
         without_phi_variant(STUDY.to_owned()) + uncertain,
     ]
 }

@@ -90,6 +90,12 @@ fn generated() -> String {
     text + &other
 }
 
+/// Where a column stands in a table.
+fn at(table: &str, name: &str) -> usize {
+    let mut heads = table.lines().next().expect("heads").split(',');
+    heads.position(|head| head == name).expect("a column of that name")
+}
+
 fn run(folder: &Folder, out: &str, more: &[&str]) -> Value {
     let output = folder.pirca(&[&["run", "studies/tiny", "--json", "--out", out], more].concat());
     assert!(output.status.success(), "{}", stderr(&output));
@@ -114,6 +120,13 @@ fn a_block_overturns_above_the_amplitude_of_the_nonlinear_equation_and_stands_be
     // Limit analysis of a slow tilt beside it: atan(1/3).
     let tilt = curve["tilt_capacity_deg"]["value"].as_f64().expect("a tilt");
     assert!((tilt - 18.4349).abs() < 1e-3, "{tilt}");
+    let members = fs::read_to_string(folder.path("out/members.csv")).expect("the table");
+    let column =
+        |name: &str| members.lines().map(|line| line.split(',').nth(at(&members, name))).nth(1).flatten();
+    assert_eq!(
+        (column("joints"), column("runs"), column("runs_collapsed")),
+        (Some("1"), Some("2"), Some("1"))
+    );
     let steps = fs::read_to_string(folder.path("out/steps.csv")).expect("the table");
     assert!(
         steps.lines().count() == 3 && steps.contains(",stands,") && steps.contains(",collapsed,"),

@@ -42,6 +42,8 @@ pub fn shake_twice(task: &Task<'_>, shaking: &Shaking) -> [Shaken; 2] {
 /// A wall at rest under gravity, which any number of motions may begin at.
 pub(super) struct Rested<'t> {
     task: &'t Task<'t>,
+    /// Number of joints as built.
+    pub joints: usize,
     /// Or why it is not at rest.
     assembly: Result<Assembly<'t>, Verdict>,
 }
@@ -49,7 +51,8 @@ pub(super) struct Rested<'t> {
 impl<'t> Rested<'t> {
     /// By the solver that it is shaken with; `fallen_moved` as of [`Shaking`].
     pub fn of(task: &'t Task<'t>, fallen_moved: f64, solver: &InTime) -> Rested<'t> {
-        Rested { task, assembly: at_rest(task, fallen_moved, solver) }
+        let built = task.assembled();
+        Rested { task, joints: built.joints.all.len(), assembly: at_rest(task, built, fallen_moved, solver) }
     }
 
     /// As of [`shake`].
@@ -81,8 +84,12 @@ impl<'t> Rested<'t> {
 }
 
 /// The wall at rest under gravity.
-fn at_rest<'a>(task: &Task<'a>, fallen_moved: f64, solver: &InTime) -> Result<Assembly<'a>, Verdict> {
-    let mut built = task.assembled();
+fn at_rest<'a>(
+    task: &Task<'a>,
+    mut built: Assembly<'a>,
+    fallen_moved: f64,
+    solver: &InTime,
+) -> Result<Assembly<'a>, Verdict> {
     let (gravity, _) = task.path.loads(0.0);
     built.gravity = gravity;
     built.load_factor = 1.0;

@@ -13,7 +13,7 @@ use crate::solve::Solver;
 
 /// Brings a wall of stones to rest as [`run`](crate::protocol::run()) does, and lets `each` shake it by as many motions as it likes, on as many
 /// threads: each begins at that rest. Of a motion come the run and its twin, see [`shake_twice`](crate::protocol::shake_twice), or the run itself
-/// twice where no twin is asked for. `None` of a solver that knows no time.
+/// twice where no twin is asked for. Gives what `each` does, and the number of joints as built; `None` of a solver that knows no time.
 pub fn shake_wall<R>(
     wall: &Wall,
     laws: &dyn JointLaws,
@@ -22,7 +22,7 @@ pub fn shake_wall<R>(
     contacts: impl Into<Contacts>,
     solver: &Solver,
     each: impl FnOnce(&(dyn Fn(Motion) -> [Shaken; 2] + Sync)) -> R,
-) -> Option<R> {
+) -> Option<(R, usize)> {
     let solver = base.in_time(solver)?;
     let stage = Stage::new(wall, laws, &Protocol::BaseMotion(*base), restraint, contacts.into());
     let (low, high) = wall.bounds();
@@ -30,12 +30,13 @@ pub fn shake_wall<R>(
     let criterion = Criterion::AnyBlock(base.fallen_moved * thickness);
     let task = task(&stage, &stage.assembly, LoadPath::factor(1), criterion, thickness);
     let rested = Rested::of(&task, base.fallen_moved, &solver);
-    Some(each(&|motion| {
+    let shaken = each(&|motion| {
         let shaking = base.shaking(motion, solver);
         if base.twice {
             return rested.shaken_twice(&shaking);
         }
         let seen = rested.shaken(&shaking);
         [seen.clone(), seen]
-    }))
+    });
+    Some((shaken, rested.joints))
 }
