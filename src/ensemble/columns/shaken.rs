@@ -69,7 +69,7 @@ pub(super) fn steps() -> Vec<Column<Steps>> {
         real("residual_rad", "rad", "largest rotation left at the end", |s: S| {
             maybe(s, |run| run.residual_rad)
         }),
-        real("time_s", "s", "time followed", |s: S| of(s, |run| run.time_s)),
+        real("time_s", "s", "how long the wall was followed", |s: S| of(s, |run| run.time_s)),
         real("unsolved_steps", "", "time steps that were not solved to the tolerance", |s: S| {
             of(s, |run| run.unsolved_steps as f64)
         }),
