@@ -1,6 +1,6 @@
 //! What a study's protocol measures of each wall.
 
-use crate::ensemble::{Row, ShakenRow};
+use crate::ensemble::Row;
 use crate::model::{Level, Outcome};
 use crate::protocol::{Observes, Protocol};
 use crate::study::{Measure, Study};
@@ -14,10 +14,8 @@ pub enum Quantity {
     CollapseAngle,
     /// The largest push that a wall bears along itself under a constant vertical load (N).
     ShearCapacity,
-    /// The lowest intensity at which some record brings the wall down, as a peak ground acceleration (m/s^2).
-    CollapseAcceleration,
-    /// The same as a peak ground velocity (m/s).
-    CollapseVelocity,
+    /// The lowest intensity at which some record brings the wall down, in this measure.
+    CollapseIntensity(Measure),
 }
 
 /// What a wall says about the quantity.
@@ -41,10 +39,10 @@ impl Quantity {
                 Observes::Displacement => Quantity::TopDisplacement,
             },
             Protocol::Shear(_) => Quantity::ShearCapacity,
-            Protocol::BaseMotion(_) => match study.earthquakes.as_ref().map(|own| own.measure) {
-                Some(Measure::Pgv) => Quantity::CollapseVelocity,
-                Some(Measure::Pga) | None => Quantity::CollapseAcceleration,
-            },
+            Protocol::BaseMotion(_) => {
+                let earthquakes = study.earthquakes.as_ref();
+                Quantity::CollapseIntensity(earthquakes.map_or(Measure::Pga, |own| own.measure))
+            }
         }
     }
 
@@ -52,10 +50,7 @@ impl Quantity {
     pub fn strength(self, value: f64) -> f64 {
         match self {
             Quantity::TopDisplacement => -value,
-            Quantity::CollapseAngle
-            | Quantity::ShearCapacity
-            | Quantity::CollapseAcceleration
-            | Quantity::CollapseVelocity => value,
+            Quantity::CollapseAngle | Quantity::ShearCapacity | Quantity::CollapseIntensity(_) => value,
         }
     }
 
@@ -72,24 +67,14 @@ impl Quantity {
                 value(row.shear.and_then(|shear| shear.capacity_n))
             }
             (
-                Quantity::CollapseAcceleration | Quantity::CollapseVelocity,
+                Quantity::CollapseIntensity(_),
                 Outcome::Collapsed { at: Level::Acceleration(x) | Level::Velocity(x) },
             ) => Observed::Value(*x),
-            (Quantity::CollapseAcceleration | Quantity::CollapseVelocity, Outcome::Equilibrium) => {
-                row.strongest(self).map_or(Observed::Nothing, Observed::Above)
+            (Quantity::CollapseIntensity(measure), Outcome::Equilibrium) => {
+                let strongest = row.runs().map(|run| run.peak(measure)).reduce(f64::max);
+                strongest.map_or(Observed::Nothing, Observed::Above)
             }
             _ => Observed::Nothing,
         }
-    }
-}
-
-impl Row {
-    /// The strongest shaking that the wall met, by the quantity's measure.
-    fn strongest(&self, quantity: Quantity) -> Option<f64> {
-        let peak = |shaken: &ShakenRow| match quantity {
-            Quantity::CollapseVelocity => shaken.pgv_m_per_s,
-            _ => shaken.pga_m_per_s2,
-        };
-        self.load_steps.iter().filter_map(|step| step.shaken.as_ref().map(peak)).reduce(f64::max)
     }
 }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use crate::model::Outcome;
 use crate::protocol::{Agreement, FailureMode, ShearMode, Verdict};
 use crate::stats::fragility::Outcome as CollapseUnder;
+use crate::study::Measure;
 
 /// One member of one arm at one kn: what was drawn, how it ended, what was observed.
 ///
@@ -83,6 +84,23 @@ pub struct Row {
     pub unbalanced_ratio: Option<f64>,
     /// Load steps begun, gravity first.
     pub load_steps: Vec<StepRow>,
+}
+
+impl Row {
+    /// What came of each record at each intensity, of a wall that is shaken.
+    pub fn runs(&self) -> impl Iterator<Item = &ShakenRow> {
+        self.load_steps.iter().filter_map(|step| step.shaken.as_ref())
+    }
+}
+
+impl ShakenRow {
+    /// How strong the record was, in a measure.
+    pub fn peak(&self, measure: Measure) -> f64 {
+        match measure {
+            Measure::Pga => self.pga_m_per_s2,
+            Measure::Pgv => self.pgv_m_per_s,
+        }
+    }
 }
 
 /// The first mechanism of a collapse; see [`crate::protocol::Failure`].

@@ -1,6 +1,7 @@
 //! How the quantity of a study is called, scaled and shown.
 
 use crate::ensemble::Quantity;
+use crate::study::Measure;
 
 impl Quantity {
     /// The outcome of a wall that brings a value.
@@ -9,7 +10,7 @@ impl Quantity {
             Quantity::TopDisplacement => "equilibrium",
             Quantity::CollapseAngle => "collapsed",
             Quantity::ShearCapacity => "equilibrium",
-            Quantity::CollapseAcceleration | Quantity::CollapseVelocity => "collapsed",
+            Quantity::CollapseIntensity(_) => "collapsed",
         }
     }
 
@@ -19,8 +20,8 @@ impl Quantity {
             Quantity::TopDisplacement => "top_displacement",
             Quantity::CollapseAngle => "collapse_angle",
             Quantity::ShearCapacity => "shear_capacity",
-            Quantity::CollapseAcceleration => "collapse_acceleration",
-            Quantity::CollapseVelocity => "collapse_velocity",
+            Quantity::CollapseIntensity(Measure::Pga) => "collapse_acceleration",
+            Quantity::CollapseIntensity(Measure::Pgv) => "collapse_velocity",
         }
     }
 
@@ -30,8 +31,7 @@ impl Quantity {
             Quantity::TopDisplacement => "m",
             Quantity::CollapseAngle => "deg",
             Quantity::ShearCapacity => "N",
-            Quantity::CollapseAcceleration => "m/s2",
-            Quantity::CollapseVelocity => "m/s",
+            Quantity::CollapseIntensity(measure) => measure.unit(),
         }
     }
 
@@ -41,8 +41,7 @@ impl Quantity {
             Quantity::TopDisplacement => "mm",
             Quantity::CollapseAngle => "deg",
             Quantity::ShearCapacity => "kN",
-            Quantity::CollapseAcceleration => "m/s2",
-            Quantity::CollapseVelocity => "m/s",
+            Quantity::CollapseIntensity(measure) => measure.unit(),
         }
     }
 
@@ -52,7 +51,7 @@ impl Quantity {
             Quantity::TopDisplacement => x * 1e3,
             Quantity::CollapseAngle => x,
             Quantity::ShearCapacity => x * 1e-3,
-            Quantity::CollapseAcceleration | Quantity::CollapseVelocity => x,
+            Quantity::CollapseIntensity(_) => x,
         }
     }
 
@@ -62,8 +61,8 @@ impl Quantity {
             Quantity::TopDisplacement => "out-of-plane displacement at the top (mm)",
             Quantity::CollapseAngle => "collapse angle (deg)",
             Quantity::ShearCapacity => "largest push along the wall (kN)",
-            Quantity::CollapseAcceleration => "lowest PGA of a collapse (m/s2)",
-            Quantity::CollapseVelocity => "lowest PGV of a collapse (m/s)",
+            Quantity::CollapseIntensity(Measure::Pga) => "lowest PGA of a collapse (m/s2)",
+            Quantity::CollapseIntensity(Measure::Pgv) => "lowest PGV of a collapse (m/s)",
         }
     }
 
@@ -73,7 +72,7 @@ impl Quantity {
             Quantity::TopDisplacement => "figure-10",
             Quantity::CollapseAngle => "capacity",
             Quantity::ShearCapacity => "shear",
-            Quantity::CollapseAcceleration | Quantity::CollapseVelocity => "fragility",
+            Quantity::CollapseIntensity(_) => "fragility",
         }
     }
 
@@ -89,10 +88,10 @@ impl Quantity {
             Quantity::ShearCapacity => {
                 "the largest push along the wall that it bears under its constant vertical load"
             }
-            Quantity::CollapseAcceleration => {
+            Quantity::CollapseIntensity(Measure::Pga) => {
                 "the lowest peak ground acceleration at which some record brings the wall down"
             }
-            Quantity::CollapseVelocity => {
+            Quantity::CollapseIntensity(Measure::Pgv) => {
                 "the lowest peak ground velocity at which some record brings the wall down"
             }
         }
@@ -104,7 +103,7 @@ impl Quantity {
             Quantity::TopDisplacement => "collapsed, not converged, non-finite, invalid geometry",
             Quantity::CollapseAngle => "not standing at rest, not converged, non-finite, invalid geometry",
             Quantity::ShearCapacity => "not standing at rest, not converged, non-finite, invalid geometry",
-            Quantity::CollapseAcceleration | Quantity::CollapseVelocity => {
+            Quantity::CollapseIntensity(_) => {
                 "not standing at rest, undecided, without a verdict, invalid geometry"
             }
         }

@@ -219,10 +219,9 @@ pub(crate) fn describe(
     parameters: BTreeMap<String, serde_json::Value>,
 ) -> ArmSummary {
     let statistics = match population.quantity {
-        Quantity::CollapseAngle
-        | Quantity::ShearCapacity
-        | Quantity::CollapseAcceleration
-        | Quantity::CollapseVelocity => population.sample().summary_of_positive(),
+        Quantity::CollapseAngle | Quantity::ShearCapacity | Quantity::CollapseIntensity(_) => {
+            population.sample().summary_of_positive()
+        }
         Quantity::TopDisplacement => population.sample().summary(),
     };
     let [sigma_bootstrap, cov_bootstrap] = bootstraps(&population, seed);
@@ -279,10 +278,7 @@ fn distribution(population: Population) -> (Vec<QuantileEntry>, Vec<EmpiricalSte
     let sorted = Sorted::of(values.into_values());
     let of = |p| if above.is_empty() { sorted.quantile(p) } else { Estimate::UNDEFINED };
     let steps = match quantity {
-        Quantity::TopDisplacement
-        | Quantity::ShearCapacity
-        | Quantity::CollapseAcceleration
-        | Quantity::CollapseVelocity => Vec::new(),
+        Quantity::TopDisplacement | Quantity::ShearCapacity | Quantity::CollapseIntensity(_) => Vec::new(),
         Quantity::CollapseAngle => stats::empirical_of(&sorted, &above),
     };
     (quantiles(&of), steps)

@@ -65,7 +65,8 @@ pub struct Earthquakes {
     pub records: Vec<Record>,
     /// Where their y axis points in plan, or their only component.
     towards: Direction,
-    source: Source,
+    /// What generates them; `None` of those from files.
+    generator: Option<Generator>,
 }
 
 /// A record.
@@ -77,12 +78,20 @@ pub struct Record {
     peaks: [f64; 2],
 }
 
-/// Where records come from.
+/// How records are generated.
 #[derive(Clone, Debug, PartialEq)]
-enum Source {
-    Files,
-    KanaiTajimi { count: u64, step: f64, families: [Family; 7] },
-    Rezaeian { count: u64, step: f64, families: [Family; 6] },
+struct Generator {
+    count: u64,
+    /// Longest step (s).
+    step: f64,
+    process: Process,
+}
+
+/// A stochastic process, with the families of its parameters.
+#[derive(Clone, Debug, PartialEq)]
+enum Process {
+    KanaiTajimi([Family; KANAI_TAJIMI.len()]),
+    Rezaeian([Family; REZAEIAN.len()]),
 }
 
 /// Keys of the families of generated records; also the names of their streams behind "record".
@@ -133,18 +142,20 @@ impl Earthquakes {
         }
         let intensities = t.list(measure.key());
         let mut records = t.table("records")?;
-        let source = match records.chosen()? {
-            "files" => Source::Files,
-            "kanai_tajimi" => {
-                let ([count, step], families) = generated(&mut records, KANAI_TAJIMI, catalogue)?;
-                Source::KanaiTajimi { count: count as u64, step, families }
-            }
-            _ => {
-                let ([count, step], families) = generated(&mut records, REZAEIAN, catalogue)?;
-                Source::Rezaeian { count: count as u64, step, families }
+        let generator = match records.chosen()? {
+            "files" => None,
+            model => {
+                let (count, step) = (records.whole("count"), records.real("step_s"));
+                let process = match model {
+                    "kanai_tajimi" => {
+                        families(&mut records, KANAI_TAJIMI, catalogue).map(Process::KanaiTajimi)
+                    }
+                    _ => families(&mut records, REZAEIAN, catalogue).map(Process::Rezaeian),
+                };
+                Some(Generator { count: count?, step: step?, process: process? })
             }
         };
-        let motions = if source == Source::Files { catalogue.records(&mut records)? } else { Vec::new() };
+        let motions = if generator.is_none() { catalogue.records(&mut records)? } else { Vec::new() };
         let towards = towards?;
         let mut read = Vec::new();
         for (motion, place) in motions {
@@ -159,45 +170,35 @@ impl Earthquakes {
             }
         }
         let intensities = intensities.filter(|_| !both)?;
-        Some(Earthquakes { measure, intensities, records: read, towards, source })
+        Some(Earthquakes { measure, intensities, records: read, towards, generator })
     }
 
     /// With the records that a seed gives, where they are generated.
     pub fn seeded(self, seed: u64) -> Earthquakes {
-        let number = |count: u64| (0..count).map(move |index| Streams::new(seed, index));
-        let drawn: Vec<Motion> = match &self.source {
-            Source::Files => return self,
-            Source::KanaiTajimi { count, step, families } => {
-                number(*count).map(|streams| kanai_tajimi(&streams, *step, families)).collect()
+        let Some(Generator { count, step, process }) = &self.generator else { return self };
+        let drawn = (0..*count).map(|index| {
+            let streams = Streams::new(seed, index);
+            match process {
+                Process::KanaiTajimi(families) => kanai_tajimi(&streams, *step, families),
+                Process::Rezaeian(families) => rezaeian(&streams, *step, families),
             }
-            Source::Rezaeian { count, step, families } => {
-                number(*count).map(|streams| rezaeian(&streams, *step, families)).collect()
-            }
-        };
-        let record = |motion: &Motion| {
-            let record = scaled(motion, self.measure, self.towards);
+        });
+        let record = |motion: Motion| {
+            let record = scaled(&motion, self.measure, self.towards);
             record.expect("a generated record moves horizontally")
         };
-        Earthquakes { records: drawn.iter().map(record).collect(), ..self }
-    }
-
-    /// Whether another seed gives other records.
-    pub fn is_generated(&self) -> bool {
-        self.source != Source::Files
+        Earthquakes { records: drawn.map(record).collect(), ..self }
     }
 }
 
-/// Number, step and families of records that are generated.
-fn generated<const N: usize>(
+/// The families of the keys; all are read before any is missed.
+fn families<const N: usize>(
     t: &mut Reader<'_>,
     keys: [&'static str; N],
     catalogue: &mut Catalogue,
-) -> Option<([f64; 2], [Family; N])> {
-    let (count, step) = (t.whole("count"), t.real("step_s"));
-    // All are read before any is missed.
-    let families = keys.map(|key| quantity(t, key, catalogue));
-    let families: Option<Vec<Family>> = families.into_iter().collect();
-    Some(([count? as f64, step?], families?.try_into().ok()?))
+) -> Option<[Family; N]> {
+    let read: Option<Vec<Family>> = keys.map(|key| quantity(t, key, catalogue)).into_iter().collect();
+    read?.try_into().ok()
 }
 
 /// A record turned as asked for, at an intensity of 1.
@@ -229,7 +230,7 @@ fn step_for(hz: f64, asked: f64) -> f64 {
     asked.min(1.0 / (SAMPLES_A_PERIOD * hz)).max(SHORTEST)
 }
 
-fn kanai_tajimi(streams: &Streams, step: f64, families: &[Family; 7]) -> Motion {
+fn kanai_tajimi(streams: &Streams, step: f64, families: &[Family; KANAI_TAJIMI.len()]) -> Motion {
     let [ground_hz, zeta_g, corner_hz, zeta_f, rise, strong, decay] = drawn(streams, KANAI_TAJIMI, families);
     let step = step_for(ground_hz, step);
     let fall = rise + strong;
@@ -248,7 +249,7 @@ fn kanai_tajimi(streams: &Streams, step: f64, families: &[Family; 7]) -> Motion 
     process.process().expect("the ranges of the keys make a process").record(streams)
 }
 
-fn rezaeian(streams: &Streams, step: f64, families: &[Family; 6]) -> Motion {
+fn rezaeian(streams: &Streams, step: f64, families: &[Family; REZAEIAN.len()]) -> Motion {
     let [middle_hz, hz_per_s, zeta, d5_95, middle, corner_hz] = drawn(streams, REZAEIAN, families);
     let process = RezaeianDerKiureghian {
         // Whatever it is, the record is scaled.

@@ -4,10 +4,10 @@
 
 use std::f64::consts::PI;
 
-use crate::base_motion::{across, block, frequency, nonsmooth, shaken};
+use crate::base_motion::{across, block, frequency, let_go, nonsmooth, shaken};
 use crate::fixture::{G, dry, on_floor, resting};
 use pirca::contact;
-use pirca::math::{Vec3, acos, atan, cos, degrees, exp, tan};
+use pirca::math::{acos, atan, cos, degrees, exp};
 use pirca::motion::Pulse;
 use pirca::protocol::{InTime, Shaking, Verdict};
 use pirca::solve::explicit::{self, Rayleigh};
@@ -83,12 +83,7 @@ fn apexes<const N: usize>([b, h]: [f64; 2], start: f64, time_step: f64) -> [f64;
     let law = dry(1e9, degrees(atan(3.0)));
     let settings = Settings { time_step, ..Settings::default() };
     let mut rocking = Simulation::new(&wall, &law, settings, contact::Settings::for_size(0.2, [2, 2]));
-    let from = rocking.assembly.bodies.all[0].clone();
-    let pivot = Vec3::new(0.0, b, -h);
-    let turned = nalgebra::Rotation3::from_axis_angle(&nalgebra::Vector3::x_axis(), -start);
-    let turn = Vec3::new(-2.0 * tan(0.5 * start), 0.0, 0.0);
-    rocking.assembly.bodies.all[0].place(&from, &(pivot - turned * pivot), &turn);
-    rocking.refresh();
+    let from = let_go(&mut rocking, [b, h], start);
     let (mut before, mut impacts, mut apexes) = (0.0f64, 0, [0.0; N]);
     while impacts < N {
         rocking.step_once();

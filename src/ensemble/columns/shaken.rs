@@ -6,17 +6,14 @@ use crate::stats::fragility::Outcome;
 
 /// Runs of a wall that ended so.
 fn runs(row: &Row, ended: Option<Outcome>) -> u64 {
-    let all = row.load_steps.iter().filter_map(|step| step.shaken.as_ref());
-    all.filter(|run| run.collapse == ended).count() as u64
+    row.runs().filter(|run| run.collapse == ended).count() as u64
 }
 
 /// Of the table of members.
 pub(super) fn members() -> Vec<Column<Members>> {
     type R<'r> = &'r Row;
     vec![
-        count("runs", "records times intensities that the wall met", |r: R| {
-            r.load_steps.iter().filter(|step| step.shaken.is_some()).count() as u64
-        }),
+        count("runs", "records times intensities that the wall met", |r: R| r.runs().count() as u64),
         count("runs_collapsed", "those under which it collapsed (load.capacity)", |r: R| {
             runs(r, Some(Outcome::Collapsed))
         }),

@@ -1,6 +1,7 @@
 //! The runs of an arm as a campaign of records, stripes and walls.
 
 use crate::ensemble::{Row, ShakenRow};
+use crate::stats;
 use crate::stats::fragility::{Campaign, Outcome};
 use crate::study::{Earthquakes, Measure};
 
@@ -36,7 +37,7 @@ impl<'r> Runs<'r> {
         let cells = records.len() * intensities.len();
         let mut outcomes: Vec<Option<Outcome>> = vec![None; cells * self.rows.len()];
         for (wall, row) in self.rows.iter().enumerate() {
-            for run in runs(row) {
+            for run in row.runs() {
                 let cell = run.record as usize * intensities.len() + run.stripe as usize;
                 outcomes[cell * self.rows.len() + wall] = run.collapse;
             }
@@ -64,22 +65,7 @@ impl<'r> Runs<'r> {
     }
 }
 
-/// The runs of a wall.
-pub(super) fn runs(row: &Row) -> impl Iterator<Item = &ShakenRow> {
-    row.load_steps.iter().filter_map(|step| step.shaken.as_ref())
-}
-
-/// The share of a wall's runs that collapsed, an undecided one by half; `None` without a verdict.
-pub(super) fn share<'r>(all: impl Iterator<Item = &'r ShakenRow>) -> Option<f64> {
-    let (mut trials, mut collapsed) = (0.0, 0.0);
-    for run in all {
-        match run.collapse {
-            Some(Outcome::Collapsed) => collapsed += 1.0,
-            Some(Outcome::Undecided) => collapsed += 0.5,
-            Some(Outcome::Stands) => {}
-            None => continue,
-        }
-        trials += 1.0;
-    }
-    (trials > 0.0).then(|| collapsed / trials)
+/// The share of runs that collapsed, an undecided one by half; `None` without a verdict.
+pub(super) fn share<'r>(runs: impl Iterator<Item = &'r ShakenRow>) -> Option<f64> {
+    stats::mean(&runs.filter_map(|run| run.collapse.map(Outcome::collapses)).collect::<Vec<f64>>())
 }

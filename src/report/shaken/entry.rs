@@ -1,7 +1,7 @@
 //! The numbers of walls that are shaken, every statistic with its interval.
 
 use crate::ensemble::{Row, is_random};
-use crate::report::shaken::campaigns::{Runs, runs, share};
+use crate::report::shaken::campaigns::{Runs, share};
 use crate::stats::fragility::{
     Agreement, Campaign, Counts, Fragility, Measures, Shares, Step, Walls, agreement, isotonic, lognormal,
     measures, ratios, shares,
@@ -135,25 +135,27 @@ pub(super) fn summarised(study: &Study, earthquakes: &Earthquakes, rows: &[Row])
     let each = || {
         study.arms.iter().enumerate().flat_map(|(arm, own)| (0..own.kn_points.len()).map(move |p| (arm, p)))
     };
-    let all: Vec<(usize, usize, Runs<'_>)> =
-        each().map(|(arm, point)| (arm, point, Runs::of(rows, earthquakes, arm, point))).collect();
-    let curves = all.iter().filter_map(|(arm, point, runs)| {
-        let campaign = runs.campaign()?;
-        Some(curve(study, (*arm, *point), runs, &campaign))
-    });
-    let curves = curves.collect();
+    // An arm without a wall has neither curve nor ratio.
+    let all: Vec<(usize, usize, Runs<'_>, Campaign)> = each()
+        .filter_map(|(arm, point)| {
+            let runs = Runs::of(rows, earthquakes, arm, point);
+            let campaign = runs.campaign()?;
+            Some((arm, point, runs, campaign))
+        })
+        .collect();
+    let curves =
+        all.iter().map(|(arm, point, runs, campaign)| curve(study, (*arm, *point), runs, campaign)).collect();
     let mut compared = Vec::new();
-    for (at, (first, point, runs)) in all.iter().enumerate() {
-        for (second, other_point, others) in &all[at + 1..] {
+    for (at, (first, point, _, a)) in all.iter().enumerate() {
+        for (second, other_point, _, b) in &all[at + 1..] {
             let kn = study.arms[*first].kn_points[*point];
             if first == second || kn != study.arms[*second].kn_points[*other_point] {
                 continue;
             }
-            let Some((a, b)) = runs.campaign().zip(others.campaign()) else { continue };
             // Wall k of every arm has the same random numbers.
             let is_paired =
                 a.walls() == b.walls() && is_random(&study.arms[*first]) && is_random(&study.arms[*second]);
-            let found = ratios(&a, &b, if is_paired { Walls::Paired } else { Walls::Apart });
+            let found = ratios(a, b, if is_paired { Walls::Paired } else { Walls::Apart });
             let name = |arm: usize| study.arms[arm].name.clone();
             let (theta, beta) = (found.theta, found.beta);
             compared.push(RatioEntry {
@@ -167,7 +169,7 @@ pub(super) fn summarised(study: &Study, earthquakes: &Earthquakes, rows: &[Row])
     }
     let record = |(number, record): (usize, &crate::study::Record)| {
         let [pga, pgv] = [Measure::Pga, Measure::Pgv].map(|measure| record.peak(measure, 1.0));
-        let under = rows.iter().flat_map(runs).filter(|run| run.record as usize == number);
+        let under = rows.iter().flat_map(Row::runs).filter(|run| run.record as usize == number);
         RecordEntry { name: record.name().to_owned(), pgv_over_pga_s: pgv / pga, collapsed: share(under) }
     };
     ShakenSummary {
@@ -194,7 +196,7 @@ fn curve(study: &Study, (arm, point): (usize, usize), own: &Runs<'_>, campaign: 
     let stripe = |step: Step| {
         let at = |run: &&crate::ensemble::ShakenRow| own.intensity(run) == step.intensity;
         let stood =
-            || own.rows().iter().flat_map(|row| runs(row)).filter(at).filter(|run| run.residual_m.is_some());
+            || own.rows().iter().flat_map(|row| row.runs()).filter(at).filter(|run| run.residual_m.is_some());
         StripeEntry {
             step,
             rotation_rad: stats::quantile(&stood().map(|run| run.rotation_rad).collect::<Vec<f64>>(), 0.5),
@@ -209,7 +211,7 @@ fn curve(study: &Study, (arm, point): (usize, usize), own: &Runs<'_>, campaign: 
         runs_with_unsolved_steps: own
             .rows()
             .iter()
-            .flat_map(|row| runs(row))
+            .flat_map(|row| row.runs())
             .filter(|run| run.unsolved_steps > 0)
             .count(),
         lognormal: lognormal(campaign),
@@ -240,7 +242,7 @@ fn tilt(row: &Row) -> Option<f64> {
 }
 
 fn against_tilt(rows: &[Row]) -> TiltEntry {
-    let both = rows.iter().filter_map(|row| tilt(row).zip(share(runs(row))));
+    let both = rows.iter().filter_map(|row| tilt(row).zip(share(row.runs())));
     let (tilts, shares): (Vec<f64>, Vec<f64>) = both.unzip();
     TiltEntry { walls: tilts.len(), correlation: stats::correlation_estimate(&tilts, &shares) }
 }

@@ -22,8 +22,8 @@ pub enum Outcome {
 }
 
 impl Outcome {
-    /// What it counts as a collapse.
-    pub(super) fn collapses(self) -> f64 {
+    /// What it counts as a collapse: 0, 1/2 or 1.
+    pub fn collapses(self) -> f64 {
         match self {
             Outcome::Collapsed => 1.0,
             Outcome::Stands => 0.0,
