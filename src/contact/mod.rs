@@ -4,6 +4,7 @@
 mod broad;
 mod cells;
 mod patch;
+mod periodic;
 mod separation;
 mod survey;
 #[cfg(test)]
@@ -14,6 +15,7 @@ pub use broad::{candidate_pairs, candidate_pairs_up_to};
 pub use cells::{Cell, corners, divide};
 use cells::{contains, patches};
 pub use patch::{Feature, Patch, Settings, facing, find_patch};
+pub use periodic::{PeriodicJoint, periodic_joints};
 pub use separation::{EdgeAxis, FaceAxis, best_edge_axis, best_face_axis};
 pub use survey::{Pair, Survey, survey};
 pub use vertices::{area_shares, distinct, middle_line};

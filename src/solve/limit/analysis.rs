@@ -207,13 +207,17 @@ impl Analysis {
     /// The largest multiplier of the live loads, from 0 up.
     pub fn multiplier(&self, loads: &Loads) -> Limit {
         let applied = self.applied(loads);
+        match self.stands_at_rest(&applied, Level::Multiplier(0.0)) {
+            Ok(spent) => self.multiplier_beside(&applied, spent),
+            Err(limit) => *limit,
+        }
+    }
+
+    /// The largest multiplier of the live loads beside dead ones that are borne, as `before` iterations have shown.
+    pub(crate) fn multiplier_beside(&self, applied: &Applied, before: u32) -> Limit {
         let flow = self.settings.flow;
-        let before = match self.stands_at_rest(&applied, Level::Multiplier(0.0)) {
-            Ok(spent) => spent,
-            Err(limit) => return *limit,
-        };
         let cap = self.settings.largest_multiplier;
-        let answer = self.largest(&applied, &self.strengths, cap);
+        let answer = self.largest(applied, &self.strengths, cap);
         // It stands at rest: what is below 0 is so by the solver's accuracy.
         let found = answer.solved.multiplier.max(0.0);
         if !answer.is_good() {
@@ -221,7 +225,7 @@ impl Analysis {
             return answer.into_limit(outcome, found, flow, before);
         }
         if answer.capped {
-            let (outcome, more) = self.beyond(&applied);
+            let (outcome, more) = self.beyond(applied);
             return answer.into_limit(outcome, cap, flow, before + more);
         }
         match flow {
@@ -229,7 +233,7 @@ impl Analysis {
                 let outcome = Outcome::Collapsed { at: Level::Multiplier(found) };
                 answer.into_limit(outcome, found, flow, before)
             }
-            Flow::NonAssociative => self.without_dilatancy(&applied, answer, before, cap, Level::Multiplier),
+            Flow::NonAssociative => self.without_dilatancy(applied, answer, before, cap, Level::Multiplier),
         }
     }
 

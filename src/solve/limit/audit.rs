@@ -3,6 +3,7 @@
 use crate::math::Vec3;
 use crate::model::Support;
 use crate::solve::limit::collapse::Accuracy;
+use crate::solve::limit::interfaces::Interface;
 use crate::solve::limit::loads::Wrench;
 use crate::solve::limit::program::{Program, Solved};
 use crate::solve::limit::strength::Strength;
@@ -55,10 +56,10 @@ fn residual(program: &Program, solved: &Solved) -> f64 {
             moment: d.moment + l.moment * solved.multiplier,
         })
         .collect();
-    for (interface, at, force) in world_forces(program, solved) {
-        let (i, r) = (interface.0, interface.1);
-        sums[i].add(at - blocks.rigid[i].centroid, force);
-        sums[r].add(at - blocks.rigid[r].centroid, -force);
+    for (joint, at, force) in world_forces(program, solved) {
+        for (block, wrench) in blocks.felt(joint, at, force).into_iter().flatten() {
+            sums[block] = sums[block].plus(&wrench);
+        }
     }
     for (rope, pull) in blocks.ties.iter().zip(&solved.pulls) {
         sums[rope.block].add(rope.at - blocks.rigid[rope.block].centroid, rope.direction * -pull);
@@ -75,17 +76,17 @@ fn residual(program: &Program, solved: &Solved) -> f64 {
     largest(blocks.rigid.iter().zip(&sums).map(left)) / blocks.unit
 }
 
-/// Every contact force in world axes: (incident, reference), where, force on the incident block (N).
+/// Every contact force in world axes: joint, where, force on the incident block (N).
 pub(crate) fn world_forces<'a>(
     program: &'a Program,
     solved: &'a Solved,
-) -> impl Iterator<Item = ((usize, usize), Vec3, Vec3)> + 'a {
+) -> impl Iterator<Item = (&'a Interface, Vec3, Vec3)> + 'a {
     let joints = program.blocks.interfaces.iter().zip(program.axes);
     joints
         .flat_map(|(joint, axes)| joint.points.iter().map(move |point| (joint, axes, point)))
         .zip(&solved.forces)
         .map(|((joint, [e1, e2], point), [n, t1, t2])| {
-            ((joint.incident, joint.reference), point.at, joint.normal * *n + e1 * *t1 + e2 * *t2)
+            (joint, point.at, joint.normal * *n + e1 * *t1 + e2 * *t2)
         })
 }
 
@@ -99,23 +100,20 @@ pub(crate) fn excess(strengths: &[Strength], program: &Program, solved: &Solved)
 /// Power dissipated at the joints (W), and the largest breach of the flow rule over the mechanism's largest velocity.
 fn flow_rule(program: &Program, solved: &Solved) -> (f64, f64) {
     let blocks = program.blocks;
-    let at = |b: usize, p: Vec3| {
-        let v = &solved.velocities[b];
-        v.force + v.moment.cross(&(p - blocks.rigid[b].centroid))
-    };
     let (mut power, mut incompatible, mut fastest) = (0.0, 0.0f64, 0.0f64);
     let mut strengths = program.strengths.iter();
     for (joint, [e1, e2]) in blocks.interfaces.iter().zip(program.axes) {
         for (point, strength) in joint.points.iter().zip(&mut strengths) {
-            let u = at(joint.incident, point.at) - at(joint.reference, point.at);
+            let u = blocks.parting(&solved.velocities, joint, point.at);
             let cost = strength.cost([u.dot(&joint.normal), u.dot(e1), u.dot(e2)], program.cone);
             power += cost.power;
             incompatible = incompatible.max(cost.incompatibility);
-            fastest = fastest.max(at(joint.incident, point.at).norm());
+            let velocity = blocks.velocity(&solved.velocities, joint.incident, point.at);
+            fastest = fastest.max(velocity.norm());
         }
     }
     for rope in &blocks.ties {
-        let along = at(rope.block, rope.at).dot(&rope.direction);
+        let along = blocks.velocity(&solved.velocities, rope.block, rope.at).dot(&rope.direction);
         incompatible = incompatible.max(if rope.two_sided { along.abs() } else { along });
     }
     (power, if fastest > 0.0 { incompatible / fastest } else { 0.0 })

@@ -87,10 +87,8 @@ pub struct FixedPoint {
 pub(crate) fn mechanism(program: &Program, solved: &Solved) -> Vec<BlockMotion> {
     let mut fastest: f64 = 0.0;
     for (joint, point) in program.blocks.points() {
-        for b in [joint.incident, joint.reference] {
-            let v = &solved.velocities[b];
-            let lever = point.at - program.blocks.rigid[b].centroid;
-            fastest = fastest.max((v.force + v.moment.cross(&lever)).norm());
+        for (b, at) in [(joint.incident, point.at), (joint.reference, point.at - joint.shift)] {
+            fastest = fastest.max(program.blocks.velocity(&solved.velocities, b, at).norm());
         }
     }
     let scale = if fastest > 0.0 { 1.0 / fastest } else { 0.0 };

@@ -3,9 +3,10 @@
 use crate::contact::{self, Feature, Patch, area_shares, candidate_pairs, distinct, find_patch, middle_line};
 use crate::law::{Coulomb, PATCHES_ALONG, Sampling};
 use crate::math::Vec3;
-use crate::model::{JointLaws, Support, Wall};
+use crate::model::{Block, JointLaws, Support, Wall};
 use crate::shape::{MassProperties, Polygon, Polyhedron, convex_union};
 use crate::solve::limit::loads::{Loads, When, Wrench};
+use crate::solve::limit::periodic::Strain;
 
 /// A block as limit analysis sees it.
 #[derive(Clone, Debug)]
@@ -16,6 +17,8 @@ pub(crate) struct Rigid {
     /// Largest distance of a vertex from the centroid (m): the lever that makes moments comparable with forces.
     pub radius: f64,
     pub support: Support,
+    /// Whether its centroid stays where it is: of stones that are repeated one does, or all could drift together.
+    pub pinned: bool,
 }
 
 /// A joint: who presses on whom, and where.
@@ -25,6 +28,8 @@ pub(crate) struct Interface {
     pub incident: usize,
     /// Block whose plane gives the direction of the pressure.
     pub reference: usize,
+    /// The image of the reference block that is meant: where it is from the block itself (m). Zero but in a cell.
+    pub shift: Vec3,
     /// Unit normal in which the reference block pushes the incident one.
     pub normal: Vec3,
     pub law: Coulomb,
@@ -49,6 +54,9 @@ pub(crate) struct Rope {
     pub two_sided: bool,
 }
 
+/// Those that feel a force at a joint: the incident block, the reference block and the strain.
+pub(crate) type Felt = [Option<(usize, Wrench)>; 3];
+
 /// The blocks of a wall, their joints and their ropes.
 #[derive(Clone, Debug)]
 pub(crate) struct Blocks {
@@ -61,11 +69,25 @@ pub(crate) struct Blocks {
     pub interfaces: Vec<Interface>,
     /// Ropes: a pull of any size.
     pub ties: Vec<Rope>,
+    /// What deforms where the blocks are those of a cell.
+    pub strain: Option<Strain>,
     /// Mean weight of the blocks that move under standard gravity (N): the unit of force.
     pub unit: f64,
 }
 
 impl Rigid {
+    pub fn of(block: &Block) -> Rigid {
+        let mass = block.shape.mass_properties();
+        let radius = block.shape.vertices.iter().map(|v| (v - mass.centroid).norm()).fold(0.0, f64::max);
+        Rigid {
+            centroid: mass.centroid,
+            mass: block.density * mass.volume,
+            radius,
+            support: block.support,
+            pinned: false,
+        }
+    }
+
     pub fn moves(&self) -> bool {
         !matches!(self.support, Support::Fixed | Support::Absent)
     }
@@ -75,21 +97,7 @@ impl Blocks {
     /// The blocks where the wall has them, and the joints between those that touch within `closed_gap` (m).
     pub fn of(wall: &Wall, laws: &dyn JointLaws, contact: &contact::Settings, closed_gap: f64) -> Self {
         let (origin, wall) = wall.about_local_origin();
-        let mut rigid: Vec<Rigid> = wall
-            .blocks
-            .iter()
-            .map(|block| {
-                let mass = block.shape.mass_properties();
-                let radius =
-                    block.shape.vertices.iter().map(|v| (v - mass.centroid).norm()).fold(0.0, f64::max);
-                Rigid {
-                    centroid: mass.centroid,
-                    mass: block.density * mass.volume,
-                    radius,
-                    support: block.support,
-                }
-            })
-            .collect();
+        let mut rigid: Vec<Rigid> = wall.blocks.iter().map(Rigid::of).collect();
         let leads = wall.leads();
         let mut shapes: Vec<Polyhedron> = wall.blocks.iter().map(|b| b.shape.clone()).collect();
         let mut merged = vec![false; shapes.len()];
@@ -125,12 +133,20 @@ impl Blocks {
             let (incident, reference) =
                 if patch.reference_is_second { (first, second) } else { (second, first) };
             let (incident, reference) = (leads[incident], leads[reference]);
-            interfaces.push(Interface { incident, reference, normal: patch.plane.normal, law, points });
+            let shift = Vec3::zeros();
+            interfaces.push(Interface {
+                incident,
+                reference,
+                shift,
+                normal: patch.plane.normal,
+                law,
+                points,
+            });
         }
         let moving: Vec<f64> = rigid.iter().filter(|r| r.moves()).map(|r| r.mass).collect();
         let mean = moving.iter().sum::<f64>() / moving.len().max(1) as f64;
         let unit = if mean > 0.0 { mean * crate::solve::STANDARD_GRAVITY } else { 1.0 };
-        Blocks { origin, rigid, leads, interfaces, ties: Vec::new(), unit }
+        Blocks { origin, rigid, leads, interfaces, ties: Vec::new(), strain: None, unit }
     }
 
     /// The dead or the live loads on every block.
@@ -148,6 +164,38 @@ impl Blocks {
         wrenches
     }
 
+    /// What a force on the incident block at a point of a joint does, with its reaction, to all that feel it.
+    pub fn felt(&self, joint: &Interface, at: Vec3, force: Vec3) -> Felt {
+        let (incident, reference) = (joint.incident, joint.reference);
+        let lever = |block: usize, at: Vec3| at - self.rigid[block].centroid;
+        let mut own = Wrench::default();
+        own.add(lever(incident, at), force);
+        let mut other = Wrench::default();
+        other.add(lever(reference, at - joint.shift), -force);
+        let strain = self.strain.filter(|_| joint.shift != Vec3::zeros());
+        let strained = strain.map(|strain| (strain.body, strain.felt(joint.shift, at, -force)));
+        if incident == reference {
+            return [Some((incident, own.plus(&other))), None, strained];
+        }
+        [Some((incident, own)), Some((reference, other)), strained]
+    }
+
+    /// Velocity of a block at a point (m/s).
+    pub fn velocity(&self, velocities: &[Wrench], block: usize, at: Vec3) -> Vec3 {
+        let v = &velocities[block];
+        v.force + v.moment.cross(&(at - self.rigid[block].centroid))
+    }
+
+    /// Velocity of the incident block past the reference block at a point of a joint (m/s).
+    pub fn parting(&self, velocities: &[Wrench], joint: &Interface, at: Vec3) -> Vec3 {
+        let strained = self
+            .strain
+            .map_or_else(Vec3::zeros, |strain| strain.velocity(&velocities[strain.body], joint.shift, at));
+        self.velocity(velocities, joint.incident, at)
+            - self.velocity(velocities, joint.reference, at - joint.shift)
+            - strained
+    }
+
     /// Every contact point with its joint, in the order in which all per-point numbers are kept.
     pub fn points(&self) -> impl Iterator<Item = (&Interface, &ContactPoint)> {
         self.interfaces.iter().flat_map(|joint| joint.points.iter().map(move |point| (joint, point)))
@@ -162,7 +210,7 @@ fn whole(wall: &Wall, parts: &[usize]) -> Rigid {
     let MassProperties { volume: mass, centroid, .. } = MassProperties::together(&masses);
     let corners = blocks().flat_map(|block| &block.shape.vertices);
     let radius = corners.map(|v| (v - centroid).norm()).fold(0.0, f64::max);
-    Rigid { centroid, mass, radius, support: wall.blocks[parts[0]].support }
+    Rigid { centroid, mass, radius, support: wall.blocks[parts[0]].support, pinned: false }
 }
 
 /// The vertices of the part of a patch where the gap is at most `closed`, with their shares of its area.
@@ -170,7 +218,7 @@ fn whole(wall: &Wall, parts: &[usize]) -> Rigid {
 /// What touches in pieces touches at the corners of the polygon around them: a force between is one of the cone there. The
 /// strip or square that stands for a contact of edges and corners has a width for the springs of the other solvers; rigid
 /// blocks touch along its middle line or in its middle.
-fn contact_points(patch: &Patch, closed: f64, sampling: Sampling) -> Vec<ContactPoint> {
+pub(super) fn contact_points(patch: &Patch, closed: f64, sampling: Sampling) -> Vec<ContactPoint> {
     let (frame, normal) = (&patch.frame, &patch.plane.normal);
     let gap = patch.plane.distance(&frame.origin);
     let touching = |outline: &Polygon| outline.clip(gap - closed, normal.dot(&frame.s), normal.dot(&frame.t));

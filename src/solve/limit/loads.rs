@@ -73,4 +73,9 @@ impl Wrench {
         self.force += force;
         self.moment += lever.cross(&force);
     }
+
+    /// Both together.
+    pub fn plus(&self, other: &Wrench) -> Wrench {
+        Wrench { force: self.force + other.force, moment: self.moment + other.moment }
+    }
 }

@@ -12,7 +12,7 @@ use crate::math::Vec3;
 use crate::model::Support;
 use crate::shape::Frame;
 use crate::solve::limit::Cone;
-use crate::solve::limit::interfaces::{Blocks, Interface};
+use crate::solve::limit::interfaces::{Blocks, Interface, Rigid};
 use crate::solve::limit::loads::Wrench;
 use crate::solve::limit::strength::{Strength, apothem, facets};
 
@@ -118,6 +118,7 @@ fn first_rows(blocks: &Blocks) -> (Vec<Option<usize>>, usize) {
         .map(|block| {
             let rows = match block.support {
                 Support::Fixed | Support::Absent => return None,
+                Support::Free if block.pinned => 3,
                 Support::Free => 6,
                 Support::OutOfPlane => 3,
                 Support::Upright => 2,
@@ -129,11 +130,12 @@ fn first_rows(blocks: &Blocks) -> (Vec<Option<usize>>, usize) {
     (first, next)
 }
 
-/// The components of a wrench that a block feels, in the order of its rows; moments over `radius`.
-fn components(support: Support, wrench: &Wrench, radius: f64) -> ([f64; 6], usize) {
-    let (f, m) = (wrench.force, wrench.moment / radius);
-    match support {
+/// The components of a wrench that a block feels, in the order of its rows; moments over its radius.
+fn components(block: &Rigid, wrench: &Wrench) -> ([f64; 6], usize) {
+    let (f, m) = (wrench.force, wrench.moment / block.radius);
+    match block.support {
         Support::Fixed | Support::Absent => ([0.0; 6], 0),
+        Support::Free if block.pinned => ([m.x, m.y, m.z, 0.0, 0.0, 0.0], 3),
         Support::Free => ([f.x, f.y, f.z, m.x, m.y, m.z], 6),
         Support::OutOfPlane => ([f.x, f.z, m.y, 0.0, 0.0, 0.0], 3),
         Support::Upright => ([f.x, f.z, 0.0, 0.0, 0.0, 0.0], 2),
@@ -231,21 +233,18 @@ impl Program<'_> {
         let mut matrix = Matrix { right: vec![0.0; equations], ..Matrix::default() };
         for (b, block) in self.blocks.rigid.iter().enumerate() {
             let Some(row) = first[b] else { continue };
-            let (live, n) = components(block.support, &self.live[b], block.radius);
-            let (dead, _) = components(block.support, &self.dead[b], block.radius);
+            let (live, n) = components(block, &self.live[b]);
+            let (dead, _) = components(block, &self.dead[b]);
             for k in 0..n {
                 matrix.add(row + k, 0, live[k] / self.blocks.unit);
                 matrix.right[row + k] = -dead[k] / self.blocks.unit;
             }
         }
         for ((joint, interface, at), &(column, width)) in self.points().zip(columns) {
-            for (b, sign) in [(interface.incident, 1.0), (interface.reference, -1.0)] {
-                let Some(row) = first[b] else { continue };
-                let block = &self.blocks.rigid[b];
-                for (c, direction) in self.directions(joint).iter().enumerate().take(width) {
-                    let mut wrench = Wrench::default();
-                    wrench.add(at - block.centroid, direction * sign);
-                    let (values, n) = components(block.support, &wrench, block.radius);
+            for (c, direction) in self.directions(joint).into_iter().enumerate().take(width) {
+                for (b, wrench) in self.blocks.felt(interface, at, direction).into_iter().flatten() {
+                    let Some(row) = first[b] else { continue };
+                    let (values, n) = components(&self.blocks.rigid[b], &wrench);
                     (0..n).for_each(|k| matrix.add(row + k, column + c, values[k]));
                 }
             }
@@ -260,7 +259,7 @@ impl Program<'_> {
             let block = &self.blocks.rigid[rope.block];
             let mut wrench = Wrench::default();
             wrench.add(rope.at - block.centroid, -rope.direction);
-            let (values, n) = components(block.support, &wrench, block.radius);
+            let (values, n) = components(block, &wrench);
             (0..n).for_each(|r| matrix.add(row + r, ropes + k, values[r]));
         }
     }
@@ -324,6 +323,9 @@ impl Program<'_> {
             let w = |k: usize| z[row + k] / (unit * radius);
             match self.blocks.rigid[b].support {
                 Support::Fixed | Support::Absent => Wrench::default(),
+                Support::Free if self.blocks.rigid[b].pinned => {
+                    Wrench { force: Vec3::zeros(), moment: Vec3::new(w(0), w(1), w(2)) }
+                }
                 Support::Free => {
                     Wrench { force: Vec3::new(v(0), v(1), v(2)), moment: Vec3::new(w(3), w(4), w(5)) }
                 }

@@ -1,24 +1,27 @@
 //! The program as the interior-point method sees it: forces in groups, each with a cone of its own and at most two blocks
-//! that feel it.
+//! that feel it, and the strain of a cell.
 
 use crate::model::Support;
 use crate::solve::limit::Cone;
-use crate::solve::limit::interfaces::Rigid;
+use crate::solve::limit::interfaces::{Felt, Rigid};
 use crate::solve::limit::loads::Wrench;
 use crate::solve::limit::program::Program;
 
 /// Equations of a block. Those of a block that is held out of plane are empty where it is held.
 pub(super) const SIX: usize = 6;
 
+/// So many feel a force at most.
+pub(super) const ENDS: usize = 3;
+
 /// A wrench in the units of the program.
 pub(super) type Six = [f64; SIX];
 
 /// A contact point with three forces or, without shear, with one; or a rope with its pull.
 pub(super) struct Group {
-    /// The blocks that feel it, among those that move.
-    pub ends: [Option<usize>; 2],
-    /// What each of its forces does to either.
-    pub columns: [[Six; 3]; 2],
+    /// Who feels it, among the blocks that move and the strain.
+    pub ends: [Option<usize>; ENDS],
+    /// What each of its forces does to each.
+    pub columns: [[Six; 3]; ENDS],
     /// Whether it has shear, and so a friction cone.
     pub shears: bool,
     pub friction: f64,
@@ -59,31 +62,33 @@ impl Groups {
                 block.moves().then(|| next - 1)
             })
             .collect();
-        let felt = |block: usize, at, force| {
-            let rigid = &blocks.rigid[block];
-            let mut wrench = Wrench::default();
-            wrench.add(at - rigid.centroid, force);
-            six(rigid, &wrench)
-        };
         let points = program.points().zip(program.strengths).map(|((joint, interface, at), strength)| {
-            let directions = program.directions(joint);
-            let of = |block: usize, sign: f64| directions.map(|d| felt(block, at, d * sign));
+            let felt = program.directions(joint).map(|d| blocks.felt(interface, at, d));
+            let column = |force: &Felt, end: usize| {
+                force[end].as_ref().map_or([0.0; SIX], |(block, wrench)| six(&blocks.rigid[*block], wrench))
+            };
             Group {
-                ends: [moving[interface.incident], moving[interface.reference]],
-                columns: [of(interface.incident, 1.0), of(interface.reference, -1.0)],
+                ends: std::array::from_fn(|end| felt[0][end].as_ref().and_then(|(block, _)| moving[*block])),
+                columns: std::array::from_fn(|end| std::array::from_fn(|k| column(&felt[k], end))),
                 shears: strength.shears(),
                 friction: strength.friction,
                 cohesion: strength.cohesion / blocks.unit,
                 least: strength.needs_least().then(|| strength.least / blocks.unit),
             }
         });
-        let ropes = blocks.ties.iter().map(|rope| Group {
-            ends: [moving[rope.block], None],
-            columns: [[felt(rope.block, rope.at, -rope.direction), [0.0; SIX], [0.0; SIX]], [[0.0; SIX]; 3]],
-            shears: false,
-            friction: 0.0,
-            cohesion: 0.0,
-            least: Some(0.0),
+        let ropes = blocks.ties.iter().map(|rope| {
+            let rigid = &blocks.rigid[rope.block];
+            let mut pull = Wrench::default();
+            pull.add(rope.at - rigid.centroid, -rope.direction);
+            let nothing = [[0.0; SIX]; 3];
+            Group {
+                ends: [moving[rope.block], None, None],
+                columns: [[six(rigid, &pull), [0.0; SIX], [0.0; SIX]], nothing, nothing],
+                shears: false,
+                friction: 0.0,
+                cohesion: 0.0,
+                least: Some(0.0),
+            }
         });
         let groups = points.chain(ropes).collect();
         let load = |wrenches: &[Wrench]| {
@@ -91,6 +96,7 @@ impl Groups {
             all.map(|(block, wrench)| six(block, wrench).map(|x| x / blocks.unit)).collect()
         };
         let held = |block: &Rigid| match block.support {
+            _ if block.pinned => [true, true, true, false, false, false],
             Support::OutOfPlane => [false, true, false, true, false, true],
             Support::Upright => [false, true, false, true, true, true],
             Support::Free | Support::Fixed | Support::Absent => [false; SIX],
@@ -110,6 +116,7 @@ fn six(block: &Rigid, wrench: &Wrench) -> Six {
     let (f, m) = (wrench.force, wrench.moment / block.radius);
     match block.support {
         Support::Fixed | Support::Absent => [0.0; SIX],
+        Support::Free if block.pinned => [0.0, 0.0, 0.0, m.x, m.y, m.z],
         Support::Free => [f.x, f.y, f.z, m.x, m.y, m.z],
         Support::OutOfPlane => [f.x, 0.0, f.z, 0.0, m.y, 0.0],
         Support::Upright => [f.x, 0.0, f.z, 0.0, 0.0, 0.0],

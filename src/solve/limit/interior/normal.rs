@@ -8,8 +8,10 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{ColMut, Side};
 
 use crate::solve::limit::interior::cone::Triple;
-use crate::solve::limit::interior::groups::{Group, Groups, SIX, Six};
+use crate::solve::limit::interior::groups::{ENDS, Group, Groups, SIX, Six};
 
+/// Pairs of ends.
+const PAIRS: [(usize, usize); ENDS] = [(0, 1), (0, 2), (1, 2)];
 /// Added to the diagonal, relative to it, at first; what it grows by, and how often, where the matrix is not positive.
 const REGULARISATION: (f64, f64, u32) = (1e-14, 100.0, 4);
 
@@ -21,8 +23,8 @@ pub(super) struct Normal {
     /// Where a block's own six by six entries begin, and the length of its columns.
     own: Vec<usize>,
     heights: Vec<usize>,
-    /// Where the entries of the two blocks of a group begin, and which of the two has the columns.
-    between: Vec<Option<(usize, usize)>>,
+    /// For every group and pair of its ends where their entries begin, and which two they are: that with the columns first.
+    between: Vec<[Option<(usize, usize, usize)>; ENDS]>,
     factor: Option<Llt<usize, f64>>,
 }
 
@@ -32,8 +34,10 @@ impl Normal {
         let n = groups.dead.len();
         let mut rows: Vec<Vec<usize>> = (0..n).map(|b| vec![b]).collect();
         for group in &groups.groups {
-            if let [Some(a), Some(b)] = group.ends {
-                rows[a.min(b)].push(a.max(b));
+            for (a, b) in PAIRS.map(|(a, b)| (group.ends[a], group.ends[b])) {
+                if let (Some(a), Some(b)) = (a, b) {
+                    rows[a.min(b)].push(a.max(b));
+                }
             }
         }
         let (mut col_ptr, mut row_idx) = (vec![0], Vec::new());
@@ -52,10 +56,13 @@ impl Normal {
             .groups
             .iter()
             .map(|group| {
-                let [Some(a), Some(b)] = group.ends else { return None };
-                let (column, row) = (a.min(b), a.max(b));
-                let place = rows[column].binary_search(&row).unwrap_or_default();
-                Some((own[column] + SIX * place, usize::from(b < a)))
+                PAIRS.map(|(first, second)| {
+                    let (a, b) = (group.ends[first]?, group.ends[second]?);
+                    let (column, row) = (a.min(b), a.max(b));
+                    let place = rows[column].binary_search(&row).unwrap_or_default();
+                    let (first, second) = if b < a { (second, first) } else { (first, second) };
+                    Some((own[column] + SIX * place, first, second))
+                })
             })
             .collect();
         let values = vec![0.0; row_idx.len()];
@@ -68,15 +75,16 @@ impl Normal {
     pub fn factorise(&mut self, groups: &Groups, inverses: &[[Triple; 3]]) -> bool {
         self.values.fill(0.0);
         for ((k, group), inverse) in groups.groups.iter().enumerate().zip(inverses) {
-            let weighted = group.columns.map(|columns| weighted(&columns, inverse));
+            let mut weighted = [[[0.0; SIX]; 3]; ENDS];
             for (end, block) in group.ends.iter().enumerate() {
                 if let Some(b) = *block {
+                    weighted[end] = times(&group.columns[end], inverse);
                     self.add(self.own[b], self.heights[b], &group.columns[end], &weighted[end]);
                 }
             }
-            if let Some((place, first)) = self.between[k] {
+            for (place, first, second) in self.between[k].into_iter().flatten() {
                 let column = group.ends[first].unwrap_or_default();
-                self.add(place, self.heights[column], &group.columns[1 - first], &weighted[first]);
+                self.add(place, self.heights[column], &group.columns[second], &weighted[first]);
             }
         }
         let (mut added, factor, patience) = REGULARISATION;
@@ -126,7 +134,7 @@ impl Normal {
 }
 
 /// The columns times a symmetric matrix.
-fn weighted(columns: &[Six; 3], by: &[Triple; 3]) -> [Six; 3] {
+fn times(columns: &[Six; 3], by: &[Triple; 3]) -> [Six; 3] {
     std::array::from_fn(|j| {
         std::array::from_fn(|r| {
             columns[0][r] * by[0][j] + columns[1][r] * by[1][j] + columns[2][r] * by[2][j]
