@@ -108,6 +108,7 @@ pub mod critic;
 pub mod ensemble;
 pub mod exchange;
 pub mod generate;
+pub mod homogenise;
 pub mod interrupt;
 pub mod law;
 pub mod math;

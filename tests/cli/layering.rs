@@ -19,6 +19,8 @@ const HOUSE: &[(&str, &[&str])] = &[
     ("contact", &["math", "shape", "model"]),
     ("generate", &["math", "shape", "random", "law", "model"]),
     ("solve", &["interrupt", "math", "shape", "law", "model", "contact"]),
+    // A wall seen as a plate: solvers' answers for cells of stones, put together.
+    ("homogenise", &["interrupt", "math", "shape", "law", "model", "contact", "solve"]),
     // `shape`, beyond the house's first plan: a pressure is integrated over faces, and end blocks are shapes.
     ("protocol", &["math", "shape", "law", "motion", "model", "contact", "solve"]),
     ("study", &["math", "random", "stats", "motion", "law", "model", "generate", "solve", "protocol"]),

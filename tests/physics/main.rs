@@ -2,6 +2,7 @@
 
 mod agreement;
 mod base_motion;
+mod cells;
 mod closed_form_cases;
 mod closed_forms;
 mod crushing;
@@ -11,6 +12,8 @@ mod events;
 mod fixture;
 mod grains;
 mod holding;
+mod homogenised_moduli;
+mod homogenised_strength;
 mod implicit;
 mod limit_answers;
 mod limit_column;

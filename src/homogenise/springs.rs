@@ -1,0 +1,185 @@
+//! The joints of a cell or a window as springs between rigid stones.
+
+use crate::contact::{self, Feature, Patch, area_shares, find_patch, periodic_joints};
+use crate::law::{PATCHES_ALONG, Sampling};
+use crate::math::Vec3;
+use crate::model::{Cell, JointLaws, Window};
+use crate::shape::Polygon;
+
+/// Stones, the springs between them, and how large a piece of the plate they are.
+///
+/// A joint counts where its stones touch, with its whole area, whatever presses on it: the moduli are those of a wall whose joints
+/// are all closed. Where stiffness grows with closure it is that at a stated pressure.
+#[derive(Clone, Debug)]
+pub struct Springs {
+    /// Centroids of the stones (m).
+    pub(super) stones: Vec<Vec3>,
+    pub(super) joints: Vec<Spring>,
+    /// Thickness of the plate (m) and area of the piece (m^2).
+    pub(super) thickness: f64,
+    pub(super) area: f64,
+    /// Whether it repeats itself.
+    pub(super) periodic: bool,
+}
+
+/// A joint.
+#[derive(Clone, Debug)]
+pub(super) struct Spring {
+    pub first: usize,
+    /// The stone on the other side; `None` where that is no stone of the piece.
+    pub second: Option<usize>,
+    /// From the other stone to the image of it that is meant (m); zero inside a cell.
+    pub shift: Vec3,
+    /// Whether it lies on the border of the piece.
+    pub border: bool,
+    /// Unit normal out of the first stone.
+    pub normal: Vec3,
+    /// Normal and shear stiffness (Pa/m).
+    pub kn: f64,
+    pub ks: f64,
+    /// Points and weights (m^2) that integrate quartic polynomials over the joint exactly.
+    pub points: Vec<(Vec3, f64)>,
+}
+
+impl Springs {
+    /// The joints of a cell at a `pressure` (Pa). `laws` is asked with the stones' numbers, for an image with that of its stone.
+    pub fn of_cell(cell: &Cell, laws: &dyn JointLaws, contact: &contact::Settings, pressure: f64) -> Springs {
+        let joints = periodic_joints(cell, contact)
+            .into_iter()
+            .filter(|joint| meets(&joint.patch))
+            .map(|joint| {
+                let (a, b) = (joint.first, joint.second);
+                let border = joint.shift != Vec3::zeros();
+                Spring {
+                    shift: joint.shift,
+                    border,
+                    ..spring((a, a), (Some(b), b), &joint.patch, laws, pressure)
+                }
+            })
+            .collect();
+        let stones = cell.blocks.iter().map(|block| block.shape.mass_properties().centroid).collect();
+        Springs { stones, joints, thickness: cell.thickness, area: cell.area(), periodic: true }
+    }
+
+    /// The joints of a window at a `pressure` (Pa), those with the stones around it on its border. `laws` is asked with the stones' numbers in the window:
+    /// those inside first, then those around.
+    pub fn of_window(
+        window: &Window,
+        laws: &dyn JointLaws,
+        contact: &contact::Settings,
+        pressure: f64,
+    ) -> Springs {
+        let inside = window.inside.len();
+        let mut joints = Vec::new();
+        for (a, block) in window.inside.iter().enumerate() {
+            let others = window.inside.iter().chain(&window.around).enumerate().skip(a + 1);
+            for (b, other) in others {
+                if let Some(patch) = find_patch(&block.shape, &other.shape, contact).filter(meets) {
+                    let second = (b < inside).then_some(b);
+                    joints.push(spring((a, a), (second, b), &patch, laws, pressure));
+                }
+            }
+        }
+        let stones = window.inside.iter().map(|block| block.shape.mass_properties().centroid).collect();
+        Springs { stones, joints, thickness: window.thickness, area: window.area, periodic: false }
+    }
+
+    /// Number of stones.
+    pub fn stones(&self) -> usize {
+        self.stones.len()
+    }
+
+    /// Number of joints, each once.
+    pub fn joints(&self) -> usize {
+        self.joints.len()
+    }
+}
+
+/// Whether two faces meet. Edges and corners that touch carry nothing: they have no area before anything moves.
+fn meets(patch: &Patch) -> bool {
+    matches!(patch.feature, Feature::Faces(..))
+}
+
+/// The spring of a patch between two blocks, each with its place among the stones and its number for the laws.
+fn spring(
+    (first, a): (usize, usize),
+    (second, b): (Option<usize>, usize),
+    patch: &Patch,
+    laws: &dyn JointLaws,
+    pressure: f64,
+) -> Spring {
+    let law = laws.of(a as u32, b as u32);
+    let normal = if patch.reference_is_second { -patch.plane.normal } else { patch.plane.normal };
+    Spring {
+        first,
+        second,
+        shift: Vec3::zeros(),
+        border: second.is_none(),
+        normal,
+        kn: law.normal.stiffness(law.normal.closure(pressure)),
+        ks: law.ks,
+        points: points(patch, law.sampling),
+    }
+}
+
+/// Points and weights that integrate over a joint where its stress is sampled.
+fn points(patch: &Patch, sampling: Sampling) -> Vec<(Vec3, f64)> {
+    let pieces = match sampling {
+        Sampling::Vertices => {
+            let vertices = &patch.polygon.vertices;
+            let shares = area_shares(vertices);
+            return vertices.iter().zip(shares).map(|(&v, share)| (patch.frame.lift(v), share)).collect();
+        }
+        Sampling::Patches(mask) => {
+            patch.pieces(PATCHES_ALONG, mask).into_iter().map(|cell| cell.outline).collect()
+        }
+        Sampling::Area => vec![patch.polygon.clone()],
+    };
+    let all = pieces.iter().flat_map(quadrature);
+    all.map(|(st, weight)| (patch.frame.lift(st), weight)).collect()
+}
+
+/// Six points in each triangle of a fan: exact for polynomials of degree four (Dunavant 1985).
+fn quadrature(polygon: &Polygon) -> Vec<([f64; 2], f64)> {
+    const RULE: [(f64, f64); 2] = [
+        (0.445_948_490_915_964_9, 0.223_381_589_678_011_47),
+        (0.091_576_213_509_770_74, 0.109_951_743_655_321_87),
+    ];
+    let Some((&o, rest)) = polygon.vertices.split_first() else { return Vec::new() };
+    let mut all = Vec::with_capacity(6 * rest.len());
+    for pair in rest.windows(2) {
+        let corners = [o, pair[0], pair[1]];
+        let [p, q] = [pair[0], pair[1]].map(|v| [v[0] - o[0], v[1] - o[1]]);
+        let area = 0.5 * (p[0] * q[1] - p[1] * q[0]);
+        for (share, weight) in RULE {
+            for opposite in 0..3 {
+                let of = |corner: usize| if corner == opposite { 1.0 - 2.0 * share } else { share };
+                let at = |k: usize| (0..3).map(|corner| of(corner) * corners[corner][k]).sum();
+                all.push(([at(0), at(1)], weight * area));
+            }
+        }
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quartics_are_integrated_exactly() {
+        // x^i y^j over the rectangle 2 x 3 from (1, -1).
+        let corners = vec![[1.0, -1.0], [3.0, -1.0], [3.0, 2.0], [1.0, 2.0]];
+        let points = quadrature(&Polygon { vertices: corners });
+        for i in 0..=4 {
+            for j in 0..=4 - i {
+                let sum: f64 = points.iter().map(|([x, y], w)| x.powi(i) * y.powi(j) * w).sum();
+                let along =
+                    |low: f64, high: f64, n: i32| (high.powi(n + 1) - low.powi(n + 1)) / f64::from(n + 1);
+                let exact = along(1.0, 3.0, i) * along(-1.0, 2.0, j);
+                // Sums of twelve products of numbers up to 81.
+                assert!((sum - exact).abs() < 1e-11, "{i} {j}: {sum} {exact}");
+            }
+        }
+    }
+}
