@@ -1,7 +1,7 @@
 //! Courses: the slab between two beds, and the stones between its head joints.
 
 use crate::generate::Outline;
-use crate::generate::draft::{CUT_TOLERANCE, CourseFault, Draft, Fault, Stone};
+use crate::generate::draft::{CUT_TOLERANCE, CourseFault, Draft, Extent, Fault, Stone};
 use crate::generate::outline::StoneFault;
 use crate::math::Vec3;
 use crate::random::{Family, Stream};
@@ -56,20 +56,23 @@ pub(crate) fn slabs(outline: &Outline, beds: &[Bed]) -> Result<Vec<Polyhedron>, 
     Ok(slabs)
 }
 
-/// A course being filled from x = 0 to the end of the wall.
+/// A course being filled from x = 0 to the end of the wall or cell.
 pub(crate) struct Course<'s> {
     slab: &'s Polyhedron,
     index: u32,
     length: f64,
-    /// Head joints, as the middle of their slots, with both ends of the wall (m).
+    extent: Extent,
+    /// Head joints, as the middle of their slots, with both ends (m).
     joints: Vec<f64>,
     /// The stones between them, each whole or in its wythes, and whether it is a header.
     laid: Vec<(Vec<Stone>, bool)>,
 }
 
 impl<'s> Course<'s> {
-    pub(crate) fn new(slab: &'s Polyhedron, index: u32, length: f64) -> Self {
-        Course { slab, index, length, joints: vec![0.0], laid: Vec::new() }
+    /// An empty course in its slab, which spans the length of the draft's outline.
+    pub(crate) fn new(draft: &Draft, slab: &'s Polyhedron, index: u32) -> Self {
+        let (length, extent) = (draft.layout.outline.length, draft.extent);
+        Course { slab, index, length, extent, joints: vec![0.0], laid: Vec::new() }
     }
 
     fn end(&self) -> f64 {
@@ -85,15 +88,16 @@ impl<'s> Course<'s> {
         self.end() >= self.length
     }
 
-    /// The stone from the last joint to `to`, less its half of the slots at inner joints.
+    /// The stone from the last joint to `to`, less its half of the slots at its head joints.
     fn stone(&self, from: f64, to: f64, gap: f64) -> Option<Polyhedron> {
-        let left = if from > 0.0 { from + 0.5 * gap } else { from };
-        let right = if to < self.length { to - 0.5 * gap } else { to };
+        let goes_on = self.extent == Extent::Cell;
+        let left = if from > 0.0 || goes_on { from + 0.5 * gap } else { from };
+        let right = if to < self.length || goes_on { to - 0.5 * gap } else { to };
         let (_, rest) = self.slab.cut(&Plane { normal: Vec3::x(), offset: left }, CUT_TOLERANCE);
         rest?.cut(&Plane { normal: Vec3::x(), offset: right }, CUT_TOLERANCE).0
     }
 
-    /// Lays one stone of the given length; the one that reaches the end of the wall is cut to what is left there.
+    /// Lays one stone of the given length; the one that reaches the end is cut to what is left there.
     pub(crate) fn lay(&mut self, draft: &Draft, length: f64, header: bool) -> Result<(), StoneFault> {
         let to = self.end() + length;
         let to = if to >= self.length - CUT_TOLERANCE { self.length } else { to };
@@ -114,14 +118,16 @@ impl<'s> Course<'s> {
         Ok(())
     }
 
-    /// Closes the full course: its stones, and its inner head joints for the course above.
+    /// Closes the full course: its stones, and its head joints for the courses that follow. The ends of a wall are none; those of
+    /// a cell are one, at its beginning.
     pub(crate) fn finish(self, draft: &mut Draft, height: f64) -> (Vec<Stone>, Vec<f64>) {
-        let inner = self.joints[1..self.joints.len() - 1].to_vec();
+        let first = if self.extent == Extent::Cell { 0 } else { 1 };
+        let joints = self.joints[first..self.joints.len() - 1].to_vec();
         // The slab is a prism along x, so that a slot has its section.
-        draft.gaps += self.slab.volume() / self.length * draft.layout.head_joint_gap * inner.len() as f64;
+        draft.gaps += self.slab.volume() / self.length * draft.layout.head_joint_gap * joints.len() as f64;
         draft.realised.heights.push(height);
         draft.realised.lengths.extend(self.joints.windows(2).map(|pair| pair[1] - pair[0]));
-        (self.laid.into_iter().flat_map(|(stones, _)| stones).collect(), inner)
+        (self.laid.into_iter().flat_map(|(stones, _)| stones).collect(), joints)
     }
 }
 
@@ -130,29 +136,49 @@ pub(crate) struct Lengths<'a> {
     pub(crate) family: &'a Family,
     /// Factor on every length of this wall.
     pub(crate) factor: f64,
-    /// Least distance to the head joints of the course below (m).
+}
+
+/// The head joints (m) of a course above or below, and how far from them (m) others must stay.
+pub(crate) struct Neighbour {
+    pub(crate) joints: Vec<f64>,
     pub(crate) clear: f64,
+    /// Whether it is the first course of the next cell, which lies above, instead of the course below.
+    pub(crate) is_across: bool,
+}
+
+impl Neighbour {
+    /// A fault when a head joint at `x` (m) comes too close.
+    pub(crate) fn keeps_clear(&self, x: f64) -> Result<(), CourseFault> {
+        let clear = self.clear;
+        if !self.joints.iter().any(|joint| (joint - x).abs() < clear) {
+            return Ok(());
+        }
+        Err(if self.is_across {
+            CourseFault::OverlapAcross { clear }
+        } else {
+            CourseFault::Overlap { clear }
+        })
+    }
 }
 
 /// Fills a course with random lengths, at most `max_redraws` unusable draws in all.
 ///
-/// A draw is unusable when its stone breaks the limits or its head joint comes too close to one of the course
-/// `below`. The stone that reaches the end takes what is left; a rest too short to be a stone is merged into its
+/// A draw is unusable when its stone breaks the limits or its head joint comes too close to one of a
+/// neighbour. The stone that reaches the end takes what is left; a rest too short to be a stone is merged into its
 /// neighbour.
 pub(crate) fn fill_at_random<'s>(
     draft: &mut Draft,
     slab: &'s Polyhedron,
     index: u32,
     lengths: &Lengths,
-    below: &[f64],
+    neighbours: &[Neighbour],
 ) -> Result<Course<'s>, Fault> {
     let mut stream = draft.stream("stone length", index);
     let mut headers = draft.stream("header", index);
-    let wall_length = draft.layout.outline.length;
-    let mut course = Course::new(slab, index, wall_length);
+    let mut course = Course::new(draft, slab, index);
     let (mut redraws, mut stuck, mut header) = (0, 0, draft.is_header(&mut headers));
     while !course.is_full() {
-        match draw_stone(draft, &mut course, lengths, below, header, &mut stream, redraws == 0) {
+        match draw_stone(draft, &mut course, lengths, neighbours, header, &mut stream, redraws == 0) {
             Ok(()) => {
                 stuck = 0;
                 header = draft.is_header(&mut headers);
@@ -164,7 +190,7 @@ pub(crate) fn fill_at_random<'s>(
                     return Err(Fault::Course { course: index, fault });
                 }
                 if stuck > STEP_BACK {
-                    (course, stuck) = (Course::new(slab, index, wall_length), 0);
+                    (course, stuck) = (Course::new(draft, slab, index), 0);
                 }
             }
         }
@@ -180,7 +206,7 @@ fn draw_stone(
     draft: &mut Draft,
     course: &mut Course,
     lengths: &Lengths,
-    below: &[f64],
+    neighbours: &[Neighbour],
     header: bool,
     stream: &mut Stream,
     first: bool,
@@ -200,8 +226,6 @@ fn draw_stone(
             Err(_) => course.merge_rest(draft).map_err(CourseFault::from),
         };
     }
-    if below.iter().any(|joint| (joint - to).abs() < lengths.clear) {
-        return Err(CourseFault::Overlap { clear: lengths.clear });
-    }
+    neighbours.iter().try_for_each(|own| own.keeps_clear(to))?;
     course.lay(draft, drawn, header).map_err(CourseFault::from)
 }

@@ -2,7 +2,7 @@
 //! 3DEC's random joint sets.
 
 use crate::generate::course::MAX_STONES;
-use crate::generate::draft::{CUT_TOLERANCE, CutFault, Draft, Fault, Stone};
+use crate::generate::draft::{CUT_TOLERANCE, CutFault, Draft, Extent, Fault, Stone};
 use crate::generate::outline::StoneFault;
 use crate::generate::{DipAbout, Sizes};
 use crate::math::{Vec3, tan};
@@ -22,7 +22,7 @@ pub(crate) struct Cuts<'a> {
 
 /// Cuts the outline into stones and sorts them from the base up, then from x = 0, then from the back.
 pub(crate) fn lay(draft: &mut Draft, ask: &Cuts) -> Result<Vec<Stone>, Fault> {
-    let piece = draft.layout.outline.solid();
+    let piece = whole(draft)?;
     let mut streams = NodeStreams::new(draft, 1);
     let plan = plan(draft, ask, &piece, &mut streams)?;
     let mut stones = Vec::new();
@@ -32,6 +32,20 @@ pub(crate) fn lay(draft: &mut Draft, ask: &Cuts) -> Result<Vec<Stone>, Fault> {
         p.z.total_cmp(&q.z).then(p.x.total_cmp(&q.x)).then(p.y.total_cmp(&q.y))
     });
     Ok(stones)
+}
+
+/// The solid to cut: the outline, in a cell less half a slot at either end, which together are one head joint.
+fn whole(draft: &mut Draft) -> Result<Polyhedron, Fault> {
+    let (solid, gap) = (draft.layout.outline.solid(), draft.layout.head_joint_gap);
+    if draft.extent == Extent::Wall {
+        return Ok(solid);
+    }
+    let at = |offset| Plane { normal: Vec3::x(), offset };
+    let length = draft.layout.outline.length;
+    let rest = solid.cut(&at(0.5 * gap), CUT_TOLERANCE).1;
+    let rest = rest.and_then(|rest| rest.cut(&at(length - 0.5 * gap), CUT_TOLERANCE).0);
+    draft.gaps += gap * draft.layout.outline.section_area();
+    rest.ok_or(Fault::Cut { node: 1, draws: 1, fault: CutFault::Stone(StoneFault::Vanished) })
 }
 
 /// A piece of the wall and where it is to be cut.

@@ -38,6 +38,15 @@ impl Display for Place {
     }
 }
 
+/// What is built: it decides what lies at the border.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Extent {
+    /// A wall: it stands on the ground, and its ends are closed faces.
+    Wall,
+    /// A cell of a tiling: its ends are head joints like all others, and under its lowest course lies another cell.
+    Cell,
+}
+
 /// What went wrong in one attempt.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub(crate) enum Fault {
@@ -71,6 +80,8 @@ pub(crate) enum CourseFault {
     Stone(#[from] StoneFault),
     #[error("a head joint lies closer than {clear:.4} m to one of the course below")]
     Overlap { clear: f64 },
+    #[error("a head joint lies closer than {clear:.4} m to one of the first course of the next cell")]
+    OverlapAcross { clear: f64 },
     #[error("a stone length is not positive")]
     NotPositive,
 }
@@ -96,6 +107,7 @@ pub(crate) struct Tally {
 /// One attempt.
 pub(crate) struct Draft<'a> {
     pub(crate) layout: &'a Layout,
+    pub(crate) extent: Extent,
     streams: &'a Streams,
     attempt: u32,
     pub(crate) tally: &'a mut Tally,
@@ -106,8 +118,14 @@ pub(crate) struct Draft<'a> {
 }
 
 impl<'a> Draft<'a> {
-    pub(crate) fn new(layout: &'a Layout, streams: &'a Streams, attempt: u32, tally: &'a mut Tally) -> Self {
-        Draft { layout, streams, attempt, tally, realised: Realised::default(), merges: 0, gaps: 0.0 }
+    pub(crate) fn new(
+        layout: &'a Layout,
+        extent: Extent,
+        streams: &'a Streams,
+        attempt: u32,
+        tally: &'a mut Tally,
+    ) -> Self {
+        Draft { layout, extent, streams, attempt, tally, realised: Realised::default(), merges: 0, gaps: 0.0 }
     }
 
     /// The stream of a quantity at a place. A redraw continues it; a fresh start of the whole wall has its own.

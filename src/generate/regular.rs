@@ -24,7 +24,7 @@ pub(crate) fn lay(draft: &mut Draft, length: f64, height: f64, overlap: f64) -> 
     for (index, slab) in slabs.iter().enumerate() {
         let index = index as u32;
         let mut headers = draft.stream("header", index);
-        let mut course = Course::new(slab, index, outline.length);
+        let mut course = Course::new(draft, slab, index);
         let first = if index % 2 == 1 && overlap > 0.0 { overlap * length } else { length };
         fill(draft, &mut course, first, length, &mut headers)
             .map_err(|fault| Fault::Course { course: index, fault })?;

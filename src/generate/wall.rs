@@ -2,7 +2,7 @@
 
 use crate::generate::coursed::{self, Coursed};
 use crate::generate::cut::{self, Cuts};
-use crate::generate::draft::{Draft, Fault, Stone, Tally};
+use crate::generate::draft::{Draft, Extent, Fault, Stone, Tally};
 use crate::generate::{Arrangement, Layout, regular, wedge};
 use crate::model::{Block, Support, Tag, Wall};
 use crate::random::{Family, Streams};
@@ -74,12 +74,22 @@ pub struct InvalidGeometry {
 /// # Errors
 /// [`InvalidGeometry`] when the attempts ran out, or at once when no attempt could succeed; never a substitute.
 pub fn generate(layout: &Layout, streams: &Streams) -> Result<Generated, InvalidGeometry> {
+    build(layout, Extent::Wall, streams, lay)
+}
+
+/// Attempt after attempt until `lay` has filled the outline.
+pub(crate) fn build(
+    layout: &Layout,
+    extent: Extent,
+    streams: &Streams,
+    lay: impl Fn(&mut Draft) -> Result<Vec<Stone>, Fault>,
+) -> Result<Generated, InvalidGeometry> {
     let mut tally = Tally::default();
     let most = layout.limits.max_attempts.max(1);
     let mut attempts = 1;
     loop {
-        let mut draft = Draft::new(layout, streams, attempts, &mut tally);
-        match lay(&mut draft) {
+        let mut draft = Draft::new(layout, extent, streams, attempts, &mut tally);
+        match attempt(&mut draft, &lay) {
             Ok(stones) => return Ok(finish(draft, stones, attempts)),
             Err(fault) if attempts == most || fault.is_final() => {
                 return Err(InvalidGeometry { reason: fault.to_string(), attempts, redraws: tally.redraws });
@@ -89,13 +99,22 @@ pub fn generate(layout: &Layout, streams: &Streams) -> Result<Generated, Invalid
     }
 }
 
-/// Lays the stones of one attempt.
-fn lay(draft: &mut Draft) -> Result<Vec<Stone>, Fault> {
+/// The stones of one attempt, with their wedges.
+fn attempt(
+    draft: &mut Draft,
+    lay: impl Fn(&mut Draft) -> Result<Vec<Stone>, Fault>,
+) -> Result<Vec<Stone>, Fault> {
     if !draft.layout.outline.has_volume() {
         return Err(Fault::NoOutline);
     }
     draft.realised.size_factor = 1.0;
-    let stones = match &draft.layout.arrangement {
+    let stones = lay(draft)?;
+    Ok(wedge::insert(draft, stones))
+}
+
+/// Lays the stones of a wall.
+fn lay(draft: &mut Draft) -> Result<Vec<Stone>, Fault> {
+    match &draft.layout.arrangement {
         Arrangement::Continuous { length, height } => regular::lay(draft, *length, *height, 0.0),
         Arrangement::Discontinuous { length, height, overlap } => {
             regular::lay(draft, *length, *height, *overlap)
@@ -108,13 +127,12 @@ fn lay(draft: &mut Draft) -> Result<Vec<Stone>, Fault> {
             let factor = size_factor(draft, wall_size_factor)?;
             cut::lay(draft, &Cuts { sizes, factor, dip, dip_about: *dip_about })
         }
-    }?;
-    Ok(wedge::insert(draft, stones))
+    }
 }
 
 /// The factor on all sizes of this wall. It is the same in every attempt: a mean size of which no wall can be built is
 /// an invalid geometry, not a reason to draw another one and so to narrow the population.
-fn size_factor(draft: &mut Draft, family: &Family) -> Result<f64, Fault> {
+pub(crate) fn size_factor(draft: &mut Draft, family: &Family) -> Result<f64, Fault> {
     let mut stream = draft.member_stream("wall size");
     let factor = draft.draw("wall size factor", family, 1.0, 0.0, &mut stream)?;
     draft.realised.size_factor = factor;

@@ -1,15 +1,15 @@
 //! Wedge stones: cut off the underside of a stone, at the face of the wall.
 
 use crate::generate::Limits;
-use crate::generate::draft::{CUT_TOLERANCE, Draft, Stone};
+use crate::generate::draft::{CUT_TOLERANCE, Draft, Extent, Stone};
 use crate::math::Vec3;
 use crate::model::Tag;
 use crate::shape::{Plane, Polyhedron};
 
-/// Stones whose lowest corner is not higher than this rest on the ground (m).
+/// Stones of a wall whose lowest corner is not higher than this rest on the ground (m).
 const ON_GROUND: f64 = 1e-6;
 
-/// Gives the stated share of the stones above the ground a wedge each; the wedge comes before its stone.
+/// Gives the stated share of the stones above the ground, all those of a cell, a wedge each; the wedge comes before its stone.
 ///
 /// Whether, on which face (as likely front as back where the stone shows on both), how high and how deep has its own
 /// stream per stone. A wedge that would leave less than a stone above it, or less than the smallest wedge volume, is
@@ -19,7 +19,8 @@ pub(crate) fn insert(draft: &mut Draft, stones: Vec<Stone>) -> Vec<Stone> {
     let mut all = Vec::with_capacity(2 * stones.len());
     for mut stone in stones {
         let wanted = draft.stream("wedge", stone.place).uniform() < wedges.share;
-        let may = stone.shape.bounds().0.z > ON_GROUND && (stone.shows[0] || stone.shows[1]);
+        let has_bed = draft.extent == Extent::Cell || stone.shape.bounds().0.z > ON_GROUND;
+        let may = has_bed && (stone.shows[0] || stone.shows[1]);
         if !(wanted && may) {
             all.push(stone);
             continue;
