@@ -1,4 +1,5 @@
-//! The nouns, for people: block, wall, clump, heap, outcome, and what becomes of a wall over time. No arrays for the machine here.
+//! The nouns, for people: block, wall, cell, window, clump, heap, outcome, and what becomes of a wall over time. No arrays for the
+//! machine here.
 
 mod block;
 mod cell;
@@ -8,12 +9,14 @@ mod outcome;
 mod plate;
 mod replay;
 mod wall;
+mod window;
 
 pub use block::{Block, Support, Tag};
-pub use cell::{Cell, Window};
+pub use cell::Cell;
 pub use clump::{Clump, Filling, Heap, Hollow, HollowFault};
 pub use movement::Movement;
 pub use outcome::{Level, Outcome};
 pub use plate::{Six, image_motion, plate_motion, plate_traction};
 pub use replay::{BuiltJoint, JointReading, Replay, ReplayState};
 pub use wall::{JointLaws, Wall};
+pub use window::{Side, Window, WindowFault};
