@@ -1,7 +1,8 @@
-//! From a layout to a wall: bond, sizes, dip, wedge stones. `canonical` holds walls with known answers, `elements`
-//! assemblies of other elements than stones.
+//! From a layout to a wall: bond, sizes, dip, wedge stones. `cell` makes periodic cells of the same layouts, `canonical` holds
+//! walls with known answers, `elements` assemblies of other elements than stones.
 
 pub mod canonical;
+mod cell;
 mod course;
 mod coursed;
 mod cut;
@@ -17,6 +18,7 @@ mod tests;
 mod wall;
 mod wedge;
 
+pub use cell::{CellFault, GeneratedCell, generate_cell};
 pub use layout::*;
 pub use sizes::Sizes;
 pub use wall::{Generated, InvalidGeometry, Realised, generate};

@@ -1,9 +1,11 @@
 //! Properties of generated walls: validity, fit, draws against requests, and streams.
 
+mod cells;
 mod draws;
 mod streams;
 mod surveyed;
 mod validity;
+mod windows;
 
 use crate::generate::{
     Arrangement, BatteredFace, DipAbout, Generated, Layout, Limits, Outline, Sizes, Wedges, Wythes, generate,
