@@ -44,7 +44,7 @@ pub struct GeneratedCell {
 ///   runs through all of them.
 ///
 /// ```
-/// use pirca::generate::{Arrangement, generate_cell, canonical};
+/// use pirca::generate::{Arrangement, generate_cell};
 /// use pirca::random::Streams;
 /// # use pirca::generate::{BatteredFace, Layout, Limits, Outline, Wythes};
 /// # use pirca::random::Family;
