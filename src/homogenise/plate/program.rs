@@ -1,0 +1,158 @@
+//! The linear program: the greatest multiplier whose loads a field of stress bears, in balance against every motion of the mesh and
+//! within the facets at every place. Its dual is the mechanism of the least multiplier. Solved by clarabel (Goulart and Chen 2024)
+//! on one thread: the same bits on the same machine.
+
+use clarabel::algebra::CscMatrix;
+use clarabel::solver::SupportedConeT::{NonnegativeConeT, ZeroConeT};
+use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus};
+
+use super::facet::{Facet, Units};
+use super::motion::{Place, Term};
+use super::wall::PlateFault;
+
+/// Relative gap and residuals of the program, in its own units: well below what the mesh and the facets leave open.
+const TOLERANCE: f64 = 1e-8;
+
+/// The program of a plate.
+pub(super) struct Program<'a> {
+    pub places: &'a [Place],
+    pub facets: &'a [Facet],
+    /// Power of the dead and of the live load on every velocity.
+    pub dead: &'a [f64],
+    pub live: &'a [f64],
+    /// The deflection at every rope, from the velocities.
+    pub ropes: &'a [Vec<Term<f64>>],
+    pub units: Units,
+}
+
+/// Its solution.
+pub(super) struct Solved {
+    /// The multiplier of the mechanism.
+    pub multiplier: f64,
+    /// By how much that is above the multiplier of the stresses.
+    pub gap: f64,
+    /// Velocities of the mechanism; the live load has the power 1 on them.
+    pub velocities: Vec<f64>,
+    /// Stress resultants (N/m and N) at every place.
+    pub stresses: Vec<[f64; 6]>,
+    /// Force (N) of every rope, along -y.
+    pub ropes: Vec<f64>,
+    pub iterations: u32,
+}
+
+/// Rows and columns as triplets.
+#[derive(Default)]
+struct Matrix {
+    rows: Vec<usize>,
+    columns: Vec<usize>,
+    values: Vec<f64>,
+}
+
+impl Matrix {
+    fn add(&mut self, row: usize, column: usize, value: f64) {
+        if value != 0.0 {
+            self.rows.push(row);
+            self.columns.push(column);
+            self.values.push(value);
+        }
+    }
+}
+
+impl Program<'_> {
+    /// Solves it. The unknowns are the multiplier, six stress resultants for every place, and the ropes' forces.
+    pub fn solve(&self) -> Result<Solved, PlateFault> {
+        let balance = self.dead.len();
+        let first_rope = 1 + 6 * self.places.len();
+        let unknowns = first_rope + self.ropes.len();
+        let mut matrix = Matrix::default();
+        let mut right: Vec<f64> = self.dead.iter().map(|d| d / self.units.force).collect();
+        self.balance(&mut matrix, first_rope);
+        self.strength(&mut matrix, &mut right);
+        for rope in 0..self.ropes.len() {
+            matrix.add(right.len(), first_rope + rope, -1.0);
+            right.push(0.0);
+        }
+        let rows = right.len();
+        let constraints =
+            CscMatrix::new_from_triplets(rows, unknowns, matrix.rows, matrix.columns, matrix.values);
+        let mut objective = vec![0.0; unknowns];
+        objective[0] = -1.0;
+        let cones = [ZeroConeT(balance), NonnegativeConeT(rows - balance)];
+        let quadratic = CscMatrix::zeros((unknowns, unknowns));
+        let mut solver = DefaultSolver::new(&quadratic, &objective, &constraints, &right, &cones, settings())
+            .expect("the program's dimensions agree");
+        solver.solve();
+        self.read(&solver.solution, first_rope)
+    }
+
+    /// Stresses and ropes against the loads, for every velocity.
+    fn balance(&self, matrix: &mut Matrix, first_rope: usize) {
+        let scale = self.units.stress().map(|s| s / self.units.force);
+        for (velocity, live) in self.live.iter().enumerate() {
+            matrix.add(velocity, 0, -live / self.units.force);
+        }
+        for (k, place) in self.places.iter().enumerate() {
+            for (velocity, rate) in &place.rate {
+                for c in 0..6 {
+                    matrix.add(*velocity, 1 + 6 * k + c, place.size * rate[c] * scale[c]);
+                }
+            }
+        }
+        for (k, rope) in self.ropes.iter().enumerate() {
+            rope.iter().for_each(|&(velocity, share)| matrix.add(velocity, first_rope + k, share));
+        }
+    }
+
+    /// Every facet at every place.
+    fn strength(&self, matrix: &mut Matrix, right: &mut Vec<f64>) {
+        let planes: Vec<_> = self.facets.iter().map(|f| self.units.plane(f)).collect();
+        for k in 0..self.places.len() {
+            for (normal, bound) in &planes {
+                (0..6).for_each(|c| matrix.add(right.len(), 1 + 6 * k + c, normal[c]));
+                right.push(*bound);
+            }
+        }
+    }
+
+    fn read(
+        &self,
+        solution: &clarabel::solver::DefaultSolution<f64>,
+        first_rope: usize,
+    ) -> Result<Solved, PlateFault> {
+        match solution.status {
+            SolverStatus::Solved | SolverStatus::AlmostSolved => {}
+            SolverStatus::DualInfeasible | SolverStatus::AlmostDualInfeasible => {
+                return Err(PlateFault::Unbounded);
+            }
+            SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => {
+                return Err(PlateFault::FallsAtRest);
+            }
+            other => return Err(PlateFault::NotSolved(format!("{other:?}"))),
+        }
+        let (x, z) = (&solution.x, &solution.z);
+        let unit = self.units.stress();
+        Ok(Solved {
+            multiplier: -solution.obj_val_dual,
+            gap: solution.obj_val - solution.obj_val_dual,
+            velocities: z[..self.dead.len()].iter().map(|v| -v / self.units.force).collect(),
+            stresses: x[1..first_rope]
+                .chunks_exact(6)
+                .map(|s| std::array::from_fn(|c| s[c] * unit[c]))
+                .collect(),
+            ropes: x[first_rope..].iter().map(|pull| pull * self.units.force).collect(),
+            iterations: solution.iterations,
+        })
+    }
+}
+
+fn settings() -> DefaultSettings<f64> {
+    DefaultSettings {
+        verbose: false,
+        max_threads: 1,
+        tol_gap_abs: TOLERANCE,
+        tol_gap_rel: TOLERANCE,
+        tol_feas: TOLERANCE,
+        presolve_enable: false,
+        ..DefaultSettings::default()
+    }
+}
