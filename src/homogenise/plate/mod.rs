@@ -24,6 +24,7 @@
 //! ([`Collapse::sliding`]). Flow is associated: what slides along a bed also opens it. Displacements are small.
 
 mod collapse;
+mod cuts;
 mod facet;
 mod mesh;
 mod motion;
@@ -33,5 +34,6 @@ mod tests;
 mod wall;
 
 pub use collapse::{Collapse, Mechanism, Section};
+pub use cuts::{Cuts, Ending, Refined};
 pub use facet::Facet;
 pub use wall::{Edge, Edges, Plate, PlateFault};

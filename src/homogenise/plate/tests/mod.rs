@@ -1,6 +1,7 @@
 //! Plates whose multiplier is known in closed form. The solver stops at a relative gap of 1e-8; tolerances of 1e-6 leave room for
 //! its residuals.
 
+mod cuts;
 mod dry;
 mod held;
 mod slabs;
