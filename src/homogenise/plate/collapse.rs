@@ -3,7 +3,7 @@
 use super::facet::{Facet, Units};
 use super::mesh::Mesh;
 use super::motion::{Motions, Term};
-use super::program::Program;
+use super::program::{Program, Solved};
 use super::wall::{Plate, PlateFault};
 
 /// How a plate collapses.
@@ -69,6 +69,15 @@ impl Plate {
     /// A plate or facets that make no sense; a live load that is borne whatever its size; a wall that no multiplier keeps up; a
     /// program that was not solved.
     pub fn collapse(&self, facets: &[Facet]) -> Result<Collapse, PlateFault> {
+        self.collapse_by(facets, |program| program.solve())
+    }
+
+    /// The collapse by one way or another to solve the program.
+    pub(super) fn collapse_by(
+        &self,
+        facets: &[Facet],
+        solve: impl FnOnce(&Program) -> Result<Solved, PlateFault>,
+    ) -> Result<Collapse, PlateFault> {
         self.check(facets)?;
         let mesh = Mesh::new([self.length, self.height], self.mesh);
         let motions = Motions::new(self, &mesh);
@@ -82,7 +91,7 @@ impl Plate {
             ropes: &ropes,
             units: Units::of(self.weight * self.height, facets),
         };
-        let solved = program.solve()?;
+        let solved = solve(&program)?;
         let sections = places.iter().zip(&solved.stresses).map(|(place, &stress)| Section {
             at: place.at,
             normal: place.normal,

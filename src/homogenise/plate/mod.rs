@@ -26,6 +26,7 @@
 mod collapse;
 mod cuts;
 mod facet;
+mod interior;
 mod mesh;
 mod motion;
 mod program;

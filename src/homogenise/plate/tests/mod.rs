@@ -1,10 +1,10 @@
-//! Plates whose multiplier is known in closed form. The solver stops at a relative gap of 1e-8; tolerances of 1e-6 leave room for
-//! its residuals.
+//! Plates whose multiplier is known in closed form. The solver stops at a relative gap of 1e-7, or 1e-6 where rounding ends it.
 
 mod cuts;
 mod dry;
 mod held;
 mod slabs;
+mod solvers;
 
 use super::{Collapse, Edge, Edges, Facet, Plate};
 
@@ -55,6 +55,6 @@ fn near(found: f64, expected: f64) {
 
 fn solved(plate: &Plate, facets: &[Facet]) -> Collapse {
     let collapse = plate.collapse(facets).expect("it collapses");
-    assert!(collapse.gap.abs() <= 1e-7 * collapse.multiplier.abs(), "gap {}", collapse.gap);
+    assert!(collapse.gap.abs() <= 1e-6 * collapse.multiplier.abs(), "gap {}", collapse.gap);
     collapse
 }
