@@ -79,6 +79,14 @@ fn sliding_out_of_plane_is_told_apart() {
 }
 
 #[test]
+fn ropes_keep_a_wall_from_sliding_out_but_not_back() {
+    let mut roped = Plate { base_friction: Some(0.1), ropes: vec![[1.0, 1.0]], ..wall([2, 2]) };
+    assert_eq!(solved(&roped, &beds(0.0)).sliding, None);
+    roped.live[1] = -WEIGHT;
+    assert_eq!(solved(&roped, &beds(0.0)).sliding, Some(0.1));
+}
+
+#[test]
 fn a_wall_in_mid_air_falls_at_rest_and_one_without_facets_never_does() {
     let mut floating = wall([2, 1]);
     floating.edges.bottom = Edge::Free;

@@ -44,6 +44,13 @@ fn ropes_along_the_top_of_a_wall_with_bond_leave_a_hinge_below_it() {
 }
 
 #[test]
+fn a_rope_halfway_up_leaves_the_upper_half_to_overturn() {
+    let mut plate = wall([2, 2]);
+    plate.ropes = vec![[1.0, 1.0]];
+    near(solved(&plate, &beds(0.0)).multiplier, THICKNESS / 1.0);
+}
+
+#[test]
 fn ropes_do_not_hold_a_wall_that_goes_back() {
     let mut back = roped([2, 2]);
     back.live[1] = -WEIGHT;

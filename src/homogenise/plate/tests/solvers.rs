@@ -50,6 +50,24 @@ fn both_solvers_agree() {
 }
 
 #[test]
+fn edges_fold_and_part_across_themselves_only() {
+    let collapse = propped([3, 2]).collapse(&cone(40)).unwrap();
+    let most = collapse.sections.iter().flat_map(|s| s.rate).fold(0.0, |a: f64, r| a.max(r.abs()));
+    let mut oblique = 0;
+    for section in &collapse.sections {
+        let Some([n1, n2]) = section.normal else { continue };
+        let [e11, e22, e12, chi11, chi22, chi12] = section.rate;
+        // Strain along the edge, then what is left of the curvature beside that across it.
+        let along = e11 * n2 * n2 + e22 * n1 * n1 - e12 * n1 * n2;
+        let fold = chi11 + chi22;
+        let rest = [chi11 - fold * n1 * n1, chi22 - fold * n2 * n2, chi12 - 2.0 * fold * n1 * n2];
+        assert!([along, rest[0], rest[1], rest[2]].iter().all(|x| x.abs() < 1e-9 * most), "{along} {rest:?}");
+        oblique += usize::from((fold * n1 * n2).abs() > 1e-3 * most);
+    }
+    assert!(oblique > 0, "no fold of this mechanism is oblique");
+}
+
+#[test]
 fn the_same_plate_collapses_to_the_same_bits() {
     let facets = cone(20);
     let collapses = [0, 1].map(|_| propped([2, 2]).collapse(&facets).unwrap());
