@@ -95,8 +95,13 @@ impl Springs {
     }
 }
 
+/// Unit normal of a patch out of the first stone.
+pub(super) fn outward(patch: &Patch) -> Vec3 {
+    if patch.reference_is_second { -patch.plane.normal } else { patch.plane.normal }
+}
+
 /// Whether two faces meet. Edges and corners that touch carry nothing: they have no area before anything moves.
-fn meets(patch: &Patch) -> bool {
+pub(super) fn meets(patch: &Patch) -> bool {
     matches!(patch.feature, Feature::Faces(..))
 }
 
@@ -109,21 +114,24 @@ fn spring(
     pressure: f64,
 ) -> Spring {
     let law = laws.of(a as u32, b as u32);
-    let normal = if patch.reference_is_second { -patch.plane.normal } else { patch.plane.normal };
     Spring {
         first,
         second,
         shift: Vec3::zeros(),
         border: second.is_none(),
-        normal,
+        normal: outward(patch),
         kn: law.normal.stiffness(law.normal.closure(pressure)),
         ks: law.ks,
-        points: points(patch, law.sampling),
+        points: points(patch, law.sampling, quadrature),
     }
 }
 
-/// Points and weights that integrate over a joint where its stress is sampled.
-fn points(patch: &Patch, sampling: Sampling) -> Vec<(Vec3, f64)> {
+/// Points and weights over a joint where its stress is sampled: by a `rule` in each of its pieces, or its corners with their shares.
+pub(super) fn points(
+    patch: &Patch,
+    sampling: Sampling,
+    rule: impl Fn(&Polygon) -> Vec<([f64; 2], f64)>,
+) -> Vec<(Vec3, f64)> {
     let pieces = match sampling {
         Sampling::Vertices => {
             let vertices = &patch.polygon.vertices;
@@ -135,7 +143,7 @@ fn points(patch: &Patch, sampling: Sampling) -> Vec<(Vec3, f64)> {
         }
         Sampling::Area => vec![patch.polygon.clone()],
     };
-    let all = pieces.iter().flat_map(quadrature);
+    let all = pieces.iter().flat_map(rule);
     all.map(|(st, weight)| (patch.frame.lift(st), weight)).collect()
 }
 

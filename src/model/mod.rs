@@ -16,7 +16,7 @@ pub use cell::Cell;
 pub use clump::{Clump, Filling, Heap, Hollow, HollowFault};
 pub use movement::Movement;
 pub use outcome::{Level, Outcome};
-pub use plate::{Six, image_motion, plate_motion, plate_traction};
+pub use plate::{Six, image_motion, image_turn, plate_motion, plate_traction};
 pub use replay::{BuiltJoint, JointReading, Replay, ReplayState};
 pub use wall::{JointLaws, Wall};
 pub use window::{Side, Window, WindowFault};

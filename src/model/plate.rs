@@ -23,6 +23,13 @@ pub fn image_motion(shift: Vec3, at: Vec3) -> [Six; 3] {
     ]
 }
 
+/// Turn of the image at the translation `shift`, past that of the stone itself, by each unit strain: rows x, y, z. It is that of
+/// [`image_motion`], and nothing about the y axis.
+pub fn image_turn(shift: Vec3) -> [Six; 3] {
+    let s = shift;
+    [[0.0, 0.0, 0.0, 0.0, -s.z, -0.5 * s.x], [0.0; 6], [0.0, 0.0, 0.0, s.x, 0.0, 0.5 * s.z]]
+}
+
 /// Motion of a point of a plate that is strained uniformly, by each unit strain: `E x - y K x` in the plane, `x . K x / 2` out of
 /// it. That of an image is the difference between two points.
 pub fn plate_motion(at: Vec3) -> [Six; 3] {
@@ -57,6 +64,20 @@ mod tests {
             for (k, motion) in image.iter().enumerate() {
                 // Differences of numbers near 1.
                 assert!((there[row][k] - here[row][k] - motion).abs() < 1e-15, "{row} {k}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_image_moves_as_a_rigid_body() {
+        let (shift, at, way) =
+            (Vec3::new(0.7, 0.0, -0.3), Vec3::new(0.2, 0.05, 0.9), Vec3::new(0.3, -0.2, 0.4));
+        let (here, there, turn) = (image_motion(shift, at), image_motion(shift, at + way), image_turn(shift));
+        for k in 0..6 {
+            let turned = Vec3::new(turn[0][k], turn[1][k], turn[2][k]).cross(&way);
+            for row in 0..3 {
+                // Differences of numbers near 1.
+                assert!((there[row][k] - here[row][k] - turned[row]).abs() < 1e-15, "{row} {k}");
             }
         }
     }
