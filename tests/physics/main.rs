@@ -13,6 +13,7 @@ mod fixture;
 mod grains;
 mod holding;
 mod homogenised_moduli;
+mod homogenised_strained;
 mod homogenised_strength;
 mod implicit;
 mod limit_answers;
