@@ -127,22 +127,49 @@ fn beds_without_head_joints_turn_under_uniform_pressure() {
         // One overlap for each course of every head joint, under half of what presses on a stone.
         let exact = 0.6 * mean * 0.5 * length / height / thickness;
         let found = strength(&bond.cell(|_, _| 0.0), &friction(0.6), BEND_ALONG);
-        println!("{length}: {found} {exact}");
         assert!((found / exact - 1.0).abs() < 3e-3, "{length}: {found} {exact}");
     }
 }
 
-#[test]
-fn random_head_joints_weaken_a_wall_that_does_not_dilate() {
-    // Limit analysis lets pressure go where it is wanted.
-    let law = friction(0.6);
-    for member in 1..4 {
-        let cell = Bond::of(STONE, 4, 4).shifted(0.2, member);
-        for direction in [PULL, BEND_ALONG] {
-            let [found, most] = [strength(&cell, &law, direction), associative(&cell, &law, direction)];
-            println!("{member} {direction:?} {found} {most}");
-            assert!(found < 0.8 * most, "{member} {direction:?}: {found} {most}");
+/// The least pull of a crack through head joints that crosses the beds under uniform pressure: friction on what it follows of
+/// them, by dynamic programming over the courses.
+fn weakest_crack(cell: &Cell, n: usize, mu: f64) -> f64 {
+    let [length, height, _] = STONE;
+    let period = n as f64 * length;
+    let heads: Vec<Vec<f64>> = (0..n)
+        .map(|course| {
+            let own = cell.blocks[n * course..n * (course + 1)].iter().map(|b| b.shape.bounds().0.x);
+            own.flat_map(|x| [x - period, x, x + period]).collect()
+        })
+        .collect();
+    let closed = |start: usize| {
+        let mut ways: Vec<f64> = (0..3 * n).map(|k| if k == start { 0.0 } else { f64::INFINITY }).collect();
+        for course in 0..n {
+            let (here, next) = (&heads[course], &heads[(course + 1) % n]);
+            let least = |to: &f64| {
+                let all = here.iter().zip(&ways).map(|(from, way)| way + (to - from).abs());
+                all.fold(f64::INFINITY, f64::min)
+            };
+            ways = next.iter().map(least).collect();
         }
+        ways[start]
+    };
+    mu * (0..3 * n).map(closed).fold(f64::INFINITY, f64::min) / (n as f64 * height)
+}
+
+#[test]
+fn a_wall_that_does_not_dilate_cracks_along_the_weakest_way_through_its_head_joints() {
+    let (law, n) = (friction(0.6), 4);
+    assert!((weakest_crack(&Bond::of(STONE, n, n).cell(|_, _| 0.0), n, 0.6) - 0.6).abs() < 1e-12);
+    for member in 0..6 {
+        let cell = Bond::of(STONE, n, n).shifted(0.2, member);
+        let (found, crack) = (strength(&cell, &law, PULL), weakest_crack(&cell, n, 0.6));
+        // Stones that are pulled by friction turn a little, and press more on one end.
+        assert!((found / crack - 1.0).abs() < 0.02, "{member}: {found} {crack}");
+        // Limit analysis lets the pressure go where dilatancy wants it.
+        assert!((associative(&cell, &law, PULL) - 0.6).abs() < 1e-6);
+        let [turned, most] = [strength(&cell, &law, BEND_ALONG), associative(&cell, &law, BEND_ALONG)];
+        assert!(turned < 0.7 * most, "{member}: {turned} {most}");
     }
 }
 

@@ -10,12 +10,11 @@
 //! that holds a stone has slipped or opened it is singular; so the matrix, and it alone, has a small share of the joints' elastic
 //! stiffness besides. What is found has none of it: it balances without.
 
-use faer::prelude::Solve;
-use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
-use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
+use faer::sparse::Pair;
 
 use crate::contact::{self, periodic_joints};
 use crate::homogenise::strained::joint::{Joint, Lengths, UNKNOWNS};
+use crate::homogenise::strained::sparse::Sparse;
 use crate::math::Vec3;
 use crate::model::{Cell, JointLaws, Six};
 
@@ -53,9 +52,7 @@ pub(super) struct Balance {
     /// Largest stiffness of a joint, and largest force that may be out of balance (N/m, N).
     stiff: f64,
     small: f64,
-    pattern: SymbolicSparseColMat<usize>,
-    order: Argsort<usize>,
-    symbolic: SymbolicLu<usize>,
+    matrix: Sparse,
 }
 
 impl Balance {
@@ -87,8 +84,7 @@ impl Balance {
         let (dead, live): (Six, Six) = (load(dead), load(live));
         let size = live.iter().map(|x| x * x).sum::<f64>().sqrt();
         let stiff = joints.iter().map(Joint::stiffness).fold(0.0, f64::max);
-        let (pattern, order) = pattern(&joints, stones)?;
-        let symbolic = SymbolicLu::try_new(pattern.as_ref()).ok()?;
+        let matrix = matrix(&joints, stones)?;
         Some(Balance {
             joints,
             stones,
@@ -98,9 +94,7 @@ impl Balance {
             work: pressure * area,
             stiff,
             small: BALANCED * pressure * lengths.stone,
-            pattern,
-            order,
-            symbolic,
+            matrix,
         })
     }
 
@@ -200,11 +194,7 @@ impl Balance {
         values.push(if given == Given::Dead { self.stiff } else { 0.0 });
         // Stones that are repeated can shift together: nothing presses on what holds the first one.
         values.extend([self.stiff; 3]);
-        let matrix = SparseColMat::new_from_argsort(self.pattern.clone(), &self.order, &values).ok()?;
-        let factor = Lu::try_new_with_symbolic(self.symbolic.clone(), matrix.as_ref()).ok()?;
-        let mut step: Vec<f64> = residual.iter().map(|force| -force).collect();
-        factor.solve_in_place(faer::ColMut::from_slice_mut(&mut step));
-        step.iter().all(|x| x.is_finite()).then_some(step)
+        self.matrix.solve(&values, residual.iter().map(|force| -force).collect())
     }
 }
 
@@ -214,18 +204,22 @@ fn places(joint: &Joint, stones: usize) -> [usize; UNKNOWNS] {
     std::array::from_fn(|k| 6 * first[k / 6] + k % 6)
 }
 
-/// Where the values of [`Balance::step`] stand in the matrix.
-fn pattern(joints: &[Joint], stones: usize) -> Option<(SymbolicSparseColMat<usize>, Argsort<usize>)> {
+/// The matrix for the values of [`Balance::step`].
+fn matrix(joints: &[Joint], stones: usize) -> Option<Sparse> {
     let mut entries = Vec::new();
+    let mut joints_of = vec![0; stones];
     for joint in joints {
         let places = places(joint, stones);
         entries.extend(places.iter().flat_map(|&row| places.map(|col| Pair::new(row, col))));
+        [joint.first, joint.second].into_iter().for_each(|stone| joints_of[stone] += 1);
     }
     let (strain, last) = (6 * stones, 6 * stones + 6);
     entries.extend((strain..last).flat_map(|k| [Pair::new(k, last), Pair::new(last, k)]));
     entries.push(Pair::new(last, last));
     entries.extend((0..3).map(|k| Pair::new(k, k)));
-    SymbolicSparseColMat::try_new_from_indices(last + 1, last + 1, &entries).ok()
+    // A stone's equations have its own unknowns, those of the stones that it touches and of the strain.
+    let most = 6 * (joints_of.into_iter().max()? + 2);
+    Sparse::of(last + 1, &entries, most)
 }
 
 fn norm(residual: &[f64]) -> f64 {

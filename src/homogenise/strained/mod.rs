@@ -14,6 +14,7 @@
 
 mod balance;
 mod joint;
+mod sparse;
 
 use crate::contact;
 use crate::homogenise::Direction;
