@@ -26,6 +26,7 @@ mod reference;
 mod seeded;
 pub mod selection;
 mod sequential;
+mod size_effect;
 pub mod strata;
 pub mod subset;
 mod summary;
@@ -54,6 +55,7 @@ pub use ratio::{paired_ratio_of_means, ratio_of_means};
 pub use reference::student_quantile;
 pub use seeded::{spread_bootstrap, stream_of};
 pub use sequential::{Looks, Statistic, relative_half_width};
+pub use size_effect::{Settled, SizeEffect, size_effect};
 pub use summary::{Summary, above_zero, sigma_factors};
 pub use test_plan::{
     Aim, characteristic_loss, pairs_to_see, power_of_groups, smallest_seen, specimens_for_characteristic,
