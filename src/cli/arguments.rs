@@ -10,10 +10,11 @@ use clap_complete::Shell;
 use crate::cli::analyse::Analyse;
 use crate::cli::bank::POINTS;
 use crate::cli::help::{
-    ANALYSE, BANK, CAPACITY, CHECK, CITE, COMPARE, COMPLETIONS, DIAGNOSE, GENERATE, INFLUENCE, INIT, MAN,
-    MEASURED, MECHANISMS, MERGE, PICTURE, PLAN_TESTS, READINGS, REPORT, RUN, SCHEMA, SENSITIVITY, SHARD,
-    STATUS, WHOLE,
+    ANALYSE, BANK, CAPACITY, CHECK, CITE, COMPARE, COMPLETIONS, DIAGNOSE, GENERATE, HOMOGENISE, INFLUENCE,
+    INIT, MAN, MEASURED, MECHANISMS, MERGE, PICTURE, PLAN_TESTS, READINGS, REPORT, RUN, SCHEMA, SENSITIVITY,
+    SHARD, STATUS, WHOLE,
 };
+use crate::cli::homogenise::Homogenise;
 use crate::cli::rare::Method;
 use crate::cli::shard::arguments::{Merge, Shard, Status};
 use crate::cli::{influence, question, sensitivity};
@@ -104,6 +105,12 @@ pub(crate) enum Verb {
     /// those that are near to the best one get the walls.
     #[command(after_help = COMPARE)]
     Compare(Compare),
+    /// Say what a study's masonry is as a plate: stiffness, strength.
+    ///
+    /// Builds random cells of every arm, which repeat themselves without end, and gives their moduli between their bounds and the stresses
+    /// that they bear, with mean, sigma and COV, and what both do as cells grow.
+    #[command(after_help = HOMOGENISE)]
+    Homogenise(Homogenise),
     /// Say which readings of a study explain what was published.
     ///
     /// Where a source does not say all that it did, its statements may tell which of the possible readings is meant: the study's
@@ -235,6 +242,7 @@ impl Verb {
             | Verb::Capacity(Capacity { which, .. })
             | Verb::Influence(Influence { which, .. })
             | Verb::Compare(Compare { which, .. })
+            | Verb::Homogenise(Homogenise { which, .. })
             | Verb::Bank(Bank { which, .. })
             | Verb::Diagnose(Diagnose { which, .. })
             | Verb::PlanTests(PlanTests { which, .. })

@@ -3,9 +3,8 @@
 use crate::cli::answer::Answer;
 use crate::cli::arguments::{Compare, SameWithin};
 use crate::cli::failure::Failure;
-use crate::cli::{locate, output, question, report as page};
+use crate::cli::{arms, locate, output, question, report as page};
 use crate::ensemble::{Compared, Contest, Hopeless, Quantity, Row, Settings, is_random};
-use crate::math::edit_distance;
 use crate::report::{
     Question, SelectionSummary, selection_page, selection_running, selection_text, write_selection,
 };
@@ -27,7 +26,7 @@ pub(crate) fn compare(arguments: &Compare) -> Result<Answer, Failure> {
     let question = question::asked(&arguments.question, quantity, &study)?;
     let contest = Contest {
         study: &study,
-        arms: arms(&study, arguments)?,
+        arms: compared(&study, arguments)?,
         point: arguments.point,
         measure: measure(question, quantity),
         confidence: arguments.confidence,
@@ -64,33 +63,14 @@ fn arm_of(study: &Study, index: u32) -> &crate::study::Arm {
 }
 
 /// The arms that are asked for, by their places in the study: two or more, one of them random, all with this kn point.
-fn arms(study: &Study, arguments: &Compare) -> Result<Vec<u32>, Failure> {
-    let known: Vec<&str> = study.arms.iter().map(|arm| arm.name.as_str()).collect();
-    let mut chosen = Vec::new();
-    for name in &arguments.arms {
-        let Some(place) = known.iter().position(|own| own == name) else {
-            let nearest =
-                known.iter().min_by_key(|own| edit_distance(name, own)).copied().unwrap_or_default();
-            return Err(Failure::Usage(format!(
-                "--arms: {} has no arm `{name}`, the nearest is `{nearest}`; allowed are {}",
-                study.name,
-                known.join(", ")
-            )));
-        };
-        if chosen.contains(&(place as u32)) {
-            return Err(Failure::Usage(format!("--arms: `{name}` is named twice; name every arm once")));
-        }
-        chosen.push(place as u32);
-    }
-    if arguments.arms.is_empty() {
-        chosen = (0..known.len() as u32).collect();
-    }
+fn compared(study: &Study, arguments: &Compare) -> Result<Vec<u32>, Failure> {
+    let chosen = arms::named(study, &arguments.arms)?;
     if let [only] = chosen[..] {
         let found =
-            format!("one arm, `{}`, cannot be compared: two or more are needed", known[only as usize]);
+            format!("one arm, `{}`, cannot be compared: two or more are needed", arm_of(study, only).name);
         return Err(match arguments.arms.is_empty() {
             true => Failure::Input(format!("{}: {found}; add an [[arm]] to study.toml", study.name)),
-            false => Failure::Usage(format!("--arms: {found}; the study has {}", known.join(", "))),
+            false => Failure::Usage(format!("--arms: {found}; the study has {}", arms::names(study))),
         });
     }
     if !chosen.iter().any(|arm| is_random(arm_of(study, *arm))) {
@@ -99,18 +79,7 @@ fn arms(study: &Study, arguments: &Compare) -> Result<Vec<u32>, Failure> {
             study.name
         )));
     }
-    for arm in &chosen {
-        let own = arm_of(study, *arm);
-        if arguments.point as usize >= own.kn_points.len() {
-            return Err(Failure::Usage(format!(
-                "--point {}: arm `{}` has {} kn points; allowed is 0 to {}",
-                arguments.point,
-                own.name,
-                own.kn_points.len(),
-                own.kn_points.len() - 1
-            )));
-        }
-    }
+    chosen.iter().try_for_each(|arm| arms::has_point(arm_of(study, *arm), arguments.point))?;
     Ok(chosen)
 }
 

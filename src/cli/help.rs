@@ -19,7 +19,18 @@ const GROUPS: [(&str, &[&str]); 5] = [
     ("One wall", &["analyse", "generate", "picture"]),
     (
         "Many walls",
-        &["init", "check", "run", "report", "cite", "capacity", "compare", "influence", "readings"],
+        &[
+            "init",
+            "check",
+            "run",
+            "report",
+            "cite",
+            "capacity",
+            "compare",
+            "influence",
+            "homogenise",
+            "readings",
+        ],
     ),
     ("Many machines", &["shard", "status", "merge"]),
     ("Measured walls", &["plan-tests", "measured", "sensitivity", "bank", "diagnose", "mechanisms"]),
@@ -54,8 +65,8 @@ Example: pirca init my-wall
          pirca run my-wall
          pirca init my-tests --from tilting-table
 
-Built in are arrangements, dry-shear-walls, earthquake, edge-restraint, element-types, joint-arrangement, sources-of-scatter, tilting-block and \
-tilting-table. A folder that exists is left alone: choose another name.
+Built in are arrangements, dry-shear-walls, earthquake, edge-restraint, element-types, homogenisation, joint-arrangement, sources-of-scatter, \
+tilting-block and tilting-table. A folder that exists is left alone: choose another name.
 
 ",
     codes!()
@@ -219,6 +230,22 @@ that looking early costs nothing. Stopped and started again it goes on where it 
 ",
     codes!(),
     "\nAn answer, \"cannot be told apart\" and \"not decided\" all end with 0."
+);
+
+/// Of `homogenise`.
+pub(super) const HOMOGENISE: &str = concat!(
+    "\
+Example: pirca homogenise studies/homogenisation
+         pirca homogenise studies/homogenisation --arms random-heads --stones 4,8,16 --cells 100
+         pirca homogenise studies/homogenisation --method associative,elastic --directions in-plane
+
+A cell repeats itself without end, and the image of a stone moves as the stone does and with the plate's strain. It writes \
+homogenised.json, a line per cell (cells.csv), a line per point of its surface (surface.csv), sections of the surface (surface.svg, .png) and \
+the COV against the size of the cells (scatter.svg, .png). A mean has converged where it changes by less than its standard error as cells \
+grow and sigma falls as 1/n; a mean that goes on changing is reported as an effect of size.
+
+",
+    codes!()
 );
 
 /// Of `readings`.

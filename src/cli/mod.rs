@@ -3,6 +3,7 @@
 mod analyse;
 mod answer;
 mod arguments;
+mod arms;
 mod bank;
 mod capacity;
 mod check;
@@ -18,6 +19,7 @@ mod failure;
 mod frames;
 mod generate;
 mod help;
+mod homogenise;
 mod influence;
 mod init;
 mod judge;
@@ -125,6 +127,7 @@ fn done(verb: &Verb) -> Result<Option<Answer>, Failure> {
         Verb::Compare(arguments) => compare::compare(arguments),
         Verb::Diagnose(arguments) => diagnose::diagnose(arguments),
         Verb::Generate(arguments) => generate::generate(arguments),
+        Verb::Homogenise(arguments) => homogenise::homogenise(arguments),
         Verb::Influence(arguments) => influence::influence(arguments),
         Verb::Picture(arguments) => picture::picture(arguments),
         Verb::Report(arguments) => report::report(arguments),

@@ -2,7 +2,7 @@
 
 use crate::cli::arguments::PlanTests;
 use crate::cli::failure::Failure;
-use crate::cli::{locate, output, progress, question};
+use crate::cli::{arms, locate, output, progress, question};
 use crate::ensemble::{self, Settings, is_random};
 use crate::report::{Asked, TestPlan, test_plan_text, write_test_plan};
 use crate::stats::Aim;
@@ -20,15 +20,7 @@ pub(crate) fn plan_tests(arguments: &PlanTests) -> Result<(), Failure> {
         )));
     }
     question::needs_independent_walls(&study, "a plan of tests")?;
-    if let Some(arm) = study.arms.iter().find(|arm| arguments.point as usize >= arm.kn_points.len()) {
-        return Err(Failure::Usage(format!(
-            "--point {}: arm `{}` has {} kn points; allowed is 0 to {}",
-            arguments.point,
-            arm.name,
-            arm.kn_points.len(),
-            arm.kn_points.len() - 1
-        )));
-    }
+    study.arms.iter().try_for_each(|arm| arms::has_point(arm, arguments.point))?;
     let asked = Asked {
         specimens: arguments.specimens,
         known_cov: arguments.cov,

@@ -1,6 +1,7 @@
 //! From a study to a table of members: plan, evaluate in parallel, record, resume.
 
 mod added_columns;
+mod cells;
 mod columns;
 mod design;
 mod draws;
@@ -36,6 +37,7 @@ pub use crate::random::RANDOMISATIONS;
 /// What is known of a parameter of a wall that is given.
 pub use crate::random::{Scale, Spread};
 pub use added_columns::AddedColumns;
+pub use cells::{AskedOfCells, CellRow, CellTask, check_cell, evaluate_cell, run_cells};
 pub use design::{Task, evaluations, is_random, plan};
 pub use draws::{Draws, Evaluated, drawn};
 pub use elements::{ElementRow, Timed, evaluate_element, run_elements};

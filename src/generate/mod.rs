@@ -18,7 +18,7 @@ mod tests;
 mod wall;
 mod wedge;
 
-pub use cell::{CellFault, GeneratedCell, generate_cell};
+pub use cell::{CellFault, GeneratedCell, check_cell, generate_cell};
 pub use layout::*;
 pub use sizes::Sizes;
 pub use wall::{Generated, InvalidGeometry, Realised, generate};

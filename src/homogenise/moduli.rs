@@ -18,9 +18,11 @@ use crate::model::{Six, image_motion, plate_motion, plate_traction};
 /// Share of the largest load that rounding may leave to a pin.
 const BALANCED: f64 = 1e-6;
 
+/// What rounding may take off the least of the values of a difference of moduli, relative to the moduli.
+const ROUNDING: f64 = 1e-9;
+
 /// What holds on the border of a piece of the plate.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Border {
     /// It repeats itself: what is at one side is at the other.
     Periodic,
@@ -28,6 +30,20 @@ pub enum Border {
     Kinematic,
     /// It is loaded as in a plate that is stressed uniformly: a lower bound.
     Static,
+}
+
+impl Border {
+    /// All of them, from the stiffest to the softest.
+    pub const ALL: [Border; 3] = [Border::Kinematic, Border::Periodic, Border::Static];
+
+    /// Its name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Border::Periodic => "periodic",
+            Border::Kinematic => "kinematic",
+            Border::Static => "static",
+        }
+    }
 }
 
 /// Stiffness of a plate per area: forces and moments per length for each strain.
@@ -115,6 +131,11 @@ impl Moduli {
             stiffness: stiffness::<Bent, 6, 6>(springs, border)?,
             shear: stiffness::<Sheared, 3, 2>(springs, border)?,
         })
+    }
+
+    /// Whether no strain takes less work than with other moduli, but for rounding.
+    pub fn is_above(&self, other: &Moduli) -> bool {
+        is_above(self.stiffness, other.stiffness) && is_above(self.shear, other.shear)
     }
 }
 
@@ -308,6 +329,15 @@ fn sides(joint: &Spring) -> impl Iterator<Item = (usize, Vec3)> {
     [Some((joint.first, Vec3::zeros())), joint.second.map(|second| (second, joint.shift))]
         .into_iter()
         .flatten()
+}
+
+/// Whether the difference of two symmetric matrices has no negative value but for rounding: with each strain in the unit in which
+/// its own work is 1.
+fn is_above<const N: usize>(upper: [[f64; N]; N], lower: [[f64; N]; N]) -> bool {
+    let size: Vec<f64> = (0..N).map(|k| upper[k][k].sqrt()).collect();
+    let entry = |i: usize, j: usize| (upper[i][j] - lower[i][j]) / (size[i] * size[j]);
+    let slack = |i: usize, j: usize| if i == j { ROUNDING } else { 0.0 };
+    Mat::from_fn(N, N, |i, j| entry(i, j) + slack(i, j)).llt(Side::Lower).is_ok()
 }
 
 /// The inverse of a symmetric matrix; `None` where it has none.

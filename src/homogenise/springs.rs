@@ -173,6 +173,7 @@ fn quadrature(polygon: &Polygon) -> Vec<([f64; 2], f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::pow;
 
     #[test]
     fn quartics_are_integrated_exactly() {
@@ -181,9 +182,11 @@ mod tests {
         let points = quadrature(&Polygon { vertices: corners });
         for i in 0..=4 {
             for j in 0..=4 - i {
-                let sum: f64 = points.iter().map(|([x, y], w)| x.powi(i) * y.powi(j) * w).sum();
-                let along =
-                    |low: f64, high: f64, n: i32| (high.powi(n + 1) - low.powi(n + 1)) / f64::from(n + 1);
+                let sum: f64 =
+                    points.iter().map(|([x, y], w)| pow(*x, f64::from(i)) * pow(*y, f64::from(j)) * w).sum();
+                let along = |low: f64, high: f64, n: i32| {
+                    (pow(high, f64::from(n + 1)) - pow(low, f64::from(n + 1))) / f64::from(n + 1)
+                };
                 let exact = along(1.0, 3.0, i) * along(-1.0, 2.0, j);
                 // Sums of twelve products of numbers up to 81.
                 assert!((sum - exact).abs() < 1e-11, "{i} {j}: {sum} {exact}");

@@ -7,8 +7,9 @@
 //! Rigid stones bear any pressure along the wall, so that directions that only press have no end.
 
 use crate::contact;
+use crate::homogenise::{Ending, Flow, Path, Strained, strained};
 use crate::model::{Cell, JointLaws, Outcome, Six};
-use crate::solve::limit::{Analysis, Flow, Settings};
+use crate::solve::limit::{Analysis, Settings};
 
 /// Stresses that grow together, over the vertical stress resultant `p` (N/m): `N11, N22, N12` over `p`, `M11, M22, M12` over `p` times the
 /// thickness.
@@ -41,7 +42,7 @@ pub struct Point {
     /// What was found there.
     pub found: Found,
     /// Outward normal of the surface: the plate's strain rate at collapse, in the units of the direction, scaled so that its product
-    /// with the direction is 1. Zero where there is none.
+    /// with the direction is 1. Zero where there is none, and of a cell that is strained.
     pub normal: Six,
 }
 
@@ -71,18 +72,53 @@ impl Found {
     }
 }
 
-/// Strength of a cell in some directions beside the vertical stress `-pressure` (N/m, `pressure` positive).
-///
-/// With [`Flow::Associative`] it is an upper bound on what joints bear that dilate less; with [`Flow::NonAssociative`] it is a state without
-/// dilatancy, neither a bound nor unique. `laws` is asked with the stones' numbers, for an image with that of its stone.
+/// How strength is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// Limit analysis of rigid stones whose joints dilate as they slide: an upper bound for joints that dilate less.
+    Associative,
+    /// Limit analysis without dilatancy: a state that is neither a bound nor unique.
+    NonAssociative,
+    /// The cell strained from its elastic state, without dilatancy: what joints bear that are pressed as the weight presses them.
+    Elastic,
+}
+
+impl Method {
+    /// All of them, in the order in which they are reported.
+    pub const ALL: [Method; 3] = [Method::Associative, Method::NonAssociative, Method::Elastic];
+
+    /// Its name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Method::Associative => Flow::Associative.name(),
+            Method::NonAssociative => Flow::NonAssociative.name(),
+            Method::Elastic => "elastic",
+        }
+    }
+}
+
+/// Strength of a cell in some directions beside the vertical stress `-pressure` (N/m, `pressure` positive). `laws` is asked with the
+/// stones' numbers, for an image with that of its stone.
 pub fn surface(
     cell: &Cell,
     laws: &dyn JointLaws,
     contact: contact::Settings,
-    flow: Flow,
+    method: Method,
     pressure: f64,
     directions: &[Direction],
 ) -> Vec<Point> {
+    let flow = match method {
+        Method::Associative => Flow::Associative,
+        Method::NonAssociative => Flow::NonAssociative,
+        Method::Elastic => {
+            let follow = |direction: &Direction| {
+                let path = strained(cell, laws, &contact, pressure, direction, Strained::default());
+                Point { direction: *direction, found: followed(&path), normal: [0.0; 6] }
+            };
+            return directions.iter().map(follow).collect();
+        }
+    };
     let settings = Settings { flow, ..Settings::default() };
     let analysis = Analysis::of_cell(cell, laws, contact, settings, pressure);
     let units = units(pressure, cell.thickness);
@@ -102,6 +138,19 @@ pub fn surface(
         normal: std::array::from_fn(|k| bearing.rate[k] * units[k]),
     });
     points.collect()
+}
+
+/// What a path says of the strength.
+fn followed(path: &Path) -> Found {
+    match path.ending {
+        Ending::Plateau | Ending::Softened => Found::Borne(path.largest()),
+        Ending::Rising => Found::AtLeast(path.largest()),
+        Ending::NotAtRest => Found::FallsAtRest,
+        Ending::NotConverged { strain } => Found::NotConverged(format!(
+            "no balance at a strain of {strain:.3e}; {:.5} times the direction were borne",
+            path.largest()
+        )),
+    }
 }
 
 /// What stresses are measured in (N/m and N).

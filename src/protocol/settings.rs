@@ -1,9 +1,12 @@
 //! The protocols and their settings, as a study states them.
 
+use crate::contact;
+use crate::model::Wall;
 use crate::protocol::base_motion::BaseMotion;
 use crate::protocol::direction::Direction;
 use crate::protocol::events::EventShares;
 use crate::protocol::shear::Shear;
+use crate::protocol::stage::typical_size;
 
 /// How the ends of the wall (x = 0 and x = length) are held.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,6 +76,16 @@ pub struct Contacts {
     pub sub_contacts: [u32; 2],
     /// Width (m) of the rounded arris along the stones' edges, where joints do not touch.
     pub inset: f64,
+}
+
+impl Contacts {
+    /// The settings by which the joints of a wall are found.
+    pub fn of_wall(&self, wall: &Wall) -> contact::Settings {
+        contact::Settings {
+            inset: self.inset,
+            ..contact::Settings::for_size(typical_size(wall), self.sub_contacts)
+        }
+    }
 }
 
 impl From<[u32; 2]> for Contacts {

@@ -55,10 +55,7 @@ impl<'a> Stage<'a> {
             assembly,
             platform,
             laws: Surroundings::of(wall, laws, restraint),
-            contact: contact::Settings {
-                inset: contacts.inset,
-                ..contact::Settings::for_size(typical_size(wall), contacts.sub_contacts)
-            },
+            contact: contacts.of_wall(wall),
             ties,
             towards,
         }

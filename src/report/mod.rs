@@ -20,6 +20,7 @@ mod fragility;
 mod gain;
 mod gathered;
 mod gltf;
+mod homogenised;
 mod influence;
 mod joint_law;
 mod marker;
@@ -64,6 +65,10 @@ pub use files::{FRAGILITY, SUMMARY_JSON, write_all, write_gathered};
 pub use gain::GainSummary;
 pub use gathered::Gathered;
 pub use gltf::{Actor, Role, write_glb};
+pub use homogenised::{
+    HomogenisedSummary, ModulusBounds, NestedCells, PlateArm, PlateCells, PlateUnits, PlateValue,
+    SurfaceEntry, ValueBySize, homogenised_summary, homogenised_text, write_homogenised,
+};
 pub use influence::{InfluenceSummary, ShareEntry, influence_page, influence_text, running, write_influence};
 pub use joint_law::{LawSummary, law_text, remove_law, write_law};
 pub use measured::{CalibrationEntry, ComparisonEntry, MeasuredSummary};

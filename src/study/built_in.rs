@@ -65,6 +65,7 @@ const STUDIES: &[(&str, &str)] = texts![
     "studies/edge-restraint/study.toml",
     "studies/element-types/published.toml",
     "studies/element-types/study.toml",
+    "studies/homogenisation/study.toml",
     "studies/joint-arrangement/published.toml",
     "studies/joint-arrangement/study.toml",
     "studies/sources-of-scatter/study.toml",

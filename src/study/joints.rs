@@ -40,6 +40,11 @@ impl JointLaws for DrawnJoints<'_> {
 }
 
 impl Joint {
+    /// Whether no joint can bear shear: neither friction nor cohesion, and none is drawn.
+    pub fn is_smooth(&self) -> bool {
+        [&self.phi_deg, &self.cohesion].iter().all(|family| family.support() == (0.0, 0.0))
+    }
+
     /// The law of the joint between blocks `a` and `b` of a member at a normal stiffness `kn` (Pa/m); the order of
     /// the two does not matter.
     pub fn law(&self, kn: f64, streams: &Streams, a: u32, b: u32) -> Coulomb {

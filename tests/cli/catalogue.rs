@@ -58,7 +58,10 @@ fn every_study_loads_in_all_its_variants() {
         }
         let base =
             Study::load(&folder, None).unwrap_or_else(|faults| panic!("{}: {faults}", folder.display()));
-        assert!(base.warnings.is_empty(), "{:?}", base.warnings);
+        // One asks what averages out over the joints of a cell.
+        let asks = folder.ends_with("homogenisation");
+        let expected = |own: &pirca::study::Fault| asks && own.allowed.contains("averages out");
+        assert!(base.warnings.iter().all(expected), "{:?}", base.warnings);
         let mut hashes = vec![base.study.hash.clone()];
         for variant in &base.variants {
             let read = Study::load(&folder, Some(&variant.name)).unwrap_or_else(|faults| panic!("{faults}"));

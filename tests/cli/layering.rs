@@ -26,10 +26,21 @@ const HOUSE: &[(&str, &[&str])] = &[
     ("study", &["math", "random", "stats", "motion", "law", "model", "generate", "solve", "protocol"]),
     (
         "ensemble",
-        &["interrupt", "math", "random", "stats", "model", "generate", "solve", "protocol", "study"],
+        &[
+            "interrupt",
+            "math",
+            "random",
+            "stats",
+            "model",
+            "generate",
+            "solve",
+            "homogenise",
+            "protocol",
+            "study",
+        ],
     ),
     ("critic", &["interrupt", "math", "random", "stats", "model", "protocol", "study", "ensemble"]),
-    ("report", &["math", "shape", "stats", "model", "exchange", "study", "ensemble", "critic"]),
+    ("report", &["math", "shape", "stats", "model", "exchange", "homogenise", "study", "ensemble", "critic"]),
     // `math`, `shape` and `contact`, beyond the house's first plan: degrees end at the command line, and a wall from
     // elsewhere is looked over (which blocks touch, overlap, float) before a solver sees it.
     (
@@ -44,6 +55,7 @@ const HOUSE: &[(&str, &[&str])] = &[
             "exchange",
             "contact",
             "solve",
+            "homogenise",
             "protocol",
             "stats",
             "study",

@@ -16,6 +16,7 @@ mod files_of_others;
 #[path = "../ensemble/fixture.rs"]
 mod fixture;
 mod groups;
+mod homogenise;
 mod influence;
 mod init;
 mod joint_laws;

@@ -1,10 +1,11 @@
 //! Strength of cells that are strained step by step: against stiffness, limit analysis and closed forms of friction without dilatancy.
 
 use pirca::contact;
-use pirca::homogenise::{Border, Direction, Ending, Moduli, Path, Springs, Strained, strained, surface};
+use pirca::homogenise::{
+    Border, Direction, Ending, Method, Moduli, Path, Springs, Strained, strained, surface,
+};
 use pirca::law::{Coulomb, NormalLaw};
 use pirca::model::Cell;
-use pirca::solve::limit::Flow;
 
 use crate::cells::Bond;
 use crate::fixture::dry;
@@ -38,7 +39,7 @@ fn strength(cell: &Cell, law: &Coulomb, direction: Direction) -> f64 {
 }
 
 fn associative(cell: &Cell, law: &Coulomb, direction: Direction) -> f64 {
-    let points = surface(cell, law, contacts(), Flow::Associative, PRESSURE, &[direction]);
+    let points = surface(cell, law, contacts(), Method::Associative, PRESSURE, &[direction]);
     points[0].found.value().unwrap_or_else(|| panic!("{:?}", points[0]))
 }
 

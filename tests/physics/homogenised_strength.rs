@@ -1,9 +1,9 @@
 //! Strength of cells against the closed forms of running bond (de Buhan and de Felice 1997) and each other.
 
 use pirca::contact;
-use pirca::homogenise::{Direction, Found, IN_PLANE, out_of_plane, surface};
+use pirca::homogenise::{Direction, Found, IN_PLANE, Method, out_of_plane, surface};
 use pirca::model::{Cell, Six};
-use pirca::solve::limit::{Analysis, Flow, Settings};
+use pirca::solve::limit::{Analysis, Settings};
 
 use crate::cells::Bond;
 use crate::fixture::dry;
@@ -22,8 +22,8 @@ fn borne(cell: &Cell, mu: f64, along: f64, live: Six) -> f64 {
     analysis.bears([along, -1.0, 0.0, 0.0, 0.0, 0.0], &[live])[0].limit.multiplier
 }
 
-fn value(cell: &Cell, mu: f64, flow: Flow, direction: Direction) -> f64 {
-    let points = surface(cell, &friction(mu), contacts(), flow, 1000.0, &[direction]);
+fn value(cell: &Cell, mu: f64, method: Method, direction: Direction) -> f64 {
+    let points = surface(cell, &friction(mu), contacts(), method, 1000.0, &[direction]);
     points[0].found.value().unwrap_or_else(|| panic!("{:?}", points[0]))
 }
 
@@ -83,7 +83,7 @@ fn random_head_joints_leave_the_associative_domain_in_the_plane_as_it_is() {
             let cell = Bond::of([0.4, 0.2, 0.3], n, n).shifted(0.2, member);
             for direction in [PULL, SHEAR, [1.0, 0.0, 1.0, 0.0, 0.0, 0.0]] {
                 let [found, exact] =
-                    [&cell, &regular].map(|cell| value(cell, 0.6, Flow::Associative, direction));
+                    [&cell, &regular].map(|cell| value(cell, 0.6, Method::Associative, direction));
                 assert!((found / exact - 1.0).abs() < 1e-6, "{n} {member} {direction:?}: {found} {exact}");
             }
         }
@@ -97,19 +97,19 @@ fn a_wall_without_head_joints_turns_its_stones_in_their_beds() {
     let bond = Bond { slot, ..Bond::of([b, a, t], 1, 1) };
     let overlap = 0.5 * b - slot;
     let exact = mu * 0.5 * b * (overlap * overlap + t * t).sqrt() / (2.0 * a) / t;
-    let found = value(&bond.cell(|_, _| 0.0), mu, Flow::Associative, BEND_ALONG);
+    let found = value(&bond.cell(|_, _| 0.0), mu, Method::Associative, BEND_ALONG);
     assert!((found / exact - 1.0).abs() < 1e-6, "{found} {exact}");
     // Closed head joints press at a face of the wall, and it bears more.
-    let closed = value(&Bond::of([b, a, t], 1, 1).cell(|_, _| 0.0), mu, Flow::Associative, BEND_ALONG);
+    let closed = value(&Bond::of([b, a, t], 1, 1).cell(|_, _| 0.0), mu, Method::Associative, BEND_ALONG);
     assert!(closed > 1.1 * found, "{closed} {found}");
 }
 
 #[test]
 fn beds_open_at_a_face_under_half_the_thickness() {
-    for flow in [Flow::Associative, Flow::NonAssociative] {
+    for method in [Method::Associative, Method::NonAssociative] {
         for direction in [BEND_UP, BEND_UP.map(|x| -x)] {
-            let found = value(&Bond::of([0.4, 0.2, 0.3], 2, 2).shifted(0.2, 7), 0.6, flow, direction);
-            assert!((found - 0.5).abs() < 1e-6, "{flow:?}: {found}");
+            let found = value(&Bond::of([0.4, 0.2, 0.3], 2, 2).shifted(0.2, 7), 0.6, method, direction);
+            assert!((found - 0.5).abs() < 1e-6, "{method:?}: {found}");
         }
     }
 }
@@ -118,8 +118,8 @@ fn beds_open_at_a_face_under_half_the_thickness() {
 fn a_state_without_dilatancy_bears_no_more() {
     let cell = Bond::of([0.4, 0.2, 0.3], 4, 4).shifted(0.2, 1);
     let directions: Vec<Direction> = IN_PLANE.into_iter().chain(out_of_plane()).collect();
-    let [upper, found] = [Flow::Associative, Flow::NonAssociative]
-        .map(|flow| surface(&cell, &friction(0.6), contacts(), flow, 1000.0, &directions));
+    let [upper, found] = [Method::Associative, Method::NonAssociative]
+        .map(|method| surface(&cell, &friction(0.6), contacts(), method, 1000.0, &directions));
     let mut less = 0;
     for (upper, found) in upper.iter().zip(&found) {
         if let (Some(most), Some(value)) = (upper.found.value(), found.found.value()) {
@@ -135,7 +135,7 @@ fn a_state_without_dilatancy_bears_no_more() {
 fn the_normal_of_a_point_is_that_of_a_plane_that_no_other_point_is_beyond() {
     let cell = Bond::of([0.4, 0.2, 0.3], 3, 2).shifted(0.2, 2);
     let directions: Vec<Direction> = IN_PLANE.into_iter().chain(out_of_plane()).collect();
-    let points = surface(&cell, &friction(0.6), contacts(), Flow::Associative, 1000.0, &directions);
+    let points = surface(&cell, &friction(0.6), contacts(), Method::Associative, 1000.0, &directions);
     let at = |k: usize| {
         let value = points[k].found.value()?;
         let mut stress = points[k].direction.map(|x| x * value);
@@ -157,4 +157,45 @@ fn the_normal_of_a_point_is_that_of_a_plane_that_no_other_point_is_beyond() {
         }
     }
     assert!(ended > 30, "{ended}");
+}
+
+#[test]
+fn the_reach_along_a_strain_rate_is_that_of_the_closed_domain() {
+    // Corners of the domain in the plane: (mu / m, 0) and (-mu^2, +-mu).
+    let ([b, a, t], mu) = ([0.4, 0.2, 0.3], 0.6);
+    let m = 2.0 * a / b;
+    let cell = Bond::of([b, a, t], 2, 2).shifted(0.1, 3);
+    let analysis = Analysis::of_cell(&cell, &friction(mu), contacts(), Settings::default(), 1.0);
+    for shear in [-3.0_f64, -0.5, 0.0, 0.7, 1.0, 2.0, 10.0] {
+        let exact = (mu / m).max(shear.abs() * mu - mu * mu);
+        let found = analysis.reaches(1.0, &[1.0, 0.0, shear, 0.0, 0.0, 0.0]).unwrap();
+        let value = found.limit.multiplier;
+        assert!((value / exact - 1.0).abs() < 1e-6, "{shear}: {value} {exact}");
+        // The plane's normal has the reach in the place of E22.
+        let scale = found.rate[0];
+        assert!((found.rate[1] / scale - exact).abs() < 1e-5, "{shear}: {:?}", found.rate);
+    }
+}
+
+#[test]
+fn no_stress_that_is_borne_lies_beyond_a_plane_of_the_reach() {
+    let cell = Bond::of([0.4, 0.2, 0.3], 3, 2).shifted(0.2, 2);
+    let directions: Vec<Direction> = IN_PLANE.into_iter().chain(out_of_plane()).collect();
+    let points = surface(&cell, &friction(0.6), contacts(), Method::Associative, 1.0, &directions);
+    let analysis = Analysis::of_cell(&cell, &friction(0.6), contacts(), Settings::default(), 1.0);
+    for rate in
+        [[0.2, 0.0, 0.5, 1.0, 0.3, 0.1], [0.1, 0.0, 0.0, -0.4, 1.0, 0.5], [0.3, 0.0, -1.0, 0.2, 0.2, -2.0]]
+    {
+        let reach = analysis.reaches(1.0, &rate).unwrap().limit.multiplier;
+        let mut nearest = f64::INFINITY;
+        for point in &points {
+            let Some(value) = point.found.value() else { continue };
+            let units = [1.0, 1.0, 1.0, 0.3, 0.3, 0.3];
+            let work: f64 = (0..6).map(|k| rate[k] * value * point.direction[k] * units[k]).sum();
+            assert!(work <= reach * (1.0 + 1e-6), "{rate:?}: {work} beyond {reach}");
+            nearest = nearest.min(reach - work);
+        }
+        // 34 points are a coarse hull, but the plane touches the set that they are of.
+        assert!(nearest < 0.5 * reach, "{rate:?}: {nearest} of {reach}");
+    }
 }

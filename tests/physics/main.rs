@@ -15,6 +15,7 @@ mod holding;
 mod homogenised_moduli;
 mod homogenised_strained;
 mod homogenised_strength;
+mod homogenised_walls;
 mod implicit;
 mod limit_answers;
 mod limit_column;

@@ -1,6 +1,6 @@
 //! A member's cell from its layout and its streams.
 
-use crate::generate::cell::{CellFault, bond, courses, fault};
+use crate::generate::cell::{CellFault, bond, check_cell, courses};
 use crate::generate::course::MAX_STONES;
 use crate::generate::coursed::Coursed;
 use crate::generate::cut::{self, Cuts};
@@ -69,7 +69,7 @@ pub fn generate_cell(
     stones: [u32; 2],
     streams: &Streams,
 ) -> Result<GeneratedCell, CellFault> {
-    fault::check(layout, stones)?;
+    check_cell(layout, stones)?;
     let lattice = lattice(layout, stones, member_factor(layout, streams)?);
     let outline = Outline { length: lattice[0][0], height: lattice[1][1], ..layout.outline };
     let filled = Layout { outline, ..layout.clone() };

@@ -52,8 +52,11 @@ pub enum CellFault {
     Invalid(#[from] InvalidGeometry),
 }
 
-/// Refuses what no draw could make a cell of.
-pub(crate) fn check(layout: &Layout, stones: [u32; 2]) -> Result<(), CellFault> {
+/// Refuses what no draw could make a cell of, before anything is drawn.
+///
+/// # Errors
+/// [`CellFault`], of every kind but an invalid draw.
+pub fn check_cell(layout: &Layout, stones: [u32; 2]) -> Result<(), CellFault> {
     let (base, top) = (layout.outline.base_thickness, layout.outline.top_thickness);
     if stones.contains(&0) {
         return Err(CellFault::NoStones { stones });

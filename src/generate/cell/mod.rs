@@ -6,4 +6,4 @@ mod courses;
 mod fault;
 
 pub use build::{GeneratedCell, generate_cell};
-pub use fault::CellFault;
+pub use fault::{CellFault, check_cell};

@@ -76,10 +76,11 @@ impl Motions {
         let inside = (0..mesh.triangles.len()).map(|t| self.inside(mesh, t));
         let crossing = |&e: &usize| match mesh.edges[e].across {
             Across::Triangle(_) => true,
-            Across::Side(side) => plate.edges.at(side) == Edge::Held,
+            Across::Side(side) => matches!(plate.edges.at(side), Edge::Held | Edge::Guided),
         };
         let edges = (0..mesh.edges.len()).filter(crossing);
-        inside.chain(edges.flat_map(|e| [0, 1].map(|end| self.edge_end(mesh, e, end)))).collect()
+        let place = |e: usize| [0, 1].map(|end| self.edge_end(mesh, e, end, self.is_led(plate, mesh, e)));
+        inside.chain(edges.flat_map(place)).collect()
     }
 
     /// A triangle: its strain and its curvature are the same all over it.
@@ -103,9 +104,14 @@ impl Motions {
         Place { at: [sum(0) / 3.0, sum(1) / 3.0], normal: None, size: triangle.area, rate }
     }
 
+    /// Whether what is beyond an edge of the plate goes along with it in its plane, and only keeps it from turning.
+    fn is_led(&self, plate: &Plate, mesh: &Mesh, e: usize) -> bool {
+        matches!(mesh.edges[e].across, Across::Side(side) if plate.edges.at(side) == Edge::Guided)
+    }
+
     /// An end of an edge: the jump of velocity across it, and that of the slope along its normal, both linear along the edge. What
-    /// is beyond an edge of the plate is at rest.
-    fn edge_end(&self, mesh: &Mesh, e: usize, end: usize) -> Place {
+    /// is beyond an edge of the plate is at rest, or goes along in its plane where the edge is `led`.
+    fn edge_end(&self, mesh: &Mesh, e: usize, end: usize, led: bool) -> Place {
         let edge = &mesh.edges[e];
         let (node, [n1, n2]) = (edge.ends[end], edge.normal);
         let mut rate = Vec::new();
@@ -114,8 +120,10 @@ impl Motions {
             let triangle = &mesh.triangles[t];
             let corner =
                 usize::from(triangle.corners[1] == node) + 2 * usize::from(triangle.corners[2] == node);
-            rate.push((self.in_plane(t, corner, 0), [n1, 0.0, n2, 0.0, 0.0, 0.0].map(|v| sign * v)));
-            rate.push((self.in_plane(t, corner, 1), [0.0, n2, n1, 0.0, 0.0, 0.0].map(|v| sign * v)));
+            if !led {
+                rate.push((self.in_plane(t, corner, 0), [n1, 0.0, n2, 0.0, 0.0, 0.0].map(|v| sign * v)));
+                rate.push((self.in_plane(t, corner, 1), [0.0, n2, n1, 0.0, 0.0, 0.0].map(|v| sign * v)));
+            }
             let fold = [0.0, 0.0, 0.0, n1 * n1, n2 * n2, 2.0 * n1 * n2];
             let slopes = normal_slopes(triangle, corner, edge.normal);
             rate.extend(self.of_nodes(triangle, &slopes.map(|slope| fold.map(|v| sign * slope * v))));

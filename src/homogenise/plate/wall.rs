@@ -10,6 +10,8 @@ pub enum Edge {
     Free,
     /// Against going out of its plane, both ways; it may turn, and move in its plane.
     Propped,
+    /// Against going out of its plane and against turning, as where the end stones are led; it may move in its plane.
+    Guided,
     /// As on ground or at an end block: what is beyond the edge does not move, and the section at the edge obeys the same facets,
     /// so that it hinges, slides along the edge and opens at their price.
     Held,

@@ -28,14 +28,14 @@ use crate::solve::limit::program::axes;
 use crate::solve::limit::strength::Strength;
 use crate::solve::limit::{Analysis, BlockMotion, Limit, Settings};
 
-/// The strain of a cell as a body: its velocity is `(E11, E22, 2 E12)` and its spin `(K11, K22, 2 K12)`, both times `length`, with 1
-/// along x and 2 along z.
+/// The strain of a cell as a body of six velocities, each of which is a strain rate.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Strain {
     /// Its place among the bodies.
     pub body: usize,
-    /// A length of the size of the cell (m), which makes its velocities comparable with those of stones.
-    pub length: f64,
+    /// The strain rate of each unit velocity (1/m and 1/m^2), of a size that makes it comparable with those of stones; one that is
+    /// zero has no part in anything.
+    axes: [Six; 6],
     /// Area of the cell (m^2).
     area: f64,
 }
@@ -44,26 +44,32 @@ impl Strain {
     /// What a force at a point of the image at `shift` does to the strain.
     pub fn felt(&self, shift: Vec3, at: Vec3, force: Vec3) -> Wrench {
         let motion = image_motion(shift, at);
-        let along = |k: usize| (0..3).map(|row| motion[row][k] * force[row]).sum::<f64>() / self.length;
-        Wrench {
-            force: Vec3::new(along(0), along(1), along(2)),
-            moment: Vec3::new(along(3), along(4), along(5)),
-        }
+        self.along(std::array::from_fn(|k| (0..3).map(|row| motion[row][k] * force[row]).sum()))
     }
 
     /// Velocity that the strain gives to a point of the image at `shift` (m/s).
     pub fn velocity(&self, rate: &Wrench, shift: Vec3, at: Vec3) -> Vec3 {
-        let (e, k) = (rate.force / self.length, rate.moment / self.length);
-        let strain = [e.x, e.y, e.z, k.x, k.y, k.z];
+        let strain = self.rate(rate);
         let along = |row: &Six| row.iter().zip(&strain).map(|(a, b)| a * b).sum();
         let [x, y, z] = image_motion(shift, at);
         Vec3::new(along(&x), along(&y), along(&z))
     }
 
     /// Stresses of the plate as a load on the strain.
-    fn load(&self, [n11, n22, n12, m11, m22, m12]: Six) -> Wrench {
-        let scale = self.area / self.length;
-        Wrench { force: Vec3::new(n11, n22, n12) * scale, moment: Vec3::new(m11, m22, m12) * scale }
+    fn load(&self, stresses: Six) -> Wrench {
+        self.along(stresses.map(|stress| stress * self.area))
+    }
+
+    /// What has this work on unit strains has on unit velocities.
+    fn along(&self, work: Six) -> Wrench {
+        let [a, b, c, d, e, f] = self.axes.map(|axis| axis.iter().zip(&work).map(|(a, w)| a * w).sum());
+        Wrench { force: Vec3::new(a, b, c), moment: Vec3::new(d, e, f) }
+    }
+
+    /// The strain rate of velocities.
+    fn rate(&self, v: &Wrench) -> Six {
+        let velocities = [v.force.x, v.force.y, v.force.z, v.moment.x, v.moment.y, v.moment.z];
+        std::array::from_fn(|k| self.axes.iter().zip(velocities).map(|(axis, v)| axis[k] * v).sum())
     }
 }
 
@@ -89,7 +95,8 @@ impl Blocks {
         let mut rigid: Vec<Rigid> = cell.blocks.iter().map(Rigid::of).collect();
         rigid[0].pinned = true;
         let length = cell.area().sqrt();
-        let strain = Strain { body: rigid.len(), length, area: cell.area() };
+        let axes = std::array::from_fn(|i| std::array::from_fn(|k| if i == k { 1.0 / length } else { 0.0 }));
+        let strain = Strain { body: rigid.len(), axes, area: cell.area() };
         rigid.push(Rigid {
             centroid: Vec3::zeros(),
             mass: 0.0,
@@ -153,29 +160,64 @@ impl Analysis {
     /// Empty for an analysis that is not of a cell.
     pub fn bears(&self, dead: Six, live: &[Six]) -> Vec<Bearing> {
         let Some(strain) = self.blocks.strain else { return Vec::new() };
+        let mut applied = self.stressed(&strain, dead, [0.0; 6]);
+        let spent = self.stands_at_rest(&applied, Level::Multiplier(0.0));
+        let bears = |live: &Six| {
+            applied.live = self.stressed(&strain, dead, *live).live;
+            let limit = match &spent {
+                Ok(spent) => self.multiplier_beside(&applied, *spent),
+                Err(limit) => (**limit).clone(),
+            };
+            strain.bearing(limit, live)
+        };
+        live.iter().map(bears).collect()
+    }
+
+    /// How far the stresses that are borne beside `N22 = -pressure` (N/m) reach along a strain rate, and where: the multiplier is the
+    /// largest work of stresses on `rate`, whatever stresses that takes. Of a cell without cohesion the plane that bounds all stresses
+    /// there has the normal `rate` with that work over `pressure` in the place of `E22`, and goes through the origin.
+    ///
+    /// `rate` has no part in `E22`. `None` for an analysis that is not of a cell.
+    pub fn reaches(&self, pressure: f64, rate: &Six) -> Option<Bearing> {
+        let mut strain = self.blocks.strain?;
+        let own = strain.axes[1];
+        let size = own[1] / rate.iter().fold(f64::MIN_POSITIVE, |most: f64, x| most.max(x.abs()));
+        strain.axes = [[0.0; 6]; 6];
+        strain.axes[0] = rate.map(|x| x * size);
+        strain.axes[1] = own;
+        let mut analysis = self.clone();
+        analysis.blocks.strain = Some(strain);
+        // Stresses of which the work on the rate is 1: any other stress is free, as it has no equation.
+        let unit = 1.0 / rate.iter().map(|x| x * x).sum::<f64>();
+        let live = rate.map(|x| x * unit);
+        let dead = [0.0, -pressure, 0.0, 0.0, 0.0, 0.0];
+        let applied = analysis.stressed(&strain, dead, live);
+        let limit = match analysis.stands_at_rest(&applied, Level::Multiplier(0.0)) {
+            Ok(spent) => analysis.multiplier_beside(&applied, spent),
+            Err(limit) => *limit,
+        };
+        Some(strain.bearing(limit, &live))
+    }
+
+    /// Stresses as loads.
+    fn stressed(&self, strain: &Strain, dead: Six, live: Six) -> Applied {
         let of = |stresses: Six| {
             let mut wrenches = vec![Wrench::default(); self.blocks.rigid.len()];
             wrenches[strain.body] = strain.load(stresses);
             wrenches
         };
         let down = Vec3::new(0.0, 0.0, -STANDARD_GRAVITY);
-        let mut applied =
-            Applied { dead: of(dead), live: of([0.0; 6]), axes: axes(&self.blocks, [down, down]) };
-        let spent = self.stands_at_rest(&applied, Level::Multiplier(0.0));
-        let bears = |live: &Six| {
-            applied.live = of(*live);
-            let limit = match &spent {
-                Ok(spent) => self.multiplier_beside(&applied, *spent),
-                Err(limit) => (**limit).clone(),
-            };
-            let BlockMotion { velocity, spin } =
-                limit.mechanism.get(strain.body).copied().unwrap_or_default();
-            let load = strain.load(*live);
-            let power = load.force.dot(&velocity) + load.moment.dot(&spin);
-            let scale = if power > 0.0 { strain.area / (power * strain.length) } else { 0.0 };
-            let rate = [velocity.x, velocity.y, velocity.z, spin.x, spin.y, spin.z].map(|v| v * scale);
-            Bearing { limit, rate }
-        };
-        live.iter().map(bears).collect()
+        Applied { dead: of(dead), live: of(live), axes: axes(&self.blocks, [down, down]) }
+    }
+}
+
+impl Strain {
+    /// What is borne, with the strain rate of the mechanism.
+    fn bearing(&self, limit: Limit, live: &Six) -> Bearing {
+        let BlockMotion { velocity, spin } = limit.mechanism.get(self.body).copied().unwrap_or_default();
+        let rate = self.rate(&Wrench { force: velocity, moment: spin });
+        let power: f64 = rate.iter().zip(live).map(|(rate, live)| rate * live).sum();
+        let scale = if power > 0.0 { 1.0 / power } else { 0.0 };
+        Bearing { limit, rate: rate.map(|rate| rate * scale) }
     }
 }

@@ -24,6 +24,14 @@ pub enum Flow {
 }
 
 impl Flow {
+    /// Its name in files.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Flow::Associative => "associative",
+            Flow::NonAssociative => "non-associative",
+        }
+    }
+
     /// What a multiplier found with this flow is, in words.
     pub fn meaning(&self) -> &'static str {
         match self {

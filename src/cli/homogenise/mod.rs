@@ -1,0 +1,102 @@
+//! `pirca homogenise`: what masonry of a study's kinds is as a plate.
+
+mod arguments;
+
+use std::fs;
+
+use crate::cli::answer::Answer;
+use crate::cli::failure::Failure;
+use crate::cli::homogenise::arguments::Directions;
+pub(crate) use crate::cli::homogenise::arguments::Homogenise;
+use crate::cli::{arms, locate, output};
+use crate::ensemble::{AskedOfCells, run_cells};
+use crate::homogenise::AskedOfCell;
+use crate::report::{homogenised_summary, homogenised_text, write_homogenised};
+use crate::study::Study;
+
+/// What the folder of the results is named by.
+const HOMOGENISED: &str = "homogenised";
+
+/// Builds random cells of every arm and says what they are as a plate.
+pub(crate) fn homogenise(arguments: &Homogenise) -> Result<Answer, Failure> {
+    let loaded = locate::any_study(&arguments.which)?;
+    let study = match arguments.seed {
+        Some(seed) => loaded.study.with_seed(seed),
+        None => loaded.study,
+    };
+    let asked = asked(&study, arguments)?;
+    let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, HOMOGENISED));
+    fs::create_dir_all(&out)
+        .map_err(|error| Failure::Run(format!("cannot create the folder {}: {error}", out.display())))?;
+    let tell = |done: usize, all: usize| {
+        if 10 * done / all > 10 * (done - 1) / all {
+            output::note(&format!("{}: {done}/{all} cells done", study.name));
+        }
+    };
+    let rows = run_cells(&study, &asked, arguments.threads, &tell)?;
+    if rows.iter().all(|row| row.found.is_err()) {
+        let why = rows.iter().find_map(|row| row.found.as_ref().err()).map(ToString::to_string);
+        return Err(Failure::Input(format!("{}: no cell: {}", study.name, why.unwrap_or_default())));
+    }
+    let summary = homogenised_summary(&study, &asked, &rows);
+    write_homogenised((&study, &asked, &rows), &summary, &out)
+        .map_err(|error| Failure::Run(format!("{error:#}")))?;
+    let text = format!("{}\nwritten to {}\n", homogenised_text(&summary), out.display());
+    Ok(Answer::of(text, &summary)?.in_place(&out))
+}
+
+/// What is asked, checked against the study before anything is computed.
+fn asked(study: &Study, arguments: &Homogenise) -> Result<AskedOfCells, Failure> {
+    let sizes = arguments.stones.clone();
+    let number = |[along, courses]: [u32; 2]| u64::from(along) * u64::from(courses);
+    if let Some(pair) = sizes.windows(2).find(|pair| number(pair[0]) >= number(pair[1])) {
+        let shown = |[along, courses]: [u32; 2]| format!("{along} x {courses}");
+        return Err(Failure::Usage(format!(
+            "--stones: {} does not come after {}; give the sizes from small to large",
+            shown(pair[1]),
+            shown(pair[0])
+        )));
+    }
+    let arms = arms::named(study, &arguments.arms)?;
+    for &arm in &arms {
+        let own = &study.arms[arm as usize];
+        arms::has_point(own, arguments.point)?;
+        for size in &sizes {
+            if let Err(fault) = crate::ensemble::check_cell(own, *size) {
+                return Err(Failure::Input(format!("{}: arm `{}`: {fault}", study.name, own.name)));
+            }
+        }
+    }
+    let mut directions = Vec::new();
+    let strength = !arguments.directions.contains(&Directions::None);
+    let smooth = arms.iter().map(|&arm| &study.arms[arm as usize]).find(|arm| arm.joint.is_smooth());
+    if let (true, Some(arm)) = (strength, smooth) {
+        return Err(Failure::Input(format!(
+            "{}: arm `{}`: joint.phi_deg and joint.cohesion_pa are 0, so nothing but pressure is borne and there is no surface; give the \
+             joints friction, or ask for --directions none",
+            study.name, arm.name
+        )));
+    }
+    for set in &arguments.directions {
+        if *set == Directions::None && arguments.directions.len() > 1 {
+            return Err(Failure::Usage(
+                "--directions: none goes with no other set; leave it out, or ask for it alone".to_owned(),
+            ));
+        }
+        directions.extend(set.all());
+    }
+    let mut methods = Vec::new();
+    for method in arguments.method.iter().copied().map(Into::into) {
+        if !methods.contains(&method) {
+            methods.push(method);
+        }
+    }
+    Ok(AskedOfCells {
+        sizes,
+        cells: arguments.cells,
+        arms,
+        point: arguments.point,
+        of: AskedOfCell { directions, methods },
+        pressure: arguments.pressure_pa,
+    })
+}

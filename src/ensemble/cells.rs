@@ -1,0 +1,111 @@
+//! The loop over random cells: what masonry of an arm's kind is as a plate, cell by cell.
+
+use std::num::NonZero;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+
+use crate::ensemble::{RunError, is_random};
+use crate::generate::{self, CellFault, generate_cell};
+use crate::homogenise::{AskedOfCell, CellAnswer};
+use crate::interrupt;
+use crate::math::STANDARD_GRAVITY;
+use crate::model::Wall;
+use crate::random::Design;
+use crate::study::{Arm, AsDrawn, DrawnJoints, Study};
+
+/// Cells are members of their own: from here on their numbers are no walls'.
+const FIRST_CELL: u64 = 1 << 62;
+
+/// What is asked of cells.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AskedOfCells {
+    /// Stones along the wall and courses of the cells, from small to large.
+    pub sizes: Vec<[u32; 2]>,
+    /// Cells of each size of an arm in which anything is drawn; of another arm one is all.
+    pub cells: u64,
+    /// The arms, by their places in the study, each at this kn point.
+    pub arms: Vec<u32>,
+    /// Number of the kn point.
+    pub point: u32,
+    /// What is asked of each cell.
+    pub of: AskedOfCell,
+    /// Vertical stress (Pa, pressure positive); that of the stones' weight at half the wall's height where none is given.
+    pub pressure: Option<f64>,
+}
+
+/// One cell to evaluate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CellTask {
+    /// Its arm, by its place in the study.
+    pub arm: u32,
+    /// Which of the sizes.
+    pub size: usize,
+    /// Number of the cell among those of its arm and size.
+    pub cell: u64,
+}
+
+/// What became of a cell.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CellRow {
+    /// Which one it is.
+    pub task: CellTask,
+    /// What was found; else why there is no such cell.
+    pub found: Result<CellAnswer, CellFault>,
+}
+
+/// Whether an arm can have cells of a size at all, before any is built.
+///
+/// # Errors
+/// [`CellFault`] names what is in the way and how to mend it.
+pub fn check_cell(arm: &Arm, stones: [u32; 2]) -> Result<(), CellFault> {
+    generate::check_cell(&arm.layout, stones)
+}
+
+/// Evaluates all cells, in the order of arms, sizes and cells. `finished` is told, from the worker threads, how many of how many are
+/// done.
+///
+/// # Errors
+/// [`RunError`] when no threads can be started.
+pub fn run_cells(
+    study: &Study,
+    asked: &AskedOfCells,
+    threads: Option<NonZero<usize>>,
+    finished: &(dyn Fn(usize, usize) + Sync),
+) -> Result<Vec<CellRow>, RunError> {
+    // Cells are drawn one by one: a design shares out the walls of the study.
+    let study = Study { design: Design::Plain, ..study.clone() };
+    let mut tasks = Vec::new();
+    for &arm in &asked.arms {
+        let cells = if is_random(&study.arms[arm as usize]) { asked.cells } else { 1 };
+        for size in 0..asked.sizes.len() {
+            tasks.extend((0..cells).map(|cell| CellTask { arm, size, cell }));
+        }
+    }
+    let threads = threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+    let done = AtomicUsize::new(0);
+    let evaluated = |task: &CellTask| {
+        let row = evaluate_cell(&study, asked, *task);
+        finished(done.fetch_add(1, Ordering::Relaxed) + 1, tasks.len());
+        row
+    };
+    Ok(pool.install(|| tasks.par_iter().with_max_len(1).map(evaluated).collect()))
+}
+
+/// One cell: a pure function of the study, what is asked and the task.
+pub fn evaluate_cell(study: &Study, asked: &AskedOfCells, task: CellTask) -> CellRow {
+    interrupt::look();
+    let member = FIRST_CELL + ((task.size as u64) << 32) + task.cell;
+    let AsDrawn { arm, .. } = study.as_drawn(task.arm, member);
+    let streams = study.streams(member);
+    let found = generate_cell(&arm.layout, asked.sizes[task.size], &streams).map(|made| {
+        let wall = Wall { blocks: made.cell.blocks.clone() };
+        let kn = arm.kn_points[asked.point as usize];
+        let laws = DrawnJoints::new(&arm.joint, kn, streams).altered(&arm.mechanisms, &wall);
+        let contact = arm.mechanisms.contacts(arm.sub_contacts).of_wall(&wall);
+        let weight = arm.layout.density.mean() * STANDARD_GRAVITY * 0.5 * arm.layout.outline.height;
+        asked.of.answer(&made.cell, &laws, contact, asked.pressure.unwrap_or(weight))
+    });
+    CellRow { task, found }
+}

@@ -1,0 +1,51 @@
+//! What comes of cells: masonry as a plate, its stiffness, its surface, and what both do as cells grow.
+
+mod csv;
+mod entry;
+mod plot;
+mod text;
+
+use std::path::Path;
+
+use anyhow::{Context, Result};
+
+use crate::ensemble::{AskedOfCells, CellRow, replace_file};
+use crate::report::draw::IMAGE_SCALE;
+use crate::report::files::write_figure;
+use crate::report::homogenised::csv::{cells_csv, surface_csv};
+pub use crate::report::homogenised::entry::{
+    HomogenisedSummary, ModulusBounds, NestedCells, PlateArm, PlateCells, PlateUnits, PlateValue,
+    SurfaceEntry, ValueBySize, homogenised_summary,
+};
+use crate::report::homogenised::plot::{CellPlot, What};
+pub use crate::report::homogenised::text::homogenised_text;
+use crate::report::pen::Pen;
+use crate::study::Study;
+
+/// File names of the summary, of the cells and of their surfaces, and of the two figures without ending.
+const HOMOGENISED_JSON: &str = "homogenised.json";
+const CELLS_CSV: &str = "cells.csv";
+const SURFACE: &str = "surface";
+const SCATTER: &str = "scatter";
+
+/// Writes the summary, the tables and the figures into an existing folder. The same study and rows give the same bytes.
+///
+/// # Errors
+/// The file that could not be written, and why.
+pub fn write_homogenised(
+    (study, asked, rows): (&Study, &AskedOfCells, &[CellRow]),
+    summary: &HomogenisedSummary,
+    dir: &Path,
+) -> Result<()> {
+    let json = serde_json::to_string_pretty(summary).context("cannot write the summary")? + "\n";
+    replace_file(&dir.join(HOMOGENISED_JSON), json.as_bytes())?;
+    replace_file(&dir.join(CELLS_CSV), cells_csv(study, asked, rows).as_bytes())?;
+    replace_file(&dir.join(format!("{SURFACE}.csv")), surface_csv(study, asked, rows).as_bytes())?;
+    for (what, name) in [(What::Surface, SURFACE), (What::Scatter, SCATTER)] {
+        let figure = |scale| CellPlot { summary, what, pen: Pen { scale } };
+        if !figure(1).is_empty() {
+            write_figure(dir, name, &figure(1), &figure(IMAGE_SCALE))?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,182 @@
+//! `pirca homogenise`: masonry of a study's kinds as a plate.
+
+use std::fs;
+
+use serde_json::Value;
+
+use crate::commands::stdout;
+use crate::fixture::{Folder, stderr};
+
+/// A running bond, and random courses of the same stones.
+const STUDY: &str = r#"
+[study]
+question = "What is it as a plate?"
+seed = 3
+
+[wall]
+height_m = 1.0
+length_m = 2.0
+base_thickness_m = 0.3
+top_thickness_m = 0.3
+battered_face = "both"
+wythes = 1
+header_share = 0
+head_joint_gap_m = 0
+
+[block]
+density_kg_per_m3 = 2400
+
+[joint]
+kn_pa_per_m = [1e9]
+kn_over_ks = 2.0
+phi_deg = 32
+cohesion_pa = 0
+tension_pa = 0
+
+[load]
+protocol = "tilting"
+towards = "y+"
+step_deg = 1
+end_deg = 60
+bracket_deg = 0.05
+
+[restraint]
+base = "fixed"
+ends = "free"
+
+[solver]
+name = "limit"
+
+[[arm]]
+name = "regular"
+members = 1
+arrangement = "discontinuous"
+block_length_m = 0.4
+course_height_m = 0.2
+overlap = 0.5
+
+[[arm]]
+name = "random"
+members = 5
+arrangement = "coursed"
+length_m = { family = "uniform", low = 0.3, high = 0.5 }
+height_m = { family = "uniform", low = 0.15, high = 0.25 }
+dip_deg = { family = "uniform", low = -5, high = 5 }
+least_overlap = 0.1
+"#;
+
+fn asked(folder: &Folder, arguments: &[&str]) -> (Value, String) {
+    let all = [&["homogenise", "studies/tiny", "--cells", "4", "--stones", "2,4"], arguments].concat();
+    let json = folder.pirca(&[&all[..], &["--json"]].concat());
+    assert_eq!(json.status.code(), Some(0), "{}", stderr(&json));
+    let text = folder.pirca(&all);
+    assert_eq!(text.status.code(), Some(0), "{}", stderr(&text));
+    (serde_json::from_slice(&json.stdout).unwrap(), stdout(&text))
+}
+
+fn refused(study: &str, arguments: &[&str], said: &str) {
+    let folder = Folder::with_study(study);
+    let out = folder.pirca(&[&["homogenise", "studies/tiny"], arguments].concat());
+    assert!(matches!(out.status.code(), Some(2 | 3)), "{:?}", out.status);
+    assert!(stderr(&out).contains(said), "{}", stderr(&out));
+    assert!(!folder.path("runs").exists(), "nothing is written");
+}
+
+#[test]
+fn a_regular_arm_has_its_closed_forms_and_a_random_one_scatters_between_bounds() {
+    let folder = Folder::with_study(STUDY);
+    let (json, text) = asked(&folder, &["--out", "out"]);
+    let [regular, random] = [0, 1].map(|arm| json["arms"][arm].clone());
+    let number = |value: &Value| value.as_f64().unwrap_or_else(|| panic!("{value}"));
+    // kn 1e9, ks 5e8, b 0.4, a 0.2, t 0.3.
+    let (kn, ks, b, a, t) = (1e9, 5e8, 0.4, 0.2, 0.3);
+    for (name, exact) in [("A1111", t * (kn * b + ks * b * b / (4.0 * a))), ("A2222", t * kn * a)] {
+        assert!((number(&regular["moduli"][name]["mean"]) / exact - 1.0).abs() < 1e-9, "{name}");
+    }
+    assert_eq!((&regular["cell"]["cells"], &random["cell"]["cells"]), (&1.into(), &4.into()));
+    assert!(regular["moduli"]["A1111"]["cov"].is_null() && regular["moduli"]["A1111"]["by_size"].is_null());
+    let own = &random["moduli"]["A1111"];
+    let [low, high] = [0, 1].map(|end| number(&own["interval"][end]));
+    assert!(low < number(&own["mean"]) && number(&own["mean"]) < high && number(&own["cov"]) > 0.0);
+    let bounds = &own["bounds"];
+    assert!(
+        number(&bounds["static"]) < number(&own["mean"])
+            && number(&own["mean"]) < number(&bounds["kinematic"])
+    );
+    // Two sizes of four cells and of one.
+    assert_eq!(random["cell"]["nested"], serde_json::json!({"held": 8, "of": 8}));
+    assert_eq!(own["by_size"]["stones"], serde_json::json!([[2, 2], [4, 4]]));
+    // 8 and 26 directions.
+    let surface = random["surface"].as_array().unwrap();
+    assert_eq!(surface.len(), 34);
+    let push = surface.iter().find(|own| own["direction"][0] == -1.0 && own["direction"][2] == 0.0).unwrap();
+    assert_eq!((&push["unbounded"], &push["value"]["n"]), (&4.into(), &0.into()));
+    let bent =
+        surface.iter().find(|own| own["direction"] == serde_json::json!([0.0, 0.0, 0.0, 0.0, 1.0, 0.0]));
+    assert!((number(&bent.unwrap()["value"]["mean"]) - 0.5).abs() < 0.05, "half the thickness");
+    assert!(
+        text.contains("Strength beside the vertical stress")
+            && text.lines().all(|line| line.chars().count() <= 100),
+        "{text}"
+    );
+    for file in ["homogenised.json", "cells.csv", "surface.csv", "surface.svg", "surface.png", "scatter.svg"]
+    {
+        assert!(folder.path("out").join(file).is_file(), "{file}");
+    }
+    let cells = fs::read_to_string(folder.path("out/cells.csv")).unwrap();
+    // Five cells of two sizes with three borders, and the head.
+    assert_eq!(cells.lines().count(), 1 + 10 * 3);
+}
+
+#[test]
+fn the_same_bytes_come_of_any_number_of_threads() {
+    let folder = Folder::with_study(STUDY);
+    for (threads, out) in [("1", "one"), ("3", "three")] {
+        asked(
+            &folder,
+            &[
+                "--threads",
+                threads,
+                "--directions",
+                "in-plane",
+                "--method",
+                "associative,elastic",
+                "--out",
+                out,
+            ],
+        );
+    }
+    for file in ["homogenised.json", "cells.csv", "surface.csv", "surface.svg", "scatter.svg"] {
+        let [one, three] = ["one", "three"].map(|out| fs::read(folder.path(out).join(file)).unwrap());
+        assert!(one == three, "{file}");
+    }
+}
+
+#[test]
+fn another_seed_gives_other_cells_and_the_same_seed_the_same() {
+    let folder = Folder::with_study(STUDY);
+    let of = |seed: &str, out: &str| {
+        let (json, _) = asked(&folder, &["--seed", seed, "--directions", "none", "--out", out]);
+        json["arms"][1]["moduli"]["A1111"]["mean"].as_f64().unwrap()
+    };
+    assert_eq!(of("3", "a"), of("3", "b"));
+    assert_ne!(of("3", "a"), of("4", "c"));
+}
+
+#[test]
+fn what_has_no_cell_or_no_surface_is_refused_before_anything_is_computed() {
+    let battered = STUDY.replace("top_thickness_m = 0.3", "top_thickness_m = 0.2");
+    refused(&battered, &[], "0.3 m thick at its base and 0.2 m at its top");
+    refused(&STUDY.replace("phi_deg = 32", "phi_deg = 0"), &[], "joint.phi_deg and joint.cohesion_pa are 0");
+    refused(
+        &STUDY.replace("least_overlap = 0.1", "least_overlap = 0.45"),
+        &["--stones", "3"],
+        "take an even number of courses",
+    );
+    refused(STUDY, &["--stones", "0"], "allowed is a whole number from 1 to 200");
+    refused(STUDY, &["--stones", "4,2"], "give the sizes from small to large");
+    refused(STUDY, &["--arms", "randon"], "the nearest is `random`");
+    refused(STUDY, &["--directions", "none,in-plane"], "none goes with no other set");
+    refused(STUDY, &["--pressure-pa", "0"], "allowed is a number above 0");
+    refused(STUDY, &["--point", "1"], "has 1 kn points");
+}
