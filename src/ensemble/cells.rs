@@ -1,11 +1,10 @@
 //! The loop over random cells: what masonry of an arm's kind is as a plate, cell by cell.
 
-use std::num::NonZero;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use crate::ensemble::{RunError, is_random};
+use crate::ensemble::is_random;
 use crate::generate::{self, CellFault, generate_cell};
 use crate::homogenise::{AskedOfCell, CellAnswer};
 use crate::interrupt;
@@ -64,15 +63,11 @@ pub fn check_cell(arm: &Arm, stones: [u32; 2]) -> Result<(), CellFault> {
 
 /// Evaluates all cells, in the order of arms, sizes and cells. `finished` is told, from the worker threads, how many of how many are
 /// done.
-///
-/// # Errors
-/// [`RunError`] when no threads can be started.
 pub fn run_cells(
     study: &Study,
     asked: &AskedOfCells,
-    threads: Option<NonZero<usize>>,
     finished: &(dyn Fn(usize, usize) + Sync),
-) -> Result<Vec<CellRow>, RunError> {
+) -> Vec<CellRow> {
     // Cells are drawn one by one: a design shares out the walls of the study.
     let study = Study { design: Design::Plain, ..study.clone() };
     let mut tasks = Vec::new();
@@ -82,15 +77,13 @@ pub fn run_cells(
             tasks.extend((0..cells).map(|cell| CellTask { arm, size, cell }));
         }
     }
-    let threads = threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
     let done = AtomicUsize::new(0);
     let evaluated = |task: &CellTask| {
         let row = evaluate_cell(&study, asked, *task);
         finished(done.fetch_add(1, Ordering::Relaxed) + 1, tasks.len());
         row
     };
-    Ok(pool.install(|| tasks.par_iter().with_max_len(1).map(evaluated).collect()))
+    tasks.par_iter().with_max_len(1).map(evaluated).collect()
 }
 
 /// One cell: a pure function of the study, what is asked and the task.

@@ -3,6 +3,7 @@
 
 pub mod assembly;
 pub mod bodies;
+pub(crate) mod conic;
 pub mod explicit;
 mod gershgorin;
 pub mod grains;

@@ -2,13 +2,11 @@
 
 mod arguments;
 
-use std::fs;
-
 use crate::cli::answer::Answer;
 use crate::cli::failure::Failure;
 use crate::cli::homogenise::arguments::Directions;
 pub(crate) use crate::cli::homogenise::arguments::Homogenise;
-use crate::cli::{arms, locate, output};
+use crate::cli::{arms, locate, output, threads};
 use crate::ensemble::{AskedOfCells, run_cells};
 use crate::homogenise::AskedOfCell;
 use crate::report::{homogenised_summary, homogenised_text, write_homogenised};
@@ -26,14 +24,13 @@ pub(crate) fn homogenise(arguments: &Homogenise) -> Result<Answer, Failure> {
     };
     let asked = asked(&study, arguments)?;
     let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, HOMOGENISED));
-    fs::create_dir_all(&out)
-        .map_err(|error| Failure::Run(format!("cannot create the folder {}: {error}", out.display())))?;
+    output::folder(&out)?;
     let tell = |done: usize, all: usize| {
         if 10 * done / all > 10 * (done - 1) / all {
             output::note(&format!("{}: {done}/{all} cells done", study.name));
         }
     };
-    let rows = run_cells(&study, &asked, arguments.threads, &tell)?;
+    let rows = threads::on(arguments.threads, || Ok(run_cells(&study, &asked, &tell)))?;
     if rows.iter().all(|row| row.found.is_err()) {
         let why = rows.iter().find_map(|row| row.found.as_ref().err()).map(ToString::to_string);
         return Err(Failure::Input(format!("{}: no cell: {}", study.name, why.unwrap_or_default())));

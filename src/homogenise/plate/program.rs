@@ -4,12 +4,13 @@
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::SupportedConeT::{NonnegativeConeT, ZeroConeT};
-use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus};
+use clarabel::solver::{DefaultSolver, IPSolver, SolverStatus};
 
 use super::facet::{Facet, Units};
 use super::interior;
 use super::motion::{Place, Term};
 use super::wall::PlateFault;
+use crate::solve::conic::{Entries, settings};
 
 /// Relative gap and residuals of a solution: well below what the mesh and the facets leave open.
 pub(super) const TOLERANCE: f64 = 1e-7;
@@ -43,24 +44,6 @@ pub(super) struct Solved {
     pub iterations: u32,
 }
 
-/// Rows and columns as triplets.
-#[derive(Default)]
-struct Matrix {
-    rows: Vec<usize>,
-    columns: Vec<usize>,
-    values: Vec<f64>,
-}
-
-impl Matrix {
-    fn add(&mut self, row: usize, column: usize, value: f64) {
-        if value != 0.0 {
-            self.rows.push(row);
-            self.columns.push(column);
-            self.values.push(value);
-        }
-    }
-}
-
 impl Program<'_> {
     /// Solves it by the method of its own, and as a whole where that finds no solution.
     pub fn solve(&self) -> Result<Solved, PlateFault> {
@@ -72,7 +55,7 @@ impl Program<'_> {
         let balance = self.dead.len();
         let first_rope = 1 + 6 * self.places.len();
         let unknowns = first_rope + self.ropes.len();
-        let mut matrix = Matrix::default();
+        let mut matrix = Entries::default();
         let mut right: Vec<f64> = self.dead.iter().map(|d| d / self.units.force).collect();
         self.balance(&mut matrix, first_rope);
         self.strength(&mut matrix, &mut right);
@@ -81,20 +64,20 @@ impl Program<'_> {
             right.push(0.0);
         }
         let rows = right.len();
-        let constraints =
-            CscMatrix::new_from_triplets(rows, unknowns, matrix.rows, matrix.columns, matrix.values);
+        let constraints = matrix.matrix(rows, unknowns);
         let mut objective = vec![0.0; unknowns];
         objective[0] = -1.0;
         let cones = [ZeroConeT(balance), NonnegativeConeT(rows - balance)];
         let quadratic = CscMatrix::zeros((unknowns, unknowns));
-        let mut solver = DefaultSolver::new(&quadratic, &objective, &constraints, &right, &cones, settings())
-            .expect("the program's dimensions agree");
+        let mut solver =
+            DefaultSolver::new(&quadratic, &objective, &constraints, &right, &cones, settings(ITS_TOLERANCE))
+                .expect("the program's dimensions agree");
         solver.solve();
         self.read(&solver.solution, first_rope)
     }
 
     /// Stresses and ropes against the loads, for every velocity.
-    fn balance(&self, matrix: &mut Matrix, first_rope: usize) {
+    fn balance(&self, matrix: &mut Entries, first_rope: usize) {
         let scale = self.units.stress().map(|s| s / self.units.force);
         for (velocity, live) in self.live.iter().enumerate() {
             matrix.add(velocity, 0, -live / self.units.force);
@@ -112,7 +95,7 @@ impl Program<'_> {
     }
 
     /// Every facet at every place.
-    fn strength(&self, matrix: &mut Matrix, right: &mut Vec<f64>) {
+    fn strength(&self, matrix: &mut Entries, right: &mut Vec<f64>) {
         let planes: Vec<_> = self.facets.iter().map(|f| self.units.plane(f)).collect();
         for k in 0..self.places.len() {
             for (normal, bound) in &planes {
@@ -150,17 +133,5 @@ impl Program<'_> {
             ropes: x[first_rope..].iter().map(|pull| pull * self.units.force).collect(),
             iterations: solution.iterations,
         })
-    }
-}
-
-fn settings() -> DefaultSettings<f64> {
-    DefaultSettings {
-        verbose: false,
-        max_threads: 1,
-        tol_gap_abs: ITS_TOLERANCE,
-        tol_gap_rel: ITS_TOLERANCE,
-        tol_feas: ITS_TOLERANCE,
-        presolve_enable: false,
-        ..DefaultSettings::default()
     }
 }

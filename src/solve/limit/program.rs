@@ -6,11 +6,12 @@
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::SupportedConeT::{NonnegativeConeT, SecondOrderConeT, ZeroConeT};
-use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
+use clarabel::solver::{DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 
 use crate::math::Vec3;
 use crate::model::Support;
 use crate::shape::Frame;
+use crate::solve::conic::{Entries, settings};
 use crate::solve::limit::Cone;
 use crate::solve::limit::interfaces::{Blocks, Interface, Rigid};
 use crate::solve::limit::loads::Wrench;
@@ -83,28 +84,18 @@ pub(crate) fn axes(blocks: &Blocks, directions: [Vec3; 2]) -> Vec<[Vec3; 2]> {
         .collect()
 }
 
-/// The rows and columns of the program as triplets.
+/// The constraints of the program, row by row.
 #[derive(Default)]
 struct Matrix {
-    rows: Vec<usize>,
-    columns: Vec<usize>,
-    values: Vec<f64>,
+    entries: Entries,
     right: Vec<f64>,
 }
 
 impl Matrix {
-    fn add(&mut self, row: usize, column: usize, value: f64) {
-        if value != 0.0 {
-            self.rows.push(row);
-            self.columns.push(column);
-            self.values.push(value);
-        }
-    }
-
     /// Adds the row `entries . x + s = right`.
     fn row(&mut self, entries: &[(usize, f64)], right: f64) {
         let row = self.right.len();
-        entries.iter().for_each(|&(column, value)| self.add(row, column, value));
+        entries.iter().for_each(|&(column, value)| self.entries.add(row, column, value));
         self.right.push(right);
     }
 }
@@ -158,11 +149,17 @@ impl Program<'_> {
         self.pull(&mut matrix, &first, ropes);
         let cones = self.strength(&mut matrix, &columns, equations, ropes);
         let (objective, quadratic) = self.objective(&columns, unknowns);
-        let Matrix { rows, columns: at, values, right } = matrix;
-        let constraints = CscMatrix::new_from_triplets(right.len(), unknowns, rows, at, values);
-        let mut solver =
-            DefaultSolver::new(&quadratic, &objective, &constraints, &right, &cones, self.settings())
-                .expect("the program's dimensions agree");
+        let Matrix { entries, right } = matrix;
+        let constraints = entries.matrix(right.len(), unknowns);
+        let mut solver = DefaultSolver::new(
+            &quadratic,
+            &objective,
+            &constraints,
+            &right,
+            &cones,
+            settings(self.tolerance),
+        )
+        .expect("the program's dimensions agree");
         solver.solve();
         let (x, z) = (&solver.solution.x, &solver.solution.z);
         Solved {
@@ -189,18 +186,6 @@ impl Program<'_> {
         let curved: Vec<usize> = (0..unknowns).filter(|&k| curvatures[k] > 0.0).collect();
         let values = curved.iter().map(|&k| curvatures[k]).collect();
         (slopes, CscMatrix::new_from_triplets(unknowns, unknowns, curved.clone(), curved, values))
-    }
-
-    fn settings(&self) -> DefaultSettings<f64> {
-        DefaultSettings {
-            verbose: false,
-            max_threads: 1,
-            tol_gap_abs: self.tolerance,
-            tol_gap_rel: self.tolerance,
-            tol_feas: self.tolerance,
-            presolve_enable: false,
-            ..DefaultSettings::default()
-        }
     }
 
     /// First column and number of columns of every contact point: the normal force, and the shear if it can bear any.
@@ -236,7 +221,7 @@ impl Program<'_> {
             let (live, n) = components(block, &self.live[b]);
             let (dead, _) = components(block, &self.dead[b]);
             for k in 0..n {
-                matrix.add(row + k, 0, live[k] / self.blocks.unit);
+                matrix.entries.add(row + k, 0, live[k] / self.blocks.unit);
                 matrix.right[row + k] = -dead[k] / self.blocks.unit;
             }
         }
@@ -245,7 +230,7 @@ impl Program<'_> {
                 for (b, wrench) in self.blocks.felt(interface, at, direction).into_iter().flatten() {
                     let Some(row) = first[b] else { continue };
                     let (values, n) = components(&self.blocks.rigid[b], &wrench);
-                    (0..n).for_each(|k| matrix.add(row + k, column + c, values[k]));
+                    (0..n).for_each(|k| matrix.entries.add(row + k, column + c, values[k]));
                 }
             }
         }
@@ -260,7 +245,7 @@ impl Program<'_> {
             let mut wrench = Wrench::default();
             wrench.add(rope.at - block.centroid, -rope.direction);
             let (values, n) = components(block, &wrench);
-            (0..n).for_each(|r| matrix.add(row + r, ropes + k, values[r]));
+            (0..n).for_each(|r| matrix.entries.add(row + r, ropes + k, values[r]));
         }
     }
 

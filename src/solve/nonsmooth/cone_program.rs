@@ -10,9 +10,10 @@
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::SupportedConeT::{NonnegativeConeT, SecondOrderConeT, ZeroConeT};
-use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SupportedConeT};
+use clarabel::solver::{DefaultSolver, IPSolver, SupportedConeT};
 
 use crate::solve::STANDARD_GRAVITY;
+use crate::solve::conic::{Entries, settings};
 use crate::solve::nonsmooth::point::Point;
 use crate::solve::nonsmooth::problem::wrench;
 use crate::solve::nonsmooth::{Friction, Problem, Residual};
@@ -87,28 +88,6 @@ enum Rows {
     Touches { normal: usize, cone: usize },
 }
 
-/// A sparse matrix as triplets.
-#[derive(Default)]
-struct Triplets {
-    rows: Vec<usize>,
-    columns: Vec<usize>,
-    values: Vec<f64>,
-}
-
-impl Triplets {
-    fn add(&mut self, row: usize, column: usize, value: f64) {
-        if value != 0.0 {
-            self.rows.push(row);
-            self.columns.push(column);
-            self.values.push(value);
-        }
-    }
-
-    fn matrix(self, height: usize, width: usize) -> CscMatrix<f64> {
-        CscMatrix::new_from_triplets(height, width, self.rows, self.columns, self.values)
-    }
-}
-
 impl Program {
     fn of(problem: &Problem) -> Program {
         // What falls freely over the step, or the fastest of all.
@@ -129,7 +108,7 @@ impl Program {
         let slides: Vec<usize> =
             problem.points.iter().map(|point| usize::from(touches(point) && !point.is_bonded())).collect();
         let width = velocities + slides.iter().sum::<usize>();
-        let (mut quadratic, mut linear) = (Triplets::default(), vec![0.0; width]);
+        let (mut quadratic, mut linear) = (Entries::default(), vec![0.0; width]);
         // What tension always bears acts as a load.
         let pulls: Vec<[f64; 3]> = problem
             .points
@@ -149,8 +128,8 @@ impl Program {
                 }
             }
         }
-        let (mut matrix, mut right, mut cones) = (Triplets::default(), Vec::new(), Vec::new());
-        let add = |matrix: &mut Triplets, row: usize, point: &Point, axis: usize, factor: f64| {
+        let (mut matrix, mut right, mut cones) = (Entries::default(), Vec::new(), Vec::new());
+        let add = |matrix: &mut Entries, row: usize, point: &Point, axis: usize, factor: f64| {
             for (side, sign) in [(0, factor), (1, -factor)] {
                 let entries = wrench(&point.arms[side], &point.axes[axis]);
                 for (k, entry) in entries.into_iter().enumerate() {
@@ -203,22 +182,13 @@ impl Program {
                 right[*normal] += s / self.velocity;
             }
         }
-        let settings = DefaultSettings {
-            verbose: false,
-            max_threads: 1,
-            tol_gap_abs: ACCURACY,
-            tol_gap_rel: ACCURACY,
-            tol_feas: ACCURACY,
-            presolve_enable: false,
-            ..DefaultSettings::default()
-        };
         let mut solver = DefaultSolver::new(
             &self.quadratic,
             &self.linear,
             &self.constraints,
             &right,
             &self.cones,
-            settings,
+            settings(ACCURACY),
         )
         .expect("the program's dimensions agree");
         solver.solve();
