@@ -166,7 +166,8 @@ fn a_block_that_rocks_freely_does_so_as_housner_says_for_ten_half_cycles() {
     let (b, h) = (0.1, 0.6);
     let wall = block(b, h);
     let law = dry(1e9, degrees(atan(3.0)));
-    let settings = nonsmooth::Settings { time_step: 2e-5, ..nonsmooth::Settings::default() };
+    // The default step of 2 ms, in which an impact falls anywhere.
+    let settings = nonsmooth::Settings::default();
     let mut rocking =
         nonsmooth::Simulation::new(&wall, &law, settings, contact::Settings::for_size(0.2, [2, 2]));
     let alpha = atan(b / h);
@@ -185,7 +186,8 @@ fn a_block_that_rocks_freely_does_so_as_housner_says_for_ten_half_cycles() {
             wanted = alpha - acos(cos(alpha) + kept * kept * energy);
             apexes += 1;
             let found = body.turn_since(&from).norm();
-            assert!((found / wanted - 1.0).abs() < 0.01, "{apexes}: {found} {wanted}");
+            // 0.02 % found; it grows with the square of the step.
+            assert!((found / wanted - 1.0).abs() < 1e-3, "{apexes}: {found} {wanted}");
         }
         before = spin;
     }

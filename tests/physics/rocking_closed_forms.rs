@@ -113,7 +113,7 @@ fn spin_that_impacts_keep_over_the_time_step() {
     println!("| stone | step (ms) | first impact | second | third |");
     for half in [[0.2, 0.6], [0.05, 0.2]] {
         let alpha = atan(half[0] / half[1]);
-        for step in [2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4] {
+        for step in [5e-3, 2e-3, 1e-3, 5e-4] {
             // Where in a step an impact falls is chance: 40 starts about 0.6 alpha.
             let n = 40;
             let all: Vec<[f64; 3]> =
@@ -136,7 +136,7 @@ fn free_rocking_for_ten_half_cycles() {
     let (b, h) = (0.1, 0.6);
     let alpha: f64 = atan(b / h);
     let share = crate::rocking_block::Block::perfect(b, h).kept(0);
-    for step in [1e-3, 1e-4, 2e-5] {
+    for step in [5e-3, 2e-3, 1e-3] {
         let found: [f64; 10] = apexes([b, h], 0.5 * alpha, step);
         let mut wanted = 0.5 * alpha;
         let mut largest = 0.0f64;
@@ -144,6 +144,6 @@ fn free_rocking_for_ten_half_cycles() {
             wanted = alpha - acos(cos(alpha) + share * share * (cos(alpha - wanted) - cos(alpha)));
             largest = largest.max((apex / wanted - 1.0).abs());
         }
-        println!("| {} | {:.2} |", 1e3 * step, 100.0 * largest);
+        println!("| {} | {:.3} |", 1e3 * step, 100.0 * largest);
     }
 }

@@ -144,7 +144,7 @@ impl Program {
             rows[at] = Some(Rows::Held(right.len()));
             for axis in 0..3 {
                 add(&mut matrix, right.len(), point, axis, -1.0);
-                right.push(0.0);
+                right.push(point.turns[axis] / velocity);
             }
         }
         cones.push(ZeroConeT(right.len()));
@@ -154,7 +154,7 @@ impl Program {
             rows[at] = Some(Rows::Touches { normal: right.len(), cone: 0 });
             add(&mut matrix, right.len(), point, 0, -1.0);
             matrix.add(right.len(), velocities + k, point.friction);
-            right.push(point.offset().unwrap_or_default() / velocity);
+            right.push(point.constant()[0] / velocity);
             linear[velocities + k] = point.limit(point.least) / unit;
         }
         cones.push(NonnegativeConeT(right.len() - held));
@@ -166,7 +166,7 @@ impl Program {
             right.push(0.0);
             for axis in 1..3 {
                 add(&mut matrix, right.len(), point, axis, -1.0);
-                right.push(0.0);
+                right.push(point.turns[axis] / velocity);
             }
             cones.push(SecondOrderConeT(3));
         }

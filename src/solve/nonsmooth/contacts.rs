@@ -111,24 +111,25 @@ impl Contacts {
         joints.all.iter().zip(&self.memories).map(of).fold(0.0, f64::max)
     }
 
-    /// The points of all joints in a step of length `step` (s): gaps where the bodies are now, everything else where they are half way.
+    /// The points of all joints in a step, where the bodies are now; by how much they turn until the bodies are half way. Joints bear for one
+    /// time (s), and their gaps may close in another.
     pub fn points(
         &self,
         joints: &Joints,
         (now, half_way): (&[Body], &[Body]),
         inertias: &[Inertia],
         normal: Normal,
-        step: f64,
+        (step, closes): (f64, f64),
     ) -> Vec<Point> {
         let mut points = Vec::new();
         for (index, (joint, memory)) in joints.all.iter().zip(&self.memories).enumerate() {
-            let (pose, gap) = (joint.pose(half_way), joint.pose(now).gap);
+            let [pose, later] = [now, half_way].map(|bodies| joint.pose(bodies));
             let bodies = [joint.incident as usize, joint.reference as usize];
             let axes = [pose.push, pose.e1, pose.e2];
             for (own, &([s, t], area)) in memory.places.iter().enumerate() {
                 let at = pose.origin + pose.s * s + pose.t * t;
-                let arms = bodies.map(|body| at - half_way[body].position);
-                let gap = gap.at(&[s, t]);
+                let arms = bodies.map(|body| at - now[body].position);
+                let gap = pose.gap.at(&[s, t]);
                 let mut point = Point {
                     joint: index,
                     own,
@@ -139,14 +140,23 @@ impl Contacts {
                     friction: 0.0,
                     cohesion: 0.0,
                     least: 0.0,
+                    turns: [0.0; 3],
                     bearing: Bearing::Rigid { offset: 0.0 },
                     inertia: inertia_along(bodies.map(|body| &inertias[body]), &arms, &pose.push),
                 };
+                let moved = later.origin + later.s * s + later.t * t;
+                let then = Point {
+                    axes: [later.push, pose.e1, pose.e2],
+                    arms: bodies.map(|body| moved - half_way[body].position),
+                    ..point
+                };
+                let [i, r] = bodies.map(|body| now[body].twist());
+                let [from, to] = [point, then].map(|point| point.between(&i, &r));
+                point.turns = std::array::from_fn(|k| to[k] - from[k]);
                 memory.strengthen(&mut point, joint, area, step);
                 point.bearing = match normal {
-                    Normal::Gap => Bearing::Rigid { offset: gap.max(0.0) / step },
+                    Normal::Gap => Bearing::Rigid { offset: gap.max(0.0) / closes },
                     Normal::Velocity { restitution } => {
-                        let [i, r] = bodies.map(|body| now[body].twist());
                         let closing = point.between(&i, &r)[0];
                         // Open now and half a step ahead: it does not touch in this step.
                         let is_open = gap > 0.0 && gap + 0.5 * step * closing > 0.0;

@@ -31,7 +31,7 @@ pub struct GlobalProblem {
     pub h: Triplets,
     /// `M v` without contact (N s, N m s).
     pub f: Vec<f64>,
-    /// Added to the relative velocities (m/s): the gap over the step along the normal.
+    /// Added to the relative velocities (m/s): the gap over the step along the normal, and by how much points turn in half a step.
     pub w: Vec<f64>,
     /// tan of the friction angle, by point.
     pub mu: Vec<f64>,
@@ -69,8 +69,11 @@ impl Simulation<'_> {
         let global = GlobalProblem::of(&problem);
         let all = problem.velocities(&impulses);
         let v = global.bodies.iter().flat_map(|body| all[DOF * body..DOF * body + DOF].to_vec()).collect();
-        let relative = problem.points.iter().flat_map(|point| point.relative_velocity(&all));
-        let u = relative.zip(&global.w).map(|(u, w)| u + w).collect();
+        let relative = |point: &Point| {
+            let [n, a, b] = point.relative_velocity(&all);
+            [n + point.offset().unwrap_or(0.0), a, b]
+        };
+        let u = problem.points.iter().flat_map(relative).collect();
         let r = impulses.into_iter().flatten().collect();
         Some((global, Solution { v, u, r, residual }))
     }
@@ -110,7 +113,7 @@ impl GlobalProblem {
             mass: Triplets { rows: n, columns: n, entries: mass },
             h: Triplets { rows: n, columns, entries: h },
             f,
-            w: problem.points.iter().flat_map(|point| [point.offset().unwrap_or(0.0), 0.0, 0.0]).collect(),
+            w: problem.points.iter().flat_map(Point::constant).collect(),
             mu: problem.points.iter().map(|point| point.friction).collect(),
             gap: problem.points.iter().map(|point| point.gap).collect(),
             step: problem.step,

@@ -4,7 +4,7 @@
 //! # One step
 //!
 //! Unknown are the velocities `v` after the step and the impulses `r` at the corners of the joints, normal part `r_N` and
-//! tangential part `r_T`. With the relative velocities `u = H^T v` and the gaps `g` at the start of the step
+//! tangential part `r_T`. With the relative velocities `u` and the gaps `g` at the start of the step
 //!
 //! ```text
 //! M (v - v_free) = H r        v_free = v_before + h M^-1 loads        q_after = q_before + h v
@@ -13,9 +13,13 @@
 //! friction    |r_T| <= h c A + r_N tan(phi),   r_T against u_T where it slides
 //! ```
 //!
-//! `H` is taken half a step ahead, where the velocities before the step lead: velocities are those of the middle of a step, as with
-//! central differences, and a stone that rocks on its edge keeps its energy to second order in `h`. A step in which the loads are those of
-//! gravity gains no energy: `u . r <= 0`, and what the velocities change by is dissipated (`-1/2 |v - v_before|^2`).
+//! Velocities are those of the middle of a step, as with central differences, and impulses act as loads do where the step begins: `H` is that of its
+//! start. Relative velocities are taken half a step ahead, where the velocities before the step lead: `u = H^T v + w`, in which `w` is by how much
+//! points turn until then. A step in which something hits is divided there, see `impact`. So a stone that rocks on its edges keeps its
+//! energy to second order in `h`, through impacts as well.
+//!
+//! A step of steady loads gains no energy: velocities gain what loads give them, `u . r <= 0` and `-1/2 |v - v_before|^2`. Of that `-w . r` is left,
+//! which is no gain where stones turn about a point that presses on them: `w` then leads from the point into the stone, as `r` does.
 //!
 //! Friction is Coulomb's, without dilatancy: `u + |u_T| tan(phi) n` lies in the dual of the cone in which `r` lies (De Saxcé and
 //! Feng 1998). Without that term sliding dilates, and a block that slides hops; [`Friction::Dilating`] is there to compare.
@@ -33,7 +37,9 @@
 mod cone_program;
 mod contacts;
 mod global;
+mod impact;
 mod newton;
+mod part;
 mod point;
 mod problem;
 mod project;

@@ -51,6 +51,9 @@ pub struct Point {
     pub cohesion: f64,
     /// Least normal impulse (N s): 0, or below where the joint bears tension.
     pub least: f64,
+    /// What its relative velocity is half way through the step beyond what it is now, at the same velocities of the bodies (m/s): its arms and axes
+    /// turn with them.
+    pub(super) turns: [f64; 3],
     pub(super) bearing: Bearing,
     /// Inertia that resists a unit impulse along the normal (kg): one over the diagonal of the Delassus matrix.
     pub inertia: f64,
@@ -76,13 +79,15 @@ pub(super) enum State {
 }
 
 impl Point {
-    /// The relative velocity of the incident body against the reference body, along the axes, at the velocities of all bodies.
+    /// The relative velocity of the incident body against the reference body, along the axes, half way through the step, at the velocities of all
+    /// bodies.
     pub fn relative_velocity(&self, v: &[f64]) -> [f64; 3] {
         let [i, r] = self.bodies.map(|body| &v[DOF * body..DOF * body + DOF]);
-        self.between(i, r)
+        let u = self.between(i, r);
+        std::array::from_fn(|k| u[k] + self.turns[k])
     }
 
-    /// The same at the velocities of its two bodies.
+    /// The same where the point is now, at the velocities of its two bodies.
     pub(super) fn between(&self, incident: &[f64], reference: &[f64]) -> [f64; 3] {
         let at = |v: &[f64], arm: &Vec3| {
             Vec3::new(
@@ -107,6 +112,12 @@ impl Point {
             Bearing::Rigid { offset } => Some(offset),
             Bearing::Compliant { .. } => None,
         }
+    }
+
+    /// What is added to the relative velocity where the point is now before its law is asked: see `turns`, and by what a rigid point may close (m/s).
+    pub(super) fn constant(&self) -> [f64; 3] {
+        let [n, a, b] = self.turns;
+        [n + self.offset().unwrap_or(0.0), a, b]
     }
 
     /// Largest shear impulse (N s) under a normal one.

@@ -185,6 +185,7 @@ pub(super) mod fixture {
                 friction,
                 cohesion: 0.0,
                 least: 0.0,
+                turns: [0.0; 3],
                 bearing: Bearing::Rigid { offset: 0.0 },
                 inertia: inertia_along(own.map(|body| &inertias[body]), &arms, &Vec3::z()),
             }

@@ -35,7 +35,7 @@ pub(super) fn project(
     }
     let none = [[0.0; DOF]; DOF];
     let inertias: Vec<Inertia> = bodies.iter().map(|body| Inertia::of(body, &body.rotation, &none)).collect();
-    let mut points = contacts.points(&assembly.joints, (bodies, bodies), &inertias, Normal::Gap, 1.0);
+    let mut points = contacts.points(&assembly.joints, (bodies, bodies), &inertias, Normal::Gap, (1.0, 1.0));
     for point in &mut points {
         (point.friction, point.cohesion, point.least) = (0.0, 0.0, 0.0);
         // What overlaps is brought to a share of what is allowed; the rest must not come to overlap.

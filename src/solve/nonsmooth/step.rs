@@ -6,8 +6,9 @@ use crate::model::{JointLaws, Wall};
 use crate::solve::bodies::{Bodies, Body};
 use crate::solve::nonsmooth::cone_program::cone_program;
 use crate::solve::nonsmooth::contacts::Contacts;
+use crate::solve::nonsmooth::impact::Allowance;
 use crate::solve::nonsmooth::newton::{Kept, Start, newton};
-use crate::solve::nonsmooth::point::Point;
+use crate::solve::nonsmooth::part::{Found, Part, Solved};
 use crate::solve::nonsmooth::problem::{Inertia, Matrix, masses};
 use crate::solve::nonsmooth::project::project;
 use crate::solve::nonsmooth::sweeps::sweeps;
@@ -34,8 +35,8 @@ pub struct Stepped {
     pub is_solved: bool,
     /// Largest speed (m/s) of a body after the step: of its centroid, or of its turning at its radius.
     pub speed: f64,
-    /// By how much energy grew (J): of motion, less the work of gravity and dead loads; without what springs store. At most rounding in a
-    /// step with rigid joints.
+    /// By how much energy grew (J): of motion, less the impulses of gravity and dead loads times the velocities that they lead to; without what
+    /// springs store. At most rounding in a step with rigid joints.
     pub energy_gain: f64,
     /// Work (J) that sliding joints took: shear impulses times sliding velocities.
     pub friction_work: f64,
@@ -52,13 +53,17 @@ pub struct Simulation<'a> {
     pub assembly: Assembly<'a>,
     /// Steps taken since the start.
     pub steps: u64,
-    settings: Settings,
+    pub(super) settings: Settings,
     contacts: Contacts,
     system: System,
     /// What the system is factorised for.
     kept: Kept,
     /// With which Newton's method begins.
     weight: f64,
+    /// For how long (s) loads have still to act on the velocities before the next step begins; half of that step where nothing is said.
+    pub(super) owed: Option<f64>,
+    /// How many steps may be divided.
+    pub(super) allowance: Allowance,
 }
 
 impl<'a> Simulation<'a> {
@@ -72,7 +77,17 @@ impl<'a> Simulation<'a> {
         let bodies = &assembly.bodies.all;
         let contacts = Contacts::find(&assembly.joints, bodies, settings.normal, &Default::default());
         let system = System::new(bodies, &assembly.joints);
-        Simulation { assembly, steps: 0, settings, contacts, system, kept: Kept::default(), weight: 0.0 }
+        Simulation {
+            assembly,
+            steps: 0,
+            settings,
+            contacts,
+            system,
+            kept: Kept::default(),
+            weight: 0.0,
+            owed: None,
+            allowance: Allowance::full(),
+        }
     }
 
     /// Looks for contacts anew.
@@ -95,10 +110,21 @@ impl<'a> Simulation<'a> {
 
     /// The contact problem of a step of length `step` (s) from here, and the bodies half a step ahead.
     pub fn problem(&mut self, step: f64) -> Problem {
+        self.posed(self.whole(step))
+    }
+
+    /// A step that is not divided.
+    pub(super) fn whole(&self, step: f64) -> Part {
+        let half = 0.5 * step;
+        Part { loads: self.owed.unwrap_or(half) + half, moves: step, step }
+    }
+
+    /// The contact problem of a part of a step.
+    pub(super) fn posed(&mut self, part: Part) -> Problem {
         self.assembly.apply_loads();
         let now = &self.assembly.bodies.all;
-        let half_way: Vec<Body> = now.iter().map(|body| ahead(body, 0.5 * step)).collect();
-        let springs = self.springs(step);
+        let half_way: Vec<Body> = now.iter().map(|body| ahead(body, 0.5 * part.moves)).collect();
+        let springs = self.springs(part.loads * part.moves);
         let inertias: Vec<Inertia> = half_way
             .iter()
             .zip(&springs)
@@ -106,19 +132,20 @@ impl<'a> Simulation<'a> {
             .collect();
         let mut free = Vec::with_capacity(DOF * now.len());
         for (body, inertia) in now.iter().zip(&inertias) {
-            let linear = body.velocity * (body.mass * body.inertia_scale) + body.force * step;
-            let angular = body.angular_momentum + body.torque * step;
+            let linear = body.velocity * (body.mass * body.inertia_scale) + body.force * part.loads;
+            let angular = body.angular_momentum + body.torque * part.loads;
             free.extend(inertia.velocity(&[linear.x, linear.y, linear.z, angular.x, angular.y, angular.z]));
         }
         let (mass, mean_mass) = masses(now);
         let (joints, normal) = (&self.assembly.joints, self.settings.normal);
-        let points = self.contacts.points(joints, (now, &half_way), &inertias, normal, step);
+        let times = (part.bears(), part.closes());
+        let points = self.contacts.points(joints, (now, &half_way), &inertias, normal, times);
         Problem {
             inertias,
             free,
             points,
-            step,
-            weight: mass * STANDARD_GRAVITY * step,
+            step: part.bears(),
+            weight: mass * STANDARD_GRAVITY * part.step,
             fastest: self.assembly.bodies.fastest().max(LEAST_SPEED),
             mean_mass,
         }
@@ -129,8 +156,8 @@ impl<'a> Simulation<'a> {
         self.settings.time_step
     }
 
-    /// Stiffness of ties and of the platform's springs by body, times the square of the step.
-    fn springs(&self, step: f64) -> Vec<Matrix> {
+    /// Stiffness of ties and of the platform's springs by body, times the square of the step (s^2).
+    fn springs(&self, square: f64) -> Vec<Matrix> {
         let bodies = &self.assembly.bodies.all;
         let mut springs = vec![[[0.0; DOF]; DOF]; bodies.len()];
         for tie in self.assembly.ties() {
@@ -139,12 +166,12 @@ impl<'a> Simulation<'a> {
             for (k, a) in row.iter().enumerate() {
                 row.iter()
                     .enumerate()
-                    .for_each(|(l, b)| springs[tie.tie.body][k][l] += step * step * slope * a * b);
+                    .for_each(|(l, b)| springs[tie.tie.body][k][l] += square * slope * a * b);
             }
         }
         if let Some(mounted) = self.assembly.mounted() {
             let own = &mut springs[mounted.mount.body];
-            mounted.stiffness().iter().enumerate().for_each(|(k, spring)| own[k][k] += step * step * spring);
+            mounted.stiffness().iter().enumerate().for_each(|(k, spring)| own[k][k] += square * spring);
         }
         springs
     }
@@ -154,23 +181,50 @@ impl<'a> Simulation<'a> {
         self.step(self.settings.time_step)
     }
 
-    /// One time step of length `step` (s).
+    /// One time step of length `step` (s); divided where bodies hit one another.
     pub fn step(&mut self, step: f64) -> Stepped {
-        let problem = self.problem(step);
-        let (impulses, residual, iterations) = self.solve(&problem);
-        let v = problem.velocities(&impulses);
-        let energy_gain = self.advance(&problem, &v, step);
-        self.contacts.remember(&mut self.assembly.joints, &problem.points, &impulses, step);
-        self.steps += 1;
-        let mut stepped = Stepped {
-            residual,
-            iterations,
-            is_solved: residual.natural_map <= self.settings.tolerance,
-            speed: self.assembly.bodies.fastest(),
-            energy_gain,
-            friction_work: friction_work(&problem, &v, &impulses),
-            ..Stepped::default()
+        let whole = self.solved(self.whole(step));
+        let stepped = match self.divided(&whole) {
+            Some(stepped) => stepped,
+            None => self.take(&whole),
         };
+        self.end(stepped)
+    }
+
+    /// One time step that is not divided.
+    fn undivided_step(&mut self, step: f64) -> Stepped {
+        let whole = self.solved(self.whole(step));
+        let stepped = self.take(&whole);
+        self.end(stepped)
+    }
+
+    /// Solves a step; nothing moves.
+    fn solved(&mut self, part: Part) -> Solved {
+        let problem = self.posed(part);
+        let found = self.solve(&problem);
+        Solved::of(part, problem, found)
+    }
+
+    /// Takes a step as it was solved.
+    fn take(&mut self, solved: &Solved) -> Stepped {
+        let energy_gain = self.advance(solved);
+        self.remember(solved);
+        self.owed = None;
+        let tolerance = self.settings.tolerance;
+        let speed = self.assembly.bodies.fastest();
+        Stepped { speed, ..solved.told(energy_gain, tolerance) }
+    }
+
+    /// Has the joints remember what a step or a part of it did to them.
+    pub(super) fn remember(&mut self, solved: &Solved) {
+        let Solved { problem, impulses, .. } = solved;
+        self.contacts.remember(&mut self.assembly.joints, &problem.points, impulses, problem.step);
+    }
+
+    /// Ends a step: pushes joints apart that overlap, and looks for contacts anew where bodies have moved.
+    fn end(&mut self, mut stepped: Stepped) -> Stepped {
+        self.steps += 1;
+        self.allowance.grow();
         if self.settings.is_rigid() {
             let enough = OVERLAP * self.assembly.contact.reach;
             let Simulation { assembly, contacts, system, kept, .. } = self;
@@ -185,30 +239,13 @@ impl<'a> Simulation<'a> {
     }
 
     /// The impulses (N s) that solve the problem of a step from here, what is left over, and the iterations that it took.
-    pub(super) fn solve(&mut self, problem: &Problem) -> (Vec<[f64; 3]>, Residual, u32) {
-        let start = self.contacts.impulses(&problem.points, problem.step);
+    pub(super) fn solve(&mut self, problem: &Problem) -> Found {
         let Settings { solver, friction, tolerance, max_iterations, .. } = self.settings;
-        let bodies = &self.assembly.bodies.all;
-        let mut nearest = None;
-        if solver == StepSolver::Newton && friction == Friction::Coulomb {
-            let v: Vec<f64> = bodies.iter().flat_map(Body::twist).collect();
-            let from = Start { velocities: &v, impulses: &start, weight: self.weight };
-            let solved = newton(
-                problem,
-                (&mut self.system, &mut self.kept),
-                bodies,
-                from,
-                (tolerance, max_iterations),
-            );
-            if let Some(solved) = solved {
-                let found = (solved.impulses, solved.residual, solved.factorisations);
-                if found.1.natural_map <= tolerance {
-                    self.weight = solved.weight;
-                    return found;
-                }
-                nearest = Some(found);
-            }
+        let nearest = self.by_newton(problem);
+        if nearest.as_ref().is_some_and(|nearest| nearest.1.natural_map <= tolerance) {
+            return nearest.expect("it is solved");
         }
+        let start = self.contacts.impulses(&problem.points, problem.step);
         // Cone programs know no springs.
         if !self.settings.is_rigid() || (solver == StepSolver::Sweeps && friction == Friction::Coulomb) {
             return sweeps(problem, &start, tolerance, max_iterations);
@@ -221,8 +258,27 @@ impl<'a> Simulation<'a> {
         }
     }
 
-    /// Moves the bodies at velocities for a step; says by how much their energy grows.
-    fn advance(&mut self, problem: &Problem, v: &[f64], step: f64) -> f64 {
+    /// The same by Newton's method alone, as far as it gets; `None` where the settings ask for another, or it gets nowhere.
+    pub(super) fn by_newton(&mut self, problem: &Problem) -> Option<Found> {
+        let Settings { solver, friction, tolerance, max_iterations, .. } = self.settings;
+        if solver != StepSolver::Newton || friction != Friction::Coulomb {
+            return None;
+        }
+        let start = self.contacts.impulses(&problem.points, problem.step);
+        let bodies = &self.assembly.bodies.all;
+        let v: Vec<f64> = bodies.iter().flat_map(Body::twist).collect();
+        let from = Start { velocities: &v, impulses: &start, weight: self.weight };
+        let system = (&mut self.system, &mut self.kept);
+        let solved = newton(problem, system, bodies, from, (tolerance, max_iterations))?;
+        if solved.residual.natural_map <= tolerance {
+            self.weight = solved.weight;
+        }
+        Some((solved.impulses, solved.residual, solved.factorisations))
+    }
+
+    /// Gives the bodies their velocities, and moves them; says by how much their energy grows.
+    pub(super) fn advance(&mut self, solved: &Solved) -> f64 {
+        let Solved { part, problem, v, .. } = solved;
         let mut gain = 0.0;
         for (b, body) in self.assembly.bodies.all.iter_mut().enumerate().filter(|(_, body)| body.moves()) {
             let v = &v[DOF * b..DOF * b + DOF];
@@ -237,20 +293,12 @@ impl<'a> Simulation<'a> {
             body.spin = spin;
             let after = mass * velocity.norm_squared() + spin.dot(&body.angular_momentum);
             let from = body.clone();
-            body.place(&from, &(velocity * step), &(spin * step));
-            gain += 0.5 * (after - before) - step * (body.force.dot(&velocity) + body.torque.dot(&spin));
+            body.place(&from, &(velocity * part.moves), &(spin * part.moves));
+            gain +=
+                0.5 * (after - before) - part.loads * (body.force.dot(&velocity) + body.torque.dot(&spin));
         }
         gain
     }
-}
-
-/// What joints take that slide (J).
-fn friction_work(problem: &Problem, v: &[f64], impulses: &[[f64; 3]]) -> f64 {
-    let of = |(point, impulse): (&Point, &[f64; 3])| {
-        let u = point.relative_velocity(v);
-        -(u[1] * impulse[1] + u[2] * impulse[2])
-    };
-    problem.points.iter().zip(impulses).map(of).sum()
 }
 
 /// A body where its velocity takes it in a time (s).
@@ -287,7 +335,7 @@ impl<'a> Equilibrate<'a> for Simulation<'a> {
         let mut step = self.settings.time_step;
         let mut unbalanced_ratio = f64::INFINITY;
         for steps in 1..=self.settings.max_steps {
-            let stepped = self.step(step);
+            let stepped = self.undivided_step(step);
             let ended = |status, unbalanced_ratio| Settled { status, unbalanced_ratio, steps };
             if !self.assembly.is_finite() || !stepped.speed.is_finite() {
                 return ended(Status::NonFinite, f64::NAN);
