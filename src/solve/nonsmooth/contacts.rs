@@ -8,7 +8,7 @@ use crate::math::Vec3;
 use crate::solve::bodies::Body;
 use crate::solve::joints::{Joint, Joints};
 use crate::solve::nonsmooth::Normal;
-use crate::solve::nonsmooth::point::{Bearing, Point};
+use crate::solve::nonsmooth::point::{Bearing, Point, apart};
 use crate::solve::nonsmooth::problem::{Inertia, inertia_along};
 
 /// What a joint's points remember. They keep their places on the incident body for as long as the joint does.
@@ -126,6 +126,7 @@ impl Contacts {
             let [pose, later] = [now, half_way].map(|bodies| joint.pose(bodies));
             let bodies = [joint.incident as usize, joint.reference as usize];
             let axes = [pose.push, pose.e1, pose.e2];
+            let [i, r] = bodies.map(|body| now[body].twist());
             for (own, &([s, t], area)) in memory.places.iter().enumerate() {
                 let at = pose.origin + pose.s * s + pose.t * t;
                 let arms = bodies.map(|body| at - now[body].position);
@@ -145,14 +146,11 @@ impl Contacts {
                     inertia: inertia_along(bodies.map(|body| &inertias[body]), &arms, &pose.push),
                 };
                 let moved = later.origin + later.s * s + later.t * t;
-                let then = Point {
-                    axes: [later.push, pose.e1, pose.e2],
-                    arms: bodies.map(|body| moved - half_way[body].position),
-                    ..point
-                };
-                let [i, r] = bodies.map(|body| now[body].twist());
-                let [from, to] = [point, then].map(|point| point.between(&i, &r));
-                point.turns = std::array::from_fn(|k| to[k] - from[k]);
+                let then = bodies.map(|body| moved - half_way[body].position);
+                let [from, to] = [arms, then].map(|arms| apart(&arms, &i, &r));
+                let turned = to - from;
+                point.turns =
+                    [later.push.dot(&to) - pose.push.dot(&from), pose.e1.dot(&turned), pose.e2.dot(&turned)];
                 memory.strengthen(&mut point, joint, area, step);
                 point.bearing = match normal {
                     Normal::Gap => Bearing::Rigid { offset: gap.max(0.0) / closes },

@@ -78,6 +78,18 @@ pub(super) enum State {
     Slides,
 }
 
+/// The velocity of one body against another where their arms end, at their velocities.
+pub(super) fn apart(arms: &[Vec3; 2], incident: &[f64], reference: &[f64]) -> Vec3 {
+    let at = |v: &[f64], arm: &Vec3| {
+        Vec3::new(
+            v[0] + v[4] * arm.z - v[5] * arm.y,
+            v[1] + v[5] * arm.x - v[3] * arm.z,
+            v[2] + v[3] * arm.y - v[4] * arm.x,
+        )
+    };
+    at(incident, &arms[0]) - at(reference, &arms[1])
+}
+
 impl Point {
     /// The relative velocity of the incident body against the reference body, along the axes, half way through the step, at the velocities of all
     /// bodies.
@@ -89,14 +101,7 @@ impl Point {
 
     /// The same where the point is now, at the velocities of its two bodies.
     pub(super) fn between(&self, incident: &[f64], reference: &[f64]) -> [f64; 3] {
-        let at = |v: &[f64], arm: &Vec3| {
-            Vec3::new(
-                v[0] + v[4] * arm.z - v[5] * arm.y,
-                v[1] + v[5] * arm.x - v[3] * arm.z,
-                v[2] + v[3] * arm.y - v[4] * arm.x,
-            )
-        };
-        let u = at(incident, &self.arms[0]) - at(reference, &self.arms[1]);
+        let u = apart(&self.arms, incident, reference);
         self.axes.map(|axis| axis.dot(&u))
     }
 
