@@ -107,7 +107,7 @@ pub fn simulated(block: &Block, motion: &Motion, solver: InTime, kn: f64) -> Roc
     };
     let seen = shake(&task, &shaking);
     assert!(matches!(seen.verdict, Verdict::Stands | Verdict::Collapsed), "{:?}", seen.verdict);
-    // A step or two of a record, about an impact, leave 1e-7 of the weight.
+    // One or two steps of a record, about an impact.
     let left = seen.largest_residual;
     assert!(300 * seen.unsolved_steps < seen.steps, "{} of {}: {left:e}", seen.unsolved_steps, seen.steps);
     Rocked { peak: seen.rotation.value, overturned: seen.verdict == Verdict::Collapsed }
