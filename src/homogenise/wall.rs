@@ -16,9 +16,6 @@ const PRESSURE: f64 = 1.0;
 const NOTHING: f64 = 1e-6;
 /// Multiples of a stress from which on it counts as borne: the accuracy of the cell's answer.
 const BORNE: f64 = 1.0 - 1e-6;
-/// When planes are found: to a tenth of a percent of the multiplier, which is far below what cells scatter.
-const CUTS: Cuts = Cuts { tolerance: 1e-3, rounds: 30, asked: 48 };
-
 /// The collapse of a wall as a plate with the associative surface of a cell.
 ///
 /// The multiplier is an upper bound of that of a plate with this surface, by the mesh's mechanisms; shear across the thickness is
@@ -31,7 +28,16 @@ pub fn plate_collapse(
     laws: &dyn JointLaws,
     contact: contact::Settings,
     plate: &Plate,
+    cuts: &Cuts,
 ) -> Result<Refined, PlateFault> {
+    let stones = cell.blocks.len() as u32;
+    let bonds = |a, b| {
+        let law = laws.of(a, b);
+        law.bonded || law.cohesion != 0.0 || law.tension != 0.0
+    };
+    if (0..stones).any(|a| (a..stones).any(|b| bonds(a, b))) {
+        return Err(PlateFault::Bond);
+    }
     let directions: Vec<Direction> = IN_PLANE.into_iter().chain(out_of_plane()).collect();
     let points = surface(cell, laws, contact, Method::Associative, PRESSURE, &directions);
     let unit = |k: usize| if k < 3 { 1.0 } else { cell.thickness };
@@ -52,5 +58,5 @@ pub fn plate_collapse(
         let outside = bearing.limit.multiplier < BORNE && bearing.rate.iter().any(|rate| *rate != 0.0);
         outside.then_some(Facet { normal: bearing.rate, bound: 0.0 })
     };
-    plate.collapse_by_cuts(facets, &mut cut, &CUTS)
+    plate.collapse_by_cuts(facets, &mut cut, cuts)
 }

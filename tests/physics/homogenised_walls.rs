@@ -1,8 +1,9 @@
 //! Walls as plates with the strength of a cell, against closed forms and against their own stones.
 
 use pirca::contact;
-use pirca::homogenise::plate::{Edge, Edges, Plate};
+use pirca::homogenise::plate::{Cuts, Edge, Edges, Plate, PlateFault};
 use pirca::homogenise::plate_collapse;
+use pirca::law::Coulomb;
 use pirca::math::tan;
 use pirca::model::Outcome;
 use pirca::protocol::{self, Direction, Ends, Protocol, Restraint, Tilting};
@@ -17,10 +18,20 @@ const PHI_DEG: f64 = 32.0;
 fn plate(stone: [f64; 3], [length, height]: [f64; 2], edges: Edges, mesh: [usize; 2]) -> f64 {
     let weight = 2000.0 * G * stone[2];
     let live = [0.0, weight, 0.0];
-    let plate = Plate { length, height, mesh, weight, live, edges, ropes: Vec::new(), base_friction: None };
+    let plate = Plate {
+        length,
+        height,
+        mesh,
+        weight,
+        live,
+        base_over_top: 1.0,
+        edges,
+        ropes: Vec::new(),
+        base_friction: None,
+    };
     let cell = Bond::of(stone, 1, 1).cell(|_, _| 0.0);
     let contact = contact::Settings::for_size(0.2, [2, 2]);
-    plate_collapse(&cell, &dry(1e10, PHI_DEG), contact, &plate).unwrap().collapse.multiplier
+    plate_collapse(&cell, &dry(1e10, PHI_DEG), contact, &plate, &Cuts::default()).unwrap().collapse.multiplier
 }
 
 /// The same by its stones: half stones at the ends of every other course.
@@ -65,12 +76,38 @@ fn a_free_wall_overturns_about_its_foot_as_its_stones_do() {
 }
 
 #[test]
-fn a_long_wall_with_led_ends_is_found_within_a_tenth_of_its_stones() {
-    // 20 by 10 stones. What is left: the mesh, and that the stones are not infinitely small.
+fn a_long_wall_with_led_ends_is_found_within_a_fiftieth_of_its_stones() {
+    // 20 by 10 stones. Led stones do not turn, so that the plate folds at the first head joints, three quarters of a stone from the ends in
+    // the mean of courses. What is left: the mesh, which gives too much, and rounds of cutting, which end at 0.2 %.
     let led = Edges { left: Edge::Guided, right: Edge::Guided, ..Edges::RESTING };
     let stone = [0.4, 0.2, 0.35];
-    let (found, own) = (plate(stone, [8.0, 2.0], led, [12, 3]), stones(stone, 20, 10, Ends::OutOfPlane));
-    assert!((found / own - 1.0).abs() < 0.1, "{found} {own}");
+    let clear = 8.0 - 1.5 * stone[0];
+    let (found, own) = (plate(stone, [clear, 2.0], led, [18, 5]), stones(stone, 20, 10, Ends::OutOfPlane));
+    assert!((found / own - 1.0).abs() < 0.02, "{found} {own}");
     // Held ends bear more than free ones by far, so the bound is no accident.
     assert!(own > 1.8 * 0.175, "{own}");
+}
+
+#[test]
+fn a_cell_with_cohesion_makes_no_plate() {
+    let edges = Edges::RESTING;
+    let live = [0.0, 1.0, 0.0];
+    let plate = Plate {
+        length: 2.0,
+        height: 1.0,
+        mesh: [2, 2],
+        weight: 1.0,
+        live,
+        base_over_top: 1.0,
+        edges,
+        ropes: Vec::new(),
+        base_friction: None,
+    };
+    let cell = Bond::of([0.4, 0.2, 0.35], 1, 1).cell(|_, _| 0.0);
+    let contact = contact::Settings::for_size(0.2, [2, 2]);
+    for law in
+        [Coulomb { cohesion: 1.0, ..dry(1e10, PHI_DEG) }, Coulomb { tension: 1.0, ..dry(1e10, PHI_DEG) }]
+    {
+        assert_eq!(plate_collapse(&cell, &law, contact, &plate, &Cuts::default()), Err(PlateFault::Bond));
+    }
 }

@@ -72,10 +72,28 @@ impl Plate {
         self.collapse_by(facets, |program| program.solve())
     }
 
+    /// The collapse when every section has facets of its own, by their numbers; a section without a list has all.
+    pub(super) fn collapse_within(
+        &self,
+        facets: &[Facet],
+        own: &[Vec<usize>],
+    ) -> Result<Collapse, PlateFault> {
+        self.collapse_of(facets, own, |program| program.solve())
+    }
+
     /// The collapse by one way or another to solve the program.
     pub(super) fn collapse_by(
         &self,
         facets: &[Facet],
+        solve: impl FnOnce(&Program) -> Result<Solved, PlateFault>,
+    ) -> Result<Collapse, PlateFault> {
+        self.collapse_of(facets, &[], solve)
+    }
+
+    fn collapse_of(
+        &self,
+        facets: &[Facet],
+        own: &[Vec<usize>],
         solve: impl FnOnce(&Program) -> Result<Solved, PlateFault>,
     ) -> Result<Collapse, PlateFault> {
         self.check(facets)?;
@@ -83,11 +101,15 @@ impl Plate {
         let motions = Motions::new(self, &mesh);
         let places = motions.places(self, &mesh);
         let ropes: Vec<_> = self.ropes.iter().map(|&at| motions.deflection_at(&mesh, at)).collect();
+        let all = || (0..facets.len()).collect();
+        let own: Vec<Vec<usize>> =
+            (0..places.len()).map(|place| own.get(place).cloned().unwrap_or_else(all)).collect();
         let program = Program {
             places: &places,
             facets,
-            dead: &motions.power(&mesh, [0.0, 0.0, -self.weight]),
-            live: &motions.power(&mesh, self.live),
+            own: &own,
+            dead: &motions.power(&mesh, [0.0, 0.0, -self.weight], 1.0),
+            live: &motions.power(&mesh, self.live, self.base_over_top),
             ropes: &ropes,
             units: Units::of(self.weight * self.height, facets),
         };

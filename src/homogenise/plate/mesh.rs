@@ -86,6 +86,11 @@ impl Mesh {
         Self { nodes, triangles, edges, size, cells }
     }
 
+    /// Height of the rectangle (m).
+    pub fn height(&self) -> f64 {
+        self.size[1]
+    }
+
     /// The node in the middle of an edge.
     pub fn middle(&self, edge: usize) -> usize {
         self.nodes.len() - self.edges.len() + edge

@@ -131,18 +131,28 @@ impl Motions {
         Place { at: mesh.nodes[node], normal: Some(edge.normal), size: edge.length / 2.0, rate: merged(rate) }
     }
 
-    /// Power of a load per area: (along x, y, z), on every velocity.
-    pub fn power(&self, mesh: &Mesh, load: [f64; 3]) -> Vec<f64> {
+    /// Power on every velocity of a load per area: its mean along x, y and z, and that at the bottom over that at the top.
+    pub fn power(&self, mesh: &Mesh, mean: [f64; 3], base_over_top: f64) -> Vec<f64> {
         let mut power = vec![0.0; self.count];
+        let top = 2.0 / (base_over_top + 1.0);
+        let share =
+            |node: usize| top * (base_over_top + (1.0 - base_over_top) * mesh.nodes[node][1] / mesh.height());
         for (t, triangle) in mesh.triangles.iter().enumerate() {
-            let third = triangle.area / 3.0;
+            let q = triangle.corners.map(share);
+            let sum = q[0] + q[1] + q[2];
             for corner in 0..3 {
-                power[self.in_plane(t, corner, 0)] += load[0] * third;
-                power[self.in_plane(t, corner, 1)] += load[2] * third;
+                // The integral of l_i q, with barycentric coordinates l.
+                let of = triangle.area / 12.0 * (sum + q[corner]);
+                power[self.in_plane(t, corner, 0)] += mean[0] * of;
+                power[self.in_plane(t, corner, 1)] += mean[2] * of;
             }
-            // A quadratic's integral is a third of the area times the sum over the middles.
-            let middles = triangle.middles.iter().filter_map(|&node| self.deflection(node));
-            middles.for_each(|velocity| power[velocity] += load[1] * third);
+            // Those of the quadratic shapes l_i (2 l_i - 1) and 4 l_i l_k with q.
+            let at_corner = |i: usize| triangle.area / 60.0 * (3.0 * q[i] - sum);
+            let between = |i: usize| triangle.area / 15.0 * (2.0 * sum - q[(i + 2) % 3]);
+            let shapes = [at_corner(0), at_corner(1), at_corner(2), between(0), between(1), between(2)];
+            for (velocity, of) in self.of_nodes(triangle, &shapes) {
+                power[velocity] += mean[1] * of;
+            }
         }
         power
     }

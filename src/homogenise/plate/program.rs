@@ -21,6 +21,8 @@ const ITS_TOLERANCE: f64 = 1e-9;
 pub(super) struct Program<'a> {
     pub places: &'a [Place],
     pub facets: &'a [Facet],
+    /// The facets that bound the stress at every place, by their numbers.
+    pub own: &'a [Vec<usize>],
     /// Power of the dead and of the live load on every velocity.
     pub dead: &'a [f64],
     pub live: &'a [f64],
@@ -94,11 +96,11 @@ impl Program<'_> {
         }
     }
 
-    /// Every facet at every place.
+    /// The facets of every place.
     fn strength(&self, matrix: &mut Entries, right: &mut Vec<f64>) {
         let planes: Vec<_> = self.facets.iter().map(|f| self.units.plane(f)).collect();
-        for k in 0..self.places.len() {
-            for (normal, bound) in &planes {
+        for (k, own) in self.own.iter().enumerate() {
+            for (normal, bound) in own.iter().map(|&facet| &planes[facet]) {
                 (0..6).for_each(|c| matrix.add(right.len(), 1 + 6 * k + c, normal[c]));
                 right.push(*bound);
             }

@@ -62,6 +62,8 @@ pub struct Plate {
     /// Live load at a multiplier of one (N/m^2): force per area of the wall's face along x, y and z. The wall's weight along y is
     /// a tilt out of plane, along x one in plane; the multiplier is then the tangent of the angle.
     pub live: [f64; 3],
+    /// The live load at the bottom over that at the top: it changes linearly with height about the mean above; 1 where it does not.
+    pub base_over_top: f64,
     /// How the edges are held.
     pub edges: Edges,
     /// Points (x, z) that ropes hold against going towards +y; going back they do not hinder.
@@ -80,8 +82,11 @@ pub enum PlateFault {
     /// No cells one way.
     #[error("the mesh of a plate needs a cell each way, not {0} x {1}")]
     Mesh(usize, usize),
-    /// The weight is not a number of at least zero, or the live load is nothing or not finite.
-    #[error("the weight of a plate must be 0 N/m^2 or more, and its live load finite and not 0")]
+    /// The weight is not a number of at least zero, the live load is nothing or not finite, or its ratio over the height is no number of
+    /// at least zero.
+    #[error(
+        "the weight of a plate must be 0 N/m^2 or more, its live load finite and not 0, and that at the base over that at the top 0 or more"
+    )]
     Load,
     /// The friction coefficient of the ground is not a number of at least zero.
     #[error("the friction coefficient under a plate must be 0 or more, not {0}")]
@@ -92,6 +97,11 @@ pub enum PlateFault {
     /// The facet of this place in the list has no direction, or is not finite.
     #[error("facet {0} has no direction, or is not finite")]
     Facet(usize),
+    /// A joint of the cell has cohesion or tensile strength.
+    #[error(
+        "what a plate bears is taken from its weight alone, but a joint of its cell has cohesion or tensile strength: set both to 0"
+    )]
+    Bond,
     /// No mechanism is both possible and driven by the live load: any multiplier is borne.
     #[error("the wall bears the live load whatever its size")]
     Unbounded,
@@ -114,7 +124,8 @@ impl Plate {
             return Err(PlateFault::Mesh(self.mesh[0], self.mesh[1]));
         }
         let live = self.live.iter().all(|q| q.is_finite()) && self.live.iter().any(|&q| q != 0.0);
-        if !(self.weight.is_finite() && self.weight >= 0.0 && live) {
+        let linear = self.base_over_top.is_finite() && self.base_over_top >= 0.0;
+        if !(self.weight.is_finite() && self.weight >= 0.0 && live && linear) {
             return Err(PlateFault::Load);
         }
         if let Some(friction) = self.base_friction.filter(|f| !(f.is_finite() && *f >= 0.0)) {

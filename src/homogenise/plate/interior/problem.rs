@@ -1,4 +1,4 @@
-//! The program in the form that the method works on: groups of six stresses, each with planes of its own.
+//! The program in the form that the method works on: groups of six stresses, each with planes of its own, one after another.
 
 use crate::homogenise::plate::motion::Term;
 use crate::homogenise::plate::program::Program;
@@ -20,10 +20,9 @@ const ROPE: Plane = Plane { normal: [-1.0, 0.0, 0.0, 0.0, 0.0, 0.0], bound: 0.0 
 pub(super) struct Group {
     /// Their rates from the velocities.
     pub rate: Vec<Term<Six>>,
-    /// Its planes, as a part of [`Problem::planes`].
-    planes: (usize, usize),
-    /// The first of the planes among those of all groups.
+    /// The first of its planes among those of all groups, and how many it has.
     pub first: usize,
+    planes: usize,
 }
 
 /// The program.
@@ -39,36 +38,34 @@ pub(super) struct Problem {
 impl Problem {
     pub fn of(program: &Program) -> Self {
         let units = program.units;
-        let mut planes: Vec<Plane> = program.facets.iter().map(|f| units.plane(f)).map(plane).collect();
-        let facets = planes.len();
-        planes.push(ROPE);
+        let facets: Vec<Plane> = program.facets.iter().map(|f| units.plane(f)).map(plane).collect();
         let scale = units.stress().map(|s| s / units.force);
-        let mut count = 0;
-        let mut group = |rate: Vec<Term<Six>>, planes: (usize, usize)| {
-            count += planes.1 - planes.0;
-            Group { rate, planes, first: count + planes.0 - planes.1 }
-        };
+        let mut planes = Vec::new();
         let mut groups = Vec::with_capacity(program.places.len() + program.ropes.len());
-        for place in program.places {
+        for (place, own) in program.places.iter().zip(program.own) {
             let scaled = |rate: &Six| std::array::from_fn(|c| place.size * rate[c] * scale[c]);
-            groups.push(group(place.rate.iter().map(|(v, rate)| (*v, scaled(rate))).collect(), (0, facets)));
+            let rate = place.rate.iter().map(|(v, rate)| (*v, scaled(rate))).collect();
+            groups.push(Group { rate, first: planes.len(), planes: own.len() });
+            planes.extend(own.iter().map(|&facet| facets[facet]));
         }
         for rope in program.ropes {
             let pull = |&(v, share): &Term<f64>| (v, [share, 0.0, 0.0, 0.0, 0.0, 0.0]);
-            groups.push(group(rope.iter().map(pull).collect(), (facets, facets + 1)));
+            groups.push(Group { rate: rope.iter().map(pull).collect(), first: planes.len(), planes: 1 });
+            planes.push(ROPE);
         }
         let load = |power: &[f64]| power.iter().map(|p| p / units.force).collect();
-        Self { groups, planes, dead: load(program.dead), live: load(program.live), count }
+        let (dead, live) = (load(program.dead), load(program.live));
+        Self { groups, count: planes.len(), planes, dead, live }
     }
 
     /// The planes of a group.
     pub fn planes(&self, group: &Group) -> &[Plane] {
-        &self.planes[group.planes.0..group.planes.1]
+        &self.planes[group.first..group.first + group.planes]
     }
 
     /// The bounds of all groups' planes.
     pub fn bounds(&self) -> impl Iterator<Item = f64> + '_ {
-        self.groups.iter().flat_map(|g| self.planes(g)).map(|p| p.bound)
+        self.planes.iter().map(|p| p.bound)
     }
 
     /// What stresses do to the velocities.

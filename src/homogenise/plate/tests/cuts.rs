@@ -36,6 +36,9 @@ fn cuts_find_the_slab_that_the_facets_only_surround() {
     assert!(factors.is_sorted_by(|before, after| *after < before * (1.0 + 1e-6)), "{factors:?}");
     assert!((factors.last().unwrap() - 24.0).abs() < 1e-4, "{factors:?}");
     assert_ne!(refined.ending, Ending::RoundsSpent);
+    // Planes are put to the sections that they cut: at all others they would change nothing.
+    let everywhere = plate.collapse(&refined.facets).unwrap();
+    assert!((everywhere.multiplier / refined.collapse.multiplier - 1.0).abs() < 1e-5);
 }
 
 #[test]

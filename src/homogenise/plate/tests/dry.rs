@@ -13,6 +13,18 @@ fn a_free_wall_overturns_about_the_edge_of_its_foot() {
 }
 
 #[test]
+fn a_load_that_is_greater_at_the_foot_overturns_a_wall_by_its_own_lever() {
+    for ratio in [0.0, 0.5, 2.0, 5.0] {
+        for mesh in [[1, 1], [3, 2]] {
+            let pressed = Plate { base_over_top: ratio, ..wall(mesh) };
+            // A trapezoid's centre of gravity over the foot.
+            let lever = 2.0 / 3.0 * (ratio + 2.0) / (ratio + 1.0);
+            near(solved(&pressed, &beds(0.0)).multiplier, THICKNESS / 2.0 / lever);
+        }
+    }
+}
+
+#[test]
 fn the_foot_of_a_wall_that_overturns_opens_by_half_the_thickness_times_its_turn() {
     let collapse = solved(&wall([3, 2]), &[beds(0.0), heads()].concat());
     let foot = collapse.sections.iter().filter(|s| s.at[1] == 0.0 && s.normal == Some([0.0, -1.0]));
@@ -114,6 +126,7 @@ fn what_makes_no_sense_is_named() {
     assert_eq!(fault(&|p| p.length = 0.0), PlateFault::Size(0.0, 2.0));
     assert_eq!(fault(&|p| p.mesh = [3, 0]), PlateFault::Mesh(3, 0));
     assert_eq!(fault(&|p| p.live = [0.0; 3]), PlateFault::Load);
+    assert_eq!(fault(&|p| p.base_over_top = -1.0), PlateFault::Load);
     assert_eq!(fault(&|p| p.weight = -1.0), PlateFault::Load);
     assert_eq!(fault(&|p| p.base_friction = Some(-0.1)), PlateFault::Friction(-0.1));
     assert_eq!(fault(&|p| p.ropes = vec![[1.0, 1.0], [1.0, 2.1]]), PlateFault::Rope(1));

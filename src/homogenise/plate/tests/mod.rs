@@ -21,6 +21,7 @@ fn wall(mesh: [usize; 2]) -> Plate {
         mesh,
         weight: WEIGHT,
         live: [0.0, WEIGHT, 0.0],
+        base_over_top: 1.0,
         edges: Edges::RESTING,
         ropes: Vec::new(),
         base_friction: None,
