@@ -4,12 +4,13 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
+use crate::contact;
 use crate::ensemble::is_random;
 use crate::generate::{self, CellFault, generate_cell};
 use crate::homogenise::{AskedOfCell, CellAnswer};
 use crate::interrupt;
 use crate::math::STANDARD_GRAVITY;
-use crate::model::Wall;
+use crate::model::{Cell, JointLaws, Wall};
 use crate::random::Design;
 use crate::study::{Arm, AsDrawn, DrawnJoints, Study};
 
@@ -68,8 +69,6 @@ pub fn run_cells(
     asked: &AskedOfCells,
     finished: &(dyn Fn(usize, usize) + Sync),
 ) -> Vec<CellRow> {
-    // Cells are drawn one by one: a design shares out the walls of the study.
-    let study = Study { design: Design::Plain, ..study.clone() };
     let mut tasks = Vec::new();
     for &arm in &asked.arms {
         let cells = if is_random(&study.arms[arm as usize]) { asked.cells } else { 1 };
@@ -79,7 +78,7 @@ pub fn run_cells(
     }
     let done = AtomicUsize::new(0);
     let evaluated = |task: &CellTask| {
-        let row = evaluate_cell(&study, asked, *task);
+        let row = evaluate_cell(study, asked, *task);
         finished(done.fetch_add(1, Ordering::Relaxed) + 1, tasks.len());
         row
     };
@@ -89,16 +88,38 @@ pub fn run_cells(
 /// One cell: a pure function of the study, what is asked and the task.
 pub fn evaluate_cell(study: &Study, asked: &AskedOfCells, task: CellTask) -> CellRow {
     interrupt::look();
-    let member = FIRST_CELL + ((task.size as u64) << 32) + task.cell;
-    let AsDrawn { arm, .. } = study.as_drawn(task.arm, member);
-    let streams = study.streams(member);
-    let found = generate_cell(&arm.layout, asked.sizes[task.size], &streams).map(|made| {
-        let wall = Wall { blocks: made.cell.blocks.clone() };
-        let kn = arm.kn_points[asked.point as usize];
-        let laws = DrawnJoints::new(&arm.joint, kn, streams).altered(&arm.mechanisms, &wall);
-        let contact = arm.mechanisms.contacts(arm.sub_contacts).of_wall(&wall);
-        let weight = arm.layout.density.mean() * STANDARD_GRAVITY * 0.5 * arm.layout.outline.height;
-        asked.of.answer(&made.cell, &laws, contact, asked.pressure.unwrap_or(weight))
+    let found = with_cell(study, asked, task, |Built { drawn, cell, laws, contact }| {
+        let layout = &drawn.arm.layout;
+        let weight = layout.density.mean() * STANDARD_GRAVITY * 0.5 * layout.outline.height;
+        asked.of.answer(cell, laws, contact, asked.pressure.unwrap_or(weight))
     });
     CellRow { task, found }
+}
+
+/// A cell with its joints, and the arm and load that go with it.
+pub(super) struct Built<'a> {
+    pub drawn: &'a AsDrawn<'a>,
+    pub cell: &'a Cell,
+    pub laws: &'a dyn JointLaws,
+    pub contact: contact::Settings,
+}
+
+/// Builds a cell, draws its joints and asks it something.
+pub(super) fn with_cell<R>(
+    study: &Study,
+    asked: &AskedOfCells,
+    task: CellTask,
+    ask: impl FnOnce(Built<'_>) -> R,
+) -> Result<R, CellFault> {
+    // Cells are drawn one by one: a design shares out the walls of the study.
+    let study = Study { design: Design::Plain, ..study.clone() };
+    let member = FIRST_CELL + ((task.size as u64) << 32) + task.cell;
+    let drawn = study.as_drawn(task.arm, member);
+    let streams = study.streams(member);
+    let made = generate_cell(&drawn.arm.layout, asked.sizes[task.size], &streams)?;
+    let wall = Wall { blocks: made.cell.blocks.clone() };
+    let kn = drawn.arm.kn_points[asked.point as usize];
+    let laws = DrawnJoints::new(&drawn.arm.joint, kn, streams).altered(&drawn.arm.mechanisms, &wall);
+    let contact = drawn.arm.mechanisms.contacts(drawn.arm.sub_contacts).of_wall(&wall);
+    Ok(ask(Built { drawn: &drawn, cell: &made.cell, laws: &laws, contact }))
 }

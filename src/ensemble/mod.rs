@@ -18,6 +18,7 @@ mod kept;
 mod lines;
 mod machine;
 mod manifest;
+mod plates;
 mod progress;
 mod quantity;
 pub mod rare;
@@ -53,6 +54,9 @@ pub use influence::{
 };
 pub use kept::Kept;
 pub use manifest::Manifest;
+pub use plates::{
+    AskedOfWalls, Judged, NoPlate, Subject, WallRow, WallTask, check_plate, evaluate_wall, run_walls,
+};
 pub use progress::{Grown, Progress, Silent};
 pub use quantity::{Observed, Quantity};
 pub use rare::{Draw, RareWalls};

@@ -8,7 +8,7 @@ use crate::protocol::rigid::{Rigid, level};
 use crate::protocol::shear::push_on;
 use crate::protocol::stage::Stage;
 use crate::protocol::{Contacts, Protocol, Restraint};
-use crate::solve::limit::{Flow, Settings};
+use crate::solve::limit::{Flow, Limit, Settings};
 
 /// What limit analysis says of a wall under a protocol's loads: a tilt (rad), a factor on the protocol's load, or the push over
 /// the vertical load.
@@ -60,25 +60,8 @@ impl Bounds {
         restraint: &Restraint,
         contacts: impl Into<Contacts>,
     ) -> Bounds {
-        let mut stage = Stage::new(wall, laws, protocol, restraint, contacts.into());
-        let (growing, loads) = match protocol {
-            Protocol::Tilting(_) | Protocol::BaseMotion(_) => (Growing::Tilt(stage.towards), Vec::new()),
-            Protocol::Lateral(lateral) => (Growing::Factor, back_loads(wall, lateral)),
-            // The jack is the load.
-            Protocol::Shear(shear) => {
-                let jack = stage.ties.remove(0);
-                (Growing::Factor, vec![push_on(&jack, shear.vertical_load)])
-            }
-        };
-        let rigid = Rigid {
-            wall: &stage.assembly,
-            laws: &stage.laws,
-            contact: stage.contact,
-            ties: &stage.ties,
-            loads: &loads,
-            growing,
-        };
-        let asked = |flow| rigid.ask(Settings { flow, ..Settings::default() }).0;
+        let contacts = contacts.into();
+        let asked = |flow| limit_of(wall, laws, (protocol, restraint, contacts), flow);
         let associative = asked(Flow::Associative);
         let stands = match associative.outcome {
             Outcome::UnstableAtRest => Some(false),
@@ -107,6 +90,34 @@ impl Bounds {
             _ => Agreement::OneStands,
         }
     }
+}
+
+/// Limit analysis of a wall of stones, with one flow, loaded as [`Bounds::of`] says.
+pub fn limit_of(
+    wall: &Wall,
+    laws: &dyn JointLaws,
+    (protocol, restraint, contacts): (&Protocol, &Restraint, Contacts),
+    flow: Flow,
+) -> Limit {
+    let mut stage = Stage::new(wall, laws, protocol, restraint, contacts);
+    let (growing, loads) = match protocol {
+        Protocol::Tilting(_) | Protocol::BaseMotion(_) => (Growing::Tilt(stage.towards), Vec::new()),
+        Protocol::Lateral(lateral) => (Growing::Factor, back_loads(wall, lateral)),
+        // The jack is the load.
+        Protocol::Shear(shear) => {
+            let jack = stage.ties.remove(0);
+            (Growing::Factor, vec![push_on(&jack, shear.vertical_load)])
+        }
+    };
+    let rigid = Rigid {
+        wall: &stage.assembly,
+        laws: &stage.laws,
+        contact: stage.contact,
+        ties: &stage.ties,
+        loads: &loads,
+        growing,
+    };
+    rigid.ask(Settings { flow, ..Settings::default() }).0
 }
 
 #[cfg(test)]

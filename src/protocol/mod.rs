@@ -38,7 +38,7 @@ pub use amplified::amplified;
 pub use base_motion::{
     BaseMotion, Energy, Extreme, InTime, Shaken, Shaking, Verdict, shake, shake_twice, shake_wall,
 };
-pub use bounds::{Agreement, Bounds};
+pub use bounds::{Agreement, Bounds, limit_of};
 pub use changes::{Changes, Creep, Loss};
 pub use closing::Closing;
 pub use confirm::Confirmation;

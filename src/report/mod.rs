@@ -66,8 +66,9 @@ pub use gain::GainSummary;
 pub use gathered::Gathered;
 pub use gltf::{Actor, Role, write_glb};
 pub use homogenised::{
-    HomogenisedSummary, ModulusBounds, NestedCells, PlateArm, PlateCells, PlateUnits, PlateValue,
-    SurfaceEntry, ValueBySize, homogenised_summary, homogenised_text, write_homogenised,
+    HeldWalls, HomogenisedSummary, ModulusBounds, NestedCells, PlateArm, PlateCells, PlateUnits, PlateValue,
+    SurfaceEntry, ValueBySize, WallSample, WallShare, WallsAsPlates, homogenised_summary, homogenised_text,
+    write_homogenised,
 };
 pub use influence::{InfluenceSummary, ShareEntry, influence_page, influence_text, running, write_influence};
 pub use joint_law::{LawSummary, law_text, remove_law, write_law};

@@ -129,6 +129,68 @@ fn a_regular_arm_has_its_closed_forms_and_a_random_one_scatters_between_bounds()
 }
 
 #[test]
+fn walls_are_held_against_plates_with_the_strength_of_cells() {
+    let folder = Folder::with_study(STUDY);
+    let walls = ["--walls", "6", "--plates", "3", "--directions", "in-plane"];
+    let both = ["--method", "associative,non-associative", "--out", "out"];
+    let (json, text) = asked(&folder, &[&walls[..], &both[..]].concat());
+    let [regular, random] = [0, 1].map(|arm| json["arms"][arm]["walls"].clone());
+    let number = |value: &Value| value.as_f64().unwrap_or_else(|| panic!("{value}"));
+    // A free wall overturns at its thickness over its height, by its stones and as a plate: to the solvers' accuracy.
+    for sample in ["stones", "plates"] {
+        assert_eq!(regular[sample]["n"], 1);
+        assert!((number(&regular[sample]["mean"]["value"]) - 0.3).abs() < 1e-4, "{sample}");
+    }
+    assert_eq!((&random["stones"]["n"], &random["plates"]["n"]), (&6.into(), &3.into()));
+    assert_eq!(random["within_5_percent"]["of"], 6);
+    // Too few walls to fit an interval by some and look at it with the others.
+    assert!(random["by_walls"].is_null() && regular["by_cells"].is_null());
+    let flow = &random["non_associative_over_associative"];
+    assert_eq!(number(&flow["n"]) + number(&random["non_associative_failed"]), 6.0);
+    assert!(number(&flow["mean"]["value"]) <= 1.0 + 1e-6, "associative flow bounds from above");
+    assert!(text.contains("Walls beside their plates"), "{text}");
+    let table = fs::read_to_string(folder.path("out/walls.csv")).unwrap();
+    assert_eq!(table.lines().filter(|line| line.contains(",plate,")).count(), 1 + 3);
+    assert_eq!(table.lines().filter(|line| line.contains(",stones,")).count(), 2 * (1 + 6));
+    assert_eq!(fs::read_to_string(folder.path("out/timing.csv")).unwrap().lines().count(), 1 + 4 + 7);
+}
+
+#[test]
+fn a_pressure_on_the_back_overturns_a_wall_as_its_plate() {
+    let load = "protocol = \"lateral\"\nmean_pressure_pa = 1000\nbase_over_top = 2\nsteps = 5\n";
+    let (from, to) = (STUDY.find("protocol").unwrap(), STUDY.find("[restraint]").unwrap());
+    let study = format!("{}{load}\n{}", &STUDY[..from], &STUDY[to..]);
+    let folder = Folder::with_study(&study);
+    let (json, _) =
+        asked(&folder, &["--walls", "1", "--plates", "1", "--arms", "regular", "--directions", "none"]);
+    // Weight times half the thickness over pressure times its lever, 4/9 of the height, of a wall 1 m high.
+    let exact = 2400.0 * 9.80665 * 0.3 * 0.15 / (1000.0 * 4.0 / 9.0);
+    for sample in ["stones", "plates"] {
+        let found = json["arms"][0]["walls"][sample]["mean"]["value"].as_f64().unwrap();
+        assert!((found / exact - 1.0).abs() < 1e-3, "{sample}: {found} for {exact}");
+    }
+}
+
+#[test]
+fn walls_that_are_no_plates_are_refused_before_anything_is_computed() {
+    const ROPES: &str = "ends = \"ropes\"\n[restraint.rope]\nstiffness_n_per_m = 1e6\n";
+    let walls = ["--walls", "2", "--plates", "1"];
+    refused(
+        &STUDY.replace("cohesion_pa = 0", "cohesion_pa = 10"),
+        &walls,
+        "joint.cohesion_pa and joint.tension_pa to 0",
+    );
+    refused(&STUDY.replace("ends = \"free\"", "ends = \"joint_springs\""), &walls, "which no plate has");
+    refused(
+        &STUDY.replace("ends = \"free\"", ROPES).replace("\"y+\"", "\"y-\""),
+        &walls,
+        "take load.towards = \"y+\"",
+    );
+    refused(STUDY, &["--walls", "2", "--plates", "9", "--cells", "3"], "no more plates than --cells");
+    refused(STUDY, &["--plates", "1"], "--walls");
+}
+
+#[test]
 fn the_same_bytes_come_of_any_number_of_threads() {
     let folder = Folder::with_study(STUDY);
     for (threads, out) in [("1", "one"), ("3", "three")] {
@@ -141,12 +203,16 @@ fn the_same_bytes_come_of_any_number_of_threads() {
                 "in-plane",
                 "--method",
                 "associative,elastic",
+                "--walls",
+                "3",
+                "--plates",
+                "1",
                 "--out",
                 out,
             ],
         );
     }
-    for file in ["homogenised.json", "cells.csv", "surface.csv", "surface.svg", "scatter.svg"] {
+    for file in ["homogenised.json", "cells.csv", "surface.csv", "walls.csv", "surface.svg", "scatter.svg"] {
         let [one, three] = ["one", "three"].map(|out| fs::read(folder.path(out).join(file)).unwrap());
         assert!(one == three, "{file}");
     }

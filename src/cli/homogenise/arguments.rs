@@ -9,6 +9,7 @@ use crate::cli::arguments::{OUTPUT, SOLUTION, Which};
 use crate::homogenise::{Direction, IN_PLANE, Method, out_of_plane};
 
 const CELLS: &str = "Cells";
+const WALLS: &str = "Walls";
 
 /// Arguments of `homogenise`.
 #[derive(Args, Debug)]
@@ -22,6 +23,13 @@ pub(crate) struct Homogenise {
     /// Random cells of each size and arm. Arms in which nothing is drawn have one.
     #[arg(long, value_name = "N", default_value_t = 50, value_parser = clap::value_parser!(u64).range(2..=100_000), help_heading = CELLS)]
     pub cells: u64,
+    /// Walls of each arm to hold plates against: what each bears by limit analysis of all its stones, under the study's tilt or lateral
+    /// load. With --method non-associative without dilatancy, too.
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u64).range(..=100_000), help_heading = WALLS)]
+    pub walls: u64,
+    /// Plates of each arm beside them, each with the strength of one of the largest cells [default: 10, or all cells if these are fewer].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000), requires = "walls", help_heading = WALLS)]
+    pub plates: Option<u64>,
     /// The arms [default: all].
     #[arg(long, value_name = "ARM", value_delimiter = ',', help_heading = CELLS)]
     pub arms: Vec<String>,

@@ -7,13 +7,15 @@ use crate::cli::failure::Failure;
 use crate::cli::homogenise::arguments::Directions;
 pub(crate) use crate::cli::homogenise::arguments::Homogenise;
 use crate::cli::{arms, locate, output, threads};
-use crate::ensemble::{AskedOfCells, run_cells};
-use crate::homogenise::AskedOfCell;
+use crate::ensemble::{AskedOfCells, AskedOfWalls, check_plate, run_cells, run_walls};
+use crate::homogenise::{AskedOfCell, Method};
 use crate::report::{homogenised_summary, homogenised_text, write_homogenised};
 use crate::study::Study;
 
 /// What the folder of the results is named by.
 const HOMOGENISED: &str = "homogenised";
+/// Plates beside walls, if there are as many cells.
+const PLATES: u64 = 10;
 
 /// Builds random cells of every arm and says what they are as a plate.
 pub(crate) fn homogenise(arguments: &Homogenise) -> Result<Answer, Failure> {
@@ -23,23 +25,66 @@ pub(crate) fn homogenise(arguments: &Homogenise) -> Result<Answer, Failure> {
         None => loaded.study,
     };
     let asked = asked(&study, arguments)?;
+    let held_against = asked_of_walls(&study, &asked, arguments)?;
     let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, HOMOGENISED));
     output::folder(&out)?;
-    let tell = |done: usize, all: usize| {
-        if 10 * done / all > 10 * (done - 1) / all {
-            output::note(&format!("{}: {done}/{all} cells done", study.name));
+    let tell = |what: &'static str| {
+        let name = &study.name;
+        move |done: usize, all: usize| {
+            if 10 * done / all > 10 * (done - 1) / all {
+                output::note(&format!("{name}: {done}/{all} {what} done"));
+            }
         }
     };
-    let rows = threads::on(arguments.threads, || Ok(run_cells(&study, &asked, &tell)))?;
+    let (rows, walls) = threads::on(arguments.threads, || {
+        let rows = run_cells(&study, &asked, &tell("cells"));
+        let against = |own: &AskedOfWalls| run_walls(&study, &asked, own, &tell("walls and plates"));
+        Ok((rows, held_against.as_ref().map(against).unwrap_or_default()))
+    })?;
     if rows.iter().all(|row| row.found.is_err()) {
         let why = rows.iter().find_map(|row| row.found.as_ref().err()).map(ToString::to_string);
         return Err(Failure::Input(format!("{}: no cell: {}", study.name, why.unwrap_or_default())));
     }
-    let summary = homogenised_summary(&study, &asked, &rows);
-    write_homogenised((&study, &asked, &rows), &summary, &out)
+    let summary = homogenised_summary(&study, &asked, &rows, &walls);
+    write_homogenised((&study, &asked, &rows, &walls), &summary, &out)
         .map_err(|error| Failure::Run(format!("{error:#}")))?;
     let text = format!("{}\nwritten to {}\n", homogenised_text(&summary), out.display());
     Ok(Answer::of(text, &summary)?.in_place(&out))
+}
+
+/// What is asked of walls, checked against the study; `None` where none are.
+fn asked_of_walls(
+    study: &Study,
+    cells: &AskedOfCells,
+    arguments: &Homogenise,
+) -> Result<Option<AskedOfWalls>, Failure> {
+    if arguments.walls == 0 {
+        return Ok(None);
+    }
+    let plates = arguments.plates.unwrap_or(PLATES.min(arguments.cells));
+    if plates > arguments.cells {
+        return Err(Failure::Usage(format!(
+            "--plates {plates}: there are {} cells of each size; ask for no more plates than --cells",
+            arguments.cells
+        )));
+    }
+    for &arm in &cells.arms {
+        let own = &study.arms[arm as usize];
+        let refused =
+            |why: String| Failure::Input(format!("{}: --walls: arm `{}`: {why}", study.name, own.name));
+        check_plate(own, &study.protocol_of(own)).map_err(|fault| refused(fault.to_string()))?;
+        if own.joint.is_smooth() {
+            return Err(refused(
+                "joint.phi_deg is 0, so that walls and plates slide apart; give the joints friction"
+                    .to_owned(),
+            ));
+        }
+    }
+    Ok(Some(AskedOfWalls {
+        walls: arguments.walls,
+        plates,
+        non_associative: cells.of.methods.contains(&Method::NonAssociative),
+    }))
 }
 
 /// What is asked, checked against the study before anything is computed.

@@ -1,6 +1,6 @@
-//! The tables of masonry seen as a plate: a line per cell, and a line per cell and point of its surface.
+//! The tables of masonry seen as a plate: a line per cell, a line per cell and point of its surface, and a line per wall.
 
-use crate::ensemble::{AskedOfCells, CellRow};
+use crate::ensemble::{AskedOfCells, CellRow, Judged, Subject, WallRow};
 use crate::homogenise::{Border, Found, Loose, Moduli};
 use crate::report::csv::quoted;
 use crate::report::homogenised::entry::named;
@@ -84,6 +84,50 @@ pub(super) fn surface_csv(study: &Study, asked: &AskedOfCells, rows: &[CellRow])
                 ));
             }
         }
+    }
+    text
+}
+
+/// How it ended, in files: outcome, load, reason.
+fn ended(judged: &Judged) -> (&'static str, String, String) {
+    match judged {
+        Judged::Falls(load) => ("falls", load.to_string(), String::new()),
+        Judged::BearsAny => ("bears_any", String::new(), String::new()),
+        Judged::FallsAtRest => ("falls_at_rest", "0".to_owned(), String::new()),
+        Judged::NotSolved(why) => ("not_solved", String::new(), quoted(why)),
+        Judged::Invalid(why) => ("invalid_geometry", String::new(), quoted(why)),
+    }
+}
+
+/// What a row is of, in files: arm, plate or stones, number.
+fn head_of_wall(study: &Study, row: &WallRow) -> String {
+    let (subject, number) = match row.task.subject {
+        Subject::Plate(cell) => ("plate", cell),
+        Subject::Stones(member) => ("stones", member),
+    };
+    format!("{},{subject},{number}", quoted(&study.arms[row.task.arm as usize].name))
+}
+
+/// A line per plate, and one or two per wall.
+pub(super) fn walls_csv(study: &Study, rows: &[WallRow]) -> String {
+    let mut text = "arm,subject,number,method,outcome,load,reason\n".to_owned();
+    for row in rows {
+        let by_method =
+            [("associative", Some(&row.found)), ("non-associative", row.non_associative.as_ref())];
+        for (method, judged) in by_method.into_iter().filter_map(|(method, judged)| Some((method, judged?))) {
+            let (outcome, load, reason) = ended(judged);
+            text.push_str(&format!("{},{method},{outcome},{load},{reason}\n", head_of_wall(study, row)));
+        }
+    }
+    text
+}
+
+/// How long each took, which differs from run to run.
+pub(super) fn timing_csv(study: &Study, rows: &[WallRow]) -> String {
+    let mut text = "arm,subject,number,seconds,seconds_non_associative\n".to_owned();
+    for row in rows {
+        let [first, second] = row.seconds;
+        text.push_str(&format!("{},{first:.6},{second:.6}\n", head_of_wall(study, row)));
     }
     text
 }

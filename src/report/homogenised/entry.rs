@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::ensemble::{AskedOfCells, CellRow, is_random};
+use crate::ensemble::{AskedOfCells, CellRow, WallRow, is_random};
 use crate::homogenise::{Border, CellAnswer, Direction, Found, Method, Moduli};
+use crate::report::homogenised::walls::WallsAsPlates;
 use crate::stats::{self, Estimate, SizeEffect, size_effect};
 use crate::study::Study;
 
@@ -66,6 +67,9 @@ pub struct PlateArm {
     pub moduli: BTreeMap<String, PlateValue>,
     /// Points of the surface, method by method.
     pub surface: Vec<SurfaceEntry>,
+    /// Its walls beside their plates, where that was asked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub walls: Option<WallsAsPlates>,
 }
 
 /// The cells of an arm that the numbers are of.
@@ -184,11 +188,17 @@ impl PlateValue {
     }
 }
 
-/// Sums up cells, which come in the order of arms, sizes and cells.
-pub fn homogenised_summary(study: &Study, asked: &AskedOfCells, rows: &[CellRow]) -> HomogenisedSummary {
+/// Sums up cells, which come in the order of arms, sizes and cells, and walls where some were asked.
+pub fn homogenised_summary(
+    study: &Study,
+    asked: &AskedOfCells,
+    rows: &[CellRow],
+    walls: &[WallRow],
+) -> HomogenisedSummary {
     let arms = asked.arms.iter().map(|&arm| {
         let own: Vec<&CellRow> = rows.iter().filter(|row| row.task.arm == arm).collect();
-        arm_entry(study, asked, arm, &own)
+        let walls = walls.iter().any(|row| row.task.arm == arm).then(|| WallsAsPlates::of(arm, walls));
+        PlateArm { walls, ..arm_entry(study, asked, arm, &own) }
     });
     HomogenisedSummary {
         study: study.name.clone(),
@@ -233,6 +243,7 @@ fn arm_entry(study: &Study, asked: &AskedOfCells, arm: u32, rows: &[&CellRow]) -
         },
         moduli: moduli(&answers, &asked.sizes, random),
         surface,
+        walls: None,
     }
 }
 

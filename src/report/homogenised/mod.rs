@@ -4,21 +4,23 @@ mod csv;
 mod entry;
 mod plot;
 mod text;
+mod walls;
 
 use std::path::Path;
 
 use anyhow::{Context, Result};
 
-use crate::ensemble::{AskedOfCells, CellRow, replace_file};
+use crate::ensemble::{AskedOfCells, CellRow, WallRow, replace_file};
 use crate::report::draw::IMAGE_SCALE;
 use crate::report::files::write_figure;
-use crate::report::homogenised::csv::{cells_csv, surface_csv};
+use crate::report::homogenised::csv::{cells_csv, surface_csv, timing_csv, walls_csv};
 pub use crate::report::homogenised::entry::{
     HomogenisedSummary, ModulusBounds, NestedCells, PlateArm, PlateCells, PlateUnits, PlateValue,
     SurfaceEntry, ValueBySize, homogenised_summary,
 };
 use crate::report::homogenised::plot::{CellPlot, What};
 pub use crate::report::homogenised::text::homogenised_text;
+pub use crate::report::homogenised::walls::{HeldWalls, WallSample, WallShare, WallsAsPlates};
 use crate::report::pen::Pen;
 use crate::study::Study;
 
@@ -27,13 +29,17 @@ const HOMOGENISED_JSON: &str = "homogenised.json";
 const CELLS_CSV: &str = "cells.csv";
 const SURFACE: &str = "surface";
 const SCATTER: &str = "scatter";
+/// Walls beside their plates, and how long each took.
+const WALLS_CSV: &str = "walls.csv";
+const TIMING_CSV: &str = "timing.csv";
 
-/// Writes the summary, the tables and the figures into an existing folder. The same study and rows give the same bytes.
+/// Writes the summary, the tables and the figures into an existing folder. The same study and rows give the same bytes but for
+/// how long walls took.
 ///
 /// # Errors
 /// The file that could not be written, and why.
 pub fn write_homogenised(
-    (study, asked, rows): (&Study, &AskedOfCells, &[CellRow]),
+    (study, asked, rows, walls): (&Study, &AskedOfCells, &[CellRow], &[WallRow]),
     summary: &HomogenisedSummary,
     dir: &Path,
 ) -> Result<()> {
@@ -41,6 +47,10 @@ pub fn write_homogenised(
     replace_file(&dir.join(HOMOGENISED_JSON), json.as_bytes())?;
     replace_file(&dir.join(CELLS_CSV), cells_csv(study, asked, rows).as_bytes())?;
     replace_file(&dir.join(format!("{SURFACE}.csv")), surface_csv(study, asked, rows).as_bytes())?;
+    if !walls.is_empty() {
+        replace_file(&dir.join(WALLS_CSV), walls_csv(study, walls).as_bytes())?;
+        replace_file(&dir.join(TIMING_CSV), timing_csv(study, walls).as_bytes())?;
+    }
     for (what, name) in [(What::Surface, SURFACE), (What::Scatter, SCATTER)] {
         let figure = |scale| CellPlot { summary, what, pen: Pen { scale } };
         if !figure(1).is_empty() {

@@ -2,9 +2,10 @@
 
 use crate::homogenise::{Direction, Method};
 use crate::report::homogenised::entry::{HomogenisedSummary, PlateArm, PlateValue, ValueBySize};
+use crate::report::homogenised::walls::WallShare;
 use crate::report::number::significant;
 use crate::report::table::{aligned, wrapped};
-use crate::stats::Settled;
+use crate::stats::{Settled, Summary};
 
 /// The moduli and the stresses that are printed and drawn; all are in the files.
 pub(super) const MODULI: [&str; 5] = ["A1111", "A2222", "A1212", "D1111", "D2222"];
@@ -69,6 +70,71 @@ pub fn homogenised_text(summary: &HomogenisedSummary) -> String {
         )));
     }
     text.push_str(&sizes(summary));
+    if summary.arms.iter().any(|arm| arm.walls.is_some()) {
+        text.push_str(&walls(summary));
+    }
+    text
+}
+
+/// Walls beside their plates.
+fn walls(summary: &HomogenisedSummary) -> String {
+    let mut text = "\n".to_owned();
+    text.push_str(&wrapped(
+        "",
+        "Walls beside their plates: the tangent of the tilt, or the factor on the lateral load, that they bear by associative limit \
+         analysis (mean, COV in %).",
+    ));
+    let heads = [
+        "arm",
+        "walls",
+        "stones",
+        "plates",
+        "stones/plate",
+        "within 5 %",
+        "held by cells",
+        "held by walls",
+        "no dilatancy",
+    ];
+    let mut rows = vec![heads.map(str::to_owned).to_vec()];
+    let scatter = |sample: &Summary| match sample.cov.value {
+        Some(cov) if cov > ALIKE => {
+            format!("{} [{}]", number(sample.mean.value), significant(100.0 * cov, 2))
+        }
+        _ => number(sample.mean.value),
+    };
+    let share = |share: Option<WallShare>| {
+        share.map_or_else(|| "-".to_owned(), |share| format!("{}/{}", share.count, share.of))
+    };
+    for (arm, walls) in summary.arms.iter().filter_map(|arm| Some((arm, arm.walls.as_ref()?))) {
+        let ratio = |sample: &Option<Summary>| sample.as_ref().map_or_else(|| "-".to_owned(), scatter);
+        rows.push(vec![
+            arm.arm.clone(),
+            walls.stones.load.n.to_string(),
+            scatter(&walls.stones.load),
+            scatter(&walls.plates.load),
+            ratio(&walls.stones_over_plate),
+            share(walls.within_5_percent),
+            share(walls.by_cells.map(|own| own.held)),
+            share(walls.by_walls.map(|own| own.held)),
+            ratio(&walls.non_associative_over_associative),
+        ]);
+    }
+    text.push_str(&aligned(rows));
+    for (arm, walls) in summary.arms.iter().filter_map(|arm| Some((arm, arm.walls.as_ref()?))) {
+        for (what, sample) in [("plates", &walls.plates), ("walls", &walls.stones)] {
+            let mut said = Vec::new();
+            if sample.bear_any > 0 {
+                said.push(format!("{} {what} bear any load", sample.bear_any));
+            }
+            if sample.fall_at_rest > 0 {
+                said.push(format!("{} {what} fall at rest and count with 0", sample.fall_at_rest));
+            }
+            said.extend(
+                sample.failed.iter().map(|(why, count)| format!("{count} {what} have no answer: {why}")),
+            );
+            said.iter().for_each(|one| text.push_str(&wrapped("! ", &format!("{}: {one}", arm.arm))));
+        }
+    }
     text
 }
 

@@ -1,0 +1,187 @@
+//! Walls beside their plates: what random walls of an arm bear by limit analysis of all their stones, and what plates with the
+//! strength of random cells of the same arm say that they bear.
+//!
+//! Both are samples of one law of walls: a wall is drawn as the study draws its members, a plate as a cell of those that
+//! [`run_cells`](crate::ensemble::run_cells) evaluates.
+
+mod made;
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+use rayon::prelude::*;
+
+use crate::ensemble::cells::{CellTask, with_cell};
+use crate::ensemble::evaluate::laws;
+use crate::ensemble::{AskedOfCells, Task, build, is_random};
+use crate::homogenise::plate::{Cuts, Ending, PlateFault, Refined};
+use crate::homogenise::plate_collapse;
+use crate::interrupt;
+use crate::math::tan;
+use crate::model::{Level, Outcome};
+use crate::protocol::limit_of;
+use crate::solve::limit::Flow;
+use crate::study::{AsDrawn, Study};
+
+use made::plate_of;
+pub use made::{NoPlate, check_plate};
+
+/// What is asked of walls.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AskedOfWalls {
+    /// Walls of an arm in which anything is drawn; of another arm one is all.
+    pub walls: u64,
+    /// Plates of such an arm: the first so many of its largest cells.
+    pub plates: u64,
+    /// Whether walls are asked for a state without dilatancy, too.
+    pub non_associative: bool,
+}
+
+/// One wall or plate to evaluate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WallTask {
+    /// Its arm, by its place in the study.
+    pub arm: u32,
+    /// Which one.
+    pub subject: Subject,
+}
+
+/// A plate or a wall.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Subject {
+    /// The plate with the strength of the cell of this number.
+    Plate(u64),
+    /// The stones of the member of this number.
+    Stones(u64),
+}
+
+/// What a wall bears.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Judged {
+    /// So many times the load: the tangent of the tilt, or a factor on the lateral load.
+    Falls(f64),
+    /// Any number of times, as far as rigid stones go.
+    BearsAny,
+    /// Not even its own weight.
+    FallsAtRest,
+    /// The solver found no answer that can be believed.
+    NotSolved(String),
+    /// There is no such wall or cell.
+    Invalid(String),
+}
+
+/// What became of a wall or a plate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WallRow {
+    /// Which one it is.
+    pub task: WallTask,
+    /// What it bears with associative flow.
+    pub found: Judged,
+    /// What its stones bear without dilatancy, where that was asked and they bear a finite load with it.
+    pub non_associative: Option<Judged>,
+    /// How long it took with associative flow, then without dilatancy (s).
+    pub seconds: [f64; 2],
+}
+
+/// Evaluates all walls and plates, in the order of arms, plates before walls. `finished` is told, from the worker threads, how many of how
+/// many are done.
+pub fn run_walls(
+    study: &Study,
+    cells: &AskedOfCells,
+    asked: &AskedOfWalls,
+    finished: &(dyn Fn(usize, usize) + Sync),
+) -> Vec<WallRow> {
+    let mut tasks = Vec::new();
+    for &arm in &cells.arms {
+        let [plates, walls] = match is_random(&study.arms[arm as usize]) {
+            true => [asked.plates, asked.walls],
+            false => [1, 1],
+        };
+        tasks.extend((0..plates).map(|cell| WallTask { arm, subject: Subject::Plate(cell) }));
+        tasks.extend((0..walls).map(|member| WallTask { arm, subject: Subject::Stones(member) }));
+    }
+    let done = AtomicUsize::new(0);
+    let evaluated = |task: &WallTask| {
+        let row = evaluate_wall(study, cells, asked, *task);
+        finished(done.fetch_add(1, Ordering::Relaxed) + 1, tasks.len());
+        row
+    };
+    tasks.par_iter().with_max_len(1).map(evaluated).collect()
+}
+
+/// One wall or plate: but for the time it takes a pure function of the study, what is asked and the task.
+pub fn evaluate_wall(study: &Study, cells: &AskedOfCells, asked: &AskedOfWalls, task: WallTask) -> WallRow {
+    interrupt::look();
+    match task.subject {
+        Subject::Plate(cell) => {
+            let begun = Instant::now();
+            let found = as_plate(study, cells, task.arm, cell);
+            let seconds = [begun.elapsed().as_secs_f64(), 0.0];
+            WallRow { task, found, non_associative: None, seconds }
+        }
+        Subject::Stones(member) => by_stones(study, cells.point, asked.non_associative, task, member),
+    }
+}
+
+fn as_plate(study: &Study, asked: &AskedOfCells, arm: u32, cell: u64) -> Judged {
+    let size = asked.sizes.len() - 1;
+    let stones = asked.sizes[size];
+    let collapse = with_cell(study, asked, CellTask { arm, size, cell }, |cell| {
+        let plate = plate_of(&cell.drawn.arm, &cell.drawn.protocol, cell.cell, stones)
+            .map_err(|fault| Judged::Invalid(fault.to_string()))?;
+        let refined = plate_collapse(cell.cell, cell.laws, cell.contact, &plate, &Cuts::default());
+        refined.map_err(|fault| match fault {
+            PlateFault::Unbounded => Judged::BearsAny,
+            PlateFault::FallsAtRest => Judged::FallsAtRest,
+            other => Judged::NotSolved(other.to_string()),
+        })
+    });
+    match collapse {
+        // Too high by an unknown amount: nothing to judge a wall by.
+        Ok(Ok(Refined { ending: Ending::RoundsSpent, .. })) => {
+            Judged::NotSolved("planes of its surface were still found when the rounds were spent".to_owned())
+        }
+        Ok(Ok(Refined { collapse, .. })) => {
+            let sliding = collapse.sliding.unwrap_or(f64::INFINITY);
+            Judged::Falls(collapse.multiplier.min(sliding))
+        }
+        Ok(Err(judged)) => judged,
+        Err(fault) => Judged::Invalid(fault.to_string()),
+    }
+}
+
+fn by_stones(study: &Study, point: u32, non_associative: bool, task: WallTask, member: u64) -> WallRow {
+    let begun = Instant::now();
+    let generated = match build(study, task.arm, member) {
+        Ok(generated) => generated,
+        Err(fault) => {
+            let seconds = [begun.elapsed().as_secs_f64(), 0.0];
+            let found = Judged::Invalid(fault.to_string());
+            return WallRow { task, found, non_associative: None, seconds };
+        }
+    };
+    let AsDrawn { arm, protocol, .. } = study.as_drawn(task.arm, member);
+    let wall = &generated.wall;
+    let laws = laws(study, Task { arm: task.arm, point, member }, &arm, wall);
+    let contacts = arm.mechanisms.contacts(arm.sub_contacts);
+    let asked = |flow| {
+        let begun = Instant::now();
+        let limit = limit_of(wall, &laws, (&protocol, &arm.restraint, contacts), flow);
+        (judged(limit.outcome), begun.elapsed().as_secs_f64())
+    };
+    let (found, first) = asked(Flow::Associative);
+    let second = (non_associative && matches!(found, Judged::Falls(_))).then(|| asked(Flow::NonAssociative));
+    let seconds = [first, second.as_ref().map_or(0.0, |(_, seconds)| *seconds)];
+    WallRow { task, found, non_associative: second.map(|(judged, _)| judged), seconds }
+}
+
+/// What limit analysis found.
+fn judged(outcome: Outcome) -> Judged {
+    match outcome {
+        Outcome::Collapsed { at: Level::Tilt(tilt) } => Judged::Falls(tan(tilt)),
+        Outcome::Collapsed { at } => Judged::Falls(at.value()),
+        Outcome::Equilibrium | Outcome::Unbounded => Judged::BearsAny,
+        Outcome::UnstableAtRest => Judged::FallsAtRest,
+        other => Judged::NotSolved(other.reason()),
+    }
+}
