@@ -4,13 +4,11 @@ use crate::fixture::{G, dry, irregular, on_floor, resting, stone, tilted};
 use pirca::contact;
 use pirca::generate::canonical;
 use pirca::law::{Coulomb, NormalLaw};
-use pirca::math::{Vec3, atan, degrees, radians, sin, tan};
+use pirca::math::{Vec3, atan, atan2, degrees, radians, sin, tan};
 use pirca::model::Wall;
 use pirca::shape::Polyhedron;
-use pirca::solve::Equilibrate;
-use pirca::solve::STANDARD_GRAVITY;
-use pirca::solve::Status;
 use pirca::solve::nonsmooth::{Friction, Normal, Settings, Simulation, StepSolver, Stepped};
+use pirca::solve::{Assembly, Equilibrate, Mount, STANDARD_GRAVITY, Status};
 
 /// Standard gravity of the reference numbers (m/s^2).
 const ROUND_G: f64 = 9.81;
@@ -34,6 +32,53 @@ fn slides(time_step: f64, settings: Settings) -> (f64, f64, f64) {
         worst = worst.max(stepped.residual.natural_map);
     }
     (moving.assembly.bodies.all[0].position.y - from.y, highest, worst)
+}
+
+#[test]
+fn a_platform_on_springs_turns_as_it_settles() {
+    // Moment of inertia and stiffness in the ratio of mass and stiffness: both motions are the same oscillation.
+    let omega = 30.0;
+    let wall = on_floor(vec![resting([0.4, 0.3, 0.2], 2400.0)]);
+    let law = dry(1e9, 30.0);
+    let swings = |settles: bool| -> Vec<f64> {
+        let mut assembly = Assembly::new(&wall, &law, contact::Settings::for_size(0.2, [2, 2]));
+        let (mass, inertia) = (assembly.bodies.all[1].mass, assembly.bodies.all[1].inertia.x);
+        let (settlement, rotation) = (mass * omega * omega, inertia * omega * omega);
+        assembly.mount(Mount { body: 1, settlement, rotation }, &[]);
+        // The stone is out of the way.
+        assembly.gravity = Vec3::zeros();
+        assembly.bodies.all[0].velocity = Vec3::z();
+        let mut moving = Simulation::of(assembly, Settings::default());
+        let platform = |moving: &Simulation<'_>| moving.assembly.bodies.all[1].clone();
+        let from = platform(&moving);
+        let body = &mut moving.assembly.bodies.all[1];
+        if settles {
+            body.velocity = -1e-4 * Vec3::z();
+        } else {
+            body.spin = -1e-4 * Vec3::x();
+            body.angular_momentum = inertia * body.spin;
+        }
+        let mut way = Vec::new();
+        for _ in 0..200 {
+            moving.step(1e-3);
+            let now = platform(&moving);
+            let turned = now.rotation * from.rotation.transpose();
+            way.push(if settles {
+                now.position.z - from.position.z
+            } else {
+                atan2(turned[(2, 1)], turned[(1, 1)])
+            });
+        }
+        way
+    };
+    let (settled, turned) = (swings(true), swings(false));
+    let most = settled.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+    // A period of 0.21 s: the swing is there.
+    assert!(most > 0.8e-4 / omega, "{most:e}");
+    for (step, (settles, turns)) in settled.iter().zip(&turned).enumerate() {
+        // Rounding, and turns of 1e-6.
+        assert!((settles - turns).abs() < 1e-5 * most, "{step}: {settles:e} {turns:e}");
+    }
 }
 
 const STEP_SOLVERS: [StepSolver; 3] = [StepSolver::Newton, StepSolver::ConeProgram, StepSolver::Sweeps];

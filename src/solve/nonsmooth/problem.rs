@@ -18,6 +18,8 @@ pub struct Inertia {
     pub matrix: Matrix,
     /// Its inverse; zero in what the body cannot do.
     pub inverse: Matrix,
+    /// Its own moments of inertia (kg m^2, world axes): without the springs, which store no angular momentum.
+    pub moments: Mat3,
     /// Which of the six components of its velocity are zero whatever acts.
     pub held: &'static [usize],
 }
@@ -43,7 +45,7 @@ impl Inertia {
         let mut inverse: Matrix =
             std::array::from_fn(|row| std::array::from_fn(|column| inverse[(row, column)]));
         held.iter().for_each(|&k| inverse[k] = [0.0; DOF]);
-        Inertia { matrix, inverse, held }
+        Inertia { matrix, inverse, moments, held }
     }
 
     /// The velocity (m/s, rad/s) that an impulse (N s, N m s) gives it.

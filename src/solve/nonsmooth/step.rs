@@ -285,11 +285,8 @@ impl<'a> Simulation<'a> {
             let (velocity, spin) = (Vec3::new(v[0], v[1], v[2]), Vec3::new(v[3], v[4], v[5]));
             let mass = body.mass * body.inertia_scale;
             let before = mass * body.velocity.norm_squared() + body.spin.dot(&body.angular_momentum);
-            let moments = &problem.inertias[b].matrix;
-            let row =
-                |k: usize| moments[3 + k][3] * v[3] + moments[3 + k][4] * v[4] + moments[3 + k][5] * v[5];
             body.velocity = velocity;
-            body.angular_momentum = Vec3::new(row(0), row(1), row(2));
+            body.angular_momentum = problem.inertias[b].moments * spin;
             body.spin = spin;
             let after = mass * velocity.norm_squared() + spin.dot(&body.angular_momentum);
             let from = body.clone();
