@@ -238,10 +238,12 @@ pub(super) const HOMOGENISE: &str = concat!(
 Example: pirca homogenise studies/homogenisation
          pirca homogenise studies/homogenisation --arms random-heads --stones 4,8,16 --cells 100
          pirca homogenise studies/homogenisation --method associative,elastic --directions in-plane
+         pirca homogenise studies/homogenisation --variant led --walls 200 --directions none
 
 A cell repeats itself without end, and the image of a stone moves as the stone does and with the plate's strain. It writes \
 homogenised.json, a line per cell (cells.csv), a line per point of its surface (surface.csv), sections of the surface (surface.svg, .png) and \
-the COV against the size of the cells (scatter.svg, .png). A mean has converged where it changes by less than its standard error as cells \
+the COV against the size of the cells (scatter.svg, .png); with --walls a line per wall and plate (walls.csv) and how long each took \
+(timing.csv). A mean has converged where it changes by less than its standard error as cells \
 grow and sigma falls as 1/n; a mean that goes on changing is reported as an effect of size.
 
 ",

@@ -4,13 +4,13 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use crate::contact;
 use crate::ensemble::is_random;
 use crate::generate::{self, CellFault, generate_cell};
 use crate::homogenise::{AskedOfCell, CellAnswer};
 use crate::interrupt;
 use crate::math::STANDARD_GRAVITY;
 use crate::model::{Cell, JointLaws, Wall};
+use crate::protocol::Contacts;
 use crate::random::Design;
 use crate::study::{Arm, AsDrawn, DrawnJoints, Study};
 
@@ -88,9 +88,10 @@ pub fn run_cells(
 /// One cell: a pure function of the study, what is asked and the task.
 pub fn evaluate_cell(study: &Study, asked: &AskedOfCells, task: CellTask) -> CellRow {
     interrupt::look();
-    let found = with_cell(study, asked, task, |Built { drawn, cell, laws, contact }| {
+    let found = with_cell(study, asked, task, |Built { drawn, cell, wall, laws }| {
         let layout = &drawn.arm.layout;
         let weight = layout.density.mean() * STANDARD_GRAVITY * 0.5 * layout.outline.height;
+        let contact = contacts(&drawn.arm).of_wall(wall);
         asked.of.answer(cell, laws, contact, asked.pressure.unwrap_or(weight))
     });
     CellRow { task, found }
@@ -100,8 +101,14 @@ pub fn evaluate_cell(study: &Study, asked: &AskedOfCells, task: CellTask) -> Cel
 pub(super) struct Built<'a> {
     pub drawn: &'a AsDrawn<'a>,
     pub cell: &'a Cell,
+    /// Its stones alone.
+    pub wall: &'a Wall,
     pub laws: &'a dyn JointLaws,
-    pub contact: contact::Settings,
+}
+
+/// How joints of an arm are found.
+pub(super) fn contacts(arm: &Arm) -> Contacts {
+    arm.mechanisms.contacts(arm.sub_contacts)
 }
 
 /// Builds a cell, draws its joints and asks it something.
@@ -120,6 +127,5 @@ pub(super) fn with_cell<R>(
     let wall = Wall { blocks: made.cell.blocks.clone() };
     let kn = drawn.arm.kn_points[asked.point as usize];
     let laws = DrawnJoints::new(&drawn.arm.joint, kn, streams).altered(&drawn.arm.mechanisms, &wall);
-    let contact = drawn.arm.mechanisms.contacts(drawn.arm.sub_contacts).of_wall(&wall);
-    Ok(ask(Built { drawn: &drawn, cell: &made.cell, laws: &laws, contact }))
+    Ok(ask(Built { drawn: &drawn, cell: &made.cell, wall: &wall, laws: &laws }))
 }

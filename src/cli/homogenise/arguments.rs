@@ -23,11 +23,11 @@ pub(crate) struct Homogenise {
     /// Random cells of each size and arm. Arms in which nothing is drawn have one.
     #[arg(long, value_name = "N", default_value_t = 50, value_parser = clap::value_parser!(u64).range(2..=100_000), help_heading = CELLS)]
     pub cells: u64,
-    /// Walls of each arm to hold plates against: what each bears by limit analysis of all its stones, under the study's tilt or lateral
-    /// load. With --method non-associative without dilatancy, too.
+    /// Random walls of each arm, by limit analysis of all their stones, to compare plates with; under the study's tilt or lateral load.
+    /// With --method non-associative they are analysed without dilatancy as well.
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u64).range(..=100_000), help_heading = WALLS)]
     pub walls: u64,
-    /// Plates of each arm beside them, each with the strength of one of the largest cells [default: 10, or all cells if these are fewer].
+    /// Plates of each arm, each with the strength of one of the largest cells [default: 10, or all cells if these are fewer].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000), requires = "walls", help_heading = WALLS)]
     pub plates: Option<u64>,
     /// The arms [default: all].

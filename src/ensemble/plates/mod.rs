@@ -11,7 +11,7 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use crate::ensemble::cells::{CellTask, with_cell};
+use crate::ensemble::cells::{CellTask, contacts, with_cell};
 use crate::ensemble::evaluate::laws;
 use crate::ensemble::{AskedOfCells, Task, build, is_random};
 use crate::homogenise::plate::{Cuts, Ending, PlateFault, Refined};
@@ -129,7 +129,8 @@ fn as_plate(study: &Study, asked: &AskedOfCells, arm: u32, cell: u64) -> Judged 
     let collapse = with_cell(study, asked, CellTask { arm, size, cell }, |cell| {
         let plate = plate_of(&cell.drawn.arm, &cell.drawn.protocol, cell.cell, stones)
             .map_err(|fault| Judged::Invalid(fault.to_string()))?;
-        let refined = plate_collapse(cell.cell, cell.laws, cell.contact, &plate, &Cuts::default());
+        let contact = contacts(&cell.drawn.arm).of_wall(cell.wall);
+        let refined = plate_collapse(cell.cell, cell.laws, contact, &plate, &Cuts::default());
         refined.map_err(|fault| match fault {
             PlateFault::Unbounded => Judged::BearsAny,
             PlateFault::FallsAtRest => Judged::FallsAtRest,
@@ -163,7 +164,7 @@ fn by_stones(study: &Study, point: u32, non_associative: bool, task: WallTask, m
     let AsDrawn { arm, protocol, .. } = study.as_drawn(task.arm, member);
     let wall = &generated.wall;
     let laws = laws(study, Task { arm: task.arm, point, member }, &arm, wall);
-    let contacts = arm.mechanisms.contacts(arm.sub_contacts);
+    let contacts = contacts(&arm);
     let asked = |flow| {
         let begun = Instant::now();
         let limit = limit_of(wall, &laws, (&protocol, &arm.restraint, contacts), flow);
