@@ -76,9 +76,18 @@ pub fn run_cells(
             tasks.extend((0..cells).map(|cell| CellTask { arm, size, cell }));
         }
     }
+    counted(&tasks, finished, |task| evaluate_cell(study, asked, *task))
+}
+
+/// Evaluates tasks on all threads, in their order. `finished` is told, from these threads, how many of how many are done.
+pub(super) fn counted<T: Sync, R: Send>(
+    tasks: &[T],
+    finished: &(dyn Fn(usize, usize) + Sync),
+    evaluate: impl Fn(&T) -> R + Sync,
+) -> Vec<R> {
     let done = AtomicUsize::new(0);
-    let evaluated = |task: &CellTask| {
-        let row = evaluate_cell(study, asked, *task);
+    let evaluated = |task: &T| {
+        let row = evaluate(task);
         finished(done.fetch_add(1, Ordering::Relaxed) + 1, tasks.len());
         row
     };

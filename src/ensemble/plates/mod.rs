@@ -6,12 +6,9 @@
 
 mod made;
 
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-use rayon::prelude::*;
-
-use crate::ensemble::cells::{CellTask, contacts, with_cell};
+use crate::ensemble::cells::{CellTask, contacts, counted, with_cell};
 use crate::ensemble::evaluate::laws;
 use crate::ensemble::{AskedOfCells, Task, build, is_random};
 use crate::homogenise::plate::{Cuts, Ending, PlateFault, Refined};
@@ -100,13 +97,7 @@ pub fn run_walls(
         tasks.extend((0..plates).map(|cell| WallTask { arm, subject: Subject::Plate(cell) }));
         tasks.extend((0..walls).map(|member| WallTask { arm, subject: Subject::Stones(member) }));
     }
-    let done = AtomicUsize::new(0);
-    let evaluated = |task: &WallTask| {
-        let row = evaluate_wall(study, cells, asked, *task);
-        finished(done.fetch_add(1, Ordering::Relaxed) + 1, tasks.len());
-        row
-    };
-    tasks.par_iter().with_max_len(1).map(evaluated).collect()
+    counted(&tasks, finished, |task| evaluate_wall(study, cells, asked, *task))
 }
 
 /// One wall or plate: but for the time it takes a pure function of the study, what is asked and the task.
