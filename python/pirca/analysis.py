@@ -124,7 +124,7 @@ def analyse(
     fclib : path, optional
         File for the contact problem of one step, at the tilt `at_deg`: as the option of `pirca analyse`.
     record : path, optional
-        Record of the ground's motion, for `load="base-motion"`: PEER .AT2, ESM ASCII, or CSV with units in its heads.
+        Record of the ground's motion, for `load="base-motion"`: PEER .AT2, ESM, ITACA or K-NET ASCII, COSMOS or CSMIP V2, or CSV with units in its heads.
     scale : float, optional
         Factor on the record; 1 without it.
     rayleigh : (float, float, float), optional

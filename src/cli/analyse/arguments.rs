@@ -41,8 +41,8 @@ pub(crate) struct Analyse {
     /// Look for the horizontal direction in which the wall bears least, and answer for that one.
     #[arg(long, conflicts_with = "direction", help_heading = LOAD)]
     pub worst_direction: bool,
-    /// Record of the ground's motion, for --load base-motion: PEER .AT2, ESM ASCII, or CSV whose heads state their units (t_s, a_g, ax_m_per_s2,
-    /// ...). Its y axis, or its only component, is turned to --direction.
+    /// Record of the ground's motion, for --load base-motion: PEER .AT2, ESM, ITACA or K-NET ASCII, COSMOS or CSMIP V2,
+    /// or CSV whose heads state their units (t_s, a_g, ax_m_per_s2, ...). Its y axis, or its only component, is turned to --direction.
     #[arg(long, value_name = "FILE", help_heading = LOAD)]
     pub record: Option<PathBuf>,
     /// Factor on the record [default: 1].

@@ -1,7 +1,8 @@
 //! PEER's AT2: a few header lines, then values in columns.
 
-use crate::motion::read::number::{number, numbers, shortened};
+use crate::motion::read::number::{number, shortened, values};
 use crate::motion::read::samples::{Samples, Unit, checked_step};
+use crate::motion::read::unit::{Said, said};
 use crate::motion::read::{HEAD, Lines};
 use crate::motion::{BadRecord, Motion};
 
@@ -20,7 +21,9 @@ struct Header {
     count: usize,
     /// Time between them (s).
     step: f64,
-    /// Its line.
+    /// Unit of the values.
+    unit: Unit,
+    /// Line of their number.
     line: usize,
     /// Place in the lines after which values may begin.
     end: usize,
@@ -56,23 +59,14 @@ pub(super) fn read(name: &str, lines: Lines) -> Result<Motion, BadRecord> {
         let fix = "get the whole file, or correct NPTS if the values are all there";
         return Err(BadRecord::at(header.line, found, "as many as stated", fix));
     }
-    if let Some(fault) = samples.weakness(Unit::Gravity) {
+    if let Some(fault) = samples.weakness(header.unit) {
         return Err(fault);
     }
-    let (record, mut notes) = samples.record(header.step, Unit::Gravity)?;
+    let (record, mut notes) = samples.record(header.step, header.unit)?;
     if cut {
         notes.push(format!("the last line is short: {count} of {} values are there", header.count));
     }
     Ok(Motion::of_record(name, record).noted(notes))
-}
-
-/// The values of a line.
-fn values(line: &str) -> Result<Vec<f64>, String> {
-    let mut found = Vec::new();
-    for word in line.split_whitespace() {
-        found.extend(numbers(word)?);
-    }
-    Ok(found)
 }
 
 fn header(lines: Lines) -> Result<Header, BadRecord> {
@@ -81,7 +75,7 @@ fn header(lines: Lines) -> Result<Header, BadRecord> {
         let found = "NPTS and DT are missing";
         return Err(BadRecord::at(0, found, format!("a line {FORMS}"), "add that line after the header"));
     };
-    unit(&lines[..place.saturating_add(3).min(lines.len())])?;
+    let unit = unit(&lines[..place.saturating_add(3).min(lines.len())])?;
     let (line, text) = lines[place];
     let text = upper(text);
     let (count, step) = match text.split_once('=') {
@@ -103,7 +97,7 @@ fn header(lines: Lines) -> Result<Header, BadRecord> {
     let stated = of_word(count).filter(|n| n.fract() == 0.0 && *n >= 1.0 && *n < 1e9);
     let stated = stated.ok_or_else(|| refused("NPTS", count))?;
     let step = checked_step(of_word(step).ok_or_else(|| refused("DT", step))?, line)?;
-    Ok(Header { count: stated as usize, step, line, end: place + 1 })
+    Ok(Header { count: stated as usize, step, unit, line, end: place + 1 })
 }
 
 /// The word after `KEY =`.
@@ -114,26 +108,38 @@ fn after<'a>(text: &'a str, key: &str) -> Option<&'a str> {
     rest.split([' ', '\t', ',']).find(|word| !word.is_empty()).map(|word| word.trim_end_matches("SEC"))
 }
 
-/// The unit must be stated, and be g.
-fn unit(head: Lines) -> Result<(), BadRecord> {
-    let allowed = "\"ACCELERATION TIME SERIES IN UNITS OF G\"";
-    for (line, text) in head {
-        let text = text.to_ascii_uppercase();
-        if let Some((what, unit)) = text.split_once("UNITS OF") {
-            let unit = unit.trim_start();
-            let word: String = unit.chars().take_while(|c| !" .,;\t".contains(*c)).collect();
-            let moves = what.contains("VELOCITY") || what.contains("DISPLACEMENT");
-            if word == "G" && !moves {
-                return Ok(());
+/// The unit, which must be stated, and be the same wherever it is.
+fn unit(head: Lines) -> Result<Unit, BadRecord> {
+    let allowed = "\"ACCELERATION TIME SERIES IN UNITS OF G\" or \"Acceleration in g\"";
+    let said = || head.iter().filter_map(|(line, text)| Some((*line, *text, said(text)?)));
+    let stated = || {
+        said().filter_map(|(line, _, said)| match said {
+            Said::Acceleration(unit) => Some((line, unit)),
+            Said::Other | Said::Unknown => None,
+        })
+    };
+    if let Some((first, unit)) = stated().next() {
+        return match stated().find(|(_, other)| *other != unit) {
+            None => Ok(unit),
+            Some((line, other)) => {
+                let found =
+                    format!("the header states {}, and line {first} states {}", other.name(), unit.name());
+                Err(BadRecord::at(line, found, "one unit", "keep the unit that the values have"))
             }
-            let found = format!("the header says {:?}", shortened(&text));
-            let fix = if moves {
-                "give the file of accelerations (.AT2)"
-            } else {
-                "convert it to CSV with the unit in the header, as a_cm_per_s2"
-            };
-            return Err(BadRecord::at(*line, found, allowed, fix));
-        }
+        };
     }
-    Err(BadRecord::at(0, "the header states no unit", allowed, "add that line before NPTS, if it is so"))
+    let Some((line, text, said)) = said().next() else {
+        return Err(BadRecord::at(
+            0,
+            "the header states no unit",
+            allowed,
+            "add that line before NPTS, if it is so",
+        ));
+    };
+    let fix = match said {
+        Said::Other => "give the file of accelerations (.AT2)",
+        _ => "convert it to CSV with the unit in the header, as a_cm_per_s2",
+    };
+    let found = format!("the header says {:?}", shortened(text));
+    Err(BadRecord::at(line, found, allowed, fix))
 }

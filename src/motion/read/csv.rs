@@ -1,9 +1,10 @@
 //! Tables of values whose header states the unit.
 
 use crate::math::{Vec3, pow};
-use crate::motion::read::Lines;
+use crate::motion::read::decimals::Decimals;
 use crate::motion::read::number::{number, shortened};
 use crate::motion::read::samples::{Samples, Unit, checked_step};
+use crate::motion::read::{FORMATS, Lines};
 use crate::motion::{BadRecord, Motion};
 
 /// What a column may be called.
@@ -68,29 +69,38 @@ struct Times {
 /// Components along their axes, from the lines of a file.
 pub(super) fn read(name: &str, lines: Lines) -> Result<Motion, BadRecord> {
     let stated = stated_step(lines)?;
-    let mut rows = lines.iter().filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
+    let mut rows = lines.iter().filter(|(_, line)| !is_without_cells(line)).peekable();
+    let told = rows.next_if(|(_, first)| told_separator(first).is_some());
     let Some((header_line, header)) = rows.next() else {
         return Err(BadRecord::at(0, "there are only comments", "a header and values", "add the values"));
     };
     let separator = [';', '\t', ','].into_iter().find(|c| header.contains(*c));
+    let separator = told.and_then(|(_, first)| told_separator(first)).or(separator);
     let columns = columns(*header_line, header, separator)?;
     let mut times = Times::default();
+    let mut decimals = Decimals::default();
     let mut samples: Vec<Samples> = columns.iter().map(|_| Samples::default()).collect();
     for (line, text) in rows {
-        let words = cells(text, separator);
+        let words = cells(*line, text, separator)?;
         if words.len() != columns.len() {
             let found = format!("the row has {} values", words.len());
             let allowed = format!("{}, as the header has columns", columns.len());
-            return Err(BadRecord::at(*line, found, allowed, "complete or mend the row"));
+            let fix = match separator == Some(',') && words.len() == 2 * columns.len() {
+                true => "write a point for the decimal comma, or separate the cells by semicolons",
+                false => "complete or mend the row",
+            };
+            return Err(BadRecord::at(*line, found, allowed, fix));
         }
         for ((column, samples), word) in columns.iter().zip(&mut samples).zip(words) {
-            let value = cell(*line, word, separator)?;
+            let word = decimals.pointed(word, *line);
+            let value = cell(*line, &word)?;
             match column {
-                Column::Time => times.push(value, word, *line)?,
+                Column::Time => times.push(value, &word, *line)?,
                 Column::Acceleration { .. } => samples.push(value, *line)?,
             }
         }
     }
+    decimals.agree()?;
     let step = if columns.contains(&Column::Time) {
         times.step(stated)?
     } else {
@@ -156,20 +166,42 @@ fn stated_step(lines: Lines) -> Result<Option<(usize, f64)>, BadRecord> {
     Ok(found)
 }
 
-/// The cells of a row, without the quotes that spreadsheets put about them.
-fn cells(row: &str, separator: Option<char>) -> Vec<&str> {
-    let bare = |cell| str::trim(cell).trim_matches('"');
-    separator.map_or_else(|| vec![bare(row)], |c| row.split(c).map(bare).collect())
+/// Whether a line is blank, a comment, or a row of nothing but separators, as spreadsheets leave them below a table.
+fn is_without_cells(line: &str) -> bool {
+    line.trim_start_matches('"').starts_with('#') || line.chars().all(|c| " \t;,\"".contains(c))
+}
+
+/// The separator that a first line `sep=;` states.
+fn told_separator(line: &str) -> Option<char> {
+    let line = line.trim_matches('"');
+    let told = line.get(..4).filter(|start| start.eq_ignore_ascii_case("sep=")).and(line.get(4..))?;
+    told.chars().next().filter(|c| [';', '\t', ','].contains(c))
+}
+
+/// The cells of a row, without the quotes that spreadsheets put about them. A separator within quotes separates nothing.
+fn cells(line: usize, row: &str, separator: Option<char>) -> Result<Vec<&str>, BadRecord> {
+    let mut is_quoted = false;
+    let parts = row.split(|c: char| {
+        is_quoted ^= c == '"';
+        !is_quoted && Some(c) == separator
+    });
+    let found = parts.map(|cell| cell.trim().trim_matches('"').trim()).collect();
+    match is_quoted {
+        false => Ok(found),
+        true => {
+            let allowed = "quotes in pairs";
+            Err(BadRecord::at(line, "a quote is not closed on its line", allowed, "mend the quotes"))
+        }
+    }
 }
 
 fn columns(line: usize, header: &str, separator: Option<char>) -> Result<Vec<Column>, BadRecord> {
-    let names = cells(header, separator);
+    let names = cells(line, header, separator)?;
     if names.iter().all(|name| number(name).is_ok())
         || header.split_whitespace().all(|word| number(word).is_ok())
     {
         let found = "the values begin without a header, so that neither unit nor step is known";
-        let allowed = "PEER AT2, ESM ASCII, or CSV with a header";
-        return Err(BadRecord::at(line, found, allowed, format!("add a header of columns ({COLUMNS})")));
+        return Err(BadRecord::at(line, found, FORMATS, format!("add a header of columns ({COLUMNS})")));
     }
     let mut columns = Vec::new();
     for name in names {
@@ -194,14 +226,11 @@ fn columns(line: usize, header: &str, separator: Option<char>) -> Result<Vec<Col
     Ok(columns)
 }
 
-fn cell(line: usize, word: &str, separator: Option<char>) -> Result<f64, BadRecord> {
+fn cell(line: usize, word: &str) -> Result<f64, BadRecord> {
     let refused = |found: String, fix: &str| Err(BadRecord::at(line, found, "a number in every cell", fix));
     match number(word) {
         _ if word.is_empty() => refused("a cell is empty".to_owned(), "complete the row"),
         Ok(value) => Ok(value),
-        Err(found) if word.contains(',') && separator != Some(',') => {
-            refused(found, "write decimals with a point")
-        }
         Err(found) => refused(found, "remove or mend what is no value"),
     }
 }

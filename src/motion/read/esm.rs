@@ -1,15 +1,16 @@
-//! ASCII files of the Engineering Strong-Motion database (ESM, format DYNA 1.2): lines `KEY: value`, then one value a line.
+//! ASCII files of the Engineering Strong-Motion database (ESM, format DYNA 1.2) and of ITACA (DYNA 1.0): lines `KEY: value`, then one
+//! value a line.
 
 use std::collections::BTreeMap;
 
 use crate::math::Vec3;
-use crate::motion::read::Lines;
 use crate::motion::read::number::{number, shortened};
-use crate::motion::read::samples::{Samples, Unit, checked_step};
+use crate::motion::read::samples::{SAME_PEAK, Samples, Unit, checked_step};
+use crate::motion::read::{Lines, unit};
 use crate::motion::{BadRecord, Motion};
 
-/// Largest difference between the peak that the header states and that of the values, as a share, up to which they agree.
-const SAME_PEAK: f64 = 0.01;
+/// What DATA_TYPE may say: of ESM the last word alone, of ITACA both.
+const ACCELERATIONS: [&str; 3] = ["ACCELERATION", "PROCESSED ACCELERATION", "UNPROCESSED ACCELERATION"];
 
 /// Whether a line belongs to such a file alone.
 pub(super) fn is_mark(line: &str) -> bool {
@@ -31,11 +32,12 @@ pub(super) fn read(name: &str, lines: Lines) -> Result<Motion, BadRecord> {
     });
     let header: Header = pairs.collect();
     let kind = stated(&header, "DATA_TYPE").unwrap_or((0, "ACCELERATION"));
-    if kind.1 != "ACCELERATION" {
+    if !ACCELERATIONS.contains(&kind.1.to_ascii_uppercase().as_str()) {
         let found = format!("DATA_TYPE is {:?}", shortened(kind.1));
-        return Err(BadRecord::at(kind.0, found, "ACCELERATION", "give the file of accelerations"));
+        let allowed = "ACCELERATION, PROCESSED ACCELERATION or UNPROCESSED ACCELERATION";
+        return Err(BadRecord::at(kind.0, found, allowed, "give the file of accelerations"));
     }
-    let unit = unit(&header)?;
+    let unit = unit_of(&header)?;
     let (line, step) = numeric(&header, "SAMPLING_INTERVAL_S")?.ok_or_else(|| {
         let found = "SAMPLING_INTERVAL_S is missing";
         BadRecord::at(0, found, "a line \"SAMPLING_INTERVAL_S: 0.005\"", "add it to the header")
@@ -89,11 +91,12 @@ fn numeric(header: &Header, key: &str) -> Result<Option<(usize, f64)>, BadRecord
     Ok(Some((line, value)))
 }
 
-fn unit(header: &Header) -> Result<Unit, BadRecord> {
-    let (line, found) = match stated(header, "UNITS") {
-        Some((_, "cm/s^2")) => return Ok(Unit::CentimetrePerSquareSecond),
-        Some((_, "m/s^2")) => return Ok(Unit::MetrePerSquareSecond),
-        Some((_, "g")) => return Ok(Unit::Gravity),
+fn unit_of(header: &Header) -> Result<Unit, BadRecord> {
+    let stated = stated(header, "UNITS");
+    if let Some(unit) = stated.and_then(|(_, word)| unit::named(word)) {
+        return Ok(unit);
+    }
+    let (line, found) = match stated {
         Some((line, other)) => (line, format!("UNITS is {:?}", shortened(other))),
         None => (0, "UNITS is missing".to_owned()),
     };

@@ -1,13 +1,18 @@
 //! Records from files. The format is recognised from the content, never from the name; what is odd is refused, never guessed.
 
 mod at2;
+mod cosmos;
 mod csv;
+mod decimals;
 mod esm;
+mod foreign;
+mod knet;
 mod number;
 mod open;
 mod samples;
 #[cfg(test)]
 mod tests;
+mod unit;
 
 use std::path::Path;
 
@@ -15,18 +20,26 @@ use crate::motion::{BadRecord, Motion};
 
 /// Lines at the beginning of a file in which the marks of a format are looked for.
 const HEAD: usize = 64;
+/// The formats that are read.
+const FORMATS: &str = "PEER AT2, ESM or ITACA ASCII, K-NET ASCII, COSMOS or CSMIP V2, or CSV with a header";
 
 /// Lines of a text, each with its number from 1.
 type Lines<'a> = &'a [(usize, &'a str)];
 
 impl Motion {
-    /// Reads a record from a file. Three formats are known, by their content:
+    /// Reads a record from a file. These formats are known, by their content:
     ///
-    /// - PEER AT2: `ACCELERATION TIME SERIES IN UNITS OF G`, then `NPTS= 4000, DT= .0050 SEC` or `4000 0.0050 NPTS, DT`, then the values.
-    /// - ESM (DYNA 1.2) ASCII: a header of lines `KEY: value`, with `SAMPLING_INTERVAL_S` and `UNITS`, then one value a line.
-    /// - CSV with a header that states the unit: `t_s,a_g`, or `ax_m_per_s2,ay_m_per_s2` after a line `# dt_s = 0.005`.
+    /// - PEER AT2: `ACCELERATION TIME SERIES IN UNITS OF G` or `Acceleration in g`, then `NPTS= 4000, DT= .0050 SEC` or
+    ///   `4000 0.0050 NPTS, DT`, then the values.
+    /// - ESM and ITACA ASCII (DYNA 1.2 and 1.0): a header of lines `KEY: value`, with `SAMPLING_INTERVAL_S` and `UNITS`, then one value a
+    ///   line.
+    /// - K-NET ASCII: `Sampling Freq(Hz)`, `Scale Factor`, then counts, whose mean is taken off.
+    /// - COSMOS V2: `4000 acceleration pts, ..., units=cm/sec2 (04)`, with the step in the header of real numbers; CSMIP V2:
+    ///   `4000 points of accel data equally spaced at .005 sec, in cm/sec2`.
+    /// - CSV with a header that states the unit: `t_s,a_g`, or `ax_m_per_s2,ay_m_per_s2` after a line `# dt_s = 0.005`. Cells may have
+    ///   quotes, and decimal commas where these do not separate cells.
     ///
-    /// A file of one component acts along x until [`Motion::along`] says otherwise; a vertical stream of ESM acts along z. Units of g are
+    /// A file of one component acts along x until [`Motion::along`] says otherwise; a vertical one, as far as its header says so, acts along z. Units of g are
     /// standard gravity. The first sample lies at the time 0. [`Motion::notes`] say what the user should know.
     ///
     /// # Errors
@@ -69,7 +82,13 @@ fn recognised(name: &str, text: &str) -> Result<Motion, BadRecord> {
         return Err(BadRecord::at(0, "the file is empty", "a record", "check the path"));
     }
     let head = || lines.iter().take(HEAD).map(|(_, line)| *line).filter(|line| !line.starts_with('#'));
-    if head().any(at2::is_mark) {
+    foreign::refused(&lines)?;
+    // V2 first: its comments may speak of other formats.
+    if head().any(cosmos::is_mark) {
+        cosmos::read(name, &lines)
+    } else if head().any(knet::is_mark) {
+        knet::read(name, &lines)
+    } else if head().any(at2::is_mark) {
         at2::read(name, &lines)
     } else if head().any(esm::is_mark) {
         esm::read(name, &lines)

@@ -5,7 +5,7 @@
 ///
 /// # Errors
 /// What is wrong with the word, in words.
-pub(super) fn numbers(word: &str) -> Result<Vec<f64>, String> {
+fn numbers(word: &str) -> Result<Vec<f64>, String> {
     let mut found = Vec::new();
     let mut rest = word;
     while !rest.is_empty() {
@@ -21,6 +21,18 @@ pub(super) fn numbers(word: &str) -> Result<Vec<f64>, String> {
             Err(_) => return Err(fault(word)),
         }
         rest = after;
+    }
+    Ok(found)
+}
+
+/// The numbers of a line.
+///
+/// # Errors
+/// What is wrong with the first word that is none, in words.
+pub(super) fn values(line: &str) -> Result<Vec<f64>, String> {
+    let mut found = Vec::new();
+    for word in line.split_whitespace() {
+        found.extend(numbers(word)?);
     }
     Ok(found)
 }

@@ -16,6 +16,9 @@ const STEPS: [f64; 2] = [1e-5, 0.1];
 /// Share of the peak velocity that the base may keep before it is noted.
 const DRIFT: f64 = 0.1;
 
+/// Largest difference between the peak that a header states and that of the values, as a share, up to which they agree.
+pub(super) const SAME_PEAK: f64 = 0.01;
+
 /// Units of acceleration in which records come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Unit {

@@ -14,6 +14,12 @@ const IN_G: [f64; 7] = [0.01, -0.02, 0.3, -0.04, 0.05, -0.06, 0.01];
 const ESM: &str = "EVENT_NAME: Somewhere\nEVENT_ID: X-1\nEVENT_DATE_YYYYMMDD: 20000823\nVS30_M/S:\nSAMPLING_INTERVAL_S: 0.005000\nNDATA: 4\nDURATION_S: 0.015\nSTREAM: HNE\nUNITS: cm/s^2\nPGA_CM/S^2: -98.1\nHEADER_FORMAT: DYNA 1.2\nDATA_TYPE: ACCELERATION\nUSER5:\n";
 const ESM_VALUES: &str = "1.5\n-98.100000\n2.0e+1\n-7\n";
 
+/// A header of K-NET with ten counts: 100.0 gal to both sides of a zero at 400,000 counts.
+const KNET: &str = "Origin Time       2006/01/18 23:25:00\nLat.              37.798\nLong.             142.200\nDepth. (km)       36\nMag.              5.7\nStation Code      MYG002\nStation Lat.      38.7262\nStation Long.     141.5109\nStation Height(m) 79\nRecord Time       2006/01/18 23:25:46\nSampling Freq(Hz) 100Hz\nDuration Time(s)  1\nDir.              N-S\nScale Factor      3920(gal)/6182761\nMax Acc. (gal)    100.000\nLast Correction   2006/01/18 23:25:31\nMemo.\n   400000   400000   408003   391997   557723   242277   400000   400000\n   400000   400000\n";
+/// A file of COSMOS V1.20 as far as it matters, and the block of CSMIP with the same values.
+const COSMOS: &str = "Corrected acceleration   (Format v01.20 with 13 text lines) Src: somewhere\nEarthquake\n(text)\n 40 Real-header values follow on   8 lines, Format= (5F15.6)\n      39.923300    -123.761400     245.000000    -999.000000    -999.000000\n    -999.000000    -999.000000    -999.000000    -999.000000    -999.000000\n    -999.000000    -999.000000    -999.000000    -999.000000    -999.000000\n    -999.000000    -999.000000    -999.000000    -999.000000    -999.000000\n    -999.000000    -999.000000    -999.000000    -999.000000    -999.000000\n    -999.000000    -999.000000    -999.000000    -999.000000      55.850000\n       0.000000       0.000000    -999.000000       0.010000       0.050000\n    -999.000000    -999.000000    -999.000000    -999.000000    -999.000000\n   5 acceleration pts, approx   1 secs, units=cm/sec2 (04), Format= (3F10.5)\n   1.50000-100.00000  20.00000\n  -7.00000   0.00000\nEnd-of-data for Chan  1 acceleration\n";
+const CSMIP: &str = "Corrected accelerogram   channel 1\nChan  1: 90 Deg\n    5 points of accel data equally spaced at  .010 sec, in cm/sec2. (3f10.5)\n   1.50000-100.00000  20.00000\n  -7.00000   0.00000\n    5 points of veloc data equally spaced at  .010 sec, in cm/sec.\n 0 0 0 0 0\n";
+
 fn read(text: &str) -> Result<Motion, BadRecord> {
     Motion::from_text("record", text)
 }
@@ -89,6 +95,79 @@ fn esm_is_read_along_x_or_z() {
 }
 
 #[test]
+fn a_header_of_peer_may_state_its_unit_in_words_or_brackets() {
+    let stated = "ACCELERATION TIME SERIES IN UNITS OF G";
+    for words in
+        ["  Acceleration in g", "ACCELERATION (G)", "The units are (g)", "ACCEL. TIME HISTORY, UNITS: G"]
+    {
+        assert_is_in_g(&read(&with(&format!("{AT2}{VALUES}"), stated, words)).expect("a good record"));
+    }
+    let gal = with(&format!("{AT2}{VALUES}"), stated, "Acceleration in gal").replace(".3000000E+00", "30.0");
+    assert_eq!(samples(&read(&gal).expect("a good record"), &Vec3::x())[2], 0.3);
+}
+
+#[test]
+fn both_headers_of_itaca_are_read() {
+    let text = format!("{ESM}{ESM_VALUES}").replace("DYNA 1.2", "DYNA 1.0");
+    for kind in ["PROCESSED ACCELERATION", "UNPROCESSED ACCELERATION"] {
+        let motion = read(&with(&text, "DATA_TYPE: ACCELERATION", &format!("DATA_TYPE: {kind}")));
+        assert_eq!(samples(&motion.expect("a good record"), &Vec3::x()), [0.015, -0.981, 0.2, -0.07]);
+    }
+}
+
+/// The counts of KNET are 3920/6182761 gal each, about their mean of 400,000.
+#[test]
+fn counts_of_k_net_are_read_about_their_mean() {
+    let motion = read(KNET).expect("a good record");
+    let found = samples(&motion, &Vec3::x());
+    assert_eq!((found.len(), motion.step()), (10, Some(0.01)));
+    let factor = 3920.0 / 6_182_761.0 / 100.0;
+    for (a, counts) in found.iter().zip([0.0, 0.0, 8003.0, -8003.0, 157_723.0, -157_723.0]) {
+        assert!((a - counts * factor).abs() < 1e-12, "{a} {counts}");
+    }
+    assert!(motion.notes[0].starts_with("the mean of the values, 253.609 cm/s^2"), "{:?}", motion.notes);
+    assert_eq!(motion.notes.len(), 1, "{:?}", motion.notes);
+    for up in ["U-D", "6"] {
+        let up = read(&with(KNET, "N-S", up)).expect("a good record");
+        assert_eq!((samples(&up, &Vec3::z())[4], samples(&up, &Vec3::x())[4]), (found[4], 0.0));
+    }
+    let odd = read(&with(KNET, "100.000", "48.060")).expect("it is taken");
+    let said = "the header states a peak of 48.06 cm/s^2, and that of the values is 100.000";
+    assert!(odd.notes.iter().any(|note| note == said), "{:?}", odd.notes);
+}
+
+#[test]
+fn v2_files_of_cosmos_and_csmip_are_read() {
+    for text in [COSMOS, CSMIP] {
+        let motion = read(text).expect("a good record");
+        assert_eq!(samples(&motion, &Vec3::x()), [0.015, -1.0, 0.2, -0.07, 0.0]);
+        assert_eq!(motion.step(), Some(0.01));
+    }
+    let up = read(&with(CSMIP, "90 Deg", "Up")).expect("a good record");
+    assert_eq!(samples(&up, &Vec3::z())[1], -1.0);
+    let azimuth = |way: &str| {
+        let integers =
+            format!(" 60 Integer-header values follow on 1 lines\n{}{way} 0 0 0 0 0 0\n", "0 ".repeat(53));
+        let text = with(COSMOS, " 40 Real", &format!("{integers} 40 Real"));
+        samples(&read(&text).expect("a good record"), &Vec3::z())[1]
+    };
+    assert_eq!(["400", "401", "90"].map(azimuth), [-1.0, 1.0, 0.0]);
+}
+
+#[test]
+fn quotes_and_decimal_commas_of_spreadsheets_are_read() {
+    let wanted = read("t_s,a_g\n0.00,0.1\n0.01,-0.2\n0.02,0.1\n").expect("a good record");
+    for text in [
+        "\"t_s\",\"a_g\"\n\"0,00\",\"0,1\"\n\"0,01\",\"-0,2\"\n\"0,02\",\"0,1\"\n",
+        "t_s;a_g\n0,00;0,1\n0,01;-0,2\n0,02;0,1\n;\n",
+        "sep=;\nt_s;a_g\n0,00;0,1\n0,01;\u{2212}0,2\n0,02;0,1\n",
+        "t_s\ta_g\n0,00\t0,1\n0,01\t-0,2\n0,02\t0,1\n\t\n",
+    ] {
+        assert_eq!(read(text).expect("a good record"), wanted, "{text}");
+    }
+}
+
+#[test]
 fn tables_are_read_by_their_headers() {
     let one = read("t_s,a_g\n0.00,0.1\n0.01,-0.2\n0.02,0.1\n").expect("a good record");
     assert!((one.acceleration(0.01).x + 0.2 * STANDARD_GRAVITY).abs() < 1e-15);
@@ -151,7 +230,7 @@ fn cases() -> Vec<Case> {
         (String::new(), 0, "the file is empty; allowed is a record"),
         (" \r\n\t\r\n".to_owned(), 0, "the file is empty"),
         ("# only\n# comments\n".to_owned(), 0, "there are only comments"),
-        ("0.1 0.2 0.3\n0.4 0.5 0.6\n".to_owned(), 1, "the values begin without a header, so that neither unit nor step is known; allowed is PEER AT2, ESM ASCII, or CSV with a header"),
+        ("0.1 0.2 0.3\n0.4 0.5 0.6\n".to_owned(), 1, "the values begin without a header, so that neither unit nor step is known; allowed is PEER AT2, ESM or ITACA ASCII, K-NET ASCII, COSMOS or CSMIP V2, or CSV with a header"),
         ("0.1,0.2\n".to_owned(), 1, "the values begin without a header"),
         ("<html><body>Not found</body></html>\n".to_owned(), 1, "the column \"<html><body>Not found</body></html>\" is not known"),
         // PEER: header
@@ -170,7 +249,10 @@ fn cases() -> Vec<Case> {
         (with(at2, "ACCELERATION TIME SERIES IN UNITS OF G", "VELOCITY TIME SERIES IN UNITS OF CM/S"), 3, "give the file of accelerations"),
         (with(at2, "ACCELERATION TIME SERIES IN UNITS OF G", "DISPLACEMENT TIME SERIES IN UNITS OF CM"), 3, "the header says \"DISPLACEMENT TIME SERIES IN UNITS OF CM\""),
         (with(at2, "ACCELERATION TIME SERIES", "VELOCITY TIME SERIES"), 3, "give the file of accelerations"),
-        (with(at2, "UNITS OF G", "UNITS OF CM/SEC/SEC"), 3, "convert it to CSV"),
+        (with(at2, "UNITS OF G", "UNITS OF FT/SEC/SEC"), 3, "convert it to CSV"),
+        (with(at2, "UNITS OF G", "UNITS OF CM/SEC/SEC"), 5, "the peak is 0.3 cm/s^2, which is 3.06e-4 g"),
+        (with(at2, "NPTS=", "The units are (cm/s^2)\nNPTS="), 4, "the header states cm/s^2, and line 3 states g; allowed is one unit"),
+        (with(at2, "ACCELERATION TIME SERIES IN UNITS OF G", "Velocity in cm/s"), 3, "give the file of accelerations"),
         // PEER: values
         (with(at2, "NPTS=      7", "NPTS=      6"), 4, "the header states 6 values, and there are 7; allowed is as many as stated"),
         (with(at2, "NPTS=      7", "NPTS=     11"), 4, "the header states 11 values, and there are 7"),
@@ -196,7 +278,8 @@ fn cases() -> Vec<Case> {
         (with(esm, "NDATA: 4", "NDATA: 5"), 6, "NDATA states 5 values, and there are 4"),
         (with(esm, "UNITS: cm/s^2", "UNITS: cm/s"), 9, "UNITS is \"cm/s\"; allowed is cm/s^2, m/s^2 or g"),
         (with(esm, "UNITS: cm/s^2", "UNITS:"), 0, "UNITS is missing"),
-        (with(esm, "DATA_TYPE: ACCELERATION", "DATA_TYPE: VELOCITY"), 12, "DATA_TYPE is \"VELOCITY\"; allowed is ACCELERATION"),
+        (with(esm, "DATA_TYPE: ACCELERATION", "DATA_TYPE: VELOCITY"), 12, "DATA_TYPE is \"VELOCITY\"; allowed is ACCELERATION, PROCESSED ACCELERATION or UNPROCESSED ACCELERATION"),
+        (with(esm, "DATA_TYPE: ACCELERATION", "DATA_TYPE: ACCELERATION RESPONSE SPECTRUM"), 12, "give the file of accelerations"),
         (with(esm, "2.0e+1\n", "nan\n"), 16, "\"nan\" stands among the values"),
         (with(esm, "2.0e+1\n", "2.0 3.0\n"), 16, "allowed is one value a line"),
         (with(esm, "-98.100000\n", "-9810.0\n"), 15, "the peak is 9810 cm/s^2, which is 10.003 g"),
@@ -221,7 +304,30 @@ fn cases() -> Vec<Case> {
         (with(csv, "0.02,0.1", "0.02,x"), 4, "\"x\" is no number; allowed is a number in every cell"),
         (with(csv, "0.02,0.1", "0.02,NaN"), 4, "\"NaN\" stands among the values"),
         (with(csv, "0.02,0.1", "0.02,inf"), 4, "\"inf\" stands among the values"),
-        ("t_s;a_g\n0,00;0,1\n0,01;0,2\n".to_owned(), 2, "write decimals with a point"),
+        ("t_s;a_g\n0,00;0,1\n0,01;0.2\n0,02;0,1\n".to_owned(), 2, "a comma is among the digits, and line 3 has a decimal point"),
+        ("# dt_s = 0.01\n\"a_cm_per_s2\"\n\"1,371\"\n\"3,371\"\n\"-2,100\"\n".to_owned(), 3, "the commas may be decimal ones, or group thousands"),
+        ("t_s,a_g\n0,00,0,1\n0,01,0,2\n".to_owned(), 2, "write a point for the decimal comma, or separate the cells by semicolons"),
+        (with(csv, "0.02,0.1", "\"0.02\",\"0.1"), 4, "a quote is not closed on its line"),
+        (with(csv, "0.02,0.1", "0.02,\"0,1,2\""), 4, "\"0.1,2\" has a comma"),
+        // K-NET
+        (with(KNET, "Sampling Freq(Hz) 100Hz\n", ""), 0, "Sampling Freq is missing; allowed is the 17 lines of a K-NET header"),
+        (with(KNET, "100Hz", "fast"), 11, "Sampling Freq is \"fast\""),
+        (with(KNET, "3920(gal)/6182761", "3920(gal)"), 14, "Scale Factor is \"3920(gal)\""),
+        (with(KNET, "3920(gal)", "3920(m)"), 14, "Scale Factor is"),
+        (with(KNET, "Memo.\n", ""), 0, "this is K-NET ASCII, and the line \"Memo.\" that ends its header is missing"),
+        (with(KNET, " 408003 ", " 40800x "), 18, "counts alone, after the header"),
+        (with(KNET, " 408003 ", " 90408003 "), 18, "which is 52"),
+        // V2
+        (with(COSMOS, " 40 Real-header values follow on   8 lines, Format= (5F15.6)\n", ""), 12, "this is a COSMOS V2 file, and its header of real numbers is missing, so that the step is not known"),
+        (with(COSMOS, "0.010000", "-999.000000"), 4, "its header of real numbers does not state the step"),
+        (with(COSMOS, "units=cm/sec2", "units=counts"), 13, "the unit is not to be read in"),
+        (with(COSMOS, "   5 acceleration", "   6 acceleration"), 16, "after 5 of 6 values"),
+        (with(COSMOS, "acceleration pts", "velocity pts"), 13, "give the V2 file of accelerations"),
+        (format!("{COSMOS}{COSMOS}"), 29, "a second channel begins in the same file; allowed is one channel a file"),
+        (with(CSMIP, "accel data", "other data"), 6, "give the V2 file of accelerations"),
+        // known, and not read
+        ("2 CORRECTED ACCELEROGRAM\n".to_owned(), 1, "this is SMC (USGS), which is not read; allowed is PEER AT2"),
+        ("Corrected accelerogram 20160214 GNS Science\n".to_owned(), 1, "this is GeoNet V1A or V2A"),
         (with(csv, "0.02,0.1", "0.01,0.1"), 4, "the time 0.01 s follows 0.01 s; allowed is times that rise"),
         (with(csv, "0.02,0.1", "0.005,0.1"), 4, "the time 0.005 s follows 0.01 s"),
         (with(csv, "0.03,0.0\n", ""), 5, "the times step by 0.020000 s from 0.02 s to 0.04 s"),

@@ -28,7 +28,7 @@ pub static RECORDS: Section = Section {
             "files",
             Kind::Files { at_most: MOST_RECORDS },
             Required,
-            "Records as .AT2 (PEER), ESM ASCII, or CSV with units in its heads, in the study's folder.",
+            "Records as .AT2 (PEER), ESM, ITACA or K-NET ASCII, COSMOS or CSMIP V2, or CSV with units in its heads, in the study's folder.",
         )
         .only(FILES),
         Key::new(
