@@ -103,5 +103,6 @@ mod tests {
             ["1", "0"]
         );
         assert_eq!(after(of("series/wall-000.vtu"), "at_rest"), "1");
+        assert!(files.iter().all(|(_, text)| !text.contains("NumberOfComponents=\"1\"")));
     }
 }

@@ -171,6 +171,9 @@ mod tests {
         assert_eq!(words(&text, "tag"), [2.0, 0.0]);
         assert_eq!(words(&text, "volume"), [wall.blocks[0].shape.volume(), wall.blocks[1].shape.volume()]);
         assert!(!text.contains("displacement"));
+        // Readers such as meshio take one component that is named for a matrix of one column.
+        let moved = write_vtu(&wall, Some(&[Movement::NONE, Movement::NONE]));
+        assert!(!moved.contains("NumberOfComponents=\"1\""), "{moved}");
     }
 
     #[test]

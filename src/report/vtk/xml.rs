@@ -33,7 +33,8 @@ pub fn field(state: &ReplayState) -> [(&'static str, f64); 2] {
     [("load", state.level.value()), ("at_rest", f64::from(u8::from(state.is_equilibrium)))]
 }
 
-/// One data array, an entry per line.
+/// One data array, an entry per line. A single component is left unsaid, as VTK's writer leaves it: readers such as meshio take the word
+/// for a matrix of one column.
 pub fn array<T: Display>(
     text: &mut String,
     kind: &str,
@@ -44,9 +45,11 @@ pub fn array<T: Display>(
     let mut line = |arguments: std::fmt::Arguments| {
         writeln!(text, "{arguments}").expect("a string takes every text");
     };
-    line(format_args!(
-        "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"ascii\">"
-    ));
+    let said = match components {
+        1 => String::new(),
+        more => format!(" NumberOfComponents=\"{more}\""),
+    };
+    line(format_args!("<DataArray type=\"{kind}\" Name=\"{name}\"{said} format=\"ascii\">"));
     for entry in entries {
         line(format_args!("{entry}"));
     }
