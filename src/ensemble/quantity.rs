@@ -3,6 +3,7 @@
 use crate::ensemble::Row;
 use crate::model::{Level, Outcome};
 use crate::protocol::{Observes, Protocol};
+use crate::solve::Solver;
 use crate::study::{Measure, Study};
 
 /// The quantity that a study is about.
@@ -14,6 +15,8 @@ pub enum Quantity {
     CollapseAngle,
     /// The largest push that a wall bears along itself under a constant vertical load (N).
     ShearCapacity,
+    /// The factor on the load at which rigid blocks fall, by limit analysis, which knows no displacement: 1 is the full load.
+    LoadFactor,
     /// The lowest intensity at which some record brings the wall down, in this measure.
     CollapseIntensity(Measure),
 }
@@ -33,6 +36,7 @@ impl Quantity {
     /// That of a study.
     pub fn of(study: &Study) -> Quantity {
         match &study.protocol {
+            Protocol::Lateral(_) if matches!(study.solver, Solver::Limit(_)) => Quantity::LoadFactor,
             Protocol::Lateral(_) => Quantity::TopDisplacement,
             Protocol::Tilting(tilting) => match tilting.observes {
                 Observes::CollapseAngle => Quantity::CollapseAngle,
@@ -50,7 +54,19 @@ impl Quantity {
     pub fn strength(self, value: f64) -> f64 {
         match self {
             Quantity::TopDisplacement => -value,
-            Quantity::CollapseAngle | Quantity::ShearCapacity | Quantity::CollapseIntensity(_) => value,
+            Quantity::CollapseAngle
+            | Quantity::ShearCapacity
+            | Quantity::LoadFactor
+            | Quantity::CollapseIntensity(_) => value,
+        }
+    }
+
+    /// Whether a wall that ended so has a value of it, if that is finite.
+    pub fn counts(self, outcome: &Outcome) -> bool {
+        match outcome {
+            Outcome::Equilibrium => !matches!(self, Quantity::CollapseAngle | Quantity::CollapseIntensity(_)),
+            Outcome::Collapsed { .. } => self != Quantity::TopDisplacement,
+            _ => false,
         }
     }
 
@@ -66,6 +82,11 @@ impl Quantity {
             (Quantity::ShearCapacity, Outcome::Collapsed { .. } | Outcome::Equilibrium) => {
                 value(row.shear.and_then(|shear| shear.capacity_n))
             }
+            (Quantity::LoadFactor, Outcome::Collapsed { .. } | Outcome::Equilibrium) => {
+                value(row.limit.and_then(|limit| limit.multiplier.or(limit.non_associative_multiplier)))
+            }
+            // It bears the full load at the least.
+            (Quantity::LoadFactor, Outcome::Unbounded) => Observed::Above(1.0),
             (
                 Quantity::CollapseIntensity(_),
                 Outcome::Collapsed { at: Level::Acceleration(x) | Level::Velocity(x) },

@@ -52,7 +52,7 @@ impl Rigid<'_> {
 }
 
 /// Takes a wall along a load path by limit analysis. What bears more than the path's end stands to the end; the last step's
-/// level is then the end or, for a factor, what the wall bears. What rigid blocks do not have (displacements, remainders) is
+/// level is then the end or, for a factor, what the wall bears: [`Outcome::Unbounded`] where that is any load. What rigid blocks do not have (displacements, remainders) is
 /// NaN. The wall is taken as built: no change on the way is made.
 pub(super) fn rigid(task: &Task<'_>, settings: Settings, witness: Witness<'_>) -> Run {
     let Task { wall, laws, contact, path, .. } = *task;
@@ -71,7 +71,8 @@ pub(super) fn rigid(task: &Task<'_>, settings: Settings, witness: Witness<'_>) -
         Outcome::NotConverged { at, unbalanced_ratio, why } => {
             (Outcome::NotConverged { at: path.level(at.value()), unbalanced_ratio, why }, None)
         }
-        // What nothing brings down stands to the end.
+        // A capacity that is asked for as a factor is not there; a tilt that nothing falls at stands to the end of the path.
+        Outcome::Unbounded if path.growing == Growing::Factor => (Outcome::Unbounded, None),
         Outcome::Equilibrium | Outcome::Unbounded => (Outcome::Equilibrium, Some(path.end)),
         other => (other, None),
     };

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::ensemble::Quantity;
 use crate::report::number::{or_dash, shortened, stiffness, with_interval, with_interval_against};
 use crate::report::published::Verdict;
 use crate::report::summary::{ArmSummary, Summary};
@@ -32,20 +33,23 @@ pub(super) const MOST_LINES: usize = 5;
 /// How many walls were solved, and how many brought no value.
 fn walls(summary: &Summary) -> String {
     let sum = |of: fn(&ArmSummary) -> u64| summary.arms.iter().map(of).sum::<u64>();
-    let (all, stood) = (sum(|arm| arm.members), sum(|arm| arm.stood_to_the_end));
+    let (all, stood) = (sum(ArmSummary::computed), sum(|arm| arm.stood_to_the_end));
     // The same walls are solved at every stiffness.
     let mut walls: BTreeMap<&str, u64> = BTreeMap::new();
     summary.arms.iter().for_each(|arm| {
         let most = walls.entry(&arm.arm).or_default();
-        *most = arm.members.max(*most);
+        *most = arm.computed().max(*most);
     });
     let walls: u64 = walls.values().sum();
     let solved = match walls == all {
-        true => format!("{walls} walls"),
-        false => format!("{walls} walls in {all} evaluations"),
+        true => counted(walls),
+        false => format!("{} in {all} evaluations", counted(walls)),
     };
-    let failed = all.saturating_sub(sum(|arm| arm.in_mean) + stood);
-    let failed = match failed {
+    let missing = match sum(|arm| arm.missing) {
+        0 => String::new(),
+        some => format!(", {some} of {} not computed yet", sum(|arm| arm.members)),
+    };
+    let failed = match sum(ArmSummary::failed) {
         0 => "none failed".to_string(),
         some => format!("{some} failed (not in the means)"),
     };
@@ -53,7 +57,28 @@ fn walls(summary: &Summary) -> String {
         0 => String::new(),
         some => format!(", {some} stood to the end of the load path"),
     };
-    format!("{solved}, {failed}{stood}.")
+    format!("{solved}{missing}, {failed}{stood}{}.", bears(summary))
+}
+
+/// How many walls bear the full load, where they are asked for the load that they bear.
+fn bears(summary: &Summary) -> String {
+    let own = || summary.arms.iter().filter(|arm| arm.shown == Quantity::LoadFactor);
+    let bear = |arm: &ArmSummary| {
+        ["equilibrium", "unbounded"].iter().filter_map(|name| arm.outcomes.get(*name)).sum::<u64>()
+    };
+    match own().next() {
+        None => String::new(),
+        Some(_) => format!(
+            ", {} of {} bear the full load",
+            own().map(bear).sum::<u64>(),
+            own().map(ArmSummary::computed).sum::<u64>()
+        ),
+    }
+}
+
+/// A number of walls, in words.
+fn counted(walls: u64) -> String {
+    if walls == 1 { "1 wall".to_owned() } else { format!("{walls} walls") }
 }
 
 /// The mean of every arm at the first stiffness, as many as a line or two hold, and the COV of the random ones.
@@ -76,6 +101,7 @@ fn shown(summary: &Summary) -> Option<String> {
     let what = match quantity.unit() {
         "deg" => "Mean collapse angle",
         "N" => "Mean of the largest push",
+        "1" => "Mean load at collapse",
         _ => "Mean displacement at the top",
     };
     let head = format!("{what} in {} at kn {}: ", quantity.shown_unit(), stiffness(first.kn_pa_per_m));

@@ -26,7 +26,7 @@ pub struct Curve {
 pub struct Point {
     /// Normal stiffness of the joints (Pa/m).
     pub kn: f64,
-    /// Walls planned.
+    /// Walls computed.
     pub members: u64,
     /// Walls in the mean.
     pub in_mean: u64,
@@ -47,7 +47,7 @@ impl Point {
         let sigma = entry.sigma.map(shown);
         Point {
             kn: entry.kn_pa_per_m,
-            members: entry.members,
+            members: entry.computed(),
             in_mean: entry.in_mean,
             mean,
             mean_ci: entry.mean_ci.map(|ci| ci.map(shown)),

@@ -3,6 +3,7 @@
 
 mod advice;
 mod beside;
+mod bounded;
 mod by_member;
 mod capacity;
 mod compare;
@@ -49,6 +50,7 @@ mod vtk;
 
 pub use advice::Advice;
 pub use beside::{Earlier, Mean};
+pub use bounded::Bounded;
 pub use capacity::{
     Answer, CapacityGroup, CapacitySummary, Failed, Question, Repeats, Rung, Screen, Supported,
     SupportedValue, Target, capacity_page, capacity_text, write_capacity,

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::ensemble::{Mechanism, Observed, Quantity, Row};
+use crate::report::bounded::Bounded;
 use crate::report::by_member::ByMember;
 use crate::report::number::significant;
 use crate::stats::{Sample, Trials};
@@ -28,14 +29,27 @@ pub struct Population {
     pub values: ByMember,
     /// What the value is known to exceed, of walls that stood to the end of the load path, in the order of the members.
     pub above: Vec<f64>,
+    /// Walls that bring no value, by why.
+    pub without: BTreeMap<String, Without>,
     /// Number of walls by the name of the mechanism by which they fell.
     pub modes: BTreeMap<String, u64>,
     /// How often the walls that fell did so as a published statement says, by its test.
     pub stated: Vec<(ClaimTest, Trials)>,
+    /// What limit analysis says of them, where it was asked.
+    pub bounded: Bounded,
     /// Randomisations of a design that its members share in turn; 1 where each is drawn by itself.
     pub randomisations: u64,
     /// The last member that was taken.
     last: Option<u64>,
+}
+
+/// Walls that bring no value for the same reason.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Without {
+    /// How many.
+    pub walls: u64,
+    /// The member and the words of the first one.
+    pub first: (u64, String),
 }
 
 impl Population {
@@ -58,8 +72,10 @@ impl Population {
             quantity,
             values: ByMember::default(),
             above: Vec::new(),
+            without: BTreeMap::new(),
             modes: BTreeMap::new(),
             stated: stated.map(|test| (test.clone(), Trials::none(randomisations))).collect(),
+            bounded: Bounded::default(),
             randomisations,
             last: None,
         }
@@ -78,6 +94,7 @@ impl Population {
         );
         self.last = Some(row.member);
         count(&mut self.outcomes, row.outcome.name());
+        row.limit.iter().for_each(|limit| self.bounded.take(limit));
         if let Some(mechanism) = &row.mechanism {
             count(&mut self.modes, mechanism.mode.name());
             for (test, trials) in &mut self.stated {
@@ -87,7 +104,14 @@ impl Population {
         match self.quantity.observed(row) {
             Observed::Value(value) => self.values.push(row.member, value),
             Observed::Above(limit) => self.above.push(limit),
-            Observed::Nothing => {}
+            Observed::Nothing => {
+                let why = match self.quantity.counts(&row.outcome) {
+                    true => "without a finite value".to_owned(),
+                    false => row.outcome.name().replace('_', " "),
+                };
+                let first = || Without { walls: 0, first: (row.member, row.outcome.reason()) };
+                self.without.entry(why).or_insert_with(first).walls += 1;
+            }
         }
     }
 
@@ -105,12 +129,17 @@ impl Population {
         }
     }
 
-    /// Walls that were planned and say nothing: failed or missing.
+    /// Walls that were computed and bring no value.
     pub fn lost(&self) -> u64 {
-        self.planned.saturating_sub((self.values.len() + self.above.len()) as u64)
+        self.without.values().map(|without| without.walls).sum()
     }
 
-    /// Says which walls are not in the numbers; `None` when all are.
+    /// Walls that were planned and have not been computed.
+    pub fn missing(&self) -> u64 {
+        self.planned.saturating_sub(self.outcomes.values().sum())
+    }
+
+    /// Says which walls are not in the numbers, and why; `None` when all are.
     pub fn note(&self) -> Option<String> {
         let mut parts = Vec::new();
         if !self.above.is_empty() {
@@ -123,7 +152,7 @@ impl Population {
                 self.quantity.shown_unit()
             ));
         }
-        if self.lost() > 0 {
+        if self.lost() + self.missing() > 0 {
             let used = self.values.len() + self.above.len();
             let reasons = self.reasons().join(", ");
             parts.push(format!("over {used} of {} walls; not in the numbers: {reasons}", self.planned));
@@ -131,30 +160,22 @@ impl Population {
         (!parts.is_empty()).then(|| parts.join("; "))
     }
 
-    /// Why walls are not in the numbers, with their counts.
+    /// Why walls are not in the numbers, with their counts, and of each reason the words of the first wall.
     fn reasons(&self) -> Vec<String> {
-        self.failed().iter().map(|(why, count)| format!("{count} {why}")).collect()
+        let of = |(why, Without { walls, first: (member, words) }): (&String, &Without)| match &words[..] {
+            "" => format!("{walls} {why}"),
+            _ => format!("{walls} {why} (wall {member}: {words})"),
+        };
+        let missing = match self.missing() {
+            0 => None,
+            some => Some(format!("{some} not computed")),
+        };
+        self.without.iter().map(of).chain(missing).collect()
     }
 
-    /// Walls that bring no value, by why: the names of their outcomes first.
+    /// Walls that were computed and bring no value, by why: the names of their outcomes.
     pub fn failed(&self) -> Vec<(String, u64)> {
-        let wanted = self.quantity.wanted_outcome();
-        let stood = if self.above.is_empty() { "" } else { "equilibrium" };
-        let mut reasons: Vec<(String, u64)> = self
-            .outcomes
-            .iter()
-            .filter(|(name, _)| *name != wanted && *name != stood)
-            .map(|(name, count)| (name.replace('_', " "), *count))
-            .collect();
-        let rows: u64 = self.outcomes.values().sum();
-        if rows < self.planned {
-            reasons.push(("without a result".to_owned(), self.planned - rows));
-        }
-        let ended = self.outcomes.get(wanted).copied().unwrap_or(0);
-        if ended > self.values.len() as u64 {
-            reasons.push(("without a finite value".to_owned(), ended - self.values.len() as u64));
-        }
-        reasons
+        self.without.iter().map(|(why, without)| (why.clone(), without.walls)).collect()
     }
 }
 

@@ -4,22 +4,13 @@ use crate::ensemble::Quantity;
 use crate::study::Measure;
 
 impl Quantity {
-    /// The outcome of a wall that brings a value.
-    pub fn wanted_outcome(self) -> &'static str {
-        match self {
-            Quantity::TopDisplacement => "equilibrium",
-            Quantity::CollapseAngle => "collapsed",
-            Quantity::ShearCapacity => "equilibrium",
-            Quantity::CollapseIntensity(_) => "collapsed",
-        }
-    }
-
     /// Name in `summary.json`.
     pub fn name(self) -> &'static str {
         match self {
             Quantity::TopDisplacement => "top_displacement",
             Quantity::CollapseAngle => "collapse_angle",
             Quantity::ShearCapacity => "shear_capacity",
+            Quantity::LoadFactor => "load_factor",
             Quantity::CollapseIntensity(Measure::Pga) => "collapse_acceleration",
             Quantity::CollapseIntensity(Measure::Pgv) => "collapse_velocity",
         }
@@ -31,6 +22,7 @@ impl Quantity {
             Quantity::TopDisplacement => "m",
             Quantity::CollapseAngle => "deg",
             Quantity::ShearCapacity => "N",
+            Quantity::LoadFactor => "1",
             Quantity::CollapseIntensity(measure) => measure.unit(),
         }
     }
@@ -41,6 +33,7 @@ impl Quantity {
             Quantity::TopDisplacement => "mm",
             Quantity::CollapseAngle => "deg",
             Quantity::ShearCapacity => "kN",
+            Quantity::LoadFactor => "full loads",
             Quantity::CollapseIntensity(measure) => measure.unit(),
         }
     }
@@ -51,6 +44,7 @@ impl Quantity {
             Quantity::TopDisplacement => x * 1e3,
             Quantity::CollapseAngle => x,
             Quantity::ShearCapacity => x * 1e-3,
+            Quantity::LoadFactor => x,
             Quantity::CollapseIntensity(_) => x,
         }
     }
@@ -61,6 +55,7 @@ impl Quantity {
             Quantity::TopDisplacement => "out-of-plane displacement at the top (mm)",
             Quantity::CollapseAngle => "collapse angle (deg)",
             Quantity::ShearCapacity => "largest push along the wall (kN)",
+            Quantity::LoadFactor => "load at collapse over the full load",
             Quantity::CollapseIntensity(Measure::Pga) => "lowest PGA of a collapse (m/s2)",
             Quantity::CollapseIntensity(Measure::Pgv) => "lowest PGV of a collapse (m/s)",
         }
@@ -72,6 +67,7 @@ impl Quantity {
             Quantity::TopDisplacement => "figure-10",
             Quantity::CollapseAngle => "capacity",
             Quantity::ShearCapacity => "shear",
+            Quantity::LoadFactor => "load-factor",
             Quantity::CollapseIntensity(_) => "fragility",
         }
     }
@@ -88,6 +84,9 @@ impl Quantity {
             Quantity::ShearCapacity => {
                 "the largest push along the wall that it bears under its constant vertical load"
             }
+            Quantity::LoadFactor => {
+                "the factor on the full load at which rigid blocks fall, by limit analysis: a wall bears its load from 1 on"
+            }
             Quantity::CollapseIntensity(Measure::Pga) => {
                 "the lowest peak ground acceleration at which some record brings the wall down"
             }
@@ -103,6 +102,7 @@ impl Quantity {
             Quantity::TopDisplacement => "collapsed, not converged, non-finite, invalid geometry",
             Quantity::CollapseAngle => "not standing at rest, not converged, non-finite, invalid geometry",
             Quantity::ShearCapacity => "not standing at rest, not converged, non-finite, invalid geometry",
+            Quantity::LoadFactor => "not standing at rest, not converged, non-finite, invalid geometry",
             Quantity::CollapseIntensity(_) => {
                 "not standing at rest, undecided, without a verdict, invalid geometry"
             }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::ensemble::{Look, Quantity, Row};
+use crate::report::bounded::Bounded;
 use crate::report::compare::{Comparison, comparisons};
 use crate::report::gathered::populations;
 use crate::report::measured::{MeasuredSummary, measured};
@@ -54,7 +55,11 @@ pub struct ArmSummary {
     pub random: bool,
     /// Walls that the study asks for.
     pub members: u64,
-    /// Walls by outcome; only `equilibrium` (of a collapse angle, `collapsed`) enters the statistics.
+    /// Of them, those that have not been computed: shards of them are missing.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub missing: u64,
+    /// Walls by outcome; only `equilibrium` (of a collapse angle, `collapsed`; of a capacity or a load factor, either) enters the
+    /// statistics.
     pub outcomes: BTreeMap<String, u64>,
     /// Walls that enter the statistics.
     pub in_mean: u64,
@@ -64,8 +69,8 @@ pub struct ArmSummary {
     /// Walls by mechanism, of those that fell and were watched.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub failure_modes: BTreeMap<String, u64>,
-    /// What is described: `top_displacement`, the largest out-of-plane displacement at the wall's top, or `collapse_angle`,
-    /// the tilt at which the wall falls.
+    /// What is described: `top_displacement`, the largest out-of-plane displacement at the wall's top, `collapse_angle`, the tilt at
+    /// which the wall falls, `load_factor`, that of limit analysis on the full load, or another one.
     pub quantity: &'static str,
     /// Its unit.
     pub unit: &'static str,
@@ -94,6 +99,9 @@ pub struct ArmSummary {
     /// When the arm had walls enough; left out where their number was fixed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub enough: Option<EnoughEntry>,
+    /// What limit analysis says of the same walls; left out where the study does not ask it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limit_analysis: Option<Bounded>,
     /// Says which walls are not in the numbers; null when all are.
     pub note: Option<String>,
     /// How the quantity is shown.
@@ -137,6 +145,16 @@ impl EnoughEntry {
 }
 
 impl ArmSummary {
+    /// Walls that have been computed.
+    pub fn computed(&self) -> u64 {
+        self.members - self.missing.min(self.members)
+    }
+
+    /// Walls that have been computed and bring no value.
+    pub fn failed(&self) -> u64 {
+        self.computed().saturating_sub(self.in_mean + self.stood_to_the_end)
+    }
+
     /// With the last look at an arm that has walls enough: its interval is that of the statistic.
     fn stopped(mut self, last: Option<(Statistic, EnoughEntry)>) -> ArmSummary {
         let Some((statistic, entry)) = last else { return self };
@@ -195,7 +213,10 @@ pub(super) fn summary_of(study: &Study, populations: Vec<Population>, rows: &[Ro
         let arm = study.arms.iter().find(|arm| arm.name == population.arm);
         let until = arm.and_then(|arm| arm.until);
         let last = until.map(|until| (until.of, EnoughEntry::of(until, &population)));
-        describe(population, study.seed, arm.map_or_else(BTreeMap::new, parameters)).stopped(last)
+        let limit_analysis = study.agreement.then(|| population.bounded.clone());
+        let entry =
+            describe(population, study.seed, arm.map_or_else(BTreeMap::new, parameters)).stopped(last);
+        ArmSummary { limit_analysis, ..entry }
     });
     Summary {
         study: study.name.clone(),
@@ -219,9 +240,10 @@ pub(crate) fn describe(
     parameters: BTreeMap<String, serde_json::Value>,
 ) -> ArmSummary {
     let statistics = match population.quantity {
-        Quantity::CollapseAngle | Quantity::ShearCapacity | Quantity::CollapseIntensity(_) => {
-            population.sample().summary_of_positive()
-        }
+        Quantity::CollapseAngle
+        | Quantity::ShearCapacity
+        | Quantity::LoadFactor
+        | Quantity::CollapseIntensity(_) => population.sample().summary_of_positive(),
         Quantity::TopDisplacement => population.sample().summary(),
     };
     let [sigma_bootstrap, cov_bootstrap] = bootstraps(&population, seed);
@@ -231,6 +253,7 @@ pub(crate) fn describe(
         kn_pa_per_m: population.kn,
         random: !population.fixed,
         members: population.planned,
+        missing: population.missing(),
         outcomes: population.outcomes.clone(),
         in_mean: statistics.n as u64,
         stood_to_the_end: population.above.len() as u64,
@@ -248,6 +271,7 @@ pub(crate) fn describe(
         quantiles: Vec::new(),
         fragility: Vec::new(),
         enough: None,
+        limit_analysis: None,
         note: population.note(),
         shown: population.quantity,
     };
@@ -278,7 +302,10 @@ fn distribution(population: Population) -> (Vec<QuantileEntry>, Vec<EmpiricalSte
     let sorted = Sorted::of(values.into_values());
     let of = |p| if above.is_empty() { sorted.quantile(p) } else { Estimate::UNDEFINED };
     let steps = match quantity {
-        Quantity::TopDisplacement | Quantity::ShearCapacity | Quantity::CollapseIntensity(_) => Vec::new(),
+        Quantity::TopDisplacement
+        | Quantity::ShearCapacity
+        | Quantity::LoadFactor
+        | Quantity::CollapseIntensity(_) => Vec::new(),
         Quantity::CollapseAngle => stats::empirical_of(&sorted, &above),
     };
     (quantiles(&of), steps)

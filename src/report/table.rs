@@ -76,8 +76,8 @@ pub(super) fn arm_rows(arms: &[ArmSummary]) -> Vec<Vec<String>> {
         rows.push(vec![
             arm.arm.clone(),
             compact(arm.kn_pa_per_m),
-            arm.members.to_string(),
-            (arm.members - (arm.in_mean + arm.stood_to_the_end).min(arm.members)).to_string(),
+            arm.computed().to_string(),
+            arm.failed().to_string(),
             mean,
             with_interval(arm.sigma.map(shown), arm.sigma_ci.map(|ci| ci.map(shown)), 3),
             with_interval(arm.cov.map(|x| x * 1e2), arm.cov_ci.map(|ci| ci.map(|x| x * 1e2)), 3),
@@ -86,20 +86,21 @@ pub(super) fn arm_rows(arms: &[ArmSummary]) -> Vec<Vec<String>> {
     rows
 }
 
-/// What is to be said of an arm at one kn: whether it had walls enough, and which are not in the numbers.
-pub(super) fn arm_notes(arm: &ArmSummary) -> [Option<String>; 2] {
-    let note = arm.note.as_ref();
+/// What is to be said of an arm at one kn: whether it had walls enough, what limit analysis says of them, and which are not in the numbers.
+pub(super) fn arm_notes(arm: &ArmSummary) -> [Option<String>; 3] {
+    let of_arm = |note: String| format!("{} at kn {}: {note}", arm.arm, stiffness(arm.kn_pa_per_m));
     [
         arm.enough.as_ref().map(|enough| said_enough(arm, enough)),
-        note.map(|note| format!("{} at kn {}: {note}", arm.arm, stiffness(arm.kn_pa_per_m))),
+        arm.limit_analysis.as_ref().map(|bounded| of_arm(bounded.words())),
+        arm.note.clone().map(of_arm),
     ]
 }
 
 /// One line per arm and kn, and the notes below.
 fn arms(arms: &[ArmSummary]) -> String {
     let mut text = aligned(arm_rows(arms));
-    for [enough, note] in arms.iter().map(arm_notes) {
-        text.extend(enough.map(|enough| wrapped("", &enough)));
+    for [enough, bounded, note] in arms.iter().map(arm_notes) {
+        text.extend([enough, bounded].into_iter().flatten().map(|said| wrapped("", &said)));
         text.extend(note.map(|note| wrapped("! ", &note)));
     }
     text

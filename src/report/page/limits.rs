@@ -1,7 +1,7 @@
 //! What results hold for, and the methods in a paragraph.
 
 use crate::report::page::inputs::assumed;
-use crate::report::summary::Summary;
+use crate::report::summary::{ArmSummary, Summary};
 use crate::study::{Loaded, Study};
 
 /// What holds of every wall here.
@@ -50,11 +50,7 @@ pub fn of_study(study: &Study, loaded: &Loaded) -> Vec<String> {
 /// What the results of a run hold for.
 pub fn of_run(study: &Study, loaded: &Loaded, summary: &Summary) -> Vec<String> {
     let mut said = of_study(study, loaded);
-    let failed = summary
-        .arms
-        .iter()
-        .map(|arm| arm.members - (arm.in_mean + arm.stood_to_the_end).min(arm.members))
-        .sum::<u64>();
+    let failed = summary.arms.iter().map(ArmSummary::failed).sum::<u64>();
     if failed > 0 {
         said.push(format!("{failed} evaluations brought no value; they are counted, and are in no mean."));
     }

@@ -73,7 +73,7 @@ fn differences(plan: &TestPlan) -> String {
             significant(own.sigma, 2),
             or_dash(own.correlation, 2),
             own.specimens.map_or_else(|| "-".to_owned(), |n| n.to_string()),
-            own.pairs.map_or_else(|| "-".to_owned(), |pairs| significant(pairs.max(1.0).ceil(), 3)),
+            own.pairs.map_or_else(|| "-".to_owned(), |pairs| format!("{:.0}", pairs.max(1.0).ceil())),
             significant(own.power, 2),
             or_dash(own.smallest_seen, 2),
         ]);

@@ -16,7 +16,7 @@ use crate::ensemble::{Quantity, Row};
 use crate::model::Outcome;
 use crate::report::by_member::ByMember;
 use crate::report::compare::comparisons;
-use crate::report::population::Population;
+use crate::report::population::{Population, Without};
 use crate::report::published::judge_all;
 use crate::report::summary::{Summary, describe};
 use crate::study::{Claim, ClaimTest};
@@ -138,6 +138,8 @@ fn three_arms() -> Vec<Population> {
     let mut irregular = random_arm("irregular", &[0.27e-3, 0.20e-3, 0.16e-3]);
     irregular[1] = without(&irregular[1], 3);
     irregular[1].outcomes = BTreeMap::from([("equilibrium".into(), 7), ("collapsed".into(), 1)]);
+    let collapsed = Without { walls: 1, first: (3, "fell at load factor 0.5".to_owned()) };
+    irregular[1].without = BTreeMap::from([("collapsed".into(), collapsed)]);
     all.extend(irregular);
     all
 }

@@ -66,8 +66,11 @@ fn failed_walls_are_counted_and_enter_no_mean() {
     assert_eq!((entry.members, entry.in_mean), (6, 2));
     assert_eq!(
         entry.note.unwrap(),
-        "over 2 of 6 walls; not in the numbers: 1 collapsed, 1 invalid geometry, 1 non finite, 1 without a result"
+        "over 2 of 6 walls; not in the numbers: 1 collapsed (wall 1: fell at load factor 0.5), \
+         1 invalid geometry (wall 4: beds cross), \
+         1 non finite (wall 3: a position or force became non-finite at load factor 1), 1 not computed"
     );
+    assert_eq!((entry.missing, entry.computed(), entry.failed()), (1, 5, 3));
 }
 
 #[test]
@@ -91,7 +94,10 @@ fn one_wall_and_no_wall_give_null_never_zero_or_nan() {
     let none = collected(("irregular", false), (KN[0], 1), Quantity::TopDisplacement, &rows);
     let json = serde_json::to_value(describe(none, 1, BTreeMap::new())).unwrap();
     assert!(json["mean"].is_null() && json["quantiles"][1]["value"].is_null());
-    assert_eq!(json["note"], "over 0 of 1 walls; not in the numbers: 1 collapsed");
+    assert_eq!(
+        json["note"],
+        "over 0 of 1 walls; not in the numbers: 1 collapsed (wall 0: fell at load factor 1)"
+    );
 }
 
 #[test]
@@ -165,7 +171,9 @@ fn the_table_fits_and_says_what_failed() {
     let cells: Vec<&str> = row.split_whitespace().take(4).collect();
     assert_eq!(cells, ["irregular", "1e8", "8", "1"]);
     assert!(
-        text.contains("! irregular at kn 1e8 Pa/m: over 7 of 8 walls; not in the numbers: 1 collapsed"),
+        text.contains(
+            "! irregular at kn 1e8 Pa/m: over 7 of 8 walls; not in the numbers: 1 collapsed (wall 3:"
+        ),
         "{text}"
     );
     assert!(

@@ -1,6 +1,8 @@
 //! Every kind of statement in all three verdicts.
 
-use super::{KN, claim, fixed_arm, population, random_arm};
+use super::{KN, claim, collected, failed, fixed_arm, population, random_arm};
+use crate::ensemble::Quantity;
+use crate::model::{Level, Outcome};
 use crate::report::population::Population;
 use crate::report::published::{Published, Verdict, judge};
 use crate::study::ClaimTest;
@@ -118,7 +120,8 @@ fn a_mean_that_falls_with_kn() {
 #[test]
 fn lost_walls_are_named_and_one_refutation_outweighs_a_gap() {
     let mut arm = fixed_arm("a", &[0.6, 0.9]);
-    arm[0].values = Default::default();
+    let fell = failed(0, Outcome::Collapsed { at: Level::Factor(0.5) });
+    arm[0] = collected(("a", true), (KN[0], 1), Quantity::TopDisplacement, &[fell]);
     let judged = judged(ratio(0.5, 0.7), &[arm, fixed_arm("b", &[1.0, 1.0])]);
     assert_eq!(judged.verdict, Verdict::NotReproduced);
     assert!(
