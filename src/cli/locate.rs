@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::cli::arguments::{Ensemble, Which};
 use crate::cli::failure::Failure;
+use crate::cli::origin::quoted;
 use crate::cli::output;
 use crate::ensemble::Manifest;
 use crate::math::edit_distance;
@@ -90,17 +91,46 @@ pub(crate) fn with_ensemble(study: Study, asked: &Ensemble) -> Result<Study, Fai
 
 /// The folder of a study, from the folder itself or from the study.toml in it.
 pub(crate) fn folder(path: &Path) -> Result<PathBuf, Failure> {
+    let parent = || path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let refused =
+        |found: &str, fix: &str| Err(Failure::Input(format!("no study: {} {found}\n{fix}", path.display())));
     let found = match fs::metadata(path) {
         Err(error) => format!("{}: {error}", path.display()),
         Ok(_) if path.join("study.toml").is_file() => return Ok(path.to_path_buf()),
         Ok(m) if m.is_dir() => format!("{} is a folder without a study.toml", path.display()),
         Ok(_) if path.file_name().is_some_and(|name| name == "study.toml") => {
-            let parent = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-            return Ok(parent.to_path_buf());
+            return Ok(parent().to_path_buf());
+        }
+        Ok(_) if is_wall(path) => {
+            let fix =
+                format!("to analyse it: pirca analyse {} --phi-deg 35", quoted(&path.display().to_string()));
+            return refused("is the file of one wall", &fix);
+        }
+        Ok(_) if parent().join("study.toml").is_file() => {
+            let fix = format!("give the folder: {}", quoted(&parent().display().to_string()));
+            return refused("is a file in the folder of a study", &fix);
         }
         Ok(_) => format!("{} is a file, but not a study.toml", path.display()),
     };
     Err(Failure::Input(format!("no study: {found}\n{}", known(path))))
+}
+
+/// Whether a file is a wall that `analyse` reads.
+fn is_wall(path: &Path) -> bool {
+    let ending = path.extension().and_then(|ending| ending.to_str()).map(str::to_ascii_lowercase);
+    match ending.as_deref() {
+        Some("obj") => true,
+        Some("json") => fs::read_to_string(path).is_ok_and(|text| text.contains("\"blocks\"")),
+        _ => false,
+    }
+}
+
+/// Whether there is nothing at a path, or an empty folder: a study may be begun there.
+pub(crate) fn is_free(path: &Path) -> bool {
+    match fs::symlink_metadata(path) {
+        Err(_) => true,
+        Ok(_) => path.is_dir() && fs::read_dir(path).is_ok_and(|mut entries| entries.next().is_none()),
+    }
 }
 
 /// Where the study of results in a folder lies: where it is named, or where it was run from, or else among the studies.
@@ -125,7 +155,7 @@ pub(crate) fn again(
 }
 
 /// The study in a folder, as its files state it, and with the seed, the walls and the solver of a run, which may have been asked for in the
-/// place of its own.
+/// place of its own. Where its folder was renamed since and nothing else has changed, it keeps the name of the run.
 pub(crate) fn as_run(place: &Path, manifest: &Manifest) -> Result<(Loaded, Study), Failure> {
     let loaded = Study::load(place, manifest.variant.as_deref())?;
     let mut study = loaded.study.clone().with_seed(manifest.seed);
@@ -137,7 +167,15 @@ pub(crate) fn as_run(place: &Path, manifest: &Manifest) -> Result<(Loaded, Study
     {
         study = study.with_members(members);
     }
+    keep_name(&mut study, manifest);
     Ok((loaded, study))
+}
+
+/// The name of a run for its study, whose folder may have been renamed: no result depends on it.
+pub(crate) fn keep_name(study: &mut Study, manifest: &Manifest) {
+    if study.hash == manifest.study_hash {
+        study.name.clone_from(&manifest.study);
+    }
 }
 
 /// Where the study that the arguments name takes its distributions from.
@@ -180,5 +218,7 @@ fn begin(path: &Path, wanted: &str) -> String {
     let names: Vec<&str> = built_in.iter().map(|study| study.name).collect();
     let from = names.iter().find(|name| **name == wanted);
     let from = from.map_or_else(|| "STUDY".to_owned(), ToString::to_string);
-    format!("to begin one: pirca init {} --from {from} (built in: {})", path.display(), names.join(", "))
+    // What is there is not written over: a study begins in a folder of its own.
+    let place = if is_free(path) || !path.is_dir() { path.to_path_buf() } else { path.join("my-wall") };
+    format!("to begin one: pirca init {} --from {from} (built in: {})", place.display(), names.join(", "))
 }

@@ -228,21 +228,18 @@ fn a_damaged_shard_is_told_and_computed_again() {
     let mut swapped: Vec<&[u8]> = own.split_inclusive(|byte| *byte == b'\n').collect();
     swapped.swap(2, 4);
     let cases = [
-        (half, true, "was written with"),
-        (Vec::new(), true, "its first line is damaged"),
-        (headless, true, "its first line is damaged"),
-        (flipped, false, "the line of a wall is damaged"),
-        (swapped.concat(), false, "a line is of another wall"),
+        (half, true, "was written with", "was written with"),
+        (Vec::new(), true, "its first line is damaged", "its first line is damaged"),
+        (headless, true, "its first line is damaged", "its first line is damaged"),
+        (flipped, false, "the line of a wall is damaged", "the line of its wall 6 of 6 is damaged"),
+        (swapped.concat(), false, "a line is of another wall", "the line of its wall 3 of 6 is out of order"),
     ];
-    for (bytes, is_seen_at_once, said) in cases {
+    for (bytes, is_seen_at_once, said, of_status) in cases {
         fs::write(&path, bytes).unwrap();
         let status = done(&folder.pirca(&["status", "out"]));
-        assert_eq!(
-            status.contains("damaged: 1, ") && status.contains("missing: 1"),
-            is_seen_at_once,
-            "{status}"
-        );
-        assert!(!is_seen_at_once || status.contains(said), "{status}");
+        assert!(status.contains("2 of 3 shards complete, 12 of 18 evaluations"), "{status}");
+        assert!(status.contains("damaged: 1, ") && status.contains("missing: 1"), "{status}");
+        assert!(status.contains(of_status), "{status}");
         // What is refused has written nothing.
         let _ = fs::remove_file(folder.path("out/timing.csv"));
         let found = refused(&folder.pirca(&["merge", "out"]), 1);
@@ -277,7 +274,12 @@ fn a_gap_is_refused_unless_some_are_enough() {
     let arms = summary["arms"].as_array().unwrap();
     let walls: u64 = arms.iter().map(|arm| arm["in_mean"].as_u64().unwrap()).sum();
     assert_eq!(walls, 11, "of the walls of shards 0, 1, 2 and 4: 3 + 3 + 3 + 2");
-    assert!(arms[2]["note"].as_str().unwrap().contains("without a result"), "{arms:?}");
+    assert!(arms[2]["note"].as_str().unwrap().contains("not in the numbers: 2 not computed"), "{arms:?}");
+    let missing: u64 = arms.iter().filter_map(|arm| arm["missing"].as_u64()).sum();
+    assert_eq!(missing, 7, "of the walls of shards 3, 5 and 6: 3 + 2 + 2");
+    // What has not been computed has not failed.
+    let text = done(&folder.pirca(&["merge", "out", "--partial"]));
+    assert!(text.contains("11 evaluations, 7 of 18 not computed yet, none failed."), "{text}");
     // A run in the same folder computes the rest, and no wall twice.
     let rest = folder.pirca(&["run", "studies/tiny", "--out", "out"]);
     done(&rest);
@@ -289,6 +291,23 @@ fn a_gap_is_refused_unless_some_are_enough() {
         let found = refused(&folder.pirca(&arguments), 1);
         assert!(found.contains(said), "{found}");
     }
+}
+
+/// The name of a folder decides no result. Other values do, and nobody is advised to remove shards for them.
+#[test]
+fn shards_of_a_study_whose_folder_was_renamed_are_merged() {
+    let folder = reference();
+    compute_all(&folder, 3, "out", "2");
+    fs::rename(folder.path("studies/tiny"), folder.path("studies/renamed")).unwrap();
+    let found = refused(&folder.pirca(&["merge", "out"]), 3);
+    assert!(found.contains("name its folder with --study"), "{found}");
+    done(&folder.pirca(&["merge", "out", "--study", "studies/renamed"]));
+    assert!(results(&folder, "out") == results(&folder, "whole"));
+    let other = STUDY.replacen("phi_deg = 35", "phi_deg = 36", 1);
+    fs::write(folder.path("studies/renamed/study.toml"), other).unwrap();
+    let found = refused(&folder.pirca(&["merge", "out", "--study", "studies/renamed"]), 1);
+    assert!(found.contains("studies/renamed is not the study that the shards in out are of"), "{found}");
+    assert!(found.contains("joint.phi_deg") && !found.contains("remove"), "{found}");
 }
 
 #[test]

@@ -92,10 +92,14 @@ impl Job {
                 let place = locate::again(study, &work.study, &work.manifest, out)?;
                 let variant = work.manifest.variant.clone();
                 let which = Which { study: place.clone(), variant, json: false };
-                Job::of_bank(place, &which, measured.clone(), *points)?
+                let mut job = Job::of_bank(place, &which, measured.clone(), *points)?;
+                if let Made::Bank(bank) = &mut job.made {
+                    locate::keep_name(&mut bank.plan.study, &work.manifest);
+                }
+                job
             }
         };
-        as_begun(out, &work.manifest, job.walls())?;
+        as_begun((out, &job.place), &work.manifest, job.walls())?;
         Ok(job)
     }
 
@@ -114,7 +118,7 @@ impl Job {
         let batch = Batch::read(folder)?;
         let place = locate::again(study, &batch.study, &batch.manifest, folder)?;
         let (_, study) = locate::as_run(&place, &batch.manifest)?;
-        as_begun(folder, &batch.manifest, &study)?;
+        as_begun((folder, &place), &batch.manifest, &study)?;
         let walls = batch.walls(&study);
         Ok(Job { place, kind: Walls::Batch, study, made: Made::Batch(batch, walls) })
     }
@@ -138,13 +142,14 @@ impl Job {
     }
 }
 
-/// That a study is as it was when the work in a folder began.
-fn as_begun(out: &Path, begun: &Manifest, study: &Study) -> Result<(), Failure> {
+/// That the study at a place is as it was when the work in a folder began.
+fn as_begun((out, place): (&Path, &Path), begun: &Manifest, study: &Study) -> Result<(), Failure> {
     let differences = begun.differences(&Manifest::of(study));
     match differences.is_empty() {
         true => Ok(()),
         false => {
-            let error = ShardError::OtherWork { folder: out.to_path_buf(), differences };
+            let (folder, study) = (out.to_path_buf(), place.to_path_buf());
+            let error = ShardError::OtherStudy { folder, study, differences };
             Err(RunError::from(error).into())
         }
     }

@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 
 use crate::cli::answer::Answer;
 use crate::cli::bank::Prepared;
+use crate::cli::doing::doing;
 use crate::cli::failure::Failure;
 use crate::cli::origin::Origin;
 use crate::cli::shard::arguments::Merge as Arguments;
@@ -39,11 +40,12 @@ fn merged(arguments: &Arguments) -> Result<Answer, Failure> {
     let work = Work::read(out)?;
     let job = Job::of_work(out, &work, arguments.study.as_deref())?;
     let merge = Merge::of(job.walls(), &work, out, arguments.partial)?;
-    let (text, found) = match &job.made {
-        Made::Own => of_study(&merge, out)?,
-        Made::Bank(bank) => of_bank(&job, bank, &merge, out)?,
-        Made::Batch(..) => of_batch(&job, &merge, out)?,
-    };
+    let what = format!("putting {} evaluations together", work.evaluations);
+    let (text, found) = doing(&what, |_| match &job.made {
+        Made::Own => of_study(&merge, out),
+        Made::Bank(bank) => of_bank(&job, bank, &merge, out),
+        Made::Batch(..) => of_batch(&job, &merge, out),
+    })?;
     let processors = merged_timing(&work, out)?;
     let mut warnings = Vec::new();
     if !merge.missing.is_empty() {

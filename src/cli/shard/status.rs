@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use crate::cli::answer::Answer;
+use crate::cli::doing::doing;
 use crate::cli::failure::Failure;
 use crate::cli::shard::arguments::Status as Arguments;
 use crate::ensemble::shard;
@@ -12,7 +13,7 @@ const NAMED: usize = 10;
 
 /// Says which shards are complete, begun, missing and not to be used.
 pub(crate) fn status(arguments: &Arguments) -> Result<Answer, Failure> {
-    let (work, status) = shard::Status::of(&arguments.folder)?;
+    let (work, status) = doing("reading the shards", |_| shard::Status::of(&arguments.folder))?;
     let mut text = format!(
         "{}: {} of {} shards complete, {} of {} evaluations\n",
         work.manifest.study, status.complete, status.shards, status.evaluated, status.evaluations

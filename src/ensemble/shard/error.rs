@@ -8,11 +8,25 @@ pub enum ShardError {
     /// The folder holds shards of other work.
     #[error(
         "{} holds shards of other work:\n{}\nnothing was changed; choose another folder with --out, or remove {} to start afresh",
-        folder.display(), differences.iter().map(|d| format!("  {d}")).collect::<Vec<_>>().join("\n"), folder.display()
+        folder.display(), listed(differences), folder.display()
     )]
     OtherWork {
         /// The output folder.
         folder: PathBuf,
+        /// One sentence per thing that differs.
+        differences: Vec<String>,
+    },
+    /// The study is not the one that the shards are of.
+    #[error(
+        "{} is not the study that the shards in {} are of:\n{}\nnothing was changed; name the folder of that study with --study, or put its \
+         files back as they were when the shards were begun",
+        study.display(), folder.display(), listed(differences)
+    )]
+    OtherStudy {
+        /// The output folder.
+        folder: PathBuf,
+        /// The folder of the study.
+        study: PathBuf,
         /// One sentence per thing that differs.
         differences: Vec<String>,
     },
@@ -55,4 +69,9 @@ pub enum ShardError {
         /// Into so many the walls are shared out.
         of: u32,
     },
+}
+
+/// Sentences, a line each.
+fn listed(differences: &[String]) -> String {
+    differences.iter().map(|difference| format!("  {difference}")).collect::<Vec<_>>().join("\n")
 }

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::ensemble::files::publish;
 use crate::ensemble::journal::{self, Entry, Recorded, sealed, unsealed};
 use crate::ensemble::shard::{ShardError, Share, Work};
-use crate::ensemble::{AddedColumns, Manifest, RunError};
+use crate::ensemble::{AddedColumns, Manifest, RunError, Task};
 
 /// The first line.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -250,6 +250,30 @@ pub(super) fn is_whole(
         }
     }
     Ok(true)
+}
+
+/// The first thing that is not as it was written in a shard whose head and length are right: every line is held against its check, and
+/// walls against their order. `None` of a sound shard.
+///
+/// # Errors
+/// [`RunError::File`] where the file cannot be read.
+pub(super) fn damage(out: &Path, share: Share, head: &Head) -> Result<Option<String>, RunError> {
+    let mut reader = Reader::open(out, share, PIECE)?;
+    let mut last = None;
+    for wall in 1..=head.walls {
+        let row = match reader.line() {
+            Err(RunError::Shard(ShardError::Damaged { .. })) => None,
+            line => reader.entry(&line?).ok().map(|entry| entry.row),
+        };
+        let Some(row) = row else {
+            return Ok(Some(format!("the line of its wall {wall} of {} is damaged", head.walls)));
+        };
+        let task = Task { arm: row.arm_index, point: row.point, member: row.member };
+        if last.replace(task) >= Some(task) {
+            return Ok(Some(format!("the line of its wall {wall} of {} is out of order", head.walls)));
+        }
+    }
+    Ok(None)
 }
 
 /// Bytes that are read at a time where one shard is read alone.
