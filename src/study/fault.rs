@@ -155,6 +155,11 @@ impl Fault {
         }
     }
 
+    /// The same fault, of a key of its file.
+    pub(super) fn of_key(self, key: &str) -> Fault {
+        Fault { key: key.to_owned(), ..self }
+    }
+
     /// The same fault, of a line (from 1) of its file.
     pub(super) fn in_line(self, line: usize) -> Fault {
         Fault { line, ..self }

@@ -99,7 +99,7 @@ impl Study {
         let mut catalogue = Catalogue::of_study(&folder);
         let mut notes = Notes::default();
         let variants = root.as_ref().map_or_else(Vec::new, |root| variant::read(root, &mut notes));
-        let chosen = choose(variant, &variants, root.as_ref(), &mut notes.faults);
+        let chosen = choose(variant, &variants, root.as_ref(), &mut notes);
         let reading =
             root.as_ref().map(|root| read_all(root, &variants, &chosen, &mut catalogue, &mut notes.faults));
         let arms = root.as_ref().and_then(arm_names);
@@ -114,9 +114,9 @@ impl Study {
         faults.append(&mut notes.faults);
         catalogue.hand_over(&mut faults, &mut inputs);
         match reading {
-            Some(Reading { parts: Some(parts), root, notes, used }) if faults.is_empty() => {
+            Some(Reading { parts: Some(parts), root, notes: found, used }) if faults.is_empty() => {
                 let name = folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-                let mut effective = notes.effective;
+                let mut effective = found.effective;
                 record_revision(&mut effective);
                 let hash = hash_of(&effective);
                 let read = measured.unwrap_or_default();
@@ -142,7 +142,8 @@ impl Study {
                 };
                 let name_of =
                     |v: &Variant| VariantName { name: v.name.clone(), why: v.why.clone(), keys: v.keys() };
-                let warnings = Faults::sorted([notes.warnings, read.warnings].concat()).faults;
+                let warnings =
+                    Faults::sorted([notes.warnings, found.warnings, read.warnings].concat()).faults;
                 let variants = variants.iter().map(name_of).collect();
                 let stated = Stated::of(root, &mut catalogue, published_text, measured_file);
                 Ok(Loaded { study, warnings, variants, used, stated, written: read.written })
@@ -302,46 +303,53 @@ fn measurements(folder: &Path, inputs: &mut Vec<InputFile>, faults: &mut Vec<Fau
     Some(file)
 }
 
-/// The variants asked for, those with names in the order of the file, then those that say what they set.
+/// The variants asked for: those with names in the order of the file, then those that say what they set. Where two of them change the
+/// same key their order decides which one holds: then it is the order asked for, and a warning says so.
 fn choose(
     wanted: Option<&str>,
     variants: &[Variant],
     root: Option<&Node>,
-    faults: &mut Vec<Fault>,
+    notes: &mut Notes,
 ) -> Vec<Variant> {
     let Some(wanted) = wanted.filter(|_| root.is_some()) else { return Vec::new() };
     let names: Vec<&str> = variants.iter().map(|v| v.name.as_str()).collect();
-    let (set, wanted): (Vec<&str>, Vec<&str>) =
-        wanted.split(variant::TOGETHER).partition(|own| own.contains(variant::SETS));
-    for unknown in wanted.iter().filter(|name| !names.contains(name)) {
-        let words = format!("has no variant \"{unknown}\"");
-        let allowed = if names.is_empty() {
-            "no variant at all".to_owned()
+    // By the places that they have in the file, and behind them.
+    let mut asked: Vec<(usize, Variant)> = Vec::new();
+    for own in wanted.split(variant::TOGETHER) {
+        if own.contains(variant::SETS) {
+            match variant::asked_for(own) {
+                Ok(set) => asked.push((variants.len(), set)),
+                Err(fault) => notes.faults.push(*fault),
+            }
+        } else if let Some(place) = names.iter().position(|name| *name == own) {
+            if asked.iter().all(|(other, _)| *other != place) {
+                asked.push((place, variants[place].clone()));
+            }
         } else {
-            format!("one of {}", names.join(", "))
-        };
-        faults.push(Fault::of_file("study.toml", 0, &words, &allowed, suggestion(unknown, &names)));
+            let words = format!("has no variant \"{own}\"");
+            let allowed = match names.is_empty() {
+                true => "no variant at all".to_owned(),
+                false => format!("one of {}", names.join(", ")),
+            };
+            notes.faults.push(Fault::of_file("study.toml", 0, &words, &allowed, suggestion(own, &names)));
+        }
     }
-    let named = variants.iter().filter(|v| wanted.contains(&v.name.as_str())).cloned();
-    let set =
-        set.into_iter().filter_map(|own| variant::asked_for(own).map_err(|fault| faults.push(*fault)).ok());
-    let chosen: Vec<Variant> = named.chain(set).collect();
-    for (index, one) in chosen.iter().enumerate() {
-        for other in &chosen[..index] {
-            if let Some(key) = variant::shared_key(&one.keys(), &other.keys()) {
-                let words = format!("changes {key} in both {} and {}", other.name, one.name);
-                let fix = "read one of them alone".to_owned();
-                faults.push(Fault::of_file(
-                    "study.toml",
-                    0,
-                    &words,
-                    "variants that change different keys",
-                    fix,
-                ));
+    let mut overlaid = Vec::new();
+    for (index, (_, later)) in asked.iter().enumerate() {
+        for (_, earlier) in &asked[..index] {
+            if let Some(key) = variant::shared_key(&later.keys(), &earlier.keys()) {
+                let words = format!("is changed by {} and by {}", earlier.name, later.name);
+                let allowed = format!("this, and the later one holds, {}", later.name);
+                let fix = "leave one of them out if that is not what you mean";
+                overlaid.push(Fault::of_file("study.toml", 0, &words, &allowed, fix).of_key(key));
             }
         }
     }
-    chosen
+    if overlaid.is_empty() {
+        asked.sort_by_key(|(place, _)| *place);
+    }
+    notes.warnings.append(&mut overlaid);
+    asked.into_iter().map(|(_, variant)| variant).collect()
 }
 
 /// The name of variants that are read together; `None` of the base.

@@ -329,10 +329,19 @@ impl Section {
     }
 }
 
-/// The candidate closest to a word, when it is close enough to be a slip of the pen.
+/// The candidate closest to a word, when it is close enough to be a slip of the pen, or the only one that the word begins.
 pub fn nearest<'a, S: AsRef<str>>(word: &str, candidates: &'a [S]) -> Option<&'a str> {
     let best = candidates.iter().map(|c| (distance(word, c.as_ref()), c.as_ref())).min_by_key(|(d, _)| *d)?;
-    (best.0 <= (word.chars().count() / 2).max(2)).then_some(best.1)
+    if best.0 <= (word.chars().count() / 2).max(2) {
+        return Some(best.1);
+    }
+    let mut begun = candidates.iter().map(AsRef::as_ref).filter(|c| is_begun(word, c));
+    begun.next().filter(|_| begun.next().is_none())
+}
+
+/// Whether a word is the beginning of another one, of so many letters that it is no accident.
+fn is_begun(word: &str, whole: &str) -> bool {
+    word.chars().count() >= 3 && whole.to_lowercase().starts_with(&word.to_lowercase())
 }
 
 /// Number of single-character edits, a swap of neighbours counting as one (optimal string alignment).

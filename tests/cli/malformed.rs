@@ -62,6 +62,7 @@ const CASES: &[Case] = &[
     (STUDY, "wythes = 1\n", "wythes = 11\n", &["@ wall.wythes = 11: allowed is a whole number within 1 to 10"]),
     // the tilting table, the platform, the implicit solver
     (STUDY, "protocol = \"lateral\"", "protocol = \"tilting\"", &["#4", "load.mean_pressure_pa means nothing where protocol = \"tilting\"", "it belongs to lateral"]),
+    (STUDY, "protocol = \"lateral\"", "protocol = \"tilt\"", &["@ load.protocol = \"tilt\": allowed is one of", "did you mean \"tilting\"?"]),
     (STUDY, "protocol = \"lateral\"", "protocol = \"tilted\"", &["@ load.protocol = \"tilted\": allowed is one of \"lateral\", \"tilting\"", "did you mean \"tilting\"?"]),
     (STUDY, "collapse_share = 0.5", "collapse_share = 0.5\nstep_deg = 0.5", &["load.step_deg means nothing where protocol = \"lateral\"", "it belongs to tilting"]),
     (STUDY, LOAD, "protocol = \"tilting\"\nend_deg = 90\n", &["load.end_deg = 90: allowed is a number above 0 and at most 89 (deg); reduce it"]),

@@ -112,7 +112,7 @@ fn a_study_that_publishes_nothing_or_has_no_variants_is_refused() {
 }
 
 #[test]
-fn variants_are_read_together_unless_they_change_the_same_key() {
+fn variants_are_read_together() {
     let scratch = Scratch::new("together");
     let of = |name: &str| scratch.load(Some(name)).unwrap_or_else(|faults| panic!("{faults}")).study;
     let both = of("corners+laid-cut");
@@ -124,6 +124,7 @@ fn variants_are_read_together_unless_they_change_the_same_key() {
     assert!(faults.contains("has no variant \"coners\""), "{faults}");
     let more = "[[variant]]\nname = \"again\"\nwhy = \"A test.\"\nset = { joint = { sampling = \"area\" } }\n[[variant]]\nname = \"corners\"";
     scratch.replace(crate::scratch::STUDY, "[[variant]]\nname = \"corners\"", more);
-    let faults = scratch.load(Some("corners+again")).expect_err("both change the sampling").to_string();
-    assert!(faults.contains("changes joint.sampling in both again and corners"), "{faults}");
+    let of = |name: &str| scratch.load(Some(name)).unwrap_or_else(|faults| panic!("{faults}")).study;
+    assert_eq!(of("corners+again").effective["joint.sampling"], "area", "the later one holds");
+    assert_eq!(of("again+corners").effective["joint.sampling"], "vertices");
 }

@@ -52,8 +52,35 @@ fn a_variant_may_say_what_it_sets() {
     refused("joint.phi_deg=95", &["joint.phi_deg = 95", "allowed is"]);
     refused("joint.phi=32", &["--variant:1", "joint.phi", "sets what does not exist", "phi_deg"]);
     refused("joint.phi_deg=", &["cannot be read as TOML"]);
-    refused("joint.phi_deg=32+joint.phi_deg=33", &["changes joint.phi_deg in both"]);
-    refused("corners+joint.sampling=area", &["changes joint.sampling in both"]);
+}
+
+/// Where two change the same key the later one holds, and a warning says which.
+#[test]
+fn of_two_variants_that_change_one_key_the_later_one_holds_and_it_is_said() {
+    let scratch = Scratch::new("overlaid");
+    let of = |variant: &str| scratch.load(Some(variant)).unwrap_or_else(|faults| panic!("{faults}"));
+    for (variant, sampling, said) in [
+        ("corners+joint.sampling=area", Sampling::Area, "is changed by corners and by joint.sampling=area"),
+        (
+            "joint.sampling=area+corners",
+            Sampling::Vertices,
+            "is changed by joint.sampling=area and by corners",
+        ),
+    ] {
+        let loaded = of(variant);
+        assert_eq!(loaded.study.arms[0].joint.sampling, sampling, "{variant}");
+        assert_eq!(loaded.study.variant.as_deref(), Some(variant));
+        let warnings: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
+        assert!(
+            warnings.iter().any(|own| own.starts_with(&format!("study.toml: joint.sampling {said}: "))),
+            "{variant}: {warnings:?}"
+        );
+    }
+    assert_eq!(
+        hash(&scratch, Some("joint.phi_deg=32+joint.phi_deg=33")),
+        hash(&scratch, Some("joint.phi_deg=33"))
+    );
+    assert!(of("corners+laid-cut").warnings.iter().all(|own| own.key != "joint.sampling"));
 }
 
 /// A path may be written in quotes, or as TOML's own dotted key or table: the same three keys are meant.
