@@ -257,7 +257,7 @@ impl Verb {
 /// Arguments of `init`.
 #[derive(Args, Debug)]
 pub(crate) struct Init {
-    /// The new folder: a name here, or a path. Its last part is the study's name.
+    /// The new folder, or one that is empty: a name here, or a path. Its last part is the study's name.
     pub name: PathBuf,
     /// Copy this study: the folder of one, or one that is built in.
     #[arg(long, value_name = "STUDY", help_heading = STUDY)]

@@ -13,6 +13,7 @@ mod compare;
 mod diagnose;
 mod extended;
 mod files_of_others;
+mod first_steps;
 #[path = "../ensemble/fixture.rs"]
 mod fixture;
 mod groups;

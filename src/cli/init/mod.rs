@@ -32,24 +32,31 @@ enum Origin {
 /// Writes the study, whole or not at all.
 pub(crate) fn init(arguments: &Init) -> Result<(), Failure> {
     let folder = &arguments.name;
-    let name = match folder.file_name() {
+    // A folder that is there may be named by dots.
+    let there = folder.canonicalize().unwrap_or_default();
+    let name = match folder.file_name().or(there.file_name()) {
         Some(name) => name.to_string_lossy().into_owned(),
         None => {
             let text = "a name is needed for the new folder, as my-wall or studies/my-wall";
             return Err(Failure::Usage(format!("init {}: {text}", folder.display())));
         }
     };
-    if fs::symlink_metadata(folder).is_ok() {
+    if !locate::is_free(folder) {
+        let what = if folder.is_dir() { "is a folder with files in it" } else { "exists already" };
         return Err(Failure::Usage(format!(
-            "init {0}: {0} exists already; choose another name, or remove it first",
+            "init {0}: {0} {what}; choose another name, or remove it first",
             folder.display()
         )));
     }
+    let was_there = folder.is_dir();
     let origin = Origin::named(arguments.from.as_deref())?;
     output::folder(folder)?;
     let written = origin.write(folder, &name).inspect_err(|_| {
-        // It was not there before: nothing of anybody else's is in it.
+        // It was not there before, or empty: nothing of anybody else's is in it.
         let _ = fs::remove_dir_all(folder);
+        if was_there {
+            let _ = fs::create_dir(folder);
+        }
     })?;
     if arguments.json {
         return output::print_json(&json!({
