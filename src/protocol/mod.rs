@@ -36,7 +36,7 @@ mod witness;
 
 pub use amplified::amplified;
 pub use base_motion::{
-    BaseMotion, Energy, Extreme, InTime, Shaken, Shaking, Verdict, shake, shake_twice, shake_wall,
+    BaseMotion, Energy, Extreme, InTime, Settled, Shaken, Shaking, Verdict, shake, shake_twice, shake_wall,
 };
 pub use bounds::{Agreement, Bounds, limit_of};
 pub use changes::{Changes, Creep, Loss};

@@ -14,6 +14,7 @@ use crate::cli::doing::doing;
 use crate::cli::failure::Failure;
 use crate::exchange::WallFile;
 use crate::law::Coulomb;
+use crate::math::degrees;
 use crate::motion::Motion;
 use crate::protocol::{Extreme, InTime, Shaken, Shaking, Verdict, shake_twice};
 use crate::solve::explicit;
@@ -33,7 +34,7 @@ pub(crate) fn refused(asked_for: &Analyse) -> Result<(), Failure> {
     }
     if asked_for.record.is_none() {
         return usage(
-            "--load base-motion needs --record FILE: PEER .AT2, ESM ASCII, or CSV with units in its heads",
+            "--load base-motion needs --record FILE: PEER .AT2, ESM, ITACA or K-NET ASCII, COSMOS or CSMIP V2, or CSV with units in its heads",
         );
     }
     match asked_for.solver {
@@ -122,6 +123,14 @@ pub(crate) fn shaken(
             seen.unsolved_steps, seen.steps
         ));
     }
+    if let Some(settled) = seen.settled {
+        warnings.push(format!(
+            "not in balance as built: until it rests {} turns by {:.2} deg and goes {:.1} mm; the wall is shaken from there",
+            file.names.get(settled.block).map_or("", String::as_str),
+            degrees(settled.rotation_rad),
+            1000.0 * settled.displacement_m
+        ));
+    }
     let told = Told { asked, file, fit, motion: &shaking.motion, seen: &seen, twin: &twin };
     Ok(Answer::of(told.text(seconds), &told.object(&warnings, seconds))?.with_warnings(warnings))
 }
@@ -150,6 +159,11 @@ impl Told<'_> {
         json!({
             "outcome": seen.verdict,
             "twin_outcome": twin.verdict,
+            "settled": seen.settled.map(|settled| json!({
+                "rotation_rad": settled.rotation_rad,
+                "block": self.name(settled.block),
+                "displacement_m": settled.displacement_m,
+            })),
             "solver": asked.solver.name(),
             "load": asked.load.name(),
             "record": {

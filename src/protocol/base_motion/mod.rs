@@ -6,10 +6,12 @@
 
 mod observe;
 mod settings;
+mod settled;
 mod shake;
 mod wall;
 
 pub use observe::{Energy, Extreme, Shaken, Verdict};
 pub use settings::{BaseMotion, InTime, Shaking};
+pub use settled::Settled;
 pub use shake::{shake, shake_twice};
 pub use wall::shake_wall;

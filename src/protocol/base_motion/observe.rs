@@ -3,6 +3,7 @@
 use crate::math::Vec3;
 use crate::model::Wall;
 use crate::protocol::EventShares;
+use crate::protocol::base_motion::settled::Settled;
 use crate::protocol::observe::movable;
 use crate::solve::Assembly;
 use crate::solve::bodies::{Bodies, Body};
@@ -56,6 +57,8 @@ pub struct Energy {
 pub struct Shaken {
     /// How it came through.
     pub verdict: Verdict,
+    /// How far it went before it was shaken, where it was not in balance as built.
+    pub settled: Option<Settled>,
     /// When the first stone fell (s from the beginning of the motion).
     pub first_stone_s: Option<f64>,
     /// When a part of the weight had fallen (s).
@@ -258,6 +261,7 @@ impl Shaken {
     pub(super) fn nothing_yet() -> Shaken {
         Shaken {
             verdict: Verdict::Stands,
+            settled: None,
             first_stone_s: None,
             part_s: None,
             most_s: None,

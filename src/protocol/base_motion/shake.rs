@@ -5,6 +5,7 @@ use crate::motion::Motion;
 use crate::protocol::Task;
 use crate::protocol::base_motion::observe::{Observer, Shaken, Verdict};
 use crate::protocol::base_motion::settings::{InTime, Shaking};
+use crate::protocol::base_motion::settled::Settled;
 use crate::protocol::observe::extent;
 use crate::solve::bodies::Bodies;
 use crate::solve::{Assembly, Equilibrate, STANDARD_GRAVITY, Status, explicit, nonsmooth};
@@ -46,19 +47,27 @@ pub(super) struct Rested<'t> {
     pub joints: usize,
     /// Or why it is not at rest.
     assembly: Result<Assembly<'t>, Verdict>,
+    /// How far it went from where it was built.
+    settled: Option<Settled>,
 }
 
 impl<'t> Rested<'t> {
     /// By the solver that it is shaken with; `fallen_moved` as of [`Shaking`].
     pub fn of(task: &'t Task<'t>, fallen_moved: f64, solver: &InTime) -> Rested<'t> {
         let built = task.assembled();
-        Rested { task, joints: built.joints.all.len(), assembly: at_rest(task, built, fallen_moved, solver) }
+        let (joints, from) = (built.joints.all.len(), built.bodies.clone());
+        let assembly = at_rest(task, built, fallen_moved, solver);
+        let settled = assembly.as_ref().ok().and_then(|rest| Settled::between(&from, &rest.bodies));
+        Rested { task, joints, assembly, settled }
     }
 
     /// As of [`shake`].
     pub fn shaken(&self, shaking: &Shaking) -> Shaken {
         match &self.assembly {
-            Ok(assembly) => follow(self.task, shaking, assembly, assembly.clone()),
+            Ok(assembly) => {
+                let seen = follow(self.task, shaking, assembly, assembly.clone());
+                Shaken { settled: self.settled, ..seen }
+            }
             Err(verdict) => Shaken { verdict: *verdict, ..Shaken::nothing_yet() },
         }
     }
@@ -73,7 +82,7 @@ impl<'t> Rested<'t> {
             body.velocity = Vec3::new(0.0, PERTURBED * sign, 0.0);
             sign = -sign;
         }
-        let second = follow(self.task, shaking, assembly, moved);
+        let second = Shaken { settled: self.settled, ..follow(self.task, shaking, assembly, moved) };
         if [first.verdict, second.verdict].contains(&Verdict::NotSolved) {
             first.verdict = Verdict::NotSolved;
         } else if first.verdict != second.verdict {
