@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use crate::cli::answer::Answer;
 use crate::cli::arguments::{Ensemble, Run, SolverName};
+use crate::cli::doing::doing;
 use crate::cli::failure::Failure;
 use crate::cli::origin::Origin;
 use crate::cli::{elements, locate, output, progress, report};
@@ -34,7 +35,8 @@ pub(crate) fn with_page(arguments: &Run, page: Option<PathBuf>) -> Result<Answer
     let settings = Settings { out: out.clone(), threads: arguments.threads };
     let rows = ensemble::run(&study, &settings, progress::on_stderr(&study).as_ref())?;
     let study = ensemble::come_to(study, &rows);
-    let summary = write_all(&study, &rows, &out, beside.as_ref())
+    let what = format!("statistics and figures of {} evaluations", rows.len());
+    let summary = doing(&what, |_| write_all(&study, &rows, &out, beside.as_ref()))
         .map_err(|error| Failure::Run(format!("{error:#}")))?;
     let origin = Origin::now(&folder, arguments.threads);
     origin.write(&out)?;

@@ -18,6 +18,8 @@ pub trait Progress: Sync {
     fn broken(&self, task: Task);
     /// No member is being evaluated any more.
     fn end(&self);
+    /// The tables of so many evaluations are being written.
+    fn writes(&self, _evaluations: usize) {}
 }
 
 /// What a run takes over from another one in its folder.

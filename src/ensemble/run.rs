@@ -61,7 +61,10 @@ pub fn run_with(
         evaluations.of(&plan_of(study, &members), progress, evaluate)?;
         match next_looks(study, &members, &|task| evaluations.row(task)) {
             Some(more) => members = more,
-            None => return evaluations.end(),
+            None => {
+                progress.writes(evaluations.asked.len());
+                return evaluations.end();
+            }
         }
     }
 }

@@ -5,10 +5,10 @@ mod method;
 mod repeats;
 
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::cli::failure::Failure;
 use crate::cli::output;
+use crate::cli::progress::Spent;
 pub(crate) use crate::cli::rare::method::Method;
 use crate::cli::rare::method::expected;
 use crate::cli::rare::repeats::{Way, repeated};
@@ -74,13 +74,8 @@ pub(super) fn ask(
             continue;
         }
         if aim.method.is_some() || !tells(group, aim) {
-            let done = AtomicUsize::new(0);
-            let tell = |more: usize| {
-                let before = done.fetch_add(more, Ordering::Relaxed);
-                if (before + more) / 500 > before / 500 {
-                    output::note(&format!("{}: {} walls evaluated", group.name, before + more));
-                }
-            };
+            let spent = Spent::of(&group.name, aim.budget);
+            let tell = |more: usize| spent.tell(more);
             let walls = RareWalls {
                 study,
                 arm,
