@@ -124,7 +124,7 @@ fn arm(
     let members = members(t);
     let vertical_load = if t.has("vertical_load_n") { Some(t.real("vertical_load_n")?) } else { None };
     let curve = if t.has("curve") { t.name("curve") } else { None };
-    let (arrangement, stone) = arrangement(t, catalogue);
+    let (arrangement, stone) = arrangement(t, catalogue, [wall.length, wall.height]);
     let has_wedges = t.has("wedges");
     let wedges = t.table("wedges").and_then(|mut w| wedges(&mut w, wall, &stone, catalogue));
     let limits = t.table("limits").and_then(|mut l| limits(&mut l, wall, &stone, bond));
@@ -181,7 +181,12 @@ fn members(t: &mut Reader<'_>) -> Option<(u64, Option<Until>)> {
     Some((at_most, Some(Until { of: of?, below: below?, at_most })))
 }
 
-fn arrangement(t: &mut Reader<'_>, catalogue: &mut Catalogue) -> (Option<Arrangement>, Stone) {
+/// The arrangement of stones, none longer or higher than the wall, whose length and height (m) are given.
+fn arrangement(
+    t: &mut Reader<'_>,
+    catalogue: &mut Catalogue,
+    wall: [Option<f64>; 2],
+) -> (Option<Arrangement>, Stone) {
     match t.chosen() {
         Some("continuous") => {
             let sizes = regular(t);
@@ -200,7 +205,7 @@ fn arrangement(t: &mut Reader<'_>, catalogue: &mut Catalogue) -> (Option<Arrange
                 stone,
             )
         }
-        Some(random) => irregular(t, random, catalogue),
+        Some(random) => irregular(t, random, catalogue, wall),
         None => (None, Stone { length: None, height: None, length_key: "length_m", height_key: "height_m" }),
     }
 }
@@ -211,8 +216,13 @@ fn regular(t: &mut Reader<'_>) -> (Option<[f64; 2]>, Stone) {
     (length.zip(height).map(|(length, height)| [length, height]), stone)
 }
 
-fn irregular(t: &mut Reader<'_>, chosen: &str, catalogue: &mut Catalogue) -> (Option<Arrangement>, Stone) {
-    let (sizes, stone) = sizes(t, catalogue);
+fn irregular(
+    t: &mut Reader<'_>,
+    chosen: &str,
+    catalogue: &mut Catalogue,
+    wall: [Option<f64>; 2],
+) -> (Option<Arrangement>, Stone) {
+    let (sizes, stone) = sizes(t, catalogue, wall);
     let wall_size_factor = quantity(t, "wall_size_factor", catalogue);
     let dip = quantity(t, "dip_deg", catalogue).map(|dip| dip.scaled(radians(1.0)));
     let coursed = chosen == "coursed";
@@ -230,7 +240,7 @@ fn irregular(t: &mut Reader<'_>, chosen: &str, catalogue: &mut Catalogue) -> (Op
 }
 
 /// Lengths and heights of stones: two quantities, or the stones of a survey in their place.
-fn sizes(t: &mut Reader<'_>, catalogue: &mut Catalogue) -> (Option<Sizes>, Stone) {
+fn sizes(t: &mut Reader<'_>, catalogue: &mut Catalogue, wall: [Option<f64>; 2]) -> (Option<Sizes>, Stone) {
     if t.has("stones") {
         let apart: Vec<&str> = ["length_m", "height_m"].into_iter().filter(|key| t.has(key)).collect();
         for key in &apart {
@@ -240,7 +250,7 @@ fn sizes(t: &mut Reader<'_>, catalogue: &mut Catalogue) -> (Option<Sizes>, Stone
                 "remove one of the two",
             );
         }
-        let stones = stones(t, catalogue).filter(|_| apart.is_empty());
+        let stones = stones(t, catalogue, wall).filter(|_| apart.is_empty());
         let means = stones.as_ref().map(|own| own.marginals().map(|one| one.mean()));
         let [length, height] = [0, 1].map(|which| means.map(|own| own[which]));
         let stone = Stone { length, height, length_key: "stones", height_key: "stones" };

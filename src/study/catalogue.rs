@@ -122,8 +122,13 @@ impl Catalogue {
     ///
     /// # Errors
     /// A fault at the reference when it names none.
-    pub fn stones(&mut self, file: &str, asked: Asked) -> Result<Option<Vec<[f64; 2]>>, Box<Fault>> {
-        let stones = self.surveys.pairs(file, ["length_m", "height_m"], asked)?;
+    pub fn stones(
+        &mut self,
+        file: &str,
+        asked: Asked,
+        wall: [Option<f64>; 2],
+    ) -> Result<Option<Vec<[f64; 2]>>, Box<Fault>> {
+        let stones = self.surveys.pairs(file, ["length_m", "height_m"], asked, wall)?;
         self.note_survey(file, asked.path, stones.as_ref().map(Vec::len));
         Ok(stones)
     }

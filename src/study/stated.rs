@@ -180,7 +180,7 @@ fn write_out(node: &mut Node, section: &'static Section, path: &str, catalogue: 
             (Kind::Stones { within, .. }, Value::Text(file)) => {
                 let file = file.clone();
                 let asked = Asked { node, path: &path, unit: "m", within };
-                if let Ok(Some(stones)) = catalogue.stones(&file, asked) {
+                if let Ok(Some(stones)) = catalogue.stones(&file, asked, [None; 2]) {
                     *node = raw::parse_default(&format!("{stones:?}"), &node.place);
                 }
             }

@@ -8,8 +8,8 @@ use crate::study::reader::{Reader, join};
 use crate::study::schema::{Interval, Key, Kind};
 use crate::study::survey::Asked;
 
-/// Reads the stones of an arm, in m.
-pub fn stones(t: &mut Reader<'_>, catalogue: &mut Catalogue) -> Option<Pairs> {
+/// Reads the stones of an arm, in m; those of a table may not be longer or higher than the wall, whose length and height (m) are given.
+pub fn stones(t: &mut Reader<'_>, catalogue: &mut Catalogue, wall: [Option<f64>; 2]) -> Option<Pairs> {
     let (node, key) = t.given("stones")?;
     let Kind::Stones { within, at_most } = key.kind else {
         crate::check!(false, "`stones` is no list of stones in the key table");
@@ -19,7 +19,7 @@ pub fn stones(t: &mut Reader<'_>, catalogue: &mut Catalogue) -> Option<Pairs> {
         Value::Text(file) => {
             let path = join(&t.path, "stones");
             let asked = Asked { node: &node, path: &path, unit: "m", within };
-            catalogue.stones(file, asked).map_err(|fault| t.notes.faults.push(*fault)).ok().flatten()?
+            catalogue.stones(file, asked, wall).map_err(|fault| t.notes.faults.push(*fault)).ok().flatten()?
         }
         Value::List(list) if (1..=at_most).contains(&list.len()) => {
             let read: Vec<_> = list.iter().map(|stone| pair(t, stone, key, within)).collect();

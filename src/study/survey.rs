@@ -82,10 +82,10 @@ impl Surveys {
         };
         let Some(survey) = self.survey(file, asked)? else { return Ok(None) };
         let at = survey.find(file, column, &[], asked)?;
-        Ok(self.values(&survey, at, column, asked))
+        Ok(self.values(&survey, at, column, asked, |_| "reduce it: check the unit"))
     }
 
-    /// Rows of two columns of a file, in the unit of both; `None` where the file or a cell is faulty.
+    /// Rows of two columns of a file, sizes of stones in m; `None` where the file or a cell is faulty. `most` are the sizes of the wall.
     ///
     /// # Errors
     /// A fault at the reference when it names no such file, or one without these columns.
@@ -94,11 +94,16 @@ impl Surveys {
         file: &str,
         columns: [&str; 2],
         asked: Asked,
+        most: [Option<f64>; 2],
     ) -> Result<Option<Vec<[f64; 2]>>, Box<Fault>> {
         let Some(survey) = self.survey(file, asked)? else { return Ok(None) };
         let [first, second] = columns;
         let at = [survey.find(file, first, &columns, asked)?, survey.find(file, second, &columns, asked)?];
-        let read = [0, 1].map(|k| self.values(&survey, at[k], columns[k], asked));
+        let read = [0, 1].map(|k| {
+            let high = most[k].map_or(asked.within.high, |most| most.min(asked.within.high));
+            let asked = Asked { within: Interval { high, ..asked.within }, ..asked };
+            self.values(&survey, at[k], columns[k], asked, larger_than_the_wall)
+        });
         let [Some(first), Some(second)] = read else { return Ok(None) };
         Ok(Some(first.into_iter().zip(second).map(|(a, b)| [a, b]).collect()))
     }
@@ -204,13 +209,20 @@ impl Surveys {
         is_sound.then_some(Survey { separator: table.separator, columns, rows })
     }
 
-    /// The values of a column; `None` where one of them is faulty.
-    fn values(&mut self, survey: &Survey, at: usize, column: &str, asked: Asked) -> Option<Vec<f64>> {
+    /// The values of a column; `None` where one of them is faulty. `reduce` says how to mend one that is too large.
+    fn values(
+        &mut self,
+        survey: &Survey,
+        at: usize,
+        column: &str,
+        asked: Asked,
+        reduce: fn(f64) -> &'static str,
+    ) -> Option<Vec<f64>> {
         let mut numbers = Numbers::new(survey.separator);
         let mut faults = Vec::new();
         let mut values = Vec::with_capacity(survey.rows.len());
         for row in &survey.rows {
-            match value(row, at, &mut numbers, asked) {
+            match value(row, at, &mut numbers, (asked, reduce)) {
                 Ok(value) => values.push(value),
                 Err((place, found, fix)) => {
                     let allowed = format!("a number {}{}", asked.within, in_words(asked.unit));
@@ -308,12 +320,23 @@ fn too_wide(row: &Line, width: usize, separator: char) -> Option<Fault> {
     Some(Fault::at(&row.place, "", found, format!("{width}, as in the header"), fix))
 }
 
+/// A stone of a centimetre (m) is none that anybody surveys.
+const LEAST_STONE: f64 = 0.01;
+
+/// How to mend a stone of that size (m) that does not fit into its wall.
+fn larger_than_the_wall(size: f64) -> &'static str {
+    match size / 1000.0 >= LEAST_STONE {
+        true => "the stone is larger than the wall: in mm by mistake? Divide by 1000",
+        false => "the stone is larger than the wall: check its decimal point",
+    }
+}
+
 /// The value in a cell of a row; else the place of what is wrong, what was found, and how to mend it.
 fn value(
     row: &Line,
     at: usize,
     numbers: &mut Numbers,
-    asked: Asked,
+    (asked, reduce): (Asked, fn(f64) -> &'static str),
 ) -> Result<f64, (Place, Found, &'static str)> {
     let Some(cell) = row.cells.get(at).filter(|cell| !cell.text.is_empty()) else {
         let place = row.cells.get(at).map_or(&row.place, |cell| &cell.place);
@@ -327,7 +350,7 @@ fn value(
     let number = numbers.read(cell).map_err(wrong)?;
     match number {
         x if !x.is_finite() => Err(wrong("write the number, or take the row away")),
-        x if !asked.within.contains(x) && x > asked.within.low => Err(wrong("reduce it: check the unit")),
+        x if !asked.within.contains(x) && x > asked.within.low => Err(wrong(reduce(x))),
         x if !asked.within.contains(x) => Err(wrong("mend it, or take the row away")),
         x => Ok(x),
     }

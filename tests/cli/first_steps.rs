@@ -185,3 +185,23 @@ fn the_reason_of_failed_walls_stands_in_the_text() {
     let text = crate::commands::stdout(&output);
     assert!(text.contains("3 invalid geometry (wall 0: "), "{text}{}", stderr(&output));
 }
+
+/// A spreadsheet's line of means below a table counts as one more specimen, on the unsafe side: it is named.
+#[test]
+fn a_row_that_sums_the_others_up_is_named() {
+    let folder = Folder::with_study(STUDY);
+    let head = "specimen,family,tilt_deg,quantity,value,unit,error,kind\n";
+    let row = |name: &str, angle: f64| format!("{name},random,,collapse_angle,{angle},deg,0,exact\n");
+    let rows = [row("S1", 18.5), row("S2", 19.0), row("S3", 20.5)].concat();
+    let measured = |text: String| {
+        fs::write(folder.path("studies/tiny/measured.csv"), text).unwrap();
+        said(&folder, 0, &["check", "studies/tiny"])
+    };
+    let alone = measured(format!("{head}{rows}"));
+    assert!(!alone.contains("one more specimen"), "{alone}");
+    for name in ["mean", "Mittelwert", "Average"] {
+        let warned = measured(format!("{head}{rows}{}", row(name, 19.33)));
+        let words = format!("measured.csv:5: specimen is \"{name}\", and counts as one more specimen");
+        assert!(warned.contains(&words), "{warned}");
+    }
+}

@@ -247,7 +247,21 @@ fn sizes_are_said_once() {
     );
     let big =
         faults(&surveyed("survey-big", "length_m,height_m\n0.3,1.4\n", SIZES, "stones = \"survey.csv\""));
-    assert!(big.to_string().contains("larger than the wall"), "{big}");
+    assert!(big.to_string().contains("survey.csv:2: height_m = 1.4: allowed is"), "{big}");
+    assert!(big.to_string().contains("larger than the wall: check its decimal point"), "{big}");
+}
+
+/// One stone of ten with a slip of the decimal point, and all of them in mm: the wall is shorter than such stones.
+#[test]
+fn stones_that_are_larger_than_their_wall_are_named_by_their_lines() {
+    let slip = "length_m,height_m\n0.42,0.18\n0.31,0.15\n45.5,0.22\n0.28,0.12\n";
+    let slip = slip.replace("45.5", "5.5");
+    let said = faults(&surveyed("survey-slip", &slip, SIZES, "stones = \"survey.csv\"")).to_string();
+    assert!(said.contains("survey.csv:4: length_m = 5.5: allowed is"), "{said}");
+    assert!(said.contains("larger than the wall: check its decimal point"), "{said}");
+    let mm = "length_m,height_m\n420,180\n310,150\n550,220\n";
+    let said = faults(&surveyed("survey-mm", mm, SIZES, "stones = \"survey.csv\"")).to_string();
+    assert!(said.contains("survey.csv:2: length_m = 420") && said.contains("in mm by mistake?"), "{said}");
 }
 
 #[test]

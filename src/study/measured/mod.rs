@@ -6,6 +6,7 @@ mod measurement;
 mod record;
 mod returned;
 mod row;
+mod summed;
 mod template;
 mod together;
 mod unfilled;
@@ -101,9 +102,11 @@ pub(super) fn read(source: &Arc<Source>, arms: Option<&[String]>) -> Result<Read
     if !faults.is_empty() {
         return Err(Fault::gathered(faults));
     }
+    let summed = summed::warnings(&read);
     let mut rows: Vec<Measurement> = read.into_iter().map(|(measurement, _)| measurement).collect();
     let odd = unfilled.iter().filter(|line| !unfilled::had_fallen(&header, line, &rows, &mut numbers));
-    let warnings = Fault::gathered(odd.map(|line| unfilled::warning(line)).collect());
+    let odd: Vec<Fault> = odd.map(|line| unfilled::warning(line)).collect();
+    let warnings = Fault::gathered([odd, summed].concat());
     returned::name_remainders(&mut rows);
     let written = Written {
         separator: table.separator,
