@@ -4,7 +4,7 @@ use std::fs;
 
 use serde_json::Value;
 
-use crate::fixture::{Folder, STUDY, stderr};
+use crate::fixture::{Folder, STUDY, changed, stderr};
 
 /// What a command says on standard error, which ends so.
 fn said(folder: &Folder, code: i32, arguments: &[&str]) -> String {
@@ -177,12 +177,12 @@ course_height_m = 0.2
 /// Why walls failed stands in the text of a run, in the words of the first one.
 #[test]
 fn the_reason_of_failed_walls_stands_in_the_text() {
-    let folder = Folder::with_study(STUDY);
-    let text = fs::read_to_string(folder.path("studies/tiny/study.toml")).unwrap();
-    // Beds that lean so far cross within the wall: no draw is valid.
-    folder.write_study(&text.replace("low = -3", "low = 60").replace("high = 3", "high = 70"));
+    let dip = "dip_deg = { family = \"uniform\", low = -3, high = 3 }";
+    let text = changed(dip, &format!("{dip}\nlimits = {{ max_aspect = 1.5, max_attempts = 3 }}"));
+    let folder = Folder::with_study(&text);
     let output = folder.pirca(&["run", "studies/tiny", "--members", "3", "--out", "out"]);
-    let text = crate::commands::stdout(&output);
+    // Lines are wrapped.
+    let text = crate::commands::stdout(&output).split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(text.contains("3 invalid geometry (wall 0: "), "{text}{}", stderr(&output));
 }
 
