@@ -16,9 +16,11 @@ pub(super) fn asked(asked: &Asked, quantity: Quantity, study: &Study) -> Result<
     for (option, level, of, question) in levels {
         let Some(level) = level else { continue };
         if of != quantity {
-            let own = levels.iter().find(|(.., of, _)| *of == quantity).map_or("", |(option, ..)| *option);
+            let own = levels.iter().find(|(.., of, _)| *of == quantity);
+            let fix =
+                own.map_or("ask for a --quantile".to_owned(), |(option, ..)| format!("ask with {option}"));
             return Err(Failure::Usage(format!(
-                "{option}: {} observes {}; ask with {own}",
+                "{option}: {} observes {}; {fix}",
                 study.name,
                 quantity.words()
             )));

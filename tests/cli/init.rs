@@ -137,7 +137,7 @@ fn nothing_is_forgotten_that_should_be_built_in() {
 fn an_existing_folder_and_an_unknown_study_are_refused() {
     let folder = Folder::with_study(STUDY);
     let error = stderr(&ends_with(&folder, 2, &["init", "studies/tiny"]));
-    assert!(error.contains("studies/tiny exists already"), "{error}");
+    assert!(error.contains("studies/tiny is a folder with files in it"), "{error}");
     assert_eq!(fs::read_to_string(folder.path("studies/tiny/study.toml")).unwrap(), STUDY);
     let error = stderr(&ends_with(&folder, 2, &["init", "mine", "--from", "tiltingtable"]));
     for said in ["did you mean \"tilting-table\"?", "built in are: tilting-table, ", "joint-arrangement"] {
