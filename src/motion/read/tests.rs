@@ -125,7 +125,7 @@ fn counts_of_k_net_are_read_about_their_mean() {
     for (a, counts) in found.iter().zip([0.0, 0.0, 8003.0, -8003.0, 157_723.0, -157_723.0]) {
         assert!((a - counts * factor).abs() < 1e-12, "{a} {counts}");
     }
-    assert!(motion.notes[0].starts_with("the mean of the values, 253.609 cm/s^2"), "{:?}", motion.notes);
+    assert!(motion.notes[0].starts_with("the mean of the values, 253.608 cm/s^2"), "{:?}", motion.notes);
     assert_eq!(motion.notes.len(), 1, "{:?}", motion.notes);
     for up in ["U-D", "6"] {
         let up = read(&with(KNET, "N-S", up)).expect("a good record");
