@@ -46,7 +46,14 @@ pub(super) fn strata(runs: &[&Strata], miss: f64) -> Pooled {
     let sorted = (squares.sum::<f64>() - sum * sum).max(0.0) / points as f64;
     let near = unseen(all.worse(), all.largest_seen(), all.largest_near());
     let largest = weights.into_iter().fold(0.0, f64::max);
-    by_weight(sum, counted.sum::<f64>() + sorted, [near, largest], miss)
+    // Counts are binomial, which is less than Poisson's variance in strata of which most are on the worse side. One more point on each side:
+    // a stratum of which all are does not vary by nothing.
+    let binomial = weights.iter().zip(&all.counts).map(|(weight, own)| {
+        let better = (own.of - own.worse + 1) as f64 / (own.of + 1) as f64;
+        weight * weight * own.worse as f64 * better
+    });
+    let cov = (sum > 0.0).then(|| (binomial.sum::<f64>() + sorted).sqrt() / sum);
+    Pooled { cov, ..by_weight(sum, counted.sum::<f64>() + sorted, [near, largest], miss) }
 }
 
 /// A sum of weights with its variance; of a failure that was not seen the weight that the interval takes it for, and the largest possible one.
