@@ -220,7 +220,7 @@ mod tests {
         let folder = std::env::temp_dir().join(format!("pirca-draws-{}", std::process::id()));
         std::fs::create_dir_all(&folder).expect("a folder");
         let wall = |member: u64| Draw {
-            moves: vec![(7, 0.8), (8, 0.1 + 0.2)],
+            moves: vec![(7, 0.8, 1.0), (8, 0.1 + 0.2, 0.2)],
             shift: vec![("joint.phi_deg".to_owned(), -1.0 / 3.0)],
             ..Draw::of(member)
         };

@@ -30,9 +30,11 @@ mod size_effect;
 pub mod strata;
 pub mod subset;
 mod summary;
+pub mod tally;
 mod test_plan;
 mod trials;
 mod very_many;
+mod weighted;
 
 pub use always_valid::{always_valid_mean, always_valid_quantile, always_valid_share};
 pub use bootstrap::{bootstrap_bca, cov_bootstrap, sigma_bootstrap};
@@ -62,3 +64,4 @@ pub use test_plan::{
     specimens_to_see,
 };
 pub use trials::Trials;
+pub use weighted::weighted_interval;

@@ -23,12 +23,17 @@ pub fn student_quantile(probability: f64, freedom: f64) -> f64 {
 
 /// Lower and upper 2.5 % point of chi-square with `freedom` degrees of freedom (any positive number).
 pub(super) fn chi_square(freedom: f64) -> [f64; 2] {
+    [TAIL, 1.0 - TAIL].map(|probability| chi_square_quantile(probability, freedom))
+}
+
+/// Quantile at `probability` in (0, 1) of chi-square with `freedom` degrees of freedom (any positive number).
+pub(super) fn chi_square_quantile(probability: f64, freedom: f64) -> f64 {
     if freedom > VERY_MANY {
-        return [TAIL, 1.0 - TAIL].map(|probability| very_many::chi_square(probability, freedom));
+        return very_many::chi_square(probability, freedom);
     }
     let c = ChiSquared::new(freedom);
     crate::check!(c.is_ok(), "chi-square has no {freedom} degrees of freedom");
-    c.map_or([f64::NAN; 2], |c| [c.inverse_cdf(TAIL), c.inverse_cdf(1.0 - TAIL)])
+    c.map_or(f64::NAN, |c| c.inverse_cdf(probability))
 }
 
 /// Lower and upper 2.5 % point of Fisher's F, the ratio of two mean squares with these degrees of freedom (any positive numbers).

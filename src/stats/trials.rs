@@ -3,6 +3,9 @@
 use super::randomised::by_randomisations;
 use super::{Estimate, clopper_pearson};
 
+/// Fewer trials on one side show no error by how randomisations differ.
+const FEW: u64 = 10;
+
 /// How often something was so: in independent trials, or at the points of randomisations of a design.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trials {
@@ -23,8 +26,10 @@ impl Trials {
         self.counts[own][1] += 1;
     }
 
-    /// The share with its 95 % interval: of independent trials that of Clopper and Pearson, else that over the randomisations. Not
-    /// defined without a trial.
+    /// The share with its 95 % interval: of independent trials that of Clopper and Pearson, else that over the randomisations. Where fewer than
+    /// ten trials were on one side, few randomisations differ, and their spread shows no error. Then the interval reaches to
+    /// that of Clopper and Pearson as well, as if the trials were independent: points of a design lie more evenly, so that none of
+    /// them hits what independent ones would have. Not defined without a trial.
     ///
     /// ```
     /// use pirca::stats::{Trials, clopper_pearson};
@@ -45,6 +50,14 @@ impl Trials {
         let held = |own: &[u64; 2]| if own[1] > 0 { vec![*own] } else { Vec::new() };
         let Estimate { value, interval } =
             by_randomisations(&self.counts.iter().map(held).collect::<Vec<_>>(), share);
-        Estimate { value, interval: interval.map(|ends| ends.map(|end| end.clamp(0.0, 1.0))) }
+        let [so, of] = self.counts.iter().fold([0, 0], |[so, of], own| [so + own[0], of + own[1]]);
+        let interval = interval.map(|ends| ends.map(|end| end.clamp(0.0, 1.0))).map(|[low, high]| {
+            if so.min(of - so) >= FEW {
+                return [low, high];
+            }
+            let [alone_low, alone_high] = clopper_pearson(so as usize, of as usize);
+            [low.min(alone_low), high.max(alone_high)]
+        });
+        Estimate { value, interval }
     }
 }

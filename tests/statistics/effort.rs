@@ -85,7 +85,7 @@ fn importance_sampling_is_unbiased_at_the_effort_of_its_formula() {
                     let by = if importance::is_shifted(k) { shift } else { [0.0; 2] };
                     let z = by.map(|by| normal(&mut stream) + by);
                     let value = r * (0.6 * z[0] + 0.8 * z[1]) + left * normal(&mut stream);
-                    let weight = importance::weight(&z, &shift);
+                    let weight = importance::weight(&z, &shift, importance::defended(points as usize));
                     weights.push(weight);
                     if value >= index { weight } else { 0.0 }
                 };

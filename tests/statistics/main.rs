@@ -20,5 +20,6 @@ mod ratios;
 mod selection;
 mod sequential;
 mod support;
+mod tally;
 mod test_plan;
 mod truncated;

@@ -1,7 +1,7 @@
 //! Intervals from independent randomisations of a design.
 
 use pirca::random::{Design, Place, RANDOMISATIONS};
-use pirca::stats::{Sample, Trials, by_randomisations, mean, sigma, student_quantile};
+use pirca::stats::{Sample, Trials, by_randomisations, clopper_pearson, mean, sigma, student_quantile};
 
 #[test]
 fn the_interval_of_a_mean_is_students_over_the_means_of_the_randomisations() {
@@ -69,6 +69,12 @@ fn a_share_from_counts_is_that_of_ones_and_zeros() {
     let mut rare = Trials::none(RANDOMISATIONS);
     (0..64).for_each(|member| rare.take(member, member == 5));
     assert_eq!(rare.share().interval.unwrap()[0], 0.0);
+    // What was never so is not impossible, nor is what was so always certain.
+    for all in [false, true] {
+        let mut trials = Trials::none(RANDOMISATIONS);
+        (0..64).for_each(|member| trials.take(member, all));
+        assert_eq!(trials.share().interval, Some(clopper_pearson(if all { 64 } else { 0 }, 64)));
+    }
     assert_eq!(Trials::none(RANDOMISATIONS).share().value, None);
     assert_eq!(Trials::none(1).share().interval, None);
 }

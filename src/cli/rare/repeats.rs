@@ -7,7 +7,8 @@ use crate::ensemble::rare::{Ended, First, Pilot, importance, plain, stratified, 
 use crate::ensemble::{Draw, RareWalls};
 use crate::report::{Repeats, Screen};
 use crate::stats::subset::{Rare, Settings};
-use crate::stats::{Looks, Statistic, above_zero, cov, effort};
+use crate::stats::tally::{Pooled, Tally};
+use crate::stats::{Looks, effort};
 
 /// Independent runs whose differences are the error.
 const REPEATS: u64 = 10;
@@ -103,7 +104,11 @@ pub(super) fn repeated(way: &Way<'_, '_>, aim: Aim, name: &str) -> Option<Repeat
         runs.push(way.begun(count, number, look.min(number + room))?);
         tell_answer(&runs, miss, used(&runs), name);
         let is_look = looks.sizes().contains(&(runs.len() as u64));
-        if is_look && aim.cov.is_some_and(|cov| cov_of_mean(&runs).is_some_and(|own| own <= cov)) {
+        if is_look
+            && aim
+                .cov
+                .is_some_and(|cov| come_to(&runs, |run| &run.tally, miss).cov.is_some_and(|own| own <= cov))
+        {
             break;
         }
     }
@@ -117,10 +122,15 @@ fn summed_up(way: &Way<'_, '_>, runs: &[Ended], miss: f64) -> Repeats {
     let lowest = runs.iter().filter_map(|run| run.lowest.clone()).min_by(|a, b| a.1.total_cmp(&b.1));
     let is_sorted = way.expected.method == Method::Stratified;
     let total = |of: &dyn Fn(&Ended) -> usize| runs.iter().map(of).sum::<usize>();
+    let found = come_to(runs, |run| &run.tally, miss);
+    let kept = runs.iter().filter_map(|run| run.kept).reduce(f64::max);
     Repeats {
         method: way.expected.method.name(),
-        cov: cov_of_mean(runs),
+        cov: found.cov,
+        at_most: found.at_most,
+        stuck: kept.map(|_| runs.iter().filter(|run| run.is_stuck()).count()),
         miss,
+        found,
         evaluations: total(&|run| run.walls),
         limit_evaluations: total(&|run| run.limits),
         screen: way.screen.zip(way.pilot.limit).filter(|_| is_sorted).map(|(screen, sorted)| {
@@ -142,8 +152,9 @@ fn summed_up(way: &Way<'_, '_>, runs: &[Ended], miss: f64) -> Repeats {
             .as_ref()
             .filter(|_| way.expected.method == Method::Importance)
             .map(|own| own.explained),
+        kept,
         failed: total(&|run| run.failed),
-        if_failed: runs.iter().map(|run| run.if_failed).collect(),
+        if_failed: come_to(runs, |run| &run.if_failed, miss),
         weakest_draw: lowest
             .as_ref()
             .and_then(|(draw, _)| all.iter().find(|own| own.draw == *draw))
@@ -155,22 +166,22 @@ fn summed_up(way: &Way<'_, '_>, runs: &[Ended], miss: f64) -> Repeats {
     }
 }
 
-/// Coefficient of variation of the runs' mean.
-fn cov_of_mean(runs: &[Ended]) -> Option<f64> {
-    let probabilities: Vec<f64> = runs.iter().map(|run| run.probability).collect();
-    Some(cov(&probabilities)? / (runs.len() as f64).sqrt())
+/// What the tallies of runs come to.
+fn come_to(runs: &[Ended], of: impl Fn(&Ended) -> &Tally, miss: f64) -> Pooled {
+    Pooled::of(&runs.iter().map(|run| of(run).clone()).collect::<Vec<Tally>>(), miss)
 }
 
 /// The answer as it stands after a run.
 fn tell_answer(runs: &[Ended], miss: f64, walls: usize, name: &str) {
-    let probabilities: Vec<f64> = runs.iter().map(|run| run.probability).collect();
-    let own = above_zero(Statistic::Mean.of(&probabilities, miss));
-    let interval =
-        own.interval.filter(|_| runs.len() >= FEWEST).map(|[low, high]| format!(" [{low:.2e}, {high:.2e}]"));
+    let own = come_to(runs, |run| &run.tally, miss);
+    let interval = own
+        .interval
+        .filter(|_| runs.len() >= FEWEST)
+        .map(|[low, high]| format!(" [{low:.2e}, {high:.2e}]"))
+        .unwrap_or_default();
     output::note(&format!(
-        "{name}: run {}, {walls} walls: probability {:.2e}{}",
+        "{name}: run {}, {walls} walls: probability {:.2e}{interval}",
         runs.len(),
-        own.value.unwrap_or(0.0),
-        interval.unwrap_or_default()
+        own.probability
     ));
 }

@@ -14,7 +14,7 @@ use crate::ensemble::draws::Draws;
 use crate::ensemble::{Observed, Quantity, Row, Task, evaluate};
 use crate::random::Move;
 use crate::random::standard_normal::quantile;
-use crate::stats::subset::Rare;
+use crate::stats::subset::{Rare, Step};
 use crate::study::{Study, WallParameter as Parameter};
 
 pub use batch::{Batch, Batches};
@@ -27,8 +27,6 @@ const FIRST_MEMBER: u64 = 1 << 40;
 const FIRST_MOVE: u64 = 1 << 48;
 /// So far apart are the members of two runs.
 const RUN: u64 = 1 << 32;
-/// Share of a wall's numbers that a move changes: a few stones, as a stone of another length shifts all that come after it.
-const MOVED: f64 = 0.2;
 
 /// Walls that each thread evaluates before they are kept.
 const PIECE: usize = 4;
@@ -38,8 +36,9 @@ const PIECE: usize = 4;
 pub struct Draw {
     /// The member that it was drawn as.
     pub member: u64,
-    /// Its moves, the first one first: members that numbers were taken from, and the share that was kept.
-    pub moves: Vec<(u64, f64)>,
+    /// Its moves, the first one first: members that numbers were taken from, the share that was kept, and the share of all numbers that were
+    /// moved.
+    pub moves: Vec<(u64, f64, f64)>,
     /// What the standard normals of parameters, by their keys, are shifted by.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub shift: Vec<(String, f64)>,
@@ -61,7 +60,7 @@ impl Draw {
         let moves: Arc<[Move]> = self
             .moves
             .iter()
-            .map(|&(member, keep)| Move { from: [study.seed, member], keep, moved: MOVED })
+            .map(|&(member, keep, moved)| Move { from: [study.seed, member], keep, moved })
             .collect();
         let by = |(key, by): &(String, f64)| Some((Parameter::of(key)?.stream, *by));
         study.clone().with_moves(moves).with_shift(self.shift.iter().filter_map(by).collect())
@@ -121,9 +120,9 @@ impl Rare for RareWalls<'_> {
         Draw::of(FIRST_MEMBER + run * RUN + k)
     }
 
-    fn moved(&self, point: &Draw, keep: f64, run: u64, number: u64) -> Draw {
+    fn moved(&self, point: &Draw, Step { keep, moved }: Step, run: u64, number: u64) -> Draw {
         let mut draw = point.clone();
-        draw.moves.push((FIRST_MOVE + run * RUN + number, keep));
+        draw.moves.push((FIRST_MOVE + run * RUN + number, keep, moved));
         draw
     }
 

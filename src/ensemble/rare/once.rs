@@ -3,9 +3,10 @@
 use crate::ensemble::rare::pilot::{Leaning, Sorted};
 use crate::ensemble::rare::{Draw, RareWalls};
 use crate::random::Streams;
-use crate::stats::importance::{is_shifted, weight};
+use crate::stats::importance::{defended, is_shifted, weight};
 use crate::stats::strata::{self, STRATA, allocated, chosen, stratum};
-use crate::stats::subset::{Rare, Run, Settings, run};
+use crate::stats::subset::{Rare, Run, Settings, is_stuck, run};
+use crate::stats::tally::{Chains, Counts, Strata, Tally, Weighted, Within};
 
 /// Levels below the one asked for that the figure shows of a run.
 const SHOWN: usize = 10;
@@ -13,11 +14,11 @@ const SHOWN: usize = 10;
 const UNKNOWN: usize = STRATA / 2;
 
 /// What came out of one run.
-#[derive(Default)]
 pub struct Ended {
     pub probability: f64,
-    /// The same if all walls without a value had been on the worse side.
-    pub if_failed: f64,
+    /// What it counted, walls without a value as on the better side; and the same if all of them had been on the worse one.
+    pub tally: Tally,
+    pub if_failed: Tally,
     /// Walls that were taken to the study's solver, and analyses of limits.
     pub walls: usize,
     pub limits: usize,
@@ -28,13 +29,23 @@ pub struct Ended {
     pub ladder: Vec<[f64; 2]>,
     /// Walls that were solved although limit analysis expects them far beyond the level, and how many were on the worse side.
     pub far: [usize; 2],
+    /// What chains kept of a wall's numbers at most, where there were any.
+    pub kept: Option<f64>,
+}
+
+impl Ended {
+    /// Whether its chains hardly moved.
+    pub fn is_stuck(&self) -> bool {
+        self.kept.is_some_and(is_stuck)
+    }
 }
 
 /// Walls as they are drawn, all counting alike.
 pub fn plain(walls: &RareWalls<'_>, level: f64, count: usize, number: u64) -> Ended {
     let draws: Vec<Draw> = (0..count as u64).map(|k| walls.drawn(number, k)).collect();
     let values = walls.values(&draws);
-    counted(&draws, &values, &|_| 1.0 / count as f64, level)
+    let tally = |worse: &[bool]| Tally::Plain(counts(worse));
+    counted(&draws, &values, (&|_| 1.0 / count as f64, &tally), level)
 }
 
 /// Walls with shifted parameters.
@@ -53,22 +64,36 @@ pub fn importance(
     };
     let draws: Vec<Draw> = (0..count as u64).map(drawn).collect();
     let values = walls.values(&draws);
-    let counts =
-        |at: usize| weight(&draws[at].normals(walls.study, &leaning.parameters), &shift) / count as f64;
-    counted(&draws, &values, &counts, level)
+    let defended = defended(count);
+    let weight = |at: usize| weight(&draws[at].normals(walls.study, &leaning.parameters), &shift, defended);
+    let tally = |worse: &[bool]| {
+        Tally::Weighted(Weighted {
+            worse: (0..count).filter(|at| worse[*at]).map(weight).collect(),
+            of: count as u64,
+            largest: 1.0 / defended,
+        })
+    };
+    counted(&draws, &values, (&|at| weight(at) / count as f64, &tally), level)
 }
 
 /// Subset simulation with the study's own solver.
 pub fn subset(walls: &RareWalls<'_>, level: f64, settings: &Settings, number: u64) -> Ended {
     let found = run(walls, level, settings, number);
+    let (first, all, lost) = (found.first as u64, settings.points as u64, found.lost as u64);
+    let of = |probability: f64, worse: u64| {
+        Tally::Chains(Chains { probability, first: Counts { worse, of: all }, stuck: is_stuck(found.kept()) })
+    };
     Ended {
         probability: found.probability,
-        if_failed: (found.probability + found.lost as f64 / settings.points as f64).min(1.0),
+        tally: of(found.probability, first),
+        if_failed: of((found.probability + lost as f64 / all as f64).min(1.0), first + lost),
         walls: found.values,
+        limits: 0,
         failed: found.failed,
-        ladder: ladder(&found, level, settings.share),
+        ladder: ladder(&found, level),
+        far: [0; 2],
+        kept: Some(found.kept()),
         lowest: found.lowest,
-        ..Ended::default()
     }
 }
 
@@ -89,17 +114,15 @@ pub fn stratified(
     count: usize,
     number: u64,
 ) -> Ended {
-    let (within, draws, limits, lost) = match first {
-        First::Drawn(all) => (1.0, (0..all as u64).map(|k| walls.drawn(number, k)).collect(), all, 0),
+    let (within, draws, limits, lost, kept) = match first {
+        First::Drawn(all) => (None, (0..all as u64).map(|k| walls.drawn(number, k)).collect(), all, 0, None),
         First::Down => {
             let found = run(screen, sorted.bound(), &Settings::default(), number);
-            (found.probability, found.within, found.values, found.lost)
+            let kept = found.kept();
+            (Some(found.probability), found.within, found.values, found.lost, Some(kept))
         }
     };
     let lost_share = lost as f64 / Settings::default().points as f64;
-    if draws.is_empty() {
-        return Ended { limits, failed: lost, if_failed: lost_share, ..Ended::default() };
-    }
     let found = screen.values(&draws);
     let mut strata: [Vec<usize>; STRATA] = Default::default();
     for (at, limit) in found.iter().enumerate() {
@@ -107,7 +130,8 @@ pub fn stratified(
     }
     let sizes = strata.each_ref().map(Vec::len);
     let taken = allocated(&sizes, count);
-    let mut start = Streams::new(walls.study.seed, draws[0].member).of("start within a stratum");
+    let member = draws.first().map_or(0, |draw| draw.member);
+    let mut start = Streams::new(walls.study.seed, member).of("start within a stratum");
     let places: Vec<(usize, usize)> = (0..STRATA)
         .flat_map(|of| {
             let start = start.uniform();
@@ -116,34 +140,62 @@ pub fn stratified(
         .collect();
     let solved: Vec<Draw> = places.iter().map(|(_, at)| draws[*at].clone()).collect();
     let values = walls.values(&solved);
-    let counts = |at: usize| within * strata::counts(&sizes, &taken, places[at].0);
+    let repeated = solved.len() as f64 / distinct(&solved).max(1) as f64;
+    let tally = |worse: &[bool]| {
+        let of = |of: usize| {
+            let own = places.iter().zip(worse).filter(|((stratum, _), _)| *stratum == of);
+            counts(&own.map(|(_, worse)| *worse).collect::<Vec<_>>())
+        };
+        let strata = Strata { sizes: sizes.map(|size| size as u64), counts: std::array::from_fn(of) };
+        match within {
+            None => Tally::Strata(strata),
+            Some(probability) => {
+                let stuck = kept.is_some_and(is_stuck);
+                Tally::Within(Within { probability, strata, repeated, more: 0.0, stuck })
+            }
+        }
+    };
+    let share = |at: usize| within.unwrap_or(1.0) * strata::counts(&sizes, &taken, places[at].0);
     let far = places.iter().zip(&values).filter(|((of, _), _)| *of == STRATA - 1);
     let far_worse = far.clone().filter(|(_, value)| value.is_some_and(|value| value <= level)).count();
-    let own = counted(&solved, &values, &counts, level);
-    Ended {
-        limits,
-        far: [far.count(), far_worse],
-        failed: own.failed + lost,
-        if_failed: (own.if_failed + lost_share).min(1.0),
-        ..own
+    let far = [far.count(), far_worse];
+    let mut own = counted(&solved, &values, (&share, &tally), level);
+    if let Tally::Within(within) = &mut own.if_failed {
+        within.more = lost_share;
     }
+    Ended { limits, far, kept, failed: own.failed + lost, ..own }
 }
 
-/// What walls that count so much each come to.
-fn counted(draws: &[Draw], values: &[Option<f64>], counts: &dyn Fn(usize) -> f64, level: f64) -> Ended {
+/// How many walls differ.
+fn distinct(draws: &[Draw]) -> usize {
+    draws.iter().enumerate().filter(|(at, draw)| !draws[..*at].contains(draw)).count()
+}
+
+fn counts(worse: &[bool]) -> Counts {
+    Counts { worse: worse.iter().filter(|worse| **worse).count() as u64, of: worse.len() as u64 }
+}
+
+/// What walls that count so much each come to; `tally` is given which of them are on the worse side.
+fn counted(
+    draws: &[Draw],
+    values: &[Option<f64>],
+    (share, tally): (&dyn Fn(usize) -> f64, &dyn Fn(&[bool]) -> Tally),
+    level: f64,
+) -> Ended {
+    let is_worse = |if_lost: bool| -> Vec<bool> {
+        values.iter().map(|value| value.map_or(if_lost, |value| value <= level)).collect()
+    };
     let mut worse: Vec<(f64, f64)> = values
         .iter()
         .enumerate()
-        .filter_map(|(at, value)| Some((value.filter(|value| *value <= level)?, counts(at))))
+        .filter_map(|(at, value)| Some((value.filter(|value| *value <= level)?, share(at))))
         .collect();
     worse.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let lost: f64 =
-        values.iter().enumerate().filter(|(_, value)| value.is_none()).map(|(at, _)| counts(at)).sum();
     let mut reached = 0.0;
     let steps: Vec<[f64; 2]> = worse
         .iter()
-        .map(|(value, counts)| {
-            reached += counts;
+        .map(|(value, share)| {
+            reached += share;
             [*value, reached]
         })
         .collect();
@@ -160,22 +212,21 @@ fn counted(draws: &[Draw], values: &[Option<f64>], counts: &dyn Fn(usize) -> f64
         .min_by(|a, b| a.1.total_cmp(&b.1));
     Ended {
         probability: reached.min(1.0),
-        if_failed: (reached + lost).min(1.0),
+        tally: tally(&is_worse(false)),
+        if_failed: tally(&is_worse(true)),
         walls: draws.len(),
+        limits: 0,
         failed: values.iter().filter(|value| value.is_none()).count(),
         lowest: lowest.map(|(draw, value)| (draw.clone(), value)),
         ladder,
-        ..Ended::default()
+        far: [0; 2],
+        kept: None,
     }
 }
 
 /// The levels of a run with their probabilities; the level asked for is the last one, if it was reached.
-fn ladder(run: &Run<Draw>, level: f64, share: f64) -> Vec<[f64; 2]> {
-    let mut reached = 1.0;
-    let bounds = run.bounds.iter().map(|bound| {
-        reached *= share;
-        [*bound, reached]
-    });
+fn ladder(run: &Run<Draw>, level: f64) -> Vec<[f64; 2]> {
+    let bounds = run.levels.iter().map(|own| [own.bound, own.probability]);
     let mut ladder: Vec<[f64; 2]> = bounds.filter(|[bound, _]| *bound < 0.1 * f64::MAX).collect();
     ladder.extend((run.probability > 0.0).then_some([level, run.probability]));
     ladder

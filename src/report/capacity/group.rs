@@ -10,7 +10,8 @@ use crate::report::capacity::values::Supported;
 use crate::report::capacity::{Question, Rung};
 use crate::report::population::Population;
 use crate::report::summary::EnoughEntry;
-use crate::stats::{self, Estimate, Shape, Statistic, Variation, above_zero};
+use crate::stats::tally::Pooled;
+use crate::stats::{self, Shape, Statistic, Variation};
 use crate::study::Until;
 
 /// The walls of one kind, and what they answer.
@@ -125,8 +126,17 @@ pub struct Repeats {
     pub method: &'static str,
     /// The probability of each.
     pub probabilities: Vec<f64>,
-    /// Coefficient of variation of their mean.
+    /// Coefficient of variation of what they come to.
     pub cov: Option<f64>,
+    /// An upper end that rests on nothing but how walls were drawn, where the interval rests on more: on limit analysis, on where a shift leads,
+    /// or on chains that reach what they should.
+    pub at_most: Option<f64>,
+    /// Runs of subset simulation that were stuck: their chains hardly moved.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stuck: Option<usize>,
+    /// What chains kept of a wall's numbers from their first wall to their last, as a correlation; the largest of all levels and runs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kept: Option<f64>,
     /// What their interval may miss: 0.05, or a part of it where runs were added until they were enough.
     pub miss: f64,
     /// Walls that were evaluated in all.
@@ -143,10 +153,13 @@ pub struct Repeats {
     /// Walls that brought no value: they count as on the better side.
     #[serde(skip)]
     pub failed: usize,
-    /// The probability of each run if those had been on the worse side; of subset simulation their share of the walls that were drawn
-    /// before any was moved is added.
+    /// What the runs come to.
     #[serde(skip)]
-    pub if_failed: Vec<f64>,
+    pub found: Pooled,
+    /// The same if those had been on the worse side; of subset simulation their share of the walls that were drawn before any was moved is
+    /// added.
+    #[serde(skip)]
+    pub if_failed: Pooled,
     /// The weakest wall that was found, with its value.
     pub weakest: Option<(Draw, f64)>,
     /// Its number, for `pirca generate --draw`.
@@ -230,12 +243,19 @@ impl CapacityGroup {
         group
     }
 
-    /// The same answered by independent runs. The interval is Student's on their mean, above 0; see [`above_zero`] for how
-    /// often it holds. Walls without a value count as on the better side; at worst all are on the worse one.
+    /// The same answered by independent runs, see [`Pooled`]. What they bound by nothing is bounded by the walls that count alike. Walls
+    /// without a value count as on the better side; at worst all are on the worse one.
     pub fn by_repeats(&mut self, repeats: Repeats, solver: &'static str, is_high: bool) {
-        let of = |probabilities: &[f64]| above_zero(Statistic::Mean.of(probabilities, repeats.miss));
-        let Estimate { value, interval } = of(&repeats.probabilities);
-        (self.answer, self.interval) = (Answer::to(self.question, value), interval);
+        let by_walls = self.interval.map(|[_, high]| [0.0, high]);
+        let interval = repeats.found.interval.or(by_walls);
+        let at_most = match repeats.screen {
+            // No wall beyond the bound of limit analysis was solved but those that count alike.
+            Some(Screen { goes_down: true, .. }) => by_walls.map(|[_, high]| high),
+            _ => repeats.at_most,
+        };
+        let at_most = at_most.filter(|high| interval.is_some_and(|own| own[1] < *high));
+        let repeats = Repeats { at_most, ..repeats };
+        (self.answer, self.interval) = (Answer::to(self.question, Some(repeats.found.probability)), interval);
         self.cov = repeats.cov;
         self.method = repeats.method;
         *self.evaluations.entry(solver).or_default() += repeats.evaluations as u64;
@@ -243,7 +263,7 @@ impl CapacityGroup {
             let limits = (repeats.limit_evaluations + screen.pilot_walls) as u64;
             *self.evaluations.entry("limit").or_default() += limits;
         }
-        let had_failed = of(&repeats.if_failed).interval.zip(interval);
+        let had_failed = repeats.if_failed.interval.zip(interval);
         let had_failed = had_failed.map(|([_, high], [low, own])| [low, high.max(own).min(1.0)]);
         self.failed = Failed {
             walls: repeats.failed as u64,

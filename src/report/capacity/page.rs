@@ -3,7 +3,7 @@
 use anyhow::Result;
 
 use crate::report::capacity::figure::CapacityPlot;
-use crate::report::capacity::text::{SUPPORTED, VALUES, conclusions, method, supported};
+use crate::report::capacity::text::{SUPPORTED, VALUES, conclusions, method, probability, supported};
 use crate::report::capacity::{CapacityGroup, CapacitySummary, Question};
 use crate::report::draw::svg;
 use crate::report::number::{compact, or_dash, significant, with_interval};
@@ -83,21 +83,25 @@ fn question(summary: &CapacitySummary) -> String {
 
 fn answers(summary: &CapacitySummary) -> Table {
     let unit = summary.shown.shown_unit();
-    let (answer, shown): (String, &dyn Fn(f64) -> f64) = match summary.question {
-        Question::Quantile(_) => (format!("quantile {unit}, 95 % interval"), &|x| summary.shown.shown(x)),
-        _ => ("probability, 95 % interval".to_owned(), &|x| x),
+    let shown = |x: f64| summary.shown.shown(x);
+    let quantile = |group: &CapacityGroup| {
+        with_interval(group.answer.value().map(shown), group.interval.map(|ends| ends.map(shown)), 2)
+    };
+    let (head, answer): (String, &dyn Fn(&CapacityGroup) -> String) = match summary.question {
+        Question::Quantile(_) => (format!("quantile {unit}, 95 % interval"), &quantile),
+        _ => ("probability, 95 % interval".to_owned(), &probability),
     };
     let row = |group: &CapacityGroup| {
         vec![
             group.name.clone(),
             group.kn_pa_per_m.map_or_else(|| "-".to_owned(), compact),
-            with_interval(group.answer.value().map(shown), group.interval.map(|ends| ends.map(shown)), 2),
+            answer(group),
             or_dash(group.cov.map(|cov| 100.0 * cov), 2),
             method(group).to_owned(),
             group.evaluations.values().sum::<u64>().max(group.walls).to_string(),
             group.failed.walls.to_string(),
         ]
     };
-    let heads = ["walls of", "kn Pa/m", &answer, "COV %", "by", "walls", "without a value"];
+    let heads = ["walls of", "kn Pa/m", &head, "COV %", "by", "walls", "without a value"];
     Table::new("Answers", &heads, summary.groups.iter().map(row).collect())
 }

@@ -67,7 +67,7 @@ fn conclusion(summary: &CapacitySummary, group: &CapacityGroup) -> String {
             format!(
                 "{name}: {side} {} {unit} with a probability of {} ({counted}).",
                 significant(shown(level), 3),
-                with_interval(group.answer.value(), group.interval, 2)
+                probability(group)
             )
         }
         Question::Quantile(share) if group.answer.value().is_none() => {
@@ -102,6 +102,15 @@ fn conclusion(summary: &CapacitySummary, group: &CapacityGroup) -> String {
     text
 }
 
+/// A probability with its interval. Where none was found it is what it lies below: 0 is no answer.
+pub(super) fn probability(group: &CapacityGroup) -> String {
+    match (group.answer.value(), group.interval) {
+        (Some(0.0), Some([_, high])) => format!("at most {} (none found)", significant(high, 2)),
+        (Some(0.0), None) => "- (none found, and nothing bounds it)".to_owned(),
+        (value, interval) => with_interval(value, interval, 2),
+    }
+}
+
 /// How an answer was found, in words.
 pub(super) fn method(group: &CapacityGroup) -> &'static str {
     match group.method {
@@ -129,18 +138,27 @@ fn by_repeats(summary: &CapacitySummary, group: &CapacityGroup, repeats: &Repeat
         "{}: {side} {} {unit} with a probability of {} ({method}, {} independent runs, {} walls{limits}).",
         name(group),
         significant(summary.shown.shown(level), 3),
-        with_interval(group.answer.value(), group.interval, 2),
+        probability(group),
         repeats.probabilities.len(),
         repeats.evaluations
     );
     if let Some(screen) = &repeats.screen {
         text.push_str(&sorted_by(summary, screen));
     }
+    if let Some(stuck) = repeats.stuck.filter(|stuck| *stuck > 0) {
+        text.push_str(&format!(
+            " The moves of {stuck} runs hardly changed a wall's numbers, so that they may all miss the same walls: the interval is that of the \
+             walls drawn first, which count alike.",
+        ));
+    }
     if let Some(explained) = repeats.explained {
         let share = significant(100.0 * explained, 2);
         text.push_str(&format!(
             " Parameters drawn once per wall explain {share} % of the variance of values."
         ));
+    }
+    if let Some(at_most) = repeats.at_most {
+        text.push_str(&format!(" {} it is {} at most.", unless(group), significant(at_most, 2)));
     }
     if let (Some((_, value)), Some(number)) = (&repeats.weakest, repeats.weakest_draw) {
         let value = significant(summary.shown.shown(*value), 3);
@@ -163,6 +181,15 @@ fn by_repeats(summary: &CapacitySummary, group: &CapacityGroup, repeats: &Repeat
         ));
     }
     text
+}
+
+/// What an interval rests on besides how walls were drawn.
+fn unless(group: &CapacityGroup) -> &'static str {
+    match group.method {
+        "stratified" => "Whatever limit analysis expects of walls beyond its bound,",
+        "importance" => "Wherever else than the shift leads walls may be weak,",
+        _ => "By the walls alone that were drawn first and not moved,",
+    }
 }
 
 /// How limit analysis sorted the walls, and what is known of those beyond its bound.
