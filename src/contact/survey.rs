@@ -44,7 +44,7 @@ pub struct Survey {
     pub deepest: f64,
 }
 
-/// Looks at every pair of blocks that may meet. `settings.touch` (m) is the tolerance: up to it, a gap is a joint and
+/// Looks at every pair of blocks that may meet. `settings.closed` (m) is the tolerance: up to it, a gap is a joint and
 /// an overlap is rounding; gaps between faces are listed up to `within` (m). Pairs of fixed blocks do not matter, and parts of
 /// one stone have no joint.
 ///
@@ -73,7 +73,7 @@ pub fn survey(wall: &Wall, settings: &Settings, within: f64) -> Option<Survey> {
         if leads[a] == leads[b] {
             found.within_a_stone((a, b), &meeting);
         } else {
-            found.between_stones((a, b), meeting, settings.touch, within);
+            found.between_stones((a, b), meeting, settings.closed, within);
         }
     }
     let Found { mut survey, across, held } = found;
@@ -113,7 +113,7 @@ impl Found {
         }
     }
 
-    fn between_stones(&mut self, blocks: (usize, usize), meeting: Meeting, touch: f64, within: f64) {
+    fn between_stones(&mut self, blocks: (usize, usize), meeting: Meeting, closed: f64, within: f64) {
         let pair = |length: f64| Pair { blocks, length };
         match meeting {
             Meeting::Apart => {}
@@ -128,7 +128,7 @@ impl Found {
             Meeting::Joint([narrowest, widest]) => {
                 self.survey.joints.push(blocks);
                 self.survey.deepest = self.survey.deepest.max(-narrowest);
-                if widest > touch && widest <= within {
+                if widest > closed && widest <= within {
                     self.survey.gaping.push(pair(widest));
                 }
             }
@@ -147,16 +147,13 @@ enum Meeting {
 }
 
 fn meet(a: &Polyhedron, b: &Polyhedron, settings: &Settings, within: f64) -> Meeting {
-    if let Some(depth) = overlap_depth(a, b, settings.touch) {
+    if let Some(depth) = overlap_depth(a, b, settings.closed) {
         return Meeting::Overlap(depth);
     }
     let patch = find_patch(a, b, settings).or_else(|| facing(a, b, within, settings));
     let Some(patch) = patch else { return Meeting::Apart };
-    // The gap is affine over the patch: it is narrowest and widest at a corner.
-    let gaps = patch.polygon.vertices.iter().map(|st| patch.plane.distance(&patch.frame.lift(*st)));
-    let [narrowest, widest] =
-        gaps.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], gap| [low.min(gap), high.max(gap)]);
-    if narrowest > settings.touch {
+    let [narrowest, widest] = patch.gaps();
+    if narrowest > settings.closed {
         Meeting::Gap(narrowest, Box::new(patch))
     } else {
         Meeting::Joint([narrowest, widest])
@@ -240,7 +237,7 @@ mod tests {
     }
 
     fn surveyed(places: &[f64]) -> Survey {
-        let settings = Settings { touch: 1e-6, ..Settings::for_size(1.0, [2, 2]) };
+        let settings = Settings { closed: 1e-6, ..Settings::for_size(1.0, [2, 2]) };
         survey(&row(places), &settings, 0.1).unwrap()
     }
 

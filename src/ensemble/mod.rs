@@ -55,7 +55,8 @@ pub use influence::{
 pub use kept::Kept;
 pub use manifest::Manifest;
 pub use plates::{
-    AskedOfWalls, Judged, NoPlate, Subject, WallRow, WallTask, check_plate, evaluate_wall, run_walls,
+    AskedOfWalls, Judged, NoPlate, OutOfRange, Subject, Validity, WallRow, WallTask, check_plate,
+    evaluate_wall, run_walls,
 };
 pub use progress::{Grown, Progress, Silent};
 pub use quantity::{Observed, Quantity};

@@ -6,10 +6,14 @@ use crate::math::Vec3;
 use crate::model::{Cell, JointLaws, Window};
 use crate::shape::Polygon;
 
+/// Share of a joint's area that is none: faces that gape from an edge on touch along that edge alone, but for the tolerance.
+const NO_AREA: f64 = 1e-6;
+
 /// Stones, the springs between them, and how large a piece of the plate they are.
 ///
-/// A joint counts where its stones touch, with its whole area, whatever presses on it: the moduli are those of a wall whose joints
-/// are all closed. Where stiffness grows with closure it is that at a stated pressure.
+/// A joint counts where its faces are built touching, whatever presses on it: the moduli are those of small strains of a wall whose
+/// joints neither open nor close. What is built apart ([`contact::Settings::closed`]) carries nothing. Where stiffness grows with
+/// closure it is that at a stated pressure.
 #[derive(Clone, Debug)]
 pub struct Springs {
     /// Centroids of the stones (m).
@@ -46,15 +50,11 @@ impl Springs {
     pub fn of_cell(cell: &Cell, laws: &dyn JointLaws, contact: &contact::Settings, pressure: f64) -> Springs {
         let joints = periodic_joints(cell, contact)
             .into_iter()
-            .filter(|joint| meets(&joint.patch))
-            .map(|joint| {
+            .filter_map(|joint| {
                 let (a, b) = (joint.first, joint.second);
                 let border = joint.shift != Vec3::zeros();
-                Spring {
-                    shift: joint.shift,
-                    border,
-                    ..spring((a, a), (Some(b), b), &joint.patch, laws, pressure)
-                }
+                let spring = spring((a, a), (Some(b), b), (&joint.patch, contact.closed), laws, pressure)?;
+                Some(Spring { shift: joint.shift, border, ..spring })
             })
             .collect();
         let stones = cell.blocks.iter().map(|block| block.shape.mass_properties().centroid).collect();
@@ -74,9 +74,9 @@ impl Springs {
         for (a, block) in window.inside.iter().enumerate() {
             let others = window.inside.iter().chain(&window.around).enumerate().skip(a + 1);
             for (b, other) in others {
-                if let Some(patch) = find_patch(&block.shape, &other.shape, contact).filter(meets) {
+                if let Some(patch) = find_patch(&block.shape, &other.shape, contact) {
                     let second = (b < inside).then_some(b);
-                    joints.push(spring((a, a), (second, b), &patch, laws, pressure));
+                    joints.extend(spring((a, a), (second, b), (&patch, contact.closed), laws, pressure));
                 }
             }
         }
@@ -100,21 +100,18 @@ pub(super) fn outward(patch: &Patch) -> Vec3 {
     if patch.reference_is_second { -patch.plane.normal } else { patch.plane.normal }
 }
 
-/// Whether two faces meet. Edges and corners that touch carry nothing: they have no area before anything moves.
-pub(super) fn meets(patch: &Patch) -> bool {
-    matches!(patch.feature, Feature::Faces(..))
-}
-
-/// The spring of a patch between two blocks, each with its place among the stones and its number for the laws.
+/// The spring of a patch between two blocks, each with its place among the stones and its number for the laws; `None` where they do not
+/// touch over an area.
 fn spring(
     (first, a): (usize, usize),
     (second, b): (Option<usize>, usize),
-    patch: &Patch,
+    (patch, closed): (&Patch, f64),
     laws: &dyn JointLaws,
     pressure: f64,
-) -> Spring {
+) -> Option<Spring> {
     let law = laws.of(a as u32, b as u32);
-    Spring {
+    let points = points(patch, closed, law.sampling, quadrature);
+    (!points.is_empty()).then(|| Spring {
         first,
         second,
         shift: Vec3::zeros(),
@@ -122,26 +119,39 @@ fn spring(
         normal: outward(patch),
         kn: law.normal.stiffness(law.normal.closure(pressure)),
         ks: law.ks,
-        points: points(patch, law.sampling, quadrature),
-    }
+        points,
+    })
 }
 
-/// Points and weights over a joint where its stress is sampled: by a `rule` in each of its pieces, or its corners with their shares.
+/// Points and weights over a joint where its stress is sampled: by a `rule` in each of its pieces, or its corners with their shares; of
+/// what is built no further apart than `closed` (m).
+///
+/// None where two faces do not meet: edges and corners that touch carry nothing, as they have no area before anything moves.
 pub(super) fn points(
     patch: &Patch,
+    closed: f64,
     sampling: Sampling,
     rule: impl Fn(&Polygon) -> Vec<([f64; 2], f64)>,
 ) -> Vec<(Vec3, f64)> {
-    let pieces = match sampling {
+    if !matches!(patch.feature, Feature::Faces(..)) {
+        return Vec::new();
+    }
+    let least = NO_AREA * patch.polygon.area();
+    let touching = |outline: &Polygon| {
+        let part = patch.touching(outline, closed);
+        (part.vertices.len() > 2 && part.area() > least).then_some(part)
+    };
+    let pieces: Vec<Polygon> = match sampling {
         Sampling::Vertices => {
-            let vertices = &patch.polygon.vertices;
-            let shares = area_shares(vertices);
+            let Some(Polygon { vertices }) = touching(&patch.polygon) else { return Vec::new() };
+            let shares = area_shares(&vertices);
             return vertices.iter().zip(shares).map(|(&v, share)| (patch.frame.lift(v), share)).collect();
         }
         Sampling::Patches(mask) => {
-            patch.pieces(PATCHES_ALONG, mask).into_iter().map(|cell| cell.outline).collect()
+            let cells = patch.pieces(PATCHES_ALONG, mask);
+            cells.iter().filter_map(|cell| touching(&cell.outline)).collect()
         }
-        Sampling::Area => vec![patch.polygon.clone()],
+        Sampling::Area => touching(&patch.polygon).into_iter().collect(),
     };
     let all = pieces.iter().flat_map(rule);
     all.map(|(st, weight)| (patch.frame.lift(st), weight)).collect()

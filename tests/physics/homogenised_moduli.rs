@@ -125,12 +125,19 @@ fn random_head_joints_soften_a_wall_by_little() {
 
 #[test]
 fn open_head_joints_bear_no_static_stress_and_soften_the_wall() {
-    let bond = Bond { slot: 0.02, ..Bond::of(STONE, 2, 2) };
-    let springs = springs(&bond.cell(|_, _| 0.0), 2);
-    assert_eq!(Moduli::of(&springs, Border::Static), Err(Loose::ComesApart));
-    let found = Moduli::of(&springs, Border::Periodic).unwrap().stiffness;
-    // Half a bond less the slot overlaps at either end: what is left is the shear of the beds.
-    let ([b, a, t], overlap) = (STONE, 0.125 - 0.02);
-    let exact = t * 2e9 * overlap * b / (2.0 * a);
-    assert!((found[0][0] / exact - 1.0).abs() < 1e-10, "{} {exact}", found[0][0]);
+    // The search for contacts reaches 0.5 mm.
+    for slot in [1e-6, 1e-4, 5e-4, 8e-4, 1e-3, 2e-3, 0.02] {
+        let bond = Bond { slot, ..Bond::of(STONE, 2, 2) };
+        let springs = springs(&bond.cell(|_, _| 0.0), 2);
+        assert_eq!(springs.joints(), 8, "two beds over each of four stones, {slot}");
+        assert_eq!(Moduli::of(&springs, Border::Static), Err(Loose::ComesApart));
+        let found = Moduli::of(&springs, Border::Periodic).unwrap().stiffness;
+        // Half a bond less the slot overlaps at either end: what is left is the shear of the beds, and their turning.
+        let ([b, a, t], overlap) = (STONE, 0.125 - slot);
+        let sheared = t * 2e9 * overlap * b / (2.0 * a);
+        let exact = [sheared, sheared * (t * t + overlap * overlap) / 12.0];
+        for (found, exact) in [found[0][0], found[3][3]].iter().zip(exact) {
+            assert!((found / exact - 1.0).abs() < 1e-10, "{slot}: {found} {exact}");
+        }
+    }
 }

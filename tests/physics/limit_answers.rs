@@ -232,11 +232,11 @@ fn open_head_joints_are_no_joints() {
     // for contacts reaches as far as the slots are wide.
     let contact = contact::Settings::for_size(0.25, [2, 2]);
     let wall = canonical::wall_72().with_base();
-    let found = |closed_gap: f64| {
-        Analysis::new(&wall, &dry(1e9, 40.0), contact, Settings { closed_gap, ..Settings::default() })
-            .joints()
+    let found = |closed: f64| {
+        let contact = contact::Settings { closed, ..contact };
+        Analysis::new(&wall, &dry(1e9, 40.0), contact, Settings::default()).joints()
     };
-    assert_eq!(found(1e-6), 8 * 15 + 8);
+    assert_eq!(found(contact.closed), 8 * 15 + 8);
     assert_eq!(found(1.1e-3), 8 * 15 + 8 + 9 * 7);
 }
 

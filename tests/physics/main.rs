@@ -10,6 +10,7 @@ mod dynamics;
 mod elastic;
 mod events;
 mod fixture;
+mod gaps;
 mod grains;
 mod holding;
 mod homogenised_moduli;

@@ -98,8 +98,9 @@ pub(crate) struct Analyse {
     /// Step of the tilt (deg), but for limit [default: 0.5]; with --load lateral its tangent is the step.
     #[arg(long, value_name = "F", value_parser = numbers::step, allow_negative_numbers = true, help_heading = LOAD)]
     pub step_deg: Option<f64>,
-    /// Blocks closer than this touch: a length with its unit (2mm, 0.5cm, 0.002 m; at most a tenth of a stone), or a share of the
-    /// size of what moves, corner to corner (1e-12 to 0.001). Deeper overlaps are told, and wider gaps up to a tenth of a stone.
+    /// Blocks closer than this touch, for all solvers: a length with its unit (2mm, 0.5cm, 0.002 m; at most a tenth of a stone), or a
+    /// share of the size of what moves, corner to corner (1e-12 to 0.001). Wider gaps carry nothing until they close. Deeper overlaps are
+    /// told, and wider gaps up to a tenth of a stone.
     #[arg(long, value_name = "LENGTH", default_value = "1e-6", value_parser = numbers::tolerance, allow_negative_numbers = true, help_heading = FILE)]
     pub touch_tolerance: numbers::Tolerance,
     /// Make faces plane whose corners lie up to this length off their plane (2mm), or 1/20 of their block if that is less; how far

@@ -23,10 +23,8 @@ const SUB_CONTACTS: [u32; 2] = [4, 4];
 
 /// A wall that is fit to be solved.
 pub(crate) struct Fit {
-    /// Tolerances of contact detection; gaps up to `touch` are joints for the survey and for limit analysis.
+    /// Tolerances of contact detection; gaps up to `closed` are joints, for the survey and for all solvers.
     pub contact: contact::Settings,
-    /// Gap (m) that is rounding for springs.
-    pub rounding: f64,
     /// Smaller horizontal extent of the part that moves (m).
     pub thickness: f64,
     /// Number of joints.
@@ -57,7 +55,11 @@ pub(crate) fn look(file: &WallFile, tolerance: Tolerance, path: &str) -> Result<
         ));
         return Err(faults);
     }
-    let contact = contact::Settings { touch, reach: standard.reach.max(REACHES * touch), ..standard };
+    let contact = contact::Settings {
+        closed: touch.max(standard.touch),
+        reach: standard.reach.max(REACHES * touch),
+        ..standard
+    };
     let Some(found) = survey(&file.wall, &contact, within) else {
         faults.push(Fault::of(
             "",
@@ -88,7 +90,6 @@ pub(crate) fn look(file: &WallFile, tolerance: Tolerance, path: &str) -> Result<
     }
     Ok(Fit {
         contact,
-        rounding: standard.touch,
         thickness: (high.x - low.x).min(high.y - low.y),
         joints: found.joints.len(),
         deepest: found.deepest,

@@ -6,7 +6,6 @@ use crate::cli::analyse::known::Known;
 use crate::cli::analyse::meetings::Fit;
 use crate::cli::analyse::state::Found;
 use crate::cli::doing::doing;
-use crate::contact;
 use crate::law::{CohesionAfterSlip, Coulomb, NormalLaw, Sampling};
 use crate::math::{atan, cos, radians, tan};
 use crate::model::{Level, Outcome, Wall};
@@ -113,8 +112,7 @@ pub(super) fn task<'t>(
     Task {
         wall,
         laws: law,
-        // Gaps are rounding for rigid blocks only: springs close them.
-        contact: contact::Settings { touch: fit.rounding, ..fit.contact },
+        contact: fit.contact,
         loads: Vec::new(),
         ties: Vec::new(),
         platform: None,
@@ -153,7 +151,7 @@ fn by_limit_analysis(
         FlowName::Associative => limit::Flow::Associative,
         FlowName::NonAssociative => limit::Flow::NonAssociative,
     };
-    let settings = limit::Settings { flow, closed_gap: fit.contact.touch, ..limit::Settings::default() };
+    let settings = limit::Settings { flow, ..limit::Settings::default() };
     let analysis = limit::Analysis::new(wall, law, fit.contact, settings);
     let direction = arguments.direction.unit();
     let found = match arguments.growing() {

@@ -14,8 +14,7 @@ pub(crate) fn question(wall: &Wall, law: &Coulomb, fit: &Fit, up: UpName, is_obj
         UpName::Z => [("x", Vec3::x()), ("y", Vec3::y())],
         UpName::Y => [("x", Vec3::x()), ("z", -Vec3::y())],
     };
-    let settings = limit::Settings { closed_gap: fit.contact.touch, ..limit::Settings::default() };
-    let analysis = limit::Analysis::new(wall, law, fit.contact, settings);
+    let analysis = limit::Analysis::new(wall, law, fit.contact, limit::Settings::default());
     let stands = |axis: &Vec3| {
         let loads = limit::Loads { dead: -axis * STANDARD_GRAVITY, ..limit::Loads::default() };
         analysis.stands(&loads).stands == Some(true)

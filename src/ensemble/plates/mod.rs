@@ -5,6 +5,7 @@
 //! [`run_cells`](crate::ensemble::run_cells) evaluates.
 
 mod made;
+mod validity;
 
 use std::time::Instant;
 
@@ -22,6 +23,8 @@ use crate::study::{AsDrawn, Study};
 
 use made::plate_of;
 pub use made::{NoPlate, check_plate};
+use validity::Masonry;
+pub use validity::{OutOfRange, Validity};
 
 /// What is asked of walls.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,6 +64,8 @@ pub enum Judged {
     BearsAny,
     /// Not even its own weight.
     FallsAtRest,
+    /// A plate that does not stand for a wall of stones.
+    OutOfRange(OutOfRange),
     /// The solver found no answer that can be believed.
     NotSolved(String),
     /// There is no such wall or cell.
@@ -74,6 +79,8 @@ pub struct WallRow {
     pub task: WallTask,
     /// What it bears with associative flow.
     pub found: Judged,
+    /// How it stands for a wall of stones, of a plate that falls.
+    pub validity: Option<Validity>,
     /// What its stones bear without dilatancy, where that was asked and they bear a finite load with it.
     pub non_associative: Option<Judged>,
     /// How long it took with associative flow, then without dilatancy (s).
@@ -106,39 +113,45 @@ pub fn evaluate_wall(study: &Study, cells: &AskedOfCells, asked: &AskedOfWalls, 
     match task.subject {
         Subject::Plate(cell) => {
             let begun = Instant::now();
-            let found = as_plate(study, cells, task.arm, cell);
+            let (found, validity) = as_plate(study, cells, task.arm, cell);
             let seconds = [begun.elapsed().as_secs_f64(), 0.0];
-            WallRow { task, found, non_associative: None, seconds }
+            WallRow { task, found, validity, non_associative: None, seconds }
         }
         Subject::Stones(member) => by_stones(study, cells.point, asked.non_associative, task, member),
     }
 }
 
-fn as_plate(study: &Study, asked: &AskedOfCells, arm: u32, cell: u64) -> Judged {
+/// What a plate bears, and of one that falls how it stands for its stones.
+fn as_plate(study: &Study, asked: &AskedOfCells, arm: u32, cell: u64) -> (Judged, Option<Validity>) {
     let size = asked.sizes.len() - 1;
     let stones = asked.sizes[size];
-    let collapse = with_cell(study, asked, CellTask { arm, size, cell }, |cell| {
-        let plate = plate_of(&cell.drawn.arm, &cell.drawn.protocol, cell.cell, stones)
+    let judged = with_cell(study, asked, CellTask { arm, size, cell }, |cell| {
+        let arm = &cell.drawn.arm;
+        let plate = plate_of(arm, &cell.drawn.protocol, cell.cell, stones)
             .map_err(|fault| Judged::Invalid(fault.to_string()))?;
-        let contact = contacts(&cell.drawn.arm).of_wall(cell.wall);
+        let stone = [0, 1].map(|axis| cell.cell.lattice[axis][axis] / f64::from(stones[axis]));
+        let masonry = Masonry::of(arm, stone);
+        masonry.check(&plate).map_err(Judged::OutOfRange)?;
+        let contact = contacts(arm).of_wall(cell.wall);
         let refined = plate_collapse(cell.cell, cell.laws, contact, &plate, &Cuts::default());
-        refined.map_err(|fault| match fault {
+        let Refined { collapse, ending, .. } = refined.map_err(|fault| match fault {
             PlateFault::Unbounded => Judged::BearsAny,
             PlateFault::FallsAtRest => Judged::FallsAtRest,
             other => Judged::NotSolved(other.to_string()),
-        })
+        })?;
+        if ending == Ending::RoundsSpent {
+            // Too high by an unknown amount: nothing to judge a wall by.
+            let why = "planes of its surface were still found when the rounds were spent";
+            return Err(Judged::NotSolved(why.to_owned()));
+        }
+        let multiplier = collapse.multiplier.min(collapse.sliding.unwrap_or(f64::INFINITY));
+        let validity = masonry.validity(&plate, multiplier).map_err(Judged::OutOfRange)?;
+        Ok((Judged::Falls(multiplier), Some(validity)))
     });
-    match collapse {
-        // Too high by an unknown amount: nothing to judge a wall by.
-        Ok(Ok(Refined { ending: Ending::RoundsSpent, .. })) => {
-            Judged::NotSolved("planes of its surface were still found when the rounds were spent".to_owned())
-        }
-        Ok(Ok(Refined { collapse, .. })) => {
-            let sliding = collapse.sliding.unwrap_or(f64::INFINITY);
-            Judged::Falls(collapse.multiplier.min(sliding))
-        }
-        Ok(Err(judged)) => judged,
-        Err(fault) => Judged::Invalid(fault.to_string()),
+    match judged {
+        Ok(Ok(falls)) => falls,
+        Ok(Err(judged)) => (judged, None),
+        Err(fault) => (Judged::Invalid(fault.to_string()), None),
     }
 }
 
@@ -149,7 +162,7 @@ fn by_stones(study: &Study, point: u32, non_associative: bool, task: WallTask, m
         Err(fault) => {
             let seconds = [begun.elapsed().as_secs_f64(), 0.0];
             let found = Judged::Invalid(fault.to_string());
-            return WallRow { task, found, non_associative: None, seconds };
+            return WallRow { task, found, validity: None, non_associative: None, seconds };
         }
     };
     let AsDrawn { arm, protocol, .. } = study.as_drawn(task.arm, member);
@@ -164,7 +177,8 @@ fn by_stones(study: &Study, point: u32, non_associative: bool, task: WallTask, m
     let (found, first) = asked(Flow::Associative);
     let second = (non_associative && matches!(found, Judged::Falls(_))).then(|| asked(Flow::NonAssociative));
     let seconds = [first, second.as_ref().map_or(0.0, |(_, seconds)| *seconds)];
-    WallRow { task, found, non_associative: second.map(|(judged, _)| judged), seconds }
+    let non_associative = second.map(|(judged, _)| judged);
+    WallRow { task, found, validity: None, non_associative, seconds }
 }
 
 /// What limit analysis found.

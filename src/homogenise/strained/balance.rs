@@ -76,7 +76,7 @@ impl Balance {
             .filter_map(|joint| {
                 let (a, b) = (joint.first, joint.second);
                 let law = laws.of(a as u32, b as u32);
-                Joint::of(joint, law, [centroids[a], centroids[b]], lengths, panels)
+                Joint::of(joint, contact.closed, law, [centroids[a], centroids[b]], lengths, panels)
             })
             .collect();
         let unit = lengths.strain();

@@ -5,7 +5,7 @@
 //! along both coordinates of the joint. What the joint carries are nine sums, the loads that go with them.
 
 use crate::contact::PeriodicJoint;
-use crate::homogenise::springs::{meets, outward, points};
+use crate::homogenise::springs::{outward, points};
 use crate::law::{Coulomb, Crushing, Motion, Pressed, PressedSlopes, Sampling, SubContact};
 use crate::math::Vec3;
 use crate::model::{Six, image_motion, image_turn};
@@ -51,21 +51,23 @@ impl Lengths {
 }
 
 impl Joint {
-    /// The joint between two stones with their centroids; `None` for edges and corners that touch, which have no area before anything
-    /// moves. Along either axis of a joint with four corners there are `panels` panels of three points.
+    /// The joint between two stones with their centroids; `None` where they do not touch over an area before anything moves: faces that
+    /// are built further apart than `closed` (m), edges and corners. Along either axis of a joint with four corners there are `panels`
+    /// panels of three points.
     pub fn of(
         joint: &PeriodicJoint,
+        closed: f64,
         law: Coulomb,
         centroids: [Vec3; 2],
         lengths: Lengths,
         panels: u32,
     ) -> Option<Joint> {
         let patch = &joint.patch;
-        if !meets(patch) {
+        let panels = if matches!(law.sampling, Sampling::Patches(_)) { 1 } else { panels };
+        let points = points(patch, closed, law.sampling, |outline| grid(outline, panels));
+        if points.is_empty() {
             return None;
         }
-        let panels = if matches!(law.sampling, Sampling::Patches(_)) { 1 } else { panels };
-        let points = points(patch, law.sampling, |outline| grid(outline, panels));
         let area = points.iter().map(|(_, weight)| weight).sum::<f64>();
         let middle = points.iter().fold(Vec3::zeros(), |sum, (at, weight)| sum + at * *weight) / area;
         let (s, t, n) = (patch.frame.s, patch.frame.t, outward(patch));

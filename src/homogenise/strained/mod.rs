@@ -8,9 +8,10 @@
 //! stress = dead + lambda direction,      strain = direction . (E, K)
 //! ```
 //!
-//! In small displacements nothing tips over: with linear joints that have neither cohesion nor tensile strength, displacements are
-//! proportional to the pressure over the stiffness, and the strength does not depend on either. How wide the zone is about which
-//! stones turn shows in the strain that it takes, not in what is reached at last.
+//! In small displacements nothing tips over and no gap closes: what is built apart carries nothing, as in limit analysis. With linear
+//! joints that have neither cohesion nor tensile strength, displacements are proportional to the pressure over the stiffness, and the
+//! strength does not depend on either. How wide the zone is about which stones turn shows in the strain that it takes, not in what is
+//! reached at last.
 
 mod balance;
 mod joint;

@@ -94,6 +94,7 @@ fn ended(judged: &Judged) -> (&'static str, String, String) {
         Judged::Falls(load) => ("falls", load.to_string(), String::new()),
         Judged::BearsAny => ("bears_any", String::new(), String::new()),
         Judged::FallsAtRest => ("falls_at_rest", "0".to_owned(), String::new()),
+        Judged::OutOfRange(why) => ("out_of_range", String::new(), quoted(&why.to_string())),
         Judged::NotSolved(why) => ("not_solved", String::new(), quoted(why)),
         Judged::Invalid(why) => ("invalid_geometry", String::new(), quoted(why)),
     }
@@ -110,13 +111,15 @@ fn head_of_wall(study: &Study, row: &WallRow) -> String {
 
 /// A line per plate, and one or two per wall.
 pub(super) fn walls_csv(study: &Study, rows: &[WallRow]) -> String {
-    let mut text = "arm,subject,number,method,outcome,load,reason\n".to_owned();
+    let mut text = "arm,subject,number,method,outcome,load,shear_ratio,reason\n".to_owned();
     for row in rows {
         let by_method =
             [("associative", Some(&row.found)), ("non-associative", row.non_associative.as_ref())];
         for (method, judged) in by_method.into_iter().filter_map(|(method, judged)| Some((method, judged?))) {
             let (outcome, load, reason) = ended(judged);
-            text.push_str(&format!("{},{method},{outcome},{load},{reason}\n", head_of_wall(study, row)));
+            let shear = row.validity.map_or_else(String::new, |own| own.shear_ratio.to_string());
+            let head = head_of_wall(study, row);
+            text.push_str(&format!("{head},{method},{outcome},{load},{shear},{reason}\n"));
         }
     }
     text

@@ -83,6 +83,8 @@ pub struct PlateCells {
     pub failed: BTreeMap<String, usize>,
     /// Thickness of the plate (m).
     pub thickness_m: Option<f64>,
+    /// Open gap in every head joint (m). Heads that are open carry nothing, as strains are small.
+    pub head_joint_gap_m: f64,
     /// Vertical stress resultant p at which strength was looked for (N/m).
     pub pressure_n_per_m: Option<f64>,
     /// Of how many cells of all sizes the moduli lie between their bounds.
@@ -238,6 +240,7 @@ fn arm_entry(study: &Study, asked: &AskedOfCells, arm: u32, rows: &[&CellRow]) -
             cells: of_size(last).count(),
             failed,
             thickness_m: first.map(|answer| answer.thickness),
+            head_joint_gap_m: own.layout.head_joint_gap,
             pressure_n_per_m: first.map(|answer| answer.pressure),
             nested: NestedCells { held: known.iter().filter(|held| **held).count(), of: known.len() },
         },

@@ -121,10 +121,24 @@ fn walls(summary: &HomogenisedSummary) -> String {
     }
     text.push_str(&aligned(rows));
     for (arm, walls) in summary.arms.iter().filter_map(|arm| Some((arm, arm.walls.as_ref()?))) {
+        if let Some((own, held)) = walls.validity.zip(walls.by_cells) {
+            let [least, most] = own.stones_over_plate.map(|ratio| significant(ratio, 3));
+            let [low, high] = held.interval.map(|load| significant(load, 3));
+            let line = format!(
+                "{}: a wall bears {least} to {most} times its plate, by walls of other shapes: {low} to {high} at 95 % (shear \
+                 across the thickness {} of friction)",
+                arm.arm,
+                significant(own.shear_ratio, 2)
+            );
+            text.push_str(&wrapped("", &line));
+        }
         for (what, sample) in [("plates", &walls.plates), ("walls", &walls.stones)] {
             let mut said = Vec::new();
             if sample.bear_any > 0 {
                 said.push(format!("{} {what} bear any load", sample.bear_any));
+            }
+            if let Some(why) = &sample.out_of_range_why {
+                said.push(format!("{} {what} are out of the range of plates: {why}", sample.out_of_range));
             }
             if sample.fall_at_rest > 0 {
                 said.push(format!("{} {what} fall at rest and count with 0", sample.fall_at_rest));
@@ -182,6 +196,17 @@ fn table<'s, const N: usize>(
 /// What is to be said of the cells of an arm.
 fn notes(arm: &PlateArm) -> String {
     let mut text = String::new();
+    let gap = arm.cell.head_joint_gap_m;
+    if gap > 0.0 {
+        text.push_str(&wrapped(
+            "! ",
+            &format!(
+                "{}: head joints are open by {} mm (head_joint_gap_m) and carry nothing: strains are small, and no gap closes",
+                arm.arm,
+                significant(1e3 * gap, 3)
+            ),
+        ));
+    }
     let nested = arm.cell.nested;
     if nested.held < nested.of {
         text.push_str(&wrapped(

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::ensemble::{Judged, Subject, WallRow};
+use crate::ensemble::{Judged, Subject, Validity, WallRow};
 use crate::stats::{self, Estimate, Summary};
 
 /// A plate is near where it is so little off what the stones bear.
@@ -26,7 +26,10 @@ pub struct WallsAsPlates {
     pub stones_over_plate: Option<Summary>,
     /// How many walls the mean of the plates is within 5 % of.
     pub within_5_percent: Option<WallShare>,
-    /// The interval in which one more wall lies if walls scatter as plates do (Student's).
+    /// How the plates stand for walls of stones.
+    pub validity: Option<PlatesValid>,
+    /// The interval in which one more wall lies: that of one more plate (Student's), widened by what stones over plate were measured to
+    /// be on walls of other shapes.
     pub by_cells: Option<HeldWalls>,
     /// The interval from the ratios of the first 39 walls, and what it holds of the others.
     pub by_walls: Option<HeldWalls>,
@@ -34,6 +37,15 @@ pub struct WallsAsPlates {
     pub non_associative_over_associative: Option<Summary>,
     /// How many walls that fall with dilatancy have no answer without it.
     pub non_associative_failed: usize,
+}
+
+/// How plates stand for walls of stones.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct PlatesValid {
+    /// Largest multiplier over that at which friction across the thickness alone holds the wall.
+    pub shear_ratio: f64,
+    /// Least and greatest ratio of stones to plate at a probability of 95 %, measured on walls of other shapes.
+    pub stones_over_plate: [f64; 2],
 }
 
 /// A sample of loads.
@@ -46,6 +58,10 @@ pub struct WallSample {
     pub bear_any: usize,
     /// Those that do not bear their own weight; they count with 0.
     pub fall_at_rest: usize,
+    /// Plates that do not stand for walls of stones; they have no load.
+    pub out_of_range: usize,
+    /// Why the first of them does not.
+    pub out_of_range_why: Option<String>,
     /// Those without an answer or without a wall, by reason.
     pub failed: BTreeMap<String, usize>,
 }
@@ -97,6 +113,7 @@ impl HeldWalls {
 impl WallSample {
     fn of<'r>(found: impl Iterator<Item = &'r Judged>) -> (WallSample, Vec<f64>) {
         let (mut loads, mut bear_any, mut fall_at_rest, mut failed) = (Vec::new(), 0, 0, BTreeMap::new());
+        let mut out_of_range = Vec::new();
         for judged in found {
             match judged {
                 Judged::Falls(load) => loads.push(*load),
@@ -105,10 +122,19 @@ impl WallSample {
                     loads.push(0.0);
                 }
                 Judged::BearsAny => bear_any += 1,
+                Judged::OutOfRange(why) => out_of_range.push(why),
                 Judged::NotSolved(why) | Judged::Invalid(why) => *failed.entry(why.clone()).or_insert(0) += 1,
             }
         }
-        (WallSample { load: Summary::of(&loads), bear_any, fall_at_rest, failed }, loads)
+        let sample = WallSample {
+            load: Summary::of(&loads),
+            bear_any,
+            fall_at_rest,
+            out_of_range: out_of_range.len(),
+            out_of_range_why: out_of_range.first().map(ToString::to_string),
+            failed,
+        };
+        (sample, loads)
     }
 }
 
@@ -125,8 +151,10 @@ impl WallsAsPlates {
             plate.iter().flat_map(|plate| walls.iter().map(move |wall| wall / plate)).collect();
         let near =
             plate.and_then(|plate| WallShare::among(&walls, |wall| (plate - wall).abs() <= NEAR * wall));
-        let by_cells =
-            predicted(&plates.load, by_plates.len()).and_then(|between| HeldWalls::of(between, &walls));
+        let validity = PlatesValid::of(own().filter_map(|row| row.validity));
+        let by_cells = predicted(&plates.load, by_plates.len()).zip(validity).and_then(|(between, valid)| {
+            HeldWalls::of([0, 1].map(|end| between[end] * valid.stones_over_plate[end]), &walls)
+        });
         let by_walls = plate.filter(|_| ratios.len() >= FITTED + LEFT).and_then(|plate| {
             let (fitted, others) = (&ratios[..FITTED], &walls[FITTED..]);
             let end = |p| stats::predictive_quantile(fitted, p).map(|ratio| ratio * plate);
@@ -142,6 +170,7 @@ impl WallsAsPlates {
         WallsAsPlates {
             stones_over_plate: plate.map(|_| Summary::of(&ratios)),
             within_5_percent: near,
+            validity,
             by_cells,
             by_walls,
             non_associative_failed: both().count() - flow.len(),
@@ -152,10 +181,27 @@ impl WallsAsPlates {
     }
 }
 
-/// Where one more value of a normal sample lies; `None` where the sample does not scatter.
+impl PlatesValid {
+    fn of(plates: impl Iterator<Item = Validity>) -> Option<PlatesValid> {
+        let of = |own: Validity| PlatesValid {
+            shear_ratio: own.shear_ratio,
+            stones_over_plate: own.stones_over_plate,
+        };
+        plates.map(of).reduce(|a, b| PlatesValid {
+            shear_ratio: a.shear_ratio.max(b.shear_ratio),
+            stones_over_plate: [
+                a.stones_over_plate[0].min(b.stones_over_plate[0]),
+                a.stones_over_plate[1].max(b.stones_over_plate[1]),
+            ],
+        })
+    }
+}
+
+/// Where one more value of a normal sample lies. A sample that does not scatter, or is one value, is taken as it is.
 fn predicted(sample: &Summary, n: usize) -> Option<[f64; 2]> {
     let (Estimate { value: mean, .. }, Estimate { value: sigma, .. }) = (sample.mean, sample.sigma);
-    let (mean, sigma) = (mean?, sigma.filter(|sigma| *sigma > 0.0)?);
+    let mean = mean?;
+    let Some(sigma) = sigma.filter(|sigma| *sigma > 0.0) else { return Some([mean; 2]) };
     let half = stats::student_quantile(1.0 - TAIL, (n - 1) as f64) * sigma * (1.0 + 1.0 / n as f64).sqrt();
     Some([mean - half, mean + half])
 }
@@ -163,12 +209,14 @@ fn predicted(sample: &Summary, n: usize) -> Option<[f64; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ensemble::WallTask;
+    use crate::ensemble::{OutOfRange, WallTask};
 
     fn rows(plates: &[f64], walls: impl Iterator<Item = f64>) -> Vec<WallRow> {
         let row = |subject, found| {
             let task = WallTask { arm: 0, subject };
-            WallRow { task, found, non_associative: None, seconds: [0.0; 2] }
+            let valid = Validity { shear_ratio: 0.5, stones_over_plate: [0.8, 1.25] };
+            let validity = matches!(subject, Subject::Plate(_)).then_some(valid);
+            WallRow { task, found, validity, non_associative: None, seconds: [0.0; 2] }
         };
         let of_cells = plates.iter().zip(0..).map(|(x, k)| row(Subject::Plate(k), Judged::Falls(*x)));
         let of_stones = walls.zip(0..).map(|(x, k)| row(Subject::Stones(k), Judged::Falls(x)));
@@ -181,9 +229,9 @@ mod tests {
         let summary = WallsAsPlates::of(0, &rows(&[0.9, 1.1], [0.95, 0.96, 1.05, 1.06].into_iter()));
         let near = summary.within_5_percent.unwrap();
         assert_eq!((near.count, near.of, near.value), (2, 4, 0.5));
-        // Student's t of one degree of freedom, 12.7062: 1 +- 12.7062 x 0.141421 x sqrt(1.5).
+        // Student's t of one degree of freedom, 12.7062: 1 +- 12.7062 x 0.141421 x sqrt(1.5), times 1.25.
         let by_cells = summary.by_cells.unwrap();
-        assert!((by_cells.interval[1] - 3.200_75).abs() < 1e-4, "{by_cells:?}");
+        assert!((by_cells.interval[1] - 1.25 * 3.200_75).abs() < 1e-4, "{by_cells:?}");
         assert_eq!((by_cells.held.count, summary.by_walls), (4, None));
     }
 
@@ -197,8 +245,8 @@ mod tests {
         let [low, high] = fitted.interval;
         assert!((low - 2.002).abs() < 1e-12 && (high - 2.078).abs() < 1e-12, "{fitted:?}");
         assert_eq!((fitted.held.count, fitted.held.of), (15, 20));
-        // One plate does not scatter.
-        assert_eq!(summary.by_cells, None);
+        // One plate does not scatter: what is left is how far stones and plates are apart.
+        assert_eq!(summary.by_cells.unwrap().interval, [1.6, 2.5]);
     }
 
     #[test]
@@ -208,7 +256,13 @@ mod tests {
         for found in [Judged::BearsAny, Judged::FallsAtRest, Judged::NotSolved("stuck".to_owned())] {
             all.push(WallRow { found, ..row.clone() });
         }
-        let stones = WallsAsPlates::of(0, &all).stones;
+        let refused = Judged::OutOfRange(OutOfRange::EndBlocks);
+        all[0] = WallRow { found: refused, validity: None, ..all[0].clone() };
+        let summary = WallsAsPlates::of(0, &all);
+        assert_eq!((summary.plates.load.n, summary.plates.out_of_range), (0, 1));
+        assert!(summary.plates.out_of_range_why.unwrap().contains("end blocks"));
+        assert_eq!((summary.stones_over_plate, summary.by_cells), (None, None));
+        let stones = summary.stones;
         assert_eq!((stones.load.n, stones.bear_any, stones.fall_at_rest), (3, 1, 1));
         assert_eq!(stones.failed, BTreeMap::from([("stuck".to_owned(), 1)]));
         // The one that falls at rest bears nothing.

@@ -30,6 +30,8 @@ pub struct Joint {
     pub feature: Feature,
     /// Distance (m) at which the faces begin to press; see [`contact::Settings::touch`].
     pub(super) touch: f64,
+    /// Gap (m) with which they were built and count as touching; see [`contact::Settings::closed`].
+    filled: f64,
     /// The polygon, and the integrals over it or over the patches of it that can touch.
     pub(in crate::solve) polygon: Polygon,
     pub(super) whole: Moments,
@@ -112,6 +114,7 @@ impl Joint {
             plane_normal: r.rotation.tr_mul(&patch.plane.normal),
             feature: patch.feature,
             touch: settings.touch,
+            filled: 0.0,
             whole,
             polygon: patch.polygon.clone(),
             states: vec![SubContact::default(); cells.len() * points_of(&law)],
@@ -120,6 +123,18 @@ impl Joint {
             force: 0.0,
             branch: None,
             given: None,
+        }
+    }
+
+    /// A joint between blocks as they were built: a gap up to `closed` (m) is none, and across a wider one nothing ever attached them.
+    pub(super) fn built(&mut self, bodies: &Bodies, closed: f64) {
+        let gap = self.pose(&bodies.all).gap;
+        let narrowest = self.polygon.vertices.iter().map(|v| gap.at(v)).fold(f64::INFINITY, f64::min);
+        if narrowest > 0.0 {
+            match narrowest + self.touch {
+                apart if apart <= closed => self.filled = apart,
+                _ => self.meet(),
+            }
         }
     }
 
@@ -165,7 +180,7 @@ impl Joint {
 
     /// Takes over the history of the same pair's former joint, by nearness of the points.
     pub(super) fn inherit(&mut self, before: &Joint, bodies: &Bodies) {
-        self.force = before.force;
+        (self.force, self.filled) = (before.force, before.filled);
         let (now, then) = (self.pose(&bodies.all), before.pose(&bodies.all));
         // Traction is kept for the incident body; when the roles have changed, its reaction acts there.
         let sign = if self.incident == before.incident { 1.0 } else { -1.0 };
@@ -195,8 +210,8 @@ impl Joint {
         let push = r.rotation * self.plane_normal;
         let plane_point = r.position + r.rotation * self.plane_point;
         let e1 = (s - push * push.dot(&s)).normalize();
-        let gap =
-            Gap { g0: (origin - plane_point).dot(&push) - self.touch, gs: s.dot(&push), gt: t.dot(&push) };
+        let begins = self.touch + self.filled;
+        let gap = Gap { g0: (origin - plane_point).dot(&push) - begins, gs: s.dot(&push), gt: t.dot(&push) };
         Pose { origin, s, t, push, e1, e2: e1.cross(&push), gap }
     }
 

@@ -83,7 +83,7 @@ impl Joints {
             match known {
                 Some(known) => joint.inherit(known, bodies),
                 None if self.begun => joint.meet(),
-                None => {}
+                None => joint.built(bodies, settings.closed),
             }
             if before.is_none() {
                 joint.states.iter_mut().for_each(SubContact::forget_shear);

@@ -152,13 +152,14 @@ pub(crate) struct Applied {
 }
 
 impl Analysis {
-    /// Finds the joints of the blocks where the wall has them. `laws` gives friction, cohesion, tensile strength and bond;
+    /// Finds the joints of the blocks where the wall has them: what is built apart carries nothing, see
+    /// [`contact::Settings::closed`], as no gap closes in a mechanism. `laws` gives friction, cohesion, tensile strength and bond;
     /// stiffnesses play no part.
     pub fn new(wall: &Wall, laws: &dyn JointLaws, contact: contact::Settings, settings: Settings) -> Self {
         if let Cone::Linearised { sides } = settings.cone {
             crate::check!(sides >= 4 && sides % 2 == 0, "a friction pyramid of {sides} sides");
         }
-        let blocks = Blocks::of(wall, laws, &contact, settings.closed_gap);
+        let blocks = Blocks::of(wall, laws, &contact);
         let strengths = blocks.points().map(|(joint, point)| Strength::of(&joint.law, point.area)).collect();
         Analysis { blocks, strengths, settings }
     }

@@ -94,8 +94,8 @@ impl Rigid {
 }
 
 impl Blocks {
-    /// The blocks where the wall has them, and the joints between those that touch within `closed_gap` (m).
-    pub fn of(wall: &Wall, laws: &dyn JointLaws, contact: &contact::Settings, closed_gap: f64) -> Self {
+    /// The blocks where the wall has them, and the joints between those that touch.
+    pub fn of(wall: &Wall, laws: &dyn JointLaws, contact: &contact::Settings) -> Self {
         let (origin, wall) = wall.about_local_origin();
         let mut rigid: Vec<Rigid> = wall.blocks.iter().map(Rigid::of).collect();
         let leads = wall.leads();
@@ -112,7 +112,6 @@ impl Blocks {
             }
             shapes[lead] = solid.unwrap_or_else(|| wall.blocks[lead].shape.clone());
         }
-        let closed = closed_gap.max(contact.touch);
         let mut interfaces = Vec::new();
         for (a, b) in candidate_pairs(&shapes, 2.0 * contact.reach) {
             let (a, b) = (a as usize, b as usize);
@@ -126,7 +125,7 @@ impl Blocks {
             let (first, second) = if moves(b) { (a, b) } else { (b, a) };
             let Some(patch) = find_patch(&shapes[first], &shapes[second], contact) else { continue };
             let law = laws.of(a as u32, b as u32);
-            let points = contact_points(&patch, closed, law.sampling);
+            let points = contact_points(&patch, contact.closed, law.sampling);
             if points.is_empty() {
                 continue;
             }
@@ -219,9 +218,8 @@ fn whole(wall: &Wall, parts: &[usize]) -> Rigid {
 /// strip or square that stands for a contact of edges and corners has a width for the springs of the other solvers; rigid
 /// blocks touch along its middle line or in its middle.
 pub(super) fn contact_points(patch: &Patch, closed: f64, sampling: Sampling) -> Vec<ContactPoint> {
-    let (frame, normal) = (&patch.frame, &patch.plane.normal);
-    let gap = patch.plane.distance(&frame.origin);
-    let touching = |outline: &Polygon| outline.clip(gap - closed, normal.dot(&frame.s), normal.dot(&frame.t));
+    let frame = &patch.frame;
+    let touching = |outline: &Polygon| patch.touching(outline, closed);
     let (vertices, area) = match (patch.feature, sampling) {
         (Feature::Faces(..), Sampling::Patches(mask)) => {
             let cells = patch.pieces(PATCHES_ALONG, mask);

@@ -85,13 +85,7 @@ pub struct Bearing {
 
 impl Blocks {
     /// The stones of a cell, and its strain as the last body. `unit` is the force that others are compared with (N).
-    fn of_cell(
-        cell: &Cell,
-        laws: &dyn JointLaws,
-        contact: &contact::Settings,
-        closed_gap: f64,
-        unit: f64,
-    ) -> Blocks {
+    fn of_cell(cell: &Cell, laws: &dyn JointLaws, contact: &contact::Settings, unit: f64) -> Blocks {
         let mut rigid: Vec<Rigid> = cell.blocks.iter().map(Rigid::of).collect();
         rigid[0].pinned = true;
         let length = cell.area().sqrt();
@@ -104,11 +98,10 @@ impl Blocks {
             support: Support::Free,
             pinned: false,
         });
-        let closed = closed_gap.max(contact.touch);
         let mut interfaces = Vec::new();
         for joint in periodic_joints(cell, contact) {
             let law = laws.of(joint.first as u32, joint.second as u32);
-            let mut points = contact_points(&joint.patch, closed, law.sampling);
+            let mut points = contact_points(&joint.patch, contact.closed, law.sampling);
             if points.is_empty() {
                 continue;
             }
@@ -149,7 +142,7 @@ impl Analysis {
     ) -> Self {
         let stones = cell.blocks.len() as f64;
         let unit = pressure * (cell.area() / stones).sqrt();
-        let blocks = Blocks::of_cell(cell, laws, &contact, settings.closed_gap, unit);
+        let blocks = Blocks::of_cell(cell, laws, &contact, unit);
         let strengths = blocks.points().map(|(joint, point)| Strength::of(&joint.law, point.area)).collect();
         Analysis { blocks, strengths, settings }
     }

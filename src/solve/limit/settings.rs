@@ -48,10 +48,6 @@ pub struct Settings {
     pub cone: Cone,
     /// The flow rule (default: associative).
     pub flow: Flow,
-    /// Gap (m) up to which two faces touch and can press on one another (default 1e-6); a joint that leans open keeps the
-    /// part that is closer than this. Larger values hide cracks, smaller ones lose joints of walls that were measured or
-    /// rounded. Never less than `touch` nor more than `reach` of the contact settings.
-    pub closed_gap: f64,
     /// A wall that bears this multiplier is said to stand to the end (default 10).
     pub largest_multiplier: f64,
     /// A wall that stands at this tilt (rad, below 90 degrees) is said to stand to the end (default 89 degrees).
@@ -65,7 +61,6 @@ impl Default for Settings {
         Settings {
             cone: Cone::SecondOrder,
             flow: Flow::Associative,
-            closed_gap: 1e-6,
             largest_multiplier: 10.0,
             largest_tilt: crate::math::radians(89.0),
             tolerance: 1e-10,

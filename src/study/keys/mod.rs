@@ -123,7 +123,7 @@ static WALL: Section = Section {
             "head_joint_gap_m",
             real("m", Interval::closed(0.0, 0.1)),
             Default("0"),
-            "Open gap in every head joint.",
+            "Open gap in every head joint; it carries nothing until it has closed.",
         ),
     ]],
 };
