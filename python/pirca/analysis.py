@@ -128,7 +128,8 @@ def analyse(
     scale : float, optional
         Factor on the record; 1 without it.
     rayleigh : (float, float, float), optional
-        Rayleigh damping of the explicit solver: share of critical, and two frequencies (Hz) at which it is so.
+        Rayleigh damping of the explicit solver: share of critical, and two frequencies (Hz) at which it is so. Without it
+        stones that swing in their joints are damped by half of critical, in proportion to stiffness alone; (0, 1, 10) is no damping.
     time_step : float, optional
         Time step of contact dynamics under a base motion (s); 0.002 without it.
     out : path, optional

@@ -29,7 +29,13 @@ pub fn drive(task: &Task<'_>, solver: &Solver) -> Run {
 pub fn drive_seen_by(task: &Task<'_>, solver: &Solver, witness: Witness<'_>) -> Run {
     match solver {
         Solver::Explicit(settings) => {
-            climb_seen_by(task, &|assembly| Simulation::of(assembly, *settings), witness)
+            // What a service load does is answered by this solver alone.
+            let suspects = task.path.bracket.is_finite();
+            let of = |assembly| {
+                let simulation = Simulation::of(assembly, *settings);
+                if suspects { simulation.suspected_soon() } else { simulation }
+            };
+            climb_seen_by(task, &of, witness)
         }
         Solver::Implicit(settings) => {
             // A path that brackets a collapse halves its steps itself; twice costs half as much again and gains nothing.

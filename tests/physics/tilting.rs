@@ -1,9 +1,13 @@
-//! Tilting: the rigid block on an elastic no-tension bed, sliding at atan(mu), toppling at atan(b/h).
+//! Tilting: the rigid block on an elastic no-tension bed, sliding at atan(mu) and in a groove, toppling at atan(b/h).
 
-use pirca::math::{asin, atan, cos, degrees, radians, sin};
+use pirca::math::{Vec3, asin, atan, cos, degrees, radians, sin, tan};
+use pirca::model::{Block, Outcome, Support, Wall};
+use pirca::protocol::{Direction, LoadPath, drive};
+use pirca::shape::Polyhedron;
+use pirca::solve::Solver;
 use pirca::solve::explicit::Settings;
 
-use crate::fixture::{G, collapse_angle, dry, on_floor, resting, simulation};
+use crate::fixture::{G, collapse_angle, dry, on_floor, path, resting, simulation, stone};
 
 /// Width and centroid height (m), weight per metre (N/m) of the block on the elastic bed.
 const B: f64 = 0.15;
@@ -119,4 +123,42 @@ fn cohesion_holds_a_block_beyond_its_friction_angle() {
     let [low, high] = collapse_angle(start, 25.0, 1.0, 0.02, 0.02);
     let exact = phi + degrees(asin(0.2 * cos(radians(phi))));
     assert!((low - exact).abs() < 0.1 && (high - exact).abs() < 0.1, "{low} to {high} against {exact}");
+}
+
+/// A prism along y with a convex outline in x and z (m), counter-clockwise as seen from -y.
+fn prism(outline: &[[f64; 2]], ends: [f64; 2]) -> Polyhedron {
+    let n = outline.len() as u32;
+    let vertices = ends.iter().flat_map(|&y| outline.iter().map(move |p| Vec3::new(p[0], y, p[1]))).collect();
+    let sides = (0..n).map(|k| vec![(k + 1) % n, k, k + n, (k + 1) % n + n]);
+    let faces = [(0..n).collect(), (n..2 * n).rev().collect()].into_iter().chain(sides).collect();
+    Polyhedron { vertices, faces }
+}
+
+#[test]
+fn stiff_joints_are_told_to_slide_where_dilatancy_would_hold_them() {
+    // A stone in a groove of 90 degrees slides along it at tan(a) = tan(phi) / sin(45). Were it to dilate it would climb out of the groove, and bear
+    // more: limit analysis cannot tell. Joints of 1e11 Pa/m take a million steps to slide away at a hundredth of a degree above.
+    let held = |outline: &[[f64; 2]]| Block {
+        support: Support::Fixed,
+        ..stone(prism(outline, [-3.0, 3.0]), 2400.0)
+    };
+    let slider = prism(&[[0.0, 0.0], [0.2, 0.2], [-0.2, 0.2]], [-0.4, 0.4]);
+    let wall = Wall {
+        blocks: vec![
+            held(&[[-1.0, 0.0], [0.0, 0.0], [-1.0, 1.0]]),
+            held(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]),
+            stone(slider, 2400.0),
+        ],
+    };
+    let right = degrees(atan(tan(radians(20.0)) / sin(radians(45.0))));
+    for kn in [1e9, 1e11, 1e12] {
+        let law = dry(kn, 20.0);
+        let tilt = LoadPath::tilt(Direction::YPlus, radians(0.05), radians(60.0), radians(0.01));
+        let run = drive(&path(&wall, &law, tilt), &Solver::Explicit(Settings::default()));
+        assert!(matches!(run.outcome, Outcome::Collapsed { .. }), "{kn:e}: {:?}", run.outcome);
+        let [low, high] = run.bracket.expect("it fell").map(degrees);
+        // A hundredth for rounding and for what the joint gives way by.
+        assert!(low < right + 0.01 && right - 0.01 < high, "{kn:e}: {low} to {high}, {right}");
+        assert!(high - low < 0.06, "{kn:e}: {low} to {high}");
+    }
 }

@@ -49,7 +49,7 @@ pub(crate) struct Analyse {
     #[arg(long, value_name = "X", value_parser = numbers::scale, requires = "record", help_heading = LOAD)]
     pub scale: Option<f64>,
     /// Rayleigh damping of the explicit solver: a share of critical at two frequencies (Hz), as 0.05,1,10. Its part in proportion to mass slows
-    /// toppling [default: none].
+    /// toppling; 0,1,10 is none [default: half of critical where a stone swings in its joints, in proportion to stiffness alone].
     #[arg(long, value_name = "RATIO,HZ,HZ", value_parser = numbers::rayleigh, requires = "record", help_heading = LOAD)]
     pub rayleigh: Option<Rayleigh>,
     /// Time step of contact dynamics under a base motion (s) [default: 0.002].

@@ -17,7 +17,7 @@ use crate::law::Coulomb;
 use crate::math::degrees;
 use crate::motion::Motion;
 use crate::protocol::{Extreme, InTime, Shaken, Shaking, Verdict, shake_twice};
-use crate::solve::explicit;
+use crate::solve::explicit::{self, Rayleigh};
 use crate::solve::nonsmooth;
 
 /// So many blocks that fell are named in words.
@@ -101,9 +101,11 @@ pub(crate) fn shaken(
 ) -> Result<Answer, Failure> {
     let motion = motion(asked, record)?;
     warnings.extend(motion.notes.iter().cloned());
+    let task = task(asked, (&file.wall, &[]), law, fit);
     let solver = match asked.solver {
         MethodName::Explicit => {
-            InTime::Explicit(explicit::Settings::default(), asked.rayleigh.unwrap_or_default())
+            let rayleigh = asked.rayleigh.unwrap_or_else(|| Rayleigh::of_joints(&task.assembled()));
+            InTime::Explicit(explicit::Settings::default(), rayleigh)
         }
         _ => {
             let usual = nonsmooth::Settings::default();
@@ -112,7 +114,6 @@ pub(crate) fn shaken(
         }
     };
     let shaking = Shaking::new(motion, solver);
-    let task = task(asked, (&file.wall, &[]), law, fit);
     let what =
         format!("shaking {} blocks for {:.1} s, twice", file.wall.blocks.len(), shaking.motion.duration());
     let [seen, twin] = doing(&what, |_| shake_twice(&task, &shaking));

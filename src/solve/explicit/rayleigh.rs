@@ -1,6 +1,10 @@
 //! Rayleigh damping `C = alpha M + beta K`.
 
 use crate::math::radians;
+use crate::solve::Assembly;
+
+/// Damping ratio of a stone that swings in the shear of its joints.
+const OF_JOINTS: f64 = 0.5;
 
 /// Rayleigh damping. The part in proportion to mass acts on velocities against the base, and slows toppling as well; that in proportion to stiffness
 /// acts in the joints where they touch and do not slide.
@@ -18,6 +22,22 @@ impl Rayleigh {
     pub fn of(ratio: f64, [low, high]: [f64; 2]) -> Rayleigh {
         let (low, high) = (radians(360.0) * low, radians(360.0) * high);
         Rayleigh { mass: 2.0 * ratio * low * high / (low + high), stiffness: 2.0 * ratio / (low + high) }
+    }
+
+    /// In proportion to stiffness alone: half of critical where a stone swings in the shear of its joints while all others stay, of the stone that
+    /// does so slowest. What slides is not damped, and what rocks or sways as a wall hardly is. Without damping a stone that has slid goes on
+    /// ringing in its joints, and slides back too early.
+    pub fn of_joints(assembly: &Assembly<'_>) -> Rayleigh {
+        let mut stiffness = vec![0.0; assembly.bodies.all.len()];
+        for joint in &assembly.joints.all {
+            let shear = joint.law.ks * joint.area();
+            stiffness[joint.incident as usize] += shear;
+            stiffness[joint.reference as usize] += shear;
+        }
+        let bodies = assembly.bodies.all.iter().zip(&stiffness);
+        let moving = bodies.filter(|(body, stiffness)| body.moves() && **stiffness > 0.0);
+        let slowest = moving.map(|(body, stiffness)| stiffness / body.mass).fold(f64::INFINITY, f64::min);
+        Rayleigh { mass: 0.0, stiffness: if slowest > 0.0 { 2.0 * OF_JOINTS / slowest.sqrt() } else { 0.0 } }
     }
 
     /// The damping ratio at a frequency (Hz).
