@@ -6,7 +6,7 @@ use crate::report::diagnosis::conclusion::conclusion;
 use crate::report::diagnosis::summary::{CauseEntry, DiagnosisSummary, LooksEntry, OffEntry, SelfTestEntry};
 use crate::report::diagnosis::words::{lines, reading};
 use crate::report::gain::GainSummary;
-use crate::report::number::{how_often, significant};
+use crate::report::number::{ends, how_often, significant, within};
 use crate::report::table::{aligned, wrapped};
 use crate::stats;
 use crate::study::listed;
@@ -247,7 +247,10 @@ fn share(part: u64, whole: u64) -> String {
     if whole == 0 {
         return "-".to_owned();
     }
-    let percent = |x: f64| format!("{:.0}", 100.0 * x);
-    let [low, high] = stats::clopper_pearson(part as usize, whole as usize).map(percent);
-    format!("{} % [{low}, {high}]", percent(part as f64 / whole as f64))
+    let value = 100.0 * part as f64 / whole as f64;
+    let interval = stats::clopper_pearson(part as usize, whole as usize).map(|end| 100.0 * end);
+    match ends(interval) {
+        None => format!("{} %", significant(value, 2)),
+        Some([low, high]) => format!("{} % [{low}, {high}]", within(value, interval[1] - interval[0])),
+    }
 }

@@ -20,6 +20,7 @@
 //! The same is asked of the dead loads alone: how many times as much could be borne by the shear strength that they cause
 //! themselves? A wall for which this is less than 1 slides at rest, even if dilating joints would wedge it in.
 
+use crate::math::{compact, ends, within};
 use crate::model::{Level, Outcome};
 use crate::solve::limit::analysis::{Analysis, Answer, Applied};
 use crate::solve::limit::loads::Wrench;
@@ -39,6 +40,9 @@ const NEARNESS: f64 = 1e-5;
 const SAME_MULTIPLIER: f64 = 1e-5;
 /// Excess of a contact's shear over Coulomb's law at rest, over the blocks' mean weight.
 const SAME_STRENGTH: f64 = 1e-4;
+/// The same excess beside a multiplier that has come to rest: a hundredth of one block's weight in one contact, among forces of which a
+/// statically indeterminate wall has many.
+const LITTLE_STRENGTH: f64 = 1e-2;
 /// Programs that are solved at most, and how many of the last say between which multipliers a search without end goes.
 const PATIENCE: (u32, usize) = (400, 20);
 /// Shear strength (over the blocks' mean weight) of a contact without pressure: the cylinder needs an inside.
@@ -161,7 +165,10 @@ impl Analysis {
 fn ending(search: &FixedPoint, state: &Answer, level: fn(f64) -> Level) -> Outcome {
     let found = state.solved.multiplier;
     let [low, high] = search.range;
-    if search.converged && found >= -SAME_MULTIPLIER {
+    // The forces may wander on where the multiplier does not.
+    let is_at_rest = state.accuracy.accepts_state() && high - low <= SAME_MULTIPLIER * high.abs().max(1e-3);
+    let is_found = search.converged || (is_at_rest && search.excess <= LITTLE_STRENGTH);
+    if is_found && found >= -SAME_MULTIPLIER {
         Outcome::Collapsed { at: level(found.max(0.0)) }
     } else if search.converged || (state.accuracy.accepts_state() && high < -SAME_MULTIPLIER) {
         // It slides on a table that leans back.
@@ -171,10 +178,17 @@ fn ending(search: &FixedPoint, state: &Answer, level: fn(f64) -> Level) -> Outco
             at: level(low.max(0.0)),
             unbalanced_ratio: state.accuracy.residual,
             why: format!(
-                "no fixed point without dilatancy in {} programs: the last multipliers lie between {:.5} and {:.5}",
+                "no fixed point without dilatancy in {} programs: {}",
                 search.iterations,
-                low.max(0.0),
-                high.max(0.0)
+                match ends([low, high].map(|x| x.max(0.0))) {
+                    Some([low, high]) if !is_at_rest =>
+                        format!("the last multipliers lie between {low} and {high}"),
+                    _ => format!(
+                        "the multiplier stays at {}, and a joint's shear exceeds its friction by {} of a block's weight",
+                        within(low.max(0.0), SAME_MULTIPLIER * high.abs()),
+                        compact(search.excess)
+                    ),
+                }
             ),
         }
     } else {
