@@ -79,9 +79,10 @@ fn with_exponent(x: f64, digits: usize) -> String {
     }
 }
 
-/// The power of ten of a number's first digit; far below all others for 0 and what is no number.
+/// The power of ten of a number's first digit, after rounding to three: a difference of 0.0999... is 0.1. Far below all others for 0 and what
+/// is no number.
 fn power_of_ten(x: f64) -> i32 {
-    let text = format!("{x:e}");
+    let text = format!("{x:.2e}");
     match text.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()) {
         Some(exponent) if x != 0.0 => exponent,
         _ => -999,
@@ -100,6 +101,7 @@ mod tests {
         assert_eq!(shown(0.0428, 0.0487), "0.043");
         assert_eq!(shown(-0.013, 8.1), "-0.013");
         assert_eq!(shown(9.996, 0.31), "10.00");
+        assert_eq!(shown(0.25, 0.3 - 0.2), "0.25");
         // What lies far below the width keeps what tells it from 0.
         assert_eq!(shown(1.1e-8, 4.7e-6), "1.1e-8");
         assert_eq!(shown(0.0, 4.7e-6), "0");

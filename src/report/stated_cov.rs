@@ -53,7 +53,8 @@ impl StatedCov {
         let Some(found) = self.found.filter(|_| !self.tests.is_empty()) else {
             return format!("One value cannot test the stated COV of {stated} %.");
         };
-        let interval = self.found_ci.map(|ends| ends.map(|x| 100.0 * x));
+        // Beyond a third the interval is rough.
+        let interval = self.found_ci.filter(|_| found < 1.0 / 3.0).map(|ends| ends.map(|x| 100.0 * x));
         let found = match interval {
             Some(_) => with_interval(Some(100.0 * found), interval, 2),
             None => significant(100.0 * found, 2),
