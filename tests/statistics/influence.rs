@@ -174,20 +174,23 @@ fn intervals_over_few_points_cover_less_often() {
 #[test]
 fn what_groups_are_responsible_for_alone_is_their_sum() {
     let sum = |u: &[f64]| u[0] + 2.0 * u[1];
-    let points: Vec<BasePoint> = (0..512)
-        .map(|k| {
-            let draw = |member: u64| -> Vec<f64> {
-                NAMES[..2].iter().map(|name| Streams::new(9, member).of(name).uniform()).collect()
-            };
-            base_point(&sum, &draw(k), &draw(k + PARTNER))
-        })
-        .collect();
-    let alone = share_alone(&points, 16, &[0, 1]);
-    let each = influence(&points, 16).shares;
-    let value = alone.value.expect("it varies");
-    assert!((value - each.iter().map(|own| own.first.value.unwrap()).sum::<f64>()).abs() < 1e-12);
-    let [low, high] = alone.interval.expect("sixteen randomisations");
-    assert!(low < 1.0 && 1.0 < high && high - low < 0.3, "{low} {high}");
+    let mut held = 0;
+    for seed in 0..40 {
+        let draw = |member: u64| -> Vec<f64> {
+            NAMES[..2].iter().map(|name| Streams::new(seed, member).of(name).uniform()).collect()
+        };
+        let points: Vec<BasePoint> =
+            (0..512).map(|k| base_point(&sum, &draw(k), &draw(k + PARTNER))).collect();
+        let alone = share_alone(&points, 16, &[0, 1]);
+        let each = influence(&points, 16).shares;
+        let value = alone.value.expect("it varies");
+        assert!((value - each.iter().map(|own| own.first.value.unwrap()).sum::<f64>()).abs() < 1e-12);
+        let [low, high] = alone.interval.expect("sixteen randomisations");
+        assert!(high - low < 0.3, "{low} {high}");
+        held += u32::from(low < 1.0 && 1.0 < high);
+    }
+    // 38 of 40 in the mean, with a standard error of 1.4.
+    assert!(held >= 34, "{held}");
 }
 
 #[test]

