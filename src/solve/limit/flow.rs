@@ -201,3 +201,23 @@ fn ending(search: &FixedPoint, state: &Answer, level: fn(f64) -> Level) -> Outco
         state.not_converged(level(found.max(0.0)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn multipliers_that_are_the_same_leave_no_interval() {
+        let search = |range: [f64; 2], iterations: u32| FixedPoint {
+            iterations,
+            converged: false,
+            change: 0.0,
+            excess: 1e-3,
+            range,
+        };
+        assert!(is_at_rest(&search([0.293_829_8, 0.293_830_1], 400)));
+        assert!(!is_at_rest(&search([0.2938, 0.2939], 400)));
+        // Few programs show no rest.
+        assert!(!is_at_rest(&search([0.293_83; 2], 3)));
+    }
+}
