@@ -235,7 +235,8 @@ class Study:
         walls, cov, method, half_width : optional
             Further walls towards a small probability or a narrow quantile; see `pirca capacity --help`.
         known_cov : float, optional
-            Coefficient of variation of such walls, where more than these walls tell it: 0.1 is 10 %.
+            Coefficient of variation of such walls, where more than these walls tell it: 0.1 is 10 %. It is tested against them:
+            where it is in doubt there is a warning, and `answer["groups"]` has the values without it as well.
         out, report, progress
             As of `run`.
         client, shards

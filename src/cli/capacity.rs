@@ -9,7 +9,9 @@ use crate::cli::origin::quoted;
 use crate::cli::rare::Waiting;
 use crate::cli::{locate, output, progress, question, rare, report as page, threads};
 use crate::ensemble::{self, Quantity, Settings, is_random};
-use crate::report::{CapacitySummary, Question, capacity_page, capacity_text, write_capacity};
+use crate::report::{
+    CapacitySummary, Question, capacity_page, capacity_text, capacity_warnings, write_capacity,
+};
 use crate::stats::{CHARACTERISTIC_PROBABILITY, Statistic, Variation};
 use crate::study::{MEASURED, MeasuredQuantity, Measurement, Study, Until};
 
@@ -40,7 +42,7 @@ pub(crate) fn capacity(arguments: &Capacity) -> Result<Answer, Failure> {
             )));
         }
         let summary = CapacitySummary::measured(&study, question, known);
-        return Answer::of(capacity_text(&summary), &summary);
+        return Ok(Answer::of(capacity_text(&summary), &summary)?.with_warnings(capacity_warnings(&summary)));
     }
     if !study.arms.iter().any(is_random) {
         return Err(Failure::Input(format!(
@@ -68,7 +70,7 @@ pub(crate) fn capacity(arguments: &Capacity) -> Result<Answer, Failure> {
         capacity_page(&summary, (&study, &loaded), origin)
     })?;
     let text = format!("{}\nwritten to {}\n", capacity_text(&summary), out.display());
-    Ok(Answer::of(text, &summary)?.in_place(&out))
+    Ok(Answer::of(text, &summary)?.in_place(&out).with_warnings(capacity_warnings(&summary)))
 }
 
 /// That the answer waits for walls, and how they are evaluated.

@@ -9,6 +9,7 @@ use crate::cli::arguments::Generate;
 use crate::cli::failure::Failure;
 use crate::cli::one_wall::OneWall;
 use crate::ensemble::replace_file;
+use crate::math::compact;
 use crate::model::{Movement, Wall};
 use crate::protocol::Run;
 use crate::{exchange, report};
@@ -47,7 +48,8 @@ pub(crate) fn generate(arguments: &Generate) -> Result<Answer, Failure> {
     });
     let ending = solved.map_or(String::new(), |run| format!("; {}", run.outcome.name()));
     let text = format!(
-        "{out}: arm {arm}, member {member}, kn {kn:e} Pa/m: {stones} stones, of them {wedges} wedges and {headers} headers; {:.4} m3{ending}\n",
+        "{out}: arm {arm}, member {member}, kn {} Pa/m: {stones} stones, of them {wedges} wedges and {headers} headers; {:.4} m3{ending}\n",
+        compact(kn),
         generated.realised.volume
     );
     Ok(Answer::of(text, &object)?.in_place(&arguments.out))

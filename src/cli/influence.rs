@@ -7,7 +7,9 @@ use crate::cli::arguments::Influence;
 use crate::cli::failure::Failure;
 use crate::cli::{locate, one_wall, output, report as page, threads};
 use crate::ensemble::{InfluenceWalls, Kept, RANDOMISATIONS, base_points, influence_table, sources};
-use crate::report::{InfluenceSummary, influence_page, influence_text, running, write_influence};
+use crate::report::{
+    InfluenceSummary, influence_page, influence_text, influence_warnings, running, write_influence,
+};
 use crate::study::{Arm, Design, Study};
 
 /// What the folder of the results is named by.
@@ -57,7 +59,7 @@ fn answered(arguments: &Influence) -> Result<Answer, Failure> {
         influence_page(&summary, (&study, &loaded), origin)
     })?;
     let text = format!("{}\nwritten to {}\n", influence_text(&summary), out.display());
-    Ok(Answer::of(text, &summary)?.in_place(&out))
+    Ok(Answer::of(text, &summary)?.in_place(&out).with_warnings(influence_warnings(&summary)))
 }
 
 /// The study of one arm alone, whose members are the base points.

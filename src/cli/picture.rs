@@ -14,6 +14,7 @@ use crate::cli::one_wall::OneWall;
 use crate::cli::replayed;
 use crate::contact;
 use crate::ensemble::replace_file;
+use crate::math::compact;
 use crate::model::{Movement, Replay};
 use crate::protocol::{Direction, Protocol, Run, typical_size};
 use crate::report::Picture;
@@ -110,7 +111,12 @@ pub(super) fn of_wall(chosen: &OneWall, run: &Run, colour: Measure, magnify: Opt
         unit: colour.unit(),
         from_front,
         magnification,
-        title: format!("{}{variant}: arm {}, member {member}, kn {kn:e} Pa/m", study.name, arm.name),
+        title: format!(
+            "{}{variant}: arm {}, member {member}, kn {} Pa/m",
+            study.name,
+            arm.name,
+            compact(*kn)
+        ),
         remarks,
     }
 }

@@ -4,7 +4,7 @@ use crate::cli::arguments::PlanTests;
 use crate::cli::failure::Failure;
 use crate::cli::{arms, locate, output, progress, question};
 use crate::ensemble::{self, Settings, is_random};
-use crate::report::{Asked, TestPlan, test_plan_text, write_test_plan};
+use crate::report::{Asked, TestPlan, test_plan_text, test_plan_warnings, write_test_plan};
 use crate::stats::Aim;
 
 /// What the folder of the results is named by.
@@ -39,5 +39,6 @@ pub(crate) fn plan_tests(arguments: &PlanTests) -> Result<(), Failure> {
     if arguments.which.json {
         return output::print_json(&plan);
     }
+    test_plan_warnings(&plan).iter().for_each(|warning| output::warning(warning));
     output::print(&format!("{}\nwritten to {}\n", test_plan_text(&plan).trim_end(), out.display()))
 }

@@ -2,9 +2,10 @@
 
 use crate::cli::arguments::Asked;
 use crate::cli::failure::Failure;
+use crate::cli::output;
 use crate::ensemble::Quantity;
 use crate::report::Question;
-use crate::study::Study;
+use crate::study::{Angle, Study};
 
 /// The question that is asked, which must be of what is observed; `None` where none is.
 pub(super) fn asked(asked: &Asked, quantity: Quantity, study: &Study) -> Result<Option<Question>, Failure> {
@@ -24,6 +25,10 @@ pub(super) fn asked(asked: &Asked, quantity: Quantity, study: &Study) -> Result<
                 study.name,
                 quantity.words()
             )));
+        }
+        let doubt = Some(level).filter(|_| of == Quantity::CollapseAngle);
+        if let Some(doubt) = doubt.and_then(|level| Angle::Tilt.doubt(level)) {
+            output::warning(&format!("{option}: {doubt}"));
         }
         return Ok(Some(question(level)));
     }

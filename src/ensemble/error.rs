@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::ensemble::Task;
 use crate::ensemble::shard::ShardError;
+use crate::math::compact;
 
 /// Why a run ended without its results. What was recorded before stays in the journal, and the same run started
 /// again goes on from there.
@@ -81,7 +82,7 @@ pub enum RunError {
 
 /// A member whose evaluation panicked.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("arm {arm} at kn {kn_pa_per_m:e} Pa/m, member {}: {message}", task.member)]
+#[error("arm {arm} at kn {} Pa/m, member {}: {message}", compact(*kn_pa_per_m), task.member)]
 pub struct MemberFault {
     /// Which evaluation.
     pub task: Task,

@@ -26,6 +26,8 @@ pub struct Source {
     pub is_in_layout: bool,
 }
 
+/// Name of the source that the layout is as a whole.
+pub const LAYOUT: &str = "layout";
 /// Quantities of a wall's layout, how they begin.
 const IN_LAYOUT: [(&str, &[&str]); 6] = [
     ("dips", &["bed dip", "joint dip"]),
@@ -61,7 +63,7 @@ pub fn sources(arm: &Arm) -> Vec<Source> {
     if !drawn.is_empty() {
         let others: Vec<&str> = per_wall.iter().map(|own| own.stream).collect();
         let quantities = Quantities { beginnings: beginning(&others), others: true };
-        sources.push(Source { name: "layout".to_owned(), quantities, is_in_layout: false });
+        sources.push(Source { name: LAYOUT.to_owned(), quantities, is_in_layout: false });
     }
     if drawn.len() > 1 {
         sources.extend(drawn);

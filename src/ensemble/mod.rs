@@ -49,8 +49,8 @@ pub use files::replace_file;
 pub use finished::{finished, identity};
 pub use given::{Unsure, given_points, predicted};
 pub use influence::{
-    Evaluation, InfluenceWalls, Influenced, Source, Wall as InfluenceWall, base_points, influence_table,
-    sources, without_value,
+    Evaluation, InfluenceWalls, Influenced, LAYOUT, Source, Wall as InfluenceWall, base_points,
+    influence_table, sources, without_value,
 };
 pub use kept::Kept;
 pub use manifest::Manifest;

@@ -1,5 +1,5 @@
 //! Vectors, elementary functions on libm, angles at the border, and the invariant check that stays on in release;
-//! monotone curves, how far words are apart, and standard gravity.
+//! monotone curves, how far words are apart, numbers as people read them, and standard gravity.
 
 mod curve;
 mod elementary;
@@ -7,12 +7,14 @@ mod exponentials;
 mod invariant;
 mod monotone;
 mod words;
+mod written;
 
 pub use curve::{Monotone, Share};
 pub use elementary::*;
 pub use exponentials::exp_all;
 pub use monotone::monotone_slopes;
 pub use words::edit_distance;
+pub use written::{compact, ends, significant, within};
 
 /// Standard gravity (m/s^2).
 pub const STANDARD_GRAVITY: f64 = 9.806_65;

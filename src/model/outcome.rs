@@ -42,15 +42,20 @@ impl Level {
 impl fmt::Display for Level {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Level::Factor(x) => write!(f, "load factor {x}"),
+            Level::Factor(x) => write!(f, "load factor {}", shown(*x)),
             Level::Tilt(x) => write!(f, "a tilt of {:.4} deg", degrees(*x)),
             Level::Multiplier(x) => write!(f, "a load multiplier of {x:.6}"),
             Level::Drift(x) => write!(f, "a drift of {:.4} %", 100.0 * x),
             Level::Settlement(x) => write!(f, "{:.2} % of the settlement of its supports", 100.0 * x),
-            Level::Acceleration(x) => write!(f, "a peak ground acceleration of {x} m/s2"),
-            Level::Velocity(x) => write!(f, "a peak ground velocity of {x} m/s"),
+            Level::Acceleration(x) => write!(f, "a peak ground acceleration of {} m/s2", shown(*x)),
+            Level::Velocity(x) => write!(f, "a peak ground velocity of {} m/s", shown(*x)),
         }
     }
+}
+
+/// To a millionth: no last bits of a sum of steps.
+fn shown(x: f64) -> f64 {
+    (1e6 * x).round() / 1e6
 }
 
 /// How the evaluation of a wall ended. Different things are never one: it stands to the end, it fell, it never stood,

@@ -2,7 +2,7 @@
 //! detected.
 
 use crate::critic::{DETECTION_POWER, Offer, Offered, SelfTest};
-use crate::report::number::{or_dash, significant, with_interval};
+use crate::report::number::{bracketed, or_dash, significant, with_interval};
 use crate::report::page::Table;
 use crate::report::table::wrapped;
 use crate::study::{Described, in_plain_words};
@@ -78,6 +78,15 @@ impl DetectionLimitEntry {
             format!("{side} {}", significant(value, 2))
         })
     }
+
+    /// Between which values; a dash where it is not bounded.
+    fn interval(&self) -> String {
+        if let [Some(low), Some(high)] = self.interval {
+            return bracketed([low, high], 2);
+        }
+        let [low, high] = self.interval.map(|end| or_dash(end, 2));
+        format!("[{low}, {high}]")
+    }
 }
 
 impl Advice {
@@ -149,16 +158,9 @@ impl Advice {
         let heads = ["measurement", "information (bit), 95 % interval", "hours"];
         let next = Table { caption, ..Table::new("Next measurement", &heads, next.collect()) };
         let caught = self.caught.iter().map(|own| {
-            let [low, high] = own.interval.map(|end| or_dash(end, 2));
             let from = own.from();
             let unit = if own.unit == "1" { "" } else { own.unit };
-            vec![
-                in_plain_words(own.cause),
-                own.parameter.to_owned(),
-                from,
-                format!("[{low}, {high}]"),
-                unit.to_owned(),
-            ]
+            vec![in_plain_words(own.cause), own.parameter.to_owned(), from, own.interval(), unit.to_owned()]
         });
         let name =
             format!("Smallest effects found in {:.0} % of simulated campaigns", 100.0 * DETECTION_POWER);
@@ -196,11 +198,8 @@ impl Advice {
             for own in &self.caught {
                 let unit = if own.unit == "1" { String::new() } else { format!(" {}", own.unit) };
                 let from = own.from();
-                let [low, high] = own.interval.map(|end| or_dash(end, 2));
-                text.push_str(&format!(
-                    "  {:<18} {} {from} [{low}, {high}]{unit}\n",
-                    own.cause, own.parameter
-                ));
+                let interval = own.interval();
+                text.push_str(&format!("  {:<18} {} {from} {interval}{unit}\n", own.cause, own.parameter));
             }
         }
         if !self.seen_in_part.is_empty() {

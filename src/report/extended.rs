@@ -7,7 +7,7 @@ use anyhow::{Context, Result};
 
 use crate::critic::{Extension, Known};
 use crate::ensemble::replace_file;
-use crate::report::number::significant;
+use crate::report::number::with_interval;
 use crate::study::{Described, Stated, Study};
 
 /// Folder of the extended studies within that of a diagnosis.
@@ -110,8 +110,7 @@ fn header(origin: &Origin<'_>, extension: &Extension) -> String {
     let width = extension.known.iter().map(|known| known.key.len()).max().unwrap_or(0);
     lines.extend(extension.known.iter().map(|Known { key, unit, median, interval }| {
         let unit = if *unit == "1" { String::new() } else { format!(" {unit}") };
-        let [median, low, high] = [*median, interval[0], interval[1]].map(|x| significant(x, 4));
-        format!("  {key:<width$}  {median} [{low}, {high}]{unit}")
+        format!("  {key:<width$}  {}{unit}", with_interval(Some(*median), Some(*interval), 4))
     }));
     if !stated.written_out.is_empty() {
         lines.extend([String::new(), "Written out, as it stood in `distributions`:".to_string()]);

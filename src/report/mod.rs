@@ -40,6 +40,7 @@ mod selection;
 mod sensitivity;
 mod shaken;
 mod standing;
+mod stated_cov;
 mod summary;
 mod table;
 mod test_plan;
@@ -53,7 +54,7 @@ pub use beside::{Earlier, Mean};
 pub use bounded::Bounded;
 pub use capacity::{
     Answer, CapacityGroup, CapacitySummary, Failed, Question, Repeats, Rung, Screen, Supported,
-    SupportedValue, Target, capacity_page, capacity_text, write_capacity,
+    SupportedValue, Target, capacity_page, capacity_text, capacity_warnings, write_capacity,
 };
 pub use compare::{Basis, Comparison};
 pub(crate) use csv::quoted;
@@ -72,7 +73,10 @@ pub use homogenised::{
     SurfaceEntry, ValueBySize, WallSample, WallShare, WallsAsPlates, homogenised_summary, homogenised_text,
     write_homogenised,
 };
-pub use influence::{InfluenceSummary, ShareEntry, influence_page, influence_text, running, write_influence};
+pub use influence::{
+    InfluenceSummary, ShareEntry, influence_page, influence_text, influence_warnings, running,
+    write_influence,
+};
 pub use joint_law::{LawSummary, law_text, remove_law, write_law};
 pub use measured::{CalibrationEntry, ComparisonEntry, MeasuredSummary};
 pub(crate) use number::significant;
@@ -89,10 +93,12 @@ pub use selection::{
 };
 pub use sensitivity::{SensitivitySummary, sensitivity_text, write_sensitivity};
 pub use shaken::{MeasureEntry, RatioEntry, RecordEntry, ShakenCurve, ShakenSummary, StripeEntry, TiltEntry};
+pub use stated_cov::StatedCov;
 pub use summary::{ArmSummary, EnoughEntry, QuantileEntry, Summary, summarise};
 pub use table::terminal_table;
 pub use test_plan::{
-    Asked, PlannedArm, PlannedDifference, Reading, TestPlan, test_plan_text, write_test_plan,
+    Asked, Otherwise, PlannedArm, PlannedDifference, Reading, TestPlan, test_plan_text, test_plan_warnings,
+    write_test_plan,
 };
 pub use uncertainty::{
     Answered, AskedOfWall, Ended, UncertaintySummary, uncertainty_text, write_uncertainty,

@@ -1,75 +1,75 @@
-//! Numbers and names as people read them: a stated number of significant digits, a dash where there is none.
+//! Numbers and names as people read them: as many digits as an interval makes known, a dash where there is no number.
 
-/// `x` with `digits` significant digits, without exponent while it stays short (0.001 to 9,999,999).
-pub fn significant(x: f64, digits: usize) -> String {
-    let scientific = format!("{:.*e}", digits.saturating_sub(1), x);
-    // The exponent after rounding, so that 9.996 with three digits becomes 10.0.
-    let Some(exponent) = scientific.split_once('e').and_then(|(_, e)| e.parse::<i32>().ok()) else {
-        return scientific;
-    };
-    if !(-3..7).contains(&exponent) {
-        return scientific;
-    }
-    let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
-    format!("{x:.decimals$}")
-}
+use crate::math::pow;
+
+pub use crate::math::{compact, ends, significant, within};
 
 /// A value, or a dash where it is not defined.
 pub fn or_dash(x: Option<f64>, digits: usize) -> String {
     x.map_or_else(|| "-".to_string(), |x| significant(x, digits))
 }
 
-/// A value with its interval in brackets: `1.23 [1.10, 1.36]`, `1.23 [-]`, or `-`.
+/// A value with its interval in brackets, with the digits that its width makes known ([`within`]): `1.23 [1.10, 1.36]`. Without an
+/// interval it has `digits`: `1.23 [-]`, or `-` where there is no value. An interval whose ends read alike is none: `1.23`.
 pub fn with_interval(value: Option<f64>, interval: Option<[f64; 2]>, digits: usize) -> String {
     match (value, interval) {
         (None, _) => "-".to_string(),
         (Some(x), None) => format!("{} [-]", significant(x, digits)),
-        (Some(x), Some([low, high])) => {
-            format!(
-                "{} [{}, {}]",
-                significant(x, digits),
-                significant(low, digits),
-                significant(high, digits)
-            )
-        }
+        (Some(x), Some(interval)) => match ends(interval) {
+            None => significant(x, digits),
+            Some([low, high]) => format!("{} [{low}, {high}]", within(x, interval[1] - interval[0])),
+        },
     }
 }
 
-/// A value with its interval as [`with_interval`], with as many more digits as show on which side of `against` each end
-/// lies: 0.9963 beside 1 is not written as 1.00. At most [`MOST_DIGITS`].
+/// An interval alone: `[1.10, 1.36]`, or the number that it is.
+pub fn bracketed(interval: [f64; 2], digits: usize) -> String {
+    ends(interval).map_or_else(|| significant(interval[0], digits), |[low, high]| format!("[{low}, {high}]"))
+}
+
+/// From the lowest to the highest in words: `1.10 to 1.36`, or the number that both are.
+pub fn from_to(interval: [f64; 2], digits: usize) -> String {
+    ends(interval).map_or_else(|| significant(interval[0], digits), |[low, high]| format!("{low} to {high}"))
+}
+
+/// A value with its interval as [`with_interval`], with as many more digits as show on which side of `against` each end lies: 0.99963
+/// beside 1 is not written as 1.000.
 pub fn with_interval_against(
     value: Option<f64>,
     interval: Option<[f64; 2]>,
     digits: usize,
     against: f64,
 ) -> String {
-    let hidden = |digits: usize| {
-        value.into_iter().chain(interval.into_iter().flatten()).any(|x| {
-            // What is printed, read back.
-            x != against && significant(x, digits).parse::<f64>().is_ok_and(|shown| shown == against)
-        })
+    let numbers: Vec<f64> = value.into_iter().chain(interval.into_iter().flatten()).collect();
+    let hidden = |shown: &dyn Fn(f64) -> String| {
+        // What is printed, read back.
+        numbers.iter().any(|x| *x != against && shown(*x).parse::<f64>().is_ok_and(|back| back == against))
     };
-    let shown = (digits..MOST_DIGITS).find(|digits| !hidden(*digits)).unwrap_or(MOST_DIGITS);
-    with_interval(value, interval, shown)
+    match (value, interval) {
+        (Some(x), Some([low, high])) if high > low => {
+            let narrower = |tenths: &i32| (high - low) * pow(0.1, f64::from(*tenths));
+            let is_clear = |tenths: &i32| !hidden(&|x| within(x, narrower(tenths)));
+            let width = narrower(&(0..MOST_MORE).find(is_clear).unwrap_or(0));
+            let [x, low, high] = [x, low, high].map(|x| within(x, width));
+            match low == high {
+                true => with_interval(value, interval, digits),
+                false => format!("{x} [{low}, {high}]"),
+            }
+        }
+        _ => {
+            let is_clear = |digits: &usize| !hidden(&|x| significant(x, *digits));
+            with_interval(value, interval, (digits..MOST_DIGITS).find(is_clear).unwrap_or(MOST_DIGITS))
+        }
+    }
 }
 
-/// So many digits are printed at most: beyond them lies the solvers' own accuracy.
+/// So many digits are printed at most of a number without an interval, and so many more are tried of one with an interval.
 const MOST_DIGITS: usize = 7;
+const MOST_MORE: i32 = 7;
 
 /// A stiffness as engineers write it: `7.5e7 Pa/m`.
 pub fn stiffness(kn: f64) -> String {
     format!("{} Pa/m", compact(kn))
-}
-
-/// A number in at most four digits, with an exponent and without zeros behind the point: `7.5e7`, `9.875e8`, `1e12`.
-pub fn compact(x: f64) -> String {
-    let text = format!("{x:.3e}");
-    match text.split_once('e') {
-        Some((digits, exponent)) if digits.contains('.') => {
-            format!("{}e{exponent}", digits.trim_end_matches('0').trim_end_matches('.'))
-        }
-        _ => text,
-    }
 }
 
 /// How often something as far off is seen by chance, by a p-value from so many simulated campaigns: `about 1 in 200`,
@@ -126,8 +126,20 @@ mod tests {
         let ratio = |low, high| with_interval_against(Some(0.99), Some([low, high]), 3, 1.0);
         assert_eq!(ratio(0.983, 0.9963), "0.990 [0.983, 0.996]");
         assert_eq!(ratio(0.983, 0.99963), "0.9900 [0.9830, 0.9996]");
-        assert_eq!(ratio(0.98, 1.0), "0.990 [0.980, 1.00]");
+        assert_eq!(ratio(0.98, 1.0), "0.990 [0.980, 1.000]");
         assert_eq!(with_interval_against(Some(1.0004), None, 3, 1.0), "1.0004 [-]");
+    }
+
+    #[test]
+    fn the_digits_of_a_value_are_those_of_its_interval() {
+        let shown = |x, low, high| with_interval(Some(x), Some([low, high]), 3);
+        assert_eq!(shown(20.712_3, 20.680_1, 20.743_2), "20.712 [20.680, 20.743]");
+        assert_eq!(shown(104.2, 68.9, 139.4), "104 [69, 139]");
+        assert_eq!(shown(2.2e-7, 1.1e-8, 4.7e-6), "2.2e-7 [1.1e-8, 4.7e-6]");
+        assert_eq!(shown(20.712_3, 20.712_3, 20.712_3), "20.7");
+        assert_eq!(with_interval(Some(20.712_3), None, 3), "20.7 [-]");
+        assert_eq!([bracketed([1.5, 3.26], 3), bracketed([1.5; 2], 3)], ["[1.5, 3.3]", "1.50"]);
+        assert_eq!([from_to([1.5, 3.26], 3), from_to([1.5; 2], 3)], ["1.5 to 3.3", "1.50"]);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! How one number stands against a statement at one kn, and how the numbers at all kn add up to a verdict.
 
-use crate::report::number::{range, significant, stiffness, with_interval};
+use crate::report::number::{bracketed, range, significant, stiffness, with_interval};
 
 /// One of our numbers at one kn (or one step of kn).
 #[derive(Clone, Debug, PartialEq)]
@@ -100,9 +100,7 @@ pub fn spread(numbers: &[Number]) -> String {
         Some(_) if numbers.iter().all(|number| number.interval.is_none_or(|[from, to]| from == to)) => {
             "no sampling error".to_string()
         }
-        Some([from, to]) => {
-            format!("95 % intervals within [{}, {}]", significant(from, 3), significant(to, 3))
-        }
+        Some(ends) => format!("95 % intervals within {}", bracketed(ends, 3)),
     };
     match defined == numbers.len() {
         true => format!("{values} ({intervals})"),

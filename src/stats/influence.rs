@@ -78,6 +78,32 @@ pub fn influence(points: &[BasePoint], randomisations: usize) -> Influence {
     }
 }
 
+/// The sum of the first order shares of some groups, at the base points where all their values are there: what they are responsible for
+/// without their interactions. Its interval is that of the sum, which those of its parts are no substitute for.
+pub fn share_alone(points: &[BasePoint], randomisations: usize, groups: &[usize]) -> Estimate {
+    let values = |point: &BasePoint| {
+        let pair = [point.own?, point.partner?];
+        let mixed =
+            groups.iter().map(|group| point.mixed.get(*group).copied()?).collect::<Option<Vec<f64>>>()?;
+        check_values(&pair);
+        check_values(&mixed);
+        Some((pair, mixed))
+    };
+    let mut shared = vec![Vec::new(); randomisations.max(1)];
+    for (k, own) in points.iter().enumerate().filter_map(|(k, point)| Some((k, values(point)?))) {
+        shared[k % randomisations.max(1)].push(own);
+    }
+    by_randomisations(&shared, |all: &[([f64; 2], Vec<f64>)]| {
+        let pairs: Vec<f64> = all.iter().flat_map(|(pair, _)| *pair).collect();
+        let twice = 2.0 * variance(&pairs)?;
+        let rest = |([_, partner], mixed): &([f64; 2], Vec<f64>)| {
+            sum(&mixed.iter().map(|own| (partner - own) * (partner - own)).collect::<Vec<f64>>())
+        };
+        let rest = sum(&all.iter().map(rest).collect::<Vec<f64>>()) / all.len() as f64;
+        (twice > 0.0).then(|| groups.len() as f64 - rest / twice)
+    })
+}
+
 /// What there is at base points, by randomisation.
 fn shared<const N: usize>(
     points: &[BasePoint],

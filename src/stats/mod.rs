@@ -20,6 +20,7 @@ mod kolmogorov;
 mod moments;
 mod order;
 mod paired;
+mod possible;
 mod randomised;
 mod ratio;
 mod reference;
@@ -27,6 +28,7 @@ mod seeded;
 pub mod selection;
 mod sequential;
 mod size_effect;
+mod stated_cov;
 pub mod strata;
 pub mod subset;
 mod summary;
@@ -47,17 +49,19 @@ pub use empirical::{
     EmpiricalStep, clopper_pearson, clopper_pearson_at, dkw_half_width, empirical, empirical_of,
 };
 pub use estimate::Estimate;
-pub use influence::{BasePoint, Influence, Share, influence};
+pub use influence::{BasePoint, Influence, Share, influence, share_alone};
 pub use kolmogorov::{ks_p_value, ks_statistic};
 pub use moments::{correlation, correlation_estimate, cov, mean, sigma, sum};
 pub use order::{Sorted, predictive_quantile, quantile, quantile_interval, smallest};
 pub use paired::{NextPair, next_pair, probability_above};
+pub use possible::possible_shares;
 pub use randomised::{Sample, by_randomisations};
 pub use ratio::{paired_ratio_of_means, ratio_of_means};
 pub use reference::student_quantile;
 pub use seeded::{spread_bootstrap, stream_of};
 pub use sequential::{Looks, Statistic, relative_half_width};
 pub use size_effect::{Settled, SizeEffect, size_effect};
+pub use stated_cov::{CovTest, Scatter};
 pub use summary::{Summary, above_zero, sigma_factors};
 pub use test_plan::{
     Aim, characteristic_loss, pairs_to_see, power_of_groups, smallest_seen, specimens_for_characteristic,

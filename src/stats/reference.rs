@@ -1,6 +1,8 @@
 //! Quantiles of the distributions that intervals are read from.
 
 use super::very_many::{self, VERY_MANY};
+use crate::math::pow;
+use crate::random::standard_normal::cdf;
 use statrs::distribution::{Beta, ChiSquared, ContinuousCDF, StudentsT};
 
 /// Probability left out at each end of a 95 % interval.
@@ -34,6 +36,19 @@ pub(super) fn chi_square_quantile(probability: f64, freedom: f64) -> f64 {
     let c = ChiSquared::new(freedom);
     crate::check!(c.is_ok(), "chi-square has no {freedom} degrees of freedom");
     c.map_or(f64::NAN, |c| c.inverse_cdf(probability))
+}
+
+/// Probabilities of chi-square with `freedom` degrees of freedom (any positive number) below and above `x`.
+pub(super) fn chi_square_tails(x: f64, freedom: f64) -> [f64; 2] {
+    if freedom > VERY_MANY {
+        // The cube root is normal (Wilson and Hilferty 1931).
+        let spread = 2.0 / (9.0 * freedom);
+        let z = (pow(x / freedom, 1.0 / 3.0) - 1.0 + spread) / spread.sqrt();
+        return [cdf(z), cdf(-z)];
+    }
+    let c = ChiSquared::new(freedom);
+    crate::check!(c.is_ok(), "chi-square has no {freedom} degrees of freedom");
+    c.map_or([f64::NAN; 2], |c| [c.cdf(x), c.sf(x)])
 }
 
 /// Lower and upper 2.5 % point of Fisher's F, the ratio of two mean squares with these degrees of freedom (any positive numbers).

@@ -1,6 +1,7 @@
 //! Studies: raw text to checked types, with every fault of a file reported at once.
 
 mod altered;
+mod angle;
 mod arm;
 mod averaged;
 mod build;
@@ -40,6 +41,7 @@ mod uncertain;
 mod variant;
 
 pub use crate::random::Design;
+pub use angle::Angle;
 pub use built_in::{BuiltInStudy, built_in_studies};
 pub use catalogue::{Distribution, DistributionFile, Used, load_distributions};
 pub use checked::{Arm, Claim, ClaimTest, InputFile, Joint, StatedLaw, Study, TakenFrom, Until};

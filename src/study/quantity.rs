@@ -153,5 +153,8 @@ fn check_range(
         return None;
     }
     reader.warn_if_unusual(node, key, family.mean());
+    let ends = [0.05, 0.95].map(|p| family.quantile(p));
+    let farthest = if ends[0].abs() > ends[1].abs() { ends[0] } else { ends[1] };
+    reader.warn_if_in_radians(node, key, farthest);
     Some(())
 }

@@ -435,7 +435,16 @@ impl<'n> Reader<'n> {
             return None;
         }
         self.warn_if_unusual(node, key, x);
+        self.warn_if_in_radians(node, key, x);
         Some(x)
+    }
+
+    /// Warns when an angle in degrees looks like radians, or a friction angle like a coefficient.
+    pub fn warn_if_in_radians(&mut self, node: &Node, key: &Key, x: f64) {
+        let Some(doubt) = key.angle.and_then(|angle| angle.doubt(x)) else { return };
+        let path = join(&self.path, key.name);
+        let (found, allowed) = (Found::Value(node.shown.clone()), format!("this, but {doubt}"));
+        self.notes.warnings.push(Fault::at(&node.place, &path, found, allowed, "state it in degrees"));
     }
 
     /// Warns when a value lies outside the usual interval of its key.

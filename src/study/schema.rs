@@ -3,6 +3,8 @@
 
 use std::fmt;
 
+use crate::study::angle::Angle;
+
 /// A table of the input and its keys.
 #[derive(Debug)]
 pub struct Section {
@@ -29,6 +31,8 @@ pub struct Key {
     pub only: &'static [&'static str],
     /// Where a value is usual; outside it a warning is given.
     pub usual: Option<Interval>,
+    /// Which angle (deg) it is, of those that a warning asks about where they look like radians.
+    pub angle: Option<Angle>,
     /// What it means, in one line.
     pub doc: &'static str,
 }
@@ -279,7 +283,7 @@ pub fn quoted<S: AsRef<str>>(names: &[S]) -> String {
 impl Key {
     /// A key that is used whatever the section's chooser says.
     pub const fn new(name: &'static str, kind: Kind, presence: Presence, doc: &'static str) -> Key {
-        Key { name, kind, presence, only: &[], usual: None, doc }
+        Key { name, kind, presence, only: &[], usual: None, angle: None, doc }
     }
 
     /// The same key, used for some values of the chooser only.
@@ -290,6 +294,11 @@ impl Key {
     /// The same key, with a warning outside an interval.
     pub const fn usual(self, usual: Interval) -> Key {
         Key { usual: Some(usual), ..self }
+    }
+
+    /// The same key, with a warning where its angle looks like radians.
+    pub const fn angle(self, angle: Angle) -> Key {
+        Key { angle: Some(angle), ..self }
     }
 
     /// Whether the key is used when the chooser says `chosen`; everything is when that is not known.

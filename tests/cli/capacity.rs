@@ -108,6 +108,92 @@ fn three_specimens_of_a_family_are_said_to_carry_no_design_value() {
     }
 }
 
+/// Five specimens that scatter by 46 %.
+const ANGLES: [f64; 5] = [9.0, 12.0, 18.0, 24.0, 30.0];
+
+fn with_specimens(folder: &Folder, angles: &[f64]) {
+    let rows = angles.iter().enumerate();
+    let rows: String =
+        rows.map(|(k, angle)| format!("{k},tower,,collapse_angle,{angle},deg,0.25,exact\n")).collect();
+    let head = "specimen,family,tilt_deg,quantity,value,unit,error,kind\n";
+    fs::write(folder.path("studies/tiny/measured.csv"), head.to_owned() + &rows).unwrap();
+}
+
+#[test]
+fn a_stated_variation_that_specimens_contradict_is_doubted_and_their_own_is_given_too() {
+    let folder = towers();
+    with_specimens(&folder, &ANGLES);
+    let measured = ["--measured", "--known-cov", "0.1"];
+    let (json, text) = asked(&folder, &measured);
+    let group = &json["groups"][0];
+    let stated = &group["stated_cov"];
+    assert_eq!(
+        (&stated["doubted"], &stated["cov"], &stated["values"]),
+        (&"larger".into(), &0.1.into(), &5.into())
+    );
+    let tests = stated["tests"].as_array().unwrap();
+    assert!(
+        tests.len() == 2 && tests.iter().all(|test| test["p_value"].as_f64().unwrap() < 1e-9),
+        "{stated}"
+    );
+    // 15.2 deg above two of five specimens with the stated COV; far below all of them with their own.
+    let supported = group["supported"].as_array().unwrap();
+    let value = |k: usize| supported[k]["characteristic"]["value"].as_f64().unwrap();
+    let known = |k: usize| supported[k]["known_cov"].as_f64();
+    assert_eq!([0, 1, 2, 3].map(known), [Some(0.1), Some(0.1), None, None]);
+    assert!((value(0) - 15.25).abs() < 0.01 && value(2) < 9.0 && value(3) < 9.0, "{supported:?}");
+    let (own, _) = asked(&folder, &["--measured"]);
+    assert_eq!(own["groups"][0]["supported"].as_array().unwrap()[..], supported[2..]);
+    assert!(own["groups"][0].get("stated_cov").is_none());
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        words.contains("The stated COV of 10 % is in doubt: the 5 specimens scatter more, by 46 %"),
+        "{text}"
+    );
+    assert!(words.contains("taken %"), "{text}");
+    let warned = folder.pirca(&[&["capacity", "studies/tiny"], &measured[..]].concat());
+    assert!(
+        stderr(&warned).contains("warning: --known-cov: tower: The stated COV of 10 %"),
+        "{}",
+        stderr(&warned)
+    );
+    // What they agree with is said to agree, and given once.
+    let (json, text) = asked(&folder, &["--measured", "--known-cov", "0.45"]);
+    assert!(json["groups"][0]["stated_cov"]["doubted"].is_null(), "{json}");
+    assert_eq!(json["groups"][0]["supported"].as_array().unwrap().len(), 2);
+    assert!(
+        text.split_whitespace().collect::<Vec<_>>().join(" ").contains("agrees with the 5 specimens"),
+        "{text}"
+    );
+    // One specimen says nothing of it.
+    with_specimens(&folder, &ANGLES[..1]);
+    let (json, text) = asked(&folder, &measured);
+    assert_eq!(json["groups"][0]["stated_cov"]["tests"], serde_json::json!([]));
+    assert!(text.contains("One value cannot test the stated COV of 10 %."), "{text}");
+}
+
+#[test]
+fn a_stated_variation_is_tested_against_simulated_walls() {
+    let folder = towers();
+    let walls = ["--members", "40", "--out", "out", "--known-cov"];
+    let stated = |cov: &str| asked(&folder, &[&walls[..], &[cov]].concat());
+    let (json, text) = stated("0.001");
+    let group = &json["groups"][0];
+    assert_eq!(
+        (&group["stated_cov"]["doubted"], &group["stated_cov"]["values"]),
+        (&"larger".into(), &40.into())
+    );
+    assert_eq!(group["supported"].as_array().unwrap().len(), 4);
+    assert!(text.contains("40 walls scatter more"), "{text}");
+    let own = group["walls_cov"].as_f64().unwrap();
+    let (json, _) = stated(&own.to_string());
+    assert!(json["groups"][0]["stated_cov"]["doubted"].is_null(), "{json}");
+    // Real walls may scatter more than simulated ones: both are given, and no advice.
+    let (json, text) = stated("0.9");
+    assert_eq!(json["groups"][0]["stated_cov"]["doubted"], "smaller", "{text}");
+    assert!(!text.contains("rely on those"), "{text}");
+}
+
 #[test]
 fn what_cannot_be_asked_is_said_and_nothing_is_computed() {
     let folder = towers();

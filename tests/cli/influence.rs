@@ -70,6 +70,52 @@ fn the_scatter_of_random_columns_comes_from_friction_and_dips_as_in_their_closed
     assert_eq!(fs::read_to_string(folder.path("out/influence.csv")).unwrap().lines().count(), 3);
 }
 
+/// With friction fixed, all of the scatter is that of the layout, whatever the estimates are.
+#[test]
+fn the_only_source_is_responsible_for_all_of_it_exactly() {
+    let start = COLUMN.find("[uncertain]").unwrap();
+    let end = COLUMN.find("[load]").unwrap();
+    let folder = Folder::with_study(&format!("{}{}", &COLUMN[..start], &COLUMN[end..]));
+    let (json, text) = asked(&folder, &["--points", "32", "--out", "out"]);
+    let group = &json["groups"][0];
+    let all = serde_json::json!([1.0, 1.0, 1.0]);
+    assert_eq!((&group["name"], &group["first"], &group["total"]), (&"layout".into(), &all, &all));
+    assert_eq!((&group["is_exact"], &json["points_wanted"]), (&true.into(), &Value::Null));
+    assert_ne!(group["estimated_total"][0], 1.0);
+    assert!(text.contains("All of it comes from layout, the only source (100 % by definition)."), "{text}");
+    assert!(!text.contains("Alone they are"), "{text}");
+}
+
+/// Shares that few points tell are possible ones, and it is said how poorly they are known and how many points would do.
+#[test]
+fn few_points_are_warned_of_and_their_shares_can_be() {
+    let folder = Folder::with_study(COLUMN);
+    let few = ["--points", "32", "--out", "out"];
+    let (json, text) = asked(&folder, &few);
+    let of = |group: &Value, order: &str| group[order][0].as_f64().unwrap();
+    let groups = json["groups"].as_array().unwrap();
+    let firsts: f64 = groups.iter().map(|group| of(group, "first")).sum();
+    assert!(firsts <= 1.0 + 1e-9 && json["alone"][0].as_f64().unwrap() <= 1.0, "{json}");
+    for (group, other) in [(&groups[0], &groups[1]), (&groups[1], &groups[0])] {
+        let (first, total) = (of(group, "first"), of(group, "total"));
+        assert!((0.0..=total + 1e-9).contains(&first) && total <= 1.0, "{group}");
+        // Of two sources, what one is not responsible for alone is the total of the other.
+        assert!((total + of(other, "first") - 1.0).abs() < 1e-6, "{json}");
+        for order in ["first", "total"] {
+            let [value, low, high] = [0, 1, 2].map(|k| group[order][k].as_f64().unwrap());
+            assert!(0.0 <= low && low <= value && value <= high && high <= 1.0, "{group}");
+        }
+    }
+    let half = json["half_width"].as_f64().unwrap();
+    let wanted = json["points_wanted"].as_u64().unwrap();
+    assert!(half > 0.25 && wanted.is_multiple_of(16), "{half} {wanted}");
+    let exact = 32.0 * (half / 0.1) * (half / 0.1);
+    assert!((exact..=exact + 16.0).contains(&(wanted as f64)), "{wanted} for {exact}");
+    assert!(one_line(&text).contains(&format!("with about {wanted} points (--points)")), "{text}");
+    let warned = folder.pirca(&[&["influence", "studies/tiny"], &few[..]].concat());
+    assert!(stderr(&warned).contains("warning: --points 32: too few."), "{}", stderr(&warned));
+}
+
 #[test]
 fn nothing_depends_on_threads_or_on_a_stop() {
     let folder = Folder::with_study(COLUMN);

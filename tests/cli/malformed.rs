@@ -356,6 +356,50 @@ fn a_stiffness_in_the_wrong_magnitude_is_a_warning() {
     assert!(shown[1].contains("2e13"), "{}", shown[1]);
 }
 
+/// Friction of 0.6 deg is radians or a coefficient; so are other angles that small.
+#[test]
+fn an_angle_that_looks_like_radians_is_a_warning() {
+    let study = std::fs::read_to_string(
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/peers/column/study.toml"),
+    );
+    let study = study.expect("a study of a column");
+    let warned = |from: &str, to: &str, key: &str| {
+        let folder = crate::fixture::Folder::with_study(&study.replace(from, to));
+        let loaded = pirca::study::Study::load(&folder.path("studies/tiny"), None);
+        let loaded = loaded.unwrap_or_else(|faults| panic!("{faults}"));
+        let own = loaded.warnings.iter().filter(|own| own.key == key).map(ToString::to_string);
+        own.collect::<Vec<String>>().join("\n")
+    };
+    let uncertain = "\"joint.phi_deg\" = { family = \"uniform\", low = 23, high = 27 }";
+    let dip = "dip_deg = { family = \"uniform\", low = -5, high = 5 }";
+    for (from, to, key, part) in [
+        (
+            "phi_deg = 25",
+            "phi_deg = 0.6",
+            "joint.phi_deg",
+            "in radians (34.4 deg), or a coefficient of friction (31.0 deg)?",
+        ),
+        (
+            uncertain,
+            "\"joint.phi_deg\" = { family = \"uniform\", low = 0.4, high = 0.6 }",
+            "uncertain.joint.phi_deg",
+            "hardly any friction",
+        ),
+        (
+            dip,
+            "dip_deg = { family = \"uniform\", low = -0.35, high = 0.35 }",
+            "arm.column.dip_deg",
+            "is level: is it in radians",
+        ),
+        ("end_deg = 45", "end_deg = 0.785", "load.end_deg", "is hardly a tilt: is it in radians (45.0 deg)?"),
+        ("towards = \"y+\"", "towards_deg = 1.5708", "load.towards_deg", "is it in radians (90.0 deg)?"),
+    ] {
+        assert_eq!(warned("phi_deg = 25", "phi_deg = 25", key), "", "{key}");
+        let shown = warned(from, to, key);
+        assert!(shown.contains(part) && shown.contains("state it in degrees"), "{key}: {shown}");
+    }
+}
+
 /// DIP is referred to by some cases only; it must be sound itself, or they would fail for another reason.
 #[test]
 fn the_sound_distributions_load() {

@@ -93,6 +93,39 @@ fn a_stated_scatter_takes_the_place_of_the_simulated_one() {
 }
 
 #[test]
+fn a_stated_scatter_that_walls_or_specimens_exceed_is_doubted_and_the_plan_by_theirs_follows() {
+    let folder = Folder::with_study(&towers());
+    let plan = ["--specimens", "5", "--members", "12", "--out", "out", "--cov"];
+    let (json, text) = asked(&folder, &[&plan[..], &["0.001"]].concat());
+    let otherwise = json["otherwise"].as_array().unwrap();
+    assert_eq!((otherwise.len(), &otherwise[0]["by"]), (1, &"simulated walls".into()), "{text}");
+    assert_eq!(json["arms"][0]["stated_cov"]["doubted"], "larger");
+    let (own, _) = asked(&folder, &plan[..plan.len() - 1]);
+    assert_eq!(otherwise[0]["plan"], own);
+    assert!(text.contains("With the COV of the simulated walls:"), "{text}");
+    let warned = folder.pirca(&[&["plan-tests", "studies/tiny"], &plan[..], &["0.001"]].concat());
+    assert!(
+        stderr(&warned).contains("warning: --cov: tower: The stated COV of 0.10 % is in doubt"),
+        "{}",
+        stderr(&warned)
+    );
+    // Specimens that were measured speak as well.
+    let head = "specimen,family,tilt_deg,quantity,value,unit,error,kind\n";
+    let rows = [9.0, 12.0, 18.0, 24.0, 30.0]
+        .map(|angle| format!("{angle},tower,,collapse_angle,{angle},deg,0.25,exact\n"));
+    std::fs::write(folder.path("studies/tiny/measured.csv"), head.to_owned() + &rows.concat()).unwrap();
+    let (json, text) = asked(&folder, &["--specimens", "5", "--members", "12", "--cov", "0.2"]);
+    let otherwise = json["otherwise"].as_array().unwrap();
+    assert_eq!((otherwise.len(), &otherwise[0]["by"]), (1, &"specimens".into()), "{text}");
+    let found = json["arms"][0]["stated_cov_of_specimens"]["found"].as_f64().unwrap();
+    assert!((found - 0.4619).abs() < 1e-4, "{found}");
+    assert_eq!(otherwise[0]["plan"]["asked"]["known_cov"].as_f64(), Some(found));
+    // What walls scatter less than is no contradiction: real ones scatter more.
+    let (json, _) = asked(&folder, &["--specimens", "5", "--members", "12", "--cov", "0.9"]);
+    assert!(json.get("otherwise").is_none(), "{json}");
+}
+
+#[test]
 fn what_cannot_be_planned_is_said() {
     let folder = Folder::with_study(&towers());
     let said = |arguments: &[&str], code: i32, what: &str| {

@@ -150,7 +150,12 @@ def check_column(folder):
     names = [group["name"] for group in summary["groups"]]
     if names != ["joint.phi_deg", "layout"] or summary["failed"]:
         fail(f"groups {names}, failed {summary['failed']}")
-    shares = [[group["first"], group["total"]] for group in summary["groups"]]
+    # The estimates themselves: what is printed are the nearest shares that can be.
+    shares = [[group["estimated_first"], group["estimated_total"]] for group in summary["groups"]]
+    for group in summary["groups"]:
+        first, total = group["first"], group["total"]
+        if not (0.0 <= first[0] <= total[0] + ROUNDING and total[0] <= 1.0):
+            fail(f"column, {group['name']}: first order {first[0]} and total {total[0]} cannot be")
     table = pyarrow.parquet.read_table(folder / "influence.parquet").to_pydict()
     walls = {name: [] for name in ["own", "partner", *names]}
     for name, value in zip(table["numbers_from_the_partner"], table["value"]):

@@ -19,6 +19,7 @@ mod rare;
 mod ratios;
 mod selection;
 mod sequential;
+mod stated_cov;
 mod support;
 mod tally;
 mod test_plan;

@@ -9,7 +9,7 @@ use crate::cli::analyse::meetings::Fit;
 use crate::cli::analyse::worst::Tried;
 use crate::cli::condition::resting;
 use crate::exchange::WallFile;
-use crate::math::{atan, degrees, tan};
+use crate::math::{atan, degrees, ends, tan, within};
 use crate::model::{Block, Level, Outcome, Support, Wall};
 use crate::protocol::JointState;
 
@@ -214,13 +214,17 @@ impl Answer {
         {
             text.push_str(&format!("  seismic coefficient {multiplier:.4}: {what}\n"));
         }
-        if let Some([low, high]) = self.shown_bracket(asked) {
+        // A bracket whose ends read alike says no more than the load itself.
+        if let Some([low, high]) = self.shown_bracket(asked).and_then(ends) {
             let unit = if asked.growing() == Growing::Tilt { "deg" } else { "of its weight" };
-            text.push_str(&format!("  bracket: {low:.4} to {high:.4} {unit}\n"));
+            text.push_str(&format!("  bracket: {low} to {high} {unit}\n"));
         }
-        if let Some([low, high]) = self.between.map(|ends| self.in_unit(asked, ends)) {
+        if let Some(between) = self.between.map(|between| self.in_unit(asked, between)) {
             let unit = if asked.growing() == Growing::Tilt { "deg" } else { "of its weight" };
-            text.push_str(&format!("  between {low:.4} and {high:.4} {unit}\n"));
+            text.push_str(&match ends(between) {
+                Some([low, high]) => format!("  between {low} and {high} {unit}\n"),
+                None => format!("  near {} {unit}\n", within(between[0], 0.0)),
+            });
         }
         let moves =
             format!("moves at collapse ({:.1} % of the weight)", 100.0 * self.moving_share(&file.wall));

@@ -23,10 +23,12 @@ use crate::cli::failure::Failure;
 use crate::cli::one_wall::MOST_STATES;
 use crate::exchange::{ReadOptions, Unit, Up, WallFaults, WallFile, read_wall};
 use crate::law::Coulomb;
+use crate::math::compact;
 use crate::model::{Outcome, Support, Wall};
 use crate::protocol::{Direction, Recorder, Settlement, Witness};
 use crate::report::{uncertainty_text, write_uncertainty};
 use crate::solve::STANDARD_GRAVITY;
+use crate::study::Angle;
 
 /// A prestress above this share of the pressure under the wall's own weight is worth a warning.
 const PRESTRESS: f64 = 0.1;
@@ -161,7 +163,7 @@ fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
     refused(arguments)?;
     shaken::refused(arguments)?;
     let solver = arguments.solver.name();
-    let mut warnings = Vec::new();
+    let mut warnings = in_radians(arguments);
     if !is_obj(arguments) && (arguments.unit.is_some() || arguments.density_kg_per_m3.is_some()) {
         return Err(Failure::Usage(
             "--unit and --density-kg-per-m3 are for .obj files; a wall.json states both itself".to_owned(),
@@ -219,6 +221,16 @@ fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
     Ok(warnings)
 }
 
+/// Angles that look as if they were not in degrees.
+fn in_radians(arguments: &Analyse) -> Vec<String> {
+    let direction = arguments.direction.angle_deg();
+    let asked = [
+        ("--phi-deg", Angle::Friction.doubt(arguments.phi_deg.middle())),
+        ("--direction", Angle::Direction.doubt(direction)),
+    ];
+    asked.into_iter().filter_map(|(option, doubt)| Some(format!("{option}: {}", doubt?))).collect()
+}
+
 /// Blocks that overlap as built press on each other from the start: how hard, for the solvers that are elastic.
 fn prestress(arguments: &Analyse, wall: &Wall, fit: &Fit) -> Option<String> {
     let kn = arguments.kn.as_ref().filter(|_| arguments.solver.is_elastic())?.middle();
@@ -228,9 +240,10 @@ fn prestress(arguments: &Analyse, wall: &Wall, fit: &Fit) -> Option<String> {
     let (pressure, weight) = (kn * fit.deepest, heaviest * STANDARD_GRAVITY * (high.z - low.z));
     (pressure > PRESTRESS * weight).then(|| {
         format!(
-            "the deepest overlap as built, {:.1e} m, starts with a pressure of {:.3} kPa at kn = {kn:e} Pa/m; the weight of the wall's height makes {:.3} kPa: trim the blocks, or ask --solver limit, which takes shapes only",
+            "the deepest overlap as built, {:.1e} m, starts with a pressure of {:.3} kPa at kn = {} Pa/m; the weight of the wall's height makes {:.3} kPa: trim the blocks, or ask --solver limit, which takes shapes only",
             fit.deepest,
             1e-3 * pressure,
+            compact(kn),
             1e-3 * weight
         )
     })

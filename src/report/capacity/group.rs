@@ -9,6 +9,7 @@ use crate::report::capacity::known::{Known, Told};
 use crate::report::capacity::values::Supported;
 use crate::report::capacity::{Question, Rung};
 use crate::report::population::Population;
+use crate::report::stated_cov::StatedCov;
 use crate::report::summary::EnoughEntry;
 use crate::stats::tally::Pooled;
 use crate::stats::{self, Shape, Statistic, Variation};
@@ -56,7 +57,11 @@ pub struct CapacityGroup {
     pub stood_to_the_end: u64,
     /// Coefficient of variation of the walls, where all values are known.
     pub walls_cov: Option<f64>,
-    /// Values that the walls support, normal and lognormal; none where some value is not known, or nothing is drawn.
+    /// How the coefficient of variation that was stated agrees with the walls; none where none was stated, or some value is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stated_cov: Option<StatedCov>,
+    /// Values that the walls support, normal and lognormal; where a stated variation is in doubt with it first and then without it. None
+    /// where some value is not known, or nothing is drawn.
     pub supported: Vec<Supported>,
     /// The probability of the worse side over the level, by all walls alike and by each run: in the figure and its table.
     #[serde(skip)]
@@ -221,6 +226,7 @@ impl CapacityGroup {
         // A displacement is the worse the larger it is: its low fractiles are no capacity.
         if own.fixed || own.quantity == Quantity::TopDisplacement {
             group.supported.clear();
+            group.stated_cov = None;
         }
         group
     }
@@ -295,7 +301,15 @@ impl CapacityGroup {
         let Known { values, above, lost, .. } = &known;
         let Told { answer, told, interval, if_failed, if_not } = known.answer(question);
         let complete = above.is_empty() && *lost == 0;
-        let shapes: &[Shape] = if complete { &[Shape::Normal, Shape::Lognormal] } else { &[] };
+        let stated_cov = match variation {
+            Variation::Known(cov) if complete => StatedCov::of(cov, values),
+            _ => None,
+        };
+        let is_doubted = stated_cov.as_ref().is_some_and(|own| own.doubted.is_some());
+        let variations = if is_doubted { &[variation, Variation::Unknown][..] } else { &[variation] };
+        let shapes = [Shape::Normal, Shape::Lognormal];
+        let of = |variation: &Variation| shapes.map(|shape| Supported::by(values, shape, *variation));
+        let supported = if complete { variations.iter().flat_map(of).collect() } else { Vec::new() };
         let share = answer.filter(|share| *share > 0.0 && !matches!(question, Question::Quantile(_)));
         CapacityGroup {
             name: name.to_owned(),
@@ -319,7 +333,8 @@ impl CapacityGroup {
             walls: (values.len() + above.len()) as u64 + lost,
             stood_to_the_end: above.len() as u64,
             walls_cov: complete.then(|| stats::cov(values)).flatten(),
-            supported: shapes.iter().map(|shape| Supported::by(values, *shape, variation)).collect(),
+            stated_cov,
+            supported,
             rungs: known.rungs(),
         }
     }

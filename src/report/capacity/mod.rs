@@ -17,7 +17,7 @@ pub use figure::Rung;
 use figure::{CapacityPlot, capacity_csv};
 pub use group::{Answer, CapacityGroup, Failed, Repeats, Screen, Target};
 pub use page::capacity_page;
-pub use text::capacity_text;
+pub use text::{capacity_text, capacity_warnings};
 pub use values::{Supported, SupportedValue};
 
 use crate::ensemble::{Quantity, Row, replace_file};

@@ -2,9 +2,10 @@
 
 use crate::report::capacity::group::{CapacityGroup, Repeats, Screen};
 use crate::report::capacity::{CapacitySummary, Question, SupportedValue};
-use crate::report::number::{compact, or_dash, significant, with_interval};
+use crate::report::number::{bracketed, compact, or_dash, significant, with_interval};
+use crate::report::stated_cov::StatedCov;
 use crate::report::table::{aligned, wrapped};
-use crate::stats::Shape;
+use crate::stats::{Scatter, Shape};
 
 /// Fewer walls than this support no design value that anybody should use.
 const FEW: u64 = 10;
@@ -28,7 +29,11 @@ pub(super) const VALUES: &str = "characteristic: the next wall lies below it wit
 
 /// What each group answers.
 pub(super) fn conclusions(summary: &CapacitySummary) -> Vec<String> {
-    summary.groups.iter().map(|group| conclusion(summary, group)).collect()
+    let of = |group: &CapacityGroup| {
+        let stated = group.stated_cov.as_ref().map(|own| format!(" {}", of_stated(own, group)));
+        conclusion(summary, group) + &stated.unwrap_or_default()
+    };
+    summary.groups.iter().map(of).collect()
 }
 
 fn name(group: &CapacityGroup) -> String {
@@ -93,8 +98,8 @@ fn conclusion(summary: &CapacitySummary, group: &CapacityGroup) -> String {
             Question::Quantile(_) => ends.map(shown),
             _ => ends,
         };
-        let [low, high] = ends.map(|end| significant(end, 2));
-        text.push_str(&format!(" Whatever those without a value would have borne: [{low}, {high}]."));
+        let ends = bracketed(ends, 2);
+        text.push_str(&format!(" Whatever those without a value would have borne: {ends}."));
     }
     if group.method == "measured" && group.walls < FEW {
         text.push_str(&few(summary, group));
@@ -109,6 +114,29 @@ pub(super) fn probability(group: &CapacityGroup) -> String {
         (Some(0.0), None) => "- (none found, and nothing bounds it)".to_owned(),
         (value, interval) => with_interval(value, interval, 2),
     }
+}
+
+/// How a stated coefficient of variation agrees with the walls, and what is given where it does not.
+fn of_stated(stated: &StatedCov, group: &CapacityGroup) -> String {
+    let sentence = stated.sentence(if group.method == "measured" { "specimens" } else { "walls" });
+    match stated.doubted {
+        None => sentence,
+        Some(Scatter::Larger) => format!(
+            "{sentence} The values below are given with the stated COV and with their own; rely on those with their own."
+        ),
+        Some(Scatter::Smaller) => {
+            format!("{sentence} The values below are given with the stated COV and with their own.")
+        }
+    }
+}
+
+/// What looks wrong: a stated coefficient of variation that the values contradict.
+pub fn capacity_warnings(summary: &CapacitySummary) -> Vec<String> {
+    let doubted = |group: &CapacityGroup| {
+        let stated = group.stated_cov.as_ref().filter(|own| own.doubted.is_some())?;
+        Some(format!("--known-cov: {}: {}", name(group), of_stated(stated, group)))
+    };
+    summary.groups.iter().filter_map(doubted).collect()
 }
 
 /// How an answer was found, in words.
@@ -237,10 +265,17 @@ pub(super) fn supported(summary: &CapacitySummary) -> Vec<Vec<String>> {
             }
         });
     let mut rows = vec![header.to_vec()];
+    // With a stated variation a column says by which one a row is.
+    let stated = |cells: &mut Vec<String>, cell: &str| {
+        if summary.known_cov.is_some() {
+            cells.insert(4, cell.to_owned());
+        }
+    };
+    stated(&mut rows[0], "taken %");
     for group in &summary.groups {
         for own in &group.supported {
             let value = |of: Option<SupportedValue>| or_dash(of.map(|of| summary.shown.shown(of.value)), 3);
-            rows.push(vec![
+            let mut row = vec![
                 group.name.clone(),
                 group.kn_pa_per_m.map_or_else(|| "-".to_owned(), compact),
                 group.walls.to_string(),
@@ -252,7 +287,9 @@ pub(super) fn supported(summary: &CapacitySummary) -> Vec<Vec<String>> {
                 value(own.characteristic),
                 value(own.tolerance_95_95),
                 value(own.design),
-            ]);
+            ];
+            stated(&mut row, &or_dash(own.known_cov.or(group.walls_cov).map(|cov| 100.0 * cov), 2));
+            rows.push(row);
         }
     }
     rows

@@ -20,11 +20,13 @@ pub struct SupportedValue {
     pub value: f64,
 }
 
-/// The values that a sample supports; none of a single wall of unknown variation.
+/// The values that a sample supports, by its own scatter or by one that is stated; none of a single wall of unknown variation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Supported {
     /// What the values are taken to be distributed as.
     pub shape: Shape,
+    /// The coefficient of variation that is taken for known; null where it is that of the sample.
+    pub known_cov: Option<f64>,
     /// The next wall lies below it with a probability of 5 %: the characteristic value of EN 1990 D7.2.
     pub characteristic: Option<SupportedValue>,
     /// No more than 5 % of all walls lie below it, with a confidence of 95 %.
@@ -42,8 +44,13 @@ impl Supported {
         };
         let n = values.len();
         let some = |of: &dyn Fn() -> Option<f64>| if n == 0 { None } else { at(of()) };
+        let known_cov = match variation {
+            Variation::Known(cov) => Some(cov),
+            Variation::Unknown => None,
+        };
         Supported {
             shape,
+            known_cov,
             characteristic: some(&|| predictive_factor(n, CHARACTERISTIC_PROBABILITY, variation)),
             tolerance_95_95: some(&|| tolerance_factor(n, CHARACTERISTIC_PROBABILITY, CONFIDENCE, variation)),
             design: some(&|| predictive_factor(n, DESIGN_PROBABILITY, variation)),

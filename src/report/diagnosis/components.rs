@@ -3,7 +3,7 @@
 use crate::critic::{Component, ComponentEstimate};
 use crate::report::diagnosis::words::place;
 use crate::report::measured::{in_unit, tidy_degrees, tidy_percent, unit};
-use crate::report::number::significant;
+use crate::report::number::with_interval;
 use crate::study::Study;
 
 /// A discrepancy is reported where it is larger than so many of its standard deviations.
@@ -62,16 +62,15 @@ impl ComponentEntry {
             ("N", Some(_)) => (1e-3, "kN"),
             (unit, _) => (1.0, unit),
         };
-        let number = |x: f64| significant(scale * x, 2);
         let place = place(self.quantity, self.tilt_deg, self.drift_percent);
-        let [low, high] = self.interval.map(number);
+        let value = with_interval(Some(scale * self.value), Some(self.interval.map(|x| scale * x)), 2);
         let quantity = match (self.part, self.quantity) {
             ("twist", _) => "left end less right end".to_owned(),
             ("bow", _) => "centre less mean of the ends".to_owned(),
             (_, quantity) => quantity.replace('_', " "),
         };
         let by = if self.part == "drift" { ", from each test to the next" } else { "" };
-        format!("{}: {quantity}{place}{by}: {} [{low}, {high}] {unit}", self.family, number(self.value))
+        format!("{}: {quantity}{place}{by}: {value} {unit}", self.family)
     }
 }
 

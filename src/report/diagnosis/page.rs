@@ -7,16 +7,14 @@ use serde::Serialize;
 use crate::report::diagnosis::conclusion::{below_headline, headline};
 use crate::report::diagnosis::fit::{FitFigure, Misfit};
 use crate::report::diagnosis::sketch::sketch;
-use crate::report::diagnosis::summary::{
-    CauseEntry, DataEntry, DiagnosisSummary, ParameterEntry, amount, number,
-};
+use crate::report::diagnosis::summary::{CauseEntry, DataEntry, DiagnosisSummary, ParameterEntry, amount};
 use crate::report::diagnosis::text::{
     CAUSE, CAUSES, FORM, NO_FORM, OFF, beside_prior, by_chance, not_used, or_dash, others, pairs,
     reliability, worth_saying,
 };
 use crate::report::diagnosis::words::{lines, reading};
 use crate::report::gain::GainSummary;
-use crate::report::number::{capital, or_dash as number_or_dash, significant};
+use crate::report::number::{bracketed, capital, or_dash as number_or_dash, significant};
 use crate::report::page::{Citation, Drawing, Line, PageOrigin, Table, citation, filled, limits};
 use crate::study::{Study, in_plain_words};
 
@@ -153,12 +151,11 @@ fn misfits(fit: &FitFigure) -> Table {
 
 fn shown(cause: &CauseEntry) -> Cause {
     let row = |own: &ParameterEntry| {
-        let [low, high] = own.prior_interval.map(number);
         let unit = if own.unit == "1" { "" } else { own.unit };
         vec![
             format!("{}: {}", own.key, own.meaning),
             amount(own.median, own.interval, ""),
-            format!("[{low}, {high}]"),
+            bracketed(own.prior_interval, 3),
             unit.to_owned(),
         ]
     };

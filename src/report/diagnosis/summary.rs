@@ -12,7 +12,7 @@ use crate::report::advice::Advice;
 use crate::report::diagnosis::components::ComponentEntry;
 use crate::report::diagnosis::residual::{GroupEntry, ResidualEntry};
 use crate::report::gain::GainSummary;
-use crate::report::number::{compact, significant};
+use crate::report::number::{bracketed, significant, with_interval};
 use crate::stats;
 use crate::study::{Described, MeasuredQuantity, Parameter, Study};
 
@@ -197,10 +197,10 @@ impl ParameterEntry {
             || "with that prior hardly any of the posterior is left".to_owned(),
             |own| format!("with that prior {}", amount(own.median, own.interval, unit)),
         );
-        let [low, high] = prior_interval.map(number);
         Some(format!(
-            "{key}: {} sd {side} the centre of its prior [{low}, {high}]; {within}.",
-            significant(sd.abs(), 2)
+            "{key}: {} sd {side} the centre of its prior {}; {within}.",
+            significant(sd.abs(), 2),
+            bracketed(*prior_interval, 3)
         ))
     }
 }
@@ -208,13 +208,7 @@ impl ParameterEntry {
 /// A median with its interval and unit.
 pub(super) fn amount(median: f64, interval: [f64; 2], unit: &str) -> String {
     let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
-    let [low, high] = interval.map(number);
-    format!("{} [{low}, {high}]{unit}", number(median))
-}
-
-/// A stiffness is written as people write it, not by digits that nobody knows.
-pub(super) fn number(x: f64) -> String {
-    if x.abs() >= 1e5 { compact(x) } else { significant(x, 3) }
+    format!("{}{unit}", with_interval(Some(median), Some(interval), 3))
 }
 
 /// Something that is off.

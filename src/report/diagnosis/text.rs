@@ -6,13 +6,15 @@ use crate::report::diagnosis::conclusion::conclusion;
 use crate::report::diagnosis::summary::{CauseEntry, DiagnosisSummary, LooksEntry, OffEntry, SelfTestEntry};
 use crate::report::diagnosis::words::{lines, reading};
 use crate::report::gain::GainSummary;
-use crate::report::number::{how_often, significant};
+use crate::report::number::{how_often, significant, within};
 use crate::report::table::{aligned, wrapped};
 use crate::stats;
 use crate::study::listed;
 
 /// What is off by less than this many standard deviations is not worth a line.
 const WORTH_SAYING: f64 = 2.0;
+/// Shares are shown in whole per cents where their intervals are wider than this (%).
+const WHOLE: f64 = 2.0;
 /// So many causes are shown.
 pub(super) const CAUSES: usize = 6;
 
@@ -247,7 +249,11 @@ fn share(part: u64, whole: u64) -> String {
     if whole == 0 {
         return "-".to_owned();
     }
-    let percent = |x: f64| format!("{:.0}", 100.0 * x);
-    let [low, high] = stats::clopper_pearson(part as usize, whole as usize).map(percent);
-    format!("{} % [{low}, {high}]", percent(part as f64 / whole as f64))
+    let value = 100.0 * part as f64 / whole as f64;
+    let interval = stats::clopper_pearson(part as usize, whole as usize).map(|end| 100.0 * end);
+    let width = interval[1] - interval[0];
+    // A count of a few hundred tells whole per cents.
+    let shown = |x: f64| if width > WHOLE { format!("{x:.0}") } else { within(x, width) };
+    let [low, high] = interval.map(shown);
+    format!("{} % [{low}, {high}]", shown(value))
 }

@@ -1,7 +1,7 @@
 //! Groups in words: what was measured, what was simulated, and how the two stand to each other.
 
 use crate::report::diagnosis::residual::{ExpectedEntry, GroupEntry};
-use crate::report::number::significant;
+use crate::report::number::{significant, with_interval};
 use crate::study::MeasuredQuantity;
 
 /// Ratios nearer to one than this are said as differences.
@@ -135,8 +135,8 @@ fn measured(group: &GroupEntry) -> String {
 
 fn simulated(group: &GroupEntry) -> String {
     let Some(expected) = &group.simulated else { return "nothing".to_string() };
-    let [low, high] = expected.band_90.map(|x| shown(group, x));
-    format!("{} [{low}, {high}]", shown(group, expected.median))
+    let scale = scale(group);
+    with_interval(Some(scale * expected.median), Some(expected.band_90.map(|x| scale * x)), 3)
 }
 
 fn finding(group: &GroupEntry) -> String {
@@ -191,10 +191,15 @@ fn amount(group: &GroupEntry, simulated: &ExpectedEntry, above: bool) -> String 
 
 /// A number in the unit of text and figures.
 fn shown(group: &GroupEntry, x: f64) -> String {
+    significant(scale(group) * x, 3)
+}
+
+/// How many of the unit of text and figures one of the group's unit is.
+fn scale(group: &GroupEntry) -> f64 {
     match (group.unit, group.drift_percent) {
-        ("m", _) => significant(1e3 * x, 3),
-        ("N", Some(_)) => significant(1e-3 * x, 3),
-        _ => significant(x, 3),
+        ("m", _) => 1e3,
+        ("N", Some(_)) => 1e-3,
+        _ => 1.0,
     }
 }
 

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::ensemble::{Influenced, Quantity, Source, base_points, without_value};
+use crate::ensemble::{Influenced, LAYOUT, Quantity, Source, base_points, without_value};
 use crate::report::number::significant;
-use crate::stats::{BasePoint, Estimate, influence};
+use crate::stats::{BasePoint, Estimate, Share, influence, possible_shares, share_alone};
 use crate::study::{Design, Study};
 
 /// What the sources of an arm are responsible for. Intervals are at 95 %; what is not defined is null.
@@ -38,6 +38,15 @@ pub struct InfluenceSummary {
     pub variance: Option<f64>,
     /// Interval of the variance.
     pub variance_ci: Option<[f64; 2]>,
+    /// What the sources are responsible for without interactions between them: the sum of their first order shares.
+    pub alone: [Option<f64>; 3],
+    /// What their interactions are responsible for.
+    pub interactions: [Option<f64>; 3],
+    /// The widest half width of a share of a source; null where none has an interval.
+    pub half_width: Option<f64>,
+    /// Base points with which every share of a source is known to within [`WELL_KNOWN`], as intervals shrink with the root of their
+    /// number; null where these points are enough.
+    pub points_wanted: Option<u64>,
     /// The sources: what is drawn once per wall, the layout as a whole, and what it consists of.
     pub groups: Vec<ShareEntry>,
     /// How the quantity is shown.
@@ -45,7 +54,11 @@ pub struct InfluenceSummary {
     pub shown: Quantity,
 }
 
-/// What a source is responsible for, as shares of the variance: the value and the ends of its interval.
+/// A share that is known to within this half width is known well.
+pub(super) const WELL_KNOWN: f64 = 0.1;
+
+/// What a source is responsible for, as shares of the variance: the value and the ends of its interval. Shares are the possible ones
+/// that are nearest to the estimates; see [`possible_shares`].
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct ShareEntry {
     /// The path of a parameter's key, `layout`, or what of the layout.
@@ -56,6 +69,12 @@ pub struct ShareEntry {
     pub first: [Option<f64>; 3],
     /// What would be left if all others were known.
     pub total: [Option<f64>; 3],
+    /// Whether they are known exactly: of the only source.
+    pub is_exact: bool,
+    /// The estimate of the first order share by itself, which by chance may lie below 0.
+    pub estimated_first: [Option<f64>; 3],
+    /// That of the total share, which by chance may lie above 1 or below the first order share.
+    pub estimated_total: [Option<f64>; 3],
     /// Base points that it rests on.
     pub points: u64,
 }
@@ -69,15 +88,33 @@ impl InfluenceSummary {
         evaluated: &[Vec<Influenced>],
         randomisations: u64,
     ) -> InfluenceSummary {
-        let found = influence(&base_points(evaluated), randomisations as usize);
+        let points = base_points(evaluated);
+        let found = influence(&points, randomisations as usize);
         let quantity = Quantity::of(study);
-        let groups = sources.iter().zip(&found.shares).map(|(source, share)| ShareEntry {
-            name: source.name.clone(),
-            is_in_layout: source.is_in_layout,
-            first: with_ends(share.first),
-            total: with_ends(share.total),
-            points: share.points as u64,
-        });
+        let shares = possible(sources, &found.shares);
+        let whole: Vec<usize> = (0..sources.len()).filter(|k| !sources[*k].is_in_layout).collect();
+        let groups =
+            sources.iter().zip(&found.shares).zip(&shares).map(|((source, estimate), share)| ShareEntry {
+                name: source.name.clone(),
+                is_in_layout: source.is_in_layout,
+                first: with_ends(share.first),
+                total: with_ends(share.total),
+                is_exact: whole.len() == 1 && !source.is_in_layout && share.first.value.is_some(),
+                estimated_first: with_ends(estimate.first),
+                estimated_total: with_ends(estimate.total),
+                points: share.points as u64,
+            });
+        let alone = alone(&points, randomisations, &whole, &shares);
+        let turned = |x: Option<f64>| x.map(|x| 1.0 - x);
+        let [value, low, high] = with_ends(alone);
+        let half = |share: Estimate| share.interval.map(|[low, high]| 0.5 * (high - low));
+        let halves = whole.iter().flat_map(|k| [shares[*k].first, shares[*k].total]).filter_map(half);
+        let half_width = halves.reduce(f64::max);
+        let wanted = |half: f64| {
+            let ratio = half / WELL_KNOWN;
+            let wanted = (evaluated.len() as f64 * ratio * ratio / randomisations as f64).ceil();
+            (ratio > 1.0).then_some(wanted as u64 * randomisations)
+        };
         InfluenceSummary {
             study: study.name.clone(),
             variant: study.variant.clone(),
@@ -94,9 +131,36 @@ impl InfluenceSummary {
             variance: found.variance.value,
             variance_ci: found.variance.interval,
             groups: groups.collect(),
+            alone: [value, low, high],
+            interactions: [turned(value), turned(high), turned(low)],
+            half_width,
+            points_wanted: half_width.and_then(wanted),
             shown: quantity,
         }
     }
+}
+
+/// The possible shares of sources, some of which the layout consists of.
+fn possible(sources: &[Source], shares: &[Share]) -> Vec<Share> {
+    let layout = sources.iter().position(|own| !own.is_in_layout && own.name == LAYOUT);
+    let part_of: Vec<Option<usize>> = sources.iter().map(|own| layout.filter(|_| own.is_in_layout)).collect();
+    possible_shares(shares, &part_of)
+}
+
+/// The sum of the first order shares: its estimate's interval about the sum of the possible ones, within 0 and 1.
+fn alone(points: &[BasePoint], randomisations: u64, whole: &[usize], shares: &[Share]) -> Estimate {
+    let firsts: Option<Vec<f64>> = whole.iter().map(|k| shares[*k].first.value).collect();
+    let Some(firsts) = firsts else { return Estimate::UNDEFINED };
+    let value = firsts.iter().fold(0.0, |sum, first| sum + first).min(1.0);
+    if whole.len() == 1 {
+        return Estimate { value: Some(value), interval: Some([value; 2]) };
+    }
+    let estimate = share_alone(points, randomisations as usize, whole);
+    let within = |ends: [f64; 2]| {
+        let [low, high] = ends.map(|end| end.clamp(0.0, 1.0));
+        [low.min(value), high.max(value)]
+    };
+    Estimate { value: Some(value), interval: estimate.interval.map(within) }
 }
 
 fn with_ends(estimate: Estimate) -> [Option<f64>; 3] {
@@ -107,9 +171,10 @@ fn with_ends(estimate: Estimate) -> [Option<f64>; 3] {
 /// The answer so far in a few words: the source with the largest total share.
 pub fn running(sources: &[Source], points: &[BasePoint], randomisations: u64) -> String {
     let found = influence(points, randomisations as usize);
+    let shares = possible(sources, &found.shares);
     let totals = sources
         .iter()
-        .zip(&found.shares)
+        .zip(&shares)
         .filter_map(|(source, share)| Some((source.name.as_str(), share.total.value?)));
     match totals.max_by(|a, b| a.1.total_cmp(&b.1)) {
         Some((name, total)) => format!("most from {name} so far: {} % in all", significant(100.0 * total, 2)),

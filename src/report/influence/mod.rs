@@ -13,7 +13,7 @@ use anyhow::{Context, Result};
 
 pub use entry::{InfluenceSummary, ShareEntry, running};
 pub use page::influence_page;
-pub use text::influence_text;
+pub use text::{influence_text, influence_warnings};
 
 use crate::ensemble::replace_file;
 use crate::report::draw::IMAGE_SCALE;

@@ -5,7 +5,7 @@ use anyhow::Result;
 use crate::report::draw::svg;
 use crate::report::influence::InfluenceSummary;
 use crate::report::influence::plot::SharesPlot;
-use crate::report::influence::text::{ORDERS, SHARES, conclusion, shares};
+use crate::report::influence::text::{ORDERS, SHARES, conclusion, known, shares};
 use crate::report::page::{Asked, Drawing, PageOrigin, Table, answer_page};
 use crate::study::{Loaded, Study};
 
@@ -22,7 +22,7 @@ pub fn influence_page(
     let asked = Asked {
         title: format!("Where the walls of study {} scatter from", summary.study),
         question: "Which share of the scatter comes from the stones, and which from what nobody knows of the joints?".to_owned(),
-        answer: conclusion(summary),
+        answer: conclusion(summary).into_iter().chain(known(summary)).collect(),
         tables: vec![Table { caption: ORDERS.to_owned(), ..Table::headed(SHARES, shares(summary)) }],
         figures: vec![Drawing::picture("figure-influence", "Shares of the variance", caption, &svg(&SharesPlot::new(summary, 1))?)],
         limits: vec!["A share depends on how widely the study draws each source: a narrower one has less.".to_owned()],

@@ -1,5 +1,6 @@
 //! What is printed of an influence: at most five lines that say it, and the table.
 
+use crate::report::influence::entry::WELL_KNOWN;
 use crate::report::influence::{InfluenceSummary, ShareEntry};
 use crate::report::number::{compact, or_dash, significant, with_interval};
 use crate::report::table::{aligned, wrapped};
@@ -9,6 +10,7 @@ pub fn influence_text(summary: &InfluenceSummary) -> String {
     let mut text: String = conclusion(summary).iter().map(|line| wrapped("", line)).collect();
     text.push_str(&format!("\n{SHARES}\n{}", aligned(shares(summary))));
     text.push_str(&wrapped("", ORDERS));
+    text.push_str(&known(summary).map_or_else(String::new, |known| wrapped("", &known)));
     text
 }
 
@@ -16,7 +18,8 @@ pub fn influence_text(summary: &InfluenceSummary) -> String {
 pub(super) const SHARES: &str = "Shares of the variance in %, with 95 % intervals";
 /// What its columns mean.
 pub(super) const ORDERS: &str = "first order: what would go if the source were known; total: what would be left if all others were known; \
-     behind a dash: part of the layout.";
+     behind a dash: part of the layout. Shares are the nearest to the estimates that can be: no total is below its first order, and first \
+     orders sum to 100 at most.";
 
 /// At most five lines.
 pub(super) fn conclusion(summary: &InfluenceSummary) -> Vec<String> {
@@ -71,6 +74,11 @@ fn largest(summary: &InfluenceSummary) -> String {
         .filter_map(|group| Some((group, group.total[0]?)))
         .collect();
     whole.sort_by(|a, b| b.1.total_cmp(&a.1));
+    if let [(only, _)] = whole[..]
+        && only.is_exact
+    {
+        return format!("All of it comes from {}, the only source (100 % by definition).", only.name);
+    }
     let named: Vec<String> =
         whole.iter().take(3).map(|(group, _)| format!("{} {} %", group.name, percent(group.total))).collect();
     if named.is_empty() {
@@ -80,21 +88,55 @@ fn largest(summary: &InfluenceSummary) -> String {
     format!("Responsible in all, with interactions: {}{others}.", named.join(", "))
 }
 
-/// What no source is responsible for alone.
+/// What the sources are responsible for alone, and what their interactions are.
 fn interactions(summary: &InfluenceSummary) -> String {
-    let whole = summary.groups.iter().filter(|group| !group.is_in_layout);
-    let firsts: Option<Vec<f64>> = whole.map(|group| group.first[0]).collect();
-    match firsts {
-        Some(firsts) if firsts.len() > 1 => {
-            let sum: f64 = firsts.iter().fold(0.0, |sum, first| sum + first);
-            format!(
-                "Alone they are responsible for {} %; the rest is interactions and chance.",
-                significant(100.0 * sum, 2)
-            )
+    let several = summary.groups.iter().filter(|group| !group.is_in_layout).count() > 1;
+    if !several || summary.alone[0].is_none() {
+        return String::new();
+    }
+    let (alone, together) = (percent(summary.alone), percent(summary.interactions));
+    match summary.interactions {
+        [_, Some(low), _] if low > 0.0 => {
+            format!("Alone they are responsible for {alone} %, their interactions for {together} %.")
         }
-        _ => String::new(),
+        [_, Some(_), Some(high)] => format!(
+            "Alone they are responsible for {alone} %; interactions are not shown, {} % at most.",
+            significant(100.0 * high, 2)
+        ),
+        _ => format!("Alone they are responsible for {alone} %."),
     }
 }
+
+/// How well the shares are known, where that is not well enough, and with how many base points it would be.
+pub(super) fn known(summary: &InfluenceSummary) -> Option<String> {
+    let (half, wanted) = summary.half_width.zip(summary.points_wanted)?;
+    Some(format!(
+        "Shares are known to within {} % of the variance; to within {} % they would be with about {wanted} points (--points), as \
+         intervals shrink with the square root of their number.",
+        significant(100.0 * half, 2),
+        significant(100.0 * WELL_KNOWN, 2)
+    ))
+}
+
+/// What looks wrong: so few base points that shares say little, or that their intervals hold less often than they say.
+pub fn influence_warnings(summary: &InfluenceSummary) -> Vec<String> {
+    let Some(half) = summary.half_width.filter(|half| *half > 0.0) else { return Vec::new() };
+    let is_short = summary.points < FEW;
+    if half <= POOR && !is_short {
+        return Vec::new();
+    }
+    let short = is_short.then(|| SHORT.to_owned());
+    let why: Vec<String> = short.into_iter().chain(known(summary)).collect();
+    vec![format!("--points {}: too few. {}", summary.points, why.join(" "))]
+}
+
+/// Shares that are known to within no less than this say little.
+const POOR: f64 = 0.25;
+/// Fewer base points than this are two or three to a randomisation.
+const FEW: u64 = 64;
+/// What is wrong with intervals over so few, as a test on a function of known shares finds.
+const SHORT: &str =
+    "Intervals over two or three points per randomisation hold the truth in some 91 of 100 cases.";
 
 /// A share in % with its interval.
 fn percent([value, low, high]: [Option<f64>; 3]) -> String {

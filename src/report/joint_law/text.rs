@@ -2,7 +2,7 @@
 
 use crate::critic::{Bend, KnownLaw};
 use crate::report::joint_law::LawSummary;
-use crate::report::number::significant;
+use crate::report::number::{significant, with_interval};
 
 /// Some lines, the conclusion first.
 pub fn law_text(summary: &LawSummary) -> String {
@@ -12,16 +12,13 @@ pub fn law_text(summary: &LawSummary) -> String {
         Bend::Softening => "the joints soften with the stress",
         Bend::NotShown => "the readings do not show the stiffness to change with the stress",
     };
-    let [low, high] = summary.exponent.interval;
     let [from, to] = summary.seen_pa.map(|stress| stress / 1e3);
     let mut lines = vec![
         format!(
-            "A free law of the joints ({}): {bend} (probability of stiffening {}; exponent {} [{}, {}]).",
+            "A free law of the joints ({}): {bend} (probability of stiffening {}; exponent {}).",
             summary.families.join(", "),
             three(summary.stiffening),
-            three(summary.exponent.median),
-            three(low),
-            three(high)
+            with_interval(Some(summary.exponent.median), Some(summary.exponent.interval), 3)
         ),
         format!(
             "The readings know {} numbers of it, between {} and {} kPa.",
@@ -48,17 +45,15 @@ pub fn law_text(summary: &LawSummary) -> String {
         three(goes_on)
     ));
     lines.extend(summary.collapse.iter().filter_map(|own| {
-        let KnownLaw { median, interval: [low, high] } = own.collapse_deg?;
-        let [median, low, high] = [median, low, high].map(three);
-        Some(format!("One more wall of {} falls at {median} deg [{low}, {high}] under it.", own.family))
+        let KnownLaw { median, interval } = own.collapse_deg?;
+        let angle = with_interval(Some(median), Some(interval), 3);
+        Some(format!("One more wall of {} falls at {angle} deg under it.", own.family))
     }));
     lines.push(match &summary.gain {
         None => "There are too few specimens to hold some out: the law is not taken on.".to_owned(),
         Some(gain) => format!(
-            "Specimens held out: gain {} [{}, {}] nats a specimen over joints of constant stiffness: {}.",
-            three(gain.mean),
-            three(gain.interval[0]),
-            three(gain.interval[1]),
+            "Specimens held out: gain {} nats a specimen over joints of constant stiffness: {}.",
+            with_interval(Some(gain.mean), Some(gain.interval), 3),
             if summary.is_accepted { "it is taken on" } else { "it is not taken on" }
         ),
     });

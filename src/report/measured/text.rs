@@ -1,7 +1,7 @@
 //! What `run` prints of measured beside simulated.
 
 use crate::report::measured::{CalibrationEntry, ComparisonEntry, MeasuredSummary};
-use crate::report::number::{compact, or_dash, significant, stiffness, with_interval};
+use crate::report::number::{compact, from_to, or_dash, significant, stiffness, with_interval};
 use crate::report::table::{aligned, wrapped};
 use crate::stats::sigma_factors;
 
@@ -176,9 +176,12 @@ fn calibration(entry: &CalibrationEntry) -> String {
     wrapped("Calibration  ", &text)
 }
 
-fn interval([low, high]: [Option<f64>; 2]) -> String {
+fn interval(ends: [Option<f64>; 2]) -> String {
+    if let [Some(low), Some(high)] = ends {
+        return from_to([low, high], 2);
+    }
     let end = |end: Option<f64>, open: &str| end.map_or_else(|| open.to_string(), short);
-    format!("{} to {}", end(low, "below the points"), end(high, "above the points"))
+    format!("{} to {}", end(ends[0], "below the points"), end(ends[1], "above the points"))
 }
 
 /// Two digits.

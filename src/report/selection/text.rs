@@ -2,7 +2,9 @@
 
 use crate::ensemble::{Compared, Contest, Quantity};
 use crate::report::capacity::Question;
-use crate::report::number::{compact, or_dash, shortened, significant, with_interval, with_interval_against};
+use crate::report::number::{
+    compact, from_to, or_dash, shortened, significant, with_interval, with_interval_against,
+};
 use crate::report::selection::{ArmDifference, ArmShown, SelectedArm, SelectionSummary};
 use crate::report::table::{LONGEST_NAME, aligned};
 use crate::stats::selection::{Measure, Shown};
@@ -106,18 +108,18 @@ fn nearest(summary: &SelectionSummary, rival: &ArmDifference) -> String {
 fn levels(summary: &SelectionSummary, rival: &ArmDifference) -> Option<String> {
     let own = rival.distribution?;
     let unit = summary.shown.shown_unit();
-    let ends = |ends: [f64; 2]| ends.map(|level| significant(summary.shown.shown(level), 3));
+    let ends = |ends: [f64; 2]| from_to(ends.map(|level| summary.shown.shown(level)), 3);
     let more = significant(own.more_fail_by_at_most, 2);
     Some(match (own.fewer_fail_between, own.more_fail_between) {
         (Some(fewer), None) => {
-            let [low, high] = ends(fewer);
             format!(
-                "Fewer of its walls fail at levels of {low} to {high} {unit}; at none do over {more} more of them."
+                "Fewer of its walls fail at levels of {} {unit}; at none do over {more} more of them.",
+                ends(fewer)
             )
         }
         (Some(fewer), Some(worse)) => {
-            let ([low, high], [from, to]) = (ends(fewer), ends(worse));
-            format!("Fewer of its walls fail at {low} to {high} {unit}, and more of them at {from} to {to}.")
+            let [fewer, more] = [fewer, worse].map(ends);
+            format!("Fewer of its walls fail at {fewer} {unit}, and more of them at {more}.")
         }
         (None, _) if own.more_fail_by_at_most < TOLD => {
             format!(

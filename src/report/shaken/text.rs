@@ -1,7 +1,7 @@
 //! What `run` prints of walls that are shaken: the answer, the curves, what scatters, and the arms compared. At most 100 columns wide.
 
 use crate::report::number::{
-    compact, or_dash, shortened, significant, stiffness, with_interval, with_interval_against,
+    compact, from_to, or_dash, shortened, significant, stiffness, with_interval, with_interval_against,
 };
 use crate::report::shaken::entry::{RatioEntry, ShakenCurve, ShakenSummary};
 use crate::report::summary::Summary;
@@ -129,10 +129,9 @@ fn told(shaken: &ShakenSummary, curve: &ShakenCurve) -> Option<String> {
             significant(lowest, 3)
         )),
         Told::BetaNotIdentified { theta: [low, high] } => Some(format!(
-            "beta is not identified, as no run stands above one that collapses; theta lies between {} and {} {unit} if \
-             beta is small; add intensities between them",
-            significant(low, 3),
-            significant(high, 3)
+            "beta is not identified, as no run stands above one that collapses; theta lies within {} {unit} if beta is \
+             small; add intensities between them",
+            from_to([low, high], 3)
         )),
         Told::NotRising => {
             Some(format!("collapses do not grow with {measure}, which is no measure of what topples"))
@@ -176,15 +175,10 @@ fn unsolved(curve: &ShakenCurve) -> Option<String> {
     })
 }
 
-/// A share in whole per cent: no campaign tells it better.
+/// A share in per cent.
 fn percent(share: Estimate) -> String {
-    // Rounding first and adding 0 takes the sign from a zero.
-    let whole = |x: f64| format!("{:.0}", (100.0 * x).round() + 0.0);
-    match (share.value, share.interval) {
-        (None, _) => "-".to_owned(),
-        (Some(value), None) => whole(value),
-        (Some(value), Some([low, high])) => format!("{} [{}, {}]", whole(value), whole(low), whole(high)),
-    }
+    let interval = share.interval.map(|ends| ends.map(|x| 100.0 * x));
+    with_interval(share.value.map(|value| 100.0 * value), interval, 2)
 }
 
 /// Where the scatter of capacities comes from.

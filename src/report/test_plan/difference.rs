@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use crate::report::stated_cov::StatedCov;
 use crate::report::test_plan::{Asked, Reading};
 use crate::stats::{
     CHARACTERISTIC_PROBABILITY, characteristic_loss, correlation, mean, pairs_to_see, power_of_groups, sigma,
@@ -21,6 +22,12 @@ pub struct PlannedArm {
     pub mean: Option<f64>,
     /// Coefficient of variation that real specimens are taken to have, the instrument's error included.
     pub cov: Option<f64>,
+    /// How the coefficient of variation that was stated agrees with that of the simulated walls; none where none was stated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stated_cov: Option<StatedCov>,
+    /// The same of the specimens of this family that the study has measured; none where there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stated_cov_of_specimens: Option<StatedCov>,
     /// What the characteristic value of the specimens that might be tested loses in the mean, as a share of the true fractile.
     pub loss: Option<f64>,
     /// Specimens whose characteristic value loses no more than is asked for.
@@ -28,15 +35,23 @@ pub struct PlannedArm {
 }
 
 impl PlannedArm {
-    /// From the values of its walls.
-    pub fn of(name: &str, values: &BTreeMap<u64, f64>, reading: &Reading, asked: &Asked) -> PlannedArm {
+    /// From the values of its walls, and of specimens that were measured.
+    pub fn of(
+        name: &str,
+        (values, specimens): (&BTreeMap<u64, f64>, &[f64]),
+        reading: &Reading,
+        asked: &Asked,
+    ) -> PlannedArm {
         let values: Vec<f64> = values.values().copied().collect();
         let centre = mean(&values);
         let cov = centre
             .map(|centre| scatter(&[&values], centre, reading, asked) / centre.abs())
             .filter(|cov| cov.is_finite());
+        let stated = |values: &[f64]| asked.known_cov.and_then(|cov| StatedCov::of(cov, values));
         PlannedArm {
             name: name.to_owned(),
+            stated_cov: stated(&values),
+            stated_cov_of_specimens: stated(specimens),
             walls: values.len() as u64,
             mean: centre,
             cov,

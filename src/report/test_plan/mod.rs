@@ -12,10 +12,11 @@ use serde::Serialize;
 
 pub use difference::{PlannedArm, PlannedDifference};
 pub use reading::Reading;
-pub use text::test_plan_text;
+pub use text::{test_plan_text, test_plan_warnings};
 
 use crate::ensemble::{Quantity, Row, replace_file};
-use crate::report::test_plan::reading::readings;
+use crate::report::stated_cov::StatedCov;
+use crate::report::test_plan::reading::{readings, specimens};
 use crate::stats::Aim;
 use crate::study::Study;
 
@@ -54,6 +55,20 @@ pub struct TestPlan {
     pub arms: Vec<PlannedArm>,
     /// One entry per pair of arms and reading; of each pair the readings that need the fewest specimens come first.
     pub differences: Vec<PlannedDifference>,
+    /// Where walls or specimens put the coefficient of variation that was stated in doubt: the same by theirs.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub otherwise: Vec<Otherwise>,
+}
+
+/// A plan by another scatter than the one that was stated.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Otherwise {
+    /// Why, in a sentence.
+    pub why: String,
+    /// By which scatter.
+    pub by: &'static str,
+    /// The plan.
+    pub plan: TestPlan,
 }
 
 impl TestPlan {
@@ -62,11 +77,10 @@ impl TestPlan {
         let quantity = Quantity::of(study);
         let readings = readings(study, rows, &asked);
         let arms = readings.iter().filter(|own| own.is_quantity).flat_map(|reading| {
-            study
-                .arms
-                .iter()
-                .enumerate()
-                .map(|(arm, own)| PlannedArm::of(&own.name, &reading.values[arm], reading, &asked))
+            study.arms.iter().enumerate().map(|(arm, own)| {
+                let of_specimens = specimens(study, quantity, &own.name);
+                PlannedArm::of(&own.name, (&reading.values[arm], &of_specimens), reading, &asked)
+            })
         });
         let arms: Vec<PlannedArm> = arms.collect();
         let mut differences = Vec::new();
@@ -82,8 +96,42 @@ impl TestPlan {
         }
         // A displacement is the worse the larger it is: a low fractile of it is no characteristic value.
         let arms = if quantity == Quantity::TopDisplacement { Vec::new() } else { arms };
-        TestPlan { study: study.name.clone(), variant: study.variant.clone(), asked, arms, differences }
+        let otherwise = doubts(&arms).into_iter().map(|(by, known_cov, why)| Otherwise {
+            why,
+            by,
+            plan: TestPlan::of(study, rows, Asked { known_cov, ..asked }),
+        });
+        TestPlan {
+            study: study.name.clone(),
+            variant: study.variant.clone(),
+            asked,
+            otherwise: otherwise.collect(),
+            arms,
+            differences,
+        }
     }
+}
+
+/// What puts a stated coefficient of variation in doubt: simulated walls or specimens that scatter more. Real walls scatter more than
+/// simulated ones, and what is stated may be that of another reading than the angle, so that less is no contradiction. By what, with which variation instead (none: that of the walls), and why.
+fn doubts(arms: &[PlannedArm]) -> Vec<(&'static str, Option<f64>, String)> {
+    let mut all = Vec::new();
+    let named =
+        |arm: &PlannedArm, own: &StatedCov, whose: &str| format!("{}: {}", arm.name, own.sentence(whose));
+    let walls = arms.iter().filter_map(|arm| Some((arm, arm.stated_cov.as_ref()?)));
+    let walls = walls.filter(|(_, own)| own.is_too_small());
+    let why: Vec<String> = walls.map(|(arm, own)| named(arm, own, "simulated walls")).collect();
+    if !why.is_empty() {
+        all.push(("simulated walls", None, why.join(" ")));
+    }
+    let specimens = || arms.iter().filter_map(|arm| Some((arm, arm.stated_cov_of_specimens.as_ref()?)));
+    let doubted = || specimens().filter(|(_, own)| own.is_too_small());
+    let why: Vec<String> = doubted().map(|(arm, own)| named(arm, own, "specimens")).collect();
+    if let Some(most) = doubted().filter_map(|(_, own)| own.found).reduce(f64::max).filter(|most| *most > 0.0)
+    {
+        all.push(("specimens", Some(most), why.join(" ")));
+    }
+    all
 }
 
 /// Writes the plan as JSON and CSV into an existing folder.

@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 
 use crate::ensemble::{Observed, Quantity, Row, StepRow};
+use crate::math::degrees;
 use crate::report::number::significant;
 use crate::report::test_plan::Asked;
-use crate::study::Study;
+use crate::study::{MeasuredQuantity, Measurement, Study};
 
 /// Levels of a load are the same within this.
 const SAME_LEVEL: f64 = 1e-9;
@@ -27,6 +28,17 @@ pub struct Reading {
     pub error: f64,
     /// By arm, the values of its walls by member.
     pub values: Vec<BTreeMap<u64, f64>>,
+}
+
+/// What specimens of a family were read, in the unit of the quantity; none where only displacements on the way were, or bounds.
+pub fn specimens(study: &Study, quantity: Quantity, family: &str) -> Vec<f64> {
+    let is_one = |m: &&Measurement| {
+        m.family == family && m.quantity == MeasuredQuantity::CollapseAngle && !m.kind.is_censored()
+    };
+    match quantity {
+        Quantity::CollapseAngle => study.measured.iter().filter(is_one).map(|m| degrees(m.value)).collect(),
+        _ => Vec::new(),
+    }
 }
 
 /// The readings that the walls of a study allow, at one kn point: its quantity, then displacements at levels that all walls with a value

@@ -2,7 +2,7 @@
 
 use crate::report::number::{or_dash, shortened, significant};
 use crate::report::table::{LONGEST_NAME, aligned, wrapped};
-use crate::report::test_plan::{PlannedDifference, TestPlan};
+use crate::report::test_plan::{Otherwise, PlannedDifference, TestPlan};
 
 /// So many readings are shown of each pair of arms.
 const SHOWN: usize = 3;
@@ -13,9 +13,27 @@ pub fn test_plan_text(plan: &TestPlan) -> String {
     for own in best(plan) {
         text.push_str(&wrapped("", &conclusion(plan, own)));
     }
+    for other in &plan.otherwise {
+        text.push_str(&wrapped("! ", &format!("{} The plan by their COV follows below.", other.why)));
+    }
     text.push_str(&differences(plan));
     text.push_str(&arms(plan));
+    for other in &plan.otherwise {
+        text.push_str(&format!("\n{}\n{}", heading(other), test_plan_text(&other.plan)));
+    }
     text
+}
+
+/// What looks wrong: a stated coefficient of variation that walls or specimens contradict.
+pub fn test_plan_warnings(plan: &TestPlan) -> Vec<String> {
+    plan.otherwise.iter().map(|other| format!("--cov: {}", other.why)).collect()
+}
+
+fn heading(other: &Otherwise) -> String {
+    match other.plan.asked.known_cov {
+        Some(cov) => format!("With the COV of the {}, {} %:", other.by, significant(100.0 * cov, 2)),
+        None => format!("With the COV of the {}:", other.by),
+    }
 }
 
 /// Of each pair the reading that needs the fewest specimens.

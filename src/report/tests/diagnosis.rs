@@ -206,7 +206,7 @@ fn every_cause_is_detected_seen_in_part_or_hardly_seen() {
         "creep              ",
         "anywhere in its search prior [-, ",
         "density            factor at least 1.1 [1.0, -]\n",
-        "density            factor at most 0.89 [0.79, 1.0]\n",
+        "density            factor at most 0.89 [0.79, 1.00]\n",
         "joint_closure      in 49 of 100, and in 16 of 33\n",
     ] {
         assert!(text.contains(part), "no `{part}` in {text}");
@@ -243,17 +243,15 @@ fn a_group_is_said_in_words_with_how_far_it_is_off() {
     let head = "sbl: displacement mean at 5 deg:";
     assert_eq!(
         said(group(13.3e-3, "above", 0.002, 3.2)),
-        format!("{head} 13.3 mm measured, 3.10 [2.00, 5.50] simulated: 4.3 times too far (3.2 sd, p 0.0020)")
+        format!("{head} 13.3 mm measured, 3.1 [2.0, 5.5] simulated: 4.3 times too far (3.2 sd, p 0.0020)")
     );
     assert_eq!(
         said(group(1.55e-3, "below", 0.03, -2.1)),
-        format!(
-            "{head} 1.55 mm measured, 3.10 [2.00, 5.50] simulated: 2.0 times too little (2.1 sd, p 0.030)"
-        )
+        format!("{head} 1.55 mm measured, 3.1 [2.0, 5.5] simulated: 2.0 times too little (2.1 sd, p 0.030)")
     );
     assert_eq!(
         said(group(3e-3, "within", 0.8, -0.2)),
-        format!("{head} 3.00 mm measured, 3.10 [2.00, 5.50] simulated: agrees (p 0.80)")
+        format!("{head} 3.00 mm measured, 3.1 [2.0, 5.5] simulated: agrees (p 0.80)")
     );
     // Where simulated ones may be negative, and of angles, a ratio says nothing.
     let mut either = group(9.1e-3, "above", 0.01, 3.0);
@@ -278,7 +276,7 @@ fn a_group_is_said_in_words_with_how_far_it_is_off() {
     assert_eq!(
         said(bounds(3, "below")),
         format!(
-            "{head} below 1.00 mm in all 3 measured, 3.10 [2.00, 5.50] simulated: too little (p 0.010); {keep}"
+            "{head} below 1.00 mm in all 3 measured, 3.1 [2.0, 5.5] simulated: too little (p 0.010); {keep}"
         )
     );
     assert!(said(bounds(2, "below")).contains("1.00 mm (2 of 3 only bounds) measured"));
@@ -303,7 +301,7 @@ fn tilts_that_all_agree_share_a_line_and_others_do_not() {
     assert_eq!(agreeing.len(), 1);
     assert_eq!(
         agreeing[0].sentence(),
-        "sbl: displacement mean at 5, 7.5 and 10 deg: 1.00 mm to 2.00 mm measured, 3.10 [2.00, 5.50] simulated: agrees (p 0.20 or \
+        "sbl: displacement mean at 5, 7.5 and 10 deg: 1.00 mm to 2.00 mm measured, 3.1 [2.0, 5.5] simulated: agrees (p 0.20 or \
          more)"
     );
     // What is left of the walls, and of the bounds, is told where it is worst.

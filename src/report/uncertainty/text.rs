@@ -1,6 +1,6 @@
 //! What is printed: the interval, what did not fall, and a line per parameter.
 
-use crate::report::number::{compact, significant};
+use crate::report::number::{compact, ends, significant, within};
 use crate::report::uncertainty::UncertaintySummary;
 use crate::report::uncertainty::entry::InfluenceEntry;
 
@@ -23,9 +23,12 @@ pub fn uncertainty_text(summary: &UncertaintySummary) -> String {
 /// Over what, where the wall falls, and how many walls that rests on.
 fn interval(summary: &UncertaintySummary) -> String {
     let answer = &summary.answer;
-    let most = answer.max.map(|most| format!(", most {}", load(most))).unwrap_or_default();
+    let apart = answer.max.zip(answer.min).map_or(0.0, |(most, least)| most - least);
+    // Of least and most as many digits as of the interval between them.
+    let shown = |x: f64| if apart > 0.0 { within(x, apart) } else { load(x) };
+    let most = answer.max.map(|most| format!(", most {}", shown(most))).unwrap_or_default();
     let ends = answer.min.filter(|_| !is_one_load(summary));
-    let ends = ends.map(|least| format!("; least {}{most}", load(least))).unwrap_or_default();
+    let ends = ends.map(|least| format!("; least {}{most}", shown(least))).unwrap_or_default();
     format!("{} {} ({} walls solved{ends})", ranges(summary), falls(summary), answer.walls)
 }
 
@@ -41,13 +44,12 @@ pub(super) fn falls(summary: &UncertaintySummary) -> String {
     let level = 100.0 * answer.level;
     match answer.interval {
         [Some(low), _] if is_one_load(summary) => format!("it falls at {} {unit} throughout", load(low)),
-        [Some(low), Some(high)] => {
-            format!(
-                "it falls between {} and {} {unit} in {level} % of cases, 5 to 95 % point",
-                load(low),
-                load(high)
-            )
-        }
+        [Some(low), Some(high)] => match ends([low, high]) {
+            None => format!("it falls at {} {unit} in {level} % of cases", load(low)),
+            Some([low, high]) => {
+                format!("it falls between {low} and {high} {unit} in {level} % of cases, 5 to 95 % point")
+            }
+        },
         [Some(low), None] => {
             format!("it bears {} {unit} in 95 % of cases; how much more is not known", load(low))
         }

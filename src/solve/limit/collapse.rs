@@ -73,7 +73,7 @@ pub struct Accuracy {
 pub struct FixedPoint {
     /// Programs solved.
     pub iterations: u32,
-    /// Whether the multiplier came to rest, and the shear strengths with it: see `excess`.
+    /// Whether the multiplier came to rest, and the shear strengths with it or nearly: see `excess`.
     pub converged: bool,
     /// By how much the last program's multiplier is above that of the state found.
     pub change: f64,

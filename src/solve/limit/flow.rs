@@ -20,6 +20,7 @@
 //! The same is asked of the dead loads alone: how many times as much could be borne by the shear strength that they cause
 //! themselves? A wall for which this is less than 1 slides at rest, even if dilating joints would wedge it in.
 
+use crate::math::{compact, ends, within};
 use crate::model::{Level, Outcome};
 use crate::solve::limit::analysis::{Analysis, Answer, Applied};
 use crate::solve::limit::loads::Wrench;
@@ -39,6 +40,9 @@ const NEARNESS: f64 = 1e-5;
 const SAME_MULTIPLIER: f64 = 1e-5;
 /// Excess of a contact's shear over Coulomb's law at rest, over the blocks' mean weight.
 const SAME_STRENGTH: f64 = 1e-4;
+/// The same excess beside a multiplier that has come to rest: a hundredth of one block's weight in one contact, among forces of which a
+/// statically indeterminate wall has many.
+const LITTLE_STRENGTH: f64 = 1e-2;
 /// Programs that are solved at most, and how many of the last say between which multipliers a search without end goes.
 const PATIENCE: (u32, usize) = (400, 20);
 /// Shear strength (over the blocks' mean weight) of a contact without pressure: the cylinder needs an inside.
@@ -116,6 +120,9 @@ impl Analysis {
         search.range = last.iter().fold(search.range, |[low, high], &x| {
             if last[0] == x && low == high { [x, x] } else { [low.min(x), high.max(x)] }
         });
+        // The forces may wander on where the multiplier does not.
+        search.converged |=
+            state.accuracy.accepts_state() && is_at_rest(&search) && search.excess <= LITTLE_STRENGTH;
         let multiplier = state.solved.multiplier;
         let outcome = ending(&search, &state, level);
         let at_rest = outcome == Outcome::UnstableAtRest;
@@ -157,6 +164,12 @@ impl Analysis {
     }
 }
 
+/// Whether the last multipliers are the same within the accuracy of the search, so that there is one and no interval.
+fn is_at_rest(search: &FixedPoint) -> bool {
+    let [low, high] = search.range;
+    search.iterations as usize >= PATIENCE.1 && high - low <= SAME_MULTIPLIER * high.abs().max(1e-3)
+}
+
 /// How the search ended.
 fn ending(search: &FixedPoint, state: &Answer, level: fn(f64) -> Level) -> Outcome {
     let found = state.solved.multiplier;
@@ -171,13 +184,40 @@ fn ending(search: &FixedPoint, state: &Answer, level: fn(f64) -> Level) -> Outco
             at: level(low.max(0.0)),
             unbalanced_ratio: state.accuracy.residual,
             why: format!(
-                "no fixed point without dilatancy in {} programs: the last multipliers lie between {:.5} and {:.5}",
+                "no fixed point without dilatancy in {} programs: {}",
                 search.iterations,
-                low.max(0.0),
-                high.max(0.0)
+                match ends([low, high].map(|x| x.max(0.0))) {
+                    Some([low, high]) if !is_at_rest(search) =>
+                        format!("the last multipliers lie between {low} and {high}"),
+                    _ => format!(
+                        "the multiplier stays at {}, and a joint's shear exceeds its friction by {} of a block's weight",
+                        within(low.max(0.0), SAME_MULTIPLIER * high.abs()),
+                        compact(search.excess)
+                    ),
+                }
             ),
         }
     } else {
         state.not_converged(level(found.max(0.0)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn multipliers_that_are_the_same_leave_no_interval() {
+        let search = |range: [f64; 2], iterations: u32| FixedPoint {
+            iterations,
+            converged: false,
+            change: 0.0,
+            excess: 1e-3,
+            range,
+        };
+        assert!(is_at_rest(&search([0.293_829_8, 0.293_830_1], 400)));
+        assert!(!is_at_rest(&search([0.2938, 0.2939], 400)));
+        // Few programs show no rest.
+        assert!(!is_at_rest(&search([0.293_83; 2], 3)));
     }
 }

@@ -1,5 +1,6 @@
 //! Keys of a study that compares types of elements instead of walls, and of its published.toml.
 
+use crate::study::angle::Angle;
 use crate::study::keys::{POSITIVE, SHARE, SIZE, quantity, real};
 use crate::study::schema::Presence::{Default, Required};
 use crate::study::schema::{Interval, Key, Kind, Section};
@@ -16,7 +17,8 @@ const CELLS: &[&str] = &["random_polyhedra"];
 const COUNT: Kind = Kind::Whole { low: 1, high: 10_000 };
 const DENSITY: Key =
     Key::new("density_kg_per_m3", real("kg/m3", POSITIVE), Required, "Density of what the elements fill.");
-const PHI: Key = Key::new("phi_deg", real("deg", Interval::closed(0.0, 85.0)), Required, "Friction angle.");
+const PHI: Key = Key::new("phi_deg", real("deg", Interval::closed(0.0, 85.0)), Required, "Friction angle.")
+    .angle(Angle::Friction);
 
 /// study.toml of a study of element types.
 pub static ELEMENT_STUDY: Section = Section {

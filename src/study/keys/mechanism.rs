@@ -1,5 +1,6 @@
 //! Keys of the mechanisms that the base model leaves out: each is off unless its table is there.
 
+use crate::study::angle::Angle;
 use crate::study::keys::{SHARE, SIZE, real};
 use crate::study::schema::Presence::{Default, Optional, Required};
 use crate::study::schema::{Interval, Key, Kind, Section};
@@ -268,6 +269,7 @@ static PLATFORM_FRICTION: Section = mechanism(
         real("deg", Interval::closed(0.0, 85.0)),
         Required,
         "Friction angle of the joint with platform and strip, instead of what the restraint says.",
-    )]],
+    )
+    .angle(Angle::Friction)]],
     "A platform that the wall slides on more easily, or less, than on itself.",
 );

@@ -15,6 +15,7 @@ pub use run::SOLVER;
 pub use uncertain::UNCERTAIN;
 
 use crate::law::MOST_KNOTS;
+use crate::study::angle::Angle;
 use crate::study::keys::run::{LOAD, RESTRAINT};
 use crate::study::schema::Presence::{Default, Optional, Required, Unless};
 use crate::study::schema::{Interval, Key, Kind, Section};
@@ -163,7 +164,8 @@ static JOINT: Section = Section {
             quantity("deg", Interval::closed(0.0, 85.0)),
             Required,
             "Friction angle; a distribution is drawn per joint.",
-        ),
+        )
+        .angle(Angle::Friction),
         Key::new(
             "cohesion_pa",
             quantity("Pa", Interval::below(0.0, f64::INFINITY)),
@@ -307,7 +309,8 @@ pub static ARM: Section = Section {
             Default("{ family = \"uniform\", low = -20, high = 20 }"),
             "Dip of the bed joints, drawn per bed or cut.",
         )
-        .only(RANDOM),
+        .only(RANDOM)
+        .angle(Angle::Dip),
         Key::new(
             "least_overlap",
             real("1", Interval::below(0.0, 0.5)),

@@ -1,5 +1,6 @@
 //! Keys of what is done to a wall: load, restraint, solver.
 
+use crate::study::angle::Angle;
 use crate::study::keys::base_motion::RECORDS;
 use crate::study::keys::{SIZE, real};
 use crate::study::schema::Presence::{Default, Optional, Required, Unless};
@@ -74,7 +75,8 @@ pub static LOAD: Section = Section {
             Optional,
             "The same as an angle from x+, counter-clockwise seen from above (90 is y+), instead of towards.",
         )
-        .only(TILTING),
+        .only(TILTING)
+        .angle(Angle::Direction),
         Key::new(
             "step_deg",
             real("deg", Interval::above(0.0, 10.0)),
@@ -83,7 +85,8 @@ pub static LOAD: Section = Section {
         )
         .only(TILTING),
         Key::new("end_deg", real("deg", Interval::above(0.0, 89.0)), Default("89"), "Largest tilt.")
-            .only(TILTING),
+            .only(TILTING)
+            .angle(Angle::Tilt),
         Key::new(
             "bracket_deg",
             real("deg", Interval::above(1e-4, 10.0)),
@@ -212,7 +215,8 @@ pub static LOAD: Section = Section {
             Optional,
             "The same as an angle from x+, counter-clockwise seen from above (90 is y+), instead of towards.",
         )
-        .only(BASE_MOTION),
+        .only(BASE_MOTION)
+        .angle(Angle::Direction),
         Key::new(
             "after_s",
             real("s", Interval::closed(0.0, 600.0)),
@@ -307,7 +311,8 @@ pub static RESTRAINT: Section = Section {
             real("deg", Interval::closed(0.0, 85.0)),
             Optional,
             "Friction angle of the joint with platform and strip; without it that of the wall's joints.",
-        ),
+        )
+        .angle(Angle::Friction),
         Key::new(
             "ends",
             Kind::Choice(&["free", "fixed_end_blocks", "out_of_plane", "joint_springs", "ropes"]),

@@ -1,5 +1,6 @@
 //! Keys of `[uncertain]`: paths of numbers that are drawn once per wall.
 
+use crate::study::angle::Angle;
 use crate::study::keys::POSITIVE;
 use crate::study::schema::Presence::Optional;
 use crate::study::schema::{Interval, Key, Kind, Section};
@@ -26,7 +27,7 @@ pub static UNCERTAIN: Section = Section {
         )
         .usual(Interval::closed(1e6, 1e12)),
         drawn("joint.kn_over_ks", "1", POSITIVE, "Normal over shear stiffness."),
-        drawn("joint.phi_deg", "deg", Interval::closed(0.0, 85.0), "Friction angle."),
+        drawn("joint.phi_deg", "deg", Interval::closed(0.0, 85.0), "Friction angle.").angle(Angle::Friction),
         drawn("joint.cohesion_pa", "Pa", NOT_NEGATIVE, "Cohesion."),
         drawn("joint.tension_pa", "Pa", NOT_NEGATIVE, "Tensile strength."),
         drawn("joint.compressive_strength_pa", "Pa", POSITIVE, "Stress at which joints are crushed.")

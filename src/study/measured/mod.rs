@@ -21,6 +21,8 @@ pub use unit::Dimension;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+use crate::math::degrees;
+use crate::study::angle::Angle;
 use crate::study::csv;
 use crate::study::csv::cells::Line;
 use crate::study::csv::numbers::Numbers;
@@ -103,10 +105,11 @@ pub(super) fn read(source: &Arc<Source>, arms: Option<&[String]>) -> Result<Read
         return Err(Fault::gathered(faults));
     }
     let summed = summed::warnings(&read);
+    let in_radians: Vec<Fault> = read.iter().filter_map(|(m, place)| in_radians(m, place)).collect();
     let mut rows: Vec<Measurement> = read.into_iter().map(|(measurement, _)| measurement).collect();
     let odd = unfilled.iter().filter(|line| !unfilled::had_fallen(&header, line, &rows, &mut numbers));
     let odd: Vec<Fault> = odd.map(|line| unfilled::warning(line)).collect();
-    let warnings = Fault::gathered([odd, summed].concat());
+    let warnings = Fault::gathered([odd, in_radians, summed].concat());
     returned::name_remainders(&mut rows);
     let written = Written {
         separator: table.separator,
@@ -116,6 +119,14 @@ pub(super) fn read(source: &Arc<Source>, arms: Option<&[String]>) -> Result<Read
         unfilled: unfilled.iter().map(|line| line.number).collect(),
     };
     Ok(Read { rows, written: Some(written), warnings })
+}
+
+/// A collapse angle that looks as if it were not in degrees.
+fn in_radians(m: &Measurement, place: &Place) -> Option<Fault> {
+    let is_angle = m.quantity == MeasuredQuantity::CollapseAngle && !m.kind.is_censored();
+    let doubt = Angle::Tilt.doubt(degrees(m.value)).filter(|_| is_angle)?;
+    let found = Found::Words("looks like radians".to_owned());
+    Some(Fault::at(place, "value", found, format!("this, but {doubt}"), "state it in degrees"))
 }
 
 /// The fault of a row that has not as many cells as the header. What is empty at its end does not count, but for commas: one that
