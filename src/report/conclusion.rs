@@ -53,7 +53,11 @@ fn walls(summary: &Summary) -> String {
         0 => String::new(),
         some => format!(", {some} stood to the end of the load path"),
     };
-    format!("{solved}, {failed}{stood}.")
+    let open = match sum(|arm| arm.left_open.map_or(0, |open| open.walls)) {
+        0 => String::new(),
+        some => format!("; rigid blocks leave the value of {some} open"),
+    };
+    format!("{solved}, {failed}{stood}{open}.")
 }
 
 /// The mean of every arm at the first stiffness, as many as a line or two hold, and the COV of the random ones.

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use crate::ensemble::{Mechanism, Observed, Quantity, Row};
 use crate::report::by_member::ByMember;
 use crate::report::number::significant;
+use crate::report::undecided::{LeftOpen, OpenSoFar};
 use crate::stats::{Sample, Trials};
 use crate::study::{Claim, ClaimTest};
 
@@ -34,6 +35,8 @@ pub struct Population {
     pub stated: Vec<(ClaimTest, Trials)>,
     /// Randomisations of a design that its members share in turn; 1 where each is drawn by itself.
     pub randomisations: u64,
+    /// Walls whose value rigid blocks leave open.
+    open: OpenSoFar,
     /// The last member that was taken.
     last: Option<u64>,
 }
@@ -61,6 +64,7 @@ impl Population {
             modes: BTreeMap::new(),
             stated: stated.map(|test| (test.clone(), Trials::none(randomisations))).collect(),
             randomisations,
+            open: OpenSoFar::default(),
             last: None,
         }
     }
@@ -84,6 +88,7 @@ impl Population {
                 trials.take(row.member, falls_so(test, mechanism));
             }
         }
+        self.open.take(self.quantity, row);
         match self.quantity.observed(row) {
             Observed::Value(value) => self.values.push(row.member, value),
             Observed::Above(limit) => self.above.push(limit),
@@ -110,9 +115,15 @@ impl Population {
         self.planned.saturating_sub((self.values.len() + self.above.len()) as u64)
     }
 
-    /// Says which walls are not in the numbers; `None` when all are.
+    /// Walls whose value rigid blocks leave open; `None` where there are none.
+    pub fn left_open(&self) -> Option<LeftOpen> {
+        self.open.among(self.complete())
+    }
+
+    /// Says which walls are not in the numbers, and whose number is an upper end; `None` when there is nothing to say.
     pub fn note(&self) -> Option<String> {
         let mut parts = Vec::new();
+        parts.extend(self.left_open().map(|open| open.said(self.quantity, self.planned)));
         if !self.above.is_empty() {
             let least = self.above.iter().copied().fold(f64::INFINITY, f64::min);
             parts.push(format!(

@@ -9,6 +9,7 @@ use crate::report::measured::{MeasuredSummary, measured};
 use crate::report::population::Population;
 use crate::report::published::{Published, judge_all};
 use crate::report::shaken::{ShakenSummary, shaken};
+use crate::report::undecided::LeftOpen;
 use crate::stats::{self, EmpiricalStep, Estimate, Sorted, Statistic};
 use crate::study::{Arm, Study, Until};
 
@@ -94,6 +95,9 @@ pub struct ArmSummary {
     /// When the arm had walls enough; left out where their number was fixed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub enough: Option<EnoughEntry>,
+    /// Walls whose value rigid blocks leave open: it is an upper end. Left out where there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub left_open: Option<LeftOpen>,
     /// Says which walls are not in the numbers; null when all are.
     pub note: Option<String>,
     /// How the quantity is shown.
@@ -248,6 +252,7 @@ pub(crate) fn describe(
         quantiles: Vec::new(),
         fragility: Vec::new(),
         enough: None,
+        left_open: population.left_open(),
         note: population.note(),
         shown: population.quantity,
     };

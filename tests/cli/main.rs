@@ -21,6 +21,7 @@ mod influence;
 mod init;
 mod joint_laws;
 mod layering;
+mod left_open;
 mod malformed;
 mod manual;
 mod measured;
