@@ -52,6 +52,12 @@ class Analysis(Answer):
         return multiplier
 
     @property
+    def undecided(self) -> Mapping[str, Any] | None:
+        """What rigid blocks leave open: "lower", "upper" (in "unit") and the "reason"; None where the answer is one number."""
+        undecided: Mapping[str, Any] | None = self.get("undecided")
+        return undecided
+
+    @property
     def moves(self) -> list[int]:
         """Ids of the blocks that move at collapse; none of a wall that was shaken, whose `fallen` says what fell when."""
         return list(self.get("mechanism", ()))

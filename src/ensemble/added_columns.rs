@@ -16,6 +16,9 @@ pub struct AddedColumns {
     pub sheared: bool,
     /// Whether some wall is pushed by a jack: the columns of its drift and force in the table of load steps.
     pub pushed: bool,
+    /// Whether rigid blocks leave the value of some wall open: the columns of what stiff joints bear, in the table of members.
+    #[serde(default)]
+    pub undecided: bool,
     /// Whether some wall is shaken: the columns of what came of each record, in both tables.
     #[serde(default)]
     pub shaken: bool,
@@ -36,6 +39,7 @@ impl AddedColumns {
         }
         self.sheared |= row.shear.is_some();
         self.pushed |= row.load_steps.iter().any(is_pushed);
+        self.undecided |= row.undecided.is_some();
         self.shaken |= row.load_steps.iter().any(is_shaken);
     }
 
@@ -44,6 +48,7 @@ impl AddedColumns {
         self.drawn.extend(other.drawn.iter().cloned());
         self.sheared |= other.sheared;
         self.pushed |= other.pushed;
+        self.undecided |= other.undecided;
         self.shaken |= other.shaken;
     }
 
@@ -52,6 +57,7 @@ impl AddedColumns {
         row.drawn.keys().all(|key| self.drawn.contains(key))
             && (self.sheared || row.shear.is_none())
             && (self.pushed || !row.load_steps.iter().any(is_pushed))
+            && (self.undecided || row.undecided.is_none())
             && (self.shaken || !row.load_steps.iter().any(is_shaken))
     }
 }

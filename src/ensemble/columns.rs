@@ -91,6 +91,9 @@ pub fn of_members(added: &AddedColumns) -> Vec<Column<Members>> {
     if added.sheared {
         columns.extend(sheared_members());
     }
+    if added.undecided {
+        columns.extend(undecided_members());
+    }
     if added.shaken {
         columns.extend(shaken::members());
     }
@@ -114,6 +117,7 @@ pub fn of_steps(added: &AddedColumns) -> Vec<Column<Steps>> {
 pub fn documented() -> (Vec<Column<Members>>, Vec<Column<Steps>>) {
     let (mut members, mut steps) = (every_member(), every_step());
     members.extend(sheared_members());
+    members.extend(undecided_members());
     members.extend(shaken::members());
     members.push(drawn_column(ANY_KEY));
     steps.extend(sheared_steps());
@@ -248,6 +252,33 @@ fn every_member() -> Vec<Column<Members>> {
         }),
         real("unbalanced_ratio", "", "unbalanced force over the force in the joints at the end", |r: R| {
             r.unbalanced_ratio
+        }),
+    ]
+}
+
+fn undecided_members() -> Vec<Column<Members>> {
+    type R<'r> = &'r Row;
+    vec![
+        real(
+            "stiff_angle_deg",
+            "deg",
+            "tilt at which it falls with stiff joints, where rigid blocks leave the value open",
+            |r: R| r.undecided.as_ref().and_then(|own| own.stiff_angle_deg),
+        ),
+        real("stiff_multiplier", "", "factor on the load with stiff joints, the same", |r: R| {
+            r.undecided.as_ref().and_then(|own| own.stiff_multiplier)
+        }),
+        real("stiff_capacity_n", "N", "the largest push with stiff joints, the same", |r: R| {
+            r.undecided.as_ref().and_then(|own| own.stiff_capacity_n)
+        }),
+        real("thrust_needed_n", "N", "thrust in upright joints that the value needs", |r: R| {
+            r.undecided.as_ref().and_then(|own| own.thrust_needed_n)
+        }),
+        real("thrust_at_rest_n", "N", "thrust in upright joints under the weight alone", |r: R| {
+            r.undecided.as_ref().and_then(|own| own.thrust_at_rest_n)
+        }),
+        text("left_open", "why rigid blocks leave the value open", |r: R| {
+            r.undecided.as_ref().map(|own| own.why.clone())
         }),
     ]
 }

@@ -1,7 +1,7 @@
 //! One member: its wall, its joints, its protocol, its row. A pure function of study, seed and task.
 
 use crate::ensemble::shaken::shaken;
-use crate::ensemble::{LimitAnalysis, Mechanism, Row, ShearRow, StepRow, Task};
+use crate::ensemble::{LimitAnalysis, Mechanism, Row, ShearRow, StepRow, Task, UndecidedRow};
 use crate::generate::{Generated, InvalidGeometry, generate};
 use crate::interrupt;
 use crate::math::degrees;
@@ -127,6 +127,7 @@ fn solved(study: &Study, task: Task, generated: &Generated) -> Row {
             mode: shear.mode,
             opening_m: shear.opening.and_then(finite),
         }),
+        undecided: undecided(study, task, &run),
         joints: run.joints as u32,
         solver_steps: run.steps.iter().map(|step| step.solver_steps).sum(),
         unbalanced_ratio: last.and_then(|step| finite(step.unbalanced_ratio)),
@@ -175,6 +176,7 @@ fn unsolved(study: &Study, task: Task, outcome: Outcome) -> Row {
         largest_tilt_deg: None,
         limit: None,
         mechanism: None,
+        undecided: None,
         shear: None,
         stones: 0,
         joints: 0,
@@ -193,6 +195,24 @@ fn unsolved(study: &Study, task: Task, outcome: Outcome) -> Row {
         unbalanced_ratio: None,
         load_steps: Vec::new(),
     }
+}
+
+/// What rigid blocks leave open of a wall's value, in its unit.
+fn undecided(study: &Study, task: Task, run: &protocol::Run) -> Option<UndecidedRow> {
+    let own = run.undecided.as_ref()?;
+    let vertical = match study.as_drawn(task.arm, task.member).protocol {
+        Protocol::Shear(shear) => Some(shear.vertical_load),
+        _ => None,
+    };
+    let tilts = run.steps.first().is_some_and(|step| tilt(step.level).is_some());
+    Some(UndecidedRow {
+        stiff_angle_deg: tilts.then(|| degrees(own.lower)),
+        stiff_multiplier: (!tilts).then_some(own.lower),
+        stiff_capacity_n: vertical.map(|load| own.lower * load),
+        thrust_needed_n: own.needed,
+        thrust_at_rest_n: own.at_rest,
+        why: own.reason(),
+    })
 }
 
 /// Weight of the stones (N), added in the order of their ids.

@@ -61,7 +61,7 @@ pub use plates::{
 pub use progress::{Grown, Progress, Silent};
 pub use quantity::{Observed, Quantity};
 pub use rare::{Draw, RareWalls};
-pub use record::{LimitAnalysis, Mechanism, Row, ShakenRow, ShearRow, StepRow};
+pub use record::{LimitAnalysis, Mechanism, Row, ShakenRow, ShearRow, StepRow, UndecidedRow};
 pub use run::{Evaluations, Settings, run, run_with};
 pub use schema::column_reference;
 pub use selection::{Compared, Contest, Hopeless};

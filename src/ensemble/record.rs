@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::model::Outcome;
+use crate::math::radians;
+use crate::model::{Level, Outcome};
 use crate::protocol::{Agreement, FailureMode, ShearMode, Verdict};
 use crate::stats::fragility::Outcome as CollapseUnder;
 use crate::study::Measure;
@@ -49,6 +50,9 @@ pub struct Row {
     pub limit: Option<LimitAnalysis>,
     /// The mechanism of a collapse; `None` unless one was watched.
     pub mechanism: Option<Mechanism>,
+    /// What rigid blocks leave open of its value; `None` where nothing is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub undecided: Option<UndecidedRow>,
     /// What is read off a wall that is sheared; `None` of others.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shear: Option<ShearRow>,
@@ -120,6 +124,40 @@ pub struct Mechanism {
     pub length_share: f64,
     /// Middle of the movement along the wall, as a share of its length.
     pub place: f64,
+}
+
+/// What joints bear that are merely stiff, where rigid blocks leave the load open; see [`crate::protocol::Undecided`]. The row's value is
+/// the upper end.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct UndecidedRow {
+    /// The tilt at which it falls with stiff joints (deg); `None` where nothing tilts.
+    pub stiff_angle_deg: Option<f64>,
+    /// The factor on the load with stiff joints; `None` on a tilting table.
+    pub stiff_multiplier: Option<f64>,
+    /// The largest push with stiff joints (N), of a wall that is sheared.
+    pub stiff_capacity_n: Option<f64>,
+    /// The thrust in upright joints that the row's value needs (N).
+    pub thrust_needed_n: Option<f64>,
+    /// The thrust in upright joints under the weight alone (N).
+    pub thrust_at_rest_n: Option<f64>,
+    /// Why, in words.
+    pub why: String,
+}
+
+impl Row {
+    /// The row with what stiff joints bear in the place of its value, where rigid blocks leave that open.
+    pub fn with_stiff_joints(&self) -> Row {
+        let mut row = self.clone();
+        let Some(own) = &self.undecided else { return row };
+        if let Some(angle) = own.stiff_angle_deg {
+            row.collapse_angle_deg = Some(angle);
+            row.outcome = Outcome::Collapsed { at: Level::Tilt(radians(angle)) };
+        }
+        if let (Some(capacity), Some(shear)) = (own.stiff_capacity_n, &mut row.shear) {
+            shear.capacity_n = Some(capacity);
+        }
+        row
+    }
 }
 
 /// What is read off a sheared wall; see [`crate::protocol::Sheared`]. `None` where limit analysis has no such value.

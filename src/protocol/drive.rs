@@ -12,6 +12,7 @@ use crate::protocol::rigid::rigid;
 use crate::protocol::route::Route;
 use crate::protocol::settlement::settle_supports;
 use crate::protocol::task::{displacements, turns};
+use crate::protocol::undecided::left_open;
 use crate::protocol::watch::{Criterion, LoadStep, Watch};
 use crate::protocol::{Run, Task, Witness};
 use crate::solve::bodies::Body;
@@ -45,7 +46,9 @@ pub fn drive_seen_by(task: &Task<'_>, solver: &Solver, witness: Witness<'_>) -> 
             climb_seen_by(task, &of, witness)
         }
         Solver::Nonsmooth(settings) => {
-            climb_seen_by(task, &|assembly| nonsmooth::Simulation::of(assembly, *settings), witness)
+            let run =
+                climb_seen_by(task, &|assembly| nonsmooth::Simulation::of(assembly, *settings), witness);
+            Run { undecided: settings.is_rigid().then(|| left_open(task, &run)).flatten(), ..run }
         }
         Solver::Limit(settings) => rigid(task, *settings, witness),
     }
@@ -170,6 +173,7 @@ fn climb_seen_by<'a, S: Equilibrate<'a>>(
         joint_states: joint_states(assembly, &at_rest),
         settled_joints,
         shear: None,
+        undecided: None,
     }
 }
 
@@ -577,6 +581,7 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
             joint_states: Vec::new(),
             settled_joints: Vec::new(),
             shear: None,
+            undecided: None,
         }
     }
 }

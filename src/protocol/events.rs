@@ -148,7 +148,8 @@ fn after(before: Run, next: Run, none: Level) -> Run {
         (true, Some(last)) => steps.push(last.clone()),
         _ => steps.extend(went_on),
     }
-    Run { outcome, bracket, steps, ..next }
+    // What is open of the load of the first part is open of all that falls with it.
+    Run { outcome, bracket, steps, undecided: before.undecided.or(next.undecided.clone()), ..next }
 }
 
 #[cfg(test)]

@@ -31,6 +31,7 @@ mod stage;
 mod task;
 mod tilt_heap;
 mod tilting;
+mod undecided;
 mod watch;
 mod witness;
 
@@ -61,5 +62,6 @@ pub use slide::{Slid, Slide, SlideReading, slide};
 pub use stage::{Stage, typical_size};
 pub use task::{Platform, Run, Task};
 pub use tilt_heap::{HeapStep, TiltedHeap, tilt_heap};
+pub use undecided::{Lower, Undecided, undecided};
 pub use watch::{Criterion, LoadStep};
 pub use witness::Witness;

@@ -9,7 +9,7 @@ use crate::protocol::mechanism::{Failure, failure};
 use crate::protocol::path::Growing;
 use crate::protocol::pressure::Load;
 use crate::protocol::watch::LoadStep;
-use crate::protocol::{Run, Task, Witness};
+use crate::protocol::{Run, Task, Witness, undecided};
 use crate::solve::limit::{Analysis, BlockMotion, Limit, Loads, PointLoad, Settings, When};
 use crate::solve::{Assembly, Tie};
 
@@ -27,27 +27,27 @@ pub(super) struct Rigid<'q> {
 }
 
 impl Rigid<'_> {
-    /// What the wall bears, and how many joints were found.
-    pub fn ask(&self, settings: Settings) -> (Limit, usize) {
+    /// What the wall bears, and the analysis that was asked.
+    pub fn ask(&self, settings: Settings) -> (Limit, Analysis) {
         let analysis = Analysis::new(self.wall, self.laws, self.contact, settings).with_ties(self.ties);
-        let points = |when| {
-            let of =
-                |load: &Load| PointLoad { block: load.block, point: load.point, force: load.force, when };
-            self.loads.iter().map(of).collect::<Vec<_>>()
-        };
-        let limit = match self.growing {
-            Growing::Tilt(towards) => analysis.tilt(towards.unit(), &points(When::Dead)),
-            Growing::Factor | Growing::Drift => analysis.multiplier(&Loads {
-                points: points(When::Live),
-                live: Vec3::zeros(),
-                ..Loads::weight()
-            }),
-            Growing::Multiplier { towards, vertical } => analysis.multiplier(&Loads {
-                points: points(When::Dead),
-                ..Loads::seismic(towards.unit(), vertical)
-            }),
-        };
-        (limit, analysis.joints())
+        let limit = borne(&analysis, self.growing, self.loads);
+        (limit, analysis)
+    }
+}
+
+/// What an analysis finds of a load that grows.
+pub(super) fn borne(analysis: &Analysis, growing: Growing, loads: &[Load]) -> Limit {
+    let points = |when| {
+        let of = |load: &Load| PointLoad { block: load.block, point: load.point, force: load.force, when };
+        loads.iter().map(of).collect::<Vec<_>>()
+    };
+    match growing {
+        Growing::Tilt(towards) => analysis.tilt(towards.unit(), &points(When::Dead)),
+        Growing::Factor | Growing::Drift => {
+            analysis.multiplier(&Loads { points: points(When::Live), live: Vec3::zeros(), ..Loads::weight() })
+        }
+        Growing::Multiplier { towards, vertical } => analysis
+            .multiplier(&Loads { points: points(When::Dead), ..Loads::seismic(towards.unit(), vertical) }),
     }
 }
 
@@ -62,7 +62,7 @@ pub(super) fn rigid(task: &Task<'_>, settings: Settings, witness: Witness<'_>) -
         Growing::Factor | Growing::Drift => settings,
     };
     let asked = Rigid { wall, laws, contact, ties: &task.ties, loads: &task.loads, growing: path.growing };
-    let (limit, joints) = asked.ask(settings);
+    let (limit, analysis) = asked.ask(settings);
     let (outcome, last) = match limit.outcome.clone() {
         Outcome::Collapsed { at } if path.growing == Growing::Factor && at.value() >= path.end => {
             (Outcome::Equilibrium, Some(at.value()))
@@ -77,6 +77,14 @@ pub(super) fn rigid(task: &Task<'_>, settings: Settings, witness: Witness<'_>) -
         other => (other, None),
     };
     let falls = matches!(outcome, Outcome::Collapsed { .. });
+    let undecided = match outcome {
+        Outcome::Collapsed { .. } => undecided(task, &analysis, last, last),
+        Outcome::Equilibrium => {
+            let more = last.filter(|at| *at > path.end);
+            undecided(task, &analysis, more, more)
+        }
+        _ => None,
+    };
     let step = |level: f64, solver_steps: u32| LoadStep {
         level: path.level(level),
         top_displacement: f64::NAN,
@@ -107,11 +115,12 @@ pub(super) fn rigid(task: &Task<'_>, settings: Settings, witness: Witness<'_>) -
         steps,
         displacements: vec![Vec3::zeros(); wall.blocks.len()],
         turns: vec![Vec3::zeros(); wall.blocks.len()],
-        joints,
+        joints: analysis.joints(),
         events: Events::default(),
         joint_states: Vec::new(),
         settled_joints: Vec::new(),
         shear: None,
+        undecided,
     }
 }
 

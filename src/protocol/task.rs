@@ -11,6 +11,7 @@ use crate::protocol::mechanism::{Failure, JointState};
 use crate::protocol::path::LoadPath;
 use crate::protocol::pressure::Load;
 use crate::protocol::shear::Sheared;
+use crate::protocol::undecided::Undecided;
 use crate::protocol::watch::{Criterion, LoadStep};
 use crate::solve::bodies::{Bodies, Body};
 use crate::solve::{Assembly, Mount, Tie};
@@ -86,6 +87,8 @@ pub struct Run {
     pub settled_joints: Vec<JointState>,
     /// What is read off a wall that is sheared; `None` of others, and of one that never came to rest.
     pub shear: Option<Sheared>,
+    /// What rigid blocks leave open of the load that was found; `None` where stiff joints bear it, too, and of joints that are elastic.
+    pub undecided: Option<Undecided>,
 }
 
 impl<'t> Task<'t> {

@@ -50,6 +50,7 @@ pub fn turn(task: &Task<'_>, turning: &Turning, at_rest: Settings, witness: Witn
         joint_states: Vec::new(),
         settled_joints: Vec::new(),
         shear: None,
+        undecided: None,
     };
     let at = task.path.level(0.0);
     let unbalanced_ratio = settled.unbalanced_ratio;

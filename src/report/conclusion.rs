@@ -57,7 +57,11 @@ fn walls(summary: &Summary) -> String {
         0 => String::new(),
         some => format!(", {some} stood to the end of the load path"),
     };
-    format!("{solved}{missing}, {failed}{stood}{}.", bears(summary))
+    let open = match sum(|arm| arm.left_open.map_or(0, |open| open.walls)) {
+        0 => String::new(),
+        some => format!("; rigid blocks leave the value of {some} open"),
+    };
+    format!("{solved}{missing}, {failed}{stood}{}{open}.", bears(summary))
 }
 
 /// How many walls bear the full load, where they are asked for the load that they bear.

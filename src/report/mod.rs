@@ -47,6 +47,7 @@ mod test_plan;
 #[cfg(test)]
 mod tests;
 mod uncertainty;
+mod undecided;
 mod vtk;
 
 pub use advice::Advice;
@@ -103,4 +104,5 @@ pub use test_plan::{
 pub use uncertainty::{
     Answered, AskedOfWall, Ended, UncertaintySummary, uncertainty_text, write_uncertainty,
 };
+pub use undecided::{LeftOpen, LeftOpenAnswer};
 pub use vtk::{SERIES, write_series, write_vtu};

@@ -6,6 +6,7 @@ use crate::ensemble::{Mechanism, Observed, Quantity, Row};
 use crate::report::bounded::Bounded;
 use crate::report::by_member::ByMember;
 use crate::report::number::significant;
+use crate::report::undecided::{LeftOpen, OpenSoFar};
 use crate::stats::{Sample, Trials};
 use crate::study::{Claim, ClaimTest};
 
@@ -39,6 +40,8 @@ pub struct Population {
     pub bounded: Bounded,
     /// Randomisations of a design that its members share in turn; 1 where each is drawn by itself.
     pub randomisations: u64,
+    /// Walls whose value rigid blocks leave open.
+    open: OpenSoFar,
     /// The last member that was taken.
     last: Option<u64>,
 }
@@ -77,6 +80,7 @@ impl Population {
             stated: stated.map(|test| (test.clone(), Trials::none(randomisations))).collect(),
             bounded: Bounded::default(),
             randomisations,
+            open: OpenSoFar::default(),
             last: None,
         }
     }
@@ -101,6 +105,7 @@ impl Population {
                 trials.take(row.member, falls_so(test, mechanism));
             }
         }
+        self.open.take(self.quantity, row);
         match self.quantity.observed(row) {
             Observed::Value(value) => self.values.push(row.member, value),
             Observed::Above(limit) => self.above.push(limit),
@@ -139,9 +144,15 @@ impl Population {
         self.planned.saturating_sub(self.outcomes.values().sum())
     }
 
-    /// Says which walls are not in the numbers, and why; `None` when all are.
+    /// Walls whose value rigid blocks leave open; `None` where there are none.
+    pub fn left_open(&self) -> Option<LeftOpen> {
+        self.open.among(self.complete())
+    }
+
+    /// Says which walls are not in the numbers and why, and whose number is an upper end; `None` when there is nothing to say.
     pub fn note(&self) -> Option<String> {
         let mut parts = Vec::new();
+        parts.extend(self.left_open().map(|open| open.said(self.quantity, self.planned)));
         if !self.above.is_empty() {
             let least = self.above.iter().copied().fold(f64::INFINITY, f64::min);
             parts.push(format!(

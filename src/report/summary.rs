@@ -10,6 +10,7 @@ use crate::report::measured::{MeasuredSummary, measured};
 use crate::report::population::Population;
 use crate::report::published::{Published, judge_all};
 use crate::report::shaken::{ShakenSummary, shaken};
+use crate::report::undecided::LeftOpen;
 use crate::stats::{self, EmpiricalStep, Estimate, Sorted, Statistic};
 use crate::study::{Arm, Study, Until};
 
@@ -102,6 +103,9 @@ pub struct ArmSummary {
     /// What limit analysis says of the same walls; left out where the study does not ask it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limit_analysis: Option<Bounded>,
+    /// Walls whose value rigid blocks leave open: it is an upper end. Left out where there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub left_open: Option<LeftOpen>,
     /// Says which walls are not in the numbers; null when all are.
     pub note: Option<String>,
     /// How the quantity is shown.
@@ -272,6 +276,7 @@ pub(crate) fn describe(
         fragility: Vec::new(),
         enough: None,
         limit_analysis: None,
+        left_open: population.left_open(),
         note: population.note(),
         shown: population.quantity,
     };

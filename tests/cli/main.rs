@@ -22,6 +22,7 @@ mod influence;
 mod init;
 mod joint_laws;
 mod layering;
+mod left_open;
 mod malformed;
 mod manual;
 mod measured;

@@ -75,6 +75,7 @@ pub fn made_up(study: &Study, task: Task) -> Row {
         largest_tilt_deg: None,
         limit: None,
         mechanism: None,
+        undecided: None,
         shear: None,
         stones: 25,
         joints: 60,

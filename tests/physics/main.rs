@@ -46,6 +46,7 @@ mod roughness_tables;
 mod roughness_walls;
 mod shapes;
 mod shear;
+mod side_thrust;
 mod table;
 mod tilting;
 mod tumbling;

@@ -6,12 +6,13 @@ use crate::cli::analyse::arguments::{Analyse, Growing, MethodName};
 use crate::cli::analyse::joints;
 use crate::cli::analyse::loads::listed;
 use crate::cli::analyse::meetings::Fit;
+use crate::cli::analyse::open;
 use crate::cli::analyse::worst::Tried;
 use crate::cli::condition::resting;
 use crate::exchange::WallFile;
 use crate::math::{atan, degrees, ends, tan, within};
 use crate::model::{Block, Level, Outcome, Support, Wall};
-use crate::protocol::JointState;
+use crate::protocol::{JointState, Undecided};
 
 /// What the collapse multiplier is in a seismic assessment, and what it is not. Only the multiplier is computed: the participating mass
 /// and the confidence are the assessor's.
@@ -30,6 +31,8 @@ pub(crate) struct Answer {
     pub loose: Option<Vec<usize>>,
     /// Blocks that stand at rest only by forces that no weight causes.
     pub clamped: Vec<usize>,
+    /// What rigid blocks leave open of the load.
+    pub undecided: Option<Undecided>,
     /// Between which multipliers the answer is where the solver did not find it.
     pub between: Option<[f64; 2]>,
     /// The last load borne and the lowest at which it falls (rad or multipliers), of a solver that goes by steps.
@@ -148,6 +151,7 @@ impl Answer {
             "multiplier": multiplier,
             "collapse_multiplier": self.collapse_multiplier(),
             "as_seismic_coefficient": self.as_seismic_coefficient(asked),
+            "undecided": self.undecided.as_ref().map(|own| open::object(asked, own)),
             "between": self.between.map(|ends| self.in_unit(asked, ends)),
             "bracket": self.shown_bracket(asked),
             "bracket_unit": self.bracket.map(|_| if asked.growing() == Growing::Tilt { "deg" } else { "1" }),
@@ -179,6 +183,9 @@ impl Answer {
     pub fn headline(&self, asked: &Analyse) -> String {
         let to = asked.direction;
         let said = match (&self.outcome, asked.growing(), self.collapse()) {
+            _ if self.undecided.is_some() => {
+                self.undecided.as_ref().map(|own| open::headline(asked, own)).unwrap_or_default()
+            }
             (_, _, (Some(angle), _)) => {
                 let multiplier = self.collapse_multiplier().unwrap_or_default();
                 format!(
@@ -209,10 +216,15 @@ impl Answer {
     pub fn text(&self, asked: &Analyse, file: &WallFile, fit: &Fit, seconds: f64) -> String {
         let mut text =
             format!("{}\n  {} solver: {}\n", self.headline(asked), asked.solver.name(), self.meaning);
+        if let Some(own) = &self.undecided {
+            text.push_str(&format!("  {}\n", own.reason()));
+        }
         if let (Some(multiplier), Some(what)) =
             (self.collapse_multiplier(), self.as_seismic_coefficient(asked))
         {
-            text.push_str(&format!("  seismic coefficient {multiplier:.4}: {what}\n"));
+            let range = self.undecided.as_ref().map(|own| open::multipliers(asked, own));
+            let multiplier = range.unwrap_or_else(|| format!("{multiplier:.4}"));
+            text.push_str(&format!("  seismic coefficient {multiplier}: {what}\n"));
         }
         // A bracket whose ends read alike says no more than the load itself.
         if let Some([low, high]) = self.shown_bracket(asked).and_then(ends) {

@@ -10,6 +10,7 @@ mod known;
 mod loads;
 mod meetings;
 mod numbers;
+mod open;
 mod page;
 mod shaken;
 mod solve;

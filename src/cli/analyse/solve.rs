@@ -126,6 +126,7 @@ pub(super) fn task<'t>(
 fn by_steps(run: Run) -> (Answer, Found) {
     let answer = Answer {
         clamped: Vec::new(),
+        undecided: run.undecided.clone(),
         between: None,
         moving: run
             .failure
@@ -180,6 +181,7 @@ fn by_limit_analysis(
     }
     let answer = Answer {
         clamped: clamped(&analysis, wall, &found.outcome),
+        undecided: None,
         between: found.between,
         settled: Vec::new(),
         bracket: None,

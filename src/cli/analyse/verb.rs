@@ -10,6 +10,7 @@ use crate::cli::analyse::files::{self, Seen};
 use crate::cli::analyse::known::Known;
 use crate::cli::analyse::loads::{loaded, settlements};
 use crate::cli::analyse::meetings::{Fit, bounds, look};
+use crate::cli::analyse::open::left_open;
 use crate::cli::analyse::page::Told;
 use crate::cli::analyse::shaken::{self, shaken};
 use crate::cli::analyse::solve::{law, solve, solve_seen_by};
@@ -66,7 +67,8 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
     let page = arguments.page_alone();
     let is_seen = arguments.out.is_some() || page.is_some();
     let recorder = is_seen.then(|| Recorder::new(MOST_STATES));
-    let (answer, found) = solve(arguments, wall, &law, &fit, recorder.as_ref());
+    let (mut answer, found) = solve(arguments, wall, &law, &fit, recorder.as_ref());
+    answer.undecided = answer.undecided.or_else(|| left_open(arguments, &file.wall, &law, &fit, &found));
     warnings.extend(answer.warning(&file));
     if answer.outcome == Outcome::UnstableAtRest {
         warnings.extend(upright::question(

@@ -198,6 +198,7 @@ pub fn push(task: &Task<'_>, shear: &Shear, begin: Begin, witness: Witness<'_>) 
         joint_states: states,
         settled_joints: Vec::new(),
         shear: read,
+        undecided: None,
     }
 }
 

@@ -11,8 +11,9 @@ use crate::report::capacity::{Question, Rung};
 use crate::report::population::Population;
 use crate::report::stated_cov::StatedCov;
 use crate::report::summary::EnoughEntry;
+use crate::report::undecided::LeftOpenAnswer;
 use crate::stats::tally::Pooled;
-use crate::stats::{self, Shape, Statistic, Variation};
+use crate::stats::{self, Estimate, Shape, Statistic, Variation, above_zero};
 use crate::study::Until;
 
 /// The walls of one kind, and what they answer.
@@ -51,6 +52,9 @@ pub struct CapacityGroup {
     /// Why there were walls enough, where they were added until the quantile was known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub enough: Option<EnoughEntry>,
+    /// The same with what stiff joints bear in the place of values that rigid blocks leave open; left out where there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub left_open: Option<LeftOpenAnswer>,
     /// Walls that count alike.
     pub walls: u64,
     /// Walls whose value is known to lie above where their load path ended.
@@ -330,6 +334,7 @@ impl CapacityGroup {
                 interval_if_not: if_not.filter(|_| *lost > 0),
             },
             enough: None,
+            left_open: None,
             walls: (values.len() + above.len()) as u64 + lost,
             stood_to_the_end: above.len() as u64,
             walls_cov: complete.then(|| stats::cov(values)).flatten(),

@@ -26,6 +26,7 @@ use crate::report::draw::IMAGE_SCALE;
 use crate::report::files::write_figure;
 use crate::report::gathered::populations;
 use crate::report::population::Population;
+use crate::report::undecided::LeftOpenAnswer;
 use crate::stats::{DESIGN_PROBABILITY, Variation};
 use crate::study::{MeasuredKind, MeasuredQuantity, Measurement, Study};
 
@@ -79,8 +80,17 @@ impl CapacitySummary {
         let of = |own: &Population| {
             CapacityGroup::simulated(own, question, known, study.solver.name(), until(own))
         };
-        let groups = groups.iter().map(of).collect();
-        CapacitySummary::new(study, Quantity::of(study), question, known, groups)
+        let mut all: Vec<CapacityGroup> = groups.iter().map(of).collect();
+        if groups.iter().any(|own| own.left_open().is_some()) {
+            let stiff: Vec<Row> = rows.iter().map(Row::with_stiff_joints).collect();
+            let stiff = populations(study, &stiff);
+            for ((group, own), stiff) in all.iter_mut().zip(&groups).zip(&stiff) {
+                let CapacityGroup { answer, interval, .. } = of(stiff);
+                let open = own.left_open();
+                group.left_open = open.map(|open| LeftOpenAnswer { walls: open.walls, answer, interval });
+            }
+        }
+        CapacitySummary::new(study, Quantity::of(study), question, known, all)
     }
 
     /// From the collapse angles of a study's specimens alone; families without any are left out.

@@ -31,9 +31,23 @@ pub(super) const VALUES: &str = "characteristic: the next wall lies below it wit
 pub(super) fn conclusions(summary: &CapacitySummary) -> Vec<String> {
     let of = |group: &CapacityGroup| {
         let stated = group.stated_cov.as_ref().map(|own| format!(" {}", of_stated(own, group)));
-        conclusion(summary, group) + &stated.unwrap_or_default()
+        conclusion(summary, group) + &left_open(summary, group) + &stated.unwrap_or_default()
     };
     summary.groups.iter().map(of).collect()
+}
+
+/// The answer with what stiff joints bear, where rigid blocks leave values open.
+fn left_open(summary: &CapacitySummary, group: &CapacityGroup) -> String {
+    let Some(open) = &group.left_open else { return String::new() };
+    let shown = |x: f64| match summary.question {
+        Question::Quantile(_) => summary.shown.shown(x),
+        Question::Below(_) | Question::Above(_) => x,
+    };
+    format!(
+        " Rigid blocks leave {} of these walls open, which need thrust that their weight does not bring about: with what stiff joints bear it is {}.",
+        open.walls,
+        with_interval(open.answer.value().map(shown), open.interval.map(|ends| ends.map(shown)), 3)
+    )
 }
 
 fn name(group: &CapacityGroup) -> String {

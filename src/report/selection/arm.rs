@@ -8,6 +8,7 @@ use crate::ensemble::{Contest, Quantity, Row, is_random};
 use crate::report::capacity::Question;
 use crate::report::figure::Ladder;
 use crate::report::population::Population;
+use crate::report::undecided::LeftOpen;
 use crate::stats::{self, EmpiricalStep, Estimate, Summary, empirical};
 
 /// One arm.
@@ -25,6 +26,9 @@ pub struct SelectedArm {
     pub stood_to_the_end: u64,
     /// Walls that brought no value, by why.
     pub failed: BTreeMap<String, u64>,
+    /// Walls whose value rigid blocks leave open: it is an upper end. Left out where there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub left_open: Option<LeftOpen>,
     /// The probability or the quantile that is asked for; null where the mean is.
     pub answer: Option<f64>,
     /// The mean of the walls that brought a value, with Student's 95 % interval for these walls as if their number had been fixed.
@@ -66,6 +70,7 @@ impl SelectedArm {
             walls,
             stood_to_the_end: population.above.len() as u64,
             failed: population.failed().into_iter().collect(),
+            left_open: population.left_open(),
             answer: question.and_then(|question| answer(&values, question)),
             mean: summary.mean,
             cov: summary.cov.value,

@@ -58,6 +58,10 @@ pub(super) fn conclusion(summary: &SelectionSummary) -> Vec<String> {
         walls.push_str(&format!("; probability of a correct selection {}", chance(p)));
     }
     lines.push(walls + ".");
+    lines.extend(summary.arms.iter().filter_map(|arm| {
+        let open = arm.left_open?;
+        Some(format!("{}: {}.", shortened(&arm.name, LONGEST_NAME), open.said(summary.shown, arm.walls)))
+    }));
     if lost > 0 {
         lines.push(format!(
             "{lost} walls brought no value; \"better\" and \"same\" hold whatever they would have borne."

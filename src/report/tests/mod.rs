@@ -48,6 +48,7 @@ fn failed(member: u64, outcome: Outcome) -> Row {
         largest_tilt_deg: None,
         limit: None,
         mechanism: None,
+        undecided: None,
         shear: None,
         stones: 50,
         joints: 120,

@@ -55,6 +55,7 @@ mod periodic;
 mod program;
 mod self_stress;
 mod settings;
+mod sides;
 mod strength;
 mod tilt;
 
@@ -63,3 +64,4 @@ pub use collapse::{Accuracy, BlockMotion, FixedPoint, Limit, Thrust};
 pub use loads::{Loads, PointLoad, When};
 pub use periodic::Bearing;
 pub use settings::{Cone, Flow, Settings};
+pub(crate) use sides::is_upright;

@@ -38,7 +38,7 @@ impl Analysis {
         if !rest.capped || !rest.is_good() || self.stands_by_pressure_alone(&applied) {
             return None;
         }
-        let pressure = COST * self.blocks.unit / sum_of_pressures(&rest).max(self.blocks.unit);
+        let pressure = self.cost_of_pressure(&rest);
         let mut state = self.least_pressure(&applied, &self.strengths, pressure);
         for round in 1..=ROUNDS.1 {
             let mut strengths = self.cylinders(&state.solved.forces);
@@ -71,8 +71,13 @@ impl Analysis {
         answer.capped && answer.accuracy.accepts_state()
     }
 
+    /// What a normal force of one unit costs beside a state: little in all.
+    pub(super) fn cost_of_pressure(&self, state: &Answer) -> f64 {
+        COST * self.blocks.unit / sum_of_pressures(state).max(self.blocks.unit)
+    }
+
     /// As much of the dead loads as can be borne, with as little pressure as that needs.
-    fn least_pressure(&self, applied: &Applied, strengths: &[Strength], pressure: f64) -> Answer {
+    pub(super) fn least_pressure(&self, applied: &Applied, strengths: &[Strength], pressure: f64) -> Answer {
         let none = vec![Wrench::default(); applied.dead.len()];
         let program = self.program(&none, &applied.dead, &applied.axes, strengths, 1.0);
         self.answer(&Program { pressure, ..program })
