@@ -88,6 +88,7 @@ pub use selection::{
 pub use sensitivity::{SensitivitySummary, sensitivity_text, write_sensitivity};
 pub use shaken::{MeasureEntry, RatioEntry, RecordEntry, ShakenCurve, ShakenSummary, StripeEntry, TiltEntry};
 pub use summary::{ArmSummary, EnoughEntry, QuantileEntry, Summary, summarise};
+pub(crate) use table::aligned;
 pub use table::terminal_table;
 pub use test_plan::{
     Asked, PlannedArm, PlannedDifference, Reading, TestPlan, test_plan_text, write_test_plan,

@@ -47,4 +47,6 @@ mod shapes;
 mod shear;
 mod table;
 mod tilting;
+mod toppled;
+mod toppled_random;
 mod tumbling;

@@ -5,6 +5,7 @@ use crate::contact::{self, Pair, Survey, survey};
 use crate::exchange::{Fault, WallFaults, WallFile};
 use crate::math::{Vec3, cbrt};
 use crate::model::{Support, Wall};
+use crate::protocol::pile_thicknesses;
 use crate::shape::Polyhedron;
 
 /// An overlap deeper than this share of the smaller block's size (edge of the cube of its volume) is no modelling gap.
@@ -27,7 +28,8 @@ pub(crate) struct Fit {
     pub contact: contact::Settings,
     /// Gap (m) that is rounding for springs.
     pub rounding: f64,
-    /// Smaller horizontal extent of the part that moves (m).
+    /// Thickness (m) of the pile of every block, and of the thinnest one.
+    pub piles: Vec<f64>,
     pub thickness: f64,
     /// Number of joints.
     pub joints: usize,
@@ -86,10 +88,12 @@ pub(crate) fn look(file: &WallFile, tolerance: Tolerance, path: &str) -> Result<
     if !faults.is_empty() {
         return Err(faults);
     }
+    let piles = pile_thicknesses(&file.wall, found.joints.iter().copied());
     Ok(Fit {
         contact,
         rounding: standard.touch,
-        thickness: (high.x - low.x).min(high.y - low.y),
+        thickness: piles.iter().copied().filter(|own| *own > 0.0).fold(f64::INFINITY, f64::min),
+        piles,
         joints: found.joints.len(),
         deepest: found.deepest,
         warnings: told(file, &found, touch),

@@ -5,11 +5,12 @@
 //! its weight.
 
 mod observe;
+mod seam;
 mod settings;
 mod shake;
 mod wall;
 
 pub use observe::{Energy, Extreme, Shaken, Verdict};
-pub use settings::{BaseMotion, InTime, Shaking};
-pub use shake::{shake, shake_twice};
+pub use settings::{BaseMotion, InTime, Lean, Shaking};
+pub use shake::{Rested, shake, shake_twice};
 pub use wall::shake_wall;
