@@ -91,8 +91,12 @@ def analyse(
     colour: str | None = None,
     fclib: str | Path | None = None,
     at_deg: float | None = None,
-    record: str | Path | None = None,
-    scale: float | None = None,
+    record: str | Path | list[str | Path] | None = None,
+    scale: float | list[float] | None = None,
+    restitution: float | None = None,
+    lean_deg: float | None = None,
+    lean_direction: str | float | None = None,
+    once: bool = False,
     rayleigh: tuple[float, float, float] | None = None,
     time_step: float | None = None,
     out: str | Path | None = None,
@@ -129,10 +133,19 @@ def analyse(
         As the options of `pirca analyse`; see its help.
     fclib : path, optional
         File for the contact problem of one step, at the tilt `at_deg`: as the option of `pirca analyse`.
-    record : path, optional
-        Record of the ground's motion, for `load="base-motion"`: PEER .AT2, ESM, ITACA or K-NET ASCII, COSMOS or CSMIP V2, or CSV with units in its heads.
-    scale : float, optional
-        Factor on the record; 1 without it.
+    record : path or list of paths, optional
+        Record of the ground's motion, for `load="base-motion"`: PEER .AT2, ESM, ITACA or K-NET ASCII, COSMOS or CSMIP V2,
+        or CSV with units in its heads. Several, or several scales, make a table of runs.
+    scale : float or list of float, optional
+        Factor on the records; 1 without it.
+    restitution : float, optional
+        Share of the closing speed with which joints of contact dynamics part again; 0 without it.
+    lean_deg : float, optional
+        Lean of the ground (deg), towards `lean_direction`, or `direction` without it.
+    lean_direction : str or float, optional
+        The side towards which a leaning ground is lower, as `direction`.
+    once : bool
+        Leave out the second run, which starts 1e-9 m/s off rest.
     rayleigh : (float, float, float), optional
         Rayleigh damping of the explicit solver: share of critical, and two frequencies (Hz) at which it is so. Without it
         stones that swing in their joints are damped by half of critical, in proportion to stiffness alone; (0, 1, 10) is no damping.
@@ -176,6 +189,10 @@ def analyse(
         "at_deg": at_deg,
         "record": record,
         "scale": scale,
+        "restitution": restitution,
+        "lean_deg": lean_deg,
+        "lean_direction": lean_direction,
+        "once": once,
         "rayleigh": None if rayleigh is None else ",".join(map(str, rayleigh)),
         "time_step": time_step,
         "out": out,

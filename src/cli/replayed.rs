@@ -41,8 +41,9 @@ pub(crate) fn write(
     if let Some(rest) = replay.states.iter().rev().find(|state| state.is_equilibrium) {
         moved("rest.obj", rest)?;
     }
-    if let Some(end) = replay.states.last().filter(|state| !state.is_equilibrium) {
-        moved("collapse.obj", end)?;
+    let end = if replay.is_in_time() { "end.obj" } else { "collapse.obj" };
+    if let Some(last) = replay.states.last().filter(|state| !state.is_equilibrium) {
+        moved(end, last)?;
     }
     Ok(())
 }
@@ -73,10 +74,10 @@ pub(crate) fn in_state(wall: &Wall, state: &ReplayState) -> Wall {
     Wall { blocks: moved.collect() }
 }
 
-/// A fall is shown in its true size; what a wall moves by that stands is magnified to be seen.
+/// A fall is shown in its true size, and so is what is followed in time; what a wall moves by that stands is magnified to be seen.
 pub(crate) fn magnification(wall: &Wall, replay: &Replay) -> f64 {
     match replay.states.last() {
-        Some(last) if last.is_equilibrium => {
+        Some(last) if last.is_equilibrium && !replay.is_in_time() => {
             let blocks = wall.blocks.iter().zip(&last.poses);
             let stones: Vec<Stone> =
                 blocks.map(|(block, pose)| Stone::moved(block.shape.clone(), *pose)).collect();

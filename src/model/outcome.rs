@@ -22,6 +22,8 @@ pub enum Level {
     Acceleration(f64),
     /// Peak ground velocity (m/s).
     Velocity(f64),
+    /// Time since the ground began to move (s).
+    Time(f64),
 }
 
 impl Level {
@@ -34,7 +36,8 @@ impl Level {
             | Level::Drift(x)
             | Level::Settlement(x)
             | Level::Acceleration(x)
-            | Level::Velocity(x) => x,
+            | Level::Velocity(x)
+            | Level::Time(x) => x,
         }
     }
 }
@@ -49,6 +52,7 @@ impl fmt::Display for Level {
             Level::Settlement(x) => write!(f, "{:.2} % of the settlement of its supports", 100.0 * x),
             Level::Acceleration(x) => write!(f, "a peak ground acceleration of {} m/s2", shown(*x)),
             Level::Velocity(x) => write!(f, "a peak ground velocity of {} m/s", shown(*x)),
+            Level::Time(x) => write!(f, "{x:.2} s"),
         }
     }
 }

@@ -60,6 +60,13 @@ pub struct JointReading {
     pub shear_stress: f64,
 }
 
+impl Replay {
+    /// Whether it is followed in time on ground that moves, so that its states come at times.
+    pub fn is_in_time(&self) -> bool {
+        self.states.iter().any(|state| matches!(state.level, Level::Time(_)))
+    }
+}
+
 impl BuiltJoint {
     /// How a point of it moves with the second block against the first (m), in the axes of the first block as built. `centroids` are
     /// those of the blocks as built (m), `poses` their movements since.

@@ -21,7 +21,7 @@ pub struct Confirmation {
     /// The explicit solver's settings. Damping is low (0.3): at 0.8 a wall near its limit creeps so slowly that it seems
     /// to rest.
     pub explicit: explicit::Settings,
-    /// A wall one of whose blocks moves by so much (m) runs away.
+    /// A wall one of whose blocks moves by so much (m) runs away; of thicker [piles](Task::piles) by as much more.
     pub limit: f64,
 }
 
@@ -116,12 +116,12 @@ impl<'t, 'a> Judge<'t, 'a> {
             let mut free = released(0.0);
             let mut furthest: f64 = 0.0;
             let swung = free.settle(&mut |bodies| {
-                let moved = watch.moved(bodies);
+                let moved = watch.strayed(bodies);
                 furthest = furthest.max(moved);
                 moved > limit || moved < SWINGS_BACK * furthest
             });
             *spent += swung.steps;
-            if swung.status == Status::Stopped && watch.moved(&free.assembly.bodies) > limit {
+            if swung.status == Status::Stopped && watch.strayed(&free.assembly.bodies) > limit {
                 let ratio = swung.unbalanced_ratio;
                 let fall = Box::new(self.fall(from, free.assembly, watch, level, ratio));
                 if !is_final {
@@ -131,7 +131,7 @@ impl<'t, 'a> Judge<'t, 'a> {
             }
         }
         let mut simulation = released(explicit.damping);
-        let settled = simulation.settle(&mut |bodies| watch.moved(bodies) > limit);
+        let settled = simulation.settle(&mut |bodies| watch.strayed(bodies) > limit);
         *spent += settled.steps;
         let ratio = settled.unbalanced_ratio;
         match settled.status {
@@ -245,7 +245,7 @@ pub fn watch_fall<'a>(
     watch: &Watch,
 ) -> Failure {
     let before = falling.assembly().bodies.all.clone();
-    let moved = |bodies: &Bodies| watch.moved_between(&at_rest.bodies, bodies);
+    let moved = |bodies: &Bodies| watch.strayed_between(&at_rest.bodies, bodies);
     let far = 2.0 * moved(&falling.assembly().bodies);
     let settled = falling.settle(&mut |bodies| moved(bodies) > far);
     let after = &falling.assembly().bodies;

@@ -5,6 +5,7 @@ use crate::model::{Level, Outcome};
 use crate::protocol::back::back_to_0;
 use crate::protocol::confirm::{Fall, Judge, Told, watch_fall};
 use crate::protocol::events::Events;
+use crate::protocol::fallen::has_fallen;
 use crate::protocol::kept::keeps_contacts;
 use crate::protocol::mechanism::{Failure, failure, joint_states};
 use crate::protocol::pace::Pace;
@@ -74,7 +75,7 @@ fn climb_seen_by<'a, S: Equilibrate<'a>>(
     let built = task.assembled();
     let joints = built.joints.all.len();
     witness.begins(task, &built);
-    let watch = Watch::new(task.wall, &built.bodies, task.path.direction(), task.criterion);
+    let watch = Watch::new(task, &built.bodies);
     let judge = Judge::new(task);
     let steps = Vec::new();
     let mut climber = Climber {
@@ -271,9 +272,11 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
         self.spent += settled.steps;
         let ratio = settled.unbalanced_ratio;
         let is_doubtful = settled.status == Status::Equilibrium
+            && !self.has_fallen(from, next.assembly(), level)
             && (self.is_doubtful(from, &next, level) || self.bears_too_much(from, level));
         match settled.status {
             Status::Equilibrium if is_doubtful => Tried::Lost(next, ratio, Status::NoEquilibrium),
+            Status::Equilibrium if self.has_fallen(from, next.assembly(), level) => Tried::Away(next, ratio),
             Status::Equilibrium => Tried::Rest(next, ratio),
             Status::Stopped => Tried::Away(next, ratio),
             Status::StepsSpent | Status::NoEquilibrium => Tried::Lost(next, ratio, settled.status),
@@ -385,6 +388,12 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
         }
     }
 
+    /// Whether a block has come to rest fallen: it toppled or left its bearing on the way, and lies. What carried a block that is lost may drop.
+    fn has_fallen(&self, from: &S, rest: &Assembly<'_>, level: f64) -> bool {
+        let loses = self.task.changes.loses(self.last_borne(), level);
+        !loses && has_fallen(self.task.wall, from.assembly(), &rest.bodies)
+    }
+
     /// Whether a state at rest may be another equilibrium than the one that the wall comes to: a block has lost its contacts, or
     /// moved further than contacts are looked for and far out of pace.
     fn is_doubtful(&self, from: &S, next: &S, level: f64) -> bool {
@@ -395,9 +404,11 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
     }
 
     /// Whether a state at rest is one that the wall comes to from the last one: no block has moved past the criterion, none has
-    /// lost its contacts.
+    /// lost its contacts or fallen.
     fn comes_to(&self, from: &S, rest: &Assembly<'_>) -> bool {
-        !self.watch.runs_away(&rest.bodies) && keeps_contacts(from.assembly(), rest)
+        !self.watch.runs_away(&rest.bodies)
+            && keeps_contacts(from.assembly(), rest)
+            && !has_fallen(self.task.wall, from.assembly(), &rest.bodies)
     }
 
     /// Whether a wall at rest at a level bears more there than limit analysis says that it can: asked where the solver was in

@@ -10,11 +10,13 @@ mod confirm;
 mod direction;
 mod drive;
 mod events;
+mod fallen;
 mod kept;
 mod mechanism;
 mod observe;
 mod pace;
 mod path;
+mod piles;
 mod pressure;
 mod recorder;
 mod restraint;
@@ -37,7 +39,8 @@ mod witness;
 
 pub use amplified::amplified;
 pub use base_motion::{
-    BaseMotion, Energy, Extreme, InTime, Settled, Shaken, Shaking, Verdict, shake, shake_twice, shake_wall,
+    BaseMotion, Energy, Extreme, InTime, Lean, Rested, Settled, Shaken, Shaking, Verdict, shake, shake_twice,
+    shake_wall,
 };
 pub use bounds::{Agreement, Bounds, limit_of};
 pub use changes::{Changes, Creep, Loss};
@@ -48,6 +51,7 @@ pub use drive::{climb, drive, drive_seen_by};
 pub use events::{Event, EventShares, Events};
 pub use mechanism::{Failure, FailureMode, JointState};
 pub use path::{Growing, LoadPath};
+pub use piles::pile_thicknesses;
 pub use pressure::{Load, back_loads};
 pub use recorder::Recorder;
 pub use ropes::ropes;

@@ -113,6 +113,14 @@ impl Recorder {
         }
     }
 
+    /// The wall is on the move, followed in time.
+    pub(super) fn moves(&self, level: Level, assembly: &Assembly<'_>) {
+        let noted = &mut *self.noted.borrow_mut();
+        let Some(poses) = noted.poses(&assembly.bodies) else { return };
+        let state = noted.state(level, false, poses, assembly);
+        noted.bears(state, self.most);
+    }
+
     /// The wall does not stand at a level, coming from the last state at rest at another one, `since`: the explicit solver goes on from
     /// there.
     pub(super) fn falls<'a>(
@@ -150,7 +158,7 @@ impl Recorder {
             if !simulation.assembly.is_finite() {
                 return;
             }
-            let moved = watch.moved_between(&from, &simulation.assembly.bodies);
+            let moved = watch.strayed_between(&from, &simulation.assembly.bodies);
             let reached = (FALLING as f64 * (moved / far).sqrt()) as usize;
             if reached > noted {
                 noted = reached;

@@ -102,8 +102,8 @@ pub fn run_seen_by(
                 Solver::Nonsmooth(settings) => push(&task, shear, Begin::Nonsmooth(*settings), witness),
             }
         }
-        Protocol::BaseMotion(base) => {
-            let criterion = Criterion::AnyBlock(base.fallen_moved * thickness);
+        Protocol::BaseMotion(_) => {
+            let criterion = Criterion::AnyBlock(thickness);
             let task = task(&stage, &stage.assembly, LoadPath::factor(1), criterion, thickness);
             drive_seen_by(&task, solver, witness)
         }
@@ -131,6 +131,7 @@ pub(super) fn task<'t>(
         platform: stage.platform.clone(),
         changes: Changes::default(),
         path,
+        piles: Vec::new(),
         criterion,
         confirmation: Confirmation::for_thickness(thickness),
     }

@@ -2,6 +2,7 @@
 
 use crate::protocol::Task;
 use crate::protocol::confirm::{Judge, Told};
+use crate::protocol::fallen::has_fallen;
 use crate::protocol::watch::Watch;
 use crate::solve::bodies::Bodies;
 use crate::solve::explicit::{self, Simulation};
@@ -58,6 +59,10 @@ pub(super) fn settle_supports<'a, S: Equilibrate<'a>>(
             settled = relaxed.lower(&down, &mut stop);
             spent += settled.steps;
             tried = of(relaxed.assembly);
+        }
+        let is_at_rest = settled.status == Status::Equilibrium;
+        if is_at_rest && has_fallen(task.wall, rest.assembly(), &tried.assembly().bodies) {
+            settled.status = Status::Stopped;
         }
         let told = match settled.status {
             Status::Equilibrium => {

@@ -34,6 +34,9 @@ pub struct Task<'t> {
     pub changes: Changes,
     /// The load path.
     pub path: LoadPath,
+    /// Thickness (m) of the pile that each block belongs to, see [`pile_thicknesses`](crate::protocol::pile_thicknesses): `criterion` and
+    /// `confirmation` are those of the thinnest, thicker ones may move as much further. Empty where all blocks are one wall.
+    pub piles: Vec<f64>,
     /// When a wall counts as running away.
     pub criterion: Criterion,
     /// How a suspected collapse is confirmed.

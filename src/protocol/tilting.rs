@@ -2,6 +2,7 @@
 
 use crate::model::Outcome;
 use crate::protocol::events::Events;
+use crate::protocol::fallen::has_fallen;
 use crate::protocol::mechanism::joint_states;
 use crate::protocol::path::LoadPath;
 use crate::protocol::task::{displacements, turns};
@@ -34,8 +35,7 @@ pub fn turn(task: &Task<'_>, turning: &Turning, at_rest: Settings, witness: Witn
     let built = task.assembled();
     let joints = built.joints.all.len();
     witness.begins(task, &built);
-    let towards = task.path.direction();
-    let mut watch = Watch::new(task.wall, &built.bodies, towards, task.criterion);
+    let mut watch = Watch::new(task, &built.bodies);
     let mut level = Simulation::of(built.clone(), at_rest);
     let settled = level.settle(&mut |bodies| watch.runs_away(bodies));
     let run = |outcome, steps, assembly: &Assembly<'_>| Run {
@@ -159,9 +159,11 @@ impl<'t, 'a> Turned<'t, 'a> {
                 self.outcome = Outcome::NonFinite { at: level };
                 return self;
             }
-            begun = (self.watch.moved(bodies) > self.begins).then(|| begun.unwrap_or(tilt));
-            let away = self.watch.runs_away(bodies);
-            if away || tilt >= path.after(readings) {
+            begun = (self.watch.strayed(bodies) > self.begins).then(|| begun.unwrap_or(tilt));
+            let is_read = tilt >= path.after(readings);
+            let away =
+                self.watch.runs_away(bodies) || (is_read && has_fallen(self.task.wall, &self.last, bodies));
+            if away || is_read {
                 (witness.tell)(level);
                 let ratio = self.simulation.assembly.unbalanced_ratio();
                 self.steps.push(self.watch.read(bodies, level, ratio, std::mem::take(&mut since)));

@@ -1,9 +1,9 @@
 //! The eye on a wall while it is loaded: what is read at rest, and when it has moved past the criterion.
 
 use crate::math::Vec3;
-use crate::model::{Level, Wall};
-use crate::protocol::Direction;
+use crate::model::Level;
 use crate::protocol::observe::{Point, displacements, furthest, movable, three_points, top_points};
+use crate::protocol::{Direction, Task};
 use crate::solve::bodies::Bodies;
 
 /// When a wall counts as running away.
@@ -11,7 +11,8 @@ use crate::solve::bodies::Bodies;
 pub enum Criterion {
     /// Its top has moved by so much (m) along the load since gravity alone.
     Top(f64),
-    /// The centroid of some block has moved by so much (m) since the last state at rest.
+    /// The centroid of some block has moved by so much (m) since the last state at rest; of thicker [piles](crate::protocol::Task::piles) by as
+    /// much more. Whatever it has moved by, a block that has come to rest where it has toppled or left its bearing has fallen.
     AnyBlock(f64),
 }
 
@@ -42,8 +43,8 @@ pub struct Watch {
     three: Option<[Point; 3]>,
     towards: Direction,
     criterion: Criterion,
-    /// Blocks that can move.
-    movable: Vec<usize>,
+    /// Blocks that can move, and the thickness of the thinnest pile over that of theirs.
+    movable: Vec<(usize, f64)>,
     /// Displacements of the top points and the three points at rest under gravity alone.
     top_at_rest: Vec<Vec3>,
     three_at_rest: [f64; 3],
@@ -53,7 +54,12 @@ pub struct Watch {
 
 impl Watch {
     /// On a wall whose blocks have not moved yet.
-    pub fn new(wall: &Wall, bodies: &Bodies, towards: Direction, criterion: Criterion) -> Watch {
+    pub fn new(task: &Task<'_>, bodies: &Bodies) -> Watch {
+        let (wall, towards, criterion) = (task.wall, task.path.direction(), task.criterion);
+        let thinnest =
+            task.piles.iter().copied().filter(|thickness| *thickness > 0.0).fold(f64::INFINITY, f64::min);
+        let scale =
+            |id: usize| task.piles.get(id).filter(|own| **own > 0.0).map_or(1.0, |own| thinnest / own);
         let top = top_points(wall, bodies);
         Watch {
             three: three_points(wall, &top, bodies),
@@ -61,7 +67,7 @@ impl Watch {
             top,
             towards,
             criterion,
-            movable: movable(wall).map(|(id, _)| id).collect(),
+            movable: movable(wall).map(|(id, _)| (id, scale(id))).collect(),
             three_at_rest: [0.0; 3],
             last: bodies.all.iter().map(|b| b.position).collect(),
         }
@@ -84,23 +90,28 @@ impl Watch {
             Criterion::Top(limit) => {
                 furthest(&displacements(&self.top, bodies), &self.top_at_rest, self.towards).1 > limit
             }
-            Criterion::AnyBlock(limit) => self.moved(bodies) > limit,
+            Criterion::AnyBlock(limit) => self.strayed(bodies) > limit,
         }
     }
 
     /// Largest movement of a block's centroid since the last state at rest (m).
     pub fn moved(&self, bodies: &Bodies) -> f64 {
-        self.moved_from(bodies, |id| self.last[id])
+        self.largest(|id, _| (bodies.all[id].position - self.last[id]).norm_squared())
     }
 
-    /// Largest movement of a block's centroid between two states (m).
-    pub fn moved_between(&self, from: &Bodies, to: &Bodies) -> f64 {
-        self.moved_from(to, |id| from.all[id].position)
+    /// The same where blocks of thicker piles count as they would in the thinnest one: what the criterion is compared with.
+    pub fn strayed(&self, bodies: &Bodies) -> f64 {
+        self.largest(|id, scale| scale * scale * (bodies.all[id].position - self.last[id]).norm_squared())
     }
 
-    fn moved_from(&self, bodies: &Bodies, from: impl Fn(usize) -> Vec3) -> f64 {
-        let square = |&id: &usize| (bodies.all[id].position - from(id)).norm_squared();
-        self.movable.iter().map(square).fold(0.0, f64::max).sqrt()
+    /// As [`Watch::strayed`], between two states.
+    pub fn strayed_between(&self, from: &Bodies, to: &Bodies) -> f64 {
+        let of = |id: usize| (to.all[id].position - from.all[id].position).norm_squared();
+        self.largest(|id, scale| scale * scale * of(id))
+    }
+
+    fn largest(&self, square: impl Fn(usize, f64) -> f64) -> f64 {
+        self.movable.iter().map(|(id, scale)| square(*id, *scale)).fold(0.0, f64::max).sqrt()
     }
 
     /// What is read off the wall now.

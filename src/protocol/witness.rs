@@ -31,6 +31,14 @@ impl Witness<'_> {
         }
     }
 
+    /// A wall is on the move.
+    pub(super) fn moves(&self, level: Level, assembly: &Assembly<'_>) {
+        (self.tell)(level);
+        if let Some(recorder) = self.recorder {
+            recorder.moves(level, assembly);
+        }
+    }
+
     /// See [`Recorder::falls`].
     pub(super) fn falls<'a>(&self, task: &Task<'a>, at_rest: &Assembly<'a>, way: (f64, f64), watch: &Watch) {
         if let Some(recorder) = self.recorder {

@@ -61,7 +61,7 @@ pub struct Actor<'a> {
 }
 
 /// The file: the blocks, by id, in all states of their wall's replay, their movements times `magnification`. The states at rest take the
-/// first four seconds, evenly, and those of the fall the four seconds from the last one at rest on.
+/// first four seconds, evenly, and those of the fall the four seconds from the last one at rest on. What is followed in time is shown in time.
 pub fn write_glb(title: &str, actors: &[Actor], replay: &Replay, magnification: f64) -> Vec<u8> {
     let mut file = File::new();
     let materials: BTreeMap<Role, Index<Material>> =
@@ -124,6 +124,9 @@ pub fn write_glb(title: &str, actors: &[Actor], replay: &Replay, magnification: 
 
 /// When each state is shown (s).
 fn times(replay: &Replay) -> Vec<[f64; 1]> {
+    if replay.is_in_time() {
+        return replay.states.iter().map(|state| [state.level.value()]).collect();
+    }
     let rests = replay.states.iter().filter(|state| state.is_equilibrium).count();
     let falls = replay.states.len() - rests;
     let last = if rests > 1 { RESTS } else { 0.0 };

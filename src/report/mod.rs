@@ -96,6 +96,7 @@ pub use sensitivity::{SensitivitySummary, sensitivity_text, write_sensitivity};
 pub use shaken::{MeasureEntry, RatioEntry, RecordEntry, ShakenCurve, ShakenSummary, StripeEntry, TiltEntry};
 pub use stated_cov::StatedCov;
 pub use summary::{ArmSummary, EnoughEntry, QuantileEntry, Summary, summarise};
+pub(crate) use table::aligned;
 pub use table::terminal_table;
 pub use test_plan::{
     Asked, Otherwise, PlannedArm, PlannedDifference, Reading, TestPlan, test_plan_text, test_plan_warnings,

@@ -195,7 +195,7 @@ fn published(summary: &Summary) -> String {
 pub(super) const LONGEST_NAME: usize = 18;
 
 /// Rows as text: the first column to the left, numbers to the right, a rule below the first row.
-pub(super) fn aligned(mut rows: Vec<Vec<String>>) -> String {
+pub(crate) fn aligned(mut rows: Vec<Vec<String>>) -> String {
     for row in &mut rows {
         row[0] = shortened(&row[0], LONGEST_NAME);
     }

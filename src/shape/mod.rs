@@ -1,6 +1,7 @@
 //! Convex polygons and polyhedra: cut, clip, inertia, overlap, validity; unions of balls, outlines in balls. Knows shapes, never the world.
 
 mod balls;
+mod hull;
 mod outline;
 mod overlap;
 mod plane;
@@ -11,6 +12,7 @@ mod tests;
 mod union;
 
 pub use balls::{Ball, union_of_balls};
+pub use hull::Hull;
 pub use outline::{OutlineFault, Rows};
 pub use overlap::overlap_depth;
 pub use plane::{Frame, Plane};

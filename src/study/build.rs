@@ -306,11 +306,8 @@ fn load(t: &mut Reader<'_>, catalogue: &mut Catalogue) -> Option<(Protocol, Opti
 }
 
 fn base_motion(t: &mut Reader<'_>, towards: Option<Direction>) -> Option<BaseMotion> {
-    let reals = t.reals(["after_s", "fallen_moved", "fallen_down"]);
-    let (twice, shares, rayleigh) = (t.flag("twice"), events(t), rayleigh(t));
-    let [after, fallen_moved, fallen_down] = reals?;
-    let (towards, shares, rayleigh, twice) = (towards?, shares?, rayleigh?, twice?);
-    Some(BaseMotion { towards, after, fallen_moved, fallen_down, shares, rayleigh, twice })
+    let (after, twice, shares, rayleigh) = (t.real("after_s"), t.flag("twice"), events(t), rayleigh(t));
+    Some(BaseMotion { towards: towards?, after: after?, shares: shares?, rayleigh: rayleigh?, twice: twice? })
 }
 
 /// Damping by a ratio at two frequencies; none where neither is given.

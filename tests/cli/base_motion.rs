@@ -124,7 +124,16 @@ fn what_is_asked_in_vain_and_odd_records_are_refused() {
         ),
         (&["--solver", "explicit", "--kn", "1e9", "--rayleigh", "0.05,10,1"], "is not below the second"),
         (&["--solver", "nonsmooth", "--worst-direction"], "--worst-direction is not for --load base-motion"),
-        (&["--solver", "nonsmooth", "--out", "seen"], "--out is not for --load base-motion"),
+        (
+            &["--solver", "explicit", "--kn", "1e9", "--restitution", "0.5"],
+            "--restitution is for --solver nonsmooth",
+        ),
+        (&["--solver", "nonsmooth", "--restitution", "1.5"], "of the closing speed"),
+        (&["--solver", "nonsmooth", "--lean-deg", "-1"], "0 to 45 degrees"),
+        (
+            &["--solver", "nonsmooth", "--scale", "0.5,1", "--report"],
+            "--report is for one record at one scale",
+        ),
         (&["--solver", "nonsmooth", "--scale", "0"], "times the record"),
     ] {
         let output = folder.pirca(&[&ASKED[..], more].concat());

@@ -37,6 +37,7 @@ mod readings;
 mod records;
 mod report;
 mod scratch;
+mod shaken;
 mod shell;
 mod spreadsheets;
 mod study;

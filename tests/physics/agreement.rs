@@ -29,6 +29,7 @@ fn tilt(wall: &Wall, law: &Coulomb, solver: &Solver, step_deg: f64, bracket_deg:
         platform: None,
         changes: Changes::default(),
         path: LoadPath::tilt(Direction::YPlus, radians(step_deg), radians(89.0), radians(bracket_deg)),
+        piles: Vec::new(),
         criterion: Criterion::AnyBlock(0.04),
         confirmation: Confirmation::for_thickness(0.45),
     };
@@ -204,6 +205,7 @@ fn the_angle_does_not_depend_on_how_hard_the_solver_tries() {
             platform: None,
             changes: Changes::default(),
             path: LoadPath::tilt(Direction::XPlus, radians(0.5), radians(89.0), radians(0.01)),
+            piles: Vec::new(),
             criterion: Criterion::AnyBlock(0.02),
             confirmation: Confirmation::for_thickness(0.2),
         };

@@ -21,8 +21,8 @@ pub fn across(pulse: Pulse) -> Motion {
     Motion::of_pulse(pulse).expect("a pulse").along(&Vec3::y()).expect("one component")
 }
 
-pub fn shaken(wall: &Wall, law: &Coulomb, shaking: &Shaking) -> Shaken {
-    shake(&task(wall, law), shaking)
+pub fn shaken(wall: &Wall, law: &Coulomb, shaking: &Shaking, solver: InTime) -> Shaken {
+    shake(&task(wall, law), shaking, solver)
 }
 
 /// Its load path plays no part.
@@ -50,8 +50,8 @@ fn overturns_at(wall: &Wall, w: f64, [mut low, mut high]: [f64; 2], time_step: f
     while high - low > 1e-4 * high {
         let middle = 0.5 * (low + high);
         let pulse = Pulse::HalfSine { amplitude: middle, duration: PI / w };
-        let shaking = Shaking { after: 4.0, ..Shaking::new(across(pulse), nonsmooth(time_step)) };
-        match shaken(wall, &law, &shaking).verdict {
+        let shaking = Shaking { after: 4.0, ..Shaking::new(across(pulse)) };
+        match shaken(wall, &law, &shaking, nonsmooth(time_step)).verdict {
             Verdict::Collapsed => high = middle,
             _ => low = middle,
         }
@@ -99,7 +99,7 @@ fn a_block_slides_as_far_as_a_rectangular_pulse_takes_it() {
         let damped = Rayleigh { mass: 0.0, stiffness: 1e-3 };
         let explicit = InTime::Explicit(explicit::Settings::default(), damped);
         for (solver, tolerance) in [(nonsmooth(1e-4), 1e-3), (explicit, 1e-2)] {
-            let seen = shaken(&wall, &law, &Shaking::new(across(pulse), solver));
+            let seen = shaken(&wall, &law, &Shaking::new(across(pulse)), solver);
             let residual = seen.residual_m.expect("it stands");
             assert!((residual / wanted - 1.0).abs() < tolerance, "{solver:?} {a} {mu}: {residual} {wanted}");
         }
@@ -112,7 +112,7 @@ fn a_block_slides_to_and_fro_under_a_sine() {
     let wall = block(0.4, 0.1);
     let law = dry(1e9, degrees(atan(0.4)));
     let pulse = Pulse::Sine { amplitude: 0.5 * G, frequency: 1.0, cycles: 1 };
-    let seen = shaken(&wall, &law, &Shaking::new(across(pulse), nonsmooth(1e-4)));
+    let seen = shaken(&wall, &law, &Shaking::new(across(pulse)), nonsmooth(1e-4));
     let wanted = 0.023_333 * G / 9.81;
     assert!((seen.displacement.value / wanted - 1.0).abs() < 1e-3, "{:?}", seen.displacement);
     assert!((seen.slip.value / wanted - 1.0).abs() < 1e-3, "{:?}", seen.slip);
@@ -157,8 +157,8 @@ fn a_block_starts_to_rock_and_not_to_slide_where_friction_suffices() {
         let pulse = Pulse::Rectangle { amplitude: a * G, duration: time };
         for (friction, slides) in [(1.01 * needed, false), (0.97 * needed, true)] {
             let law = dry(1e9, degrees(atan(friction)));
-            let shaking = Shaking { after: 0.0, ..Shaking::new(across(pulse), nonsmooth(1e-5)) };
-            let seen = shaken(&block(b, h), &law, &shaking);
+            let shaking = Shaking { after: 0.0, ..Shaking::new(across(pulse)) };
+            let seen = shaken(&block(b, h), &law, &shaking, nonsmooth(1e-5));
             assert_eq!(seen.slip.value > 1e-6, slides, "{b} {a} {friction}: {:?}", seen.slip);
             if !slides {
                 let wanted = 0.5 * turns * seen.rotation.at_s * seen.rotation.at_s;
@@ -270,7 +270,7 @@ fn a_pair_that_next_to_nothing_decides_is_undecided_and_a_clear_one_is_not() {
     let w = 2.0 * frequency(b, h);
     let pair = |factor: f64| {
         let pulse = Pulse::HalfSine { amplitude: factor * 5.89 * G / 9.81, duration: PI / w };
-        let [first, second] = shake_twice(&task(&wall, &law), &Shaking::new(across(pulse), nonsmooth(1e-3)));
+        let [first, second] = shake_twice(&task(&wall, &law), &Shaking::new(across(pulse)), nonsmooth(1e-3));
         [first.verdict, second.verdict]
     };
     let (mut low, mut high) = (0.9, 1.1);
@@ -305,8 +305,9 @@ fn a_block_is_not_told_to_stand_on_steps_that_were_not_solved() {
     };
     let with = |max_iterations| {
         let settings = nonsmooth::Settings { max_iterations, ..settings };
-        let shaking = Shaking::new(across(pulse), InTime::Nonsmooth(settings));
-        (shaken(&wall, &law, &shaking), shake_twice(&task(&wall, &law), &shaking)[0].verdict)
+        let (shaking, solver) = (Shaking::new(across(pulse)), InTime::Nonsmooth(settings));
+        let twice = shake_twice(&task(&wall, &law), &shaking, solver);
+        (shaken(&wall, &law, &shaking, solver), twice[0].verdict)
     };
     let (seen, twice) = with(2);
     assert!(seen.unsolved_steps > 100 && seen.largest_residual > 1e-3, "{seen:?}");
@@ -325,7 +326,7 @@ fn both_solvers_overturn_the_same_of_200_blocks_but_within_2_percent_of_the_boun
     let stiff = dry(1e12, degrees(atan(3.0)));
     let verdict = |wall: &Wall, amplitude: f64, duration: f64, solver: InTime| {
         let pulse = Pulse::HalfSine { amplitude, duration };
-        shaken(wall, &stiff, &Shaking::new(across(pulse), solver)).verdict
+        shaken(wall, &stiff, &Shaking::new(across(pulse)), solver).verdict
     };
     let mut differ = Vec::new();
     for case in 0..200 {
@@ -368,8 +369,6 @@ fn a_wall_of_a_study_has_a_twin_where_one_is_asked_for_and_none_elsewhere() {
         let base = BaseMotion {
             towards: Direction::YPlus,
             after: 1.0,
-            fallen_moved: 0.75,
-            fallen_down: 0.5,
             shares: EventShares::default(),
             rayleigh: Rayleigh::default(),
             twice,

@@ -32,6 +32,7 @@ fn analysed(case: &Case, solver: &Solver) -> Run {
         platform: None,
         changes: Changes::default(),
         path,
+        piles: Vec::new(),
         criterion: Criterion::AnyBlock(0.1 * thickness),
         confirmation: Confirmation::for_thickness(thickness),
     };

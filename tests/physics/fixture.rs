@@ -70,6 +70,7 @@ pub fn path<'t>(wall: &'t Wall, law: &'t Coulomb, path: LoadPath) -> Task<'t> {
         platform: None,
         changes: Changes::default(),
         path,
+        piles: Vec::new(),
         criterion: Criterion::AnyBlock(0.04),
         confirmation: Confirmation::for_thickness(0.4),
     }

@@ -49,4 +49,6 @@ mod shear;
 mod side_thrust;
 mod table;
 mod tilting;
+mod toppled;
+mod toppled_random;
 mod tumbling;

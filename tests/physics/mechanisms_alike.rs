@@ -106,6 +106,7 @@ fn moved(mechanisms: &Mechanisms) -> [Vec<[f64; 3]>; 2] {
         platform: stage.platform,
         changes: mechanisms.changes(&wall, &streams),
         path: tilting.path(),
+        piles: Vec::new(),
         criterion: Criterion::AnyBlock(0.01),
         confirmation: Confirmation::for_thickness(0.12),
     };

@@ -22,6 +22,7 @@ fn angles(member: u64) -> (Option<f64>, f64) {
         platform: None,
         changes: Changes::default(),
         path: LoadPath::tilt(Direction::YPlus, radians(2.0), radians(60.0), radians(0.01)),
+        piles: Vec::new(),
         criterion: Criterion::AnyBlock(0.04),
         confirmation: Confirmation::for_thickness(0.45),
     };

@@ -20,6 +20,9 @@ const STEPS_PER_SECOND: f64 = 1000.0;
 /// What comes down slower (rad/s) stays down: impacts would follow one another without end.
 const STAYS_DOWN: f64 = 1e-4;
 
+/// What is lower than at rest by this share of its half height lies.
+const LIES: f64 = 0.1;
+
 /// A stone on its base.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Block {
@@ -45,7 +48,7 @@ pub enum Impact {
 pub struct Rocked {
     /// Largest turn from the face (rad).
     pub peak: f64,
-    /// Whether its centroid went further than allowed.
+    /// Whether it turned past its unstable equilibrium and did not come back.
     pub overturned: bool,
 }
 
@@ -89,16 +92,22 @@ impl Block {
             / (self.gyration() + self.ends[end] * self.ends[end] + self.half[1] * self.half[1])
     }
 
-    /// Where its centroid is further than `far` (m) from where it was at rest.
-    fn has_gone(&self, turn: f64, far: f64) -> bool {
+    /// Whether it is past its unstable equilibrium: at rest gravity alone would turn it further.
+    fn is_past(&self, turn: f64) -> bool {
         let end = Block::end(turn);
-        let (from, to) = (self.arm(end, 0.0), self.arm(end, turn));
-        let way = [to[0] - from[0], to[1] - from[1]];
-        way[0] * way[0] + way[1] * way[1] > far * far
+        turn != 0.0 && turn.signum() * self.acceleration(end, turn, 0.0) > 0.0
     }
 
-    /// Follows it through a record along `+t` and `after` (s) more. It has overturned when its centroid is further than `far` (m) from its place.
-    pub fn shaken(&self, record: &Accelerogram, after: f64, far: f64, impact: Impact) -> Rocked {
+    /// Whether its centroid is so much lower than at rest that it does not come back.
+    fn lies(&self, turn: f64) -> bool {
+        let end = Block::end(turn);
+        let (from, to) = (self.arm(end, 0.0), self.arm(end, turn));
+        let up = [-sin(self.slope), cos(self.slope)];
+        (from[0] - to[0]) * up[0] + (from[1] - to[1]) * up[1] > LIES * self.half[1]
+    }
+
+    /// Follows it through a record along `+t` and `after` (s) more.
+    pub fn shaken(&self, record: &Accelerogram, after: f64, impact: Impact) -> Rocked {
         let mut own = Rocking { block: self, record, impact, turn: 0.0, spin: 0.0, time: 0.0 };
         let step = 1.0 / STEPS_PER_SECOND;
         let steps = ((record.duration() + after) * STEPS_PER_SECOND).round() as usize;
@@ -106,11 +115,11 @@ impl Block {
         for k in 0..steps {
             own.advance(step * k as f64, step);
             peak = peak.max(own.turn.abs());
-            if self.has_gone(own.turn, far) {
+            if self.lies(own.turn) {
                 return Rocked { peak, overturned: true };
             }
         }
-        Rocked { peak, overturned: false }
+        Rocked { peak, overturned: self.is_past(own.turn) }
     }
 }
 

@@ -27,8 +27,8 @@ fn overturns_at([b, h]: [f64; 2], wanted: f64, pulse: impl Fn(f64) -> Pulse, sol
     let [mut low, mut high] = [0.8 * wanted, 1.02 * wanted];
     while high - low > 1e-4 * wanted {
         let middle = 0.5 * (low + high);
-        let shaking = Shaking { after: 4.0, ..Shaking::new(across(pulse(middle)), solver) };
-        let has_fallen = shaken(&wall, &law, &shaking).verdict == Verdict::Collapsed;
+        let shaking = Shaking { after: 4.0, ..Shaking::new(across(pulse(middle))) };
+        let has_fallen = shaken(&wall, &law, &shaking, solver).verdict == Verdict::Collapsed;
         if has_fallen { high = middle } else { low = middle }
     }
     0.5 * (low + high)

@@ -15,8 +15,6 @@ use crate::rocking_block::{Block, Impact, Rocked};
 pub const SEED: u64 = 2018;
 /// Time followed after a record (s).
 const AFTER: f64 = 3.0;
-/// Overturned when the centroid is so many widths from its place: half again as far as the vertical over the end.
-const FAR: f64 = 0.75;
 /// A turn below this share of alpha is none.
 const RESTS: f64 = 1e-3;
 /// Stiffness of joints (Pa/m); contact dynamics takes them for rigid.
@@ -98,14 +96,9 @@ pub fn simulated(block: &Block, motion: &Motion, solver: InTime, kn: f64) -> Roc
     let wall = wall(block);
     // No sliding: tan(phi) 3.
     let law = dry(kn, degrees(atan(3.0)));
-    let (low, high) = wall.blocks[0].shape.bounds();
     let task = path(&wall, &law, LoadPath::tilt(Direction::YPlus, 0.01, 1.0, 1e-4));
-    let shaking = Shaking {
-        after: AFTER,
-        fallen_moved: far(block) / (high.y - low.y),
-        ..Shaking::new(motion.clone(), solver)
-    };
-    let seen = shake(&task, &shaking);
+    let shaking = Shaking { after: AFTER, ..Shaking::new(motion.clone()) };
+    let seen = shake(&task, &shaking, solver);
     assert!(matches!(seen.verdict, Verdict::Stands | Verdict::Collapsed), "{:?}", seen.verdict);
     // One or two steps of a record, about an impact.
     let left = seen.largest_residual;
@@ -115,11 +108,7 @@ pub fn simulated(block: &Block, motion: &Motion, solver: InTime, kn: f64) -> Roc
 
 /// The same by the reference.
 pub fn reference(block: &Block, motion: &Motion, impact: Impact) -> Rocked {
-    block.shaken(&motion.accelerogram(&Vec3::y()), AFTER, far(block), impact)
-}
-
-fn far(block: &Block) -> f64 {
-    FAR * 2.0 * block.half[0]
+    block.shaken(&motion.accelerogram(&Vec3::y()), AFTER, impact)
 }
 
 /// Peak turn over the slenderness `alpha = atan(b / h)` of the perfect stone; 0 where it rests, [`OVERTURNED`] where it overturned.

@@ -283,6 +283,7 @@ fn a_horizontal_force_slides_a_block_at_mu() {
         platform: None,
         changes: Changes::default(),
         path: LoadPath::multiplier(Direction::XMinus, 0.1, 10.0, 1e-3),
+        piles: Vec::new(),
         criterion: Criterion::AnyBlock(0.04),
         confirmation: Confirmation::for_thickness(0.4),
     };

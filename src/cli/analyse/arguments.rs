@@ -43,17 +43,39 @@ pub(crate) struct Analyse {
     pub worst_direction: bool,
     /// Record of the ground's motion, for --load base-motion: PEER .AT2, ESM, ITACA or K-NET ASCII, COSMOS or CSMIP V2,
     /// or CSV whose heads state their units (t_s, a_g, ax_m_per_s2, ...). Its y axis, or its only component, is turned to --direction.
-    #[arg(long, value_name = "FILE", help_heading = LOAD)]
-    pub record: Option<PathBuf>,
-    /// Factor on the record [default: 1].
-    #[arg(long, value_name = "X", value_parser = numbers::scale, requires = "record", help_heading = LOAD)]
-    pub scale: Option<f64>,
+    /// For several records, several times: a table.
+    #[arg(long = "record", value_name = "FILE", help_heading = LOAD)]
+    pub records: Vec<PathBuf>,
+    /// Factor on the records, or several as 0.5,1,1.5: each record at each of them [default: 1].
+    #[arg(long = "scale", value_name = "X,..", value_parser = numbers::scale, value_delimiter = ',', requires = "records", help_heading = LOAD)]
+    pub scales: Vec<f64>,
+    /// Restitution of contact dynamics under a base motion: the share of the closing speed with which joints part again, 0 to 1. With many
+    /// contacts at once it may gain energy [default: 0].
+    #[arg(long, value_name = "E", value_parser = numbers::restitution, requires = "records", allow_negative_numbers = true, help_heading = LOAD)]
+    pub restitution: Option<f64>,
+    /// Lean of the ground under a base motion (deg), the wall with it: a plane that is lower towards --lean-direction. Records stay level
+    /// [default: 0].
+    #[arg(long, value_name = "DEG", value_parser = numbers::lean, requires = "records", allow_negative_numbers = true, help_heading = LOAD)]
+    pub lean_deg: Option<f64>,
+    /// The side towards which the leaning ground is lower, as --direction [default: that of --direction].
+    #[arg(
+        long,
+        value_name = "NAME|DEG",
+        value_parser = numbers::direction,
+        requires = "lean_deg",
+        allow_negative_numbers = true,
+        help_heading = LOAD
+    )]
+    pub lean_direction: Option<Direction>,
+    /// Follow a wall under a base motion once. Without it a second run, started 1e-9 m/s off rest, tells what chance decides.
+    #[arg(long, requires = "records", help_heading = LOAD)]
+    pub once: bool,
     /// Rayleigh damping of the explicit solver: a share of critical at two frequencies (Hz), as 0.05,1,10. Its part in proportion to mass slows
     /// toppling; 0,1,10 is none [default: half of critical where a stone swings in its joints, in proportion to stiffness alone].
-    #[arg(long, value_name = "RATIO,HZ,HZ", value_parser = numbers::rayleigh, requires = "record", help_heading = LOAD)]
+    #[arg(long, value_name = "RATIO,HZ,HZ", value_parser = numbers::rayleigh, requires = "records", help_heading = LOAD)]
     pub rayleigh: Option<Rayleigh>,
     /// Time step of contact dynamics under a base motion (s) [default: 0.002].
-    #[arg(long, value_name = "S", value_parser = numbers::time_step, requires = "record", help_heading = LOAD)]
+    #[arg(long, value_name = "S", value_parser = numbers::time_step, requires = "records", help_heading = LOAD)]
     pub time_step: Option<f64>,
     /// Vertical share of --load lateral: a multiplier x pushes with V x times the weight upwards besides, which lightens the wall;
     /// downwards where V is below 0. A number from -2 to 2 [default: 0].

@@ -5,6 +5,7 @@ use crate::contact::{self, Pair, Survey, survey};
 use crate::exchange::{Fault, WallFaults, WallFile};
 use crate::math::{Vec3, cbrt};
 use crate::model::{Support, Wall};
+use crate::protocol::pile_thicknesses;
 use crate::shape::Polyhedron;
 
 /// An overlap deeper than this share of the smaller block's size (edge of the cube of its volume) is no modelling gap.
@@ -25,7 +26,8 @@ const SUB_CONTACTS: [u32; 2] = [4, 4];
 pub(crate) struct Fit {
     /// Tolerances of contact detection; gaps up to `closed` are joints, for the survey and for all solvers.
     pub contact: contact::Settings,
-    /// Smaller horizontal extent of the part that moves (m).
+    /// Thickness (m) of the pile of every block, and of the thinnest one.
+    pub piles: Vec<f64>,
     pub thickness: f64,
     /// Number of joints.
     pub joints: usize,
@@ -88,9 +90,11 @@ pub(crate) fn look(file: &WallFile, tolerance: Tolerance, path: &str) -> Result<
     if !faults.is_empty() {
         return Err(faults);
     }
+    let piles = pile_thicknesses(&file.wall, found.joints.iter().copied());
     Ok(Fit {
         contact,
-        thickness: (high.x - low.x).min(high.y - low.y),
+        thickness: piles.iter().copied().filter(|own| *own > 0.0).fold(f64::INFINITY, f64::min),
+        piles,
         joints: found.joints.len(),
         deepest: found.deepest,
         warnings: told(file, &found, touch),

@@ -47,6 +47,16 @@ pub(crate) fn scale(text: &str) -> Result<f64, String> {
     within(text, 1e-3..=1e3, "times the record")
 }
 
+/// Restitution of joints.
+pub(crate) fn restitution(text: &str) -> Result<f64, String> {
+    within(text, 0.0..=1.0, "of the closing speed")
+}
+
+/// Lean of the ground (deg).
+pub(crate) fn lean(text: &str) -> Result<f64, String> {
+    within(text, 0.0..=45.0, "degrees")
+}
+
 /// Time step (s).
 pub(crate) fn time_step(text: &str) -> Result<f64, String> {
     within(text, 1e-6..=0.02, "s")

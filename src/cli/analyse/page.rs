@@ -84,7 +84,7 @@ fn question(asked: &Analyse) -> String {
 }
 
 /// What was given, with what was not as it is by default.
-fn inputs(asked: &Analyse) -> Vec<(&'static str, String)> {
+pub(super) fn inputs(asked: &Analyse) -> Vec<(&'static str, String)> {
     let mut all = vec![
         ("solver", asked.solver.name().to_owned()),
         ("load", asked.load.name().to_owned()),

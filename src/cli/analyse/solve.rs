@@ -28,7 +28,7 @@ pub(super) const LARGEST_MULTIPLIER: f64 = 10.0;
 /// Width of the bracket around the collapse: angle (deg) and multiplier.
 pub(super) const BRACKET_DEG: f64 = 0.01;
 pub(super) const BRACKET: f64 = 1e-4;
-/// A wall runs away when a block has moved by this share of its thickness in a step.
+/// A wall runs away when a block has moved by this share of the thickness of its pile in a step.
 const RUNS_AWAY: f64 = 0.1;
 
 /// The law of all joints, with the middle of what is not known exactly: no tension, cohesion kept after slip, ks = kn / 2 unless it is given.
@@ -118,6 +118,7 @@ pub(super) fn task<'t>(
         platform: None,
         changes: Changes { settlements: settlements.to_vec(), ..Changes::default() },
         path,
+        piles: fit.piles.clone(),
         criterion: Criterion::AnyBlock(RUNS_AWAY * fit.thickness),
         confirmation: Confirmation::for_thickness(fit.thickness),
     }

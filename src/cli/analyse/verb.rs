@@ -56,8 +56,8 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
     warnings.extend(fit.warnings.iter().cloned());
     warnings.extend(prestress(arguments, &file.wall, &fit));
     let law = law(arguments);
-    if let (LoadName::BaseMotion, Some(record)) = (arguments.load, &arguments.record) {
-        return shaken(arguments, record, &file, (&law, &fit), warnings, begun);
+    if arguments.load == LoadName::BaseMotion {
+        return shaken(arguments, &file, (&law, &fit), warnings, begun);
     }
     let settlements = settlements(&file, &arguments.settlements)?;
     let wall = (&file.wall, &settlements[..]);

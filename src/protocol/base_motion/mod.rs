@@ -5,13 +5,14 @@
 //! its weight.
 
 mod observe;
+mod seam;
 mod settings;
 mod settled;
 mod shake;
 mod wall;
 
 pub use observe::{Energy, Extreme, Shaken, Verdict};
-pub use settings::{BaseMotion, InTime, Shaking};
+pub use settings::{BaseMotion, InTime, Lean, Shaking};
 pub use settled::Settled;
-pub use shake::{shake, shake_twice};
+pub use shake::{Rested, shake, shake_twice};
 pub use wall::shake_wall;

@@ -1,14 +1,18 @@
 //! What is observed of a wall that shakes.
 
+use std::collections::BTreeMap;
+
 use crate::math::Vec3;
 use crate::model::Wall;
 use crate::protocol::EventShares;
+use crate::protocol::base_motion::seam::{Seam, Tracked, largest};
 use crate::protocol::base_motion::settled::Settled;
+use crate::protocol::fallen::{Bearings, Fate};
 use crate::protocol::observe::movable;
 use crate::solve::Assembly;
 use crate::solve::bodies::{Bodies, Body};
 
-/// How a wall came through.
+/// How a wall came through. A stone has fallen when it has toppled or left its bearing and did not come back, see `protocol/fallen.rs`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
@@ -65,13 +69,13 @@ pub struct Shaken {
     pub part_s: Option<f64>,
     /// When most of it had fallen (s).
     pub most_s: Option<f64>,
-    /// The stones that fell, in the order in which they did: block and time (s).
+    /// The stones that fell, in the order in which they did: block, of several parts the first one, and the time (s) from which on it did.
     pub fallen: Vec<(usize, f64)>,
-    /// Largest displacement of a stone that did not fall until then (m).
+    /// Largest displacement of a stone (m), of one that fell before it did.
     pub displacement: Extreme,
-    /// Largest turn of a stone that did not fall until then (rad).
+    /// Largest turn of a stone (rad), of one that fell before it did.
     pub rotation: Extreme,
-    /// Largest opening of a joint between two that did not fall until then (m), by the joint's first block.
+    /// Largest opening of a joint (m) before one of its two stones fell, by the joint's first block.
     pub uplift: Extreme,
     /// Largest way by which the faces of such a joint slid along one another while they touched (m).
     pub slip: Extreme,
@@ -94,164 +98,146 @@ pub struct Shaken {
     pub left_over_m_per_s: f64,
 }
 
-/// Faces within this share of the thickness touch, as far as slip is concerned.
-const TOUCHES: f64 = 1e-4;
-
-/// A stone that can fall.
+/// A stone that can fall, with all its parts.
 struct Stone {
-    block: usize,
+    /// Its body, which is its first part.
+    body: usize,
     weight: f64,
-    height: f64,
-    from: Vec3,
-    has_fallen: bool,
+    /// Since when it has been on its way down (s).
+    since: Option<f64>,
+    /// Whether it has fallen for good.
+    lies: bool,
+    displacement: Tracked,
+    rotation: Tracked,
 }
 
 impl Stone {
     /// How far it has gone (m) and turned (rad) since the start.
-    fn gone(&self, bodies: &Bodies, start: &[Body]) -> (Vec3, f64) {
-        let carrier = bodies.carriers[self.block];
-        (bodies.centroid(self.block) - self.from, bodies.all[carrier].turn_since(&start[carrier]).norm())
+    fn gone(&self, bodies: &Bodies, start: &[Body]) -> [f64; 2] {
+        let (now, then) = (&bodies.all[self.body], &start[self.body]);
+        [(now.position - then.position).norm(), now.turn_since(then).norm()]
     }
-}
-
-/// A corner of a joint as it was at rest: the two blocks, where it lies in the axes of their bodies, and the normal in those of the second.
-struct Corner {
-    bodies: [usize; 2],
-    places: [Vec3; 2],
-    normal: Vec3,
 }
 
 /// The eye on a wall.
 pub(super) struct Observer {
+    bearings: Bearings,
     stones: Vec<Stone>,
-    corners: Vec<Corner>,
+    seams: Vec<Seam>,
     start: Vec<Body>,
     weight: f64,
-    fallen_weight: f64,
-    limits: [f64; 2],
-    thickness: f64,
     shares: EventShares,
-    pub seen: Shaken,
 }
 
 impl Observer {
-    /// Of a wall at rest whose thickness is `thickness` (m); `limits` as of [`Shaking`](super::Shaking): moved, down.
-    pub fn new(
-        wall: &Wall,
-        at_rest: &Assembly<'_>,
-        (thickness, limits): (f64, [f64; 2]),
-        shares: EventShares,
-    ) -> Observer {
+    /// Of a wall at rest; `up` is the direction against gravity.
+    pub fn new(wall: &Wall, at_rest: &Assembly<'_>, up: Vec3, shares: EventShares) -> Observer {
         let bodies = &at_rest.bodies;
-        let stones: Vec<Stone> = movable(wall)
-            .map(|(block, stone)| Stone {
-                block,
-                weight: stone.density * stone.shape.volume(),
-                height: stone.shape.width(&Vec3::z()),
-                from: bodies.centroid(block),
-                has_fallen: false,
-            })
-            .collect();
-        let mut corners = Vec::new();
-        for joint in &at_rest.joints.all {
-            let both = [joint.incident as usize, joint.reference as usize];
-            let (_, normal) = joint.place(&bodies.all);
-            for (at, _) in joint.corners(&bodies.all) {
-                let own = |body: usize| {
-                    let body = &bodies.all[body];
-                    body.rotation.tr_mul(&(at - body.position))
-                };
-                let normal = bodies.all[both[1]].rotation.tr_mul(&normal);
-                corners.push(Corner { bodies: both, places: both.map(own), normal });
-            }
+        let mut weights: BTreeMap<usize, f64> = BTreeMap::new();
+        for (block, stone) in movable(wall) {
+            *weights.entry(bodies.carriers[block]).or_default() += stone.density * stone.shape.volume();
         }
-        let weight = stones.iter().map(|stone| stone.weight).sum();
+        let stone = |(body, weight): (&usize, &f64)| Stone {
+            body: *body,
+            weight: *weight,
+            since: None,
+            lies: false,
+            displacement: Tracked::default(),
+            rotation: Tracked::default(),
+        };
         Observer {
-            stones,
-            corners,
+            bearings: Bearings::of(wall, at_rest, up),
+            stones: weights.iter().map(stone).collect(),
+            seams: at_rest.joints.all.iter().map(|joint| Seam::of(joint, bodies)).collect(),
             start: bodies.all.clone(),
-            weight,
-            fallen_weight: 0.0,
-            limits,
-            thickness,
+            weight: weights.values().sum(),
             shares,
-            seen: Shaken::nothing_yet(),
         }
     }
 
     /// Reads the wall at a time (s).
     pub fn read(&mut self, bodies: &Bodies, time: f64) {
-        let mut fell = vec![false; bodies.all.len()];
+        let fates = self.bearings.fates(bodies);
+        let mut falls = vec![false; bodies.all.len()];
         for stone in &mut self.stones {
-            let carrier = bodies.carriers[stone.block];
-            if !stone.has_fallen {
-                let (moved, turn) = stone.gone(bodies, &self.start);
-                self.seen.displacement.grow(moved.norm(), stone.block, time);
-                self.seen.rotation.grow(turn, stone.block, time);
-                let [far, down] = self.limits;
-                if moved.norm() > far * self.thickness || -moved.z > down * stone.height {
-                    stone.has_fallen = true;
-                    self.fallen_weight += stone.weight;
-                    self.seen.fallen.push((stone.block, time));
-                }
-            }
-            fell[carrier] |= stone.has_fallen;
-        }
-        for corner in &self.corners {
-            if corner.bodies.iter().any(|&body| fell[body]) {
-                continue;
-            }
-            let place = |side: usize| {
-                let body = &bodies.all[corner.bodies[side]];
-                body.position + body.rotation * corner.places[side]
-            };
-            let normal = bodies.all[corner.bodies[1]].rotation * corner.normal;
-            let apart = place(0) - place(1);
-            let opening = apart.dot(&normal);
-            self.seen.uplift.grow(opening, corner.bodies[0], time);
-            if opening <= TOUCHES * self.thickness {
-                self.seen.slip.grow((apart - normal * opening).norm(), corner.bodies[0], time);
+            let [moved, turned] = stone.gone(bodies, &self.start);
+            stone.displacement.grow(moved, stone.body, time);
+            stone.rotation.grow(turned, stone.body, time);
+            stone.lies |= fates[stone.body] == Fate::Lies;
+            if stone.lies || fates[stone.body] != Fate::Carried {
+                stone.since.get_or_insert(time);
+                falls[stone.body] = true;
+            } else {
+                stone.since = None;
+                stone.displacement.is_carried();
+                stone.rotation.is_carried();
             }
         }
-        // A millionth for the rounding of sums of weights.
-        let reached = |wanted: f64| self.fallen_weight >= wanted * self.weight * (1.0 - 1e-6);
-        let fallen = !self.seen.fallen.is_empty();
-        let note = |event: &mut Option<f64>, has: bool| {
-            if has {
-                event.get_or_insert(time);
+        for seam in &mut self.seams {
+            seam.read(bodies, time);
+            if !seam.bodies.iter().any(|body| falls[*body]) {
+                seam.uplift.is_carried();
+                seam.slip.is_carried();
             }
-        };
-        note(&mut self.seen.first_stone_s, fallen);
-        note(&mut self.seen.part_s, fallen && reached(self.shares.part));
-        note(&mut self.seen.most_s, fallen && reached(self.shares.most));
+        }
     }
 
-    /// Whether most of the weight has fallen.
+    /// Whether most of the weight has fallen for good.
     pub fn is_over(&self) -> bool {
-        self.seen.most_s.is_some()
+        let lying = self.stones.iter().filter(|stone| stone.lies).map(|stone| stone.weight);
+        self.reached(lying.sum(), self.shares.most)
     }
 
-    /// What was seen, when all has ended.
-    pub fn end(mut self, bodies: &Bodies) -> Shaken {
-        self.seen.verdict = match (self.seen.first_stone_s, self.seen.most_s) {
-            (_, Some(_)) => Verdict::Collapsed,
-            (Some(_), None) => Verdict::Damaged,
-            (None, None) => Verdict::Stands,
+    /// Whether a weight is a share of all; a millionth for the rounding of sums.
+    fn reached(&self, weight: f64, share: f64) -> bool {
+        weight > 0.0 && weight >= share * self.weight * (1.0 - 1e-6)
+    }
+
+    /// What was seen, when all has ended. Where most has fallen for good the rest was not followed: what only seemed to fall does not count.
+    pub fn end(self, bodies: &Bodies) -> Shaken {
+        let is_over = self.is_over();
+        let has_fallen = |stone: &&Stone| stone.since.is_some() && (stone.lies || !is_over);
+        let mut fallen: Vec<(&Stone, f64)> = self
+            .stones
+            .iter()
+            .filter(has_fallen)
+            .map(|stone| (stone, stone.since.unwrap_or_default()))
+            .collect();
+        fallen.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let when = |share: f64| {
+            let mut weight = 0.0;
+            let passes = |(stone, _): &&(&Stone, f64)| {
+                weight += stone.weight;
+                self.reached(weight, share)
+            };
+            fallen.iter().find(passes).map(|(_, at)| *at)
         };
-        if self.seen.verdict != Verdict::Collapsed {
-            let left = || self.stones.iter().filter(|stone| !stone.has_fallen);
-            let gone = |stone: &Stone| stone.gone(bodies, &self.start);
-            self.seen.residual_m = Some(left().map(|stone| gone(stone).0.norm()).fold(0.0, f64::max));
-            self.seen.residual_rad = Some(left().map(|stone| gone(stone).1).fold(0.0, f64::max));
-        }
-        self.seen
-    }
-}
-
-impl Extreme {
-    fn grow(&mut self, value: f64, block: usize, at_s: f64) {
-        if value > self.value {
-            *self = Extreme { value, block, at_s };
+        let most = when(self.shares.most);
+        let verdict = match (fallen.is_empty(), most) {
+            (_, Some(_)) => Verdict::Collapsed,
+            (false, None) => Verdict::Damaged,
+            (true, None) => Verdict::Stands,
+        };
+        let standing = || self.stones.iter().filter(|stone| !has_fallen(stone));
+        let residual = |which: usize| {
+            let left = standing().map(|stone| stone.gone(bodies, &self.start)[which]).fold(0.0, f64::max);
+            (verdict != Verdict::Collapsed).then_some(left)
+        };
+        let stones = |of: fn(&Stone) -> &Tracked| largest(self.stones.iter().map(of));
+        let seams = |of: fn(&Seam) -> &Tracked| largest(self.seams.iter().map(of));
+        Shaken {
+            verdict,
+            first_stone_s: fallen.first().map(|(_, at)| *at),
+            part_s: when(self.shares.part),
+            most_s: most,
+            fallen: fallen.iter().map(|(stone, at)| (stone.body, *at)).collect(),
+            displacement: stones(|stone| &stone.displacement),
+            rotation: stones(|stone| &stone.rotation),
+            uplift: seams(|seam| &seam.uplift),
+            slip: seams(|seam| &seam.slip),
+            residual_m: residual(0),
+            residual_rad: residual(1),
+            ..Shaken::nothing_yet()
         }
     }
 }

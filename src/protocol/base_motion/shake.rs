@@ -1,17 +1,21 @@
 //! The loop over time.
 
 use crate::math::Vec3;
+use crate::model::Level;
 use crate::motion::Motion;
-use crate::protocol::Task;
 use crate::protocol::base_motion::observe::{Observer, Shaken, Verdict};
-use crate::protocol::base_motion::settings::{InTime, Shaking};
+use crate::protocol::base_motion::settings::{InTime, Lean, Shaking};
 use crate::protocol::base_motion::settled::Settled;
-use crate::protocol::observe::extent;
-use crate::solve::bodies::Bodies;
-use crate::solve::{Assembly, Equilibrate, STANDARD_GRAVITY, Status, explicit, nonsmooth};
+use crate::protocol::fallen::Bearings;
+use crate::protocol::{Task, Witness};
+use crate::solve::bodies::{Bodies, Body};
+use crate::solve::nonsmooth::{self, Normal};
+use crate::solve::{Assembly, Equilibrate, STANDARD_GRAVITY, Status, explicit};
 
 /// Between two looks at a wall pass at least so many seconds.
 const BETWEEN_LOOKS: f64 = 1e-3;
+/// Between two states of a replay pass so many seconds; of long ones some are left out.
+const BETWEEN_STATES: f64 = 0.02;
 /// After the motion a wall whose fastest body is slower than this (m/s) is at rest.
 const RESTS: f64 = 1e-4;
 /// Looks in a row at which it has to be, as what swings is slow where it turns back.
@@ -29,22 +33,23 @@ enum Mover<'a> {
     Nonsmooth(Box<nonsmooth::Simulation<'a>>, f64),
 }
 
-/// Shakes a wall. The task says what stands where; its load path plays no part.
-pub fn shake(task: &Task<'_>, shaking: &Shaking) -> Shaken {
-    Rested::of(task, shaking.fallen_moved, &shaking.solver).shaken(shaking)
+/// Shakes a wall on a level ground. The task says what stands where; its load path plays no part.
+pub fn shake(task: &Task<'_>, shaking: &Shaking, solver: InTime) -> Shaken {
+    Rested::of(task, Lean::NONE, solver).shaken(shaking)
 }
 
 /// Shakes a wall, and the same once more with stones that move by next to nothing at the start. Where the two come to different verdicts that of the first is
 /// [`Verdict::Undecided`].
-pub fn shake_twice(task: &Task<'_>, shaking: &Shaking) -> [Shaken; 2] {
-    Rested::of(task, shaking.fallen_moved, &shaking.solver).shaken_twice(shaking)
+pub fn shake_twice(task: &Task<'_>, shaking: &Shaking, solver: InTime) -> [Shaken; 2] {
+    Rested::of(task, Lean::NONE, solver).shaken_twice(shaking)
 }
 
 /// A wall at rest under gravity, which any number of motions may begin at.
-pub(super) struct Rested<'t> {
+pub struct Rested<'t> {
     task: &'t Task<'t>,
-    /// Number of joints as built.
-    pub joints: usize,
+    lean: Lean,
+    solver: InTime,
+    built: Assembly<'t>,
     /// Or why it is not at rest.
     assembly: Result<Assembly<'t>, Verdict>,
     /// How far it went from where it was built.
@@ -52,20 +57,31 @@ pub(super) struct Rested<'t> {
 }
 
 impl<'t> Rested<'t> {
-    /// By the solver that it is shaken with; `fallen_moved` as of [`Shaking`].
-    pub fn of(task: &'t Task<'t>, fallen_moved: f64, solver: &InTime) -> Rested<'t> {
+    /// By the solver that it is shaken with, on a ground that leans.
+    pub fn of(task: &'t Task<'t>, lean: Lean, solver: InTime) -> Rested<'t> {
         let built = task.assembled();
-        let (joints, from) = (built.joints.all.len(), built.bodies.clone());
-        let assembly = at_rest(task, built, fallen_moved, solver);
-        let settled = assembly.as_ref().ok().and_then(|rest| Settled::between(&from, &rest.bodies));
-        Rested { task, joints, assembly, settled }
+        let assembly = at_rest(task, built.clone(), lean, &solver);
+        let settled = assembly.as_ref().ok().and_then(|rest| Settled::between(&built.bodies, &rest.bodies));
+        Rested { task, lean, solver, built, assembly, settled }
+    }
+
+    /// Number of joints as built.
+    pub fn joints(&self) -> usize {
+        self.built.joints.all.len()
     }
 
     /// As of [`shake`].
     pub fn shaken(&self, shaking: &Shaking) -> Shaken {
+        self.shaken_seen_by(shaking, Witness::NOBODY)
+    }
+
+    /// The same, with somebody who sees how it goes.
+    pub fn shaken_seen_by(&self, shaking: &Shaking, witness: Witness<'_>) -> Shaken {
+        witness.begins(self.task, &self.built);
         match &self.assembly {
             Ok(assembly) => {
-                let seen = follow(self.task, shaking, assembly, assembly.clone());
+                witness.rests(Level::Time(0.0), assembly);
+                let seen = self.follow(shaking, assembly, assembly.clone(), witness);
                 Shaken { settled: self.settled, ..seen }
             }
             Err(verdict) => Shaken { verdict: *verdict, ..Shaken::nothing_yet() },
@@ -74,7 +90,12 @@ impl<'t> Rested<'t> {
 
     /// As of [`shake_twice`].
     pub fn shaken_twice(&self, shaking: &Shaking) -> [Shaken; 2] {
-        let mut first = self.shaken(shaking);
+        self.shaken_twice_seen_by(shaking, Witness::NOBODY)
+    }
+
+    /// The same, with somebody who sees how the first one goes.
+    pub fn shaken_twice_seen_by(&self, shaking: &Shaking, witness: Witness<'_>) -> [Shaken; 2] {
+        let mut first = self.shaken_seen_by(shaking, witness);
         let Ok(assembly) = &self.assembly else { return [first.clone(), first] };
         let mut moved = assembly.clone();
         let mut sign = 1.0;
@@ -82,7 +103,8 @@ impl<'t> Rested<'t> {
             body.velocity = Vec3::new(0.0, PERTURBED * sign, 0.0);
             sign = -sign;
         }
-        let second = Shaken { settled: self.settled, ..follow(self.task, shaking, assembly, moved) };
+        let second = self.follow(shaking, assembly, moved, Witness::NOBODY);
+        let second = Shaken { settled: self.settled, ..second };
         if [first.verdict, second.verdict].contains(&Verdict::NotSolved) {
             first.verdict = Verdict::NotSolved;
         } else if first.verdict != second.verdict {
@@ -96,28 +118,34 @@ impl<'t> Rested<'t> {
 fn at_rest<'a>(
     task: &Task<'a>,
     mut built: Assembly<'a>,
-    fallen_moved: f64,
+    lean: Lean,
     solver: &InTime,
 ) -> Result<Assembly<'a>, Verdict> {
-    let (gravity, _) = task.path.loads(0.0);
-    built.gravity = gravity;
+    built.gravity = lean.gravity();
     built.load_factor = 1.0;
+    let bearings = Bearings::of(task.wall, &built, -built.gravity.normalize());
     let from: Vec<Vec3> = built.bodies.all.iter().map(|body| body.position).collect();
-    let far = fallen_moved * thickness(task);
-    let mut stop = |bodies: &Bodies| {
-        bodies.all.iter().zip(&from).any(|(body, from)| (body.position - from).norm() > far)
-    };
+    // What slides by its own size does not stand where it was built.
+    let strays = |(body, from): (&Body, &Vec3)| (body.position - from).norm() > 2.0 * body.radius;
+    let mut stop = |bodies: &Bodies| bearings.any_lies(bodies) || bodies.all.iter().zip(&from).any(strays);
     let (settled, assembly) = match *solver {
         InTime::Explicit(settings, _) => {
-            let mut simulation = explicit::Simulation::of(built, settings);
+            let mut simulation = explicit::Simulation::of(built.clone(), settings);
             (simulation.settle(&mut stop), simulation.assembly)
         }
         InTime::Nonsmooth(settings) => {
-            let mut simulation = nonsmooth::Simulation::of(built, settings);
+            // What parts again comes to no rest; a restitution is for the way through the motion.
+            let normal = match settings.normal {
+                Normal::Velocity { restitution } if restitution > 0.0 => Normal::Gap,
+                other => other,
+            };
+            let settings = nonsmooth::Settings { normal, ..settings };
+            let mut simulation = nonsmooth::Simulation::of(built.clone(), settings);
             (simulation.settle(&mut stop), simulation.assembly)
         }
     };
     match settled.status {
+        Status::Equilibrium if bearings.any_fell(&built, &assembly.bodies) => Err(Verdict::UnstableAtRest),
         Status::Equilibrium => {
             let mut assembly = assembly;
             assembly.bodies.stop();
@@ -129,76 +157,93 @@ fn at_rest<'a>(
     }
 }
 
-/// Thickness of the wall (m).
-fn thickness(task: &Task<'_>) -> f64 {
-    let (low, high) = extent(task.wall);
-    high.y - low.y
-}
-
-/// Follows a wall from the beginning of the motion.
-fn follow(task: &Task<'_>, shaking: &Shaking, at_rest: &Assembly<'_>, start: Assembly<'_>) -> Shaken {
-    let limits = [shaking.fallen_moved, shaking.fallen_down];
-    let mut observer = Observer::new(task.wall, at_rest, (thickness(task), limits), shaking.shares);
-    let gravity = start.gravity;
-    // The weight of all stones over that of one: of a natural map of 1, the weight of all was left over.
-    let stones = start.bodies.all.iter().filter(|body| body.moves()).count() as f64;
-    let mut mover = Mover::new(start, &shaking.solver);
-    let motion = &shaking.motion;
-    let (shakes, end) = (motion.duration(), motion.duration() + shaking.after);
-    let mut before: Vec<Vec3> = Vec::new();
-    let (mut time, mut looked, mut resting) = (0.0, 0.0, 0);
-    let (mut steps, mut unsolved, mut base, mut weight, mut friction) = (0, 0, 0.0, 0.0, 0.0);
-    let (mut largest_residual, mut left_over) = (0.0f64, 0.0);
-    while time < end {
-        let acceleration = mover.acceleration(motion, time);
-        before.clear();
-        before.extend(mover.assembly().bodies.all.iter().map(|body| body.position));
-        let stepped = mover.step(gravity, acceleration);
-        time += stepped.seconds;
-        steps += 1;
-        largest_residual = largest_residual.max(stepped.residual);
-        if !stepped.is_solved {
-            unsolved += 1;
-            left_over += stepped.residual * stones * STANDARD_GRAVITY * stepped.seconds;
+impl Rested<'_> {
+    /// Follows the wall from the beginning of the motion.
+    fn follow(
+        &self,
+        shaking: &Shaking,
+        at_rest: &Assembly<'_>,
+        start: Assembly<'_>,
+        witness: Witness<'_>,
+    ) -> Shaken {
+        let gravity = start.gravity;
+        let mut observer = Observer::new(self.task.wall, at_rest, -gravity.normalize(), shaking.shares);
+        // The weight of all stones over that of one: of a natural map of 1, the weight of all was left over.
+        let stones = start.bodies.all.iter().filter(|body| body.moves()).count() as f64;
+        let mut mover = Mover::new(start, &self.solver);
+        let motion = &shaking.motion;
+        let (shakes, end) = (motion.duration(), motion.duration() + shaking.after);
+        let mut shown = 0.0;
+        let mut before: Vec<Vec3> = Vec::new();
+        let (mut time, mut looked, mut resting) = (0.0, 0.0, 0);
+        let (mut steps, mut unsolved, mut base, mut weight, mut friction) = (0, 0, 0.0, 0.0, 0.0);
+        let (mut largest_residual, mut left_over) = (0.0f64, 0.0);
+        while time < end {
+            let acceleration = self.lean.seen(&mover.acceleration(motion, time));
+            before.clear();
+            before.extend(mover.assembly().bodies.all.iter().map(|body| body.position));
+            let stepped = mover.step(gravity, acceleration);
+            time += stepped.seconds;
+            steps += 1;
+            largest_residual = largest_residual.max(stepped.residual);
+            if !stepped.is_solved {
+                unsolved += 1;
+                left_over += stepped.residual * stones * STANDARD_GRAVITY * stepped.seconds;
+            }
+            friction += stepped.friction;
+            let bodies = &mover.assembly().bodies;
+            for (body, before) in bodies.all.iter().zip(&before).filter(|(body, _)| body.moves()) {
+                let way = body.position - before;
+                base -= body.mass * acceleration.dot(&way);
+                weight += body.mass * gravity.dot(&way);
+            }
+            if time - looked < BETWEEN_LOOKS {
+                continue;
+            }
+            looked = time;
+            if !mover.assembly().is_finite() {
+                let seen = observer.end(&at_rest.bodies);
+                return Shaken {
+                    verdict: Verdict::NotSolved,
+                    residual_m: None,
+                    residual_rad: None,
+                    time_s: time,
+                    steps,
+                    ..seen
+                };
+            }
+            observer.read(bodies, time);
+            if time - shown >= BETWEEN_STATES {
+                shown = time;
+                witness.moves(Level::Time(time), mover.assembly());
+            }
+            if observer.is_over() {
+                break;
+            }
+            resting = if time > shakes && bodies.fastest() < RESTS { resting + 1 } else { 0 };
+            if resting >= LOOKS_AT_REST {
+                break;
+            }
         }
-        friction += stepped.friction;
-        let bodies = &mover.assembly().bodies;
-        for (body, before) in bodies.all.iter().zip(&before).filter(|(body, _)| body.moves()) {
-            let way = body.position - before;
-            base -= body.mass * acceleration.dot(&way);
-            weight += body.mass * gravity.dot(&way);
+        if time > shown {
+            witness.moves(Level::Time(time), mover.assembly());
         }
-        if time - looked < BETWEEN_LOOKS {
-            continue;
+        let bodies = mover.assembly().bodies.clone();
+        let mut seen = observer.end(&bodies);
+        let kinetic = bodies.kinetic_energy();
+        seen.energy.base_work_j = base;
+        seen.energy.gravity_work_j = weight;
+        seen.energy.kinetic_j = kinetic;
+        seen.energy.lost_j = base + weight - kinetic;
+        seen.energy.friction_j = matches!(mover, Mover::Nonsmooth(..)).then_some(friction);
+        // Also where it is not a number. A collapse is on the safe side.
+        let is_off = left_over.is_nan() || left_over > LEFT_OVER * shaking.motion.pgv();
+        if is_off && seen.verdict != Verdict::Collapsed {
+            seen.verdict = Verdict::NotSolved;
         }
-        looked = time;
-        if !mover.assembly().is_finite() {
-            return Shaken { verdict: Verdict::NotSolved, time_s: time, steps, ..observer.seen };
-        }
-        observer.read(bodies, time);
-        if observer.is_over() {
-            break;
-        }
-        resting = if time > shakes && bodies.fastest() < RESTS { resting + 1 } else { 0 };
-        if resting >= LOOKS_AT_REST {
-            break;
-        }
+        let left_over_m_per_s = left_over;
+        Shaken { time_s: time, steps, unsolved_steps: unsolved, largest_residual, left_over_m_per_s, ..seen }
     }
-    let bodies = mover.assembly().bodies.clone();
-    let mut seen = observer.end(&bodies);
-    let kinetic = bodies.kinetic_energy();
-    seen.energy.base_work_j = base;
-    seen.energy.gravity_work_j = weight;
-    seen.energy.kinetic_j = kinetic;
-    seen.energy.lost_j = base + weight - kinetic;
-    seen.energy.friction_j = matches!(mover, Mover::Nonsmooth(..)).then_some(friction);
-    // Also where it is not a number. A collapse is on the safe side.
-    let is_off = left_over.is_nan() || left_over > LEFT_OVER * shaking.motion.pgv();
-    if is_off && seen.verdict != Verdict::Collapsed {
-        seen.verdict = Verdict::NotSolved;
-    }
-    let left_over_m_per_s = left_over;
-    Shaken { time_s: time, steps, unsolved_steps: unsolved, largest_residual, left_over_m_per_s, ..seen }
 }
 
 /// What a step took.

@@ -3,7 +3,7 @@
 use crate::model::{JointLaws, Wall};
 use crate::motion::Motion;
 use crate::protocol::base_motion::observe::Shaken;
-use crate::protocol::base_motion::settings::BaseMotion;
+use crate::protocol::base_motion::settings::{BaseMotion, Lean};
 use crate::protocol::base_motion::shake::Rested;
 use crate::protocol::path::LoadPath;
 use crate::protocol::run::task;
@@ -27,16 +27,16 @@ pub fn shake_wall<R>(
     let stage = Stage::new(wall, laws, &Protocol::BaseMotion(*base), restraint, contacts.into());
     let (low, high) = wall.bounds();
     let thickness = high.y - low.y;
-    let criterion = Criterion::AnyBlock(base.fallen_moved * thickness);
+    let criterion = Criterion::AnyBlock(thickness);
     let task = task(&stage, &stage.assembly, LoadPath::factor(1), criterion, thickness);
-    let rested = Rested::of(&task, base.fallen_moved, &solver);
+    let rested = Rested::of(&task, Lean::NONE, solver);
     let shaken = each(&|motion| {
-        let shaking = base.shaking(motion, solver);
+        let shaking = base.shaking(motion);
         if base.twice {
             return rested.shaken_twice(&shaking);
         }
         let seen = rested.shaken(&shaking);
         [seen.clone(), seen]
     });
-    Some((shaken, rested.joints))
+    Some((shaken, rested.joints()))
 }

@@ -151,7 +151,7 @@ pub fn push(task: &Task<'_>, shear: &Shear, begin: Begin, witness: Witness<'_>) 
     let built = task.assembled();
     let joints = built.joints.all.len();
     witness.begins(task, &built);
-    let mut watch = Watch::new(task.wall, &built.bodies, task.path.direction(), task.criterion);
+    let mut watch = Watch::new(task, &built.bodies);
     let start = match begin {
         Begin::Implicit(settings) => Pushed::Implicit(Box::new(Equilibrium::of(built.clone(), settings))),
         Begin::Explicit(settings) => Pushed::Explicit(Box::new(built.clone()), settings),

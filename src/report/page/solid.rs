@@ -4,7 +4,7 @@
 use serde::Serialize;
 
 use crate::math::Vec3;
-use crate::model::{BuiltJoint, JointReading, Movement, Replay, ReplayState};
+use crate::model::{BuiltJoint, JointReading, Level, Movement, Replay, ReplayState};
 use crate::shape::Polyhedron;
 
 /// The script with the library that it needs.
@@ -144,7 +144,7 @@ fn magnification(wall: &SolidWall<'_>, states: &[&ReplayState]) -> f64 {
     let (low, high) = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (from, to)| {
         (low.min(from.z), high.max(to.z))
     });
-    if furthest == 0.0 || wall.replay.is_mechanism {
+    if furthest == 0.0 || wall.replay.is_mechanism || wall.replay.is_in_time() {
         return 1.0;
     }
     let exact = SHARE_OF_HEIGHT * (high - low) / furthest;
@@ -186,9 +186,13 @@ impl State {
         let joint = |own: &JointReading| {
             [whole(own.opening, FINE), whole(own.slip, FINE), whole(own.normal_stress, PASCALS)]
         };
-        let how = if state.is_equilibrium { "at rest" } else { "falling" };
+        let said = match (state.is_equilibrium, state.level) {
+            (true, level) => format!("at rest at {level}"),
+            (false, level @ Level::Time(_)) => format!("at {level}"),
+            (false, level) => format!("falling at {level}"),
+        };
         State {
-            said: format!("{how} at {}", state.level),
+            said,
             rest: state.is_equilibrium,
             gone: state.gone.clone(),
             poses: state.poses.iter().flat_map(pose).collect(),
@@ -200,7 +204,6 @@ impl State {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::Level;
     use serde_json::Value;
 
     fn state(shift: f64, is_equilibrium: bool) -> ReplayState {

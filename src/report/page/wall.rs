@@ -83,9 +83,12 @@ pub fn wall_page(of: &WallPage<'_>) -> Result<String> {
     let shapes: Vec<Polyhedron> = of.picture.stones.iter().map(|stone| stone.shape.clone()).collect();
     let solid =
         SolidWall { name: of.wall, shapes: &shapes, replay: of.replay, from_front: of.picture.from_front };
-    let caption = match of.replay.is_mechanism {
-        true => "The wall in three dimensions, and its mechanism, which has no size of its own.",
-        false => {
+    let caption = match (of.replay.is_mechanism, of.replay.is_in_time()) {
+        (true, _) => "The wall in three dimensions, and its mechanism, which has no size of its own.",
+        (false, true) => {
+            "The wall in three dimensions, from rest through the motion of the ground, in its true size."
+        }
+        (false, false) => {
             "The wall in three dimensions, from rest through the collapse. Movements at rest are magnified, those of the fall are not."
         }
     };

@@ -225,20 +225,6 @@ pub static LOAD: Section = Section {
         )
         .only(BASE_MOTION),
         Key::new(
-            "fallen_moved",
-            real("1", Interval::above(0.0, 10.0)),
-            Default("0.75"),
-            "A stone has fallen when its centroid has moved by this share of the wall's base thickness,",
-        )
-        .only(BASE_MOTION),
-        Key::new(
-            "fallen_down",
-            real("1", Interval::above(0.0, 10.0)),
-            Default("0.5"),
-            "or when it has gone down by this share of its own height.",
-        )
-        .only(BASE_MOTION),
-        Key::new(
             "twice",
             Kind::Flag,
             Default("true"),
