@@ -65,7 +65,7 @@ fn failed_walls_are_counted_and_enter_no_mean() {
     assert_eq!(entry.outcomes, outcomes.map(|(name, count)| (name.to_string(), count)).into());
     assert_eq!((entry.members, entry.in_mean), (6, 2));
     assert_eq!(
-        entry.note.unwrap(),
+        entry.note.as_ref().unwrap(),
         "over 2 of 6 walls; not in the numbers: 1 collapsed (wall 1: fell at load factor 0.5), \
          1 invalid geometry (wall 4: beds cross), \
          1 non finite (wall 3: a position or force became non-finite at load factor 1), 1 not computed"
