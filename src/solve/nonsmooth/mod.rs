@@ -28,7 +28,7 @@
 //!
 //! | [`StepSolver`] | method |
 //! |---|---|
-//! | `Newton` | Newton's method on the augmented Lagrangian of Alart and Curnier (1991), one sparse factorisation an iteration; where it loses its way, the fixed point of the next line by Newton's method, see `convex` |
+//! | `Newton` | Newton's method on the augmented Lagrangian of Alart and Curnier (1991), one sparse factorisation an iteration |
 //! | `ConeProgram` | fixed point on `tan(phi) |u_T|`, a cone program each (Acary, Cadoux, Lemaréchal and Malick 2011) |
 //! | `Sweeps` | non-linear Gauss-Seidel, one contact after the other (Jourdan, Alart and Jean 1998) |
 //!
@@ -36,7 +36,6 @@
 
 mod cone_program;
 mod contacts;
-mod convex;
 mod global;
 mod impact;
 mod newton;
@@ -83,7 +82,7 @@ pub enum Friction {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum StepSolver {
-    /// Newton's method; where it does not converge convex problems by Newton's method and then cone programs, or sweeps where joints are springs.
+    /// Newton's method; cone programs where it does not converge, or sweeps where joints are springs.
     Newton,
     /// A fixed point of cone programs; sweeps where joints are springs.
     ConeProgram,

@@ -7,7 +7,7 @@
 
 use crate::math::Vec3;
 use crate::solve::bodies::Body;
-use crate::solve::nonsmooth::point::{Point, Response, Slope, State};
+use crate::solve::nonsmooth::point::{Point, Slope, State};
 use crate::solve::nonsmooth::problem::wrench;
 use crate::solve::nonsmooth::{Friction, Problem, Residual};
 use crate::solve::system::{DOF, System};
@@ -74,49 +74,13 @@ impl Kept {
     }
 }
 
-/// How a trial impulse is brought back to what a point bears.
-#[derive(Clone, Copy)]
-pub(super) enum Back<'s> {
-    /// By its shear alone (Alart and Curnier).
-    Radially,
-    /// To the nearest one, as points open by so much (m/s) besides: the derivative of a convex function.
-    ToNearest(&'s [f64]),
-}
-
-impl Back<'_> {
-    fn response(&self, k: usize, point: &Point, u: &[f64; 3], from: &[f64; 3], rho: f64) -> Response {
-        match self {
-            Back::Radially => point.response(u, from, rho),
-            Back::ToNearest(opens) => point.nearest_response(u, opens[k], from, rho),
-        }
-    }
-
-    fn slope(&self, k: usize, point: &Point, u: &[f64; 3], from: &[f64; 3], rho: f64) -> Slope {
-        match self {
-            Back::Radially => point.slope(u, from, rho),
-            Back::ToNearest(opens) => point.nearest_slope(u, opens[k], from, rho),
-        }
-    }
-}
-
-/// What the balance of a problem is sought with between two updates.
-#[derive(Clone, Copy)]
-pub(super) struct Lagrangian<'s> {
-    pub problem: &'s Problem,
-    /// Impulses of the last update.
-    pub from: &'s [[f64; 3]],
-    /// Weight of the velocity.
-    pub weight: f64,
-    pub back: Back<'s>,
-}
-
 /// The point at which a set of velocities is looked at.
-pub(super) struct Trial {
-    pub v: Vec<f64>,
-    pub impulses: Vec<[f64; 3]>,
-    pub states: Vec<State>,
-    pub unbalance: Vec<f64>,
-    pub energy: f64,
+struct Trial {
+    v: Vec<f64>,
+    impulses: Vec<[f64; 3]>,
+    states: Vec<State>,
+    unbalance: Vec<f64>,
+    energy: f64,
 }
 
 /// Solves a problem from velocities and impulses nearby. What is reached in the end is in [`Solved::residual`]; `None` where a matrix is singular.
@@ -147,8 +111,7 @@ pub(super) fn newton(
     let (mut factorisations, mut updates, mut idle, mut trusted) = (0, 0, 0, 0);
     let mut best: Option<Solved> = None;
     loop {
-        let lagrangian = Lagrangian { problem, from: &from, weight, back: Back::Radially };
-        let mut now = lagrangian.at(v.clone());
+        let mut now = Trial::at(problem, v.clone(), &from, weight);
         let mut slow = 0;
         let tries = updates == 0 && weight > FIRST;
         while now.energy > enough && slow < SLOW && factorisations < max_iterations {
@@ -156,18 +119,19 @@ pub(super) fn newton(
             if kept.serves(&now.states, weight, problem.step) {
                 let change = system.solve(&now.unbalance);
                 let v = now.v.iter().zip(&change).map(|(v, change)| v - change).collect();
-                let next = lagrangian.at(v);
+                let next = Trial::at(problem, v, &from, weight);
                 if next.energy < SERVES * now.energy {
                     now = next;
                     continue;
                 }
             }
-            let slides = lagrangian.assemble(system, bodies, &now);
+            system.clear();
+            let slides = assemble(problem, system, bodies, (&now, &from, weight));
             system.factorise(!slides)?;
             factorisations += 1;
             *kept = Kept { states: now.states.clone(), weight, step: problem.step };
             let change = system.solve(&now.unbalance);
-            let next = search(&lagrangian, &now, &change);
+            let next = search(problem, &now, &change, &from, weight);
             // A kink at which no length takes anything off is left by the update with less weight: beyond it lies no better place.
             if next.energy >= now.energy {
                 break;
@@ -207,13 +171,27 @@ pub(super) fn newton(
     }
 }
 
+impl Trial {
+    fn at(problem: &Problem, v: Vec<f64>, from: &[[f64; 3]], weight: f64) -> Trial {
+        let response = |(point, from): (&Point, &[f64; 3])| {
+            let response = point.response(&point.relative_velocity(&v), from, weight * point.inertia);
+            (response.impulse, response.state)
+        };
+        let (impulses, states): (Vec<[f64; 3]>, Vec<State>) =
+            problem.points.iter().zip(from).map(response).unzip();
+        let unbalance = problem.unbalance(&v, &impulses);
+        let energy = problem.energy(&unbalance);
+        Trial { v, impulses, states, unbalance, energy }
+    }
+}
+
 /// Goes along a change of the velocities, as far as that takes unbalance off.
-fn search(lagrangian: &Lagrangian<'_>, now: &Trial, change: &[f64]) -> Trial {
+fn search(problem: &Problem, now: &Trial, change: &[f64], from: &[[f64; 3]], weight: f64) -> Trial {
     let mut length = 1.0;
     let mut best: Option<Trial> = None;
     for _ in 0..=HALVINGS {
         let v = now.v.iter().zip(change).map(|(v, change)| v - length * change).collect();
-        let next = lagrangian.at(v);
+        let next = Trial::at(problem, v, from, weight);
         let enough = next.energy <= (1.0 - DECREASE * length) * now.energy;
         if best.as_ref().is_none_or(|best| next.energy < best.energy) {
             best = Some(next);
@@ -226,56 +204,40 @@ fn search(lagrangian: &Lagrangian<'_>, now: &Trial, change: &[f64]) -> Trial {
     best.expect("one length at least was tried")
 }
 
-impl Lagrangian<'_> {
-    /// Impulses and what is missing at velocities.
-    pub fn at(&self, v: Vec<f64>) -> Trial {
-        let Lagrangian { problem, from, weight, back } = self;
-        let response = |(k, (point, from)): (usize, (&Point, &[f64; 3]))| {
-            let u = point.relative_velocity(&v);
-            let response = back.response(k, point, &u, from, weight * point.inertia);
-            (response.impulse, response.state)
-        };
-        let (impulses, states): (Vec<[f64; 3]>, Vec<State>) =
-            problem.points.iter().zip(*from).enumerate().map(response).unzip();
-        let unbalance = problem.unbalance(&v, &impulses);
-        let energy = problem.energy(&unbalance);
-        Trial { v, impulses, states, unbalance, energy }
-    }
-
-    /// Sets the matrix to the derivative of the unbalance with the velocities; says whether a point slides, which makes it unsymmetric where
-    /// trials go back radially.
-    pub fn assemble(&self, system: &mut System, bodies: &[Body], now: &Trial) -> bool {
-        let Lagrangian { problem, from, weight, back } = *self;
-        system.clear();
-        let mut slides = false;
-        let mut at = 0;
-        while at < problem.points.len() {
-            let joint = problem.points[at].joint;
-            let end = at + problem.points[at..].iter().take_while(|point| point.joint == joint).count();
-            let first = &problem.points[at];
-            let mut sum = [[0.0; DOF]; DOF];
-            let mut touches = false;
-            for k in at..end {
-                let point = &problem.points[k];
-                let u = point.relative_velocity(&now.v);
-                let slope = back.slope(k, point, &u, &from[k], weight * point.inertia);
-                if slope != Slope::default() {
-                    slides |= now.states[k] == State::Slides && point.friction > 0.0;
-                    touches = true;
-                    add(&mut sum, &(point.arms[0] - first.arms[0]), &point.axes, &slope);
-                }
+/// The derivative of the unbalance with the velocities; says whether a point slides, which makes it unsymmetric.
+fn assemble(
+    problem: &Problem,
+    system: &mut System,
+    bodies: &[Body],
+    (now, from, weight): (&Trial, &[[f64; 3]], f64),
+) -> bool {
+    let mut slides = false;
+    let points = || problem.points.iter().zip(from).zip(&now.states);
+    let mut at = 0;
+    while at < problem.points.len() {
+        let joint = problem.points[at].joint;
+        let end = at + problem.points[at..].iter().take_while(|point| point.joint == joint).count();
+        let first = &problem.points[at];
+        let mut sum = [[0.0; DOF]; DOF];
+        let mut touches = false;
+        for ((point, from), state) in points().skip(at).take(end - at) {
+            let slope = point.slope(&point.relative_velocity(&now.v), from, weight * point.inertia);
+            if slope != Slope::default() {
+                slides |= *state == State::Slides && point.friction > 0.0;
+                touches = true;
+                add(&mut sum, &(point.arms[0] - first.arms[0]), &point.axes, &slope);
             }
-            if touches {
-                system.add_joint(joint, bodies, &both(&sum, &first.arms));
-            }
-            at = end;
         }
-        for (b, inertia) in problem.inertias.iter().enumerate() {
-            system.add_own(b, &inertia.matrix);
-            inertia.held.iter().for_each(|&k| system.hold(b, k, inertia.matrix[k][k]));
+        if touches {
+            system.add_joint(joint, bodies, &both(&sum, &first.arms));
         }
-        slides
+        at = end;
     }
+    for (b, inertia) in problem.inertias.iter().enumerate() {
+        system.add_own(b, &inertia.matrix);
+        inertia.held.iter().for_each(|&k| system.hold(b, k, inertia.matrix[k][k]));
+    }
+    slides
 }
 
 /// Adds to the slope of force and moment about a joint's first point by its relative velocity and spin.

@@ -160,54 +160,6 @@ impl Point {
         clipped(self.least, self.limit(self.least))
     }
 
-    /// The impulse at a relative velocity (m/s) beside which the point opens by `opens` (m/s): the trial, brought to the nearest that the point
-    /// bears. That is friction which dilates, and the derivative of a convex function of the velocity. Of a rigid point.
-    pub(super) fn nearest_response(&self, u: &[f64; 3], opens: f64, from: &[f64; 3], rho: f64) -> Response {
-        let trial = self.opened(u, opens, from, rho);
-        let impulse = self.nearest(&trial);
-        let state = if impulse[0] <= self.least {
-            State::Open
-        } else if impulse == trial {
-            State::Sticks
-        } else {
-            State::Slides
-        };
-        Response { impulse, state }
-    }
-
-    fn opened(&self, u: &[f64; 3], opens: f64, from: &[f64; 3], rho: f64) -> [f64; 3] {
-        let offset = self.offset().unwrap_or(0.0);
-        [from[0] - rho * (u[0] + offset + opens), from[1] - rho * u[1], from[2] - rho * u[2]]
-    }
-
-    /// The slope of [`nearest_response`](Point::nearest_response), which is symmetric.
-    pub(super) fn nearest_slope(&self, u: &[f64; 3], opens: f64, from: &[f64; 3], rho: f64) -> Slope {
-        let trial = self.opened(u, opens, from, rho);
-        let [normal, ..] = self.nearest(&trial);
-        let [n, a, b] = trial;
-        let (mu, size) = (self.friction, (a * a + b * b).sqrt());
-        let limit = self.limit(normal);
-        if self.is_bonded() || (n >= self.least && size <= limit) {
-            return [[rho, 0.0, 0.0], [0.0, rho, 0.0], [0.0, 0.0, rho]];
-        }
-        // Across the shear it is turned, along it shear is exchanged for pressure.
-        let (x, y) = if size > 0.0 { (a / size, b / size) } else { (1.0, 0.0) };
-        let beyond = size > limit || limit == 0.0;
-        let across = if beyond { rho * limit / size.max(f64::MIN_POSITIVE) } else { rho };
-        let on_cone = mu > 0.0 && normal > self.least;
-        let (pressed, mixed, along) = if on_cone {
-            let share = rho / (1.0 + mu * mu);
-            (share, share * mu, share * mu * mu)
-        } else {
-            (if n > self.least { rho } else { 0.0 }, 0.0, if beyond { 0.0 } else { rho })
-        };
-        [
-            [pressed, mixed * x, mixed * y],
-            [mixed * x, along * x * x + across * y * y, (along - across) * x * y],
-            [mixed * y, (along - across) * x * y, along * y * y + across * x * x],
-        ]
-    }
-
     /// Adds the impulse (times `factor`) to the sums over the bodies.
     pub(super) fn add_impulse(&self, impulse: &[f64; 3], factor: f64, sums: &mut [f64]) {
         let world =
@@ -276,47 +228,5 @@ impl Point {
             [grows * x, share * (1.0 - x * x), -share * x * y],
             [grows * y, -share * x * y, share * (1.0 - y * y)],
         ]
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::solve::nonsmooth::problem::fixture::column;
-
-    #[test]
-    fn the_slope_of_the_nearest_impulse_is_its_derivative() {
-        let mut dry = column(1, 0.7, Vec3::zeros()).points[0];
-        dry.bearing = Bearing::Rigid { offset: 0.01 };
-        let cohesive = Point { cohesion: 0.3, least: -0.2, ..dry };
-        let smooth = Point { friction: 0.0, cohesion: 0.0, ..dry };
-        let (rho, opens, step) = (2.0, 0.05, 1e-6);
-        // Open, stuck, on the cone near its axis and far from it, beyond its tip.
-        let velocities =
-            [[1.0, 0.2, 0.1], [-1.0, 0.1, 0.2], [-0.5, 0.6, -0.4], [0.3, 0.9, 0.8], [0.9, -0.5, 0.3]];
-        let mut states = Vec::new();
-        for point in [dry, cohesive, smooth] {
-            for u in velocities {
-                let from = [0.4, -0.1, 0.2];
-                let at = |u: &[f64; 3]| point.nearest_response(u, opens, &from, rho);
-                states.push(at(&u).state);
-                let slope = point.nearest_slope(&u, opens, &from, rho);
-                for column in 0..3 {
-                    let [mut up, mut down] = [u, u];
-                    (up[column], down[column]) = (u[column] + step, u[column] - step);
-                    let (up, down) = (at(&up).impulse, at(&down).impulse);
-                    for row in 0..3 {
-                        let wanted = -(up[row] - down[row]) / (2.0 * step);
-                        assert!(
-                            (slope[row][column] - wanted).abs() < 1e-5,
-                            "{u:?} {row} {column}: {slope:?} {wanted}"
-                        );
-                    }
-                }
-            }
-        }
-        for state in [State::Open, State::Sticks, State::Slides] {
-            assert!(states.contains(&state), "{state:?}");
-        }
     }
 }
