@@ -107,7 +107,7 @@ pub fn undecided(
         return None;
     }
     let needed = analysis.side_thrust(&loads(task, found.unwrap_or(goal)));
-    let misfit = misfit(task, analysis.settings.closed_gap);
+    let misfit = misfit(task);
     let Some(laws) = Stiff::of(task.wall, task.laws, misfit)? else {
         let limit = borne(&smooth, task.path.growing, &task.loads);
         let lower = level(&limit).or_else(|| (limit.outcome == Outcome::UnstableAtRest).then_some(0.0))?;
@@ -129,6 +129,7 @@ pub fn undecided(
         platform: None,
         changes: Changes::default(),
         path: LoadPath { end: goal, steps: STEPS, bracket: BRACKET * goal, goes_back: false, ..task.path },
+        piles: task.piles.clone(),
         criterion: task.criterion,
         confirmation: task.confirmation,
     };
@@ -145,12 +146,12 @@ pub fn undecided(
     Some(Undecided { lower, upper: found, needed, at_rest: thrust_at_rest(&stiff), by })
 }
 
-/// By how much (m) blocks that touch to within a gap miss one another, or overlap.
-fn misfit(task: &Task<'_>, closed_gap: f64) -> f64 {
+/// By how much (m) blocks that touch to within the gap that counts as closed miss one another, or overlap.
+fn misfit(task: &Task<'_>) -> f64 {
     let built = Assembly::new(task.wall, task.laws, task.contact);
     let bodies = &built.bodies.all;
     let gaps = built.joints.all.iter().flat_map(|joint| joint.corners(bodies)).map(|(_, gap)| gap);
-    gaps.filter(|gap| *gap <= closed_gap).fold(0.0, |most: f64, gap| most.max(gap.abs()))
+    gaps.filter(|gap| *gap <= task.contact.closed).fold(0.0, |most: f64, gap| most.max(gap.abs()))
 }
 
 /// The same of a load that rigid blocks bore in time: by contact dynamics, which finds one of the states that statics leaves open.

@@ -27,8 +27,7 @@ pub(super) fn left_open(
         Outcome::Equilibrium | Outcome::Unbounded => None,
         _ => return None,
     };
-    let settings = Settings { closed_gap: fit.contact.touch, ..Settings::default() };
-    let analysis = Analysis::new(wall, law, fit.contact, settings);
+    let analysis = Analysis::new(wall, law, fit.contact, Settings::default());
     let task = task(arguments, (wall, &[]), law, fit);
     doing("asking stiff joints for the thrust", |_| undecided(&task, &analysis, bears, bears))
 }

@@ -13,7 +13,7 @@ use crate::report::stated_cov::StatedCov;
 use crate::report::summary::EnoughEntry;
 use crate::report::undecided::LeftOpenAnswer;
 use crate::stats::tally::Pooled;
-use crate::stats::{self, Estimate, Shape, Statistic, Variation, above_zero};
+use crate::stats::{self, Shape, Statistic, Variation};
 use crate::study::Until;
 
 /// The walls of one kind, and what they answer.
