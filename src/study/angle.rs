@@ -68,6 +68,8 @@ impl Angle {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::{FRAC_PI_2, PI};
+
     use super::*;
 
     #[test]
@@ -82,7 +84,7 @@ mod tests {
         }
         assert!(asked(Angle::Dip, 0.35) && asked(Angle::Dip, -0.35) && !asked(Angle::Dip, 3.0));
         assert!(asked(Angle::Tilt, 0.52) && !asked(Angle::Tilt, 5.0));
-        for x in [1.5708, 1.57, 3.14, 0.785, -1.571, 4.712] {
+        for x in [FRAC_PI_2, 1.57, PI, 0.785, -1.571, 4.712] {
             assert!(asked(Angle::Direction, x), "{x}");
         }
         for x in [0.0, 1.0, 1.5, 30.0, 90.0, 2.0, 45.0] {

@@ -108,7 +108,7 @@ fn limit_analysis_of_a_wall_under_pressure_is_shown_as_its_factor() {
         let weight = density * 9.80665 * thickness * z;
         let push = top * z + slope * z * z / 2.0;
         let moment = top * z * z / 2.0 + slope * z * z * z / 6.0;
-        (weight * 35f64.to_radians().tan() / push).min(weight * thickness / 2.0 / moment)
+        (weight * pirca::math::tan(35f64.to_radians()) / push).min(weight * thickness / 2.0 / moment)
     };
     let wanted = (1..=courses).map(bed).fold(f64::INFINITY, f64::min);
     assert!((wanted - 5.593).abs() < 1e-3, "{wanted}");

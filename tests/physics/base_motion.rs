@@ -133,7 +133,7 @@ fn what_is_left_of_sliding_to_and_fro_needs_joints_that_do_not_ring() {
         let law = dry(kn, degrees(atan(0.3)));
         let left = |rayleigh| {
             let solver = InTime::Explicit(explicit::Settings::default(), rayleigh);
-            let seen = shaken(&wall, &law, &Shaking::new(across(pulse), solver));
+            let seen = shaken(&wall, &law, &Shaking::new(across(pulse)), solver);
             // The largest slip is right with and without.
             assert!((seen.slip.value / 0.045_354 - 1.0).abs() < 0.01, "{kn:e}: {:?}", seen.slip);
             1.0 - seen.residual_m.expect("it stands") / 6.297e-3

@@ -48,7 +48,7 @@ pub fn plain(walls: &RareWalls<'_>, level: f64, count: usize, number: u64) -> En
     let draws: Vec<Draw> = (0..count as u64).map(|k| walls.drawn(number, k)).collect();
     let values = walls.values(&draws);
     let tally = |worse: &[bool]| Tally::Plain(counts(worse));
-    counted(&draws, &values, (&|_| 1.0 / count as f64, &tally), level)
+    counted(&draws, &values, (|_| 1.0 / count as f64, tally), level)
 }
 
 /// Walls with shifted parameters.
@@ -76,7 +76,7 @@ pub fn importance(
             largest: 1.0 / defended,
         })
     };
-    counted(&draws, &values, (&|at| weight(at) / count as f64, &tally), level)
+    counted(&draws, &values, (|at| weight(at) / count as f64, tally), level)
 }
 
 /// Subset simulation with the study's own solver.
@@ -162,7 +162,7 @@ pub fn stratified(
     let far = places.iter().zip(&values).filter(|((of, _), _)| *of == STRATA - 1);
     let far_worse = far.clone().filter(|(_, value)| value.is_some_and(|value| value <= level)).count();
     let far = [far.count(), far_worse];
-    let mut own = counted(&solved, &values, (&share, &tally), level);
+    let mut own = counted(&solved, &values, (share, tally), level);
     if let Tally::Within(within) = &mut own.if_failed {
         within.more = lost_share;
     }
@@ -182,7 +182,7 @@ fn counts(worse: &[bool]) -> Counts {
 fn counted(
     draws: &[Draw],
     values: &[Option<f64>],
-    (share, tally): (&dyn Fn(usize) -> f64, &dyn Fn(&[bool]) -> Tally),
+    (share, tally): (impl Fn(usize) -> f64, impl Fn(&[bool]) -> Tally),
     level: f64,
 ) -> Ended {
     let is_worse = |if_lost: bool| -> Vec<bool> {
