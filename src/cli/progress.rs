@@ -300,7 +300,7 @@ mod tests {
             assert_eq!(left(seconds), words);
         }
         let begun = Instant::now() - Duration::from_secs(60);
-        // 60 s for 20 of them, and 40 are left.
-        assert_eq!(left_of(begun, [10, 30, 70]), "120 s left");
+        // 60 s for 20 of them, and 38 are left.
+        assert_eq!(left_of(begun, [10, 30, 68]), "114 s left");
     }
 }

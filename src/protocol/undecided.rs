@@ -64,12 +64,16 @@ impl Undecided {
     /// Why there are two numbers, in words.
     pub fn reason(&self) -> String {
         let thrust = match (self.needed, self.at_rest) {
-            (Some(needed), Some(at_rest)) if needed > 0.0 => format!(
+            // Statics can do with less than is there: it is not the thrust alone that is open.
+            (Some(needed), at_rest) if needed <= at_rest.unwrap_or(0.0) => {
+                "one of many distributions of joint forces, which the weight need not bring about".to_owned()
+            }
+            (Some(needed), Some(at_rest)) => format!(
                 "a thrust of {} in upright joints, of which the weight brings about {:.0} %",
                 newtons(needed),
                 100.0 * at_rest / needed
             ),
-            (Some(needed), _) => format!("a thrust of {} in upright joints", newtons(needed)),
+            (Some(needed), None) => format!("a thrust of {} in upright joints", newtons(needed)),
             (None, _) => "thrust in upright joints".to_owned(),
         };
         let lower = match &self.by {

@@ -446,7 +446,7 @@ fn a_level_that_no_wall_fell_below_has_a_probability_that_is_bounded_from_above(
     let few = ["--members", "60", "--below-deg", "20.0001", "--out", "out"];
     for (more, walls, said) in [
         (&[][..], 60, "at most 0.060 (none found)"),
-        (&["--walls", "3000"], 3000, "at most 1.2e-3 (none found)"),
+        (&["--walls", "3000"], 3000, "at most 0.0012 (none found)"),
     ] {
         let (json, text) = asked(&folder, &[&few[..], more].concat());
         let group = &json["groups"][0];
