@@ -6,7 +6,7 @@ use crate::cli::rare::{Aim, FEWEST};
 use crate::ensemble::rare::{Ended, First, Pilot, importance, plain, stratified, subset};
 use crate::ensemble::{Draw, RareWalls};
 use crate::report::{Repeats, Screen};
-use crate::stats::subset::Rare;
+use crate::stats::subset::{Rare, Settings};
 use crate::stats::tally::{Pooled, Tally};
 use crate::stats::{Looks, effort};
 
@@ -45,7 +45,10 @@ impl Way<'_, '_> {
                 let (_, far) = effort::importance(self.pilot.index, leaning.explained);
                 importance(walls, (leaning, far), level, count, number)
             }
-            (Method::Subset, ..) => subset(walls, level, count, number),
+            (Method::Subset, ..) => {
+                let settings = Settings { points: count, ..Settings::default() };
+                subset(walls, level, &settings, number)
+            }
             _ => plain(walls, level, count, number),
         }
     }

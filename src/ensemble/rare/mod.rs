@@ -14,7 +14,7 @@ use crate::ensemble::draws::Draws;
 use crate::ensemble::{Observed, Quantity, Row, Task, evaluate};
 use crate::random::Move;
 use crate::random::standard_normal::quantile;
-use crate::stats::subset::{Rare, Settings, Step};
+use crate::stats::subset::{Rare, Step};
 use crate::study::{Study, WallParameter as Parameter};
 
 pub use batch::{Batch, Batches};
@@ -27,17 +27,9 @@ const FIRST_MEMBER: u64 = 1 << 40;
 const FIRST_MOVE: u64 = 1 << 48;
 /// So far apart are the members of two runs.
 const RUN: u64 = 1 << 32;
-/// Every second move changes all numbers of a wall, so that none is left out that decides alone; every other one a fifth of them. Where a stone of
-/// another length shifts all that come after it, small moves of all numbers lead as far away as a new wall.
-const KINDS: [f64; 2] = [1.0, 0.2];
 
 /// Walls that each thread evaluates before they are kept.
 const PIECE: usize = 4;
-
-/// How a run of subset simulation over walls goes, with so many points a level.
-pub fn settings(points: usize) -> Settings {
-    Settings { points, kinds: KINDS.to_vec(), ..Settings::default() }
-}
 
 /// A wall as it was drawn and moved. With the study, the arm and the kn point it gives the same wall again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

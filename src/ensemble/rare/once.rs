@@ -1,20 +1,17 @@
 //! One independent run of each method.
 
 use crate::ensemble::rare::pilot::{Leaning, Sorted};
-use crate::ensemble::rare::{Draw, RareWalls, settings};
+use crate::ensemble::rare::{Draw, RareWalls};
 use crate::random::Streams;
 use crate::stats::importance::{defended, is_shifted, weight};
 use crate::stats::strata::{self, STRATA, allocated, chosen, stratum};
-use crate::stats::subset::{Rare, Run, is_stuck, run};
+use crate::stats::subset::{Rare, Run, Settings, is_stuck, run};
 use crate::stats::tally::{Chains, Counts, Strata, Tally, Weighted, Within};
 
 /// Levels below the one asked for that the figure shows of a run.
 const SHOWN: usize = 10;
 /// The stratum of walls that limit analysis finds nothing of: they may be on either side.
 const UNKNOWN: usize = STRATA / 2;
-
-/// Limit analyses of each level on the way down to where walls are solved.
-const LIMITS: usize = 1000;
 
 /// What came out of one run.
 pub struct Ended {
@@ -80,9 +77,9 @@ pub fn importance(
 }
 
 /// Subset simulation with the study's own solver.
-pub fn subset(walls: &RareWalls<'_>, level: f64, points: usize, number: u64) -> Ended {
-    let found = run(walls, level, &settings(points), number);
-    let (first, all, lost) = (found.first as u64, points as u64, found.lost as u64);
+pub fn subset(walls: &RareWalls<'_>, level: f64, settings: &Settings, number: u64) -> Ended {
+    let found = run(walls, level, settings, number);
+    let (first, all, lost) = (found.first as u64, settings.points as u64, found.lost as u64);
     let of = |probability: f64, worse: u64| {
         Tally::Chains(Chains { probability, first: Counts { worse, of: all }, stuck: is_stuck(found.kept()) })
     };
@@ -120,12 +117,12 @@ pub fn stratified(
     let (within, draws, limits, lost, kept) = match first {
         First::Drawn(all) => (None, (0..all as u64).map(|k| walls.drawn(number, k)).collect(), all, 0, None),
         First::Down => {
-            let found = run(screen, sorted.bound(), &settings(LIMITS), number);
+            let found = run(screen, sorted.bound(), &Settings::default(), number);
             let kept = found.kept();
             (Some(found.probability), found.within, found.values, found.lost, Some(kept))
         }
     };
-    let lost_share = lost as f64 / LIMITS as f64;
+    let lost_share = lost as f64 / Settings::default().points as f64;
     let found = screen.values(&draws);
     let mut strata: [Vec<usize>; STRATA] = Default::default();
     for (at, limit) in found.iter().enumerate() {
