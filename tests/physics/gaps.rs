@@ -37,9 +37,15 @@ fn beside(gap: f64, both: bool) -> Wall {
     on_floor(blocks)
 }
 
-/// Tilts a wall towards a side in steps of a degree, to 40 deg. Gaps up to `closed` (m) are none.
-fn tilted(wall: &Wall, law: &Coulomb, towards: Direction, closed: Option<f64>, solver: &Solver) -> Run {
-    let steps = LoadPath::tilt(towards, radians(1.0), radians(40.0), radians(0.02));
+/// Tilts a wall towards a side in steps of a degree, to `end` (deg). Gaps up to `closed` (m) are none.
+fn tilted(
+    wall: &Wall,
+    law: &Coulomb,
+    (towards, end): (Direction, f64),
+    closed: Option<f64>,
+    solver: &Solver,
+) -> Run {
+    let steps = LoadPath::tilt(towards, radians(1.0), radians(end), radians(0.02));
     let task = path(wall, law, steps);
     let standard = task.contact;
     let contact = contact::Settings { closed: closed.unwrap_or(standard.closed), ..standard };
@@ -60,11 +66,11 @@ fn joints_with_cohesion_and_tension_hold_only_what_was_built_touching() {
     let law = Coulomb { tan_phi: 0.3, cohesion: 1e3, tension: 2e6, ..dry(1e9, 0.0) };
     // W sin = c A + mu W cos.
     let exact = degrees(atan(0.3) + asin(1e3 * AREA / WEIGHT * cos(atan(0.3))));
+    let across = (Direction::YPlus, 40.0);
     for solver in solvers() {
-        let angle = |gap: f64, closed: Option<f64>| {
-            falls(&tilted(&beside(gap, true), &law, Direction::YPlus, closed, &solver))
-        };
-        let attached = tilted(&beside(0.0, true), &law, Direction::YPlus, None, &solver);
+        let angle =
+            |gap: f64, closed: Option<f64>| falls(&tilted(&beside(gap, true), &law, across, closed, &solver));
+        let attached = tilted(&beside(0.0, true), &law, across, None, &solver);
         // Ends that touch hold by 160 N, of a weight of 565 N, and more where they would have to dilate.
         if let Outcome::Collapsed { .. } = attached.outcome {
             assert!(falls(&attached) > exact + 5.0, "{}: {}", solver.name(), falls(&attached));
@@ -75,7 +81,7 @@ fn joints_with_cohesion_and_tension_hold_only_what_was_built_touching() {
             assert!((found - exact).abs() < 0.05, "{}, {gap} m: {found} {exact}", solver.name());
         }
         // A tolerance that is stated closes the gap: the stones touch as built without it.
-        let filled = tilted(&beside(8e-4, true), &law, Direction::YPlus, Some(1e-3), &solver);
+        let filled = tilted(&beside(8e-4, true), &law, across, Some(1e-3), &solver);
         assert_eq!(filled.outcome.name(), attached.outcome.name(), "{}", solver.name());
         if let Outcome::Collapsed { .. } = attached.outcome {
             let off = falls(&filled) - falls(&attached);
@@ -87,11 +93,12 @@ fn joints_with_cohesion_and_tension_hold_only_what_was_built_touching() {
 #[test]
 fn a_gap_closes_by_its_width_before_it_carries() {
     // Beyond the friction angle the stone slides as far as the gap is wide, and leans on its neighbour. To limit analysis, which
-    // knows no displacements, it falls.
+    // knows no displacements, it falls. What slides further than the search reaches, or tilts beyond 0.5 rad, is held to that bound,
+    // on the safe side.
     let law = dry(1e9, 20.0);
     for solver in solvers() {
-        for gap in GAPS {
-            let run = tilted(&beside(gap, false), &law, Direction::XPlus, None, &solver);
+        for gap in GAPS.into_iter().filter(|gap| *gap < 1e-3) {
+            let run = tilted(&beside(gap, false), &law, (Direction::XPlus, 28.0), None, &solver);
             if let Solver::Limit(_) = solver {
                 assert!((falls(&run) - 20.0).abs() < 1e-6, "{gap} m: {}", falls(&run));
                 continue;
