@@ -71,10 +71,12 @@ fn pyramid(more: &[&str]) -> (Value, String) {
 /// The part that goes overturns at 14.823 deg by itself; the wall is bounded at 30.727 deg.
 #[test]
 fn a_pyramid_is_answered_by_an_interval_with_its_reason() {
-    for (more, upper) in [
-        (&["--solver", "limit"][..], [30.72, 30.74]),
-        (&["--flow", "non-associative"], [29.4, 29.6]),
-        (&["--solver", "nonsmooth"], [15.6, 30.7]),
+    // Statics bears 20 deg without friction at the sides, so that contact dynamics does not need the thrust, but the choice of forces.
+    let choice = "one of many distributions of joint forces";
+    for (more, upper, needs) in [
+        (&["--solver", "limit"][..], [30.72, 30.74], "kN in upright joints"),
+        (&["--flow", "non-associative"], [29.4, 29.6], "N in upright joints"),
+        (&["--solver", "nonsmooth"], [15.6, 30.7], choice),
     ] {
         let (json, text) = pyramid(more);
         let open = &json["undecided"];
@@ -82,9 +84,9 @@ fn a_pyramid_is_answered_by_an_interval_with_its_reason() {
         assert!(14.4 < of("lower") && of("lower") < 14.823, "{json}");
         assert!(upper[0] < of("upper") && of("upper") < upper[1], "{json}");
         assert_eq!(json["collapse_angle_deg"], open["upper"], "the upper end stays what it was");
-        assert!(of("thrust_at_rest_n") < of("thrust_needed_n"), "{json}");
+        assert_eq!(of("thrust_at_rest_n") < of("thrust_needed_n"), needs != choice, "{json}");
         assert!(text.starts_with("The wall collapses at a tilt between 14."), "{text}");
-        assert!(text.contains("rigid blocks leave open which") && text.contains("upright joints"), "{text}");
+        assert!(text.contains("rigid blocks leave open which") && text.contains(needs), "{text}");
     }
     let (json, text) = pyramid(&["--solver", "implicit", "--kn", "1e12"]);
     assert_eq!(json["undecided"], Value::Null);
