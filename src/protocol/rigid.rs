@@ -79,7 +79,8 @@ pub(super) fn rigid(task: &Task<'_>, settings: Settings, witness: Witness<'_>) -
     let falls = matches!(outcome, Outcome::Collapsed { .. });
     let undecided = match outcome {
         Outcome::Collapsed { .. } => undecided(task, &analysis, last, last),
-        Outcome::Equilibrium => {
+        // Without a bound as well: what presses without end may press only where statics lets it.
+        Outcome::Equilibrium | Outcome::Unbounded => {
             let more = last.filter(|at| *at > path.end);
             undecided(task, &analysis, more, more)
         }
