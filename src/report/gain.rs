@@ -364,8 +364,8 @@ mod tests {
         };
         assert_eq!(
             gained(0, sure),
-            "  one: 4 readings (4 of them bounds) of 2 specimens\n    log score per reading  base -1.50; extended -1.50: 0.500 [0.250, \
-             0.750], better\n                           free discrepancy -1.00: 0.50 [0.25, 0.75]\n"
+            "  one: 4 readings (4 of them bounds) of 2 specimens\n    log score per reading  base -1.50; extended -1.50: 0.50 [0.25, \
+             0.75], better\n                           free discrepancy -1.00: 0.50 [0.25, 0.75]\n"
         );
         let unsure = Interval { value: 0.5, ends: [f64::NEG_INFINITY, f64::INFINITY] };
         let text = gained(4, unsure);
