@@ -44,8 +44,8 @@ pub struct InfluenceSummary {
     pub interactions: [Option<f64>; 3],
     /// The widest half width of a share of a source; null where none has an interval.
     pub half_width: Option<f64>,
-    /// Base points with which every share of a source is known to within [`WELL_KNOWN`], as intervals shrink with the root of their
-    /// number; null where these points are enough.
+    /// Base points with which every share of a source is known to within 0.1, as intervals shrink with the root of their number; null where
+    /// these points are enough.
     pub points_wanted: Option<u64>,
     /// The sources: what is drawn once per wall, the layout as a whole, and what it consists of.
     pub groups: Vec<ShareEntry>,
