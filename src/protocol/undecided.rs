@@ -15,7 +15,7 @@ use crate::protocol::path::{Growing, LoadPath};
 use crate::protocol::rigid::{borne, level};
 use crate::protocol::{Changes, Run, Task};
 use crate::solve::implicit::{self, Equilibrium};
-use crate::solve::limit::{self, Analysis, Loads, PointLoad, When, is_upright};
+use crate::solve::limit::{Analysis, Flow, Loads, PointLoad, Settings, When, is_upright};
 use crate::solve::{Assembly, Equilibrate, STANDARD_GRAVITY, Solver, Status, Tie};
 
 /// A wall whose stiff joints bear this share of what rigid statics finds is decided.
@@ -43,6 +43,9 @@ pub struct Undecided {
     pub needed: Option<f64>,
     /// The thrust in upright joints under the weight alone (N), of stiff joints; `None` where these do not come to rest.
     pub at_rest: Option<f64>,
+    /// What rigid blocks bear whose joints slide without opening, in the same unit, where it lies clearly below an upper end with dilatancy: then
+    /// dilatancy is part of the reason. `None` where it is not, or where that was not found.
+    pub without_dilatancy: Option<f64>,
     /// How the lower end was found.
     pub by: Lower,
 }
@@ -63,6 +66,10 @@ pub enum Lower {
 impl Undecided {
     /// Why there are two numbers, in words.
     pub fn reason(&self) -> String {
+        let dilates = match self.without_dilatancy {
+            Some(_) => " and joints that open as they slide (dilatancy)",
+            None => "",
+        };
         let thrust = match (self.needed, self.at_rest) {
             // Statics can do with less than is there: it is not the thrust alone that is open.
             (Some(needed), at_rest) if needed <= at_rest.unwrap_or(0.0) => {
@@ -88,7 +95,7 @@ impl Undecided {
                 "without friction there the wall bears the lower at most (its blocks miss one another by up to {misfit:.0e} m, too much to ask stiff joints)"
             ),
         };
-        format!("rigid blocks leave open which: the upper load needs {thrust}; {lower}")
+        format!("rigid blocks leave open which: the upper load needs {thrust}{dilates}; {lower}")
     }
 }
 
@@ -120,6 +127,7 @@ pub fn undecided(
             upper: found,
             needed,
             at_rest: None,
+            without_dilatancy: without_dilatancy(task, analysis, found),
             by: Lower::SmoothSides(misfit),
         })
         .filter(|open| open.lower < goal);
@@ -147,7 +155,18 @@ pub fn undecided(
             (last, Lower::StiffJointsAtLeast(other.reason()))
         }
     };
-    Some(Undecided { lower, upper: found, needed, at_rest: thrust_at_rest(&stiff), by })
+    let without_dilatancy = without_dilatancy(task, analysis, found);
+    Some(Undecided { lower, upper: found, needed, at_rest: thrust_at_rest(&stiff), without_dilatancy, by })
+}
+
+/// What a wall bears without dilatancy, where what it bears with dilatancy was `found` and is clearly more.
+fn without_dilatancy(task: &Task<'_>, analysis: &Analysis, found: Option<f64>) -> Option<f64> {
+    if analysis.settings.flow != Flow::Associative {
+        return None;
+    }
+    let settings = Settings { flow: Flow::NonAssociative, ..analysis.settings };
+    let limit = borne(&Analysis { settings, ..analysis.clone() }, task.path.growing, &task.loads);
+    level(&limit).filter(|level| *level < SAME * found.unwrap_or(task.path.end))
 }
 
 /// By how much (m) blocks that touch to within the gap that counts as closed miss one another, or overlap.
@@ -175,7 +194,7 @@ pub(super) fn left_open(task: &Task<'_>, run: &Run) -> Option<Undecided> {
         _ => return None,
     };
     let Task { wall, laws, contact, .. } = *task;
-    let analysis = Analysis::new(wall, laws, contact, limit::Settings::default()).with_ties(&task.ties);
+    let analysis = Analysis::new(wall, laws, contact, Settings::default()).with_ties(&task.ties);
     let bound = level(&borne(&analysis, task.path.growing, &task.loads));
     undecided(task, &analysis, bound, found)
 }

@@ -93,6 +93,8 @@ fn a_pyramid_needs_thrust_that_its_weight_does_not_bring_about() {
         assert!(lower < exact && lower > 0.97 * exact, "{lower} against {exact}");
         let (needed, at_rest) = (open.needed.expect("a state"), open.at_rest.expect("it stands"));
         assert!(needed > 0.0 && at_rest < needed, "{at_rest} of {needed} N");
+        // 29.45 of 30.73 deg: dilatancy is worth less than 5 %, and is not named.
+        assert_eq!(open.without_dilatancy, None);
     }
 }
 
@@ -162,6 +164,13 @@ fn regular_walls_are_decided_and_irregular_ones_bear_what_they_do_without_dilata
         let of = |flow| by(&wall, 35.0, tilt(1.0), &Solver::Limit(Settings { flow, ..Settings::default() }));
         let (dilates, without) = (of(Flow::Associative), of(Flow::NonAssociative));
         let open = dilates.undecided.as_ref().expect("dilatancy is worth more than 5 %");
+        // Dilatancy is named as a reason where it alone is worth 5 %.
+        let named = (angle(&without) < 0.95 * angle(&dilates)).then(|| radians(angle(&without)));
+        match (named, open.without_dilatancy) {
+            (Some(level), Some(found)) => assert!((found - level).abs() < 1e-3 * level, "{found} rad"),
+            (named, found) => assert_eq!(named, found, "irregular {member}"),
+        }
+        assert_eq!(open.reason().contains("dilatancy"), named.is_some(), "{}", open.reason());
         if without.undecided.is_none() {
             decided += 1;
             let share = degrees(open.lower) / angle(&without);
@@ -190,6 +199,8 @@ fn a_bound_that_dilates_along_a_side_is_left_open_down_to_the_closed_form_withou
     let exact = mu * SQRT_2 / (1.0 - mu);
     assert!((open.lower / exact - 1.0).abs() < 5e-3, "{} against {exact}", open.lower);
     assert!(open.upper.expect("it falls") > 1.5 * exact, "{open:?}");
+    let named = open.without_dilatancy.expect("it slides without parting");
+    assert!((named / exact - 1.0).abs() < 5e-3, "{named} against {exact}");
 }
 
 /// The tilt (deg) at which contact dynamics finds no more rest, in steps of a quarter of a degree, after the weight has come on in so many steps.

@@ -39,11 +39,17 @@ struct Ends {
 }
 
 fn ends(asked: &Analyse, open: &Undecided) -> Ends {
-    let own = [Some(open.lower), open.upper];
-    match asked.growing() {
-        Growing::Tilt => Ends { unit: own.map(|x| x.map(degrees)), multipliers: own.map(|x| x.map(tan)) },
-        Growing::Lateral => Ends { unit: own, multipliers: own },
+    let levels = [Some(open.lower), open.upper];
+    let multiplier = |level: f64| if asked.growing() == Growing::Tilt { tan(level) } else { level };
+    Ends {
+        unit: levels.map(|level| level.map(|level| in_unit(asked, level))),
+        multipliers: levels.map(|level| level.map(multiplier)),
     }
+}
+
+/// A load in the unit of the answer: degrees of tilt, or a multiplier.
+fn in_unit(asked: &Analyse, level: f64) -> f64 {
+    if asked.growing() == Growing::Tilt { degrees(level) } else { level }
 }
 
 /// The range in the headline: what the wall does between the two.
@@ -96,6 +102,7 @@ pub(super) fn object(asked: &Analyse, open: &Undecided) -> Value {
             Lower::StiffJointsAtLeast(_) => "stiff_joints_at_least",
             Lower::SmoothSides(_) => "smooth_sides",
         },
+        "without_dilatancy": open.without_dilatancy.map(|level| in_unit(asked, level)),
         "thrust_needed_n": open.needed,
         "thrust_at_rest_n": open.at_rest,
         "reason": open.reason(),
