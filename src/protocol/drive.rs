@@ -391,7 +391,7 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
     /// Whether a block has come to rest fallen: it toppled or left its bearing on the way, and lies. What carried a block that is lost may drop.
     fn has_fallen(&self, from: &S, rest: &Assembly<'_>, level: f64) -> bool {
         let loses = self.task.changes.loses(self.last_borne(), level);
-        !loses && has_fallen(self.task.wall, from.assembly(), &rest.bodies)
+        !loses && has_fallen(self.task.wall, from.assembly(), rest)
     }
 
     /// Whether a state at rest may be another equilibrium than the one that the wall comes to: a block has lost its contacts, or
@@ -408,7 +408,7 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
     fn comes_to(&self, from: &S, rest: &Assembly<'_>) -> bool {
         !self.watch.runs_away(&rest.bodies)
             && keeps_contacts(from.assembly(), rest)
-            && !has_fallen(self.task.wall, from.assembly(), &rest.bodies)
+            && !has_fallen(self.task.wall, from.assembly(), rest)
     }
 
     /// Whether a wall at rest at a level bears more there than limit analysis says that it can: asked where the solver was in

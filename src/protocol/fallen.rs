@@ -8,6 +8,9 @@
 //! left      it is lower, and what of its bearing is left is not under its centroid: it slid off, falls freely, or lies on something else.
 //! ```
 //!
+//! Lower is counted from where its bearing would have it: what carries it may have sunk, and a soft joint closes. A thin wedge between soft joints
+//! goes down by a good part of its height and has not fallen.
+//!
 //! The base is the hull of the joints that carried the body at rest, in its own axes: those that push upwards, or where it does not stand on these
 //! alone, as in an arch or where a slab leans on a wall, all. Nothing here depends on the axes of the wall, on stones
 //! elsewhere, or on the numbers of the stones. What rocks and comes back, and what slides without leaving its bearing, has not fallen.
@@ -71,6 +74,10 @@ struct Bearing {
     /// A point and the normal of the face that carries, in the axes of its body.
     point: Vec3,
     normal: Vec3,
+    /// Height of that point at rest (m).
+    height: f64,
+    /// By how much (m) the joint was pressed together at rest.
+    pressed: f64,
     /// Axes in that face, and from where to where the body that carries reaches along them (m).
     along: [(Vec3, [f64; 2]); 2],
     /// Whether its push is upwards, so that its weight brings a body back that has parted from it.
@@ -83,13 +90,15 @@ impl Bearings {
         let bodies = &at_rest.bodies;
         let mut joints: BTreeMap<usize, Vec<Bearing>> =
             movable(wall).map(|(block, _)| (bodies.carriers[block], Vec::new())).collect();
+        let closures = Now::of(at_rest);
         for joint in &at_rest.joints.all {
             let both = [joint.incident as usize, joint.reference as usize];
             let (_, push) = joint.place(&bodies.all);
             let corners: Vec<Vec3> = joint.corners(&bodies.all).into_iter().map(|(at, _)| at).collect();
             for ([body, by], normal) in [(both, push), ([both[1], both[0]], -push)] {
                 if let Some(own) = joints.get_mut(&body) {
-                    own.push(Bearing::new(bodies, [body, by], &corners, (normal, normal.dot(&up) > UPWARDS)));
+                    let pressed = closures.closure(body, by);
+                    own.push(Bearing { pressed, ..Bearing::new(bodies, [body, by], &corners, normal, &up) });
                 }
             }
         }
@@ -98,14 +107,15 @@ impl Bearings {
     }
 
     /// What has become of every body, by its id.
-    pub fn fates(&self, bodies: &Bodies) -> Vec<Fate> {
+    pub fn fates(&self, wall: &Assembly<'_>) -> Vec<Fate> {
+        let now = Now::of(wall);
         let mut fates = vec![Fate::Carried; self.bodies];
         // What a fallen body carried may have lost its bearing with it.
         loop {
             let mut more = false;
             for own in &self.all {
-                if fates[own.body] == Fate::Carried && own.has_fallen(bodies, &self.up, &fates) {
-                    let lies = own.lies(&bodies.all[own.body], &self.up);
+                if fates[own.body] == Fate::Carried && own.has_fallen(&now, &self.up, &fates) {
+                    let lies = own.lies(&now, &self.up, &fates);
                     fates[own.body] = if lies { Fate::Lies } else { Fate::Falls };
                     more = true;
                 }
@@ -116,25 +126,44 @@ impl Bearings {
         }
     }
 
-    /// Whether a body has fallen for good; quick to say where all are about where they were.
-    pub fn any_lies(&self, bodies: &Bodies) -> bool {
-        self.all.iter().any(|own| own.lies(&bodies.all[own.body], &self.up))
-            && self.fates(bodies).contains(&Fate::Lies)
-    }
-
     /// Whether a body has fallen of a wall that has come to rest again. What has moved by no more than the reach of the contact search rattles in
     /// its place.
-    pub fn any_fell(&self, at_rest: &Assembly<'_>, again: &Bodies) -> bool {
+    pub fn any_fell(&self, at_rest: &Assembly<'_>, again: &Assembly<'_>) -> bool {
         let strayed = |body: usize| {
-            (again.all[body].position - at_rest.bodies.all[body].position).norm() > at_rest.contact.reach
+            (again.bodies.all[body].position - at_rest.bodies.all[body].position).norm()
+                > at_rest.contact.reach
         };
         self.fates(again).iter().enumerate().any(|(body, fate)| *fate != Fate::Carried && strayed(body))
     }
 }
 
 /// Whether a block of a wall has fallen that has come to rest again, on a platform whose axes are the wall's.
-pub fn has_fallen(wall: &Wall, at_rest: &Assembly<'_>, again: &Bodies) -> bool {
+pub fn has_fallen(wall: &Wall, at_rest: &Assembly<'_>, again: &Assembly<'_>) -> bool {
     Bearings::of(wall, at_rest, Vec3::z()).any_fell(at_rest, again)
+}
+
+/// A wall at the time of a look.
+struct Now<'n> {
+    bodies: &'n Bodies,
+    /// By how much (m) the joint of two bodies, the first one first, is pressed together where it is most.
+    closures: BTreeMap<(usize, usize), f64>,
+}
+
+impl<'n> Now<'n> {
+    fn of(wall: &'n Assembly<'_>) -> Now<'n> {
+        let mut closures = BTreeMap::new();
+        for joint in &wall.joints.all {
+            let gaps = joint.corners(&wall.bodies.all).into_iter().map(|(_, gap)| -gap);
+            let [a, b] = [joint.incident as usize, joint.reference as usize];
+            let most: &mut f64 = closures.entry((a.min(b), a.max(b))).or_default();
+            *most = gaps.fold(*most, f64::max);
+        }
+        Now { bodies: &wall.bodies, closures }
+    }
+
+    fn closure(&self, a: usize, b: usize) -> f64 {
+        self.closures.get(&(a.min(b), a.max(b))).copied().unwrap_or(0.0)
+    }
 }
 
 impl Carried {
@@ -166,9 +195,16 @@ impl Carried {
         Hull::of(seen.collect()).depth([0.0, 0.0])
     }
 
-    /// How far it has gone down (m).
-    fn down(&self, now: &Body, up: &Vec3) -> f64 {
-        self.height - now.position.dot(up)
+    /// How far it has gone down (m) from where what carries it still would have it.
+    fn down(&self, now: &Now<'_>, up: &Vec3, fates: &[Fate]) -> f64 {
+        let carriers = self.bearings.iter().filter(|own| fates[own.by] == Fate::Carried);
+        let sunk = carriers.map(|own| own.sunk(&now.bodies.all[own.by], up) + self.closed(own, now));
+        self.height - now.bodies.all[self.body].position.dot(up) - sunk.fold(0.0, f64::max)
+    }
+
+    /// How far (m) its joint with what carries it has closed since it was at rest.
+    fn closed(&self, bearing: &Bearing, now: &Now<'_>) -> f64 {
+        (now.closure(self.body, bearing.by) - bearing.pressed).max(0.0)
     }
 
     /// Cosine of its turn from upright.
@@ -177,21 +213,21 @@ impl Carried {
     }
 
     /// Whether it will not come back, if it has fallen.
-    fn lies(&self, now: &Body, up: &Vec3) -> bool {
-        self.down(now, up) > STEP * self.above || self.upright(now, up) < ROLLED
+    fn lies(&self, now: &Now<'_>, up: &Vec3, fates: &[Fate]) -> bool {
+        self.down(now, up, fates) > STEP * self.above || self.upright(&now.bodies.all[self.body], up) < ROLLED
     }
 
-    fn has_fallen(&self, bodies: &Bodies, up: &Vec3, fates: &[Fate]) -> bool {
-        let now = &bodies.all[self.body];
+    fn has_fallen(&self, wall: &Now<'_>, up: &Vec3, fates: &[Fate]) -> bool {
+        let now = &wall.bodies.all[self.body];
         if self.stands && (self.upright(now, up) <= 0.0 || self.over(now, up, |_| true) < 0.0) {
             return true;
         }
-        let down = self.down(now, up);
-        if down <= STEP * self.above {
+        if self.down(wall, up, fates) <= STEP * self.above {
             return false;
         }
         let carries = |own: &Bearing| {
-            fates[own.by] == Fate::Carried && own.carries(now, &bodies.all[own.by], STEP * self.above)
+            let step = STEP * self.above + self.closed(own, wall);
+            fates[own.by] == Fate::Carried && own.carries(now, &wall.bodies.all[own.by], step)
         };
         let left = self.bearings.iter().filter(|own| carries(own)).count();
         let has_lost = left < self.bearings.len() || !self.stands;
@@ -200,12 +236,7 @@ impl Carried {
 }
 
 impl Bearing {
-    fn new(
-        bodies: &Bodies,
-        [body, by]: [usize; 2],
-        corners: &[Vec3],
-        (normal, holds_up): (Vec3, bool),
-    ) -> Bearing {
+    fn new(bodies: &Bodies, [body, by]: [usize; 2], corners: &[Vec3], normal: Vec3, up: &Vec3) -> Bearing {
         let (own, other) = (&bodies.all[body], &bodies.all[by]);
         let into = |at: &Vec3, of: &Body| of.rotation.tr_mul(&(at - of.position));
         // Along the longest side of the joint and across, so that the axes turn with the wall.
@@ -224,11 +255,18 @@ impl Bearing {
         Bearing {
             by,
             point: corners.first().map_or_else(Vec3::zeros, |corner| into(corner, other)),
+            height: corners.first().unwrap_or(&other.position).dot(up),
+            pressed: 0.0,
             corners: corners.iter().map(|corner| into(corner, own)).collect(),
             normal: other.rotation.tr_mul(&normal),
             along,
-            holds_up,
+            holds_up: normal.dot(up) > UPWARDS,
         }
+    }
+
+    /// How far (m) the face that carries has gone down.
+    fn sunk(&self, by: &Body, up: &Vec3) -> f64 {
+        self.height - (by.position + by.rotation * self.point).dot(up)
     }
 
     /// Whether the joint may carry still: over the body that carries, some of it is not below the face by more than a step; or at the face within a

@@ -61,7 +61,7 @@ pub(super) fn settle_supports<'a, S: Equilibrate<'a>>(
             tried = of(relaxed.assembly);
         }
         let is_at_rest = settled.status == Status::Equilibrium;
-        if is_at_rest && has_fallen(task.wall, rest.assembly(), &tried.assembly().bodies) {
+        if is_at_rest && has_fallen(task.wall, rest.assembly(), tried.assembly()) {
             settled.status = Status::Stopped;
         }
         let told = match settled.status {

@@ -161,8 +161,8 @@ impl<'t, 'a> Turned<'t, 'a> {
             }
             begun = (self.watch.strayed(bodies) > self.begins).then(|| begun.unwrap_or(tilt));
             let is_read = tilt >= path.after(readings);
-            let away =
-                self.watch.runs_away(bodies) || (is_read && has_fallen(self.task.wall, &self.last, bodies));
+            let away = self.watch.runs_away(bodies)
+                || (is_read && has_fallen(self.task.wall, &self.last, &self.simulation.assembly));
             if away || is_read {
                 (witness.tell)(level);
                 let ratio = self.simulation.assembly.unbalanced_ratio();

@@ -33,9 +33,8 @@ fn studies() -> Vec<String> {
             .replace("height_m = 0.3\n", "height_m = 0.6\n")
             .replace("length_m = 0.8\n", "length_m = 0.2\n")
     };
-    let heavy = |shear: &str| {
-        shear.replace("2e3", "2e4").replace("0.32", "0.92").replace("\"turns\"", "\"level\"")
-    };
+    let heavy =
+        |shear: &str| shear.replace("2e3", "2e4").replace("0.32", "0.92").replace("\"turns\"", "\"level\"");
     let without_phi_variant = |text: String| text[..text.find("[[variant]]").expect("a variant")].to_owned();
     vec![
         STUDY.to_owned(),

@@ -156,8 +156,8 @@ impl Observer {
     }
 
     /// Reads the wall at a time (s).
-    pub fn read(&mut self, bodies: &Bodies, time: f64) {
-        let fates = self.bearings.fates(bodies);
+    pub fn read(&mut self, wall: &Assembly<'_>, time: f64) {
+        let (fates, bodies) = (self.bearings.fates(wall), &wall.bodies);
         let mut falls = vec![false; bodies.all.len()];
         for stone in &mut self.stones {
             let [moved, turned] = stone.gone(bodies, &self.start);
