@@ -49,6 +49,18 @@ pub(crate) fn law(arguments: &Analyse) -> Coulomb {
     }
 }
 
+/// Processor time of contact dynamics for each joint (s), of walls with 80 to 200 joints that were tilted until they fell: the least is that of one
+/// leaf tilted out of its plane, the most that of walls in their plane, of two leaves and with returns, whose last steps before the fall slide in
+/// many joints (`docs/theory/solvers.md`).
+const SECONDS_PER_JOINT: [f64; 2] = [0.01, 0.4];
+
+/// How long contact dynamics takes for a wall of so many joints, in words.
+fn estimate(joints: usize) -> String {
+    let [low, high] = SECONDS_PER_JOINT.map(|each| (each * joints as f64).max(1.0));
+    let high = if high < 100.0 { format!("{high:.0} s") } else { format!("{:.0} min", high / 60.0) };
+    format!("{low:.0} s to {high}; the more, the more joints slide before it falls")
+}
+
 /// Solves the wall as asked.
 pub(crate) fn solve(
     arguments: &Analyse,
@@ -57,7 +69,11 @@ pub(crate) fn solve(
     fit: &Fit,
     recorder: Option<&Recorder>,
 ) -> (Answer, Found) {
-    let what = format!("solving {} blocks by the {} solver", wall.0.blocks.len(), arguments.solver.name());
+    let mut what =
+        format!("solving {} blocks by the {} solver", wall.0.blocks.len(), arguments.solver.name());
+    if arguments.solver == MethodName::Nonsmooth {
+        what.push_str(&format!(" ({})", estimate(fit.joints)));
+    }
     doing(&what, |doing| {
         let witness = Witness { tell: &|level| doing.at(level), recorder };
         solve_seen_by(arguments, wall, law, fit, witness)
@@ -203,4 +219,15 @@ fn clamped(analysis: &limit::Analysis, wall: &Wall, outcome: &Outcome) -> Vec<us
     let far =
         |i: usize| moves[i].velocity.norm() + moves[i].spin.norm() * 0.5 * wall.blocks[i].shape.diameter();
     (0..moves.len()).filter(|&i| far(i) > MOVES).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_estimate_grows_with_the_joints() {
+        assert!(estimate(50).starts_with("1 s to 20 s;"), "{}", estimate(50));
+        assert!(estimate(2000).starts_with("20 s to 13 min;"), "{}", estimate(2000));
+    }
 }
