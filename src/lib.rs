@@ -94,8 +94,10 @@
 //! | [`study`] | text to checked studies, every fault at once |
 //! | [`ensemble`] | plan, run in parallel, record, resume |
 //! | [`critic`] | measured beside simulated; the joint stiffness that measured collapse angles speak for |
-//! | [`report`] | summary, comparison with published statements, table, figure, VTU |
-//! | [`cli`] | arguments, messages, exit codes; `analyse` solves walls from files |
+//! | [`render`] | numbers and tables as text, CSV, charts, pictures of walls, VTU, glTF; knows no verb and no study |
+//! | [`terminal`] | progress, messages, exit codes |
+//! | [`verb`] | a room for each verb: options and help, work, answer; a run's summary is shared |
+//! | [`cli`] | the list of verbs, as the command line reads it |
 //!
 //! Imports go one way, down this list to what stands above; a test holds the table. Six loops, six files:
 //! realisations `ensemble/run.rs`, load steps `protocol/drive.rs`, time steps `solve/explicit/step.rs`, Newton's iterations
@@ -116,8 +118,10 @@ pub mod model;
 pub mod motion;
 pub mod protocol;
 pub mod random;
-pub mod report;
+pub mod render;
 pub mod shape;
 pub mod solve;
 pub mod stats;
 pub mod study;
+pub mod terminal;
+pub mod verb;

@@ -4,8 +4,8 @@ use clap::CommandFactory;
 use clap_complete::generate;
 
 use crate::cli::arguments::{Arguments, Completions};
-use crate::cli::failure::Failure;
-use crate::cli::output;
+use crate::terminal::failure::Failure;
+use crate::terminal::output;
 
 /// Prints the script of a shell.
 pub(crate) fn completions(arguments: &Completions) -> Result<(), Failure> {

@@ -4,8 +4,8 @@ use clap::CommandFactory;
 use clap_mangen::generate_to;
 
 use crate::cli::arguments::{Arguments, Man};
-use crate::cli::failure::Failure;
-use crate::cli::output;
+use crate::terminal::failure::Failure;
+use crate::terminal::output;
 
 /// Writes the pages.
 pub(crate) fn man(arguments: &Man) -> Result<(), Failure> {

@@ -1,60 +1,26 @@
 //! The command line: arguments, messages, exit codes. Nothing else in the library prints.
 
-mod analyse;
-mod answer;
 mod arguments;
-mod arms;
-mod bank;
-mod capacity;
-mod check;
-mod cite;
-mod compare;
 mod completions;
-mod condition;
-mod diagnose;
-mod doing;
-mod drawn;
-mod elements;
-mod failure;
-mod frames;
-mod generate;
 mod help;
-mod homogenise;
-mod influence;
-mod init;
-mod judge;
-mod locate;
 mod man;
-mod measured;
-mod mechanisms;
-mod one_wall;
-mod origin;
-mod output;
-mod picture;
-mod plan_tests;
-mod progress;
-mod question;
-mod rare;
-mod readings;
-mod replayed;
-mod report;
-mod run;
-mod schema;
-mod sensitivity;
-mod session;
-mod shard;
-mod threads;
 
 use std::ffi::OsString;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use clap::{CommandFactory, FromArgMatches};
 
-pub use crate::cli::answer::Answer;
 use crate::cli::arguments::{Arguments, Verb};
-pub use crate::cli::failure::Failure;
-pub use crate::cli::session::Hear;
 use crate::interrupt;
+pub use crate::terminal::answer::Answer;
+pub use crate::terminal::failure::Failure;
+pub use crate::terminal::session::Hear;
+use crate::terminal::{output, session};
+use crate::verb::{
+    analyse, capacity, check, cite, compare, diagnose, homogenise, influence, init, measured, mechanisms,
+    plan_tests,
+};
+use crate::verb::{readings, report, run, schema, sensitivity, shard, wall};
 
 /// Does what arguments ask, of which the first is the name of the program, prints what comes out, and gives the exit code: 0 done,
 /// 1 the run or its files failed, 2 the arguments make no sense, 3 the study or the wall is invalid.
@@ -110,28 +76,28 @@ fn read(given: Vec<OsString>) -> Result<Arguments, clap::Error> {
 /// Does what a verb asks. Verbs that make no more than a text print it themselves.
 fn done(verb: &Verb) -> Result<Option<Answer>, Failure> {
     let answer = match verb {
-        Verb::Bank(arguments) => return bank::bank(arguments).map(|()| None),
         Verb::Cite(arguments) => return cite::cite(arguments).map(|()| None),
         Verb::Completions(arguments) => return completions::completions(arguments).map(|()| None),
         Verb::Init(arguments) => return init::init(arguments).map(|()| None),
         Verb::Man(arguments) => return man::man(arguments).map(|()| None),
         Verb::Measured(arguments) => return measured::measured(arguments).map(|()| None),
         Verb::Mechanisms(arguments) => return mechanisms::mechanisms(arguments).map(|()| None),
-        Verb::PlanTests(arguments) => return plan_tests::plan_tests(arguments).map(|()| None),
-        Verb::Readings(arguments) => return readings::readings(arguments).map(|()| None),
+        Verb::PlanTests(arguments) => return plan_tests::work::plan_tests(arguments).map(|()| None),
+        Verb::Readings(arguments) => return readings::work::readings(arguments).map(|()| None),
         Verb::Schema(arguments) => return schema::schema(arguments).map(|()| None),
-        Verb::Sensitivity(arguments) => return sensitivity::sensitivity(arguments).map(|()| None),
+        Verb::Sensitivity(arguments) => return sensitivity::work::sensitivity(arguments).map(|()| None),
         Verb::Analyse(arguments) => analyse::analyse(arguments),
-        Verb::Capacity(arguments) => capacity::capacity(arguments),
+        Verb::Bank(arguments) => diagnose::bank::bank(arguments),
+        Verb::Capacity(arguments) => capacity::work::capacity(arguments),
         Verb::Check(arguments) => check::check(arguments),
-        Verb::Compare(arguments) => compare::compare(arguments),
-        Verb::Diagnose(arguments) => diagnose::diagnose(arguments),
-        Verb::Generate(arguments) => generate::generate(arguments),
+        Verb::Compare(arguments) => compare::work::compare(arguments),
+        Verb::Diagnose(arguments) => diagnose::work::diagnose(arguments),
+        Verb::Generate(arguments) => wall::generate::generate(arguments),
         Verb::Homogenise(arguments) => homogenise::homogenise(arguments),
-        Verb::Influence(arguments) => influence::influence(arguments),
-        Verb::Picture(arguments) => picture::picture(arguments),
+        Verb::Influence(arguments) => influence::work::influence(arguments),
+        Verb::Picture(arguments) => wall::picture::picture(arguments),
         Verb::Report(arguments) => report::report(arguments),
-        Verb::Run(arguments) => run::run(arguments),
+        Verb::Run(arguments) => run::work::run(arguments),
         Verb::Shard(arguments) => shard::shard(arguments),
         Verb::Status(arguments) => shard::status(arguments),
         Verb::Merge(arguments) => shard::merge(arguments),

@@ -16,6 +16,8 @@ const HOUSE: &[(&str, &[&str])] = &[
     ("law", &["math"]),
     ("model", &["math", "shape", "law"]),
     ("exchange", &["math", "shape", "model"]),
+    // How an answer is written: a leaf that knows no verb and no study.
+    ("render", &["math", "shape", "model"]),
     ("contact", &["math", "shape", "model"]),
     ("generate", &["math", "shape", "random", "law", "model"]),
     ("solve", &["interrupt", "math", "shape", "law", "model", "contact"]),
@@ -40,19 +42,20 @@ const HOUSE: &[(&str, &[&str])] = &[
         ],
     ),
     ("critic", &["interrupt", "math", "random", "stats", "model", "protocol", "study", "ensemble"]),
-    ("report", &["math", "shape", "stats", "model", "exchange", "homogenise", "study", "ensemble", "critic"]),
+    // Progress and messages: below the verbs, which tell how far they are.
+    ("terminal", &["interrupt", "model", "study", "ensemble"]),
     // `math`, `shape` and `contact`, beyond the house's first plan: degrees end at the command line, and a wall from
     // elsewhere is looked over (which blocks touch, overlap, float) before a solver sees it.
     (
-        "cli",
+        "verb",
         &[
-            "interrupt",
             "math",
             "shape",
             "law",
             "motion",
             "model",
             "exchange",
+            "render",
             "contact",
             "solve",
             "homogenise",
@@ -61,9 +64,10 @@ const HOUSE: &[(&str, &[&str])] = &[
             "study",
             "ensemble",
             "critic",
-            "report",
+            "terminal",
         ],
     ),
+    ("cli", &["interrupt", "study", "terminal", "verb"]),
 ];
 
 /// The solvers check each other, so none may lean on another.
@@ -87,6 +91,36 @@ const STAGES: &[(&str, &[&str])] = &[
     ("extend", &["simulate", "discrepancy", "causes", "verdict"]),
     ("gain", &["simulate", "discrepancy", "causes", "verdict"]),
     ("advise", &["compare", "simulate", "discrepancy", "causes", "verdict"]),
+];
+
+/// The verbs and what they share, each with what it may import besides itself: a verb knows no other verb but the run, whose summary and page are
+/// everybody's, and those named here.
+const VERBS: &[(&str, &[&str])] = &[
+    ("arguments", &[]),
+    ("question", &[]),
+    ("arms", &[]),
+    ("locate", &["arguments"]),
+    ("schema", &["arguments"]),
+    ("mechanisms", &[]),
+    ("init", &["arguments", "locate"]),
+    ("check", &["arguments", "locate"]),
+    ("wall", &["arguments", "question", "arms", "locate"]),
+    ("run", &["arguments", "question", "locate", "wall"]),
+    ("cite", &["arguments", "run"]),
+    ("capacity", &["arguments", "question", "locate", "run"]),
+    ("compare", &["arguments", "question", "arms", "locate", "run"]),
+    ("influence", &["arguments", "question", "arms", "locate", "run"]),
+    ("homogenise", &["arguments", "question", "arms", "locate", "run"]),
+    ("plan_tests", &["arguments", "question", "arms", "locate", "run"]),
+    ("readings", &["arguments", "locate", "run"]),
+    ("sensitivity", &["arguments", "locate", "run"]),
+    // The bank is the diagnosis's; shards compute it, and a table of measurements is checked as it is read there.
+    ("diagnose", &["arguments", "locate", "run"]),
+    ("measured", &["arguments", "locate", "diagnose"]),
+    ("shard", &["arguments", "question", "locate", "run", "diagnose"]),
+    ("analyse", &["arguments", "question", "wall", "run"]),
+    // The page of a wall is what `analyse` says of it.
+    ("report", &["arguments", "locate", "wall", "run", "analyse"]),
 ];
 
 /// Most files of a stage, or of a folder in one.
@@ -124,6 +158,7 @@ fn violations(path: &str, text: &str) -> Vec<String> {
         }
     }
     found.extend(stage_violations(path, &code));
+    found.extend(verb_violations(path, &code));
     found.sort();
     found.dedup();
     found
@@ -151,6 +186,25 @@ fn stage_violations(path: &str, code: &str) -> Vec<String> {
         .iter()
         .filter(|import| import[0] != stage && !allowed.contains(&import[0].as_str()))
         .map(|import| format!("{path} imports critic::{}; {stage} may import only {allowed:?}", import[0]))
+        .collect()
+}
+
+/// What a file of a verb imports against the table of verbs. Their common tests may import any.
+fn verb_violations(path: &str, code: &str) -> Vec<String> {
+    let Some(inner) = path.strip_prefix("verb/") else { return Vec::new() };
+    let verb = inner.split('/').next().unwrap_or_default().trim_end_matches(".rs");
+    if ["mod", "tests"].contains(&verb) {
+        return Vec::new();
+    }
+    let Some((_, allowed)) = VERBS.iter().find(|(name, _)| *name == verb) else {
+        return vec![format!("{path} lies in src/verb/{verb}, which has no row in the table of verbs")];
+    };
+    // What only tests import is no arrow.
+    let code = code.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
+    paths_after("crate::verb::", code)
+        .iter()
+        .filter(|import| import[0] != verb && import[0] != "codes" && !allowed.contains(&import[0].as_str()))
+        .map(|import| format!("{path} imports verb::{}; {verb} may import only {allowed:?}", import[0]))
         .collect()
 }
 
@@ -244,8 +298,8 @@ fn every_import_follows_the_house() {
 
 /// The tables themselves must be one-way: nobody may import what stands below it.
 #[test]
-fn the_house_and_the_stages_have_one_direction() {
-    for table in [HOUSE, STAGES] {
+fn the_house_the_stages_and_the_verbs_have_one_direction() {
+    for table in [HOUSE, STAGES, VERBS] {
         for (i, (module, allowed)) in table.iter().enumerate() {
             for name in *allowed {
                 assert!(
@@ -306,6 +360,15 @@ fn bad_imports_are_found() {
         // The face of the critic has all stages.
         ("critic/simulate/world.rs", "use crate::critic::Judge;", "imports critic::Judge"),
         ("critic/helpers/sums.rs", "", "no row in the table of stages"),
+        ("render/text.rs", "use crate::study::Study;", "imports study"),
+        ("terminal/output.rs", "use crate::verb::locate;", "imports verb"),
+        ("verb/run/work.rs", "use crate::verb::capacity::CapacitySummary;", "imports verb::capacity"),
+        (
+            "verb/capacity/answer/text.rs",
+            "use crate::verb::{compare::ask::Compare};",
+            "imports verb::compare",
+        ),
+        ("verb/helpers/sums.rs", "", "no row in the table of verbs"),
     ];
     for (path, text, part) in bad {
         let found = violations(path, text).join("\n");
@@ -323,7 +386,7 @@ fn good_imports_pass() {
         ("law/coulomb.rs", "/// See [`crate::model::Wall`].\n// use crate::solve::Solver;"),
         ("model/mod.rs", "#[cfg(test)]\nmod tests { use super::*; use super::block::Block; }"),
         ("solve/explicit/step.rs", "use crate::solve::{assembly::Arrays, explicit::Settings};"),
-        ("report/table.rs", "use crate::{\n    ensemble::Row,\n    study::{Arm, Study},\n};"),
+        ("verb/run/answer/table.rs", "use crate::{\n    ensemble::Row,\n    study::{Arm, Study},\n};"),
         ("lib.rs", "pub mod law;"),
         (
             "critic/causes/ranking.rs",
@@ -335,6 +398,7 @@ fn good_imports_pass() {
         ),
         ("critic/simulate/world/tests.rs", "use crate::critic::verdict::Judge;"),
         ("critic/method.rs", "use crate::critic::verdict::Judge;"),
+        ("verb/capacity/work.rs", "use crate::verb::codes;\nuse crate::verb::run::page;"),
     ];
     for (path, text) in good {
         assert_eq!(violations(path, text), Vec::<String>::new(), "{path}: {text}");

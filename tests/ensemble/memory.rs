@@ -5,8 +5,8 @@ use std::{env, fs};
 
 use pirca::ensemble::{AddedColumns, Row, Tables, Task};
 use pirca::model::{Level, Outcome};
-use pirca::report::{Gathered, write_gathered};
 use pirca::study::Study;
+use pirca::verb::run::{Gathered, write_gathered};
 
 use crate::fixture::{Folder, changed};
 use crate::machinery::made_up;

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use pirca::critic::{Bend, LearntLaw, NamedForm, learnt_law};
 use pirca::law::{NormalLaw, Stiffening};
-use pirca::report::{Origin, law_text, remove_law, write_law};
 use pirca::study::{Loaded, Measurement, StatedLaw, Study, nuisances};
+use pirca::verb::diagnose::{Origin, law_text, remove_law, write_law};
 
 use crate::towers::{Hidden, campaign, towers};
 

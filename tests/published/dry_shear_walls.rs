@@ -8,8 +8,8 @@ use pirca::ensemble::{Row, evaluate, plan};
 use pirca::math::ln;
 use pirca::model::Outcome;
 use pirca::protocol::ShearMode;
-use pirca::report::write_all;
 use pirca::study::Study;
+use pirca::verb::run::write_all;
 
 fn study(variant: Option<&str>) -> Study {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/dry-shear-walls");

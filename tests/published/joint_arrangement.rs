@@ -4,9 +4,9 @@ use std::path::Path;
 
 use pirca::ensemble::{Row, Task, evaluate, plan};
 use pirca::model::Outcome;
-use pirca::report::{Summary, Verdict, summarise};
 use pirca::solve::Solver;
 use pirca::study::Study;
+use pirca::verb::run::{Summary, Verdict, summarise};
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/studies/joint-arrangement");
 

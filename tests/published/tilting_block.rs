@@ -6,8 +6,8 @@ use pirca::ensemble::{Row, Task, evaluate, plan};
 use pirca::math::{atan, degrees};
 use pirca::model::Outcome;
 use pirca::protocol::{Agreement, FailureMode};
-use pirca::report::{Summary, Verdict, summarise};
 use pirca::study::Study;
+use pirca::verb::run::{Summary, Verdict, summarise};
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/studies/tilting-block");
 

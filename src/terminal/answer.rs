@@ -1,0 +1,49 @@
+//! What a verb answers: in words, as one JSON object, and the folder of its files.
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use crate::terminal::failure::Failure;
+use crate::terminal::output;
+
+/// What a verb answers.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Answer {
+    /// For people.
+    pub text: String,
+    /// For programs: one JSON object, as `--json` prints it.
+    pub json: String,
+    /// Where the files were written.
+    pub out: Option<PathBuf>,
+    /// What looks wrong; the JSON object has it as well.
+    pub warnings: Vec<String>,
+}
+
+impl Answer {
+    /// In words and as an object.
+    pub(crate) fn of(text: String, object: &impl Serialize) -> Result<Answer, Failure> {
+        let json = serde_json::to_string_pretty(object)
+            .map_err(|error| Failure::Run(format!("cannot write JSON: {error}")))?;
+        Ok(Answer { text, json: json + "\n", out: None, warnings: Vec::new() })
+    }
+
+    /// The same with files in a folder, or a file.
+    pub(crate) fn in_place(self, out: &Path) -> Answer {
+        Answer { out: Some(out.to_path_buf()), ..self }
+    }
+
+    /// The same with what looks wrong.
+    pub(crate) fn with_warnings(self, warnings: Vec<String>) -> Answer {
+        Answer { warnings, ..self }
+    }
+
+    /// Prints it: the object alone, or the warnings on standard error and the text.
+    pub(crate) fn tell(&self, as_json: bool) -> Result<(), Failure> {
+        if as_json {
+            return output::print_as_it_is(&self.json);
+        }
+        self.warnings.iter().for_each(|warning| output::warning(warning));
+        output::print(&self.text)
+    }
+}

@@ -1,0 +1,96 @@
+//! Numbers that the user may know exactly or within a range.
+
+use std::ops::RangeInclusive;
+
+use crate::ensemble::{Scale, Spread};
+use crate::verb::analyse::numbers;
+use crate::verb::analyse::numbers::{DENSITIES, FRICTION_ANGLES, STIFFNESSES};
+
+/// A number as the user knows it.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Known {
+    /// Exactly.
+    Exactly(f64),
+    /// As a range or a distribution.
+    Within {
+        /// As it was spelled.
+        stated: String,
+        /// What that means.
+        spread: Spread,
+    },
+}
+
+impl Known {
+    /// The number, or the median.
+    pub fn middle(&self) -> f64 {
+        match self {
+            Known::Exactly(x) => *x,
+            Known::Within { spread, .. } => spread.middle(),
+        }
+    }
+
+    /// As a page says it: the number, or the range and the value at which the wall is drawn.
+    pub fn said(&self, number: impl Fn(f64) -> String) -> String {
+        match self {
+            Known::Exactly(x) => number(*x),
+            Known::Within { stated, .. } => format!("{stated}; drawn at {}", number(self.middle())),
+        }
+    }
+}
+
+/// Friction angle (deg).
+pub(crate) fn friction_angle(text: &str) -> Result<Known, String> {
+    known(text, numbers::friction_angle, FRICTION_ANGLES, Scale::Linear)
+}
+
+/// Stiffness per joint area (Pa/m), which is known to its order of magnitude.
+pub(crate) fn stiffness(text: &str) -> Result<Known, String> {
+    known(text, numbers::stiffness, STIFFNESSES, Scale::Logarithmic)
+}
+
+/// Density (kg/m^3).
+pub(crate) fn density(text: &str) -> Result<Known, String> {
+    known(text, numbers::density, DENSITIES, Scale::Linear)
+}
+
+/// A number where the text is one, and otherwise a spread.
+fn known(
+    text: &str,
+    exactly: fn(&str) -> Result<f64, String>,
+    range: RangeInclusive<f64>,
+    scale: Scale,
+) -> Result<Known, String> {
+    let refused = match exactly(text) {
+        Ok(number) => return Ok(Known::Exactly(number)),
+        Err(refused) => refused,
+    };
+    if text.parse::<f64>().is_ok() {
+        return Err(refused);
+    }
+    match Spread::spelled(text, [*range.start(), *range.end()], scale) {
+        Ok(spread) => Ok(Known::Within { stated: text.trim().to_owned(), spread }),
+        Err(wrong) => {
+            let allowed = refused.trim_start_matches("no number; ");
+            Err(format!(
+                "{wrong}; {allowed}, a range LOW..HIGH of such, or a distribution as normal(MEAN, SD)"
+            ))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_stays_one_and_what_is_neither_is_told_what_is_allowed() {
+        assert_eq!(friction_angle("30"), Ok(Known::Exactly(30.0)));
+        assert_eq!(density("2000..2400").map(|known| known.middle()), Ok(2200.0));
+        let kn = stiffness("1e7..1e9").map(|known| known.middle()).unwrap();
+        assert!((kn / 1e8 - 1.0).abs() < 1e-12);
+        for text in ["-5", "90", "nan", "inf", "30..95", "normal(34)", "thirty", ""] {
+            let found = friction_angle(text).unwrap_err();
+            assert!(found.contains("allowed is a number from 0 to 89 degrees"), "{text}: {found}");
+        }
+    }
+}

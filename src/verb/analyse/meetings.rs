@@ -1,0 +1,210 @@
+//! Where the blocks of a wall from elsewhere meet: what makes the wall unfit, and what its user should know.
+
+use crate::contact;
+use crate::contact::{Pair, Survey, survey};
+use crate::exchange::{Fault, WallFaults, WallFile};
+use crate::math::{Vec3, cbrt};
+use crate::model::{Support, Wall};
+use crate::protocol::pile_thicknesses;
+use crate::shape::Polyhedron;
+use crate::verb::analyse::numbers::Tolerance;
+
+/// An overlap deeper than this share of the smaller block's size (edge of the cube of its volume) is no modelling gap.
+const DEEPEST: f64 = 0.01;
+/// Overlaps and gaps listed one by one.
+const LISTED: usize = 20;
+/// Faces that look at each other across at most this share of a stone's size are told of: they may be meant as a joint.
+const TOLD_WITHIN: f64 = 0.1;
+/// A gap that is to be a joint needs a tolerance above it by this factor.
+const ABOVE: f64 = 1.1;
+/// Contacts are looked for up to so many tolerances, so that what touches is well within.
+const REACHES: f64 = 2.0;
+/// Sub-contacts along the longer and the shorter side of a joint. Friction acts at the middle of a sub-contact and not where
+/// the pressure is, which turns a block that slides under an eccentric load: on a joint of any shape 2 x 2 cost up to 1.2 deg.
+const SUB_CONTACTS: [u32; 2] = [4, 4];
+
+/// A wall that is fit to be solved.
+pub(crate) struct Fit {
+    /// Tolerances of contact detection; gaps up to `closed` are joints, for the survey and for all solvers.
+    pub contact: contact::Settings,
+    /// Thickness (m) of the pile of every block, and of the thinnest one.
+    pub piles: Vec<f64>,
+    pub thickness: f64,
+    /// Number of joints.
+    pub joints: usize,
+    /// Deepest overlap of a joint (m).
+    pub deepest: f64,
+    /// Overlaps and gaps with their size.
+    pub warnings: Vec<String>,
+}
+
+/// Looks where the blocks meet.
+pub(crate) fn look(file: &WallFile, tolerance: Tolerance, path: &str) -> Result<Fit, WallFaults> {
+    let mut faults = WallFaults::new(path);
+    let size = stone_size(&file.wall);
+    let standard = contact::Settings::for_size(size, SUB_CONTACTS);
+    let (low, high) = bounds(&file.wall);
+    let touch = match tolerance {
+        Tolerance::Share(share) => share * (high - low).norm(),
+        Tolerance::Length(length) => length,
+    };
+    let within = TOLD_WITHIN * size;
+    if touch > within {
+        faults.push(Fault::of(
+            "",
+            format!("--touch-tolerance is {}", length(touch)),
+            format!("at most {}, a tenth of a stone", length(within)),
+            "give a shorter one, or close the gaps in the file",
+        ));
+        return Err(faults);
+    }
+    let contact = contact::Settings {
+        closed: touch.max(standard.touch),
+        reach: standard.reach.max(REACHES * touch),
+        ..standard
+    };
+    let Some(found) = survey(&file.wall, &contact, within) else {
+        faults.push(Fault::of(
+            "",
+            "the blocks are entangled: far too many of them overlap or nearly touch",
+            "blocks that touch their neighbours only",
+            "check the unit and whether blocks are there several times",
+        ));
+        return Err(faults);
+    };
+    let mut deepest_first: Vec<&Pair> = found.overlaps.iter().collect();
+    deepest_first.sort_by(|a, b| b.length.total_cmp(&a.length));
+    for pair in deepest_first {
+        let depth_allowed = deepest_allowed(&file.wall, pair);
+        if pair.length > depth_allowed {
+            faults.push(Fault::of(
+                &file.names[pair.blocks.0],
+                format!("it overlaps {} by {}", file.names[pair.blocks.1], length(pair.length)),
+                format!("at most {} ({DEEPEST} of the smaller block)", length(depth_allowed)),
+                "move or trim one of them; or remove the one that is there twice",
+            ));
+        }
+    }
+    for group in &found.floating {
+        faults.push(floating(file, group, &found));
+    }
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    let piles = pile_thicknesses(&file.wall, found.joints.iter().copied());
+    Ok(Fit {
+        contact,
+        thickness: piles.iter().copied().filter(|own| *own > 0.0).fold(f64::INFINITY, f64::min),
+        piles,
+        joints: found.joints.len(),
+        deepest: found.deepest,
+        warnings: told(file, &found, touch),
+    })
+}
+
+fn floating(file: &WallFile, group: &[usize], found: &Survey) -> Fault {
+    let outside = |pair: &&Pair| group.contains(&pair.blocks.0) != group.contains(&pair.blocks.1);
+    let nearest = found.gaps.iter().filter(outside).min_by(|a, b| a.length.total_cmp(&b.length));
+    let fix = match nearest {
+        Some(pair) => format!(
+            "the nearest, {} and {}, are {} apart: close the gap, or raise --touch-tolerance",
+            file.names[pair.blocks.0],
+            file.names[pair.blocks.1],
+            length(pair.length)
+        ),
+        None => "put something under it, or set \"fixed\": true".to_owned(),
+    };
+    let (whom, what) = match group {
+        [_] => (file.names[group[0]].clone(), "it floats free".to_owned()),
+        _ => {
+            let names: Vec<&str> = group.iter().take(8).map(|&i| file.names[i].as_str()).collect();
+            let dots = if group.len() > 8 { ", ..." } else { "" };
+            let all = format!("{} blocks float free together: {}{dots}", group.len(), names.join(", "));
+            (file.names[group[0]].clone(), all)
+        }
+    };
+    Fault::of(&whom, what, "a chain of touching blocks from every block to a fixed one", fix)
+}
+
+/// Overlaps, the deepest first, and gaps, the narrowest first.
+fn told(file: &WallFile, found: &Survey, touch: f64) -> Vec<String> {
+    let names = |pair: &Pair| (file.names[pair.blocks.0].as_str(), file.names[pair.blocks.1].as_str());
+    let mut warnings = Vec::new();
+    let mut list = |pairs: &[Pair], said: &dyn Fn(&Pair) -> String, what: &str| {
+        for pair in pairs.iter().take(LISTED) {
+            warnings.push(said(pair));
+        }
+        if let (more @ 1.., Some(last)) = (pairs.len().saturating_sub(LISTED), pairs.last()) {
+            warnings.push(format!("... and {more} more {what} to {}", length(last.length)));
+        }
+    };
+    let sorted = |pairs: &[Pair], sign: f64| {
+        let mut pairs = pairs.to_vec();
+        pairs.sort_by(|a, b| (sign * a.length).total_cmp(&(sign * b.length)));
+        pairs
+    };
+    let overlap = |pair: &Pair| {
+        let (a, b) = names(pair);
+        format!("{a} and {b} overlap by {}", length(pair.length))
+    };
+    list(&sorted(&found.overlaps, -1.0), &overlap, "overlaps, down");
+    let shared = |pair: &Pair| {
+        let group = file.wall.blocks[pair.blocks.0].group.as_deref().unwrap_or_default();
+        format!("{}: parts of group \"{group}\": what they share weighs twice", overlap(pair))
+    };
+    list(&sorted(&found.shared, -1.0), &shared, "overlaps of parts, down");
+    let (tolerance, gaps) = (length(touch), sorted(&found.gaps, 1.0));
+    let gap = |pair: &Pair| {
+        let ((a, b), wide) = (names(pair), length(pair.length));
+        format!("a gap of {wide} between {a} and {b}: they do not touch (tolerance {tolerance})")
+    };
+    list(&gaps, &gap, "gaps, up");
+    let gaping = |pair: &Pair| {
+        let ((a, b), wide) = (names(pair), length(pair.length));
+        format!("the joint between {a} and {b} gapes by up to {wide}: it carries only where it touches")
+    };
+    list(&sorted(&found.gaping, 1.0), &gaping, "joints that gape, up");
+    if let Some(narrowest) = gaps.first() {
+        warnings.push(format!(
+            "gaps carry nothing; for those that are meant as joints raise the tolerance, as --touch-tolerance {:.3}mm does for the narrowest",
+            1e3 * ABOVE * narrowest.length
+        ));
+    }
+    for lead in &found.scattered {
+        let group = file.wall.blocks[*lead].group.as_deref().unwrap_or_default();
+        warnings.push(format!(
+            "the parts of group \"{group}\" do not all touch one another; they are one body all the same"
+        ));
+    }
+    warnings
+}
+
+/// A length in millimetres.
+fn length(metres: f64) -> String {
+    let mm = 1000.0 * metres;
+    if mm >= 0.001 { format!("{} mm", (mm * 1e4).round() / 1e4) } else { format!("{mm:.1e} mm") }
+}
+
+fn deepest_allowed(wall: &Wall, pair: &Pair) -> f64 {
+    let edge = |i: usize| cbrt(wall.blocks[i].shape.volume());
+    DEEPEST * edge(pair.blocks.0).min(edge(pair.blocks.1))
+}
+
+fn free(wall: &Wall) -> impl Iterator<Item = &Polyhedron> {
+    wall.blocks.iter().filter(|b| b.support != Support::Fixed).map(|b| &b.shape)
+}
+
+/// Box around the blocks that move (m): a large ground does not loosen the tolerance.
+pub(crate) fn bounds(wall: &Wall) -> (Vec3, Vec3) {
+    let corners = free(wall).flat_map(|shape| shape.vertices.iter().copied()).collect();
+    Polyhedron { vertices: corners, faces: Vec::new() }.bounds()
+}
+
+/// Edge of the cube with the mean volume of the stones that move (m), the parts of one taken together.
+fn stone_size(wall: &Wall) -> f64 {
+    let leads = wall.leads();
+    let bodies =
+        wall.blocks.iter().enumerate().filter(|(id, b)| b.support != Support::Fixed && leads[*id] == *id);
+    let volume: f64 = free(wall).map(Polyhedron::volume).sum();
+    cbrt(volume / bodies.count().max(1) as f64)
+}

@@ -1,0 +1,28 @@
+//! `pirca analyse`: a wall that somebody else made, with one command.
+
+mod answer;
+pub(crate) mod ask;
+mod fall;
+mod fclib;
+mod files;
+mod joints;
+mod known;
+mod loads;
+mod meetings;
+mod numbers;
+mod open;
+mod page;
+mod shaken;
+mod solve;
+mod state;
+pub(crate) mod uncertainty;
+mod unsure;
+mod upright;
+mod verb;
+mod worst;
+
+pub(crate) use ask::Analyse;
+pub use uncertainty::{
+    Answered, AskedOfWall, Ended, UncertaintySummary, uncertainty_text, write_uncertainty,
+};
+pub(crate) use verb::analyse;

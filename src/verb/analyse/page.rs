@@ -1,0 +1,146 @@
+//! The page of a wall: the answer, the picture, and the tables of blocks and joints for people.
+
+use std::fs;
+
+use crate::exchange::WallFile;
+use crate::math::Vec3;
+use crate::model::{Replay, Support};
+use crate::render::number::significant;
+use crate::render::picture::{Picture, Stone};
+use crate::study::sha256;
+use crate::terminal::failure::Failure;
+use crate::verb::analyse::answer::Answer;
+use crate::verb::analyse::ask::{Analyse, Growing, MethodName};
+use crate::verb::analyse::state::State;
+use crate::verb::run::answer::page::{WallPage, WallTable, wall_page};
+use crate::verb::run::origin::Origin;
+
+const BLOCKS: &[&str] = &["block", "name", "role", "shift to rest mm", "movement of the fall"];
+const JOINTS: &[&str] =
+    &["between", "and", "state", "area m2", "opening mm", "slip mm", "force N", "pressure kPa"];
+/// Digits of the numbers in the tables.
+const DIGITS: usize = 3;
+
+/// What is told of a wall beside its answer.
+pub(crate) struct Told<'a> {
+    /// What is printed.
+    pub text: &'a str,
+    /// What looks wrong.
+    pub warnings: &'a [String],
+}
+
+/// The page; `picture` is the one in the folder, `replay` the states that the wall goes through.
+pub(crate) fn page(
+    asked: &Analyse,
+    file: &WallFile,
+    (answer, state): (&Answer, &State),
+    (picture, replay): (&Picture, &Replay),
+    told: &Told<'_>,
+) -> Result<String, Failure> {
+    let bytes = fs::read(&asked.wall)
+        .map_err(|error| Failure::Run(format!("cannot read {} again: {error}", asked.wall.display())))?;
+    let wall = asked.title();
+    let by_rates = asked.solver == MethodName::Limit && state.falls;
+    let page = WallPage {
+        wall: &wall,
+        question: question(asked),
+        answer: told.text.lines().map(|line| line.trim().to_owned()).collect(),
+        warnings: told.warnings,
+        picture,
+        replay,
+        about_tables: match by_rates {
+            true => {
+                "Openings, slips and movements are those of a mechanism whose fastest corner moves by 1 m: limit analysis knows no size \
+                 of it. blocks.csv and joints.csv hold all digits."
+            }
+            false => {
+                "Openings and slips are those of the last state at rest, movements those of the fall as far as it was watched. \
+                 blocks.csv and joints.csv hold all digits."
+            }
+        },
+        tables: vec![
+            WallTable { name: "Blocks", heads: BLOCKS, rows: blocks(file, answer, state, by_rates) },
+            WallTable { name: "Joints", heads: JOINTS, rows: joints(file, state) },
+        ],
+        inputs: inputs(asked),
+        solver: asked.solver.name(),
+        sha256: sha256(&bytes),
+        origin: &Origin::now(&asked.wall, None).of_page(),
+    };
+    wall_page(&page).map_err(|error| Failure::Run(format!("{error:#}")))
+}
+
+/// What was asked, as a question.
+fn question(asked: &Analyse) -> String {
+    let towards = asked.direction;
+    match (asked.growing(), asked.worst_direction) {
+        (Growing::Tilt, false) => format!("At which tilt towards {towards} does the wall fall?"),
+        (Growing::Tilt, true) => "In which direction can the wall be tilted least, and how far?".to_owned(),
+        (Growing::Lateral, false) => {
+            format!("Which share of its weight, pushing towards {towards}, does the wall bear?")
+        }
+        (Growing::Lateral, true) => {
+            "In which direction does the wall bear the least push, and how much?".to_owned()
+        }
+    }
+}
+
+/// What was given, with what was not as it is by default.
+pub(crate) fn inputs(asked: &Analyse) -> Vec<(&'static str, String)> {
+    let mut all = vec![
+        ("solver", asked.solver.name().to_owned()),
+        ("load", asked.load.name().to_owned()),
+        ("direction", asked.direction.to_string()),
+        (
+            "friction angle of the joints",
+            asked.phi_deg.said(|phi| format!("{} deg", (1e3 * phi).round() / 1e3)),
+        ),
+        ("cohesion of the joints", format!("{} Pa", asked.cohesion)),
+    ];
+    let stiffness = |own: f64| format!("{own:.3e} Pa/m");
+    if let Some(kn) = asked.kn.as_ref().filter(|_| asked.solver.is_elastic()) {
+        all.push(("normal stiffness of the joints", kn.said(stiffness)));
+        let ks = asked.ks.map_or_else(|| "half the normal one".to_owned(), stiffness);
+        all.push(("shear stiffness of the joints", ks));
+    }
+    let density = |own: f64| format!("{} kg/m3", own.round());
+    all.extend(asked.density.as_ref().map(|own| ("mean density of the blocks that move", own.said(density))));
+    if asked.solver == MethodName::Limit {
+        all.push(("flow", asked.flow.map_or("associative", |flow| flow.name()).to_owned()));
+    }
+    all.extend(asked.vertical.map(|share| ("vertical share of the load", share.to_string())));
+    let listed = |of: &[(u64, f64)], unit: &str| {
+        let said: Vec<String> = of.iter().map(|(id, x)| format!("block {id}: {x} {unit}")).collect();
+        (!said.is_empty()).then(|| said.join(", "))
+    };
+    all.extend(listed(&asked.dead_loads, "N").map(|said| ("dead loads", said)));
+    all.extend(listed(&asked.settlements, "m down").map(|said| ("settlements", said)));
+    all
+}
+
+fn blocks(file: &WallFile, answer: &Answer, state: &State, by_rates: bool) -> Vec<Vec<String>> {
+    let size = |v: &Vec3| significant(v.norm(), DIGITS);
+    let row = |(at, stone): (usize, &Stone)| {
+        let role = match file.wall.blocks[at].support {
+            Support::Fixed => "fixed",
+            _ if answer.moving.contains(&at) => "moves",
+            _ => "stays",
+        };
+        let rest = if state.falls { stone.before } else { stone.movement };
+        let fall = if state.falls { size(&stone.movement.shift) } else { "-".to_owned() };
+        let rest = if by_rates { "-".to_owned() } else { significant(1e3 * rest.shift.norm(), DIGITS) };
+        vec![file.ids[at].to_string(), file.names[at].clone(), role.to_owned(), rest, fall]
+    };
+    state.stones.iter().enumerate().map(row).collect()
+}
+
+fn joints(file: &WallFile, state: &State) -> Vec<Vec<String>> {
+    let rows = state.joints.iter().zip(&state.conditions).map(|(joint, condition)| {
+        let [a, b] = joint.blocks.map(|at| file.names[at as usize].clone());
+        let numbers =
+            [joint.area, 1e3 * joint.opening, 1e3 * joint.slip, joint.force.norm(), 1e-3 * joint.pressure];
+        let names = [a, b, condition.name().to_owned()];
+        names.into_iter().chain(numbers.map(|x| significant(x, DIGITS))).collect()
+    });
+    rows.collect()
+}

@@ -1,0 +1,251 @@
+//! The verb: read, look where blocks meet, solve, tell.
+
+use std::time::Instant;
+
+use serde_json::json;
+
+use crate::exchange::{ReadOptions, Unit, Up, WallFaults, WallFile, read_wall};
+use crate::law::Coulomb;
+use crate::math::compact;
+use crate::model::{Outcome, Support, Wall};
+use crate::protocol::{Direction, Recorder, Settlement, Witness};
+use crate::solve::STANDARD_GRAVITY;
+use crate::study::Angle;
+use crate::terminal::answer::Answer;
+use crate::terminal::doing::doing;
+use crate::terminal::failure::Failure;
+use crate::verb::analyse::ask::{Analyse, FlowName, Growing, LoadName, MethodName, UpName};
+use crate::verb::analyse::files::Seen;
+use crate::verb::analyse::known::Known;
+use crate::verb::analyse::loads::{loaded, settlements};
+use crate::verb::analyse::meetings::{Fit, bounds, look};
+use crate::verb::analyse::open::left_open;
+use crate::verb::analyse::page::Told;
+use crate::verb::analyse::shaken::shaken;
+use crate::verb::analyse::solve::{law, solve, solve_seen_by};
+use crate::verb::analyse::state::State;
+use crate::verb::analyse::uncertainty::{uncertainty_text, write_uncertainty};
+use crate::verb::analyse::unsure::{Given, asked, refused};
+use crate::verb::analyse::worst::{Tried, tried, weakest};
+use crate::verb::analyse::{fclib, files, shaken, upright};
+use crate::verb::wall::one_wall::MOST_STATES;
+
+/// A prestress above this share of the pressure under the wall's own weight is worth a warning.
+const PRESTRESS: f64 = 0.1;
+
+/// Solves a wall from a file.
+pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
+    let begun = Instant::now();
+    let mut warnings = asked_in_vain(arguments)?;
+    let (read, fit) = match read(arguments) {
+        Ok(found) => found,
+        Err(faults) if arguments.json => {
+            return Err(Failure::Said(json!({
+                "outcome": "invalid_geometry",
+                "faults": faults.faults,
+                "more": faults.more,
+                "warnings": warnings,
+            })));
+        }
+        Err(faults) => return Err(Failure::Input(faults.to_string())),
+    };
+    let density = arguments.density.as_ref().map(Known::middle);
+    let file = WallFile { wall: loaded(&read, density, &arguments.dead_loads)?, ..read.clone() };
+    warnings.extend(file.warnings.iter().cloned());
+    warnings.extend(fit.warnings.iter().cloned());
+    warnings.extend(prestress(arguments, &file.wall, &fit));
+    let law = law(arguments);
+    if arguments.load == LoadName::BaseMotion {
+        return shaken(arguments, &file, (&law, &fit), warnings, begun);
+    }
+    let settlements = settlements(&file, &arguments.settlements)?;
+    let wall = (&file.wall, &settlements[..]);
+    let directions = directions(arguments, wall, &law, &fit);
+    let towards = weakest(&directions).map_or(arguments.direction, |of| Direction::at(of.direction_deg));
+    let arguments = &Analyse { direction: towards, ..arguments.clone() };
+    let page = arguments.page_alone();
+    let is_seen = arguments.out.is_some() || page.is_some();
+    let recorder = is_seen.then(|| Recorder::new(MOST_STATES));
+    let (mut answer, found) = solve(arguments, wall, &law, &fit, recorder.as_ref());
+    answer.undecided = answer.undecided.or_else(|| left_open(arguments, &file.wall, &law, &fit, &found));
+    warnings.extend(answer.warning(&file));
+    if answer.outcome == Outcome::UnstableAtRest {
+        warnings.extend(upright::question(
+            &file.wall,
+            &law,
+            &fit,
+            arguments.up.unwrap_or(UpName::Z),
+            is_obj(arguments),
+        ));
+    }
+    let given = Given { arguments, file: &read, fit: &fit, settlements: &settlements };
+    let sure = given.how_sure(asked(arguments), (&file.wall, &answer, &found))?;
+    let seconds = begun.elapsed().as_secs_f64();
+    if let Some(path) = &arguments.fclib {
+        fclib::write(path, arguments, &file, (&law, &fit), &answer)?;
+    }
+    let mut object = answer.object(arguments, &file, &fit, (&warnings, &directions), seconds);
+    if let Some(sure) = &sure {
+        object["uncertain"] = json!(sure);
+    }
+    let mut text = answer.text(arguments, &file, &fit, seconds);
+    text += &sure.as_ref().map(uncertainty_text).unwrap_or_default();
+    text += &arguments.fclib.as_ref().map_or_else(String::new, |path| {
+        format!("  contact problem of a step written to {}\n", path.display())
+    });
+    if arguments.worst_direction {
+        text += &match weakest(&directions) {
+            Some(_) => format!("  the weakest of {} directions that were tried\n", directions.len()),
+            None => format!("  it falls in none of {} directions that were tried\n", directions.len()),
+        };
+    }
+    if is_seen {
+        let replay = recorder.map(|own| own.replay(file.wall.blocks.len())).unwrap_or_default();
+        let state = State::of(&file.wall, &fit.contact, &found);
+        let told = Told { text: &text, warnings: &warnings };
+        let of = Seen {
+            asked: arguments,
+            file: &file,
+            fit: &fit,
+            answer: &answer,
+            state: &state,
+            replay: &replay,
+        };
+        if let Some(folder) = &arguments.out {
+            files::write(folder, &of, &object, &told)?;
+            let written = sure.as_ref().map_or(Ok(()), |sure| write_uncertainty(sure, folder));
+            written.map_err(|error| Failure::Run(format!("{error:#}")))?;
+        }
+        if let Some(page) = &page {
+            files::write_page(page, &of, &told)?;
+        }
+    }
+    let Some(place) = arguments.out.as_ref().or(page.as_ref()) else {
+        return Ok(Answer::of(text, &object)?.with_warnings(warnings));
+    };
+    text += &format!("written to {}\n", place.display());
+    Ok(Answer::of(text, &object)?.in_place(place).with_warnings(warnings))
+}
+
+/// All directions that are tried where the weakest one is asked for, with what the wall bears in each.
+fn directions(arguments: &Analyse, wall: (&Wall, &[Settlement]), law: &Coulomb, fit: &Fit) -> Vec<Tried> {
+    if !arguments.worst_direction {
+        return Vec::new();
+    }
+    doing("looking for the weakest direction", |_| {
+        tried(&|direction| {
+            let towards = Analyse { direction, ..arguments.clone() };
+            solve_seen_by(&towards, wall, law, fit, Witness::NOBODY).0.outcome
+        })
+    })
+}
+
+/// The file, fit to be solved.
+fn read(arguments: &Analyse) -> Result<(WallFile, Fit), WallFaults> {
+    let unit = arguments.unit.map(|unit| Unit::named(unit.name()).unwrap_or_default());
+    let options = ReadOptions {
+        unit,
+        // What is scaled to a mean may as well begin there.
+        density: arguments.density_kg_per_m3.or(arguments.density.as_ref().map(Known::middle)),
+        up: arguments.up.map_or(Up::Z, |up| if up == UpName::Y { Up::Y } else { Up::Z }),
+        flatness: arguments.flatness,
+    };
+    let file = read_wall(&arguments.wall, &options)?;
+    let fit = look(&file, arguments.touch_tolerance, &arguments.wall.display().to_string())?;
+    Ok((file, fit))
+}
+
+fn is_obj(arguments: &Analyse) -> bool {
+    arguments.wall.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj"))
+}
+
+/// Arguments that are missing, and warnings of those that mean nothing for what is asked.
+fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
+    refused(arguments)?;
+    shaken::refused(arguments)?;
+    let solver = arguments.solver.name();
+    let mut warnings = in_radians(arguments);
+    if !is_obj(arguments) && (arguments.unit.is_some() || arguments.density_kg_per_m3.is_some()) {
+        return Err(Failure::Usage(
+            "--unit and --density-kg-per-m3 are for .obj files; a wall.json states both itself".to_owned(),
+        ));
+    }
+    if !is_obj(arguments) && arguments.up.is_some() {
+        return Err(Failure::Usage("--up is for .obj files; in a wall.json z points up".to_owned()));
+    }
+    if arguments.vertical.is_some() && arguments.growing() == Growing::Tilt {
+        return Err(Failure::Usage(
+            "--vertical is for --load lateral, whose force has a direction; a tilt turns the whole weight: ask for that load, or leave --vertical out"
+                .to_owned(),
+        ));
+    }
+    if arguments.fclib.is_some() && arguments.cohesion > 0.0 {
+        return Err(Failure::Usage(
+            "--fclib is for dry joints: its form knows no cohesion; leave --cohesion out".to_owned(),
+        ));
+    }
+    if !arguments.solver.is_elastic() && (arguments.kn.is_some() || arguments.ks.is_some()) {
+        let method = arguments.solver.method();
+        warnings.push(format!("{method} is of rigid blocks: --kn and --ks do not matter"));
+    }
+    if arguments.solver == MethodName::Nonsmooth && !arguments.settlements.is_empty() {
+        return Err(Failure::Usage(
+            "--settle is for elastic joints: rigid blocks drop after a support that goes down, and what their impacts leave is another state \
+             than that of a gradual settlement; ask --solver implicit --kn PA_PER_M, or move the support in the file"
+                .to_owned(),
+        ));
+    }
+    if arguments.solver == MethodName::Limit {
+        if !arguments.settlements.is_empty() {
+            return Err(Failure::Usage(
+                "--settle is for elastic joints: to rigid blocks a small settlement is a movement without forces, which no multiplier \
+                 depends on; ask --solver implicit --kn PA_PER_M, or move the support in the file"
+                    .to_owned(),
+            ));
+        }
+        if arguments.step_deg.is_some() {
+            warnings.push("limit analysis takes no steps: --step-deg does not matter".to_owned());
+        }
+        return Ok(warnings);
+    }
+    if arguments.solver.is_elastic() && arguments.kn.is_none() {
+        return Err(Failure::Usage(format!(
+            "--kn PA_PER_M is required for the {solver} solver: the normal stiffness of the joints per area, for example --kn 1e9; --solver limit and nonsmooth need none"
+        )));
+    }
+    if arguments.flow == Some(FlowName::Associative) {
+        warnings.push(format!("--flow is for limit analysis; joints of the {solver} solver do not dilate"));
+    }
+    if arguments.growing() == Growing::Lateral && arguments.step_deg.is_some() {
+        warnings.push("the steps of the multiplier are the tangent of --step-deg".to_owned());
+    }
+    Ok(warnings)
+}
+
+/// Angles that look as if they were not in degrees.
+fn in_radians(arguments: &Analyse) -> Vec<String> {
+    let direction = arguments.direction.angle_deg();
+    let asked = [
+        ("--phi-deg", Angle::Friction.doubt(arguments.phi_deg.middle())),
+        ("--direction", Angle::Direction.doubt(direction)),
+    ];
+    asked.into_iter().filter_map(|(option, doubt)| Some(format!("{option}: {}", doubt?))).collect()
+}
+
+/// Blocks that overlap as built press on each other from the start: how hard, for the solvers that are elastic.
+fn prestress(arguments: &Analyse, wall: &Wall, fit: &Fit) -> Option<String> {
+    let kn = arguments.kn.as_ref().filter(|_| arguments.solver.is_elastic())?.middle();
+    let (low, high) = bounds(wall);
+    let moving = wall.blocks.iter().filter(|b| b.support != Support::Fixed);
+    let heaviest = moving.map(|b| b.density).fold(0.0, f64::max);
+    let (pressure, weight) = (kn * fit.deepest, heaviest * STANDARD_GRAVITY * (high.z - low.z));
+    (pressure > PRESTRESS * weight).then(|| {
+        format!(
+            "the deepest overlap as built, {:.1e} m, starts with a pressure of {:.3} kPa at kn = {} Pa/m; the weight of the wall's height makes {:.3} kPa: trim the blocks, or ask --solver limit, which takes shapes only",
+            fit.deepest,
+            1e-3 * pressure,
+            compact(kn),
+            1e-3 * weight
+        )
+    })
+}

@@ -1,0 +1,144 @@
+//! What an engineer may count on: the probability that a wall of a kind fails below a level, a low fractile, characteristic and
+//! design values; `capacity.json` and what is printed of it.
+
+mod figure;
+mod group;
+mod known;
+mod page;
+mod text;
+mod values;
+
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use serde::Serialize;
+
+pub use figure::Rung;
+use figure::{CapacityPlot, capacity_csv};
+pub use group::{CapacityGroup, Failed, Repeats, Screen, Target};
+pub use page::capacity_page;
+pub use text::{capacity_text, capacity_warnings};
+pub use values::{Supported, SupportedValue};
+
+use crate::ensemble::{Quantity, Row, replace_file};
+use crate::math::degrees;
+use crate::render::draw::IMAGE_SCALE;
+use crate::stats::{DESIGN_PROBABILITY, Variation};
+use crate::study::{MeasuredKind, MeasuredQuantity, Measurement, Study};
+use crate::verb::question::Question;
+use crate::verb::run::answer::files::write_figure;
+use crate::verb::run::answer::gathered::populations;
+use crate::verb::run::answer::population::Population;
+use crate::verb::run::answer::undecided::LeftOpenAnswer;
+
+/// File name of what is written.
+const FILE: &str = "capacity.json";
+
+/// File name, without ending, of the probability over the level and the figure of it.
+const FIGURE: &str = "probability";
+
+/// The answer to a question, group by group.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CapacitySummary {
+    /// Name of the study.
+    pub study: String,
+    /// Its variant.
+    pub variant: Option<String>,
+    /// What was asked.
+    pub question: Question,
+    /// What is described, and its unit.
+    pub quantity: &'static str,
+    /// See `quantity`.
+    pub unit: &'static str,
+    /// Probability at which design values are given.
+    pub design_probability: f64,
+    /// Coefficient of variation that was stated as known.
+    pub known_cov: Option<f64>,
+    /// One entry per arm and kn of a simulated study, per family of a measured one.
+    pub groups: Vec<CapacityGroup>,
+    /// How the quantity is shown.
+    #[serde(skip)]
+    pub shown: Quantity,
+}
+
+impl CapacitySummary {
+    /// From the rows of a study.
+    pub fn simulated(study: &Study, rows: &[Row], question: Question, known: Variation) -> CapacitySummary {
+        let groups = populations(study, rows);
+        let until = |own: &Population| study.arms.iter().find(|arm| arm.name == own.arm)?.until;
+        let of = |own: &Population| {
+            CapacityGroup::simulated(own, question, known, study.solver.name(), until(own))
+        };
+        let mut all: Vec<CapacityGroup> = groups.iter().map(of).collect();
+        if groups.iter().any(|own| own.left_open().is_some()) {
+            let stiff: Vec<Row> = rows.iter().map(Row::with_stiff_joints).collect();
+            let stiff = populations(study, &stiff);
+            for ((group, own), stiff) in all.iter_mut().zip(&groups).zip(&stiff) {
+                let CapacityGroup { answer, interval, .. } = of(stiff);
+                let open = own.left_open();
+                group.left_open = open.map(|open| LeftOpenAnswer { walls: open.walls, answer, interval });
+            }
+        }
+        CapacitySummary::new(study, Quantity::of(study), question, known, all)
+    }
+
+    /// From the collapse angles of a study's specimens alone; families without any are left out.
+    pub fn measured(study: &Study, question: Question, known: Variation) -> CapacitySummary {
+        let mut families: Vec<&str> = Vec::new();
+        let angles = || study.measured.iter().filter(|m| m.quantity == MeasuredQuantity::CollapseAngle);
+        for m in angles() {
+            if !families.contains(&&m.family[..]) {
+                families.push(&m.family);
+            }
+        }
+        let of = |family: &&str| {
+            let own = || angles().filter(|m| m.family == *family);
+            let angle = |m: &Measurement| degrees(m.value);
+            let read = own().filter(|m| !m.kind.is_censored()).map(angle).collect();
+            let above = own().filter(|m| m.kind == MeasuredKind::Above).map(angle).collect();
+            let unread = own().filter(|m| m.kind == MeasuredKind::Below).count() as u64;
+            CapacityGroup::measured(family, read, above, unread, question, known)
+        };
+        let groups = families.iter().map(of).collect();
+        CapacitySummary::new(study, Quantity::CollapseAngle, question, known, groups)
+    }
+
+    fn new(
+        study: &Study,
+        quantity: Quantity,
+        question: Question,
+        known: Variation,
+        groups: Vec<CapacityGroup>,
+    ) -> CapacitySummary {
+        let known_cov = match known {
+            Variation::Known(cov) => Some(cov),
+            Variation::Unknown => None,
+        };
+        CapacitySummary {
+            study: study.name.clone(),
+            variant: study.variant.clone(),
+            question,
+            quantity: quantity.name(),
+            unit: quantity.unit(),
+            design_probability: DESIGN_PROBABILITY,
+            known_cov,
+            groups,
+            shown: quantity,
+        }
+    }
+}
+
+/// Writes the answer as JSON into an existing folder, and the probability over the level as a figure (SVG, PNG) with its table (CSV).
+///
+/// # Errors
+/// The file that could not be written, and why.
+pub fn write_capacity(summary: &CapacitySummary, dir: &Path) -> Result<()> {
+    let json = serde_json::to_string_pretty(summary).context("the answer cannot be written as JSON")? + "\n";
+    replace_file(&dir.join(FILE), json.as_bytes())?;
+    replace_file(&dir.join(format!("{FIGURE}.csv")), capacity_csv(summary).as_bytes())?;
+    let figure = CapacityPlot::new(summary, 1);
+    if figure.is_empty() {
+        return Ok(());
+    }
+    write_figure(dir, FIGURE, &figure, &CapacityPlot::new(summary, IMAGE_SCALE))
+}

@@ -1,0 +1,109 @@
+//! What walls may be counted on, as a page.
+
+use anyhow::Result;
+
+use crate::render::draw::svg;
+use crate::render::number::{compact, or_dash, significant, with_interval};
+use crate::study::{Loaded, Study};
+use crate::verb::capacity::answer::figure::CapacityPlot;
+use crate::verb::capacity::answer::text::{SUPPORTED, VALUES, conclusions, method, probability, supported};
+use crate::verb::capacity::answer::{CapacityGroup, CapacitySummary, Question};
+use crate::verb::run::answer::page::{
+    Asked, Axis, Chart, ChartLine, Drawing, PageOrigin, Table, answer_page,
+};
+
+/// The page of an answer; `loaded` is the study as its files state it.
+///
+/// # Errors
+/// A figure that cannot be drawn, or a template that is faulty.
+pub fn capacity_page(
+    summary: &CapacitySummary,
+    (study, loaded): (&Study, &Loaded),
+    origin: &PageOrigin,
+) -> Result<String> {
+    let figure = CapacityPlot::new(summary, 1);
+    let mut figures = Vec::new();
+    if !figure.is_empty() {
+        let caption = "How probable it is that a wall lies on the worse side of a level, over the level. Bars: 95 % intervals of the \
+                       answers. The numbers are in probability.csv.";
+        let drawing =
+            Drawing::picture("figure-probability", "Probability over the level", caption, &svg(&figure)?);
+        figures.push(drawing.with_chart(chart(summary)));
+    }
+    let values = Table { caption: VALUES.to_owned(), ..Table::headed(SUPPORTED, supported(summary)) };
+    let asked = Asked {
+        title: format!("What walls of study {} may be counted on", summary.study),
+        question: question(summary),
+        answer: conclusions(summary),
+        tables: [answers(summary), values].into_iter().filter(|table| !table.rows.is_empty()).collect(),
+        figures,
+        limits: vec![
+            "A probability is that of walls drawn as the study states them. What nobody knows of real walls is in it only as far as \
+             the study draws it."
+                .to_owned(),
+        ],
+        methods: "Probabilities are shares of walls with the interval of Clopper and Pearson, or means of independent runs with \
+                  Student's interval; quantiles lie between two order statistics. Characteristic and design values follow EN 1990, \
+                  annex D7."
+            .to_owned(),
+    };
+    answer_page(&asked, (study, loaded), origin)
+}
+
+/// The probability over the level by all walls alike, and by each run.
+fn chart(summary: &CapacitySummary) -> Option<Chart> {
+    let line = |(group, run): (&CapacityGroup, Option<usize>)| {
+        let rungs = group.rungs.iter().filter(|rung| rung.run == run && rung.probability > 0.0);
+        let level = |level: f64| summary.shown.shown(level);
+        let name = run.map_or_else(|| group.name.clone(), |run| format!("{}, run {}", group.name, run + 1));
+        let mut points: Vec<_> =
+            rungs.map(|rung| (level(rung.level), Some(rung.probability), rung.interval)).collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        ChartLine::through(name, points)
+    };
+    let runs = |group: &CapacityGroup| {
+        group.rungs.iter().filter_map(|rung| rung.run).max().map_or(0, |last| last + 1)
+    };
+    let each = summary.groups.iter().flat_map(|group| {
+        std::iter::once(None).chain((0..runs(group)).map(Some)).map(move |run| (group, run))
+    });
+    let x = Axis::of(format!("level ({})", summary.shown.shown_unit()));
+    Chart::with(x, Axis::of("probability").by_powers(), each.map(line))
+}
+
+fn question(summary: &CapacitySummary) -> String {
+    let (quantity, unit) = (summary.quantity.replace('_', " "), summary.shown.shown_unit());
+    let shown = |level: f64| significant(summary.shown.shown(level), 3);
+    match summary.question {
+        Question::Below(level) => format!("How probable is a {quantity} below {} {unit}?", shown(level)),
+        Question::Above(level) => format!("How probable is a {quantity} above {} {unit}?", shown(level)),
+        Question::Quantile(share) => {
+            format!("Below which {quantity} do {} % of walls lie?", significant(100.0 * share, 2))
+        }
+    }
+}
+
+fn answers(summary: &CapacitySummary) -> Table {
+    let unit = summary.shown.shown_unit();
+    let shown = |x: f64| summary.shown.shown(x);
+    let quantile = |group: &CapacityGroup| {
+        with_interval(group.answer.value().map(shown), group.interval.map(|ends| ends.map(shown)), 2)
+    };
+    let (head, answer): (String, &dyn Fn(&CapacityGroup) -> String) = match summary.question {
+        Question::Quantile(_) => (format!("quantile {unit}, 95 % interval"), &quantile),
+        _ => ("probability, 95 % interval".to_owned(), &probability),
+    };
+    let row = |group: &CapacityGroup| {
+        vec![
+            group.name.clone(),
+            group.kn_pa_per_m.map_or_else(|| "-".to_owned(), compact),
+            answer(group),
+            or_dash(group.cov.map(|cov| 100.0 * cov), 2),
+            method(group).to_owned(),
+            group.evaluations.values().sum::<u64>().max(group.walls).to_string(),
+            group.failed.walls.to_string(),
+        ]
+    };
+    let heads = ["walls of", "kn Pa/m", &head, "COV %", "by", "walls", "without a value"];
+    Table::new("Answers", &heads, summary.groups.iter().map(row).collect())
+}

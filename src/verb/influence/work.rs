@@ -1,0 +1,74 @@
+//! `pirca influence`: where does the scatter of walls come from?
+
+use std::collections::BTreeMap;
+
+use crate::ensemble::{InfluenceWalls, Kept, RANDOMISATIONS, base_points, influence_table, sources};
+use crate::study::{Arm, Study};
+use crate::terminal::answer::Answer;
+use crate::terminal::failure::Failure;
+use crate::terminal::{output, threads};
+use crate::verb::influence::answer::{
+    InfluenceSummary, influence_page, influence_text, influence_warnings, running, write_influence,
+};
+use crate::verb::influence::ask::Influence;
+use crate::verb::run::page;
+use crate::verb::{arms, locate};
+
+/// What the folder of the results is named by.
+const INFLUENCE: &str = "influence";
+
+/// Evaluates what has not been, and says where the scatter comes from.
+pub(crate) fn influence(arguments: &Influence) -> Result<Answer, Failure> {
+    threads::on(arguments.threads, || answered(arguments))
+}
+
+fn answered(arguments: &Influence) -> Result<Answer, Failure> {
+    let loaded = locate::study(&arguments.which)?;
+    let mut study = loaded.study.clone();
+    if let Some(seed) = arguments.seed {
+        study = study.with_seed(seed);
+    }
+    let index = arms::arm_index(&study, arguments.arm.as_deref())?;
+    let kn = arms::kn(&study.arms[index], arguments.point)?;
+    let study = of_points(study, index, arguments.points);
+    let sources = sources(&study.arms[0]);
+    if sources.is_empty() {
+        return Err(Failure::Input(format!(
+            "{}: nothing is drawn in arm {}, so its walls do not scatter; draw something in [uncertain], or name another --arm",
+            study.name, study.arms[0].name
+        )));
+    }
+    let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, INFLUENCE));
+    output::folder(&out)?;
+    let kept = Kept::open(&out, &study.hash)?;
+    let walls =
+        InfluenceWalls { study: &study, arm: 0, point: arguments.point, sources: &sources, kept: &kept };
+    let mut tenths = 0;
+    let evaluated = walls.evaluated(arguments.points, &mut |done| {
+        let now = 10 * done.len() as u64 / arguments.points;
+        if now > tenths {
+            tenths = now;
+            let answer = running(&sources, &base_points(done), RANDOMISATIONS);
+            output::note(&format!("{}: {}/{} points, {answer}", study.name, done.len(), arguments.points));
+        }
+    })?;
+    let summary = InfluenceSummary::of(&study, kn, &sources, &evaluated, RANDOMISATIONS);
+    let table = influence_table(&sources, &evaluated, RANDOMISATIONS)?;
+    write_influence(&summary, &table, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
+    page::beside(&out, (arguments.report, &arguments.which, arguments.threads), |origin| {
+        influence_page(&summary, (&study, &loaded), origin)
+    })?;
+    let text = format!("{}\nwritten to {}\n", influence_text(&summary), out.display());
+    Ok(Answer::of(text, &summary)?.in_place(&out).with_warnings(influence_warnings(&summary)))
+}
+
+/// The study of one arm alone, whose members are the base points.
+fn of_points(study: Study, index: usize, points: u64) -> Study {
+    let arm = Arm { members: points, ..study.arms[index].clone() };
+    let mut decided_by = BTreeMap::from([(INFLUENCE.to_owned(), arm.name.clone())]);
+    if study.depends_on_members() {
+        decided_by.insert(format!("{INFLUENCE}.points"), points.to_string());
+    }
+    let name = study.name.clone();
+    study.of_arms(name, vec![arm], decided_by)
+}

@@ -1,0 +1,81 @@
+//! `pirca mechanisms`: the catalogue of what the base model leaves out.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::study::{Described, Distributions, described};
+use crate::terminal::failure::Failure;
+use crate::terminal::output;
+
+/// Of `mechanisms`.
+pub(crate) const HELP: &str = concat!(
+    "\
+Example: pirca mechanisms --json
+
+A table [mechanism.creep] in a study, with its keys, switches creep on; [arm.mechanism.creep] does for one arm.
+
+",
+    codes!()
+);
+
+/// Arguments of `mechanisms`.
+#[derive(Args, Debug)]
+pub(crate) struct Mechanisms {
+    /// Folder of the distributions, which holds the priors below `mechanism` [default: the nearest folder `distributions` here
+    /// or further up, else what is built in].
+    #[arg(long, value_name = "DIR")]
+    pub distributions: Option<PathBuf>,
+    /// Print one JSON object on standard output instead of text.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Prints the catalogue.
+pub(crate) fn mechanisms(arguments: &Mechanisms) -> Result<(), Failure> {
+    let distributions = match &arguments.distributions {
+        Some(folder) if !folder.is_dir() => {
+            return Err(Failure::Input(format!(
+                "--distributions {}: there is no such folder; leave it out for the priors of the nearest folder \
+                 `distributions`, or else for those that are built in",
+                folder.display()
+            )));
+        }
+        Some(folder) => Distributions::only_in(folder),
+        None => Distributions::of_study(Path::new(".")),
+    };
+    let all = described(distributions).map_err(Failure::Input)?;
+    if arguments.json {
+        return output::print_json(&serde_json::json!({ "mechanisms": all }));
+    }
+    let mut text = String::new();
+    for mechanism in &all {
+        describe(mechanism, &mut text);
+    }
+    output::print(&text)
+}
+
+fn describe(mechanism: &Described, text: &mut String) {
+    let _ = writeln!(text, "{}: {}", mechanism.name, mechanism.what);
+    let _ = writeln!(text, "  would mean: {}", mechanism.means);
+    let _ = writeln!(
+        text,
+        "  acts on: {}; when unloaded: {}; limit analysis: {}",
+        mechanism.acts.words(),
+        mechanism.unloading.words(),
+        mechanism.limit_analysis.words()
+    );
+    let _ = writeln!(text, "  confounded with: {}", mechanism.confounded_with.join(", "));
+    for p in &mechanism.parameters {
+        let unit = if p.unit == "1" { String::new() } else { format!(" ({})", p.unit) };
+        let default = p.default.map(|d| format!("; default {d}")).unwrap_or_default();
+        let _ = writeln!(text, "  {}{unit}: {}{default}", p.key, p.meaning);
+        let prior = serde_json::to_string(&p.prior).unwrap_or_default();
+        let note = p.note.as_ref().map(|note| format!(" {note}")).unwrap_or_default();
+        let _ = writeln!(text, "    prior ({}): {prior}; {}{note}", p.status, p.source);
+        let search = serde_json::to_string(&p.search).unwrap_or_default();
+        let _ = writeln!(text, "    a diagnosis searches: {search}");
+    }
+    text.push('\n');
+}

@@ -1,0 +1,10 @@
+//! How many specimens to test, and what to read.
+
+pub(crate) mod answer;
+pub(crate) mod ask;
+pub(crate) mod work;
+
+pub use answer::{
+    Asked, Otherwise, PlannedArm, PlannedDifference, Reading, TestPlan, test_plan_text, test_plan_warnings,
+    write_test_plan,
+};

@@ -1,0 +1,7 @@
+//! Which readings of a study explain what was published.
+
+pub(crate) mod answer;
+pub(crate) mod ask;
+pub(crate) mod work;
+
+pub use answer::{Extent, ReadingEntry, ReadingsSummary, readings_text, write_readings};

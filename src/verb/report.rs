@@ -1,0 +1,118 @@
+//! `pirca report`: the page of a run, of a study or of a wall.
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+use clap::{Args, Parser};
+use serde_json::json;
+
+use crate::ensemble;
+use crate::terminal::answer::Answer;
+use crate::terminal::failure::Failure;
+use crate::verb::analyse::Analyse;
+use crate::verb::arguments::{OUTPUT, STUDY, Which};
+use crate::verb::locate;
+use crate::verb::run::ask::Run;
+use crate::verb::run::origin::Origin;
+use crate::verb::run::{page, work as run};
+
+/// Of `report`.
+pub(crate) const HELP: &str = concat!(
+    "\
+Example: pirca run studies/tilting-block --out runs/first
+         pirca report runs/first
+         pirca report runs/first --out for-a-colleague.html
+         pirca report studies/tilting-block
+         pirca report wall.json -- --phi-deg 35
+
+A study is run first, as far as it has not been. Of a run the study must be as it was run. The walls that are drawn are solved again; no other wall is. `pirca run --report` writes the same \
+page at the end of a run.
+
+",
+    codes!()
+);
+
+/// Arguments of `report`.
+#[derive(Args, Debug)]
+pub(crate) struct Report {
+    /// The output folder of a run, a study (its folder or its study.toml, which is run as far as it has not been), or a wall (.json, .obj).
+    #[arg(value_name = "RUN|STUDY|WALL")]
+    pub of: PathBuf,
+    /// Folder of the study that was run [default: where it was run from, else studies/<study>].
+    #[arg(long, value_name = "STUDY", help_heading = STUDY)]
+    pub study: Option<PathBuf>,
+    /// File to write [default: report.html in the folder of the run; of a wall <wall>-report.html here].
+    #[arg(long, value_name = "FILE", help_heading = OUTPUT)]
+    pub out: Option<PathBuf>,
+    /// Print one JSON object on standard output instead of text.
+    #[arg(long, help_heading = OUTPUT)]
+    pub json: bool,
+    /// Of a wall, behind --: what is asked of it, as of analyse, for example -- --phi-deg 35.
+    #[arg(last = true, value_name = "OPTIONS OF ANALYSE")]
+    pub asked: Vec<OsString>,
+}
+
+/// Writes the page of a run that has ended, of a study, or of a wall.
+pub(crate) fn report(arguments: &Report) -> Result<Answer, Failure> {
+    let of = &arguments.of;
+    let is_wall =
+        of.extension().is_some_and(|end| ["json", "obj"].iter().any(|own| end.eq_ignore_ascii_case(own)));
+    if is_wall {
+        return of_wall(arguments);
+    }
+    if !arguments.asked.is_empty() {
+        return Err(Failure::Usage(format!(
+            "what stands behind -- is for a wall from a file (.json or .obj), and {} is none; leave it out",
+            of.display()
+        )));
+    }
+    // The folder of a run holds no study.toml.
+    let is_study = of.join("study.toml").is_file() || of.file_name().is_some_and(|name| name == "study.toml");
+    if is_study { of_study(arguments) } else { of_run(arguments) }
+}
+
+/// The page of a wall from a file, as `analyse --report` writes it.
+fn of_wall(arguments: &Report) -> Result<Answer, Failure> {
+    #[derive(Parser)]
+    #[command(name = "pirca report WALL --", no_binary_name = true)]
+    struct Asked {
+        #[command(flatten)]
+        analyse: Analyse,
+    }
+    let words = std::iter::once(arguments.of.clone().into_os_string()).chain(arguments.asked.clone());
+    let Asked { analyse } = Asked::try_parse_from(words).map_err(|error| {
+        let said = error.to_string();
+        Failure::Usage(said.trim_start_matches("error: ").trim_end().to_owned())
+    })?;
+    let json = analyse.json || arguments.json;
+    crate::verb::analyse::analyse(&Analyse { report: true, page: arguments.out.clone(), json, ..analyse })
+}
+
+/// The page of a study: it is run as far as it has not been.
+fn of_study(arguments: &Report) -> Result<Answer, Failure> {
+    if arguments.study.is_some() {
+        return Err(Failure::Usage(
+            "--study is for the folder of a run; a study names itself: leave it out".to_owned(),
+        ));
+    }
+    let which = Which { study: arguments.of.clone(), variant: None, json: arguments.json };
+    run::with_page(&Run::on_a_page(which), arguments.out.clone())
+}
+
+/// The page of a run that has ended.
+fn of_run(arguments: &Report) -> Result<Answer, Failure> {
+    let folder = &arguments.of;
+    let manifest = ensemble::identity(folder)?;
+    let origin = Origin::read(folder).unwrap_or_default();
+    let place = locate::again(arguments.study.as_deref(), &origin.study, &manifest, folder)?;
+    let (loaded, study) = locate::as_run(&place, &manifest)?;
+    let rows = ensemble::finished(&study, folder)?;
+    let study = ensemble::come_to(study, &rows);
+    let file = arguments.out.clone().unwrap_or_else(|| folder.join(page::PAGE));
+    page::write(&file, (&study, &loaded), &rows, &origin)?;
+    let object = json!({
+        "study": study.name, "variant": study.variant, "seed": study.seed, "study_hash": study.hash,
+        "evaluations": rows.len(), "page": file.display().to_string(),
+    });
+    Ok(Answer::of(format!("written to {}\n", file.display()), &object)?.in_place(&file))
+}

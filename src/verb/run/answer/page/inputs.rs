@@ -1,0 +1,136 @@
+//! What a study's numbers are and where each comes from.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::study::{Loaded, Study, Used};
+use crate::verb::run::answer::page::limits::built;
+use crate::verb::run::answer::page::table::{Line, Table};
+
+/// Keys that name things and set nothing.
+const NAMES: [&str; 3] = ["arm", "revision of laws and solvers", "study.arms"];
+
+/// Wall and inputs, as a page shows them.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Given {
+    /// What was built and loaded.
+    about_wall: String,
+    /// What the tables are, before those inputs are named that are only assumed.
+    about: &'static str,
+    /// The inputs that are only assumed.
+    assumed: Vec<String>,
+    /// All of them.
+    tables: Vec<Table>,
+}
+
+impl Given {
+    /// Of a study; `loaded` is the study as its files state it.
+    pub fn of(study: &Study, loaded: &Loaded) -> Given {
+        let assumed = assumed(loaded);
+        let about = match assumed.is_empty() {
+            true => {
+                "Below is every value that decides a result, with its source. Units stand at the end of the keys."
+            }
+            false => {
+                "Below is every value that decides a result, with its source. Units stand at the end of the keys. Only assumed:"
+            }
+        };
+        Given { about_wall: built(study), about, assumed, tables: inputs(study, loaded) }
+    }
+}
+
+/// The inputs of a study: those that all arms share, and those of each arm. `loaded` is the study as its files state it, before
+/// anything was asked for in the place of its values.
+fn inputs(study: &Study, loaded: &Loaded) -> Vec<Table> {
+    let of = |name: &str, belongs: &dyn Fn(&str) -> bool| {
+        let own = entries(&study.effective).filter(|(key, _)| belongs(key));
+        let rows = own.map(|(key, value)| {
+            let used = loaded.used.iter().find(|used| used.key == *key);
+            let changed = loaded.study.effective.get(key) != Some(value) || study.is_asked_for(key);
+            let marked = used.is_some_and(|used| used.status == "assumed");
+            let source = source(used, changed, loaded.stated.states(key));
+            Line { cells: vec![key.clone(), shown(value), source], marked, ..Line::default() }
+        });
+        let rows = rows.collect();
+        Table { rows, ..Table::new(name, &["key, with its unit", "value", "source"], Vec::new()) }
+    };
+    let mut all = vec![of("All arms", &|key| !key.starts_with("arm."))];
+    for arm in &study.arms {
+        let path = format!("arm.{}.", arm.name);
+        let mut own = of(&format!("Arm {}", arm.name), &|key| key.starts_with(&path));
+        for line in &mut own.rows {
+            line.cells[0] = line.cells[0].trim_start_matches(&path).to_owned();
+        }
+        all.push(own);
+    }
+    all
+}
+
+/// The distributions that are only assumed, in words.
+pub fn assumed(loaded: &Loaded) -> Vec<String> {
+    let own = loaded.used.iter().filter(|used| used.status == "assumed");
+    own.map(|used| format!("{}: {} ({})", used.key, used.reference, used.source)).collect()
+}
+
+/// The values that are inputs: a distribution as one, not by its parts.
+fn entries(values: &BTreeMap<String, String>) -> impl Iterator<Item = (&String, &String)> {
+    let is_part = |key: &str| {
+        let above = key.match_indices('.').filter_map(|(dot, _)| values.get(&key[..dot]));
+        above.into_iter().any(|whole| whole.starts_with('{'))
+    };
+    let is_name = |key: &str| NAMES.contains(&key) || (key.starts_with("arm.") && key.ends_with(".name"));
+    values.iter().filter(move |(key, _)| !is_name(key) && !is_part(key))
+}
+
+/// A value as people read it: a distribution by its family and its parameters, a constant by its number.
+fn shown(value: &str) -> String {
+    let Some(family) = value.strip_prefix("{\"family\":").and_then(|rest| rest.strip_suffix('}')) else {
+        return value.to_owned();
+    };
+    let words = family.replace('"', "").replace(':', " ").replace(',', ", ");
+    words.strip_prefix("constant, value ").unwrap_or(&words).to_owned()
+}
+
+fn source(used: Option<&Used>, changed: bool, stated: bool) -> String {
+    match used {
+        _ if changed => "asked for with the command".to_owned(),
+        Some(used) => format!("{}: {} ({})", used.status, used.source, used.reference),
+        None if stated => "stated in the study".to_owned(),
+        None => "default".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_distribution_is_one_input_and_reads_as_words() {
+        let values = [
+            ("arm", "a"),
+            ("arm.a.dip_deg", r#"{"family":"uniform","low":-3.0,"high":3.0}"#),
+            ("arm.a.dip_deg.low", "-3.0"),
+            ("arm.a.name", "a"),
+            ("joint.phi_deg", r#"{"family":"constant","value":35.0}"#),
+        ];
+        let values = values.map(|(key, value)| (key.to_owned(), value.to_owned())).into();
+        let said: Vec<_> = entries(&values).map(|(key, value)| format!("{key} = {}", shown(value))).collect();
+        assert_eq!(said, ["arm.a.dip_deg = uniform, low -3.0, high 3.0", "joint.phi_deg = 35.0"]);
+    }
+
+    #[test]
+    fn every_number_says_where_it_comes_from() {
+        let used = Used {
+            key: "joint.phi_deg".into(),
+            reference: "joint/friction:shale".into(),
+            status: "assumed".into(),
+            source: "nobody".into(),
+            from: String::new(),
+        };
+        assert_eq!(source(Some(&used), false, true), "assumed: nobody (joint/friction:shale)");
+        assert_eq!(source(None, false, true), "stated in the study");
+        assert_eq!(source(None, false, false), "default");
+        assert_eq!(source(None, true, true), "asked for with the command");
+    }
+}

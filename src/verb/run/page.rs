@@ -1,0 +1,63 @@
+//! The page of a run, and that of an answer beside its files.
+
+use std::fs;
+use std::num::NonZero;
+use std::path::Path;
+
+use crate::ensemble::{Row, replace_file};
+use crate::study::{Loaded, Study};
+use crate::terminal::doing::doing;
+use crate::terminal::failure::Failure;
+use crate::verb::arguments::Which;
+use crate::verb::locate;
+use crate::verb::run::answer::page::{DrawnWall, PageOrigin, RunPage, chosen_walls, run_page};
+use crate::verb::run::origin::Origin;
+use crate::verb::wall::drawn::{Measure, ending};
+use crate::verb::wall::one_wall::OneWall;
+use crate::verb::wall::picture;
+
+/// Name of the page in the output folder.
+pub(crate) const PAGE: &str = "report.html";
+
+/// Writes the page of a run of a study, as it was run and as its files state it.
+pub(crate) fn write(
+    page: &Path,
+    (study, loaded): (&Study, &Loaded),
+    rows: &[Row],
+    origin: &Origin,
+) -> Result<(), Failure> {
+    locate::one_number(study)?;
+    let mut drawn = Vec::new();
+    for (which, task) in chosen_walls(study, rows) {
+        let kn = study.arms[task.arm as usize].kn_points[task.point as usize];
+        let wall = OneWall::at(study.clone(), task, kn)?;
+        let (run, replay) =
+            doing(&format!("drawing the {which} wall"), |doing| wall.replayed(&|level| doing.at(level)));
+        let picture = picture::of_wall(&wall, &run, Measure::Opening, None);
+        drawn.push(DrawnWall { which, task, picture, replay, ending: ending(&run) });
+    }
+    let text = run_page(&RunPage { study, loaded, rows, drawn: &drawn, origin: &origin.of_page() })
+        .map_err(|error| Failure::Run(format!("{error:#}")))?;
+    Ok(replace_file(page, text.as_bytes())?)
+}
+
+/// Writes the page of an answer beside its files, if it is asked for; else takes away that of an earlier answer, which would be taken
+/// for this one's.
+pub(crate) fn beside(
+    out: &Path,
+    (is_asked, which, threads): (bool, &Which, Option<NonZero<usize>>),
+    page: impl FnOnce(&PageOrigin) -> anyhow::Result<String>,
+) -> Result<(), Failure> {
+    let file = out.join(PAGE);
+    if !is_asked {
+        return match fs::remove_file(&file) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                Err(Failure::Run(format!("{}: {error}", file.display())))
+            }
+            _ => Ok(()),
+        };
+    }
+    let origin = Origin::now(&locate::folder(&which.study)?, threads).of_page();
+    let text = page(&origin).map_err(|error| Failure::Run(format!("{error:#}")))?;
+    Ok(replace_file(&file, text.as_bytes())?)
+}

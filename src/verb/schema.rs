@@ -1,0 +1,63 @@
+//! `pirca schema`: the JSON Schema of an input file, for editors.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use crate::ensemble::replace_file;
+use crate::study;
+use crate::terminal::failure::Failure;
+use crate::terminal::output;
+use crate::verb::arguments::OUTPUT;
+
+/// Of `schema`.
+pub(crate) const HELP: &str = concat!(
+    "\
+Example: pirca schema --out study.schema.json
+         pirca schema --of published --out published.schema.json
+
+Editors with taplo (in VS Code: Even Better TOML) take it from the first line of a study: #:schema ./study.schema.json. \
+`pirca init` writes both. The schema is made from the table of keys that `pirca check` goes by; what needs more than one key, and the \
+references to distributions, `check` alone sees.
+
+",
+    codes!()
+);
+
+/// Arguments of `schema`.
+#[derive(Args, Debug)]
+pub(crate) struct Schema {
+    /// Which file it describes.
+    #[arg(long, value_name = "FILE", default_value = "study")]
+    pub of: Described,
+    /// Write it to this file instead of standard output.
+    #[arg(long, value_name = "FILE", help_heading = OUTPUT)]
+    pub out: Option<PathBuf>,
+}
+
+/// Files that have a schema.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Described {
+    /// study.toml of walls.
+    Study,
+    /// study.toml of types of elements.
+    ElementStudy,
+    /// published.toml beside a study of walls.
+    Published,
+}
+
+/// Prints the schema, or writes it to a file.
+pub(crate) fn schema(arguments: &Schema) -> Result<(), Failure> {
+    let schema = match arguments.of {
+        Described::Study => study::Schema::Study,
+        Described::ElementStudy => study::Schema::ElementStudy,
+        Described::Published => study::Schema::Published,
+    };
+    match &arguments.out {
+        None => output::print_as_it_is(&schema.text()),
+        Some(path) => {
+            replace_file(path, schema.text().as_bytes())?;
+            output::print(&format!("written to {}\n", path.display()))
+        }
+    }
+}
