@@ -337,6 +337,22 @@ fn the_page_of_the_house_shows_every_module_in_order() {
     assert_eq!(shown.join(",").replace(' ', ""), rows.join(","));
 }
 
+/// A recipe that names a file which has moved sends its reader astray.
+#[test]
+fn every_file_of_the_recipes_is_there() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let page = fs::read_to_string(root.join("docs/how-to-add.md")).expect("the page");
+    let code = page.split('`').skip(1).step_by(2);
+    let places = ["src", "tests", "docs", "distributions", "schemas", "benches"];
+    let files: Vec<&str> = code
+        .filter(|text| places.contains(&text.split('/').next().unwrap_or_default()))
+        .filter(|text| !text.contains("NAME"))
+        .collect();
+    assert!(files.len() > 40, "{files:?}");
+    let missing: Vec<_> = files.iter().filter(|file| !root.join(file).exists()).collect();
+    assert!(missing.is_empty(), "{missing:?}");
+}
+
 #[test]
 fn bad_imports_are_found() {
     let bad = [

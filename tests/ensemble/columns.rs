@@ -7,24 +7,11 @@ use polars_io::SerReader;
 use polars_io::prelude::ParquetReader;
 use serde_json::Value;
 
-use crate::fixture::{Folder, STUDY, changed, stderr};
-
-const LATERAL: &str = "protocol = \"lateral\"\nmean_pressure_pa = 200\nbase_over_top = 2";
-
-/// The small study with another load between free ends, and another solver.
-fn loaded(load: &str, solver: &str) -> String {
-    changed(LATERAL, load).replace("joint_springs", "free").replace("unbalanced_ratio = 1e-4", solver)
-}
+use crate::fixture::{Folder, STUDY, stderr};
+use crate::loads::{BASE_MOTION, LATERAL, SHEAR, TILTING, loaded};
 
 /// Studies of every kind.
 fn studies() -> Vec<String> {
-    let tilting = "protocol = \"tilting\"\ntowards = \"y+\"\nstep_deg = 4\nbracket_deg = 0.5";
-    let shear = "protocol = \"shear\"\nvertical_load_n = 2e3\nforce_height_m = 0.32\nhead = \"turns\"\n\
-                 drift_percent = 0.4\nstep_percent = 0.1";
-    // One that hardly moves them, and one that throws them off.
-    let shaken = "protocol = \"base_motion\"\npga_m_per_s2 = [1, 40]\nafter_s = 1\ntwice = false\n\n[load.records]\n\
-                  from = \"kanai_tajimi\"\ncount = 1\nground_hz = 1\ncorner_hz = 0.4\ncorner_damping = 1\nrise_s = 0.2\n\
-                  strong_s = 1\ndecay_per_s = 8";
     let uncertain = "\n[uncertain]\n\"joint.phi_deg\" = { family = \"uniform\", low = 30, high = 40 }\n";
     // One stone a course, held at its sides by two blocks that need not press on it.
     let between_blocks = |load: &str| {
@@ -41,12 +28,12 @@ fn studies() -> Vec<String> {
         // A wall that a push brings down, by limit analysis, and a tilt.
         loaded(&LATERAL.replace("200", "5000"), "name = \"limit\""),
         loaded(&LATERAL.replace("200", "5000"), "name = \"limit\"\nflow = \"non-associative\""),
-        loaded(tilting, "name = \"limit\"\nflow = \"non-associative\""),
-        loaded(&format!("{tilting}\nremainders = true"), "name = \"implicit\"\nagreement = true"),
-        loaded(shear, "name = \"implicit\""),
+        loaded(TILTING, "name = \"limit\"\nflow = \"non-associative\""),
+        loaded(&format!("{TILTING}\nremainders = true"), "name = \"implicit\"\nagreement = true"),
+        loaded(SHEAR, "name = \"implicit\""),
         // Tall stacks that a heavy beam presses: friction between them takes thrust that only the push brings about.
-        loaded(&heavy(shear), "name = \"limit\"").replace("height_m = 0.3\n", "height_m = 0.9\n"),
-        loaded(shaken, "name = \"explicit\""),
+        loaded(&heavy(SHEAR), "name = \"limit\"").replace("height_m = 0.3\n", "height_m = 0.9\n"),
+        loaded(BASE_MOTION, "name = \"explicit\""),
         between_blocks(
             "protocol = \"tilting\"\ntowards = \"y+\"\nstep_deg = 4\nbracket_deg = 0.5\nend_deg = 40",
         ),

@@ -7,6 +7,7 @@ mod failed_members;
 mod fixture;
 mod grow;
 mod kill;
+mod loads;
 mod machinery;
 mod mechanisms;
 mod memory;

@@ -1,6 +1,7 @@
 //! Every verb on small studies and walls: all protocols, all solvers, a merge of shards.
 
-use crate::fixture::{STUDY, changed};
+use crate::fixture::STUDY;
+use crate::loads::{BASE_MOTION, LATERAL, SHEAR, TILTING, loaded};
 
 /// A study and commands on it, one after the other.
 pub struct Case {
@@ -13,15 +14,6 @@ pub struct Case {
 }
 
 const TOWER: &[(&str, &str)] = &[("walls/leaning-tower.json", "tower.json")];
-
-const LATERAL: &str = "protocol = \"lateral\"\nmean_pressure_pa = 200\nbase_over_top = 2";
-
-/// The small study with another load between free ends, by another solver.
-fn loaded(load: &str, solver: &str) -> String {
-    changed(LATERAL, load).replace("joint_springs", "free").replace("unbalanced_ratio = 1e-4", solver)
-}
-
-const TILTING: &str = "protocol = \"tilting\"\ntowards = \"y+\"\nstep_deg = 4\nbracket_deg = 0.5";
 
 fn lateral() -> String {
     STUDY.to_owned()
@@ -48,16 +40,11 @@ fn without_dilatancy() -> String {
 }
 
 fn sheared() -> String {
-    let load = "protocol = \"shear\"\nvertical_load_n = 2e3\nforce_height_m = 0.32\nhead = \"turns\"\n\
-                drift_percent = 0.4\nstep_percent = 0.1";
-    loaded(load, "name = \"implicit\"")
+    loaded(SHEAR, "name = \"implicit\"")
 }
 
 fn shaken() -> String {
-    let load = "protocol = \"base_motion\"\npga_m_per_s2 = [1, 40]\nafter_s = 1\ntwice = false\n\n[load.records]\n\
-                from = \"kanai_tajimi\"\ncount = 1\nground_hz = 1\ncorner_hz = 0.4\ncorner_damping = 1\nrise_s = 0.2\n\
-                strong_s = 1\ndecay_per_s = 8";
-    loaded(load, "name = \"explicit\"")
+    loaded(BASE_MOTION, "name = \"explicit\"")
 }
 
 /// One of the element types: all of them take a minute.

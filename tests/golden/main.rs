@@ -13,6 +13,8 @@ mod cases;
 #[path = "../ensemble/fixture.rs"]
 #[expect(dead_code, reason = "other groups use more of it")]
 mod fixture;
+#[path = "../ensemble/loads.rs"]
+mod loads;
 mod state;
 
 use std::fs;
