@@ -356,6 +356,79 @@ class Study:
             )
         )
 
+    def plan_tests(
+        self,
+        specimens: int,
+        *,
+        cov: float | None = None,
+        error_deg: float | None = None,
+        error_m: float | None = None,
+        power: float | None = None,
+        confidence: float | None = None,
+        loss: float | None = None,
+        point: int = 0,
+        out: Path_ | None = None,
+        progress: bool = False,
+    ) -> Answer:
+        """Say how many specimens to test, and what to read, as `pirca plan-tests`.
+
+        Parameters
+        ----------
+        specimens : int
+            Specimens of each arm that might be tested.
+        cov : float, optional
+            Coefficient of variation of real specimens (0.05 is 5 %); that of simulated ones without it.
+        error_deg, error_m : float, optional
+            Standard deviation of the error of an angle (deg) and of a displacement (m) that is read; 0.25 and 0.0001 without them.
+        power, confidence : float, optional
+            Probability of seeing a difference, and of not seeing one that is not there; 0.8 and 0.95 without them.
+        loss : float, optional
+            Share of the true 5 % fractile that the characteristic value may lose in the mean; 0.05 without it.
+        point : int
+            Number of the kn point, from 0.
+        out, progress
+            As of `run`.
+        """
+        return Answer(
+            self._ask(
+                "plan-tests",
+                specimens=specimens,
+                members=self._members,
+                cov=cov,
+                error_deg=error_deg,
+                error_m=error_m,
+                power=power,
+                confidence=confidence,
+                loss=loss,
+                point=point,
+                out=out,
+                progress=progress,
+            )
+        )
+
+    def sensitivity(
+        self,
+        *,
+        members: int | None = None,
+        quantile: float | None = None,
+        out: Path_ | None = None,
+        progress: bool = False,
+    ) -> Answer:
+        """Say which mechanisms the measurements of the study could show, as `pirca sensitivity`.
+
+        Parameters
+        ----------
+        members : int, optional
+            Walls in every arm that was measured; 3 without it.
+        quantile : float, optional
+            Quantile of the priors, counted from the end at which a mechanism is weak; 0.84 without it.
+        out, progress
+            As of `run`.
+        """
+        given = {"variant": self._variant, "threads": self._threads}
+        options = {"members": members, "quantile": quantile, "out": out, "progress": progress}
+        return Answer(ask("sensitivity", self.path, **given, **options))
+
     def diagnose(
         self,
         measured: Any = None,

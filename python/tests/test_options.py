@@ -18,6 +18,8 @@ VERBS = {
     ),
     "influence": (Study.influence, {"progress"}, {"variant", "json", "seed", "threads"}),
     "compare": (Study.compare, {"progress"}, {"variant", "json", "seed", "threads"}),
+    "plan-tests": (Study.plan_tests, {"progress"}, {"variant", "json", "members", "seed", "threads"}),
+    "sensitivity": (Study.sensitivity, {"progress"}, {"variant", "json", "threads"}),
     "diagnose": (
         Study.diagnose,
         {"progress", "build", "gain"},

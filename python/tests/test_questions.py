@@ -62,6 +62,21 @@ def test_compare(studies, told, empty_folder):
     same_files(empty_folder / "ours", empty_folder / "theirs")
 
 
+def test_plan_of_tests(told, empty_folder):
+    column = ROOT / "tests/peers/column"
+    ours = pirca.Study(column, members=20).plan_tests(6, cov=0.1, out="ours")
+    theirs = told("plan-tests", column, "--members", 20, "--specimens", 6, "--cov", 0.1, out="theirs")
+    assert dict(ours) == theirs
+    same_files(empty_folder / "ours", empty_folder / "theirs")
+
+
+def test_sensitivity(told, empty_folder, studies):
+    towers = studies / "hidden-effects/example"
+    ours = pirca.Study(towers).sensitivity(members=1, out="ours")
+    assert dict(ours) == told("sensitivity", towers, "--members", 1, out="theirs")
+    same_files(empty_folder / "ours", empty_folder / "theirs")
+
+
 def test_a_measured_campaign_in_a_data_frame_gets_its_verdict(studies, told, empty_folder):
     study = studies / "tilting-table"
     readings = pandas.read_csv(study / "measured.csv", comment="#", dtype=str)

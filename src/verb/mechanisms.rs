@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::study::{Described, Distributions, described};
+use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
-use crate::terminal::output;
 
 /// Of `mechanisms`.
 pub(crate) const HELP: &str = concat!(
@@ -32,8 +32,8 @@ pub(crate) struct Mechanisms {
     pub json: bool,
 }
 
-/// Prints the catalogue.
-pub(crate) fn mechanisms(arguments: &Mechanisms) -> Result<(), Failure> {
+/// The catalogue.
+pub(crate) fn mechanisms(arguments: &Mechanisms) -> Result<Answer, Failure> {
     let distributions = match &arguments.distributions {
         Some(folder) if !folder.is_dir() => {
             return Err(Failure::Input(format!(
@@ -46,14 +46,11 @@ pub(crate) fn mechanisms(arguments: &Mechanisms) -> Result<(), Failure> {
         None => Distributions::of_study(Path::new(".")),
     };
     let all = described(distributions).map_err(Failure::Input)?;
-    if arguments.json {
-        return output::print_json(&serde_json::json!({ "mechanisms": all }));
-    }
     let mut text = String::new();
     for mechanism in &all {
         describe(mechanism, &mut text);
     }
-    output::print(&text)
+    Answer::of(text, &serde_json::json!({ "mechanisms": all }))
 }
 
 fn describe(mechanism: &Described, text: &mut String) {

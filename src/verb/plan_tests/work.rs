@@ -3,6 +3,7 @@
 use crate::ensemble;
 use crate::ensemble::{Settings, is_random};
 use crate::stats::Aim;
+use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
 use crate::terminal::{output, progress};
 use crate::verb::plan_tests::answer::{Asked, TestPlan, test_plan_text, test_plan_warnings, write_test_plan};
@@ -13,7 +14,7 @@ use crate::verb::{arms, locate, question};
 const PLAN_TESTS: &str = "plan-tests";
 
 /// Simulates the walls of a study and plans tests of real ones by them.
-pub(crate) fn plan_tests(arguments: &PlanTests) -> Result<(), Failure> {
+pub(crate) fn plan_tests(arguments: &PlanTests) -> Result<Answer, Failure> {
     let study = locate::with_ensemble(locate::study(&arguments.which)?.study, &arguments.ensemble)?;
     if arguments.cov.is_none() && !study.arms.iter().any(is_random) {
         return Err(Failure::Input(format!(
@@ -38,9 +39,6 @@ pub(crate) fn plan_tests(arguments: &PlanTests) -> Result<(), Failure> {
     let study = ensemble::come_to(study, &rows);
     let plan = TestPlan::of(&study, &rows, asked);
     write_test_plan(&plan, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
-    if arguments.which.json {
-        return output::print_json(&plan);
-    }
-    test_plan_warnings(&plan).iter().for_each(|warning| output::warning(warning));
-    output::print(&format!("{}\nwritten to {}\n", test_plan_text(&plan).trim_end(), out.display()))
+    let text = format!("{}\nwritten to {}\n", test_plan_text(&plan).trim_end(), out.display());
+    Ok(Answer::of(text, &plan)?.in_place(&out).with_warnings(test_plan_warnings(&plan)))
 }

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use crate::ensemble::{Progress, Row, Task, evaluate, plan};
 use crate::study::{Study, reading_name, readings as readings_of};
+use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
 use crate::terminal::progress::Tenths;
 use crate::terminal::{output, threads};
@@ -22,7 +23,7 @@ const FIRST_WALLS: u64 = 6;
 const MOST_REFUTED: usize = 1;
 
 /// Searches the readings, writes what each of them gives, and prints those that explain most.
-pub(crate) fn readings(arguments: &Readings) -> Result<(), Failure> {
+pub(crate) fn readings(arguments: &Readings) -> Result<Answer, Failure> {
     let folder = locate::folder(&arguments.study)?;
     let loaded = Study::load(&folder, None)?;
     loaded.warnings.iter().for_each(locate::warn);
@@ -43,10 +44,8 @@ pub(crate) fn readings(arguments: &Readings) -> Result<(), Failure> {
         let entries = searched(&folder, &named, arguments)?;
         let summary = ReadingsSummary::of(&base, arguments.departures, FIRST_WALLS, entries);
         write_readings(&summary, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
-        if arguments.json {
-            return output::print_json(&summary);
-        }
-        output::print(&format!("{}\nwritten to {}\n", readings_text(&summary), out.display()))
+        let text = format!("{}\nwritten to {}\n", readings_text(&summary), out.display());
+        Ok(Answer::of(text, &summary)?.in_place(&out))
     })
 }
 

@@ -2,6 +2,7 @@
 
 use crate::critic::{NoSensitivity, SensitivitySettings, sensitivity as map_of};
 use crate::study::described;
+use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
 use crate::terminal::output;
 use crate::terminal::progress::Tenths;
@@ -10,7 +11,7 @@ use crate::verb::sensitivity::answer::{SensitivitySummary, sensitivity_text, wri
 use crate::verb::sensitivity::ask::Sensitivity;
 
 /// Computes the map, writes it and prints it.
-pub(crate) fn sensitivity(arguments: &Sensitivity) -> Result<(), Failure> {
+pub(crate) fn sensitivity(arguments: &Sensitivity) -> Result<Answer, Failure> {
     let study = locate::study(&arguments.which)?.study;
     locate::without_uncertain(&study)?;
     let distributions = locate::distributions(&arguments.which)?;
@@ -26,10 +27,8 @@ pub(crate) fn sensitivity(arguments: &Sensitivity) -> Result<(), Failure> {
     let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, "sensitivity"));
     output::folder(&out)?;
     write_sensitivity(&summary, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
-    if arguments.which.json {
-        return output::print_json(&summary);
-    }
-    output::print(&format!("{}\nwritten to {}\n", sensitivity_text(&summary), out.display()))
+    let text = format!("{}\nwritten to {}\n", sensitivity_text(&summary), out.display());
+    Ok(Answer::of(text, &summary)?.in_place(&out))
 }
 
 fn failure(error: NoSensitivity) -> Failure {
