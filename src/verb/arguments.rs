@@ -38,27 +38,56 @@ pub(crate) struct Ensemble {
     pub seed: Option<u64>,
 }
 
-/// The solvers by name.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(crate) enum SolverName {
-    /// Central differences with local damping (DEM).
-    Explicit,
-    /// Newton's method from equilibrium to equilibrium.
-    Implicit,
-    /// Contact dynamics of rigid blocks with Coulomb friction.
-    Nonsmooth,
-    /// Limit analysis of rigid blocks: the collapse load alone.
-    Limit,
+/// Declares a closed set of names for an argument: the value, its name, what it is.
+macro_rules! names {
+    ($(#[$about:meta])* $set:ident { $($(#[$what:meta])* $value:ident = $name:literal,)+ }) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+        pub(crate) enum $set {
+            $($(#[$what])* #[value(name = $name)] $value,)+
+        }
+
+        impl $set {
+            /// The name as the user writes it.
+            pub fn name(&self) -> &'static str {
+                match self { $($set::$value => $name,)+ }
+            }
+        }
+    };
+}
+
+pub(crate) use names;
+
+names! {
+    /// The solvers by name.
+    SolverName {
+        /// Limit analysis of rigid blocks.
+        Limit = "limit",
+        /// Elastic joints, equilibrium by Newton's method.
+        Implicit = "implicit",
+        /// Elastic joints, steps in time with damping (DEM).
+        Explicit = "explicit",
+        /// Rigid blocks, steps in time with Coulomb friction (contact dynamics).
+        Nonsmooth = "nonsmooth",
+    }
 }
 
 impl SolverName {
-    /// Its name in studies.
-    pub fn name(self) -> &'static str {
+    /// What it is called in a sentence.
+    pub fn method(self) -> &'static str {
         match self {
-            SolverName::Explicit => "explicit",
-            SolverName::Implicit => "implicit",
-            SolverName::Nonsmooth => "nonsmooth",
-            SolverName::Limit => "limit",
+            SolverName::Limit => "limit analysis",
+            SolverName::Implicit => "the implicit solver",
+            SolverName::Explicit => "the explicit solver",
+            SolverName::Nonsmooth => "contact dynamics",
+        }
+    }
+
+    /// Whether joints have a stiffness.
+    pub fn is_elastic(self) -> bool {
+        match self {
+            SolverName::Implicit | SolverName::Explicit => true,
+            SolverName::Limit | SolverName::Nonsmooth => false,
         }
     }
 }

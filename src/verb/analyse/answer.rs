@@ -6,11 +6,12 @@ use crate::exchange::WallFile;
 use crate::math::{atan, degrees, ends, tan, within};
 use crate::model::{Block, Level, Outcome, Support, Wall};
 use crate::protocol::{JointState, Undecided};
-use crate::verb::analyse::ask::{Analyse, Growing, MethodName};
+use crate::verb::analyse::ask::{Analyse, Growing};
 use crate::verb::analyse::loads::listed;
 use crate::verb::analyse::meetings::Fit;
 use crate::verb::analyse::worst::Tried;
 use crate::verb::analyse::{joints, open};
+use crate::verb::arguments::SolverName;
 use crate::verb::wall::condition::resting;
 
 /// What the collapse multiplier is in a seismic assessment, and what it is not. Only the multiplier is computed: the participating mass
@@ -68,7 +69,7 @@ impl Answer {
     /// dry joints of rigid blocks bear the same then.
     fn as_seismic_coefficient(&self, asked: &Analyse) -> Option<String> {
         let is_near =
-            asked.growing() == Growing::Tilt && (asked.solver != MethodName::Limit || asked.cohesion > 0.0);
+            asked.growing() == Growing::Tilt && (asked.solver != SolverName::Limit || asked.cohesion > 0.0);
         let near = if is_near { ", nearly; --load lateral gives it itself" } else { "" };
         self.collapse_multiplier().map(|_| format!("{SEISMIC}{near}"))
     }

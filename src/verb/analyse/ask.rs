@@ -8,7 +8,7 @@ use crate::protocol::Direction;
 use crate::solve::explicit::Rayleigh;
 use crate::verb::analyse::known::Known;
 use crate::verb::analyse::{known, numbers};
-use crate::verb::arguments::{FILE, JOINTS, LOAD, OUTPUT, SOLUTION};
+use crate::verb::arguments::{FILE, JOINTS, LOAD, OUTPUT, SOLUTION, SolverName, names};
 use crate::verb::question;
 use crate::verb::run::page::PAGE;
 use crate::verb::wall::drawn::Measure;
@@ -62,7 +62,7 @@ pub(crate) struct Analyse {
     pub wall: PathBuf,
     /// Solver. Limit analysis and contact dynamics take rigid blocks and need no stiffness.
     #[arg(long, value_name = "NAME", default_value = "limit", help_heading = SOLUTION)]
-    pub solver: MethodName,
+    pub solver: SolverName,
     /// Load: gravity turns towards the direction (to at most 89 deg), a multiple of the weight pushes there (to at most 10), or the ground
     /// moves as --record says, for nonsmooth and explicit.
     #[arg(long, value_name = "NAME", default_value = "tilt", help_heading = LOAD)]
@@ -240,58 +240,6 @@ impl Analyse {
     /// What the wall is called: the name of its file.
     pub fn title(&self) -> String {
         self.wall.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
-    }
-}
-
-/// Declares a closed set of names for an argument: the value, its name, what it is.
-macro_rules! names {
-    ($(#[$about:meta])* $set:ident { $($(#[$what:meta])* $value:ident = $name:literal,)+ }) => {
-        $(#[$about])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-        pub(crate) enum $set {
-            $($(#[$what])* #[value(name = $name)] $value,)+
-        }
-
-        impl $set {
-            /// The name as the user writes it.
-            pub fn name(&self) -> &'static str {
-                match self { $($set::$value => $name,)+ }
-            }
-        }
-    };
-}
-
-names! {
-    /// How a wall from elsewhere is solved.
-    MethodName {
-        /// Limit analysis of rigid blocks.
-        Limit = "limit",
-        /// Elastic joints, equilibrium by Newton's method.
-        Implicit = "implicit",
-        /// Elastic joints, steps in time with damping (DEM).
-        Explicit = "explicit",
-        /// Rigid blocks, steps in time with Coulomb friction (contact dynamics).
-        Nonsmooth = "nonsmooth",
-    }
-}
-
-impl MethodName {
-    /// What it is called in a sentence.
-    pub fn method(self) -> &'static str {
-        match self {
-            MethodName::Limit => "limit analysis",
-            MethodName::Implicit => "the implicit solver",
-            MethodName::Explicit => "the explicit solver",
-            MethodName::Nonsmooth => "contact dynamics",
-        }
-    }
-
-    /// Whether joints have a stiffness.
-    pub fn is_elastic(self) -> bool {
-        match self {
-            MethodName::Implicit | MethodName::Explicit => true,
-            MethodName::Limit | MethodName::Nonsmooth => false,
-        }
     }
 }
 

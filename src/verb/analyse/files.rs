@@ -15,11 +15,12 @@ use crate::render::vtk::write_vtu;
 use crate::terminal::failure::Failure;
 use crate::terminal::output;
 use crate::verb::analyse::answer::Answer;
-use crate::verb::analyse::ask::{Analyse, MethodName};
+use crate::verb::analyse::ask::Analyse;
 use crate::verb::analyse::joints;
 use crate::verb::analyse::meetings::Fit;
 use crate::verb::analyse::page::{Told, page};
 use crate::verb::analyse::state::State;
+use crate::verb::arguments::SolverName;
 use crate::verb::wall::condition::{Condition, hinges};
 use crate::verb::wall::drawn::{Measure, seams, sides};
 use crate::verb::wall::replayed;
@@ -57,7 +58,7 @@ pub(crate) fn write(folder: &Path, of: &Seen<'_>, object: &Value, told: &Told<'_
     let mut files = vec![
         ("report.html", page(asked, file, (answer, state), (&picture, replay), told)?),
         ("mechanism.svg", picture.svg()),
-        ("rest.vtu", write_vtu(&file.wall, (asked.solver != MethodName::Limit).then_some(&rests[..]))),
+        ("rest.vtu", write_vtu(&file.wall, (asked.solver != SolverName::Limit).then_some(&rests[..]))),
         ("blocks.csv", blocks_csv(file, answer, state)),
         ("joints.csv", joints_csv(file, state)),
         ("analysis.json", format!("{:#}\n", with_tables(object, file, answer, state))),
@@ -108,11 +109,11 @@ fn picture(asked: &Analyse, (file, fit): (&WallFile, &Fit), answer: &Answer, sta
 }
 
 /// What joints are coloured by: a mechanism of limit analysis has no size of its own.
-fn said(colour: Measure, solver: MethodName) -> &'static str {
+fn said(colour: Measure, solver: SolverName) -> &'static str {
     match (solver, colour) {
-        (MethodName::Limit, Measure::Opening) => "opening of joints where the fastest corner moves by 1 m",
-        (MethodName::Limit, Measure::Slip) => "slip of joints where the fastest corner moves by 1 m",
-        (MethodName::Limit, Measure::Stress) => "pressure between blocks over the joint, at collapse",
+        (SolverName::Limit, Measure::Opening) => "opening of joints where the fastest corner moves by 1 m",
+        (SolverName::Limit, Measure::Slip) => "slip of joints where the fastest corner moves by 1 m",
+        (SolverName::Limit, Measure::Stress) => "pressure between blocks over the joint, at collapse",
         (_, colour) => colour.said(),
     }
 }

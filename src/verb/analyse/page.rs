@@ -10,8 +10,9 @@ use crate::render::picture::{Picture, Stone};
 use crate::study::sha256;
 use crate::terminal::failure::Failure;
 use crate::verb::analyse::answer::Answer;
-use crate::verb::analyse::ask::{Analyse, Growing, MethodName};
+use crate::verb::analyse::ask::{Analyse, Growing};
 use crate::verb::analyse::state::State;
+use crate::verb::arguments::SolverName;
 use crate::verb::run::answer::page::{WallPage, WallTable, wall_page};
 use crate::verb::run::origin::Origin;
 
@@ -40,7 +41,7 @@ pub(crate) fn page(
     let bytes = fs::read(&asked.wall)
         .map_err(|error| Failure::Run(format!("cannot read {} again: {error}", asked.wall.display())))?;
     let wall = asked.title();
-    let by_rates = asked.solver == MethodName::Limit && state.falls;
+    let by_rates = asked.solver == SolverName::Limit && state.falls;
     let page = WallPage {
         wall: &wall,
         question: question(asked),
@@ -105,7 +106,7 @@ pub(crate) fn inputs(asked: &Analyse) -> Vec<(&'static str, String)> {
     }
     let density = |own: f64| format!("{} kg/m3", own.round());
     all.extend(asked.density.as_ref().map(|own| ("mean density of the blocks that move", own.said(density))));
-    if asked.solver == MethodName::Limit {
+    if asked.solver == SolverName::Limit {
         all.push(("flow", asked.flow.map_or("associative", |flow| flow.name()).to_owned()));
     }
     all.extend(asked.vertical.map(|share| ("vertical share of the load", share.to_string())));

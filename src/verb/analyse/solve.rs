@@ -11,10 +11,11 @@ use crate::solve::implicit::Equilibrium;
 use crate::solve::{Equilibrate, Solver, explicit, implicit, limit, nonsmooth};
 use crate::terminal::doing::doing;
 use crate::verb::analyse::answer::Answer;
-use crate::verb::analyse::ask::{Analyse, FlowName, Growing, MethodName};
+use crate::verb::analyse::ask::{Analyse, FlowName, Growing};
 use crate::verb::analyse::known::Known;
 use crate::verb::analyse::meetings::Fit;
 use crate::verb::analyse::state::Found;
+use crate::verb::arguments::SolverName;
 
 /// Rigid blocks need no stiffness, but a law has one; where contact dynamics loses a wall, the explicit solver asks on with it.
 const ANY_STIFFNESS: f64 = 1e9;
@@ -70,7 +71,7 @@ pub(crate) fn solve(
 ) -> (Answer, Found) {
     let mut what =
         format!("solving {} blocks by the {} solver", wall.0.blocks.len(), arguments.solver.name());
-    if arguments.solver == MethodName::Nonsmooth {
+    if arguments.solver == SolverName::Nonsmooth {
         what.push_str(&format!(" ({})", estimate(fit.joints)));
     }
     doing(&what, |doing| {
@@ -87,8 +88,8 @@ pub(crate) fn solve_seen_by(
     witness: Witness<'_>,
 ) -> (Answer, Found) {
     match arguments.solver {
-        MethodName::Limit => by_limit_analysis(arguments, wall, law, fit, witness),
-        MethodName::Implicit => {
+        SolverName::Limit => by_limit_analysis(arguments, wall, law, fit, witness),
+        SolverName::Implicit => {
             let settings = implicit::Settings::default();
             let task = task(arguments, (wall, settlements), law, fit);
             let mut at_rest = Equilibrium::new(wall, law, settings, task.contact);
@@ -97,11 +98,11 @@ pub(crate) fn solve_seen_by(
             let (answer, found) = by_steps(drive_seen_by(&task, &Solver::Implicit(settings), witness));
             (Answer { loose, ..answer }, found)
         }
-        MethodName::Explicit => {
+        SolverName::Explicit => {
             let solver = Solver::Explicit(explicit::Settings::default());
             by_steps(drive_seen_by(&task(arguments, (wall, settlements), law, fit), &solver, witness))
         }
-        MethodName::Nonsmooth => {
+        SolverName::Nonsmooth => {
             let solver = Solver::Nonsmooth(nonsmooth::Settings::default());
             let (answer, found) =
                 by_steps(drive_seen_by(&task(arguments, (wall, settlements), law, fit), &solver, witness));

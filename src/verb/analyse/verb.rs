@@ -14,7 +14,7 @@ use crate::study::Angle;
 use crate::terminal::answer::Answer;
 use crate::terminal::doing::doing;
 use crate::terminal::failure::Failure;
-use crate::verb::analyse::ask::{Analyse, FlowName, Growing, LoadName, MethodName, UpName};
+use crate::verb::analyse::ask::{Analyse, FlowName, Growing, LoadName, UpName};
 use crate::verb::analyse::files::Seen;
 use crate::verb::analyse::known::Known;
 use crate::verb::analyse::loads::{loaded, settlements};
@@ -28,6 +28,7 @@ use crate::verb::analyse::uncertainty::{uncertainty_text, write_uncertainty};
 use crate::verb::analyse::unsure::{Given, asked, refused};
 use crate::verb::analyse::worst::{Tried, tried, weakest};
 use crate::verb::analyse::{fclib, files, shaken, upright};
+use crate::verb::arguments::SolverName;
 use crate::verb::wall::one_wall::MOST_STATES;
 
 /// A prestress above this share of the pressure under the wall's own weight is worth a warning.
@@ -188,14 +189,14 @@ fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
         let method = arguments.solver.method();
         warnings.push(format!("{method} is of rigid blocks: --kn and --ks do not matter"));
     }
-    if arguments.solver == MethodName::Nonsmooth && !arguments.settlements.is_empty() {
+    if arguments.solver == SolverName::Nonsmooth && !arguments.settlements.is_empty() {
         return Err(Failure::Usage(
             "--settle is for elastic joints: rigid blocks drop after a support that goes down, and what their impacts leave is another state \
              than that of a gradual settlement; ask --solver implicit --kn PA_PER_M, or move the support in the file"
                 .to_owned(),
         ));
     }
-    if arguments.solver == MethodName::Limit {
+    if arguments.solver == SolverName::Limit {
         if !arguments.settlements.is_empty() {
             return Err(Failure::Usage(
                 "--settle is for elastic joints: to rigid blocks a small settlement is a movement without forces, which no multiplier \

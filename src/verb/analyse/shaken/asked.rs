@@ -9,8 +9,9 @@ use crate::solve::explicit::Rayleigh;
 use crate::solve::nonsmooth::Normal;
 use crate::solve::{explicit, nonsmooth};
 use crate::terminal::failure::Failure;
-use crate::verb::analyse::ask::{Analyse, LoadName, MethodName};
+use crate::verb::analyse::ask::{Analyse, LoadName};
 use crate::verb::analyse::unsure::asked;
+use crate::verb::arguments::SolverName;
 
 /// What is asked in vain of a record, or of a base motion.
 pub(crate) fn refused(asked_for: &Analyse) -> Result<(), Failure> {
@@ -27,27 +28,27 @@ pub(crate) fn refused(asked_for: &Analyse) -> Result<(), Failure> {
         );
     }
     match asked_for.solver {
-        MethodName::Limit | MethodName::Implicit => {
+        SolverName::Limit | SolverName::Implicit => {
             return usage(
                 "--load base-motion is for solvers that know time: ask --solver nonsmooth, or --solver explicit --kn PA_PER_M",
             );
         }
-        MethodName::Nonsmooth if asked_for.rayleigh.is_some() => {
+        SolverName::Nonsmooth if asked_for.rayleigh.is_some() => {
             return usage(
                 "--rayleigh is for --solver explicit: in contact dynamics impacts and friction take the energy; leave it out",
             );
         }
-        MethodName::Explicit if asked_for.time_step.is_some() => {
+        SolverName::Explicit if asked_for.time_step.is_some() => {
             return usage(
                 "--time-step is for --solver nonsmooth: the explicit solver finds its own; leave it out",
             );
         }
-        MethodName::Explicit if asked_for.restitution.is_some() => {
+        SolverName::Explicit if asked_for.restitution.is_some() => {
             return usage(
                 "--restitution is for --solver nonsmooth: elastic joints give back what --rayleigh does not take; leave it out",
             );
         }
-        MethodName::Nonsmooth | MethodName::Explicit => {}
+        SolverName::Nonsmooth | SolverName::Explicit => {}
     }
     let in_vain = [
         ("--worst-direction", asked_for.worst_direction),
@@ -91,7 +92,7 @@ pub(crate) fn motion(asked: &Analyse, path: &Path) -> Result<Motion, Failure> {
 
 /// The solver as asked for.
 pub(crate) fn solver(asked: &Analyse, task: &Task<'_>) -> InTime {
-    if asked.solver == MethodName::Explicit {
+    if asked.solver == SolverName::Explicit {
         let rayleigh = asked.rayleigh.unwrap_or_else(|| Rayleigh::of_joints(&task.assembled()));
         return InTime::Explicit(explicit::Settings::default(), rayleigh);
     }

@@ -3,8 +3,9 @@
 use serde_json::{Value, json};
 
 use crate::protocol::{Extreme, Shaken, Verdict};
-use crate::verb::analyse::ask::{Analyse, MethodName};
+use crate::verb::analyse::ask::Analyse;
 use crate::verb::analyse::shaken::{Common, Ran};
+use crate::verb::arguments::SolverName;
 
 /// So many blocks that fell are named in words.
 const NAMED: usize = 10;
@@ -76,7 +77,7 @@ pub(crate) fn object(of: &Common<'_>, run: &Ran, warnings: &[String], seconds: f
         "direction_deg": asked.direction.angle_deg(),
         "lean_deg": asked.lean_deg.unwrap_or(0.0),
         "lean_direction_deg": asked.lean_deg.map(|_| asked.lean_direction.unwrap_or(asked.direction).angle_deg()),
-        "restitution": (asked.solver == MethodName::Nonsmooth).then(|| asked.restitution.unwrap_or(0.0)),
+        "restitution": (asked.solver == SolverName::Nonsmooth).then(|| asked.restitution.unwrap_or(0.0)),
         "first_stone_s": seen.first_stone_s,
         "tenth_weight_s": seen.part_s,
         "half_weight_s": seen.most_s,
