@@ -17,7 +17,7 @@ const POLYHEDRON: u8 = 42;
 /// The number of movements must be that of the blocks.
 ///
 /// ```
-/// let text = pirca::report::write_vtu(&pirca::generate::canonical::wall_72(), None);
+/// let text = pirca::render::write_vtu(&pirca::generate::canonical::wall_72(), None);
 /// assert!(text.contains("NumberOfCells=\"72\""));
 /// ```
 pub fn write_vtu(wall: &Wall, moved: Option<&[Movement]>) -> String {
