@@ -73,6 +73,11 @@ pub fn json(bytes: &[u8]) -> String {
     text
 }
 
+/// Whether the value of a key, or of a column, says when, where or how fast.
+fn is_passing(name: &str) -> bool {
+    PASSING.iter().any(|own| name == *own || name.ends_with(&format!("_{own}")))
+}
+
 fn leaves(value: &Value, path: &str, deeper: usize, text: &mut String) {
     match value {
         Value::Object(fields) if deeper == 0 && fields.len() > 1 => {
@@ -82,8 +87,7 @@ fn leaves(value: &Value, path: &str, deeper: usize, text: &mut String) {
         }
         Value::Object(fields) if !fields.is_empty() => {
             for (key, value) in fields {
-                let passing = PASSING.iter().any(|own| key == own || key.ends_with(&format!("_{own}")));
-                if passing {
+                if is_passing(key) {
                     text.push_str(&format!("  {path}.{key} *\n"));
                 } else {
                     leaves(value, &format!("{path}.{key}"), deeper.saturating_sub(1), text);
@@ -144,8 +148,7 @@ fn csv(bytes: &[u8]) -> String {
         } else {
             format!("{first} {}", digest(column.join("\n").as_bytes()))
         };
-        let passing = PASSING.iter().any(|own| head == own || head.ends_with(&format!("_{own}")));
-        text.push_str(&if passing { format!("  {head} *\n") } else { format!("  {head} {said}\n") });
+        text.push_str(&if is_passing(head) { format!("  {head} *\n") } else { format!("  {head} {said}\n") });
     }
     text
 }
