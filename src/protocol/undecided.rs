@@ -112,6 +112,8 @@ pub fn undecided(
     bound: Option<f64>,
     found: Option<f64>,
 ) -> Option<Undecided> {
+    // What another method found has no dilatancy to lose.
+    let is_bound = bound == found;
     let [bound, goal] = [bound, found].map(|level| SAME * level.unwrap_or(task.path.end));
     let smooth = analysis.with_smooth_sides();
     if goal <= 0.0 || smooth.stands(&loads(task, bound)).stands != Some(false) {
@@ -122,15 +124,14 @@ pub fn undecided(
     let Some(laws) = Stiff::of(task.wall, task.laws, misfit)? else {
         let limit = borne(&smooth, task.path.growing, &task.loads);
         let lower = level(&limit).or_else(|| (limit.outcome == Outcome::UnstableAtRest).then_some(0.0))?;
-        return Some(Undecided {
+        return (lower < goal).then(|| Undecided {
             lower,
             upper: found,
             needed,
             at_rest: None,
-            without_dilatancy: without_dilatancy(task, analysis, found),
+            without_dilatancy: is_bound.then(|| without_dilatancy(task, analysis, found)).flatten(),
             by: Lower::SmoothSides(misfit),
-        })
-        .filter(|open| open.lower < goal);
+        });
     };
     let stiff = Task {
         wall: task.wall,
@@ -155,7 +156,7 @@ pub fn undecided(
             (last, Lower::StiffJointsAtLeast(other.reason()))
         }
     };
-    let without_dilatancy = without_dilatancy(task, analysis, found);
+    let without_dilatancy = is_bound.then(|| without_dilatancy(task, analysis, found)).flatten();
     Some(Undecided { lower, upper: found, needed, at_rest: thrust_at_rest(&stiff), without_dilatancy, by })
 }
 
