@@ -20,7 +20,11 @@ def test_all_of_them_are_tried():
     assert {path.stem for path in EXAMPLES.glob("*.ipynb")} == set(SHOWN)
 
 
-@pytest.mark.parametrize("name", SHOWN)
+#: Those that take a minute or more.
+SLOW = {"survey_to_capacity", "campaign_to_verdict"}
+
+
+@pytest.mark.parametrize("name", [pytest.param(name, marks=pytest.mark.slow if name in SLOW else ()) for name in SHOWN])
 def test_a_notebook_runs(name, empty_folder):
     shutil.copytree(EXAMPLES, empty_folder / "python/examples")
     (empty_folder / "studies").symlink_to(ROOT / "studies")

@@ -77,6 +77,7 @@ def test_sensitivity(told, empty_folder, studies):
     same_files(empty_folder / "ours", empty_folder / "theirs")
 
 
+@pytest.mark.slow
 def test_a_measured_campaign_in_a_data_frame_gets_its_verdict(studies, told, empty_folder):
     study = studies / "tilting-table"
     readings = pandas.read_csv(study / "measured.csv", comment="#", dtype=str)

@@ -299,6 +299,7 @@ fn walls_are_added_until_a_quantile_is_known_as_well_as_asked_for() {
 
 /// Every wall that was drawn and moved can be built again by its number, and has the value that was recorded.
 #[test]
+#[ignore = "slow: 30 s of processor time"]
 fn a_wall_of_a_rare_value_is_built_again_by_its_number() {
     let folder = towers();
     let (json, _) = asked(&folder, &["--members", "40", "--quantile", "0.1", "--out", "plain"]);
@@ -574,6 +575,7 @@ fn stiff_column() -> String {
 
 /// Joints of 1e9 Pa/m give by some thousandths of a degree: the closed form of rigid ones holds within the error.
 #[test]
+#[ignore = "slow: 20 s of processor time"]
 fn walls_are_sorted_by_limit_analysis_where_it_says_much() {
     let exact = 1.0 - 0.93 * 0.93 * 0.93;
     let group = held(&stiff_column(), (20.7, exact), "200", "stratified", 0.1);

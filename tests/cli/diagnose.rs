@@ -65,6 +65,7 @@ fn diagnosed(more: &[&str]) -> (Folder, String, Value) {
 }
 
 #[test]
+#[ignore = "slow: 80 s of processor time"]
 fn a_gauge_that_has_moved_is_named_from_a_csv() {
     let (folder, text, json) = diagnosed(&["--no-gain", "--report"]);
     assert!(text.contains("NAMED: ") && text.contains(": gauge_offset ("), "{text}");
@@ -189,6 +190,7 @@ fn the_self_test_is_kept_beside_the_bank(folder: &Folder, computed: &Value) {
 }
 
 #[test]
+#[ignore = "slow: 20 s of processor time"]
 fn a_bank_is_shared_out_to_shards() {
     let folder = folder(TOWERS);
     let asked = ["studies/tiny", "--measured", "tests.csv", "--points", "10"];
@@ -243,6 +245,7 @@ fn extended_by_an_offset(folder: &Folder) -> Vec<u8> {
 }
 
 #[test]
+#[ignore = "slow: 20 s of processor time"]
 fn variants_have_banks_and_diagnoses_of_their_own() {
     let folder = folder(&format!(
         "{TOWERS}\n[[variant]]\nname = \"soft\"\nwhy = \"Softer joints.\"\nset = {{ \"joint.kn_pa_per_m\" = [4e7] }}\n"
@@ -330,6 +333,7 @@ fn noted(folder: &Folder, text: &str) -> Vec<String> {
 
 /// What is said of measurements that are judged all the same, on standard error and in the verdict.
 #[test]
+#[ignore = "slow: 60 s of processor time"]
 fn what_looks_odd_is_noted_and_judged() {
     let folder = with_bank();
     let [metres, level, one, unit, thick, steep] = odd();

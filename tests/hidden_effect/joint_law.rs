@@ -62,6 +62,7 @@ const CLOSURE: Mechanism = ("joint_closure", &[("initial_pa_per_m", 6e6), ("clos
 const POWER: Mechanism = ("stress_stiffening", &[("at_1_mpa_pa_per_m", 6e8), ("exponent", 0.6)]);
 
 #[test]
+#[ignore = "slow: 40 s of processor time"]
 fn two_towers_show_that_their_joints_stiffen() {
     let law = learnt_from(Some(CLOSURE), 100, 2);
     assert_eq!((law.bend, law.named[0].form), (Bend::Stiffening, NamedForm::JointClosure));

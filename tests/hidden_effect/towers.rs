@@ -238,6 +238,7 @@ fn what_looks_alike_is_said_to_look_alike() {
 }
 
 #[test]
+#[ignore = "slow: 20 s of processor time"]
 fn what_has_crept_is_known_by_what_is_left_after_going_back() {
     let crept = |goes_back| {
         let own = hiding("creep", &[("rate_per_deg", 0.06), ("hold_share", 0.1), ("hold_every_deg", 5.0)]);
@@ -252,6 +253,7 @@ fn what_has_crept_is_known_by_what_is_left_after_going_back() {
 }
 
 #[test]
+#[ignore = "slow: 40 s of processor time"]
 fn a_mechanism_that_is_taken_out_of_the_catalogue_is_not_named() {
     let hidden = hiding("gauge_offset", &[("offset_m", 3e-3)]);
     let index = known().mechanisms.iter().position(|m| m.name == "gauge_offset").expect("it is in there");
@@ -265,6 +267,7 @@ fn a_mechanism_that_is_taken_out_of_the_catalogue_is_not_named() {
 }
 
 #[test]
+#[ignore = "slow: 20 s of processor time"]
 fn a_catalogue_without_a_mechanism_keeps_the_walls_of_the_others() {
     let known = known();
     for (removed, mechanism) in known.mechanisms.iter().enumerate() {
@@ -284,6 +287,7 @@ fn a_catalogue_without_a_mechanism_keeps_the_walls_of_the_others() {
 }
 
 #[test]
+#[ignore = "slow: 10 s of processor time"]
 fn a_verdict_comes_out_the_same_bit_for_bit_with_any_number_of_threads() {
     let hidden = hiding("gauge_offset", &[("offset_m", 3e-3)]);
     // Made beforehand: a thread of the pool would wait for it while it waits for threads.

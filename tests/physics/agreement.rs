@@ -88,6 +88,7 @@ fn implicit_and_explicit_move_random_walls_alike() {
 }
 
 #[test]
+#[ignore = "slow: 30 s of processor time"]
 fn implicit_and_explicit_see_random_walls_fall_at_the_same_angle() {
     let law = dry(2e8, 32.0);
     let (implicit, explicit) =
@@ -115,6 +116,7 @@ fn bound(wall: &Wall, law: &Coulomb, flow: Flow) -> Limit {
 }
 
 #[test]
+#[ignore = "slow: 30 s of processor time"]
 fn with_stiff_joints_the_implicit_angle_stays_below_the_bound_and_meets_it_where_nothing_slips() {
     // phi 75 so that nothing slips, and phi 32 where joints do.
     let implicit = Solver::Implicit(implicit::Settings::default());

@@ -263,6 +263,7 @@ fn a_block_on_springs_is_damped_as_rayleigh_says() {
 }
 
 #[test]
+#[ignore = "slow: 10 s of processor time"]
 fn a_pair_that_next_to_nothing_decides_is_undecided_and_a_clear_one_is_not() {
     let (b, h) = (0.2, 0.6);
     let wall = block(b, h);

@@ -76,6 +76,7 @@ fn a_free_wall_overturns_about_its_foot_as_its_stones_do() {
 }
 
 #[test]
+#[ignore = "slow: 80 s of processor time"]
 fn a_long_wall_with_led_ends_is_found_within_a_fiftieth_of_its_stones() {
     // 20 by 10 stones. Led stones do not turn, so that the plate folds at the first head joints, three quarters of a stone from the ends in
     // the mean of courses. What is left: the mesh, which gives too much, and rounds of cutting, which end at 0.2 %.

@@ -168,6 +168,7 @@ fn cases() -> Vec<(&'static str, Mechanisms)> {
 }
 
 #[test]
+#[ignore = "slow: 70 s of processor time"]
 fn both_solvers_move_a_wall_alike_with_every_mechanism() {
     let cases = cases();
     // Gauges act on readings alone, see `mechanisms` among the tests of ensembles.

@@ -145,6 +145,7 @@ fn a_clamped_bar_bears_nothing_by_its_weight() {
 }
 
 #[test]
+#[ignore = "slow: 30 s of processor time"]
 fn regular_walls_are_decided_and_irregular_ones_bear_what_they_do_without_dilatancy() {
     let none = |name: &str, wall: &Wall, phi: f64, towards: LoadPath| {
         let run = by(wall, phi, towards, &Solver::Limit(Settings::default()));

@@ -27,6 +27,7 @@ fn verdict(study: &str, points: &str, bank: &Path) -> Value {
 
 /// `studies/tilting-table`: something is wrong, and nothing in the catalogue explains it.
 #[test]
+#[ignore = "slow: 50 s of processor time"]
 fn the_nine_walls_stay_unexplained_as_sbl_moves_too_far() {
     let study = "studies/tilting-table";
     let found = verdict(study, "60", &Path::new(env!("CARGO_MANIFEST_DIR")).join(study));

@@ -151,6 +151,7 @@ fn the_intervals_hold_the_truth_as_often_as_they_say() {
 /// The scatter of the walls explains that of the specimens, the mean of 20 walls is off by its sampling error, and a
 /// common error shifts all readings: the intervals are then on the safe side, and not absurdly so.
 #[test]
+#[ignore = "slow: 10 s of processor time"]
 fn known_scatter_makes_the_intervals_safe() {
     let found = coverage(|stream| {
         let shift = radians(1.0) / 20.0_f64.sqrt() * NORMAL.sample(stream);

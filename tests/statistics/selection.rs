@@ -85,6 +85,7 @@ fn measured(of: &Synthetic, comparisons: u64, rule: &Rule) -> [f64; 3] {
 
 /// Ten kinds in steps of a quarter of their scatter.
 #[test]
+#[ignore = "slow: 10 s of processor time"]
 fn of_ten_kinds_the_best_is_found_with_a_third_of_the_values_of_equal_allocation() {
     let [right, own, equal] = measured(&Synthetic::spaced(10, 0.25), 1000, &rule(0.2));
     println!("ten kinds: right in {right:.3}, {own:.0} values against {equal:.0}, ratio {:.3}", own / equal);

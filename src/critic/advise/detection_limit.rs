@@ -133,6 +133,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "slow: 20 s of processor time"]
     fn an_interval_holds_the_true_strength_nineteen_times_in_twenty() {
         // The probability to be found rises with the strength, more or less steeply, and is four in five there.
         let missed = |campaigns: usize, middle: f64, width: f64| {

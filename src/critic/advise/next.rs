@@ -74,6 +74,7 @@ mod tests {
     use crate::study::{MeasuredKind, MeasuredQuantity, Measurement};
 
     #[test]
+    #[ignore = "slow: 50 s of processor time"]
     fn a_measurement_that_tells_causes_apart_brings_what_is_open_and_others_bring_nothing() {
         let (made, judge) = judged();
         let world = judge.world;
@@ -142,6 +143,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "slow: 50 s of processor time"]
     fn an_offer_is_read_no_worse_than_the_campaign_and_costs_by_the_wall() {
         let made = made();
         let world = made.world();

@@ -4,6 +4,7 @@ use crate::critic::fixture::judged;
 use crate::critic::verdict::Limits;
 
 #[test]
+#[ignore = "slow: 50 s of processor time"]
 fn strong_causes_are_named_and_those_that_do_nothing_are_not() {
     let (made, judge) = judged();
     let test = judge.self_test(&Limits::default(), 100, 4, 6);

@@ -193,6 +193,7 @@ fn families_of_one_specimen_are_taken_together() {
 }
 
 #[test]
+#[ignore = "slow: 30 s of processor time"]
 fn a_strong_effect_is_a_gain_and_its_absence_is_none() {
     let (made, judge) = judged();
     let (world, design) = (judge.world, &judge.design);

@@ -118,6 +118,7 @@ mod tests {
     use crate::critic::made;
 
     #[test]
+    #[ignore = "slow: 60 s of processor time"]
     fn a_judge_who_has_learnt_otherwise_is_not_taken_for_the_same() {
         let made = made();
         let (world, (design, _)) = (made.world(), Design::of(&made.study));
