@@ -1,13 +1,15 @@
 //! The loop over random cells: what masonry of an arm's kind is as a plate, cell by cell.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::path::Path;
 
-use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
-use crate::ensemble::is_random;
+use crate::ensemble::ledger::Ledger;
+use crate::ensemble::shard::Share;
+use crate::ensemble::walls::WallKeys;
+use crate::ensemble::{Manifest, RunError, is_random};
 use crate::generate::{self, CellFault, generate_cell};
 use crate::homogenise::{AskedOfCell, CellAnswer};
-use crate::interrupt;
 use crate::math::STANDARD_GRAVITY;
 use crate::model::{Cell, JointLaws, Wall};
 use crate::protocol::Contacts;
@@ -51,7 +53,7 @@ pub struct CellRow {
     /// Which one it is.
     pub task: CellTask,
     /// What was found; else why there is no such cell.
-    pub found: Result<CellAnswer, CellFault>,
+    pub found: Result<CellAnswer, String>,
 }
 
 /// Whether an arm can have cells of a size at all, before any is built.
@@ -62,13 +64,31 @@ pub fn check_cell(arm: &Arm, stones: [u32; 2]) -> Result<(), CellFault> {
     generate::check_cell(&arm.layout, stones)
 }
 
-/// Evaluates all cells, in the order of arms, sizes and cells. `finished` is told, from the worker threads, how many of how many are
-/// done.
+/// Name of the ledger of cells in the output folder.
+const CELLS: &str = "cells";
+
+/// What decides what a cell comes to.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+struct CellKey {
+    /// Hash of what decides how the stones and joints are drawn, see [`WallKeys`].
+    wall: String,
+    /// Stones along the wall and courses.
+    stones: [u32; 2],
+    /// What is asked of it.
+    asked: String,
+}
+
+/// Evaluates all cells, in the order of arms, sizes and cells, with those that `folder` holds already; of a shard those that are its own,
+/// and of others what the folder holds. `finished` is told, from the worker threads, how many of how many are done.
+///
+/// # Errors
+/// The first fault of the disk.
 pub fn run_cells(
     study: &Study,
     asked: &AskedOfCells,
+    (folder, share): (&Path, Option<Share>),
     finished: &(dyn Fn(usize, usize) + Sync),
-) -> Vec<CellRow> {
+) -> Result<Vec<CellRow>, RunError> {
     let mut tasks = Vec::new();
     for &arm in &asked.arms {
         let cells = if is_random(&study.arms[arm as usize]) { asked.cells } else { 1 };
@@ -76,34 +96,40 @@ pub fn run_cells(
             tasks.extend((0..cells).map(|cell| CellTask { arm, size, cell }));
         }
     }
-    counted(&tasks, finished, |task| evaluate_cell(study, asked, *task))
+    let keys = WallKeys::of(&Manifest::of(study));
+    let key = |task: &CellTask| CellKey {
+        wall: cell_key(study, &keys, asked.point, *task),
+        stones: asked.sizes[task.size],
+        asked: format!("{:?} at {:?} Pa", asked.of, asked.pressure),
+    };
+    let ledger: Ledger<CellKey, Result<CellAnswer, String>> = Ledger::open(folder, CELLS, share)?;
+    let rows = ledger.rows(&tasks, key, finished, |task| evaluate_cell(study, asked, *task).found)?;
+    let known =
+        tasks.iter().zip(rows).filter_map(|(task, found)| Some(CellRow { task: *task, found: found? }));
+    Ok(known.collect())
 }
 
-/// Evaluates tasks on all threads, in their order. `finished` is told, from these threads, how many of how many are done.
-pub(super) fn counted<T: Sync, R: Send>(
-    tasks: &[T],
-    finished: &(dyn Fn(usize, usize) + Sync),
-    evaluate: impl Fn(&T) -> R + Sync,
-) -> Vec<R> {
-    let done = AtomicUsize::new(0);
-    let evaluated = |task: &T| {
-        let row = evaluate(task);
-        finished(done.fetch_add(1, Ordering::Relaxed) + 1, tasks.len());
-        row
-    };
-    tasks.par_iter().with_max_len(1).map(evaluated).collect()
+/// The hash of what decides how a cell is drawn.
+pub(super) fn cell_key(study: &Study, keys: &WallKeys, point: u32, task: CellTask) -> String {
+    let arm = &study.arms[task.arm as usize];
+    let key = keys.key(&arm.name, arm.kn_points[point as usize], member(task));
+    key.expect("the arm is of the study")
+}
+
+/// The number by which a cell's random numbers are drawn.
+fn member(task: CellTask) -> u64 {
+    FIRST_CELL + ((task.size as u64) << 32) + task.cell
 }
 
 /// One cell: a pure function of the study, what is asked and the task.
 pub fn evaluate_cell(study: &Study, asked: &AskedOfCells, task: CellTask) -> CellRow {
-    interrupt::look();
     let found = with_cell(study, asked, task, |Built { drawn, cell, wall, laws }| {
         let layout = &drawn.arm.layout;
         let weight = layout.density.mean() * STANDARD_GRAVITY * 0.5 * layout.outline.height;
         let contact = contacts(&drawn.arm).of_wall(wall);
         asked.of.answer(cell, laws, contact, asked.pressure.unwrap_or(weight))
     });
-    CellRow { task, found }
+    CellRow { task, found: found.map_err(|fault| fault.to_string()) }
 }
 
 /// A cell with its joints, and the arm and load that go with it.
@@ -129,7 +155,7 @@ pub(super) fn with_cell<R>(
 ) -> Result<R, CellFault> {
     // Cells are drawn one by one: a design shares out the walls of the study.
     let study = Study { design: Design::Plain, ..study.clone() };
-    let member = FIRST_CELL + ((task.size as u64) << 32) + task.cell;
+    let member = member(task);
     let drawn = study.as_drawn(task.arm, member);
     let streams = study.streams(member);
     let made = generate_cell(&drawn.arm.layout, asked.sizes[task.size], &streams)?;

@@ -4,10 +4,9 @@
 use std::collections::BTreeMap;
 
 use polars::prelude::{Column, NamedFrom, Series};
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::ensemble::kept::Kept;
+use crate::ensemble::ledger::Ledger;
 use crate::ensemble::table::parquet;
 use crate::ensemble::{Observed, Quantity, RunError, Task, evaluate};
 use crate::generate::Arrangement;
@@ -122,8 +121,6 @@ pub struct Influenced {
     pub outcome: String,
 }
 
-/// Walls that each thread evaluates before they are kept.
-const PIECE: usize = 4;
 /// Base points whose walls are evaluated before the answer so far is told.
 const TOLD: usize = 16;
 
@@ -138,7 +135,7 @@ pub struct InfluenceWalls<'s> {
     /// Its sources.
     pub sources: &'s [Source],
     /// What was evaluated before, and is kept.
-    pub kept: &'s Kept,
+    pub ledger: &'s Ledger<Evaluation, Influenced>,
 }
 
 impl InfluenceWalls<'_> {
@@ -161,17 +158,34 @@ impl InfluenceWalls<'_> {
         let bases: Vec<u64> = (0..points).collect();
         for some in bases.chunks(TOLD) {
             let walls: Vec<Evaluation> = some.iter().flat_map(|base| self.walls(*base)).collect();
-            let open: Vec<&Evaluation> = walls.iter().filter(|wall| self.kept.of(wall).is_none()).collect();
-            for piece in open.chunks(rayon::current_num_threads().max(1) * PIECE) {
-                let found: Vec<(&Evaluation, Influenced)> =
-                    piece.par_iter().map(|wall| (*wall, self.evaluate(wall))).collect();
-                self.kept.keep(&found)?;
-            }
-            let value = |wall: &Evaluation| self.kept.of(wall).expect("it was kept above");
-            all.extend(some.iter().map(|base| self.walls(*base).iter().map(value).collect()));
+            let rows = self.rows(&walls, &|_, _| {})?;
+            let mut rows = rows.into_iter().map(|row| row.expect("a ledger that is no shard knows all rows"));
+            all.extend(some.iter().map(|base| rows.by_ref().take(self.walls(*base).len()).collect()));
             tell(&all);
         }
         Ok(all)
+    }
+
+    /// Evaluates the walls of so many base points that are its shard's. `finished` is told, from the worker threads, how many of how many
+    /// are done.
+    ///
+    /// # Errors
+    /// As of [`InfluenceWalls::evaluated`].
+    pub fn evaluate_shard(
+        &self,
+        points: u64,
+        finished: &(dyn Fn(usize, usize) + Sync),
+    ) -> Result<(), RunError> {
+        let walls: Vec<Evaluation> = (0..points).flat_map(|base| self.walls(base)).collect();
+        self.rows(&walls, finished).map(|_| ())
+    }
+
+    fn rows(
+        &self,
+        walls: &[Evaluation],
+        finished: &(dyn Fn(usize, usize) + Sync),
+    ) -> Result<Vec<Option<Influenced>>, RunError> {
+        self.ledger.rows(walls, Evaluation::clone, finished, |wall| self.evaluate(wall))
     }
 
     fn evaluate(&self, evaluation: &Evaluation) -> Influenced {

@@ -14,7 +14,7 @@ mod finished;
 mod given;
 mod influence;
 mod journal;
-mod kept;
+mod ledger;
 mod lines;
 mod machine;
 mod manifest;
@@ -52,7 +52,7 @@ pub use influence::{
     Evaluation, InfluenceWalls, Influenced, LAYOUT, Source, Wall as InfluenceWall, base_points,
     influence_table, sources, without_value,
 };
-pub use kept::Kept;
+pub use ledger::Ledger;
 pub use manifest::Manifest;
 pub use plates::{
     AskedOfWalls, Judged, NoPlate, OutOfRange, Subject, Validity, WallRow, WallTask, check_plate,

@@ -1,5 +1,7 @@
 //! What one cell is as a plate: stiffness under three borders, strength in some directions.
 
+use serde::{Deserialize, Serialize};
+
 use crate::contact;
 use crate::homogenise::{Border, Direction, Loose, Method, Moduli, Point, Springs, surface};
 use crate::model::{Cell, JointLaws};
@@ -14,7 +16,7 @@ pub struct AskedOfCell {
 }
 
 /// What was found of a cell.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CellAnswer {
     /// Number of stones.
     pub stones: usize,

@@ -10,6 +10,7 @@
 use faer::prelude::Solve;
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, Side};
+use serde::{Deserialize, Serialize};
 
 use crate::homogenise::springs::{Spring, Springs};
 use crate::math::Vec3;
@@ -47,7 +48,7 @@ impl Border {
 }
 
 /// Stiffness of a plate per area: forces and moments per length for each strain.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Moduli {
     /// Stresses `(N, M)` by unit strains `(E, K)`, see [`crate::model::Six`]: N/m for `N` by `E`, N for the coupling of both, N m for
     /// `M` by `K`. Symmetric.
@@ -57,7 +58,7 @@ pub struct Moduli {
 }
 
 /// Why there are no moduli.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
 pub enum Loose {
     /// A window does not repeat itself.
     #[error("a window of a wall does not repeat itself: its moduli are bounded by the other two borders")]

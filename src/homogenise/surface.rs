@@ -6,6 +6,8 @@
 //!
 //! Rigid stones bear any pressure along the wall, so that directions that only press have no end.
 
+use serde::{Deserialize, Serialize};
+
 use crate::contact;
 use crate::homogenise::{Ending, Flow, Path, Strained, strained};
 use crate::model::{Cell, JointLaws, Outcome, Six};
@@ -35,7 +37,7 @@ pub fn out_of_plane() -> Vec<Direction> {
 }
 
 /// A point of the surface.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Point {
     /// Where it was looked for.
     pub direction: Direction,
@@ -47,7 +49,7 @@ pub struct Point {
 }
 
 /// What is found in a direction.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Found {
     /// So many times the direction are borne.
     Borne(f64),
@@ -73,7 +75,7 @@ impl Found {
 }
 
 /// How strength is found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// Limit analysis of rigid stones whose joints dilate as they slide: an upper bound for joints that dilate less.

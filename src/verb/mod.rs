@@ -29,6 +29,7 @@ pub mod run;
 pub(crate) mod schema;
 pub mod sensitivity;
 pub(crate) mod shard;
+pub(crate) mod share;
 #[cfg(test)]
 mod tests;
 pub mod wall;

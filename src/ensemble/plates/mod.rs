@@ -7,14 +7,19 @@
 mod made;
 mod validity;
 
+use std::path::Path;
 use std::time::Instant;
 
-use crate::ensemble::cells::{CellTask, contacts, counted, with_cell};
+use serde::{Deserialize, Serialize};
+
+use crate::ensemble::cells::{CellTask, cell_key, contacts, with_cell};
 use crate::ensemble::evaluate::laws;
-use crate::ensemble::{AskedOfCells, Task, build, is_random};
+use crate::ensemble::ledger::Ledger;
+use crate::ensemble::shard::Share;
+use crate::ensemble::walls::WallKeys;
+use crate::ensemble::{AskedOfCells, Manifest, RunError, Task, build, is_random};
 use crate::homogenise::plate::{Cuts, Ending, PlateFault, Refined};
 use crate::homogenise::plate_collapse;
-use crate::interrupt;
 use crate::math::tan;
 use crate::model::{Level, Outcome};
 use crate::protocol::limit_of;
@@ -56,7 +61,7 @@ pub enum Subject {
 }
 
 /// What a wall bears.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Judged {
     /// So many times the load: the tangent of the tilt, or a factor on the lateral load.
     Falls(f64),
@@ -87,14 +92,40 @@ pub struct WallRow {
     pub seconds: [f64; 2],
 }
 
-/// Evaluates all walls and plates, in the order of arms, plates before walls. `finished` is told, from the worker threads, how many of how
-/// many are done.
+/// Name of the ledger of walls and plates in the output folder.
+const WALLS: &str = "walls";
+
+/// What decides what a wall or a plate comes to.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+struct WallKey {
+    /// Hash of what decides how the stones and joints are drawn, see [`WallKeys`].
+    wall: String,
+    /// Stones along the wall and courses of a plate's cell; `None` of a wall of stones.
+    stones: Option<[u32; 2]>,
+    /// Whether a state without dilatancy is asked for, too.
+    non_associative: bool,
+}
+
+/// What a wall or a plate came to, as [`WallRow`] has it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Borne {
+    found: Judged,
+    validity: Option<Validity>,
+    non_associative: Option<Judged>,
+    seconds: [f64; 2],
+}
+
+/// Evaluates all walls and plates, in the order of arms, plates before walls, with those that `folder` holds already; of a shard those that
+/// are its own, and of others what the folder holds. `finished` is told, from the worker threads, how many of how many are done.
+///
+/// # Errors
+/// The first fault of the disk.
 pub fn run_walls(
     study: &Study,
-    cells: &AskedOfCells,
-    asked: &AskedOfWalls,
+    (cells, asked): (&AskedOfCells, &AskedOfWalls),
+    (folder, share): (&Path, Option<Share>),
     finished: &(dyn Fn(usize, usize) + Sync),
-) -> Vec<WallRow> {
+) -> Result<Vec<WallRow>, RunError> {
     let mut tasks = Vec::new();
     for &arm in &cells.arms {
         let [plates, walls] = match is_random(&study.arms[arm as usize]) {
@@ -104,12 +135,46 @@ pub fn run_walls(
         tasks.extend((0..plates).map(|cell| WallTask { arm, subject: Subject::Plate(cell) }));
         tasks.extend((0..walls).map(|member| WallTask { arm, subject: Subject::Stones(member) }));
     }
-    counted(&tasks, finished, |task| evaluate_wall(study, cells, asked, *task))
+    let keys = WallKeys::of(&Manifest::of(study));
+    let ledger: Ledger<WallKey, Borne> = Ledger::open(folder, WALLS, share)?;
+    let key = |task: &WallTask| key(study, &keys, (cells, asked), *task);
+    let borne = |task: &WallTask| {
+        let WallRow { found, validity, non_associative, seconds, .. } =
+            evaluate_wall(study, cells, asked, *task);
+        Borne { found, validity, non_associative, seconds }
+    };
+    let rows = ledger.rows(&tasks, key, finished, borne)?;
+    let row = |(task, borne): (&WallTask, Option<Borne>)| {
+        let Borne { found, validity, non_associative, seconds } = borne?;
+        Some(WallRow { task: *task, found, validity, non_associative, seconds })
+    };
+    Ok(tasks.iter().zip(rows).filter_map(row).collect())
+}
+
+fn key(
+    study: &Study,
+    keys: &WallKeys,
+    (cells, asked): (&AskedOfCells, &AskedOfWalls),
+    task: WallTask,
+) -> WallKey {
+    let arm = &study.arms[task.arm as usize];
+    let non_associative = asked.non_associative;
+    match task.subject {
+        Subject::Plate(cell) => {
+            let size = cells.sizes.len() - 1;
+            let wall = cell_key(study, keys, cells.point, CellTask { arm: task.arm, size, cell });
+            // Plates are asked for the one flow alone.
+            WallKey { wall, stones: Some(cells.sizes[size]), non_associative: false }
+        }
+        Subject::Stones(member) => {
+            let wall = keys.key(&arm.name, arm.kn_points[cells.point as usize], member);
+            WallKey { wall: wall.expect("the arm is of the study"), stones: None, non_associative }
+        }
+    }
 }
 
 /// One wall or plate: but for the time it takes a pure function of the study, what is asked and the task.
 pub fn evaluate_wall(study: &Study, cells: &AskedOfCells, asked: &AskedOfWalls, task: WallTask) -> WallRow {
-    interrupt::look();
     match task.subject {
         Subject::Plate(cell) => {
             let begun = Instant::now();

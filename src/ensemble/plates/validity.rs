@@ -9,6 +9,8 @@
 //! stones / plate = 0.95 + 0.13 tan(phi) +- 0.15 between led ends,     0.95 +- 0.15 between ropes
 //! ```
 
+use serde::{Deserialize, Serialize};
+
 use crate::generate::Arrangement;
 use crate::homogenise::plate::{Edge, Plate};
 use crate::math::{radians, tan};
@@ -33,7 +35,7 @@ const FREE: f64 = 0.02;
 const ROUNDING: f64 = 1e-6;
 
 /// How a plate that falls stands for its stones.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Validity {
     /// The plate's multiplier over that at which friction alone holds the wall on its joints: how near to sliding across its thickness it
     /// is.
@@ -43,7 +45,7 @@ pub struct Validity {
 }
 
 /// Why a plate does not stand for its stones.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, thiserror::Error)]
 pub enum OutOfRange {
     /// Courses slide before the plate folds.
     #[error(

@@ -5,8 +5,10 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use crate::ensemble::shard::Share;
 use crate::homogenise::{Direction, IN_PLANE, Method, out_of_plane};
 use crate::verb::arguments::{OUTPUT, SOLUTION, Which};
+use crate::verb::share;
 
 /// Of `homogenise`.
 pub(crate) const HELP: &str = concat!(
@@ -20,7 +22,8 @@ A cell repeats itself without end, and the image of a stone moves as the stone d
 homogenised.json, a line per cell (cells.csv), a line per point of its surface (surface.csv), sections of the surface (surface.svg, .png) and \
 the COV against the size of the cells (scatter.svg, .png); with --walls a line per wall and plate (walls.csv) and how long each took \
 (timing.csv). A mean has converged where it changes by less than its standard error as cells \
-grow and sigma falls as 1/n; a mean that goes on changing is reported as an effect of size.
+grow and sigma falls as 1/n; a mean that goes on changing is reported as an effect of size. Stopped and started again, or with more \
+--cells and --walls, it goes on where it stood (cells.jsonl, walls.jsonl).
 
 ",
     codes!()
@@ -70,6 +73,10 @@ pub(crate) struct Homogenise {
     /// Worker threads [default: one per processor]. No result depends on their number.
     #[arg(long, value_name = "T", help_heading = SOLUTION)]
     pub threads: Option<NonZero<usize>>,
+    /// Evaluate the cells and walls of one shard alone, I of N with I from 0, into a file of its own in the output folder: 3/64. When all have
+    /// ended, the same command without --shard takes up what they found and answers.
+    #[arg(long, value_name = "I/N", value_parser = share::parsed, help_heading = SOLUTION)]
+    pub shard: Option<Share>,
     /// Output folder [default: runs/<study>-homogenised, with -<variant> in it if one is named].
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub out: Option<PathBuf>,

@@ -11,7 +11,7 @@ use crate::terminal::failure::Failure;
 use crate::terminal::{output, threads};
 use crate::verb::homogenise::ask::Directions;
 pub(crate) use crate::verb::homogenise::ask::Homogenise;
-use crate::verb::{arms, locate};
+use crate::verb::{arms, locate, share};
 pub use answer::{
     HeldWalls, HomogenisedSummary, ModulusBounds, NestedCells, PlateArm, PlateCells, PlateUnits, PlateValue,
     SurfaceEntry, ValueBySize, WallSample, WallShare, WallsAsPlates, homogenised_summary, homogenised_text,
@@ -34,22 +34,23 @@ pub(crate) fn homogenise(arguments: &Homogenise) -> Result<Answer, Failure> {
     let held_against = asked_of_walls(&study, &asked, arguments)?;
     let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, HOMOGENISED));
     output::folder(&out)?;
-    let tell = |what: &'static str| {
-        let name = &study.name;
-        move |done: usize, all: usize| {
-            if 10 * done / all > 10 * (done - 1) / all {
-                output::note(&format!("{name}: {done}/{all} {what} done"));
-            }
-        }
-    };
+    let place = (out.as_path(), arguments.shard);
     let (rows, walls) = threads::on(arguments.threads, || {
-        let rows = run_cells(&study, &asked, &tell("cells"));
-        let against = |own: &AskedOfWalls| run_walls(&study, &asked, own, &tell("walls and plates"));
-        Ok((rows, held_against.as_ref().map(against).unwrap_or_default()))
+        let rows = run_cells(&study, &asked, place, &share::progress(&study.name, "cells"))?;
+        let walls = match &held_against {
+            Some(of) => {
+                run_walls(&study, (&asked, of), place, &share::progress(&study.name, "walls and plates"))?
+            }
+            None => Vec::new(),
+        };
+        Ok((rows, walls))
     })?;
+    if let Some(share) = arguments.shard {
+        return share::answer(share, &out);
+    }
     if rows.iter().all(|row| row.found.is_err()) {
-        let why = rows.iter().find_map(|row| row.found.as_ref().err()).map(ToString::to_string);
-        return Err(Failure::Input(format!("{}: no cell: {}", study.name, why.unwrap_or_default())));
+        let why = rows.iter().find_map(|row| row.found.as_ref().err());
+        return Err(Failure::Input(format!("{}: no cell: {}", study.name, why.map_or("", String::as_str))));
     }
     let summary = homogenised_summary(&study, &asked, &rows, &walls);
     write_homogenised((&study, &asked, &rows, &walls), &summary, &out)

@@ -5,8 +5,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::ensemble::shard::Share;
 use crate::verb::arguments::{OUTPUT, SOLUTION, STUDY, WALL, Which};
 use crate::verb::question::points;
+use crate::verb::share;
 
 /// Of `influence`.
 pub(crate) const HELP: &str = concat!(
@@ -49,6 +51,10 @@ pub(crate) struct Influence {
     /// Output folder [default: runs/<study>-influence, with -<variant> in it if one is named].
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub out: Option<PathBuf>,
+    /// Evaluate the walls of one shard alone, I of N with I from 0, into a file of its own in the output folder: 3/64. When all have ended, the
+    /// same command without --shard takes up their walls and answers.
+    #[arg(long, value_name = "I/N", value_parser = share::parsed, conflicts_with = "report", help_heading = SOLUTION)]
+    pub shard: Option<Share>,
     /// Write report.html into the output folder as well: the answer on a page.
     #[arg(long, help_heading = OUTPUT)]
     pub report: bool,

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::ensemble::{InfluenceWalls, Kept, RANDOMISATIONS, base_points, influence_table, sources};
+use crate::ensemble::{InfluenceWalls, Ledger, RANDOMISATIONS, base_points, influence_table, sources};
 use crate::study::{Arm, Study};
 use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
@@ -12,7 +12,7 @@ use crate::verb::influence::answer::{
 };
 use crate::verb::influence::ask::Influence;
 use crate::verb::run::page;
-use crate::verb::{arms, locate};
+use crate::verb::{arms, locate, share};
 
 /// What the folder of the results is named by.
 const INFLUENCE: &str = "influence";
@@ -40,9 +40,13 @@ fn answered(arguments: &Influence) -> Result<Answer, Failure> {
     }
     let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, INFLUENCE));
     output::folder(&out)?;
-    let kept = Kept::open(&out, &study.hash)?;
+    let ledger = Ledger::of_study(&out, INFLUENCE, &study.hash, arguments.shard)?;
     let walls =
-        InfluenceWalls { study: &study, arm: 0, point: arguments.point, sources: &sources, kept: &kept };
+        InfluenceWalls { study: &study, arm: 0, point: arguments.point, sources: &sources, ledger: &ledger };
+    if let Some(share) = arguments.shard {
+        walls.evaluate_shard(arguments.points, &share::progress(&study.name, "walls"))?;
+        return share::answer(share, &out);
+    }
     let mut tenths = 0;
     let evaluated = walls.evaluated(arguments.points, &mut |done| {
         let now = 10 * done.len() as u64 / arguments.points;
