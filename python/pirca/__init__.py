@@ -11,7 +11,7 @@ by the command line, with the same files to the byte; one command is done at a t
 
 from pirca._native import VERSION as __version__
 from pirca.analysis import Analysis, analyse
-from pirca.answer import Answer
+from pirca.answer import Answer, ask
 from pirca.errors import Error, InputError, RunError, UsageError
 from pirca.figure import Figure
 from pirca.run import Run
@@ -34,4 +34,5 @@ __all__ = [
     "Wall",
     "__version__",
     "analyse",
+    "ask",
 ]

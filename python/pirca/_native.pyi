@@ -5,8 +5,8 @@ from typing import Any
 
 VERSION: str
 
-def ask(arguments: Sequence[str], hear: Callable[[str], Any], /) -> tuple[str, str, Path | None, list[str]] | None:
-    """Do what arguments of the command line ask: text, JSON, place of the files, warnings. None of a verb that prints what it makes."""
+def ask(arguments: Sequence[str], hear: Callable[[str], Any], /) -> tuple[str, str, Path | None, list[str]]:
+    """Do what arguments of the command line ask: text, JSON, place of the files, warnings."""
 
 def command_line(arguments: Sequence[str], /) -> int:
     """The command line itself, with the name of the program first: prints, and gives the exit code."""

@@ -8,14 +8,15 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+from pirca import command
 from pirca.command import Answered
 from pirca.figure import Figure, figure, figures
 
-__all__ = ["Answer"]
+__all__ = ["Answer", "ask"]
 
 
 class Answer(Mapping[str, Any]):
-    """What `capacity`, `influence`, `compare`, `diagnose` or `analyse` says.
+    """What a verb of the command line says.
 
     A mapping of what the command line prints with `--json`; `print(answer)` gives its words.
 
@@ -62,3 +63,20 @@ class Answer(Mapping[str, Any]):
 
     def _repr_html_(self) -> str:
         return f"<pre>{html.escape(self.text)}</pre>"
+
+
+def ask(verb: str, *files: Any, progress: bool = False, **options: Any) -> Answer:
+    """Do what any verb of the command line does, as `pirca.ask("cite", "runs/mine")`.
+
+    Parameters
+    ----------
+    verb : str
+        The verb: "check", "cite", "init", "measured", "mechanisms", "schema", ...
+    files
+        What stands behind the verb without a name: the study, the folder of a run, a wall.
+    progress : bool
+        Print on standard error what the command says meanwhile.
+    options
+        Its options by name, with `_` for `-`: `members=30`; True for one without a value, a list for one that is given several times.
+    """
+    return Answer(command.ask(verb, *files, progress=progress, **options))

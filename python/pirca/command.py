@@ -44,9 +44,7 @@ def ask(
             print(line, file=sys.stderr)
 
     named = [argument for name, value in options.items() for argument in _spelled(name, value)]
-    parts = _native.ask([verb, *map(_place, files), *named], said)
-    assert parts is not None, f"{verb} prints what it makes"
-    answered = Answered(*parts)
+    answered = Answered(*_native.ask([verb, *map(_place, files), *named], said))
     for warning in answered.warnings:
         warn(warning)
     return answered

@@ -368,6 +368,7 @@ class Study:
         loss: float | None = None,
         point: int = 0,
         out: Path_ | None = None,
+        report: bool = False,
         progress: bool = False,
     ) -> Answer:
         """Say how many specimens to test, and what to read, as `pirca plan-tests`.
@@ -386,7 +387,7 @@ class Study:
             Share of the true 5 % fractile that the characteristic value may lose in the mean; 0.05 without it.
         point : int
             Number of the kn point, from 0.
-        out, progress
+        out, report, progress
             As of `run`.
         """
         return Answer(
@@ -402,6 +403,7 @@ class Study:
                 loss=loss,
                 point=point,
                 out=out,
+                report=report,
                 progress=progress,
             )
         )
@@ -412,6 +414,7 @@ class Study:
         members: int | None = None,
         quantile: float | None = None,
         out: Path_ | None = None,
+        report: bool = False,
         progress: bool = False,
     ) -> Answer:
         """Say which mechanisms the measurements of the study could show, as `pirca sensitivity`.
@@ -422,12 +425,93 @@ class Study:
             Walls in every arm that was measured; 3 without it.
         quantile : float, optional
             Quantile of the priors, counted from the end at which a mechanism is weak; 0.84 without it.
-        out, progress
+        out, report, progress
             As of `run`.
         """
         given = {"variant": self._variant, "threads": self._threads}
-        options = {"members": members, "quantile": quantile, "out": out, "progress": progress}
+        options = {"members": members, "quantile": quantile, "out": out, "report": report, "progress": progress}
         return Answer(ask("sensitivity", self.path, **given, **options))
+
+    def readings(
+        self,
+        *,
+        departures: int | None = None,
+        out: Path_ | None = None,
+        report: bool = False,
+        progress: bool = False,
+    ) -> Answer:
+        """Say which variants of the study, alone or together, explain what was published, as `pirca readings`.
+
+        Parameters
+        ----------
+        departures : int, optional
+            Most variants that are read together; 2 without it.
+        out, report, progress
+            As of `run`.
+        """
+        if self._variant is not None:
+            raise UsageError("readings tries the variants of a study itself: take the study without a variant")
+        given = {"members": self._members, "seed": self._seed, "threads": self._threads}
+        options = {"departures": departures, "out": out, "report": report, "progress": progress}
+        return Answer(ask("readings", self.path, **given, **options))
+
+    def homogenise(
+        self,
+        *,
+        stones: Sequence[int | str] | None = None,
+        cells: int | None = None,
+        walls: int | None = None,
+        plates: int | None = None,
+        arms: Sequence[str] | None = None,
+        point: int = 0,
+        directions: Sequence[str] | None = None,
+        method: Sequence[str] | None = None,
+        pressure_pa: float | None = None,
+        out: Path_ | None = None,
+        report: bool = False,
+        progress: bool = False,
+    ) -> Answer:
+        """Say what masonry of the study's arms is as a plate, as `pirca homogenise`.
+
+        Parameters
+        ----------
+        stones : sequence of int or str, optional
+            Stones along a side of the cells, from small to large; "8x6" is 8 stones along the wall in 6 courses. 2, 4 and 8 without it.
+        cells : int, optional
+            Random cells of each size and arm; 50 without it.
+        walls, plates : int, optional
+            Random walls of each arm by limit analysis of all their stones, and plates with the strength of cells to compare them with;
+            without `walls` none.
+        arms : sequence of str, optional
+            The arms; all without it.
+        point : int
+            Number of the kn point, from 0.
+        directions : sequence of str, optional
+            Stresses in which directions: "in-plane", "out-of-plane", or "none" for stiffness alone; the first two without it.
+        method : sequence of str, optional
+            How strength is found: "associative", "non-associative", "elastic"; the first without it.
+        pressure_pa : float, optional
+            Vertical stress (Pa); without it that of the stones' weight at half the wall's height.
+        out, report, progress
+            As of `run`.
+        """
+        return Answer(
+            self._ask(
+                "homogenise",
+                stones=stones,
+                cells=cells,
+                walls=walls,
+                plates=plates,
+                arms=arms,
+                point=point,
+                directions=directions,
+                method=method,
+                pressure_pa=pressure_pa,
+                out=out,
+                report=report,
+                progress=progress,
+            )
+        )
 
     def diagnose(
         self,

@@ -21,9 +21,8 @@ const STACK: usize = 8 << 20;
 /// The parts of an [`Answer`]: text, JSON, place of the files, warnings.
 type Answered = (String, String, Option<PathBuf>, Vec<String>);
 
-/// Does what arguments ask, and gives the answer; `None` of a verb that prints what it makes. Calls `hear` with every line that the
-/// command says meanwhile. The interpreter is free; what `hear` raises, and Ctrl-C, stops the command and is raised.
-pub fn ask(hear: &Bound<'_, PyAny>, arguments: Vec<OsString>) -> PyResult<Option<Answered>> {
+/// Does what arguments ask, and gives the answer. Calls `hear` with every line that the command says meanwhile. The interpreter is free; what `hear` raises, and Ctrl-C, stops the command and is raised.
+pub fn ask(hear: &Bound<'_, PyAny>, arguments: Vec<OsString>) -> PyResult<Answered> {
     let py = hear.py();
     let (say, mut said) = mpsc::channel::<String>();
     let work = move || cli::answered(arguments, Arc::new(move |line| drop(say.send(line.to_owned()))));
@@ -43,8 +42,8 @@ pub fn ask(hear: &Bound<'_, PyAny>, arguments: Vec<OsString>) -> PyResult<Option
         }
     }
     let done = py.detach(|| worker.join()).unwrap_or_else(|panic| resume_unwind(panic));
-    let parts = |Answer { text, json, out, warnings }| (text, json, out, warnings);
-    done.map(|answer| answer.map(parts)).map_err(|failure| raised(py, &failure))
+    let parts = |Answer { text, json, out, warnings, .. }| (text, json, out, warnings);
+    done.map(parts).map_err(|failure| raised(py, &failure))
 }
 
 /// Raises what is wrong with a folder that should hold a run which has ended.

@@ -20,6 +20,8 @@ VERBS = {
     "compare": (Study.compare, {"progress"}, {"variant", "json", "seed", "threads"}),
     "plan-tests": (Study.plan_tests, {"progress"}, {"variant", "json", "members", "seed", "threads"}),
     "sensitivity": (Study.sensitivity, {"progress"}, {"variant", "json", "threads"}),
+    "readings": (Study.readings, {"progress"}, {"json", "members", "seed", "threads"}),
+    "homogenise": (Study.homogenise, {"progress"}, {"variant", "json", "seed", "threads"}),
     "diagnose": (
         Study.diagnose,
         {"progress", "build", "gain"},

@@ -77,6 +77,39 @@ def test_sensitivity(told, empty_folder, studies):
     same_files(empty_folder / "ours", empty_folder / "theirs")
 
 
+@pytest.mark.parametrize("verb", ["check", "schema", "init", "measured", "completions"])
+def test_any_verb_gives_its_answer(verb, pirca_command, studies, empty_folder):
+    table = studies / "tilting-table"
+    files, options, typed = {
+        "check": ([table], {}, ["check", table]),
+        "schema": ([], {"of": "published"}, ["schema", "--of", "published"]),
+        "init": (["mine"], {}, ["init", "theirs"]),
+        "measured": ([table], {"template": True}, ["measured", table, "--template"]),
+        "completions": (["bash"], {}, ["completions", "bash"]),
+    }[verb]
+    answer = pirca.ask(verb, *files, **options)
+    assert answer.text.replace("mine", "theirs") == pirca_command(*typed).stdout
+    assert len(answer) > 0
+
+
+def test_readings(told, empty_folder, studies):
+    study = studies / "joint-arrangement"
+    ours = pirca.Study(study, members=2).readings(departures=1, out="ours")
+    assert dict(ours) == told("readings", study, "--members", 2, "--departures", 1, out="theirs")
+    same_files(empty_folder / "ours", empty_folder / "theirs")
+    with pytest.raises(pirca.UsageError, match="without a variant"):
+        pirca.Study(study, variant="two-wythes").readings()
+
+
+def test_homogenise_with_its_page(told, empty_folder, studies):
+    study = studies / "homogenisation"
+    ours = pirca.Study(study).homogenise(stones=[2], cells=2, arms=["random-heads"], directions=["none"], out="ours", report=True)
+    options = ["--stones", "2", "--cells", 2, "--arms", "random-heads", "--directions", "none"]
+    assert dict(ours) == told("homogenise", study, *options, out="theirs")
+    same_files(empty_folder / "ours", empty_folder / "theirs")
+    assert "as a plate" in (empty_folder / "ours" / "report.html").read_text()
+
+
 @pytest.mark.slow
 def test_a_measured_campaign_in_a_data_frame_gets_its_verdict(studies, told, empty_folder):
     study = studies / "tilting-table"

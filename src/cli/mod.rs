@@ -33,8 +33,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Err(error) => return output::usage(&error),
     };
     output::set_quiet(arguments.quiet);
-    let told = |answer: Option<Answer>| answer.map_or(Ok(()), |answer| answer.tell(arguments.verb.is_json()));
-    match done(&arguments.verb).and_then(told) {
+    match done(&arguments.verb).and_then(|answer| answer.tell(arguments.verb.is_json())) {
         Ok(()) => 0,
         Err(failure) => {
             output::failed(&failure);
@@ -44,13 +43,13 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 }
 
 /// Does what arguments ask, without the name of the program, for another program: gives the answer where the command prints it, and lets
-/// `hear` hear what the command says on standard error meanwhile. `None` of a verb that makes no more than a text, which it prints.
+/// `hear` hear what the command says on standard error meanwhile.
 ///
 /// One command is done at a time, on all processors: a second one waits. [`interrupt::ask`] stops those that go on.
 ///
 /// # Errors
 /// See [`Failure`]; its message is that of the command.
-pub fn answered(arguments: Vec<OsString>, hear: Arc<Hear>) -> Result<Option<Answer>, Failure> {
+pub fn answered(arguments: Vec<OsString>, hear: Arc<Hear>) -> Result<Answer, Failure> {
     static ONE: Mutex<()> = Mutex::new(());
     interrupt::stoppable(|| {
         let _one = ONE.lock().unwrap_or_else(PoisonError::into_inner);
@@ -73,15 +72,15 @@ fn read(given: Vec<OsString>) -> Result<Arguments, clap::Error> {
     Arguments::from_arg_matches(&matches)
 }
 
-/// Does what a verb asks. Verbs that make no more than a text print it themselves.
-fn done(verb: &Verb) -> Result<Option<Answer>, Failure> {
-    let answer = match verb {
-        Verb::Cite(arguments) => return cite::cite(arguments).map(|()| None),
-        Verb::Completions(arguments) => return completions::completions(arguments).map(|()| None),
-        Verb::Init(arguments) => return init::init(arguments).map(|()| None),
-        Verb::Man(arguments) => return man::man(arguments).map(|()| None),
-        Verb::Measured(arguments) => return measured::measured(arguments).map(|()| None),
-        Verb::Schema(arguments) => return schema::schema(arguments).map(|()| None),
+/// Does what a verb asks.
+fn done(verb: &Verb) -> Result<Answer, Failure> {
+    match verb {
+        Verb::Cite(arguments) => cite::cite(arguments),
+        Verb::Completions(arguments) => completions::completions(arguments),
+        Verb::Init(arguments) => init::init(arguments),
+        Verb::Man(arguments) => man::man(arguments),
+        Verb::Measured(arguments) => measured::measured(arguments),
+        Verb::Schema(arguments) => schema::schema(arguments),
         Verb::Analyse(arguments) => analyse::analyse(arguments),
         Verb::Bank(arguments) => diagnose::bank::bank(arguments),
         Verb::Capacity(arguments) => capacity::work::capacity(arguments),
@@ -101,6 +100,5 @@ fn done(verb: &Verb) -> Result<Option<Answer>, Failure> {
         Verb::Shard(arguments) => shard::shard(arguments),
         Verb::Status(arguments) => shard::status(arguments),
         Verb::Merge(arguments) => shard::merge(arguments),
-    };
-    answer.map(Some)
+    }
 }

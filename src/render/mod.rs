@@ -1,7 +1,9 @@
-//! How an answer is written: numbers and tables as text, CSV, charts, pictures of walls, VTU, glTF. It knows no verb and no study.
+//! How an answer is written: documents, numbers and tables as text, CSV, charts, pictures of walls, VTU, glTF. It knows no verb and no study.
 
 pub(crate) mod axes;
+pub(crate) mod chart;
 pub(crate) mod csv;
+pub mod document;
 pub(crate) mod draw;
 pub(crate) mod gltf;
 pub(crate) mod marker;

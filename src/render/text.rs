@@ -37,9 +37,14 @@ fn fitting<'a>(first: &[String], columns: &'a [Vec<String>]) -> Vec<&'a [Vec<Str
 pub(crate) const LONGEST_NAME: usize = 18;
 
 /// Rows as text: the first column to the left, numbers to the right, a rule below the first row.
-pub(crate) fn aligned(mut rows: Vec<Vec<String>>) -> String {
+pub(crate) fn aligned(rows: Vec<Vec<String>>) -> String {
+    aligned_to(rows, LONGEST_NAME)
+}
+
+/// The same with names of at most so many characters.
+pub(crate) fn aligned_to(mut rows: Vec<Vec<String>>, longest: usize) -> String {
     for row in &mut rows {
-        row[0] = shortened(&row[0], LONGEST_NAME);
+        row[0] = shortened(&row[0], longest);
     }
     let columns = rows.first().map_or(0, Vec::len);
     let widths: Vec<usize> = (0..columns)

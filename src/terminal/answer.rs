@@ -18,6 +18,8 @@ pub struct Answer {
     pub out: Option<PathBuf>,
     /// What looks wrong; the JSON object has it as well.
     pub warnings: Vec<String>,
+    /// Whether the text is for a file or a program, and is printed as it is.
+    is_verbatim: bool,
 }
 
 impl Answer {
@@ -25,7 +27,12 @@ impl Answer {
     pub(crate) fn of(text: String, object: &impl Serialize) -> Result<Answer, Failure> {
         let json = serde_json::to_string_pretty(object)
             .map_err(|error| Failure::Run(format!("cannot write JSON: {error}")))?;
-        Ok(Answer { text, json: json + "\n", out: None, warnings: Vec::new() })
+        Ok(Answer { text, json: json + "\n", out: None, warnings: Vec::new(), is_verbatim: false })
+    }
+
+    /// A text that a file or a program takes, and an object of it.
+    pub(crate) fn verbatim(text: String, object: &impl Serialize) -> Result<Answer, Failure> {
+        Ok(Answer { is_verbatim: true, ..Answer::of(text, object)? })
     }
 
     /// The same with files in a folder, or a file.
@@ -44,6 +51,6 @@ impl Answer {
             return output::print_as_it_is(&self.json);
         }
         self.warnings.iter().for_each(|warning| output::warning(warning));
-        output::print(&self.text)
+        if self.is_verbatim { output::print_as_it_is(&self.text) } else { output::print(&self.text) }
     }
 }

@@ -105,13 +105,6 @@ fn write(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Writes a value to standard output as indented JSON.
-pub(crate) fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
-    let text =
-        serde_json::to_string_pretty(value).map_err(|e| Failure::Run(format!("cannot write JSON: {e}")))?;
-    write(&format!("{text}\n"))
-}
-
 /// Where the results of a study are written by default: by its name and its variant's, so that no variant takes another's place.
 /// `what` they are comes behind; empty for those of a run.
 pub(crate) fn default_folder(study: &Study, what: &str) -> PathBuf {

@@ -6,8 +6,8 @@ use clap::Args;
 use serde_json::json;
 
 use crate::ensemble;
+use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
-use crate::terminal::output;
 use crate::verb::arguments::OUTPUT;
 use crate::verb::run::answer::page::citation_of_run;
 
@@ -36,16 +36,14 @@ pub(crate) struct Cite {
     pub json: bool,
 }
 
-/// Prints the reference.
-pub(crate) fn cite(arguments: &Cite) -> Result<(), Failure> {
+/// Says the reference.
+pub(crate) fn cite(arguments: &Cite) -> Result<Answer, Failure> {
     let run = ensemble::identity(&arguments.run)?;
     let citation = citation_of_run(&run);
-    if arguments.json {
-        return output::print_json(&json!({
-            "version": run.version, "study": run.study, "variant": run.variant, "seed": run.seed, "study_hash": run.study_hash,
-            "text": citation.words, "bibtex": citation.bibtex,
-        }));
-    }
+    let object = json!({
+        "version": run.version, "study": run.study, "variant": run.variant, "seed": run.seed, "study_hash": run.study_hash,
+        "text": citation.words, "bibtex": citation.bibtex,
+    });
     let text = if arguments.bibtex { citation.bibtex } else { citation.words };
-    output::print_as_it_is(&format!("{text}\n"))
+    Answer::verbatim(format!("{text}\n"), &object)
 }

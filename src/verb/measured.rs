@@ -14,8 +14,8 @@ use crate::study::measured::Dimension;
 use crate::study::{
     Loaded, MEASURED, MeasuredKind, MeasuredQuantity, Measurement, Study, Template, Written, listed, template,
 };
+use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
-use crate::terminal::output;
 use crate::verb::arguments::Which;
 use crate::verb::diagnose::bank;
 use crate::verb::locate;
@@ -56,7 +56,7 @@ pub(crate) struct Measured {
 }
 
 /// Writes a template, or says what is read from a file.
-pub(crate) fn measured(arguments: &Measured) -> Result<(), Failure> {
+pub(crate) fn measured(arguments: &Measured) -> Result<Answer, Failure> {
     if arguments.template {
         return written(arguments);
     }
@@ -71,21 +71,19 @@ pub(crate) fn measured(arguments: &Measured) -> Result<(), Failure> {
     };
     let notes = bank::noted(&data_notes(&loaded.study, &Design::of(&loaded.study).0));
     let file = arguments.file.clone().unwrap_or_else(|| PathBuf::from(MEASURED));
-    if arguments.which.json {
-        return output::print_json(&told(&loaded, how, &file, &notes));
-    }
-    output::print(&summary(&loaded.study, how, &file, &notes))
+    Answer::of(summary(&loaded.study, how, &file, &notes), &told(&loaded, how, &file, &notes))
 }
 
 /// Writes the empty table, never over a file: it may be the filled one.
-fn written(arguments: &Measured) -> Result<(), Failure> {
+fn written(arguments: &Measured) -> Result<Answer, Failure> {
     let study = locate::study(&arguments.which)?.study;
     let wanted = Template { specimens: arguments.specimens, wide: arguments.wide };
     let text = template(&study, wanted).ok_or_else(|| {
         let text = "the study tilts no platform: what is measured on walls is measured on a tilting table";
         Failure::Input(format!("{}: {text}", study.name))
     })?;
-    let Some(path) = &arguments.out else { return output::print(&text) };
+    let object = json!({"study": study.name, "variant": study.variant, "template": text});
+    let Some(path) = &arguments.out else { return Answer::verbatim(text, &object) };
     let opened = OpenOptions::new().write(true).create_new(true).open(path);
     opened.and_then(|mut file| file.write_all(text.as_bytes())).map_err(|error| {
         Failure::Run(match error.kind() {
@@ -95,7 +93,7 @@ fn written(arguments: &Measured) -> Result<(), Failure> {
             _ => format!("cannot write {}: {error}", path.display()),
         })
     })?;
-    output::print(&format!("written to {}\n", path.display()))
+    Ok(Answer::of(format!("written to {}\n", path.display()), &object)?.in_place(path))
 }
 
 /// The readings of one quantity in one family.

@@ -3,11 +3,12 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use serde_json::Value;
 
 use crate::ensemble::replace_file;
 use crate::study;
+use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
-use crate::terminal::output;
 use crate::verb::arguments::OUTPUT;
 
 /// Of `schema`.
@@ -46,18 +47,17 @@ pub(crate) enum Described {
     Published,
 }
 
-/// Prints the schema, or writes it to a file.
-pub(crate) fn schema(arguments: &Schema) -> Result<(), Failure> {
+/// Gives the schema, or writes it to a file. The object of the answer is the schema.
+pub(crate) fn schema(arguments: &Schema) -> Result<Answer, Failure> {
     let schema = match arguments.of {
         Described::Study => study::Schema::Study,
         Described::ElementStudy => study::Schema::ElementStudy,
         Described::Published => study::Schema::Published,
     };
-    match &arguments.out {
-        None => output::print_as_it_is(&schema.text()),
-        Some(path) => {
-            replace_file(path, schema.text().as_bytes())?;
-            output::print(&format!("written to {}\n", path.display()))
-        }
-    }
+    let text = schema.text();
+    let object = serde_json::from_str::<Value>(&text)
+        .map_err(|error| Failure::Run(format!("the schema is no JSON: {error}")))?;
+    let Some(path) = &arguments.out else { return Answer::verbatim(text, &object) };
+    replace_file(path, text.as_bytes())?;
+    Ok(Answer::of(format!("written to {}\n", path.display()), &object)?.in_place(path))
 }

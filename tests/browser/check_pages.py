@@ -1,8 +1,9 @@
 """Opens the pages that pirca writes in a real browser, without a network.
 
-usage: check_pages.py CHROMIUM RUN WALL VERDICT CAPACITY COMPARE   (CHROMIUM: the browser's program; RUN: report.html of a run with
-        three random walls or more; WALL, VERDICT, CAPACITY, COMPARE: report.html of analyse, diagnose, capacity and compare;
-        needs the package of requirements.txt)
+usage: check_pages.py CHROMIUM RUN WALL VERDICT CAPACITY COMPARE INFLUENCE PLAN SENSITIVITY READINGS PLATE
+        (CHROMIUM: the browser's program; RUN: report.html of a run with three random walls or more; WALL, VERDICT, ...: report.html of
+        analyse, diagnose, capacity, compare, influence, plan-tests, sensitivity, readings and homogenise; needs the package of
+        requirements.txt)
 
 Of every page: nothing is fetched, the console is silent, no script of a name runs, the words that must be there are seen, all that a
 figure shows has a name for those who do not see it, the page is no larger than it may be, and it fits the width of A4 and of a small
@@ -201,9 +202,10 @@ def check_paper(browser, path):
 
 
 def main():
-    if len(sys.argv) != 7:
+    if len(sys.argv) != 12:
         sys.exit(__doc__)
-    chromium, (run, wall, verdict, capacity, compare) = sys.argv[1], map(pathlib.Path, sys.argv[2:])
+    chromium, (run, wall, verdict, *answers) = sys.argv[1], map(pathlib.Path, sys.argv[2:])
+    capacity, compare, influence, plan, sensitivity, readings, plate = answers
     shared = ["Limits of validity", "Provenance", "For a paper"]
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox", *SOFTWARE])
@@ -214,6 +216,11 @@ def main():
             (verdict, ["What is wrong", "Measured beside simulated", "Causes", "How often such verdicts are right", *shared]),
             (capacity, ["What came out", "Answers", "Values that these walls support", "Wall and inputs", *shared]),
             (compare, ["What came out", "Arms, the best first", "Every pair of arms", "Wall and inputs", *shared]),
+            (influence, ["What came out", "Shares of the variance in %", "Wall and inputs", *shared]),
+            (plan, ["What came out", "Characteristic value of 3 specimens", "Wall and inputs", *shared]),
+            (sensitivity, ["What came out", "What each mechanism was", "Wall and inputs", *shared]),
+            (readings, ["What came out", "Statements", "Readings, the best ones first", "Wall and inputs", *shared]),
+            (plate, ["What came out", "Stiffness at kn of the arm", "Size of the cells", "Wall and inputs", *shared]),
         ]:
             found.append(f"{path}: {check(browser, path, words)} figures")
             check_names(browser, path)
@@ -223,7 +230,7 @@ def main():
         for path in [run, capacity, compare]:
             check_charts(browser, path)
         check_marks(browser, run)
-        for path in [run, verdict, capacity, compare]:
+        for path in [run, verdict, *answers]:
             check_paper(browser, path)
         browser.close()
     print("\n".join(found))

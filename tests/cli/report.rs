@@ -135,34 +135,36 @@ fn a_folder_without_such_a_run_is_refused_in_one_sentence() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
 }
 
+/// Asks a question of the study and looks at its page, which a later answer without one takes away.
+fn asked(folder: &Folder, arguments: &[&str], words: &[&str]) {
+    let out = arguments[0];
+    let all = [&[arguments[0], "studies/tiny"], &arguments[1..], &["--out", out, "--report"]].concat();
+    let output = folder.pirca(&all);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let page = fs::read_to_string(folder.path(format!("{out}/report.html"))).expect("the page was written");
+    holds_together(&page);
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    // What the terminal says first stands there in one line.
+    let first = said.split_whitespace().take(6).collect::<Vec<_>>().join(" ");
+    for part in words.iter().copied().chain([
+        &format!("<p class=\"verdict\">{first}")[..],
+        "<td>joint.sampling</td>",
+        "Intervals are at 95 %",
+        "@software{pirca",
+    ]) {
+        assert!(page.contains(part), "{out}: {part} is not on the page");
+    }
+    // That of an earlier answer is not left beside a later one.
+    let output = folder.pirca(&all[..all.len() - 1]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(!folder.path(format!("{out}/report.html")).exists(), "{out}");
+}
+
 #[test]
 fn what_was_asked_of_a_study_comes_on_a_page_if_it_is_asked_for() {
     let folder = Folder::with_study(STUDY);
-    let asked = |arguments: &[&str], words: &[&str]| {
-        let out = arguments[0];
-        let all = [&[arguments[0], "studies/tiny"], &arguments[1..], &["--out", out, "--report"]].concat();
-        let output = folder.pirca(&all);
-        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-        let page =
-            fs::read_to_string(folder.path(format!("{out}/report.html"))).expect("the page was written");
-        holds_together(&page);
-        let said = String::from_utf8_lossy(&output.stdout).into_owned();
-        // What the terminal says first stands there in one line.
-        let first = said.split_whitespace().take(6).collect::<Vec<_>>().join(" ");
-        for part in words.iter().copied().chain([
-            &first[..],
-            "<td>joint.sampling</td>",
-            "Intervals are at 95 %",
-            "@software{pirca",
-        ]) {
-            assert!(page.contains(part), "{out}: {part} is not on the page");
-        }
-        // That of an earlier answer is not left beside a later one.
-        let output = folder.pirca(&all[..all.len() - 1]);
-        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-        assert!(!folder.path(format!("{out}/report.html")).exists(), "{out}");
-    };
     asked(
+        &folder,
         &["capacity", "--members", "20", "--above-m", "0.001"],
         &[
             "How probable is a top displacement above 1.00 mm?",
@@ -172,6 +174,7 @@ fn what_was_asked_of_a_study_comes_on_a_page_if_it_is_asked_for() {
         ],
     );
     asked(
+        &folder,
         &["compare", "--walls", "40"],
         &[
             "Which arm is the best by the mean top displacement",
@@ -180,8 +183,40 @@ fn what_was_asked_of_a_study_comes_on_a_page_if_it_is_asked_for() {
         ],
     );
     asked(
+        &folder,
         &["influence", "--points", "32"],
         &["Shares of the variance in %", "id=\"figure-influence\"", "Sobol"],
+    );
+    asked(
+        &folder,
+        &["plan-tests", "--specimens", "3", "--members", "12"],
+        &["What do 3 specimens of each arm tell", "<th scope=\"col\">seen from</th>", "Student&#x27;s test"],
+    );
+}
+
+#[test]
+fn what_needs_published_or_measured_numbers_or_plates_comes_on_a_page_as_well() {
+    let published = Folder::with_study(&STUDY.replace("top_thickness_m = 0.16", "top_thickness_m = 0.2"));
+    let falls =
+        "[[claim]]\nclaim = \"it falls\"\nsource = \"a test\"\ntest = \"falls_with_kn\"\nwhy = \"A test.\"\n";
+    fs::write(published.path("studies/tiny/published.toml"), falls).expect("a file");
+    asked(
+        &published,
+        &["readings", "--members", "2", "--departures", "1"],
+        &["<summary>Readings, the best ones first", "<h3>Statements</h3>", "id=\"figure-readings\""],
+    );
+    asked(
+        &published,
+        &["homogenise", "--arms", "random", "--cells", "2", "--stones", "2,4", "--point", "0"],
+        &["<summary>Stiffness at kn of the arm", "<h3>Size of the cells</h3>", "id=\"figure-scatter\""],
+    );
+    let towers = Folder::with_study(include_str!("../../studies/hidden-effects/example/study.toml"));
+    let measured = include_str!("fixtures/diagnose/gauge-offset.csv");
+    fs::write(towers.path("studies/tiny/measured.csv"), measured).expect("a file");
+    asked(
+        &towers,
+        &["sensitivity", "--members", "1"],
+        &["<h3>What each mechanism was</h3>", "<summary>Family ", "id=\"figure-sensitivity\""],
     );
 }
 

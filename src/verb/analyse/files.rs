@@ -9,7 +9,7 @@ use crate::exchange::WallFile;
 use crate::math::Vec3;
 use crate::model::{Block, Movement, Replay, Support, Wall};
 use crate::protocol::JointState;
-use crate::render::csv::quoted;
+use crate::render::csv::Csv;
 use crate::render::picture::{Picture, Stone};
 use crate::render::vtk::write_vtu;
 use crate::terminal::failure::Failure;
@@ -21,15 +21,15 @@ use crate::verb::analyse::meetings::Fit;
 use crate::verb::analyse::page::{Told, page};
 use crate::verb::analyse::state::State;
 use crate::verb::arguments::SolverName;
-use crate::verb::wall::condition::{Condition, hinges};
+use crate::verb::wall::condition::hinges;
 use crate::verb::wall::drawn::{Measure, seams, sides};
 use crate::verb::wall::replayed;
 
 /// Columns of `blocks.csv` and `joints.csv`.
 const BLOCKS: &str = "block,name,fixed,moves,rest_x_m,rest_y_m,rest_z_m,rest_turn_x_rad,rest_turn_y_rad,rest_turn_z_rad,\
-                      mechanism_x,mechanism_y,mechanism_z,mechanism_turn_x,mechanism_turn_y,mechanism_turn_z\n";
+                      mechanism_x,mechanism_y,mechanism_z,mechanism_turn_x,mechanism_turn_y,mechanism_turn_z";
 const JOINTS: &str = "block_a,block_b,state,x_m,y_m,z_m,area_m2,opening,slip,slipped_share,force_on_b_x_n,force_on_b_y_n,force_on_b_z_n,\
-                      pressure_pa\n";
+                      pressure_pa";
 
 /// A wall that was solved, with all that is shown of it.
 pub(crate) struct Seen<'a> {
@@ -154,22 +154,22 @@ fn moved<'a>(file: &'a WallFile, answer: &'a Answer, state: &'a State) -> impl I
 }
 
 fn blocks_csv(file: &WallFile, answer: &Answer, state: &State) -> String {
-    let line = |of: Moved| {
-        let fixed = of.block.support == Support::Fixed;
-        let vectors = [of.rest.shift, of.rest.turn, of.mechanism.shift, of.mechanism.turn].map(|v| row(&v));
-        format!("{},{},{fixed},{},{}\n", of.id, quoted(of.name), of.moves, vectors.join(","))
-    };
-    BLOCKS.to_owned() + &moved(file, answer, state).map(line).collect::<String>()
+    let mut csv = Csv::new(BLOCKS);
+    for of in moved(file, answer, state) {
+        let vectors = [of.rest.shift, of.rest.turn, of.mechanism.shift, of.mechanism.turn];
+        csv.line(&[&of.id, &of.name, &(of.block.support == Support::Fixed), &of.moves, &vectors]);
+    }
+    csv.text()
 }
 
 fn joints_csv(file: &WallFile, state: &State) -> String {
-    let line = |(joint, condition): (&JointState, &Condition)| {
-        let [a, b] = joint.blocks.map(|at| file.ids[at as usize]);
-        let (place, force) = (row(&joint.place), row(&joint.force));
-        let JointState { area, opening, slip, slipped, pressure, .. } = joint;
-        format!("{a},{b},{},{place},{area},{opening},{slip},{slipped},{force},{pressure}\n", condition.name())
-    };
-    JOINTS.to_owned() + &state.joints.iter().zip(&state.conditions).map(line).collect::<String>()
+    let mut csv = Csv::new(JOINTS);
+    for (joint, condition) in state.joints.iter().zip(&state.conditions) {
+        let JointState { place, area, opening, slip, slipped, force, pressure, .. } = joint;
+        let blocks = joint.blocks.map(|at| file.ids[at as usize]);
+        csv.line(&[&blocks, &condition.name(), place, area, opening, slip, slipped, force, pressure]);
+    }
+    csv.text()
 }
 
 /// The object with its blocks and joints.
@@ -186,8 +186,4 @@ fn with_tables(object: &Value, file: &WallFile, answer: &Answer, state: &State) 
     whole["block_states"] = moved(file, answer, state).map(block).collect();
     whole["joint_states"] = joints::objects(file, &state.joints, &state.conditions);
     whole
-}
-
-fn row(v: &Vec3) -> String {
-    format!("{},{},{}", v.x, v.y, v.z)
 }

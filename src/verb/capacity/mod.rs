@@ -8,5 +8,5 @@ pub(crate) mod work;
 pub use crate::verb::question::{Answer, Question};
 pub use answer::{
     CapacityGroup, CapacitySummary, Failed, Repeats, Rung, Screen, Supported, SupportedValue, Target,
-    capacity_page, capacity_text, capacity_warnings, write_capacity,
+    capacity_document, capacity_warnings,
 };

@@ -10,14 +10,12 @@ use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
 use crate::terminal::{output, progress, threads};
 use crate::verb::arguments::quoted;
-use crate::verb::capacity::answer::{
-    CapacitySummary, capacity_page, capacity_text, capacity_warnings, write_capacity,
-};
+use crate::verb::capacity::answer::{CapacitySummary, capacity_document, capacity_warnings};
 use crate::verb::capacity::ask::Capacity;
 use crate::verb::capacity::rare;
 use crate::verb::capacity::rare::Waiting;
 use crate::verb::question::{CAPACITY, Question};
-use crate::verb::run::page;
+use crate::verb::run::page::{Place, told};
 use crate::verb::{locate, question};
 
 /// Answers the question from specimens, or from walls that are evaluated as far as they have not been.
@@ -44,7 +42,8 @@ pub(crate) fn capacity(arguments: &Capacity) -> Result<Answer, Failure> {
             )));
         }
         let summary = CapacitySummary::measured(&study, question, known);
-        return Ok(Answer::of(capacity_text(&summary), &summary)?.with_warnings(capacity_warnings(&summary)));
+        let text = capacity_document(&summary).text();
+        return Ok(Answer::of(text, &summary)?.with_warnings(capacity_warnings(&summary)));
     }
     if !study.arms.iter().any(is_random) {
         return Err(Failure::Input(format!(
@@ -67,12 +66,16 @@ pub(crate) fn capacity(arguments: &Capacity) -> Result<Answer, Failure> {
             return waits(&waiting);
         }
     }
-    write_capacity(&summary, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
-    page::beside(&out, (arguments.report, &arguments.which, arguments.threads), |origin| {
-        capacity_page(&summary, (&study, &loaded), origin)
-    })?;
-    let text = format!("{}\nwritten to {}\n", capacity_text(&summary), out.display());
-    Ok(Answer::of(text, &summary)?.in_place(&out).with_warnings(capacity_warnings(&summary)))
+    let place = Place {
+        out: &out,
+        name: CAPACITY,
+        study: (&study, &loaded),
+        of: &arguments.which.study,
+        threads: arguments.threads,
+        report: arguments.report,
+    };
+    let answer = told(&capacity_document(&summary), &summary, &place)?;
+    Ok(answer.with_warnings(capacity_warnings(&summary)))
 }
 
 /// That the answer waits for walls, and how they are evaluated.

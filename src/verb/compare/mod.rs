@@ -5,6 +5,6 @@ pub(crate) mod ask;
 pub(crate) mod work;
 
 pub use answer::{
-    ArmDifference, ArmShown, SelectedArm, SelectionSummary, ShareLevels, selection_page, selection_running,
-    selection_text, write_selection,
+    ArmDifference, ArmShown, SelectedArm, SelectionSummary, ShareLevels, selection_document,
+    selection_running,
 };

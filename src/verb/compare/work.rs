@@ -6,12 +6,10 @@ use crate::study::Study;
 use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
 use crate::terminal::output;
-use crate::verb::compare::answer::{
-    SelectionSummary, selection_page, selection_running, selection_text, write_selection,
-};
+use crate::verb::compare::answer::{SelectionSummary, selection_document, selection_running};
 use crate::verb::compare::ask::{Compare, SameWithin};
 use crate::verb::question::Question;
-use crate::verb::run::page;
+use crate::verb::run::page::{Place, told};
 use crate::verb::{arms, locate, question};
 
 /// What the folder of the results is named by.
@@ -53,12 +51,15 @@ pub(crate) fn compare(arguments: &Compare) -> Result<Answer, Failure> {
         return Err(hopeless(&contest, &rows, &look, why));
     }
     let summary = SelectionSummary::of(&contest, question, &rows, &look);
-    write_selection(&summary, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
-    page::beside(&out, (arguments.report, &arguments.which, arguments.threads), |origin| {
-        selection_page(&summary, (&study, &loaded), origin)
-    })?;
-    let text = format!("{}\nwritten to {}\n", selection_text(&summary), out.display());
-    Ok(Answer::of(text, &summary)?.in_place(&out))
+    let place = Place {
+        out: &out,
+        name: COMPARE,
+        study: (&study, &loaded),
+        of: &arguments.which.study,
+        threads: arguments.threads,
+        report: arguments.report,
+    };
+    told(&selection_document(&summary), &summary, &place)
 }
 
 fn arm_of(study: &Study, index: u32) -> &crate::study::Arm {

@@ -2,10 +2,10 @@
 //! detected.
 
 use crate::critic::{DETECTION_POWER, Offer, Offered, SelfTest};
+use crate::render::document::Table;
 use crate::render::number::{bracketed, or_dash, significant, with_interval};
 use crate::render::text::wrapped;
 use crate::study::{Described, in_plain_words};
-use crate::verb::run::answer::page::Table;
 
 /// A cause that is found in fewer of its campaigns than this is not seen at all.
 const SEEN: f64 = 0.2;

@@ -1,10 +1,10 @@
 //! What the extended model gains on readings that it has not seen, in the units and words of files.
 
 use crate::critic::{Design, Gain, Gained, HeldOut, Interval, Scores, stand_in};
+use crate::render::document::Table;
 use crate::render::number::{capital, significant, with_interval};
 use crate::render::text::wrapped;
 use crate::study::{Described, Study};
-use crate::verb::run::answer::page::Table;
 
 /// The gain.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]

@@ -79,7 +79,7 @@ fn judged(arguments: &Diagnose) -> Result<Answer, Failure> {
     output::folder(&out)?;
     let failed = |error: anyhow::Error| Failure::Run(format!("{error:#}"));
     let drawings = write_diagnosis(&summary, &families, &fit, &out).map_err(failed)?;
-    page::beside(&out, (arguments.report, &arguments.which, arguments.threads), |origin| {
+    page::beside(&out, (arguments.report, &arguments.which.study, arguments.threads), |origin| {
         let (fitted, drawings) = (drawings.fit.as_ref(), &drawings.others[..]);
         diagnosis_page(&DiagnosisPage {
             study: &study,

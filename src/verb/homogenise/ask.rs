@@ -80,6 +80,9 @@ pub(crate) struct Homogenise {
     /// Output folder [default: runs/<study>-homogenised, with -<variant> in it if one is named].
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub out: Option<PathBuf>,
+    /// Write report.html into the output folder as well: the answer on a page.
+    #[arg(long, help_heading = OUTPUT)]
+    pub report: bool,
 }
 
 /// Sets of directions.

@@ -11,11 +11,12 @@ use crate::terminal::failure::Failure;
 use crate::terminal::{output, threads};
 use crate::verb::homogenise::ask::Directions;
 pub(crate) use crate::verb::homogenise::ask::Homogenise;
+use crate::verb::run::page::{Place, told};
 use crate::verb::{arms, locate, share};
 pub use answer::{
     HeldWalls, HomogenisedSummary, ModulusBounds, NestedCells, PlateArm, PlateCells, PlateUnits, PlateValue,
-    SurfaceEntry, ValueBySize, WallSample, WallShare, WallsAsPlates, homogenised_summary, homogenised_text,
-    write_homogenised,
+    SurfaceEntry, ValueBySize, WallSample, WallShare, WallsAsPlates, homogenised_document,
+    homogenised_summary,
 };
 
 /// What the folder of the results is named by.
@@ -27,19 +28,19 @@ const PLATES: u64 = 10;
 pub(crate) fn homogenise(arguments: &Homogenise) -> Result<Answer, Failure> {
     let loaded = locate::any_study(&arguments.which)?;
     let study = match arguments.seed {
-        Some(seed) => loaded.study.with_seed(seed),
-        None => loaded.study,
+        Some(seed) => loaded.study.clone().with_seed(seed),
+        None => loaded.study.clone(),
     };
     let asked = asked(&study, arguments)?;
     let held_against = asked_of_walls(&study, &asked, arguments)?;
     let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, HOMOGENISED));
     output::folder(&out)?;
-    let place = (out.as_path(), arguments.shard);
+    let kept = (out.as_path(), arguments.shard);
     let (rows, walls) = threads::on(arguments.threads, || {
-        let rows = run_cells(&study, &asked, place, &share::progress(&study.name, "cells"))?;
+        let rows = run_cells(&study, &asked, kept, &share::progress(&study.name, "cells"))?;
         let walls = match &held_against {
             Some(of) => {
-                run_walls(&study, (&asked, of), place, &share::progress(&study.name, "walls and plates"))?
+                run_walls(&study, (&asked, of), kept, &share::progress(&study.name, "walls and plates"))?
             }
             None => Vec::new(),
         };
@@ -53,10 +54,16 @@ pub(crate) fn homogenise(arguments: &Homogenise) -> Result<Answer, Failure> {
         return Err(Failure::Input(format!("{}: no cell: {}", study.name, why.map_or("", String::as_str))));
     }
     let summary = homogenised_summary(&study, &asked, &rows, &walls);
-    write_homogenised((&study, &asked, &rows, &walls), &summary, &out)
-        .map_err(|error| Failure::Run(format!("{error:#}")))?;
-    let text = format!("{}\nwritten to {}\n", homogenised_text(&summary), out.display());
-    Ok(Answer::of(text, &summary)?.in_place(&out))
+    let document = homogenised_document((&study, &asked, &rows, &walls), &summary);
+    let place = Place {
+        out: &out,
+        name: HOMOGENISED,
+        study: (&study, &loaded),
+        of: &arguments.which.study,
+        threads: arguments.threads,
+        report: arguments.report,
+    };
+    told(&document, &summary, &place)
 }
 
 /// What is asked of walls, checked against the study; `None` where none are.

@@ -7,11 +7,9 @@ use crate::study::{Arm, Study};
 use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
 use crate::terminal::{output, threads};
-use crate::verb::influence::answer::{
-    InfluenceSummary, influence_page, influence_text, influence_warnings, running, write_influence,
-};
+use crate::verb::influence::answer::{InfluenceSummary, influence_document, influence_warnings, running};
 use crate::verb::influence::ask::Influence;
-use crate::verb::run::page;
+use crate::verb::run::page::{Place, told};
 use crate::verb::{arms, locate, share};
 
 /// What the folder of the results is named by.
@@ -58,12 +56,16 @@ fn answered(arguments: &Influence) -> Result<Answer, Failure> {
     })?;
     let summary = InfluenceSummary::of(&study, kn, &sources, &evaluated, RANDOMISATIONS);
     let table = influence_table(&sources, &evaluated, RANDOMISATIONS)?;
-    write_influence(&summary, &table, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
-    page::beside(&out, (arguments.report, &arguments.which, arguments.threads), |origin| {
-        influence_page(&summary, (&study, &loaded), origin)
-    })?;
-    let text = format!("{}\nwritten to {}\n", influence_text(&summary), out.display());
-    Ok(Answer::of(text, &summary)?.in_place(&out).with_warnings(influence_warnings(&summary)))
+    let place = Place {
+        out: &out,
+        name: INFLUENCE,
+        study: (&study, &loaded),
+        of: &arguments.which.study,
+        threads: arguments.threads,
+        report: arguments.report,
+    };
+    let answer = told(&influence_document(&summary, table), &summary, &place)?;
+    Ok(answer.with_warnings(influence_warnings(&summary)))
 }
 
 /// The study of one arm alone, whose members are the base points.

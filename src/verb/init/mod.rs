@@ -12,6 +12,7 @@ use crate::study::{
     BuiltInStudy, Distributions, ElementStudy, InputFile, MEASURED, Schema, Study, built_in_studies,
     distributions_among,
 };
+use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
 use crate::terminal::output;
 use crate::verb::arguments::{OUTPUT, STUDY};
@@ -59,7 +60,7 @@ enum Origin {
 }
 
 /// Writes the study, whole or not at all.
-pub(crate) fn init(arguments: &Init) -> Result<(), Failure> {
+pub(crate) fn init(arguments: &Init) -> Result<Answer, Failure> {
     let folder = &arguments.name;
     // A folder that is there may be named by dots.
     let there = folder.canonicalize().unwrap_or_default();
@@ -87,21 +88,14 @@ pub(crate) fn init(arguments: &Init) -> Result<(), Failure> {
             let _ = fs::create_dir(folder);
         }
     })?;
-    if arguments.json {
-        return output::print_json(&json!({
-            "study": name,
-            "folder": folder,
-            "from": origin.words(),
-            "files": written,
-        }));
-    }
-    output::print(&format!(
-        "{}: a study from {}: {}\nnext: pirca run {}\n",
+    let text = format!(
+        "{0}: a study from {1}: {2}\nnext: pirca run {0}\n",
         folder.display(),
         origin.words(),
-        written.join(", "),
-        folder.display()
-    ))
+        written.join(", ")
+    );
+    let object = json!({"study": name, "folder": folder, "from": origin.words(), "files": written});
+    Ok(Answer::of(text, &object)?.in_place(folder))
 }
 
 impl Origin {

@@ -59,4 +59,7 @@ pub(crate) struct PlanTests {
     /// Output folder [default: runs/<study>-plan-tests, with -<variant> in it if one is named].
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub out: Option<PathBuf>,
+    /// Write report.html into the output folder as well: the answer on a page.
+    #[arg(long, help_heading = OUTPUT)]
+    pub report: bool,
 }

@@ -5,6 +5,6 @@ pub(crate) mod ask;
 pub(crate) mod work;
 
 pub use answer::{
-    Asked, Otherwise, PlannedArm, PlannedDifference, Reading, TestPlan, test_plan_text, test_plan_warnings,
-    write_test_plan,
+    Asked, Otherwise, PlannedArm, PlannedDifference, Reading, TestPlan, test_plan_document,
+    test_plan_warnings,
 };

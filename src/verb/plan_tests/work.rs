@@ -6,8 +6,9 @@ use crate::stats::Aim;
 use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
 use crate::terminal::{output, progress};
-use crate::verb::plan_tests::answer::{Asked, TestPlan, test_plan_text, test_plan_warnings, write_test_plan};
+use crate::verb::plan_tests::answer::{Asked, TestPlan, test_plan_document, test_plan_warnings};
 use crate::verb::plan_tests::ask::PlanTests;
+use crate::verb::run::page::{Place, told};
 use crate::verb::{arms, locate, question};
 
 /// What the folder of the results is named by.
@@ -15,7 +16,8 @@ const PLAN_TESTS: &str = "plan-tests";
 
 /// Simulates the walls of a study and plans tests of real ones by them.
 pub(crate) fn plan_tests(arguments: &PlanTests) -> Result<Answer, Failure> {
-    let study = locate::with_ensemble(locate::study(&arguments.which)?.study, &arguments.ensemble)?;
+    let loaded = locate::study(&arguments.which)?;
+    let study = locate::with_ensemble(loaded.study.clone(), &arguments.ensemble)?;
     if arguments.cov.is_none() && !study.arms.iter().any(is_random) {
         return Err(Failure::Input(format!(
             "{}: nothing is drawn in any arm, so simulated walls show no scatter; state that of real ones with --cov, or give an arm random stones or joints",
@@ -38,7 +40,14 @@ pub(crate) fn plan_tests(arguments: &PlanTests) -> Result<Answer, Failure> {
     let rows = ensemble::run(&study, &settings, progress::on_stderr(&study).as_ref())?;
     let study = ensemble::come_to(study, &rows);
     let plan = TestPlan::of(&study, &rows, asked);
-    write_test_plan(&plan, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
-    let text = format!("{}\nwritten to {}\n", test_plan_text(&plan).trim_end(), out.display());
-    Ok(Answer::of(text, &plan)?.in_place(&out).with_warnings(test_plan_warnings(&plan)))
+    let place = Place {
+        out: &out,
+        name: PLAN_TESTS,
+        study: (&study, &loaded),
+        of: &arguments.which.study,
+        threads: arguments.threads,
+        report: arguments.report,
+    };
+    let answer = told(&test_plan_document(&plan), &plan, &place)?;
+    Ok(answer.with_warnings(test_plan_warnings(&plan)))
 }

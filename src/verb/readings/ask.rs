@@ -32,6 +32,9 @@ pub(crate) struct Readings {
     /// Output folder [default: runs/<study>-readings].
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub out: Option<PathBuf>,
+    /// Write report.html into the output folder as well: the answer on a page.
+    #[arg(long, help_heading = OUTPUT)]
+    pub report: bool,
     /// Most variants that are read together.
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u64).range(1..=6), help_heading = STUDY)]
     pub departures: u64,

@@ -4,4 +4,4 @@ pub(crate) mod answer;
 pub(crate) mod ask;
 pub(crate) mod work;
 
-pub use answer::{Extent, ReadingEntry, ReadingsSummary, readings_text, write_readings};
+pub use answer::{Extent, ReadingEntry, ReadingsSummary, readings_document};

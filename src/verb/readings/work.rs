@@ -12,8 +12,9 @@ use crate::terminal::failure::Failure;
 use crate::terminal::progress::Tenths;
 use crate::terminal::{output, threads};
 use crate::verb::locate;
-use crate::verb::readings::answer::{Extent, ReadingEntry, ReadingsSummary, readings_text, write_readings};
+use crate::verb::readings::answer::{Extent, ReadingEntry, ReadingsSummary, readings_document};
 use crate::verb::readings::ask::Readings;
+use crate::verb::run::page::{Place, told};
 
 /// What the folder and the lines on standard error are named by.
 const READINGS: &str = "readings";
@@ -27,7 +28,7 @@ pub(crate) fn readings(arguments: &Readings) -> Result<Answer, Failure> {
     let folder = locate::folder(&arguments.study)?;
     let loaded = Study::load(&folder, None)?;
     loaded.warnings.iter().for_each(locate::warn);
-    let base = locate::with_ensemble(loaded.study, &arguments.ensemble)?;
+    let base = locate::with_ensemble(loaded.study.clone(), &arguments.ensemble)?;
     if base.published.is_empty() {
         return Err(Failure::Input(format!("{} has no published.toml: nothing to search for", base.name)));
     }
@@ -43,9 +44,15 @@ pub(crate) fn readings(arguments: &Readings) -> Result<Answer, Failure> {
     threads::on(arguments.threads, || {
         let entries = searched(&folder, &named, arguments)?;
         let summary = ReadingsSummary::of(&base, arguments.departures, FIRST_WALLS, entries);
-        write_readings(&summary, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
-        let text = format!("{}\nwritten to {}\n", readings_text(&summary), out.display());
-        Ok(Answer::of(text, &summary)?.in_place(&out))
+        let place = Place {
+            out: &out,
+            name: READINGS,
+            study: (&base, &loaded),
+            of: &arguments.study,
+            threads: arguments.threads,
+            report: arguments.report,
+        };
+        told(&readings_document(&summary), &summary, &place)
     })
 }
 

@@ -1,16 +1,20 @@
-//! The page of a run, and that of an answer beside its files.
+//! The page of a run; and an answer as its files, its page and its words.
 
 use std::fs;
 use std::num::NonZero;
 use std::path::Path;
 
+use serde::Serialize;
+
 use crate::ensemble::{Row, replace_file};
+use crate::render::document::Document;
 use crate::study::{Loaded, Study};
+use crate::terminal::answer::Answer;
 use crate::terminal::doing::doing;
 use crate::terminal::failure::Failure;
-use crate::verb::arguments::Which;
 use crate::verb::locate;
-use crate::verb::run::answer::page::{DrawnWall, PageOrigin, RunPage, chosen_walls, run_page};
+use crate::verb::run::answer::files::write_document;
+use crate::verb::run::answer::page::{DrawnWall, PageOrigin, RunPage, chosen_walls, document_page, run_page};
 use crate::verb::run::origin::Origin;
 use crate::verb::wall::drawn::{Measure, ending};
 use crate::verb::wall::one_wall::OneWall;
@@ -41,11 +45,44 @@ pub(crate) fn write(
     Ok(replace_file(page, text.as_bytes())?)
 }
 
+/// An answer to a question about a study: where it is written to, and what it is of.
+pub(crate) struct Place<'a> {
+    /// The output folder.
+    pub out: &'a Path,
+    /// File name of the answer, without ending.
+    pub name: &'static str,
+    /// The study as it was asked, and as its files state it.
+    pub study: (&'a Study, &'a Loaded),
+    /// Where the study lies.
+    pub of: &'a Path,
+    /// Worker threads.
+    pub threads: Option<NonZero<usize>>,
+    /// Whether a page is asked for.
+    pub report: bool,
+}
+
+/// Writes an answer, which is an object and a document: JSON, tables, figures, and the page if it is asked for.
+pub(crate) fn told(
+    document: &Document<'_>,
+    object: &impl Serialize,
+    place: &Place<'_>,
+) -> Result<Answer, Failure> {
+    let out = place.out;
+    let text = format!("{}\nwritten to {}\n", document.text(), out.display());
+    let answer = Answer::of(text, object)?.in_place(out);
+    write_document(document, (place.name, &answer.json), out)
+        .map_err(|error| Failure::Run(format!("{error:#}")))?;
+    beside(out, (place.report, place.of, place.threads), |origin| {
+        document_page(document, place.study, origin)
+    })?;
+    Ok(answer)
+}
+
 /// Writes the page of an answer beside its files, if it is asked for; else takes away that of an earlier answer, which would be taken
 /// for this one's.
 pub(crate) fn beside(
     out: &Path,
-    (is_asked, which, threads): (bool, &Which, Option<NonZero<usize>>),
+    (is_asked, of, threads): (bool, &Path, Option<NonZero<usize>>),
     page: impl FnOnce(&PageOrigin) -> anyhow::Result<String>,
 ) -> Result<(), Failure> {
     let file = out.join(PAGE);
@@ -57,7 +94,7 @@ pub(crate) fn beside(
             _ => Ok(()),
         };
     }
-    let origin = Origin::now(&locate::folder(&which.study)?, threads).of_page();
+    let origin = Origin::now(&locate::folder(of)?, threads).of_page();
     let text = page(&origin).map_err(|error| Failure::Run(format!("{error:#}")))?;
     Ok(replace_file(&file, text.as_bytes())?)
 }

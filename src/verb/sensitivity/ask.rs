@@ -28,6 +28,9 @@ pub(crate) struct Sensitivity {
     /// Output folder [default: runs/<study>-sensitivity, with -<variant> in it if one is named].
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub out: Option<PathBuf>,
+    /// Write report.html into the output folder as well: the answer on a page.
+    #[arg(long, help_heading = OUTPUT)]
+    pub report: bool,
     /// Number of walls in every arm that was measured.
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u64).range(1..=10_000), help_heading = STUDY)]
     pub members: u64,

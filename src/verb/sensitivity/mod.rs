@@ -4,4 +4,4 @@ pub(crate) mod answer;
 pub(crate) mod ask;
 pub(crate) mod work;
 
-pub use answer::{SensitivitySummary, sensitivity_text, write_sensitivity};
+pub use answer::{SensitivitySummary, sensitivity_document};

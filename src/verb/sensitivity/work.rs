@@ -7,12 +7,17 @@ use crate::terminal::failure::Failure;
 use crate::terminal::output;
 use crate::terminal::progress::Tenths;
 use crate::verb::locate;
-use crate::verb::sensitivity::answer::{SensitivitySummary, sensitivity_text, write_sensitivity};
+use crate::verb::run::page::{Place, told};
+use crate::verb::sensitivity::answer::{SensitivitySummary, sensitivity_document};
 use crate::verb::sensitivity::ask::Sensitivity;
+
+/// What the folder and the files of the map are named by.
+const SENSITIVITY: &str = "sensitivity";
 
 /// Computes the map, writes it and prints it.
 pub(crate) fn sensitivity(arguments: &Sensitivity) -> Result<Answer, Failure> {
-    let study = locate::study(&arguments.which)?.study;
+    let loaded = locate::study(&arguments.which)?;
+    let study = loaded.study.clone();
     locate::without_uncertain(&study)?;
     let distributions = locate::distributions(&arguments.which)?;
     let mechanisms = described(&distributions).map_err(Failure::Input)?;
@@ -21,14 +26,20 @@ pub(crate) fn sensitivity(arguments: &Sensitivity) -> Result<Answer, Failure> {
         quantile: arguments.quantile,
         threads: arguments.threads,
     };
-    let progress = Tenths::of("sensitivity");
+    let progress = Tenths::of(SENSITIVITY);
     let map = map_of(&study, &mechanisms, &settings, &progress).map_err(failure)?;
     let summary = SensitivitySummary::of(&study, &mechanisms, &settings, &map);
-    let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, "sensitivity"));
+    let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, SENSITIVITY));
     output::folder(&out)?;
-    write_sensitivity(&summary, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
-    let text = format!("{}\nwritten to {}\n", sensitivity_text(&summary), out.display());
-    Ok(Answer::of(text, &summary)?.in_place(&out))
+    let place = Place {
+        out: &out,
+        name: SENSITIVITY,
+        study: (&study, &loaded),
+        of: &arguments.which.study,
+        threads: arguments.threads,
+        report: arguments.report,
+    };
+    told(&sensitivity_document(&summary), &summary, &place)
 }
 
 fn failure(error: NoSensitivity) -> Failure {

@@ -65,7 +65,7 @@ pub(crate) fn plan(job: &Job, arguments: &Shard, engine: Option<Engine>) -> Resu
         };
         let script = engine.script(&asked);
         let object = json!({"engine": engine.name(), "shards": of, "script": script});
-        return Ok(Answer { text: script, ..Answer::of(String::new(), &object)? });
+        return Answer::verbatim(script, &object);
     }
     let Timed { walls, mean, least, most } = timed;
     let each = evaluations.div_ceil(u64::from(of));

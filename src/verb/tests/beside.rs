@@ -5,11 +5,10 @@ use std::fs;
 use super::figure::folder;
 use super::{fixed_arm, random_arm, summary_of, three_arms};
 use crate::ensemble::Quantity;
-use crate::render::draw::svg;
 use crate::verb::run::answer::beside::{Earlier, Mean};
 use crate::verb::run::answer::figure::curves;
 use crate::verb::run::answer::files::{SUMMARY_JSON, write_summary};
-use crate::verb::run::answer::plot::Plot;
+use crate::verb::run::answer::plot::over_kn;
 
 const LABEL: &str = "variant two-wythes, implicit solver";
 
@@ -22,7 +21,7 @@ fn earlier(arms: &[(&str, &[[f64; 2]])]) -> Earlier {
 /// The figure of two arms, 1 mm and 2 mm at one kn.
 fn drawn(beside: Option<&Earlier>) -> String {
     let summary = summary_of(&[fixed_arm("stack", &[1e-3]), random_arm("rubble", &[2e-3])].concat(), &[]);
-    svg(&Plot::new("hand-made", &curves(&summary), 1).beside(beside)).unwrap()
+    over_kn("hand-made", &curves(&summary), beside).unwrap().svg().unwrap()
 }
 
 #[test]

@@ -4,11 +4,12 @@ use std::fs;
 use std::path::PathBuf;
 
 use super::{fixed_arm, random_arm, summary_of, three_arms};
-use crate::render::draw::{IMAGE_SCALE, is_whole, png_into, svg};
+use crate::render::document::Captioned;
+use crate::render::draw::is_whole;
 use crate::verb::run::answer::csv::csv;
 use crate::verb::run::answer::figure::curves;
 use crate::verb::run::answer::files::{SUMMARY_JSON, write_summary};
-use crate::verb::run::answer::plot::Plot;
+use crate::verb::run::answer::plot::over_kn;
 use crate::verb::run::answer::population::Population;
 
 /// An empty folder of this test's own.
@@ -19,8 +20,12 @@ pub fn folder(name: &str) -> PathBuf {
     path
 }
 
+fn figure<'a>(populations: &[Population]) -> Captioned<'a> {
+    over_kn("hand-made", &curves(&summary_of(populations, &[])), None).unwrap()
+}
+
 fn drawn(populations: &[Population]) -> String {
-    svg(&Plot::new("hand-made", &curves(&summary_of(populations, &[])), 1)).unwrap()
+    figure(populations).svg().unwrap()
 }
 
 /// All arms with every wall failed.
@@ -74,12 +79,10 @@ fn a_file_that_cannot_be_written_is_named() {
     // A full device: the image must not pass for whole.
     let place = folder("full").join("figure.png");
     std::os::unix::fs::symlink("/dev/full", &place).unwrap();
-    let full =
-        png_into(&place, &Plot::new("hand-made", &curves(&summary_of(&three_arms(), &[])), IMAGE_SCALE));
-    assert!(full.is_err());
+    assert!(figure(&three_arms()).png_into(&place).is_err());
     // An image without its last byte, as a disk that fills up at the end leaves it.
     let cut = folder("cut").join("figure.png");
-    png_into(&cut, &Plot::new("hand-made", &curves(&summary_of(&three_arms(), &[])), IMAGE_SCALE)).unwrap();
+    figure(&three_arms()).png_into(&cut).unwrap();
     assert!(is_whole(&cut).unwrap());
     let bytes = fs::read(&cut).unwrap();
     fs::write(&cut, &bytes[..bytes.len() - 1]).unwrap();
@@ -155,7 +158,7 @@ fn studies_of_other_shapes_are_drawn_too() {
         "! regular: 1 of 3 analyses failed; they are not in the means; none is left at 1 of 3 stiffnesses"
     ));
     // No arm at all, and more arms than colours.
-    svg(&Plot::new("empty", &[], 1)).unwrap();
+    assert!(over_kn("empty", &[], None).is_none());
     let many: Vec<Population> =
         (0..9).flat_map(|i| fixed_arm(&format!("arm {i}"), &[1e-3, 0.8e-3, 0.6e-3])).collect();
     assert!(drawn(&many).contains("arm 8: 1 wall"));

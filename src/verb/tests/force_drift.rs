@@ -5,9 +5,8 @@ use std::path::Path;
 use super::failed;
 use crate::ensemble::{Row, StepRow};
 use crate::model::{Level, Outcome};
-use crate::render::draw::svg;
 use crate::study::Study;
-use crate::verb::run::answer::force_drift::{ForceDriftPlot, force_curves, force_drift_csv};
+use crate::verb::run::answer::force_drift::{force_curves, force_drift, force_drift_csv};
 
 /// A wall that bears this at every drift (%), and was pushed so far; it falls there, or ends as it is said.
 fn pushed(member: u64, force: f64, to: f64, outcome: Outcome) -> Row {
@@ -69,7 +68,7 @@ fn the_figure_shows_band_mean_and_readings() {
     let study = study();
     let rows: Vec<Row> = (0..19).map(|k| pushed(k, 1e4 + k as f64, 2.0, Outcome::Equilibrium)).collect();
     let curves = force_curves(&study, &rows);
-    let drawn = svg(&ForceDriftPlot::new("hand-made", &curves, &study.measured, 1)).unwrap();
+    let drawn = force_drift("hand-made", &curves, &study.measured).unwrap().svg().unwrap();
     for text in ["drift (%)", "push (kN)", "19 walls, band: 5 to 95 %; marks: measured"] {
         assert!(drawn.contains(text), "{text}");
     }

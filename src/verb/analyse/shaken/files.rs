@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use crate::ensemble::replace_file;
 use crate::math::{Vec3, degrees};
 use crate::model::{BuiltJoint, JointReading, Movement, ReplayState, Support};
-use crate::render::csv::quoted;
+use crate::render::csv::Csv;
 use crate::render::number::significant;
 use crate::render::picture::{Picture, Seam, Stone};
 use crate::study::sha256;
@@ -25,7 +25,7 @@ const BLOCKS: &[&str] = &["block", "name", "role", "falls at s", "displacement m
 const JOINTS: &[&str] = &["between", "and", "opening mm", "slip mm"];
 /// Columns of `blocks.csv`.
 const BLOCKS_CSV: &str =
-    "block,name,fixed,fallen_at_s,end_x_m,end_y_m,end_z_m,end_turn_x_rad,end_turn_y_rad,end_turn_z_rad\n";
+    "block,name,fixed,fallen_at_s,end_x_m,end_y_m,end_z_m,end_turn_x_rad,end_turn_y_rad,end_turn_z_rad";
 /// Digits of the numbers in the tables of the page.
 const DIGITS: usize = 3;
 
@@ -44,7 +44,7 @@ pub(crate) fn write(
     let files = [
         ("report.html", page(of, run, (&picture, text), warnings)?),
         ("end.svg", picture.svg()),
-        ("blocks.csv", BLOCKS_CSV.to_owned() + &blocks(of, run).map(|own| own.line()).collect::<String>()),
+        ("blocks.csv", blocks_csv(of, run)),
         ("analysis.json", format!("{whole:#}\n")),
     ];
     for (name, text) in files {
@@ -94,13 +94,15 @@ fn end(last: Option<&ReplayState>, block: usize) -> Movement {
     last.map_or(Movement::NONE, |state| state.poses[block])
 }
 
-impl Block<'_> {
-    fn line(&self) -> String {
-        let [shift, turn] = [self.end.shift, self.end.turn].map(|v| format!("{},{},{}", v.x, v.y, v.z));
-        let fell = self.fell.map_or_else(String::new, |at| at.to_string());
-        format!("{},{},{},{fell},{shift},{turn}\n", self.id, quoted(self.name), self.fixed)
+fn blocks_csv(of: &Common<'_>, run: &Ran) -> String {
+    let mut csv = Csv::new(BLOCKS_CSV);
+    for own in blocks(of, run) {
+        csv.line(&[&own.id, &own.name, &own.fixed, &own.fell, &own.end.shift, &own.end.turn]);
     }
+    csv.text()
+}
 
+impl Block<'_> {
     fn object(&self) -> Value {
         let list = |v: &Vec3| json!([v.x, v.y, v.z]);
         json!({

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use crate::ensemble::replace_file;
 use crate::protocol::Verdict;
-use crate::render::csv::quoted;
+use crate::render::csv::Csv;
 use crate::render::number::significant;
 use crate::render::text::aligned;
 use crate::terminal::failure::Failure;
@@ -17,7 +17,7 @@ use crate::verb::analyse::shaken::{Common, Ran, files, one};
 const DIGITS: usize = 3;
 /// Columns of `runs.csv`.
 const RUNS: &str = "record,scale,pga_m_per_s2,pgv_m_per_s,outcome,twin_outcome,blocks_fallen,first_stone_s,tenth_weight_s,half_weight_s,\
-                    largest_displacement_m,largest_rotation_rad,largest_slip_m,residual_m,residual_rad\n";
+                    largest_displacement_m,largest_rotation_rad,largest_slip_m,residual_m,residual_rad";
 /// The verdicts, in the order in which they are counted.
 const VERDICTS: [Verdict; 6] = [
     Verdict::Collapsed,
@@ -98,7 +98,7 @@ pub(crate) fn write(
     warnings: &[String],
 ) -> Result<(), Failure> {
     output::folder(folder)?;
-    replace_file(&folder.join("runs.csv"), csv(runs).as_bytes())?;
+    replace_file(&folder.join("runs.csv"), &csv(runs))?;
     replace_file(&folder.join("analysis.json"), format!("{object:#}\n").as_bytes())?;
     for (number, run) in runs.iter().enumerate() {
         let (text, own) = (one::text(of, run, seconds), one::object(of, run, warnings, seconds));
@@ -112,29 +112,28 @@ fn name(number: usize) -> String {
     format!("run-{:03}", number + 1)
 }
 
-fn csv(runs: &[Ran]) -> String {
+fn csv(runs: &[Ran]) -> Vec<u8> {
     let verdict = |own: Verdict| json!(own).as_str().unwrap_or_default().to_owned();
-    let line = |run: &Ran| {
+    let mut csv = Csv::new(RUNS);
+    for run in runs {
         let seen = &run.seen;
-        let number = |value: Option<f64>| value.map_or_else(String::new, |x| x.to_string());
-        let cells = [
-            quoted(&run.motion.name),
-            run.scale.to_string(),
-            run.motion.pga().to_string(),
-            run.motion.pgv().to_string(),
-            verdict(seen.verdict),
-            run.twin.as_ref().map(|twin| verdict(twin.verdict)).unwrap_or_default(),
-            seen.fallen.len().to_string(),
-            number(seen.first_stone_s),
-            number(seen.part_s),
-            number(seen.most_s),
-            seen.displacement.value.to_string(),
-            seen.rotation.value.to_string(),
-            seen.slip.value.to_string(),
-            number(seen.residual_m),
-            number(seen.residual_rad),
-        ];
-        cells.join(",") + "\n"
-    };
-    RUNS.to_owned() + &runs.iter().map(line).collect::<String>()
+        csv.line(&[
+            &run.motion.name,
+            &run.scale,
+            &run.motion.pga(),
+            &run.motion.pgv(),
+            &verdict(seen.verdict),
+            &run.twin.as_ref().map(|twin| verdict(twin.verdict)),
+            &seen.fallen.len(),
+            &seen.first_stone_s,
+            &seen.part_s,
+            &seen.most_s,
+            &seen.displacement.value,
+            &seen.rotation.value,
+            &seen.slip.value,
+            &seen.residual_m,
+            &seen.residual_rad,
+        ]);
+    }
+    csv.bytes()
 }

@@ -13,7 +13,6 @@ pub use entry::{Answered, Asked as AskedOfWall, Ended, UncertaintySummary};
 pub use text::uncertainty_text;
 
 use crate::ensemble::replace_file;
-use crate::render::draw::IMAGE_SCALE;
 use crate::verb::analyse::uncertainty::plot::PointsPlot;
 use crate::verb::run::answer::files::write_figure;
 
@@ -25,7 +24,6 @@ const UNCERTAINTY: &str = "uncertainty";
 /// # Errors
 /// The file that could not be written, and why.
 pub fn write_uncertainty(summary: &UncertaintySummary, dir: &Path) -> Result<()> {
-    replace_file(&dir.join(format!("{UNCERTAINTY}.csv")), csv::csv(summary).as_bytes())?;
-    let figure = |scale| PointsPlot::new(summary, scale);
-    write_figure(dir, UNCERTAINTY, &figure(1), &figure(IMAGE_SCALE))
+    replace_file(&dir.join(format!("{UNCERTAINTY}.csv")), &csv::csv(summary))?;
+    write_figure(dir, UNCERTAINTY, |scale| PointsPlot::new(summary, scale))
 }

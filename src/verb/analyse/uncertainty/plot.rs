@@ -3,11 +3,11 @@
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use crate::math::{ln, pow};
-use crate::render::axes::{BAND_ALPHA, PLOT_HEIGHT, decimals};
+use crate::math::{exp, ln};
+use crate::render::axes::{Axes, Axis, BAND_ALPHA, PLOT_HEIGHT};
 use crate::render::draw::Figure;
 use crate::render::marker::colour;
-use crate::render::number::{compact, range};
+use crate::render::number::range;
 use crate::render::pen::{Drawn, LINE, Pen};
 use crate::verb::analyse::uncertainty::UncertaintySummary;
 use crate::verb::analyse::uncertainty::entry::Asked;
@@ -41,25 +41,18 @@ impl<'s> PointsPlot<'s> {
         (number, own): (usize, &Asked),
     ) -> Drawn<DB> {
         let (summary, is_log) = (self.summary, own.unsure.spread.is_log());
-        // An axis of powers of ten is drawn as that of their exponents.
-        let place = |x: f64| if is_log { ln(x) / ln(10.0) } else { x };
-        let walls = summary.points.iter().map(|(values, ended)| (place(values[number]), ended.value()));
+        let walls = summary.points.iter().map(|(values, ended)| (values[number], ended.value()));
         let points: Vec<(f64, f64)> = walls.clone().filter_map(|(x, y)| Some((x, y?))).collect();
-        let [from, to] = about(range(walls.map(|(x, _)| x)), 0.0);
+        // Room about powers of ten is a factor.
+        let place = |x: f64| if is_log { ln(x) } else { x };
+        let [from, to] = about(range(walls.map(|(x, _)| place(x))), 0.0);
+        let [from, to] = [from, to].map(|x| if is_log { exp(x) } else { x });
         let shown = points.iter().map(|(_, y)| *y).chain(summary.answer.middle);
         let [low, high] = about(range(shown), NARROWEST_LOADS * summary.answered.resolution);
-        let mut chart = self.pen.frame(area, (own.word, 22), 82).build_cartesian_2d(from..to, low..high)?;
-        let (x_decimals, y_decimals) = (decimals(to - from), decimals(high - low));
-        let mut mesh = chart.configure_mesh();
-        self.pen
-            .grid(&mut mesh)
-            .x_labels(4)
-            .y_labels(8)
-            .x_label_formatter(&|x| if is_log { compact(pow(10.0, *x)) } else { format!("{x:.x_decimals$}") })
-            .y_label_formatter(&|y| format!("{y:.y_decimals$}"))
-            .x_desc(format!("{} ({})", own.unsure.name, own.unit))
-            .y_desc(format!("load at collapse ({})", summary.answered.unit))
-            .draw()?;
+        let across = format!("{} ({})", own.unsure.name, own.unit);
+        let x = Axis { is_log, ..Axis::new(across, [from, to], 4) };
+        let y = Axis::new(format!("load at collapse ({})", summary.answered.unit), [low, high], 8);
+        let mut chart = Axes { x, y }.on(area, self.pen, (own.word, 22), 82)?;
         if let [Some(bottom), Some(top)] = summary.answer.interval {
             let corners = [(from, bottom.max(low)), (to, top.min(high))];
             chart.draw_series([Rectangle::new(corners, colour(0).mix(BAND_ALPHA).filled())])?;

@@ -1,41 +1,29 @@
 //! What an engineer may count on: the probability that a wall of a kind fails below a level, a low fractile, characteristic and
-//! design values; `capacity.json` and what is printed of it.
+//! design values; the numbers, and how they are told.
 
+mod document;
 mod figure;
 mod group;
 mod known;
-mod page;
 mod text;
 mod values;
 
-use std::path::Path;
-
-use anyhow::{Context, Result};
 use serde::Serialize;
 
+pub use document::capacity_document;
 pub use figure::Rung;
-use figure::{CapacityPlot, capacity_csv};
 pub use group::{CapacityGroup, Failed, Repeats, Screen, Target};
-pub use page::capacity_page;
-pub use text::{capacity_text, capacity_warnings};
+pub use text::capacity_warnings;
 pub use values::{Supported, SupportedValue};
 
-use crate::ensemble::{Quantity, Row, replace_file};
+use crate::ensemble::{Quantity, Row};
 use crate::math::degrees;
-use crate::render::draw::IMAGE_SCALE;
 use crate::stats::{DESIGN_PROBABILITY, Variation};
 use crate::study::{MeasuredKind, MeasuredQuantity, Measurement, Study};
 use crate::verb::question::Question;
-use crate::verb::run::answer::files::write_figure;
 use crate::verb::run::answer::gathered::populations;
 use crate::verb::run::answer::population::Population;
 use crate::verb::run::answer::undecided::LeftOpenAnswer;
-
-/// File name of what is written.
-const FILE: &str = "capacity.json";
-
-/// File name, without ending, of the probability over the level and the figure of it.
-const FIGURE: &str = "probability";
 
 /// The answer to a question, group by group.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -126,19 +114,4 @@ impl CapacitySummary {
             shown: quantity,
         }
     }
-}
-
-/// Writes the answer as JSON into an existing folder, and the probability over the level as a figure (SVG, PNG) with its table (CSV).
-///
-/// # Errors
-/// The file that could not be written, and why.
-pub fn write_capacity(summary: &CapacitySummary, dir: &Path) -> Result<()> {
-    let json = serde_json::to_string_pretty(summary).context("the answer cannot be written as JSON")? + "\n";
-    replace_file(&dir.join(FILE), json.as_bytes())?;
-    replace_file(&dir.join(format!("{FIGURE}.csv")), capacity_csv(summary).as_bytes())?;
-    let figure = CapacityPlot::new(summary, 1);
-    if figure.is_empty() {
-        return Ok(());
-    }
-    write_figure(dir, FIGURE, &figure, &CapacityPlot::new(summary, IMAGE_SCALE))
 }

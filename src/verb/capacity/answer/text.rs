@@ -1,7 +1,6 @@
-//! What is printed of a capacity.
+//! The words of a capacity.
 
 use crate::render::number::{bracketed, compact, or_dash, significant, with_interval};
-use crate::render::text::{aligned, wrapped};
 use crate::stats::{Scatter, Shape};
 use crate::verb::capacity::answer::group::{CapacityGroup, Repeats, Screen};
 use crate::verb::capacity::answer::{CapacitySummary, Question, SupportedValue};
@@ -9,17 +8,6 @@ use crate::verb::run::answer::stated_cov::StatedCov;
 
 /// Fewer walls than this support no design value that anybody should use.
 const FEW: u64 = 10;
-
-/// The conclusion, a line per group, and what the values mean.
-pub fn capacity_text(summary: &CapacitySummary) -> String {
-    let mut text: String = conclusions(summary).iter().map(|line| wrapped("", line)).collect();
-    let rows = supported(summary);
-    if rows.len() > 1 {
-        text.push_str(&format!("\n{SUPPORTED}\n{}", aligned(rows)));
-    }
-    text.push_str(&wrapped("", VALUES));
-    text
-}
 
 /// What the table of values is.
 pub(crate) const SUPPORTED: &str = "Values that these walls support";

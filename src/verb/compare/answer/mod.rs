@@ -1,34 +1,21 @@
-//! Which arm is the best, and how sure that is: `compare.json`, `compare.csv`, the figures, and what is printed.
+//! Which arm is the best, and how sure that is: the numbers, and how they are told.
 
 mod arm;
-mod csv;
 mod difference;
-mod page;
+mod document;
 mod plot;
 mod text;
 
-use std::path::Path;
-
-use anyhow::{Context, Result};
 use serde::Serialize;
 
 pub use arm::SelectedArm;
 pub use difference::{ArmDifference, ArmShown, ShareLevels};
-pub use page::selection_page;
-pub use text::{selection_running, selection_text};
+pub use document::selection_document;
+pub use text::selection_running;
 
-use crate::ensemble::{Compared, Contest, Quantity, Row, replace_file};
-use crate::render::draw::IMAGE_SCALE;
+use crate::ensemble::{Compared, Contest, Quantity, Row};
 use crate::stats::selection::Measure;
-use crate::verb::compare::answer::plot::Forest;
 use crate::verb::question::Question;
-use crate::verb::run::answer::files::write_figure;
-use crate::verb::run::answer::fragility::FragilityPlot;
-
-/// File name, without ending, of what is written.
-const COMPARE: &str = "compare";
-/// File name, without ending, of the distributions.
-const DISTRIBUTIONS: &str = "distributions";
 
 /// What a comparison found. All intervals of differences hold together, with the stated confidence, at every number of walls.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -136,25 +123,6 @@ impl SelectionSummary {
     fn shown_unit(&self) -> &'static str {
         if self.difference_unit == "1" { "" } else { self.shown.shown_unit() }
     }
-}
-
-/// Writes the comparison as JSON, CSV, SVG and PNG into an existing folder, and the distributions of the arms beside it. The same rows
-/// give the same bytes.
-///
-/// # Errors
-/// The file that could not be written, and why.
-pub fn write_selection(summary: &SelectionSummary, dir: &Path) -> Result<()> {
-    let json =
-        serde_json::to_string_pretty(summary).context("the comparison cannot be written as JSON")? + "\n";
-    replace_file(&dir.join(format!("{COMPARE}.json")), json.as_bytes())?;
-    replace_file(&dir.join(format!("{COMPARE}.csv")), csv::differences(summary).as_bytes())?;
-    let figure = |scale| Forest::new(summary, scale);
-    write_figure(dir, COMPARE, &figure(1), &figure(IMAGE_SCALE))?;
-    replace_file(&dir.join(format!("{DISTRIBUTIONS}.csv")), csv::distributions(summary).as_bytes())?;
-    let ladders: Vec<_> = summary.arms.iter().map(|arm| arm.ladder(summary.shown)).collect();
-    let title = title(summary);
-    let figure = |scale| FragilityPlot::new(&title, &ladders, scale).of(summary.shown);
-    write_figure(dir, DISTRIBUTIONS, &figure(1), &figure(IMAGE_SCALE))
 }
 
 /// The study, with its variant if one is named.

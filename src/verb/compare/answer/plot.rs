@@ -4,7 +4,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::render::axes::{BAND_ALPHA, WIDTH, decimals};
+use crate::render::axes::{Axes, Axis, BAND_ALPHA, WIDTH};
 use crate::render::draw::Figure;
 use crate::render::marker::{colour, filled};
 use crate::render::number::{range, shortened, significant};
@@ -60,23 +60,17 @@ impl<'s> Forest<'s> {
         let [low, high] = range(values.chain([-zone, zone])).unwrap_or([-1.0, 1.0]);
         let room = 0.06 * (high - low);
         let (x, count) = ([low - room, high + room], self.rows.len() as f64);
-        let frame = &mut self.pen.frame(area, (&self.title, 26), LEFT);
-        let mut chart = frame.build_cartesian_2d(x[0]..x[1], count..0.0)?;
-        let x_decimals = decimals(x[1] - x[0]);
         let unit = match self.summary.shown_unit() {
-            "" => "probability of failure".to_owned(),
-            unit => unit.to_owned(),
+            "" => "probability of failure",
+            unit => unit,
         };
-        let mut mesh = chart.configure_mesh();
-        self.pen
-            .grid(&mut mesh)
-            .disable_y_mesh()
-            .disable_y_axis()
-            .y_labels(0)
-            .x_labels(8)
-            .x_label_formatter(&|value| format!("{value:.x_decimals$}"))
-            .x_desc(format!("behind the best arm ({unit})"))
-            .draw()?;
+        let behind = Axis::new(format!("behind the best arm ({unit})"), x, 8);
+        let mut chart = Axes { x: behind, y: Axis::new("", [count, 0.0], 0) }.on(
+            area,
+            self.pen,
+            (&self.title, 26),
+            LEFT,
+        )?;
         let band = RGBColor(120, 120, 120).mix(BAND_ALPHA).filled();
         chart.draw_series([Rectangle::new([(-zone, 0.0), (zone, count)], band)])?;
         let line = BLACK.stroke_width(self.pen.scale);

@@ -1,10 +1,10 @@
-//! What is printed of a comparison: at most five lines of conclusion, and a table.
+//! The words of a comparison: at most five lines of conclusion, and a table.
 
 use crate::ensemble::{Compared, Contest, Quantity};
 use crate::render::number::{
     compact, from_to, or_dash, shortened, significant, with_interval, with_interval_against,
 };
-use crate::render::text::{LONGEST_NAME, aligned};
+use crate::render::text::LONGEST_NAME;
 use crate::stats::selection::{Measure, Shown};
 use crate::verb::compare::answer::{ArmDifference, ArmShown, SelectedArm, SelectionSummary};
 use crate::verb::question::Question;
@@ -14,14 +14,6 @@ const MOST_NAMES: usize = 3;
 
 /// A bound on a difference of shares that is wider than this tells nothing.
 const TOLD: f64 = 0.5;
-
-/// The conclusion, and a line per arm.
-pub fn selection_text(summary: &SelectionSummary) -> String {
-    let mut text = conclusion(summary).join("\n");
-    text.push_str("\n\n");
-    text.push_str(&aligned(table(summary)));
-    text
-}
 
 /// Where a comparison stands, in one line.
 pub fn selection_running(contest: &Contest<'_>, look: &Compared) -> String {

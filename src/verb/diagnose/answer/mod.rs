@@ -35,12 +35,11 @@ use std::path::Path;
 use anyhow::{Context, Result};
 
 use crate::ensemble::replace_file;
-use crate::render::draw::{IMAGE_SCALE, svg};
+use crate::render::document::{Captioned, Drawing};
 use crate::verb::diagnose::answer::family_plot::FamilyPlot;
 use crate::verb::diagnose::answer::fit_plot::FitPlot;
 use crate::verb::diagnose::answer::residual_plot::ResidualPlot;
-use crate::verb::run::answer::files::write_figure;
-use crate::verb::run::answer::page::Drawing;
+use crate::verb::run::answer::files::write_captioned;
 
 /// File name, without ending, of the figure of all readings.
 const RESIDUALS: &str = "residuals";
@@ -72,34 +71,30 @@ pub fn write_diagnosis(
     replace_file(&dir.join("verdict.json"), json.as_bytes())?;
     let mut others = Vec::new();
     for family in families {
-        let figure = |scale| FamilyPlot::new(&summary.study, family, scale);
         // No family's name has a dot.
         let own = [RESIDUALS, FIT].into_iter().find(|own| family.family == *own);
         let name = own.map_or_else(|| family.family.clone(), |own| format!("{own}.family"));
-        write_figure(dir, &name, &figure(1), &figure(IMAGE_SCALE))?;
         let caption = format!(
             "Family {}: what was measured on what walls of the base model show. The bands end where half of them have fallen, the line \
              of a cause where half of its own have. Specimens read at one tilt stand side by side.",
             family.family
         );
         let title = format!("Family {}", family.family);
-        others.push(Drawing::picture(&format!("figure-{name}"), &title, &caption, &svg(&figure(1))?));
+        let at = |scale| FamilyPlot::new(&summary.study, family, scale);
+        others.push(written(dir, &Captioned::new(name, &title, caption, at))?);
     }
-    let figure = |scale| ResidualPlot::new(&summary.study, &summary.residuals, scale);
-    write_figure(dir, RESIDUALS, &figure(1), &figure(IMAGE_SCALE))?;
     let caption =
         "Every reading against what the base model shows of it, with joints anywhere in their priors.";
-    others.push(Drawing::picture("figure-residuals", "All readings", caption, &svg(&figure(1))?));
-    let figure = |scale| FitPlot::new(&summary.study, fit, scale);
-    let mut drawn = None;
-    if !fit.misfits().is_empty() {
-        write_figure(dir, FIT, &figure(1), &figure(IMAGE_SCALE))?;
-        drawn = Some(Drawing::picture(
-            "figure-fit",
-            "Both models on the readings",
-            &fit.caption(),
-            &svg(&figure(1))?,
-        ));
-    }
+    let at = |scale| ResidualPlot::new(&summary.study, &summary.residuals, scale);
+    others.push(written(dir, &Captioned::new(RESIDUALS, "All readings", caption, at))?);
+    let at = |scale| FitPlot::new(&summary.study, fit, scale);
+    let of_fit = || written(dir, &Captioned::new(FIT, "Both models on the readings", fit.caption(), at));
+    let drawn = if fit.misfits().is_empty() { None } else { Some(of_fit()?) };
     Ok(DiagnosisDrawings { fit: drawn, others })
+}
+
+/// A figure for the page, once its files are written.
+fn written(dir: &Path, figure: &Captioned<'_>) -> Result<Drawing> {
+    write_captioned(dir, figure)?;
+    figure.drawing()
 }

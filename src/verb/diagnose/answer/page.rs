@@ -4,6 +4,7 @@
 use anyhow::Result;
 use serde::Serialize;
 
+use crate::render::document::{Drawing, Line, Table, filled};
 use crate::render::number::{bracketed, capital, or_dash as number_or_dash, significant};
 use crate::study::{Study, in_plain_words};
 use crate::verb::diagnose::answer::conclusion::{below_headline, headline};
@@ -18,7 +19,7 @@ use crate::verb::diagnose::answer::text::{
 };
 use crate::verb::diagnose::answer::words::{lines, reading};
 use crate::verb::diagnose::gain::GainSummary;
-use crate::verb::run::answer::page::{Citation, Drawing, Line, PageOrigin, Table, citation, filled, limits};
+use crate::verb::run::answer::page::{Citation, PageOrigin, citation, limits};
 
 /// What the page of a verdict is made of.
 pub struct DiagnosisPage<'a> {
@@ -93,6 +94,7 @@ pub fn diagnosis_page(of: &DiagnosisPage<'_>) -> Result<String> {
     let off = off.map(|off| vec![off.what.clone(), format!("{:+.1}", off.in_sd)]).collect();
     filled(
         "diagnosis.html",
+        include_str!("diagnosis.html"),
         &Filled {
             title: format!("Diagnosis of study {}{variant}", summary.study),
             question: "What does the simulation get wrong, and which cause explains it?".to_owned(),

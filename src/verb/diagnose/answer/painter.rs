@@ -3,11 +3,10 @@
 //! The bands are greys of one colour with dashed edges, what was measured is black: the figure survives a print in grey.
 
 use plotters::coord::Shift;
-use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
 use crate::critic::Band;
-use crate::render::axes::{BAND_ALPHA, decimals};
+use crate::render::axes::{Axes, Axis, BAND_ALPHA, Plane};
 use crate::render::marker::colour;
 use crate::render::number::range;
 use crate::render::pen::{Drawn, Pen, left};
@@ -23,8 +22,6 @@ const SPREAD: f64 = 54.0;
 /// Where the rows of the strip lie.
 const SIMULATED: f64 = 0.77;
 const MEASURED: f64 = 0.32;
-
-type Chart<'a, DB> = ChartContext<'a, DB, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
 /// Paints over one axis.
 #[derive(Clone, Copy, Debug)]
@@ -63,21 +60,9 @@ impl Painter {
         let height = if high > low { high - low } else { 1.0 };
         let below = if low < 0.0 { 0.05 * height } else { 0.0 };
         let end = 1.04 * self.end;
-        let mut chart = self
-            .pen
-            .frame(area, (words, 20), LEFT)
-            .build_cartesian_2d(0.0..end, low - below..low + 1.06 * height)?;
-        let (x_decimals, y_decimals) = (decimals(end), decimals(height));
-        let mut mesh = chart.configure_mesh();
-        self.pen
-            .grid(&mut mesh)
-            .x_labels(self.labels)
-            .y_labels(6)
-            .x_label_formatter(&|value| format!("{value:.x_decimals$}"))
-            .y_label_formatter(&|value| format!("{value:.y_decimals$}"))
-            .x_desc(self.over)
-            .y_desc(panel.unit)
-            .draw()?;
+        let upwards = Axis::new(panel.unit, [low - below, low + 1.06 * height], 6);
+        let axes = Axes { x: Axis::new(self.over, [0.0, end], self.labels), y: upwards };
+        let mut chart = axes.on(area, self.pen, (words, 20), LEFT)?;
         self.bands(&mut chart, panel)?;
         for (index, medians) in panel.causes.iter().enumerate() {
             self.dashed(&mut chart, medians.clone(), index)?;
@@ -94,7 +79,7 @@ impl Painter {
     }
 
     /// Half and nine in ten of the walls, and their median.
-    fn bands<DB: DrawingBackend>(&self, chart: &mut Chart<'_, DB>, panel: &Panel) -> Drawn<DB> {
+    fn bands<DB: DrawingBackend>(&self, chart: &mut Plane<'_, DB>, panel: &Panel) -> Drawn<DB> {
         let ours = colour(0);
         let edge = |of: &dyn Fn(&Band) -> f64| -> Vec<(f64, f64)> {
             panel.bands.iter().map(|(tilt, band)| (*tilt, of(band))).collect()
@@ -118,7 +103,7 @@ impl Painter {
     /// A line of a cause.
     fn dashed<DB: DrawingBackend>(
         &self,
-        chart: &mut Chart<'_, DB>,
+        chart: &mut Plane<'_, DB>,
         line: Vec<(f64, f64)>,
         cause: usize,
     ) -> Drawn<DB> {
@@ -130,7 +115,7 @@ impl Painter {
     /// A reading with the bar of its error, or a bound with an arrow.
     fn reading<DB: DrawingBackend>(
         &self,
-        chart: &mut Chart<'_, DB>,
+        chart: &mut Plane<'_, DB>,
         at: (f64, f64),
         bar: [(f64, f64); 2],
         towards: Option<(i32, i32)>,
@@ -151,19 +136,9 @@ impl Painter {
         (band, causes): &(Band, Vec<f64>),
         angles: &[Mark],
     ) -> Drawn<DB> {
-        let end = 1.04 * self.end;
+        let x = Axis::new(self.over, [0.0, 1.04 * self.end], self.labels);
         let mut chart =
-            self.pen.frame(area, ("collapse angle", 20), LEFT).build_cartesian_2d(0.0..end, 0.0..1.0)?;
-        let x_decimals = decimals(end);
-        let mut mesh = chart.configure_mesh();
-        self.pen
-            .grid(&mut mesh)
-            .disable_y_mesh()
-            .y_labels(0)
-            .x_labels(self.labels)
-            .x_label_formatter(&|value| format!("{value:.x_decimals$}"))
-            .x_desc(self.over)
-            .draw()?;
+            Axes { x, y: Axis::new("", [0.0, 1.0], 0) }.on(area, self.pen, ("collapse angle", 20), LEFT)?;
         let ours = colour(0);
         for ([from, to], half, dark) in [(band.most, 0.1, 1.0), (band.half, 0.15, 1.6)] {
             let corners = [(from, SIMULATED - half), (to, SIMULATED + half)];

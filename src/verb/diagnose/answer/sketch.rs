@@ -1,6 +1,6 @@
 //! Sketches of the causes: what each one is of a wall or of a test, at a glance.
 
-use crate::verb::run::answer::page::Drawing;
+use crate::render::document::Drawing;
 
 /// The sketches by the name of the mechanism, with a description for those who do not see them.
 const SKETCHES: [(&str, &str, &str); 18] = [

@@ -14,7 +14,6 @@ pub use text::law_text;
 
 use crate::critic::LearntLaw;
 use crate::ensemble::replace_file;
-use crate::render::draw::IMAGE_SCALE;
 use crate::verb::diagnose::extended::{EXTENDED, Origin};
 use crate::verb::diagnose::joint_law::plot::LawPlot;
 use crate::verb::run::answer::files::write_figure;
@@ -47,8 +46,7 @@ pub fn write_law(origin: &Origin<'_>, law: &LearntLaw, dir: &Path) -> Result<Law
     }
     let json = serde_json::to_string_pretty(&summary).context("the law cannot be written as JSON")? + "\n";
     replace_file(&dir.join(format!("{LAW}.json")), json.as_bytes())?;
-    let figure = |scale| LawPlot::new(&summary, scale);
-    write_figure(dir, LAW, &figure(1), &figure(IMAGE_SCALE))?;
+    write_figure(dir, LAW, |scale| LawPlot::new(&summary, scale))?;
     Ok(summary)
 }
 

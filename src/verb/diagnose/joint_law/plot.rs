@@ -3,6 +3,7 @@
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
+use crate::render::axes::{Axes, Axis};
 use crate::render::draw::Figure;
 use crate::render::pen::{Drawn, LINE, Pen};
 use crate::verb::diagnose::joint_law::LawSummary;
@@ -42,10 +43,9 @@ impl<'s> LawPlot<'s> {
         let most = knots.iter().map(|(_, _, band)| band[1]).chain(ends).fold(0.0, f64::max);
         let right = summary.beyond_pa / 1e3;
         let title = format!("{}: law of the joints, learnt", summary.study);
-        let mut chart =
-            self.pen.frame(area, (&title, 24), 82).build_cartesian_2d(0.0..1.02 * right, 0.0..1.08 * most)?;
-        let mut mesh = chart.configure_mesh();
-        self.pen.grid(&mut mesh).x_desc("stress (kPa)").y_desc("closure since the first knot (mm)").draw()?;
+        let x = Axis::new("stress (kPa)", [0.0, 1.02 * right], 10);
+        let y = Axis::new("closure since the first knot (mm)", [0.0, 1.08 * most], 10);
+        let mut chart = Axes { x, y }.on(area, self.pen, (&title, 24), 82)?;
         let upper = knots.iter().map(|(x, _, band)| (*x, band[1]));
         let lower = knots.iter().rev().map(|(x, _, band)| (*x, band[0]));
         chart.draw_series([Polygon::new(upper.chain(lower).collect::<Vec<_>>(), BLUE.mix(0.2).filled())])?;

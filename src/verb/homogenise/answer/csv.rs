@@ -1,48 +1,47 @@
 //! The tables of masonry seen as a plate: a line per cell, a line per cell and point of its surface, and a line per wall.
 
 use crate::ensemble::{AskedOfCells, CellRow, Judged, Subject, WallRow};
-use crate::homogenise::{Border, Found, Loose, Moduli};
-use crate::render::csv::quoted;
+use crate::homogenise::{Border, Found, Loose};
+use crate::render::csv::Csv;
 use crate::study::Study;
 use crate::verb::homogenise::answer::entry::named;
 
-/// The cell that a row is of.
-fn head(study: &Study, asked: &AskedOfCells, row: &CellRow) -> String {
-    let [along, courses] = asked.sizes[row.task.size];
-    format!("{},{along},{courses},{}", quoted(&study.arms[row.task.arm as usize].name), row.task.cell)
+/// The cell that a row is of: its arm, its stones along and its courses, its number.
+fn head<'s>(study: &'s Study, asked: &AskedOfCells, row: &CellRow) -> (&'s str, [u32; 2], u64) {
+    (&study.arms[row.task.arm as usize].name, asked.sizes[row.task.size], row.task.cell)
 }
 
 /// A line per cell: how it ended, and its moduli by border.
-pub(crate) fn cells_csv(study: &Study, asked: &AskedOfCells, rows: &[CellRow]) -> String {
+pub(crate) fn cells_csv(study: &Study, asked: &AskedOfCells, rows: &[CellRow]) -> Vec<u8> {
     let named = named();
-    let mut text = "arm,stones_along,courses,cell,outcome,reason,stones,joints,border".to_owned();
-    named.iter().for_each(|modulus| text.push_str(&format!(",{}", modulus.name)));
-    text.push('\n');
+    let names: String = named.iter().map(|modulus| format!(",{}", modulus.name)).collect();
+    let mut csv =
+        Csv::new(format!("arm,stones_along,courses,cell,outcome,reason,stones,joints,border{names}"));
+    let none = || vec![None::<f64>; named.len()];
     for row in rows {
-        let head = head(study, asked, row);
-        let empty = ",".repeat(named.len());
-        match &row.found {
+        let (arm, size, cell) = head(study, asked, row);
+        let answer = match &row.found {
             Err(fault) => {
-                text.push_str(&format!("{head},invalid_geometry,{},,,{empty}\n", quoted(&fault.to_string())));
+                let why = fault.to_string();
+                csv.line(&[&arm, &size, &cell, &"invalid_geometry", &why, &[""; 3], &none()]);
+                continue;
             }
-            Ok(answer) => {
-                for (border, moduli) in Border::ALL.iter().zip(&answer.moduli) {
-                    let counts = format!("{},{},{}", answer.stones, answer.joints, border.name());
-                    let own = |own: &Moduli| {
-                        named.iter().map(|modulus| format!(",{}", (modulus.of)(own))).collect::<String>()
-                    };
-                    let line = match moduli {
-                        Ok(moduli) => format!("{head},solved,,{counts}{}", own(moduli)),
-                        Err(fault) => {
-                            format!("{head},{},{},{counts}{empty}", name(*fault), quoted(&fault.to_string()))
-                        }
-                    };
-                    text.push_str(&(line + "\n"));
-                }
-            }
+            Ok(answer) => answer,
+        };
+        for (border, moduli) in Border::ALL.iter().zip(&answer.moduli) {
+            let (outcome, why, values) = match moduli {
+                Ok(moduli) => (
+                    "solved",
+                    String::new(),
+                    named.iter().map(|modulus| Some((modulus.of)(moduli))).collect(),
+                ),
+                Err(fault) => (name(*fault), fault.to_string(), none()),
+            };
+            let counts = [answer.stones, answer.joints];
+            csv.line(&[&arm, &size, &cell, &outcome, &why, &counts, &border.name(), &values]);
         }
     }
-    text
+    csv.bytes()
 }
 
 /// Why there are no moduli, as in files.
@@ -55,82 +54,77 @@ fn name(fault: Loose) -> &'static str {
 }
 
 /// A line per cell, method and direction: what was found there, and the normal of the surface.
-pub(crate) fn surface_csv(study: &Study, asked: &AskedOfCells, rows: &[CellRow]) -> String {
+pub(crate) fn surface_csv(study: &Study, asked: &AskedOfCells, rows: &[CellRow]) -> Vec<u8> {
     let stresses = ["n11", "n22", "n12", "m11", "m22", "m12"];
     let columns = |of: &str| stresses.map(|stress| format!("{of}_{stress}")).join(",");
-    let mut text = format!(
-        "arm,stones_along,courses,cell,method,{},outcome,value,{}\n",
+    let mut csv = Csv::new(format!(
+        "arm,stones_along,courses,cell,method,{},outcome,value,{}",
         columns("direction"),
         columns("normal")
-    );
-    let numbers = |six: &[f64; 6]| six.map(|x| x.to_string()).join(",");
+    ));
     for row in rows {
         let Ok(answer) = &row.found else { continue };
+        let (arm, size, cell) = head(study, asked, row);
         for (method, points) in asked.of.methods.iter().zip(&answer.surfaces) {
             for point in points {
                 let (outcome, value) = match &point.found {
-                    Found::Borne(value) => ("borne", value.to_string()),
-                    Found::AtLeast(value) => ("at_least", value.to_string()),
-                    Found::Unbounded => ("unbounded", String::new()),
-                    Found::FallsAtRest => ("falls_at_rest", "0".to_owned()),
-                    Found::NotConverged(_) => ("not_converged", String::new()),
+                    Found::Borne(value) => ("borne", Some(*value)),
+                    Found::AtLeast(value) => ("at_least", Some(*value)),
+                    Found::Unbounded => ("unbounded", None),
+                    Found::FallsAtRest => ("falls_at_rest", Some(0.0)),
+                    Found::NotConverged(_) => ("not_converged", None),
                 };
-                text.push_str(&format!(
-                    "{},{},{},{outcome},{value},{}\n",
-                    head(study, asked, row),
-                    method.name(),
-                    numbers(&point.direction),
-                    numbers(&point.normal)
-                ));
+                let (direction, normal) = (&point.direction, &point.normal);
+                csv.line(&[&arm, &size, &cell, &method.name(), direction, &outcome, &value, normal]);
             }
         }
     }
-    text
+    csv.bytes()
 }
 
 /// How it ended, in files: outcome, load, reason.
-fn ended(judged: &Judged) -> (&'static str, String, String) {
+fn ended(judged: &Judged) -> (&'static str, Option<f64>, String) {
     match judged {
-        Judged::Falls(load) => ("falls", load.to_string(), String::new()),
-        Judged::BearsAny => ("bears_any", String::new(), String::new()),
-        Judged::FallsAtRest => ("falls_at_rest", "0".to_owned(), String::new()),
-        Judged::OutOfRange(why) => ("out_of_range", String::new(), quoted(&why.to_string())),
-        Judged::NotSolved(why) => ("not_solved", String::new(), quoted(why)),
-        Judged::Invalid(why) => ("invalid_geometry", String::new(), quoted(why)),
+        Judged::Falls(load) => ("falls", Some(*load), String::new()),
+        Judged::BearsAny => ("bears_any", None, String::new()),
+        Judged::FallsAtRest => ("falls_at_rest", Some(0.0), String::new()),
+        Judged::OutOfRange(why) => ("out_of_range", None, why.to_string()),
+        Judged::NotSolved(why) => ("not_solved", None, why.clone()),
+        Judged::Invalid(why) => ("invalid_geometry", None, why.clone()),
     }
 }
 
 /// What a row is of, in files: arm, plate or stones, number.
-fn head_of_wall(study: &Study, row: &WallRow) -> String {
+fn head_of_wall<'s>(study: &'s Study, row: &WallRow) -> (&'s str, &'static str, u64) {
     let (subject, number) = match row.task.subject {
         Subject::Plate(cell) => ("plate", cell),
         Subject::Stones(member) => ("stones", member),
     };
-    format!("{},{subject},{number}", quoted(&study.arms[row.task.arm as usize].name))
+    (&study.arms[row.task.arm as usize].name, subject, number)
 }
 
 /// A line per plate, and one or two per wall.
-pub(crate) fn walls_csv(study: &Study, rows: &[WallRow]) -> String {
-    let mut text = "arm,subject,number,method,outcome,load,shear_ratio,reason\n".to_owned();
+pub(crate) fn walls_csv(study: &Study, rows: &[WallRow]) -> Vec<u8> {
+    let mut csv = Csv::new("arm,subject,number,method,outcome,load,shear_ratio,reason");
     for row in rows {
+        let (arm, subject, number) = head_of_wall(study, row);
         let by_method =
             [("associative", Some(&row.found)), ("non-associative", row.non_associative.as_ref())];
         for (method, judged) in by_method.into_iter().filter_map(|(method, judged)| Some((method, judged?))) {
             let (outcome, load, reason) = ended(judged);
-            let shear = row.validity.map_or_else(String::new, |own| own.shear_ratio.to_string());
-            let head = head_of_wall(study, row);
-            text.push_str(&format!("{head},{method},{outcome},{load},{shear},{reason}\n"));
+            let shear = row.validity.map(|own| own.shear_ratio);
+            csv.line(&[&arm, &subject, &number, &method, &outcome, &load, &shear, &reason]);
         }
     }
-    text
+    csv.bytes()
 }
 
 /// How long each took, which differs from run to run.
-pub(crate) fn timing_csv(study: &Study, rows: &[WallRow]) -> String {
-    let mut text = "arm,subject,number,seconds,seconds_non_associative\n".to_owned();
+pub(crate) fn timing_csv(study: &Study, rows: &[WallRow]) -> Vec<u8> {
+    let mut csv = Csv::new("arm,subject,number,seconds,seconds_non_associative");
     for row in rows {
-        let [first, second] = row.seconds;
-        text.push_str(&format!("{},{first:.6},{second:.6}\n", head_of_wall(study, row)));
+        let (arm, subject, number) = head_of_wall(study, row);
+        csv.line(&[&arm, &subject, &number, &row.seconds.map(|seconds| format!("{seconds:.6}"))]);
     }
-    text
+    csv.bytes()
 }

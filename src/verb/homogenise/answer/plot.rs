@@ -4,13 +4,14 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use crate::homogenise::{Direction, Method};
-use crate::render::axes::{WIDTH, decimals};
+use crate::render::axes::{Axes, Axis, WIDTH};
+use crate::render::document::Captioned;
 use crate::render::draw::Figure;
 use crate::render::marker::colour;
 use crate::render::number::{range, shortened};
 use crate::render::pen::{Drawn, LINE, Pen};
+use crate::verb::homogenise::answer::document::{ALIKE, MODULI, STRESSES};
 use crate::verb::homogenise::answer::entry::{HomogenisedSummary, PlateArm, PlateValue};
-use crate::verb::homogenise::answer::text::{ALIKE, MODULI, STRESSES};
 
 /// Height of a row of panels (pixels at scale 1).
 const PANEL: u32 = 360;
@@ -53,10 +54,21 @@ struct Panel {
     is_section: bool,
 }
 
-impl CellPlot<'_> {
-    /// Whether there is anything to draw.
-    pub fn is_empty(&self) -> bool {
-        self.panels().is_empty()
+impl<'s> CellPlot<'s> {
+    /// The figures that show anything.
+    pub fn all(summary: &'s HomogenisedSummary) -> Vec<Captioned<'s>> {
+        let of = |(what, file, title, caption)| {
+            let at = move |scale| CellPlot { summary, what, pen: Pen { scale } };
+            (!at(1).panels().is_empty()).then(|| Captioned::new(file, title, caption, at))
+        };
+        let surface = "Sections of the surface of strength: the stresses that the plate bears at most, over p and the thickness t.";
+        let scatter =
+            "The coefficient of variation between cells of a size, over the number of stones along a side.";
+        let both = [
+            (What::Surface, "surface", "Sections of the surface of strength", surface),
+            (What::Scatter, "scatter", "Scatter over the size of the cells", scatter),
+        ];
+        both.into_iter().filter_map(of).collect()
     }
 
     fn panels(&self) -> Vec<Panel> {
@@ -135,19 +147,8 @@ impl CellPlot<'_> {
                 let room = 0.08 * (high - low).max(1e-9);
                 [if panel.is_section { low - room } else { low }, high.max(0.0) + room]
             });
-        let mut chart =
-            self.pen.frame(area, (&panel.title, 20), 70).build_cartesian_2d(x[0]..x[1], y[0]..y[1])?;
-        let [x_decimals, y_decimals] = [x, y].map(|[low, high]| decimals(high - low));
-        let mut mesh = chart.configure_mesh();
-        self.pen
-            .grid(&mut mesh)
-            .x_labels(5)
-            .y_labels(5)
-            .x_label_formatter(&|value| format!("{value:.x_decimals$}"))
-            .y_label_formatter(&|value| format!("{value:.y_decimals$}"))
-            .x_desc(&panel.x)
-            .y_desc(&panel.y)
-            .draw()?;
+        let axes = Axes { x: Axis::new(&panel.x, x, 5), y: Axis::new(&panel.y, y, 5) };
+        let mut chart = axes.on(area, self.pen, (&panel.title, 20), 70)?;
         for line in &panel.lines {
             let style = colour(line.arm).stroke_width(2 * self.pen.scale);
             let points = line.points.iter().copied();

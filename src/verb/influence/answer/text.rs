@@ -1,18 +1,8 @@
-//! What is printed of an influence: at most five lines that say it, and the table.
+//! The words of an influence: at most five lines that say it, and the table.
 
 use crate::render::number::{compact, or_dash, significant, with_interval};
-use crate::render::text::{aligned, wrapped};
 use crate::verb::influence::answer::entry::WELL_KNOWN;
 use crate::verb::influence::answer::{InfluenceSummary, ShareEntry};
-
-/// The conclusion and the shares of all sources.
-pub fn influence_text(summary: &InfluenceSummary) -> String {
-    let mut text: String = conclusion(summary).iter().map(|line| wrapped("", line)).collect();
-    text.push_str(&format!("\n{SHARES}\n{}", aligned(shares(summary))));
-    text.push_str(&wrapped("", ORDERS));
-    text.push_str(&known(summary).map_or_else(String::new, |known| wrapped("", &known)));
-    text
-}
 
 /// What the table holds.
 pub(crate) const SHARES: &str = "Shares of the variance in %, with 95 % intervals";

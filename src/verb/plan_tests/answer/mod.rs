@@ -1,27 +1,20 @@
-//! How many real specimens tell what: `plan-tests.json`, `plan-tests.csv`, and what is printed.
+//! How many real specimens tell what: the numbers, and how they are told.
 
-mod csv;
 mod difference;
+mod document;
 mod reading;
-mod text;
 
-use std::path::Path;
-
-use anyhow::{Context, Result};
 use serde::Serialize;
 
 pub use difference::{PlannedArm, PlannedDifference};
+pub use document::{test_plan_document, test_plan_warnings};
 pub use reading::Reading;
-pub use text::{test_plan_text, test_plan_warnings};
 
-use crate::ensemble::{Quantity, Row, replace_file};
+use crate::ensemble::{Quantity, Row};
 use crate::stats::Aim;
 use crate::study::Study;
 use crate::verb::plan_tests::answer::reading::{readings, specimens};
 use crate::verb::run::answer::stated_cov::StatedCov;
-
-/// File name, without ending, of what is written.
-const FILE: &str = "plan-tests";
 
 /// What is planned for.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -132,14 +125,4 @@ fn doubts(arms: &[PlannedArm]) -> Vec<(&'static str, Option<f64>, String)> {
         all.push(("specimens", Some(most), why.join(" ")));
     }
     all
-}
-
-/// Writes the plan as JSON and CSV into an existing folder.
-///
-/// # Errors
-/// The file that could not be written, and why.
-pub fn write_test_plan(plan: &TestPlan, dir: &Path) -> Result<()> {
-    let json = serde_json::to_string_pretty(plan).context("the plan cannot be written as JSON")? + "\n";
-    replace_file(&dir.join(format!("{FILE}.json")), json.as_bytes())?;
-    Ok(replace_file(&dir.join(format!("{FILE}.csv")), csv::csv(plan).as_bytes())?)
 }

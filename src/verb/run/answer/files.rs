@@ -6,17 +6,17 @@ use std::path::Path;
 use anyhow::{Context, Result};
 
 use crate::ensemble::{Row, replace_file};
-use crate::render::draw::{Figure, IMAGE_SCALE, png_into, svg};
+use crate::render::document::{Captioned, Document};
+use crate::render::draw::Figure;
 use crate::study::Study;
 use crate::verb::run::answer::beside::Earlier;
 use crate::verb::run::answer::csv::{csv, fragility_csv};
-use crate::verb::run::answer::drift::{DriftPlot, drift_csv, drift_curves};
+use crate::verb::run::answer::drift::{drift_csv, drift_curves};
 use crate::verb::run::answer::figure::{curves, ladders, title};
-use crate::verb::run::answer::force_drift::{ForceDriftPlot, force_curves, force_drift_csv};
-use crate::verb::run::answer::fragility::FragilityPlot;
+use crate::verb::run::answer::figures::{figures, force_figure};
+use crate::verb::run::answer::force_drift::{force_curves, force_drift_csv};
 use crate::verb::run::answer::gathered::{Gathered, populations};
-use crate::verb::run::answer::measured::{CalibrationPlot, calibration_csv, comparison_csv};
-use crate::verb::run::answer::plot::Plot;
+use crate::verb::run::answer::measured::{calibration_csv, comparison_csv};
 use crate::verb::run::answer::population::Population;
 use crate::verb::run::answer::shaken::write_shaken;
 use crate::verb::run::answer::summary::{Summary, summary_of};
@@ -27,10 +27,8 @@ pub const SUMMARY_JSON: &str = "summary.json";
 pub const FRAGILITY: &str = "fragility";
 /// File name, without ending, of the drift against the walls' length.
 const DRIFT: &str = "drift";
-/// File name, without ending, of the pushes over the drift, and the figure of them.
-const FORCE_DRIFT: &str = "force-drift";
-/// File name of the comparison with what was measured.
-pub const COMPARISON_CSV: &str = "comparison.csv";
+/// File name, without ending, of the comparison with what was measured.
+const COMPARISON: &str = "comparison";
 /// File name, without ending, of the calibration's curves and the figure of them.
 pub const CALIBRATION: &str = "calibration";
 
@@ -70,76 +68,65 @@ fn write_results(
 ) -> Result<Summary> {
     let summary = summary_of(study, populations, rows);
     write_summary(&summary, dir, beside)?;
-    write_force_drift(study, rows, &title(&summary), dir)?;
-    Ok(summary)
-}
-
-/// Writes the pushes over the drift, if walls were sheared.
-fn write_force_drift(study: &Study, rows: &[Row], title: &str, dir: &Path) -> Result<()> {
-    let curves = force_curves(study, rows);
-    if curves.is_empty() {
-        return Ok(());
+    if let Some(figure) = force_figure(study, rows, &summary) {
+        let text = force_drift_csv(&force_curves(study, rows));
+        replace_file(&dir.join(format!("{}.csv", figure.file)), text.as_bytes())?;
+        write_captioned(dir, &figure)?;
     }
-    replace_file(&dir.join(format!("{FORCE_DRIFT}.csv")), force_drift_csv(&curves).as_bytes())?;
-    let figure = |scale| ForceDriftPlot::new(title, &curves, &study.measured, scale);
-    write_figure(dir, FORCE_DRIFT, &figure(1), &figure(IMAGE_SCALE))
+    Ok(summary)
 }
 
 /// Writes the files of a summary.
 pub(crate) fn write_summary(summary: &Summary, dir: &Path, beside: Option<&Earlier>) -> Result<()> {
-    let curves = curves(summary);
-    let title = title(summary);
     let json = serde_json::to_string_pretty(summary).context("the summary cannot be written as JSON")? + "\n";
     replace_file(&dir.join(SUMMARY_JSON), json.as_bytes())?;
     if let Some(shaken) = &summary.shaken {
-        return write_shaken(shaken, &title, dir);
+        return write_shaken(shaken, &title(summary), dir);
     }
-    let name = curves.first().map_or("figure", |curve| curve.quantity.figure());
-    replace_file(&dir.join(format!("{name}.csv")), csv(&curves).as_bytes())?;
-    let plot = |scale| Plot::new(&title, &curves, scale).beside(beside);
-    write_figure(dir, name, &plot(1), &plot(IMAGE_SCALE))?;
-    write_measured(summary, &title, dir)?;
-    write_drift(summary, &title, dir)?;
-    let ladders = ladders(summary);
-    if ladders.is_empty() {
-        return Ok(());
+    let write = |name: &str, text: &[u8]| replace_file(&dir.join(format!("{name}.csv")), text);
+    let curves = curves(summary);
+    write(curves.first().map_or("figure", |curve| curve.quantity.figure()), csv(&curves).as_bytes())?;
+    if let Some(measured) = &summary.measured {
+        write(COMPARISON, &comparison_csv(&measured.comparison))?;
+        if !measured.calibration.is_empty() {
+            write(CALIBRATION, &calibration_csv(&measured.calibration))?;
+        }
     }
-    replace_file(&dir.join(format!("{FRAGILITY}.csv")), fragility_csv(&summary.arms).as_bytes())?;
-    let figure = |scale| FragilityPlot::new(&title, &ladders, scale);
-    write_figure(dir, FRAGILITY, &figure(1), &figure(IMAGE_SCALE))
+    let drifts = drift_curves(summary);
+    if !drifts.is_empty() {
+        write(DRIFT, &drift_csv(&drifts))?;
+    }
+    if !ladders(summary).is_empty() {
+        write(FRAGILITY, &fragility_csv(&summary.arms))?;
+    }
+    figures(summary, beside).iter().try_for_each(|figure| write_captioned(dir, figure))
 }
 
-/// Writes the drift against the walls' length, if arms are points of such a curve.
-fn write_drift(summary: &Summary, title: &str, dir: &Path) -> Result<()> {
-    let curves = drift_curves(summary);
-    if curves.is_empty() {
-        return Ok(());
-    }
-    replace_file(&dir.join(format!("{DRIFT}.csv")), drift_csv(&curves).as_bytes())?;
-    let figure = |scale| DriftPlot::new(title, &curves, scale);
-    write_figure(dir, DRIFT, &figure(1), &figure(IMAGE_SCALE))
+/// Writes a document into an existing folder: the answer as JSON under a name, the files beside it, its figures. The same answer gives the
+/// same bytes.
+///
+/// # Errors
+/// The file that could not be written, and why.
+pub(crate) fn write_document(document: &Document<'_>, (name, json): (&str, &str), dir: &Path) -> Result<()> {
+    replace_file(&dir.join(format!("{name}.json")), json.as_bytes())?;
+    document.files.iter().try_for_each(|(name, bytes)| replace_file(&dir.join(name), bytes))?;
+    document.figures().try_for_each(|figure| write_captioned(dir, figure))
 }
 
-/// Writes what was measured beside what was simulated, if anything was.
-fn write_measured(summary: &Summary, title: &str, dir: &Path) -> Result<()> {
-    let Some(measured) = &summary.measured else { return Ok(()) };
-    replace_file(&dir.join(COMPARISON_CSV), comparison_csv(&measured.comparison).as_bytes())?;
-    if measured.calibration.is_empty() {
-        return Ok(());
-    }
-    replace_file(&dir.join(format!("{CALIBRATION}.csv")), calibration_csv(&measured.calibration).as_bytes())?;
-    let panels = || measured.calibration.iter().map(|entry| &entry.panel).collect();
-    let figure = |scale| CalibrationPlot::new(title, panels(), scale);
-    write_figure(dir, CALIBRATION, &figure(1), &figure(IMAGE_SCALE))
+/// Writes a figure as SVG and PNG, by how it is drawn at a scale.
+pub(crate) fn write_figure<F: Figure>(dir: &Path, name: &str, at: impl Fn(u32) -> F + Clone) -> Result<()> {
+    write_captioned(dir, &Captioned::new(name, "", "", at))
 }
 
-/// Writes a figure as SVG and PNG; `large` is the same one at [`IMAGE_SCALE`].
-pub(crate) fn write_figure(dir: &Path, name: &str, figure: &impl Figure, large: &impl Figure) -> Result<()> {
-    replace_file(&dir.join(format!("{name}.svg")), svg(figure)?.as_bytes())?;
+/// Writes a figure as SVG and PNG.
+pub(crate) fn write_captioned(dir: &Path, figure: &Captioned<'_>) -> Result<()> {
+    let name = &figure.file;
+    replace_file(&dir.join(format!("{name}.svg")), figure.svg()?.as_bytes())?;
     // Lets the image writer, which wants a path and chooses its format by the ending, write a temporary file, flushes it to
     // the disk and gives it its name.
     let (path, temporary) = (dir.join(format!("{name}.png")), dir.join(format!(".unfinished-{name}.png")));
-    let written = png_into(&temporary, large)
+    let written = figure
+        .png_into(&temporary)
         .and_then(|()| Ok(fs::File::open(&temporary)?.sync_all()?))
         .and_then(|()| Ok(fs::rename(&temporary, &path)?));
     if written.is_err() {

@@ -9,6 +9,7 @@ pub(crate) mod csv;
 pub(crate) mod drift;
 pub(crate) mod element_table;
 pub(crate) mod figure;
+pub(crate) mod figures;
 pub(crate) mod files;
 pub(crate) mod force_drift;
 pub(crate) mod fragility;

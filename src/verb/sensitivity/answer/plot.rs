@@ -10,7 +10,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use crate::render::draw::Figure;
 use crate::render::pen::{Drawn, LINE, Pen, centred, left};
 use crate::verb::sensitivity::answer::SensitivitySummary;
-use crate::verb::sensitivity::answer::text::heading;
+use crate::verb::sensitivity::answer::document::heading;
 
 const LEFT: i32 = 180;
 const HEAD: i32 = 122;

@@ -5,5 +5,5 @@ mod curve;
 mod plot;
 
 pub use csv::force_drift_csv;
-pub use curve::{ForceCurve, force_curves};
-pub use plot::ForceDriftPlot;
+pub use curve::force_curves;
+pub use plot::force_drift;

@@ -1,6 +1,6 @@
 //! The numbers of the comparison and of the calibration's curves. They read back to the same bits.
 
-use crate::render::csv::{cell, ends, quoted};
+use crate::render::csv::Csv;
 use crate::verb::run::answer::measured::comparison::MomentsEntry;
 use crate::verb::run::answer::measured::{CalibrationEntry, ComparisonEntry};
 
@@ -8,7 +8,7 @@ const MOMENTS: [&str; 10] =
     ["n", "mean", "mean_low", "mean_high", "sigma", "sigma_low", "sigma_high", "cov", "cov_low", "cov_high"];
 
 /// `comparison.csv`: one line per family, quantity, tilt and kn; empty where not defined.
-pub fn comparison_csv(entries: &[ComparisonEntry]) -> String {
+pub fn comparison_csv(entries: &[ComparisonEntry]) -> Vec<u8> {
     let moments = |side: &str| MOMENTS.map(|name| format!("{side}_{name}"));
     let mut header = ["family", "quantity", "tilt_deg", "unit", "kn_pa_per_m"].map(String::from).to_vec();
     // Only walls that are sheared have drifts.
@@ -35,61 +35,52 @@ pub fn comparison_csv(entries: &[ComparisonEntry]) -> String {
         ]
         .map(String::from),
     );
-    let mut text = header.join(",") + "\n";
+    let mut csv = Csv::new(header.join(","));
     for entry in entries {
-        let mut cells = vec![
-            quoted(&entry.family),
-            entry.quantity.to_string(),
-            cell(entry.tilt_deg),
-            entry.unit.to_string(),
-            cell(entry.kn_pa_per_m),
-        ];
-        if drifts {
-            cells.insert(3, cell(entry.drift_percent));
-        }
-        cells.extend(moments_cells(&entry.measured));
-        cells.extend([entry.measured_below.to_string(), entry.measured_above.to_string()]);
-        cells.push(cell(entry.measured_mean_error));
-        cells.extend(moments_cells(&entry.simulated));
-        cells.extend([entry.fell_before, entry.stood_to_the_end, entry.lost].map(|count| count.to_string()));
-        cells.extend(
-            [
-                entry.difference,
-                entry.difference_sd,
-                entry.difference_sd_measurement,
-                entry.difference_sd_scatter,
-                entry.difference_sd_ensemble,
-                entry.difference_in_sd,
-                entry.agreeing_share,
-            ]
-            .map(cell),
-        );
-        cells.push(quoted(entry.note.unwrap_or("")));
-        text.push_str(&cells.join(","));
-        text.push('\n');
+        let drift = if drifts { vec![entry.drift_percent] } else { Vec::new() };
+        let [measured, simulated] = [&entry.measured, &entry.simulated].map(moments_cells);
+        csv.line(&[
+            &entry.family,
+            &entry.quantity,
+            &entry.tilt_deg,
+            &drift,
+            &entry.unit,
+            &entry.kn_pa_per_m,
+            &entry.measured.n,
+            &measured,
+            &entry.measured_below,
+            &entry.measured_above,
+            &entry.measured_mean_error,
+            &entry.simulated.n,
+            &simulated,
+            &[entry.fell_before, entry.stood_to_the_end, entry.lost],
+            &entry.difference,
+            &entry.difference_sd,
+            &entry.difference_sd_measurement,
+            &entry.difference_sd_scatter,
+            &entry.difference_sd_ensemble,
+            &entry.difference_in_sd,
+            &entry.agreeing_share,
+            &entry.note.unwrap_or(""),
+        ]);
     }
-    text
+    csv.bytes()
 }
 
-fn moments_cells(moments: &MomentsEntry) -> Vec<String> {
-    let mut cells = vec![moments.n.to_string()];
-    for (value, interval) in
-        [(moments.mean, moments.mean_ci), (moments.sigma, moments.sigma_ci), (moments.cov, moments.cov_ci)]
-    {
-        cells.push(cell(value));
-        cells.extend(ends(interval));
-    }
-    cells
+/// Mean, sigma and coefficient of variation, each with the ends of its interval.
+fn moments_cells(moments: &MomentsEntry) -> Vec<Option<f64>> {
+    let estimates =
+        [(moments.mean, moments.mean_ci), (moments.sigma, moments.sigma_ci), (moments.cov, moments.cov_ci)];
+    estimates.into_iter().flat_map(|(value, ends)| [value, ends.map(|e| e[0]), ends.map(|e| e[1])]).collect()
 }
 
 /// `calibration.csv`: one line per arm and place of its curve over kn.
-pub fn calibration_csv(entries: &[CalibrationEntry]) -> String {
-    let mut text = "arm,kn_pa_per_m,mean_deg,sigma_deg,deviance\n".to_string();
+pub fn calibration_csv(entries: &[CalibrationEntry]) -> Vec<u8> {
+    let mut csv = Csv::new("arm,kn_pa_per_m,mean_deg,sigma_deg,deviance");
     for entry in entries {
         for point in &entry.panel.curve {
-            let numbers = [point.kn, point.mean, point.sigma, point.deviance].map(|x| x.to_string());
-            text.push_str(&format!("{},{}\n", quoted(&entry.arm), numbers.join(",")));
+            csv.line(&[&entry.arm, &[point.kn, point.mean, point.sigma, point.deviance]]);
         }
     }
-    text
+    csv.bytes()
 }

@@ -4,10 +4,10 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use crate::critic::End;
-use crate::render::axes::{BAND_ALPHA, WIDTH, decimals};
+use crate::render::axes::{Axes, Axis, BAND_ALPHA, WIDTH};
 use crate::render::draw::Figure;
 use crate::render::marker::{colour, filled};
-use crate::render::number::{compact, range, shortened};
+use crate::render::number::{range, shortened};
 use crate::render::pen::{Drawn, LINE, Pen};
 use crate::verb::run::answer::measured::panel::{Panel, PanelPoint};
 
@@ -22,35 +22,24 @@ const MEASURED: usize = 1;
 
 /// What is drawn, at which scale.
 pub struct CalibrationPlot<'c> {
-    title: &'c str,
+    title: String,
     panels: Vec<&'c Panel>,
     pen: Pen,
 }
 
 impl<'c> CalibrationPlot<'c> {
     /// A panel per arm.
-    pub fn new(title: &'c str, panels: Vec<&'c Panel>, scale: u32) -> Self {
+    pub fn new(title: String, panels: Vec<&'c Panel>, scale: u32) -> Self {
         CalibrationPlot { title, panels, pen: Pen { scale } }
     }
 
     fn panel<DB: DrawingBackend>(&self, area: &DrawingArea<DB, Shift>, panel: &Panel) -> Drawn<DB> {
         let [low, high] = panel.ends();
         let [bottom, top] = heights(panel);
-        let mut chart = self
-            .pen
-            .frame(area, (&format!("{}: {}", self.title, shortened(&panel.arm, LONGEST_NAME)), 24), 82)
-            .build_cartesian_2d((0.9 * low..1.1 * high).log_scale(), bottom..top)?;
-        let y_decimals = decimals(top - bottom);
-        let mut mesh = chart.configure_mesh();
-        self.pen
-            .grid(&mut mesh)
-            .x_labels(20)
-            .y_labels(8)
-            .x_label_formatter(&stiffness_label)
-            .y_label_formatter(&|value| format!("{value:.y_decimals$}"))
-            .x_desc("normal stiffness of the joints kn (Pa/m)")
-            .y_desc("collapse angle (deg)")
-            .draw()?;
+        let caption = format!("{}: {}", self.title, shortened(&panel.arm, LONGEST_NAME));
+        let kn = Axis::by_powers("normal stiffness of the joints kn (Pa/m)", [0.9 * low, 1.1 * high], 20);
+        let axes = Axes { x: kn, y: Axis::new("collapse angle (deg)", [bottom, top], 8) };
+        let mut chart = axes.on(area, self.pen, (&caption, 24), 82)?;
         let ours = colour(0);
         let line = |of: fn(&PanelPoint) -> f64| panel.curve.iter().map(move |point| (point.kn, of(point)));
         let lower: Vec<(f64, f64)> = line(|p| p.mean - p.sigma).collect();
@@ -159,21 +148,4 @@ fn heights(panel: &Panel) -> [f64; 2] {
     let [low, high] = range(curve.chain(angles)).unwrap_or([0.0, 1.0]);
     let height = (high - low).max(0.1);
     [low - 0.15 * height, high + 0.08 * height]
-}
-
-/// The label of a tick on the logarithmic axis: 1, 2 and 5 of every decade; all nine would run into one another.
-fn stiffness_label(kn: &f64) -> String {
-    let text = compact(*kn);
-    if ["1e", "2e", "5e"].iter().any(|start| text.starts_with(start)) { text } else { String::new() }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::stiffness_label;
-
-    #[test]
-    fn a_decade_has_three_labels() {
-        let labels: Vec<String> = (1..=10).map(|k| stiffness_label(&(f64::from(k) * 1e7))).collect();
-        assert_eq!(labels, ["1e7", "2e7", "", "", "5e7", "", "", "", "", "1e8"]);
-    }
 }

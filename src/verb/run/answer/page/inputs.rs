@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use crate::render::document::{Line, Table};
 use crate::study::{Loaded, Study, Used};
 use crate::verb::run::answer::page::limits::built;
-use crate::verb::run::answer::page::table::{Line, Table};
 
 /// Keys that name things and set nothing.
 const NAMES: [&str; 3] = ["arm", "revision of laws and solvers", "study.arms"];

@@ -85,6 +85,7 @@ pub fn built(study: &Study) -> String {
         Some("tilting") => {
             "the tilt of a platform, which grows in steps until the wall falls or the largest tilt is reached"
         }
+        Some("base_motion") => "the motion of the ground",
         Some("shear") => {
             "a push along the wall at its top under a constant vertical load, from drift to drift"
         }

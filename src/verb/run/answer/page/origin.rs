@@ -1,8 +1,8 @@
 //! Where the results of a page come from.
 
 use crate::ensemble::Manifest;
+use crate::render::document::Table;
 use crate::study::Study;
-use crate::verb::run::answer::page::table::Table;
 
 /// How and where results were made; no result depends on it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

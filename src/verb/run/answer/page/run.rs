@@ -5,22 +5,22 @@ use serde::Serialize;
 
 use crate::ensemble::{Observed, Quantity, Row, Task, is_random};
 use crate::model::Replay;
+use crate::render::document::Drawing;
+use crate::render::document::filled;
+use crate::render::document::{Line, Table};
+use crate::render::document::{Solid, SolidWall};
 use crate::render::number::{compact, or_dash, significant, stiffness, with_interval, with_interval_against};
 use crate::render::picture::Picture;
 use crate::shape::Polyhedron;
 use crate::study::{Loaded, Study};
 use crate::verb::run::answer::conclusion::sentences;
 use crate::verb::run::answer::figure::title;
+use crate::verb::run::answer::figures::{figures, force_figure};
 use crate::verb::run::answer::measured;
 use crate::verb::run::answer::page::cite::{Citation, citation};
-use crate::verb::run::answer::page::drawing::Drawing;
-use crate::verb::run::answer::page::figures::figures;
 use crate::verb::run::answer::page::inputs::Given;
 use crate::verb::run::answer::page::origin::PageOrigin;
-use crate::verb::run::answer::page::solid::{Solid, SolidWall};
 use crate::verb::run::answer::page::strip::{Mark, strip};
-use crate::verb::run::answer::page::table::{Line, Table};
-use crate::verb::run::answer::page::template::filled;
 use crate::verb::run::answer::page::{limits, strip};
 use crate::verb::run::answer::summary::{ArmSummary, Summary, summarise};
 use crate::verb::run::answer::table::{arm_notes, arm_rows, explanation};
@@ -122,7 +122,8 @@ pub fn run_page(of: &RunPage<'_>) -> Result<String> {
     } else {
         "The marks of walls that are drawn lead to them."
     };
-    let figures = figures(study, of.rows, &summary)?;
+    let figures = figures(&summary, None).into_iter().chain(force_figure(study, of.rows, &summary));
+    let figures = figures.map(|figure| figure.drawing()).collect::<Result<Vec<_>>>()?;
     let marks = marks(of, has_rows);
     let mut answer = sentences(&summary);
     if answer.len() > 1 {
@@ -167,7 +168,7 @@ pub fn run_page(of: &RunPage<'_>) -> Result<String> {
         methods: limits::methods(study),
         citation: citation(Some(study.seed)),
     };
-    filled("run.html", &filled_with)
+    filled("run.html", include_str!("run.html"), &filled_with)
 }
 
 /// What links lead to a wall by.

@@ -4,15 +4,15 @@ use anyhow::Result;
 use serde::Serialize;
 
 use crate::model::Replay;
+use crate::render::document::Drawing;
+use crate::render::document::Table;
+use crate::render::document::filled;
+use crate::render::document::{Solid, SolidWall};
 use crate::render::picture::Picture;
 use crate::shape::Polyhedron;
 use crate::verb::run::answer::page::cite::{Citation, citation};
-use crate::verb::run::answer::page::drawing::Drawing;
 use crate::verb::run::answer::page::limits;
 use crate::verb::run::answer::page::origin::PageOrigin;
-use crate::verb::run::answer::page::solid::{Solid, SolidWall};
-use crate::verb::run::answer::page::table::Table;
-use crate::verb::run::answer::page::template::filled;
 
 /// A table of the page: blocks, or joints.
 pub struct WallTable {
@@ -95,6 +95,7 @@ pub fn wall_page(of: &WallPage<'_>) -> Result<String> {
     let table = |own: &WallTable| Table::new(own.name, own.heads, own.rows.clone());
     filled(
         "wall.html",
+        include_str!("wall.html"),
         &Filled {
             title: format!("Wall {}", of.wall),
             question: &of.question,

@@ -11,15 +11,14 @@ use std::path::Path;
 use anyhow::Result;
 
 use crate::ensemble::{Row, replace_file};
-use crate::render::draw::IMAGE_SCALE;
 use crate::study::Study;
-use crate::verb::run::answer::files::{FRAGILITY, write_figure};
+use crate::verb::run::answer::files::{FRAGILITY, write_captioned};
 use crate::verb::run::answer::shaken::csv::{curves_csv, records_csv, stripes_csv};
 use crate::verb::run::answer::shaken::entry::summarised;
 pub use crate::verb::run::answer::shaken::entry::{
     MeasureEntry, RatioEntry, RecordEntry, ShakenCurve, ShakenSummary, StripeEntry, TiltEntry,
 };
-use crate::verb::run::answer::shaken::plot::ShakenPlot;
+use crate::verb::run::answer::shaken::plot::shaken_figure;
 pub(crate) use crate::verb::run::answer::shaken::text::text;
 
 /// File name of the lognormal curves.
@@ -34,9 +33,8 @@ pub(crate) fn shaken(study: &Study, rows: &[Row]) -> Option<ShakenSummary> {
 
 /// Writes the curves, the stripes and the records as tables, and the figure.
 pub(crate) fn write_shaken(summary: &ShakenSummary, title: &str, dir: &Path) -> Result<()> {
-    replace_file(&dir.join(CURVES_CSV), curves_csv(summary).as_bytes())?;
-    replace_file(&dir.join(RECORDS_CSV), records_csv(summary).as_bytes())?;
-    replace_file(&dir.join(format!("{FRAGILITY}.csv")), stripes_csv(summary).as_bytes())?;
-    let figure = |scale| ShakenPlot::new(title, summary, scale);
-    write_figure(dir, FRAGILITY, &figure(1), &figure(IMAGE_SCALE))
+    replace_file(&dir.join(CURVES_CSV), &curves_csv(summary))?;
+    replace_file(&dir.join(RECORDS_CSV), &records_csv(summary))?;
+    replace_file(&dir.join(format!("{FRAGILITY}.csv")), &stripes_csv(summary))?;
+    write_captioned(dir, &shaken_figure(title, summary))
 }

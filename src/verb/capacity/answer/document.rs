@@ -1,42 +1,29 @@
-//! What walls may be counted on, as a page.
+//! What walls may be counted on, as a document.
 
-use anyhow::Result;
-
-use crate::render::draw::svg;
+use crate::render::document::{Captioned, Document, Layout, Part, ReadOff, Scale, Table, Trace};
 use crate::render::number::{compact, or_dash, significant, with_interval};
-use crate::study::{Loaded, Study};
-use crate::verb::capacity::answer::figure::CapacityPlot;
+use crate::verb::capacity::answer::figure::{capacity_chart, capacity_csv};
 use crate::verb::capacity::answer::text::{SUPPORTED, VALUES, conclusions, method, probability, supported};
 use crate::verb::capacity::answer::{CapacityGroup, CapacitySummary, Question};
-use crate::verb::run::answer::page::{
-    Asked, Axis, Chart, ChartLine, Drawing, PageOrigin, Table, answer_page,
-};
 
-/// The page of an answer; `loaded` is the study as its files state it.
-///
-/// # Errors
-/// A figure that cannot be drawn, or a template that is faulty.
-pub fn capacity_page(
-    summary: &CapacitySummary,
-    (study, loaded): (&Study, &Loaded),
-    origin: &PageOrigin,
-) -> Result<String> {
-    let figure = CapacityPlot::new(summary, 1);
-    let mut figures = Vec::new();
-    if !figure.is_empty() {
-        let caption = "How probable it is that a wall lies on the worse side of a level, over the level. Bars: 95 % intervals of the \
-                       answers. The numbers are in probability.csv.";
-        let drawing =
-            Drawing::picture("figure-probability", "Probability over the level", caption, &svg(&figure)?);
-        figures.push(drawing.with_chart(chart(summary)));
-    }
+/// File name, without ending, of the probability over the level and the figure of it.
+const FIGURE: &str = "probability";
+
+/// The document of an answer.
+pub fn capacity_document(summary: &CapacitySummary) -> Document<'_> {
+    let caption = "How probable it is that a wall lies on the worse side of a level, over the level. Bars: 95 % intervals of the \
+                   answers. The numbers are in probability.csv.";
+    let figure = capacity_chart(summary).map(|chart| {
+        let figure = Captioned::chart(FIGURE, "Probability over the level", caption, chart);
+        Part::Figure(figure.with_read_off(read_off(summary)))
+    });
     let values = Table { caption: VALUES.to_owned(), ..Table::headed(SUPPORTED, supported(summary)) };
-    let asked = Asked {
+    let tables = [answers(summary), values].map(Part::Table);
+    Document {
         title: format!("What walls of study {} may be counted on", summary.study),
         question: question(summary),
-        answer: conclusions(summary),
-        tables: [answers(summary), values].into_iter().filter(|table| !table.rows.is_empty()).collect(),
-        figures,
+        parts: Part::sentences(conclusions(summary)).chain(tables).chain(figure).collect(),
+        files: vec![("probability.csv", capacity_csv(summary))],
         limits: vec![
             "A probability is that of walls drawn as the study states them. What nobody knows of real walls is in it only as far as \
              the study draws it."
@@ -46,12 +33,11 @@ pub fn capacity_page(
                   Student's interval; quantiles lie between two order statistics. Characteristic and design values follow EN 1990, \
                   annex D7."
             .to_owned(),
-    };
-    answer_page(&asked, (study, loaded), origin)
+    }
 }
 
 /// The probability over the level by all walls alike, and by each run.
-fn chart(summary: &CapacitySummary) -> Option<Chart> {
+fn read_off(summary: &CapacitySummary) -> Option<ReadOff> {
     let line = |(group, run): (&CapacityGroup, Option<usize>)| {
         let rungs = group.rungs.iter().filter(|rung| rung.run == run && rung.probability > 0.0);
         let level = |level: f64| summary.shown.shown(level);
@@ -59,7 +45,7 @@ fn chart(summary: &CapacitySummary) -> Option<Chart> {
         let mut points: Vec<_> =
             rungs.map(|rung| (level(rung.level), Some(rung.probability), rung.interval)).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        ChartLine::through(name, points)
+        Trace::through(name, points)
     };
     let runs = |group: &CapacityGroup| {
         group.rungs.iter().filter_map(|rung| rung.run).max().map_or(0, |last| last + 1)
@@ -67,8 +53,8 @@ fn chart(summary: &CapacitySummary) -> Option<Chart> {
     let each = summary.groups.iter().flat_map(|group| {
         std::iter::once(None).chain((0..runs(group)).map(Some)).map(move |run| (group, run))
     });
-    let x = Axis::of(format!("level ({})", summary.shown.shown_unit()));
-    Chart::with(x, Axis::of("probability").by_powers(), each.map(line))
+    let x = Scale::of(format!("level ({})", summary.shown.shown_unit()));
+    ReadOff::with(x, Scale::of("probability").by_powers(), each.map(line))
 }
 
 fn question(summary: &CapacitySummary) -> String {
@@ -105,5 +91,6 @@ fn answers(summary: &CapacitySummary) -> Table {
         ]
     };
     let heads = ["walls of", "kn Pa/m", &head, "COV %", "by", "walls", "without a value"];
-    Table::new("Answers", &heads, summary.groups.iter().map(row).collect())
+    let answers = Table::new("Answers", &heads, summary.groups.iter().map(row).collect());
+    Table { layout: Layout::OnPage, ..answers }
 }

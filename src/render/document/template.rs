@@ -5,19 +5,12 @@ use minijinja::value::Serde;
 use minijinja::{Environment, UndefinedBehavior};
 use serde::Serialize;
 
-use crate::verb::run::answer::page::STYLE;
-use crate::verb::run::answer::page::chart::{READER, READER_STYLE};
-use crate::verb::run::answer::page::solid::VIEWER;
+use crate::render::document::read_off::{READER, READER_STYLE};
+use crate::render::document::solid::VIEWER;
 
-/// The templates by name; the pages share their frame and the parts that they are made of.
-const TEMPLATES: [(&str, &str); 6] = [
-    ("parts.html", include_str!("parts.html")),
-    ("frame.html", include_str!("frame.html")),
-    ("run.html", include_str!("run.html")),
-    ("wall.html", include_str!("wall.html")),
-    ("diagnosis.html", include_str!("diagnosis.html")),
-    ("answer.html", include_str!("answer.html")),
-];
+/// What pages share: their frame and the parts that they are made of.
+const SHARED: [(&str, &str); 2] =
+    [("parts.html", include_str!("parts.html")), ("frame.html", include_str!("frame.html"))];
 
 /// A page: its own values, and those of the frame.
 #[derive(Serialize)]
@@ -35,14 +28,14 @@ struct Framed<'p, P> {
 ///
 /// # Errors
 /// A template that asks for what is not there: a fault of ours.
-pub fn filled(name: &str, page: &impl Serialize) -> Result<String> {
+pub fn filled(name: &'static str, text: &'static str, page: &impl Serialize) -> Result<String> {
     let mut engine = Environment::new();
     engine.set_undefined_behavior(UndefinedBehavior::SemiStrict);
-    for (name, text) in TEMPLATES {
+    for (name, text) in SHARED.into_iter().chain([(name, text)]) {
         engine.add_template(name, text).with_context(|| format!("the template {name} is faulty"))?;
     }
     let framed = Framed {
-        style: STYLE,
+        style: include_str!("style.css"),
         script: include_str!("open.js"),
         viewer: VIEWER,
         reader: READER,

@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
+use crate::render::document::ReadOff;
 use crate::render::markup::escaped;
-use crate::verb::run::answer::page::chart::Chart;
 
 /// A figure of a page.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -35,10 +35,10 @@ impl Drawing {
     }
 
     /// With the numbers behind it, if there are any. They stand in a script: what would end it is written out.
-    pub fn with_chart(self, chart: Option<Chart>) -> Drawing {
+    pub(crate) fn with_numbers(self, numbers: Option<&ReadOff>) -> Drawing {
         let written =
-            |chart: &Chart| serde_json::to_string(chart).ok().map(|text| text.replace('<', "\\u003c"));
-        Drawing { chart: chart.as_ref().and_then(written), ..self }
+            |numbers: &ReadOff| serde_json::to_string(numbers).ok().map(|text| text.replace('<', "\\u003c"));
+        Drawing { chart: numbers.and_then(written), ..self }
     }
 
     fn of(id: &str, (title, described): (&str, &str), svg: &str, role: &str) -> Drawing {

@@ -1,10 +1,14 @@
-//! What `homogenise` prints: stiffness, strength, and what they do as cells grow. At most 100 columns wide.
+//! Masonry as a plate as a document: stiffness, strength, and what they do as cells grow.
 
+use crate::ensemble::{AskedOfCells, CellRow, WallRow};
 use crate::homogenise::{Direction, Method};
+use crate::render::document::{Document, Part, Table};
 use crate::render::number::significant;
-use crate::render::text::{aligned, wrapped};
 use crate::stats::{Settled, Summary};
+use crate::study::Study;
+use crate::verb::homogenise::answer::csv::{cells_csv, surface_csv, timing_csv, walls_csv};
 use crate::verb::homogenise::answer::entry::{HomogenisedSummary, PlateArm, PlateValue, ValueBySize};
+use crate::verb::homogenise::answer::plot::CellPlot;
 use crate::verb::homogenise::answer::walls::WallShare;
 
 /// The moduli and the stresses that are printed and drawn; all are in the files.
@@ -35,55 +39,73 @@ fn number(value: Option<f64>) -> String {
     )
 }
 
-/// The summary as text for a terminal.
-pub fn homogenised_text(summary: &HomogenisedSummary) -> String {
+/// The document of a summary, with the tables of its cells and walls.
+pub fn homogenised_document<'s>(
+    (study, asked, rows, walls): (&Study, &AskedOfCells, &[CellRow], &[WallRow]),
+    summary: &'s HomogenisedSummary,
+) -> Document<'s> {
     let variant = summary.variant.as_ref().map_or_else(String::new, |variant| format!(", variant {variant}"));
     let [along, courses] = summary.arms.first().map(|arm| arm.cell.stones).unwrap_or_default();
     let most = summary.arms.iter().map(|arm| arm.cell.cells).max().unwrap_or(0);
-    let head = format!(
-        "{}{variant}, masonry as a plate: {most} cells of {along} x {courses} stones of each arm in which anything is drawn, seed {}.",
-        summary.study, summary.seed
-    );
-    let mut text = wrapped("", &head);
-    text.push_str(
-        "\nStiffness at kn of the arm (A: N/m, D: N m; mean, in brackets the COV between cells in %)\n",
-    );
-    text.push_str(&aligned(table(summary, &["arm"], MODULI.map(String::from), |arm| {
-        vec![(String::new(), MODULI.map(|name| arm.moduli.get(name)).to_vec())]
-    })));
-    for arm in &summary.arms {
-        text.push_str(&notes(arm));
-    }
-    if summary.arms.iter().any(|arm| !arm.surface.is_empty()) {
-        text.push('\n');
-        text.push_str(&wrapped(
-            "",
-            "Strength beside the vertical stress N22 = -p (N over p, M over p times the thickness; mean, COV in %). Associative: an upper \
-             bound for joints that dilate less. Non-associative: a state without dilatancy, neither a bound nor unique. Elastic: \
-             strained from rest without dilatancy.",
-        ));
-        text.push_str(&aligned(table(
-            summary,
-            &["arm", "method"],
-            STRESSES.map(|(name, _)| name.to_owned()),
-            by_method,
-        )));
-    }
-    text.push_str(&sizes(summary));
+    let mut parts = vec![
+        Part::Sentence(format!(
+            "{}{variant}, masonry as a plate: {most} cells of {along} x {courses} stones of each arm in which anything is drawn, seed {}.",
+            summary.study, summary.seed
+        )),
+        Part::Table(stiffness(summary)),
+    ];
+    parts.extend(summary.arms.iter().flat_map(notes).map(Part::Warning));
+    parts.push(Part::Table(strength(summary)));
+    parts.extend(sizes(summary));
     if summary.arms.iter().any(|arm| arm.walls.is_some()) {
-        text.push_str(&walls(summary));
+        parts.extend(beside_walls(summary));
     }
-    text
+    let mut files =
+        vec![("cells.csv", cells_csv(study, asked, rows)), ("surface.csv", surface_csv(study, asked, rows))];
+    if !walls.is_empty() {
+        // How long each wall took differs from run to run, all else does not.
+        files.extend([("walls.csv", walls_csv(study, walls)), ("timing.csv", timing_csv(study, walls))]);
+    }
+    parts.extend(CellPlot::all(summary).into_iter().map(Part::Figure));
+    Document {
+        title: format!("Masonry of study {} as a plate", summary.study),
+        question: "How stiff and how strong is such masonry as a plate, and how much does that scatter?".to_owned(),
+        parts,
+        files,
+        limits: vec![
+            "A cell repeats itself without end: edges and openings of a wall are not in it. Moments and forces vary little from stone to \
+             stone where a plate says what a wall does."
+                .to_owned(),
+        ],
+        methods: "Moduli are those of periodic cells whose stones are rigid and whose joints are elastic; strengths are those of the cell \
+                  beside its own weight's pressure. A mean has converged where it changes by less than its standard error as cells grow."
+            .to_owned(),
+    }
+}
+
+fn stiffness(summary: &HomogenisedSummary) -> Table {
+    let title = "Stiffness at kn of the arm (A: N/m, D: N m; mean, in brackets the COV between cells in %)";
+    Table::headed(
+        title,
+        table(summary, &["arm"], MODULI.map(String::from), |arm| {
+            vec![(String::new(), MODULI.map(|name| arm.moduli.get(name)).to_vec())]
+        }),
+    )
+}
+
+/// The strength of all arms; without rows where none was asked for.
+fn strength(summary: &HomogenisedSummary) -> Table {
+    let title = "Strength beside the vertical stress N22 = -p (N over p, M over p times the thickness; mean, COV in %). Associative: an upper \
+                 bound for joints that dilate less. Non-associative: a state without dilatancy, neither a bound nor unique. Elastic: \
+                 strained from rest without dilatancy.";
+    let names = STRESSES.map(|(name, _)| name.to_owned());
+    Table::headed(title, table(summary, &["arm", "method"], names, by_method))
 }
 
 /// Walls beside their plates.
-fn walls(summary: &HomogenisedSummary) -> String {
-    let mut text = "\n".to_owned();
-    text.push_str(&wrapped(
-        "",
-        "Walls beside their plates: the tangent of the tilt, or the factor on the lateral load, that they bear by associative limit \
-         analysis (mean, COV in %).",
-    ));
+fn beside_walls<'a>(summary: &HomogenisedSummary) -> Vec<Part<'a>> {
+    let title = "Walls beside their plates: the tangent of the tilt, or the factor on the lateral load, that they bear by associative \
+                 limit analysis (mean, COV in %).";
     let heads = [
         "arm",
         "walls",
@@ -95,7 +117,7 @@ fn walls(summary: &HomogenisedSummary) -> String {
         "held by walls",
         "no dilatancy",
     ];
-    let mut rows = vec![heads.map(str::to_owned).to_vec()];
+    let mut rows = Vec::new();
     let scatter = |sample: &Summary| match sample.cov.value {
         Some(cov) if cov > ALIKE => {
             format!("{} [{}]", number(sample.mean.value), significant(100.0 * cov, 2))
@@ -119,7 +141,7 @@ fn walls(summary: &HomogenisedSummary) -> String {
             ratio(&walls.non_associative_over_associative),
         ]);
     }
-    text.push_str(&aligned(rows));
+    let mut parts = vec![Part::Table(Table::new(title, &heads, rows))];
     for (arm, walls) in summary.arms.iter().filter_map(|arm| Some((arm, arm.walls.as_ref()?))) {
         if let Some((own, held)) = walls.validity.zip(walls.by_cells) {
             let [least, most] = own.stones_over_plate.map(|ratio| significant(ratio, 3));
@@ -130,7 +152,7 @@ fn walls(summary: &HomogenisedSummary) -> String {
                 arm.arm,
                 significant(own.shear_ratio, 2)
             );
-            text.push_str(&wrapped("", &line));
+            parts.push(Part::Sentence(line));
         }
         for (what, sample) in [("plates", &walls.plates), ("walls", &walls.stones)] {
             let mut said = Vec::new();
@@ -146,10 +168,10 @@ fn walls(summary: &HomogenisedSummary) -> String {
             said.extend(
                 sample.failed.iter().map(|(why, count)| format!("{count} {what} have no answer: {why}")),
             );
-            said.iter().for_each(|one| text.push_str(&wrapped("! ", &format!("{}: {one}", arm.arm))));
+            parts.extend(said.iter().map(|one| Part::Warning(format!("{}: {one}", arm.arm))));
         }
     }
-    text
+    parts
 }
 
 /// The values of an arm, a row per method.
@@ -194,47 +216,31 @@ fn table<'s, const N: usize>(
 }
 
 /// What is to be said of the cells of an arm.
-fn notes(arm: &PlateArm) -> String {
-    let mut text = String::new();
-    let gap = arm.cell.head_joint_gap_m;
+fn notes(arm: &PlateArm) -> Vec<String> {
+    let mut notes = Vec::new();
+    let (name, gap, nested) = (&arm.arm, arm.cell.head_joint_gap_m, arm.cell.nested);
     if gap > 0.0 {
-        text.push_str(&wrapped(
-            "! ",
-            &format!(
-                "{}: head joints are open by {} mm (head_joint_gap_m) and carry nothing: strains are small, and no gap closes",
-                arm.arm,
-                significant(1e3 * gap, 3)
-            ),
+        notes.push(format!(
+            "{name}: head joints are open by {} mm (head_joint_gap_m) and carry nothing: strains are small, and no gap closes",
+            significant(1e3 * gap, 3)
         ));
     }
-    let nested = arm.cell.nested;
     if nested.held < nested.of {
-        text.push_str(&wrapped(
-            "! ",
-            &format!(
-                "{}: the moduli of {} of {} cells leave their bounds",
-                arm.arm,
-                nested.of - nested.held,
-                nested.of
-            ),
-        ));
+        let left = nested.of - nested.held;
+        notes.push(format!("{name}: the moduli of {left} of {} cells leave their bounds", nested.of));
     }
-    for (reason, count) in &arm.cell.failed {
-        text.push_str(&wrapped("! ", &format!("{}: {count} cells could not be built: {reason}", arm.arm)));
-    }
+    let failed = arm.cell.failed.iter();
+    notes.extend(failed.map(|(reason, count)| format!("{name}: {count} cells could not be built: {reason}")));
     let lost: usize = arm.surface.iter().map(|own| own.not_converged).sum();
     if lost > 0 {
-        text.push_str(&wrapped(
-            "! ",
-            &format!("{}: {lost} points of the surface were not found; they are in no mean", arm.arm),
-        ));
+        notes.push(format!("{name}: {lost} points of the surface were not found; they are in no mean"));
     }
-    text
+    notes
 }
 
-/// What the sizes of the cells show, quantity by quantity.
-fn sizes(summary: &HomogenisedSummary) -> String {
-    let mut text = String::new();
+/// What the sizes of the cells show, quantity by quantity; nothing where there is one size.
+fn sizes<'a>(summary: &HomogenisedSummary) -> Option<Part<'a>> {
+    let mut items = Vec::new();
     for arm in &summary.arms {
         let moduli = MODULI.iter().filter_map(|name| Some(((*name).to_owned(), arm.moduli.get(*name)?)));
         let strengths = arm.surface.iter().filter_map(|own| {
@@ -245,12 +251,6 @@ fn sizes(summary: &HomogenisedSummary) -> String {
             .chain(strengths)
             .filter_map(|(name, value)| Some((name, value.by_size.as_ref()?)))
             .collect();
-        if all.is_empty() {
-            continue;
-        }
-        if text.is_empty() {
-            text.push_str("\nSize of the cells\n");
-        }
         for settled in [Settled::Converged, Settled::SizeEffect, Settled::NoScatter, Settled::Undecided] {
             let own: Vec<String> = all
                 .iter()
@@ -258,11 +258,11 @@ fn sizes(summary: &HomogenisedSummary) -> String {
                 .map(|(name, by_size)| said(name, by_size, settled))
                 .collect();
             if !own.is_empty() {
-                text.push_str(&wrapped("", &format!("{}, {}: {}", arm.arm, words(settled), own.join(", "))));
+                items.push((String::new(), format!("{}, {}: {}", arm.arm, words(settled), own.join(", "))));
             }
         }
     }
-    text
+    (!items.is_empty()).then(|| Part::List { title: "Size of the cells".to_owned(), items })
 }
 
 /// A quantity, with its change per doubling where the size has an effect.
