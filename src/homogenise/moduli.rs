@@ -60,9 +60,6 @@ pub struct Moduli {
 /// Why there are no moduli.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
 pub enum Loose {
-    /// A window does not repeat itself.
-    #[error("a window of a wall does not repeat itself: its moduli are bounded by the other two borders")]
-    NotPeriodic,
     /// No joint at all.
     #[error("the stones do not touch one another: no joint carries anything")]
     NoJoints,
@@ -126,7 +123,7 @@ impl Moduli {
     /// The moduli under a border.
     ///
     /// # Errors
-    /// [`Loose`]: a window has no periodic border; joints that are open by construction may not carry a static one.
+    /// [`Loose`]: joints that are open by construction may not carry a static one.
     pub fn of(springs: &Springs, border: Border) -> Result<Moduli, Loose> {
         Ok(Moduli {
             stiffness: stiffness::<Bent, 6, 6>(springs, border)?,
@@ -152,7 +149,6 @@ fn stiffness<M: Motion<DOF, S>, const DOF: usize, const S: usize>(
     for joint in &springs.joints {
         match border {
             _ if !joint.border => system.join::<M>(springs, joint),
-            Border::Periodic if !springs.periodic => return Err(Loose::NotPeriodic),
             Border::Periodic => system.join::<M>(springs, joint),
             Border::Kinematic => system.follow::<M>(springs, joint),
             Border::Static => system.load::<M>(springs, joint),
@@ -214,7 +210,7 @@ impl<const DOF: usize, const S: usize> System<DOF, S> {
 
     /// A spring between two stones, the second one as an image.
     fn join<M: Motion<DOF, S>>(&mut self, springs: &Springs, joint: &Spring) {
-        let Some(second) = joint.second else { return };
+        let second = joint.second;
         let (from, to) = (springs.stones[joint.first], springs.stones[second] + joint.shift);
         let motions =
             |at: Vec3| ([negative(M::stone(at - from)), M::stone(at - to)], M::image(joint.shift, at));
@@ -325,11 +321,9 @@ impl<const DOF: usize, const S: usize> System<DOF, S> {
     }
 }
 
-/// The stones at a joint of the border that are in the piece, each with the way from it to where it is met.
+/// The stones at a joint of the border, each with the way from it to where it is met.
 fn sides(joint: &Spring) -> impl Iterator<Item = (usize, Vec3)> {
-    [Some((joint.first, Vec3::zeros())), joint.second.map(|second| (second, joint.shift))]
-        .into_iter()
-        .flatten()
+    [(joint.first, Vec3::zeros()), (joint.second, joint.shift)].into_iter()
 }
 
 /// Whether the difference of two symmetric matrices has no negative value but for rounding: with each strain in the unit in which

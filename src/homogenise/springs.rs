@@ -1,9 +1,9 @@
-//! The joints of a cell or a window as springs between rigid stones.
+//! The joints of a cell as springs between rigid stones.
 
-use crate::contact::{self, Feature, Patch, area_shares, find_patch, periodic_joints};
+use crate::contact::{self, Feature, Patch, area_shares, periodic_joints};
 use crate::law::{PATCHES_ALONG, Sampling};
 use crate::math::Vec3;
-use crate::model::{Cell, JointLaws, Window};
+use crate::model::{Cell, JointLaws};
 use crate::shape::Polygon;
 
 /// Share of a joint's area that is none: faces that gape from an edge on touch along that edge alone, but for the tolerance.
@@ -22,19 +22,17 @@ pub struct Springs {
     /// Thickness of the plate (m) and area of the piece (m^2).
     pub(super) thickness: f64,
     pub(super) area: f64,
-    /// Whether it repeats itself.
-    pub(super) periodic: bool,
 }
 
 /// A joint.
 #[derive(Clone, Debug)]
 pub(super) struct Spring {
     pub first: usize,
-    /// The stone on the other side; `None` where that is no stone of the piece.
-    pub second: Option<usize>,
+    /// The stone on the other side.
+    pub second: usize,
     /// From the other stone to the image of it that is meant (m); zero inside a cell.
     pub shift: Vec3,
-    /// Whether it lies on the border of the piece.
+    /// Whether it lies on the border of the cell.
     pub border: bool,
     /// Unit normal out of the first stone.
     pub normal: Vec3,
@@ -51,37 +49,14 @@ impl Springs {
         let joints = periodic_joints(cell, contact)
             .into_iter()
             .filter_map(|joint| {
-                let (a, b) = (joint.first, joint.second);
                 let border = joint.shift != Vec3::zeros();
-                let spring = spring((a, a), (Some(b), b), (&joint.patch, contact.closed), laws, pressure)?;
+                let spring =
+                    spring([joint.first, joint.second], (&joint.patch, contact.closed), laws, pressure)?;
                 Some(Spring { shift: joint.shift, border, ..spring })
             })
             .collect();
         let stones = cell.blocks.iter().map(|block| block.shape.mass_properties().centroid).collect();
-        Springs { stones, joints, thickness: cell.thickness, area: cell.area(), periodic: true }
-    }
-
-    /// The joints of a window at a `pressure` (Pa), those with the stones around it on its border. `laws` is asked with the stones' numbers in the window:
-    /// those inside first, then those around.
-    pub fn of_window(
-        window: &Window,
-        laws: &dyn JointLaws,
-        contact: &contact::Settings,
-        pressure: f64,
-    ) -> Springs {
-        let inside = window.inside.len();
-        let mut joints = Vec::new();
-        for (a, block) in window.inside.iter().enumerate() {
-            let others = window.inside.iter().chain(&window.around).enumerate().skip(a + 1);
-            for (b, other) in others {
-                if let Some(patch) = find_patch(&block.shape, &other.shape, contact) {
-                    let second = (b < inside).then_some(b);
-                    joints.extend(spring((a, a), (second, b), (&patch, contact.closed), laws, pressure));
-                }
-            }
-        }
-        let stones = window.inside.iter().map(|block| block.shape.mass_properties().centroid).collect();
-        Springs { stones, joints, thickness: window.thickness, area: window.area, periodic: false }
+        Springs { stones, joints, thickness: cell.thickness, area: cell.area() }
     }
 
     /// Number of stones.
@@ -100,22 +75,20 @@ pub(super) fn outward(patch: &Patch) -> Vec3 {
     if patch.reference_is_second { -patch.plane.normal } else { patch.plane.normal }
 }
 
-/// The spring of a patch between two blocks, each with its place among the stones and its number for the laws; `None` where they do not
-/// touch over an area.
+/// The spring of a patch between two stones; `None` where they do not touch over an area.
 fn spring(
-    (first, a): (usize, usize),
-    (second, b): (Option<usize>, usize),
+    [first, second]: [usize; 2],
     (patch, closed): (&Patch, f64),
     laws: &dyn JointLaws,
     pressure: f64,
 ) -> Option<Spring> {
-    let law = laws.of(a as u32, b as u32);
+    let law = laws.of(first as u32, second as u32);
     let points = points(patch, closed, law.sampling, quadrature);
     (!points.is_empty()).then(|| Spring {
         first,
         second,
         shift: Vec3::zeros(),
-        border: second.is_none(),
+        border: false,
         normal: outward(patch),
         kn: law.normal.stiffness(law.normal.closure(pressure)),
         ks: law.ks,

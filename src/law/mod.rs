@@ -4,7 +4,6 @@ mod coulomb;
 mod crushing;
 mod damping;
 mod normal;
-mod rows;
 mod slopes;
 mod spheres;
 mod stiffening;
@@ -17,7 +16,6 @@ pub use coulomb::{
 pub use crushing::Crushing;
 pub use damping::local_damping;
 pub use normal::NormalLaw;
-pub use rows::RegularRows;
 pub use slopes::{PressedSlopes, ShearSlopes};
 pub use spheres::{Frictional, SphereSpring};
 pub use stiffening::Stiffening;

@@ -50,7 +50,7 @@ impl Frictional {
     ///
     /// Balls at the distance s in square rows have one contact per `s^2`; in a plane model of depth b (m) one per `s b`. Where
     /// they touch, `s = 2 r` and `E = 4 r kn`. Balls in the hollows of the bed below are stiffer or softer than that, see
-    /// [`RegularRows::stiffening`](crate::law::RegularRows::stiffening).
+    /// `RegularRows::stiffening` of the tests.
     pub fn for_joint(kn: f64, ks_over_kn: f64, phi: f64, radius: f64, contacts_per_area: f64) -> Frictional {
         Frictional { young: kn / (radius * contacts_per_area), ks_over_kn, phi }
     }

@@ -24,5 +24,3 @@ pub const STANDARD_GRAVITY: f64 = 9.806_65;
 pub type Vec3 = nalgebra::Vector3<f64>;
 /// A 3 x 3 matrix; a rotation matrix maps body axes to world axes.
 pub type Mat3 = nalgebra::Matrix3<f64>;
-/// A vector in a joint plane, in the joint's own (s, t) axes.
-pub type Vec2 = nalgebra::Vector2<f64>;

@@ -84,7 +84,7 @@ impl Clump {
     /// within its model.
     ///
     /// The stone's roughness is that of its spheres: a joint of two such stones dilates and is rougher than its spheres
-    /// ([`crate::law::RegularRows`]). What the source paper's reference 19 calls by this name is a model of discs in a plane.
+    /// (`tests/physics/regular_rows.rs`). What the source paper's reference 19 calls by this name is a model of discs in a plane.
     ///
     /// # Errors
     /// [`OutlineFault`] where the spheres do not fit.

@@ -1,4 +1,4 @@
-//! The nouns, for people: block, wall, cell, window, clump, heap, outcome, and what becomes of a wall over time. No arrays for the
+//! The nouns, for people: block, wall, cell, clump, heap, outcome, and what becomes of a wall over time. No arrays for the
 //! machine here.
 
 mod block;
@@ -9,7 +9,6 @@ mod outcome;
 mod plate;
 mod replay;
 mod wall;
-mod window;
 
 pub use block::{Block, Support, Tag};
 pub use cell::Cell;
@@ -19,4 +18,3 @@ pub use outcome::{Level, Outcome};
 pub use plate::{Six, image_motion, image_turn, plate_motion, plate_traction};
 pub use replay::{BuiltJoint, JointReading, Replay, ReplayState};
 pub use wall::{JointLaws, Wall};
-pub use window::{Side, Window, WindowFault};

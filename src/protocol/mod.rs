@@ -28,7 +28,6 @@ mod settings;
 mod settlement;
 mod shear;
 mod shove;
-mod slide;
 mod stage;
 mod task;
 mod tilt_heap;
@@ -62,7 +61,6 @@ pub use settings::{
 pub use settlement::Settlement;
 pub use shear::{Head, History, Shear, ShearMode, Sheared, first_at, force_at};
 pub use shove::{Phase, Shove, Shoved, Stand, shove_heap, shove_wall};
-pub use slide::{Slid, Slide, SlideReading, slide};
 pub use stage::{Stage, typical_size};
 pub use task::{Platform, Run, Task};
 pub use tilt_heap::{HeapStep, TiltedHeap, tilt_heap};

@@ -1,9 +1,10 @@
 //! Joints of hollow clumps: two beds of balls pressed and sheared, against closed forms.
 
-use pirca::law::{Frictional, RegularRows};
+use crate::led_clump::{Slid, Slide, slide};
+use crate::regular_rows::RegularRows;
+use pirca::law::Frictional;
 use pirca::math::{Vec3, degrees, radians};
 use pirca::model::{Clump, Heap, Hollow, Support};
-use pirca::protocol::{Slid, Slide, slide};
 use pirca::shape::{Polyhedron, Rows};
 use pirca::solve::{STANDARD_GRAVITY as G, Status, grains};
 

@@ -4,12 +4,12 @@
 //!
 //! With `PIRCA_FIGURES=write` the figure is written as well.
 
+use crate::regular_rows::RegularRows;
 use std::fmt::Write as _;
 use std::path::Path;
 
 use cpu_time::ThreadTime;
 use pirca::generate::canonical::{THICKNESS, running_bond};
-use pirca::law::RegularRows;
 use pirca::math::{atan, degrees};
 use pirca::model::{Hollow, Wall};
 use pirca::protocol::{Direction, TiltedHeap};

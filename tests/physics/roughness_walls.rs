@@ -1,7 +1,8 @@
 //! Walls of hollow clumps on a tilting table, beside the same walls of polyhedra.
 
+use crate::regular_rows::RegularRows;
 use pirca::generate::canonical::{COURSE_HEIGHT, DENSITY, THICKNESS};
-use pirca::law::{Frictional, RegularRows};
+use pirca::law::Frictional;
 use pirca::math::{Vec3, asin, atan, degrees, radians};
 use pirca::model::{Block, Heap, Hollow, Support, Wall};
 use pirca::protocol::{

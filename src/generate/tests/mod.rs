@@ -5,7 +5,6 @@ mod draws;
 mod streams;
 mod surveyed;
 mod validity;
-mod windows;
 
 use crate::generate::{
     Arrangement, BatteredFace, DipAbout, Generated, Layout, Limits, Outline, Sizes, Wedges, Wythes, generate,

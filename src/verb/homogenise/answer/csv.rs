@@ -47,7 +47,6 @@ pub(crate) fn cells_csv(study: &Study, asked: &AskedOfCells, rows: &[CellRow]) -
 /// Why there are no moduli, as in files.
 fn name(fault: Loose) -> &'static str {
     match fault {
-        Loose::NotPeriodic => "not_periodic",
         Loose::NoJoints => "no_joints",
         Loose::ComesApart => "comes_apart",
     }

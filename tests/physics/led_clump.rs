@@ -1,10 +1,10 @@
 //! Shear of a joint in a heap: one body is led over others that are held, under its own weight.
 
-use crate::math::{Vec3, atan};
-use crate::model::Heap;
-use crate::solve::Status;
-use crate::solve::bodies::Freedom;
-use crate::solve::grains;
+use pirca::math::{Vec3, atan};
+use pirca::model::Heap;
+use pirca::solve::Status;
+use pirca::solve::bodies::Freedom;
+use pirca::solve::grains;
 
 /// Looks at the body per reading: the force of a reading is their mean.
 const LOOKS: u32 = 20;

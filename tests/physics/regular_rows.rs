@@ -16,7 +16,7 @@
 //! Own derivation. In a plane model of one row it is the saw-tooth of Patton (1966) with a tooth that is round; balls that touch
 //! (s = 2 r) have theta_max = 30 degrees whatever their size, which sets only how far the joint rises.
 
-use crate::math::{asin, asinh, atan, cos, sin, tan};
+use pirca::math::{asin, asinh, atan, cos, sin, tan};
 
 /// A joint of two equal beds of balls in square rows, sheared along their rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -109,8 +109,8 @@ fn at(angle: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{degrees, radians};
     use approx::assert_relative_eq;
+    use pirca::math::{degrees, radians};
 
     fn touching(between: bool, phi_deg: f64) -> RegularRows {
         RegularRows { radius: 0.01, spacing: 0.02, between, phi: radians(phi_deg) }
