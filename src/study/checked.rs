@@ -38,6 +38,8 @@ pub struct Study {
     pub variant: Option<String>,
     /// The arms, in the order of the file.
     pub arms: Vec<Arm>,
+    /// What a sweep set in its arms; empty where there is none.
+    pub sweep: Vec<SweptArm>,
     /// What is done to each wall.
     pub protocol: Protocol,
     /// The records of walls that are shaken, with the intensities that they are scaled to; `None` of other protocols.
@@ -58,6 +60,29 @@ pub struct Study {
     /// SHA-256 (hex) over [`Study::effective`]; comments, layout and prose do not matter. Guards results against
     /// mixing, never keys a random stream.
     pub hash: String,
+}
+
+/// An arm that a sweep made.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct SweptArm {
+    /// Its name.
+    pub arm: String,
+    /// Name of the arm of the file that it was made from.
+    pub of: String,
+    /// What was set, key by key in the order of their names.
+    pub settings: Vec<SweptValue>,
+}
+
+/// A key that a sweep has set.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct SweptValue {
+    /// Path of the key, as the study writes it.
+    pub key: String,
+    /// Its value, as the study writes it.
+    pub value: String,
+    /// The value where it is a number.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub number: Option<f64>,
 }
 
 /// Quantities of which walls have the numbers of another member.

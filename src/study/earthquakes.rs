@@ -8,6 +8,7 @@ use crate::protocol::Direction;
 use crate::random::{Family, Streams};
 use crate::study::catalogue::Catalogue;
 use crate::study::fault::{Fault, Found};
+use crate::study::pulses::pulses;
 use crate::study::quantity::quantity;
 use crate::study::reader::Reader;
 
@@ -65,7 +66,7 @@ pub struct Earthquakes {
     pub records: Vec<Record>,
     /// Where their y axis points in plan, or their only component.
     towards: Direction,
-    /// What generates them; `None` of those from files.
+    /// What generates them; `None` of those from files and of pulses.
     generator: Option<Generator>,
 }
 
@@ -107,7 +108,7 @@ const SHORTEST: f64 = 1e-4;
 const FADED: f64 = 0.01;
 
 impl Record {
-    /// What it is called: a file, or a generator with its seed and number.
+    /// What it is called: a file, a pulse, or a generator with its seed and number.
     pub fn name(&self) -> &str {
         &self.motion.name
     }
@@ -143,7 +144,7 @@ impl Earthquakes {
         let intensities = t.list(measure.key());
         let mut records = t.table("records")?;
         let generator = match records.chosen()? {
-            "files" => None,
+            "files" | "pulses" => None,
             model => {
                 let (count, step) = (records.whole("count"), records.real("step_s"));
                 let process = match model {
@@ -155,7 +156,14 @@ impl Earthquakes {
                 Some(Generator { count: count?, step: step?, process: process? })
             }
         };
-        let motions = if generator.is_none() { catalogue.records(&mut records)? } else { Vec::new() };
+        let motions = match records.chosen() {
+            Some("files") => catalogue.records(&mut records)?,
+            Some("pulses") => {
+                let place = records.place_of("pulse").clone();
+                pulses(&mut records)?.into_iter().map(|motion| (motion, place.clone())).collect()
+            }
+            _ => Vec::new(),
+        };
         let towards = towards?;
         let mut read = Vec::new();
         for (motion, place) in motions {

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use crate::solve::REVISION;
 use crate::study::build::{self, Parts};
 use crate::study::catalogue::{Catalogue, Used};
-use crate::study::checked::{Arm, InputFile, Study, Until};
+use crate::study::checked::{Arm, InputFile, Study, SweptArm, Until};
 use crate::study::fault::{Fault, Faults, Source};
 use crate::study::files::TextFile;
 use crate::study::raw::{self, Node};
@@ -16,7 +16,7 @@ use crate::study::readings::reading_name;
 use crate::study::schema::suggestion;
 use crate::study::stated::Stated;
 use crate::study::variant::{self, Variant};
-use crate::study::{csv, files, keys, measured, published};
+use crate::study::{csv, files, keys, measured, published, sweep};
 
 /// A study and what is to be said about it.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,6 +50,7 @@ pub struct VariantName {
 pub(super) struct Reading {
     root: Node,
     parts: Option<Parts>,
+    sweep: Vec<SweptArm>,
     notes: Notes,
     used: Vec<Used>,
 }
@@ -114,7 +115,7 @@ impl Study {
         faults.append(&mut notes.faults);
         catalogue.hand_over(&mut faults, &mut inputs);
         match reading {
-            Some(Reading { parts: Some(parts), root, notes: found, used }) if faults.is_empty() => {
+            Some(Reading { parts: Some(parts), root, sweep, notes: found, used }) if faults.is_empty() => {
                 let name = folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
                 let mut effective = found.effective;
                 record_revision(&mut effective);
@@ -130,6 +131,7 @@ impl Study {
                     taken: None,
                     variant: joined(&chosen),
                     arms: parts.arms,
+                    sweep,
                     protocol: parts.protocol,
                     earthquakes: parts.earthquakes,
                     solver: parts.solver,
@@ -407,8 +409,9 @@ fn read_changed(
 fn read_one(root: &Node, catalogue: &mut Catalogue) -> Reading {
     let mut notes = Notes::default();
     catalogue.used.clear();
-    let parts = build::parts(root, &mut notes, catalogue);
-    Reading { root: root.clone(), parts, notes, used: std::mem::take(&mut catalogue.used) }
+    let (arms, sweep) = sweep::expanded(root, &mut notes);
+    let parts = build::parts(&arms, &mut notes, catalogue);
+    Reading { root: root.clone(), parts, sweep, notes, used: std::mem::take(&mut catalogue.used) }
 }
 
 /// Names of the arms, as far as they are valid names.

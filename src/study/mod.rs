@@ -26,6 +26,7 @@ mod mechanism;
 mod nuisance;
 mod overturning;
 mod published;
+mod pulses;
 mod quantity;
 mod raw;
 mod reader;
@@ -37,6 +38,7 @@ mod stated;
 mod stones;
 mod strength;
 mod survey;
+mod sweep;
 mod uncertain;
 mod variant;
 
@@ -44,7 +46,9 @@ pub use crate::random::Design;
 pub use angle::Angle;
 pub use built_in::{BuiltInStudy, built_in_studies};
 pub use catalogue::{Distribution, DistributionFile, Used, load_distributions};
-pub use checked::{Arm, Claim, ClaimTest, InputFile, Joint, StatedLaw, Study, TakenFrom, Until};
+pub use checked::{
+    Arm, Claim, ClaimTest, InputFile, Joint, StatedLaw, Study, SweptArm, SweptValue, TakenFrom, Until,
+};
 pub use distributions::{Distributions, Origin, distributions_among};
 pub use earthquakes::{Earthquakes, Measure, Record};
 pub use elements::{ElementArm, ElementStudy, Reported};

@@ -185,6 +185,21 @@ pub fn shared_key<'k>(one: &'k [String], other: &[String]) -> Option<&'k str> {
     one.iter().find(|a| other.iter().any(|b| below(a, b) || below(b, a))).map(String::as_str)
 }
 
+/// Sets the key at a path below a table.
+///
+/// # Errors
+/// What is allowed there, and how to mend the path.
+pub(super) fn set(
+    node: &mut Node,
+    section: &'static Section,
+    path: &str,
+    entry: Entry,
+) -> Result<(), (String, String)> {
+    let path: Vec<&str> = path.split('.').collect();
+    let edit = Edit { path: Vec::new(), place: entry.key_place.clone(), entry: Some(entry) };
+    change(node, section, &path, &edit).map_err(|no| (no.allowed, no.fix))
+}
+
 /// Walks down `path` by the key table and changes what stands at its end.
 fn change(node: &mut Node, section: &'static Section, path: &[&str], edit: &Edit) -> Result<(), NoSuchKey> {
     let place = node.place.clone();

@@ -42,5 +42,6 @@ mod shell;
 mod spreadsheets;
 mod study;
 mod survey;
+mod sweep;
 mod uncertain;
 mod walls;

@@ -72,6 +72,44 @@ fn block() -> Folder {
     folder
 }
 
+#[test]
+fn pulses_overturn_a_block_at_the_amplitude_of_the_equation_of_motion() {
+    // w = 2 p and 4 p: 5.892 and 9.162 m/s^2 under 9.81 m/s^2, integrated elsewhere; one in a hundred to either side.
+    let frequency = |ratio: f64| ratio * 3.410_17 / std::f64::consts::TAU;
+    for (ratio, wanted) in [(2.0, 5.890), (4.0, 9.159)] {
+        let pulse =
+            format!("from = \"pulses\"\npulse = \"half_sine\"\nfrequency_hz = [{}]", frequency(ratio));
+        let pga = format!("[{}, {}]", 0.99 * wanted, 1.01 * wanted);
+        let study = BLOCK
+            .replace("from = \"files\"\nfiles = [\"pulse.csv\"]", &pulse)
+            .replace("[5.772, 6.008]", &pga)
+            .replace("agreement = true\n", "");
+        let folder = Folder::with_study(&study);
+        let run = folder.pirca(&["run", "studies/tiny", "--out", "out", "--csv"]);
+        assert!(run.status.success(), "{}", stderr(&run));
+        let table = fs::read_to_string(folder.path("out/members.csv")).expect("a table");
+        let outcomes: Vec<bool> = table.lines().skip(1).map(|line| line.contains("collapsed")).collect();
+        assert_eq!(outcomes, [false, true], "{ratio}: {table}");
+    }
+}
+
+#[test]
+fn what_a_pulse_does_not_have_is_refused() {
+    for (keys, said) in [
+        ("pulse = \"ricker\"\nfrequency_hz = [1]\ncycles = 2", "only with pulse = \"sine\" or \"cosine\""),
+        ("pulse = \"sine\"\nfrequency_hz = [1]\ngamma = 2", "only with pulse = \"mavroeidis_papageorgiou\""),
+        ("pulse = \"sine\"\nfrequency_hz = [2, 1]", "sort the list"),
+        ("pulse = \"square\"\nfrequency_hz = [1]", "load.records.pulse"),
+    ] {
+        let records = format!("from = \"pulses\"\n{keys}");
+        let folder =
+            Folder::with_study(&BLOCK.replace("from = \"files\"\nfiles = [\"pulse.csv\"]", &records));
+        let run = folder.pirca(&["check", "studies/tiny"]);
+        assert_eq!(run.status.code(), Some(3), "{keys}");
+        assert!(stderr(&run).contains(said), "{keys}: {}", stderr(&run));
+    }
+}
+
 /// Stones in bond whose friction differs from wall to wall, under records that are generated.
 fn generated() -> String {
     let text = BLOCK

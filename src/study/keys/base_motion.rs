@@ -5,6 +5,7 @@ use crate::study::schema::Presence::{Default, Required};
 use crate::study::schema::{Interval, Key, Kind, Section};
 
 const FILES: &[&str] = &["files"];
+const PULSES: &[&str] = &["pulses"];
 const KANAI_TAJIMI: &[&str] = &["kanai_tajimi"];
 const REZAEIAN: &[&str] = &["rezaeian_der_kiureghian"];
 const GENERATED: &[&str] = &["kanai_tajimi", "rezaeian_der_kiureghian"];
@@ -13,15 +14,15 @@ pub const MOST_RECORDS: usize = 1000;
 
 pub static RECORDS: Section = Section {
     title: "[load.records]",
-    doc: "Records of ground motion: read from files, or generated. A generated record is decided by the study's seed and its own number. \
+    doc: "Records of ground motion: read from files, pulses, or generated. A generated record is decided by the study's seed and its own number. \
           What is a quantity may be a distribution, drawn once per record.",
     chooser: Some("from"),
     keys: &[&[
         Key::new(
             "from",
-            Kind::Choice(&["files", "kanai_tajimi", "rezaeian_der_kiureghian"]),
+            Kind::Choice(&["files", "pulses", "kanai_tajimi", "rezaeian_der_kiureghian"]),
             Required,
-            "Files; stationary noise through a layer of soil, with an envelope (Kanai and Tajimi); or noise whose strength and frequency \
+            "Files; pulses in closed form; stationary noise through a layer of soil, with an envelope (Kanai and Tajimi); or noise whose strength and frequency \
              change over time (Rezaeian and Der Kiureghian).",
         ),
         Key::new(
@@ -31,6 +32,41 @@ pub static RECORDS: Section = Section {
             "Records as .AT2 (PEER), ESM, ITACA or K-NET ASCII, COSMOS or CSMIP V2, or CSV with units in its heads, in the study's folder.",
         )
         .only(FILES),
+        Key::new(
+            "pulse",
+            Kind::Choice(&["rectangle", "half_sine", "sine", "cosine", "ricker", "mavroeidis_papageorgiou"]),
+            Required,
+            "Its shape. A rectangle and a half sine last half of a period and leave the base moving; the others leave it at rest.",
+        )
+        .only(PULSES),
+        Key::new(
+            "frequency_hz",
+            Kind::Reals { unit: "Hz", within: Interval::closed(0.01, 100.0), at_most: MOST_RECORDS, ascending: true },
+            Required,
+            "Frequencies, each a record of its own.",
+        )
+        .only(PULSES),
+        Key::new(
+            "cycles",
+            Kind::Whole { low: 1, high: 1000 },
+            Default("1"),
+            "Number of cycles of a sine or a cosine.",
+        )
+        .only(PULSES),
+        Key::new(
+            "gamma",
+            real("1", Interval::closed(1.001, 100.0)),
+            Default("2"),
+            "Number of oscillations of a near-fault pulse (Mavroeidis and Papageorgiou 2003).",
+        )
+        .only(PULSES),
+        Key::new(
+            "phase_deg",
+            real("deg", Interval::closed(-180.0, 180.0)),
+            Default("0"),
+            "Phase of a near-fault pulse.",
+        )
+        .only(PULSES),
         Key::new(
             "count",
             Kind::Whole { low: 1, high: MOST_RECORDS as u64 },

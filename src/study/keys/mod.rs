@@ -71,6 +71,13 @@ pub static STUDY: Section = Section {
         ),
         Key::new("solver", Kind::Table(&SOLVER), Default("{}"), "Which solver, with its settings."),
         Key::new("arm", Kind::Tables(&ARM), Required, "The populations of walls that are compared."),
+        Key::new(
+            "sweep",
+            Kind::Settings,
+            Optional,
+            "Paths of keys with lists of values, as \"joint.phi_deg\" = [25, 30, 35]: every arm is evaluated at each of them; several keys are \
+             crossed.",
+        ),
         Key::new("variant", Kind::Tables(&VARIANT), Optional, "Other readings of the study, chosen by name."),
     ]],
 };

@@ -124,6 +124,7 @@ pub(crate) fn summary_of(populations: &[Population], claims: &[Claim]) -> Summar
         solver: "implicit",
         seed: 1,
         study_hash: "00ff".into(),
+        sweep: Vec::new(),
         arms: populations.iter().map(|population| describe(population.clone(), 1, BTreeMap::new())).collect(),
         comparisons: comparisons(populations, claims),
         published: judge_all(claims, populations),

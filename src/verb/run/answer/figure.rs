@@ -24,7 +24,7 @@ pub struct Curve {
 /// One arm at one kn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
-    /// Normal stiffness of the joints (Pa/m).
+    /// Normal stiffness of the joints (Pa/m); over a swept key its value.
     pub kn: f64,
     /// Walls computed.
     pub members: u64,
@@ -41,7 +41,7 @@ pub struct Point {
 }
 
 impl Point {
-    fn of(entry: &ArmSummary) -> Self {
+    pub(crate) fn of(entry: &ArmSummary) -> Self {
         let shown = |x: f64| entry.shown.shown(x);
         let mean = entry.mean.map(shown);
         let sigma = entry.sigma.map(shown);
@@ -138,15 +138,20 @@ pub struct Ladder {
     pub steps: Vec<EmpiricalStep>,
 }
 
-/// The fragility curves at the middle kn (the lower of two), in the order of the arms; none where the quantity is no capacity.
-pub fn ladders(summary: &Summary) -> Vec<Ladder> {
+/// The middle of the stiffnesses (Pa/m), the lower of two; `None` where there are none.
+pub(crate) fn middle_kn(summary: &Summary) -> Option<f64> {
     let mut kns: Vec<f64> = Vec::new();
     for arm in &summary.arms {
         if !kns.contains(&arm.kn_pa_per_m) {
             kns.push(arm.kn_pa_per_m);
         }
     }
-    let Some(&kn) = kns.get(kns.len().saturating_sub(1) / 2) else { return Vec::new() };
+    kns.get(kns.len().saturating_sub(1) / 2).copied()
+}
+
+/// The fragility curves at the middle kn (the lower of two), in the order of the arms; none where the quantity is no capacity.
+pub fn ladders(summary: &Summary) -> Vec<Ladder> {
+    let Some(kn) = middle_kn(summary) else { return Vec::new() };
     let capacity = summary.arms.iter().filter(|arm| arm.shown == Quantity::CollapseAngle);
     capacity
         .filter(|arm| arm.kn_pa_per_m == kn)

@@ -12,12 +12,14 @@ use crate::verb::run::answer::fragility::{fragility, shares};
 use crate::verb::run::answer::measured::CalibrationPlot;
 use crate::verb::run::answer::plot::over_kn;
 use crate::verb::run::answer::summary::Summary;
+use crate::verb::run::answer::sweep::over_key;
 
 /// The figures that a summary has: the quantity over kn with the means of an earlier run if one is given, and of a capacity its fragility
-/// curves; drift over length; the calibration of kn.
+/// curves; the quantity over a swept key; drift over length; the calibration of kn.
 pub(crate) fn figures<'s>(summary: &'s Summary, beside: Option<&Earlier>) -> Vec<Captioned<'s>> {
     let title = title(summary);
     let mut all: Vec<Captioned<'s>> = over_kn(&title, &curves(summary), beside).into_iter().collect();
+    all.extend(over_key(&title, summary));
     let steps = ladders(summary);
     if !steps.is_empty() {
         let caption = "Share of walls that have collapsed over the tilt, at the middle stiffness: a step per wall, with the 95 % band of \

@@ -20,6 +20,7 @@ use crate::verb::run::answer::measured::{calibration_csv, comparison_csv};
 use crate::verb::run::answer::population::Population;
 use crate::verb::run::answer::shaken::write_shaken;
 use crate::verb::run::answer::summary::{Summary, summary_of};
+use crate::verb::run::answer::sweep::{SWEEP, sweep_csv};
 
 /// File name of the summary.
 pub const SUMMARY_JSON: &str = "summary.json";
@@ -91,6 +92,9 @@ pub(crate) fn write_summary(summary: &Summary, dir: &Path, beside: Option<&Earli
         if !measured.calibration.is_empty() {
             write(CALIBRATION, &calibration_csv(&measured.calibration))?;
         }
+    }
+    if !summary.sweep.is_empty() {
+        write(SWEEP, &sweep_csv(summary))?;
     }
     let drifts = drift_curves(summary);
     if !drifts.is_empty() {

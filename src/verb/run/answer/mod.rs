@@ -24,6 +24,7 @@ pub(crate) mod shaken;
 pub(crate) mod standing;
 pub(crate) mod stated_cov;
 pub(crate) mod summary;
+pub(crate) mod sweep;
 pub(crate) mod table;
 pub(crate) mod undecided;
 

@@ -51,7 +51,7 @@ pub fn over_kn<'a>(title: &str, curves: &[Curve], beside: Option<&Earlier>) -> O
 }
 
 /// A curve: lines between neighbouring means, bars, markers; and its band of one standard deviation.
-fn curve_series(index: usize, curve: &Curve, unit: f64) -> Vec<Series> {
+pub(crate) fn curve_series(index: usize, curve: &Curve, unit: f64) -> Vec<Series> {
     let kn = |point: &Point| point.kn / unit;
     let means = runs(&curve.points, |point| Some((kn(point), point.mean?)));
     let bars =
@@ -68,7 +68,7 @@ fn curve_series(index: usize, curve: &Curve, unit: f64) -> Vec<Series> {
 }
 
 /// Ends of the axes: kn with some room at both sides; the quantity from zero (or below) to above the highest mark.
-fn ends(curves: &[Curve], beside: Option<&Earlier>, unit: f64) -> [[f64; 2]; 2] {
+pub(crate) fn ends(curves: &[Curve], beside: Option<&Earlier>, unit: f64) -> [[f64; 2]; 2] {
     let points = || curves.iter().flat_map(|curve| &curve.points);
     let earlier = || beside.iter().flat_map(|earlier| &earlier.arms).flat_map(|(_, means)| means);
     let kn = points().map(|point| point.kn).chain(earlier().map(|mean| mean.kn));

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::ensemble::{Look, Quantity, Row};
 use crate::stats;
 use crate::stats::{EmpiricalStep, Estimate, Sorted, Statistic};
-use crate::study::{Arm, Study, Until};
+use crate::study::{Arm, Study, SweptArm, Until};
 use crate::verb::run::answer::bounded::Bounded;
 use crate::verb::run::answer::comparison::{Comparison, comparisons};
 use crate::verb::run::answer::gathered::populations;
@@ -32,6 +32,9 @@ pub struct Summary {
     pub study_hash: String,
     /// One entry per arm and kn: arms in the order of the study, kn ascending.
     pub arms: Vec<ArmSummary>,
+    /// What a sweep set in which arm; left out where there is none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub sweep: Vec<SweptArm>,
     /// Ratios of means between arms, kn by kn.
     pub comparisons: Vec<Comparison>,
     /// Published statements beside our numbers.
@@ -231,6 +234,7 @@ pub(crate) fn summary_of(study: &Study, populations: Vec<Population>, rows: &[Ro
         seed: study.seed,
         study_hash: study.hash.clone(),
         arms: arms.collect(),
+        sweep: study.sweep.clone(),
         comparisons,
         published,
         measured: measured(study, rows),
