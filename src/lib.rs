@@ -53,6 +53,20 @@
 //! The state without dilatancy is the fixed point of such problems with `|t| <= s`, each `s` the strength `c A + n tan(phi)` under
 //! the forces last found (Gilbert et al. 2006): neither a bound nor unique. Under tilt `tan(angle) = lambda` where `c = 0`.
 //!
+//! **Contact dynamics** (`solve::nonsmooth`; Moreau 1988, Jean 1999). Rigid blocks, velocities `v` and impulses `(r_N, r_T)` of a step `h`,
+//! relative velocities `u = H^T v`; Coulomb's law without dilatancy:
+//!
+//! ```text
+//! M (v - v_free) = H r        0 <= max(g, 0) / h + u_N  perp  r_N >= 0        |r_T| <= h c A + r_N tan(phi)
+//! ```
+//!
+//! **Plate** (`homogenise::plate`). A cell of stones bears the stresses `(N, M)` of a polyhedron with facets `n_k . (N, M) <= b_k`. A wall falls at
+//! the least multiplier over mechanisms with strains `E`, curvatures `chi` and folds whose rates are sums of the facets' normals:
+//!
+//! ```text
+//! min lambda = sum mu_k b_k - dead power    such that    (E, chi) = sum mu_k n_k,  mu_k >= 0,  live power = 1
+//! ```
+//!
 //! **At rest** when the mean unbalanced force of the blocks is below a given share of the mean joint force.
 //!
 //! **Statistics asked for.** For walls `i = 1..n` with displacement `d_i`: mean, sigma (n - 1) and COV = sigma / mean, with
@@ -85,16 +99,17 @@
 //! | [`stats`] | moments, COV, intervals, bootstrap, ratios, distances |
 //! | [`motion`] | ground motions: records read, generated, measured |
 //! | [`law`] | constitutive laws: normal laws, Coulomb, weakening, contact of spheres, damping |
-//! | [`model`] | the nouns: block, wall, clump of spheres, outcome |
+//! | [`model`] | the nouns: block, wall, cell, clump of spheres, outcome |
 //! | [`exchange`] | walls from and to other programs: wall.json, OBJ; names their faults |
+//! | [`render`] | numbers and tables as text, CSV, charts, documents, pictures of walls, VTU, glTF; knows no verb and no study |
 //! | [`contact`] | broad phase, separating axes, patches, sub-contacts |
 //! | [`generate`] | layouts to walls; `canonical` holds walls with known answers |
-//! | [`solve`] | bodies, joints with history; the solvers `explicit`, `implicit`, `limit`; `grains` for bodies made of spheres |
-//! | [`protocol`] | load paths (lateral, tilting), restraint, what is observed, when a collapse is confirmed |
+//! | [`solve`] | bodies, joints with history; the solvers `explicit`, `implicit`, `nonsmooth`, `limit`; `grains` for bodies made of spheres |
+//! | [`homogenise`] | a wall as a plate: cells of stones, their stiffness and their strength |
+//! | [`protocol`] | load paths (lateral, tilting, shear), base motion, restraint, what is observed, when a collapse is confirmed |
 //! | [`study`] | text to checked studies, every fault at once |
 //! | [`ensemble`] | plan, run in parallel, record, resume |
 //! | [`critic`] | measured beside simulated; the joint stiffness that measured collapse angles speak for |
-//! | [`render`] | numbers and tables as text, CSV, charts, pictures of walls, VTU, glTF; knows no verb and no study |
 //! | [`terminal`] | progress, messages, exit codes |
 //! | [`verb`] | a room for each verb: options and help, work, answer; a run's summary is shared |
 //! | [`cli`] | the list of verbs, as the command line reads it |

@@ -327,15 +327,16 @@ fn every_stage_is_a_folder_of_few_files() {
 }
 
 #[test]
-fn the_page_of_the_house_shows_every_module_in_order() {
-    let readme = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/house.md");
-    let readme = fs::read_to_string(readme).expect("it is there");
-    let (_, table) = readme.split_once("| Module | What it does |").expect("the table of modules");
-    let (table, _) = table.split_once("\n\n").expect("it ends");
-    let first = |line: &str| line.split('|').nth(1).unwrap_or_default().replace('`', "");
-    let shown: Vec<String> = table.lines().skip(2).map(first).collect();
+fn the_page_of_the_house_and_the_library_show_every_module_in_order() {
     let rows: Vec<&str> = HOUSE.iter().map(|(row, _)| *row).collect();
-    assert_eq!(shown.join(",").replace(' ', ""), rows.join(","));
+    for (file, head) in [("docs/house.md", "| Module | What it does |"), ("src/lib.rs", "| module | what is in it |")] {
+        let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).expect("it is there");
+        let (_, table) = text.split_once(head).expect("the table of modules");
+        let table = table.lines().map(|line| line.trim_start_matches("//!").trim()).skip(2);
+        let first = |line: &str| line.split('|').nth(1).unwrap_or_default().replace(['`', '[', ']'], "");
+        let shown: Vec<String> = table.take_while(|line| line.starts_with('|')).map(first).collect();
+        assert_eq!(shown.join(",").replace(' ', ""), rows.join(","), "{file}");
+    }
 }
 
 /// A recipe that names a file which has moved sends its reader astray.
