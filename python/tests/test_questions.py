@@ -83,12 +83,12 @@ def test_any_verb_gives_its_answer(verb, pirca_command, studies, empty_folder):
     files, options, typed = {
         "check": ([table], {}, ["check", table]),
         "schema": ([], {"of": "published"}, ["schema", "--of", "published"]),
-        "init": (["mine"], {}, ["init", "theirs"]),
+        "init": (["wall-a"], {}, ["init", "wall-b"]),
         "measured": ([table], {"template": True}, ["measured", table, "--template"]),
         "completions": (["bash"], {}, ["completions", "bash"]),
     }[verb]
     answer = pirca.ask(verb, *files, **options)
-    assert answer.text.replace("mine", "theirs") == pirca_command(*typed).stdout
+    assert answer.text.replace("wall-a", "wall-b") == pirca_command(*typed).stdout
     assert len(answer) > 0
 
 
@@ -103,7 +103,9 @@ def test_readings(told, empty_folder, studies):
 
 def test_homogenise_with_its_page(told, empty_folder, studies):
     study = studies / "homogenisation"
-    ours = pirca.Study(study).homogenise(stones=[2], cells=2, arms=["random-heads"], directions=["none"], out="ours", report=True)
+    ours = pirca.Study(study).homogenise(
+        stones=[2], cells=2, arms=["random-heads"], directions=["none"], out="ours", report=True
+    )
     options = ["--stones", "2", "--cells", 2, "--arms", "random-heads", "--directions", "none"]
     assert dict(ours) == told("homogenise", study, *options, out="theirs")
     same_files(empty_folder / "ours", empty_folder / "theirs")

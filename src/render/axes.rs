@@ -7,7 +7,7 @@ use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
-use crate::math::ln;
+use crate::math::{ln, pow};
 use crate::render::number::compact;
 use crate::render::pen::Pen;
 
@@ -55,10 +55,13 @@ impl Axis {
     }
 
     fn label(&self, x: f64) -> String {
-        match self.is_log {
-            true => compact(x),
-            false => format!("{x:.0$}", decimals(self.ends[1] - self.ends[0])),
+        if self.is_log {
+            return compact(x);
         }
+        let digits = decimals(self.ends[1] - self.ends[0]);
+        // What rounds to 0 from below has no sign.
+        let x = if x.abs() < 0.5 * pow(0.1, digits as f64) { 0.0 } else { x };
+        format!("{x:.digits$}")
     }
 }
 
@@ -149,6 +152,12 @@ mod tests {
         };
         assert_eq!(labels([0.9e7, 1.1e8]), ["1e7", "2e7", "5e7", "1e8"]);
         assert_eq!(labels([1e-4, 1.0]), ["1e-4", "1e-3", "1e-2", "1e-1", "1e0"]);
+    }
+
+    #[test]
+    fn zero_has_no_sign() {
+        let axis = Axis::new("mm", [-0.1, 0.2], 8);
+        assert_eq!([-1e-17, -0.05, 0.15].map(|x| axis.label(x)), ["0.00", "-0.05", "0.15"]);
     }
 
     #[test]

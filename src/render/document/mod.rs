@@ -87,6 +87,8 @@ impl Part<'_> {
 
 #[cfg(test)]
 mod tests {
+    use serde_json::json;
+
     use super::*;
 
     fn document(parts: Vec<Part<'_>>) -> Document<'_> {
@@ -119,21 +121,14 @@ mod tests {
 
     #[test]
     fn a_page_has_every_part_once_with_the_first_sentence_as_the_answer_and_nothing_as_markup() {
-        #[derive(serde::Serialize)]
-        struct Closing {
-            given: Vec<String>,
-            limits: Vec<String>,
-            provenance: Table,
-            methods: String,
-            citation: Vec<String>,
-        }
-        let closing = Closing {
-            given: Vec::new(),
-            limits: vec!["of stones".to_owned()],
-            provenance: Table::default(),
-            methods: "none".to_owned(),
-            citation: Vec::new(),
-        };
+        let table = json!({"caption": "", "heads": [], "rows": []});
+        let closing = json!({
+            "given": {"about_wall": "A wall.", "about": "Its inputs.", "assumed": [], "tables": []},
+            "limits": ["of stones"],
+            "provenance": table,
+            "methods": "none",
+            "citation": {"words": "pirca", "bibtex": "@software"},
+        });
         let page = page(&document(parts()), &closing).unwrap();
         assert!(page.contains("<p class=\"verdict\">The first is &lt;best&gt;.</p>"), "{page}");
         for (words, times) in

@@ -389,7 +389,7 @@ fn the_text_the_page_and_the_files_show_what_was_measured_beside_what_was_simula
         assert!(page.contains(part), "no `{part}` in the page");
     }
     // What is wrong stands before what the verdict rests on, and no text of a terminal is on it.
-    let places = ["figure-fit", "sketch-creep", "Measured beside simulated", "How often such verdicts"]
+    let places = ["figure-best-fit", "sketch-creep", "Measured beside simulated", "How often such verdicts"]
         .map(|part| page.find(part).unwrap_or_else(|| panic!("no {part}")));
     assert!(places.is_sorted(), "{places:?}");
     assert_eq!(page.matches("<pre>").count(), 1, "but for the reference");

@@ -56,8 +56,8 @@ pub(crate) fn curve_series(index: usize, curve: &Curve, unit: f64) -> Vec<Series
     let means = runs(&curve.points, |point| Some((kn(point), point.mean?)));
     let bars =
         curve.points.iter().filter(|_| curve.random).filter_map(|point| Some((kn(point), point.mean_ci?)));
-    let mut marks = vec![Mark::Bars(bars.collect()), Mark::Markers(means.concat())];
-    marks.extend(means.into_iter().map(Mark::Line));
+    let over = [Mark::Bars(bars.collect()), Mark::Markers(means.concat())];
+    let marks = means.into_iter().map(Mark::Line).chain(over).collect();
     let mut all = vec![Series { index, label: curve.label(), marks }];
     if curve.has_band() {
         let bands = runs(&curve.points, |point| Some((kn(point), point.band?)));
