@@ -329,7 +329,9 @@ fn every_stage_is_a_folder_of_few_files() {
 #[test]
 fn the_page_of_the_house_and_the_library_show_every_module_in_order() {
     let rows: Vec<&str> = HOUSE.iter().map(|(row, _)| *row).collect();
-    for (file, head) in [("docs/house.md", "| Module | What it does |"), ("src/lib.rs", "| module | what is in it |")] {
+    for (file, head) in
+        [("docs/house.md", "| Module | What it does |"), ("src/lib.rs", "| module | what is in it |")]
+    {
         let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).expect("it is there");
         let (_, table) = text.split_once(head).expect("the table of modules");
         let table = table.lines().map(|line| line.trim_start_matches("//!").trim()).skip(2);

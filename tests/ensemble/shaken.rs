@@ -88,8 +88,8 @@ fn pulses_overturn_a_block_at_the_amplitude_of_the_equation_of_motion() {
         let run = folder.pirca(&["run", "studies/tiny", "--out", "out", "--csv"]);
         assert!(run.status.success(), "{}", stderr(&run));
         let table = fs::read_to_string(folder.path("out/members.csv")).expect("a table");
-        let outcomes: Vec<bool> = table.lines().skip(1).map(|line| line.contains("collapsed")).collect();
-        assert_eq!(outcomes, [false, true], "{ratio}: {table}");
+        // Of two runs the stronger one overturns it, and none is left undecided.
+        assert!(table.lines().nth(1).is_some_and(|line| line.ends_with(",2,1,0,0")), "{ratio}: {table}");
     }
 }
 
