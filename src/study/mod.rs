@@ -23,6 +23,7 @@ mod keys;
 mod load;
 pub mod measured;
 mod mechanism;
+mod meetings;
 mod nuisance;
 mod overturning;
 mod published;
@@ -39,6 +40,7 @@ mod strength;
 mod survey;
 mod uncertain;
 mod variant;
+mod wall_file;
 
 pub use crate::random::Design;
 pub use angle::Angle;
@@ -65,6 +67,7 @@ pub use measured::{
 pub use mechanism::{
     EndRelease, FrictionChange, JointClosure, Mechanisms, SpecimenScatter, StressStiffening, Unfit, WedgeLoss,
 };
+pub use meetings::{Fit, Tolerance, bounds, look};
 pub use nuisance::{NUISANCES, Nuisance, nuisances};
 pub use readings::{Reading, reading_name, readings};
 pub use reference::key_reference;

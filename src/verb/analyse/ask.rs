@@ -6,6 +6,7 @@ use clap::{ArgGroup, Args, ValueEnum};
 
 use crate::protocol::Direction;
 use crate::solve::explicit::Rayleigh;
+use crate::study::Tolerance;
 use crate::verb::analyse::known::Known;
 use crate::verb::analyse::{known, numbers};
 use crate::verb::arguments::{FILE, JOINTS, LOAD, OUTPUT, SOLUTION, SolverName, names};
@@ -163,7 +164,7 @@ pub(crate) struct Analyse {
     /// share of the size of what moves, corner to corner (1e-12 to 0.001). Wider gaps carry nothing until they close. Deeper overlaps are
     /// told, and wider gaps up to a tenth of a stone.
     #[arg(long, value_name = "LENGTH", default_value = "1e-6", value_parser = numbers::tolerance, allow_negative_numbers = true, help_heading = FILE)]
-    pub touch_tolerance: numbers::Tolerance,
+    pub touch_tolerance: Tolerance,
     /// Make faces plane whose corners lie up to this length off their plane (2mm), or 1/20 of their block if that is less; how far
     /// corners were moved is told [default: 1e-4 of a block is allowed, and nothing is moved].
     #[arg(long, value_name = "LENGTH", value_parser = numbers::length, allow_negative_numbers = true, help_heading = FILE)]

@@ -8,7 +8,6 @@ mod files;
 mod joints;
 mod known;
 mod loads;
-mod meetings;
 mod numbers;
 mod open;
 mod page;

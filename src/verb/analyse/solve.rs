@@ -9,11 +9,11 @@ use crate::protocol::{
 };
 use crate::solve::implicit::Equilibrium;
 use crate::solve::{Equilibrate, Solver, explicit, implicit, limit, nonsmooth};
+use crate::study::Fit;
 use crate::terminal::doing::doing;
 use crate::verb::analyse::answer::Answer;
 use crate::verb::analyse::ask::{Analyse, FlowName, Growing};
 use crate::verb::analyse::known::Known;
-use crate::verb::analyse::meetings::Fit;
 use crate::verb::analyse::state::Found;
 use crate::verb::arguments::SolverName;
 

@@ -8,6 +8,7 @@ use crate::ensemble::{Observed, Unsure, given_points};
 use crate::exchange::WallFile;
 use crate::model::{Outcome, Wall};
 use crate::protocol::{Settlement, Witness};
+use crate::study::Fit;
 use crate::terminal::doing::doing;
 use crate::terminal::failure::Failure;
 use crate::verb::analyse::answer::Answer;
@@ -15,7 +16,6 @@ use crate::verb::analyse::ask::{Analyse, Growing};
 use crate::verb::analyse::fall::Fall;
 use crate::verb::analyse::known::Known;
 use crate::verb::analyse::loads::loaded;
-use crate::verb::analyse::meetings::Fit;
 use crate::verb::analyse::solve::{
     BRACKET, BRACKET_DEG, LARGEST_MULTIPLIER, LARGEST_TILT_DEG, law, solve_seen_by,
 };

@@ -11,6 +11,7 @@ use crate::model::{Outcome, Support, Wall};
 use crate::protocol::{Direction, Recorder, Settlement, Witness};
 use crate::solve::STANDARD_GRAVITY;
 use crate::study::Angle;
+use crate::study::{Fit, bounds, look};
 use crate::terminal::answer::Answer;
 use crate::terminal::doing::doing;
 use crate::terminal::failure::Failure;
@@ -18,7 +19,6 @@ use crate::verb::analyse::ask::{Analyse, FlowName, Growing, LoadName, UpName};
 use crate::verb::analyse::files::Seen;
 use crate::verb::analyse::known::Known;
 use crate::verb::analyse::loads::{loaded, settlements};
-use crate::verb::analyse::meetings::{Fit, bounds, look};
 use crate::verb::analyse::open::left_open;
 use crate::verb::analyse::page::Told;
 use crate::verb::analyse::shaken::shaken;
@@ -150,6 +150,7 @@ fn read(arguments: &Analyse) -> Result<(WallFile, Fit), WallFaults> {
         density: arguments.density_kg_per_m3.or(arguments.density.as_ref().map(Known::middle)),
         up: arguments.up.map_or(Up::Z, |up| if up == UpName::Y { Up::Y } else { Up::Z }),
         flatness: arguments.flatness,
+        on_platform: false,
     };
     let file = read_wall(&arguments.wall, &options)?;
     let fit = look(&file, arguments.touch_tolerance, &arguments.wall.display().to_string())?;
