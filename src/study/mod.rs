@@ -67,7 +67,7 @@ pub use measured::{
 pub use mechanism::{
     EndRelease, FrictionChange, JointClosure, Mechanisms, SpecimenScatter, StressStiffening, Unfit, WedgeLoss,
 };
-pub use meetings::{Fit, Tolerance, bounds, look};
+pub use meetings::{Fit, TOUCH, Tolerance, bounds, look};
 pub use nuisance::{NUISANCES, Nuisance, nuisances};
 pub use readings::{Reading, reading_name, readings};
 pub use reference::key_reference;

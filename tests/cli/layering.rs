@@ -125,7 +125,7 @@ const VERBS: &[(&str, &[&str])] = &[
     ("diagnose", &["arguments", "locate", "run"]),
     ("measured", &["arguments", "locate", "diagnose"]),
     ("shard", &["arguments", "question", "locate", "run", "diagnose"]),
-    ("analyse", &["arguments", "question", "wall", "run"]),
+    ("analyse", &["arguments", "question", "locate", "wall", "run"]),
     // The page of a wall is what `analyse` says of it.
     ("report", &["arguments", "locate", "wall", "run", "analyse"]),
 ];

@@ -23,6 +23,8 @@ mod init;
 mod joint_laws;
 mod layering;
 mod left_open;
+#[path = "../ensemble/loads.rs"]
+mod loads;
 mod malformed;
 mod manual;
 mod measured;
@@ -43,4 +45,6 @@ mod spreadsheets;
 mod study;
 mod survey;
 mod uncertain;
+mod wall_arms;
 mod walls;
+mod ways_in;

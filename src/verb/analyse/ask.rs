@@ -25,6 +25,7 @@ Example: pirca analyse wall.json --phi-deg 30
          pirca analyse wall.json --phi-deg 35 --solver implicit --kn 1e9 --settle 0=0.01
          pirca analyse wall.json --phi-deg 35 --solver nonsmooth --fclib step.json --at-deg 5
          pirca analyse wall.json --phi-deg 30..38 --solver implicit --kn 5e7..5e8 --density normal(2200,80)
+         pirca analyse wall.json --phi-deg 30..38 --study my-wall
 
 Ranges: of --phi-deg, --kn and --density a number, LOW..HIGH, or uniform(low, high), triangular(low, mode, high), normal(mean, sd), \
 lognormal(mean, sd), truncated_normal(mean, sd, low, high), truncated_lognormal(median, log_sd, low, high). The wall is then solved \
@@ -214,6 +215,10 @@ pub(crate) struct Analyse {
         help_heading = OUTPUT
     )]
     pub at_deg: Option<f64>,
+    /// Folder for the same question as a study, with a copy of the wall: run, capacity, influence, compare and shard then take it. Ranges
+    /// become distributions of [uncertain], and --walls its number of walls. For a tilt.
+    #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
+    pub study: Option<PathBuf>,
     /// What joints are coloured by in the picture.
     #[arg(long, value_name = "NAME", default_value = "opening", requires = SEEN, help_heading = OUTPUT)]
     pub colour: Measure,

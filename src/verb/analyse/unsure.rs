@@ -24,8 +24,8 @@ use crate::verb::analyse::uncertainty::{Answered, AskedOfWall, Ended, Uncertaint
 use crate::verb::analyse::worst::bears;
 
 /// Walls of a design where no number is asked for, and its seed.
-const WALLS: u64 = 64;
-const SEED: u64 = 1;
+pub(crate) const WALLS: u64 = 64;
+pub(crate) const SEED: u64 = 1;
 /// Less than this share of the weight that stays is none.
 const WHOLE: f64 = 0.999;
 

@@ -12,7 +12,7 @@ use crate::verb::sensitivity::ask::Sensitivity;
 
 /// Computes the map, writes it and prints it.
 pub(crate) fn sensitivity(arguments: &Sensitivity) -> Result<Answer, Failure> {
-    let study = locate::study(&arguments.which)?.study;
+    let study = locate::measurable(&arguments.which)?.study;
     locate::without_uncertain(&study)?;
     let distributions = locate::distributions(&arguments.which)?;
     let mechanisms = described(&distributions).map_err(Failure::Input)?;
