@@ -134,13 +134,15 @@ fn as_fault(file: &str, rank: usize, fault: &exchange::Fault) -> Fault {
     let block = if fault.block.is_empty() { String::new() } else { format!("{}: ", fault.block) };
     let times = if fault.times > 1 { format!(" ({} times)", fault.times) } else { String::new() };
     let found = format!("{block}{}{times}", fault.found);
-    Fault::of_file(file, rank, &found, &fault.allowed, in_a_study(&fault.fix)).in_line(fault.line)
+    let keys = same_keys(&format!("{found} {} {}", fault.allowed, fault.fix));
+    let fix = format!("{}{keys}", fault.fix);
+    Fault::of_file(file, rank, &found, &fault.allowed, fix).in_line(fault.line)
 }
 
-/// A message with the keys that stand for the options which it names.
-fn in_a_study(message: &str) -> String {
+/// Behind a message, the keys that stand for the options which it names.
+fn same_keys(message: &str) -> String {
     let named = SAME.iter().filter(|(option, _)| message.contains(option));
-    named.fold(message.to_owned(), |text, (option, key)| format!("{text} ({option} is {key} of the arm)"))
+    named.map(|(option, key)| format!(" ({option} is {key} of the arm)")).collect()
 }
 
 /// Reads an arm whose stones a file describes. `density` (kg/m^3) is what the arm says of its stones in the place of the file.
@@ -167,14 +169,19 @@ pub fn layout(t: &mut Reader<'_>, density: Option<&Family>, catalogue: &mut Cata
     };
     t.record("file", format_args!("{file} {}", standing.sha256));
     for warning in &standing.warnings {
-        let found = Found::Words(format!("{file}: {}", in_a_study(warning)));
+        let found = Found::Words(format!("{file}: {warning}{}", same_keys(warning)));
         let fix = "look whether it is meant, and change the file if not";
         t.notes.warnings.push(Fault::at(&node.place, &path, found, "this", fix));
     }
     let density = mean(t, density, mean_density(&standing.wall))?;
+    Some(of_standing(file, &standing, density))
+}
+
+/// The layout of a wall that was read, with a mean density (kg/m^3).
+fn of_standing(file: String, standing: &Standing, density: f64) -> Layout {
     let (low, high) = standing.wall.bounds_of_stones();
     let size = high - low;
-    Some(Layout {
+    Layout {
         outline: Outline {
             length: size.x,
             height: size.z,
@@ -201,7 +208,7 @@ pub fn layout(t: &mut Reader<'_>, density: Option<&Family>, catalogue: &mut Cata
             max_redraws: 0,
             max_attempts: 1,
         },
-    })
+    }
 }
 
 /// How the file is to be read.

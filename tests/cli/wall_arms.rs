@@ -5,7 +5,7 @@ use std::fs;
 use serde_json::Value;
 
 use crate::fixture::{Folder, STUDY, stderr};
-use crate::loads::{TILTING, loaded};
+use crate::loads::{SHEAR, TILTING, loaded};
 use crate::walls::example;
 
 /// The head of a study of walls from files: joints, load, restraint and solver, as `analyse` has them.
@@ -65,6 +65,24 @@ fn a_wall_from_a_file_falls_as_the_one_that_was_drawn_and_as_analyse_says_to_the
         let analysed =
             answer(&folder, &[&asked[..], kn].concat())["collapse_angle_deg"].as_f64().expect("an angle");
         assert_eq!(found[1..], [analysed; 4], "{solver}");
+    }
+}
+
+#[test]
+fn a_wall_from_a_file_is_sheared_and_pressed_as_the_one_that_was_drawn() {
+    for text in [loaded(SHEAR, "name = \"limit\""), STUDY.to_owned()] {
+        let drawn = text.replace("[5e7, 1.75e8]", "[1e8]").replace("members = 8", "members = 1");
+        let folder = Folder::with_study(&drawn);
+        for (file, base) in [("bare.json", None), ("based.json", Some("--with-base"))] {
+            let path = format!("studies/tiny/{file}");
+            let command = ["generate", "studies/tiny", "--arm", "random", "--out", &path];
+            assert!(folder.pirca(&[&command[..], base.as_slice()].concat()).status.success(), "{file}");
+        }
+        let files = [arm("bare", "bare.json"), arm("based", "based.json")].concat();
+        folder.write_study(&drawn.replace("\n[[variant]]", &format!("{files}\n[[variant]]")));
+        let summary = answer(&folder, &["run", "studies/tiny", "--out", "out"]);
+        let mean = |arm: usize| summary["arms"][arm]["mean"].as_f64().expect("a mean");
+        assert_eq!([mean(2), mean(3)], [mean(1); 2]);
     }
 }
 

@@ -67,7 +67,7 @@ fn studies() -> [(&'static str, String); 5] {
     let elements = include_str!("../../studies/element-types/study.toml");
     let from = |name: &str| elements.find(&format!("[[element]]\nname = \"{name}\"")).expect("an element");
     let end = drawn.find("\n[[arm]]").expect("an arm");
-    let head = &drawn[..drawn.find("[wall]").expect("a wall")].to_owned()
+    let head = drawn[..drawn.find("[wall]").expect("a wall")].to_owned()
         + &drawn[drawn.find("[joint]").expect("joints")..end];
     let file = |name: &str| {
         format!(

@@ -123,7 +123,19 @@ fn text(arguments: &Analyse, fit: &Fit) -> String {
         };
         line(format!("{key:?} = {}", family(own).unwrap_or_default()));
     }
-    line(format!("\n[[arm]]\nname = \"wall\"\nmembers = {}", members(arguments, random)));
+    text + &arm_text(arguments, fit)
+}
+
+/// Its arm.
+fn arm_text(arguments: &Analyse, fit: &Fit) -> String {
+    let title = arguments.title();
+    // One wall, or those of the design over ranges.
+    let members = if asked(arguments).is_empty() { 1 } else { arguments.walls.unwrap_or(WALLS) };
+    let mut text = String::new();
+    let mut line = |one: String| {
+        let _ = writeln!(text, "{one}");
+    };
+    line(format!("\n[[arm]]\nname = \"wall\"\nmembers = {members}"));
     line(format!("arrangement = \"file\"\nfile = {title:?}"));
     let mut stated = |key: &str, value: Option<String>| {
         value.into_iter().for_each(|value| line(format!("{key} = {value}")));
@@ -147,9 +159,4 @@ fn text(arguments: &Analyse, fit: &Fit) -> String {
         line(format!("\n[arm.block]\ndensity_kg_per_m3 = {density:?}"));
     }
     text
-}
-
-/// Walls of the study: those of the design over ranges, or the one.
-fn members(arguments: &Analyse, random: bool) -> u64 {
-    if random { arguments.walls.unwrap_or(WALLS) } else { 1 }
 }
