@@ -12,7 +12,6 @@ use crate::generate::{self, CellFault, generate_cell};
 use crate::homogenise::{AskedOfCell, CellAnswer};
 use crate::math::STANDARD_GRAVITY;
 use crate::model::{Cell, JointLaws, Wall};
-use crate::protocol::Contacts;
 use crate::random::Design;
 use crate::study::{Arm, AsDrawn, DrawnJoints, Study};
 
@@ -126,7 +125,7 @@ pub fn evaluate_cell(study: &Study, asked: &AskedOfCells, task: CellTask) -> Cel
     let found = with_cell(study, asked, task, |Built { drawn, cell, wall, laws }| {
         let layout = &drawn.arm.layout;
         let weight = layout.density.mean() * STANDARD_GRAVITY * 0.5 * layout.outline.height;
-        let contact = contacts(&drawn.arm).of_wall(wall);
+        let contact = drawn.arm.contacts().of_wall(wall);
         asked.of.answer(cell, laws, contact, asked.pressure.unwrap_or(weight))
     });
     CellRow { task, found: found.map_err(|fault| fault.to_string()) }
@@ -139,11 +138,6 @@ pub(super) struct Built<'a> {
     /// Its stones alone.
     pub wall: &'a Wall,
     pub laws: &'a dyn JointLaws,
-}
-
-/// How joints of an arm are found.
-pub(super) fn contacts(arm: &Arm) -> Contacts {
-    arm.mechanisms.contacts(arm.sub_contacts)
 }
 
 /// Builds a cell, draws its joints and asks it something.

@@ -48,7 +48,7 @@ pub fn solve(study: &Study, task: Task, wall: &Wall, witness: Witness<'_>) -> pr
     let drawn = study.as_drawn(task.arm, task.member);
     let AsDrawn { arm, protocol, .. } = &drawn;
     let laws = laws(study, task, arm, wall);
-    let contacts = arm.mechanisms.contacts(arm.sub_contacts);
+    let contacts = arm.contacts();
     let changes = arm.mechanisms.changes(wall, &study.streams(task.member));
     let way = protocol::Way { changes: &changes, witness };
     protocol::run_seen_by(wall, &laws, protocol, &arm.restraint, contacts, way, &study.solver)
@@ -226,7 +226,7 @@ fn limit(study: &Study, task: Task, wall: &Wall, run: &protocol::Run) -> LimitAn
     let drawn = study.as_drawn(task.arm, task.member);
     let AsDrawn { arm, protocol, .. } = &drawn;
     let laws = laws(study, task, arm, wall);
-    let contacts = arm.mechanisms.contacts(arm.sub_contacts);
+    let contacts = arm.contacts();
     let bounds = Bounds::of(wall, &laws, protocol, &arm.restraint, contacts);
     let pushed = push_over_load(protocol, run);
     let borne = match run.outcome {

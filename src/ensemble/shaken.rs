@@ -18,7 +18,7 @@ pub(super) fn shaken(study: &Study, earthquakes: &Earthquakes, task: Task, gener
     let base = &study.base_motion().expect("records come with a base that shakes");
     let wall = &generated.wall;
     let laws = laws(study, task, arm, wall);
-    let contacts = arm.mechanisms.contacts(arm.sub_contacts);
+    let contacts = arm.contacts();
     let stripes = earthquakes.intensities.len();
     let runs = earthquakes.records.len() * stripes;
     let steps = shake_wall(wall, &laws, base, &arm.restraint, contacts, &study.solver, |shake| {

@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::exchange::Unit;
 use crate::exchange::fault::{Fault, WallFaults};
 use crate::exchange::mended::Mended;
 use crate::exchange::solid::{diagonal, solid};
+use crate::exchange::{ReadOptions, Unit};
 use crate::math::Vec3;
 use crate::model::{Block, Support, Tag, Wall};
 
@@ -63,12 +63,12 @@ pub struct WallFile {
     pub warnings: Vec<String>,
 }
 
-/// Checks every block and puts the wall together; `faults` holds what the reading has found already, `flatness` (m) is what
-/// faces may be warped by beyond the usual.
+/// Checks every block and puts the wall together; `faults` holds what the reading has found already, ``options` what is allowed
+/// beyond the usual.
 pub fn build(
     drafts: Vec<Draft>,
     unit: Unit,
-    flatness: Option<f64>,
+    options: &ReadOptions,
     mut faults: WallFaults,
     mut warnings: Vec<String>,
 ) -> Result<WallFile, WallFaults> {
@@ -81,14 +81,14 @@ pub fn build(
         ));
     }
     same_ids(&drafts, &mut faults);
-    supports(&drafts, &mut faults);
+    supports(&drafts, options.on_platform, &mut faults);
     groups(&drafts, &mut faults, &mut warnings);
     let mut mended = Mended::default();
     let mut file =
         WallFile { wall: Wall::default(), ids: Vec::new(), names: Vec::new(), warnings: Vec::new() };
     for draft in drafts.into_iter().filter(|draft| draft.readable) {
         let line = draft.line;
-        let found = match checked(&draft, unit, flatness, &mut mended, &mut warnings) {
+        let found = match checked(&draft, unit, options.flatness, &mut mended, &mut warnings) {
             Ok(block) => {
                 file.wall.blocks.push(block);
                 file.ids.push(draft.id.unwrap_or(0));
@@ -102,7 +102,7 @@ pub fn build(
             faults.push(fault.at(line, 0));
         }
     }
-    warnings.extend(mended.told(flatness));
+    warnings.extend(mended.told(options.flatness));
     file.warnings = warnings;
     if faults.is_empty() { Ok(file) } else { Err(faults) }
 }
@@ -122,9 +122,9 @@ fn same_ids(drafts: &[Draft], faults: &mut WallFaults) {
     }
 }
 
-fn supports(drafts: &[Draft], faults: &mut WallFaults) {
+fn supports(drafts: &[Draft], on_platform: bool, faults: &mut WallFaults) {
     let readable = drafts.iter().all(|draft| draft.readable);
-    if !drafts.is_empty() && readable && drafts.iter().all(|draft| !draft.fixed) {
+    if !drafts.is_empty() && readable && !on_platform && drafts.iter().all(|draft| !draft.fixed) {
         faults.push(Fault::of(
             "",
             "there is no support: no block is fixed",

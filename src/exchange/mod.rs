@@ -18,6 +18,6 @@ pub use draft::WallFile;
 pub use fault::{Fault, WallFaults};
 pub use json::write_wall_json;
 pub use obj::write_obj;
-pub use read::{ReadOptions, Unit, Up, read_wall};
+pub use read::{ReadOptions, Unit, Up, read_wall, read_wall_bytes, wall_bytes};
 pub use read_json::{read_wall_json, read_wall_json_with};
 pub use read_obj::read_obj;

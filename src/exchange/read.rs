@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::exchange::draft::WallFile;
 use crate::exchange::fault::{Fault, WallFaults};
-use crate::exchange::read_json::read_wall_json_with;
+use crate::exchange::read_json::read_json;
 use crate::exchange::read_obj::read_obj;
 use crate::math::Vec3;
 
@@ -83,6 +83,8 @@ pub struct ReadOptions {
     /// and how far corners were moved is told. Without it, or where it is less, 1e-4 of the block's size is allowed, and
     /// nothing is moved.
     pub flatness: Option<f64>,
+    /// Whether a wall without a fixed block is one: it stands on a platform that is put under it.
+    pub on_platform: bool,
 }
 
 /// Reads a wall from a `.json` or `.obj` file.
@@ -91,33 +93,65 @@ pub struct ReadOptions {
 /// Everything that is wrong with the file, block by block; see [`WallFaults`].
 pub fn read_wall(path: &Path, options: &ReadOptions) -> Result<WallFile, WallFaults> {
     let name = path.display().to_string();
-    let ending = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
-    let refused = |fault: Fault| {
-        let mut faults = WallFaults::new(&name);
-        faults.push(fault);
-        Err(faults)
-    };
-    if !matches!(ending.as_deref(), Some("json" | "obj")) {
+    read_wall_bytes(&name, &wall_bytes(path, &name)?, options)
+}
+
+/// The bytes of a file that may be a wall, by its ending and its size; messages call it `name`.
+///
+/// # Errors
+/// The fault of a file that cannot be one, or cannot be read.
+pub fn wall_bytes(path: &Path, name: &str) -> Result<Vec<u8>, WallFaults> {
+    if ending(name).is_none() {
         let found = "the ending of the file says no format that is read";
-        return refused(Fault::of("", found, ".json or .obj", "rename or convert the file"));
+        return refused(name, Fault::of("", found, ".json or .obj", "rename or convert the file"));
     }
     let mut bytes = Vec::new();
     // One byte more than allowed tells a file that is too large, also where its length cannot be asked for.
     let read = File::open(path).and_then(|file| file.take(LARGEST_FILE + 1).read_to_end(&mut bytes));
     if let Err(error) = read {
-        return refused(Fault::of("", format!("cannot be read: {error}"), "a file", "check the path"));
+        let found = format!("cannot be read: {error}");
+        return refused(name, Fault::of("", found, "a file", "check the path"));
     }
     if bytes.len() as u64 > LARGEST_FILE {
         let allowed = format!("at most {} MiB", LARGEST_FILE >> 20);
-        return refused(Fault::of("", "the file is too large", allowed, "divide or simplify the wall"));
+        let fault = Fault::of("", "the file is too large", allowed, "divide or simplify the wall");
+        return refused(name, fault);
     }
-    let Ok(text) = String::from_utf8(bytes) else {
-        return refused(Fault::of("", "the file is no text", "UTF-8 text", "save it as UTF-8"));
+    Ok(bytes)
+}
+
+/// The wall that the bytes of a file say; its name tells the format.
+///
+/// # Errors
+/// As [`read_wall`].
+pub fn read_wall_bytes(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<WallFile, WallFaults> {
+    let Ok(text) = std::str::from_utf8(bytes) else {
+        return refused(name, Fault::of("", "the file is no text", "UTF-8 text", "save it as UTF-8"));
     };
-    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
-    let read = match ending.as_deref() {
-        Some("obj") => read_obj(text, options),
-        _ => read_wall_json_with(text, options.flatness),
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let read = match ending(name) {
+        Some(Ending::Obj) => read_obj(text, options),
+        Some(Ending::Json) | None => read_json(text, options),
     };
-    read.map_err(|faults| WallFaults { file: name, ..faults })
+    read.map_err(|faults| WallFaults { file: name.to_owned(), ..faults })
+}
+
+/// The formats, by the ending of the file.
+enum Ending {
+    Json,
+    Obj,
+}
+
+fn ending(name: &str) -> Option<Ending> {
+    match Path::new(name).extension()?.to_str()?.to_ascii_lowercase().as_str() {
+        "json" => Some(Ending::Json),
+        "obj" => Some(Ending::Obj),
+        _ => None,
+    }
+}
+
+fn refused<T>(name: &str, fault: Fault) -> Result<T, WallFaults> {
+    let mut faults = WallFaults::new(name);
+    faults.push(fault);
+    Err(faults)
 }

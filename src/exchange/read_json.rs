@@ -5,11 +5,11 @@ use std::fmt;
 
 use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 
-use crate::exchange::Unit;
 use crate::exchange::draft::{Draft, MOST_BLOCKS, WallFile, build};
 use crate::exchange::fault::{Fault, WallFaults};
 use crate::exchange::json_node::{MOST_VALUES, Node, NodeSeed};
 use crate::exchange::json_place::syntax_fault;
+use crate::exchange::{ReadOptions, Unit};
 use crate::math::{Vec3, edit_distance};
 use crate::model::Tag;
 
@@ -33,7 +33,7 @@ const BLOCK_KEYS: [&str; 7] = ["id", "vertices", "faces", "density", "fixed", "t
 /// assert_eq!(read.wall.blocks.len(), 73);
 /// ```
 pub fn read_wall_json(text: &str) -> Result<WallFile, WallFaults> {
-    read_wall_json_with(text, None)
+    read_json(text, &ReadOptions::default())
 }
 
 /// The same with warped faces made plane, see [`crate::exchange::ReadOptions::flatness`] (m).
@@ -41,6 +41,11 @@ pub fn read_wall_json(text: &str) -> Result<WallFile, WallFaults> {
 /// # Errors
 /// As [`read_wall_json`].
 pub fn read_wall_json_with(text: &str, flatness: Option<f64>) -> Result<WallFile, WallFaults> {
+    read_json(text, &ReadOptions { flatness, ..ReadOptions::default() })
+}
+
+/// The same with all that is allowed of a `wall.json`; it states its unit and its densities itself.
+pub(super) fn read_json(text: &str, options: &ReadOptions) -> Result<WallFile, WallFaults> {
     let mut faults = WallFaults::new("wall.json");
     if text.trim().is_empty() {
         let fix = "see `pirca analyse --help` for an example";
@@ -61,7 +66,7 @@ pub fn read_wall_json_with(text: &str, flatness: Option<f64>) -> Result<WallFile
     });
     let mut faults = reading.faults.into_inner();
     match read {
-        Ok((unit, drafts)) => build(drafts, unit, flatness, faults, Vec::new()),
+        Ok((unit, drafts)) => build(drafts, unit, options, faults, Vec::new()),
         Err(error) => {
             faults.push_last(syntax_fault(text, &error));
             Err(faults)

@@ -301,7 +301,7 @@ impl Reader {
             let rest = if fixed.len() > 5 { format!(" and {} more", fixed.len() - 5) } else { String::new() };
             warnings.push(format!("fixed by their names: {shown}{rest}"));
         }
-        build(drafts, options.unit.unwrap_or(Unit::Metre), options.flatness, faults, warnings)
+        build(drafts, options.unit.unwrap_or(Unit::Metre), options, faults, warnings)
     }
 }
 

@@ -1,6 +1,9 @@
 //! What a wall is asked to be: the outline, the arrangement of its joints, and the distributions of its sizes.
 
+use std::sync::Arc;
+
 use crate::generate::Sizes;
+use crate::model::Wall;
 use crate::random::Family;
 
 /// Everything the generator needs to know; a member's wall is a pure function of this, the seed and the member.
@@ -39,8 +42,7 @@ impl Layout {
 
     /// True when nothing is drawn, so that every wall of this layout is the same.
     pub fn is_fixed(&self) -> bool {
-        let bond =
-            matches!(self.arrangement, Arrangement::Continuous { .. } | Arrangement::Discontinuous { .. });
+        let bond = !self.draws_sizes();
         let headers_drawn =
             self.wythes.count > 1 && self.wythes.header_share > 0.0 && self.wythes.header_share < 1.0;
         let wedges_drawn = self.wedges.as_ref().is_some_and(|wedges| wedges.share > 0.0);
@@ -144,6 +146,28 @@ pub enum Arrangement {
         /// About which axes bed planes dip.
         dip_about: DipAbout,
     },
+    /// The stones of a file, each where the file says it is. Their densities keep their ratios: that of the layout is their mean.
+    File {
+        /// The file, as the study names it.
+        file: String,
+        /// SHA-256 of its bytes (hex).
+        sha256: String,
+        /// Its number of joints.
+        joints: usize,
+        /// Gap (m) up to which faces touch.
+        #[serde(rename = "touch_tolerance_m")]
+        touch: f64,
+        /// Its stones, and behind them the fixed blocks that it stands on; without them it stands on a platform, the plane z = 0.
+        #[serde(skip)]
+        wall: Arc<Wall>,
+    },
+}
+
+impl Arrangement {
+    /// Whether a file says where the stones are.
+    pub fn is_file(&self) -> bool {
+        matches!(self, Arrangement::File { .. })
+    }
 }
 
 /// About which axis the bed planes of a `cut` wall dip.

@@ -21,4 +21,4 @@ mod wedge;
 pub use cell::{CellFault, GeneratedCell, check_cell, generate_cell};
 pub use layout::*;
 pub use sizes::Sizes;
-pub use wall::{Generated, InvalidGeometry, Realised, generate};
+pub use wall::{Generated, InvalidGeometry, Realised, generate, mean_density};

@@ -74,7 +74,49 @@ pub struct InvalidGeometry {
 /// # Errors
 /// [`InvalidGeometry`] when the attempts ran out, or at once when no attempt could succeed; never a substitute.
 pub fn generate(layout: &Layout, streams: &Streams) -> Result<Generated, InvalidGeometry> {
-    build(layout, Extent::Wall, streams, lay)
+    let build =
+        |lay: &dyn Fn(&mut Draft) -> Result<Vec<Stone>, Fault>| build(layout, Extent::Wall, streams, lay);
+    match &layout.arrangement {
+        Arrangement::File { wall, .. } => Ok(stated(wall, layout.density.mean())),
+        Arrangement::Continuous { length, height } => {
+            build(&|draft| regular::lay(draft, *length, *height, 0.0))
+        }
+        Arrangement::Discontinuous { length, height, overlap } => {
+            build(&|draft| regular::lay(draft, *length, *height, *overlap))
+        }
+        Arrangement::Coursed { sizes, wall_size_factor, dip, least_overlap } => build(&|draft| {
+            let factor = size_factor(draft, wall_size_factor)?;
+            coursed::lay(draft, &Coursed { sizes, factor, dip, least_overlap: *least_overlap })
+        }),
+        Arrangement::Cut { sizes, wall_size_factor, dip, dip_about } => build(&|draft| {
+            let factor = size_factor(draft, wall_size_factor)?;
+            cut::lay(draft, &Cuts { sizes, factor, dip, dip_about: *dip_about })
+        }),
+    }
+}
+
+/// Mean density (kg/m^3) of a wall's stones, by volume; NaN without stones.
+pub fn mean_density(wall: &Wall) -> f64 {
+    let [mass, volume] = mass_and_volume(wall);
+    mass / volume
+}
+
+/// Mass (kg) and volume (m^3) of a wall's stones.
+fn mass_and_volume(wall: &Wall) -> [f64; 2] {
+    let mass = wall.stones().map(|(_, block)| block.density * block.shape.volume()).sum();
+    [mass, wall.stones().map(|(_, block)| block.shape.volume()).sum()]
+}
+
+/// The wall of a file, its stones made as much heavier or lighter as their mean density (kg/m^3) asks.
+fn stated(wall: &Wall, density: f64) -> Generated {
+    let (mut wall, [mass, volume]) = (wall.clone(), mass_and_volume(wall));
+    let factor = if density == mass / volume { 1.0 } else { density * volume / mass };
+    let stones = wall.before_base();
+    wall.blocks[..stones].iter_mut().for_each(|stone| stone.density *= factor);
+    let count = |tag: Tag| wall.stones().filter(|(_, block)| block.tag == tag).count() as u32;
+    let (wedges, headers) = (count(Tag::Wedge), count(Tag::Header));
+    let realised = Realised { size_factor: 1.0, wedges, headers, volume, ..Realised::default() };
+    Generated { wall, attempts: 1, merges: 0, redraws: 0, realised }
 }
 
 /// Attempt after attempt until `lay` has filled the outline.
@@ -110,24 +152,6 @@ fn attempt(
     draft.realised.size_factor = 1.0;
     let stones = lay(draft)?;
     Ok(wedge::insert(draft, stones))
-}
-
-/// Lays the stones of a wall.
-fn lay(draft: &mut Draft) -> Result<Vec<Stone>, Fault> {
-    match &draft.layout.arrangement {
-        Arrangement::Continuous { length, height } => regular::lay(draft, *length, *height, 0.0),
-        Arrangement::Discontinuous { length, height, overlap } => {
-            regular::lay(draft, *length, *height, *overlap)
-        }
-        Arrangement::Coursed { sizes, wall_size_factor, dip, least_overlap } => {
-            let factor = size_factor(draft, wall_size_factor)?;
-            coursed::lay(draft, &Coursed { sizes, factor, dip, least_overlap: *least_overlap })
-        }
-        Arrangement::Cut { sizes, wall_size_factor, dip, dip_about } => {
-            let factor = size_factor(draft, wall_size_factor)?;
-            cut::lay(draft, &Cuts { sizes, factor, dip, dip_about: *dip_about })
-        }
-    }
 }
 
 /// The factor on all sizes of this wall. It is the same in every attempt: a mean size of which no wall can be built is

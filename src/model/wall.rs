@@ -25,6 +25,16 @@ impl Wall {
         self.blocks.iter().enumerate().filter(|(_, b)| !matches!(b.tag, Tag::Base | Tag::End))
     }
 
+    /// Whether the wall stands on fixed blocks of its own: those tagged as base, which lie behind the stones in the walls of studies.
+    pub fn has_base(&self) -> bool {
+        self.blocks.iter().any(|block| block.tag == Tag::Base)
+    }
+
+    /// How many blocks come before the first one of the base; all where there is none.
+    pub fn before_base(&self) -> usize {
+        self.blocks.iter().position(|block| block.tag == Tag::Base).unwrap_or(self.blocks.len())
+    }
+
     /// For every block the first one of its [group](Block::group), which stands for their common body; itself without one.
     pub fn leads(&self) -> Vec<usize> {
         let mut first: BTreeMap<&str, usize> = BTreeMap::new();
@@ -49,12 +59,12 @@ impl Wall {
 
     /// Lowest and highest corner of the box around all blocks (m); infinite and inside out for a wall without blocks.
     pub fn bounds(&self) -> (Vec3, Vec3) {
-        let mut box_around = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
-        for block in &self.blocks {
-            let (low, high) = block.shape.bounds();
-            box_around = (box_around.0.inf(&low), box_around.1.sup(&high));
-        }
-        box_around
+        box_around(self.blocks.iter())
+    }
+
+    /// The same of the stones alone.
+    pub fn bounds_of_stones(&self) -> (Vec3, Vec3) {
+        box_around(self.stones().map(|(_, block)| block))
     }
 
     /// The point (m) that the solvers count from, so that a wall has the same answer wherever it stands: far from the origin
@@ -114,8 +124,11 @@ impl Wall {
     /// the plane z = 0; it is 0.1 m thick and reaches 0.1 m beyond the wall on all sides. Its density is that of the
     /// first stone; being fixed, its weight acts on nothing.
     ///
-    /// A wall without blocks is returned as it is.
+    /// A wall without blocks is returned as it is, and one with a base of its own.
     pub fn with_base(mut self) -> Wall {
+        if self.has_base() {
+            return self;
+        }
         let Some(density) = self.blocks.first().map(|b| b.density) else { return self };
         let (low, high) = self.bounds();
         self.blocks.push(Block {
@@ -130,6 +143,15 @@ impl Wall {
         });
         self
     }
+}
+
+/// Lowest and highest corner of the box around blocks.
+fn box_around<'b>(blocks: impl Iterator<Item = &'b Block>) -> (Vec3, Vec3) {
+    let mut box_around = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
+    for (low, high) in blocks.map(|block| block.shape.bounds()) {
+        box_around = (box_around.0.inf(&low), box_around.1.sup(&high));
+    }
+    box_around
 }
 
 /// Gives every joint its law; asked once per joint when it is first found, with the lower id first.

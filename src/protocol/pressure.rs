@@ -21,7 +21,7 @@ pub struct Load {
 /// The pressure varies linearly with height and acts per vertical projection of the face; its resultant on a face and
 /// its point of action come from the exact integrals over the face.
 pub fn back_loads(wall: &Wall, lateral: &Lateral) -> Vec<Load> {
-    let (low, high) = wall.bounds();
+    let (low, high) = wall.bounds_of_stones();
     let at_top = 2.0 * lateral.mean_pressure / (lateral.base_over_top + 1.0);
     let slope = at_top * (1.0 - lateral.base_over_top) / (high.z - low.z);
     let at_base = at_top * lateral.base_over_top;

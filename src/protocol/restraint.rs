@@ -13,9 +13,10 @@ const END_THICKNESS: f64 = 0.1;
 const STRIP_WIDTH: f64 = 0.03;
 
 /// The stones on their platform, which goes down `towards` a side, with strip and ends as asked for. The stones keep their
-/// ids; behind them come the platform, the strip, and the end blocks (x = 0, x = length).
+/// ids; behind them come the platform, the strip, and the end blocks (x = 0, x = length). A wall with a base of its own stands on
+/// that, in the place of the platform.
 pub fn restrain(wall: &Wall, restraint: &Restraint, towards: Direction) -> Wall {
-    let (low, high) = wall.bounds();
+    let (low, high) = wall.bounds_of_stones();
     let mut assembly = wall.clone().with_base();
     let density = wall.blocks.first().map_or(0.0, |b| b.density);
     let fixed = |from: Vec3, to: Vec3, tag| Block {
@@ -33,7 +34,7 @@ pub fn restrain(wall: &Wall, restraint: &Restraint, towards: Direction) -> Wall 
         Ends::Free | Ends::Ropes(_) => {}
         Ends::OutOfPlane => {
             let near = 1e-6 * (high.x - low.x);
-            for block in assembly.blocks.iter_mut().take(wall.blocks.len()) {
+            for block in assembly.blocks.iter_mut().take(wall.before_base()) {
                 let (from, to) = block.shape.bounds();
                 let at_an_end = from.x <= low.x + near || to.x >= high.x - near;
                 if at_an_end && block.support != Support::Absent {
@@ -57,7 +58,7 @@ pub fn restrain(wall: &Wall, restraint: &Restraint, towards: Direction) -> Wall 
 /// Lowest and highest corner of the strip at the wall's foot on the side that goes down most, as long as the wall. The foot is where
 /// the corners of stones within a millionth of the wall's height of its lowest point are.
 fn strip(wall: &Wall, height: f64, towards: Direction) -> (Vec3, Vec3) {
-    let (low, high) = wall.bounds();
+    let (low, high) = wall.bounds_of_stones();
     let highest = low.z + 1e-6 * (high.z - low.z);
     let unit = towards.nearest_axis().unit();
     let corners = wall.stones().flat_map(|(_, b)| &b.shape.vertices).filter(|v| v.z <= highest);
@@ -76,7 +77,7 @@ pub struct Surroundings<'a> {
     /// Laws of the wall's own joints.
     laws: &'a dyn JointLaws,
     restraint: Restraint,
-    /// Id of the platform, the first block that is not the wall's.
+    /// Id of the platform, the first block that is no stone.
     platform: u32,
     /// Id of the first end block.
     first_end: u32,
@@ -85,9 +86,10 @@ pub struct Surroundings<'a> {
 impl<'a> Surroundings<'a> {
     /// For what [`restrain`] adds to a wall.
     pub fn of(wall: &Wall, laws: &'a dyn JointLaws, restraint: &Restraint) -> Self {
-        let platform = wall.blocks.len() as u32;
-        let strips = u32::from(restraint.base.strip_height.is_some());
-        Surroundings { laws, restraint: *restraint, platform, first_end: platform + 1 + strips }
+        let grounded = wall.blocks.len() + usize::from(!wall.has_base());
+        let strips = usize::from(restraint.base.strip_height.is_some());
+        let (platform, first_end) = (wall.before_base() as u32, (grounded + strips) as u32);
+        Surroundings { laws, restraint: *restraint, platform, first_end }
     }
 }
 

@@ -11,7 +11,7 @@ use crate::solve::Tie;
 /// platform that goes down along the wall they are on its front.
 pub fn ropes(wall: &Wall, rope: &Rope, towards: Direction) -> Vec<Tie> {
     let direction = if towards.is_backwards() { -Vec3::y() } else { Vec3::y() };
-    let (low, high) = wall.bounds();
+    let (low, high) = wall.bounds_of_stones();
     let mut ties = Vec::new();
     for x in [low.x + rope.from_end, high.x - rope.from_end] {
         for (body, stone) in wall.stones().filter(|(_, stone)| stone.tag != Tag::Wedge) {

@@ -6,7 +6,7 @@ use crate::protocol::events::in_parts;
 use crate::protocol::path::LoadPath;
 use crate::protocol::pressure::back_loads;
 use crate::protocol::shear::{Begin, by_limit, push};
-use crate::protocol::stage::Stage;
+use crate::protocol::stage::{Stage, thickness};
 use crate::protocol::tilting::turn;
 use crate::protocol::{
     Changes, Confirmation, Contacts, Criterion, Protocol, Rate, Restraint, Run, Task, Witness,
@@ -63,8 +63,7 @@ pub fn run_seen_by(
     solver: &Solver,
 ) -> Run {
     let stage = Stage::new(wall, laws, protocol, restraint, contacts.into());
-    let (low, high) = wall.bounds();
-    let thickness = high.y - low.y;
+    let thickness = thickness(wall);
     let mut run = match protocol {
         Protocol::Lateral(lateral) => {
             let criterion = Criterion::Top(lateral.collapse_share * thickness);

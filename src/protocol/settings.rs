@@ -76,22 +76,31 @@ pub struct Contacts {
     pub sub_contacts: [u32; 2],
     /// Width (m) of the rounded arris along the stones' edges, where joints do not touch.
     pub inset: f64,
+    /// Gap (m) up to which faces as built touch; `None` = as of walls that are generated, where all faces meet.
+    pub closed: Option<f64>,
 }
+
+/// Contacts are looked for up to so many gaps that count as closed, so that what touches is well within.
+const REACHES: f64 = 2.0;
 
 impl Contacts {
     /// The settings by which the joints of a wall are found.
     pub fn of_wall(&self, wall: &Wall) -> contact::Settings {
-        contact::Settings {
-            inset: self.inset,
-            ..contact::Settings::for_size(typical_size(wall), self.sub_contacts)
-        }
+        let standard = contact::Settings::for_size(typical_size(wall), self.sub_contacts);
+        let sharp = match self.closed {
+            Some(closed) => {
+                contact::Settings { closed, reach: standard.reach.max(REACHES * closed), ..standard }
+            }
+            None => standard,
+        };
+        contact::Settings { inset: self.inset, ..sharp }
     }
 }
 
 impl From<[u32; 2]> for Contacts {
     /// Sharp arrises.
     fn from(sub_contacts: [u32; 2]) -> Contacts {
-        Contacts { sub_contacts, inset: 0.0 }
+        Contacts { sub_contacts, inset: 0.0, closed: None }
     }
 }
 

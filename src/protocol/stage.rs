@@ -7,6 +7,7 @@ use crate::protocol::restraint::{Surroundings, restrain};
 use crate::protocol::shear::{beam, jack};
 use crate::protocol::task::Platform;
 use crate::protocol::{Contacts, Direction, Ends, Protocol, Restraint, ropes};
+use crate::shape::Hull;
 use crate::solve::Tie;
 
 /// The wall on its base and between its ends, ready for a solver or for limit analysis.
@@ -62,9 +63,22 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// Edge of the cube with a stone's mean volume (m): the length to which contact tolerances are scaled.
+/// The thickness (m) that movements are measured by: of a wall on a platform along x that out of plane; of a wall on a base of its own,
+/// which may run any way, the least horizontal width of its stones.
+pub fn thickness(wall: &Wall) -> f64 {
+    if wall.has_base() {
+        let plan = wall.stones().flat_map(|(_, block)| &block.shape.vertices).map(|v| [v.x, v.y]);
+        return Hull::of(plan.collect()).width();
+    }
+    let (low, high) = wall.bounds();
+    high.y - low.y
+}
+
+/// Edge of the cube with a stone's mean volume (m), the parts of one taken together: the length to which contact tolerances are scaled.
 pub fn typical_size(wall: &Wall) -> f64 {
-    let (count, volume) =
-        wall.stones().fold((0u32, 0.0), |(n, v), (_, block)| (n + 1, v + block.shape.volume()));
+    let leads = wall.leads();
+    let (count, volume) = wall
+        .stones()
+        .fold((0u32, 0.0), |(n, v), (id, block)| (n + u32::from(leads[id] == id), v + block.shape.volume()));
     cbrt(volume / f64::from(count.max(1)))
 }

@@ -53,9 +53,10 @@ pub struct Platform {
 }
 
 impl Platform {
-    /// Under the stones of a wall in its surroundings, whose first block that is not the wall's is the platform.
+    /// Under the stones of a wall in its surroundings, whose first block that is no stone is the platform; a base of several blocks goes
+    /// with its first one.
     pub(super) fn under(stones: &Wall, surroundings: &Wall, springs: Compliance) -> Platform {
-        let body = stones.blocks.len();
+        let body = stones.before_base();
         let others = surroundings.blocks.iter().enumerate().skip(body + 1);
         let fixed =
             others.filter(|(_, b)| b.support == Support::Fixed && matches!(b.tag, Tag::Base | Tag::End));

@@ -85,6 +85,11 @@ impl Spread {
         }
     }
 
+    /// The distribution, of the logarithm where [`Spread::is_log`].
+    pub fn family(&self) -> &Family {
+        &self.family
+    }
+
     /// Whether values are spread evenly in their logarithm.
     pub fn is_log(&self) -> bool {
         self.is_log

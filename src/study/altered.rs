@@ -94,7 +94,7 @@ impl AlteredJoints {
             mechanisms: mechanisms.clone(),
             specimen,
             spans: wall.blocks.iter().map(|block| span(block.shape.bounds())).collect(),
-            ends: span(wall.bounds()),
+            ends: span(wall.bounds_of_stones()),
         }
     }
 

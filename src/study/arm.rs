@@ -16,6 +16,10 @@ use crate::study::schema::Short;
 use crate::study::setting::{Joints, Setting};
 use crate::study::stones::stones;
 use crate::study::uncertain::take_up;
+use crate::study::wall_file;
+
+/// Tables of the study that say nothing of walls from files.
+const OF_DRAWN: [&str; 2] = ["wall", "block"];
 
 /// What `[wall]` says, as far as it is not faulty.
 #[derive(Clone, Copy, Debug, Default)]
@@ -94,12 +98,15 @@ pub fn arms(
 ) -> Option<Vec<Arm>> {
     let mut arms: Vec<Option<Arm>> = Vec::new();
     let mut names: Vec<String> = Vec::new();
+    let mut all_files = true;
     for (node, path) in top.tables("arm") {
         let Some(mut t) = Reader::open(&node, &path, &keys::ARM, top.notes) else {
             arms.push(None);
+            all_files = false;
             continue;
         };
         let name = t.name("name");
+        all_files &= t.chosen() == Some("file");
         if let Some(name) = &name {
             if names.contains(name) {
                 t.fault("name", "every name once", "rename one of the arms");
@@ -108,6 +115,7 @@ pub fn arms(
         }
         arms.push(arm(&mut t, name, (shared, protocol), catalogue));
     }
+    check_of_drawn(top, all_files && !arms.is_empty());
     top.record("arm", names.join(", "));
     let arms: Vec<Arm> = arms.into_iter().collect::<Option<_>>()?;
     (!arms.is_empty()).then_some(arms)
@@ -120,27 +128,14 @@ fn arm(
     catalogue: &mut Catalogue,
 ) -> Option<Arm> {
     let setting = shared.of_arm(t, catalogue);
-    let (wall, bond) = (&setting.wall, setting.wall.bond);
     let members = members(t);
     let vertical_load = if t.has("vertical_load_n") { Some(t.real("vertical_load_n")?) } else { None };
     let curve = if t.has("curve") { t.name("curve") } else { None };
-    let (arrangement, stone) = arrangement(t, catalogue, [wall.length, wall.height]);
-    let has_wedges = t.has("wedges");
-    let wedges = t.table("wedges").and_then(|mut w| wedges(&mut w, wall, &stone, catalogue));
-    let limits = t.table("limits").and_then(|mut l| limits(&mut l, wall, &stone, bond));
-    check_stone(t, &stone, wall, bond);
-    if has_wedges && wedges.is_none() {
-        return None;
-    }
-    let layout = Layout {
-        outline: wall.outline()?,
-        arrangement: arrangement?,
-        density: setting.density?,
-        wythes: Wythes { count: bond.wythes?, header_share: bond.header_share? },
-        head_joint_gap: bond.head_joint_gap?,
-        wedges,
-        limits: limits?,
-    };
+    let layout = match t.chosen() {
+        Some("file") => wall_file::layout(t, setting.density.as_ref().filter(|_| t.has("block")), catalogue),
+        _ => drawn(t, &setting, catalogue),
+    }?;
+    let is_file = layout.arrangement.is_file();
     let Joints { joint, kn_points, sub_contacts } = setting.joints?;
     let mechanisms = setting.mechanisms?;
     check_mechanisms(t, &mechanisms, &joint, &layout)?;
@@ -151,7 +146,7 @@ fn arm(
         until,
         curve,
         layout: mechanisms.layout(layout),
-        turned: setting.wall.turned,
+        turned: setting.wall.turned && !is_file,
         joint,
         kn_points,
         restraint: mechanisms.restraint(setting.restraint?),
@@ -166,6 +161,47 @@ fn arm(
         return None;
     }
     Some(arm)
+}
+
+/// The layout of walls that are drawn.
+fn drawn(t: &mut Reader<'_>, setting: &Setting, catalogue: &mut Catalogue) -> Option<Layout> {
+    let (wall, bond) = (&setting.wall, setting.wall.bond);
+    let (arrangement, stone) = arrangement(t, catalogue, [wall.length, wall.height]);
+    let has_wedges = t.has("wedges");
+    let wedges = t.table("wedges").and_then(|mut w| wedges(&mut w, wall, &stone, catalogue));
+    let limits = t.table("limits").and_then(|mut l| limits(&mut l, wall, &stone, bond));
+    check_stone(t, &stone, wall, bond);
+    if has_wedges && wedges.is_none() {
+        return None;
+    }
+    Some(Layout {
+        outline: wall.outline()?,
+        arrangement: arrangement?,
+        density: setting.density.clone()?,
+        wythes: Wythes { count: bond.wythes?, header_share: bond.header_share? },
+        head_joint_gap: bond.head_joint_gap?,
+        wedges,
+        limits: limits?,
+    })
+}
+
+/// Tables that walls need which are drawn, and walls from files do not take.
+fn check_of_drawn(top: &mut Reader<'_>, all_files: bool) {
+    for name in OF_DRAWN {
+        let place = top.place_of(name).clone();
+        if !top.has(name) && !all_files {
+            let allowed = format!("a table [{name}]");
+            let fix = format!("add {name} to study.toml");
+            top.notes.faults.push(Fault::at(&place, name, Found::Missing, allowed, fix));
+        }
+        if top.has(name) && all_files {
+            let found = Found::Words(
+                "has nothing to act on: files say where all stones are, and how heavy".to_owned(),
+            );
+            let fix = "remove it; another mean density belongs in [arm.block]";
+            top.notes.faults.push(Fault::at(&place, name, found, "an arm whose walls are drawn", fix));
+        }
+    }
 }
 
 /// How many walls, at most, and when fewer are enough.

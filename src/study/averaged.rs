@@ -94,10 +94,11 @@ fn rounded(x: f64) -> f64 {
     format!("{x:.1e}").parse().unwrap_or(x)
 }
 
-/// About how many joints a wall has: each stone lies on two stones, in a stack bond on one, and has a neighbour along the wall and
+/// About how many joints a wall has, as a file says, or as it is drawn: each stone lies on two stones, in a stack bond on one, and has a neighbour along the wall and
 /// across it; those of the lowest course lie on the ground, and those at an end have no neighbour there.
 fn joints(layout: &Layout) -> f64 {
     let ([length, height], beds) = match &layout.arrangement {
+        Arrangement::File { joints, .. } => return *joints as f64,
         Arrangement::Continuous { length, height } => ([*length, *height], 1.0),
         Arrangement::Discontinuous { length, height, .. } => ([*length, *height], 2.0),
         Arrangement::Coursed { sizes, .. } | Arrangement::Cut { sizes, .. } => (sizes.means(), 2.0),

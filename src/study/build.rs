@@ -204,7 +204,7 @@ fn check_shear(top: &mut Reader<'_>, arms: &[Arm], protocol: &Protocol) -> Optio
     for arm in arms {
         match protocol {
             Protocol::Shear(shear) => {
-                let height = arm.layout.outline.height;
+                let height = arm.top();
                 if shear.force_height <= height {
                     let found = format!("pushes at or below the top of {}, {height} m high", arm.name);
                     let allowed = "more than the height of every wall";

@@ -14,6 +14,7 @@ use crate::study::raw::{self, Entry, Node, Table, Value};
 use crate::study::reader::{Notes, Reader, is_name, join};
 use crate::study::schema::suggestion;
 use crate::study::survey::{Asked, Surveys};
+use crate::study::wall_file::WallFiles;
 
 /// A file below `distributions`.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,6 +65,8 @@ pub struct Catalogue {
     files: BTreeMap<String, Option<Held>>,
     /// The tables beside the study.
     surveys: Surveys,
+    /// The walls beside it.
+    pub walls: WallFiles,
     /// Faults of the files read.
     pub faults: Vec<Fault>,
     /// The files read, in that order.
@@ -87,6 +90,7 @@ impl Catalogue {
             distributions,
             files: BTreeMap::new(),
             surveys: Surveys::beside(None),
+            walls: WallFiles::default(),
             faults: Vec::new(),
             inputs: Vec::new(),
             used: Vec::new(),
@@ -105,6 +109,7 @@ impl Catalogue {
         faults.append(&mut self.surveys.faults);
         inputs.append(&mut self.inputs);
         inputs.append(&mut self.surveys.inputs);
+        inputs.append(&mut self.walls.inputs);
     }
 
     /// The values of a column of a table beside the study; `None` where they are faulty themselves.
@@ -153,6 +158,21 @@ impl Catalogue {
         }
         t.record("files", known.join(", "));
         (read.len() == files.len()).then_some(read)
+    }
+
+    /// Where the file of a wall lies; of one whose bytes are known it does not matter.
+    ///
+    /// # Errors
+    /// A fault, from what is allowed and how to mend it, where no such file lies in the study's folder.
+    pub fn place_of_wall(
+        &self,
+        file: &str,
+        fault: &dyn Fn(String, &str) -> Box<Fault>,
+    ) -> Result<PathBuf, Box<Fault>> {
+        if self.walls.bytes.contains_key(file) {
+            return Ok(PathBuf::from(file));
+        }
+        self.surveys.beside_study(file, "a wall", "walls/left.json", fault)
     }
 
     fn note_survey(&mut self, reference: &str, path: &str, rows: Option<usize>) {

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use crate::generate::{BatteredFace, Layout};
+use crate::generate::{Arrangement, BatteredFace, Layout};
 use crate::law::{ClosureTable, CohesionAfterSlip, Sampling};
-use crate::protocol::{BaseMotion, FailureMode, Protocol, Restraint, Shear};
+use crate::protocol::{BaseMotion, Contacts, FailureMode, Protocol, Restraint, Shear};
 use crate::random::standard_normal::{cdf, quantile};
 use crate::random::{Design, Family, Move, Place, Quantities, RANDOMISATIONS, Streams, Taken};
 use crate::solve::Solver;
@@ -247,10 +247,38 @@ impl Arm {
         !self.layout.is_fixed() || drawn_joints || self.mechanisms.draws() || !self.uncertain.is_empty()
     }
 
-    /// Whether the section of its walls has no back and no front.
+    /// Whether the section of its walls is known to have no back and no front.
     pub fn is_alike_from_both_sides(&self) -> bool {
         let outline = &self.layout.outline;
+        if self.layout.arrangement.is_file() {
+            return false;
+        }
         outline.battered_face == BatteredFace::Both || outline.base_thickness == outline.top_thickness
+    }
+
+    /// How joints of its walls are found and divided.
+    pub fn contacts(&self) -> Contacts {
+        let closed = match self.layout.arrangement {
+            Arrangement::File { touch, .. } => Some(touch),
+            _ => None,
+        };
+        Contacts { closed, ..self.mechanisms.contacts(self.sub_contacts) }
+    }
+
+    /// The file that says where its stones are; `None` of walls that are drawn.
+    pub fn file(&self) -> Option<&str> {
+        match &self.layout.arrangement {
+            Arrangement::File { file, .. } => Some(file),
+            _ => None,
+        }
+    }
+
+    /// The height (m) of the top of its walls above the plane z = 0.
+    pub fn top(&self) -> f64 {
+        match &self.layout.arrangement {
+            Arrangement::File { wall, .. } => wall.bounds_of_stones().1.z,
+            _ => self.layout.outline.height,
+        }
     }
 
     /// The middle of its points in kn, the lower of two.

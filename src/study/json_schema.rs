@@ -243,6 +243,7 @@ fn values(kind: &Kind, below: Stated, definitions: &mut Definitions) -> Value {
         Kind::Files { at_most } => json!({
             "type": "array", "items": { "type": "string", "minLength": 1 }, "minItems": 1, "maxItems": at_most, "uniqueItems": true,
         }),
+        Kind::WallFile => json!({ "type": "string", "pattern": "\\.([jJ][sS][oO][nN]|[oO][bB][jJ])$" }),
         Kind::Paths => json!({ "type": "array", "items": { "type": "string" } }),
     }
 }

@@ -23,6 +23,7 @@ mod keys;
 mod load;
 pub mod measured;
 mod mechanism;
+mod meetings;
 mod nuisance;
 mod overturning;
 mod published;
@@ -41,6 +42,7 @@ mod survey;
 mod sweep;
 mod uncertain;
 mod variant;
+mod wall_file;
 
 pub use crate::random::Design;
 pub use angle::Angle;
@@ -69,6 +71,7 @@ pub use measured::{
 pub use mechanism::{
     EndRelease, FrictionChange, JointClosure, Mechanisms, SpecimenScatter, StressStiffening, Unfit, WedgeLoss,
 };
+pub use meetings::{Fit, TOUCH, Tolerance, bounds, look};
 pub use nuisance::{NUISANCES, Nuisance, nuisances};
 pub use readings::{Reading, reading_name, readings};
 pub use reference::key_reference;

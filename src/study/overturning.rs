@@ -36,9 +36,11 @@ impl Arm {
     }
 
     /// The tilt (rad) beyond which none of its walls stands, however it is built of stones that do not stick together; `None` where
-    /// the ends are held or joints bear tension.
+    /// the ends are held, joints bear tension, or a file says where the stones are.
     pub fn stands_at_most(&self, towards: Direction) -> Option<f64> {
-        let is_loose = self.restraint.ends == Ends::Free && self.joint.tension == 0.0;
+        // The outline of a file's wall is the box around it, whose stones may lie anywhere in it.
+        let is_drawn = !self.layout.arrangement.is_file();
+        let is_loose = is_drawn && self.restraint.ends == Ends::Free && self.joint.tension == 0.0;
         is_loose.then(|| self.overturning_angle(towards))
     }
 }

@@ -98,6 +98,11 @@ impl<'n> Reader<'n> {
         self.table.contains_key(name)
     }
 
+    /// Whether the key is there, and means something for the choice made.
+    pub fn takes(&self, name: &str) -> bool {
+        self.has(name) && self.section.key(name, self.chosen).is_some()
+    }
+
     /// Whether a table stands there.
     pub fn is_table(&self, name: &str) -> bool {
         self.table.get(name).is_some_and(|entry| matches!(entry.node.value, Value::Table(_)))
@@ -354,6 +359,16 @@ impl<'n> Reader<'n> {
             *value = read?;
         }
         Some(values)
+    }
+
+    /// A file beside the study, with its node; whether there is one is not looked at.
+    pub fn file(&mut self, name: &str) -> Option<(String, Node)> {
+        let (node, key) = self.given(name)?;
+        let Value::Text(file) = &node.value else {
+            self.refuse_kind(&node, key);
+            return None;
+        };
+        Some((file.clone(), node))
     }
 
     /// Files beside the study, each with its node; which of them there are is not looked at.

@@ -139,6 +139,8 @@ pub enum Kind {
         /// Largest number of them.
         at_most: usize,
     },
+    /// A file beside the study with the stones of a wall.
+    WallFile,
     /// A table.
     Table(&'static Section),
     /// A list of tables, each with a `name` or a number.
@@ -261,6 +263,7 @@ impl Kind {
             Kind::Files { at_most } => {
                 format!("1 to {at_most} files in the study's folder, each once, as [\"records/one.at2\"]")
             }
+            Kind::WallFile => "a .json or .obj file in the study's folder, as \"walls/left.json\"".to_owned(),
             Kind::Table(section) => format!("a table {}", section.title),
             Kind::Tables(section) => format!("one or more tables {}", section.title),
             Kind::Settings => {

@@ -73,7 +73,7 @@ impl Setting {
     pub fn of_arm(&self, arm: &mut Reader<'_>, catalogue: &mut Catalogue) -> Setting {
         let mut setting = self.clone();
         for name in LAID_OVER {
-            if !arm.has(name) {
+            if !arm.takes(name) {
                 continue;
             }
             let Some((own, key)) = arm.given(name) else { continue };

@@ -42,6 +42,8 @@ pub struct Stated {
     published: Option<Arc<Source>>,
     /// What was measured.
     pub(super) measured: Option<TextFile>,
+    /// The files of walls, by the names that arms give them.
+    walls: BTreeMap<String, Arc<[u8]>>,
 }
 
 impl Stated {
@@ -58,7 +60,8 @@ impl Stated {
         catalogue.used.clear();
         write_out(&mut root, &keys::STUDY, "", catalogue);
         let written_out = std::mem::take(&mut catalogue.used);
-        Stated { root, written_out, published, measured }
+        let walls = catalogue.walls.bytes.clone();
+        Stated { root, written_out, published, measured, walls }
     }
 
     /// The text of published.toml, if there is one.
@@ -69,6 +72,11 @@ impl Stated {
     /// The text of the measurements and its SHA-256 (hex), if there are any.
     pub fn measured(&self) -> Option<(&str, &str)> {
         self.measured.as_ref().map(|file| (file.source.text.as_str(), file.sha256.as_str()))
+    }
+
+    /// The files of walls, by the names that arms give them: they go with the study into any folder.
+    pub fn walls(&self) -> impl Iterator<Item = (&str, &[u8])> {
+        self.walls.iter().map(|(name, bytes)| (name.as_str(), &bytes[..]))
     }
 
     /// Whether the study's files state the key of that path; what they do not state has its default.
@@ -109,6 +117,7 @@ impl Stated {
         let variants: Vec<_> = read.collect();
         // No reference is left that would be looked up.
         let mut catalogue = Catalogue::of(Distributions::of_study(Path::new("")));
+        catalogue.walls.bytes.clone_from(&self.walls);
         load::read_all(&self.root, &variants, &[], &mut catalogue, &mut faults);
         if faults.is_empty() { Ok(self) } else { Err(Faults::sorted(faults)) }
     }

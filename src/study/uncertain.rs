@@ -231,7 +231,9 @@ impl Arm {
             Arrangement::Coursed { wall_size_factor, .. } | Arrangement::Cut { wall_size_factor, .. } => {
                 wall_size_factor.sd() > 0.0
             }
-            Arrangement::Continuous { .. } | Arrangement::Discontinuous { .. } => false,
+            Arrangement::Continuous { .. } | Arrangement::Discontinuous { .. } | Arrangement::File { .. } => {
+                false
+            }
         };
         let scatter = self.mechanisms.specimen_scatter;
         match parameter.key {

@@ -13,19 +13,33 @@ use crate::verb::arguments::{Ensemble, Which, quoted};
 /// The study that the arguments name, for a verb that asks for one number of each wall: see [`any_study`].
 pub(crate) fn study(which: &Which) -> Result<Loaded, Failure> {
     let loaded = any_study(which)?;
-    one_number(&loaded.study)?;
+    if let Some(earthquakes) = &loaded.study.earthquakes {
+        output::warning(&format!(
+            "{}: the number of a wall is the lowest of {} intensities at which some record brings it down; it may fall between that and \
+             the one below: state them closer where it matters",
+            loaded.study.name,
+            earthquakes.intensities.len()
+        ));
+    }
     Ok(loaded)
 }
 
-/// That a study finds one number of each wall, and not one of every record and intensity.
-pub(crate) fn one_number(study: &Study) -> Result<(), Failure> {
+/// The same for a verb that sets measurements beside simulated walls: a wall that is shaken has none of their readings.
+pub(crate) fn measurable(which: &Which) -> Result<Loaded, Failure> {
+    let loaded = any_study(which)?;
+    not_shaken(
+        &loaded.study,
+        "what is measured is read on walls at rest, at a tilt or under a push, and a wall that is shaken is at none; take a study with \
+         another load",
+    )?;
+    Ok(loaded)
+}
+
+/// That a study does not shake its walls; `why` says what they lack then.
+pub(crate) fn not_shaken(study: &Study, why: &str) -> Result<(), Failure> {
     match study.earthquakes {
         None => Ok(()),
-        Some(_) => Err(Failure::Input(format!(
-            "{}: load.protocol is \"base_motion\", which finds a fragility curve of each arm and no single number of each wall: \
-             run, check, generate, picture, shard and merge take it, and run compares its arms",
-            study.name
-        ))),
+        Some(_) => Err(Failure::Input(format!("{}: load.protocol is \"base_motion\": {why}", study.name))),
     }
 }
 
@@ -33,8 +47,11 @@ pub(crate) fn one_number(study: &Study) -> Result<(), Failure> {
 pub(crate) fn any_study(which: &Which) -> Result<Loaded, Failure> {
     let folder = folder(&which.study)?;
     if ElementStudy::is_in(&folder) {
-        let text =
-            format!("{} compares types of elements, not walls: only run and check take it", folder.display());
+        let text = format!(
+            "{} compares types of elements: a few of them are shoved off one another, and no wall stands or falls; only run and check take \
+                 it",
+            folder.display()
+        );
         return Err(Failure::Input(text));
     }
     let loaded = Study::load(&folder, which.variant.as_deref())?;

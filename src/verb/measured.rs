@@ -76,7 +76,7 @@ pub(crate) fn measured(arguments: &Measured) -> Result<Answer, Failure> {
 
 /// Writes the empty table, never over a file: it may be the filled one.
 fn written(arguments: &Measured) -> Result<Answer, Failure> {
-    let study = locate::study(&arguments.which)?.study;
+    let study = locate::measurable(&arguments.which)?.study;
     let wanted = Template { specimens: arguments.specimens, wide: arguments.wide };
     let text = template(&study, wanted).ok_or_else(|| {
         let text = "the study tilts no platform: what is measured on walls is measured on a tilting table";

@@ -25,7 +25,14 @@ const HOUSE: &[(&str, &[&str])] = &[
     ("homogenise", &["interrupt", "math", "shape", "law", "model", "contact", "solve"]),
     // `shape`, beyond the house's first plan: a pressure is integrated over faces, and end blocks are shapes.
     ("protocol", &["math", "shape", "law", "motion", "model", "contact", "solve"]),
-    ("study", &["math", "random", "stats", "motion", "law", "model", "generate", "solve", "protocol"]),
+    // `exchange` and `contact`: an arm may be a wall from a file, which is looked over (which blocks touch, overlap, float) as it is read.
+    (
+        "study",
+        &[
+            "math", "shape", "random", "stats", "motion", "law", "model", "exchange", "contact", "generate",
+            "solve", "protocol",
+        ],
+    ),
     (
         "ensemble",
         &[
@@ -119,7 +126,7 @@ const VERBS: &[(&str, &[&str])] = &[
     ("diagnose", &["arguments", "locate", "run"]),
     ("measured", &["arguments", "locate", "diagnose"]),
     ("shard", &["arguments", "question", "locate", "run", "diagnose"]),
-    ("analyse", &["arguments", "question", "wall", "run"]),
+    ("analyse", &["arguments", "question", "locate", "wall", "run"]),
     // The page of a wall is what `analyse` says of it.
     ("report", &["arguments", "locate", "wall", "run", "analyse"]),
 ];

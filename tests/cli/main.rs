@@ -23,6 +23,8 @@ mod init;
 mod joint_laws;
 mod layering;
 mod left_open;
+#[path = "../ensemble/loads.rs"]
+mod loads;
 mod malformed;
 mod manual;
 mod measured;
@@ -44,4 +46,6 @@ mod study;
 mod survey;
 mod sweep;
 mod uncertain;
+mod wall_arms;
 mod walls;
+mod ways_in;

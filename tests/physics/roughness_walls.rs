@@ -79,7 +79,7 @@ pub fn in_clumps(
 
 /// The same in polyhedra.
 pub fn in_polyhedra(wall: &Wall, towards: Direction, [kn, phi_deg, inset]: [f64; 3], solver: &Solver) -> Run {
-    let contacts = Contacts { sub_contacts: [2, 8], inset };
+    let contacts = Contacts { inset, ..Contacts::from([2, 8]) };
     let restraint = Restraint::at_ends(Ends::Free);
     run(wall, &dry(kn, phi_deg), &Protocol::Tilting(table(towards)), &restraint, contacts, solver)
 }

@@ -12,7 +12,7 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
-use crate::ensemble::cells::{CellTask, cell_key, contacts, with_cell};
+use crate::ensemble::cells::{CellTask, cell_key, with_cell};
 use crate::ensemble::evaluate::laws;
 use crate::ensemble::ledger::Ledger;
 use crate::ensemble::shard::Share;
@@ -197,7 +197,7 @@ fn as_plate(study: &Study, asked: &AskedOfCells, arm: u32, cell: u64) -> (Judged
         let stone = [0, 1].map(|axis| cell.cell.lattice[axis][axis] / f64::from(stones[axis]));
         let masonry = Masonry::of(arm, stone);
         masonry.check(&plate).map_err(Judged::OutOfRange)?;
-        let contact = contacts(arm).of_wall(cell.wall);
+        let contact = arm.contacts().of_wall(cell.wall);
         let refined = plate_collapse(cell.cell, cell.laws, contact, &plate, &Cuts::default());
         let Refined { collapse, ending, .. } = refined.map_err(|fault| match fault {
             PlateFault::Unbounded => Judged::BearsAny,
@@ -233,7 +233,7 @@ fn by_stones(study: &Study, point: u32, non_associative: bool, task: WallTask, m
     let AsDrawn { arm, protocol, .. } = study.as_drawn(task.arm, member);
     let wall = &generated.wall;
     let laws = laws(study, Task { arm: task.arm, point, member }, &arm, wall);
-    let contacts = contacts(&arm);
+    let contacts = arm.contacts();
     let asked = |flow| {
         let begun = Instant::now();
         let limit = limit_of(wall, &laws, (&protocol, &arm.restraint, contacts), flow);

@@ -141,8 +141,8 @@ impl Masonry {
             tan_phi: tan(radians(arm.joint.phi_deg.mean())),
             stones: [layout.outline.length / stone[0], layout.outline.height / stone[1]],
             overlap: match layout.arrangement {
-                // Cuts run through until another one stops them.
-                Arrangement::Continuous { .. } | Arrangement::Cut { .. } => 0.0,
+                // Cuts run through until another one stops them; of a file nothing is known.
+                Arrangement::Continuous { .. } | Arrangement::Cut { .. } | Arrangement::File { .. } => 0.0,
                 Arrangement::Discontinuous { overlap, .. } => overlap.min(1.0 - overlap),
                 Arrangement::Coursed { least_overlap, .. } => least_overlap,
             },

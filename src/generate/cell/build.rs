@@ -70,7 +70,7 @@ pub fn generate_cell(
     streams: &Streams,
 ) -> Result<GeneratedCell, CellFault> {
     check_cell(layout, stones)?;
-    let lattice = lattice(layout, stones, member_factor(layout, streams)?);
+    let lattice = lattice(layout, stones, member_factor(layout, streams)?).ok_or(CellFault::File)?;
     let outline = Outline { length: lattice[0][0], height: lattice[1][1], ..layout.outline };
     let filled = Layout { outline, ..layout.clone() };
     let made = build(&filled, Extent::Cell, streams, |draft| lay(draft, stones))?;
@@ -86,7 +86,9 @@ pub fn generate_cell(
 /// The factor on all sizes of this member, the same in all its attempts.
 fn member_factor(layout: &Layout, streams: &Streams) -> Result<f64, InvalidGeometry> {
     match &layout.arrangement {
-        Arrangement::Continuous { .. } | Arrangement::Discontinuous { .. } => Ok(1.0),
+        Arrangement::Continuous { .. } | Arrangement::Discontinuous { .. } | Arrangement::File { .. } => {
+            Ok(1.0)
+        }
         Arrangement::Coursed { wall_size_factor, .. } | Arrangement::Cut { wall_size_factor, .. } => {
             let mut tally = Tally::default();
             let mut draft = Draft::new(layout, Extent::Cell, streams, 1, &mut tally);
@@ -100,10 +102,11 @@ fn member_factor(layout: &Layout, streams: &Streams) -> Result<f64, InvalidGeome
     }
 }
 
-/// The two lattice vectors (m): see [`generate_cell`].
-fn lattice(layout: &Layout, stones: [u32; 2], factor: f64) -> [[f64; 2]; 2] {
+/// The two lattice vectors (m), see [`generate_cell`]; `None` of a file, whose stones do not repeat.
+fn lattice(layout: &Layout, stones: [u32; 2], factor: f64) -> Option<[[f64; 2]; 2]> {
     let [along, courses] = stones.map(f64::from);
-    match &layout.arrangement {
+    Some(match &layout.arrangement {
+        Arrangement::File { .. } => return None,
         Arrangement::Continuous { length, height } => [[along * length, 0.0], [0.0, courses * height]],
         Arrangement::Discontinuous { length, height, overlap } => {
             let shift = length * bond::shift(*overlap, stones[1], stones[1]);
@@ -117,7 +120,7 @@ fn lattice(layout: &Layout, stones: [u32; 2], factor: f64) -> [[f64; 2]; 2] {
             let [length, height] = sizes.means().map(|mean| factor * mean);
             [[along * length, 0.0], [0.5 * along * length, courses * height]]
         }
-    }
+    })
 }
 
 /// Lays the stones of a cell.
@@ -126,6 +129,8 @@ fn lay(draft: &mut Draft, stones: [u32; 2]) -> Result<Vec<Stone>, Fault> {
         return Err(Fault::TooMany { limit: MAX_STONES });
     }
     match &draft.layout.arrangement {
+        // It has no lattice either, and so nothing is laid.
+        Arrangement::File { .. } => Err(Fault::NoOutline),
         Arrangement::Continuous { length, .. } => bond::lay(draft, stones, *length, 0.0),
         Arrangement::Discontinuous { length, overlap, .. } => bond::lay(draft, stones, *length, *overlap),
         Arrangement::Coursed { sizes, wall_size_factor, dip, least_overlap } => {

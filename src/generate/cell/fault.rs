@@ -14,6 +14,12 @@ pub enum CellFault {
         /// Stones along the wall and courses, as asked for.
         stones: [u32; 2],
     },
+    /// The stones are those of a file.
+    #[error(
+        "a file says where the stones of one wall are, and they repeat in no direction: a plate is homogenised from cells that repeat. Draw \
+         the masonry by an arrangement with the same sizes of stones"
+    )]
+    File,
     /// The outline is battered.
     #[error(
         "the wall is {base} m thick at its base and {top} m at its top, but cells tile a plate of one thickness: give both the same"
@@ -60,6 +66,9 @@ pub fn check_cell(layout: &Layout, stones: [u32; 2]) -> Result<(), CellFault> {
     let (base, top) = (layout.outline.base_thickness, layout.outline.top_thickness);
     if stones.contains(&0) {
         return Err(CellFault::NoStones { stones });
+    }
+    if layout.arrangement.is_file() {
+        return Err(CellFault::File);
     }
     if base != top {
         return Err(CellFault::Battered { base, top });

@@ -7,7 +7,7 @@ use crate::protocol::base_motion::settings::{BaseMotion, Lean};
 use crate::protocol::base_motion::shake::Rested;
 use crate::protocol::path::LoadPath;
 use crate::protocol::run::task;
-use crate::protocol::stage::Stage;
+use crate::protocol::stage::{Stage, thickness};
 use crate::protocol::{Contacts, Criterion, Protocol, Restraint};
 use crate::solve::Solver;
 
@@ -25,8 +25,7 @@ pub fn shake_wall<R>(
 ) -> Option<(R, usize)> {
     let solver = base.in_time(solver)?;
     let stage = Stage::new(wall, laws, &Protocol::BaseMotion(*base), restraint, contacts.into());
-    let (low, high) = wall.bounds();
-    let thickness = high.y - low.y;
+    let thickness = thickness(wall);
     let criterion = Criterion::AnyBlock(thickness);
     let task = task(&stage, &stage.assembly, LoadPath::factor(1), criterion, thickness);
     let rested = Rested::of(&task, Lean::NONE, solver);

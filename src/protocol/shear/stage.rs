@@ -12,7 +12,7 @@ const SHORTENED: f64 = 1e-4;
 
 /// The beam on a wall of stones: as long and as thick as the wall, its middle at the height of the jack, guided out of plane.
 pub fn beam(wall: &Wall, shear: &Shear) -> Block {
-    let (low, high) = wall.bounds();
+    let (low, high) = wall.bounds_of_stones();
     let above = shear.force_height - (high.z - low.z);
     crate::check!(above > 0.0, "the jack must push above the wall");
     let top = Vec3::new(high.x, high.y, high.z + 2.0 * above);

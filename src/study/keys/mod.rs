@@ -26,6 +26,9 @@ const CUT: &[&str] = &["cut"];
 const REGULAR: &[&str] = &["continuous", "discontinuous"];
 const RUNNING: &[&str] = &["discontinuous"];
 const RANDOM: &[&str] = &["coursed", "cut"];
+/// Arrangements that are drawn, and the one that is not.
+const DRAWN: &[&str] = &["continuous", "discontinuous", "coursed", "cut"];
+const FROM_FILE: &[&str] = &["file"];
 
 /// A length above 0 (m); a kilometre is a slip of the unit.
 const SIZE: Interval = Interval::above(0.0, 1000.0);
@@ -50,10 +53,15 @@ pub static STUDY: Section = Section {
         Key::new(
             "wall",
             Kind::Table(&WALL),
-            Required,
-            "The outer shape of every arm that has no [arm.wall].",
+            Optional,
+            "The outer shape of every arm that has no [arm.wall]. It must be there, unless all arms are files.",
         ),
-        Key::new("block", Kind::Table(&BLOCK), Required, "The stones' material."),
+        Key::new(
+            "block",
+            Kind::Table(&BLOCK),
+            Optional,
+            "The stones' material. It must be there, unless all arms are files.",
+        ),
         Key::new("joint", Kind::Table(&JOINT), Required, "The joints' properties."),
         Key::new("load", Kind::Table(&LOAD), Required, "What is done to each wall."),
         Key::new("restraint", Kind::Table(&RESTRAINT), Required, "How base and ends are held."),
@@ -273,10 +281,53 @@ pub static ARM: Section = Section {
         ),
         Key::new(
             "arrangement",
-            Kind::Choice(&["continuous", "discontinuous", "coursed", "cut"]),
+            Kind::Choice(&["continuous", "discontinuous", "coursed", "cut", "file"]),
             Required,
-            "Stack bond; running bond; random courses; recursive random cuts.",
+            "Stack bond; running bond; random courses; recursive random cuts; the stones of a file.",
         ),
+        Key::new(
+            "file",
+            Kind::WallFile,
+            Required,
+            "The stones, as `pirca analyse` reads them. Fixed blocks of the file hold the wall in the place of the platform; without any it \
+             stands on the platform, the plane z = 0.",
+        )
+        .only(FROM_FILE),
+        Key::new(
+            "unit",
+            Kind::Choice(&["m", "cm", "mm"]),
+            Optional,
+            "Unit of the coordinates of an OBJ file; without it m.",
+        )
+        .only(FROM_FILE),
+        Key::new(
+            "up_axis",
+            Kind::Choice(&["y", "z"]),
+            Optional,
+            "Axis of an OBJ file that points up; without it z. With y, its x, y, z become x, z, -y.",
+        )
+        .only(FROM_FILE),
+        Key::new(
+            "unstated_density_kg_per_m3",
+            real("kg/m3", Interval::closed(10.0, 23_000.0)),
+            Optional,
+            "Density of the objects of an OBJ file that state none; without it 2400, with a warning.",
+        )
+        .only(FROM_FILE),
+        Key::new(
+            "flatness_m",
+            real("m", Interval::above(0.0, 1.0)),
+            Optional,
+            "Faces whose corners lie up to this far off their plane are made plane; without it 1e-4 of a block is allowed, and nothing moves.",
+        )
+        .only(FROM_FILE),
+        Key::new(
+            "touch_tolerance_m",
+            real("m", Interval::above(0.0, 1.0)),
+            Optional,
+            "Blocks closer than this touch, at most a tenth of a stone; without it 1e-6 of the size of what moves, corner to corner.",
+        )
+        .only(FROM_FILE),
         Key::new("block_length_m", real("m", SIZE), Required, "Stone length.").only(REGULAR),
         Key::new("course_height_m", real("m", SIZE), Required, "Course height.").only(REGULAR),
         Key::new(
@@ -339,8 +390,14 @@ pub static ARM: Section = Section {
             Optional,
             "Vertical load of this arm's walls instead of load.vertical_load_n, where they are sheared.",
         ),
-        Key::new("wall", Kind::Table(&WALL), Optional, "What this arm says otherwise than [wall]."),
-        Key::new("block", Kind::Table(&BLOCK), Optional, "What this arm says otherwise than [block]."),
+        Key::new("wall", Kind::Table(&WALL), Optional, "What this arm says otherwise than [wall].").only(DRAWN),
+        Key::new(
+            "block",
+            Kind::Table(&BLOCK),
+            Optional,
+            "What this arm says otherwise than [block]. Of a file, the mean density of its stones, which keep their ratios; without it the \
+             file's.",
+        ),
         Key::new("joint", Kind::Table(&JOINT), Optional, "What this arm says otherwise than [joint]."),
         Key::new(
             "restraint",
@@ -360,8 +417,8 @@ pub static ARM: Section = Section {
             Optional,
             "What this arm says otherwise than [uncertain].",
         ),
-        Key::new("wedges", Kind::Table(&WEDGES), Optional, "Wedge stones cut into bed joints."),
-        Key::new("limits", Kind::Table(&LIMITS), Default("{}"), "What a stone must at least be."),
+        Key::new("wedges", Kind::Table(&WEDGES), Optional, "Wedge stones cut into bed joints.").only(DRAWN),
+        Key::new("limits", Kind::Table(&LIMITS), Default("{}"), "What a stone must at least be.").only(DRAWN),
     ]],
 };
 

@@ -6,6 +6,7 @@ use clap::{ArgGroup, Args, ValueEnum};
 
 use crate::protocol::Direction;
 use crate::solve::explicit::Rayleigh;
+use crate::study::Tolerance;
 use crate::verb::analyse::known::Known;
 use crate::verb::analyse::{known, numbers};
 use crate::verb::arguments::{FILE, JOINTS, LOAD, OUTPUT, SOLUTION, SolverName, names};
@@ -24,6 +25,7 @@ Example: pirca analyse wall.json --phi-deg 30
          pirca analyse wall.json --phi-deg 35 --solver implicit --kn 1e9 --settle 0=0.01
          pirca analyse wall.json --phi-deg 35 --solver nonsmooth --fclib step.json --at-deg 5
          pirca analyse wall.json --phi-deg 30..38 --solver implicit --kn 5e7..5e8 --density normal(2200,80)
+         pirca analyse wall.json --phi-deg 30..38 --study my-wall
 
 Ranges: of --phi-deg, --kn and --density a number, LOW..HIGH, or uniform(low, high), triangular(low, mode, high), normal(mean, sd), \
 lognormal(mean, sd), truncated_normal(mean, sd, low, high), truncated_lognormal(median, log_sd, low, high). The wall is then solved \
@@ -163,7 +165,7 @@ pub(crate) struct Analyse {
     /// share of the size of what moves, corner to corner (1e-12 to 0.001). Wider gaps carry nothing until they close. Deeper overlaps are
     /// told, and wider gaps up to a tenth of a stone.
     #[arg(long, value_name = "LENGTH", default_value = "1e-6", value_parser = numbers::tolerance, allow_negative_numbers = true, help_heading = FILE)]
-    pub touch_tolerance: numbers::Tolerance,
+    pub touch_tolerance: Tolerance,
     /// Make faces plane whose corners lie up to this length off their plane (2mm), or 1/20 of their block if that is less; how far
     /// corners were moved is told [default: 1e-4 of a block is allowed, and nothing is moved].
     #[arg(long, value_name = "LENGTH", value_parser = numbers::length, allow_negative_numbers = true, help_heading = FILE)]
@@ -213,6 +215,10 @@ pub(crate) struct Analyse {
         help_heading = OUTPUT
     )]
     pub at_deg: Option<f64>,
+    /// Folder for the same question as a study, with a copy of the wall: run, capacity, influence, compare and shard then take it. Ranges
+    /// become distributions of [uncertain], and --walls its number of walls. For a tilt.
+    #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
+    pub study: Option<PathBuf>,
     /// What joints are coloured by in the picture.
     #[arg(long, value_name = "NAME", default_value = "opening", requires = SEEN, help_heading = OUTPUT)]
     pub colour: Measure,

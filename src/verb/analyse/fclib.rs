@@ -10,10 +10,10 @@ use crate::law::Coulomb;
 use crate::math::{degrees, radians, tan};
 use crate::solve::nonsmooth::{GlobalProblem, Settings, Simulation, Solution, Triplets};
 use crate::solve::{Equilibrate, STANDARD_GRAVITY};
+use crate::study::Fit;
 use crate::terminal::failure::Failure;
 use crate::verb::analyse::answer::Answer;
 use crate::verb::analyse::ask::{Analyse, Growing};
-use crate::verb::analyse::meetings::Fit;
 use crate::verb::analyse::solve::{LARGEST_MULTIPLIER, LARGEST_TILT_DEG, task};
 
 /// What stands in the file.

@@ -1,6 +1,7 @@
 //! `pirca analyse`: a wall that somebody else made, with one command.
 
 mod answer;
+mod as_study;
 pub(crate) mod ask;
 mod fall;
 mod fclib;
@@ -8,7 +9,6 @@ mod files;
 mod joints;
 mod known;
 mod loads;
-mod meetings;
 mod numbers;
 mod open;
 mod page;

@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 
 use crate::protocol::Direction;
 use crate::solve::explicit::Rayleigh;
+use crate::study::Tolerance;
 
 /// Friction angles (deg): at 90 degrees friction would be infinite.
 pub(crate) const FRICTION_ANGLES: RangeInclusive<f64> = 0.0..=89.0;
@@ -95,15 +96,6 @@ fn of_a_block(text: &str, form: &str, range: RangeInclusive<f64>, unit: &str) ->
 /// Density (kg/m^3).
 pub(crate) fn density(text: &str) -> Result<f64, String> {
     within(text, DENSITIES, "kg/m^3")
-}
-
-/// How far apart blocks may be that touch.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Tolerance {
-    /// Share of the size of the part that moves, corner to corner.
-    Share(f64),
-    /// Length (m).
-    Length(f64),
 }
 
 /// A length with its unit, or a share of the wall's size.

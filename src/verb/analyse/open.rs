@@ -7,9 +7,9 @@ use crate::math::{degrees, tan};
 use crate::model::{Outcome, Wall};
 use crate::protocol::{Lower, Undecided, undecided};
 use crate::solve::limit::{Analysis, Settings};
+use crate::study::Fit;
 use crate::terminal::doing::doing;
 use crate::verb::analyse::ask::{Analyse, Growing};
-use crate::verb::analyse::meetings::Fit;
 use crate::verb::analyse::solve::task;
 use crate::verb::analyse::state::Found;
 

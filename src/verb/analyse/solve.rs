@@ -9,11 +9,11 @@ use crate::protocol::{
 };
 use crate::solve::implicit::Equilibrium;
 use crate::solve::{Equilibrate, Solver, explicit, implicit, limit, nonsmooth};
+use crate::study::Fit;
 use crate::terminal::doing::doing;
 use crate::verb::analyse::answer::Answer;
 use crate::verb::analyse::ask::{Analyse, FlowName, Growing};
 use crate::verb::analyse::known::Known;
-use crate::verb::analyse::meetings::Fit;
 use crate::verb::analyse::state::Found;
 use crate::verb::arguments::SolverName;
 
@@ -22,14 +22,14 @@ const ANY_STIFFNESS: f64 = 1e9;
 /// A block is part of a mechanism when it moves at this share of the fastest corner.
 const MOVES: f64 = 0.01;
 /// Step of the tilt (deg) where none is asked for, and the largest tilt and multiplier.
-const STEP_DEG: f64 = 0.5;
+pub(crate) const STEP_DEG: f64 = 0.5;
 pub(crate) const LARGEST_TILT_DEG: f64 = 89.0;
 pub(crate) const LARGEST_MULTIPLIER: f64 = 10.0;
 /// Width of the bracket around the collapse: angle (deg) and multiplier.
 pub(crate) const BRACKET_DEG: f64 = 0.01;
 pub(crate) const BRACKET: f64 = 1e-4;
 /// A wall runs away when a block has moved by this share of the thickness of its pile in a step.
-const RUNS_AWAY: f64 = 0.1;
+pub(crate) const RUNS_AWAY: f64 = 0.1;
 
 /// The law of all joints, with the middle of what is not known exactly: no tension, cohesion kept after slip, ks = kn / 2 unless it is given.
 pub(crate) fn law(arguments: &Analyse) -> Coulomb {

@@ -8,6 +8,7 @@ use crate::ensemble::{Observed, Unsure, given_points};
 use crate::exchange::WallFile;
 use crate::model::{Outcome, Wall};
 use crate::protocol::{Settlement, Witness};
+use crate::study::Fit;
 use crate::terminal::doing::doing;
 use crate::terminal::failure::Failure;
 use crate::verb::analyse::answer::Answer;
@@ -15,7 +16,6 @@ use crate::verb::analyse::ask::{Analyse, Growing};
 use crate::verb::analyse::fall::Fall;
 use crate::verb::analyse::known::Known;
 use crate::verb::analyse::loads::loaded;
-use crate::verb::analyse::meetings::Fit;
 use crate::verb::analyse::solve::{
     BRACKET, BRACKET_DEG, LARGEST_MULTIPLIER, LARGEST_TILT_DEG, law, solve_seen_by,
 };
@@ -24,8 +24,8 @@ use crate::verb::analyse::uncertainty::{Answered, AskedOfWall, Ended, Uncertaint
 use crate::verb::analyse::worst::bears;
 
 /// Walls of a design where no number is asked for, and its seed.
-const WALLS: u64 = 64;
-const SEED: u64 = 1;
+pub(crate) const WALLS: u64 = 64;
+pub(crate) const SEED: u64 = 1;
 /// Less than this share of the weight that stays is none.
 const WHOLE: f64 = 0.999;
 

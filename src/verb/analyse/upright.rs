@@ -4,8 +4,8 @@ use crate::law::Coulomb;
 use crate::math::Vec3;
 use crate::model::Wall;
 use crate::solve::{STANDARD_GRAVITY, limit};
+use crate::study::Fit;
 use crate::verb::analyse::ask::UpName;
-use crate::verb::analyse::meetings::Fit;
 
 /// Asks whether another axis of the file points up, where a wall that is unstable at rest would stand so.
 pub(crate) fn question(wall: &Wall, law: &Coulomb, fit: &Fit, up: UpName, is_obj: bool) -> Option<String> {

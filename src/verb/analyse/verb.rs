@@ -11,6 +11,7 @@ use crate::model::{Outcome, Support, Wall};
 use crate::protocol::{Direction, Recorder, Settlement, Witness};
 use crate::solve::STANDARD_GRAVITY;
 use crate::study::Angle;
+use crate::study::{Fit, bounds, look};
 use crate::terminal::answer::Answer;
 use crate::terminal::doing::doing;
 use crate::terminal::failure::Failure;
@@ -18,7 +19,6 @@ use crate::verb::analyse::ask::{Analyse, FlowName, Growing, LoadName, UpName};
 use crate::verb::analyse::files::Seen;
 use crate::verb::analyse::known::Known;
 use crate::verb::analyse::loads::{loaded, settlements};
-use crate::verb::analyse::meetings::{Fit, bounds, look};
 use crate::verb::analyse::open::left_open;
 use crate::verb::analyse::page::Told;
 use crate::verb::analyse::shaken::shaken;
@@ -27,7 +27,7 @@ use crate::verb::analyse::state::State;
 use crate::verb::analyse::uncertainty::{uncertainty_text, write_uncertainty};
 use crate::verb::analyse::unsure::{Given, asked, refused};
 use crate::verb::analyse::worst::{Tried, tried, weakest};
-use crate::verb::analyse::{fclib, files, shaken, upright};
+use crate::verb::analyse::{as_study, fclib, files, shaken, upright};
 use crate::verb::arguments::SolverName;
 use crate::verb::wall::one_wall::MOST_STATES;
 
@@ -85,11 +85,20 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
     if let Some(path) = &arguments.fclib {
         fclib::write(path, arguments, &file, (&law, &fit), &answer)?;
     }
+    if let Some(folder) = &arguments.study {
+        as_study::write(arguments, &fit, folder)?;
+    }
     let mut object = answer.object(arguments, &file, &fit, (&warnings, &directions), seconds);
     if let Some(sure) = &sure {
         object["uncertain"] = json!(sure);
     }
+    if let Some(folder) = &arguments.study {
+        object["study"] = json!(folder);
+    }
     let mut text = answer.text(arguments, &file, &fit, seconds);
+    text += &arguments.study.as_ref().map_or_else(String::new, |folder| {
+        format!("  the same question as a study written to {0}; next: pirca run {0}\n", folder.display())
+    });
     text += &sure.as_ref().map(uncertainty_text).unwrap_or_default();
     text += &arguments.fclib.as_ref().map_or_else(String::new, |path| {
         format!("  contact problem of a step written to {}\n", path.display())
@@ -150,13 +159,14 @@ fn read(arguments: &Analyse) -> Result<(WallFile, Fit), WallFaults> {
         density: arguments.density_kg_per_m3.or(arguments.density.as_ref().map(Known::middle)),
         up: arguments.up.map_or(Up::Z, |up| if up == UpName::Y { Up::Y } else { Up::Z }),
         flatness: arguments.flatness,
+        on_platform: false,
     };
     let file = read_wall(&arguments.wall, &options)?;
     let fit = look(&file, arguments.touch_tolerance, &arguments.wall.display().to_string())?;
     Ok((file, fit))
 }
 
-fn is_obj(arguments: &Analyse) -> bool {
+pub(crate) fn is_obj(arguments: &Analyse) -> bool {
     arguments.wall.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj"))
 }
 
@@ -164,6 +174,7 @@ fn is_obj(arguments: &Analyse) -> bool {
 fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
     refused(arguments)?;
     shaken::refused(arguments)?;
+    as_study::refused(arguments)?;
     let solver = arguments.solver.name();
     let mut warnings = in_radians(arguments);
     if !is_obj(arguments) && (arguments.unit.is_some() || arguments.density_kg_per_m3.is_some()) {

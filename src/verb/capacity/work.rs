@@ -20,7 +20,11 @@ use crate::verb::{locate, question};
 
 /// Answers the question from specimens, or from walls that are evaluated as far as they have not been.
 pub(crate) fn capacity(arguments: &Capacity) -> Result<Answer, Failure> {
-    let loaded = locate::study(&arguments.which)?;
+    let loaded = locate::any_study(&arguments.which)?;
+    locate::not_shaken(
+        &loaded.study,
+        "a wall falls somewhere between two intensities, so what it may be counted on is known as the fragility of its arm: pirca run fits it",
+    )?;
     let study = locate::with_ensemble(loaded.study.clone(), &arguments.ensemble)?;
     let known = arguments.known_cov.map_or(Variation::Unknown, Variation::Known);
     let quantity = if arguments.measured { Quantity::CollapseAngle } else { Quantity::of(&study) };

@@ -143,7 +143,7 @@ fn in_words(known: &[Explained]) -> String {
 
 /// The study that the arguments name, with the measurements of another file if one is named.
 pub(crate) fn measured(which: &Which, file: Option<&Path>) -> Result<Loaded, Failure> {
-    let loaded = locate::study(which)?;
+    let loaded = locate::measurable(which)?;
     match file {
         Some(file) => {
             let loaded = loaded.with_measured(file)?;

@@ -49,6 +49,18 @@ pub fn write_extended(origin: &Origin<'_>, extension: &Extension, dir: &Path) ->
             None => drop(fs::remove_file(dir.join(name))),
         }
     }
+    write_walls(stated, dir)
+}
+
+/// Writes the files of a study's walls into the folder of another one, by the names that its arms give them.
+pub fn write_walls(stated: &Stated, dir: &Path) -> Result<()> {
+    for (name, bytes) in stated.walls() {
+        let path = dir.join(name);
+        let folder = path.parent().unwrap_or(dir);
+        fs::create_dir_all(folder)
+            .with_context(|| format!("cannot create the folder {}", folder.display()))?;
+        replace_file(&path, bytes)?;
+    }
     Ok(())
 }
 

@@ -20,6 +20,10 @@ use crate::verb::wall::drawn::{Measure, ending};
 use crate::verb::wall::one_wall::OneWall;
 use crate::verb::wall::picture;
 
+/// Why the walls of a study that are shaken have no page.
+pub(super) const SHAKEN: &str = "each record at each intensity takes a wall another way, and a page draws the one load path of a wall; run \
+                                 writes the fragility of each arm without --report, and pirca analyse --load base-motion the page of one wall";
+
 /// Name of the page in the output folder.
 pub(crate) const PAGE: &str = "report.html";
 
@@ -30,7 +34,7 @@ pub(crate) fn write(
     rows: &[Row],
     origin: &Origin,
 ) -> Result<(), Failure> {
-    locate::one_number(study)?;
+    locate::not_shaken(study, SHAKEN)?;
     let mut drawn = Vec::new();
     for (which, task) in chosen_walls(study, rows) {
         let kn = study.arms[task.arm as usize].kn_points[task.point as usize];

@@ -32,7 +32,7 @@ pub(crate) fn with_page(arguments: &Run, page: Option<PathBuf>) -> Result<Answer
     let loaded = locate::any_study(&arguments.which)?;
     let study = asked(loaded.study.clone(), arguments.solver, &arguments.ensemble)?;
     if arguments.report || arguments.beside.is_some() {
-        locate::one_number(&study)?;
+        locate::not_shaken(&study, page::SHAKEN)?;
     }
     let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, ""));
     let quantity = Quantity::of(&study);

@@ -16,7 +16,7 @@ const SENSITIVITY: &str = "sensitivity";
 
 /// Computes the map, writes it and prints it.
 pub(crate) fn sensitivity(arguments: &Sensitivity) -> Result<Answer, Failure> {
-    let loaded = locate::study(&arguments.which)?;
+    let loaded = locate::measurable(&arguments.which)?;
     let study = loaded.study.clone();
     locate::without_uncertain(&study)?;
     let distributions = locate::distributions(&arguments.which)?;

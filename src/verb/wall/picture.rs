@@ -8,7 +8,7 @@ use crate::contact;
 use crate::ensemble::replace_file;
 use crate::math::compact;
 use crate::model::{Movement, Replay};
-use crate::protocol::{Direction, Protocol, Run, typical_size};
+use crate::protocol::{Direction, Protocol, Run};
 use crate::render::picture::Picture;
 use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
@@ -75,9 +75,10 @@ fn films(
     if let Some(folder) = &arguments.series {
         // The ground stays where it is; its id is the one that joints have for it.
         let grounded = wall.clone().with_base();
-        replay.states.iter_mut().for_each(|state| state.poses.push(Movement::NONE));
-        let name =
-            |id: usize| if id < wall.blocks.len() { format!("stone {id}") } else { "ground".to_owned() };
+        let still = grounded.blocks.len() - wall.blocks.len();
+        replay.states.iter_mut().for_each(|state| state.poses.extend(vec![Movement::NONE; still]));
+        let stones = wall.before_base();
+        let name = |id: usize| if id < stones { format!("stone {id}") } else { "ground".to_owned() };
         let moving = run.failure.as_ref().map(|failure| failure.moving.clone()).unwrap_or_default();
         let moves = |id: usize| moving.contains(&(id as u32));
         replayed::write(folder, &picture.title, (&grounded, &name, &moves), &replay)?;
@@ -93,7 +94,7 @@ pub(crate) fn of_wall(chosen: &OneWall, run: &Run, colour: Measure, magnify: Opt
     let stones = stones(wall, run);
     let magnification = magnify.unwrap_or_else(|| Picture::fitting(&stones));
     // The ground has joints as well.
-    let settings = contact::Settings::for_size(typical_size(wall), arm.sub_contacts);
+    let settings = contact::Settings { inset: 0.0, ..arm.contacts().of_wall(wall) };
     let grounded = wall.clone().with_base();
     let seams = seams(&grounded, &settings, &run.joint_states, colour);
     let falls = run.failure.is_some();

@@ -18,11 +18,11 @@ use crate::math::degrees;
 use crate::model::Replay;
 use crate::motion::Motion;
 use crate::protocol::{Recorder, Rested, Shaken, Shaking, Witness};
+use crate::study::Fit;
 use crate::terminal::answer::Answer;
 use crate::terminal::doing::doing;
 use crate::terminal::failure::Failure;
 use crate::verb::analyse::ask::Analyse;
-use crate::verb::analyse::meetings::Fit;
 use crate::verb::analyse::solve::task;
 use crate::verb::wall::one_wall::MOST_STATES;
 

@@ -321,6 +321,9 @@ fn distribution(population: Population) -> (Vec<QuantileEntry>, Vec<EmpiricalSte
     (quantiles(&of), steps)
 }
 
+/// What is known of walls that are drawn, and not of those of a file.
+const OF_DRAWN: [&str; 5] = ["battered_face", "wythes", "header_share", "head_joint_gap_m", "wedge_share"];
+
 /// What sets an arm apart: its walls, its joints and what holds it.
 fn parameters(arm: &Arm) -> BTreeMap<String, serde_json::Value> {
     let (layout, outline, joint) = (&arm.layout, &arm.layout.outline, &arm.joint);
@@ -342,8 +345,9 @@ fn parameters(arm: &Arm) -> BTreeMap<String, serde_json::Value> {
         ("cohesion_pa", serde_json::json!(joint.cohesion)),
         ("tension_pa", serde_json::json!(joint.tension)),
     ];
+    let entries = entries.into_iter().filter(|(key, _)| arm.file().is_none() || !OF_DRAWN.contains(key));
     let curve = arm.curve.iter().map(|curve| ("curve", serde_json::json!(curve)));
     let uncertain: BTreeMap<&str, _> = arm.uncertain.iter().map(|own| (own.key, &own.family)).collect();
     let uncertain = (!uncertain.is_empty()).then(|| ("uncertain", serde_json::json!(uncertain)));
-    entries.into_iter().chain(curve).chain(uncertain).map(|(key, value)| (key.to_string(), value)).collect()
+    entries.chain(curve).chain(uncertain).map(|(key, value)| (key.to_string(), value)).collect()
 }

@@ -68,10 +68,16 @@ pub fn built(study: &Study) -> String {
     let mut outlines: Vec<String> = Vec::new();
     for arm in &study.arms {
         let of = &arm.layout.outline;
-        let said = format!(
-            "{} m long, {} m high, {} m thick at the base and {} m at the top",
-            of.length, of.height, of.base_thickness, of.top_thickness
-        );
+        let said = match arm.file() {
+            Some(file) => format!(
+                "that of {file}, in a box {} m long (x), {} m thick (y) and {} m high",
+                of.length, of.base_thickness, of.height
+            ),
+            None => format!(
+                "{} m long, {} m high, {} m thick at the base and {} m at the top",
+                of.length, of.height, of.base_thickness, of.top_thickness
+            ),
+        };
         if !outlines.contains(&said) {
             outlines.push(said);
         }

@@ -7,7 +7,6 @@ use crate::math::{Vec3, cbrt};
 use crate::model::{Support, Wall};
 use crate::protocol::pile_thicknesses;
 use crate::shape::Polyhedron;
-use crate::verb::analyse::numbers::Tolerance;
 
 /// An overlap deeper than this share of the smaller block's size (edge of the cube of its volume) is no modelling gap.
 const DEEPEST: f64 = 0.01;
@@ -23,8 +22,20 @@ const REACHES: f64 = 2.0;
 /// the pressure is, which turns a block that slides under an eccentric load: on a joint of any shape 2 x 2 cost up to 1.2 deg.
 const SUB_CONTACTS: [u32; 2] = [4, 4];
 
+/// How far apart blocks may be that touch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Tolerance {
+    /// Share of the size of the part that moves, corner to corner.
+    Share(f64),
+    /// Length (m).
+    Length(f64),
+}
+
+/// Share of the size within which blocks touch where no tolerance is asked for.
+pub const TOUCH: f64 = 1e-6;
+
 /// A wall that is fit to be solved.
-pub(crate) struct Fit {
+pub struct Fit {
     /// Tolerances of contact detection; gaps up to `closed` are joints, for the survey and for all solvers.
     pub contact: contact::Settings,
     /// Thickness (m) of the pile of every block, and of the thinnest one.
@@ -38,8 +49,11 @@ pub(crate) struct Fit {
     pub warnings: Vec<String>,
 }
 
-/// Looks where the blocks meet.
-pub(crate) fn look(file: &WallFile, tolerance: Tolerance, path: &str) -> Result<Fit, WallFaults> {
+/// Looks where the blocks meet; messages call the file `path`.
+///
+/// # Errors
+/// Overlaps that are no modelling gaps, blocks that float, and walls too entangled to be looked over.
+pub fn look(file: &WallFile, tolerance: Tolerance, path: &str) -> Result<Fit, WallFaults> {
     let mut faults = WallFaults::new(path);
     let size = stone_size(&file.wall);
     let standard = contact::Settings::for_size(size, SUB_CONTACTS);
@@ -195,7 +209,7 @@ fn free(wall: &Wall) -> impl Iterator<Item = &Polyhedron> {
 }
 
 /// Box around the blocks that move (m): a large ground does not loosen the tolerance.
-pub(crate) fn bounds(wall: &Wall) -> (Vec3, Vec3) {
+pub fn bounds(wall: &Wall) -> (Vec3, Vec3) {
     let corners = free(wall).flat_map(|shape| shape.vertices.iter().copied()).collect();
     Polyhedron { vertices: corners, faces: Vec::new() }.bounds()
 }

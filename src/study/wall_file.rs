@@ -1,0 +1,256 @@
+//! Walls from files: an arm whose stones a file beside the study describes.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use crate::exchange::{self, ReadOptions, Unit, Up, WallFaults, WallFile, read_wall_bytes, wall_bytes};
+use crate::generate::{Arrangement, BatteredFace, Layout, Limits, Outline, Wythes, mean_density};
+use crate::model::{Support, Tag, Wall};
+use crate::random::Family;
+use crate::study::catalogue::Catalogue;
+use crate::study::checked::InputFile;
+use crate::study::fault::{Fault, Found};
+use crate::study::files::sha256;
+use crate::study::meetings::{TOUCH, Tolerance, look};
+use crate::study::reader::{Reader, join};
+
+/// Options of `analyse` that messages about a file name, with the keys of an arm that say the same.
+const SAME: [(&str, &str); 3] = [
+    ("--touch-tolerance", "touch_tolerance_m"),
+    ("--flatness", "flatness_m"),
+    ("--density-kg-per-m3", "unstated_density_kg_per_m3"),
+];
+
+/// A file as an arm reads it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Asked {
+    /// What it does not say about itself.
+    options: ReadOptions,
+    /// How far apart blocks may be that touch.
+    tolerance: Tolerance,
+}
+
+/// A wall that was read and looked over.
+#[derive(Debug)]
+pub struct Standing {
+    /// The stones, and behind them the fixed blocks that it stands on, if the file has any.
+    wall: Arc<Wall>,
+    joints: usize,
+    /// Gap (m) up to which faces touch.
+    touch: f64,
+    sha256: String,
+    warnings: Vec<String>,
+}
+
+/// The files of walls beside a study, each read once.
+#[derive(Debug, Default)]
+pub struct WallFiles {
+    /// The bytes of the files by their names, as the study gives them.
+    pub bytes: BTreeMap<String, Arc<[u8]>>,
+    read: Vec<(String, Asked, Result<Arc<Standing>, Vec<Fault>>)>,
+    /// The files read, in that order.
+    pub inputs: Vec<InputFile>,
+}
+
+impl WallFiles {
+    /// The wall in a file, which lies at `path` where its bytes are not known already.
+    fn wall(&mut self, file: &str, path: PathBuf, asked: &Asked) -> Result<Arc<Standing>, Vec<Fault>> {
+        if let Some((.., known)) = self.read.iter().find(|(name, how, _)| name == file && how == asked) {
+            return known.clone();
+        }
+        // Behind the surveys and the records.
+        let rank = 3000 + self.read.len();
+        let found = self.standing(file, path, asked);
+        let found = found.map(Arc::new).map_err(|faults| as_faults(file, rank, faults));
+        self.read.push((file.to_owned(), asked.clone(), found.clone()));
+        found
+    }
+
+    fn standing(&mut self, file: &str, path: PathBuf, asked: &Asked) -> Result<Standing, WallFaults> {
+        let bytes = match self.bytes.get(file) {
+            Some(bytes) => bytes.clone(),
+            None => {
+                let bytes: Arc<[u8]> = wall_bytes(&path, file)?.into();
+                self.inputs.push(InputFile { path: PathBuf::from(file), sha256: sha256(&bytes) });
+                self.bytes.insert(file.to_owned(), bytes.clone());
+                bytes
+            }
+        };
+        let read = stones_first(read_wall_bytes(file, &bytes, &asked.options)?);
+        let fit = look(&on_ground(&read), asked.tolerance, file)?;
+        Ok(Standing {
+            wall: Arc::new(read.wall),
+            joints: fit.joints,
+            touch: fit.contact.closed,
+            sha256: sha256(&bytes),
+            warnings: [read.warnings, fit.warnings].concat(),
+        })
+    }
+}
+
+/// The blocks that move before those that are fixed. Fixed blocks are the base, and blocks that move are stones, whatever they are called.
+fn stones_first(file: WallFile) -> WallFile {
+    let WallFile { wall, ids, names, warnings } = file;
+    let mut all: Vec<_> = wall.blocks.into_iter().zip(ids).zip(names).collect();
+    all.sort_by_key(|((block, _), _)| block.support == Support::Fixed);
+    let mut ordered = WallFile { wall: Wall::default(), ids: Vec::new(), names: Vec::new(), warnings };
+    for ((mut block, id), name) in all {
+        block.tag = match (block.support, block.tag) {
+            (Support::Fixed, _) => Tag::Base,
+            (_, Tag::Base | Tag::End) => Tag::Stone,
+            (_, tag) => tag,
+        };
+        ordered.wall.blocks.push(block);
+        ordered.ids.push(id);
+        ordered.names.push(name);
+    }
+    ordered
+}
+
+/// The wall as it stands: on its own fixed blocks, or on the platform.
+fn on_ground(file: &WallFile) -> WallFile {
+    let mut grounded = file.clone();
+    if !file.wall.has_base() {
+        grounded.wall = grounded.wall.with_base();
+        grounded.ids.push(u64::MAX);
+        grounded.names.push("the platform (the plane z = 0)".to_owned());
+    }
+    grounded
+}
+
+/// What is wrong with a file, among the faults of a study.
+fn as_faults(file: &str, rank: usize, faults: WallFaults) -> Vec<Fault> {
+    let more = faults.more;
+    let mut all: Vec<Fault> = faults.faults.iter().map(|fault| as_fault(file, rank, fault)).collect();
+    if more > 0 {
+        let found = format!("has {more} more faults");
+        all.push(Fault::of_file(file, rank, &found, "none", "mend the first ones, and see what is left"));
+    }
+    all
+}
+
+fn as_fault(file: &str, rank: usize, fault: &exchange::Fault) -> Fault {
+    let block = if fault.block.is_empty() { String::new() } else { format!("{}: ", fault.block) };
+    let times = if fault.times > 1 { format!(" ({} times)", fault.times) } else { String::new() };
+    let found = format!("{block}{}{times}", fault.found);
+    let keys = same_keys(&format!("{found} {} {}", fault.allowed, fault.fix));
+    let fix = format!("{}{keys}", fault.fix);
+    Fault::of_file(file, rank, &found, &fault.allowed, fix).in_line(fault.line)
+}
+
+/// Behind a message, the keys that stand for the options which it names.
+fn same_keys(message: &str) -> String {
+    let named = SAME.iter().filter(|(option, _)| message.contains(option));
+    named.map(|(option, key)| format!(" ({option} is {key} of the arm)")).collect()
+}
+
+/// Reads an arm whose stones a file describes. `density` (kg/m^3) is what the arm says of its stones in the place of the file.
+pub fn layout(t: &mut Reader<'_>, density: Option<&Family>, catalogue: &mut Catalogue) -> Option<Layout> {
+    let (file, node) = t.file("file")?;
+    let asked = asked(t, &file)?;
+    let path = join(&t.path, "file");
+    let fault = |allowed: String, fix: &str| {
+        Box::new(Fault::at(&node.place, &path, Found::Value(node.shown.clone()), allowed, fix))
+    };
+    let place = match catalogue.place_of_wall(&file, &fault) {
+        Ok(place) => place,
+        Err(fault) => {
+            t.notes.faults.push(*fault);
+            return None;
+        }
+    };
+    let standing = match catalogue.walls.wall(&file, place, &asked) {
+        Ok(standing) => standing,
+        Err(faults) => {
+            t.notes.faults.extend(faults);
+            return None;
+        }
+    };
+    t.record("file", format_args!("{file} {}", standing.sha256));
+    for warning in &standing.warnings {
+        let found = Found::Words(format!("{file}: {warning}{}", same_keys(warning)));
+        let fix = "look whether it is meant, and change the file if not";
+        t.notes.warnings.push(Fault::at(&node.place, &path, found, "this", fix));
+    }
+    let density = mean(t, density, mean_density(&standing.wall))?;
+    Some(of_standing(file, &standing, density))
+}
+
+/// The layout of a wall that was read, with a mean density (kg/m^3).
+fn of_standing(file: String, standing: &Standing, density: f64) -> Layout {
+    let (low, high) = standing.wall.bounds_of_stones();
+    let size = high - low;
+    Layout {
+        outline: Outline {
+            length: size.x,
+            height: size.z,
+            base_thickness: size.y,
+            top_thickness: size.y,
+            battered_face: BatteredFace::Both,
+        },
+        arrangement: Arrangement::File {
+            file,
+            sha256: standing.sha256.clone(),
+            joints: standing.joints,
+            touch: standing.touch,
+            wall: standing.wall.clone(),
+        },
+        density: Family::Constant { value: density },
+        wythes: Wythes { count: 1, header_share: 0.0 },
+        head_joint_gap: 0.0,
+        wedges: None,
+        // Nothing is drawn that could be too small, or be drawn anew.
+        limits: Limits {
+            min_size: 0.0,
+            max_aspect: f64::INFINITY,
+            min_volume: 0.0,
+            max_redraws: 0,
+            max_attempts: 1,
+        },
+    }
+}
+
+/// How the file is to be read.
+fn asked(t: &mut Reader<'_>, file: &str) -> Option<Asked> {
+    let before = t.notes.faults.len();
+    if !file.to_ascii_lowercase().ends_with(".obj") {
+        for key in ["unit", "up_axis", "unstated_density_kg_per_m3"] {
+            if t.has(key) {
+                t.fault(
+                    key,
+                    "only for .obj files: a wall.json states it itself, and its z points up",
+                    "remove it",
+                );
+            }
+        }
+    }
+    let unit = if t.has("unit") { t.choice_name("unit").and_then(Unit::named) } else { None };
+    let up = if t.has("up_axis") { t.choice_name("up_axis") } else { None };
+    let mut real = |key: &str| if t.has(key) { t.real(key) } else { None };
+    let density = real("unstated_density_kg_per_m3");
+    let (flatness, touch) = (real("flatness_m"), real("touch_tolerance_m"));
+    let options = ReadOptions {
+        unit,
+        density,
+        up: if up == Some("y") { Up::Y } else { Up::Z },
+        flatness,
+        on_platform: true,
+    };
+    let asked = Asked { options, tolerance: touch.map_or(Tolerance::Share(TOUCH), Tolerance::Length) };
+    (t.notes.faults.len() == before).then_some(asked)
+}
+
+/// Mean density (kg/m^3) of the stones: that of the file, or what the arm says, to which all are made as much heavier or lighter.
+fn mean(t: &mut Reader<'_>, stated: Option<&Family>, of_file: f64) -> Option<f64> {
+    match stated {
+        None => Some(of_file),
+        Some(Family::Constant { value }) => Some(*value),
+        Some(_) => {
+            let allowed = "one number, the mean density: the file says how those of its stones differ";
+            let fix = "write the distribution of the mean as \"block.density_kg_per_m3\" in [arm.uncertain]";
+            t.fault("block", allowed, fix);
+            None
+        }
+    }
+}
