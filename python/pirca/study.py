@@ -272,7 +272,7 @@ class Study:
             answer = answered()
         return Answer(answer)
 
-    def influence(
+    def sensitivity(
         self,
         *,
         arm: str | None = None,
@@ -282,7 +282,7 @@ class Study:
         report: bool = False,
         progress: bool = False,
     ) -> Answer:
-        """Say where the scatter of walls comes from, as `pirca influence`: shares of the variance by source.
+        """Say where the scatter of walls comes from, as `pirca sensitivity`: shares of the variance by source.
 
         Parameters
         ----------
@@ -294,7 +294,7 @@ class Study:
             As of `run`.
         """
         return Answer(
-            self._ask("influence", arm=arm, point=point, points=points, out=out, report=report, progress=progress)
+            self._ask("sensitivity", arm=arm, point=point, points=points, out=out, report=report, progress=progress)
         )
 
     def compare(
@@ -408,7 +408,12 @@ class Study:
             )
         )
 
-    def sensitivity(
+    def __getattr__(self, name):
+        if name == "influence":
+            raise AttributeError("`influence` is called `sensitivity` now")
+        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+
+    def detectability(
         self,
         *,
         members: int | None = None,
@@ -417,7 +422,7 @@ class Study:
         report: bool = False,
         progress: bool = False,
     ) -> Answer:
-        """Say which mechanisms the measurements of the study could show, as `pirca sensitivity`.
+        """Say which mechanisms the measurements of the study could show, as `pirca detectability`.
 
         Parameters
         ----------
@@ -430,7 +435,7 @@ class Study:
         """
         given = {"variant": self._variant, "threads": self._threads}
         options = {"members": members, "quantile": quantile, "out": out, "report": report, "progress": progress}
-        return Answer(ask("sensitivity", self.path, **given, **options))
+        return Answer(ask("detectability", self.path, **given, **options))
 
     def readings(
         self,

@@ -57,7 +57,7 @@ def test_a_run_stops_and_goes_on_where_it_stood(studies, capfd):
     ("study", "given", "call"),
     [
         ("joint-arrangement", "members=4", "run(solver='explicit', out='one')"),
-        ("sources-of-scatter", "", "influence(points=4096, out='two')"),
+        ("sources-of-scatter", "", "sensitivity(points=4096, out='two')"),
         ("tilting-table", "", "diagnose(build=False, gain=False, out='three')"),
         ("tilting-table", "", "diagnose(bank='four', out='five')"),
         ("arrangements", "", "compare(walls=100000, out='six', same_within_deg=1e-6)"),

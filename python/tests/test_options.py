@@ -16,10 +16,10 @@ VERBS = {
         {"progress", "client", "shards"},
         {"variant", "json", "members", "seed", "threads", "batches"},
     ),
-    "influence": (Study.influence, {"progress"}, {"variant", "json", "seed", "threads"}),
+    "sensitivity": (Study.sensitivity, {"progress"}, {"variant", "json", "seed", "threads"}),
     "compare": (Study.compare, {"progress"}, {"variant", "json", "seed", "threads"}),
     "plan-tests": (Study.plan_tests, {"progress"}, {"variant", "json", "members", "seed", "threads"}),
-    "sensitivity": (Study.sensitivity, {"progress"}, {"variant", "json", "threads"}),
+    "detectability": (Study.detectability, {"progress"}, {"variant", "json", "threads"}),
     "readings": (Study.readings, {"progress"}, {"json", "members", "seed", "threads"}),
     "homogenise": (Study.homogenise, {"progress"}, {"variant", "json", "seed", "threads"}),
     "diagnose": (

@@ -46,10 +46,10 @@ def test_capacity_of_tested_specimens(studies, told, pirca_command):
     assert ours.out is None
 
 
-def test_influence(told, empty_folder):
+def test_sensitivity(told, empty_folder):
     column = ROOT / "tests/peers/column"
-    ours = pirca.Study(column, seed=3).influence(points=32, out="ours")
-    assert dict(ours) == told("influence", column, "--seed", 3, "--points", 32, out="theirs")
+    ours = pirca.Study(column, seed=3).sensitivity(points=32, out="ours")
+    assert dict(ours) == told("sensitivity", column, "--seed", 3, "--points", 32, out="theirs")
     same_files(empty_folder / "ours", empty_folder / "theirs")
 
 
@@ -70,10 +70,10 @@ def test_plan_of_tests(told, empty_folder):
     same_files(empty_folder / "ours", empty_folder / "theirs")
 
 
-def test_sensitivity(told, empty_folder, studies):
+def test_detectability(told, empty_folder, studies):
     towers = studies / "hidden-effects/example"
-    ours = pirca.Study(towers).sensitivity(members=1, out="ours")
-    assert dict(ours) == told("sensitivity", towers, "--members", 1, out="theirs")
+    ours = pirca.Study(towers).detectability(members=1, out="ours")
+    assert dict(ours) == told("detectability", towers, "--members", 1, out="theirs")
     same_files(empty_folder / "ours", empty_folder / "theirs")
 
 

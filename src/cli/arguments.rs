@@ -7,7 +7,7 @@ use clap_complete::Shell;
 
 use crate::cli::help::{COMPLETIONS, MAN, WHOLE};
 use crate::verb::{
-    analyse, capacity, check, cite, compare, diagnose, homogenise, influence, init, measured, mechanisms,
+    analyse, capacity, check, cite, compare, detectability, diagnose, homogenise, init, measured, mechanisms,
     plan_tests, readings, report, run, schema, sensitivity, shard, wall,
 };
 
@@ -80,8 +80,8 @@ pub(crate) enum Verb {
     ///
     /// Shares of the variance by source: each parameter that is drawn once per wall, the layout of the stones as a whole, and what the
     /// layout consists of.
-    #[command(after_help = influence::ask::HELP)]
-    Influence(influence::ask::Influence),
+    #[command(after_help = sensitivity::ask::HELP)]
+    Sensitivity(sensitivity::ask::Sensitivity),
     /// Say which arm of a study is the best, and how sure that is.
     ///
     /// Evaluates walls until every other arm is shown to be worse than the best one, or the same. Arms share the random numbers of a member;
@@ -126,8 +126,8 @@ pub(crate) enum Verb {
     ///
     /// What each mechanism changes in every quantity of measured.csv, in units of the quantity's error. For studies on the
     /// tilting table.
-    #[command(after_help = sensitivity::ask::HELP)]
-    Sensitivity(sensitivity::ask::Sensitivity),
+    #[command(after_help = detectability::ask::HELP)]
+    Detectability(detectability::ask::Detectability),
     /// List the mechanisms that a study may switch on, with their priors.
     ///
     /// What each one is, where it acts, its parameters with their priors, whether its effect goes when the wall is unloaded,
@@ -188,14 +188,14 @@ impl Verb {
             | Verb::Run(run::ask::Run { which, .. })
             | Verb::Shard(shard::ask::Shard { which, .. })
             | Verb::Capacity(capacity::ask::Capacity { which, .. })
-            | Verb::Influence(influence::ask::Influence { which, .. })
+            | Verb::Sensitivity(sensitivity::ask::Sensitivity { which, .. })
             | Verb::Compare(compare::ask::Compare { which, .. })
             | Verb::Homogenise(homogenise::ask::Homogenise { which, .. })
             | Verb::Bank(diagnose::bank::Bank { which, .. })
             | Verb::Diagnose(diagnose::ask::Diagnose { which, .. })
             | Verb::PlanTests(plan_tests::ask::PlanTests { which, .. })
             | Verb::Measured(measured::Measured { which, .. })
-            | Verb::Sensitivity(sensitivity::ask::Sensitivity { which, .. }) => which.json,
+            | Verb::Detectability(detectability::ask::Detectability { which, .. }) => which.json,
             // A text is all that they have.
             Verb::Completions(_) | Verb::Man(_) | Verb::Schema(_) => false,
         }

@@ -29,13 +29,13 @@ const GROUPS: [(&str, &[&str]); 5] = [
             "cite",
             "capacity",
             "compare",
-            "influence",
+            "sensitivity",
             "homogenise",
             "readings",
         ],
     ),
     ("Many machines", &["shard", "status", "merge"]),
-    ("Measured walls", &["plan-tests", "measured", "sensitivity", "bank", "diagnose", "mechanisms"]),
+    ("Measured walls", &["plan-tests", "measured", "detectability", "bank", "diagnose", "mechanisms"]),
     ("Shell and editor", &["completions", "man", "schema"]),
 ];
 

@@ -8,6 +8,7 @@ mod man;
 use std::ffi::OsString;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches};
 
 use crate::cli::arguments::{Arguments, Verb};
@@ -17,10 +18,10 @@ pub use crate::terminal::failure::Failure;
 pub use crate::terminal::session::Hear;
 use crate::terminal::{output, session};
 use crate::verb::{
-    analyse, capacity, check, cite, compare, diagnose, homogenise, influence, init, measured, mechanisms,
-    plan_tests,
+    analyse, capacity, check, cite, compare, diagnose, homogenise, init, measured, mechanisms, plan_tests,
+    sensitivity,
 };
-use crate::verb::{readings, report, run, schema, sensitivity, shard, wall};
+use crate::verb::{detectability, readings, report, run, schema, shard, wall};
 
 /// Does what arguments ask, of which the first is the name of the program, prints what comes out, and gives the exit code: 0 done,
 /// 1 the run or its files failed, 2 the arguments make no sense, 3 the study or the wall is invalid.
@@ -68,8 +69,21 @@ fn shown(given: &[OsString]) -> Vec<String> {
 }
 
 fn read(given: Vec<OsString>) -> Result<Arguments, clap::Error> {
-    let matches = help::framed(Arguments::command()).try_get_matches_from(given)?;
-    Arguments::from_arg_matches(&matches)
+    let verb = given.get(1).map(|verb| verb.to_string_lossy().into_owned()).unwrap_or_default();
+    let matches = help::framed(Arguments::command()).try_get_matches_from(given);
+    Arguments::from_arg_matches(&matches.map_err(|error| renamed(&verb, error))?)
+}
+
+/// Tells who uses a name of before which one it is now.
+fn renamed(verb: &str, error: clap::Error) -> clap::Error {
+    let words = match (verb, error.kind()) {
+        ("influence", ErrorKind::InvalidSubcommand) => "`influence` is called `sensitivity` now",
+        ("sensitivity", ErrorKind::UnknownArgument) => {
+            "`sensitivity` shares a variance out to its sources; what data could show of causes is `detectability` now"
+        }
+        _ => return error,
+    };
+    clap::Error::raw(error.kind(), format!("{words}\n"))
 }
 
 /// Does what a verb asks.
@@ -89,12 +103,12 @@ fn done(verb: &Verb) -> Result<Answer, Failure> {
         Verb::Diagnose(arguments) => diagnose::work::diagnose(arguments),
         Verb::Generate(arguments) => wall::generate::generate(arguments),
         Verb::Homogenise(arguments) => homogenise::homogenise(arguments),
-        Verb::Influence(arguments) => influence::work::influence(arguments),
+        Verb::Sensitivity(arguments) => sensitivity::work::sensitivity(arguments),
         Verb::Picture(arguments) => wall::picture::picture(arguments),
         Verb::Mechanisms(arguments) => mechanisms::mechanisms(arguments),
         Verb::PlanTests(arguments) => plan_tests::work::plan_tests(arguments),
         Verb::Readings(arguments) => readings::work::readings(arguments),
-        Verb::Sensitivity(arguments) => sensitivity::work::sensitivity(arguments),
+        Verb::Detectability(arguments) => detectability::work::detectability(arguments),
         Verb::Report(arguments) => report::report(arguments),
         Verb::Run(arguments) => run::work::run(arguments),
         Verb::Shard(arguments) => shard::shard(arguments),

@@ -9,6 +9,7 @@ mod causes;
 mod check;
 mod compare;
 mod conflict;
+mod detectability;
 mod discrepancy;
 mod extend;
 #[cfg(test)]
@@ -17,7 +18,6 @@ mod gain;
 mod joint_law;
 mod method;
 mod screening;
-mod sensitivity;
 #[cfg(test)]
 mod sheared;
 mod simulate;
@@ -33,6 +33,10 @@ pub use calibrate::{
 pub use causes::{COVERED, Evidence, Ranked, Ranking, evidence};
 pub use compare::{Beside, Difference, Measured, Ours, Simulated, Walls, compare, log_likelihood, simulated};
 pub use conflict::{PriorPredictive, log_weight};
+pub use detectability::{
+    Cell, Change, Detectability, DetectabilitySettings, Effect, NoDetectability, Observable, SEEN, Sight,
+    detectability,
+};
 pub use discrepancy::{
     Band, Baseline, Component, ComponentEstimate, Contrast, Discrepancy, Expected, Feature, Group, Parts,
     Reference, Residual, Residuals, Scale, Side, features,
@@ -47,10 +51,6 @@ pub use gain::{Choice, Folds, Gain, Gained, HeldOut, Interval, Measuring, Scores
 pub use joint_law::{Bend, KnownLaw, LawGain, LearntLaw, NamedForm, Nearness, NotLearnt, learnt_law};
 pub use method::{Analysis, SEEDS, Step, Steps, Task, diagnose};
 pub use screening::{DataNote, Extent, data_notes, data_notes_by_simulation};
-pub use sensitivity::{
-    Cell, Change, Effect, NoSensitivity, Observable, SEEN, Sensitivity, SensitivitySettings, Sight,
-    sensitivity,
-};
 pub use simulate::{
     BANK, Bank, Campaign, Causes, Design, Emulator, Held, NotThisBank, PRIOR_WIDENING, Path, Place, Plan,
     Seen, Specimen, Truth, Unused, World, stand_in,

@@ -12,7 +12,6 @@ mod evaluate;
 mod files;
 mod finished;
 mod given;
-mod influence;
 mod journal;
 mod ledger;
 mod lines;
@@ -26,6 +25,7 @@ mod record;
 mod run;
 mod schema;
 mod selection;
+mod sensitivity;
 mod shaken;
 pub mod shard;
 mod table;
@@ -48,10 +48,6 @@ pub use evaluate::{build, evaluate, solve, weight};
 pub use files::replace_file;
 pub use finished::{finished, identity};
 pub use given::{Unsure, given_points, predicted};
-pub use influence::{
-    Evaluation, InfluenceWalls, Influenced, LAYOUT, Source, Wall as InfluenceWall, base_points,
-    influence_table, sources, without_value,
-};
 pub use ledger::Ledger;
 pub use manifest::Manifest;
 pub use plates::{
@@ -65,5 +61,9 @@ pub use record::{LimitAnalysis, Mechanism, Row, ShakenRow, ShearRow, StepRow, Un
 pub use run::{Evaluations, Settings, run, run_with};
 pub use schema::column_reference;
 pub use selection::{Compared, Contest, Hopeless};
+pub use sensitivity::{
+    Evaluation, LAYOUT, SensitivityValue, SensitivityWalls, Source, Wall as SensitivityWall, base_points,
+    sensitivity_table, sources, without_value,
+};
 pub(crate) use table::parquet;
 pub use table::{Tables, tables_as_csv};

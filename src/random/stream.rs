@@ -40,7 +40,7 @@ pub struct Streams {
 }
 
 /// Quantities of which a member has the numbers of another one, for pick-freeze estimates; see
-/// [`influence`](crate::stats::influence).
+/// [`sensitivity`](crate::stats::sensitivity).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Taken {
     /// Which quantities.

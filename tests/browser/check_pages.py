@@ -1,8 +1,8 @@
 """Opens the pages that pirca writes in a real browser, without a network.
 
-usage: check_pages.py CHROMIUM RUN WALL VERDICT CAPACITY COMPARE INFLUENCE PLAN SENSITIVITY READINGS PLATE
+usage: check_pages.py CHROMIUM RUN WALL VERDICT CAPACITY COMPARE SENSITIVITY PLAN DETECTABILITY READINGS PLATE
         (CHROMIUM: the browser's program; RUN: report.html of a run with three random walls or more; WALL, VERDICT, ...: report.html of
-        analyse, diagnose, capacity, compare, influence, plan-tests, sensitivity, readings and homogenise; needs the package of
+        analyse, diagnose, capacity, compare, sensitivity, plan-tests, detectability, readings and homogenise; needs the package of
         requirements.txt)
 
 Of every page: nothing is fetched, the console is silent, no script of a name runs, the words that must be there are seen, all that a
@@ -205,7 +205,7 @@ def main():
     if len(sys.argv) != 12:
         sys.exit(__doc__)
     chromium, (run, wall, verdict, *answers) = sys.argv[1], map(pathlib.Path, sys.argv[2:])
-    capacity, compare, influence, plan, sensitivity, readings, plate = answers
+    capacity, compare, sensitivity, plan, detectability, readings, plate = answers
     shared = ["Limits of validity", "Provenance", "For a paper"]
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox", *SOFTWARE])
@@ -216,9 +216,9 @@ def main():
             (verdict, ["What is wrong", "Measured beside simulated", "Causes", "How often such verdicts are right", *shared]),
             (capacity, ["What came out", "Answers", "Values that these walls support", "Wall and inputs", *shared]),
             (compare, ["What came out", "Arms, the best first", "Every pair of arms", "Wall and inputs", *shared]),
-            (influence, ["What came out", "Shares of the variance in %", "Wall and inputs", *shared]),
+            (sensitivity, ["What came out", "Shares of the variance in %", "Wall and inputs", *shared]),
             (plan, ["What came out", "Characteristic value of 3 specimens", "Wall and inputs", *shared]),
-            (sensitivity, ["What came out", "What each mechanism was", "Wall and inputs", *shared]),
+            (detectability, ["What came out", "What each mechanism was", "Wall and inputs", *shared]),
             (readings, ["What came out", "Statements", "Readings, the best ones first", "Wall and inputs", *shared]),
             (plate, ["What came out", "Stiffness at kn of the arm", "Size of the cells", "Wall and inputs", *shared]),
         ]:

@@ -33,7 +33,7 @@ fn every_verb_has_help_with_an_example_and_the_exit_codes() {
     let verbs: Vec<&str> =
         whole.lines().filter_map(|line| line.strip_prefix("  ")?.split("  ").next()).collect();
     let of_a_study =
-        ["bank", "capacity", "check", "diagnose", "generate", "measured", "picture", "run", "sensitivity"];
+        ["bank", "capacity", "check", "diagnose", "generate", "measured", "picture", "run", "detectability"];
     for verb in ["analyse", "init", "mechanisms", "readings"].iter().chain(&of_a_study) {
         assert!(verbs.contains(verb), "{verb} is missing in: {whole}");
         let help = stdout(&ends_with(&folder, 0, &[verb, "--help"]));
@@ -72,9 +72,9 @@ fn arguments_that_make_no_sense_end_with_2() {
         (&["run", "studies/tiny", "--threads", "0"], "--threads"),
         (&["run", "studies/tiny", "--solver", "quantum"], "explicit"),
         (&["run", "studies/tiny", "--seed", "-1"], "-1"),
-        (&["sensitivity", "studies/tiny", "--members", "0"], "--members"),
-        (&["sensitivity", "studies/tiny", "--quantile", "1"], "--quantile"),
-        (&["sensitivity", "studies/tiny", "--quantile", "-0.5"], "--quantile"),
+        (&["detectability", "studies/tiny", "--members", "0"], "--members"),
+        (&["detectability", "studies/tiny", "--quantile", "1"], "--quantile"),
+        (&["detectability", "studies/tiny", "--quantile", "-0.5"], "--quantile"),
         (&["bank", "studies/tiny", "--points", "3"], "--points"),
         (&["diagnose", "studies/tiny", "--seed", "x"], "--seed"),
         (&["measured", "studies/tiny", "--wide"], "--template"),
@@ -126,7 +126,7 @@ fn a_path_without_a_study_is_told_with_the_studies_that_there_are() {
         ("studies/tiny/study.toml/x", "Not a directory"),
     ] {
         let generate = ["generate", path, "--out", "wall.obj"];
-        for verb in [&["check", path][..], &["run", path], &generate, &["sensitivity", path]] {
+        for verb in [&["check", path][..], &["run", path], &generate, &["detectability", path]] {
             let error = stderr(&ends_with(&folder, 3, verb));
             assert!(error.contains(found), "{found} in: {error}");
             assert!(error.contains("nearest name first:\n  studies/tiny"), "{error}");
@@ -438,9 +438,9 @@ fn measured_on_a_table() -> Folder {
 }
 
 #[test]
-fn sensitivity_writes_the_map_and_names_what_has_no_number() {
+fn detectability_writes_the_map_and_names_what_has_no_number() {
     let folder = measured_on_a_table();
-    let without = stderr(&ends_with(&folder, 3, &["sensitivity", "studies/tiny"]));
+    let without = stderr(&ends_with(&folder, 3, &["detectability", "studies/tiny"]));
     assert!(without.contains("measured.csv"), "{without}");
     fs::write(
         folder.path("studies/tiny/measured.csv"),
@@ -450,10 +450,10 @@ fn sensitivity_writes_the_map_and_names_what_has_no_number() {
          B,stack,80,displacement_mean,1,mm,0.5,exact,\n",
     )
     .unwrap();
-    let arguments = ["sensitivity", "studies/tiny", "--members", "1", "--json", "--out"];
+    let arguments = ["detectability", "studies/tiny", "--members", "1", "--json", "--out"];
     let told = json(&ends_with(&folder, 0, &[&arguments[..], &["a", "--threads", "1"]].concat()));
     ends_with(&folder, 0, &[&arguments[..], &["b", "--threads", "2"]].concat());
-    for name in ["sensitivity.csv", "sensitivity.json", "sensitivity.svg", "sensitivity.png"] {
+    for name in ["detectability.csv", "detectability.json", "detectability.svg", "detectability.png"] {
         let read =
             |out: &str| fs::read(folder.path(out).join(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
         assert_eq!(read("a"), read("b"), "{name}");
@@ -467,20 +467,29 @@ fn sensitivity_writes_the_map_and_names_what_has_no_number() {
     // The offset of the prior's 84 % quantile, 5 mm times the normal quantile 0.99446, over the error of 0.5 mm.
     let errors = cells("gauge_offset")[1]["in_measurement_errors"].as_f64().unwrap();
     assert!((errors - 9.9446).abs() < 1e-3, "{errors}");
-    let text = fs::read_to_string(folder.path("a/sensitivity.csv")).unwrap();
+    let text = fs::read_to_string(folder.path("a/detectability.csv")).unwrap();
     assert_eq!(text.lines().count(), 1 + 18 * 3);
     let columns = text.lines().next().unwrap().split(',').count();
     assert!(text.lines().filter(|line| !line.contains('"')).all(|line| line.split(',').count() == columns));
     assert!(!text.contains("NaN") && !text.contains("inf"));
     // Two walls, which are the same: one alone gives no interval.
-    let table = stdout(&ends_with(&folder, 0, &["sensitivity", "studies/tiny", "--members", "2"]));
+    let table = stdout(&ends_with(&folder, 0, &["detectability", "studies/tiny", "--members", "2"]));
     for said in [
         "tiny: data like these could see 8 of 18 mechanisms",
         "Seen: contact_inset (",
         "Not seen: ",
         "n/a",
-        "runs/tiny-sensitivity",
+        "runs/tiny-detectability",
     ] {
         assert!(table.contains(said), "{said} in: {table}");
     }
+}
+
+#[test]
+fn a_verb_of_before_says_what_it_is_called_now() {
+    let folder = Folder::with_study(STUDY);
+    let old = stderr(&ends_with(&folder, 2, &["influence", "studies/tiny"]));
+    assert!(old.contains("`influence` is called `sensitivity` now"), "{old}");
+    let swapped = stderr(&ends_with(&folder, 2, &["sensitivity", "studies/tiny", "--members", "1"]));
+    assert!(swapped.contains("`detectability` now"), "{swapped}");
 }

@@ -85,7 +85,7 @@ const STAGES: &[(&str, &[&str])] = &[
     // Measured beside simulated, reading by reading.
     ("compare", &[]),
     ("calibrate", &["compare"]),
-    ("sensitivity", &["compare"]),
+    ("detectability", &["compare"]),
     // The diagnosis.
     ("simulate", &["compare"]),
     ("screening", &["simulate"]),
@@ -117,11 +117,11 @@ const VERBS: &[(&str, &[&str])] = &[
     ("cite", &["arguments", "run"]),
     ("capacity", &["arguments", "question", "locate", "run"]),
     ("compare", &["arguments", "question", "arms", "locate", "run"]),
-    ("influence", &["arguments", "question", "arms", "locate", "share", "run"]),
+    ("sensitivity", &["arguments", "question", "arms", "locate", "share", "run"]),
     ("homogenise", &["arguments", "question", "arms", "locate", "share", "run"]),
     ("plan_tests", &["arguments", "question", "arms", "locate", "run"]),
     ("readings", &["arguments", "locate", "run"]),
-    ("sensitivity", &["arguments", "locate", "run"]),
+    ("detectability", &["arguments", "locate", "run"]),
     // The bank is the diagnosis's; shards compute it, and a table of measurements is checked as it is read there.
     ("diagnose", &["arguments", "locate", "run"]),
     ("measured", &["arguments", "locate", "diagnose"]),

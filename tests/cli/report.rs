@@ -184,8 +184,8 @@ fn what_was_asked_of_a_study_comes_on_a_page_if_it_is_asked_for() {
     );
     asked(
         &folder,
-        &["influence", "--points", "32"],
-        &["Shares of the variance in %", "id=\"figure-influence\"", "Sobol"],
+        &["sensitivity", "--points", "32"],
+        &["Shares of the variance in %", "id=\"figure-sensitivity\"", "Sobol"],
     );
     asked(
         &folder,
@@ -215,8 +215,8 @@ fn what_needs_published_or_measured_numbers_or_plates_comes_on_a_page_as_well() 
     fs::write(towers.path("studies/tiny/measured.csv"), measured).expect("a file");
     asked(
         &towers,
-        &["sensitivity", "--members", "1"],
-        &["<h3>What each mechanism was</h3>", "<summary>Family ", "id=\"figure-sensitivity\""],
+        &["detectability", "--members", "1"],
+        &["<h3>What each mechanism was</h3>", "<summary>Family ", "id=\"figure-detectability\""],
     );
 }
 

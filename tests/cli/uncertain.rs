@@ -165,7 +165,7 @@ fn a_variant_may_draw_and_what_each_wall_drew_is_in_the_table() {
     let run = folder.pirca(&["run", "studies/tiny", "--out", "plain", "--json"]);
     let summary: Value = serde_json::from_slice(&run.stdout).unwrap();
     assert!(summary["arms"][1]["parameters"].get("uncertain").is_none());
-    let measured = folder.pirca(&["sensitivity", "studies/tiny", "--variant", "unsure"]);
+    let measured = folder.pirca(&["detectability", "studies/tiny", "--variant", "unsure"]);
     assert_eq!(measured.status.code(), Some(3), "{}", stderr(&measured));
     assert!(stderr(&measured).contains("take a variant without it"), "{}", stderr(&measured));
 }

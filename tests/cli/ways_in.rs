@@ -28,7 +28,7 @@ const TABLE: &[(&str, &str, [Cell; 5])] = &[
         [Works, Works, Lacks("falls somewhere between two intensities"), NO_WALL, Works],
     ),
     ("compare", "--walls 20 --out out", [Works, Works, Works, NO_WALL, Works]),
-    ("influence", "--arm random --points 32 --out out", [Works, Works, Works, NO_WALL, Works]),
+    ("sensitivity", "--arm random --points 32 --out out", [Works, Works, Works, NO_WALL, Works]),
     ("plan-tests", "--specimens 4 --out out", [Works, Works, Works, NO_WALL, Works]),
     (
         "homogenise",

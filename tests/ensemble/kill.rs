@@ -105,11 +105,17 @@ struct Killed {
 
 const VERBS: [Killed; 3] = [
     Killed {
-        verb: "influence",
+        verb: "sensitivity",
         arguments: &["--points", "256"],
-        kept: "influence.jsonl",
+        kept: "sensitivity.jsonl",
         ripe: [1, 300, 700],
-        results: &["influence.json", "influence.csv", "influence.svg", "influence.png", "influence.parquet"],
+        results: &[
+            "sensitivity.json",
+            "sensitivity.csv",
+            "sensitivity.svg",
+            "sensitivity.png",
+            "sensitivity.parquet",
+        ],
     },
     Killed {
         verb: "capacity",
@@ -147,7 +153,7 @@ const VERBS: [Killed; 3] = [
 ];
 
 #[test]
-fn influence_capacity_and_compare_go_on_after_kills() {
+fn sensitivity_capacity_and_compare_go_on_after_kills() {
     let folder = Folder::with_study(&columns());
     for Killed { verb, arguments, kept, ripe, results } in VERBS {
         let of = |out: &'static str, threads: &'static str| {

@@ -278,7 +278,7 @@ fn verbs_that_ask_for_what_a_shaken_wall_lacks_say_what_it_is() {
     let folder = block();
     for (verb, lacks) in [
         (&["capacity", "studies/tiny", "--quantile", "0.05"][..], "falls somewhere between two intensities"),
-        (&["sensitivity", "studies/tiny"], "what is measured is read on walls at rest"),
+        (&["detectability", "studies/tiny"], "what is measured is read on walls at rest"),
         (&["run", "studies/tiny", "--report"], "takes a wall another way"),
         (&["report", "studies/tiny"], "takes a wall another way"),
     ] {

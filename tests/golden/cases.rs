@@ -140,7 +140,7 @@ pub const CASES: &[Case] = &[
         files: &[],
         commands: &[
             "run studies/tiny --members 16 --out out --csv --json",
-            "influence studies/tiny --points 32 --arm random --out influence --json",
+            "sensitivity studies/tiny --points 32 --arm random --out sensitivity --json",
             "capacity studies/tiny --members 32 --quantile 0.05 --out capacity --json",
         ],
     },
@@ -154,7 +154,7 @@ pub const CASES: &[Case] = &[
             "plan-tests studies/tiny --specimens 6 --members 20 --point 0 --out plan --json",
             // No published numbers, nothing measured, walls that are thinner at their top.
             "readings studies/tiny --members 2 --json",
-            "sensitivity studies/tiny --members 2 --json",
+            "detectability studies/tiny --members 2 --json",
             "homogenise studies/tiny --point 0 --json",
         ],
     },
@@ -198,7 +198,7 @@ pub const CASES: &[Case] = &[
         commands: &[
             "measured studies/tiny --template --specimens 2 --out measured.csv",
             "measured studies/tiny tests.csv --json",
-            "sensitivity studies/tiny --members 2 --out sensitivity --json",
+            "detectability studies/tiny --members 2 --out detectability --json",
             "bank studies/tiny --points 10 --out bank --json",
             "diagnose studies/tiny --points 10 --bank bank --no-build --no-gain --out verdict \
              --json",

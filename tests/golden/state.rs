@@ -28,7 +28,8 @@ const LONG: usize = 24;
 const MANY: usize = 400;
 const DEEP: usize = 4;
 /// Files that say how long something took, or in which order it was done.
-const PASSING_FILES: [&str; 4] = ["timing.csv", "journal.jsonl", "draws.jsonl", "influence.jsonl"];
+const PASSING_FILES: [&str; 6] =
+    ["timing.csv", "journal.jsonl", "draws.jsonl", "sensitivity.jsonl", "cells.jsonl", "walls.jsonl"];
 
 /// All files below a folder, with / between the parts of a name.
 pub fn files(folder: &Path) -> BTreeSet<String> {

@@ -1,7 +1,7 @@
 //! How often what is printed holds: every 95 % interval and every fractile, in 2,000 cases with known answers, at the numbers of
 //! walls that people test. An interval is to hold the truth in 93 to 97 of 100 cases, which is 95 with four standard errors of 2,000
 //! cases at each side. Where one does not, its exact or known share is stated with the reason, and it is held to that. Intervals that
-//! hold at every number of walls at once are in `always_valid`, those of designs in `randomised` and `influence`, those at a stop
+//! hold at every number of walls at once are in `always_valid`, those of designs in `randomised` and `sensitivity`, those at a stop
 //! in `sequential`.
 
 use crate::support::{near_share, sample, share};

@@ -215,7 +215,7 @@ pub(crate) struct Analyse {
         help_heading = OUTPUT
     )]
     pub at_deg: Option<f64>,
-    /// Folder for the same question as a study, with a copy of the wall: run, capacity, influence, compare and shard then take it. Ranges
+    /// Folder for the same question as a study, with a copy of the wall: run, capacity, sensitivity, compare and shard then take it. Ranges
     /// become distributions of [uncertain], and --walls its number of walls. For a tilt.
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub study: Option<PathBuf>,

@@ -1,265 +1,183 @@
-//! The map in the units of files.
+//! The answer as it is written.
 
-use crate::critic::{Cell, Change, Effect, Observable, Sensitivity, SensitivitySettings, Sight};
-use crate::stats::Estimate;
-use crate::study::{Described, MeasuredQuantity, Study};
-use crate::verb::run::answer::measured::{in_unit, tidy_degrees, unit};
+use std::collections::BTreeMap;
 
-/// How a change is measured, in words.
-const DEFINITION: &str = "change: mean over the walls of the observable with the mechanism less without it, the same walls and \
-    random numbers; error: standard deviation of the measured mean, errors of the readings and scatter between specimens \
-    together (the larger of the measured and the simulated scatter, over the root of the number of specimens); of an \
-    observable of which only bounds are known (*), the part of the change that lies beyond the bounds counts";
+use crate::ensemble::{LAYOUT, Quantity, SensitivityValue, Source, base_points, without_value};
+use crate::render::number::significant;
+use crate::stats::{BasePoint, Estimate, Share, possible_shares, sensitivity, share_alone};
+use crate::study::{Design, Study};
 
-/// The map. Intervals are at 95 % (Student's, of the paired differences); what is not defined is null.
+/// What the sources of an arm are responsible for. Intervals are at 95 %; what is not defined is null.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct SensitivitySummary {
     /// Name of the study.
     pub study: String,
     /// Its variant.
     pub variant: Option<String>,
+    /// Name of the arm.
+    pub arm: String,
+    /// Normal stiffness of the joints as stated (Pa/m).
+    pub kn_pa_per_m: f64,
     /// Seed of all random streams.
     pub seed: u64,
-    /// Hash of the study without any of the mechanisms.
-    pub study_hash: String,
-    /// Walls per arm.
-    pub members: u64,
-    /// Quantile of the priors, from the weak end, at which each mechanism is looked at.
-    pub quantile: f64,
-    /// How a change is measured.
-    pub definition: &'static str,
-    /// The columns.
-    pub observables: Vec<ObservableEntry>,
-    /// The rows.
-    pub mechanisms: Vec<MechanismEntry>,
-}
-
-/// A column.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
-pub struct ObservableEntry {
-    /// The arm.
-    pub family: String,
-    /// What was measured.
-    pub quantity: &'static str,
-    /// Tilt of the reading; null where the quantity has none of its own.
-    pub tilt_deg: Option<f64>,
-    /// Unit of the numbers below, and of the changes.
+    /// How what is drawn once per wall covers its space.
+    pub design: Design,
+    /// Base points.
+    pub points: u64,
+    /// Walls evaluated: two per base point, and one more for every source.
+    pub walls: u64,
+    /// Walls without a value, by how they ended.
+    pub failed: BTreeMap<String, u64>,
+    /// What scatters.
+    pub output: &'static str,
+    /// Its unit.
     pub unit: &'static str,
-    /// Readings that the errors rest on.
-    pub readings: usize,
-    /// Whether only bounds are known.
-    pub bounds_only: bool,
-    /// Mean of the walls without any of the mechanisms.
-    pub without: Option<f64>,
-    /// Error of the measured mean from the readings, one standard deviation.
-    pub measurement_error: f64,
-    /// The same from the scatter between specimens.
-    pub scatter: f64,
-    /// Both together.
-    pub error: f64,
+    /// Its mean.
+    pub mean: Option<f64>,
+    /// Its variance (unit squared).
+    pub variance: Option<f64>,
+    /// Interval of the variance.
+    pub variance_ci: Option<[f64; 2]>,
+    /// What the sources are responsible for without interactions between them: the sum of their first order shares.
+    pub alone: [Option<f64>; 3],
+    /// What their interactions are responsible for.
+    pub interactions: [Option<f64>; 3],
+    /// The widest half width of a share of a source; null where none has an interval.
+    pub half_width: Option<f64>,
+    /// Base points with which every share of a source is known to within 0.1, as intervals shrink with the root of their number; null where
+    /// these points are enough.
+    pub points_wanted: Option<u64>,
+    /// The sources: what is drawn once per wall, the layout as a whole, and what it consists of.
+    pub groups: Vec<ShareEntry>,
+    /// How the quantity is shown.
+    #[serde(skip)]
+    pub shown: Quantity,
 }
 
-/// A row.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
-pub struct MechanismEntry {
-    /// The mechanism.
-    pub mechanism: &'static str,
-    /// What it is.
-    pub what: &'static str,
-    /// Its parameters.
-    pub parameters: Vec<ParameterEntry>,
-    /// The best that any observable does.
-    pub sight: Sight,
-    /// A cell per observable.
-    pub cells: Vec<CellEntry>,
-}
+/// A share that is known to within this half width is known well.
+pub(crate) const WELL_KNOWN: f64 = 0.1;
 
-/// A parameter.
+/// What a source is responsible for, as shares of the variance: the value and the ends of its interval. Shares are the possible ones
+/// that are nearest to the estimates; see [`possible_shares`].
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
-pub struct ParameterEntry {
-    /// Its key.
-    pub key: &'static str,
-    /// Its value.
-    pub value: f64,
-    /// Its unit; "1" for a plain number.
-    pub unit: &'static str,
-}
-
-/// A cell. Numbers are null unless the outcome is `change`.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
-pub struct CellEntry {
-    /// What becomes of the observable: change, collapsed before the reading, and so on.
-    pub outcome: &'static str,
-    /// Why, where the mechanism is not applicable.
-    pub note: Option<&'static str>,
-    /// Whether the data can see it here.
-    pub sight: Sight,
-    /// The change.
-    pub change: Option<f64>,
-    /// Its interval.
-    pub change_ci: Option<[f64; 2]>,
-    /// The change that the readings can tell, over the error of the readings alone.
-    pub in_measurement_errors: Option<f64>,
-    /// The same over the error.
-    pub in_errors: Option<f64>,
-    /// Its interval.
-    pub in_errors_ci: Option<[f64; 2]>,
-    /// Walls with a value with and without the mechanism.
-    pub pairs: u64,
-    /// Walls that fall before the reading with the mechanism and not without.
-    pub fell_before: u64,
+pub struct ShareEntry {
+    /// The path of a parameter's key, `layout`, or what of the layout.
+    pub name: String,
+    /// Whether it is part of the layout, whose share it is counted in.
+    pub is_in_layout: bool,
+    /// What would go if the source were known.
+    pub first: [Option<f64>; 3],
+    /// What would be left if all others were known.
+    pub total: [Option<f64>; 3],
+    /// Whether they are known exactly: of the only source.
+    pub is_exact: bool,
+    /// The estimate of the first order share by itself, which by chance may lie below 0.
+    pub estimated_first: [Option<f64>; 3],
+    /// That of the total share, which by chance may lie above 1 or below the first order share.
+    pub estimated_total: [Option<f64>; 3],
+    /// Base points that it rests on.
+    pub points: u64,
 }
 
 impl SensitivitySummary {
-    /// From a map of a study and what it was made with.
+    /// Of the evaluated walls of a study with one arm, whose base points share so many randomisations in turn.
     pub fn of(
         study: &Study,
-        described: &[Described],
-        settings: &SensitivitySettings,
-        map: &Sensitivity,
+        kn_pa_per_m: f64,
+        sources: &[Source],
+        evaluated: &[Vec<SensitivityValue>],
+        randomisations: u64,
     ) -> SensitivitySummary {
-        let observables = map.observables.iter().zip(&map.base);
-        let row = |effect: &Effect| {
-            let found = described.iter().find(|one| one.name == effect.mechanism);
-            row(effect, found, &map.observables)
+        let points = base_points(evaluated);
+        let found = sensitivity(&points, randomisations as usize);
+        let quantity = Quantity::of(study);
+        let shares = possible(sources, &found.shares);
+        let whole: Vec<usize> = (0..sources.len()).filter(|k| !sources[*k].is_in_layout).collect();
+        let groups =
+            sources.iter().zip(&found.shares).zip(&shares).map(|((source, estimate), share)| ShareEntry {
+                name: source.name.clone(),
+                is_in_layout: source.is_in_layout,
+                first: with_ends(share.first),
+                total: with_ends(share.total),
+                is_exact: whole.len() == 1 && !source.is_in_layout && share.first.value.is_some(),
+                estimated_first: with_ends(estimate.first),
+                estimated_total: with_ends(estimate.total),
+                points: share.points as u64,
+            });
+        let alone = alone(&points, randomisations, &whole, &shares);
+        let turned = |x: Option<f64>| x.map(|x| 1.0 - x);
+        let [value, low, high] = with_ends(alone);
+        let half = |share: Estimate| share.interval.map(|[low, high]| 0.5 * (high - low));
+        let halves = whole.iter().flat_map(|k| [shares[*k].first, shares[*k].total]).filter_map(half);
+        let half_width = halves.reduce(f64::max);
+        let wanted = |half: f64| {
+            let ratio = half / WELL_KNOWN;
+            let wanted = (evaluated.len() as f64 * ratio * ratio / randomisations as f64).ceil();
+            (ratio > 1.0).then_some(wanted as u64 * randomisations)
         };
         SensitivitySummary {
             study: study.name.clone(),
             variant: study.variant.clone(),
+            arm: study.arms.first().map_or_else(String::new, |arm| arm.name.clone()),
+            kn_pa_per_m,
             seed: study.seed,
-            study_hash: study.hash.clone(),
-            members: settings.members,
-            quantile: settings.quantile,
-            definition: DEFINITION,
-            observables: observables.map(|(one, base)| ObservableEntry::of(one, *base)).collect(),
-            mechanisms: map.mechanisms.iter().map(row).collect(),
+            design: study.design,
+            points: evaluated.len() as u64,
+            walls: evaluated.iter().map(Vec::len).sum::<usize>() as u64,
+            failed: without_value(evaluated),
+            output: quantity.name(),
+            unit: quantity.unit(),
+            mean: found.mean.value,
+            variance: found.variance.value,
+            variance_ci: found.variance.interval,
+            groups: groups.collect(),
+            alone: [value, low, high],
+            interactions: [turned(value), turned(high), turned(low)],
+            half_width,
+            points_wanted: half_width.and_then(wanted),
+            shown: quantity,
         }
     }
 }
 
-impl ObservableEntry {
-    fn of(one: &Observable, base: Option<f64>) -> Self {
-        let number = |x: f64| in_unit(one.quantity, x);
-        ObservableEntry {
-            family: one.family.clone(),
-            quantity: one.quantity.name(),
-            tilt_deg: one.tilt.map(tidy_degrees),
-            unit: unit(one.quantity),
-            readings: one.readings,
-            bounds_only: one.bounds_only,
-            without: base.map(number),
-            measurement_error: number(one.measurement),
-            scatter: number(one.scatter),
-            error: number(one.error()),
-        }
-    }
-
-    /// Name as people read it: quantity, and tilt if it has one.
-    pub fn words(&self) -> String {
-        let bound = if self.bounds_only { " (bound)" } else { "" };
-        match self.tilt_deg {
-            Some(tilt) => format!("{} {} at {tilt} deg{bound}", self.family, self.short()),
-            None => format!("{} {}{bound}", self.family, self.short()),
-        }
-    }
-
-    /// The quantity, in the words of a column's head.
-    pub fn short(&self) -> &'static str {
-        match MeasuredQuantity::named(self.quantity) {
-            Some(MeasuredQuantity::CollapseAngle) => "angle",
-            Some(MeasuredQuantity::DisplacementMean) => "mean",
-            Some(MeasuredQuantity::DisplacementCentreMinusEnds) => "centre-ends",
-            Some(MeasuredQuantity::DisplacementLeft) => "left",
-            Some(MeasuredQuantity::DisplacementCentre) => "centre",
-            Some(MeasuredQuantity::DisplacementRight) => "right",
-            Some(MeasuredQuantity::RemainderMean) => "mean, back",
-            Some(MeasuredQuantity::RemainderCentreMinusEnds) => "centre-ends, back",
-            Some(MeasuredQuantity::RemainderLeft) => "left, back",
-            Some(MeasuredQuantity::RemainderCentre) => "centre, back",
-            Some(MeasuredQuantity::RemainderRight) => "right, back",
-            Some(MeasuredQuantity::SpecimenWeight) => "weight",
-            _ => self.quantity,
-        }
-    }
+/// The possible shares of sources, some of which the layout consists of.
+fn possible(sources: &[Source], shares: &[Share]) -> Vec<Share> {
+    let layout = sources.iter().position(|own| !own.is_in_layout && own.name == LAYOUT);
+    let part_of: Vec<Option<usize>> = sources.iter().map(|own| layout.filter(|_| own.is_in_layout)).collect();
+    possible_shares(shares, &part_of)
 }
 
-fn row(effect: &Effect, described: Option<&Described>, observables: &[Observable]) -> MechanismEntry {
-    let unit_of = |key: &str| {
-        let parameters = described.iter().flat_map(|one| &one.parameters);
-        parameters.clone().find(|p| p.key == key).map_or("1", |p| p.unit)
+/// The sum of the first order shares: its estimate's interval about the sum of the possible ones, within 0 and 1.
+fn alone(points: &[BasePoint], randomisations: u64, whole: &[usize], shares: &[Share]) -> Estimate {
+    let firsts: Option<Vec<f64>> = whole.iter().map(|k| shares[*k].first.value).collect();
+    let Some(firsts) = firsts else { return Estimate::UNDEFINED };
+    let value = firsts.iter().fold(0.0, |sum, first| sum + first).min(1.0);
+    if whole.len() == 1 {
+        return Estimate { value: Some(value), interval: Some([value; 2]) };
+    }
+    let estimate = share_alone(points, randomisations as usize, whole);
+    let within = |ends: [f64; 2]| {
+        let [low, high] = ends.map(|end| end.clamp(0.0, 1.0));
+        [low.min(value), high.max(value)]
     };
-    let parameter = |&(key, value): &(&'static str, f64)| ParameterEntry { key, value, unit: unit_of(key) };
-    MechanismEntry {
-        mechanism: effect.mechanism,
-        what: described.map_or("", |one| one.what),
-        parameters: effect.values.iter().map(parameter).collect(),
-        sight: effect.sight(),
-        cells: effect
-            .cells
-            .iter()
-            .zip(observables)
-            .map(|(cell, o)| CellEntry::of(cell, o.quantity))
-            .collect(),
-    }
+    Estimate { value: Some(value), interval: estimate.interval.map(within) }
 }
 
-impl CellEntry {
-    fn of(cell: &Cell, quantity: MeasuredQuantity) -> Self {
-        let number = |x: f64| in_unit(quantity, x);
-        let change: Option<&Change> = if let Cell::Change(change) = cell { Some(change) } else { None };
-        let value = |of: fn(&Change) -> Option<Estimate>| change.and_then(of);
-        CellEntry {
-            outcome: match cell {
-                Cell::Change(_) => "change",
-                Cell::FellBefore => "collapsed before the reading",
-                Cell::NeverReached => "collapsed before the reading without it as well",
-                Cell::OnlyWith => "reaches the reading only with it",
-                Cell::Stood => "stood to the end of the load path",
-                Cell::Lost => "not solved",
-                Cell::NotApplicable(_) => "not applicable",
-            },
-            note: if let Cell::NotApplicable(why) = cell { Some(why) } else { None },
-            sight: cell.sight(),
-            change: value(|c| Some(c.value)).and_then(|e| e.value).map(number),
-            change_ci: value(|c| Some(c.value)).and_then(|e| e.interval).map(|ci| ci.map(number)),
-            in_measurement_errors: value(|c| c.in_measurement_errors).and_then(|e| e.value),
-            in_errors: value(|c| c.in_errors).and_then(|e| e.value),
-            in_errors_ci: value(|c| c.in_errors).and_then(|e| e.interval),
-            pairs: change.map_or(0, |c| c.pairs),
-            fell_before: change.map_or(0, |c| c.fell_before),
-        }
-    }
-
-    /// What stands in the cell: the change in errors (with a mark where its interval includes 0), or the outcome's short name.
-    pub fn shown(&self) -> String {
-        match (self.outcome, self.in_errors) {
-            ("change", Some(errors)) => {
-                let unsure = self.in_errors_ci.is_none_or(|[low, high]| low <= 0.0 && high >= 0.0);
-                // A change of exactly 0 is no estimate of anything else.
-                let mark = if unsure && errors != 0.0 { "~" } else { "" };
-                let rounded = format!("{errors:+.1}");
-                let shown =
-                    if ["+0.0", "-0.0"].contains(&rounded.as_str()) { "0".to_string() } else { rounded };
-                format!("{mark}{shown}")
-            }
-            ("change", None) => "-".to_string(),
-            ("collapsed before the reading", _) => "falls".to_string(),
-            ("collapsed before the reading without it as well", _) => "fallen".to_string(),
-            ("reaches the reading only with it", _) => "stands".to_string(),
-            ("stood to the end of the load path", _) => "end".to_string(),
-            ("not applicable", _) => "n/a".to_string(),
-            _ => "lost".to_string(),
-        }
-    }
+fn with_ends(estimate: Estimate) -> [Option<f64>; 3] {
+    let [low, high] = estimate.interval.map_or([None; 2], |ends| ends.map(Some));
+    [estimate.value, low, high]
 }
 
-impl MechanismEntry {
-    /// The parameters in one line.
-    pub fn strength(&self) -> String {
-        let one = |p: &ParameterEntry| {
-            let unit = if p.unit == "1" { String::new() } else { format!(" {}", p.unit) };
-            format!("{} {}{unit}", p.key, crate::render::number::significant(p.value, 3))
-        };
-        self.parameters.iter().map(one).collect::<Vec<_>>().join(", ")
+/// The answer so far in a few words: the source with the largest total share.
+pub fn running(sources: &[Source], points: &[BasePoint], randomisations: u64) -> String {
+    let found = sensitivity(points, randomisations as usize);
+    let shares = possible(sources, &found.shares);
+    let totals = sources
+        .iter()
+        .zip(&shares)
+        .filter_map(|(source, share)| Some((source.name.as_str(), share.total.value?)));
+    match totals.max_by(|a, b| a.1.total_cmp(&b.1)) {
+        Some((name, total)) => format!("most from {name} so far: {} % in all", significant(100.0 * total, 2)),
+        None => "no scatter so far".to_owned(),
     }
 }

@@ -1,142 +1,125 @@
-//! How the heat map looks: a row per mechanism, a column per observable, the number in each cell.
-//!
-//! Blue below 0, orange above, the ends of Okabe and Ito's palette: told apart with the common colour vision deficiencies, and
-//! the number is there for a print in grey.
+//! How the shares look: a row per source, the first order filled, the total hollow, each on its interval.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use crate::render::draw::Figure;
-use crate::render::pen::{Drawn, LINE, Pen, centred, left};
+use crate::render::marker::{colour, filled, hollow};
+use crate::render::pen::{Drawn, Pen, centred, left};
 use crate::verb::sensitivity::answer::SensitivitySummary;
-use crate::verb::sensitivity::answer::document::heading;
 
-const LEFT: i32 = 180;
-const HEAD: i32 = 122;
-const CELL: [i32; 2] = [84, 27];
-const RIGHT: i32 = 20;
-/// Change (errors) at which a colour is full.
-const FULL: f64 = 6.0;
-const BELOW: [f64; 3] = [0.0, 114.0, 178.0];
-const ABOVE: [f64; 3] = [213.0, 94.0, 0.0];
-/// Grey of a cell without a number.
-const NAMED: RGBColor = RGBColor(226, 226, 226);
-/// Lines of text below the cells.
-const NOTES: i32 = 5;
+const LEFT: i32 = 330;
+const RIGHT: i32 = 30;
+const HEAD: i32 = 56;
+const ROW: i32 = 44;
+const WIDTH: i32 = 960;
+/// Room for the axis and the legend below the rows.
+const FOOT: i32 = 92;
+/// So far above and below the middle of its row lie a source's two marks.
+const APART: i32 = 9;
+/// Number of the round marker.
+const ROUND: usize = 2;
 
 /// What is drawn, at which scale.
-pub struct HeatMap<'s> {
+pub struct SharesPlot<'s> {
     summary: &'s SensitivitySummary,
+    /// Shares at the ends of the axis.
+    range: [f64; 2],
     pen: Pen,
 }
 
-impl<'s> HeatMap<'s> {
-    /// Prepares the map.
+impl<'s> SharesPlot<'s> {
+    /// Prepares the figure: from 0 to 1, and as far beyond as estimates lie.
     pub fn new(summary: &'s SensitivitySummary, scale: u32) -> Self {
-        HeatMap { summary, pen: Pen { scale } }
+        let values = summary.groups.iter().flat_map(|group| [group.first[0], group.total[0]]).flatten();
+        let range = values
+            .fold([0.0, 1.0], |[low, high], x: f64| [f64::min(low, x - 0.05), f64::max(high, x + 0.05)]);
+        SharesPlot { summary, range, pen: Pen { scale } }
     }
 
-    fn heads<DB: DrawingBackend>(&self, root: &DrawingArea<DB, Shift>) -> Drawn<DB> {
-        let variant = self.summary.variant.as_ref().map(|v| format!(", variant {v}")).unwrap_or_default();
-        let title = format!("{}{variant}: change per mechanism in errors of the data", self.summary.study);
-        root.draw(&Text::new(title, self.pen.at(16, 14), self.pen.font(22)))?;
-        let middle = self.pen.font(15).pos(centred());
-        let mut last: Option<&str> = None;
-        for (column, observable) in self.summary.observables.iter().enumerate() {
-            let x = LEFT + CELL[0] * column as i32 + CELL[0] / 2;
-            if last != Some(observable.family.as_str()) {
-                let family = self.pen.font(17).pos(left());
-                let name = observable.family.clone();
-                root.draw(&Text::new(name, self.pen.at(x - CELL[0] / 2 + 4, 60), family))?;
-                last = Some(&observable.family);
-            }
-            for (line, text) in heading(observable).into_iter().enumerate() {
-                root.draw(&Text::new(text, self.pen.at(x, 84 + 20 * line as i32), middle.clone()))?;
-            }
-        }
-        Ok(())
+    fn x(&self, share: f64) -> i32 {
+        let [low, high] = self.range;
+        let place = ((share - low) / (high - low)).clamp(0.0, 1.0);
+        LEFT + (place * f64::from(WIDTH - LEFT - RIGHT)).round() as i32
     }
 
-    fn cells<DB: DrawingBackend>(&self, root: &DrawingArea<DB, Shift>) -> Drawn<DB> {
-        let name = self.pen.font(16).pos(Pos::new(HPos::Right, VPos::Center));
-        let middle = centred();
-        for (line, row) in self.summary.mechanisms.iter().enumerate() {
-            let y = HEAD + CELL[1] * line as i32;
-            root.draw(&Text::new(row.mechanism, self.pen.at(LEFT - 8, y + CELL[1] / 2), name.clone()))?;
-            for (column, cell) in row.cells.iter().enumerate() {
-                let x = LEFT + CELL[0] * column as i32;
-                let colour = cell.in_errors.map_or(NAMED, shade);
-                let corners = [self.pen.at(x, y), self.pen.at(x + CELL[0] - 1, y + CELL[1] - 1)];
-                root.draw(&Rectangle::new(corners, colour.filled()))?;
-                let strong = cell.in_errors.is_some_and(|errors| errors.abs() > 0.7 * FULL);
-                let ink = if strong { &WHITE } else { &BLACK };
-                let style = self.pen.font(15).color(ink).pos(middle);
-                root.draw(&Text::new(cell.shown(), self.pen.at(x + CELL[0] / 2, y + CELL[1] / 2), style))?;
-            }
-        }
-        Ok(())
+    fn bottom(&self) -> i32 {
+        HEAD + ROW * self.summary.groups.len() as i32
     }
 
-    /// The colours with their numbers, and what the numbers are.
-    fn legend<DB: DrawingBackend>(&self, root: &DrawingArea<DB, Shift>) -> Drawn<DB> {
-        let top = HEAD + CELL[1] * self.summary.mechanisms.len() as i32 + 18;
-        let middle = self.pen.font(14).pos(centred());
-        for step in -6..=6 {
-            let x = LEFT + 36 * (step + 6);
-            let corners = [self.pen.at(x, top), self.pen.at(x + 36, top + 18)];
-            root.draw(&Rectangle::new(corners, shade(f64::from(step) * FULL / 6.0).filled()))?;
-            if step % 2 == 0 {
-                let number = format!("{:+.0}", f64::from(step) * FULL / 6.0).replace("+0", "0");
-                root.draw(&Text::new(number, self.pen.at(x + 18, top + 28), middle.clone()))?;
-            }
+    fn axis<DB: DrawingBackend>(&self, root: &DrawingArea<DB, Shift>) -> Drawn<DB> {
+        let grey = RGBColor(215, 215, 215).stroke_width(self.pen.scale);
+        for percent in (0..=100).step_by(20) {
+            let x = self.x(f64::from(percent) / 100.0);
+            root.draw(&PathElement::new([self.pen.at(x, HEAD), self.pen.at(x, self.bottom())], grey))?;
+            let font = self.pen.font(17).pos(centred());
+            root.draw(&Text::new(percent.to_string(), self.pen.at(x, self.bottom() + 16), font))?;
         }
-        let beside = format!("errors; full colour from {FULL} on; the data can see 2 and more");
+        let middle = (LEFT + WIDTH - RIGHT) / 2;
+        let words = format!("share of the variance of {} (%)", self.summary.shown.axis());
         root.draw(&Text::new(
-            beside,
-            self.pen.at(LEFT + 36 * 13 + 12, top + 9),
-            self.pen.font(15).pos(left()),
-        ))?;
-        for (line, text) in self.notes().into_iter().enumerate() {
-            let y = top + 52 + (LINE as i32 - 4) * line as i32;
-            root.draw(&Text::new(text, self.pen.at(16, y), self.pen.font(14).pos(left())))?;
-        }
-        Ok(())
+            words,
+            self.pen.at(middle, self.bottom() + 42),
+            self.pen.font(18).pos(centred()),
+        ))
     }
 
-    fn notes(&self) -> [String; NOTES as usize] {
-        let (quantile, members) = (self.summary.quantile, self.summary.members);
-        [
-            format!("Each mechanism at the {quantile} quantile of its priors, from the weak end; mean of {members} walls per family, the same with and without it."),
-            "Error: standard deviation of the measured mean, readings and scatter between specimens together.".to_string(),
-            "*: the readings are only known to be below a bound; what lies beyond it counts.".to_string(),
-            "~: 95 % interval of the paired change includes 0. falls: collapsed before the reading. fallen: also without it.".to_string(),
-            "stands: reaches the reading only with it. n/a: cannot act on these walls. end: stood to the end. lost: not solved. -: no error is known.".to_string(),
-        ]
+    fn mark<DB: DrawingBackend>(
+        &self,
+        root: &DrawingArea<DB, Shift>,
+        [value, low, high]: [Option<f64>; 3],
+        y: i32,
+        is_total: bool,
+    ) -> Drawn<DB> {
+        let Some(value) = value else { return Ok(()) };
+        if let Some((low, high)) = low.zip(high) {
+            let ends = [self.pen.at(self.x(low), y), self.pen.at(self.x(high), y)];
+            root.draw(&PathElement::new(ends, colour(ROUND).stroke_width(2 * self.pen.scale)))?;
+        }
+        let at = self.pen.at(self.x(value), y);
+        if !is_total {
+            return root.draw(&filled(at, ROUND, self.pen.scale));
+        }
+        hollow(at, ROUND, self.pen.scale).into_iter().try_for_each(|edge| root.draw(&edge))
     }
 }
 
-impl Figure for HeatMap<'_> {
+impl Figure for SharesPlot<'_> {
     fn size(&self) -> (u32, u32) {
-        let columns = (self.summary.observables.len() as i32).max(10);
-        let width = LEFT + CELL[0] * columns + RIGHT;
-        let rows = self.summary.mechanisms.len() as i32;
-        let height = HEAD + CELL[1] * rows + 18 + 46 + (LINE as i32 - 4) * NOTES + 8;
-        (width as u32 * self.pen.scale, height as u32 * self.pen.scale)
+        (WIDTH as u32 * self.pen.scale, (self.bottom() + FOOT) as u32 * self.pen.scale)
     }
 
     fn draw<DB: DrawingBackend>(&self, root: &DrawingArea<DB, Shift>) -> Drawn<DB> {
         root.fill(&WHITE)?;
-        self.heads(root)?;
-        self.cells(root)?;
-        self.legend(root)
+        let title = format!("{}, {}: where the scatter comes from", self.summary.study, self.summary.arm);
+        root.draw(&Text::new(title, self.pen.at(16, 16), self.pen.font(21)))?;
+        self.axis(root)?;
+        for (row, group) in (0..).zip(&self.summary.groups) {
+            let y = HEAD + ROW * row + ROW / 2;
+            let font = self.pen.font(16).pos(Pos::new(HPos::Right, VPos::Center));
+            let name = if group.is_in_layout {
+                format!("of the layout: {}", group.name)
+            } else {
+                group.name.clone()
+            };
+            root.draw(&Text::new(name, self.pen.at(LEFT - 14, y), font))?;
+            self.mark(root, group.first, y - APART, false)?;
+            self.mark(root, group.total, y + APART, true)?;
+        }
+        let y = self.bottom() + 72;
+        for (x, words, is_total) in
+            [(LEFT, "first order", false), (LEFT + 180, "total, with interactions", true)]
+        {
+            let at = self.pen.at(x, y);
+            match is_total {
+                false => root.draw(&filled(at, ROUND, self.pen.scale))?,
+                true => {
+                    hollow(at, ROUND, self.pen.scale).into_iter().try_for_each(|edge| root.draw(&edge))?
+                }
+            }
+            root.draw(&Text::new(words, self.pen.at(x + 16, y), self.pen.font(16).pos(left())))?;
+        }
+        Ok(())
     }
-}
-
-/// From white at 0 to the full colour at [`FULL`].
-fn shade(errors: f64) -> RGBColor {
-    let share = (errors.abs() / FULL).min(1.0);
-    let end = if errors < 0.0 { BELOW } else { ABOVE };
-    let [r, g, b] = end.map(|c| (255.0 + share * (c - 255.0)).round() as u8);
-    RGBColor(r, g, b)
 }

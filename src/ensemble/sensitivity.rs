@@ -1,5 +1,5 @@
 //! Where the scatter of an arm's walls comes from, by pick-freeze: a wall, its partner with other random numbers, and for each source
-//! the wall with the partner's numbers of that source; see [`influence`](crate::stats::influence).
+//! the wall with the partner's numbers of that source; see [`sensitivity`](crate::stats::sensitivity).
 
 use std::collections::BTreeMap;
 
@@ -114,7 +114,7 @@ pub struct Evaluation {
 
 /// What an evaluation came to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Influenced {
+pub struct SensitivityValue {
     /// The value; `None` of a wall that failed or whose value is only known to lie above something.
     pub value: Option<f64>,
     /// How the wall ended.
@@ -125,7 +125,7 @@ pub struct Influenced {
 const TOLD: usize = 16;
 
 /// The walls of a study of one arm whose scatter is asked for.
-pub struct InfluenceWalls<'s> {
+pub struct SensitivityWalls<'s> {
     /// The study.
     pub study: &'s Study,
     /// Index of the arm.
@@ -135,10 +135,10 @@ pub struct InfluenceWalls<'s> {
     /// Its sources.
     pub sources: &'s [Source],
     /// What was evaluated before, and is kept.
-    pub ledger: &'s Ledger<Evaluation, Influenced>,
+    pub ledger: &'s Ledger<Evaluation, SensitivityValue>,
 }
 
-impl InfluenceWalls<'_> {
+impl SensitivityWalls<'_> {
     /// The walls of a base point in the order own, partner, source by source.
     pub fn walls(&self, base: u64) -> Vec<Evaluation> {
         let mixed = self.sources.iter().map(|source| Wall::Mixed(source.name.clone()));
@@ -152,9 +152,9 @@ impl InfluenceWalls<'_> {
     pub fn evaluated(
         &self,
         points: u64,
-        tell: &mut dyn FnMut(&[Vec<Influenced>]),
-    ) -> Result<Vec<Vec<Influenced>>, RunError> {
-        let mut all: Vec<Vec<Influenced>> = Vec::new();
+        tell: &mut dyn FnMut(&[Vec<SensitivityValue>]),
+    ) -> Result<Vec<Vec<SensitivityValue>>, RunError> {
+        let mut all: Vec<Vec<SensitivityValue>> = Vec::new();
         let bases: Vec<u64> = (0..points).collect();
         for some in bases.chunks(TOLD) {
             let walls: Vec<Evaluation> = some.iter().flat_map(|base| self.walls(*base)).collect();
@@ -170,7 +170,7 @@ impl InfluenceWalls<'_> {
     /// are done.
     ///
     /// # Errors
-    /// As of [`InfluenceWalls::evaluated`].
+    /// As of [`SensitivityWalls::evaluated`].
     pub fn evaluate_shard(
         &self,
         points: u64,
@@ -184,11 +184,11 @@ impl InfluenceWalls<'_> {
         &self,
         walls: &[Evaluation],
         finished: &(dyn Fn(usize, usize) + Sync),
-    ) -> Result<Vec<Option<Influenced>>, RunError> {
+    ) -> Result<Vec<Option<SensitivityValue>>, RunError> {
         self.ledger.rows(walls, Evaluation::clone, finished, |wall| self.evaluate(wall))
     }
 
-    fn evaluate(&self, evaluation: &Evaluation) -> Influenced {
+    fn evaluate(&self, evaluation: &Evaluation) -> SensitivityValue {
         let (own, partner) = (evaluation.base, evaluation.base + PARTNER);
         let task = |member: u64| Task { arm: self.arm, point: self.point, member };
         let row = match &evaluation.wall {
@@ -206,13 +206,13 @@ impl InfluenceWalls<'_> {
             Observed::Above(_) => (None, "stood_to_the_end"),
             Observed::Nothing => (None, row.outcome.name()),
         };
-        Influenced { value, outcome: outcome.to_owned() }
+        SensitivityValue { value, outcome: outcome.to_owned() }
     }
 }
 
 /// The values of base points, from their walls in the order own, partner, source by source.
-pub fn base_points(evaluated: &[Vec<Influenced>]) -> Vec<BasePoint> {
-    let point = |walls: &Vec<Influenced>| BasePoint {
+pub fn base_points(evaluated: &[Vec<SensitivityValue>]) -> Vec<BasePoint> {
+    let point = |walls: &Vec<SensitivityValue>| BasePoint {
         own: walls[0].value,
         partner: walls[1].value,
         mixed: walls[2..].iter().map(|wall| wall.value).collect(),
@@ -224,9 +224,9 @@ pub fn base_points(evaluated: &[Vec<Influenced>]) -> Vec<BasePoint> {
 ///
 /// # Errors
 /// [`RunError::Table`] where it cannot be encoded.
-pub fn influence_table(
+pub fn sensitivity_table(
     sources: &[Source],
-    evaluated: &[Vec<Influenced>],
+    evaluated: &[Vec<SensitivityValue>],
     randomisations: u64,
 ) -> Result<Vec<u8>, RunError> {
     let names: Vec<&str> =
@@ -247,11 +247,11 @@ pub fn influence_table(
         )),
         Column::from(Series::new("value".into(), bases().map(|(_, wall)| wall.value).collect::<Vec<_>>())),
     ];
-    parquet("influence.parquet", evaluated.iter().map(Vec::len).sum(), columns)
+    parquet("sensitivity.parquet", evaluated.iter().map(Vec::len).sum(), columns)
 }
 
 /// Walls without a value, by how they ended.
-pub fn without_value(evaluated: &[Vec<Influenced>]) -> BTreeMap<String, u64> {
+pub fn without_value(evaluated: &[Vec<SensitivityValue>]) -> BTreeMap<String, u64> {
     let mut counts = BTreeMap::new();
     for wall in evaluated.iter().flatten().filter(|wall| wall.value.is_none()) {
         *counts.entry(wall.outcome.clone()).or_default() += 1;

@@ -35,7 +35,7 @@ pub struct Share {
 
 /// Mean, variance and the share of every group.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Influence {
+pub struct Sensitivity {
     /// Mean of the own and the partner's values.
     pub mean: Estimate,
     /// Their variance.
@@ -50,7 +50,7 @@ pub struct Influence {
 ///
 /// Base point k belongs to the randomisation k mod `randomisations`, which are independent of each other: intervals rest on their
 /// differences. Nothing is defined where the variance is 0.
-pub fn influence(points: &[BasePoint], randomisations: usize) -> Influence {
+pub fn sensitivity(points: &[BasePoint], randomisations: usize) -> Sensitivity {
     let groups = points.first().map_or(0, |point| point.mixed.len());
     let whole = |point: &BasePoint| Some([point.own?, point.partner?]);
     let pairs = shared(points, randomisations, whole);
@@ -71,7 +71,7 @@ pub fn influence(points: &[BasePoint], randomisations: usize) -> Influence {
             points: triples.iter().map(Vec::len).sum(),
         }
     };
-    Influence {
+    Sensitivity {
         mean: by_randomisations(&pairs, |pairs| mean(&flat(pairs))),
         variance: by_randomisations(&pairs, |pairs| variance(&flat(pairs))),
         shares: (0..groups).map(share).collect(),

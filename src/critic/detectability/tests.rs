@@ -40,12 +40,12 @@ fn stiff() -> Study {
     study
 }
 
-fn map(study: &Study, names: &[&str], threads: usize) -> Sensitivity {
-    let settings = SensitivitySettings { members: 2, quantile: 0.84, threads: NonZero::new(threads) };
-    sensitivity(study, &mechanisms(names), &settings, &Silent).unwrap_or_else(|fault| panic!("{fault}"))
+fn map(study: &Study, names: &[&str], threads: usize) -> Detectability {
+    let settings = DetectabilitySettings { members: 2, quantile: 0.84, threads: NonZero::new(threads) };
+    detectability(study, &mechanisms(names), &settings, &Silent).unwrap_or_else(|fault| panic!("{fault}"))
 }
 
-fn value(map: &Sensitivity, mechanism: &str, quantity: MeasuredQuantity) -> Change {
+fn value(map: &Detectability, mechanism: &str, quantity: MeasuredQuantity) -> Change {
     let row = map.mechanisms.iter().find(|row| row.mechanism == mechanism).expect("it was asked for");
     let at = |o: &Observable| o.quantity == quantity && o.tilt.is_none_or(|tilt| degrees(tilt) < 30.0);
     let column = map.observables.iter().position(at).expect("it was measured");
@@ -144,7 +144,7 @@ fn outcomes_of_pairs_have_names() {
 #[test]
 fn a_study_without_measurements_has_no_map() {
     let study = study(&[1e10], 1);
-    let settings = SensitivitySettings { members: 1, quantile: 0.5, threads: NonZero::new(1) };
-    let fault = sensitivity(&study, &mechanisms(&["density"]), &settings, &Silent).unwrap_err();
-    assert!(matches!(fault, NoSensitivity::NothingMeasured), "{fault}");
+    let settings = DetectabilitySettings { members: 1, quantile: 0.5, threads: NonZero::new(1) };
+    let fault = detectability(&study, &mechanisms(&["density"]), &settings, &Silent).unwrap_err();
+    assert!(matches!(fault, NoDetectability::NothingMeasured), "{fault}");
 }

@@ -1,8 +1,8 @@
-//! The words of an influence: at most five lines that say it, and the table.
+//! The words of an sensitivity: at most five lines that say it, and the table.
 
 use crate::render::number::{compact, or_dash, significant, with_interval};
-use crate::verb::influence::answer::entry::WELL_KNOWN;
-use crate::verb::influence::answer::{InfluenceSummary, ShareEntry};
+use crate::verb::sensitivity::answer::entry::WELL_KNOWN;
+use crate::verb::sensitivity::answer::{SensitivitySummary, ShareEntry};
 
 /// What the table holds.
 pub(crate) const SHARES: &str = "Shares of the variance in %, with 95 % intervals";
@@ -12,13 +12,13 @@ pub(crate) const ORDERS: &str = "first order: what would go if the source were k
      orders sum to 100 at most.";
 
 /// At most five lines.
-pub(crate) fn conclusion(summary: &InfluenceSummary) -> Vec<String> {
+pub(crate) fn conclusion(summary: &SensitivitySummary) -> Vec<String> {
     let lines = [scatter(summary), largest(summary), interactions(summary)];
     lines.into_iter().filter(|line| !line.is_empty()).collect()
 }
 
 /// A line per source, with the heads in the first row.
-pub(crate) fn shares(summary: &InfluenceSummary) -> Vec<Vec<String>> {
+pub(crate) fn shares(summary: &SensitivitySummary) -> Vec<Vec<String>> {
     let header = ["source", "first order", "total", "points"].map(str::to_owned).to_vec();
     let rows = summary.groups.iter().map(|group| {
         let name = if group.is_in_layout { format!("- {}", group.name) } else { group.name.clone() };
@@ -28,7 +28,7 @@ pub(crate) fn shares(summary: &InfluenceSummary) -> Vec<Vec<String>> {
 }
 
 /// How much the walls scatter, and how many brought no value.
-fn scatter(summary: &InfluenceSummary) -> String {
+fn scatter(summary: &SensitivitySummary) -> String {
     let variant = summary.variant.as_ref().map_or_else(String::new, |variant| format!(", variant {variant}"));
     let sigma = summary.variance.map(f64::sqrt);
     let shown = |x: f64| summary.shown.shown(x);
@@ -56,7 +56,7 @@ fn scatter(summary: &InfluenceSummary) -> String {
 }
 
 /// The sources by their total shares, the largest first; two lines hold three of them.
-fn largest(summary: &InfluenceSummary) -> String {
+fn largest(summary: &SensitivitySummary) -> String {
     let mut whole: Vec<(&ShareEntry, f64)> = summary
         .groups
         .iter()
@@ -79,7 +79,7 @@ fn largest(summary: &InfluenceSummary) -> String {
 }
 
 /// What the sources are responsible for alone, and what their interactions are.
-fn interactions(summary: &InfluenceSummary) -> String {
+fn interactions(summary: &SensitivitySummary) -> String {
     let several = summary.groups.iter().filter(|group| !group.is_in_layout).count() > 1;
     if !several || summary.alone[0].is_none() {
         return String::new();
@@ -98,7 +98,7 @@ fn interactions(summary: &InfluenceSummary) -> String {
 }
 
 /// How well the shares are known, where that is not well enough, and with how many base points it would be.
-pub(crate) fn known(summary: &InfluenceSummary) -> Option<String> {
+pub(crate) fn known(summary: &SensitivitySummary) -> Option<String> {
     let (half, wanted) = summary.half_width.zip(summary.points_wanted)?;
     Some(format!(
         "Shares are known to within {} % of the variance; to within {} % they would be with about {wanted} points (--points), as \
@@ -109,7 +109,7 @@ pub(crate) fn known(summary: &InfluenceSummary) -> Option<String> {
 }
 
 /// What looks wrong: so few base points that shares say little, or that their intervals hold less often than they say.
-pub fn influence_warnings(summary: &InfluenceSummary) -> Vec<String> {
+pub fn sensitivity_warnings(summary: &SensitivitySummary) -> Vec<String> {
     let Some(half) = summary.half_width.filter(|half| *half > 0.0) else { return Vec::new() };
     let is_short = summary.points < FEW;
     if half <= POOR && !is_short {

@@ -1,11 +1,11 @@
 """Compares the shares of a variance that pirca finds with those that SALib and OpenTURNS find.
 
-usage: check_influence.py FOLDER      (FOLDER: what `pirca influence tests/peers/column --out FOLDER` wrote;
+usage: check_sensitivity.py FOLDER      (FOLDER: what `pirca sensitivity tests/peers/column --out FOLDER` wrote;
                                        needs the packages of requirements.txt)
 
 1. Ishigami's function and the g-function at the points of points.csv, evaluated here again: 256 rows of 16 uniforms,
    numpy.random.default_rng(2026).random((256, 16)).round(6), own and partner's; base point k belongs to
-   randomisation k mod 16. shares.csv states what pirca finds, and a Rust test (`statistics`, influence) holds
+   randomisation k mod 16. shares.csv states what pirca finds, and a Rust test (`statistics`, sensitivity) holds
    pirca to it.
 2. The same two functions at many more points, against their shares in closed form: the closed forms that pirca's tests rest on.
 3. The column of random dips: the values that pirca found for its walls, and the closed form of the wall's angle of collapse.
@@ -44,7 +44,7 @@ FUNCTIONS = {
     "ishigami": (3, lambda u: Ishigami.evaluate(math.pi * (2.0 * u - 1.0))),
     "g": (8, lambda u: Sobol_G.evaluate(u, a=G)),
 }
-# First order and total; see tests/statistics/influence.rs.
+# First order and total; see tests/statistics/sensitivity.rs.
 CLOSED_FORMS = {
     "ishigami": [(0.313905, 0.557589), (0.442411, 0.442411), (0.0, 0.243684)],
     "g": [(0.71619, 0.78714), (0.17905, 0.24220), (0.02368, 0.03432), (0.00716, 0.01046)]
@@ -53,7 +53,7 @@ CLOSED_FORMS = {
 
 
 def fail(message):
-    print(f"check_influence: {message}", file=sys.stderr)
+    print(f"check_sensitivity: {message}", file=sys.stderr)
     sys.exit(1)
 
 
@@ -125,7 +125,7 @@ def check_stated():
         for k, (shares, exact) in enumerate(zip(stated[name], CLOSED_FORMS[name])):
             for order, (value, low, high), closed in zip(("first order", "total"), shares, exact):
                 same(f"{name}, input {k + 1}, {order} in closed form", closed, value, FAR * 0.5 * (high - low))
-        print(f"check_influence: {name} at {len(points)} points, {count} inputs: the shares that the peers find")
+        print(f"check_sensitivity: {name} at {len(points)} points, {count} inputs: the shares that the peers find")
 
 
 def check_closed_forms():
@@ -141,12 +141,12 @@ def check_closed_forms():
             for by, found in (("SALib", (by_salib["S1"][k], by_salib["ST"][k])), ("OpenTURNS", (first[k], total[k]))):
                 same(f"{what}, first order by {by}", found[0], exact[0], LEFT)
                 same(f"{what}, total by {by}", found[1], exact[1], LEFT)
-        print(f"check_influence: {name} at {MANY} points: the closed forms")
+        print(f"check_sensitivity: {name} at {MANY} points: the closed forms")
 
 
 def check_column(folder):
     """A column falls at phi less its largest dip: phi uniform in (23, 27) deg, and five dips in (-5, 5)."""
-    summary = json.loads((folder / "influence.json").read_text())
+    summary = json.loads((folder / "sensitivity.json").read_text())
     names = [group["name"] for group in summary["groups"]]
     if names != ["joint.phi_deg", "layout"] or summary["failed"]:
         fail(f"groups {names}, failed {summary['failed']}")
@@ -156,7 +156,7 @@ def check_column(folder):
         first, total = group["first"], group["total"]
         if not (0.0 <= first[0] <= total[0] + ROUNDING and total[0] <= 1.0):
             fail(f"column, {group['name']}: first order {first[0]} and total {total[0]} cannot be")
-    table = pyarrow.parquet.read_table(folder / "influence.parquet").to_pydict()
+    table = pyarrow.parquet.read_table(folder / "sensitivity.parquet").to_pydict()
     walls = {name: [] for name in ["own", "partner", *names]}
     for name, value in zip(table["numbers_from_the_partner"], table["value"]):
         walls[name].append(value)
@@ -175,7 +175,7 @@ def check_column(folder):
             for order, value, (_, low, high) in zip(("first order", "total"), pair, shares[k]):
                 if not low <= value <= high:
                     fail(f"column, {name}, {order} in closed form by {by}: {value} outside {low} to {high}")
-    print(f"check_influence: the column at {len(own)} points: the shares that the peers find, and its closed form's")
+    print(f"check_sensitivity: the column at {len(own)} points: the shares that the peers find, and its closed form's")
 
 
 def main():

@@ -1,4 +1,4 @@
-//! `pirca influence`: the sources of an arm, what it writes, and that nothing depends on threads or stops.
+//! `pirca sensitivity`: the sources of an arm, what it writes, and that nothing depends on threads or stops.
 
 use std::fs;
 
@@ -16,7 +16,7 @@ use crate::fixture::{Folder, stderr};
 const COLUMN: &str = include_str!("../peers/column/study.toml");
 
 fn asked(folder: &Folder, arguments: &[&str]) -> (Value, String) {
-    let all = [&["influence", "studies/tiny"], arguments].concat();
+    let all = [&["sensitivity", "studies/tiny"], arguments].concat();
     let json = folder.pirca(&[&all[..], &["--json"]].concat());
     assert_eq!(json.status.code(), Some(0), "{}", stderr(&json));
     let text = folder.pirca(&all);
@@ -65,9 +65,9 @@ fn the_scatter_of_random_columns_comes_from_friction_and_dips_as_in_their_closed
         "{text}"
     );
     for file in ["json", "csv", "svg", "png", "parquet"] {
-        assert!(folder.path(format!("out/influence.{file}")).is_file(), "{file}");
+        assert!(folder.path(format!("out/sensitivity.{file}")).is_file(), "{file}");
     }
-    assert_eq!(fs::read_to_string(folder.path("out/influence.csv")).unwrap().lines().count(), 3);
+    assert_eq!(fs::read_to_string(folder.path("out/sensitivity.csv")).unwrap().lines().count(), 3);
 }
 
 /// With friction fixed, all of the scatter is that of the layout, whatever the estimates are.
@@ -112,7 +112,7 @@ fn few_points_are_warned_of_and_their_shares_can_be() {
     let exact = 32.0 * (half / 0.1) * (half / 0.1);
     assert!((exact..=exact + 16.0).contains(&(wanted as f64)), "{wanted} for {exact}");
     assert!(one_line(&text).contains(&format!("with about {wanted} points (--points)")), "{text}");
-    let warned = folder.pirca(&[&["influence", "studies/tiny"], &few[..]].concat());
+    let warned = folder.pirca(&[&["sensitivity", "studies/tiny"], &few[..]].concat());
     assert!(stderr(&warned).contains("warning: --points 32: too few."), "{}", stderr(&warned));
 }
 
@@ -122,15 +122,15 @@ fn nothing_depends_on_threads_or_on_a_stop() {
     let (first, _) = asked(&folder, &["--points", "32", "--out", "one", "--threads", "1"]);
     asked(&folder, &["--points", "32", "--out", "two", "--threads", "2"]);
     let files = ["json", "csv", "svg", "png", "parquet"];
-    let bytes = |out: &str, file: &str| fs::read(folder.path(format!("{out}/influence.{file}"))).unwrap();
+    let bytes = |out: &str, file: &str| fs::read(folder.path(format!("{out}/sensitivity.{file}"))).unwrap();
     for file in files {
         assert!(bytes("one", file) == bytes("two", file), "{file}");
     }
     // Half of it is lost and the last line torn; more points go on from what is left.
-    let kept = fs::read_to_string(folder.path("two/influence.jsonl")).unwrap();
-    fs::write(folder.path("two/influence.jsonl"), &kept[..kept.len() / 2]).unwrap();
+    let kept = fs::read_to_string(folder.path("two/sensitivity.jsonl")).unwrap();
+    fs::write(folder.path("two/sensitivity.jsonl"), &kept[..kept.len() / 2]).unwrap();
     assert_eq!(asked(&folder, &["--points", "32", "--out", "two"]).0, first);
-    let lines = || fs::read_to_string(folder.path("two/influence.jsonl")).unwrap().lines().count();
+    let lines = || fs::read_to_string(folder.path("two/sensitivity.jsonl")).unwrap().lines().count();
     let before = lines();
     asked(&folder, &["--points", "48", "--out", "two"]);
     assert_eq!(lines() - before, 16 * 4);
@@ -138,9 +138,9 @@ fn nothing_depends_on_threads_or_on_a_stop() {
     folder.write_study(
         &COLUMN.replace("phi_deg = 25", "phi_deg = 26").replace("kn_over_ks = 2", "kn_over_ks = 3"),
     );
-    let other = folder.pirca(&["influence", "studies/tiny", "--points", "32", "--out", "two"]);
+    let other = folder.pirca(&["sensitivity", "studies/tiny", "--points", "32", "--out", "two"]);
     assert_eq!(other.status.code(), Some(1), "{}", stderr(&other));
-    assert!(stderr(&other).contains("influence.jsonl is of another study"), "{}", stderr(&other));
+    assert!(stderr(&other).contains("sensitivity.jsonl is of another study"), "{}", stderr(&other));
 }
 
 #[test]
@@ -156,7 +156,7 @@ fn walls_without_a_value_are_counted_and_what_cannot_be_asked_is_said() {
     assert!(json["groups"][0]["points"].as_u64().unwrap() < 32);
     let said = |text: &str, arguments: &[&str], code: i32, what: &str| {
         folder.write_study(text);
-        let output = folder.pirca(&[&["influence", "studies/tiny"], arguments].concat());
+        let output = folder.pirca(&[&["sensitivity", "studies/tiny"], arguments].concat());
         assert_eq!(output.status.code(), Some(code), "{arguments:?}: {}", stderr(&output));
         assert!(stderr(&output).contains(what), "{arguments:?}: {}", stderr(&output));
     };

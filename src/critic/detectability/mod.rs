@@ -6,6 +6,6 @@ mod observable;
 mod tests;
 
 pub use map::{
-    Cell, Change, Effect, NoSensitivity, SEEN, Sensitivity, SensitivitySettings, Sight, sensitivity,
+    Cell, Change, Detectability, DetectabilitySettings, Effect, NoDetectability, SEEN, Sight, detectability,
 };
 pub use observable::Observable;

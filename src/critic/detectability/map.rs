@@ -11,7 +11,7 @@ use std::num::NonZero;
 use rayon::prelude::*;
 
 use crate::critic::compare::Simulated;
-use crate::critic::sensitivity::observable::{Observable, observables};
+use crate::critic::detectability::observable::{Observable, observables};
 use crate::ensemble::{Progress, Row, Task, evaluate};
 use crate::protocol::Protocol;
 use crate::stats::{Estimate, Summary};
@@ -22,7 +22,7 @@ pub const SEEN: f64 = 2.0;
 
 /// How the walls are chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SensitivitySettings {
+pub struct DetectabilitySettings {
     /// Walls per arm, at least 1; also of an arm in which nothing is drawn, as a mechanism may draw.
     pub members: u64,
     /// The quantile of the priors at which a mechanism is looked at, see [`Described::at_strength`].
@@ -33,7 +33,7 @@ pub struct SensitivitySettings {
 
 /// The map.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sensitivity {
+pub struct Detectability {
     /// Its columns.
     pub observables: Vec<Observable>,
     /// What the walls of the base model show of each of them: the mean of those that bring a value.
@@ -103,7 +103,7 @@ pub enum Sight {
 
 /// Why there is no map.
 #[derive(Debug, thiserror::Error)]
-pub enum NoSensitivity {
+pub enum NoDetectability {
     /// The protocol is another one.
     #[error("the study tilts no platform: the map is that of a tilting test")]
     NotTilting,
@@ -126,15 +126,15 @@ pub enum NoSensitivity {
 /// Computes the map of a study for these mechanisms.
 ///
 /// # Errors
-/// See [`NoSensitivity`].
-pub fn sensitivity(
+/// See [`NoDetectability`].
+pub fn detectability(
     study: &Study,
     mechanisms: &[Described],
-    settings: &SensitivitySettings,
+    settings: &DetectabilitySettings,
     progress: &dyn Progress,
-) -> Result<Sensitivity, NoSensitivity> {
+) -> Result<Detectability, NoDetectability> {
     if !matches!(study.protocol, Protocol::Tilting(_)) {
-        return Err(NoSensitivity::NotTilting);
+        return Err(NoDetectability::NotTilting);
     }
     let base = study.clone().without_limit_analysis();
     let switched = mechanisms
@@ -142,16 +142,16 @@ pub fn sensitivity(
         .map(|mechanism| {
             let values = mechanism.at_strength(settings.quantile);
             let switched = base.with_mechanism(mechanism.name, &values);
-            let switched =
-                switched.map_err(|faults| NoSensitivity::Parameters { mechanism: mechanism.name, faults })?;
+            let switched = switched
+                .map_err(|faults| NoDetectability::Parameters { mechanism: mechanism.name, faults })?;
             Ok((mechanism.name, values, switched))
         })
-        .collect::<Result<Vec<_>, NoSensitivity>>()?;
+        .collect::<Result<Vec<_>, NoDetectability>>()?;
     let measured: Vec<usize> = (0..base.arms.len())
         .filter(|&arm| base.measured.iter().any(|m| m.family == base.arms[arm].name))
         .collect();
     if measured.is_empty() {
-        return Err(NoSensitivity::NothingMeasured);
+        return Err(NoDetectability::NothingMeasured);
     }
     let mut jobs = planned(&base, 0, &measured, settings.members);
     for (index, (.., Switched { study, idle })) in switched.iter().enumerate() {
@@ -163,7 +163,7 @@ pub fn sensitivity(
     let of = |place: usize, arm: usize| rows.get(&(place, arm)).map(|rows| rows.iter().collect::<Vec<_>>());
     let observables = observables(&base, |arm| of(0, arm).unwrap_or_default());
     if observables.is_empty() {
-        return Err(NoSensitivity::NothingMeasured);
+        return Err(NoDetectability::NothingMeasured);
     }
     let shown =
         |place: usize, o: &Observable| of(place, o.arm).and_then(|rows| o.shown(&rows)).unwrap_or_default();
@@ -177,7 +177,7 @@ pub fn sensitivity(
     });
     let mechanisms = mechanisms.collect();
     let base = without.iter().map(|shown| Summary::of(&values(shown)).mean.value).collect();
-    Ok(Sensitivity { observables, base, mechanisms })
+    Ok(Detectability { observables, base, mechanisms })
 }
 
 /// A wall to be evaluated: the study, its place (0 for the base model), the task.
@@ -194,9 +194,9 @@ fn planned<'s>(study: &'s Study, place: usize, arms: &[usize], members: u64) -> 
 /// The rows by place and arm, members ascending.
 fn evaluated(
     jobs: &[Job<'_>],
-    settings: &SensitivitySettings,
+    settings: &DetectabilitySettings,
     progress: &dyn Progress,
-) -> Result<BTreeMap<(usize, usize), Vec<Row>>, NoSensitivity> {
+) -> Result<BTreeMap<(usize, usize), Vec<Row>>, NoDetectability> {
     let threads =
         settings.threads.or_else(|| std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;

@@ -9,7 +9,7 @@ use std::fmt::Write;
 
 use pirca::math::sin;
 use pirca::random::{Design, PARTNER, Place, Streams};
-use pirca::stats::{BasePoint, Influence, influence, share_alone};
+use pirca::stats::{BasePoint, Sensitivity, sensitivity, share_alone};
 
 const RANDOMISATIONS: u64 = 16;
 /// Of uniforms.
@@ -17,7 +17,7 @@ type Function<'f> = &'f dyn Fn(&[f64]) -> f64;
 const NAMES: [&str; 8] = ["a", "b", "c", "d", "e", "f", "g", "h"];
 
 /// The shares of a function of so many uniforms, over so many base points of a design.
-fn shares(function: Function, inputs: usize, points: u64, design: Design, seed: u64) -> Influence {
+fn shares(function: Function, inputs: usize, points: u64, design: Design, seed: u64) -> Sensitivity {
     let draw = |member: u64| -> Vec<f64> {
         let place = Place { seed, member, points: points / RANDOMISATIONS };
         let names = NAMES[..inputs].iter().zip(0..);
@@ -28,7 +28,7 @@ fn shares(function: Function, inputs: usize, points: u64, design: Design, seed: 
     };
     let points: Vec<BasePoint> =
         (0..points).map(|k| base_point(function, &draw(k), &draw(k + PARTNER))).collect();
-    influence(&points, RANDOMISATIONS as usize)
+    sensitivity(&points, RANDOMISATIONS as usize)
 }
 
 /// The values of a function at a base point whose groups are its inputs, one by one.
@@ -107,7 +107,7 @@ fn the_shares_that_peers_check_are_ours() {
     for (name, function, inputs) in [("ishigami", &ishigami as Function, 3), ("g", &g, 8)] {
         let at = |point: &Vec<f64>| base_point(function, &point[..inputs], &point[8..8 + inputs]);
         let base_points: Vec<BasePoint> = points.iter().map(at).collect();
-        for (k, share) in (1..).zip(influence(&base_points, RANDOMISATIONS as usize).shares) {
+        for (k, share) in (1..).zip(sensitivity(&base_points, RANDOMISATIONS as usize).shares) {
             let numbers = [share.first, share.total].map(|estimate| {
                 let ([low, high], value) = estimate.interval.zip(estimate.value).expect("it varies");
                 format!("{value},{low},{high}")
@@ -182,7 +182,7 @@ fn what_groups_are_responsible_for_alone_is_their_sum() {
         let points: Vec<BasePoint> =
             (0..512).map(|k| base_point(&sum, &draw(k), &draw(k + PARTNER))).collect();
         let alone = share_alone(&points, 16, &[0, 1]);
-        let each = influence(&points, 16).shares;
+        let each = sensitivity(&points, 16).shares;
         let value = alone.value.expect("it varies");
         assert!((value - each.iter().map(|own| own.first.value.unwrap()).sum::<f64>()).abs() < 1e-12);
         let [low, high] = alone.interval.expect("sixteen randomisations");
@@ -206,15 +206,15 @@ fn what_failed_is_left_out_where_it_is_needed_and_nowhere_else() {
         })
         .collect();
     // The first input is everything and the second one nothing.
-    let whole = influence(&points, 16);
+    let whole = sensitivity(&points, 16);
     assert_eq!((whole.shares[0].first.value, whole.shares[1].total.value), (Some(1.0), Some(0.0)));
     points[3].mixed[0] = None;
     points[9].partner = None;
-    let found = influence(&points, 16);
+    let found = sensitivity(&points, 16);
     assert_eq!((found.shares[0].points, found.shares[1].points), (62, 63));
     assert_eq!(found.shares[0].first.value, Some(1.0));
     // Nothing varies: no share is defined.
     let same = vec![BasePoint { own: Some(2.0), partner: Some(2.0), mixed: vec![Some(2.0)] }; 32];
-    let found = influence(&same, 16);
+    let found = sensitivity(&same, 16);
     assert_eq!((found.variance.value, found.shares[0].first.value), (Some(0.0), None));
 }
