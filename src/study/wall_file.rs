@@ -43,19 +43,22 @@ pub struct Standing {
     warnings: Vec<String>,
 }
 
+/// What came of reading a wall.
+type Read = Result<Arc<Standing>, Vec<Fault>>;
+
 /// The files of walls beside a study, each read once.
 #[derive(Debug, Default)]
 pub struct WallFiles {
     /// The bytes of the files by their names, as the study gives them.
     pub bytes: BTreeMap<String, Arc<[u8]>>,
-    read: Vec<(String, Asked, Result<Arc<Standing>, Vec<Fault>>)>,
+    read: Vec<(String, Asked, Read)>,
     /// The files read, in that order.
     pub inputs: Vec<InputFile>,
 }
 
 impl WallFiles {
     /// The wall in a file, which lies at `path` where its bytes are not known already.
-    fn wall(&mut self, file: &str, path: PathBuf, asked: &Asked) -> Result<Arc<Standing>, Vec<Fault>> {
+    fn wall(&mut self, file: &str, path: PathBuf, asked: &Asked) -> Read {
         if let Some((.., known)) = self.read.iter().find(|(name, how, _)| name == file && how == asked) {
             return known.clone();
         }
