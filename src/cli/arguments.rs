@@ -48,7 +48,7 @@ pub(crate) enum Verb {
     /// A run that was stopped goes on where it stood.
     #[command(after_help = run::ask::HELP)]
     Run(run::ask::Run),
-    /// Compute a part of a study's walls, for many machines.
+    /// Share a study out over a cluster (Slurm, Dask, any other).
     ///
     /// With --plan it says into how many shards the walls are best shared out and prints what starts them. With --index it computes one:
     /// as often as it is started, by any engine, on any machine that sees the output folder.
@@ -71,7 +71,7 @@ pub(crate) enum Verb {
     /// Say how to cite a run: version, study, seed and hash.
     #[command(after_help = cite::HELP)]
     Cite(cite::Cite),
-    /// Say what walls may be counted on to bear.
+    /// Say which load 95 % of walls reach, and how sure that is.
     ///
     /// The probability of a failure below some load, a low quantile, characteristic and design values: from simulated walls, or with --measured from tested specimens alone.
     #[command(after_help = capacity::ask::HELP)]
@@ -82,7 +82,7 @@ pub(crate) enum Verb {
     /// layout consists of.
     #[command(after_help = sensitivity::ask::HELP)]
     Sensitivity(sensitivity::ask::Sensitivity),
-    /// Say which arm of a study is the best, and how sure that is.
+    /// Say which way of building (arm) is the best, and how sure.
     ///
     /// Evaluates walls until every other arm is shown to be worse than the best one, or the same. Arms share the random numbers of a member;
     /// those that are near to the best one get the walls.
@@ -94,14 +94,15 @@ pub(crate) enum Verb {
     /// that they bear, with mean, sigma and COV, and what both do as cells grow.
     #[command(after_help = homogenise::ask::HELP)]
     Homogenise(homogenise::ask::Homogenise),
-    /// Say which readings of a study explain what was published.
+    /// Say which interpretation of a paper fits what it reports.
     ///
     /// Where a source does not say all that it did, its statements may tell which of the possible readings is meant: the study's
     /// variants are searched, alone and together.
     #[command(after_help = readings::ask::HELP)]
     Readings(readings::ask::Readings),
-    /// Simulate the walls that a diagnosis rests on, once for its design.
+    /// Simulate beforehand the walls that diagnose compares with.
     ///
+    /// `pirca diagnose` does it by itself where they are missing. They serve every measurement of one test programme.
     /// Every mechanism is simulated at many strengths, with joints that are known as badly as they are. A bank that was stopped
     /// goes on where it stood.
     #[command(after_help = diagnose::bank::HELP)]
@@ -122,19 +123,19 @@ pub(crate) enum Verb {
     /// The table is for a spreadsheet. Of a filled one it says what is read from it and what looks odd; it simulates nothing.
     #[command(after_help = measured::HELP)]
     Measured(measured::Measured),
-    /// Say which mechanisms the measurements of a study could show.
+    /// Say which errors of the model the measurements could reveal.
     ///
     /// What each mechanism changes in every quantity of measured.csv, in units of the quantity's error. For studies on the
     /// tilting table.
     #[command(after_help = detectability::ask::HELP)]
     Detectability(detectability::ask::Detectability),
-    /// List the mechanisms that a study may switch on, with their priors.
+    /// List what the model leaves out (creep, rounded edges, ...).
     ///
     /// What each one is, where it acts, its parameters with their priors, whether its effect goes when the wall is unloaded,
     /// what it is confounded with, and whether limit analysis honours it.
     #[command(after_help = mechanisms::HELP)]
     Mechanisms(mechanisms::Mechanisms),
-    /// Say at which tilt or horizontal load a wall from a file falls.
+    /// Say at which tilt or horizontal load a wall in a file falls.
     ///
     /// The wall is a wall.json or an OBJ file that somebody else made.
     #[command(after_help = analyse::ask::HELP)]

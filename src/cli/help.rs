@@ -42,11 +42,13 @@ const GROUPS: [(&str, &[&str]); 5] = [
 /// Of the program.
 pub(super) const WHOLE: &str = concat!(
     "\
-Examples: pirca analyse wall.json --phi-deg 35
+Examples: pirca analyse wall.obj --phi-deg 35
           pirca init my-wall
           pirca run my-wall
+          pirca run my-wall --variant joint.phi_deg=30
 
-A study is a folder with a study.toml: which walls, under which load, by which solver. `pirca VERB --help` explains a verb. \
+A study is a folder with a study.toml: which walls, under which load, by which solver. Each kind of wall in it is an arm; [sweep] gives a \
+key several values. `pirca VERB --help` explains a verb. \
 With --json it prints one JSON object; warnings and progress go to standard error, and nowhere with --quiet. \
 NO_COLOR=1 keeps terminals plain.
 
@@ -172,7 +174,7 @@ fn verbs(command: &Command) -> String {
         let _ = writeln!(text, "\n{header}{heading}:{header:#}");
         for verb in verbs.iter().filter_map(|name| command.find_subcommand(name)) {
             let about = verb.get_about().map(ToString::to_string).unwrap_or_default();
-            let _ = writeln!(text, "  {:<12} {about}", verb.get_name());
+            let _ = writeln!(text, "  {:<14} {about}", verb.get_name());
         }
     }
     text

@@ -8,7 +8,7 @@ use crate::commands::stdout;
 use crate::fixture::{Folder, stderr};
 
 /// A running bond, and random courses of the same stones.
-const STUDY: &str = r#"
+pub const STUDY: &str = r#"
 [study]
 question = "What is it as a plate?"
 seed = 3

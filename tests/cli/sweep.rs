@@ -5,61 +5,7 @@ use std::fs;
 use serde_json::Value;
 
 use crate::fixture::{Folder, stderr};
-
-/// A running bond and random courses that tilt, by limit analysis.
-const STUDY: &str = r#"
-[study]
-question = "At which tilt does it fall?"
-seed = 3
-
-[wall]
-height_m = 0.8
-length_m = 1.2
-base_thickness_m = 0.3
-top_thickness_m = 0.3
-battered_face = "both"
-
-[block]
-density_kg_per_m3 = 2400
-
-[joint]
-kn_pa_per_m = [1e9]
-kn_over_ks = 2.0
-phi_deg = 32
-cohesion_pa = 0
-tension_pa = 0
-
-[load]
-protocol = "tilting"
-towards = "y+"
-step_deg = 1
-end_deg = 60
-bracket_deg = 0.05
-
-[restraint]
-base = "fixed"
-ends = "free"
-
-[solver]
-name = "limit"
-
-[[arm]]
-name = "regular"
-members = 1
-arrangement = "discontinuous"
-block_length_m = 0.4
-course_height_m = 0.2
-overlap = 0.5
-
-[[arm]]
-name = "random"
-members = 3
-arrangement = "coursed"
-length_m = { family = "uniform", low = 0.3, high = 0.5 }
-height_m = { family = "uniform", low = 0.15, high = 0.25 }
-dip_deg = { family = "uniform", low = -5, high = 5 }
-least_overlap = 0.1
-"#;
+use crate::homogenise::STUDY;
 
 fn run(study: &str, more: &[&str]) -> (Folder, Value) {
     let folder = Folder::with_study(study);
@@ -97,7 +43,7 @@ fn every_value_is_an_arm_with_the_walls_of_a_study_that_sets_it() {
     let table = fs::read_to_string(folder.path("out/sweep.csv")).unwrap();
     assert!(table.starts_with("arm,made_from,joint.phi_deg,kn_pa_per_m,walls_in_mean,mean_"), "{table}");
     assert!(
-        table.lines().any(|line| line.starts_with("random-phi_deg-32_5,random,32.5,1000000000,3,")),
+        table.lines().any(|line| line.starts_with("random-phi_deg-32_5,random,32.5,1000000000,5,")),
         "{table}"
     );
     let figure = fs::read_to_string(folder.path("out/sweep.svg")).unwrap();

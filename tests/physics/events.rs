@@ -36,8 +36,9 @@ fn wall(small_on_a_wedge: bool) -> Wall {
         for v in &mut wedge.vertices {
             v.z = if v.z > 0.0 { slope * (1.0 - v.y) + 0.05 } else { 0.0 };
         }
+        // No base, which would take the platform's place.
         let fixed =
-            Block { shape: wedge, density: 2400.0, support: Support::Fixed, tag: Tag::Base, group: None };
+            Block { shape: wedge, density: 2400.0, support: Support::Fixed, tag: Tag::End, group: None };
         blocks.insert(0, small);
         blocks.push(fixed);
     } else {
