@@ -32,10 +32,10 @@ pub(crate) enum Verb {
     /// would not find in its new place.
     #[command(after_help = init::HELP)]
     Init(init::Init),
-    /// List all faults of a study, or say that it has none; runs nothing.
+    /// List all faults of a study, or that it has none; runs nothing.
     #[command(after_help = check::HELP)]
     Check(check::Check),
-    /// Write one wall of a study to a file: VTU (ParaView), OBJ or JSON.
+    /// Write one wall of a study to a file: VTU, OBJ or JSON.
     #[command(after_help = wall::ask::GENERATE)]
     Generate(wall::ask::Generate),
     /// Draw how one wall of a study falls.
@@ -43,7 +43,7 @@ pub(crate) enum Verb {
     /// Solves the wall first. Its joints are coloured by how far they open or slip, or by the pressure in them.
     #[command(after_help = wall::ask::PICTURE)]
     Picture(wall::ask::Picture),
-    /// Build and solve all walls of a study: tables, statistics, figures.
+    /// Build and solve all walls of a study: statistics, figures.
     ///
     /// A run that was stopped goes on where it stood.
     #[command(after_help = run::ask::HELP)]
@@ -62,7 +62,7 @@ pub(crate) enum Verb {
     /// Tables, statistics and figures are those that `pirca run` writes, byte for byte.
     #[command(after_help = shard::ask::MERGE)]
     Merge(shard::ask::Merge),
-    /// Put a run, a study or a wall on a page: answer, figures, sources.
+    /// Put a run, a study or a wall on a page, with its sources.
     ///
     /// One HTML file that any browser opens without a network: question, answer, figures, every wall, the weakest, the median and the
     /// strongest one drawn, every input with its source, limits, provenance, and a paragraph for a paper.
