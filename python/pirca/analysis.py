@@ -99,6 +99,7 @@ def analyse(
     once: bool = False,
     rayleigh: tuple[float, float, float] | None = None,
     time_step: float | None = None,
+    study: str | Path | None = None,
     out: str | Path | None = None,
     report: bool = False,
     progress: bool = False,
@@ -151,6 +152,8 @@ def analyse(
         stones that swing in their joints are damped by half of critical, in proportion to stiffness alone; (0, 1, 10) is no damping.
     time_step : float, optional
         Time step of contact dynamics under a base motion (s); 0.002 without it.
+    study : path, optional
+        Folder for the same question as a study, with a copy of the wall: `Study(study)` then has capacity, sensitivity and the like.
     out : path, optional
         Folder for a page of it all, the picture of the mechanism, files for ParaView, tables of blocks and joints, and the blocks
         themselves (`wall.json`).
@@ -195,6 +198,7 @@ def analyse(
         "once": once,
         "rayleigh": None if rayleigh is None else ",".join(map(str, rayleigh)),
         "time_step": time_step,
+        "study": study,
         "out": out,
         "report": report,
         "progress": progress,

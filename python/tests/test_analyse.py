@@ -162,3 +162,9 @@ def test_blocks_that_make_no_wall_are_refused():
     refused(pirca.UsageError, r"a range is \(low, high\)", phi_deg=(30, 34, 38))
     with pytest.raises(pirca.UsageError, match="leave it out"):
         pirca.analyse("tower.json", phi_deg=35, fixed=[0])
+
+
+def test_the_same_question_as_a_study_has_the_same_answer(empty_folder):
+    alone = pirca.analyse(tower(), fixed=[0], phi_deg=35, density_kg_per_m3=2400, study="mine")
+    summary = pirca.Study("mine").run(out="out").summary
+    assert summary["arms"][0]["mean"] == pytest.approx(alone["collapse_angle_deg"], abs=1e-9)
