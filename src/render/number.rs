@@ -109,17 +109,27 @@ pub fn range(values: impl IntoIterator<Item = f64>) -> Option<[f64; 2]> {
     })
 }
 
-/// A name of at most `longest` characters; a longer one is cut and ends in an ellipsis.
+/// A name of at most `longest` characters; a longer one is cut in its middle, as names that are alike differ at their ends.
 pub fn shortened(name: &str, longest: usize) -> String {
-    match name.chars().count() > longest {
-        true => name.chars().take(longest - 1).chain(['\u{2026}']).collect(),
-        false => name.to_string(),
+    let all: Vec<char> = name.chars().collect();
+    if all.len() <= longest {
+        return name.to_owned();
     }
+    let tail = (longest - 1) / 2;
+    let (head, tail) = (&all[..longest - 1 - tail], &all[all.len() - tail..]);
+    head.iter().chain(&['\u{2026}']).chain(tail).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn long_names_that_differ_at_their_ends_stay_apart() {
+        assert_eq!(shortened("irregular-phi_deg-25", 18), "irregular\u{2026}i_deg-25");
+        assert_eq!(shortened("irregular-phi_deg-35", 18), "irregular\u{2026}i_deg-35");
+        assert_eq!(shortened("irregular", 9), "irregular");
+    }
 
     #[test]
     fn an_end_beside_one_keeps_the_digit_that_tells_its_side() {
