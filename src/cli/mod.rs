@@ -8,7 +8,7 @@ mod man;
 use std::ffi::OsString;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use clap::error::ErrorKind;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, FromArgMatches};
 
 use crate::cli::arguments::{Arguments, Verb};
@@ -74,11 +74,16 @@ fn read(given: Vec<OsString>) -> Result<Arguments, clap::Error> {
     Arguments::from_arg_matches(&matches.map_err(|error| renamed(&verb, error))?)
 }
 
-/// Tells who uses a name of before which one it is now.
+/// The error of arguments, with the new name of a verb that was renamed, or whose option belongs to `detectability` now.
 fn renamed(verb: &str, error: clap::Error) -> clap::Error {
-    let words = match (verb, error.kind()) {
-        ("influence", ErrorKind::InvalidSubcommand) => "`influence` is called `sensitivity` now",
-        ("sensitivity", ErrorKind::UnknownArgument) => {
+    let command = Arguments::command();
+    let moved = |option: &str| {
+        let verb = command.find_subcommand("detectability").expect("it is a verb");
+        verb.get_arguments().any(|own| own.get_long() == option.strip_prefix("--"))
+    };
+    let words = match (verb, error.kind(), error.get(ContextKind::InvalidArg)) {
+        ("influence", ErrorKind::InvalidSubcommand, _) => "`influence` is called `sensitivity` now",
+        ("sensitivity", ErrorKind::UnknownArgument, Some(ContextValue::String(option))) if moved(option) => {
             "`sensitivity` shares a variance out to its sources; what data could show of causes is `detectability` now"
         }
         _ => return error,

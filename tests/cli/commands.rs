@@ -492,4 +492,7 @@ fn a_verb_of_before_says_what_it_is_called_now() {
     assert!(old.contains("`influence` is called `sensitivity` now"), "{old}");
     let swapped = stderr(&ends_with(&folder, 2, &["sensitivity", "studies/tiny", "--members", "1"]));
     assert!(swapped.contains("`detectability` now"), "{swapped}");
+    // A slip of the pen is told as one.
+    let slip = stderr(&ends_with(&folder, 2, &["sensitivity", "studies/tiny", "--pionts", "32"]));
+    assert!(slip.contains("--points") && !slip.contains("detectability"), "{slip}");
 }
