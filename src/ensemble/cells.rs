@@ -96,10 +96,11 @@ pub fn run_cells(
         }
     }
     let keys = WallKeys::of(&Manifest::of(study));
+    let what = format!("{:?} at {:?} Pa", asked.of, asked.pressure);
     let key = |task: &CellTask| CellKey {
         wall: cell_key(study, &keys, asked.point, *task),
         stones: asked.sizes[task.size],
-        asked: format!("{:?} at {:?} Pa", asked.of, asked.pressure),
+        asked: what.clone(),
     };
     let ledger: Ledger<CellKey, Result<CellAnswer, String>> = Ledger::open(folder, CELLS, share)?;
     let rows = ledger.rows(&tasks, key, finished, |task| evaluate_cell(study, asked, *task).found)?;

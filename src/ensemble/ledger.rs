@@ -51,15 +51,7 @@ where
     /// # Errors
     /// [`RunError::File`] where it cannot be read or written.
     pub fn open(folder: &Path, name: &str, share: Option<Share>) -> Result<Self, RunError> {
-        let own = file(name, share);
-        let mut rows = HashMap::new();
-        for path in shards(folder, name)?.into_iter().filter(|path| !path.ends_with(&own)) {
-            let text = fs::read(&path).map_err(|error| RunError::file("read", &path, error))?;
-            rows.extend(tasks(Lines::read(&String::from_utf8_lossy(&text))));
-        }
-        let (lines, found) = Lines::open(folder.join(own))?;
-        rows.extend(tasks(found.into_iter()));
-        Ok(Ledger { lines, rows: Mutex::new(rows), share })
+        Ok(Self::checked(folder, name, None, share)?.0)
     }
 
     /// The same of rows that one study alone may have, by the hash of all that decides it: its keys need not say so.
@@ -67,26 +59,46 @@ where
     /// # Errors
     /// [`RunError::NotOurs`] where they are of another study, and as of [`Ledger::open`].
     pub fn of_study(folder: &Path, name: &str, study: &str, share: Option<Share>) -> Result<Self, RunError> {
-        let own = file(name, share);
-        let mut is_stated = false;
-        for path in shards(folder, name)? {
-            let text = fs::read(&path).map_err(|error| RunError::file("read", &path, error))?;
-            let text = String::from_utf8_lossy(&text).into_owned();
-            for line in Lines::read::<Line<K, R>>(&text) {
-                let Line::Study(other) = line else { continue };
-                if other != study {
-                    let file = path.file_name().unwrap_or_default().to_string_lossy();
-                    let found = format!("its {file} is of another study, or of the same with other values");
-                    return Err(RunError::NotOurs { folder: folder.to_path_buf(), found });
-                }
-                is_stated |= path.ends_with(&own);
-            }
-        }
-        let ledger = Ledger::open(folder, name, share)?;
+        let (ledger, is_stated) = Self::checked(folder, name, Some(study), share)?;
         if !is_stated {
             ledger.lines.add(std::iter::once(Line::<K, R>::Study(study.to_owned())));
         }
         ledger.lines.fault().map_or(Ok(ledger), Err)
+    }
+
+    /// Opens it, and says whether its own file states the study.
+    fn checked(
+        folder: &Path,
+        name: &str,
+        study: Option<&str>,
+        share: Option<Share>,
+    ) -> Result<(Self, bool), RunError> {
+        let own = folder.join(file(name, share));
+        let mut rows = HashMap::new();
+        let mut take = |line, path: &Path| match line {
+            Line::Task { key, row } => {
+                rows.insert(key, row);
+                Ok(false)
+            }
+            Line::Study(other) if study.is_none_or(|study| study == other) => Ok(true),
+            Line::Study(_) => {
+                let file = path.file_name().unwrap_or_default().to_string_lossy();
+                let found = format!("its {file} is of another study, or of the same with other values");
+                Err(RunError::NotOurs { folder: folder.to_path_buf(), found })
+            }
+        };
+        for path in shards(folder, name)?.into_iter().filter(|path| *path != own) {
+            let text = fs::read(&path).map_err(|error| RunError::file("read", &path, error))?;
+            for line in Lines::read(&String::from_utf8_lossy(&text)) {
+                take(line, &path)?;
+            }
+        }
+        let (lines, found) = Lines::open(own.clone())?;
+        let mut is_stated = false;
+        for line in found {
+            is_stated |= take(line, &own)?;
+        }
+        Ok((Ledger { lines, rows: Mutex::new(rows), share }, is_stated))
     }
 
     /// What a task came to; `None` where it is not known yet.
@@ -109,19 +121,20 @@ where
         finished: &(dyn Fn(usize, usize) + Sync),
         evaluate: impl Fn(&T) -> R + Sync,
     ) -> Result<Vec<Option<R>>, RunError> {
-        let mine = tasks.iter().enumerate().filter(|(at, _)| self.has(*at)).map(|(_, task)| task);
-        let open: Vec<(K, &T)> =
-            mine.map(|task| (key(task), task)).filter(|(key, _)| self.row(key).is_none()).collect();
+        let keys: Vec<K> = tasks.iter().map(key).collect();
+        let all = keys.iter().zip(tasks).enumerate();
+        let open: Vec<(&K, &T)> = all
+            .filter(|(at, (key, _))| self.has(*at) && self.row(key).is_none())
+            .map(|(_, keyed)| keyed)
+            .collect();
         let done = AtomicUsize::new(0);
-        open.par_iter().with_max_len(1).for_each(|(key, task)| {
+        open.par_iter().with_max_len(1).try_for_each(|(key, task)| {
             interrupt::look();
-            self.keep(key, evaluate(task));
+            self.keep(key, evaluate(task))?;
             finished(done.fetch_add(1, Ordering::Relaxed) + 1, open.len());
-        });
-        match self.lines.fault() {
-            Some(fault) => Err(fault),
-            None => Ok(tasks.iter().map(|task| self.row(&key(task))).collect()),
-        }
+            Ok::<(), RunError>(())
+        })?;
+        Ok(keys.iter().map(|key| self.row(key)).collect())
     }
 
     /// Whether the task at that place among all is this shard's.
@@ -129,7 +142,7 @@ where
         self.share.is_none_or(|share| at as u64 % u64::from(share.of) == u64::from(share.index))
     }
 
-    fn keep(&self, key: &K, row: R) {
+    fn keep(&self, key: &K, row: R) -> Result<(), RunError> {
         let line = Line::Task { key: key.clone(), row: row.clone() };
         let json = serde_json::to_string(&line).expect("a line has string keys only");
         let back = serde_json::from_str::<Line<K, R>>(&json);
@@ -139,6 +152,7 @@ where
         );
         self.lines.add(std::iter::once(line));
         self.rows.lock().expect("nothing panics that holds it").insert(key.clone(), row);
+        self.lines.fault().map_or(Ok(()), Err)
     }
 }
 
@@ -165,13 +179,6 @@ fn shards(folder: &Path, name: &str) -> Result<Vec<PathBuf>, RunError> {
         entries.filter_map(|entry| Some(entry.ok()?.path())).filter(is_one).collect();
     files.sort();
     Ok(files)
-}
-
-fn tasks<K, R>(lines: impl Iterator<Item = Line<K, R>>) -> impl Iterator<Item = (K, R)> {
-    lines.filter_map(|line| match line {
-        Line::Task { key, row } => Some((key, row)),
-        Line::Study(_) => None,
-    })
 }
 
 #[cfg(test)]
