@@ -143,8 +143,12 @@ impl Earthquakes {
         }
         let intensities = t.list(measure.key());
         let mut records = t.table("records")?;
-        let generator = match records.chosen()? {
-            "files" | "pulses" => None,
+        let (generator, motions) = match records.chosen()? {
+            "files" => (None, catalogue.records(&mut records)?),
+            "pulses" => {
+                let place = records.place_of("pulse").clone();
+                (None, pulses(&mut records)?.into_iter().map(|motion| (motion, place.clone())).collect())
+            }
             model => {
                 let (count, step) = (records.whole("count"), records.real("step_s"));
                 let process = match model {
@@ -153,16 +157,8 @@ impl Earthquakes {
                     }
                     _ => families(&mut records, REZAEIAN, catalogue).map(Process::Rezaeian),
                 };
-                Some(Generator { count: count?, step: step?, process: process? })
+                (Some(Generator { count: count?, step: step?, process: process? }), Vec::new())
             }
-        };
-        let motions = match records.chosen() {
-            Some("files") => catalogue.records(&mut records)?,
-            Some("pulses") => {
-                let place = records.place_of("pulse").clone();
-                pulses(&mut records)?.into_iter().map(|motion| (motion, place.clone())).collect()
-            }
-            _ => Vec::new(),
         };
         let towards = towards?;
         let mut read = Vec::new();
