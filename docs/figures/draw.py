@@ -289,7 +289,7 @@ def arrangements(program):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "wall.json"
             study = HERE.parent.parent / "studies/joint-arrangement"
-            subprocess.run([program, "generate", study, *which, "--out", path], check=True, capture_output=True)
+            subprocess.run([program, "wall", study, *which, "--out", path], check=True, capture_output=True)
             faces = front(json.loads(path.read_text()))
         low, high = min(x for face in faces for x, _ in face), max(x for face in faces for x, _ in face)
         top = max(z for face in faces for _, z in face)

@@ -2,7 +2,7 @@
 
     python dask_shards.py tcp://SCHEDULER:8786 STUDY --of 64 --out DIR --threads 1
 
-All machines see the same folders. Started once more it goes on from what is complete. `pirca shard STUDY --plan dask` prints this file with
+All machines see the same folders. Started once more it goes on from what is complete. `pirca shards plan STUDY --script dask` prints this file with
 the study in it, so that the address of the scheduler is all that it needs. With the package, `pirca.Study(STUDY).run(client=client)` does it.
 """
 
@@ -13,9 +13,9 @@ import sys
 
 from dask.distributed import Client, as_completed
 
-# What --plan writes here, or else the arguments, as `pirca shard` takes them.
+# What `pirca shards plan` writes here, or else the arguments, as `pirca shards run` takes them.
 PLANNED = r"""@SHARD_LIST@"""
-ASKED = json.loads(PLANNED) if PLANNED.startswith("[") else ["shard", *sys.argv[2:]]
+ASKED = json.loads(PLANNED) if PLANNED.startswith("[") else ["shards", "run", *sys.argv[2:]]
 FOLDER = os.getcwd()
 OF, OUT = (ASKED[ASKED.index(option) + 1] for option in ("--of", "--out"))
 
@@ -34,4 +34,4 @@ client = Client(sys.argv[1])
 shards = client.map(shard, range(int(OF)), pure=False, retries=2)
 for count, future in enumerate(as_completed(shards), 1):
     print(f"shard {future.result()} is complete, {count} of {OF}", file=sys.stderr)
-sys.exit(subprocess.run(["pirca", "merge", OUT], check=False).returncode)
+sys.exit(subprocess.run(["pirca", "shards", "merge", OUT], check=False).returncode)

@@ -66,12 +66,12 @@ class Answer(Mapping[str, Any]):
 
 
 def ask(verb: str, *files: Any, progress: bool = False, **options: Any) -> Answer:
-    """Do what any verb of the command line does, as `pirca.ask("cite", "runs/mine")`.
+    """Do what any verb of the command line does, as `pirca.ask("report", "runs/mine", cite=True)`.
 
     Parameters
     ----------
     verb : str
-        The verb: "check", "cite", "init", "measured", "mechanisms", "schema", ...
+        The verb: "check", "init", "report", "reference", ...
     files
         What stands behind the verb without a name: the study, the folder of a run, a wall.
     progress : bool

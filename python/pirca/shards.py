@@ -43,7 +43,7 @@ _ONE = threading.Lock()
 
 
 class Work(NamedTuple):
-    """Walls that are shared out: of a study or a batch, asked for with options of `pirca shard`, and the folder of the shards."""
+    """Walls that are shared out: of a study or a batch, asked for with options of `pirca shards run`, and the folder of the shards."""
 
     name: str
     study: Path
@@ -53,10 +53,10 @@ class Work(NamedTuple):
     walls: int | None = None
 
     def status(self) -> dict[str, Any]:
-        """What `pirca status --json` says; empty before the first shard is begun."""
+        """What `pirca shards status --json` says; empty before the first shard is begun."""
         if not (self.out / "shards" / "work.json").exists():
             return {}
-        status: dict[str, Any] = json.loads(ask("status", self.out).json)
+        status: dict[str, Any] = json.loads(ask("shards", "status", self.out).json)
         return status
 
     def missing(self, of: int) -> list[int]:
@@ -66,12 +66,12 @@ class Work(NamedTuple):
         return [index for first, last in ends for index in range(int(first), int(last) + 1)]
 
     def number(self, workers: int, *, progress: bool) -> int:
-        """Into how many shards: as the folder has begun with, or as `pirca shard --plan` advises and enough for every worker."""
+        """Into how many shards: as the folder has begun with, or as `pirca shards plan` advises and enough for every worker."""
         if begun := self.status():
             return int(begun["shards"])
         if self.walls:
             return min(_EACH * workers, self.walls)
-        plan = json.loads(ask("shard", self.study, plan=True, progress=progress, **self.options).json)
+        plan = json.loads(ask("shards", "plan", self.study, progress=progress, **self.options).json)
         return int(min(max(plan["shards"], _EACH * workers), plan["evaluations"]))
 
 
@@ -171,7 +171,7 @@ def compute(study: str, index: int, of: int, options: Mapping[str, Any], mark: P
             raise RunError(_unseen(mark.parent))
         with _ONE:
             look()
-            ask("shard", study, hear=look, index=index, of=of, threads=worker.state.nthreads, **options)
+            ask("shards", "run", study, hear=look, index=index, of=of, threads=worker.state.nthreads, **options)
     except Error as error:
         raise type(error)(f"{error} (on worker {worker.address})") from None
     return index

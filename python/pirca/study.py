@@ -41,7 +41,7 @@ class Study:
     threads : int, optional
         Worker threads; one per processor without it. No result depends on their number.
     **keys
-        Keys of the study with other values, by their paths: `**{"joint.phi_deg": 32}`. `pirca check STUDY --keys` lists all.
+        Keys of the study with other values, by their paths: `**{"joint.phi_deg": 32}`. `pirca reference keys` lists all.
 
     Raises
     ------
@@ -127,7 +127,7 @@ class Study:
             out = out or self._folder()
             asked = {"members": self._members, "seed": self._seed, "solver": solver}
             self._on(client, out, shards, progress, asked)
-            answered = ask("merge", out, study=self.path)
+            answered = ask("shards", "merge", out, study=self.path)
         if client is None or beside or csv or report:
             answered = self._ask(
                 "run",
@@ -169,11 +169,11 @@ class Study:
         measured = self._file_of(measured, out)
         absolute = measured and Path(measured).absolute()
         self._on(client, out, shards, progress, {"bank": True, "measured": absolute, "points": points})
-        ask("merge", out, study=self.path)
+        ask("shards", "merge", out, study=self.path)
         return out
 
     def wall(self, arm: str | None = None, member: int = 0, *, point: int = 0, base: bool = False) -> Wall:
-        """Build one wall, as `pirca generate`.
+        """Build one wall, as `pirca wall`.
 
         Parameters
         ----------
@@ -189,7 +189,7 @@ class Study:
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "wall.json"
             answered = self._ask(
-                "generate",
+                "wall",
                 threads=None,
                 arm=arm,
                 member=member,

@@ -316,8 +316,8 @@ def test_the_command_alone_will_do(cluster, quick, plain):
 
 
 def test_the_script_that_is_printed_needs_the_address_alone(cluster, quick, plain, pirca_command):
-    planned = ["--plan", "dask", "--members", 2, "--of", 3, "--out", "planned by pirca"]
-    Path("shards.py").write_text(pirca_command("shard", quick.path, *planned).stdout)
+    planned = ["--script", "dask", "--members", 2, "--of", 3, "--out", "planned by pirca"]
+    Path("shards.py").write_text(pirca_command("shards", "plan", quick.path, *planned).stdout)
     command = [sys.executable, "shards.py", cluster.client.scheduler.address]
     done = subprocess.run(command, capture_output=True, text=True, env=cluster.environment, check=False)
     assert done.returncode == 0, done.stderr
@@ -329,8 +329,8 @@ def test_a_bank_is_that_of_one_machine(cluster, studies, pirca_command):
     bank = pirca.Study(study).bank(cluster.client, measured=measured, points=10, shards=3)
     assert bank == Path("runs/example-bank") and len(shards(bank)) == 3
     whole = ["--bank", "--measured", measured, "--points", 10, "--index", 0, "--of", 1, "--out", "theirs"]
-    pirca_command("shard", study, *whole)
-    pirca_command("merge", "theirs")
+    pirca_command("shards", "run", study, *whole)
+    pirca_command("shards", "merge", "theirs")
     assert (bank / "bank.parquet").read_bytes() == Path("theirs/bank.parquet").read_bytes()
 
 

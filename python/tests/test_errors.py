@@ -24,7 +24,7 @@ def test_each_has_the_text_of_the_command_line(studies, pirca_command, empty_fol
             pirca.UsageError,
             2,
             lambda: pirca.Study(study).wall("none"),
-            ["generate", study, "--arm", "none", "--out", "a.json"],
+            ["wall", study, "--arm", "none", "--out", "a.json"],
         ),
         (pirca.RunError, 1, lambda: pirca.Study(study).run(out="file"), ["run", study, "--out", "file"]),
     ]

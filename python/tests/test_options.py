@@ -25,14 +25,16 @@ VERBS = {
     "diagnose": (
         Study.diagnose,
         {"progress", "build", "gain"},
-        {"variant", "json", "seed", "threads", "no_build", "no_gain"},
+        {"variant", "json", "seed", "threads", "no_build", "no_gain", "prepare", "judged"},
     ),
-    "bank": (Study.bank, {"progress", "client", "shards"}, {"variant", "json", "seed", "threads", "judged"}),
     "analyse": (analyse, {"progress", "wall", "fixed"}, {"json"}),
-    "generate": (
+    "wall": (
         Study.wall,
         {"base"},
-        {"variant", "json", "members", "seed", "solved", "with_base", "out", "draw", "draws"},
+        {
+            *("variant", "json", "members", "seed", "solved", "with_base", "out", "draw", "draws"),
+            *("colour", "magnify", "frames", "series"),
+        },
     ),
 }
 

@@ -77,15 +77,13 @@ def test_detectability(told, empty_folder, studies):
     same_files(empty_folder / "ours", empty_folder / "theirs")
 
 
-@pytest.mark.parametrize("verb", ["check", "schema", "init", "measured", "completions"])
+@pytest.mark.parametrize("verb", ["check", "init", "reference"])
 def test_any_verb_gives_its_answer(verb, pirca_command, studies, empty_folder):
     table = studies / "tilting-table"
     files, options, typed = {
         "check": ([table], {}, ["check", table]),
-        "schema": ([], {"of": "published"}, ["schema", "--of", "published"]),
         "init": (["wall-a"], {}, ["init", "wall-b"]),
-        "measured": ([table], {"template": True}, ["measured", table, "--template"]),
-        "completions": (["bash"], {}, ["completions", "bash"]),
+        "reference": (["schema"], {"of": "published"}, ["reference", "schema", "--of", "published"]),
     }[verb]
     answer = pirca.ask(verb, *files, **options)
     assert answer.text.replace("wall-a", "wall-b") == pirca_command(*typed).stdout

@@ -13,7 +13,7 @@ def test_a_wall_is_the_one_that_generate_writes(studies, pirca_command):
     study = pirca.Study(studies / "joint-arrangement", variant="cut")
     wall = study.wall("irregular", 3, base=True)
     pirca_command(
-        "generate",
+        "wall",
         studies / "joint-arrangement",
         "--variant",
         "cut",

@@ -1,14 +1,11 @@
 //! The arguments, as clap reads them; their docstrings are the help. What frames the help is in `help`.
 
-use std::path::PathBuf;
+use clap::{Parser, Subcommand};
 
-use clap::{Args, Parser, Subcommand};
-use clap_complete::Shell;
-
-use crate::cli::help::{COMPLETIONS, MAN, WHOLE};
+use crate::cli::help::WHOLE;
 use crate::verb::{
-    analyse, capacity, check, cite, compare, detectability, diagnose, homogenise, init, measured, mechanisms,
-    plan_tests, readings, report, run, schema, sensitivity, shard, wall,
+    analyse, capacity, check, compare, detectability, diagnose, homogenise, init, plan_tests, readings,
+    reference, report, run, sensitivity, shards, wall,
 };
 
 /// How strong is a dry stone wall whose every stone is different, and how sure is that?
@@ -26,23 +23,23 @@ pub(crate) struct Arguments {
 /// The verbs. The first line of each is its line in the list of verbs, where `help` groups them.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Verb {
-    /// Begin a study: a commented one that runs as it is, or a copy.
+    /// Begin a study, as a template or a copy; or a table of measurements.
     ///
     /// Writes a new folder with study.toml and README.md; a copy brings published.toml, measured.csv and the distributions that it
     /// would not find in its new place.
     #[command(after_help = init::HELP)]
     Init(init::Init),
-    /// List all faults of a study, or that it has none; runs nothing.
+    /// List all faults of a study, or of a table of measurements.
+    ///
+    /// It runs nothing.
     #[command(after_help = check::HELP)]
     Check(check::Check),
-    /// Write one wall of a study to a file: VTU, OBJ or JSON.
-    #[command(after_help = wall::ask::GENERATE)]
-    Generate(wall::ask::Generate),
-    /// Draw how one wall of a study falls.
+    /// Draw how one wall of a study falls, or write it to a file.
     ///
-    /// Solves the wall first. Its joints are coloured by how far they open or slip, or by the pressure in them.
-    #[command(after_help = wall::ask::PICTURE)]
-    Picture(wall::ask::Picture),
+    /// A picture shows the wall solved, its joints coloured by how far they open or slip, or by the pressure in them. A file is for
+    /// ParaView or another program.
+    #[command(after_help = wall::ask::HELP)]
+    Wall(wall::ask::Wall),
     /// Build and solve all walls of a study: statistics, figures.
     ///
     /// A run that was stopped goes on where it stood.
@@ -50,27 +47,15 @@ pub(crate) enum Verb {
     Run(run::ask::Run),
     /// Share a study out over a cluster (Slurm, Dask, any other).
     ///
-    /// With --plan it says into how many shards the walls are best shared out and prints what starts them. With --index it computes one:
-    /// as often as it is started, by any engine, on any machine that sees the output folder.
-    #[command(after_help = shard::ask::SHARD)]
-    Shard(shard::ask::Shard),
-    /// Say which shards are complete, and which are missing.
-    #[command(after_help = shard::ask::STATUS)]
-    Status(shard::ask::Status),
-    /// Put shards together: the files of a run on one machine.
-    ///
-    /// Tables, statistics and figures are those that `pirca run` writes, byte for byte.
-    #[command(after_help = shard::ask::MERGE)]
-    Merge(shard::ask::Merge),
-    /// Put a run, a study or a wall on a page, with its sources.
+    /// Plan how many shards there are, run them, look which are missing, and put them together.
+    #[command(after_help = shards::ask::HELP)]
+    Shards(shards::ask::Shards),
+    /// Put a run, a study or a wall on a page; say how to cite a run.
     ///
     /// One HTML file that any browser opens without a network: question, answer, figures, every wall, the weakest, the median and the
     /// strongest one drawn, every input with its source, limits, provenance, and a paragraph for a paper.
     #[command(after_help = report::HELP)]
     Report(report::Report),
-    /// Say how to cite a run: version, study, seed and hash.
-    #[command(after_help = cite::HELP)]
-    Cite(cite::Cite),
     /// Say which load 95 % of walls reach, and how sure that is.
     ///
     /// The probability of a failure below some load, a low quantile, characteristic and design values: from simulated walls, or with --measured from tested specimens alone.
@@ -100,13 +85,6 @@ pub(crate) enum Verb {
     /// variants are searched, alone and together.
     #[command(after_help = readings::ask::HELP)]
     Readings(readings::ask::Readings),
-    /// Simulate beforehand the walls that diagnose compares with.
-    ///
-    /// `pirca diagnose` does it by itself where they are missing. They serve every measurement of one test programme.
-    /// Every mechanism is simulated at many strengths, with joints that are known as badly as they are. A bank that was stopped
-    /// goes on where it stood.
-    #[command(after_help = diagnose::bank::HELP)]
-    Bank(diagnose::bank::Bank),
     /// Say what the simulation gets wrong and what explains it.
     ///
     /// Sets the measurements beside what the simulation could have shown, given the instruments' errors, the scatter of stones
@@ -118,56 +96,20 @@ pub(crate) enum Verb {
     /// How many real walls of each arm show a difference, by which reading, and how many carry a characteristic value.
     #[command(after_help = plan_tests::ask::HELP)]
     PlanTests(plan_tests::ask::PlanTests),
-    /// Write an empty table of measurements, or check a filled one.
-    ///
-    /// The table is for a spreadsheet. Of a filled one it says what is read from it and what looks odd; it simulates nothing.
-    #[command(after_help = measured::HELP)]
-    Measured(measured::Measured),
     /// Say which errors of the model the measurements could reveal.
     ///
     /// What each mechanism changes in every quantity of measured.csv, in units of the quantity's error. For studies on the
     /// tilting table.
     #[command(after_help = detectability::ask::HELP)]
     Detectability(detectability::ask::Detectability),
-    /// List what the model leaves out (creep, rounded edges, ...).
-    ///
-    /// What each one is, where it acts, its parameters with their priors, whether its effect goes when the wall is unloaded,
-    /// what it is confounded with, and whether limit analysis honours it.
-    #[command(after_help = mechanisms::HELP)]
-    Mechanisms(mechanisms::Mechanisms),
     /// Say at which tilt or horizontal load a wall in a file falls.
     ///
     /// The wall is a wall.json or an OBJ file that somebody else made.
     #[command(after_help = analyse::ask::HELP)]
     Analyse(Box<analyse::ask::Analyse>),
-    /// Print the completions of a shell.
-    ///
-    /// Bash, zsh, fish, PowerShell and Elvish complete verbs, options and their values.
-    #[command(after_help = COMPLETIONS)]
-    Completions(Completions),
-    /// Write the manual pages of all verbs, for man.
-    #[command(after_help = MAN)]
-    Man(Man),
-    /// Print the JSON Schema of a study, for editors.
-    ///
-    /// An editor that knows it completes keys, shows what each means, and marks what is wrong while a study is written.
-    #[command(after_help = schema::HELP)]
-    Schema(schema::Schema),
-}
-
-/// Arguments of `completions`.
-#[derive(Args, Debug)]
-pub(crate) struct Completions {
-    /// The shell.
-    pub shell: Shell,
-}
-
-/// Arguments of `man`.
-#[derive(Args, Debug)]
-pub(crate) struct Man {
-    /// Folder of the pages: pirca.1, pirca-run.1 and so on.
-    #[arg(long, value_name = "DIR")]
-    pub out: PathBuf,
+    /// List keys, columns and causes; write schemas and completions.
+    #[command(after_help = reference::HELP)]
+    Reference(reference::Reference),
 }
 
 impl Verb {
@@ -175,30 +117,22 @@ impl Verb {
     pub fn is_json(&self) -> bool {
         match self {
             Verb::Init(asked) => asked.json,
-            Verb::Cite(asked) => asked.json,
-            Verb::Mechanisms(asked) => asked.json,
-            Verb::Merge(asked) => asked.json,
-            Verb::Status(asked) => asked.json,
             Verb::Readings(asked) => asked.json,
             Verb::Analyse(asked) => asked.json,
             // Of a wall it may stand among what is asked of the wall.
             Verb::Report(asked) => asked.json || asked.asked.iter().any(|word| word == "--json"),
+            Verb::Shards(asked) => asked.step.is_json(),
+            Verb::Reference(asked) => asked.what.is_json(),
             Verb::Check(check::Check { which, .. })
-            | Verb::Generate(wall::ask::Generate { which, .. })
-            | Verb::Picture(wall::ask::Picture { which, .. })
+            | Verb::Wall(wall::ask::Wall { which, .. })
             | Verb::Run(run::ask::Run { which, .. })
-            | Verb::Shard(shard::ask::Shard { which, .. })
             | Verb::Capacity(capacity::ask::Capacity { which, .. })
             | Verb::Sensitivity(sensitivity::ask::Sensitivity { which, .. })
             | Verb::Compare(compare::ask::Compare { which, .. })
             | Verb::Homogenise(homogenise::ask::Homogenise { which, .. })
-            | Verb::Bank(diagnose::bank::Bank { which, .. })
             | Verb::Diagnose(diagnose::ask::Diagnose { which, .. })
             | Verb::PlanTests(plan_tests::ask::PlanTests { which, .. })
-            | Verb::Measured(measured::Measured { which, .. })
             | Verb::Detectability(detectability::ask::Detectability { which, .. }) => which.json,
-            // A text is all that they have.
-            Verb::Completions(_) | Verb::Man(_) | Verb::Schema(_) => false,
         }
     }
 }

@@ -18,25 +18,14 @@ const INDENT: usize = 10;
 
 /// The verbs in the order in which they are met, under what they are about.
 const GROUPS: [(&str, &[&str]); 5] = [
-    ("One wall", &["analyse", "generate", "picture"]),
+    ("One wall", &["analyse", "wall"]),
     (
         "Many walls",
-        &[
-            "init",
-            "check",
-            "run",
-            "report",
-            "cite",
-            "capacity",
-            "compare",
-            "sensitivity",
-            "homogenise",
-            "readings",
-        ],
+        &["init", "check", "run", "report", "capacity", "compare", "sensitivity", "homogenise", "readings"],
     ),
-    ("Many machines", &["shard", "status", "merge"]),
-    ("Measured walls", &["plan-tests", "measured", "detectability", "bank", "diagnose", "mechanisms"]),
-    ("Shell and editor", &["completions", "man", "schema"]),
+    ("Measured walls", &["plan-tests", "detectability", "diagnose"]),
+    ("Many machines", &["shards"]),
+    ("To look up", &["reference"]),
 ];
 
 /// Of the program.
@@ -56,32 +45,10 @@ NO_COLOR=1 keeps terminals plain.
     codes!()
 );
 
-/// Of `completions`.
-pub(super) const COMPLETIONS: &str = concat!(
-    "\
-Example: pirca completions bash > ~/.local/share/bash-completion/completions/pirca
-         pirca completions zsh > ~/.zfunc/_pirca
-         pirca completions fish > ~/.config/fish/completions/pirca.fish
-
-Zsh reads ~/.zfunc if ~/.zshrc has the line fpath+=~/.zfunc before compinit. New shells know the completions.
-
-",
-    codes!()
-);
-
-/// Of `man`.
-pub(super) const MAN: &str = concat!(
-    "\
-Example: pirca man --out ~/.local/share/man/man1
-         man pirca-run
-
-",
-    codes!()
-);
-
 /// The command with its verbs in groups, and all its texts wrapped to the terminal.
 pub(super) fn framed(command: Command) -> Command {
-    wrapped(grouped(command), columns())
+    let columns = columns();
+    wrapped(grouped(command), columns, columns)
 }
 
 /// Columns that the help fills: of the terminal, or of COLUMNS where there is none.
@@ -91,10 +58,11 @@ fn columns() -> usize {
     terminal.map(|(_, columns)| usize::from(columns)).or_else(told).map_or(WIDEST, |n| n.clamp(40, WIDEST))
 }
 
-/// The command and its verbs with their texts in lines of so many columns.
-fn wrapped(mut command: Command, columns: usize) -> Command {
+/// The command and its verbs with their texts in lines of so many columns, and what it does, as the command above lists it, in lines of
+/// as many as are left there.
+fn wrapped(mut command: Command, columns: usize, listed: usize) -> Command {
     if let Some(about) = command.get_about().map(ToString::to_string) {
-        command = command.about(lines(&about, columns));
+        command = command.about(lines(&about, listed));
     }
     if let Some(about) = command.get_long_about().or(command.get_about()).map(ToString::to_string) {
         command = command.long_about(lines(&about, columns));
@@ -105,7 +73,7 @@ fn wrapped(mut command: Command, columns: usize) -> Command {
     command
         .next_line_help(true)
         .mut_args(|arg| said(arg, columns.saturating_sub(INDENT)))
-        .mut_subcommands(|verb| wrapped(verb, columns))
+        .mut_subcommands(|verb| wrapped(verb, columns, columns.saturating_sub(INDENT)))
 }
 
 /// An option with all that is said of it: what it is, its default, and what each of its values is.
@@ -219,7 +187,7 @@ mod tests {
     #[test]
     fn no_line_of_help_is_wider_than_the_terminal() {
         for columns in [60, 80, 100] {
-            let mut command = wrapped(grouped(Arguments::command()), columns);
+            let mut command = wrapped(grouped(Arguments::command()), columns, columns);
             command.build();
             // `help` lists the verbs again, a line each whatever the width.
             let verbs = command.get_subcommands().map(|verb| verb.get_name().to_owned());
@@ -228,6 +196,8 @@ mod tests {
             for verb in &verbs {
                 let verb = command.find_subcommand_mut(verb).expect("it is listed");
                 texts.extend([verb.render_help().to_string(), verb.render_long_help().to_string()]);
+                let steps = verb.get_subcommands_mut();
+                texts.extend(steps.map(|step| step.render_long_help().to_string()));
             }
             // What is to be typed is not broken: it would not work.
             let typed = |line: &str| line.contains("pirca ");

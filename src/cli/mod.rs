@@ -1,9 +1,7 @@
 //! The command line: arguments, messages, exit codes. Nothing else in the library prints.
 
 mod arguments;
-mod completions;
 mod help;
-mod man;
 
 use std::ffi::OsString;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -18,10 +16,9 @@ pub use crate::terminal::failure::Failure;
 pub use crate::terminal::session::Hear;
 use crate::terminal::{output, session};
 use crate::verb::{
-    analyse, capacity, check, cite, compare, diagnose, homogenise, init, measured, mechanisms, plan_tests,
-    sensitivity,
+    analyse, capacity, check, compare, detectability, diagnose, homogenise, init, plan_tests, readings,
+    reference, report, run, sensitivity, shards, wall,
 };
-use crate::verb::{detectability, readings, report, run, schema, shard, wall};
 
 /// Does what arguments ask, of which the first is the name of the program, prints what comes out, and gives the exit code: 0 done,
 /// 1 the run or its files failed, 2 the arguments make no sense, 3 the study or the wall is invalid.
@@ -74,17 +71,42 @@ fn read(given: Vec<OsString>) -> Result<Arguments, clap::Error> {
     Arguments::from_arg_matches(&matches.map_err(|error| renamed(&verb, error))?)
 }
 
-/// The error of arguments, with the new name of a verb that was renamed, or whose option belongs to `detectability` now.
+/// What verbs of before are now.
+const RENAMED: [(&str, &str); 13] = [
+    ("influence", "`sensitivity`"),
+    ("generate", "`wall --out FILE` with .vtu, .obj or .json"),
+    ("picture", "`wall --out FILE` with .svg"),
+    ("cite", "`report RUN --cite`"),
+    ("shard", "`shards run`, and with --plan `shards plan`"),
+    ("status", "`shards status`"),
+    ("merge", "`shards merge`"),
+    ("bank", "`diagnose --prepare`, with --bank for its folder"),
+    ("measured", "`check STUDY --measured FILE`, and with --template `init FILE --measured STUDY`"),
+    ("mechanisms", "`reference causes`"),
+    ("completions", "`reference completions`"),
+    ("man", "`reference man`"),
+    ("schema", "`reference schema`"),
+];
+
+/// The error of arguments, with the new name of a verb that was renamed, or whose option belongs to another verb now.
 fn renamed(verb: &str, error: clap::Error) -> clap::Error {
     let command = Arguments::command();
     let moved = |option: &str| {
         let verb = command.find_subcommand("detectability").expect("it is a verb");
-        verb.get_arguments().any(|own| own.get_long() == option.strip_prefix("--"))
+        verb.get_arguments().any(|known| known.get_long() == option.strip_prefix("--"))
     };
     let words = match (verb, error.kind(), error.get(ContextKind::InvalidArg)) {
-        ("influence", ErrorKind::InvalidSubcommand, _) => "`influence` is called `sensitivity` now",
+        (_, ErrorKind::InvalidSubcommand, _) => match RENAMED.iter().find(|(before, _)| *before == verb) {
+            Some((before, now)) => format!("`{before}` is now {now}"),
+            None => return error,
+        },
         ("sensitivity", ErrorKind::UnknownArgument, Some(ContextValue::String(option))) if moved(option) => {
-            "`sensitivity` shares a variance out to its sources; what data could show of causes is `detectability` now"
+            "`sensitivity` shares a variance out to its sources; what data could show of causes is `detectability` now".to_owned()
+        }
+        ("check", ErrorKind::UnknownArgument, Some(ContextValue::String(option)))
+            if ["--keys", "--columns"].contains(&option.as_str()) =>
+        {
+            format!("`check {option}` is now `reference {}`", option.trim_start_matches('-'))
         }
         _ => return error,
     };
@@ -94,30 +116,21 @@ fn renamed(verb: &str, error: clap::Error) -> clap::Error {
 /// Does what a verb asks.
 fn done(verb: &Verb) -> Result<Answer, Failure> {
     match verb {
-        Verb::Cite(arguments) => cite::cite(arguments),
-        Verb::Completions(arguments) => completions::completions(arguments),
-        Verb::Init(arguments) => init::init(arguments),
-        Verb::Man(arguments) => man::man(arguments),
-        Verb::Measured(arguments) => measured::measured(arguments),
-        Verb::Schema(arguments) => schema::schema(arguments),
         Verb::Analyse(arguments) => analyse::analyse(arguments),
-        Verb::Bank(arguments) => diagnose::bank::bank(arguments),
         Verb::Capacity(arguments) => capacity::work::capacity(arguments),
         Verb::Check(arguments) => check::check(arguments),
         Verb::Compare(arguments) => compare::work::compare(arguments),
+        Verb::Detectability(arguments) => detectability::work::detectability(arguments),
         Verb::Diagnose(arguments) => diagnose::work::diagnose(arguments),
-        Verb::Generate(arguments) => wall::generate::generate(arguments),
         Verb::Homogenise(arguments) => homogenise::homogenise(arguments),
-        Verb::Sensitivity(arguments) => sensitivity::work::sensitivity(arguments),
-        Verb::Picture(arguments) => wall::picture::picture(arguments),
-        Verb::Mechanisms(arguments) => mechanisms::mechanisms(arguments),
+        Verb::Init(arguments) => init::init(arguments),
         Verb::PlanTests(arguments) => plan_tests::work::plan_tests(arguments),
         Verb::Readings(arguments) => readings::work::readings(arguments),
-        Verb::Detectability(arguments) => detectability::work::detectability(arguments),
+        Verb::Reference(arguments) => reference::reference(arguments, Arguments::command()),
         Verb::Report(arguments) => report::report(arguments),
         Verb::Run(arguments) => run::work::run(arguments),
-        Verb::Shard(arguments) => shard::shard(arguments),
-        Verb::Status(arguments) => shard::status(arguments),
-        Verb::Merge(arguments) => shard::merge(arguments),
+        Verb::Sensitivity(arguments) => sensitivity::work::sensitivity(arguments),
+        Verb::Shards(arguments) => shards::shards(arguments),
+        Verb::Wall(arguments) => wall::wall(arguments),
     }
 }

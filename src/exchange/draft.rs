@@ -129,7 +129,7 @@ fn supports(drafts: &[Draft], on_platform: bool, faults: &mut WallFaults) {
             "",
             "there is no support: no block is fixed",
             "at least one fixed block, for example the ground",
-            "set \"fixed\": true on the ground's block (in OBJ: name its object base or fixed); to a generated wall, `pirca generate --with-base` adds one",
+            "set \"fixed\": true on the ground's block (in OBJ: name its object base or fixed); to a generated wall, `pirca wall --with-base` adds one",
         ));
     }
     if !drafts.is_empty() && readable && drafts.iter().all(|draft| draft.fixed) {

@@ -1,4 +1,4 @@
-//! `pirca report`: the page of a run, of a study or of a wall.
+//! `pirca report`: the page of a run, of a study or of a wall, and how to cite a run.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -12,6 +12,7 @@ use crate::terminal::failure::Failure;
 use crate::verb::analyse::Analyse;
 use crate::verb::arguments::{OUTPUT, STUDY, Which};
 use crate::verb::locate;
+use crate::verb::run::answer::page::citation_of_run;
 use crate::verb::run::ask::Run;
 use crate::verb::run::origin::Origin;
 use crate::verb::run::{page, work as run};
@@ -22,15 +23,22 @@ pub(crate) const HELP: &str = concat!(
 Example: pirca run studies/tilting-block --out runs/first
          pirca report runs/first
          pirca report runs/first --out for-a-colleague.html
+         pirca report runs/first --bibtex >> references.bib
          pirca report studies/tilting-block
          pirca report wall.json -- --phi-deg 35
 
 A study is run first, as far as it has not been. Of a run the study must be as it was run. The walls that are drawn are solved again; no other wall is. `pirca run --report` writes the same \
 page at the end of a run.
 
+--cite says how to cite a run: whoever runs that version on a study of that hash with that seed gets the same walls. The run must be of \
+this version of pirca.
+
 ",
     codes!()
 );
+
+/// Heading of the options that give a citation.
+const CITATION: &str = "Citation";
 
 /// Arguments of `report`.
 #[derive(Args, Debug)]
@@ -44,6 +52,12 @@ pub(crate) struct Report {
     /// File to write [default: report.html in the folder of the run; of a wall <wall>-report.html here].
     #[arg(long, value_name = "FILE", help_heading = OUTPUT)]
     pub out: Option<PathBuf>,
+    /// Write no page: say how to cite the run (version, study, seed and hash).
+    #[arg(long, conflicts_with_all = ["study", "out", "asked"], help_heading = CITATION)]
+    pub cite: bool,
+    /// Write no page: print an entry for BibTeX.
+    #[arg(long, conflicts_with_all = ["cite", "study", "out", "asked", "json"], help_heading = CITATION)]
+    pub bibtex: bool,
     /// Print one JSON object on standard output instead of text.
     #[arg(long, help_heading = OUTPUT)]
     pub json: bool,
@@ -55,6 +69,9 @@ pub(crate) struct Report {
 /// Writes the page of a run that has ended, of a study, or of a wall.
 pub(crate) fn report(arguments: &Report) -> Result<Answer, Failure> {
     let of = &arguments.of;
+    if arguments.cite || arguments.bibtex {
+        return cite(arguments);
+    }
     let is_wall =
         of.extension().is_some_and(|end| ["json", "obj"].iter().any(|own| end.eq_ignore_ascii_case(own)));
     if is_wall {
@@ -69,6 +86,18 @@ pub(crate) fn report(arguments: &Report) -> Result<Answer, Failure> {
     // The folder of a run holds no study.toml.
     let is_study = of.join("study.toml").is_file() || of.file_name().is_some_and(|name| name == "study.toml");
     if is_study { of_study(arguments) } else { of_run(arguments) }
+}
+
+/// The reference of a run.
+fn cite(arguments: &Report) -> Result<Answer, Failure> {
+    let run = ensemble::identity(&arguments.of)?;
+    let citation = citation_of_run(&run);
+    let object = json!({
+        "version": run.version, "study": run.study, "variant": run.variant, "seed": run.seed, "study_hash": run.study_hash,
+        "text": citation.words, "bibtex": citation.bibtex,
+    });
+    let text = if arguments.bibtex { citation.bibtex } else { citation.words };
+    Answer::verbatim(format!("{text}\n"), &object)
 }
 
 /// The page of a wall from a file, as `analyse --report` writes it.

@@ -333,7 +333,7 @@ fn a_wall_of_a_rare_value_is_built_again_by_its_number() {
             assert_eq!(repeats["weakest"][1].as_f64(), found.value);
         }
         let written = |draw: &str, more: &[&str]| {
-            let wall = ["generate", "studies/tiny", "--draw", draw, "--draws", "out", "--out", "wall.json"];
+            let wall = ["wall", "studies/tiny", "--draw", draw, "--draws", "out", "--out", "wall.json"];
             folder.pirca(&[&wall[..], more].concat())
         };
         let output = written(&number.to_string(), &[]);

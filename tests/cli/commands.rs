@@ -32,15 +32,15 @@ fn every_verb_has_help_with_an_example_and_the_exit_codes() {
     }
     let verbs: Vec<&str> =
         whole.lines().filter_map(|line| line.strip_prefix("  ")?.split("  ").next()).collect();
-    let of_a_study =
-        ["bank", "capacity", "check", "diagnose", "generate", "measured", "picture", "run", "detectability"];
-    for verb in ["analyse", "init", "mechanisms", "readings"].iter().chain(&of_a_study) {
+    let of_a_study = ["capacity", "check", "diagnose", "wall", "run", "detectability"];
+    for verb in ["analyse", "init", "readings"].iter().chain(&of_a_study) {
         assert!(verbs.contains(verb), "{verb} is missing in: {whole}");
         let help = stdout(&ends_with(&folder, 0, &[verb, "--help"]));
         for said in ["Usage: pirca", "Example: pirca", "Exit codes: 0", "--json"] {
             assert!(help.contains(said), "{said} is missing in the help of {verb}: {help}");
         }
-        assert_eq!(help.contains("--variant <"), of_a_study.contains(verb), "{verb}");
+        let of_a_variant = of_a_study.contains(verb) || *verb == "init";
+        assert_eq!(help.contains("--variant <"), of_a_variant, "{verb}");
     }
     assert_eq!(
         stdout(&ends_with(&folder, 0, &["--version"])),
@@ -75,39 +75,42 @@ fn arguments_that_make_no_sense_end_with_2() {
         (&["detectability", "studies/tiny", "--members", "0"], "--members"),
         (&["detectability", "studies/tiny", "--quantile", "1"], "--quantile"),
         (&["detectability", "studies/tiny", "--quantile", "-0.5"], "--quantile"),
-        (&["bank", "studies/tiny", "--points", "3"], "--points"),
+        (&["diagnose", "studies/tiny", "--prepare", "--points", "3"], "--points"),
         (&["diagnose", "studies/tiny", "--seed", "x"], "--seed"),
-        (&["measured", "studies/tiny", "--wide"], "--template"),
-        (&["measured", "studies/tiny", "--template", "tests.csv"], "--template"),
-        (&["measured", "studies/tiny", "--template", "--specimens", "0"], "--specimens"),
-        (&["generate", "studies/tiny"], "--out"),
-        (&["generate", "studies/tiny", "--out", "wall.stl"], ".vtu, .obj or .json"),
-        (&["generate", "studies/tiny", "--out", "wall"], ".vtu, .obj or .json"),
-        (&["generate", "studies/tiny", "--out", "wall.obj", "--arm", "randon"], "it has stack, random"),
-        (&["generate", "studies/tiny", "--out", "wall.obj", "--point", "2"], "2 kn points, numbers 0 to 1"),
-        (&["picture", "studies/tiny"], "--out"),
-        (&["picture", "studies/tiny", "--out", "wall.png"], "must end in .svg"),
-        (&["picture", "studies/tiny", "--out", "wall.svg", "--arm", "randon"], "it has stack, random"),
-        (&["picture", "studies/tiny", "--out", "wall.svg", "--point", "2"], "2 kn points, numbers 0 to 1"),
-        (&["picture", "studies/tiny", "--out", "wall.svg", "--member", "-1"], "-1"),
+        (&["init", "tests.csv", "--wide"], "--measured"),
+        (&["diagnose", "studies/tiny", "--prepare", "--law"], "--prepare"),
+        (&["init", "tests.csv", "--measured", "studies/tiny", "--specimens", "0"], "--specimens"),
+        (&["wall", "studies/tiny"], "--out"),
+        (&["wall", "studies/tiny", "--out", "wall.stl"], ".svg, .vtu, .obj or .json"),
+        (&["wall", "studies/tiny", "--out", "wall"], ".svg, .vtu, .obj or .json"),
+        (&["wall", "studies/tiny", "--out", "wall.obj", "--arm", "randon"], "it has stack, random"),
+        (&["wall", "studies/tiny", "--out", "wall.obj", "--point", "2"], "2 kn points, numbers 0 to 1"),
         (
-            &["picture", "studies/tiny", "--out", "wall.svg", "--member", "8"],
+            &["wall", "studies/tiny", "--out", "wall.svg", "--solved"],
+            "--solved is for a .vtu, .obj or .json file",
+        ),
+        (&["wall", "studies/tiny", "--out", "wall.obj", "--magnify", "2"], "--magnify is for a picture"),
+        (&["wall", "studies/tiny", "--out", "wall.svg", "--arm", "randon"], "it has stack, random"),
+        (&["wall", "studies/tiny", "--out", "wall.svg", "--point", "2"], "2 kn points, numbers 0 to 1"),
+        (&["wall", "studies/tiny", "--out", "wall.svg", "--member", "-1"], "-1"),
+        (
+            &["wall", "studies/tiny", "--out", "wall.svg", "--member", "8"],
             "arm random has 8 walls, numbers 0 to 7",
         ),
         (
-            &["generate", "studies/tiny", "--out", "wall.obj", "--member", "99"],
+            &["wall", "studies/tiny", "--out", "wall.obj", "--member", "99"],
             "arm random has 8 walls, numbers 0 to 7",
         ),
         (
-            &["generate", "studies/tiny", "--out", "wall.obj", "--member", "8", "--members", "8"],
+            &["wall", "studies/tiny", "--out", "wall.obj", "--member", "8", "--members", "8"],
             "arm random has 8 walls, numbers 0 to 7",
         ),
         (
-            &["generate", "studies/tiny", "--out", "wall.obj", "--arm", "stack", "--member", "1"],
+            &["wall", "studies/tiny", "--out", "wall.obj", "--arm", "stack", "--member", "1"],
             "arm stack has one wall, number 0; nothing in it is random",
         ),
-        (&["picture", "studies/tiny", "--out", "wall.svg", "--magnify", "0"], "a number above 0"),
-        (&["picture", "studies/tiny", "--out", "wall.svg", "--colour", "red"], "opening"),
+        (&["wall", "studies/tiny", "--out", "wall.svg", "--magnify", "0"], "a number above 0"),
+        (&["wall", "studies/tiny", "--out", "wall.svg", "--colour", "red"], "opening"),
     ] {
         let output = ends_with(&folder, 2, arguments);
         assert!(stderr(&output).contains(said), "{said} in: {}", stderr(&output));
@@ -125,7 +128,7 @@ fn a_path_without_a_study_is_told_with_the_studies_that_there_are() {
         ("studies/empty", "studies/empty is a folder without a study.toml"),
         ("studies/tiny/study.toml/x", "Not a directory"),
     ] {
-        let generate = ["generate", path, "--out", "wall.obj"];
+        let generate = ["wall", path, "--out", "wall.obj"];
         for verb in [&["check", path][..], &["run", path], &generate, &["detectability", path]] {
             let error = stderr(&ends_with(&folder, 3, verb));
             assert!(error.contains(found), "{found} in: {error}");
@@ -171,7 +174,7 @@ fn an_invalid_study_ends_with_3_and_all_its_faults() {
     for verb in [
         &["check", "studies/tiny"][..],
         &["run", "studies/tiny"],
-        &["generate", "studies/tiny", "--out", "w.obj"],
+        &["wall", "studies/tiny", "--out", "w.obj"],
     ] {
         let error = stderr(&ends_with(&folder, 3, verb));
         for said in ["study.toml:7", "wall.height_m = -0.3", "joint.phi_deg = 135"] {
@@ -206,19 +209,18 @@ fn a_warning_goes_to_standard_error_and_stops_nothing() {
 fn generate_writes_the_format_that_the_ending_says() {
     let folder = Folder::with_study(STUDY);
     for (name, holds) in [("wall.json", "\"blocks\""), ("wall.obj", "\nv "), ("wall.vtu", "<VTKFile")] {
-        ends_with(&folder, 0, &["generate", "studies/tiny", "--out", name]);
+        ends_with(&folder, 0, &["wall", "studies/tiny", "--out", name]);
         let text = fs::read_to_string(folder.path(name)).unwrap();
         assert!(text.contains(holds), "{holds} in {name}");
     }
-    let told = json(&ends_with(&folder, 0, &["generate", "studies/tiny", "--out", "wall.json", "--json"]));
+    let told = json(&ends_with(&folder, 0, &["wall", "studies/tiny", "--out", "wall.json", "--json"]));
     assert_eq!(told["arm"], "random", "the first arm that is random");
     assert_eq!((&told["point"], &told["member"]), (&Value::from(0), &Value::from(0)));
     assert_eq!(told["kn_pa_per_m"], 5e7);
     let wall: Value = serde_json::from_slice(&fs::read(folder.path("wall.json")).unwrap()).unwrap();
     let stones = wall["blocks"].as_array().unwrap().iter().filter(|b| b["tag"] == "stone").count();
     assert_eq!(told["stones"], stones);
-    let stack =
-        ["generate", "studies/tiny", "--arm", "stack", "--point", "1", "--out", "stack.json", "--json"];
+    let stack = ["wall", "studies/tiny", "--arm", "stack", "--point", "1", "--out", "stack.json", "--json"];
     let told = json(&ends_with(&folder, 0, &stack));
     assert_eq!(
         (&told["arm"], &told["stones"]),
@@ -232,14 +234,14 @@ fn generate_writes_the_format_that_the_ending_says() {
 #[test]
 fn a_number_of_walls_is_heeded_or_refused() {
     let folder = Folder::with_study(STUDY);
-    let ninth = ["generate", "studies/tiny", "--member", "8", "--members", "9", "--out", "wall.json"];
+    let ninth = ["wall", "studies/tiny", "--member", "8", "--members", "9", "--out", "wall.json"];
     assert!(stdout(&ends_with(&folder, 0, &ninth)).contains("arm random, member 8"));
     folder.write_study(&STUDY.replace("members = 8", "members = 1"));
-    for verb in [&["run", "studies/tiny"][..], &["generate", "studies/tiny", "--out", "wall.json"]] {
+    for verb in [&["run", "studies/tiny"][..], &["wall", "studies/tiny", "--out", "wall.json"]] {
         let error = stderr(&ends_with(&folder, 2, &[verb, &["--members", "9"]].concat()));
         assert!(error.contains("--members 9: every arm of tiny has one wall"), "{error}");
     }
-    let second = ["generate", "studies/tiny", "--member", "1", "--out", "wall.json"];
+    let second = ["wall", "studies/tiny", "--member", "1", "--out", "wall.json"];
     let error = stderr(&ends_with(&folder, 2, &second));
     assert!(error.contains("arm random has one wall, number 0; leave --member out"), "{error}");
 }
@@ -247,17 +249,18 @@ fn a_number_of_walls_is_heeded_or_refused() {
 #[test]
 fn check_lists_the_keys_of_a_study() {
     let folder = Folder::with_study(STUDY);
-    let text = stdout(&ends_with(&folder, 0, &["check", "studies/tiny", "--keys"])).to_string();
+    let text = stdout(&ends_with(&folder, 0, &["reference", "keys"])).to_string();
     for key in ["| `kn_pa_per_m` |", "| `dip_deg` |", "## `[solver]`"] {
         assert!(text.contains(key), "{key} in {text}");
     }
-    ends_with(&folder, 2, &["check", "studies/tiny", "--keys", "--json"]);
+    let error = stderr(&ends_with(&folder, 2, &["check", "studies/tiny", "--keys"]));
+    assert!(error.contains("`check --keys` is now `reference keys`"), "{error}");
 }
 
 #[test]
 fn a_solved_wall_carries_its_displacements() {
     let folder = Folder::with_study(STUDY);
-    let solved = ["generate", "studies/tiny", "--solved", "--out", "wall.vtu", "--json"];
+    let solved = ["wall", "studies/tiny", "--solved", "--out", "wall.vtu", "--json"];
     let told = json(&ends_with(&folder, 0, &solved));
     assert_eq!(told["outcome"], "equilibrium");
     let text = fs::read_to_string(folder.path("wall.vtu")).unwrap();
@@ -267,20 +270,18 @@ fn a_solved_wall_carries_its_displacements() {
     let values: Vec<f64> = values.split_whitespace().map(|v| v.parse().unwrap()).collect();
     assert_eq!(values.len() as u64, 3 * told["stones"].as_u64().unwrap());
     assert!(values.iter().skip(1).step_by(3).all(|&y| y > 0.0), "the load presses every stone towards +y");
-    let error =
-        stderr(&ends_with(&folder, 2, &["generate", "studies/tiny", "--solved", "--out", "wall.obj"]));
+    let error = stderr(&ends_with(&folder, 2, &["wall", "studies/tiny", "--solved", "--out", "wall.obj"]));
     assert!(error.contains("--solved") && error.contains(".vtu"), "{error}");
 }
 
 #[test]
 fn generate_says_why_there_is_no_wall_or_no_file() {
     let folder = Folder::with_study(STUDY);
-    let error =
-        stderr(&ends_with(&folder, 1, &["generate", "studies/tiny", "--out", "no/such/folder/wall.obj"]));
+    let error = stderr(&ends_with(&folder, 1, &["wall", "studies/tiny", "--out", "no/such/folder/wall.obj"]));
     assert!(error.contains("cannot write no/such/folder/wall.obj"), "{error}");
     let dip = "dip_deg = { family = \"uniform\", low = -3, high = 3 }";
     folder.write_study(&changed(dip, &format!("{dip}\nlimits = {{ max_aspect = 1.5, max_attempts = 3 }}")));
-    let error = stderr(&ends_with(&folder, 1, &["generate", "studies/tiny", "--out", "wall.obj"]));
+    let error = stderr(&ends_with(&folder, 1, &["wall", "studies/tiny", "--out", "wall.obj"]));
     assert!(
         error.contains("arm random, member 0: invalid geometry") && error.contains("3 attempts"),
         "{error}"
@@ -374,12 +375,11 @@ fn a_run_shows_an_earlier_one_of_the_same_study_beside_it() {
 #[test]
 fn a_generated_wall_is_analysed_once_it_has_the_ground() {
     let folder = Folder::with_study(STUDY);
-    ends_with(&folder, 0, &["generate", "studies/tiny", "--out", "loose.json"]);
+    ends_with(&folder, 0, &["wall", "studies/tiny", "--out", "loose.json"]);
     let error = stderr(&ends_with(&folder, 3, &["analyse", "loose.json", "--phi-deg", "35"]));
-    assert!(error.contains("no support") && error.contains("pirca generate --with-base"), "{error}");
+    assert!(error.contains("no support") && error.contains("pirca wall --with-base"), "{error}");
     for file in ["wall.json", "wall.obj"] {
-        let told =
-            ends_with(&folder, 0, &["generate", "studies/tiny", "--with-base", "--out", file, "--json"]);
+        let told = ends_with(&folder, 0, &["wall", "studies/tiny", "--with-base", "--out", file, "--json"]);
         let answer = json(&ends_with(&folder, 0, &["analyse", file, "--phi-deg", "35", "--json"]));
         assert_eq!(answer["outcome"], "collapsed", "{answer}");
         let blocks = json(&told)["stones"].as_u64().expect("a count") + 1;
@@ -398,7 +398,7 @@ fn measurements_are_counted_and_compared() {
     assert!(said.contains("measured: 2 values on 1 specimen\n"), "{said}");
     let checked = json(&ends_with(&folder, 0, &["check", "studies/tiny", "--json"]));
     assert_eq!((checked["measured"].as_u64(), checked["specimens"].as_u64()), (Some(2), Some(1)));
-    let keys = stdout(&ends_with(&folder, 0, &["check", "studies/tiny", "--keys"]));
+    let keys = stdout(&ends_with(&folder, 0, &["reference", "keys"]));
     assert!(keys.contains("## `measured.csv`") && keys.contains("| `common_error` | no |"), "{keys}");
     let run = ["run", "studies/tiny", "--members", "2", "--out", "out"];
     let ran = stdout(&ends_with(&folder, 0, &run));
@@ -488,8 +488,12 @@ fn detectability_writes_the_map_and_names_what_has_no_number() {
 #[test]
 fn a_verb_of_before_says_what_it_is_called_now() {
     let folder = Folder::with_study(STUDY);
-    let old = stderr(&ends_with(&folder, 2, &["influence", "studies/tiny"]));
-    assert!(old.contains("`influence` is called `sensitivity` now"), "{old}");
+    for (before, now) in
+        [("influence", "`sensitivity`"), ("cite", "`report RUN --cite`"), ("picture", "`wall --out FILE`")]
+    {
+        let old = stderr(&ends_with(&folder, 2, &[before, "studies/tiny"]));
+        assert!(old.contains(&format!("`{before}` is now {now}")), "{old}");
+    }
     let swapped = stderr(&ends_with(&folder, 2, &["sensitivity", "studies/tiny", "--members", "1"]));
     assert!(swapped.contains("`detectability` now"), "{swapped}");
     // A slip of the pen is told as one.

@@ -1,4 +1,4 @@
-//! `bank` and `diagnose` as a user meets them: a verdict from a CSV, and what is said where there can be none.
+//! `diagnose` as a user meets it: a verdict from a CSV, and what is said where there can be none.
 
 use std::fs;
 use std::os::unix::fs::symlink;
@@ -98,7 +98,7 @@ fn a_diagnosis_that_may_build_no_bank_says_how_to_make_it() {
     let refused = ends_with(&folder, 3, &[&DIAGNOSE[..], &["--no-build"]].concat());
     assert!(
         stderr(&refused).contains(
-            "960 walls are to be simulated first, by\n  pirca bank studies/tiny --measured tests.csv"
+            "960 walls are to be simulated first, by\n  pirca diagnose studies/tiny --measured tests.csv --prepare"
         ),
         "{}",
         stderr(&refused)
@@ -142,7 +142,7 @@ fn the_self_test_of_a_bank_is_kept_and_taken_from_there() {
     the_self_test_is_kept_beside_the_bank(&folder, &json["self_test"]);
 }
 
-/// `bank` keeps the self-test, a diagnosis takes it from there, and only if it is of the same.
+/// `--prepare` keeps the self-test, a diagnosis takes it from there, and only if it is of the same.
 fn the_self_test_is_kept_beside_the_bank(folder: &Folder, computed: &Value) {
     let told_with = |seed: &[&str]| -> Value {
         let diagnose = ["diagnose", "studies/tiny", "--measured", "tests.csv", "--points", "60", "--no-gain"];
@@ -152,7 +152,7 @@ fn the_self_test_is_kept_beside_the_bank(folder: &Folder, computed: &Value) {
     let told = || told_with(&[]);
     let path = folder.path("runs/tiny-bank/self-test.json");
     assert!(!path.exists());
-    let bank = ["bank", "studies/tiny", "--measured", "tests.csv", "--points", "60"];
+    let bank = ["diagnose", "studies/tiny", "--prepare", "--measured", "tests.csv", "--points", "60"];
     let made = ends_with(folder, 0, &[&bank[..], &["--judged", "0"]].concat());
     let made = String::from_utf8(made.stdout).unwrap();
     let tower = made.lines().last().unwrap();
@@ -196,22 +196,23 @@ fn a_bank_is_shared_out_to_shards() {
     let asked = ["studies/tiny", "--measured", "tests.csv", "--points", "10"];
     for index in ["2", "0", "1"] {
         let shard = ["--bank", "--index", index, "--of", "3", "--out", "shared"];
-        ends_with(&folder, 0, &[&["shard"], &asked[..], &shard].concat());
+        ends_with(&folder, 0, &[&["shards", "run"], &asked[..], &shard].concat());
     }
-    let merged = ends_with(&folder, 0, &["merge", "shared"]);
+    let merged = ends_with(&folder, 0, &["shards", "merge", "shared"]);
     assert!(String::from_utf8_lossy(&merged.stdout).contains("written to shared"));
     // Whether so few points are enough to judge by is another question.
-    folder.pirca(&[&["bank"], &asked[..], &["--judged", "0", "--out", "whole"]].concat());
+    folder.pirca(&[&["diagnose"], &asked[..], &["--prepare", "--judged", "0", "--bank", "whole"]].concat());
     // Manifests differ: shards name the measurements by their whole path, as they begin in any folder.
     for name in ["bank.parquet", "members.parquet", "steps.parquet"] {
         let [own, wanted] = ["shared", "whole"].map(|out| fs::read(folder.path(out).join(name)).unwrap());
         assert!(own == wanted, "{name}");
     }
     let other = ["--bank", "--index", "0", "--of", "3", "--out", "shared"];
-    let other = ends_with(&folder, 1, &[&["shard"], &asked[..3], &["--points", "11"], &other].concat());
+    let other =
+        ends_with(&folder, 1, &[&["shards", "run"], &asked[..3], &["--points", "11"], &other].concat());
     assert!(stderr(&other).contains("bank.points: 10 recorded, 11 asked for"), "{}", stderr(&other));
     fs::remove_file(folder.path("shared/shards/0001-of-0003.jsonl")).unwrap();
-    let partial = ends_with(&folder, 2, &["merge", "shared", "--partial"]);
+    let partial = ends_with(&folder, 2, &["shards", "merge", "shared", "--partial"]);
     assert!(stderr(&partial).contains("a bank is of all its walls"), "{}", stderr(&partial));
 }
 
@@ -253,7 +254,7 @@ fn variants_have_banks_and_diagnoses_of_their_own() {
     let soft = ["studies/tiny", "--variant", "soft", "--measured", "tests.csv", "--points", "12"];
     let refused = ends_with(&folder, 3, &[&["diagnose", "--no-build"], &soft[..]].concat());
     let wanted = "there is no runs/tiny-soft-bank/bank.parquet: 192 walls are to be simulated first, by\n  \
-                  pirca bank studies/tiny --variant soft --measured tests.csv --points 12";
+                  pirca diagnose studies/tiny --variant soft --measured tests.csv --prepare --points 12";
     assert!(stderr(&refused).contains(wanted), "{}", stderr(&refused));
     ends_with(&folder, 0, &[&["diagnose", "--no-gain"], &soft[..]].concat());
     assert!(folder.path("runs/tiny-soft-bank/bank.parquet").is_file());
@@ -466,8 +467,9 @@ fn faulty_measurements_are_refused_with_their_lines() {
     .map(|(from, to, said)| (from, Box::leak(to.to_owned().into_boxed_str()) as &str, said));
     for (from, to, said) in cases {
         fs::write(folder.path("bad.csv"), MEASURED.replacen(from, to, 1)).unwrap();
-        for verb in ["diagnose", "bank"] {
-            let error = stderr(&ends_with(&folder, 3, &[verb, "studies/tiny", "--measured", "bad.csv"]));
+        for verb in [&["diagnose"][..], &["diagnose", "--prepare"]] {
+            let error =
+                stderr(&ends_with(&folder, 3, &[verb, &["studies/tiny", "--measured", "bad.csv"]].concat()));
             assert!(error.contains(said), "{said} in: {error}");
         }
     }
@@ -556,7 +558,7 @@ fn what_cannot_be_diagnosed_is_said_before_anything_is_simulated() {
         assert!(!folder.path("runs").exists());
     };
     said(&towers, &["diagnose", "studies/tiny"], &["nothing was measured", "--measured"]);
-    said(&towers, &["bank", "studies/tiny"], &["nothing was measured"]);
+    said(&towers, &["diagnose", "studies/tiny", "--prepare"], &["nothing was measured"]);
     fs::write(towers.path("taken"), "").unwrap();
     let taken =
         ends_with(&towers, 1, &["diagnose", "studies/tiny", "--measured", "tests.csv", "--out", "taken"]);
@@ -575,7 +577,11 @@ fn what_cannot_be_diagnosed_is_said_before_anything_is_simulated() {
         &["diagnose", "studies/tiny", "--measured", "weights.csv"],
         &["no specimen was tilted", "tower"],
     );
-    said(&towers, &["bank", "studies/tiny", "--measured", "weights.csv"], &["no specimen was tilted"]);
+    said(
+        &towers,
+        &["diagnose", "studies/tiny", "--prepare", "--measured", "weights.csv"],
+        &["no specimen was tilted"],
+    );
     let pushed = folder(STUDY);
     fs::write(pushed.path("pushed.csv"), MEASURED.replace("tower", "random")).unwrap();
     said(

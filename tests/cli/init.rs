@@ -279,9 +279,9 @@ fn a_copy_tells_editors_of_the_schema_beside_it() {
 #[test]
 fn an_empty_folder_is_enough() {
     let folder = Folder::with_study(&referring());
-    let listed = ends_with(&folder, 0, &["mechanisms"]);
+    let listed = ends_with(&folder, 0, &["reference", "causes"]);
     assert!(stdout(&listed).contains("creep: Shear tractions that relax"), "{}", stdout(&listed));
-    let refused = ends_with(&folder, 3, &["mechanisms", "--distributions", "nowhere"]);
+    let refused = ends_with(&folder, 3, &["reference", "causes", "--distributions", "nowhere"]);
     assert!(stderr(&refused).contains("there is no such folder"), "{}", stderr(&refused));
     ends_with(&folder, 0, &["run", "studies/tiny", "--members", "1", "--solver", "implicit", "--out", "out"]);
     let manifest: Value =

@@ -35,6 +35,13 @@ fn verbs(help: &str) -> Vec<&str> {
         .collect()
 }
 
+/// The steps of a verb that has some, in the order of its help.
+fn steps(help: &str) -> Vec<&str> {
+    let listed = help.split("Steps:\n").nth(1).or(help.split("What:\n").nth(1)).unwrap_or_default();
+    let lines = listed.lines().take_while(|line| !line.starts_with(char::is_alphabetic));
+    lines.filter(|line| line.starts_with("  ") && !line.starts_with("   ")).map(str::trim).collect()
+}
+
 /// The page of all commands.
 fn commands() -> String {
     let help = printed(&["--help"]);
@@ -44,33 +51,36 @@ fn commands() -> String {
         help.trim_end()
     );
     for verb in verbs(&help) {
-        let own = printed(&[verb, "--help"]);
-        let _ = write!(page, "\n## pirca {verb}\n\n```text\n{}\n```\n", own.trim_end());
+        let whole = printed(&[verb, "--help"]);
+        let _ = write!(page, "\n## pirca {verb}\n\n```text\n{}\n```\n", whole.trim_end());
+        for step in steps(&whole) {
+            let help = printed(&[verb, step, "--help"]);
+            let _ = write!(page, "\n### pirca {verb} {step}\n\n```text\n{}\n```\n", help.trim_end());
+        }
     }
     page
 }
 
 /// The page of all keys, and of the columns of measured.csv.
 fn keys() -> String {
-    let said = printed(&["check", "studies/joint-arrangement", "--keys"]);
-    let (_, keys) = said.split_once("\n## ").expect("tables of keys");
+    let said = printed(&["reference", "keys"]);
+    let keys = said.strip_prefix("## ").expect("tables of keys");
     format!(
         "# Keys\n\nEvery key of `study.toml`, of `published.toml` and of the files below `distributions`, and every column of \
-         `measured.csv`, as `pirca check STUDY --keys` prints them.\n\n<!-- Written by the program: {COMMAND} -->\n\n## {}\n",
+         `measured.csv`, as `pirca reference keys` prints them.\n\n<!-- Written by the program: {COMMAND} -->\n\n## {}\n",
         keys.trim_end()
     )
 }
 
 /// The page of the columns of a run's tables: a heading for each table, and its columns with unit, kind and meaning.
 fn columns() -> String {
-    let said = printed(&["check", "studies/tilting-block", "--columns"]);
-    let (_, tables) = said.split_once("\n\n").expect("tables of columns");
+    let said = printed(&["reference", "columns"]);
     let mut page = format!(
-        "# Columns\n\nThe columns of the tables that `pirca run` writes, as `pirca check STUDY --columns` prints them. Those that do not \
+        "# Columns\n\nThe columns of the tables that `pirca run` writes, as `pirca reference columns` prints them. Those that do not \
          apply to a study are null. The columns of `measured.csv` are among the [keys](keys.md#measuredcsv).\n\n\
          <!-- Written by the program: {COMMAND} -->\n"
     );
-    for line in tables.lines() {
+    for line in said.lines() {
         let cells: Vec<&str> =
             line.trim().split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect();
         let _ = match cells[..] {
@@ -92,10 +102,10 @@ fn columns() -> String {
 /// The page of all causes that a diagnosis looks for: a heading for each, and its lines as a list.
 fn causes() -> String {
     let mut page = format!(
-        "# Causes\n\nWhat the base model leaves out, and a diagnosis looks for, as `pirca mechanisms` prints it. Each is a table \
+        "# Causes\n\nWhat the base model leaves out, and a diagnosis looks for, as `pirca reference causes` prints it. Each is a table \
          `[mechanism.NAME]` that a study or one of its arms may have.\n\n<!-- Written by the program: {COMMAND} -->\n"
     );
-    for line in printed(&["mechanisms"]).lines() {
+    for line in printed(&["reference", "causes"]).lines() {
         let (depth, words) = (line.len() - line.trim_start().len(), line.trim_start());
         let _ = match (depth, words.split_once(": ")) {
             (0, Some((name, meaning))) => write!(page, "\n## {name}\n\n{meaning}\n\n"),

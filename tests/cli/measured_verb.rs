@@ -1,4 +1,5 @@
-//! `pirca measured`: the template it writes is read when filled in; what it says of a file, and what looks odd about one.
+//! `pirca init --measured` and `pirca check --measured`: the template is read when filled in; what is said of a file, and what looks odd
+//! about one.
 
 use std::fs;
 use std::path::Path;
@@ -78,12 +79,13 @@ fn a_filled_template_is_read_without_a_fault_or_a_note() {
         let folder = Folder::with_study(&study);
         let mut told = Vec::new();
         for shape in [&[][..], &["--wide"]] {
-            let write = ["measured", "studies/tiny", "--template", "--specimens", "4"];
-            let template = ends_with(&folder, 0, &[&write[..], shape].concat());
-            let template = String::from_utf8(template.stdout).unwrap();
-            fs::write(folder.path("empty.csv"), &template).unwrap();
-            let refused = stderr(&ends_with(&folder, 3, &["measured", "studies/tiny", "empty.csv"]));
-            assert!(refused.contains("empty.csv: has no rows with a value"), "{refused}");
+            let write = ["init", "empty.csv", "--measured", "studies/tiny", "--specimens", "4"];
+            ends_with(&folder, 0, &[&write[..], shape].concat());
+            let template = fs::read_to_string(folder.path("empty.csv")).unwrap();
+            fs::rename(folder.path("empty.csv"), folder.path("unfilled.csv")).unwrap();
+            let refused =
+                stderr(&ends_with(&folder, 3, &["check", "studies/tiny", "--measured", "unfilled.csv"]));
+            assert!(refused.contains("unfilled.csv: has no rows with a value"), "{refused}");
             let filled = filled(&template);
             // As a spreadsheet in Germany saves it.
             let german: String = filled
@@ -92,7 +94,8 @@ fn a_filled_template_is_read_without_a_fault_or_a_note() {
                 .collect();
             for (text, separator) in [(filled, ","), (german, ";")] {
                 fs::write(folder.path("tests.csv"), text).unwrap();
-                let output = ends_with(&folder, 0, &["measured", "studies/tiny", "tests.csv", "--json"]);
+                let output =
+                    ends_with(&folder, 0, &["check", "studies/tiny", "--measured", "tests.csv", "--json"]);
                 assert_eq!(stderr(&output), "");
                 let read = json(&output);
                 assert_eq!(
@@ -118,7 +121,7 @@ fn a_filled_template_is_read_without_a_fault_or_a_note() {
 fn a_template_is_of_the_study_and_never_written_over_a_file() {
     let tilting = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/tilting-table");
     let folder = Folder::with_study(STUDY);
-    let template = ["measured", tilting.to_str().unwrap(), "--template", "--out", "new.csv"];
+    let template = ["init", "new.csv", "--measured", tilting.to_str().unwrap()];
     ends_with(&folder, 0, &template);
     let text = fs::read_to_string(folder.path("new.csv")).unwrap();
     for arm in ["cbl", "sbl", "sbr"] {
@@ -135,12 +138,12 @@ fn a_template_is_of_the_study_and_never_written_over_a_file() {
     assert!(refused.contains("new.csv is there already, and may hold measurements"), "{refused}");
     assert_eq!(fs::read_to_string(folder.path("new.csv")).unwrap(), "my tests");
     // Nothing is tilted, or nothing was measured.
-    let refused = stderr(&ends_with(&folder, 3, &["measured", "studies/tiny", "--template"]));
+    let refused = stderr(&ends_with(&folder, 3, &["init", "new.csv", "--measured", "studies/tiny"]));
     assert!(refused.contains("the study tilts no platform"), "{refused}");
-    let refused = stderr(&ends_with(&folder, 3, &["measured", "studies/tiny"]));
+    let refused = stderr(&ends_with(&folder, 3, &["check", "studies/tiny", "--measured"]));
     assert!(
         refused.contains("there is no measured.csv")
-            && refused.contains("pirca measured studies/tiny --template"),
+            && refused.contains("pirca init measured.csv --measured studies/tiny"),
         "{refused}"
     );
 }
@@ -149,7 +152,7 @@ fn a_template_is_of_the_study_and_never_written_over_a_file() {
 fn what_was_read_is_said() {
     let folder = Folder::with_study(TOWERS);
     fs::write(folder.path("studies/tiny/measured.csv"), MEASURED).unwrap();
-    let said = ends_with(&folder, 0, &["measured", "studies/tiny"]);
+    let said = ends_with(&folder, 0, &["check", "studies/tiny", "--measured"]);
     let said = String::from_utf8(said.stdout).unwrap();
     for part in [
         "measured.csv: 96 readings on 6 specimens; nothing looks odd\n",
@@ -162,10 +165,10 @@ fn what_was_read_is_said() {
     }
     // Another file in its place, with faults of its own.
     fs::write(folder.path("bad.csv"), MEASURED.replacen("0.462,mm", "0,462,mm", 1)).unwrap();
-    let refused = stderr(&ends_with(&folder, 3, &["measured", "studies/tiny", "bad.csv"]));
+    let refused = stderr(&ends_with(&folder, 3, &["check", "studies/tiny", "--measured", "bad.csv"]));
     assert!(refused.contains("bad.csv:3: has 9 cells"), "{refused}");
     fs::write(folder.path("gap.csv"), MEASURED.replacen("0.462,mm", ",mm", 1)).unwrap();
-    let warned = ends_with(&folder, 0, &["measured", "studies/tiny", "gap.csv", "--json"]);
+    let warned = ends_with(&folder, 0, &["check", "studies/tiny", "--measured", "gap.csv", "--json"]);
     assert!(
         stderr(&warned).contains("warning: gap.csv:3: has no value and is read over"),
         "{}",
@@ -180,7 +183,7 @@ fn what_was_read_is_said() {
 /// The notes on a file of towers.
 fn notes(folder: &Folder, text: &str) -> Vec<String> {
     fs::write(folder.path("odd.csv"), text).unwrap();
-    let output = ends_with(folder, 0, &["measured", "studies/tiny", "odd.csv", "--json"]);
+    let output = ends_with(folder, 0, &["check", "studies/tiny", "--measured", "odd.csv", "--json"]);
     let notes = json(&output)["notes"]
         .as_array()
         .unwrap()
@@ -280,7 +283,8 @@ fn a_specimen_in_another_unit_is_told_by_its_fellows() {
     let slip = slip.replace("SBL2,SBL,10,displacement_mean,2.0,cm", "SBL2,SBL,10,displacement_mean,2.0,mm");
     assert_ne!(slip, table);
     fs::write(folder.path("slip.csv"), slip).unwrap();
-    let output = ends_with(&folder, 0, &["measured", tilting.to_str().unwrap(), "slip.csv", "--json"]);
+    let output =
+        ends_with(&folder, 0, &["check", tilting.to_str().unwrap(), "--measured", "slip.csv", "--json"]);
     let found = &json(&output)["notes"];
     assert!(
         found[0].as_str().unwrap().contains("SBL2 alone is off by a factor of about 10 on all 2 readings")
@@ -315,7 +319,7 @@ fn walls_that_differ_are_not_taken_for_another_unit() {
     let blind = multiplied(0.1, moved).replace(",mm,0.02,", ",mm,4,");
     assert_eq!(notes(&folder, &blind), [""; 0]);
     let tilting = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/tilting-table");
-    let output = ends_with(&folder, 0, &["measured", tilting.to_str().unwrap(), "--json"]);
+    let output = ends_with(&folder, 0, &["check", tilting.to_str().unwrap(), "--measured", "--json"]);
     assert_eq!(
         (json(&output)["notes"].as_array().unwrap().len(), json(&output)["readings"].clone()),
         (0, 33.into())
@@ -354,7 +358,7 @@ fn readings_that_cannot_belong_to_one_wall_are_told() {
     let far = notes(&folder, &MEASURED.replacen("0.462,mm", "462,mm", 1));
     assert!(far.iter().any(|note| note.contains("more than the wall's thickness of 80 mm")), "{far:?}");
     fs::write(folder.path("odd.csv"), MEASURED.replacen("T0,tower,12.5,", "T0,tower,17.5,", 1)).unwrap();
-    let refused = stderr(&ends_with(&folder, 3, &["measured", "studies/tiny", "odd.csv"]));
+    let refused = stderr(&ends_with(&folder, 3, &["check", "studies/tiny", "--measured", "odd.csv"]));
     assert!(refused.contains("odd.csv:15: tilt_deg 17.5 deg is above the collapse angle of T0"), "{refused}");
 }
 

@@ -267,7 +267,7 @@ fn what_does_not_go_together_is_refused_by_name() {
 fn the_verb_prints_the_catalogue() {
     let pirca = |arguments: &[&str]| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_pirca"));
-        command.arg("mechanisms").args(arguments).current_dir(env!("CARGO_MANIFEST_DIR"));
+        command.args(["reference", "causes"]).args(arguments).current_dir(env!("CARGO_MANIFEST_DIR"));
         let output = command.output().expect("it runs");
         let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
         (output.status.code(), text(&output.stdout), text(&output.stderr))
@@ -294,7 +294,9 @@ fn the_verb_prints_the_catalogue() {
     assert_eq!(creep["parameters"][2]["prior"]["value"], 5.0);
     let (code, help, _) = pirca(&["--help"]);
     assert_eq!(code, Some(0));
-    for said in ["Usage: pirca mechanisms", "Example: pirca mechanisms", "Exit codes: 0", "--json"] {
+    for said in
+        ["Usage: pirca reference causes", "Example: pirca reference causes", "Exit codes: 0", "--json"]
+    {
         assert!(help.contains(said), "{said} is missing in\n{help}");
     }
     let (code, _, error) = pirca(&["--distributions", "src"]);

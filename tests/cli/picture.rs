@@ -1,4 +1,4 @@
-//! `pirca picture` as a user meets it.
+//! `pirca wall` as a user meets it.
 
 use std::fs;
 
@@ -15,7 +15,7 @@ fn tilting(end: &str) -> String {
 }
 
 fn drawn(folder: &Folder, arguments: &[&str]) -> (Value, String) {
-    let all = [&["picture", "studies/tiny", "--json", "--out", "wall.svg"], arguments].concat();
+    let all = [&["wall", "studies/tiny", "--json", "--out", "wall.svg"], arguments].concat();
     let output = folder.pirca(&all);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let told = serde_json::from_slice(&output.stdout).expect("one JSON object");
@@ -118,7 +118,7 @@ fn a_wall_that_does_not_fall_is_drawn_at_rest_and_says_so() {
 fn a_wall_that_cannot_be_built_or_a_file_that_cannot_be_written_ends_with_1() {
     let folder = Folder::with_study(STUDY);
     let picture = |out: &str| {
-        let output = folder.pirca(&["picture", "studies/tiny", "--out", out]);
+        let output = folder.pirca(&["wall", "studies/tiny", "--out", out]);
         assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
         stderr(&output)
     };

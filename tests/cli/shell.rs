@@ -30,12 +30,12 @@ fn verbs(folder: &Folder) -> Vec<String> {
 fn every_shell_completes_every_verb_and_its_options() {
     let folder = Folder::with_study(STUDY);
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
-        let script = done(&folder, &["completions", shell]);
+        let script = done(&folder, &["reference", "completions", shell]);
         for known in verbs(&folder).iter().map(String::as_str).chain(["members", "half-width", "quiet"]) {
             assert!(script.contains(known), "{known} is missing in the completions of {shell}");
         }
     }
-    let wrong = folder.pirca(&["completions", "cmd"]);
+    let wrong = folder.pirca(&["reference", "completions", "cmd"]);
     assert_eq!(wrong.status.code(), Some(2));
     assert!(stderr(&wrong).contains("possible values"), "{}", stderr(&wrong));
 }
@@ -43,16 +43,17 @@ fn every_shell_completes_every_verb_and_its_options() {
 #[test]
 fn every_verb_has_a_page_for_man() {
     let folder = Folder::with_study(STUDY);
-    done(&folder, &["man", "--out", "man"]);
+    done(&folder, &["reference", "man", "--out", "man"]);
     let verbs = verbs(&folder);
-    assert!(verbs.len() > 20, "{verbs:?}");
-    for page in verbs.iter().map(|verb| format!("pirca-{verb}.1")).chain(["pirca.1".to_owned()]) {
+    assert!(verbs.len() > 10, "{verbs:?}");
+    let steps = ["pirca.1".to_owned(), "pirca-shards-plan.1".to_owned()];
+    for page in verbs.iter().map(|verb| format!("pirca-{verb}.1")).chain(steps) {
         let text = fs::read_to_string(folder.path("man").join(&page)).expect("a page");
         assert!(text.contains(".TH pirca"), "{page}: {text}");
         assert!(text.contains("Example") && text.contains("Exit codes: 0"), "{page}");
     }
     fs::write(folder.path("file"), "").expect("writable");
-    let taken = folder.pirca(&["man", "--out", "file"]);
+    let taken = folder.pirca(&["reference", "man", "--out", "file"]);
     assert_eq!(taken.status.code(), Some(1));
     assert!(stderr(&taken).starts_with("error: cannot create the folder"), "{}", stderr(&taken));
 }
@@ -65,13 +66,13 @@ fn the_schemas_in_the_repository_are_those_of_the_program() {
         let of = schema.file().trim_end_matches(".schema.json");
         assert!(
             text == schema.text(),
-            "write it anew: pirca schema --of {of} --out schemas/{}",
+            "write it anew: pirca reference schema --of {of} --out schemas/{}",
             schema.file()
         );
     }
     let folder = Folder::with_study(STUDY);
-    assert_eq!(done(&folder, &["schema"]), Schema::Study.text());
-    done(&folder, &["schema", "--of", "published", "--out", "p.json"]);
+    assert_eq!(done(&folder, &["reference", "schema"]), Schema::Study.text());
+    done(&folder, &["reference", "schema", "--of", "published", "--out", "p.json"]);
     assert_eq!(fs::read_to_string(folder.path("p.json")).expect("written"), Schema::Published.text());
 }
 
@@ -83,17 +84,18 @@ fn a_run_says_how_to_cite_it() {
     let manifest: Value = serde_json::from_str(&manifest).expect("JSON");
     let hash = manifest["study_hash"].as_str().expect("a hash");
     let said = format!("Version {}, study tiny, seed 7, study hash {hash}", env!("CARGO_PKG_VERSION"));
-    let text = done(&folder, &["cite", "out"]);
+    let text = done(&folder, &["report", "out", "--cite"]);
     assert!(
         text.starts_with("The pirca developers: ") && text.trim_end().ends_with(&format!("{said}.")),
         "{text}"
     );
-    let bibtex = done(&folder, &["cite", "out", "--bibtex"]);
+    let bibtex = done(&folder, &["report", "out", "--bibtex"]);
     assert!(bibtex.starts_with("@software{pirca,") && bibtex.contains(hash), "{bibtex}");
-    let json: Value = serde_json::from_str(&done(&folder, &["cite", "out", "--json"])).expect("JSON");
+    let json: Value =
+        serde_json::from_str(&done(&folder, &["report", "out", "--cite", "--json"])).expect("JSON");
     assert_eq!((&json["study_hash"], &json["bibtex"]), (&manifest["study_hash"], &bibtex.trim_end().into()));
     for (place, found) in [("studies/tiny", "holds no run"), ("nowhere", "there is no such folder")] {
-        let wrong = folder.pirca(&["cite", place]);
+        let wrong = folder.pirca(&["report", place, "--cite"]);
         assert_eq!(wrong.status.code(), Some(1));
         assert!(stderr(&wrong).contains(found), "{}", stderr(&wrong));
     }

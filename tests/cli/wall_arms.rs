@@ -53,7 +53,7 @@ fn a_wall_from_a_file_falls_as_the_one_that_was_drawn_and_as_analyse_says_to_the
     {
         let path = format!("studies/tiny/{file}");
         let command =
-            [&["generate", "studies/tiny", "--arm", "random", "--out", &path][..], base.as_slice()].concat();
+            [&["wall", "studies/tiny", "--arm", "random", "--out", &path][..], base.as_slice()].concat();
         assert!(folder.pirca(&command).status.success(), "{command:?}");
     }
     let files = [arm("bare", "bare.json"), arm("based", "based.json"), arm("obj", "based.obj")].concat();
@@ -75,7 +75,7 @@ fn a_wall_from_a_file_is_sheared_and_pressed_as_the_one_that_was_drawn() {
         let folder = Folder::with_study(&drawn);
         for (file, base) in [("bare.json", None), ("based.json", Some("--with-base"))] {
             let path = format!("studies/tiny/{file}");
-            let command = ["generate", "studies/tiny", "--arm", "random", "--out", &path];
+            let command = ["wall", "studies/tiny", "--arm", "random", "--out", &path];
             assert!(folder.pirca(&[&command[..], base.as_slice()].concat()).status.success(), "{file}");
         }
         let files = [arm("bare", "bare.json"), arm("based", "based.json")].concat();
@@ -191,20 +191,20 @@ fn a_file_that_has_changed_is_another_study() {
     let folder = Folder::with_study(&(HEAD.to_owned() + &arm("tower", "tower.json")));
     let place = folder.path("studies/tiny/tower.json");
     fs::copy(example("leaning-tower.json"), &place).expect("it can be copied");
-    let hash = |folder: &Folder| answer(folder, &["cite", "out"])["study_hash"].clone();
+    let hash = |folder: &Folder| answer(folder, &["report", "out", "--cite"])["study_hash"].clone();
     answer(&folder, &["run", "studies/tiny", "--out", "out"]);
-    let shard = ["shard", "studies/tiny", "--index", "0", "--of", "1", "--out", "shards"];
+    let shard = ["shards", "run", "studies/tiny", "--index", "0", "--of", "1", "--out", "shards"];
     answer(&folder, &shard);
     let before = hash(&folder);
     let text = fs::read_to_string(&place).expect("it can be read");
     fs::write(&place, text.replacen("\"density\"", " \"density\"", 1)).expect("it can be written");
-    for command in [&["run", "studies/tiny", "--out", "out"][..], &shard, &["merge", "shards"]] {
+    for command in [&["run", "studies/tiny", "--out", "out"][..], &shard, &["shards", "merge", "shards"]] {
         let output = folder.pirca(command);
         let said = stderr(&output);
         assert!(!output.status.success() && said.contains("arm.tower.file"), "{command:?}: {said}");
     }
     fs::write(&place, text).expect("it can be written");
-    answer(&folder, &["merge", "shards"]);
+    answer(&folder, &["shards", "merge", "shards"]);
     assert_eq!(before, hash(&folder));
     assert_ne!(before, Value::Null);
 }

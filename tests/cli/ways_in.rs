@@ -36,15 +36,15 @@ const TABLE: &[(&str, &str, [Cell; 5])] = &[
         [Works, Works, Works, NO_WALL, Lacks("they repeat in no direction")],
     ),
     (
-        "shard",
+        "shards run",
         "--index 0 --of 2 --out out",
         [Works, Works, Works, Lacks("compares types of elements"), Works],
     ),
-    ("generate", "--arm random --out wall.obj", [Works, Works, Works, NO_WALL, Works]),
-    ("picture", "--arm random --out wall.svg", [Works, Works, Works, NO_WALL, Works]),
+    ("wall", "--arm random --out wall.obj", [Works, Works, Works, NO_WALL, Works]),
+    ("wall", "--arm random --out wall.svg", [Works, Works, Works, NO_WALL, Works]),
     (
-        "measured",
-        "--template --specimens 2 --out measured.csv",
+        "init --measured",
+        "measured.csv --specimens 2",
         [Works, Works, Lacks("is read on walls at rest"), NO_WALL, Works],
     ),
 ];
@@ -90,7 +90,7 @@ fn every_verb_takes_every_kind_of_study_or_says_which_fact_is_in_the_way() {
         for (verb, more, cells) in TABLE {
             let folder = Folder::with_study(&small(TILTING, "name = \"limit\""));
             let written = folder.pirca(&[
-                "generate",
+                "wall",
                 "studies/tiny",
                 "--arm",
                 "random",
@@ -103,7 +103,7 @@ fn every_verb_takes_every_kind_of_study_or_says_which_fact_is_in_the_way() {
             let more: Vec<&str> = more.split_whitespace().collect();
             let command = match *verb {
                 "init" => [&["init"][..], &more, &["studies/tiny"]].concat(),
-                verb => [&[verb, "studies/tiny"][..], &more].concat(),
+                verb => [&verb.split(' ').collect::<Vec<_>>(), &["studies/tiny"][..], &more].concat(),
             };
             let output = folder.pirca(&command);
             let said = stderr(&output);

@@ -51,7 +51,7 @@ def of_one_machine(pirca, work):
 
 def script(pirca, engine, out):
     """The script that an engine is started by, in a file beside the results' folder."""
-    command = [pirca, "shard", STUDY, "--quiet", "--plan", engine, "--of", str(SHARDS), "--out", out]
+    command = [pirca, "shards", "plan", STUDY, "--quiet", "--script", engine, "--of", str(SHARDS), "--out", out]
     text = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
     file = out.with_name(f"{out.name}.sh")
     file.write_text(text)
@@ -66,7 +66,7 @@ def being_computed(out, node=None):
     """A process that has evaluated some of its shard's walls, and the shard's number; on a node of a cluster, if one is named."""
     for pid in processes.descendants():
         words = processes.arguments(pid)
-        if words[1:2] != ["shard"]:
+        if words[1:3] != ["shards", "run"]:
             continue
         if node and processes.environment(pid).get("SLURMD_NODENAME") != node:
             continue

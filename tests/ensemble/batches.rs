@@ -41,11 +41,12 @@ fn batched(folder: &Folder, more: &[&str], shards: u32) -> usize {
         }
         for index in (0..shards).rev().map(|index| index.to_string()) {
             let of = shards.to_string();
-            let output = folder.pirca(&["shard", batch, "--index", &index, "--of", &of, "--threads", "2"]);
+            let output =
+                folder.pirca(&["shards", "run", batch, "--index", &index, "--of", &of, "--threads", "2"]);
             assert!(output.status.success(), "{}", stderr(&output));
         }
         if batches == 0 {
-            let merged = folder.pirca(&["merge", batch]);
+            let merged = folder.pirca(&["shards", "merge", batch]);
             assert!(merged.status.success(), "{}", stderr(&merged));
         }
     }
@@ -89,18 +90,18 @@ fn what_does_not_go_with_batches_is_told() {
     );
     let waiting = answer(&folder, &["--batches", "--method", "plain", "--out", "out"]);
     let batch = waiting["batch"].as_str().unwrap();
-    said(&["shard", batch, "--index", "0", "--of", "2", "--seed", "4"], 2, "--seed is for a study");
+    said(&["shards", "run", batch, "--index", "0", "--of", "2", "--seed", "4"], 2, "--seed is for a study");
     said(
-        &["shard", batch, "--index", "0", "--of", "2", "--out", "o"],
+        &["shards", "run", batch, "--index", "0", "--of", "2", "--out", "o"],
         2,
         "--out: the shards of a batch lie in its own folder",
     );
-    let output = folder.pirca(&["shard", batch, "--index", "0", "--of", "2"]);
+    let output = folder.pirca(&["shards", "run", batch, "--index", "0", "--of", "2"]);
     assert!(output.status.success(), "{}", stderr(&output));
-    said(&["merge", batch], 1, "1 of 2 shards are missing: 1");
+    said(&["shards", "merge", batch], 1, "1 of 2 shards are missing: 1");
     // The study has changed since.
     folder.write_study(&columns().replace("high = 5", "high = 6"));
-    said(&["shard", batch, "--index", "1", "--of", "2"], 1, "dip_deg");
+    said(&["shards", "run", batch, "--index", "1", "--of", "2"], 1, "dip_deg");
     fs::write(folder.path(batch).join("batch.json"), "{").unwrap();
-    said(&["shard", batch, "--index", "1", "--of", "2"], 1, "batch.json is damaged");
+    said(&["shards", "run", batch, "--index", "1", "--of", "2"], 1, "batch.json is damaged");
 }

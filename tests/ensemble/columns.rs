@@ -54,7 +54,7 @@ fn table(text: &str) -> (Vec<String>, Vec<Vec<String>>) {
 /// The documented columns of each table with their types.
 fn documented() -> BTreeMap<String, Vec<(String, String)>> {
     let folder = Folder::with_study(STUDY);
-    let output = folder.pirca(&["check", "studies/tiny", "--columns"]);
+    let output = folder.pirca(&["reference", "columns"]);
     assert!(output.status.success(), "{}", stderr(&output));
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     let mut tables = BTreeMap::new();

@@ -8,7 +8,7 @@ use crate::fixture::{Folder, STUDY, changed, stderr};
 fn wall(text: &str, more: &[&str]) -> Vec<u8> {
     let folder = Folder::with_study(text);
     let member = if more.contains(&"--member") { &[][..] } else { &["--member", "5"] };
-    let generate = ["generate", "studies/tiny", "--arm", "random", "--out", "wall.json"];
+    let generate = ["wall", "studies/tiny", "--arm", "random", "--out", "wall.json"];
     let output = folder.pirca(&[&generate, member, more].concat());
     assert!(output.status.success(), "{}", stderr(&output));
     fs::read(folder.path("wall.json")).unwrap()

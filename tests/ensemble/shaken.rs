@@ -196,11 +196,11 @@ fn generated_records_are_shared_by_arms_and_belong_to_the_seed_whatever_the_thre
     let collapsed = [0, 1].map(|arm| curves[arm]["counts"]["collapsed"].as_u64());
     assert!(collapsed[0] < collapsed[1], "the thicker block stands more: {collapsed:?}");
     for index in ["0", "1"] {
-        let shard = ["shard", "studies/tiny", "--index", index, "--of", "2", "--out", "shards"];
+        let shard = ["shards", "run", "studies/tiny", "--index", index, "--of", "2", "--out", "shards"];
         let output = folder.pirca(&shard);
         assert!(output.status.success(), "{}", stderr(&output));
     }
-    let output = folder.pirca(&["merge", "shards"]);
+    let output = folder.pirca(&["shards", "merge", "shards"]);
     assert!(output.status.success(), "{}", stderr(&output));
     for file in ["members.parquet", "steps.parquet", "fragility.csv", "curves.csv", "summary.json"] {
         let of = |out: &str| fs::read(folder.path(out).join(file)).expect("a file");
@@ -286,7 +286,7 @@ fn verbs_that_ask_for_what_a_shaken_wall_lacks_say_what_it_is() {
         let said = stderr(&output);
         assert!(!output.status.success() && said.contains(lacks), "{verb:?}: {said}");
     }
-    let output = folder.pirca(&["generate", "studies/tiny", "--out", "wall.json"]);
+    let output = folder.pirca(&["wall", "studies/tiny", "--out", "wall.json"]);
     assert!(output.status.success(), "{}", stderr(&output));
 }
 

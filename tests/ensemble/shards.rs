@@ -31,7 +31,7 @@ fn refused(output: &Output, code: i32) -> String {
 
 /// A shard's command.
 fn shard<'a>(index: &'a str, of: &'a str, out: &'a str, more: &[&'a str]) -> Vec<&'a str> {
-    [&["shard", "studies/tiny", "--index", index, "--of", of, "--out", out], more].concat()
+    [&["shards", "run", "studies/tiny", "--index", index, "--of", of, "--out", out], more].concat()
 }
 
 fn file(folder: &Folder, out: &str, index: u32, of: u32) -> PathBuf {
@@ -56,7 +56,7 @@ fn compute_all(folder: &Folder, of: u32, out: &str, threads: &str) {
 }
 
 fn merged(folder: &Folder, out: &str) -> Vec<Vec<u8>> {
-    done(&folder.pirca(&["merge", out]));
+    done(&folder.pirca(&["shards", "merge", out]));
     results(folder, out)
 }
 
@@ -89,7 +89,7 @@ fn walls_that_are_added_until_there_are_enough_stop_where_a_run_stops() {
     let folder = Folder::with_study(&text);
     done(&folder.pirca(&["run", "studies/tiny", "--out", "whole"]));
     compute_all(&folder, 3, "shared", "2");
-    done(&folder.pirca(&["merge", "shared"]));
+    done(&folder.pirca(&["shards", "merge", "shared"]));
     for name in ["members.parquet", "steps.parquet", "summary.json", "manifest.json"] {
         let [own, wanted] = ["shared", "whole"].map(|out| fs::read(folder.path(out).join(name)).unwrap());
         assert!(own == wanted, "{name}");
@@ -118,7 +118,7 @@ fn a_killed_shard_is_gone_on_from_and_two_workers_on_one_shard_do_no_harm() {
     done(&folder.pirca(&["run", "studies/tiny", "--out", "whole", "--members", "40"]));
     let command = shard("0", "2", "out", &["--members", "40", "--threads", "1"]);
     assert!(kill_when(&folder, &command, || lines_of_parts(&folder) >= 5));
-    let status = done(&folder.pirca(&["status", "out"]));
+    let status = done(&folder.pirca(&["shards", "status", "out"]));
     assert!(status.contains("begun: 0, ") && status.contains("stopped"), "{status}");
     assert!(status.contains("missing: 0-1"), "{status}");
     // Two at a time: an orphan that nobody killed, and the one that was started in its place.
@@ -161,7 +161,7 @@ fn shards_of_other_work_are_refused_and_nothing_is_changed() {
     assert!(fs::read(file(&folder, "out", 0, 3)).unwrap() == before);
     // The study itself has changed since.
     folder.write_study(&STUDY.replace("phi_deg = 35", "phi_deg = 34"));
-    for command in [vec!["merge", "out"], shard("0", "3", "out", &[])] {
+    for command in [vec!["shards", "merge", "out"], shard("0", "3", "out", &[])] {
         let found = refused(&folder.pirca(&command), 1);
         assert!(found.contains("joint.phi_deg: ") && found.contains("34.0} asked for"), "{found}");
     }
@@ -195,11 +195,11 @@ fn a_shard_of_another_version_or_study_is_never_mixed_with_others() {
     ] {
         let other = with_head(&own, from, to);
         fs::write(&path, &other).unwrap();
-        for command in [vec!["merge", "out"], shard("2", "3", "out", &[])] {
+        for command in [vec!["shards", "merge", "out"], shard("2", "3", "out", &[])] {
             let found = refused(&folder.pirca(&command), 1);
             assert!(found.contains(said) && found.contains("remove it"), "{found}");
         }
-        let status = done(&folder.pirca(&["status", "out"]));
+        let status = done(&folder.pirca(&["shards", "status", "out"]));
         assert!(status.contains("of other work: 2") && status.contains(said), "{status}");
         assert!(fs::read_to_string(&path).unwrap() == other, "it stays for its owner");
     }
@@ -207,7 +207,9 @@ fn a_shard_of_another_version_or_study_is_never_mixed_with_others() {
     let work = folder.path("out/shards/work.json");
     let text = fs::read_to_string(&work).unwrap().replace("\"version\": \"0.1.0\"", "\"version\": \"0.0.9\"");
     fs::write(&work, text).unwrap();
-    for command in [vec!["merge", "out"], vec!["status", "out"], shard("0", "3", "out", &[])] {
+    for command in
+        [vec!["shards", "merge", "out"], vec!["shards", "status", "out"], shard("0", "3", "out", &[])]
+    {
         let found = refused(&folder.pirca(&command), 1);
         assert!(found.contains("version of pirca: 0.0.9 there, 0.1.0 here"), "{found}");
     }
@@ -236,13 +238,13 @@ fn a_damaged_shard_is_told_and_computed_again() {
     ];
     for (bytes, is_seen_at_once, said, of_status) in cases {
         fs::write(&path, bytes).unwrap();
-        let status = done(&folder.pirca(&["status", "out"]));
+        let status = done(&folder.pirca(&["shards", "status", "out"]));
         assert!(status.contains("2 of 3 shards complete, 12 of 18 evaluations"), "{status}");
         assert!(status.contains("damaged: 1, ") && status.contains("missing: 1"), "{status}");
         assert!(status.contains(of_status), "{status}");
         // What is refused has written nothing.
         let _ = fs::remove_file(folder.path("out/timing.csv"));
-        let found = refused(&folder.pirca(&["merge", "out"]), 1);
+        let found = refused(&folder.pirca(&["shards", "merge", "out"]), 1);
         assert!(!folder.path("out/timing.csv").exists());
         let wanted_words = if is_seen_at_once { "1 of 3 shards are missing: 1" } else { said };
         assert!(found.contains(wanted_words), "{found}");
@@ -259,16 +261,16 @@ fn a_gap_is_refused_unless_some_are_enough() {
     for index in ["0", "1", "2", "4"] {
         done(&folder.pirca(&shard(index, "7", "out", &[])));
     }
-    let found = refused(&folder.pirca(&["merge", "out"]), 1);
+    let found = refused(&folder.pirca(&["shards", "merge", "out"]), 1);
     assert!(found.contains("3 of 7 shards are missing: 3,5-6") && found.contains("--array=3,5-6"), "{found}");
     assert!(!folder.path("out/members.parquet").exists());
     let status: serde_json::Value =
-        serde_json::from_str(&done(&folder.pirca(&["status", "out", "--json"]))).unwrap();
+        serde_json::from_str(&done(&folder.pirca(&["shards", "status", "out", "--json"]))).unwrap();
     assert_eq!((&status["missing"], &status["complete"]), (&"3,5-6".into(), &4.into()));
-    let partial = folder.pirca(&["merge", "out", "--partial"]);
+    let partial = folder.pirca(&["shards", "merge", "out", "--partial"]);
     done(&partial);
     assert!(stderr(&partial).contains("shards 3,5-6 of 7 are missing"), "{}", stderr(&partial));
-    let partial = done(&folder.pirca(&["merge", "out", "--partial", "--json"]));
+    let partial = done(&folder.pirca(&["shards", "merge", "out", "--partial", "--json"]));
     let summary: serde_json::Value = serde_json::from_str(&partial).unwrap();
     assert_eq!(summary["missing"], "3,5-6");
     let arms = summary["arms"].as_array().unwrap();
@@ -278,16 +280,17 @@ fn a_gap_is_refused_unless_some_are_enough() {
     let missing: u64 = arms.iter().filter_map(|arm| arm["missing"].as_u64()).sum();
     assert_eq!(missing, 7, "of the walls of shards 3, 5 and 6: 3 + 2 + 2");
     // What has not been computed has not failed.
-    let text = done(&folder.pirca(&["merge", "out", "--partial"]));
+    let text = done(&folder.pirca(&["shards", "merge", "out", "--partial"]));
     assert!(text.contains("11 evaluations, 7 of 18 not computed yet, none failed."), "{text}");
     // A run in the same folder computes the rest, and no wall twice.
     let rest = folder.pirca(&["run", "studies/tiny", "--out", "out"]);
     done(&rest);
     assert!(stderr(&rest).contains("18 evaluations, 11 of them recorded before"), "{}", stderr(&rest));
     assert!(results(&folder, "out") == results(&folder, "whole"));
-    for (arguments, said) in
-        [(["status", "nowhere"], "there is no such folder"), (["merge", "whole"], "holds no shards")]
-    {
+    for (arguments, said) in [
+        (["shards", "status", "nowhere"], "there is no such folder"),
+        (["shards", "merge", "whole"], "holds no shards"),
+    ] {
         let found = refused(&folder.pirca(&arguments), 1);
         assert!(found.contains(said), "{found}");
     }
@@ -299,13 +302,13 @@ fn shards_of_a_study_whose_folder_was_renamed_are_merged() {
     let folder = reference();
     compute_all(&folder, 3, "out", "2");
     fs::rename(folder.path("studies/tiny"), folder.path("studies/renamed")).unwrap();
-    let found = refused(&folder.pirca(&["merge", "out"]), 3);
+    let found = refused(&folder.pirca(&["shards", "merge", "out"]), 3);
     assert!(found.contains("name its folder with --study"), "{found}");
-    done(&folder.pirca(&["merge", "out", "--study", "studies/renamed"]));
+    done(&folder.pirca(&["shards", "merge", "out", "--study", "studies/renamed"]));
     assert!(results(&folder, "out") == results(&folder, "whole"));
     let other = STUDY.replacen("phi_deg = 35", "phi_deg = 36", 1);
     fs::write(folder.path("studies/renamed/study.toml"), other).unwrap();
-    let found = refused(&folder.pirca(&["merge", "out", "--study", "studies/renamed"]), 1);
+    let found = refused(&folder.pirca(&["shards", "merge", "out", "--study", "studies/renamed"]), 1);
     assert!(found.contains("studies/renamed is not the study that the shards in out are of"), "{found}");
     assert!(found.contains("joint.phi_deg") && !found.contains("remove"), "{found}");
 }
@@ -319,14 +322,14 @@ fn a_full_disk_loses_nothing_but_the_wall_that_was_being_written() {
         .current_dir(folder.path(""))
         .args([
             "-c",
-            "ulimit -f 16; exec \"$0\" shard studies/tiny --index 0 --of 2 --threads 1 --out out",
+            "ulimit -f 16; exec \"$0\" shards run studies/tiny --index 0 --of 2 --threads 1 --out out",
             env!("CARGO_BIN_EXE_pirca"),
         ])
         .output()
         .unwrap();
     let found = refused(&full, 1);
     assert!(found.contains("cannot write") && found.contains(".part"), "{found}");
-    let status = done(&folder.pirca(&["status", "out"]));
+    let status = done(&folder.pirca(&["shards", "status", "out"]));
     assert!(status.contains("1 of 2 shards complete") && status.contains("missing: 0"), "{status}");
     done(&folder.pirca(&shard("0", "2", "out", &[])));
     assert!(merged(&folder, "out") == results(&folder, "whole"));
@@ -370,18 +373,27 @@ fn a_worker_without_the_studys_distributions_computes_nothing() {
 #[test]
 fn a_plan_says_how_many_shards_and_what_starts_them() {
     let folder = reference();
-    let said = done(&folder.pirca(&["shard", "studies/tiny", "--plan", "--out", "o'ut", "--seed", "3"]));
+    let said = done(&folder.pirca(&["shards", "plan", "studies/tiny", "--out", "o'ut", "--seed", "3"]));
     assert!(said.contains("tiny: 18 evaluations of") && said.contains("1 shards of 18"), "{said}");
-    assert!(said.contains("--plan slurm > shards.sh") && said.contains("--seed 3"), "{said}");
-    let plan = done(&folder.pirca(&["shard", "studies/tiny", "--plan", "--minutes", "0.0001", "--json"]));
+    assert!(said.contains("--script slurm > shards.sh") && said.contains("--seed 3"), "{said}");
+    let plan = done(&folder.pirca(&["shards", "plan", "studies/tiny", "--minutes", "0.0001", "--json"]));
     let plan: serde_json::Value = serde_json::from_str(&plan).unwrap();
     assert_eq!(plan["evaluations"], 18);
     assert!(plan["shards"].as_u64().unwrap() > 1, "{plan}");
     // Places that are spread fall together where there are few walls.
     assert!((12..=18).contains(&plan["timed"]["walls"].as_u64().unwrap()), "{plan}");
     for engine in ["dask", "slurm", "parallel"] {
-        let script =
-            done(&folder.pirca(&["shard", "studies/tiny", "--plan", engine, "--of", "5", "--out", "o'ut"]));
+        let script = done(&folder.pirca(&[
+            "shards",
+            "plan",
+            "studies/tiny",
+            "--script",
+            engine,
+            "--of",
+            "5",
+            "--out",
+            "o'ut",
+        ]));
         assert!(script.contains("studies/tiny") && script.contains("ut"), "{script}");
         // No placeholder is left.
         let words = script.split(|c: char| !(c.is_ascii_uppercase() || c == '@' || c == '_'));
@@ -391,13 +403,13 @@ fn a_plan_says_how_many_shards_and_what_starts_them() {
         assert!(script.starts_with(if engine == "dask" { "\"\"\"" } else { "#!" }), "{script}");
     }
     for (arguments, said) in [
-        (&["--index", "3", "--of", "3", "--out", "out"][..], "numbered from 0 to 2"),
-        (&["--index", "3", "--out", "out"], "--of"),
-        (&["--out", "out"], "--plan"),
-        (&["--plan", "--points", "30"], "--points is for the walls of a --bank"),
-        (&["--plan", "--bank", "--seed", "3"], "--seed is for a study's own walls"),
+        (&["run", "--index", "3", "--of", "3", "--out", "out"][..], "numbered from 0 to 2"),
+        (&["run", "--index", "3", "--out", "out"], "--of"),
+        (&["run", "--out", "out"], "--index"),
+        (&["plan", "--points", "30"], "--points is for the walls of a --bank"),
+        (&["plan", "--bank", "--seed", "3"], "--seed is for a study's own walls"),
     ] {
-        let found = refused(&folder.pirca(&[&["shard", "studies/tiny"], arguments].concat()), 2);
+        let found = refused(&folder.pirca(&[&["shards"], arguments, &["studies/tiny"]].concat()), 2);
         assert!(found.contains(said), "{found}");
     }
 }

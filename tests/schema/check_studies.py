@@ -20,7 +20,7 @@ def by_program(name):
     """The schema of that file name, as the program writes it now."""
     if name not in written:
         of = name.removesuffix(".schema.json")
-        text = subprocess.run([program, "schema", "--of", of], check=True, capture_output=True, text=True).stdout
+        text = subprocess.run([program, "reference", "schema", "--of", of], check=True, capture_output=True, text=True).stdout
         Draft7Validator.check_schema(json.loads(text))
         written[name] = text
     return written[name]
@@ -32,7 +32,7 @@ def named_by(path):
     assert first.startswith("#:schema ./") or first.startswith("#:schema ../"), f"{path}: {first}"
     schema = path.parent / first.removeprefix("#:schema ")
     text = schema.read_text()
-    assert text == by_program(schema.name), f"{schema} is not what `pirca schema` prints"
+    assert text == by_program(schema.name), f"{schema} is not what `pirca reference schema` prints"
     return Draft7Validator(json.loads(text))
 
 

@@ -39,7 +39,7 @@ pub enum ShardError {
         found: String,
     },
     /// A shard whose file is not as it was written.
-    #[error("{}: {found}; nothing was changed; compute it again: pirca shard --index {index} replaces a damaged file", file.display())]
+    #[error("{}: {found}; nothing was changed; compute it again: pirca shards run --index {index} replaces a damaged file", file.display())]
     Damaged {
         /// The file.
         file: PathBuf,
@@ -49,7 +49,7 @@ pub enum ShardError {
         found: String,
     },
     /// No shards are in the folder.
-    #[error("{}: {found}; give the folder that pirca shard --out wrote to", folder.display())]
+    #[error("{}: {found}; give the folder that pirca shards run --out wrote to", folder.display())]
     NoShards {
         /// The folder.
         folder: PathBuf,

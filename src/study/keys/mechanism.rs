@@ -22,7 +22,7 @@ const fn mechanism(title: &'static str, keys: &'static [&'static [Key]], doc: &'
 /// All mechanisms.
 pub static MECHANISM: Section = Section {
     title: "[mechanism]",
-    doc: "What the base model leaves out: each mechanism is off unless its table is there. `pirca mechanisms` says where each \
+    doc: "What the base model leaves out: each mechanism is off unless its table is there. `pirca reference causes` says where each \
           acts, its prior, and what it is confounded with.",
     chooser: None,
     keys: &[&[

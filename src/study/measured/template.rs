@@ -91,7 +91,7 @@ fn comments(study: &Study, wide: bool) -> Vec<String> {
         "Displacements: along the platform at the top of the wall towards the side that goes down relative to the reading at 0 deg."
             .to_owned(),
     );
-    lines.push("All columns and quantities: pirca check STUDY --keys".to_owned());
+    lines.push("All columns and quantities: pirca reference keys".to_owned());
     lines
 }
 

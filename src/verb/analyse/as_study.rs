@@ -88,7 +88,7 @@ fn text(arguments: &Analyse, fit: &Fit) -> String {
     let unsure = asked(arguments);
     let random = !unsure.is_empty();
     let mut text = format!(
-        "# The question of `pirca analyse {}` as a study: `pirca run`, `capacity`, `sensitivity` and `shard` take it.\n\n[study]\n\
+        "# The question of `pirca analyse {}` as a study: `pirca run`, `capacity`, `sensitivity` and `shards` take it.\n\n[study]\n\
          question = {:?}\nseed = {}\n",
         quoted(&title),
         format!("At which tilt towards {} does the wall of {title} fall?", arguments.direction),

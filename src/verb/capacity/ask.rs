@@ -17,7 +17,7 @@ Example: pirca capacity studies/tilting-table --members 100
          pirca capacity studies/tilting-table --below-deg 12
          pirca capacity studies/tilting-table --quantile 0.05 --half-width 0.1
          pirca capacity studies/tilting-block --variant restrained-ends --below-deg 20 --walls 4000 --cov 0.2
-         pirca generate studies/tilting-block --variant restrained-ends --draw 0 --out wall.vtu
+         pirca wall studies/tilting-block --variant restrained-ends --draw 0 --out wall.vtu
          pirca capacity studies/tilting-table --measured --known-cov 0.1
 
 Without a question it seeks the value that 5 % of walls lie below. It writes capacity.json, probability.svg, .png and .csv beside the \
@@ -50,7 +50,7 @@ pub(crate) struct Capacity {
     /// How further walls are drawn and counted [default: the one that is expected to take the fewest walls].
     #[arg(long, value_name = "NAME", requires = "walls", conflicts_with = "quantile", help_heading = STUDY)]
     pub method: Option<Method>,
-    /// Write the further walls down as batches for `pirca shard`, one after the other, and evaluate none of them here.
+    /// Write the further walls down as batches for `pirca shards run`, one after the other, and evaluate none of them here.
     #[arg(long, requires = "walls", conflicts_with_all = ["measured", "quantile", "half_width"], help_heading = STUDY)]
     pub batches: bool,
     /// Add walls, up to --walls, until half the width of a quantile's interval is below this share of the quantile.

@@ -87,7 +87,7 @@ fn waits(waiting: &Waiting) -> Result<Answer, Failure> {
     let Waiting { batch, walls } = waiting;
     let batch = batch.display().to_string();
     let text = format!(
-        "{walls} more walls are to be evaluated, as shards of {batch}:\n  pirca shard {0} --plan\n\
+        "{walls} more walls are to be evaluated, as shards of {batch}:\n  pirca shards plan {0} \n\
          then start this command again: it goes on from there\n",
         quoted(&batch)
     );

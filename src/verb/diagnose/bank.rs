@@ -1,10 +1,9 @@
-//! `pirca bank`: the walls that diagnoses of a study's measurements rest on.
+//! The walls that diagnoses of a study's measurements rest on: `pirca diagnose --prepare` alone simulates them.
 
 use std::fs;
 use std::num::NonZero;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use clap::Args;
 use serde::Serialize;
 use serde_json::json;
 
@@ -16,51 +15,17 @@ use crate::solve::Solver;
 use crate::study::{Described, Loaded, Nuisance, Study, described, nuisances};
 use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
-use crate::terminal::{output, progress, threads};
-use crate::verb::arguments::{OUTPUT, SOLUTION, STUDY, Which};
+use crate::terminal::{output, progress};
+use crate::verb::arguments::Which;
+use crate::verb::diagnose::ask::Diagnose;
 use crate::verb::diagnose::judge;
 use crate::verb::locate;
 
-/// Of `bank`.
-pub(crate) const HELP: &str = concat!(
-    "\
-Example: pirca bank studies/tilting-table --points 120
-
-More points later leave the first ones as they are, in another folder. The priors are in mechanism and nuisance of the \
-distributions that the study takes.
-
-",
-    codes!()
-);
-
-/// Arguments of `bank`.
-#[derive(Args, Debug)]
-pub(crate) struct Bank {
-    #[command(flatten)]
-    pub which: Which,
-    /// What was measured [default: the study's measured.csv]; only the families in it matter.
-    #[arg(long, value_name = "FILE", help_heading = STUDY)]
-    pub measured: Option<PathBuf>,
-    /// Output folder [default: runs/<study>-bank, with -<variant> in it if one is named].
-    #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
-    pub out: Option<PathBuf>,
-    /// Points in the priors for each mechanism; twice as many for the base model.
-    #[arg(long, value_name = "N", default_value_t = POINTS, value_parser = clap::value_parser!(u64).range(10..=100_000), help_heading = SOLUTION)]
-    pub points: u64,
-    /// Simulated campaigns of each mechanism that the self-test judges by all that a diagnosis does (seconds each), and five times as
-    /// many with nothing hidden; 100 of each are judged by how they seem.
-    #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u64).range(0..=20), help_heading = SOLUTION)]
-    pub judged: u64,
-    /// Seed of the self-test instead of the study's: that of the diagnoses which it is kept for. The walls keep the study's.
-    #[arg(long, value_name = "S", help_heading = STUDY)]
-    pub seed: Option<u64>,
-    /// Worker threads [default: one per processor]. No result depends on their number.
-    #[arg(long, value_name = "T", help_heading = SOLUTION)]
-    pub threads: Option<NonZero<usize>>,
-}
-
 /// Points in the priors for each mechanism, unless others are asked for.
 pub(crate) const POINTS: u64 = 60;
+
+/// Simulated campaigns of each mechanism that a self-test judges by the whole diagnosis, unless others are asked for.
+const JUDGED: u64 = 6;
 
 /// What a bank is made of.
 pub(crate) struct Prepared {
@@ -71,15 +36,11 @@ pub(crate) struct Prepared {
     pub notes: Vec<String>,
 }
 
-/// Computes what the bank does not hold yet.
-pub(crate) fn bank(arguments: &Bank) -> Result<Answer, Failure> {
-    threads::on(arguments.threads, || made(arguments))
-}
-
-fn made(arguments: &Bank) -> Result<Answer, Failure> {
+/// Computes what the bank does not hold yet, and its self-test.
+pub(crate) fn prepare(arguments: &Diagnose) -> Result<Answer, Failure> {
     let study = measured(&arguments.which, arguments.measured.as_deref())?.study;
     let Prepared { mechanisms, nuisances, plan, .. } = prepared(&study, &arguments.which, arguments.points)?;
-    let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, "bank"));
+    let out = arguments.bank.clone().unwrap_or_else(|| output::default_folder(&study, "bank"));
     // A table that came without its journal is as good as one that was computed here.
     let present = fs::read(out.join(BANK)).ok().and_then(|bytes| critic::Bank::read(&bytes, &plan).ok());
     let bank = present.map_or_else(|| computed(&plan, &out, arguments.threads), Ok)?;
@@ -96,7 +57,7 @@ fn made(arguments: &Bank) -> Result<Answer, Failure> {
     if let Ok(world) = judge::world(&study, &mechanisms, &nuisances, &plan, &bank)
         && let Ok(judge) = judge::judge(&world, &Design::of(&study).0, seed)
     {
-        judge::keep_self_test(&judge, &plan, seed, &out, arguments.judged)?;
+        judge::keep_self_test(&judge, &plan, seed, &out, arguments.judged.unwrap_or(JUDGED))?;
         known = explained(&world);
         said.push_str(&in_words(&known));
     }

@@ -1,4 +1,4 @@
-//! Who judges what was measured, and how well: the same for `diagnose`, and for `bank`, which keeps the self-test beside the walls.
+//! Who judges what was measured, and how well: the same for a diagnosis, and for `--prepare`, which keeps the self-test beside the walls.
 
 use std::fs;
 use std::path::Path;

@@ -29,7 +29,9 @@ use crate::verb::run::page;
 
 /// Diagnoses the measurements of a study.
 pub(crate) fn diagnose(arguments: &Diagnose) -> Result<Answer, Failure> {
-    threads::on(arguments.threads, || judged(arguments))
+    threads::on(arguments.threads, || {
+        if arguments.prepare { bank::prepare(arguments) } else { judged(arguments) }
+    })
 }
 
 fn judged(arguments: &Diagnose) -> Result<Answer, Failure> {
@@ -209,7 +211,7 @@ fn banked(
         let variant =
             arguments.which.variant.as_ref().map_or(String::new(), |name| format!(" --variant {name}"));
         return Err(Failure::Input(format!(
-            "there is no {}: {walls} walls are to be simulated first, by\n  pirca bank {study}{variant}{measured} --points {points} --out {}",
+            "there is no {}: {walls} walls are to be simulated first, by\n  pirca diagnose {study}{variant}{measured} --prepare --points {points} --bank {}",
             path.display(),
             folder.display()
         )));

@@ -1,4 +1,6 @@
-//! `pirca init`: a study to begin with, commented, or as a copy of another one.
+//! `pirca init`: a study to begin with, commented, or as a copy of another one; or an empty table of measurements.
+
+mod measurements;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,13 +11,13 @@ use serde_json::json;
 use crate::ensemble::replace_file;
 use crate::math::edit_distance;
 use crate::study::{
-    BuiltInStudy, Distributions, ElementStudy, InputFile, MEASURED, Schema, Study, built_in_studies,
-    distributions_among,
+    BuiltInStudy, Distributions, ElementStudy, InputFile, MEASURED, Schema, Study, Template,
+    built_in_studies, distributions_among,
 };
 use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
 use crate::terminal::output;
-use crate::verb::arguments::{OUTPUT, STUDY};
+use crate::verb::arguments::{OUTPUT, STUDY, Which};
 use crate::verb::locate;
 
 /// Of `init`.
@@ -24,22 +26,39 @@ pub(crate) const HELP: &str = concat!(
 Example: pirca init my-wall
          pirca run my-wall
          pirca init my-tests --from tilting-table
+         pirca init my-tests.csv --measured studies/tilting-table --wide
 
 Built in are arrangements, dry-shear-walls, earthquake, edge-restraint, element-types, homogenisation, joint-arrangement, sources-of-scatter, \
-tilting-block and tilting-table. A folder that exists is left alone: choose another name.
+tilting-block and tilting-table. A folder that exists is left alone: choose another name. \
+With --measured it writes an empty table for a spreadsheet, for measurements on the arms of a study; `pirca check --measured` reads it.
 
 ",
     codes!()
 );
 
+/// Heading of the options of a table of measurements.
+const TABLE: &str = "Table of measurements";
+
 /// Arguments of `init`.
 #[derive(Args, Debug)]
 pub(crate) struct Init {
-    /// The new folder, or one that is empty: a name here, or a path. Its last part is the study's name.
+    /// The new folder, or one that is empty: a name here, or a path. Its last part is the study's name. With --measured the new file.
     pub name: PathBuf,
     /// Copy this study: the folder of one, or one that is built in.
     #[arg(long, value_name = "STUDY", help_heading = STUDY)]
     pub from: Option<PathBuf>,
+    /// Write an empty table of measurements for the arms, the specimens and the tilts of this study instead.
+    #[arg(long, value_name = "STUDY", conflicts_with = "from", help_heading = TABLE)]
+    pub measured: Option<PathBuf>,
+    /// A row per specimen and tilt, with a column per quantity, instead of a row per value.
+    #[arg(long, requires = "measured", help_heading = TABLE)]
+    pub wide: bool,
+    /// Specimens of each arm in the empty table [default: 3].
+    #[arg(long, value_name = "N", requires = "measured", default_value_t = 3, hide_default_value = true, value_parser = clap::value_parser!(u32).range(1..=1000), help_heading = TABLE)]
+    pub specimens: u32,
+    /// The study as this variant of it.
+    #[arg(long, value_name = "NAME", requires = "measured", help_heading = TABLE)]
+    pub variant: Option<String>,
     /// Print one JSON object on standard output instead of text.
     #[arg(long, help_heading = OUTPUT)]
     pub json: bool,
@@ -62,6 +81,11 @@ enum Origin {
 /// Writes the study, whole or not at all.
 pub(crate) fn init(arguments: &Init) -> Result<Answer, Failure> {
     let folder = &arguments.name;
+    if let Some(study) = &arguments.measured {
+        let which = Which { study: study.clone(), variant: arguments.variant.clone(), json: arguments.json };
+        let wanted = Template { specimens: arguments.specimens, wide: arguments.wide };
+        return measurements::begin(folder, &which, wanted);
+    }
     // A folder that is there may be named by dots.
     let there = folder.canonicalize().unwrap_or_default();
     let name = match folder.file_name().or(there.file_name()) {
@@ -217,7 +241,7 @@ impl Origin {
         let shown = folder.display();
         format!(
             "# {name}\n\n{from}\n\n    pirca check {shown}\n    pirca run {shown}\n\nChange in `study.toml`, first of all: {change}. \
-             `pirca check {shown} --keys` lists every key.\n"
+             `pirca reference keys` lists every key.\n"
         )
     }
 }

@@ -1,31 +1,23 @@
-//! Arguments and help of `generate` and `picture`: which wall of a study.
+//! Arguments and help of `wall`: which wall of a study, and what of it is written.
 
 use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::verb::arguments::{OUTPUT, SOLUTION, WALL, Which};
+use crate::verb::arguments::{OUTPUT, WALL, Which};
 use crate::verb::wall::drawn::Measure;
 
-/// Of `generate`.
-pub(crate) const GENERATE: &str = concat!(
+/// Of `wall`.
+pub(crate) const HELP: &str = concat!(
     "\
-Example: pirca generate studies/joint-arrangement --arm irregular --member 17 --out wall.vtu
-         pirca generate studies/tilting-block --with-base --out wall.json   (for pirca analyse)
+Example: pirca wall studies/tilting-table --arm sbl --out wall.svg
+         pirca wall studies/tilting-table --arm sbl --out wall.svg --series fall --frames fall/frames
+         pirca wall studies/joint-arrangement --arm irregular --member 17 --out wall.vtu
+         pirca wall studies/tilting-block --with-base --out wall.json   (for pirca analyse)
 
-",
-    codes!(),
-    "\nA wall whose geometry is invalid ends with 1 and the reason."
-);
-
-/// Of `picture`.
-pub(crate) const PICTURE: &str = concat!(
-    "\
-Example: pirca picture studies/tilting-table --arm sbl --member 0 --out wall.svg
-         pirca picture studies/tilting-table --arm sbl --out wall.svg --series fall --frames fall/frames
-
-The last state at rest is drawn in true size, the movement of the fall magnified. A wall that does not fall is drawn at rest, \
-with its displacements magnified. Every way a wall can end is drawn, and ends with 0.
+A picture shows the wall as it falls: the last state at rest in true size, the movement of the fall magnified. A wall that does not \
+fall is drawn at rest, with its displacements magnified. Every way a wall can end is drawn, and ends with 0. \
+The other formats hold its stones as built.
 
 --frames and --series show the wall in at most 100 states: those at rest as the load grows, and where it falls up to 40 more in which \
 the explicit solver lets it fall from the last one at rest, until a stone has gone 0.3 of the wall's height. Limit analysis has the \
@@ -35,6 +27,10 @@ mechanism further and further instead. A fall is in true size unless --magnify s
     codes!(),
     "\nA wall whose geometry is invalid ends with 1 and the reason."
 );
+
+/// Headings of the options that belong to one kind of file.
+const PICTURE: &str = "Picture (.svg)";
+const GEOMETRY: &str = "Geometry (.vtu, .obj, .json)";
 
 /// Which wall of a study.
 #[derive(Args, Debug)]
@@ -63,47 +59,35 @@ pub(crate) struct OneWall {
     pub seed: Option<u64>,
 }
 
-/// Arguments of `generate`.
+/// Arguments of `wall`.
 #[derive(Args, Debug)]
-pub(crate) struct Generate {
+pub(crate) struct Wall {
     #[command(flatten)]
     pub which: Which,
     #[command(flatten)]
     pub wall: OneWall,
-    /// Solve the wall as `run` does, and write the displacements (m) of all corners and of every stone's centroid into the .vtu.
-    #[arg(long, help_heading = SOLUTION)]
-    pub solved: bool,
-    /// Add the ground: a fixed block under the wall, as `run` puts one there and `analyse` needs one.
-    #[arg(long, conflicts_with = "solved", help_heading = OUTPUT)]
-    pub with_base: bool,
-    /// File to write; its ending says the format: .vtu (ParaView), .obj or .json.
+    /// File to write; its ending says what: .svg is a picture, .vtu is for ParaView, .obj and .json are for other programs.
     #[arg(long, value_name = "FILE", help_heading = OUTPUT)]
     pub out: PathBuf,
-}
-
-/// Arguments of `picture`.
-#[derive(Args, Debug)]
-pub(crate) struct Picture {
-    #[command(flatten)]
-    pub which: Which,
-    #[command(flatten)]
-    pub wall: OneWall,
-    /// What joints are coloured by.
-    #[arg(long, value_name = "NAME", default_value = "opening", help_heading = OUTPUT)]
-    pub colour: Measure,
+    /// What joints are coloured by [default: opening].
+    #[arg(long, value_name = "NAME", help_heading = PICTURE)]
+    pub colour: Option<Measure>,
     /// Magnification of the movement, above 0 [default: so that the largest one is a tenth of the wall's height].
-    #[arg(long, value_name = "X", value_parser = magnification, allow_negative_numbers = true, help_heading = OUTPUT)]
+    #[arg(long, value_name = "X", value_parser = magnification, allow_negative_numbers = true, help_heading = PICTURE)]
     pub magnify: Option<f64>,
-    /// File to write, an .svg.
-    #[arg(long, value_name = "FILE", help_heading = OUTPUT)]
-    pub out: PathBuf,
     /// Folder for pictures of the wall in every state from rest through the collapse: frame-000.svg, frame-001.svg, ...
-    #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
+    #[arg(long, value_name = "DIR", help_heading = PICTURE)]
     pub frames: Option<PathBuf>,
     /// Folder for the same states in three dimensions: series for ParaView (wall.pvd, joints.pvd), an animation (wall.glb), and the wall
     /// at rest and at the end as OBJ.
-    #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
+    #[arg(long, value_name = "DIR", help_heading = PICTURE)]
     pub series: Option<PathBuf>,
+    /// Solve the wall as `run` does, and write the displacements (m) of all corners and of every stone's centroid into the .vtu.
+    #[arg(long, help_heading = GEOMETRY)]
+    pub solved: bool,
+    /// Add the ground: a fixed block under the wall, as `run` puts one there and `analyse` needs one.
+    #[arg(long, conflicts_with = "solved", help_heading = GEOMETRY)]
+    pub with_base: bool,
 }
 
 /// A magnification: above 0, and no more than anything could need.

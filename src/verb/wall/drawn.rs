@@ -10,8 +10,9 @@ use crate::render::picture::{Seam, Stone};
 use crate::{contact, protocol};
 
 /// What joints are coloured by.
-#[derive(Clone, Copy, Debug, ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
 pub(crate) enum Measure {
+    #[default]
     /// How far they gape at their widest.
     Opening,
     /// How far they have slipped.

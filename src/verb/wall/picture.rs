@@ -1,6 +1,4 @@
-//! `pirca picture`: one member, solved, and drawn as it falls.
-
-use std::path::Path;
+//! One member, solved, and drawn as it falls.
 
 use serde_json::json;
 
@@ -12,7 +10,7 @@ use crate::protocol::{Direction, Protocol, Run};
 use crate::render::picture::Picture;
 use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
-use crate::verb::wall::ask::Picture as Arguments;
+use crate::verb::wall::ask::Wall as Arguments;
 use crate::verb::wall::condition::{conditions, hinges};
 use crate::verb::wall::drawn::{Measure, drawing, ending, seams, stones, uncoloured};
 use crate::verb::wall::frames::Shown;
@@ -21,15 +19,9 @@ use crate::verb::wall::{frames, replayed};
 
 /// Solves the member and draws it.
 pub(crate) fn picture(arguments: &Arguments) -> Result<Answer, Failure> {
-    if !is_svg(&arguments.out) {
-        return Err(Failure::Usage(format!(
-            "--out {}: the picture is an SVG file, so its name must end in .svg",
-            arguments.out.display()
-        )));
-    }
     let chosen = OneWall::of(&arguments.which, &arguments.wall)?;
     let (run, replay) = chosen.replayed_if(arguments.frames.is_some() || arguments.series.is_some());
-    let picture = of_wall(&chosen, &run, arguments.colour, arguments.magnify);
+    let picture = of_wall(&chosen, &run, arguments.colour.unwrap_or_default(), arguments.magnify);
     let OneWall { study, task, kn, .. } = &chosen;
     let (arm, member) = (&study.arms[task.arm as usize], task.member);
     replace_file(&arguments.out, picture.svg().as_bytes())?;
@@ -65,7 +57,7 @@ fn films(
         let shown = Shown {
             title: picture.title.clone(),
             wall,
-            colour: arguments.colour,
+            colour: arguments.colour.unwrap_or_default(),
             magnify: arguments.magnify,
             from_front: picture.from_front,
         };
@@ -120,10 +112,6 @@ pub(crate) fn of_wall(chosen: &OneWall, run: &Run, colour: Measure, magnify: Opt
         ),
         remarks,
     }
-}
-
-fn is_svg(path: &Path) -> bool {
-    path.extension().is_some_and(|ending| ending == "svg")
 }
 
 fn direction(protocol: &Protocol) -> Direction {

@@ -148,7 +148,7 @@ pub struct Repeats {
     pub if_failed: Pooled,
     /// The weakest wall that was found, with its value.
     pub weakest: Option<(Draw, f64)>,
-    /// Its number, for `pirca generate --draw`.
+    /// Its number, for `pirca wall --draw`.
     pub weakest_draw: Option<u64>,
     /// By run, the levels that it went down by, the last one the level asked for, each with its probability.
     #[serde(skip)]

@@ -225,7 +225,7 @@ fn form(summary: &DiagnosisSummary) -> Table {
 
 fn limited(study: &Study, summary: &DiagnosisSummary) -> Vec<String> {
     let mut said = vec![
-        "A cause can be named only if it is in the catalogue (pirca mechanisms). What looks the same on these readings is told apart by \
+        "A cause can be named only if it is in the catalogue (pirca reference causes). What looks the same on these readings is told apart by \
          another measurement alone."
             .to_owned(),
         "Probabilities are relative: they say which cause of the catalogue is likelier, given that all were equally likely before."

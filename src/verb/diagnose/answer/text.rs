@@ -231,7 +231,7 @@ pub(crate) fn reliability(summary: &DiagnosisSummary) -> Vec<String> {
         ),
     ];
     sentences.push(match judged.campaigns {
-        0 => "Named by the whole diagnosis: not counted yet. `pirca bank` does, with the same measurements (--measured) and the \
+        0 => "Named by the whole diagnosis: not counted yet. `pirca diagnose --prepare` does, with the same measurements (--measured) and the \
               bank's folder (--out)."
             .to_string(),
         _ => format!(

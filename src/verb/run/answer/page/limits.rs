@@ -6,7 +6,7 @@ use crate::verb::run::answer::summary::{ArmSummary, Summary};
 
 /// What holds of every wall here.
 pub const RIGID: &str = "Stones are rigid and do not break. What happens in a joint follows from its stiffness, friction and \
-                         cohesion; what the model leaves out is listed by pirca mechanisms.";
+                         cohesion; what the model leaves out is listed by pirca reference causes.";
 
 /// What a solver's answer is.
 pub fn of_solver(name: &str) -> &'static str {

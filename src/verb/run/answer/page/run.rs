@@ -243,7 +243,7 @@ fn about_drawn(study: &Study, drawn: &[DrawnWall]) -> String {
     let arm = &study.arms[first.task.arm as usize];
     let walls: Vec<&str> = drawn.iter().map(|own| own.which).collect();
     format!(
-        "Of arm {} at kn {}: the {} wall. pirca picture draws any other.",
+        "Of arm {} at kn {}: the {} wall. pirca wall draws any other.",
         arm.name,
         stiffness(arm.kn_points[0]),
         walls.join(", the ")

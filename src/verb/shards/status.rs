@@ -1,4 +1,4 @@
-//! `pirca status`: how far shards are.
+//! `pirca shards status`: how far shards are.
 
 use std::fmt::Write;
 
@@ -6,7 +6,7 @@ use crate::ensemble::shard;
 use crate::terminal::answer::Answer;
 use crate::terminal::doing::doing;
 use crate::terminal::failure::Failure;
-use crate::verb::shard::ask::Status as Arguments;
+use crate::verb::shards::ask::Status as Arguments;
 
 /// So many shards that are begun are named.
 const NAMED: usize = 10;
@@ -33,7 +33,7 @@ pub(crate) fn status(arguments: &Arguments) -> Result<Answer, Failure> {
     }
     text += &match status.missing.is_empty() {
         true if status.foreign.is_empty() => {
-            format!("nothing is missing: pirca merge {}\n", arguments.folder.display())
+            format!("nothing is missing: pirca shards merge {}\n", arguments.folder.display())
         }
         true => String::new(),
         false => format!("missing: {}\n", status.missing),

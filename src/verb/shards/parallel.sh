@@ -13,7 +13,7 @@ out=@OUT@
 missing() {
     local part list=0-@LAST@
     if [ -e "$out/shards/work.json" ]; then
-        list=$(pirca status "$out" --json | sed -n 's/.*"missing": *"\([^"]*\)".*/\1/p')
+        list=$(pirca shards status "$out" --json | sed -n 's/.*"missing": *"\([^"]*\)".*/\1/p')
     fi
     for part in ${list//,/ }; do seq "${part%-*}" "${part#*-}"; done
 }
@@ -23,4 +23,4 @@ mkdir -p "$out/shards/log"
 missing | parallel --quote --retries 3 --joblog "$out/shards/log/parallel.txt" "$@" \
     @SHARD@ --quiet --index {} ||
     echo "some shards failed: $out/shards/log/parallel.txt says which" >&2
-pirca merge "$out"
+pirca shards merge "$out"

@@ -23,7 +23,7 @@ missing() {
     if [ ! -e "$out/shards/work.json" ]; then
         echo "0-@LAST@"
     else
-        pirca status "$out" --json | sed -n 's/.*"missing": *"\([^"]*\)".*/\1/p'
+        pirca shards status "$out" --json | sed -n 's/.*"missing": *"\([^"]*\)".*/\1/p'
     fi
 }
 
@@ -85,7 +85,7 @@ merge)
     if [ "$left" -gt 0 ] && [ "$try" -le "$tries" ]; then
         submit_all "$try" "$list"
     else
-        pirca merge "$out"
+        pirca shards merge "$out"
     fi
     ;;
 "")

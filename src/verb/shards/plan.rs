@@ -1,4 +1,4 @@
-//! `pirca shard --plan`: into how many shards walls are best shared out, by what a few of them take, and what starts the shards.
+//! `pirca shards plan`: into how many shards walls are best shared out, by what a few of them take, and what starts the shards.
 
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
@@ -13,10 +13,9 @@ use crate::terminal::doing::doing;
 use crate::terminal::failure::Failure;
 use crate::terminal::output;
 use crate::verb::arguments::quoted;
-use crate::verb::shard::Engine;
-use crate::verb::shard::ask::Shard;
-use crate::verb::shard::engine::Asked;
-use crate::verb::shard::job::{Job, Made};
+use crate::verb::shards::ask::{Plan, Walls};
+use crate::verb::shards::engine::Asked;
+use crate::verb::shards::job::{Job, Made};
 
 /// Walls that are timed, if that takes no longer than this; four at least.
 const TIMED: u64 = 24;
@@ -37,7 +36,9 @@ struct Timed {
 }
 
 /// Says how the walls are best shared out, or prints the script of an engine.
-pub(crate) fn plan(job: &Job, arguments: &Shard, engine: Option<Engine>) -> Result<Answer, Failure> {
+pub(crate) fn plan(arguments: &Plan) -> Result<Answer, Failure> {
+    let asked = &arguments.walls;
+    let job = &Job::asked(asked)?;
     let study = job.walls();
     let evaluations = evaluations(study);
     let timed = timed(job, evaluations);
@@ -46,31 +47,31 @@ pub(crate) fn plan(job: &Job, arguments: &Shard, engine: Option<Engine>) -> Resu
     let of = arguments.of.unwrap_or(proposed.min(evaluations.max(1)) as u32);
     let minutes = total / f64::from(of) / 60.0;
     let out = match &job.made {
-        Made::Batch(..) => arguments.which.study.clone(),
-        Made::Bank(_) => asked_out(arguments, &job.study, "bank-shards"),
-        Made::Own => asked_out(arguments, &job.study, "shards"),
+        Made::Batch(..) => asked.which.study.clone(),
+        Made::Bank(_) => asked_out(asked, &job.study, "bank-shards"),
+        Made::Own => asked_out(asked, &job.study, "shards"),
     };
     let out = std::path::absolute(&out).unwrap_or(out);
-    let words = words(job, arguments, of, &out);
-    if let Some(engine) = engine {
+    let words = words(job, asked, of, &out);
+    if let Some(engine) = arguments.script {
         let limit = ((LIMIT * minutes).ceil() as u64).max(LEAST_LIMIT);
         let out = out.display().to_string();
-        let asked = Asked {
+        let script = engine.script(&Asked {
             arguments: &words,
             out: &out,
             of,
             minutes: limit,
-            threads: threads(arguments),
+            threads: threads(asked),
             study: &job.study.name,
-        };
-        let script = engine.script(&asked);
+        });
         let object = json!({"engine": engine.name(), "shards": of, "script": script});
         return Answer::verbatim(script, &object);
     }
     let Timed { walls, mean, least, most } = timed;
     let each = evaluations.div_ceil(u64::from(of));
-    let planned: Vec<String> = words.iter().map(|word| quoted(word)).collect();
-    let planned = format!("pirca {} --plan", planned.join(" "));
+    // Behind `shards run`.
+    let planned: Vec<String> = words.iter().skip(2).map(|word| quoted(word)).collect();
+    let planned = format!("pirca shards plan {} --script", planned.join(" "));
     let text = format!(
         "{}: {evaluations} evaluations of {} s each ({walls} timed, {} to {} s): {} on one processor\n\
          {of} shards of {each} evaluations, {} each\n\n\
@@ -78,7 +79,7 @@ pub(crate) fn plan(job: &Job, arguments: &Shard, engine: Option<Engine>) -> Resu
          Dask           {planned} dask > shards.py; python shards.py ADDRESS\n  \
          Slurm          {planned} slurm > shards.sh; bash shards.sh\n  \
          GNU parallel   {planned} parallel > shards.sh; bash shards.sh\n\
-         then           pirca status {out}\n                 pirca merge {out}\n",
+         then           pirca shards status {out}\n                 pirca shards merge {out}\n",
         job.study.name,
         seconds(mean),
         seconds(least),
@@ -96,7 +97,7 @@ pub(crate) fn plan(job: &Job, arguments: &Shard, engine: Option<Engine>) -> Resu
     Answer::of(text, &object)
 }
 
-fn asked_out(arguments: &Shard, study: &Study, what: &str) -> PathBuf {
+fn asked_out(arguments: &Walls, study: &Study, what: &str) -> PathBuf {
     arguments.out.clone().unwrap_or_else(|| output::default_folder(study, what))
 }
 
@@ -143,16 +144,17 @@ fn at(study: &Study, mut place: u64) -> Task {
 }
 
 /// Threads of a shard: one, unless others are asked for, as many shards go on at a time.
-fn threads(arguments: &Shard) -> usize {
+fn threads(arguments: &Walls) -> usize {
     arguments.threads.map_or(1, NonZero::get)
 }
 
 /// The arguments of a shard but its number, without the program. Paths are whole, as jobs begin in other folders.
-fn words(job: &Job, arguments: &Shard, of: u32, out: &Path) -> Vec<String> {
+fn words(job: &Job, arguments: &Walls, of: u32, out: &Path) -> Vec<String> {
     let whole =
         |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_path_buf()).display().to_string();
     let is_batch = matches!(job.made, Made::Batch(..));
-    let mut words = vec!["shard".to_owned(), whole(if is_batch { out } else { &job.place })];
+    let mut words =
+        vec!["shards".to_owned(), "run".to_owned(), whole(if is_batch { out } else { &job.place })];
     let mut option = |name: &str, value: Option<String>| {
         words.extend(value.map(|value| [name.to_owned(), value]).into_iter().flatten());
     };

@@ -1,4 +1,4 @@
-//! `pirca merge`: from shards to the files of a run.
+//! `pirca shards merge`: from shards to the files of a run.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -20,8 +20,8 @@ use crate::verb::run::answer::files::write_gathered;
 use crate::verb::run::answer::gathered::Gathered;
 use crate::verb::run::answer::table::terminal_table;
 use crate::verb::run::origin::Origin;
-use crate::verb::shard::ask::Merge as Arguments;
-use crate::verb::shard::job::{Job, Made};
+use crate::verb::shards::ask::Merge as Arguments;
+use crate::verb::shards::job::{Job, Made};
 
 /// What came out, with what there is to say of the shards.
 #[derive(Serialize)]
@@ -95,7 +95,7 @@ fn of_bank(job: &Job, bank: &Prepared, merge: &Merge<'_>, out: &Path) -> Result<
     replace_file(&out.join(BANK), &made.table(&bank.plan)?)?;
     let walls = rows.len();
     let text = format!(
-        "{walls} walls, written to {}; pirca bank with the same --out adds the self-test\n",
+        "{walls} walls, written to {}; pirca diagnose --prepare with --bank of this folder adds the self-test\n",
         out.display()
     );
     Ok((text, json!({"walls": walls})))

@@ -1,4 +1,4 @@
-//! `pirca mechanisms`: the catalogue of what the base model leaves out.
+//! `pirca reference causes`: the catalogue of what the base model leaves out.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -9,10 +9,10 @@ use crate::study::{Described, Distributions, described};
 use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
 
-/// Of `mechanisms`.
-pub(crate) const HELP: &str = concat!(
+/// Of `reference causes`.
+pub(super) const HELP: &str = concat!(
     "\
-Example: pirca mechanisms --json
+Example: pirca reference causes --json
 
 A table [mechanism.creep] in a study, with its keys, switches creep on; [arm.mechanism.creep] does for one arm.
 
@@ -20,9 +20,9 @@ A table [mechanism.creep] in a study, with its keys, switches creep on; [arm.mec
     codes!()
 );
 
-/// Arguments of `mechanisms`.
+/// Arguments of `reference causes`.
 #[derive(Args, Debug)]
-pub(crate) struct Mechanisms {
+pub(crate) struct Causes {
     /// Folder of the distributions, which holds the priors below `mechanism` [default: the nearest folder `distributions` here
     /// or further up, else what is built in].
     #[arg(long, value_name = "DIR")]
@@ -33,7 +33,7 @@ pub(crate) struct Mechanisms {
 }
 
 /// The catalogue.
-pub(crate) fn mechanisms(arguments: &Mechanisms) -> Result<Answer, Failure> {
+pub(super) fn causes(arguments: &Causes) -> Result<Answer, Failure> {
     let distributions = match &arguments.distributions {
         Some(folder) if !folder.is_dir() => {
             return Err(Failure::Input(format!(

@@ -1,4 +1,4 @@
-//! `pirca schema`: the JSON Schema of an input file, for editors.
+//! `pirca reference schema`: the JSON Schema of an input file, for editors.
 
 use std::path::PathBuf;
 
@@ -11,11 +11,11 @@ use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
 use crate::verb::arguments::OUTPUT;
 
-/// Of `schema`.
-pub(crate) const HELP: &str = concat!(
+/// Of `reference schema`.
+pub(super) const HELP: &str = concat!(
     "\
-Example: pirca schema --out study.schema.json
-         pirca schema --of published --out published.schema.json
+Example: pirca reference schema --out study.schema.json
+         pirca reference schema --of published --out published.schema.json
 
 Editors with taplo (in VS Code: Even Better TOML) take it from the first line of a study: #:schema ./study.schema.json. \
 `pirca init` writes both. The schema is made from the table of keys that `pirca check` goes by; what needs more than one key, and the \
@@ -25,7 +25,7 @@ references to distributions, `check` alone sees.
     codes!()
 );
 
-/// Arguments of `schema`.
+/// Arguments of `reference schema`.
 #[derive(Args, Debug)]
 pub(crate) struct Schema {
     /// Which file it describes.
@@ -48,7 +48,7 @@ pub(crate) enum Described {
 }
 
 /// Gives the schema, or writes it to a file. The object of the answer is the schema.
-pub(crate) fn schema(arguments: &Schema) -> Result<Answer, Failure> {
+pub(super) fn schema(arguments: &Schema) -> Result<Answer, Failure> {
     let schema = match arguments.of {
         Described::Study => study::Schema::Study,
         Described::ElementStudy => study::Schema::ElementStudy,

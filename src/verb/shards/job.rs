@@ -12,7 +12,7 @@ use crate::verb::diagnose::bank;
 use crate::verb::diagnose::bank::Prepared;
 use crate::verb::locate;
 use crate::verb::run::work as run;
-use crate::verb::shard::ask::Shard;
+use crate::verb::shards::ask;
 
 /// Walls with the way that they are evaluated.
 pub(crate) struct Job {
@@ -38,7 +38,7 @@ pub(crate) enum Made {
 
 impl Job {
     /// What the arguments ask for.
-    pub fn asked(arguments: &Shard) -> Result<Job, Failure> {
+    pub fn asked(arguments: &ask::Walls) -> Result<Job, Failure> {
         let given = [
             ("--variant", arguments.which.variant.is_some()),
             ("--members", arguments.ensemble.members.is_some()),

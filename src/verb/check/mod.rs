@@ -1,21 +1,32 @@
 //! `pirca check`: everything that is wrong with a study, without running it.
 
+mod measured;
+
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde_json::json;
 
 use crate::ensemble;
-use crate::study::{Arm, ElementStudy, Faults, Loaded, Study, Used, key_reference};
+use crate::study::{Arm, ElementStudy, Faults, Loaded, Study, Used};
 use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
-use crate::verb::arguments::{OUTPUT, Which};
+use crate::verb::arguments::{STUDY, Which};
 use crate::verb::locate;
 
 /// Of `check`.
 pub(crate) const HELP: &str = concat!(
-    "Example: pirca check studies/joint-arrangement\n         pirca check studies/joint-arrangement --keys\n         pirca check studies/joint-arrangement --columns\n\n",
+    "\
+Example: pirca check studies/joint-arrangement
+         pirca check studies/tilting-table --measured my-tests.csv
+
+--measured says what is read from a table of measurements and what looks odd about it; it simulates nothing. The table has commas, \
+semicolons or tabs; decimals with a point, or with a comma where it does not separate; a row per value, or a row per tilt. \
+`pirca init FILE --measured STUDY` writes an empty one, `pirca reference keys` lists all columns and quantities. Every fault comes with \
+its line.
+
+",
     codes!()
 );
 
@@ -24,30 +35,24 @@ pub(crate) const HELP: &str = concat!(
 pub(crate) struct Check {
     #[command(flatten)]
     pub which: Which,
-    /// List every key that a study, its published.toml and a distribution may hold: what is allowed, default, meaning.
-    #[arg(long, conflicts_with = "json", help_heading = OUTPUT)]
-    pub keys: bool,
-    /// List every column of the tables of a run: name, unit, meaning.
-    #[arg(long, conflicts_with = "json", help_heading = OUTPUT)]
-    pub columns: bool,
+    /// Say what is read from this table of measurements [default: the study's measured.csv].
+    #[arg(long, value_name = "FILE", num_args = 0..=1, help_heading = STUDY)]
+    pub measured: Option<Option<PathBuf>>,
 }
 
 /// Reads the study and says what it found.
 pub(crate) fn check(arguments: &Check) -> Result<Answer, Failure> {
     let which = &arguments.which;
+    if let Some(file) = &arguments.measured {
+        return measured::check(which, file.as_deref());
+    }
     let folder = locate::folder(&which.study).map_err(|failure| not_there(failure, which.json))?;
     if ElementStudy::is_in(&folder) {
-        return elements(&folder, arguments);
+        return elements(&folder, which.json);
     }
     let loaded =
         Study::load(&folder, which.variant.as_deref()).map_err(|faults| refused(faults, which.json))?;
-    let mut text = summary(&loaded);
-    if arguments.keys {
-        text += &format!("\n{}", key_reference());
-    }
-    if arguments.columns {
-        text += &format!("\n{}", ensemble::column_reference());
-    }
+    let text = summary(&loaded);
     let Loaded { study, warnings, variants, used, .. } = &loaded;
     let object = json!({
         "valid": true,
@@ -150,18 +155,11 @@ pub(crate) fn origins(used: &[Used]) -> String {
 }
 
 /// Says whether a study of element types is valid and what it would run.
-fn elements(folder: &Path, arguments: &Check) -> Result<Answer, Failure> {
-    let study = ElementStudy::load(folder).map_err(|faults| refused(faults, arguments.which.json))?;
-    if arguments.columns {
-        return Err(Failure::Usage(format!(
-            "{} compares types of elements; --columns: the table of its results is elements.csv, whose columns are named after what they hold",
-            folder.display()
-        )));
-    }
+fn elements(folder: &Path, as_json: bool) -> Result<Answer, Failure> {
+    let study = ElementStudy::load(folder).map_err(|faults| refused(faults, as_json))?;
     let names: Vec<String> = study.arms.iter().map(|arm| format!("{} ({})", arm.name, arm.members)).collect();
-    let keys = if arguments.keys { format!("\n{}", key_reference()) } else { String::new() };
     let text = format!(
-        "{}: valid\n  question: {}\n  elements (assemblies): {}\n  seed: {}\n{}{keys}",
+        "{}: valid\n  question: {}\n  elements (assemblies): {}\n  seed: {}\n{}",
         study.name,
         study.question,
         names.join(", "),

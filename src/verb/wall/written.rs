@@ -1,6 +1,4 @@
-//! `pirca generate`: the wall of one member, as a file that other programs read.
-
-use std::path::Path;
+//! The wall of one member, as a file that other programs read.
 
 use serde_json::json;
 
@@ -12,20 +10,31 @@ use crate::protocol::Run;
 use crate::render::vtk::write_vtu;
 use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
-use crate::verb::wall::ask::Generate;
+use crate::verb::wall::ask::Wall as Arguments;
 use crate::verb::wall::one_wall::OneWall;
 
 /// The formats that a wall is written in, by the ending of the file.
 #[derive(Clone, Copy, PartialEq)]
-enum Format {
+pub(super) enum Format {
     Vtu,
     Obj,
     Json,
 }
 
+impl Format {
+    /// The one of an ending.
+    pub fn named(ending: &str) -> Option<Format> {
+        match ending {
+            "vtu" => Some(Format::Vtu),
+            "obj" => Some(Format::Obj),
+            "json" => Some(Format::Json),
+            _ => None,
+        }
+    }
+}
+
 /// Builds the wall and writes it.
-pub(crate) fn generate(arguments: &Generate) -> Result<Answer, Failure> {
-    let format = format_of(&arguments.out)?;
+pub(super) fn write(arguments: &Arguments, format: Format) -> Result<Answer, Failure> {
     if arguments.solved && format != Format::Vtu {
         return Err(Failure::Usage(
             "--solved: only a .vtu file holds displacements; give --out FILE.vtu".to_owned(),
@@ -68,16 +77,4 @@ fn encoded(format: Format, wall: &Wall, solved: Option<&Run>) -> String {
 fn moved(run: &Run) -> Vec<Movement> {
     let both = run.displacements.iter().zip(&run.turns);
     both.map(|(&shift, &turn)| Movement { shift, turn }).collect()
-}
-
-fn format_of(path: &Path) -> Result<Format, Failure> {
-    match path.extension().and_then(|ending| ending.to_str()) {
-        Some("vtu") => Ok(Format::Vtu),
-        Some("obj") => Ok(Format::Obj),
-        Some("json") => Ok(Format::Json),
-        _ => Err(Failure::Usage(format!(
-            "--out {}: the ending of the file says the format and must be .vtu, .obj or .json",
-            path.display()
-        ))),
-    }
 }

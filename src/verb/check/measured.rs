@@ -1,99 +1,33 @@
-//! `pirca measured`: an empty table to be filled in, or what is read from a filled one.
+//! `pirca check --measured`: what is read from a table of measurements.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::OpenOptions;
-use std::io::{ErrorKind, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use clap::Args;
 use serde_json::json;
 
 use crate::critic::{Design, data_notes};
 use crate::math::degrees;
 use crate::study::measured::Dimension;
-use crate::study::{
-    Loaded, MEASURED, MeasuredKind, MeasuredQuantity, Measurement, Study, Template, Written, listed, template,
-};
+use crate::study::{Loaded, MEASURED, MeasuredKind, MeasuredQuantity, Measurement, Study, Written, listed};
 use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
 use crate::verb::arguments::Which;
 use crate::verb::diagnose::bank;
-use crate::verb::locate;
 
-/// Of `measured`.
-pub(crate) const HELP: &str = concat!(
-    "\
-Example: pirca measured studies/tilting-table --template --wide --out my-tests.csv
-         pirca measured studies/tilting-table my-tests.csv
-
-Commas, semicolons or tabs; decimals with a point, or with a comma where it does not separate; a row per value, or a row per tilt. \
-`pirca check STUDY --keys` lists all columns and quantities. Every fault is told with its line.
-
-",
-    codes!()
-);
-
-/// Arguments of `measured`.
-#[derive(Args, Debug)]
-pub(crate) struct Measured {
-    #[command(flatten)]
-    pub which: Which,
-    /// The table to check [default: the study's measured.csv].
-    #[arg(value_name = "FILE")]
-    pub file: Option<PathBuf>,
-    /// Write an empty table for the arms, the specimens and the tilts of the study instead.
-    #[arg(long, conflicts_with_all = ["file", "json"])]
-    pub template: bool,
-    /// A row per specimen and tilt, with a column per quantity, instead of a row per value.
-    #[arg(long, requires = "template")]
-    pub wide: bool,
-    /// Specimens of each arm in the empty table [default: 3].
-    #[arg(long, value_name = "N", requires = "template", default_value_t = 3, hide_default_value = true, value_parser = clap::value_parser!(u32).range(1..=1000))]
-    pub specimens: u32,
-    /// File to write the empty table to, which must not be there [default: standard output].
-    #[arg(long, value_name = "FILE", requires = "template")]
-    pub out: Option<PathBuf>,
-}
-
-/// Writes a template, or says what is read from a file.
-pub(crate) fn measured(arguments: &Measured) -> Result<Answer, Failure> {
-    if arguments.template {
-        return written(arguments);
-    }
-    let loaded = bank::measured(&arguments.which, arguments.file.as_deref())?;
+/// Says what is read from a file.
+pub(super) fn check(which: &Which, file: Option<&Path>) -> Result<Answer, Failure> {
+    let loaded = bank::measured(which, file)?;
     let Some(how) = &loaded.written else {
-        let study = arguments.which.study.display();
+        let study = which.study.display();
         return Err(Failure::Input(format!(
             "{}: there is no {MEASURED} in the study's folder; name a file, or have an empty one written by\n  \
-             pirca measured {study} --template --out {MEASURED}",
+             pirca init {MEASURED} --measured {study}",
             loaded.study.name
         )));
     };
     let notes = bank::noted(&data_notes(&loaded.study, &Design::of(&loaded.study).0));
-    let file = arguments.file.clone().unwrap_or_else(|| PathBuf::from(MEASURED));
-    Answer::of(summary(&loaded.study, how, &file, &notes), &told(&loaded, how, &file, &notes))
-}
-
-/// Writes the empty table, never over a file: it may be the filled one.
-fn written(arguments: &Measured) -> Result<Answer, Failure> {
-    let study = locate::measurable(&arguments.which)?.study;
-    let wanted = Template { specimens: arguments.specimens, wide: arguments.wide };
-    let text = template(&study, wanted).ok_or_else(|| {
-        let text = "the study tilts no platform: what is measured on walls is measured on a tilting table";
-        Failure::Input(format!("{}: {text}", study.name))
-    })?;
-    let object = json!({"study": study.name, "variant": study.variant, "template": text});
-    let Some(path) = &arguments.out else { return Answer::verbatim(text, &object) };
-    let opened = OpenOptions::new().write(true).create_new(true).open(path);
-    opened.and_then(|mut file| file.write_all(text.as_bytes())).map_err(|error| {
-        Failure::Run(match error.kind() {
-            ErrorKind::AlreadyExists => {
-                format!("{} is there already, and may hold measurements: name another --out", path.display())
-            }
-            _ => format!("cannot write {}: {error}", path.display()),
-        })
-    })?;
-    Ok(Answer::of(format!("written to {}\n", path.display()), &object)?.in_place(path))
+    let file = file.unwrap_or(Path::new(MEASURED));
+    Answer::of(summary(&loaded.study, how, file, &notes), &told(&loaded, how, file, &notes))
 }
 
 /// The readings of one quantity in one family.

@@ -1,4 +1,4 @@
-//! `pirca shard`, `pirca status` and `pirca merge`: the walls of a study on many machines.
+//! `pirca shards`: the walls of a study on many machines.
 
 pub(crate) mod ask;
 mod engine;
@@ -8,8 +8,6 @@ mod plan;
 mod status;
 
 pub(crate) use engine::Engine;
-pub(crate) use merge::merge;
-pub(crate) use status::status;
 
 use serde_json::json;
 
@@ -18,23 +16,29 @@ use crate::ensemble::shard::{Share, Work, compute};
 use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
 use crate::terminal::progress;
-use crate::verb::shard::ask::Shard;
-use crate::verb::shard::job::{Job, Made};
+use crate::verb::shards::ask::{Run, Shards, Step};
+use crate::verb::shards::job::{Job, Made};
 
-/// Plans how a study's walls are shared out, or computes a shard of them.
-pub(crate) fn shard(arguments: &Shard) -> Result<Answer, Failure> {
-    let job = Job::asked(arguments)?;
-    if let Some(engine) = arguments.plan {
-        return plan::plan(&job, arguments, engine);
+/// Does a step.
+pub(crate) fn shards(arguments: &Shards) -> Result<Answer, Failure> {
+    match &arguments.step {
+        Step::Plan(asked) => plan::plan(asked),
+        Step::Run(asked) => run(asked),
+        Step::Status(asked) => status::status(asked),
+        Step::Merge(asked) => merge::merge(asked),
     }
-    let (Some(index), Some(of)) = (arguments.index, arguments.of) else {
-        return Err(Failure::Usage("--index needs --of".to_owned()));
-    };
-    let out = match (&job.made, &arguments.out) {
-        (Made::Batch(..), _) => &arguments.which.study,
+}
+
+/// Computes a shard.
+fn run(arguments: &Run) -> Result<Answer, Failure> {
+    let Run { walls, index, of } = arguments;
+    let (index, of) = (*index, *of);
+    let job = Job::asked(walls)?;
+    let out = match (&job.made, &walls.out) {
+        (Made::Batch(..), _) => &walls.which.study,
         (_, Some(out)) => out,
         (_, None) => {
-            let text = "--index needs --out, the folder of all shards: the same one for each, on a file system that all machines see";
+            let text = "shards run needs --out, the folder of all shards: the same one for each, on a file system that all machines see";
             return Err(Failure::Usage(text.to_owned()));
         }
     };
@@ -46,7 +50,7 @@ pub(crate) fn shard(arguments: &Shard) -> Result<Answer, Failure> {
     }
     let (study, share) = (job.walls(), Share { index, of });
     let work = Work::of(study, &job.place, job.kind.clone(), of);
-    let settings = Settings { out: out.clone(), threads: arguments.threads };
+    let settings = Settings { out: out.clone(), threads: walls.threads };
     let progress = progress::on_stderr(study);
     let done = compute(study, &work, share, &settings, progress.as_ref(), &|_, task| job.evaluate(task))?;
     let text = match done.was_complete {
