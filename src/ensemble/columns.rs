@@ -1,9 +1,12 @@
 //! The columns of a run's tables: name, unit, meaning, and where each value comes from. Tables, their documentation and their schemas are
 //! made from this one list.
 
-mod shaken;
+use std::iter;
 
-use crate::ensemble::{AddedColumns, Row, StepRow};
+use crate::ensemble::added_columns::AddedColumns;
+use crate::ensemble::reading::{self, BLOCKS, StepRow};
+use crate::ensemble::record::Row;
+use crate::ensemble::{built, limit_analysis};
 
 /// A table, by what a line of it is.
 pub trait Table {
@@ -73,56 +76,66 @@ const ANY_KEY: &str = "KEY";
 const DRAWN: &str =
     "what was drawn for this wall in the place of the number of that name in study.toml, in its unit";
 
-fn text<T: Table>(name: &str, meaning: &'static str, of: TextOf<T>) -> Column<T> {
+pub(super) fn text<T: Table>(name: &str, meaning: &'static str, of: TextOf<T>) -> Column<T> {
     Column { name: name.to_owned(), unit: "", meaning, value: Value::Text(of) }
 }
 
-fn count<T: Table>(name: &str, meaning: &'static str, of: for<'r> fn(T::Line<'r>) -> u64) -> Column<T> {
+pub(super) fn count<T: Table>(
+    name: &str,
+    meaning: &'static str,
+    of: for<'r> fn(T::Line<'r>) -> u64,
+) -> Column<T> {
     Column { name: name.to_owned(), unit: "", meaning, value: Value::Count(of) }
 }
 
-fn real<T: Table>(name: &str, unit: &'static str, meaning: &'static str, of: RealOf<T>) -> Column<T> {
+pub(super) fn real<T: Table>(
+    name: &str,
+    unit: &'static str,
+    meaning: &'static str,
+    of: RealOf<T>,
+) -> Column<T> {
     Column { name: name.to_owned(), unit, meaning, value: Value::Real(of) }
+}
+
+/// Columns that tables have only where some wall fills them.
+pub struct Block {
+    /// Its name, by which it is known which blocks the walls of a run fill together.
+    pub name: &'static str,
+    /// Whether a wall fills it.
+    pub fills: fn(&Row) -> bool,
+    /// Its columns in the table of members.
+    pub members: fn() -> Vec<Column<Members>>,
+    /// Its columns in the table of load steps.
+    pub steps: fn() -> Vec<Column<Steps>>,
 }
 
 /// The columns of `members.parquet`.
 pub fn of_members(added: &AddedColumns) -> Vec<Column<Members>> {
-    let mut columns = every_member();
-    if added.sheared {
-        columns.extend(sheared_members());
-    }
-    if added.undecided {
-        columns.extend(undecided_members());
-    }
-    if added.shaken {
-        columns.extend(shaken::members());
-    }
-    columns.extend(added.drawn.iter().map(|key| drawn_column(key)));
-    columns
+    members(added.blocks(), added.drawn.iter().map(String::as_str))
 }
 
 /// The columns of `steps.parquet`.
 pub fn of_steps(added: &AddedColumns) -> Vec<Column<Steps>> {
-    let mut columns = every_step();
-    if added.pushed {
-        columns.extend(sheared_steps());
-    }
-    if added.shaken {
-        columns.extend(shaken::steps());
-    }
-    columns
+    steps(added.blocks())
 }
 
 /// All columns that a table of members, and one of steps, may have.
 pub fn documented() -> (Vec<Column<Members>>, Vec<Column<Steps>>) {
-    let (mut members, mut steps) = (every_member(), every_step());
-    members.extend(sheared_members());
-    members.extend(undecided_members());
-    members.extend(shaken::members());
-    members.push(drawn_column(ANY_KEY));
-    steps.extend(sheared_steps());
-    steps.extend(shaken::steps());
-    (members, steps)
+    (members(BLOCKS.iter(), iter::once(ANY_KEY)), steps(BLOCKS.iter()))
+}
+
+fn members<'k>(
+    blocks: impl Iterator<Item = &'static Block>,
+    drawn: impl Iterator<Item = &'k str>,
+) -> Vec<Column<Members>> {
+    let every = [which_member, reading::members, limit_analysis::members, mechanism, built::members, solved];
+    let every = every.into_iter().flat_map(|columns| columns());
+    every.chain(blocks.flat_map(|block| (block.members)())).chain(drawn.map(drawn_column)).collect()
+}
+
+fn steps(blocks: impl Iterator<Item = &'static Block>) -> Vec<Column<Steps>> {
+    let every = [which_step, reading::steps, solved_step].into_iter().flat_map(|columns| columns());
+    every.chain(blocks.flat_map(|block| (block.steps)())).collect()
 }
 
 fn drawn_column(key: &str) -> Column<Members> {
@@ -131,7 +144,7 @@ fn drawn_column(key: &str) -> Column<Members> {
     Column { name: format!("drawn {key}"), unit: "", meaning: DRAWN, value }
 }
 
-fn every_member() -> Vec<Column<Members>> {
+fn which_member() -> Vec<Column<Members>> {
     type R<'r> = &'r Row;
     vec![
         text("arm", "name of the arm", |r: R| Some(r.arm.clone())),
@@ -148,54 +161,12 @@ fn every_member() -> Vec<Column<Members>> {
         text("reason", "why, in words; none of a wall that stands to the end", |r: R| {
             Some(r.outcome.reason()).filter(|reason| !reason.is_empty())
         }),
-        real(
-            "top_displacement_m",
-            "m",
-            "largest displacement at the wall's top along the load, at its end, since gravity alone; of walls in equilibrium",
-            |r: R| r.top_displacement_m,
-        ),
-        real(
-            "collapse_angle_deg",
-            "deg",
-            "the largest tilt that it bore before the event that is its capacity",
-            |r: R| r.collapse_angle_deg,
-        ),
-        real("fails_at_deg", "deg", "the lowest tilt at which it is known to fall", |r: R| r.fails_at_deg),
-        real("first_stone_deg", "deg", "tilt at which its first stone fell", |r: R| r.first_stone_deg),
-        real("part_deg", "deg", "tilt at which part_share of its weight had fallen", |r: R| r.part_deg),
-        real("most_deg", "deg", "tilt at which most_share of its weight had fallen", |r: R| r.most_deg),
-        real("largest_tilt_deg", "deg", "the largest tilt at which it came to rest", |r: R| {
-            r.largest_tilt_deg
-        }),
-        real(
-            "limit_angle_deg",
-            "deg",
-            "tilt of collapse by limit analysis with associative flow, an upper bound",
-            |r: R| r.limit.and_then(|l| l.angle_deg),
-        ),
-        real(
-            "limit_angle_non_associative_deg",
-            "deg",
-            "the same without dilatancy, neither a bound nor unique",
-            |r: R| r.limit.and_then(|l| l.non_associative_angle_deg),
-        ),
-        real(
-            "limit_multiplier",
-            "",
-            "factor on the load at collapse by limit analysis with associative flow; in shear the push over the vertical load",
-            |r: R| r.limit.and_then(|l| l.multiplier),
-        ),
-        real("limit_multiplier_non_associative", "", "the same without dilatancy", |r: R| {
-            r.limit.and_then(|l| l.non_associative_multiplier)
-        }),
-        text(
-            "agreement",
-            "how the solver's answer goes with limit analysis: within_bound, above_bound, one_stands, no_answer",
-            |r: R| r.limit.map(|l| l.agreement.name().to_owned()),
-        ),
-        real("capacity_over_limit", "", "the solver's capacity over the bound of limit analysis", |r: R| {
-            r.limit.and_then(|l| l.ratio)
-        }),
+    ]
+}
+
+fn mechanism() -> Vec<Column<Members>> {
+    type R<'r> = &'r Row;
+    vec![
         text("failure_mode", "how the moving part moves as it falls: sliding, rocking, bulging", |r: R| {
             r.mechanism.map(|m| m.mode.name().to_owned())
         }),
@@ -229,24 +200,12 @@ fn every_member() -> Vec<Column<Members>> {
             "turning over turning and slipping in the moving joints: 1 rocks, 0 slides",
             |r: R| r.mechanism.map(|m| m.turning_share),
         ),
-        count("stones", "number of stones, headers and wedges among them", |r: R| r.stones.into()),
-        count("joints", "number of joints as built", |r: R| r.joints.into()),
-        count("wedges", "number of wedges", |r: R| r.wedges.into()),
-        count("headers", "number of headers", |r: R| r.headers.into()),
-        count("attempts", "fresh starts of the generator", |r: R| r.attempts.into()),
-        count("redraws", "single redraws of the generator", |r: R| r.redraws.into()),
-        count("merges", "slivers merged into a neighbour", |r: R| r.merges.into()),
-        real("dip_mean_deg", "deg", "mean of the dips of its beds as built", |r: R| r.dip_mean_deg),
-        real("dip_sd_deg", "deg", "their standard deviation", |r: R| r.dip_sd_deg),
-        real(
-            "first_dip_sd_deg",
-            "deg",
-            "standard deviation of the dips as first drawn, before any was rejected",
-            |r: R| r.first_dip_sd_deg,
-        ),
-        real("length_mean_m", "m", "mean length of its stones as built", |r: R| r.length_mean_m),
-        real("height_mean_m", "m", "mean height of its stones as built", |r: R| r.height_mean_m),
-        real("weight_n", "N", "weight of its stones", |r: R| r.weight_n),
+    ]
+}
+
+fn solved() -> Vec<Column<Members>> {
+    type R<'r> = &'r Row;
+    vec![
         count("solver_steps", "time steps or iterations of the solver, over all load steps", |r: R| {
             r.solver_steps
         }),
@@ -256,64 +215,7 @@ fn every_member() -> Vec<Column<Members>> {
     ]
 }
 
-fn undecided_members() -> Vec<Column<Members>> {
-    type R<'r> = &'r Row;
-    vec![
-        real(
-            "stiff_angle_deg",
-            "deg",
-            "tilt at which it falls with stiff joints, where rigid blocks leave the value open",
-            |r: R| r.undecided.as_ref().and_then(|own| own.stiff_angle_deg),
-        ),
-        real("stiff_multiplier", "", "factor on the load with stiff joints, the same", |r: R| {
-            r.undecided.as_ref().and_then(|own| own.stiff_multiplier)
-        }),
-        real("stiff_capacity_n", "N", "the largest push with stiff joints, the same", |r: R| {
-            r.undecided.as_ref().and_then(|own| own.stiff_capacity_n)
-        }),
-        real("thrust_needed_n", "N", "thrust in upright joints that the value needs", |r: R| {
-            r.undecided.as_ref().and_then(|own| own.thrust_needed_n)
-        }),
-        real("thrust_at_rest_n", "N", "thrust in upright joints under the weight alone", |r: R| {
-            r.undecided.as_ref().and_then(|own| own.thrust_at_rest_n)
-        }),
-        text("left_open", "why rigid blocks leave the value open", |r: R| {
-            r.undecided.as_ref().map(|own| own.why.clone())
-        }),
-    ]
-}
-
-fn sheared_members() -> Vec<Column<Members>> {
-    type R<'r> = &'r Row;
-    vec![
-        real("capacity_n", "N", "the largest push that the wall bore", |r: R| {
-            r.shear.and_then(|s| s.capacity_n)
-        }),
-        real("drift_at_capacity_percent", "%", "the drift at which it was reached", |r: R| {
-            r.shear.and_then(|s| s.drift_at_capacity_percent)
-        }),
-        real(
-            "plateau_n",
-            "N",
-            "push at which a wall of the same stiffness that gives way at once does as much work",
-            |r: R| r.shear.and_then(|s| s.plateau_n),
-        ),
-        real(
-            "stiffness_n_per_m",
-            "N/m",
-            "secant of push over displacement at a third of the plateau",
-            |r: R| r.shear.and_then(|s| s.stiffness_n_per_m),
-        ),
-        text("shear_mode", "how the wall gives way in its plane: rocking, sliding, toe", |r: R| {
-            r.shear.and_then(|s| s.mode).map(|mode| mode.name().to_owned())
-        }),
-        real("opening_m", "m", "widest opening of a joint at the end", |r: R| {
-            r.shear.and_then(|s| s.opening_m)
-        }),
-    ]
-}
-
-fn every_step() -> Vec<Column<Steps>> {
+fn which_step() -> Vec<Column<Steps>> {
     type S<'r> = Step<'r>;
     vec![
         text("arm", "name of the arm", |s: S| Some(s.row.arm.clone())),
@@ -327,30 +229,12 @@ fn every_step() -> Vec<Column<Steps>> {
             "number of the load step; 0 is gravity alone; of walls that are shaken the number of the run",
             |s: S| s.number,
         ),
-        real("load_factor", "", "share of the full load; none on a tilting table", |s: S| s.step.load_factor),
-        real("tilt_deg", "deg", "tilt of the platform", |s: S| s.step.tilt_deg),
-        real(
-            "top_displacement_m",
-            "m",
-            "largest displacement at the wall's top along the load, since gravity alone",
-            |s: S| s.step.top_displacement_m,
-        ),
-        real(
-            "left_m",
-            "m",
-            "displacement of the left point of the top along y, since gravity alone",
-            |s: S| s.step.left_m,
-        ),
-        real("centre_m", "m", "the same of the centre point", |s: S| s.step.centre_m),
-        real("right_m", "m", "the same of the right point", |s: S| s.step.right_m),
-        real(
-            "left_remainder_m",
-            "m",
-            "what is left of left_m when the platform goes back to the level from here (load.remainders = true)",
-            |s: S| s.step.left_remainder_m,
-        ),
-        real("centre_remainder_m", "m", "the same of the centre point", |s: S| s.step.centre_remainder_m),
-        real("right_remainder_m", "m", "the same of the right point", |s: S| s.step.right_remainder_m),
+    ]
+}
+
+fn solved_step() -> Vec<Column<Steps>> {
+    type S<'r> = Step<'r>;
+    vec![
         real(
             "unbalanced_ratio",
             "",
@@ -358,18 +242,5 @@ fn every_step() -> Vec<Column<Steps>> {
             |s: S| s.step.unbalanced_ratio,
         ),
         count("solver_steps", "time steps or iterations of the solver", |s: S| s.step.solver_steps),
-    ]
-}
-
-fn sheared_steps() -> Vec<Column<Steps>> {
-    type S<'r> = Step<'r>;
-    vec![
-        real(
-            "drift_percent",
-            "%",
-            "displacement of the beam on the wall over the height of the jack",
-            |s: S| s.step.drift_percent,
-        ),
-        real("force_n", "N", "force of the jack along the wall", |s: S| s.step.force_n),
     ]
 }
