@@ -4,14 +4,19 @@
 use std::iter;
 
 use crate::ensemble::added_columns::AddedColumns;
+use crate::ensemble::field::{Cell, Entry, Field, Kind, Record};
 use crate::ensemble::reading::{self, BLOCKS, StepRow};
 use crate::ensemble::record::Row;
-use crate::ensemble::{built, limit_analysis};
 
 /// A table, by what a line of it is.
-pub trait Table {
+pub trait Table: 'static {
     /// A line, for as long as its row is there.
     type Line<'r>: Copy;
+    /// What a line is made from.
+    type Base: 'static;
+
+    /// That of a line.
+    fn base<'l>(line: &'l Self::Line<'_>) -> &'l Self::Base;
 
     /// Lines that are written at a time, in a row group of the file. So many are some 40 MB in memory, and what the file's end says of
     /// each group, which is kept until then, is little beside its lines.
@@ -23,6 +28,11 @@ pub enum Members {}
 
 impl Table for Members {
     type Line<'r> = &'r Row;
+    type Base = Row;
+
+    fn base<'l>(row: &'l &Row) -> &'l Row {
+        row
+    }
 
     const GROUP: usize = 65_536;
 }
@@ -32,6 +42,11 @@ pub enum Steps {}
 
 impl Table for Steps {
     type Line<'r> = Step<'r>;
+    type Base = StepRow;
+
+    fn base<'l>(line: &'l Step<'_>) -> &'l StepRow {
+        line.step
+    }
 
     const GROUP: usize = 262_144;
 }
@@ -44,24 +59,13 @@ pub struct Column<T: Table> {
     pub unit: &'static str,
     /// What it holds.
     pub meaning: &'static str,
+    /// Of which kind.
+    pub kind: Kind,
     /// The value of a line.
-    pub value: Value<T>,
+    pub cell: Box<CellOf<T>>,
 }
 
-/// Where a value comes from.
-pub enum Value<T: Table> {
-    /// A text, or nothing.
-    Text(TextOf<T>),
-    /// A count.
-    Count(for<'r> fn(T::Line<'r>) -> u64),
-    /// A number, or nothing.
-    Real(RealOf<T>),
-    /// What a wall drew of the parameter of this name, or nothing.
-    Drawn(for<'r> fn(T::Line<'r>, &str) -> Option<f64>, String),
-}
-
-type TextOf<T> = for<'r> fn(<T as Table>::Line<'r>) -> Option<String>;
-type RealOf<T> = for<'r> fn(<T as Table>::Line<'r>) -> Option<f64>;
+type CellOf<T> = dyn for<'r> Fn(<T as Table>::Line<'r>) -> Cell + Send + Sync;
 
 /// A load step of a member with its number.
 #[derive(Clone, Copy)]
@@ -76,25 +80,35 @@ const ANY_KEY: &str = "KEY";
 const DRAWN: &str =
     "what was drawn for this wall in the place of the number of that name in study.toml, in its unit";
 
-pub(super) fn text<T: Table>(name: &str, meaning: &'static str, of: TextOf<T>) -> Column<T> {
-    Column { name: name.to_owned(), unit: "", meaning, value: Value::Text(of) }
-}
-
-pub(super) fn count<T: Table>(
-    name: &str,
-    meaning: &'static str,
-    of: for<'r> fn(T::Line<'r>) -> u64,
-) -> Column<T> {
-    Column { name: name.to_owned(), unit: "", meaning, value: Value::Count(of) }
-}
-
-pub(super) fn real<T: Table>(
+/// A column of its own.
+pub(super) fn column<T: Table, F: Field + 'static>(
     name: &str,
     unit: &'static str,
     meaning: &'static str,
-    of: RealOf<T>,
+    field: for<'r> fn(T::Line<'r>) -> F,
 ) -> Column<T> {
-    Column { name: name.to_owned(), unit, meaning, value: Value::Real(of) }
+    let cell = Box::new(move |line: T::Line<'_>| field(line).cell());
+    Column { name: name.to_owned(), unit, meaning, kind: F::KIND, cell }
+}
+
+/// The columns of a record that every line has.
+pub(super) fn of_record<T: Table, R: Record>(record: fn(&T::Base) -> &R) -> Vec<Column<T>> {
+    let column = |entry: &'static Entry<R>| {
+        let &Entry { name, unit, meaning, kind, cell } = entry;
+        let cell = Box::new(move |line: T::Line<'_>| cell(record(T::base(&line))));
+        Column { name: name.to_owned(), unit, meaning, kind, cell }
+    };
+    R::COLUMNS.iter().map(column).collect()
+}
+
+/// The columns of a record that a line may have.
+pub(super) fn of_optional<T: Table, R: Record>(record: fn(&T::Base) -> Option<&R>) -> Vec<Column<T>> {
+    let column = |entry: &'static Entry<R>| {
+        let &Entry { name, unit, meaning, kind, cell } = entry;
+        let cell = Box::new(move |line: T::Line<'_>| Cell::optional(record(T::base(&line)).map(cell), kind));
+        Column { name: name.to_owned(), unit, meaning, kind: kind.optional(), cell }
+    };
+    R::COLUMNS.iter().map(column).collect()
 }
 
 /// Columns that tables have only where some wall fills them.
@@ -128,8 +142,7 @@ fn members<'k>(
     blocks: impl Iterator<Item = &'static Block>,
     drawn: impl Iterator<Item = &'k str>,
 ) -> Vec<Column<Members>> {
-    let every = [which_member, reading::members, limit_analysis::members, mechanism, built::members, solved];
-    let every = every.into_iter().flat_map(|columns| columns());
+    let every = [which_member, reading::members, analysed, solved].into_iter().flat_map(|columns| columns());
     every.chain(blocks.flat_map(|block| (block.members)())).chain(drawn.map(drawn_column)).collect()
 }
 
@@ -139,77 +152,48 @@ fn steps(blocks: impl Iterator<Item = &'static Block>) -> Vec<Column<Steps>> {
 }
 
 fn drawn_column(key: &str) -> Column<Members> {
-    type R<'r> = &'r Row;
-    let value = Value::Drawn(|row: R, key: &str| row.drawn.get(key).copied(), key.to_owned());
-    Column { name: format!("drawn {key}"), unit: "", meaning: DRAWN, value }
+    let drawn = key.to_owned();
+    let cell = Box::new(move |row: &Row| row.drawn.get(&drawn).copied().cell());
+    Column { name: format!("drawn {key}"), unit: "", meaning: DRAWN, kind: Kind::Real, cell }
 }
 
 fn which_member() -> Vec<Column<Members>> {
     type R<'r> = &'r Row;
     vec![
-        text("arm", "name of the arm", |r: R| Some(r.arm.clone())),
-        count("point", "number of the stiffness of its joints, from 0", |r: R| r.point.into()),
-        real("kn_pa_per_m", "Pa/m", "normal stiffness of its joints, as stated", |r: R| Some(r.kn_pa_per_m)),
-        count("member", "number of the wall in its arm, from 0; the same wall at every stiffness", |r: R| {
-            r.member
-        }),
-        text(
-            "outcome",
-            "how it ended: equilibrium, collapsed, unstable_at_rest, unbounded, not_converged, non_finite, invalid_geometry",
-            |r: R| Some(r.outcome.name().to_owned()),
+        column("arm", "", "name of the arm", |r: R| r.arm.clone()),
+        column("point", "", "number of the stiffness of its joints, from 0", |r: R| r.point),
+        column("kn_pa_per_m", "Pa/m", "normal stiffness of its joints, as stated", |r: R| r.kn_pa_per_m),
+        column(
+            "member",
+            "",
+            "number of the wall in its arm, from 0; the same wall at every stiffness",
+            |r: R| r.member,
         ),
-        text("reason", "why, in words; none of a wall that stands to the end", |r: R| {
+        column(
+            "outcome",
+            "",
+            "how it ended: equilibrium, collapsed, unstable_at_rest, unbounded, not_converged, non_finite, invalid_geometry",
+            |r: R| r.outcome.name(),
+        ),
+        column("reason", "", "why, in words; none of a wall that stands to the end", |r: R| {
             Some(r.outcome.reason()).filter(|reason| !reason.is_empty())
         }),
     ]
 }
 
-fn mechanism() -> Vec<Column<Members>> {
-    type R<'r> = &'r Row;
-    vec![
-        text("failure_mode", "how the moving part moves as it falls: sliding, rocking, bulging", |r: R| {
-            r.mechanism.map(|m| m.mode.name().to_owned())
-        }),
-        real("moving_stones", "", "number of stones that take part in the mechanism", |r: R| {
-            r.mechanism.map(|m| m.moving.into())
-        }),
-        real("moving_weight_share", "", "their share of the weight of all stones", |r: R| {
-            r.mechanism.map(|m| m.weight_share)
-        }),
-        real(
-            "moving_length_share",
-            "",
-            "share of the wall's length that moves by half of the largest movement or more",
-            |r: R| r.mechanism.map(|m| m.length_share),
-        ),
-        real(
-            "moving_place",
-            "",
-            "middle of the movement along the wall, as a share of its length from x = 0",
-            |r: R| r.mechanism.map(|m| m.place),
-        ),
-        real(
-            "hinge_height_m",
-            "m",
-            "height of the hinge or of the plane of sliding above the wall's foot",
-            |r: R| r.mechanism.map(|m| m.hinge_height_m),
-        ),
-        real(
-            "turning_share",
-            "",
-            "turning over turning and slipping in the moving joints: 1 rocks, 0 slides",
-            |r: R| r.mechanism.map(|m| m.turning_share),
-        ),
-    ]
+fn analysed() -> Vec<Column<Members>> {
+    let limit = of_optional(|row: &Row| row.limit.as_ref());
+    let mechanism = of_optional(|row: &Row| row.mechanism.as_ref());
+    limit.into_iter().chain(mechanism).chain(of_record(|row: &Row| &row.built)).collect()
 }
 
 fn solved() -> Vec<Column<Members>> {
     type R<'r> = &'r Row;
     vec![
-        count("solver_steps", "time steps or iterations of the solver, over all load steps", |r: R| {
+        column("solver_steps", "", "time steps or iterations of the solver, over all load steps", |r: R| {
             r.solver_steps
         }),
-        real("unbalanced_ratio", "", "unbalanced force over the force in the joints at the end", |r: R| {
+        column("unbalanced_ratio", "", "unbalanced force over the force in the joints at the end", |r: R| {
             r.unbalanced_ratio
         }),
     ]
@@ -218,14 +202,13 @@ fn solved() -> Vec<Column<Members>> {
 fn which_step() -> Vec<Column<Steps>> {
     type S<'r> = Step<'r>;
     vec![
-        text("arm", "name of the arm", |s: S| Some(s.row.arm.clone())),
-        count("point", "number of the stiffness of its joints, from 0", |s: S| s.row.point.into()),
-        real("kn_pa_per_m", "Pa/m", "normal stiffness of its joints, as stated", |s: S| {
-            Some(s.row.kn_pa_per_m)
-        }),
-        count("member", "number of the wall in its arm, from 0", |s: S| s.row.member),
-        count(
+        column("arm", "", "name of the arm", |s: S| s.row.arm.clone()),
+        column("point", "", "number of the stiffness of its joints, from 0", |s: S| s.row.point),
+        column("kn_pa_per_m", "Pa/m", "normal stiffness of its joints, as stated", |s: S| s.row.kn_pa_per_m),
+        column("member", "", "number of the wall in its arm, from 0", |s: S| s.row.member),
+        column(
             "load_step",
+            "",
             "number of the load step; 0 is gravity alone; of walls that are shaken the number of the run",
             |s: S| s.number,
         ),
@@ -235,12 +218,12 @@ fn which_step() -> Vec<Column<Steps>> {
 fn solved_step() -> Vec<Column<Steps>> {
     type S<'r> = Step<'r>;
     vec![
-        real(
+        column(
             "unbalanced_ratio",
             "",
             "unbalanced force over the force in the joints that was reached",
             |s: S| s.step.unbalanced_ratio,
         ),
-        count("solver_steps", "time steps or iterations of the solver", |s: S| s.step.solver_steps),
+        column("solver_steps", "", "time steps or iterations of the solver", |s: S| s.step.solver_steps),
     ]
 }

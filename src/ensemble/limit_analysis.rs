@@ -2,11 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::ensemble::columns::{Column, Members, real, text};
 use crate::ensemble::design::Task;
 use crate::ensemble::evaluate::laws;
+use crate::ensemble::field::record;
 use crate::ensemble::reading::tilting::tilt;
-use crate::ensemble::record::Row;
 use crate::math::degrees;
 use crate::model::{Level, Outcome, Wall};
 use crate::protocol::{self, Agreement, Bounds, Protocol};
@@ -14,22 +13,24 @@ use crate::solve::Solver;
 use crate::solve::limit::Flow;
 use crate::study::{AsDrawn, Study};
 
-/// What limit analysis says of a member, and how that goes with the solver's answer; see [`Bounds`].
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LimitAnalysis {
-    /// Tilt of collapse with associative flow, an upper bound (deg); `None` unless on a tilting table and found.
-    pub angle_deg: Option<f64>,
-    /// The same without dilatancy, neither a bound nor unique (deg).
-    pub non_associative_angle_deg: Option<f64>,
-    /// Factor on the protocol's load at collapse with associative flow, in shear the push over the vertical load; `None` on a
-    /// tilting table or if not found.
-    pub multiplier: Option<f64>,
-    /// The same without dilatancy.
-    pub non_associative_multiplier: Option<f64>,
-    /// How it goes with the solver's answer.
-    pub agreement: Agreement,
-    /// The solver's capacity over the associative bound; `None` unless both were found.
-    pub ratio: Option<f64>,
+record! {
+    /// What limit analysis says of a member, and how that goes with the solver's answer; see [`Bounds`]. Angles are those of a tilting
+    /// table, multipliers those of other loads.
+    #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+    LimitAnalysis {
+        angle_deg: Option<f64> =
+            "limit_angle_deg", "deg", "tilt of collapse by limit analysis with associative flow, an upper bound";
+        non_associative_angle_deg: Option<f64> =
+            "limit_angle_non_associative_deg", "deg", "the same without dilatancy, neither a bound nor unique";
+        multiplier: Option<f64> = "limit_multiplier", "",
+            "factor on the load at collapse by limit analysis with associative flow; in shear the push over the vertical load";
+        non_associative_multiplier: Option<f64> =
+            "limit_multiplier_non_associative", "", "the same without dilatancy";
+        agreement: Agreement = "agreement", "",
+            "how the solver's answer goes with limit analysis: within_bound, above_bound, one_stands, no_answer";
+        ratio: Option<f64> =
+            "capacity_over_limit", "", "the solver's capacity over the bound of limit analysis";
+    }
 }
 
 impl LimitAnalysis {
@@ -117,40 +118,4 @@ fn by_itself(run: &protocol::Run, pushed: Option<f64>, flow: Flow) -> Option<Lim
         agreement: Agreement::WithinBound,
         ratio: None,
     })
-}
-
-/// Of the table of members.
-pub(super) fn members() -> Vec<Column<Members>> {
-    type R<'r> = &'r Row;
-    vec![
-        real(
-            "limit_angle_deg",
-            "deg",
-            "tilt of collapse by limit analysis with associative flow, an upper bound",
-            |r: R| r.limit.and_then(|l| l.angle_deg),
-        ),
-        real(
-            "limit_angle_non_associative_deg",
-            "deg",
-            "the same without dilatancy, neither a bound nor unique",
-            |r: R| r.limit.and_then(|l| l.non_associative_angle_deg),
-        ),
-        real(
-            "limit_multiplier",
-            "",
-            "factor on the load at collapse by limit analysis with associative flow; in shear the push over the vertical load",
-            |r: R| r.limit.and_then(|l| l.multiplier),
-        ),
-        real("limit_multiplier_non_associative", "", "the same without dilatancy", |r: R| {
-            r.limit.and_then(|l| l.non_associative_multiplier)
-        }),
-        text(
-            "agreement",
-            "how the solver's answer goes with limit analysis: within_bound, above_bound, one_stands, no_answer",
-            |r: R| r.limit.map(|l| l.agreement.name().to_owned()),
-        ),
-        real("capacity_over_limit", "", "the solver's capacity over the bound of limit analysis", |r: R| {
-            r.limit.and_then(|l| l.ratio)
-        }),
-    ]
 }

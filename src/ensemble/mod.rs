@@ -10,6 +10,7 @@ mod elements;
 mod enough;
 mod error;
 mod evaluate;
+mod field;
 mod files;
 mod finished;
 mod given;

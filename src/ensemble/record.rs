@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::ensemble::built::Built;
 use crate::ensemble::design::Task;
+use crate::ensemble::field::record;
 use crate::ensemble::limit_analysis::LimitAnalysis;
 use crate::ensemble::reading::{Reading, StepRow};
 use crate::ensemble::undecided::UndecidedRow;
@@ -83,23 +84,23 @@ impl Row {
     }
 }
 
-/// The first mechanism of a collapse; see [`Failure`].
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Mechanism {
-    /// How the moving part moves.
-    pub mode: FailureMode,
-    /// Number of stones that take part.
-    pub moving: u32,
-    /// Their share of the weight.
-    pub weight_share: f64,
-    /// Height of the hinge or the plane of sliding above the wall's foot (m).
-    pub hinge_height_m: f64,
-    /// Turning over turning and slipping in the joints.
-    pub turning_share: f64,
-    /// Share of the wall's length that moves by half of the largest movement or more.
-    pub length_share: f64,
-    /// Middle of the movement along the wall, as a share of its length.
-    pub place: f64,
+record! {
+    /// The first mechanism of a collapse; see [`Failure`].
+    #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+    Mechanism {
+        mode: FailureMode =
+            "failure_mode", "", "how the moving part moves as it falls: sliding, rocking, bulging";
+        moving: u32 = "moving_stones", "", "number of stones that take part in the mechanism";
+        weight_share: f64 = "moving_weight_share", "", "their share of the weight of all stones";
+        length_share: f64 = "moving_length_share", "",
+            "share of the wall's length that moves by half of the largest movement or more";
+        place: f64 = "moving_place", "",
+            "middle of the movement along the wall, as a share of its length from x = 0";
+        hinge_height_m: f64 =
+            "hinge_height_m", "m", "height of the hinge or of the plane of sliding above the wall's foot";
+        turning_share: f64 =
+            "turning_share", "", "turning over turning and slipping in the moving joints: 1 rocks, 0 slides";
+    }
 }
 
 impl Mechanism {

@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::ensemble::columns::{Block, Column, Members, real, text};
+use crate::ensemble::columns::{Block, of_optional};
 use crate::ensemble::design::Task;
+use crate::ensemble::field::record;
 use crate::ensemble::reading::tilting::tilt;
 use crate::ensemble::record::Row;
 use crate::math::{degrees, radians};
@@ -11,22 +12,22 @@ use crate::model::{Level, Outcome};
 use crate::protocol::{self, Protocol};
 use crate::study::Study;
 
-/// What joints bear that are merely stiff, where rigid blocks leave the load open; see [`protocol::Undecided`]. The row's value is
-/// the upper end.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct UndecidedRow {
-    /// The tilt at which it falls with stiff joints (deg); `None` where nothing tilts.
-    pub stiff_angle_deg: Option<f64>,
-    /// The factor on the load with stiff joints; `None` on a tilting table.
-    pub stiff_multiplier: Option<f64>,
-    /// The largest push with stiff joints (N), of a wall that is sheared.
-    pub stiff_capacity_n: Option<f64>,
-    /// The thrust in upright joints that the row's value needs (N).
-    pub thrust_needed_n: Option<f64>,
-    /// The thrust in upright joints under the weight alone (N).
-    pub thrust_at_rest_n: Option<f64>,
-    /// Why, in words.
-    pub why: String,
+record! {
+    /// What joints bear that are merely stiff, where rigid blocks leave the load open; see [`protocol::Undecided`]. The row's value is
+    /// the upper end.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    UndecidedRow {
+        stiff_angle_deg: Option<f64> = "stiff_angle_deg", "deg",
+            "tilt at which it falls with stiff joints, where rigid blocks leave the value open";
+        stiff_multiplier: Option<f64> = "stiff_multiplier", "", "factor on the load with stiff joints, the same";
+        stiff_capacity_n: Option<f64> =
+            "stiff_capacity_n", "N", "the largest push with stiff joints, the same";
+        thrust_needed_n: Option<f64> =
+            "thrust_needed_n", "N", "thrust in upright joints that the value needs";
+        thrust_at_rest_n: Option<f64> =
+            "thrust_at_rest_n", "N", "thrust in upright joints under the weight alone";
+        why: String = "left_open", "", "why rigid blocks leave the value open";
+    }
 }
 
 impl Row {
@@ -64,32 +65,9 @@ pub(super) fn undecided(study: &Study, task: Task, run: &protocol::Run) -> Optio
 }
 
 /// Columns of what stiff joints bear.
-pub(super) const UNDECIDED: Block =
-    Block { name: "undecided", fills: |row| row.undecided.is_some(), members, steps: Vec::new };
-
-fn members() -> Vec<Column<Members>> {
-    type R<'r> = &'r Row;
-    vec![
-        real(
-            "stiff_angle_deg",
-            "deg",
-            "tilt at which it falls with stiff joints, where rigid blocks leave the value open",
-            |r: R| r.undecided.as_ref().and_then(|open| open.stiff_angle_deg),
-        ),
-        real("stiff_multiplier", "", "factor on the load with stiff joints, the same", |r: R| {
-            r.undecided.as_ref().and_then(|open| open.stiff_multiplier)
-        }),
-        real("stiff_capacity_n", "N", "the largest push with stiff joints, the same", |r: R| {
-            r.undecided.as_ref().and_then(|open| open.stiff_capacity_n)
-        }),
-        real("thrust_needed_n", "N", "thrust in upright joints that the value needs", |r: R| {
-            r.undecided.as_ref().and_then(|open| open.thrust_needed_n)
-        }),
-        real("thrust_at_rest_n", "N", "thrust in upright joints under the weight alone", |r: R| {
-            r.undecided.as_ref().and_then(|open| open.thrust_at_rest_n)
-        }),
-        text("left_open", "why rigid blocks leave the value open", |r: R| {
-            r.undecided.as_ref().map(|open| open.why.clone())
-        }),
-    ]
-}
+pub(super) const UNDECIDED: Block = Block {
+    name: "undecided",
+    fills: |row| row.undecided.is_some(),
+    members: || of_optional(|row: &Row| row.undecided.as_ref()),
+    steps: Vec::new,
+};

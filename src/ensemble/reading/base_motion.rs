@@ -4,9 +4,10 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::ensemble::built::Built;
-use crate::ensemble::columns::{Block, Column, Members, Step, Steps, count, real, text};
+use crate::ensemble::columns::{Block, Column, Members, column, of_optional};
 use crate::ensemble::design::Task;
 use crate::ensemble::evaluate::laws;
+use crate::ensemble::field::record;
 use crate::ensemble::limit_analysis::LimitAnalysis;
 use crate::ensemble::quantity::{Observed, Quantity};
 use crate::ensemble::reading::{StepRow, finite};
@@ -17,47 +18,35 @@ use crate::protocol::{BaseMotion, Bounds, Event, Shaken, Verdict, shake_wall};
 use crate::stats::fragility::Outcome as CollapseUnder;
 use crate::study::{AsDrawn, Earthquakes, Measure, Study};
 
-/// A wall under a record at an intensity; see [`Shaken`]. Displacements are against the base, since rest.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ShakenRow {
-    /// Index of the record in the study.
-    pub record: u32,
-    /// Index of the intensity.
-    pub stripe: u32,
-    /// Peak ground acceleration (m/s^2).
-    pub pga_m_per_s2: f64,
-    /// Peak ground velocity (m/s).
-    pub pgv_m_per_s: f64,
-    /// Whether what counts as the wall's collapse came about; `None` where the run and its twin do not tell.
-    pub collapse: Option<CollapseUnder>,
-    /// How the wall came through.
-    pub verdict: Verdict,
-    /// How it came through from the start that differs by next to nothing; the same where there was none.
-    pub twin: Verdict,
-    /// When the first stone fell (s from the beginning of the record).
-    pub first_stone_s: Option<f64>,
-    /// When `part_share` of the weight had fallen (s).
-    pub part_s: Option<f64>,
-    /// When `most_share` of it had fallen (s); the run ends there.
-    pub most_s: Option<f64>,
-    /// Stones that fell.
-    pub fallen: u32,
-    /// Largest displacement of a stone that had not fallen (m).
-    pub displacement_m: f64,
-    /// Largest rotation of one (rad).
-    pub rotation_rad: f64,
-    /// Widest opening of a joint (m).
-    pub uplift_m: f64,
-    /// Largest slip in a joint (m).
-    pub slip_m: f64,
-    /// Largest displacement left at the end (m).
-    pub residual_m: Option<f64>,
-    /// Largest rotation left at the end (rad).
-    pub residual_rad: Option<f64>,
-    /// Time followed (s).
-    pub time_s: f64,
-    /// Steps that were not solved to the tolerance.
-    pub unsolved_steps: u64,
+record! {
+    /// A wall under a record at an intensity; see [`Shaken`]. Displacements are against the base, since rest.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    ShakenRow {
+        record: u32 = "record", "", "number of the record, from 0";
+        /// Index of the intensity.
+        stripe: u32;
+        pga_m_per_s2: f64 = "pga_m_per_s2", "m/s2", "peak ground acceleration";
+        pgv_m_per_s: f64 = "pgv_m_per_s", "m/s", "peak ground velocity";
+        collapse: Option<CollapseUnder> = "collapse", "", "collapsed, stands or undecided (load.capacity)";
+        verdict: Verdict = "verdict", "",
+            "how the wall came through: stands, damaged, collapsed, undecided, unstable_at_rest, not_solved";
+        twin: Verdict = "twin_verdict", "", "the same from a start 1e-9 m/s off rest (load.twice)";
+        first_stone_s: Option<f64> = "first_stone_s", "s", "when the first stone fell";
+        part_s: Option<f64> = "part_s", "s", "when part_share of the weight had fallen";
+        most_s: Option<f64> = "most_s", "s", "when most_share of it had fallen; the run ends there";
+        fallen: u32 = "fallen", "", "number of stones that fell";
+        displacement_m: f64 = "displacement_m", "m",
+            "largest displacement against the base of a stone that had not fallen";
+        rotation_rad: f64 = "rotation_rad", "rad", "largest rotation of one";
+        uplift_m: f64 = "uplift_m", "m", "widest opening of a joint";
+        slip_m: f64 = "slip_m", "m", "largest slip in a joint";
+        residual_m: Option<f64> = "residual_m", "m",
+            "largest displacement left at the end; none of a wall that collapsed";
+        residual_rad: Option<f64> = "residual_rad", "rad", "largest rotation left at the end";
+        time_s: f64 = "time_s", "s", "how long the wall was followed";
+        unsolved_steps: u64 =
+            "unsolved_steps", "", "time steps that were not solved to the tolerance";
+    }
 }
 
 impl ShakenRow {
@@ -213,87 +202,28 @@ pub fn collapses(row: &Row, measure: Measure) -> Observed {
 }
 
 /// Columns of what came of each record.
-pub(super) const SHAKEN: Block =
-    Block { name: "shaken", fills: |row| row.runs().next().is_some(), members, steps };
+pub(super) const SHAKEN: Block = Block {
+    name: "shaken",
+    fills: |row| row.runs().next().is_some(),
+    members,
+    steps: || of_optional(|step: &StepRow| step.shaken.as_ref()),
+};
 
-/// Runs of a wall that ended so.
-fn runs(row: &Row, ended: Option<CollapseUnder>) -> u64 {
-    row.runs().filter(|run| run.collapse == ended).count() as u64
-}
-
-/// Of the table of members.
 fn members() -> Vec<Column<Members>> {
+    fn runs(row: &Row, ended: Option<CollapseUnder>) -> u64 {
+        row.runs().filter(|run| run.collapse == ended).count() as u64
+    }
     type R<'r> = &'r Row;
     vec![
-        count("runs", "records times intensities that the wall met", |r: R| r.runs().count() as u64),
-        count("runs_collapsed", "those under which it collapsed (load.capacity)", |r: R| {
+        column("runs", "", "records times intensities that the wall met", |r: R| r.runs().count() as u64),
+        column("runs_collapsed", "", "those under which it collapsed (load.capacity)", |r: R| {
             runs(r, Some(CollapseUnder::Collapsed))
         }),
-        count("runs_undecided", "those that a start 1e-9 m/s off rest decides otherwise", |r: R| {
+        column("runs_undecided", "", "those that a start 1e-9 m/s off rest decides otherwise", |r: R| {
             runs(r, Some(CollapseUnder::Undecided))
         }),
-        count("runs_without_verdict", "those that the solver did not follow to an end", |r: R| runs(r, None)),
-    ]
-}
-
-/// Of the table of load steps.
-fn steps() -> Vec<Column<Steps>> {
-    type S<'r> = Step<'r>;
-    vec![
-        real("record", "", "number of the record, from 0", |s: S| each(s, |run| run.record.into())),
-        real("pga_m_per_s2", "m/s2", "peak ground acceleration", |s: S| each(s, |run| run.pga_m_per_s2)),
-        real("pgv_m_per_s", "m/s", "peak ground velocity", |s: S| each(s, |run| run.pgv_m_per_s)),
-        text("collapse", "collapsed, stands or undecided (load.capacity)", |s: S| {
-            word(s.step.shaken.as_ref()?.collapse.as_ref()?)
-        }),
-        text(
-            "verdict",
-            "how the wall came through: stands, damaged, collapsed, undecided, unstable_at_rest, not_solved",
-            |s: S| word(&s.step.shaken.as_ref()?.verdict),
-        ),
-        text("twin_verdict", "the same from a start 1e-9 m/s off rest (load.twice)", |s: S| {
-            word(&s.step.shaken.as_ref()?.twin)
-        }),
-        real("first_stone_s", "s", "when the first stone fell", |s: S| maybe(s, |run| run.first_stone_s)),
-        real("part_s", "s", "when part_share of the weight had fallen", |s: S| maybe(s, |run| run.part_s)),
-        real("most_s", "s", "when most_share of it had fallen; the run ends there", |s: S| {
-            maybe(s, |run| run.most_s)
-        }),
-        real("fallen", "", "number of stones that fell", |s: S| each(s, |run| run.fallen.into())),
-        real(
-            "displacement_m",
-            "m",
-            "largest displacement against the base of a stone that had not fallen",
-            |s: S| each(s, |run| run.displacement_m),
-        ),
-        real("rotation_rad", "rad", "largest rotation of one", |s: S| each(s, |run| run.rotation_rad)),
-        real("uplift_m", "m", "widest opening of a joint", |s: S| each(s, |run| run.uplift_m)),
-        real("slip_m", "m", "largest slip in a joint", |s: S| each(s, |run| run.slip_m)),
-        real(
-            "residual_m",
-            "m",
-            "largest displacement left at the end; none of a wall that collapsed",
-            |s: S| maybe(s, |run| run.residual_m),
-        ),
-        real("residual_rad", "rad", "largest rotation left at the end", |s: S| {
-            maybe(s, |run| run.residual_rad)
-        }),
-        real("time_s", "s", "how long the wall was followed", |s: S| each(s, |run| run.time_s)),
-        real("unsolved_steps", "", "time steps that were not solved to the tolerance", |s: S| {
-            each(s, |run| run.unsolved_steps as f64)
+        column("runs_without_verdict", "", "those that the solver did not follow to an end", |r: R| {
+            runs(r, None)
         }),
     ]
-}
-
-fn each(step: Step<'_>, value: impl Fn(&ShakenRow) -> f64) -> Option<f64> {
-    step.step.shaken.as_ref().map(value)
-}
-
-fn maybe(step: Step<'_>, value: impl Fn(&ShakenRow) -> Option<f64>) -> Option<f64> {
-    step.step.shaken.as_ref().and_then(value)
-}
-
-/// The name of a variant, as files have it.
-fn word(value: &impl serde::Serialize) -> Option<String> {
-    serde_json::to_value(value).ok()?.as_str().map(str::to_owned)
 }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::ensemble::columns::{Column, Members, Step, Steps, real};
+use crate::ensemble::field::record;
 use crate::ensemble::quantity::{Observed, Quantity, value};
 use crate::ensemble::reading::finite;
 use crate::ensemble::record::Row;
@@ -11,43 +11,37 @@ use crate::protocol::{LoadStep, Run};
 use crate::solve::Solver;
 use crate::study::{Mechanisms, Study};
 
-/// How far the top of a wall has moved at a load step, since the end of gravity.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct TopStep {
-    /// Largest displacement at the top in the direction of the load (m); `None` when it is not finite, as of all that follows.
-    pub top_displacement_m: Option<f64>,
-    /// Displacement of the left point of the top along +y (m).
-    pub left_m: Option<f64>,
-    /// The same at the centre (m).
-    pub centre_m: Option<f64>,
-    /// The same at the right end (m).
-    pub right_m: Option<f64>,
-    /// What is left of `left_m` when the platform goes back to the level from here (m); `None` unless the study asks for it and the
-    /// wall comes to rest on the way.
-    pub left_remainder_m: Option<f64>,
-    /// The same at the centre (m).
-    pub centre_remainder_m: Option<f64>,
-    /// The same at the right end (m).
-    pub right_remainder_m: Option<f64>,
+record! {
+    /// How far the top of a wall has moved at a load step (m); `None` where that is not finite. What is left is `None` as well unless the
+    /// study asks for it and the wall comes to rest on the way back.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+    TopStep {
+        top_displacement_m: Option<f64> = "top_displacement_m", "m",
+            "largest displacement at the wall's top along the load, since gravity alone";
+        left_m: Option<f64> =
+            "left_m", "m", "displacement of the left point of the top along y, since gravity alone";
+        centre_m: Option<f64> = "centre_m", "m", "the same of the centre point";
+        right_m: Option<f64> = "right_m", "m", "the same of the right point";
+        left_remainder_m: Option<f64> = "left_remainder_m", "m",
+            "what is left of left_m when the platform goes back to the level from here (load.remainders = true)";
+        centre_remainder_m: Option<f64> = "centre_remainder_m", "m", "the same of the centre point";
+        right_remainder_m: Option<f64> = "right_remainder_m", "m", "the same of the right point";
+    }
 }
 
 impl TopStep {
     /// Off a load step of this number.
     pub(super) fn of(number: usize, step: &LoadStep, gauge: &Mechanisms) -> TopStep {
-        let each = |points: Option<[f64; 3]>| match points {
-            Some(points) => points.map(|x| read(gauge, number, x)),
-            None => [None; 3],
-        };
-        let [left_m, centre_m, right_m] = each(step.points);
-        let [left_remainder_m, centre_remainder_m, right_remainder_m] = each(step.remainders);
+        let at =
+            |points: Option<[f64; 3]>, point: usize| points.and_then(|all| read(gauge, number, all[point]));
         TopStep {
             top_displacement_m: read(gauge, number, step.top_displacement),
-            left_m,
-            centre_m,
-            right_m,
-            left_remainder_m,
-            centre_remainder_m,
-            right_remainder_m,
+            left_m: at(step.points, 0),
+            centre_m: at(step.points, 1),
+            right_m: at(step.points, 2),
+            left_remainder_m: at(step.remainders, 0),
+            centre_remainder_m: at(step.remainders, 1),
+            right_remainder_m: at(step.remainders, 2),
         }
     }
 
@@ -99,50 +93,4 @@ pub fn borne(row: &Row) -> Observed {
         Outcome::Unbounded => Observed::Above(1.0),
         _ => Observed::Nothing,
     }
-}
-
-/// Of the table of members.
-pub(super) fn members() -> Vec<Column<Members>> {
-    vec![real(
-        "top_displacement_m",
-        "m",
-        "largest displacement at the wall's top along the load, at its end, since gravity alone; of walls in equilibrium",
-        |r: &Row| r.reading.top_displacement_m,
-    )]
-}
-
-/// How far along the load path.
-pub(super) fn load_factor() -> Column<Steps> {
-    real("load_factor", "", "share of the full load; none on a tilting table", |s: Step<'_>| {
-        s.step.load_factor
-    })
-}
-
-/// Of the table of load steps.
-pub(super) fn top() -> Vec<Column<Steps>> {
-    type S<'r> = Step<'r>;
-    vec![
-        real(
-            "top_displacement_m",
-            "m",
-            "largest displacement at the wall's top along the load, since gravity alone",
-            |s: S| s.step.top.top_displacement_m,
-        ),
-        real(
-            "left_m",
-            "m",
-            "displacement of the left point of the top along y, since gravity alone",
-            |s: S| s.step.top.left_m,
-        ),
-        real("centre_m", "m", "the same of the centre point", |s: S| s.step.top.centre_m),
-        real("right_m", "m", "the same of the right point", |s: S| s.step.top.right_m),
-        real(
-            "left_remainder_m",
-            "m",
-            "what is left of left_m when the platform goes back to the level from here (load.remainders = true)",
-            |s: S| s.step.top.left_remainder_m,
-        ),
-        real("centre_remainder_m", "m", "the same of the centre point", |s: S| s.step.top.centre_remainder_m),
-        real("right_remainder_m", "m", "the same of the right point", |s: S| s.step.top.right_remainder_m),
-    ]
 }

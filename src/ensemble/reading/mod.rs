@@ -8,49 +8,53 @@ pub(super) mod tilting;
 
 use serde::{Deserialize, Serialize};
 
-use crate::ensemble::columns::{Block, Column, Members, Steps};
+use crate::ensemble::columns::{Block, Column, Members, Steps, of_record};
+use crate::ensemble::field::record;
 use crate::ensemble::reading::base_motion::ShakenRow;
 use crate::ensemble::reading::lateral::TopStep;
 use crate::ensemble::reading::shear::{ShearRow, ShearStep};
 use crate::ensemble::reading::tilting::{TiltingRow, tilt};
+use crate::ensemble::record::Row;
 use crate::ensemble::undecided;
 use crate::model::Level;
 use crate::protocol::{LoadStep, Run};
 use crate::study::Mechanisms;
 
-/// What is read of a wall; by default nothing. Of a wall that is shaken each run is a load step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Reading {
-    /// Largest out-of-plane displacement at the wall's top under the full load since gravity (m); `None` unless in equilibrium.
-    pub top_displacement_m: Option<f64>,
-    /// What is read on a tilting table.
-    #[serde(flatten)]
-    pub tilting: TiltingRow,
-    /// What is read off a wall that is sheared; `None` of others.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub shear: Option<ShearRow>,
+record! {
+    /// What is read of a wall; by default nothing. Of a wall that is shaken each run is a load step.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+    Reading {
+        top_displacement_m: Option<f64> = "top_displacement_m", "m",
+            "largest displacement at the wall's top along the load, at its end, since gravity alone; of walls in equilibrium";
+        /// What is read on a tilting table.
+        #[serde(flatten)]
+        tilting: TiltingRow;
+        /// What is read off a wall that is sheared; `None` of others.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        shear: Option<ShearRow>;
+    }
 }
 
-/// One load step of a member; by default with nothing observed.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct StepRow {
-    /// Load factor: 0 under gravity alone, 1 at the full load; `None` on a tilting table.
-    pub load_factor: Option<f64>,
-    /// Tilt of the platform (deg); `None` unless on a tilting table.
-    pub tilt_deg: Option<f64>,
-    /// What a jack does along the wall.
-    #[serde(flatten)]
-    pub jack: ShearStep,
-    /// How far the top has moved.
-    #[serde(flatten)]
-    pub top: TopStep,
-    /// Unbalanced force ratio reached; `None` when it is not finite.
-    pub unbalanced_ratio: Option<f64>,
-    /// Time steps taken.
-    pub solver_steps: u64,
-    /// What came of a record at an intensity; `None` unless the wall is shaken.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub shaken: Option<ShakenRow>,
+record! {
+    /// One load step of a member; by default with nothing observed.
+    #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+    StepRow {
+        load_factor: Option<f64> = "load_factor", "", "share of the full load; none on a tilting table";
+        tilt_deg: Option<f64> = "tilt_deg", "deg", "tilt of the platform";
+        /// What a jack does along the wall.
+        #[serde(flatten)]
+        jack: ShearStep;
+        /// How far the top has moved.
+        #[serde(flatten)]
+        top: TopStep;
+        /// Unbalanced force ratio reached; `None` when it is not finite.
+        unbalanced_ratio: Option<f64>;
+        /// Time steps taken.
+        solver_steps: u64;
+        /// What came of a record at an intensity; `None` unless the wall is shaken.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        shaken: Option<ShakenRow>;
+    }
 }
 
 impl Reading {
@@ -85,12 +89,14 @@ pub(super) static BLOCKS: [Block; 4] =
 
 /// The columns that every table of members has.
 pub(super) fn members() -> Vec<Column<Members>> {
-    lateral::members().into_iter().chain(tilting::members()).collect()
+    let tilting = of_record(|row: &Row| &row.reading.tilting);
+    of_record(|row: &Row| &row.reading).into_iter().chain(tilting).collect()
 }
 
 /// The columns that every table of load steps has.
 pub(super) fn steps() -> Vec<Column<Steps>> {
-    [lateral::load_factor(), tilting::tilt_column()].into_iter().chain(lateral::top()).collect()
+    let top = of_record(|step: &StepRow| &step.top);
+    of_record(|step: &StepRow| step).into_iter().chain(top).collect()
 }
 
 /// A value that a table can hold: NaN and infinity are "not observed".
