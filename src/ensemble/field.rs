@@ -72,7 +72,8 @@ macro_rules! fields {
 
 fields! {
     Real: f64 = |x| Some(*x);
-    Count: u32 u64 = |n| u64::from(*n);
+    Count: u32 = |n| u64::from(*n);
+    Count: u64 = |n| *n;
     Text: String &'static str = |text| Some((*text).to_string());
     Text: Agreement FailureMode ShearMode Verdict CollapseUnder = |word| {
         serde_json::to_value(word).ok().and_then(|json| json.as_str().map(str::to_owned))
