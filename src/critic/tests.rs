@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::critic::calibrate::other_friction;
 use crate::critic::compare::{Ours, Simulated, Walls, compare, is_rising, log_likelihood, simulated};
-use crate::ensemble::{Row, StepRow, evaluate, plan};
+use crate::ensemble::{Reading, Row, StepRow, TiltingRow, TopStep, evaluate, plan};
 use crate::math::{degrees, exp, ln, radians};
 use crate::model::{Level, Outcome};
 use crate::random::Family;
@@ -48,39 +48,33 @@ pub fn measurement(
 /// A wall that fell at this tilt (deg), its points moved by 1, 2 and 6 mm per degree, read every 5 deg and at the last.
 pub fn fallen(member: u64, point: u32, angle: f64) -> Row {
     let step = |tilt: f64| StepRow {
-        load_factor: None,
         tilt_deg: Some(tilt),
-        drift_percent: None,
-        force_n: None,
-        top_displacement_m: Some(6e-3 * tilt),
-        left_m: Some(1e-3 * tilt),
-        centre_m: Some(2e-3 * tilt),
-        right_m: Some(6e-3 * tilt),
-        left_remainder_m: None,
-        centre_remainder_m: None,
-        right_remainder_m: None,
-        unbalanced_ratio: None,
+        top: TopStep {
+            top_displacement_m: Some(6e-3 * tilt),
+            left_m: Some(1e-3 * tilt),
+            centre_m: Some(2e-3 * tilt),
+            right_m: Some(6e-3 * tilt),
+            ..TopStep::default()
+        },
         solver_steps: 1,
-        shaken: None,
+        ..StepRow::default()
     };
     let mut load_steps: Vec<StepRow> =
         [0.0, 5.0, 10.0].into_iter().filter(|t| *t < angle).map(step).collect();
     load_steps.push(step(angle));
     // The step in which it fell: far away, and not at rest.
-    load_steps.push(StepRow {
-        centre_m: Some(9.0),
-        left_m: Some(9.0),
-        right_m: Some(9.0),
-        ..step(angle + 0.01)
-    });
+    let mut fell = step(angle + 0.01);
+    (fell.top.left_m, fell.top.centre_m, fell.top.right_m) = (Some(9.0), Some(9.0), Some(9.0));
+    load_steps.push(fell);
     let like = evaluated();
+    let [collapse_angle_deg, largest_tilt_deg] = [Some(angle); 2];
+    let tilting = TiltingRow { collapse_angle_deg, largest_tilt_deg, ..like.reading.tilting };
     Row {
         point,
         member,
         drawn: Default::default(),
         outcome: Outcome::Collapsed { at: Level::Tilt(radians(angle)) },
-        collapse_angle_deg: Some(angle),
-        largest_tilt_deg: Some(angle),
+        reading: Reading { tilting, ..like.reading },
         load_steps,
         ..like
     }
@@ -142,15 +136,13 @@ fn a_displacement_is_read_between_steps_and_never_beyond_the_last_at_rest() {
     assert_eq!(at(Q::DisplacementCentre, 13.005), Some(Simulated::FellBefore));
     assert!(close(simulated(Q::CollapseAngle, None, &row), radians(13.0)));
     assert_eq!(simulated(Q::JointKn, None, &row), None);
-    let lost = Row {
-        outcome: Outcome::NonFinite { at: Level::Tilt(radians(13.01)) },
-        collapse_angle_deg: None,
-        ..row.clone()
-    };
+    let mut lost = Row { outcome: Outcome::NonFinite { at: Level::Tilt(radians(13.01)) }, ..row.clone() };
+    lost.reading.tilting.collapse_angle_deg = None;
     assert_eq!(simulated(Q::DisplacementCentre, Some(radians(15.0)), &lost), Some(Simulated::Nothing));
     assert!(close(simulated(Q::DisplacementCentre, Some(radians(10.0)), &lost), 20e-3));
-    let stood =
-        Row { outcome: Outcome::Equilibrium, collapse_angle_deg: None, largest_tilt_deg: Some(45.0), ..row };
+    let mut stood = Row { outcome: Outcome::Equilibrium, ..row };
+    let tilting = &mut stood.reading.tilting;
+    (tilting.collapse_angle_deg, tilting.largest_tilt_deg) = (None, Some(45.0));
     assert_eq!(simulated(Q::CollapseAngle, None, &stood), Some(Simulated::Above(radians(45.0))));
 }
 
@@ -160,9 +152,10 @@ fn a_remainder_is_read_between_the_steps_from_which_the_platform_went_back() {
     let mut row = fallen(0, 0, 13.0);
     for step in row.load_steps.iter_mut().filter(|step| [Some(5.0), Some(10.0)].contains(&step.tilt_deg)) {
         let left = |whole: Option<f64>| whole.map(|x| 0.1 * x);
-        step.left_remainder_m = left(step.left_m);
-        step.centre_remainder_m = left(step.centre_m);
-        step.right_remainder_m = left(step.right_m);
+        let top = &mut step.top;
+        top.left_remainder_m = left(top.left_m);
+        top.centre_remainder_m = left(top.centre_m);
+        top.right_remainder_m = left(top.right_m);
     }
     let at = |quantity, tilt: f64| simulated(quantity, Some(radians(tilt)), &row);
     let value = |quantity, tilt: f64| match at(quantity, tilt) {
@@ -226,7 +219,7 @@ fn bounds_are_never_numbers() {
     // Without an error they are not below it; with one, half of their readings would be. The one that fell disagrees.
     assert!((walls.agreeing.expect("bounds") - 0.5 * (0.0 + 1.5 / 4.0)).abs() < 1e-9, "{walls:?}");
     for step in rows.iter_mut().flat_map(|row| &mut row.load_steps) {
-        step.right_m = step.right_m.map(|x| 0.1 * x);
+        step.top.right_m = step.top.right_m.map(|x| 0.1 * x);
     }
     // Now 12 mm, six standard deviations below the bound.
     let agreeing = walls_of(&study, &rows)[0].agreeing.expect("bounds");

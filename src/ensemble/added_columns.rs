@@ -1,10 +1,12 @@
 //! The columns that a run's tables have only where some wall brings a value.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
-use crate::ensemble::{Row, StepRow};
+use crate::ensemble::columns::Block;
+use crate::ensemble::reading::BLOCKS;
+use crate::ensemble::record::Row;
 
 /// Columns beyond those of every table. They follow from all rows of a table together: who writes the rows one by one knows them
 /// beforehand, joined over the parts that the rows come from.
@@ -12,16 +14,9 @@ use crate::ensemble::{Row, StepRow};
 pub struct AddedColumns {
     /// Parameters that some wall drew as a whole; a column each in the table of members.
     pub drawn: BTreeSet<String>,
-    /// Whether some wall is sheared: the columns of capacity, stiffness and mode in the table of members.
-    pub sheared: bool,
-    /// Whether some wall is pushed by a jack: the columns of its drift and force in the table of load steps.
-    pub pushed: bool,
-    /// Whether rigid blocks leave the value of some wall open: the columns of what stiff joints bear, in the table of members.
-    #[serde(default)]
-    pub undecided: bool,
-    /// Whether some wall is shaken: the columns of what came of each record, in both tables.
-    #[serde(default)]
-    pub shaken: bool,
+    /// Blocks of columns by their names, and whether some wall fills them.
+    #[serde(flatten)]
+    filled: BTreeMap<String, bool>,
 }
 
 impl AddedColumns {
@@ -37,35 +32,32 @@ impl AddedColumns {
         for key in row.drawn.keys().filter(|key| !self.drawn.contains(*key)).collect::<Vec<_>>() {
             self.drawn.insert(key.clone());
         }
-        self.sheared |= row.shear.is_some();
-        self.pushed |= row.load_steps.iter().any(is_pushed);
-        self.undecided |= row.undecided.is_some();
-        self.shaken |= row.load_steps.iter().any(is_shaken);
+        for block in &BLOCKS {
+            *self.filled.entry(block.name.to_owned()).or_default() |= (block.fills)(row);
+        }
     }
 
     /// Adds those that other rows need.
     pub fn join(&mut self, other: &AddedColumns) {
         self.drawn.extend(other.drawn.iter().cloned());
-        self.sheared |= other.sheared;
-        self.pushed |= other.pushed;
-        self.undecided |= other.undecided;
-        self.shaken |= other.shaken;
+        for (name, filled) in &other.filled {
+            *self.filled.entry(name.clone()).or_default() |= filled;
+        }
+    }
+
+    /// Whether some wall fills the block of this name.
+    pub fn has(&self, block: &str) -> bool {
+        self.filled.get(block).copied().unwrap_or_default()
+    }
+
+    /// The blocks that some wall fills, in the order of their columns.
+    pub(super) fn blocks(&self) -> impl Iterator<Item = &'static Block> {
+        BLOCKS.iter().filter(|block| self.has(block.name))
     }
 
     /// Whether a row finds a place for all that it holds.
     pub fn hold(&self, row: &Row) -> bool {
         row.drawn.keys().all(|key| self.drawn.contains(key))
-            && (self.sheared || row.shear.is_none())
-            && (self.pushed || !row.load_steps.iter().any(is_pushed))
-            && (self.undecided || row.undecided.is_none())
-            && (self.shaken || !row.load_steps.iter().any(is_shaken))
+            && BLOCKS.iter().all(|block| self.has(block.name) || !(block.fills)(row))
     }
-}
-
-fn is_shaken(step: &StepRow) -> bool {
-    step.shaken.is_some()
-}
-
-fn is_pushed(step: &StepRow) -> bool {
-    step.force_n.is_some()
 }

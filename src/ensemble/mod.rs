@@ -1,6 +1,7 @@
 //! From a study to a table of members: plan, evaluate in parallel, record, resume.
 
 mod added_columns;
+mod built;
 mod cells;
 mod columns;
 mod design;
@@ -9,11 +10,13 @@ mod elements;
 mod enough;
 mod error;
 mod evaluate;
+mod field;
 mod files;
 mod finished;
 mod given;
 mod journal;
 mod ledger;
+mod limit_analysis;
 mod lines;
 mod machine;
 mod manifest;
@@ -21,14 +24,15 @@ mod plates;
 mod progress;
 mod quantity;
 pub mod rare;
+mod reading;
 mod record;
 mod run;
 mod schema;
 mod selection;
 mod sensitivity;
-mod shaken;
 pub mod shard;
 mod table;
+mod undecided;
 mod walls;
 
 /// What [`build`] gives.
@@ -38,17 +42,19 @@ pub use crate::random::RANDOMISATIONS;
 /// What is known of a parameter of a wall that is given.
 pub use crate::random::{Scale, Spread};
 pub use added_columns::AddedColumns;
+pub use built::{Built, weight};
 pub use cells::{AskedOfCells, CellRow, CellTask, check_cell, evaluate_cell, run_cells};
 pub use design::{Task, evaluations, is_random, plan};
 pub use draws::{Draws, Evaluated, drawn};
 pub use elements::{ElementRow, Timed, evaluate_element, run_elements};
 pub use enough::{Look, come_to};
 pub use error::{MemberFault, RunError};
-pub use evaluate::{build, evaluate, solve, weight};
+pub use evaluate::{build, evaluate, solve};
 pub use files::replace_file;
 pub use finished::{finished, identity};
 pub use given::{Unsure, given_points, predicted};
 pub use ledger::Ledger;
+pub use limit_analysis::LimitAnalysis;
 pub use manifest::Manifest;
 pub use plates::{
     AskedOfWalls, Judged, NoPlate, OutOfRange, Subject, Validity, WallRow, WallTask, check_plate,
@@ -57,7 +63,12 @@ pub use plates::{
 pub use progress::{Grown, Progress, Silent};
 pub use quantity::{Observed, Quantity};
 pub use rare::{Draw, RareWalls};
-pub use record::{LimitAnalysis, Mechanism, Row, ShakenRow, ShearRow, StepRow, UndecidedRow};
+pub use reading::base_motion::ShakenRow;
+pub use reading::lateral::TopStep;
+pub use reading::shear::{ShearRow, ShearStep};
+pub use reading::tilting::TiltingRow;
+pub use reading::{Reading, StepRow};
+pub use record::{Mechanism, Row};
 pub use run::{Evaluations, Settings, run, run_with};
 pub use schema::column_reference;
 pub use selection::{Compared, Contest, Hopeless};
@@ -67,3 +78,4 @@ pub use sensitivity::{
 };
 pub(crate) use table::parquet;
 pub use table::{Tables, tables_as_csv};
+pub use undecided::UndecidedRow;

@@ -1,9 +1,9 @@
 //! What a study's protocol measures of each wall.
 
-use crate::ensemble::Row;
-use crate::model::{Level, Outcome};
-use crate::protocol::{Observes, Protocol};
-use crate::solve::Solver;
+use crate::ensemble::reading::{base_motion, lateral, shear, tilting};
+use crate::ensemble::record::Row;
+use crate::model::Outcome;
+use crate::protocol::Protocol;
 use crate::study::{Measure, Study};
 
 /// The quantity that a study is about.
@@ -36,17 +36,10 @@ impl Quantity {
     /// That of a study.
     pub fn of(study: &Study) -> Quantity {
         match &study.protocol {
-            Protocol::Lateral(_) if matches!(study.solver, Solver::Limit(_)) => Quantity::LoadFactor,
-            Protocol::Lateral(_) => Quantity::TopDisplacement,
-            Protocol::Tilting(tilting) => match tilting.observes {
-                Observes::CollapseAngle => Quantity::CollapseAngle,
-                Observes::Displacement => Quantity::TopDisplacement,
-            },
+            Protocol::Lateral(_) => lateral::quantity(study),
+            Protocol::Tilting(tilting) => tilting::quantity(tilting),
             Protocol::Shear(_) => Quantity::ShearCapacity,
-            Protocol::BaseMotion(_) => {
-                let earthquakes = study.earthquakes.as_ref();
-                Quantity::CollapseIntensity(earthquakes.map_or(Measure::Pga, |own| own.measure))
-            }
+            Protocol::BaseMotion(_) => base_motion::quantity(study),
         }
     }
 
@@ -72,30 +65,17 @@ impl Quantity {
 
     /// What a row says about it.
     pub fn observed(self, row: &Row) -> Observed {
-        let value = |x: Option<f64>| x.filter(|x| x.is_finite()).map_or(Observed::Nothing, Observed::Value);
-        match (self, &row.outcome) {
-            (Quantity::TopDisplacement, Outcome::Equilibrium) => value(row.top_displacement_m),
-            (Quantity::CollapseAngle, Outcome::Collapsed { .. }) => value(row.collapse_angle_deg),
-            (Quantity::CollapseAngle, Outcome::Equilibrium) => {
-                row.largest_tilt_deg.map_or(Observed::Nothing, Observed::Above)
-            }
-            (Quantity::ShearCapacity, Outcome::Collapsed { .. } | Outcome::Equilibrium) => {
-                value(row.shear.and_then(|shear| shear.capacity_n))
-            }
-            (Quantity::LoadFactor, Outcome::Collapsed { .. } | Outcome::Equilibrium) => {
-                value(row.limit.and_then(|limit| limit.multiplier.or(limit.non_associative_multiplier)))
-            }
-            // It bears the full load at the least.
-            (Quantity::LoadFactor, Outcome::Unbounded) => Observed::Above(1.0),
-            (
-                Quantity::CollapseIntensity(_),
-                Outcome::Collapsed { at: Level::Acceleration(x) | Level::Velocity(x) },
-            ) => Observed::Value(*x),
-            (Quantity::CollapseIntensity(measure), Outcome::Equilibrium) => {
-                let strongest = row.runs().map(|run| run.peak(measure)).reduce(f64::max);
-                strongest.map_or(Observed::Nothing, Observed::Above)
-            }
-            _ => Observed::Nothing,
+        match self {
+            Quantity::TopDisplacement => lateral::displaced(row),
+            Quantity::LoadFactor => lateral::borne(row),
+            Quantity::CollapseAngle => tilting::fell(row),
+            Quantity::ShearCapacity => shear::capacity(row),
+            Quantity::CollapseIntensity(measure) => base_motion::collapses(row, measure),
         }
     }
+}
+
+/// A number that a wall has, if it is one.
+pub(super) fn value(x: Option<f64>) -> Observed {
+    x.filter(|x| x.is_finite()).map_or(Observed::Nothing, Observed::Value)
 }

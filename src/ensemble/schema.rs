@@ -6,18 +6,19 @@
 
 use serde_json::{Value as Json, json};
 
-use crate::ensemble::columns::{Column, Table, Value, documented};
+use crate::ensemble::columns::{Column, Table, documented};
+use crate::ensemble::field::Kind;
 
 /// The schema of a table with these columns; `key` names its lines.
 pub(crate) fn schema<T: Table>(columns: &[Column<T>], key: &[&str]) -> String {
     let field = |column: &Column<T>| {
         let mut field = json!({
-            "name": column.name, "type": kind(&column.value), "description": column.meaning,
+            "name": column.name, "type": kind(column.kind), "description": column.meaning,
         });
         if !column.unit.is_empty() {
             field["unit"] = json!(column.unit);
         }
-        if key.contains(&column.name.as_str()) || matches!(column.value, Value::Count(_)) {
+        if key.contains(&column.name.as_str()) || column.kind == Kind::Count {
             field["constraints"] = json!({"required": true});
         }
         field
@@ -42,14 +43,14 @@ pub fn column_reference() -> String {
 
 fn line<T: Table>(column: &Column<T>) -> String {
     let unit = if column.unit.is_empty() { "-" } else { column.unit };
-    format!("  {:<33} {unit:<5} {:<8} {}\n", column.name, kind(&column.value), column.meaning)
+    format!("  {:<33} {unit:<5} {:<8} {}\n", column.name, kind(column.kind), column.meaning)
 }
 
 /// The type in the words of the standard.
-fn kind<T: Table>(value: &Value<T>) -> &'static str {
-    match value {
-        Value::Text(_) => "string",
-        Value::Count(_) => "integer",
-        Value::Real(_) | Value::Drawn(..) => "number",
+fn kind(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Text => "string",
+        Kind::Count => "integer",
+        Kind::Real => "number",
     }
 }

@@ -6,7 +6,8 @@ mod tables;
 use polars::prelude::DataFrame;
 use polars_io::prelude::ParquetWriter;
 
-use crate::ensemble::columns::{Column, Step, Table, Value, of_members, of_steps};
+use crate::ensemble::columns::{Column, Step, Table, of_members, of_steps};
+use crate::ensemble::field::Cell;
 use crate::ensemble::journal::{Entry, Place, Timing};
 use crate::ensemble::schema::schema;
 use crate::ensemble::{AddedColumns, Row, RunError};
@@ -40,11 +41,10 @@ fn steps_of(rows: &[Row]) -> impl Iterator<Item = Step<'_>> {
 }
 
 fn csv<'r, T: Table>(columns: &[Column<T>], lines: impl Iterator<Item = T::Line<'r>>) -> String {
-    let cell = |column: &Column<T>, line: T::Line<'r>| match &column.value {
-        Value::Text(of) => of(line).map_or_else(String::new, |text| quoted(&text)),
-        Value::Count(of) => of(line).to_string(),
-        Value::Real(of) => of(line).map_or_else(String::new, |x| x.to_string()),
-        Value::Drawn(of, key) => of(line, key).map_or_else(String::new, |x| x.to_string()),
+    let cell = |column: &Column<T>, line: T::Line<'r>| match (column.cell)(line) {
+        Cell::Text(text) => text.map_or_else(String::new, |text| quoted(&text)),
+        Cell::Count(n) => n.to_string(),
+        Cell::Real(x) => x.map_or_else(String::new, |x| x.to_string()),
     };
     let heads: Vec<String> = columns.iter().map(|column| quoted(&column.name)).collect();
     let mut text = heads.join(",") + "\n";

@@ -65,10 +65,11 @@ fn shown(x: f64) -> f64 {
 /// How the evaluation of a wall ended. Different things are never one: it stands to the end, it fell, it never stood,
 /// nothing can bring it down, the solver did not get there, the numbers went bad; and a wall that could not be built
 /// is none of these.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(tag = "outcome", rename_all = "snake_case")]
 pub enum Outcome {
     /// At rest at every load step, to the end of the load path.
+    #[default]
     Equilibrium,
     /// The wall fell, and this is the load at which it did.
     Collapsed {

@@ -4,6 +4,7 @@
 pub mod assembly;
 pub mod bodies;
 pub(crate) mod conic;
+mod demand;
 pub mod explicit;
 mod gershgorin;
 pub mod grains;
@@ -18,6 +19,7 @@ mod ties;
 
 pub use crate::math::STANDARD_GRAVITY;
 pub use assembly::Assembly;
+pub use demand::Demand;
 pub use mount::{Mount, Mounted};
 pub use status::{Ahead, Equilibrate, Followed, Settled, Status, Way};
 pub use ties::{Held, Tie};
@@ -50,6 +52,15 @@ impl Solver {
             Solver::Implicit(_) => "implicit",
             Solver::Nonsmooth(_) => "nonsmooth",
             Solver::Limit(_) => "limit",
+        }
+    }
+    /// Why it refuses a demand; `None` where it has that.
+    pub fn refuses(&self, demand: Demand) -> Option<&'static str> {
+        match self {
+            Solver::Explicit(_) => None,
+            Solver::Implicit(_) => implicit::refuses(demand),
+            Solver::Nonsmooth(settings) => settings.refuses(demand),
+            Solver::Limit(_) => limit::refuses(demand),
         }
     }
 }

@@ -2,8 +2,7 @@
 
 use crate::math::radians;
 use crate::protocol::{
-    BaseMotion, Direction, Ends, EventShares, History, Lateral, Observes, Protocol, Rate, Shear, Tilting,
-    Turning,
+    BaseMotion, Direction, Ends, EventShares, History, Lateral, Protocol, Rate, Shear, Tilting, Turning,
 };
 use crate::random::{Design, RANDOMISATIONS};
 use crate::solve::explicit::Rayleigh;
@@ -13,6 +12,7 @@ use crate::study::arm;
 use crate::study::averaged;
 use crate::study::catalogue::Catalogue;
 use crate::study::checked::Arm;
+use crate::study::demands::{unfit_arms, unfit_for};
 use crate::study::earthquakes::Earthquakes;
 use crate::study::fault::{Fault, Found, Place};
 use crate::study::keys;
@@ -70,62 +70,6 @@ pub fn parts(root: &Node, notes: &mut Notes, catalogue: &mut Catalogue) -> Optio
         top.notes.faults.push(beyond(&place, &solver, unfit));
     }
     Some(Parts { question, seed, design, arms, protocol, earthquakes, solver, agreement })
-}
-
-/// What a study asks for that a solver does not have, in words.
-pub fn unfit_for(solver: &Solver, arms: &[Arm], protocol: &Protocol, agreement: bool) -> Vec<String> {
-    let is_limit = matches!(solver, Solver::Limit(_));
-    let of_arm = |arm: &Arm| match solver {
-        Solver::Limit(_) => arm.unfit_for_limit_analysis(),
-        Solver::Nonsmooth(settings) => arm.unfit_for_contact_dynamics(settings.is_rigid()),
-        Solver::Explicit(_) | Solver::Implicit(_) => Vec::new(),
-    };
-    let mut unfit: Vec<String> = arms.iter().flat_map(of_arm).map(|unfit| unfit.to_string()).collect();
-    unfit.sort();
-    unfit.dedup();
-    let is_rigid = match solver {
-        Solver::Limit(_) => true,
-        Solver::Nonsmooth(settings) => settings.is_rigid(),
-        Solver::Explicit(_) | Solver::Implicit(_) => false,
-    };
-    if let Protocol::Tilting(tilting) = protocol {
-        let turns = matches!(tilting.rate, Rate::Dynamic(_));
-        let asked = [
-            (turns && is_limit, "load.turning: limit analysis knows no time"),
-            (
-                turns && matches!(solver, Solver::Nonsmooth(_)),
-                "load.turning: a platform that turns steadily is followed by the explicit solver alone",
-            ),
-            (
-                is_rigid && tilting.observes == Observes::Displacement,
-                "load.observes = \"displacement\": rigid blocks do not move before they fall",
-            ),
-            (is_rigid && tilting.remainders, "load.remainders: rigid blocks do not move before they fall"),
-        ];
-        unfit.extend(asked.iter().filter(|(asked, _)| *asked).map(|(_, words)| (*words).to_owned()));
-    }
-    if matches!(protocol, Protocol::Lateral(_)) && is_rigid && !is_limit {
-        unfit.push(
-            "load.protocol = \"lateral\", which observes a displacement: rigid blocks do not move before they fall \
-             (normal = \"compliant\" has joints that give way)"
-                .to_owned(),
-        );
-    }
-    if let Protocol::BaseMotion(base) = protocol {
-        match solver {
-            Solver::Implicit(_) | Solver::Limit(_) => {
-                unfit.push("load.protocol = \"base_motion\", which follows walls in time".to_owned());
-            }
-            Solver::Nonsmooth(_) if base.rayleigh != Rayleigh::default() => {
-                unfit.push("load.rayleigh_ratio: impacts and friction take the energy".to_owned());
-            }
-            Solver::Nonsmooth(_) | Solver::Explicit(_) => {}
-        }
-    }
-    if agreement && is_limit {
-        unfit.push("solver.agreement: it would be compared with itself".to_owned());
-    }
-    unfit
 }
 
 /// The fault of a study that asks a solver for what it does not have.
@@ -276,10 +220,7 @@ fn check_mechanisms(top: &mut Reader<'_>, arms: &[Arm], protocol: &Protocol, agr
         "an arm with wedges, and a platform that tilts",
     );
     needs("creep", asked(|m| m.creep.is_some()), tilts, "a platform that tilts");
-    let mut unfit: Vec<String> =
-        arms.iter().flat_map(Arm::unfit_for_limit_analysis).map(|u| u.to_string()).collect();
-    unfit.sort();
-    unfit.dedup();
+    let unfit = unfit_arms(&Solver::Limit(limit::Settings::default()), arms);
     if agreement && !unfit.is_empty() {
         let key = "solver.agreement";
         let found = Found::Words(format!("asks limit analysis about {}", unfit.join("; ")));

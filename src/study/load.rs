@@ -8,6 +8,7 @@ use crate::solve::REVISION;
 use crate::study::build::{self, Parts};
 use crate::study::catalogue::{Catalogue, Used};
 use crate::study::checked::{Arm, InputFile, Study, SweptArm, Until};
+use crate::study::demands::unfit_for;
 use crate::study::fault::{Fault, Faults, Source};
 use crate::study::files::TextFile;
 use crate::study::raw::{self, Node};
@@ -182,7 +183,7 @@ impl Study {
         let solver =
             Reader::open(&node, "solver", &keys::SOLVER, &mut notes).and_then(|mut t| build::solver(&mut t));
         let Some(solver) = solver else { return Err(Faults::sorted(notes.faults)) };
-        let unfit = build::unfit_for(&solver, &self.arms, &self.protocol, self.agreement);
+        let unfit = unfit_for(&solver, &self.arms, &self.protocol, self.agreement);
         let faults: Vec<Fault> =
             unfit.into_iter().map(|unfit| build::beyond(&node.place, &solver, unfit)).collect();
         if !faults.is_empty() {

@@ -2,7 +2,6 @@
 
 use crate::math::{degrees, radians, tan};
 use crate::protocol::{Compliance, Creep};
-use crate::study::checked::{Arm, StatedLaw};
 use crate::study::inventory::INVENTORY;
 use crate::study::reader::Reader;
 
@@ -107,44 +106,6 @@ pub struct EndRelease {
     pub stiffness: f64,
 }
 
-/// What rigid blocks or a solver cannot have: why limit analysis, or contact dynamics, refuses it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Unfit {
-    /// Rigid blocks have no closure.
-    #[error("joint_closure: rigid blocks have joints without closure")]
-    JointClosure,
-    /// Nor has it a stiffness.
-    #[error("stress_stiffening: rigid blocks have joints without closure")]
-    StressStiffening,
-    /// Nor has their ground.
-    #[error("base_compliance: rigid blocks stand on rigid ground")]
-    BaseCompliance,
-    /// It looks at the wall as built.
-    #[error("wedge_loss: limit analysis sees the wall as built, with all its wedges")]
-    WedgeLoss,
-    /// It knows no history.
-    #[error("creep: limit analysis knows no history")]
-    Creep,
-    /// Nor has it any closure but by kn, which it leaves aside.
-    #[error("joint.normal_law = \"table\": rigid blocks have joints without closure")]
-    Table,
-    /// It looks at forces at corners, not at stresses.
-    #[error("joint.compressive_strength_pa: limit analysis takes joints to bear any pressure")]
-    Crushing,
-    /// Contact dynamics bounds no pressure.
-    #[error("joint.compressive_strength_pa: joints of contact dynamics bear any pressure")]
-    NoCrushing,
-    /// Nor does its friction fall.
-    #[error("mechanism.friction.residual_share: friction of contact dynamics does not weaken with slip")]
-    Weakening,
-    /// Shear of its joints is what balances the loads, or a spring's; neither relaxes.
-    #[error("creep: shear of contact dynamics does not relax")]
-    Relaxation,
-    /// Its rigid joints touch at the corners of their areas.
-    #[error("contact_area: rigid joints of contact dynamics touch over their whole area")]
-    Patches,
-}
-
 impl Mechanisms {
     /// Whether one of them draws random numbers, so that walls of fixed stones and joints differ from member to member.
     pub fn draws(&self) -> bool {
@@ -217,46 +178,5 @@ impl Mechanisms {
             }
         }
         Some(())
-    }
-
-    /// What limit analysis refuses among them.
-    fn unfit_for_limit_analysis(&self) -> Vec<Unfit> {
-        let asked = [
-            self.joint_closure.map(|_| Unfit::JointClosure),
-            self.stress_stiffening.map(|_| Unfit::StressStiffening),
-            self.base_compliance.map(|_| Unfit::BaseCompliance),
-            self.wedge_loss.map(|_| Unfit::WedgeLoss),
-            self.creep.map(|_| Unfit::Creep),
-        ];
-        asked.into_iter().flatten().collect()
-    }
-}
-
-impl Arm {
-    /// What limit analysis refuses of its joints and mechanisms.
-    pub fn unfit_for_limit_analysis(&self) -> Vec<Unfit> {
-        let asked = [
-            matches!(self.joint.normal_law, StatedLaw::Table(_)).then_some(Unfit::Table),
-            self.joint.compressive_strength.map(|_| Unfit::Crushing),
-        ];
-        let mechanisms = self.mechanisms.unfit_for_limit_analysis();
-        mechanisms.into_iter().chain(asked.into_iter().flatten()).collect()
-    }
-
-    /// What contact dynamics refuses of its joints and mechanisms, with joints that are rigid or have a stiffness.
-    pub fn unfit_for_contact_dynamics(&self, is_rigid: bool) -> Vec<Unfit> {
-        let Mechanisms { joint_closure, stress_stiffening, friction, creep, contact_area, .. } =
-            &self.mechanisms;
-        let is_table = matches!(self.joint.normal_law, StatedLaw::Table(_));
-        let asked = [
-            (is_rigid && joint_closure.is_some(), Unfit::JointClosure),
-            (is_rigid && stress_stiffening.is_some(), Unfit::StressStiffening),
-            (is_rigid && is_table, Unfit::Table),
-            (is_rigid && contact_area.is_some(), Unfit::Patches),
-            (self.joint.compressive_strength.is_some(), Unfit::NoCrushing),
-            (friction.is_some_and(|change| change.residual < 1.0), Unfit::Weakening),
-            (creep.is_some(), Unfit::Relaxation),
-        ];
-        asked.into_iter().filter_map(|(asked, unfit)| asked.then_some(unfit)).collect()
     }
 }

@@ -10,6 +10,7 @@ mod catalogue;
 mod checked;
 mod closing;
 mod csv;
+mod demands;
 mod distributions;
 mod earthquakes;
 mod elements;
@@ -69,7 +70,7 @@ pub use measured::{
     FILE as MEASURED, MeasuredKind, MeasuredQuantity, Measurement, Template, Written, template,
 };
 pub use mechanism::{
-    EndRelease, FrictionChange, JointClosure, Mechanisms, SpecimenScatter, StressStiffening, Unfit, WedgeLoss,
+    EndRelease, FrictionChange, JointClosure, Mechanisms, SpecimenScatter, StressStiffening, WedgeLoss,
 };
 pub use meetings::{Fit, TOUCH, Tolerance, bounds, look};
 pub use nuisance::{NUISANCES, Nuisance, nuisances};

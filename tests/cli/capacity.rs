@@ -322,11 +322,11 @@ fn a_wall_of_a_rare_value_is_built_again_by_its_number() {
         let moved = found.draw.study(&own);
         let task = Task { arm: found.arm, point: found.point, member: found.draw.member };
         let row = evaluate(&moved, task);
-        assert_eq!(row.collapse_angle_deg, found.value);
+        assert_eq!(row.collapse_angle_deg(), found.value);
         assert!(found.value.unwrap() <= level);
         // It is what it was moved to, not what it was drawn as.
         if !found.draw.moves.is_empty() {
-            assert_ne!(evaluate(&own, task).collapse_angle_deg, found.value);
+            assert_ne!(evaluate(&own, task).collapse_angle_deg(), found.value);
         }
         if is_weakest {
             assert!(!found.draw.moves.is_empty());
@@ -562,7 +562,7 @@ fn a_column_whose_friction_is_drawn_once_is_weighed_by_it() {
     let found = drawn(&folder.path("out"), &own, number).unwrap().unwrap();
     assert!(!found.draw.shift.is_empty());
     let task = Task { arm: found.arm, point: found.point, member: found.draw.member };
-    assert_eq!(evaluate(&found.draw.study(&own), task).collapse_angle_deg, found.value);
+    assert_eq!(evaluate(&found.draw.study(&own), task).collapse_angle_deg(), found.value);
 }
 
 /// Four courses, three dips, by the implicit solver: what limit analysis finds is nearly its answer.

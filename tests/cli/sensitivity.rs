@@ -185,19 +185,28 @@ fn a_source_taken_from_the_partner_brings_its_numbers_and_no_others() {
         let quantities: Quantities = sources.iter().find(|own| own.name == name).unwrap().quantities.clone();
         row(&study.clone().with_taken(TakenFrom { quantities, member: k + PARTNER }), k)
     };
-    let dips = |row: &Row| row.first_dip_sd_deg;
+    let dips = |row: &Row| row.built.first_dip_sd_deg;
     for k in 0..6 {
         let (own, partner) = (row(&study, k), row(&study, k + PARTNER));
         let with_dips = mixed("dips", k);
-        assert_eq!((with_dips.height_mean_m, with_dips.drawn), (own.height_mean_m, own.drawn.clone()));
+        assert_eq!(
+            (with_dips.built.height_mean_m, with_dips.drawn),
+            (own.built.height_mean_m, own.drawn.clone())
+        );
         let with_sizes = mixed("sizes", k);
-        assert_eq!((with_sizes.height_mean_m, with_sizes.drawn), (partner.height_mean_m, own.drawn.clone()));
+        assert_eq!(
+            (with_sizes.built.height_mean_m, with_sizes.drawn),
+            (partner.built.height_mean_m, own.drawn.clone())
+        );
         let layout = mixed("layout", k);
-        assert_eq!((dips(&layout), layout.height_mean_m), (dips(&partner), partner.height_mean_m));
+        assert_eq!(
+            (dips(&layout), layout.built.height_mean_m),
+            (dips(&partner), partner.built.height_mean_m)
+        );
         assert_eq!(layout.drawn, own.drawn);
         assert_eq!(mixed("joint.phi_deg", k).drawn, partner.drawn);
         assert_ne!(own.drawn, partner.drawn);
     }
-    let angles: Vec<f64> = (0..20).filter_map(|k| row(&study, k).collapse_angle_deg).collect();
+    let angles: Vec<f64> = (0..20).filter_map(|k| row(&study, k).collapse_angle_deg()).collect();
     assert!(angles.len() == 20 && mean(&angles) < quantile(&angles, 1.0));
 }

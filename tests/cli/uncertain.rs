@@ -42,12 +42,19 @@ fn a_parameter_is_one_uniform_of_its_own_stream_and_changes_no_other_draw() {
         assert_eq!(one.drawn["joint.phi_deg"], 30.0 + 10.0 * u);
         assert_eq!(two.drawn["joint.phi_deg"], one.drawn["joint.phi_deg"]);
         assert!(plain.drawn.is_empty() && one.drawn.len() == 1 && two.drawn.len() == 2);
-        let stones =
-            |row: &Row| (row.stones, row.length_mean_m, row.height_mean_m, row.dip_sd_deg, row.redraws);
+        let stones = |row: &Row| {
+            (
+                row.built.stones,
+                row.built.length_mean_m,
+                row.built.height_mean_m,
+                row.built.dip_sd_deg,
+                row.built.redraws,
+            )
+        };
         assert_eq!(stones(plain), stones(one));
         assert_eq!(stones(plain), stones(two));
-        assert_eq!(plain.weight_n, one.weight_n);
-        let ratio = two.weight_n.unwrap() / plain.weight_n.unwrap();
+        assert_eq!(plain.built.weight_n, one.built.weight_n);
+        let ratio = two.built.weight_n.unwrap() / plain.built.weight_n.unwrap();
         assert!((ratio - two.drawn["block.density_kg_per_m3"] / 2400.0).abs() < 1e-12, "{ratio}");
     }
     // The load, and the number that it stands for, are drawn as well.
@@ -56,7 +63,7 @@ fn a_parameter_is_one_uniform_of_its_own_stream_and_changes_no_other_draw() {
 "#;
     for (plain, loaded) in plain.iter().zip(rows(&with(load))) {
         let factor = loaded.drawn["load.mean_pressure_pa"] / 200.0;
-        let ratio = loaded.top_displacement_m.unwrap() / plain.top_displacement_m.unwrap();
+        let ratio = loaded.top_displacement_m().unwrap() / plain.top_displacement_m().unwrap();
         // A wall with closed joints answers in proportion, and one whose joints open by more.
         assert!((ratio > 1.0) == (factor > 1.0), "{factor} {ratio}");
     }
@@ -67,7 +74,7 @@ fn a_wall_is_the_same_however_its_stiffness_is_said_to_scatter() {
     let scatter = "[mechanism.specimen_scatter]\nkn_cov = 0.3\nfriction_cov = 0\n";
     let kn = "[uncertain]\n\"joint.kn_pa_per_m\" = { family = \"lognormal\", mean = 5e7, sd = 1.5e7 }\n";
     for (one, other) in rows(&with(scatter)).iter().zip(rows(&with(kn))) {
-        let [a, b] = [one, &other].map(|row| row.top_displacement_m.unwrap());
+        let [a, b] = [one, &other].map(|row| row.top_displacement_m().unwrap());
         assert!((a / b - 1.0).abs() < 1e-3, "{a} {b}");
         assert_ne!(other.drawn["joint.kn_pa_per_m"], 5e7);
         assert_eq!(other.kn_pa_per_m, 5e7);

@@ -5,7 +5,8 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use pirca::ensemble::{
-    MemberFault, Row, RunError, Settings, Silent, StepRow, Task, is_random, plan, run_with,
+    Built, MemberFault, Reading, Row, RunError, Settings, Silent, StepRow, Task, TopStep, is_random, plan,
+    run_with,
 };
 use pirca::model::{Level, Outcome};
 use pirca::random::{Family, Streams};
@@ -40,19 +41,15 @@ pub fn made_up(study: &Study, task: Task) -> Row {
     let collapsed = arm == 1 && member % 4 == 3;
     let step = |load_factor, share| StepRow {
         load_factor: Some(load_factor),
-        tilt_deg: None,
-        drift_percent: None,
-        force_n: None,
-        left_m: Some(0.0),
-        centre_m: None,
-        right_m: Some(top),
-        left_remainder_m: None,
-        centre_remainder_m: None,
-        right_remainder_m: None,
-        top_displacement_m: Some(top * share),
+        top: TopStep {
+            top_displacement_m: Some(top * share),
+            left_m: Some(0.0),
+            right_m: Some(top),
+            ..TopStep::default()
+        },
         unbalanced_ratio: (!collapsed).then_some(1e-5 / (3.0 + member as f64)),
         solver_steps: 100 + member,
-        shaken: None,
+        ..StepRow::default()
     };
     Row {
         arm_index: arm,
@@ -60,39 +57,27 @@ pub fn made_up(study: &Study, task: Task) -> Row {
         point,
         kn_pa_per_m: kn,
         member,
-        drawn: Default::default(),
         outcome: if collapsed {
             Outcome::Collapsed { at: Level::Factor(1.0 / 3.0) }
         } else {
             Outcome::Equilibrium
         },
-        top_displacement_m: (!collapsed).then_some(top),
-        collapse_angle_deg: None,
-        fails_at_deg: None,
-        first_stone_deg: None,
-        part_deg: None,
-        most_deg: None,
-        largest_tilt_deg: None,
-        limit: None,
-        mechanism: None,
-        undecided: None,
-        shear: None,
-        stones: 25,
-        joints: 60,
-        wedges: 0,
-        headers: 0,
-        attempts: 1,
-        redraws: member as u32,
-        merges: 0,
-        dip_mean_deg: None,
-        dip_sd_deg: Some(stream.uniform()),
-        first_dip_sd_deg: None,
-        length_mean_m: Some(0.1 + 0.2),
-        height_mean_m: Some(0.2),
-        weight_n: Some(-0.0),
+        reading: Reading { top_displacement_m: (!collapsed).then_some(top), ..Reading::default() },
+        built: Built {
+            stones: 25,
+            joints: 60,
+            attempts: 1,
+            redraws: member as u32,
+            dip_sd_deg: Some(stream.uniform()),
+            length_mean_m: Some(0.1 + 0.2),
+            height_mean_m: Some(0.2),
+            weight_n: Some(-0.0),
+            ..Built::default()
+        },
         solver_steps: 200 + 2 * member,
         unbalanced_ratio: Some(1e-5),
         load_steps: vec![step(0.0, 0.0), step(1.0, 1.0)],
+        ..Row::default()
     }
 }
 
@@ -184,9 +169,9 @@ fn the_tables_hold_the_rows() {
     let members = read("members.parquet");
     assert_eq!(
         real(&members, "top_displacement_m"),
-        rows.iter().map(|r| bits(r.top_displacement_m)).collect::<Vec<_>>()
+        rows.iter().map(|r| bits(r.top_displacement_m())).collect::<Vec<_>>()
     );
-    assert_eq!(real(&members, "weight_n"), rows.iter().map(|r| bits(r.weight_n)).collect::<Vec<_>>());
+    assert_eq!(real(&members, "weight_n"), rows.iter().map(|r| bits(r.built.weight_n)).collect::<Vec<_>>());
     let outcome = members.column("outcome").unwrap().str().unwrap();
     assert!(outcome.iter().eq(rows.iter().map(|r| Some(r.outcome.name()))));
     assert_eq!(
@@ -199,7 +184,7 @@ fn the_tables_hold_the_rows() {
     assert_eq!(steps.height(), 2 * rows.len());
     assert_eq!(
         real(&steps, "top_displacement_m"),
-        flat.iter().map(|s| bits(s.top_displacement_m)).collect::<Vec<_>>()
+        flat.iter().map(|s| bits(s.top.top_displacement_m)).collect::<Vec<_>>()
     );
     assert_eq!(
         real(&steps, "unbalanced_ratio"),
@@ -308,7 +293,10 @@ fn every_way_to_end_is_recorded_and_read_again() {
 #[test]
 fn a_row_that_json_cannot_hold_is_a_fault_of_its_member() {
     let folder = new_folder();
-    let not_a_number = |study: &Study, task: Task| Row { weight_n: Some(f64::NAN), ..made_up(study, task) };
+    let not_a_number = |study: &Study, task: Task| {
+        let row = made_up(study, task);
+        Row { built: Built { weight_n: Some(f64::NAN), ..row.built }, ..row }
+    };
     let error = run_with(&study(), &settings(&folder.path("out"), 1), &Silent, &not_a_number).unwrap_err();
     assert!(matches!(&error, RunError::Broken { faults } if faults.len() == EVALUATIONS), "{error}");
 }

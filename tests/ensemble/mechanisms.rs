@@ -40,22 +40,20 @@ fn a_gauge_changes_what_is_read_after_the_zero_reading_and_nothing_else() {
     let (plain, gauged) = (row(&plain, 1), row(&gauged, 1));
     assert_eq!(plain.load_steps.len(), 4);
     for (step, (a, b)) in plain.load_steps.iter().zip(&gauged.load_steps).enumerate() {
-        for (x, y) in [
-            (a.left_m, b.left_m),
-            (a.centre_m, b.centre_m),
-            (a.right_m, b.right_m),
-            (a.top_displacement_m, b.top_displacement_m),
-        ] {
+        let [a, b] = [a.top, b.top];
+        for (x, y) in
+            a.points().into_iter().zip(b.points()).chain([(a.top_displacement_m, b.top_displacement_m)])
+        {
             let x = x.expect("it is read");
             assert_eq!(y, Some(if step == 0 { x } else { 1.5 * x + 0.002 }), "step {step}");
         }
     }
     let mut unread = gauged.clone();
     unread.load_steps = plain.load_steps.clone();
-    unread.top_displacement_m = plain.top_displacement_m;
+    unread.reading.top_displacement_m = plain.top_displacement_m();
     assert_eq!(unread, plain);
-    let x = plain.top_displacement_m.expect("it stands");
-    assert_eq!(gauged.top_displacement_m, Some(1.5 * x + 0.002));
+    let x = plain.top_displacement_m().expect("it stands");
+    assert_eq!(gauged.top_displacement_m(), Some(1.5 * x + 0.002));
 }
 
 #[test]
@@ -109,13 +107,9 @@ fn a_gauge_reads_what_is_left_as_well_and_the_way_up_does_not_know_of_it() {
     for (step, ((a, b), c)) in
         plain.load_steps.iter().zip(&with.load_steps).zip(&gauged.load_steps).enumerate()
     {
-        assert_eq!((a.left_m, a.centre_m, a.right_m), (b.left_m, b.centre_m, b.right_m));
-        assert_eq!((a.left_remainder_m, a.centre_remainder_m, a.right_remainder_m), (None, None, None));
-        for (b, c) in [
-            (b.left_remainder_m, c.left_remainder_m),
-            (b.centre_remainder_m, c.centre_remainder_m),
-            (b.right_remainder_m, c.right_remainder_m),
-        ] {
+        assert_eq!(a.top.points(), b.top.points());
+        assert_eq!(a.top.remainders(), [None; 3]);
+        for (b, c) in b.top.remainders().into_iter().zip(c.top.remainders()) {
             assert_eq!(b.is_some(), step > 0);
             assert_eq!(c, b.map(|left| left + 0.002));
         }
@@ -141,7 +135,8 @@ fn a_wall_that_is_turned_round_leans_the_other_way() {
         let folder = Folder::with_study(&text);
         Study::load(&folder.path("studies/tiny"), None).unwrap_or_else(|faults| panic!("{faults}")).study
     };
-    let angle = |lean: &str, turned: &str| row(&load(lean, turned), 0).collapse_angle_deg.expect("it falls");
+    let angle =
+        |lean: &str, turned: &str| row(&load(lean, turned), 0).collapse_angle_deg().expect("it falls");
     let turned = "turned = true";
     let [downhill, uphill, round] = [angle("1", ""), angle("-1", ""), angle("1", turned)];
     println!("{downhill} {uphill} {round}");

@@ -3,7 +3,7 @@
 use std::process::Command;
 use std::{env, fs};
 
-use pirca::ensemble::{AddedColumns, Row, Tables, Task};
+use pirca::ensemble::{AddedColumns, Reading, Row, Tables, Task, TiltingRow};
 use pirca::model::{Level, Outcome};
 use pirca::study::Study;
 use pirca::verb::run::{Gathered, write_gathered};
@@ -56,9 +56,10 @@ fn stream(walls: u64) {
     let mut gathered = Gathered::new(&study);
     for member in 0..walls {
         let row = made_up(&study, Task { arm: 0, point: 0, member });
-        let angle = 10.0 + 5.0 * row.dip_sd_deg.expect("a random number");
+        let angle = 10.0 + 5.0 * row.built.dip_sd_deg.expect("a random number");
         let outcome = Outcome::Collapsed { at: Level::Tilt(angle) };
-        let row = Row { collapse_angle_deg: Some(angle), outcome, ..row };
+        let tilting = TiltingRow { collapse_angle_deg: Some(angle), ..row.reading.tilting };
+        let row = Row { reading: Reading { tilting, ..row.reading }, outcome, ..row };
         tables.take(&row).unwrap();
         gathered.take(&row);
     }

@@ -34,9 +34,9 @@ fn many_walls_are_written_in_groups_of_one_size_and_in_their_order() {
     let column = |name: &str| members.column(name).unwrap().f64().unwrap().iter().collect::<Vec<_>>();
     assert_eq!(
         column("top_displacement_m"),
-        rows.iter().map(|row| row.top_displacement_m).collect::<Vec<_>>()
+        rows.iter().map(|row| row.top_displacement_m()).collect::<Vec<_>>()
     );
-    assert_eq!(column("dip_sd_deg"), rows.iter().map(|row| row.dip_sd_deg).collect::<Vec<_>>());
+    assert_eq!(column("dip_sd_deg"), rows.iter().map(|row| row.built.dip_sd_deg).collect::<Vec<_>>());
 
     let (steps, groups) = read(&folder.path("steps.parquet"));
     assert_eq!(groups, [262_144, 17_856]);
@@ -64,19 +64,12 @@ fn columns_that_some_walls_need_are_the_same_however_the_walls_are_shared_out() 
     let mut rows = rows(4);
     rows[1].drawn.insert("joint.phi_deg".to_owned(), 31.5);
     rows[2].drawn.insert("block.density_kg_per_m3".to_owned(), 2.6e3);
-    rows[2].shear = Some(ShearRow {
-        capacity_n: Some(1e3),
-        drift_at_capacity_percent: None,
-        plateau_n: None,
-        stiffness_n_per_m: None,
-        mode: None,
-        opening_m: None,
-    });
-    rows[3].load_steps[1].force_n = Some(7.0);
+    rows[2].reading.shear = Some(ShearRow { capacity_n: Some(1e3), ..ShearRow::default() });
+    rows[3].load_steps[1].jack.force_n = Some(7.0);
     let all = AddedColumns::of(&rows);
-    assert!(all.drawn.len() == 2 && all.sheared && all.pushed);
+    assert!(all.drawn.len() == 2 && all.has("sheared") && all.has("pushed"));
     let mut joined = AddedColumns::of([&rows[3], &rows[0]]);
-    assert!(joined.drawn.is_empty() && joined.pushed && !joined.sheared);
+    assert!(joined.drawn.is_empty() && joined.has("pushed") && !joined.has("sheared"));
     joined.join(&AddedColumns::of(&rows[1..3]));
     assert_eq!(joined, all);
     assert!(rows.iter().all(|row| all.hold(row)));

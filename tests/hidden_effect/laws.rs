@@ -84,7 +84,7 @@ fn learnt(law: &'static Law, k: u64) -> Option<Learnt> {
         Bend::NotShown => None,
         said => Some((said == Bend::Stiffening) == (true_exponent > 0.0)),
     };
-    let one_more = evaluate(&acted, Task { arm: 0, point: 0, member: 99 }).collapse_angle_deg;
+    let one_more = evaluate(&acted, Task { arm: 0, point: 0, member: 99 }).collapse_angle_deg();
     let collapse = one_more.zip(own.collapse[0]).map(|(angle, predicted)| {
         let [low, high] = predicted.interval;
         (low..=high).contains(&radians(angle))

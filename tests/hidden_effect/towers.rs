@@ -115,7 +115,7 @@ pub fn campaign(study: &Study, hidden: &Hidden, seed: u64) -> Vec<Measurement> {
         .collect();
     let mut readings = Vec::new();
     for row in &rows {
-        let Some(collapse) = row.collapse_angle_deg else { continue };
+        let Some(collapse) = row.collapse_angle_deg() else { continue };
         let mut read = |quantity, tilt: Option<f64>, value: f64, error: f64| {
             readings.push(Measurement {
                 specimen: format!("T{}", row.member),
@@ -144,17 +144,17 @@ pub fn campaign(study: &Study, hidden: &Hidden, seed: u64) -> Vec<Measurement> {
             let step = step.expect("it has been tilted");
             assert!((step.tilt_deg.expect("it is a tilt") - tilt).abs() < 1e-6, "no step at {tilt} deg");
             let points = [
-                (MeasuredQuantity::DisplacementLeft, step.left_m),
-                (MeasuredQuantity::DisplacementCentre, step.centre_m),
-                (MeasuredQuantity::DisplacementRight, step.right_m),
+                (MeasuredQuantity::DisplacementLeft, step.top.left_m),
+                (MeasuredQuantity::DisplacementCentre, step.top.centre_m),
+                (MeasuredQuantity::DisplacementRight, step.top.right_m),
             ];
             for (quantity, value) in points {
                 read(quantity, Some(tilt), value.expect("it was read"), ERRORS[1]);
             }
             let left = [
-                (MeasuredQuantity::RemainderLeft, step.left_remainder_m),
-                (MeasuredQuantity::RemainderCentre, step.centre_remainder_m),
-                (MeasuredQuantity::RemainderRight, step.right_remainder_m),
+                (MeasuredQuantity::RemainderLeft, step.top.left_remainder_m),
+                (MeasuredQuantity::RemainderCentre, step.top.centre_remainder_m),
+                (MeasuredQuantity::RemainderRight, step.top.right_remainder_m),
             ];
             for (quantity, value) in left.into_iter().filter(|_| hidden.goes_back && tilt == BACK_FROM) {
                 read(quantity, Some(tilt), value.expect("it goes back"), ERRORS[1]);

@@ -20,13 +20,13 @@ fn walls(variant: Option<&str>) -> Vec<Row> {
 #[test]
 fn wythes_that_are_not_tied_fall_first_and_headers_help() {
     let rows = walls(None);
-    let angle = |arm: usize| rows[arm].collapse_angle_deg.expect("it falls");
+    let angle = |arm: usize| rows[arm].collapse_angle_deg().expect("it falls");
     assert!(angle(4) < angle(5) && angle(5) < angle(2), "{} {} {}", angle(4), angle(5), angle(2));
     assert!((angle(1) - angle(2)).abs() < 2.0, "{} {}", angle(1), angle(2));
     assert_eq!(rows[1].mechanism.expect("it was watched").mode, FailureMode::Rocking);
     // The same stones, where the distributions are the same.
     for arm in [3, 4, 5] {
-        assert_eq!(rows[arm].dip_mean_deg, rows[2].dip_mean_deg);
+        assert_eq!(rows[arm].built.dip_mean_deg, rows[2].built.dip_mean_deg);
     }
 }
 
@@ -34,7 +34,7 @@ fn wythes_that_are_not_tied_fall_first_and_headers_help() {
 fn columns_gain_little_from_ends_that_are_held_and_bonded_walls_much() {
     let (free, held) = (walls(Some("lateral")), walls(Some("lateral-restrained")));
     let kept = |arm: usize| {
-        let [held, free] = [&held, &free].map(|rows| rows[arm].top_displacement_m.expect("it stands"));
+        let [held, free] = [&held, &free].map(|rows| rows[arm].top_displacement_m().expect("it stands"));
         held / free
     };
     assert!(kept(0) > 0.7, "continuous: {}", kept(0));

@@ -45,7 +45,7 @@ fn one_stiffness_fits_the_wall_that_it_was_read_off_and_not_those_under_more_loa
     // Eight readings.
     assert!(square(7e9) < 8.0 && square(5e9) > 25.0 && square(1e10) > 25.0, "{}", square(7e9));
     for row in &of_base {
-        let shear = row.shear.expect("it was sheared");
+        let shear = row.reading.shear.expect("it was sheared");
         assert_eq!((&row.outcome, shear.mode), (&Outcome::Equilibrium, Some(ShearMode::Rocking)));
     }
     let out = std::env::temp_dir().join(format!("pirca-force-drift-{}", std::process::id()));
@@ -66,7 +66,7 @@ fn one_stiffness_fits_the_wall_that_it_was_read_off_and_not_those_under_more_loa
     let mut others = of_arms(study(Some("predict")), &["ws-175"]);
     others.arms[0].members = 3;
     let of_others = rows(&others);
-    assert!(of_others[0].shear != of_others[1].shear);
+    assert!(of_others[0].reading.shear != of_others[1].reading.shear);
     let off = differences(&others, &of_others, "ws-175", 7e9);
     // The joints under the larger load are stiffer: the readings lie above what is predicted.
     assert!(off.len() == 8 && off.iter().all(|z| *z < -0.5), "{off:?}");
@@ -76,7 +76,7 @@ fn one_stiffness_fits_the_wall_that_it_was_read_off_and_not_those_under_more_loa
 fn rigid_blocks_bear_more_than_any_wall_of_joints_does() {
     let study = study(Some("rigid"));
     for (row, stated) in rows(&study).iter().zip([39.4e3, 67.7e3]) {
-        let capacity = row.shear.and_then(|shear| shear.capacity_n).expect("it falls");
+        let capacity = row.reading.shear.and_then(|shear| shear.capacity_n).expect("it falls");
         assert!((capacity / stated - 1.0).abs() < 2e-3, "{capacity} against {stated}");
         let limit = row.limit.and_then(|limit| limit.multiplier).expect("it is limit analysis");
         assert!((0.3..0.5).contains(&limit), "{limit}");
@@ -126,7 +126,7 @@ fn walls_are_the_stiffer_the_more_they_bear_and_constant_joints_do_not_make_them
     let ours: Vec<f64> = rows(&base)
         .iter()
         .map(|row| {
-            let steps = row.load_steps.iter().filter_map(|step| step.drift_percent.zip(step.force_n));
+            let steps = row.pushes();
             secant(&steps.map(|(drift, force)| (drift, 1e-3 * force)).collect::<Vec<_>>())
         })
         .collect();

@@ -12,7 +12,7 @@ fn drifts(variant: Option<&str>) -> Vec<f64> {
     let study = Study::load(Path::new(FOLDER), variant).unwrap_or_else(|faults| panic!("{faults}")).study;
     let arms = 0..study.arms.iter().filter(|arm| arm.members == 1).count() as u32;
     let drift =
-        |arm| evaluate(&study, Task { arm, point: 0, member: 0 }).top_displacement_m.expect("it stands");
+        |arm| evaluate(&study, Task { arm, point: 0, member: 0 }).top_displacement_m().expect("it stands");
     arms.map(drift).map(|metres| 1e3 * metres).collect()
 }
 

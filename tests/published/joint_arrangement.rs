@@ -48,7 +48,7 @@ fn every_variant_builds_and_stands() {
         for arm in 0..study.arms.len() as u32 {
             let row = evaluate(&study, Task { arm, point: 0, member: 0 });
             assert_eq!(row.outcome, Outcome::Equilibrium, "variant {}, arm {}", variant.name, row.arm);
-            assert!(row.top_displacement_m.is_some_and(|d| d > 0.0));
+            assert!(row.top_displacement_m().is_some_and(|d| d > 0.0));
         }
     }
 }
@@ -61,7 +61,7 @@ fn the_two_solvers_agree_as_stated() {
     assert!(matches!(implicit.solver, Solver::Implicit(_)), "the study's own solver");
     let explicit = study(Some("explicit"), 4);
     for task in plan(&implicit).into_iter().filter(|task| task.point % 5 == 0) {
-        let displacement = |study: &Study| evaluate(study, task).top_displacement_m.expect("it stands");
+        let displacement = |study: &Study| evaluate(study, task).top_displacement_m().expect("it stands");
         let difference = displacement(&implicit) / displacement(&explicit) - 1.0;
         println!("arm {}, point {}, member {}: {difference:e}", task.arm, task.point, task.member);
         assert!((-0.012..0.0).contains(&difference), "{difference}");
@@ -84,7 +84,7 @@ fn halving_the_unbalanced_ratio_changes_no_displacement() {
         *own *= 0.5;
         let mut largest: f64 = 0.0;
         for task in plan(&coarse).into_iter().filter(|task| task.point % 5 == 0) {
-            let displacement = |study: &Study| evaluate(study, task).top_displacement_m.expect("it stands");
+            let displacement = |study: &Study| evaluate(study, task).top_displacement_m().expect("it stands");
             largest = largest.max((displacement(&fine) / displacement(&coarse) - 1.0).abs());
         }
         println!("{variant:?}: largest change {largest:e}");

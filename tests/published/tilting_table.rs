@@ -20,7 +20,7 @@ fn row(study: &Study, arm: &str, point: u32, member: u64) -> Row {
 fn angle(study: &Study, arm: &str, point: u32) -> f64 {
     let row = row(study, arm, point, 0);
     assert!(matches!(row.outcome, Outcome::Collapsed { .. }), "{arm}: {}", row.outcome.reason());
-    row.collapse_angle_deg.expect("it fell")
+    row.collapse_angle_deg().expect("it fell")
 }
 
 #[test]
@@ -29,7 +29,11 @@ fn the_walls_weigh_what_the_specimens_did_and_are_read_at_the_papers_stops() {
     for (arm, weight) in [("cbl", 1333.0), ("sbl", 1371.0), ("sbr", 1371.0)] {
         let row = row(&study, arm, 0, 0);
         // Table 1 gives whole newtons.
-        assert!((row.weight_n.expect("it was built") - weight).abs() < 0.5, "{arm}: {:?}", row.weight_n);
+        assert!(
+            (row.built.weight_n.expect("it was built") - weight).abs() < 0.5,
+            "{arm}: {:?}",
+            row.built.weight_n
+        );
         for stop in [5.0, 10.0, 15.0] {
             let read =
                 row.load_steps.iter().any(|s| s.tilt_deg.is_some_and(|t: f64| (t - stop).abs() < 1e-9));

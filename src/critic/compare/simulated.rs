@@ -35,7 +35,7 @@ pub fn simulated(quantity: MeasuredQuantity, at: Option<f64>, row: &Row) -> Opti
             Observed::Above(angle) => Simulated::Above(radians(angle)),
             Observed::Nothing => Simulated::Nothing,
         },
-        Q::SpecimenWeight => row.weight_n.map_or(Simulated::Nothing, Simulated::Value),
+        Q::SpecimenWeight => row.built.weight_n.map_or(Simulated::Nothing, Simulated::Value),
         Q::DisplacementLeft
         | Q::DisplacementCentre
         | Q::DisplacementRight
@@ -54,8 +54,7 @@ pub fn simulated(quantity: MeasuredQuantity, at: Option<f64>, row: &Row) -> Opti
 
 /// The push (N) when the wall first came to a drift (%), by straight lines between the steps.
 fn force(drift_percent: f64, row: &Row) -> Simulated {
-    let history = row.load_steps.iter().filter_map(|step| step.drift_percent.zip(step.force_n));
-    if let Some(push) = first_at(history, drift_percent) {
+    if let Some(push) = first_at(row.pushes(), drift_percent) {
         return Simulated::Value(push);
     }
     match row.outcome {
@@ -95,8 +94,8 @@ fn displacement(quantity: MeasuredQuantity, tilt: f64, row: &Row) -> Simulated {
 /// The load steps at which the wall was at rest, tilts ascending; the step in which it fell is not among them.
 pub fn at_rest(row: &Row) -> Vec<(f64, &StepRow)> {
     let reached = match row.outcome {
-        Outcome::Collapsed { .. } => row.collapse_angle_deg,
-        _ => row.largest_tilt_deg,
+        Outcome::Collapsed { .. } => row.collapse_angle_deg(),
+        _ => row.reading.tilting.largest_tilt_deg,
     };
     let mut steps: Vec<(f64, &StepRow)> = Vec::new();
     for step in &row.load_steps {
@@ -113,8 +112,8 @@ pub fn at_rest(row: &Row) -> Vec<(f64, &StepRow)> {
 /// The quantity at a step (m).
 fn read(quantity: MeasuredQuantity, step: &StepRow) -> Option<f64> {
     let points = match quantity.is_remainder() {
-        false => [step.left_m, step.centre_m, step.right_m],
-        true => [step.left_remainder_m, step.centre_remainder_m, step.right_remainder_m],
+        false => step.top.points(),
+        true => step.top.remainders(),
     };
     of_points(quantity, [points[0]?, points[1]?, points[2]?])
 }

@@ -136,7 +136,7 @@ impl<'s> Tested<'s> {
         let row = evaluate(&self.study_of(own)?, task);
         match row.outcome {
             Outcome::UnstableAtRest => Some(0.0),
-            _ => row.collapse_angle_deg.map(radians),
+            _ => row.collapse_angle_deg().map(radians),
         }
     }
 

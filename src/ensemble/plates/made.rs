@@ -4,6 +4,7 @@ use crate::homogenise::plate::{Edge, Edges, Plate};
 use crate::math::{STANDARD_GRAVITY, Vec3, radians, tan};
 use crate::model::Cell;
 use crate::protocol::{Ends, Protocol};
+use crate::solve::{Solver, limit};
 use crate::study::Arm;
 
 /// Cells of the mesh over the height of a plate, and as many along it as make them square, up to so many.
@@ -68,8 +69,8 @@ pub fn check_plate(arm: &Arm, protocol: &Protocol) -> Result<(), NoPlate> {
     if bond {
         return Err(NoPlate::Bond);
     }
-    if let Some(unfit) = arm.unfit_for_limit_analysis().first() {
-        return Err(NoPlate::Unfit(unfit.to_string()));
+    if let Some(unfit) = arm.unfit_for(&Solver::Limit(limit::Settings::default())).into_iter().next() {
+        return Err(NoPlate::Unfit(unfit));
     }
     if arm.turned || arm.mechanisms.lean.is_some_and(|lean| lean != 0.0) {
         return Err(NoPlate::Placed);

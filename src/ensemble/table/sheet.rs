@@ -12,7 +12,8 @@ use polars_io::parquet::write::BatchedWriter;
 use polars_io::prelude::ParquetWriter;
 
 use crate::ensemble::RunError;
-use crate::ensemble::columns::{Column, Table, Value};
+use crate::ensemble::columns::{Column, Table};
+use crate::ensemble::field::{Cell, Kind};
 use crate::ensemble::files::Replacement;
 
 /// A table that is being written: its lines are kept until they fill a row group. All groups but the last are as large as the table says,
@@ -33,10 +34,8 @@ impl<T: Table> Sheet<T> {
     /// Begins a table of this name in a folder.
     pub fn begin(folder: &Path, name: &'static str, columns: Vec<Column<T>>) -> Result<Sheet<T>, RunError> {
         let encoded = Bytes::default();
-        let schema: Schema = columns
-            .iter()
-            .map(|column| Field::new(column.name.as_str().into(), kind(&column.value)))
-            .collect();
+        let schema: Schema =
+            columns.iter().map(|column| Field::new(column.name.as_str().into(), kind(column.kind))).collect();
         // One thread, so that no count of threads enters the bytes.
         let encoder = ParquetWriter::new(encoded.clone())
             .set_parallel(false)
@@ -49,7 +48,7 @@ impl<T: Table> Sheet<T> {
     /// Takes the next line.
     pub fn take(&mut self, line: T::Line<'_>) -> Result<(), RunError> {
         for (column, kept) in self.columns.iter().zip(&mut self.kept) {
-            kept.take(&column.value, line);
+            kept.take((column.cell)(line));
         }
         self.lines += 1;
         if self.lines == T::GROUP { self.write_group() } else { Ok(()) }
@@ -89,12 +88,11 @@ enum Filled {
 }
 
 impl Filled {
-    fn take<T: Table>(&mut self, value: &Value<T>, line: T::Line<'_>) {
-        match (self, value) {
-            (Filled::Text(kept), Value::Text(of)) => kept.append_option(of(line)),
-            (Filled::Count(kept), Value::Count(of)) => kept.append_value(of(line)),
-            (Filled::Real(kept), Value::Real(of)) => kept.append_option(of(line)),
-            (Filled::Real(kept), Value::Drawn(of, key)) => kept.append_option(of(line, key)),
+    fn take(&mut self, cell: Cell) {
+        match (self, cell) {
+            (Filled::Text(kept), Cell::Text(text)) => kept.append_option(text),
+            (Filled::Count(kept), Cell::Count(n)) => kept.append_value(n),
+            (Filled::Real(kept), Cell::Real(x)) => kept.append_option(x),
             _ => unreachable!("`empty` makes one of the kind of each column"),
         }
     }
@@ -112,21 +110,21 @@ impl Filled {
 fn empty<T: Table>(columns: &[Column<T>]) -> Vec<Filled> {
     let empty = |column: &Column<T>| {
         let name = column.name.as_str().into();
-        match column.value {
-            Value::Text(_) => Filled::Text(StringChunkedBuilder::new(name, 0)),
-            Value::Count(_) => Filled::Count(PrimitiveChunkedBuilder::new(name, 0)),
-            Value::Real(_) | Value::Drawn(..) => Filled::Real(PrimitiveChunkedBuilder::new(name, 0)),
+        match column.kind {
+            Kind::Text => Filled::Text(StringChunkedBuilder::new(name, 0)),
+            Kind::Count => Filled::Count(PrimitiveChunkedBuilder::new(name, 0)),
+            Kind::Real => Filled::Real(PrimitiveChunkedBuilder::new(name, 0)),
         }
     };
     columns.iter().map(empty).collect()
 }
 
 /// The type of a column's values in Parquet.
-fn kind<T: Table>(value: &Value<T>) -> DataType {
-    match value {
-        Value::Text(_) => DataType::String,
-        Value::Count(_) => DataType::UInt64,
-        Value::Real(_) | Value::Drawn(..) => DataType::Float64,
+fn kind(kind: Kind) -> DataType {
+    match kind {
+        Kind::Text => DataType::String,
+        Kind::Count => DataType::UInt64,
+        Kind::Real => DataType::Float64,
     }
 }
 

@@ -19,6 +19,13 @@ mod newton;
 pub use equilibrium::Equilibrium;
 pub use newton::Effort;
 
+use crate::solve::Demand;
+
+/// What it does not have, with the reason.
+pub(super) fn refuses(demand: Demand) -> Option<&'static str> {
+    (demand == Demand::BaseMotion).then_some("Newton's method goes from rest to rest")
+}
+
 /// Settings of the implicit solver.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Settings {

@@ -65,3 +65,24 @@ pub use loads::{Loads, PointLoad, When};
 pub use periodic::Bearing;
 pub use settings::{Cone, Flow, Settings};
 pub(crate) use sides::is_upright;
+
+use crate::solve::Demand;
+
+/// What it does not have, with the reason.
+pub(super) fn refuses(demand: Demand) -> Option<&'static str> {
+    match demand {
+        Demand::Closure | Demand::StressStiffening | Demand::ClosureTable => {
+            Some("rigid blocks have joints without closure")
+        }
+        Demand::CompressiveStrength => Some("limit analysis takes joints to bear any pressure"),
+        Demand::BaseCompliance => Some("rigid blocks stand on rigid ground"),
+        Demand::WedgeLoss => Some("limit analysis sees the wall as built, with all its wedges"),
+        Demand::Creep => Some("limit analysis knows no history"),
+        Demand::Turning | Demand::BaseMotion => Some("limit analysis knows no time"),
+        Demand::Displacements | Demand::Remainders => Some("rigid blocks do not move before they fall"),
+        Demand::Agreement => Some("it would be compared with itself"),
+        Demand::ContactArea | Demand::Weakening | Demand::ServiceDisplacement | Demand::RayleighDamping => {
+            None
+        }
+    }
+}

@@ -52,6 +52,8 @@ pub use problem::Problem;
 pub use residual::Residual;
 pub use step::{Simulation, Stepped};
 
+use crate::solve::Demand;
+
 /// How joints bear pressure.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -115,6 +117,31 @@ impl Settings {
     /// Whether joints have no stiffness.
     pub fn is_rigid(&self) -> bool {
         self.normal != Normal::Compliant
+    }
+
+    /// What it does not have, with the reason.
+    pub fn refuses(&self, demand: Demand) -> Option<&'static str> {
+        let if_rigid = |why| self.is_rigid().then_some(why);
+        match demand {
+            Demand::Closure | Demand::StressStiffening | Demand::ClosureTable => {
+                if_rigid("rigid blocks have joints without closure")
+            }
+            Demand::ContactArea => if_rigid("rigid joints of contact dynamics touch over their whole area"),
+            Demand::Displacements | Demand::Remainders => {
+                if_rigid("rigid blocks do not move before they fall")
+            }
+            Demand::ServiceDisplacement => if_rigid(
+                "rigid blocks do not move before they fall (normal = \"compliant\" has joints that give way)",
+            ),
+            Demand::CompressiveStrength => Some("joints of contact dynamics bear any pressure"),
+            Demand::Weakening => Some("friction of contact dynamics does not weaken with slip"),
+            Demand::Creep => Some("shear of contact dynamics does not relax"),
+            Demand::Turning => {
+                Some("a platform that turns steadily is followed by the explicit solver alone")
+            }
+            Demand::RayleighDamping => Some("impacts and friction take the energy"),
+            Demand::BaseCompliance | Demand::WedgeLoss | Demand::BaseMotion | Demand::Agreement => None,
+        }
     }
 }
 

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::fs;
 
-use super::{KN, claim, collected, failed, summary_of};
-use crate::ensemble::{Mechanism, Quantity, Row};
+use super::{KN, claim, collected, failed, stood, summary_of, tilted};
+use crate::ensemble::{Mechanism, Quantity, Row, TiltingRow};
 use crate::model::{Level, Outcome};
 use crate::stats::{clopper_pearson, dkw_half_width};
 use crate::study::{Claim, ClaimTest};
@@ -21,14 +21,10 @@ fn fell(member: u64, angle: f64) -> Row {
     }))
     .unwrap();
     Row {
-        collapse_angle_deg: Some(angle),
+        reading: tilted(TiltingRow { collapse_angle_deg: Some(angle), ..TiltingRow::default() }),
         mechanism: Some(mechanism),
         ..failed(member, Outcome::Collapsed { at: Level::Tilt(0.2) })
     }
-}
-
-fn stood(member: u64, tilt: f64) -> Row {
-    Row { largest_tilt_deg: Some(tilt), ..failed(member, Outcome::Equilibrium) }
 }
 
 fn capacity(rows: &[Row]) -> Population {

@@ -3,28 +3,16 @@
 use std::path::Path;
 
 use super::failed;
-use crate::ensemble::{Row, StepRow};
+use crate::ensemble::{Row, ShearStep, StepRow};
 use crate::model::{Level, Outcome};
 use crate::study::Study;
 use crate::verb::run::answer::force_drift::{force_curves, force_drift, force_drift_csv};
 
 /// A wall that bears this at every drift (%), and was pushed so far; it falls there, or ends as it is said.
 fn pushed(member: u64, force: f64, to: f64, outcome: Outcome) -> Row {
-    let at = |drift: f64, force: f64| StepRow {
-        load_factor: None,
-        tilt_deg: None,
-        drift_percent: Some(drift),
-        force_n: Some(force),
-        top_displacement_m: None,
-        left_m: None,
-        centre_m: None,
-        right_m: None,
-        left_remainder_m: None,
-        centre_remainder_m: None,
-        right_remainder_m: None,
-        unbalanced_ratio: None,
-        solver_steps: 1,
-        shaken: None,
+    let at = |drift: f64, force: f64| {
+        let jack = ShearStep { drift_percent: Some(drift), force_n: Some(force) };
+        StepRow { jack, solver_steps: 1, ..StepRow::default() }
     };
     let load_steps = vec![at(0.0, 0.0), at(0.005, force), at(to, force)];
     Row { arm: "ws-175".into(), kn_pa_per_m: 7e9, load_steps, ..failed(member, outcome) }

@@ -12,7 +12,7 @@ mod verdict;
 
 use std::collections::BTreeMap;
 
-use crate::ensemble::{Quantity, Row};
+use crate::ensemble::{Quantity, Reading, Row, TiltingRow};
 use crate::model::Outcome;
 use crate::study::{Claim, ClaimTest};
 use crate::verb::run::answer::by_member::ByMember;
@@ -26,47 +26,24 @@ const KN: [f64; 3] = [7.5e7, 1e8, 1.25e8];
 
 /// A member that stands with this displacement at its top (m).
 fn standing(member: u64, displacement: f64) -> Row {
-    Row { top_displacement_m: Some(displacement), ..failed(member, Outcome::Equilibrium) }
+    let reading = Reading { top_displacement_m: Some(displacement), ..Reading::default() };
+    Row { reading, ..failed(member, Outcome::Equilibrium) }
 }
 
 /// A member that ended like this, without a displacement.
 fn failed(member: u64, outcome: Outcome) -> Row {
-    Row {
-        arm_index: 0,
-        arm: "irregular".into(),
-        point: 0,
-        kn_pa_per_m: KN[0],
-        member,
-        drawn: Default::default(),
-        outcome,
-        top_displacement_m: None,
-        collapse_angle_deg: None,
-        fails_at_deg: None,
-        first_stone_deg: None,
-        part_deg: None,
-        most_deg: None,
-        largest_tilt_deg: None,
-        limit: None,
-        mechanism: None,
-        undecided: None,
-        shear: None,
-        stones: 50,
-        joints: 120,
-        wedges: 0,
-        headers: 0,
-        attempts: 1,
-        redraws: 0,
-        merges: 0,
-        dip_mean_deg: None,
-        dip_sd_deg: None,
-        first_dip_sd_deg: None,
-        length_mean_m: None,
-        height_mean_m: None,
-        weight_n: None,
-        solver_steps: 1000,
-        unbalanced_ratio: None,
-        load_steps: Vec::new(),
-    }
+    Row { arm: "irregular".into(), kn_pa_per_m: KN[0], member, outcome, ..Row::default() }
+}
+
+/// A member that stood to the end at this tilt (deg).
+fn stood(member: u64, tilt: f64) -> Row {
+    let reading = tilted(TiltingRow { largest_tilt_deg: Some(tilt), ..TiltingRow::default() });
+    Row { reading, ..failed(member, Outcome::Equilibrium) }
+}
+
+/// What is read of a wall on a tilting table.
+fn tilted(tilting: TiltingRow) -> Reading {
+    Reading { tilting, ..Reading::default() }
 }
 
 /// An arm at one kn whose walls all stand, with these displacements (m).

@@ -50,7 +50,7 @@ fn failed_walls_are_counted_and_enter_no_mean() {
     let rows = [
         standing(0, 1e-3),
         // Its last displacement is no answer, should a row ever carry it.
-        Row { top_displacement_m: Some(90e-3), ..failed(1, Outcome::Collapsed { at: Level::Factor(0.5) }) },
+        Row { outcome: Outcome::Collapsed { at: Level::Factor(0.5) }, ..standing(1, 90e-3) },
         standing(2, 3e-3),
         failed(3, Outcome::NonFinite { at: Level::Factor(1.0) }),
         failed(4, Outcome::InvalidGeometry { reason: "beds cross".into() }),

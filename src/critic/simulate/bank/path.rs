@@ -42,10 +42,11 @@ impl Path {
     /// The path of a wall that fell; `None` where it did not, or leans uphill, or fell before it could be read twice.
     pub fn of(row: &Row) -> Option<Path> {
         let Outcome::Collapsed { .. } = row.outcome else { return None };
-        let collapse = row.collapse_angle_deg.filter(|angle| *angle > 0.0)?;
+        let collapse = row.collapse_angle_deg().filter(|angle| *angle > 0.0)?;
         let (mut read, mut back) = (Vec::new(), Vec::new());
         for (tilt, step) in at_rest(row).into_iter().filter(|(tilt, _)| *tilt > 0.0) {
-            let points = [step.left_m?, step.centre_m?, step.right_m?];
+            let [left, centre, right] = step.top.points();
+            let points = [left?, centre?, right?];
             let mean = (points[0] + points[1] + points[2]) / 3.0;
             if mean <= 0.0 {
                 return None;
@@ -57,8 +58,7 @@ impl Path {
             };
             let [_, bow, twist] = shape(points);
             read.push((q, [ln(mean / radians(tilt)), bow, twist]));
-            let left = [step.left_remainder_m, step.centre_remainder_m, step.right_remainder_m];
-            if let [Some(left), Some(centre), Some(right)] = left {
+            if let [Some(left), Some(centre), Some(right)] = step.top.remainders() {
                 back.push((q, shape([left, centre, right])));
             }
         }

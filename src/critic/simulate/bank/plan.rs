@@ -222,7 +222,7 @@ mod tests {
         let stones = |task: usize| {
             let row = plan.evaluate(Task { arm: task as u32, point: 0, member: 0 });
             assert_eq!(row.member, 0);
-            (row.stones, row.length_mean_m, row.dip_sd_deg)
+            (row.built.stones, row.built.length_mean_m, row.built.dip_sd_deg)
         };
         let place = |point: u64, cause: Option<usize>| {
             plan.places

@@ -29,12 +29,11 @@ impl Path {
             Outcome::Collapsed { at: Level::Drift(drift) } => (drift / widest).max(LEAST),
             _ => return None,
         };
-        let history = || row.load_steps.iter().filter_map(|step| step.drift_percent.zip(step.force_n));
-        let last = history().map(|(drift, _)| drift).fold(0.0, f64::max);
+        let last = row.pushes().map(|(drift, _)| drift).fold(0.0, f64::max);
         let mut numbers = [0.0; NUMBERS];
         numbers[0] = ln(reach);
         for (number, share) in numbers[1..PUSHED].iter_mut().zip(SHARES) {
-            let push = first_at(history(), f64::min(100.0 * share * widest, last))?;
+            let push = first_at(row.pushes(), f64::min(100.0 * share * widest, last))?;
             if push <= 0.0 {
                 return None;
             }

@@ -6,7 +6,7 @@ use crate::critic::simulate::bank::emulator::Emulator;
 use crate::critic::simulate::bank::path::{Curves, NUMBERS, PLACES, Path};
 use crate::critic::simulate::bank::{Bank, NotThisBank, Plan, Test};
 use crate::critic::tests::fallen;
-use crate::ensemble::{Row, StepRow};
+use crate::ensemble::{Row, StepRow, TopStep};
 use crate::math::radians;
 use crate::random::Streams;
 use crate::random::standard_normal;
@@ -32,18 +32,16 @@ fn wall(collapse: f64, step: f64) -> Row {
     let like = fallen(0, 0, collapse);
     let at = |tilt: f64| {
         let [left, centre, right] = formula(tilt, collapse).map(Some);
-        StepRow {
-            tilt_deg: Some(tilt),
-            drift_percent: None,
-            force_n: None,
+        let top = TopStep {
             left_m: left,
             centre_m: centre,
             right_m: right,
             left_remainder_m: left.map(|x| 0.1 * x),
             centre_remainder_m: centre.map(|x| 0.2 * x),
             right_remainder_m: right.map(|x| 0.1 * x),
-            ..like.load_steps[0].clone()
-        }
+            ..like.load_steps[0].top
+        };
+        StepRow { tilt_deg: Some(tilt), top, ..like.load_steps[0].clone() }
     };
     let mut load_steps: Vec<StepRow> =
         (0..).map(|k| f64::from(k) * step).take_while(|tilt| *tilt < collapse).map(at).collect();
@@ -109,7 +107,7 @@ fn a_wall_that_did_not_fall_has_no_path() {
     assert!(Path::of(&stands).is_none());
     let mut leans_back = wall(20.0, 2.5);
     for step in &mut leans_back.load_steps {
-        (step.left_m, step.centre_m, step.right_m) = (Some(-1e-3), Some(-1e-3), Some(-1e-3));
+        (step.top.left_m, step.top.centre_m, step.top.right_m) = (Some(-1e-3), Some(-1e-3), Some(-1e-3));
     }
     assert!(Path::of(&leans_back).is_none());
 }
@@ -117,7 +115,7 @@ fn a_wall_that_did_not_fall_has_no_path() {
 #[test]
 fn of_a_wall_that_fell_before_the_platform_could_go_back_nothing_is_left() {
     let mut never_back = wall(20.0, 2.5);
-    never_back.load_steps.iter_mut().for_each(|step| step.left_remainder_m = None);
+    never_back.load_steps.iter_mut().for_each(|step| step.top.left_remainder_m = None);
     let path = Curves::of(&Path::of(&never_back).expect("it fell").adding());
     assert_eq!(path.remainders(radians(8.0)), Some([0.0; 3]));
     assert!(path.displacements(radians(8.0)).is_some_and(|points| points[0] > 1e-3));

@@ -74,7 +74,7 @@ pub fn readings(study: &Study, rows: &[Row], asked: &Asked) -> Vec<Reading> {
     let told: Vec<&Row> = own.iter().copied().filter(|row| value(row).is_some()).collect();
     for (level, words) in levels(&told) {
         let displacement =
-            |row: &Row| value(row).and_then(|_| at(row, level)).and_then(|step| step.top_displacement_m);
+            |row: &Row| value(row).and_then(|_| at(row, level)).and_then(|step| step.top.top_displacement_m);
         let values = by_arm(&displacement);
         all.push(Reading {
             name: words,
@@ -94,7 +94,7 @@ fn levels(rows: &[&Row]) -> Vec<(f64, String)> {
     let Some(first) = rows.first() else { return Vec::new() };
     let all = first.load_steps.iter().filter_map(level).filter(|level| *level > 0.0);
     let shared = |level: &f64| {
-        rows.iter().all(|row| at(row, *level).is_some_and(|step| step.top_displacement_m.is_some()))
+        rows.iter().all(|row| at(row, *level).is_some_and(|step| step.top.top_displacement_m.is_some()))
     };
     let mut shared: Vec<f64> = all.filter(shared).collect();
     shared.sort_by(f64::total_cmp);

@@ -1,7 +1,7 @@
 //! Curves of walls whose formula is known.
 
 use super::*;
-use crate::ensemble::StepRow;
+use crate::ensemble::{ShearStep, StepRow};
 
 /// The widest drift.
 const WIDEST: f64 = 0.02;
@@ -16,7 +16,8 @@ fn row(to: f64, outcome: Outcome) -> Row {
     let step = |k: u32| {
         let drift = 0.01 * f64::from(k);
         let nothing = crate::critic::tests::fallen(0, 0, 5.0).load_steps[0].clone();
-        StepRow { tilt_deg: None, drift_percent: Some(drift), force_n: Some(push(0.01 * drift)), ..nothing }
+        let jack = ShearStep { drift_percent: Some(drift), force_n: Some(push(0.01 * drift)) };
+        StepRow { tilt_deg: None, jack, ..nothing }
     };
     let steps = (to / 0.01).round() as u32;
     Row { load_steps: (0..=steps).map(step).collect(), outcome, ..crate::critic::tests::fallen(0, 0, 5.0) }

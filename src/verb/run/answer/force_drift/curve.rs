@@ -43,7 +43,7 @@ pub struct ForcePoint {
 
 /// The curves of a study's rows, arms in its order, kn ascending; empty where nothing was pushed from drift to drift.
 pub fn force_curves(study: &Study, rows: &[Row]) -> Vec<ForceCurve> {
-    if rows.iter().flat_map(|row| &row.load_steps).all(|step| step.drift_percent.is_none()) {
+    if rows.iter().flat_map(|row| &row.load_steps).all(|step| step.jack.drift_percent.is_none()) {
         // Limit analysis knows no drift.
         return Vec::new();
     }

@@ -295,10 +295,10 @@ fn walls(of: &RunPage<'_>) -> Vec<Table> {
             value,
             outcome,
             row.mechanism.map_or("-", |mechanism| mechanism.mode.name()).replace('_', " "),
-            row.stones.to_string(),
-            row.joints.to_string(),
-            or_dash(row.dip_mean_deg, 3),
-            or_dash(row.dip_sd_deg, 3),
+            row.built.stones.to_string(),
+            row.built.joints.to_string(),
+            or_dash(row.built.dip_mean_deg, 3),
+            or_dash(row.built.dip_sd_deg, 3),
         ];
         Line { id: id(task(row)), cells, ..Line::default() }
     };
