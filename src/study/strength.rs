@@ -96,26 +96,22 @@ impl Study {
     /// The same study without limit analysis beside the solver.
     pub fn without_limit_analysis(mut self) -> Study {
         self.agreement = false;
-        self.effective.insert("solver.agreement".to_owned(), "false".to_owned());
-        self.rehashed()
+        self.stating([("solver.agreement", "false".to_owned())])
     }
 
     /// The same study of a tilting table whose platform is let back to the level from every stop; of a service load as it was.
     pub fn with_remainders(mut self) -> Study {
-        if let Protocol::Tilting(tilting) = &mut self.protocol {
-            tilting.remainders = true;
-            self.effective.insert("load.remainders".to_owned(), "true".to_owned());
-        }
-        self.rehashed()
+        let Protocol::Tilting(tilting) = &mut self.protocol else { return self };
+        tilting.remainders = true;
+        self.stating([("load.remainders", "true".to_owned())])
     }
 
     /// The same study of walls that are sheared, in so many steps up to the widest drift or fewer; of others as it was.
     pub fn with_steps_at_most(mut self, count: u32) -> Study {
-        if let Protocol::Shear(shear) = &mut self.protocol {
-            shear.step = shear.step.max(shear.history.widest() / f64::from(count));
-            self.effective.insert("load.step_percent".to_owned(), (100.0 * shear.step).to_string());
-        }
-        self.rehashed()
+        let Protocol::Shear(shear) = &mut self.protocol else { return self };
+        shear.step = shear.step.max(shear.history.widest() / f64::from(count));
+        let step = (100.0 * shear.step).to_string();
+        self.stating([("load.step_percent", step)])
     }
 
     /// Whether its platform is let back to the level from every stop.
@@ -141,7 +137,7 @@ impl Study {
         let Some(own) = read.filter(|_| notes.faults.is_empty()) else {
             return Err(Faults::sorted(notes.faults));
         };
-        let (mut study, mut idle) = (self.clone(), BTreeMap::new());
+        let (mut study, mut values, mut idle) = (self.clone(), Vec::new(), BTreeMap::new());
         for arm in &mut study.arms {
             if self.arms_with(name).contains(&arm.name.as_str()) {
                 idle.insert(arm.name.clone(), "the study has it on already");
@@ -154,13 +150,13 @@ impl Study {
                 None => {
                     *arm = arm.acted_on_by(&own);
                     let recorded = notes.effective.iter();
-                    study.effective.extend(
+                    values.extend(
                         recorded.map(|(key, value)| (format!("arm.{}.{key}", arm.name), value.clone())),
                     );
                 }
             }
         }
-        Ok(Switched { study: study.rehashed(), idle })
+        Ok(Switched { study: study.stating(values), idle })
     }
 
     /// Why a mechanism can act on none of these arms (by index); `None` where it can on some.
