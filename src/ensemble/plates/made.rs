@@ -4,7 +4,7 @@ use crate::homogenise::plate::{Edge, Edges, Plate};
 use crate::math::{STANDARD_GRAVITY, Vec3, radians, tan};
 use crate::model::Cell;
 use crate::protocol::{Ends, Protocol};
-use crate::study::Arm;
+use crate::study::{Arm, OnPlate};
 
 /// Cells of the mesh over the height of a plate, and as many along it as make them square, up to so many.
 const ROWS: usize = 5;
@@ -40,7 +40,7 @@ pub enum NoPlate {
     Placed,
     /// Mechanisms or joints that limit analysis does not have.
     #[error("limit analysis, by which walls are judged, refuses {0}; leave it out")]
-    Unfit(String),
+    Unfit(&'static str),
     /// Ropes on the other side.
     #[error("ropes hold a plate on its front: with restraint.ends = \"ropes\" take load.towards = \"y+\"")]
     RopesBehind,
@@ -63,15 +63,14 @@ pub enum NoPlate {
 /// [`NoPlate`] names what is in the way.
 pub fn check_plate(arm: &Arm, protocol: &Protocol) -> Result<(), NoPlate> {
     let joint = &arm.joint;
-    let bond =
-        joint.tension != 0.0 || joint.cohesion.support() != (0.0, 0.0) || arm.mechanisms.cohesion.is_some();
-    if bond {
+    let bond = joint.tension != 0.0 || joint.cohesion.support() != (0.0, 0.0);
+    if bond || arm.mechanisms.on_plate(OnPlate::Bonded) {
         return Err(NoPlate::Bond);
     }
     if let Some(unfit) = arm.unfit_for_limit_analysis().first() {
-        return Err(NoPlate::Unfit(unfit.to_string()));
+        return Err(NoPlate::Unfit(unfit));
     }
-    if arm.turned || arm.mechanisms.lean.is_some_and(|lean| lean != 0.0) {
+    if arm.turned || arm.mechanisms.on_plate(OnPlate::Placed) {
         return Err(NoPlate::Placed);
     }
     if arm.restraint.base.strip_height.is_some() {
