@@ -85,7 +85,7 @@ fn is_drawn(arm: &Arm, name: &str) -> bool {
         ("densities", _) => scatters(&layout.density),
         ("joints", _) => {
             [&joint.kn_factor, &joint.phi_deg, &joint.cohesion].into_iter().any(scatters)
-                || arm.mechanisms.contact_area.is_some()
+                || arm.mechanisms.has("contact_area")
         }
         _ => false,
     }

@@ -1,15 +1,14 @@
 //! From the raw tables `[wall]` and `[[arm]]` to layouts, with the checks that need more than one key.
 
 use crate::generate::{Arrangement, BatteredFace, Layout, Limits, Outline, Sizes, Wedges, Wythes};
-use crate::law::Sampling;
 use crate::math::radians;
 use crate::protocol::Protocol;
 use crate::random::Family;
 use crate::study::catalogue::Catalogue;
-use crate::study::checked::{Arm, Joint, StatedLaw, Until};
+use crate::study::cause::{Beside, Clash, Mechanisms};
+use crate::study::checked::{Arm, Joint, Until};
 use crate::study::fault::{Fault, Found};
 use crate::study::keys;
-use crate::study::mechanism::Mechanisms;
 use crate::study::quantity::quantity;
 use crate::study::reader::Reader;
 use crate::study::schema::Short;
@@ -391,39 +390,10 @@ fn check_mechanisms(
     layout: &Layout,
 ) -> Option<()> {
     let before = t.notes.faults.len();
-    let mut refuse = |name: &str, found: String, allowed: &str, fix: &str| {
+    for (name, Clash { what, allowed, fix }) in mechanisms.clashes(&Beside { joint, layout, mechanisms }) {
         let key = crate::study::reader::join(&t.path, &format!("mechanism.{name}"));
-        let fault = Fault::at(t.place_of("mechanism"), &key, Found::Words(found), allowed, fix);
+        let fault = Fault::at(t.place_of("mechanism"), &key, Found::Words(what), allowed, fix);
         t.notes.faults.push(fault);
-    };
-    if mechanisms.contact_area.is_some() && joint.sampling == Sampling::Vertices {
-        let found = "does not go with joint.sampling = \"vertices\"".to_owned();
-        refuse("contact_area", found, "joints that are sampled over their area", "remove one of the two");
-    }
-    if mechanisms.joint_closure.is_some() && mechanisms.stress_stiffening.is_some() {
-        let found = "does not go with mechanism.joint_closure".to_owned();
-        refuse("stress_stiffening", found, "one law for the closure of a joint", "remove one of the two");
-    }
-    if matches!(joint.normal_law, StatedLaw::Table(_)) {
-        let laws = [
-            ("joint_closure", mechanisms.joint_closure.is_some()),
-            ("stress_stiffening", mechanisms.stress_stiffening.is_some()),
-        ];
-        for (name, _) in laws.into_iter().filter(|(_, is_on)| *is_on) {
-            let found = "does not go with joint.normal_law = \"table\"".to_owned();
-            refuse(name, found, "one law for the closure of a joint", "remove one of the two");
-        }
-    }
-    if let Some(factor) = mechanisms.size_scatter
-        && let Arrangement::Coursed { sizes, .. } | Arrangement::Cut { sizes, .. } =
-            &layout.clone().widened(factor).arrangement
-    {
-        for (least, what) in sizes.least().into_iter().zip(["lengths", "heights"]) {
-            if least < 0.0 {
-                let found = format!("widens {what} to {}", Short(least));
-                refuse("size_scatter", found, "sizes above 0", "reduce the factor");
-            }
-        }
     }
     (t.notes.faults.len() == before).then_some(())
 }

@@ -61,13 +61,13 @@ pub fn warn(root: &Node, arms: &[Arm], notes: &mut Notes) {
 impl PerJoint {
     /// Whether it scatters from joint to joint alone, in a wall of many joints.
     fn averages_out(&self, arm: &Arm) -> bool {
-        let scatter = arm.mechanisms.specimen_scatter;
+        let scatters = |key: &str| arm.mechanisms.value("specimen_scatter", key).is_some_and(|cov| cov > 0.0);
         let drawn_per_wall = arm.uncertain.iter().any(|drawn| self.per_wall.contains(&drawn.key))
-            || scatter.is_some_and(|own| match self.key {
-                "kn_factor" => own.kn > 0.0,
-                "phi_deg" => own.friction > 0.0,
+            || match self.key {
+                "kn_factor" => scatters("kn_cov"),
+                "phi_deg" => scatters("friction_cov"),
                 _ => false,
-            });
+            };
         (self.of)(&arm.joint).sd() > 0.0 && !drawn_per_wall && joints(&arm.layout) >= MANY
     }
 

@@ -11,12 +11,12 @@ use crate::solve::{Solver, explicit, implicit, limit, nonsmooth};
 use crate::study::arm;
 use crate::study::averaged;
 use crate::study::catalogue::Catalogue;
+use crate::study::cause::CAUSES;
 use crate::study::checked::Arm;
 use crate::study::demands::{unfit_arms, unfit_for};
 use crate::study::earthquakes::Earthquakes;
 use crate::study::fault::{Fault, Found, Place};
 use crate::study::keys;
-use crate::study::mechanism::Mechanisms;
 use crate::study::raw::Node;
 use crate::study::reader::{Notes, Reader};
 use crate::study::schema::suggestion;
@@ -188,38 +188,14 @@ fn check_shear(top: &mut Reader<'_>, arms: &[Arm], protocol: &Protocol) -> Optio
 /// analysis that knows nothing of them.
 fn check_mechanisms(top: &mut Reader<'_>, arms: &[Arm], protocol: &Protocol, agreement: bool) -> Option<()> {
     let before = top.notes.faults.len();
-    let asked = |of: fn(&Mechanisms) -> bool| arms.iter().any(|arm| of(&arm.mechanisms));
-    let used = |of: fn(&Mechanisms) -> bool, by: fn(&Arm) -> bool| {
-        arms.iter().any(|arm| of(&arm.mechanisms) && by(arm))
-    };
-    let mut needs = |name: &str, asked: bool, used: bool, what: &str| {
-        if asked && !used {
-            let key = format!("mechanism.{name}");
+    for cause in CAUSES {
+        if let Some(what) = cause.missing(arms, protocol) {
+            let key = format!("mechanism.{}", cause.name);
             let found = Found::Words("has nothing to act on".to_owned());
             let fault = Fault::at(top.place_of("mechanism"), &key, found, what, "remove it, or add that");
             top.notes.faults.push(fault);
         }
-    };
-    let tilts = matches!(protocol, Protocol::Tilting(_));
-    let ropes = |arm: &Arm| matches!(arm.restraint.ends, Ends::Ropes(_));
-    let of = |m: &Mechanisms| m.rope_slack.is_some();
-    needs("rope_slack", asked(of), used(of, ropes), "an arm whose ends are ropes");
-    let of = |m: &Mechanisms| m.size_scatter.is_some();
-    needs(
-        "size_scatter",
-        asked(of),
-        used(of, |arm| arm.layout.draws_sizes()),
-        "an arm that draws its stones' sizes",
-    );
-    let of = |m: &Mechanisms| m.wedge_loss.is_some();
-    let has_wedges = |arm: &Arm| arm.layout.wedges.is_some();
-    needs(
-        "wedge_loss",
-        asked(of),
-        used(of, has_wedges) && tilts,
-        "an arm with wedges, and a platform that tilts",
-    );
-    needs("creep", asked(|m| m.creep.is_some()), tilts, "a platform that tilts");
+    }
     let unfit = unfit_arms(&Solver::Limit(limit::Settings::default()), arms);
     if agreement && !unfit.is_empty() {
         let key = "solver.agreement";

@@ -1,5 +1,7 @@
 //! What is built into the program: the distributions, and the studies that `pirca init` copies.
 
+use crate::study::cause::CAUSES;
+
 /// A text of the repository with its path there.
 macro_rules! texts {
     ($($path:literal,)+) => {
@@ -7,8 +9,8 @@ macro_rules! texts {
     };
 }
 
-/// The files below `distributions`, in the order of their paths.
-pub(super) const DISTRIBUTIONS: &[(&str, &str)] = texts![
+/// The files below `distributions` beside the priors of the causes, which stand with these.
+const DISTRIBUTIONS: &[(&str, &str)] = texts![
     "distributions/block/density.toml",
     "distributions/block/dip.toml",
     "distributions/block/size.toml",
@@ -17,40 +19,15 @@ pub(super) const DISTRIBUTIONS: &[(&str, &str)] = texts![
     "distributions/joint/cohesion.toml",
     "distributions/joint/friction.toml",
     "distributions/joint/stiffness.toml",
-    "distributions/mechanism/base_compliance/rotation_n_m_per_rad.toml",
-    "distributions/mechanism/base_compliance/settlement_n_per_m.toml",
-    "distributions/mechanism/cohesion/added_pa.toml",
-    "distributions/mechanism/contact_area/share.toml",
-    "distributions/mechanism/contact_inset/radius_m.toml",
-    "distributions/mechanism/creep/hold_every_deg.toml",
-    "distributions/mechanism/creep/hold_share.toml",
-    "distributions/mechanism/creep/rate_per_deg.toml",
-    "distributions/mechanism/density/factor.toml",
-    "distributions/mechanism/end_release/friction_share.toml",
-    "distributions/mechanism/end_release/stiffness_share.toml",
-    "distributions/mechanism/end_release/within_m.toml",
-    "distributions/mechanism/friction/factor.toml",
-    "distributions/mechanism/friction/residual_share.toml",
-    "distributions/mechanism/friction/slip_distance_m.toml",
-    "distributions/mechanism/gauge_offset/offset_m.toml",
-    "distributions/mechanism/gauge_scale/factor.toml",
-    "distributions/mechanism/joint_closure/closure_m.toml",
-    "distributions/mechanism/joint_closure/initial_pa_per_m.toml",
-    "distributions/mechanism/lean/angle_deg.toml",
-    "distributions/mechanism/platform_friction/phi_deg.toml",
-    "distributions/mechanism/rope_slack/added_m.toml",
-    "distributions/mechanism/size_scatter/factor.toml",
-    "distributions/mechanism/specimen_scatter/friction_cov.toml",
-    "distributions/mechanism/specimen_scatter/kn_cov.toml",
-    "distributions/mechanism/stress_stiffening/at_1_mpa_pa_per_m.toml",
-    "distributions/mechanism/stress_stiffening/exponent.toml",
-    "distributions/mechanism/stress_stiffening/floor_pa_per_m.toml",
-    "distributions/mechanism/wedge_loss/beyond_deg.toml",
-    "distributions/mechanism/wedge_loss/share.toml",
     "distributions/nuisance/kn_factor.toml",
     "distributions/nuisance/kn_over_ks_factor.toml",
     "distributions/nuisance/phi_factor.toml",
 ];
+
+/// All files below `distributions`: path and text.
+pub(super) fn distributions() -> impl Iterator<Item = (&'static str, &'static str)> {
+    DISTRIBUTIONS.iter().chain(CAUSES.iter().flat_map(|cause| cause.priors)).copied()
+}
 
 /// What the studies read, in the order of their paths. Their banks are left out: they are large, and computed anew.
 const STUDIES: &[(&str, &str)] = texts![

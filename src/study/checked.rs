@@ -11,9 +11,9 @@ use crate::random::standard_normal::{cdf, quantile};
 use crate::random::{Design, Family, Move, Place, Quantities, RANDOMISATIONS, Streams, Taken};
 use crate::solve::Solver;
 use crate::stats::Statistic;
+use crate::study::cause::Mechanisms;
 use crate::study::earthquakes::Earthquakes;
 use crate::study::measured::Measurement;
-use crate::study::mechanism::Mechanisms;
 use crate::study::uncertain::{Uncertain, parameters};
 use crate::study::variant;
 

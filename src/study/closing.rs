@@ -8,7 +8,7 @@ use crate::study::stated::{Settings, Stated, family_value};
 impl Arm {
     /// Whether no other law of closure stands in the way of a table.
     pub fn is_free_to_close(&self) -> bool {
-        let other = self.mechanisms.joint_closure.is_some() || self.mechanisms.stress_stiffening.is_some();
+        let other = ["joint_closure", "stress_stiffening"].iter().any(|law| self.mechanisms.has(law));
         !other && self.joint.normal_law == StatedLaw::Linear
     }
 

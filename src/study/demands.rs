@@ -6,24 +6,16 @@ use crate::solve::{Demand, Solver};
 use crate::study::checked::{Arm, StatedLaw};
 
 impl Arm {
-    /// What of its mechanisms and joints a solver refuses, in words.
+    /// What of its causes and joints a solver refuses, in words.
     pub fn unfit_for(&self, solver: &Solver) -> Vec<String> {
-        let (its, joint) = (&self.mechanisms, &self.joint);
-        let softens = its.friction.is_some_and(|change| change.residual < 1.0);
-        let by_table = matches!(joint.normal_law, StatedLaw::Table(_));
-        let crushes = joint.compressive_strength.is_some();
-        let demands = [
-            (its.joint_closure.is_some(), Demand::Closure, "joint_closure"),
-            (its.stress_stiffening.is_some(), Demand::StressStiffening, "stress_stiffening"),
-            (its.base_compliance.is_some(), Demand::BaseCompliance, "base_compliance"),
-            (its.wedge_loss.is_some(), Demand::WedgeLoss, "wedge_loss"),
-            (its.creep.is_some(), Demand::Creep, "creep"),
-            (its.contact_area.is_some(), Demand::ContactArea, "contact_area"),
-            (softens, Demand::Weakening, "mechanism.friction.residual_share"),
+        let by_table = matches!(self.joint.normal_law, StatedLaw::Table(_));
+        let crushes = self.joint.compressive_strength.is_some();
+        let of_causes = self.mechanisms.demands().map(|(demand, what)| (true, demand, what));
+        let of_joints = [
             (by_table, Demand::ClosureTable, "joint.normal_law = \"table\""),
             (crushes, Demand::CompressiveStrength, "joint.compressive_strength_pa"),
         ];
-        refused(solver, demands)
+        refused(solver, of_causes.chain(of_joints))
     }
 }
 

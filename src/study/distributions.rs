@@ -5,7 +5,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::study::built_in::DISTRIBUTIONS;
+use crate::study::built_in::distributions;
 use crate::study::checked::InputFile;
 use crate::study::fault::{Fault, Faults, Source};
 use crate::study::files::{self, TextFile};
@@ -62,7 +62,7 @@ impl Distributions {
         let on_disk = self.folders.iter().map(|folder| folder.join(format!("{file}.toml")));
         let built_in = || {
             let path = format!("{FOLDER}/{file}.toml");
-            let own = DISTRIBUTIONS.iter().find(|(name, _)| *name == path).filter(|_| self.built_in);
+            let own = distributions().find(|(name, _)| *name == path).filter(|_| self.built_in);
             own.map(|(_, text)| Origin::BuiltIn(text))
         };
         on_disk.into_iter().find(|path| stands_at(path)).map(Origin::File).or_else(built_in)
@@ -72,7 +72,7 @@ impl Distributions {
     pub fn names(&self) -> Vec<String> {
         let mut names: Vec<String> = self.folders.iter().flat_map(|folder| names_below(folder)).collect();
         if self.built_in {
-            let own = DISTRIBUTIONS.iter().filter_map(|(path, _)| {
+            let own = distributions().filter_map(|(path, _)| {
                 path.strip_prefix(FOLDER)?.strip_prefix('/')?.strip_suffix(".toml").map(str::to_owned)
             });
             names.extend(own);

@@ -1,8 +1,8 @@
 //! A study with one or two more mechanisms and with other joints: at one point of what may be, and at others as its variants.
 
+use crate::study::cause::{Cause, InLimitAnalysis};
 use crate::study::checked::{Arm, StatedLaw, Study};
 use crate::study::fault::Faults;
-use crate::study::inventory::{INVENTORY, InLimitAnalysis};
 use crate::study::stated::{Settings, Stated, WrittenVariant, family_value};
 
 /// What changes readings alone: first the factor, then what is added.
@@ -57,9 +57,8 @@ impl Study {
 
     /// Whether limit analysis beside the solver has to go for a mechanism.
     pub fn leaves_limit_analysis(&self, mechanism: &str) -> bool {
-        let refused =
-            INVENTORY.iter().any(|entry| entry.name == mechanism && entry.limit == InLimitAnalysis::Refused);
-        self.agreement && refused
+        let cause = Cause::named(mechanism);
+        self.agreement && cause.is_some_and(|cause| cause.limit == InLimitAnalysis::Refused)
     }
 
     /// The arms that have a mechanism on.
@@ -127,7 +126,9 @@ impl Arm {
             own.parameters.first().map(|(_, value)| *value)
         };
         let [factor, further] = GAUGES.map(of);
-        let (scale, offset) = (self.mechanisms.gauge_scale, self.mechanisms.gauge_offset);
+        let mechanisms = &self.mechanisms;
+        let scale = mechanisms.value("gauge_scale", "factor");
+        let offset = mechanisms.value("gauge_offset", "offset_m");
         let scaled = factor.map(|factor| scale.unwrap_or(1.0) * factor);
         let moved = match (offset, further) {
             (None, None) => None,

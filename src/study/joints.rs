@@ -1,12 +1,11 @@
 //! The law of every joint of one wall: constants as stated, families drawn once per joint.
 
 use crate::law::{Coulomb, NormalLaw};
-use crate::math::{radians, tan};
+use crate::math::{Vec3, radians, tan};
 use crate::model::{JointLaws, Wall};
 use crate::random::{Family, Streams};
-use crate::study::altered::AlteredJoints;
+use crate::study::cause::Mechanisms;
 use crate::study::checked::{Joint, StatedLaw};
-use crate::study::mechanism::Mechanisms;
 
 /// Gives the joints of one member at one kn their laws.
 ///
@@ -17,25 +16,61 @@ pub struct DrawnJoints<'s> {
     joint: &'s Joint,
     kn: f64,
     streams: Streams,
-    altered: AlteredJoints,
+    mechanisms: Mechanisms,
+    spans: Spans,
+}
+
+/// What lies where along a wall.
+#[derive(Clone, Debug, Default)]
+struct Spans {
+    /// Extent of every stone along the wall (m).
+    stones: Vec<[f64; 2]>,
+    /// That of the wall (m).
+    wall: [f64; 2],
+}
+
+/// Where a joint lies in its wall, for causes that change its law.
+pub struct JointSite<'w> {
+    /// The two blocks, the smaller number first.
+    pub blocks: [u32; 2],
+    /// The streams of the member.
+    pub streams: &'w Streams,
+    spans: &'w Spans,
+}
+
+impl JointSite<'_> {
+    /// How far (m) the middle of what the two blocks share of the wall's length lies from the nearer end of the wall. What is not a
+    /// stone is as long as the wall.
+    pub fn to_end(&self) -> f64 {
+        let Spans { stones, wall } = self.spans;
+        let [[a0, a1], [b0, b1]] = self.blocks.map(|id| stones.get(id as usize).copied().unwrap_or(*wall));
+        let middle = 0.5 * (a0.max(b0) + a1.min(b1));
+        (middle - wall[0]).min(wall[1] - middle)
+    }
 }
 
 impl<'s> DrawnJoints<'s> {
     /// The joints of the member whose streams are given, at a normal stiffness `kn` (Pa/m).
     pub fn new(joint: &'s Joint, kn: f64, streams: Streams) -> DrawnJoints<'s> {
-        DrawnJoints { joint, kn, streams, altered: AlteredJoints::default() }
+        DrawnJoints { joint, kn, streams, mechanisms: Mechanisms::default(), spans: Spans::default() }
     }
 
     /// The same with what mechanisms make of the joints of a wall, as it stands before it is loaded.
     pub fn altered(self, mechanisms: &Mechanisms, wall: &Wall) -> DrawnJoints<'s> {
-        DrawnJoints { altered: AlteredJoints::new(mechanisms, wall, &self.streams), ..self }
+        let span = |(low, high): (Vec3, Vec3)| [low.x, high.x];
+        let spans = Spans {
+            stones: wall.blocks.iter().map(|block| span(block.shape.bounds())).collect(),
+            wall: span(wall.bounds_of_stones()),
+        };
+        DrawnJoints { mechanisms: mechanisms.clone(), spans, ..self }
     }
 }
 
 impl JointLaws for DrawnJoints<'_> {
     fn of(&self, a: u32, b: u32) -> Coulomb {
         let (a, b) = (a.min(b), a.max(b));
-        self.altered.law(self.joint.law(self.kn, &self.streams, a, b), &self.streams, a, b)
+        let site = JointSite { blocks: [a, b], streams: &self.streams, spans: &self.spans };
+        self.mechanisms.law(self.joint.law(self.kn, &self.streams, a, b), &site)
     }
 }
 

@@ -162,9 +162,7 @@ impl Study {
     pub fn with_seed(mut self, seed: u64) -> Study {
         self.seed = seed;
         self.earthquakes = self.earthquakes.map(|own| own.seeded(seed));
-        self.effective.insert("study.seed".to_owned(), seed.to_string());
-        self.hash = hash_of(&self.effective);
-        self
+        self.stating([("study.seed", seed.to_string())])
     }
 
     /// The same study with the solver of that name, `explicit`, `implicit`, `nonsmooth` or `limit`: with the study's own settings if it is the
@@ -191,13 +189,12 @@ impl Study {
         }
         self.solver = solver;
         self.effective.retain(|key, _| !key.starts_with("solver.") || key == "solver.agreement");
-        self.effective.append(&mut notes.effective);
-        self.hash = hash_of(&self.effective);
-        Ok(self)
+        Ok(self.stating(notes.effective))
     }
 
-    /// The same study, its hash that of its values.
-    pub(super) fn rehashed(mut self) -> Study {
+    /// The same study with values that decide its results, by the paths of their keys, and the hash that follows from all of them.
+    pub(super) fn stating<K: Into<String>>(mut self, values: impl IntoIterator<Item = (K, String)>) -> Study {
+        self.effective.extend(values.into_iter().map(|(key, value)| (key.into(), value)));
         self.hash = hash_of(&self.effective);
         self
     }
@@ -209,8 +206,7 @@ impl Study {
         self.arms = arms;
         self.measured.clear();
         self.published.clear();
-        self.effective.extend(decided_by);
-        self.rehashed()
+        self.stating(decided_by)
     }
 
     /// Whether its design can share out so many walls.
@@ -223,34 +219,33 @@ impl Study {
 
     /// The same study with another number of walls in every arm that has more than one, whatever it says of enough; at least one.
     pub fn with_members(mut self, members: u64) -> Study {
+        let mut values = Vec::new();
         for arm in self.arms.iter_mut().filter(|arm| arm.members > 1) {
             (arm.members, arm.until) = (members.max(1), None);
-            let rule = format!("arm.{}.members.", arm.name);
-            self.effective.retain(|key, _| !key.starts_with(&rule));
-            self.effective.insert(format!("arm.{}.members", arm.name), arm.members.to_string());
+            let path = format!("arm.{}.members", arm.name);
+            self.effective.retain(|key, _| !key.starts_with(&format!("{path}.")));
+            values.push((path, arm.members.to_string()));
         }
-        self.hash = hash_of(&self.effective);
-        self
+        self.stating(values)
     }
 }
 
 impl Study {
     /// The same study with walls added to every random arm until there are enough, in the place of what it says of their number.
     pub fn with_until(mut self, until: Until) -> Study {
+        let mut values = Vec::new();
         for arm in self.arms.iter_mut().filter(|arm| arm.is_random()) {
             (arm.members, arm.until) = (until.at_most, Some(until));
             let path = format!("arm.{}.members", arm.name);
             self.effective.remove(&path);
-            for (key, value) in [
-                ("until", "half_width".to_owned()),
-                ("of", until.of.name()),
-                ("below", format!("{:?}", until.below)),
-                ("at_most", until.at_most.to_string()),
-            ] {
-                self.effective.insert(format!("{path}.{key}"), value);
-            }
+            values.extend([
+                (format!("{path}.until"), "half_width".to_owned()),
+                (format!("{path}.of"), until.of.name()),
+                (format!("{path}.below"), format!("{:?}", until.below)),
+                (format!("{path}.at_most"), until.at_most.to_string()),
+            ]);
         }
-        self.rehashed()
+        self.stating(values)
     }
 }
 

@@ -1,12 +1,12 @@
 //! Studies: raw text to checked types, with every fault of a file reported at once.
 
-mod altered;
 mod angle;
 mod arm;
 mod averaged;
 mod build;
 mod built_in;
 mod catalogue;
+mod cause;
 mod checked;
 mod closing;
 mod csv;
@@ -17,13 +17,11 @@ mod elements;
 mod extended;
 mod fault;
 mod files;
-mod inventory;
 mod joints;
 mod json_schema;
 mod keys;
 mod load;
 pub mod measured;
-mod mechanism;
 mod meetings;
 mod nuisance;
 mod overturning;
@@ -49,6 +47,10 @@ pub use crate::random::Design;
 pub use angle::Angle;
 pub use built_in::{BuiltInStudy, built_in_studies};
 pub use catalogue::{Distribution, DistributionFile, Used, load_distributions};
+pub use cause::{
+    Acts, CAUSES, Cause, Described, InLimitAnalysis, Mechanisms, OnPlate, Parameter, Stronger, Unloading,
+    WIDER, described, in_plain_words,
+};
 pub use checked::{
     Arm, Claim, ClaimTest, InputFile, Joint, StatedLaw, Study, SweptArm, SweptValue, TakenFrom, Until,
 };
@@ -59,25 +61,18 @@ pub use extended::{Acting, Point};
 pub(crate) use fault::listed;
 pub use fault::{Fault, Faults, Found};
 pub(crate) use files::sha256;
-pub use inventory::{
-    Acts, Described, Entry as InventoryEntry, INVENTORY, InLimitAnalysis, Parameter, Unloading, WIDER,
-    described, in_plain_words,
-};
 pub use joints::DrawnJoints;
 pub use json_schema::Schema;
 pub use load::{Loaded, VariantName};
 pub use measured::{
     FILE as MEASURED, MeasuredKind, MeasuredQuantity, Measurement, Template, Written, template,
 };
-pub use mechanism::{
-    EndRelease, FrictionChange, JointClosure, Mechanisms, SpecimenScatter, StressStiffening, WedgeLoss,
-};
 pub use meetings::{Fit, TOUCH, Tolerance, bounds, look};
 pub use nuisance::{NUISANCES, Nuisance, nuisances};
 pub use readings::{Reading, reading_name, readings};
 pub use reference::key_reference;
 pub use stated::{Settings, Stated, WrittenVariant};
-pub use strength::{Stronger, Switched};
+pub use strength::Switched;
 pub use uncertain::{AsDrawn, PARAMETERS, Parameter as WallParameter, Uncertain, parameters};
 
 #[cfg(test)]

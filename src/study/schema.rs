@@ -19,7 +19,7 @@ pub struct Section {
 }
 
 /// One key.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Key {
     /// Name, with its unit at the end.
     pub name: &'static str,

@@ -3,58 +3,12 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::generate::{Arrangement, Layout};
-use crate::law::Sampling;
-use crate::protocol::{Ends, Protocol};
-use crate::study::checked::{Arm, StatedLaw, Study};
+use crate::protocol::Protocol;
+use crate::study::cause::{Described, MECHANISM, Mechanisms};
+use crate::study::checked::{Arm, Study};
 use crate::study::fault::{Faults, Source};
-use crate::study::inventory::Described;
-use crate::study::keys;
-use crate::study::mechanism::Mechanisms;
 use crate::study::raw;
 use crate::study::reader::{Notes, Reader};
-
-/// Parameters whose mechanism is the stronger, the smaller they are; of every other it is the stronger, the larger they are.
-/// Factors that go either way count as stronger where they weaken the wall.
-const STRONGER_BELOW: [(&str, &str); 13] = [
-    ("joint_closure", "initial_pa_per_m"),
-    ("stress_stiffening", "at_1_mpa_pa_per_m"),
-    ("stress_stiffening", "floor_pa_per_m"),
-    ("contact_area", "share"),
-    ("friction", "factor"),
-    ("friction", "residual_share"),
-    ("friction", "slip_distance_m"),
-    ("base_compliance", "settlement_n_per_m"),
-    ("base_compliance", "rotation_n_m_per_rad"),
-    ("wedge_loss", "beyond_deg"),
-    ("end_release", "friction_share"),
-    ("end_release", "stiffness_share"),
-    ("platform_friction", "phi_deg"),
-];
-
-/// Parameters that have no effect somewhere between the ends of their priors.
-const EITHER_WAY: [(&str, &str); 6] = [
-    ("friction", "factor"),
-    ("lean", "angle_deg"),
-    ("size_scatter", "factor"),
-    ("density", "factor"),
-    ("gauge_offset", "offset_m"),
-    ("gauge_scale", "factor"),
-];
-
-/// Mechanisms that say the same of a joint, each in its own way: one of them at most can be on.
-const ONE_OF: [&str; 2] = ["joint_closure", "stress_stiffening"];
-
-/// Where a mechanism is the stronger.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stronger {
-    /// At large values of a parameter.
-    Above,
-    /// At small ones.
-    Below,
-    /// At both, as it has no effect in between.
-    EitherWay,
-}
 
 /// A study with a mechanism switched on.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,57 +19,26 @@ pub struct Switched {
     pub idle: BTreeMap<String, &'static str>,
 }
 
-impl Described {
-    /// Where it is the stronger, over a parameter.
-    pub fn stronger(&self, key: &str) -> Stronger {
-        let own = (self.name, key);
-        match (EITHER_WAY.contains(&own), STRONGER_BELOW.contains(&own)) {
-            (true, _) => Stronger::EitherWay,
-            (false, true) => Stronger::Below,
-            (false, false) => Stronger::Above,
-        }
-    }
-
-    /// Whether it and another one can be on together.
-    pub fn goes_with(&self, other: &str) -> bool {
-        self.name != other && !(ONE_OF.contains(&self.name) && ONE_OF.contains(&other))
-    }
-
-    /// Its parameters at one strength, by key and in the key's unit: each at that quantile of its prior, counted from the end
-    /// at which the mechanism is weak. Several parameters go together: their mechanism is rarer than one of them.
-    pub fn at_strength(&self, quantile: f64) -> Vec<(&'static str, f64)> {
-        let value = |p: &crate::study::Parameter| {
-            let falls = STRONGER_BELOW.contains(&(self.name, p.key));
-            p.prior.quantile(if falls { 1.0 - quantile } else { quantile })
-        };
-        self.parameters.iter().map(|p| (p.key, value(p))).collect()
-    }
-}
-
 impl Study {
     /// The same study without limit analysis beside the solver.
     pub fn without_limit_analysis(mut self) -> Study {
         self.agreement = false;
-        self.effective.insert("solver.agreement".to_owned(), "false".to_owned());
-        self.rehashed()
+        self.stating([("solver.agreement", "false".to_owned())])
     }
 
     /// The same study of a tilting table whose platform is let back to the level from every stop; of a service load as it was.
     pub fn with_remainders(mut self) -> Study {
-        if let Protocol::Tilting(tilting) = &mut self.protocol {
-            tilting.remainders = true;
-            self.effective.insert("load.remainders".to_owned(), "true".to_owned());
-        }
-        self.rehashed()
+        let Protocol::Tilting(tilting) = &mut self.protocol else { return self };
+        tilting.remainders = true;
+        self.stating([("load.remainders", "true".to_owned())])
     }
 
     /// The same study of walls that are sheared, in so many steps up to the widest drift or fewer; of others as it was.
     pub fn with_steps_at_most(mut self, count: u32) -> Study {
-        if let Protocol::Shear(shear) = &mut self.protocol {
-            shear.step = shear.step.max(shear.history.widest() / f64::from(count));
-            self.effective.insert("load.step_percent".to_owned(), (100.0 * shear.step).to_string());
-        }
-        self.rehashed()
+        let Protocol::Shear(shear) = &mut self.protocol else { return self };
+        shear.step = shear.step.max(shear.history.widest() / f64::from(count));
+        let step = (100.0 * shear.step).to_string();
+        self.stating([("load.step_percent", step)])
     }
 
     /// Whether its platform is let back to the level from every stop.
@@ -136,12 +59,12 @@ impl Study {
         let mut notes = Notes::default();
         let source = Arc::new(Source { name: "mechanism asked for".to_owned(), rank: 0, text });
         let node = raw::parse(&source).map_err(|fault| Faults::sorted(vec![*fault]))?;
-        let read = Reader::open(&node, "mechanism", &keys::MECHANISM, &mut notes)
+        let read = Reader::open(&node, "mechanism", &MECHANISM, &mut notes)
             .and_then(|mut t| Mechanisms::read(&mut t));
         let Some(own) = read.filter(|_| notes.faults.is_empty()) else {
             return Err(Faults::sorted(notes.faults));
         };
-        let (mut study, mut idle) = (self.clone(), BTreeMap::new());
+        let (mut study, mut values, mut idle) = (self.clone(), Vec::new(), BTreeMap::new());
         for arm in &mut study.arms {
             if self.arms_with(name).contains(&arm.name.as_str()) {
                 idle.insert(arm.name.clone(), "the study has it on already");
@@ -154,13 +77,13 @@ impl Study {
                 None => {
                     *arm = arm.acted_on_by(&own);
                     let recorded = notes.effective.iter();
-                    study.effective.extend(
+                    values.extend(
                         recorded.map(|(key, value)| (format!("arm.{}.{key}", arm.name), value.clone())),
                     );
                 }
             }
         }
-        Ok(Switched { study: study.rehashed(), idle })
+        Ok(Switched { study: study.stating(values), idle })
     }
 
     /// Why a mechanism can act on none of these arms (by index); `None` where it can on some.
@@ -187,90 +110,13 @@ impl Arm {
     }
 }
 
-impl Mechanisms {
-    /// These and others together; where both have one, these.
-    fn beside(&self, other: &Mechanisms) -> Mechanisms {
-        Mechanisms {
-            contact_inset: self.contact_inset.or(other.contact_inset),
-            joint_closure: self.joint_closure.or(other.joint_closure),
-            stress_stiffening: self.stress_stiffening.or(other.stress_stiffening),
-            contact_area: self.contact_area.or(other.contact_area),
-            friction: self.friction.or(other.friction),
-            cohesion: self.cohesion.or(other.cohesion),
-            lean: self.lean.or(other.lean),
-            base_compliance: self.base_compliance.or(other.base_compliance),
-            wedge_loss: self.wedge_loss.or(other.wedge_loss),
-            rope_slack: self.rope_slack.or(other.rope_slack),
-            size_scatter: self.size_scatter.or(other.size_scatter),
-            density: self.density.or(other.density),
-            gauge_offset: self.gauge_offset.or(other.gauge_offset),
-            gauge_scale: self.gauge_scale.or(other.gauge_scale),
-            creep: self.creep.or(other.creep),
-            specimen_scatter: self.specimen_scatter.or(other.specimen_scatter),
-            end_release: self.end_release.or(other.end_release),
-            platform_friction: self.platform_friction.or(other.platform_friction),
-        }
-    }
-
-    /// Why these cannot act on an arm under a load; `None` where they can.
-    fn idle_in(&self, arm: &Arm, protocol: &Protocol) -> Option<&'static str> {
-        let tilts = matches!(protocol, Protocol::Tilting(_));
-        let shears = matches!(protocol, Protocol::Shear(_));
-        let roped = matches!(arm.restraint.ends, Ends::Ropes(_));
-        let wedges = arm.layout.wedges.as_ref().is_some_and(|wedges| wedges.share > 0.0);
-        let reasons = [
-            (self.rope_slack.is_some() && !roped, "there are no ropes"),
-            (self.wedge_loss.is_some() && !wedges, "there are no wedges"),
-            ((self.wedge_loss.is_some() || self.creep.is_some()) && !tilts, "the platform does not tilt"),
-            (
-                shears && (self.gauge_scale.is_some() || self.gauge_offset.is_some()),
-                "no displacement out of plane is read",
-            ),
-            (shears && self.lean.is_some(), "the beam on the wall is guided in its plane"),
-            (
-                shears && self.base_compliance.is_some(),
-                "the platform settles and turns out of plane, and the push is in plane",
-            ),
-            (self.size_scatter.is_some() && !arm.layout.draws_sizes(), "the stones' sizes are not drawn"),
-            (
-                self.size_scatter.is_some_and(|factor| !stays_above_0(&arm.layout, factor)),
-                "sizes that scatter so much would be below 0",
-            ),
-            (
-                self.joint_closure.and(arm.mechanisms.stress_stiffening).is_some()
-                    || self.stress_stiffening.and(arm.mechanisms.joint_closure).is_some(),
-                "its joints close along another law",
-            ),
-            (
-                matches!(arm.joint.normal_law, StatedLaw::Table(_))
-                    && (self.joint_closure.is_some() || self.stress_stiffening.is_some()),
-                "its joints close along a table",
-            ),
-            (
-                self.contact_area.is_some() && arm.joint.sampling == Sampling::Vertices,
-                "joints are sampled at their corners",
-            ),
-        ];
-        reasons.into_iter().find(|(holds, _)| *holds).map(|(_, why)| why)
-    }
-}
-
-/// Whether stones whose sizes deviate so many times as much still have sizes above 0.
-fn stays_above_0(layout: &Layout, factor: f64) -> bool {
-    match layout.clone().widened(factor).arrangement {
-        Arrangement::Coursed { sizes, .. } | Arrangement::Cut { sizes, .. } => {
-            sizes.least().iter().all(|least| *least >= 0.0)
-        }
-        _ => true,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use std::path::Path;
 
     use super::*;
-    use crate::study::{INVENTORY, described};
+    use crate::protocol::Compliance;
+    use crate::study::described;
 
     fn shipped(name: &str) -> Study {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies").join(name);
@@ -347,8 +193,9 @@ mod tests {
             .unwrap_or_else(|faults| panic!("{faults}"))
             .study;
         for (arm, before) in on.arms.iter().zip(&study.arms) {
-            assert_eq!(arm.restraint.base.compliance, arm.mechanisms.base_compliance);
-            assert!(arm.mechanisms.base_compliance.is_some() && arm.mechanisms.density == Some(1.5));
+            assert_eq!(arm.restraint.base.compliance, Some(Compliance { settlement: 1e6, rotation: 1e4 }));
+            assert!(arm.mechanisms.has("base_compliance"));
+            assert_eq!(arm.mechanisms.value("density", "factor"), Some(1.5));
             assert_eq!(arm.layout.density, before.layout.density.clone().scaled(1.5));
         }
     }
@@ -357,29 +204,5 @@ mod tests {
     fn a_parameter_that_is_out_of_range_is_a_fault() {
         let faults = shipped("tilting-table").with_mechanism("density", &[("factor", -1.0)]).unwrap_err();
         assert!(faults.to_string().contains("density.factor"), "{faults}");
-    }
-
-    #[test]
-    fn a_parameter_that_works_either_way_has_no_effect_within_its_prior() {
-        let distributions = Path::new(env!("CARGO_MANIFEST_DIR")).join("distributions");
-        let all = described(&distributions).unwrap_or_else(|lacks| panic!("{lacks}"));
-        let mut both = 0;
-        for (mechanism, p) in all.iter().flat_map(|m| m.parameters.iter().map(move |p| (m, p))) {
-            let none = if p.unit == "1" { 1.0 } else { 0.0 };
-            let is_within = (0.02..0.98).contains(&p.prior.cdf(none));
-            let either = mechanism.stronger(p.key) == Stronger::EitherWay;
-            assert_eq!(either, is_within, "{}.{}", mechanism.name, p.key);
-            both += usize::from(either);
-        }
-        assert_eq!(both, EITHER_WAY.len());
-    }
-
-    #[test]
-    fn every_parameter_that_works_downwards_or_either_way_is_one_of_the_keys() {
-        for (mechanism, key) in STRONGER_BELOW.into_iter().chain(EITHER_WAY) {
-            let entry = INVENTORY.iter().find(|entry| entry.name == mechanism);
-            let section = entry.and_then(|entry| entry.section()).unwrap_or_else(|| panic!("{mechanism}"));
-            assert!(section.all().any(|k| k.name == key), "{mechanism}.{key}");
-        }
     }
 }

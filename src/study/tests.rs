@@ -6,10 +6,7 @@ use crate::model::JointLaws;
 use crate::random::{Family, Streams};
 use crate::study::keys;
 use crate::study::schema::{Interval, Key, Kind, Section, nearest};
-use crate::study::{
-    DrawnJoints, EndRelease, FrictionChange, Joint, JointClosure, Mechanisms, PARAMETERS, SpecimenScatter,
-    StatedLaw, WallParameter,
-};
+use crate::study::{DrawnJoints, Joint, Mechanisms, PARAMETERS, StatedLaw, WallParameter};
 
 fn keys_below(section: &'static Section, found: &mut Vec<&'static Key>) {
     for key in section.all() {
@@ -168,8 +165,7 @@ fn another_random_property_changes_no_other_draw() {
 #[test]
 fn joints_near_the_ends_are_released_and_no_others() {
     let (joint, wall, streams) = (joint(), running_bond(2, 7), Streams::new(2, 0));
-    let end_release = Some(EndRelease { within: 0.2, friction: 0.5, stiffness: 0.25 });
-    let mechanisms = Mechanisms { end_release, ..Mechanisms::default() };
+    let mechanisms = Mechanisms::default().with("end_release", &[0.2, 0.5, 0.25]);
     let plain = DrawnJoints::new(&joint, 1e8, streams);
     let released = plain.clone().altered(&mechanisms, &wall);
     // Two courses, 1.5 m long, stones 0 to 7 below and 8 to 15 above. Middles of what is shared: 0.05, 0.15, 0.25, 1.25, 1.35,
@@ -195,8 +191,8 @@ fn joints_near_the_ends_are_released_and_no_others() {
 #[test]
 fn a_specimen_has_factors_of_its_own_on_all_its_joints() {
     let (joint, wall) = (joint(), running_bond(2, 7));
-    let of = |specimen_scatter, member| {
-        let mechanisms = Mechanisms { specimen_scatter, ..Mechanisms::default() };
+    let of = |covs: [f64; 2], member| {
+        let mechanisms = Mechanisms::default().with("specimen_scatter", &covs);
         let plain = DrawnJoints::new(&joint, 1e8, Streams::new(2, member));
         let law = plain.clone().altered(&mechanisms, &wall);
         [(0, 8), (1, 9)].map(|(a, b)| {
@@ -206,13 +202,13 @@ fn a_specimen_has_factors_of_its_own_on_all_its_joints() {
             [stiffness, after.tan_phi / before.tan_phi]
         })
     };
-    let both = Some(SpecimenScatter { kn: 0.3, friction: 0.1 });
+    let both = [0.3, 0.1];
     let [first, second] = of(both, 0);
     // Rounding of two products.
     assert!((first[0] / second[0] - 1.0).abs() < 1e-14 && (first[1] / second[1] - 1.0).abs() < 1e-14);
     assert_ne!(first, of(both, 1)[0]);
     // Each from a stream of its own.
-    let stiff = of(Some(SpecimenScatter { kn: 0.3, friction: 0.0 }), 0)[0];
+    let stiff = of([0.3, 0.0], 0)[0];
     assert_eq!((stiff[0], stiff[1]), (first[0], 1.0));
     // Mean 1 and the COV asked for: 2000 walls know them to 0.3 / sqrt(2000) and 1.6 % of it, five times over.
     let factors: Vec<f64> = (0..2000).map(|member| of(both, member)[0][0]).collect();
@@ -228,18 +224,16 @@ fn mechanisms_of_the_joints_are_in_their_laws() {
     let plain = DrawnJoints::new(&joint, 1e8, streams);
     let before = plain.of(0, 8);
     let of = |mechanisms: Mechanisms| plain.clone().altered(&mechanisms, &wall).of(0, 8);
-    let none = Mechanisms::default;
-    assert_eq!(of(none()), before);
-    let friction = Some(FrictionChange { factor: 0.8, residual: 0.7, distance: 1e-3 });
+    let with = |name: &str, values: &[f64]| of(Mechanisms::default().with(name, values));
+    assert_eq!(of(Mechanisms::default()), before);
     let weakening = Some(Weakening { residual: 0.7, distance: 1e-3 });
     let expected = Coulomb { tan_phi: 0.8 * before.tan_phi, weakening, ..before };
-    assert_eq!(of(Mechanisms { friction, ..none() }), expected);
+    assert_eq!(with("friction", &[0.8, 0.7, 1e-3]), expected);
     let expected = Coulomb { cohesion: before.cohesion + 50.0, ..before };
-    assert_eq!(of(Mechanisms { cohesion: Some(50.0), ..none() }), expected);
-    let joint_closure = Some(JointClosure { initial: 1e7, closure: 1e-4 });
+    assert_eq!(with("cohesion", &[50.0]), expected);
     let normal = NormalLaw::Hyperbolic { kn: kn_of(before), initial: 1e7, closure: 1e-4 };
-    assert_eq!(of(Mechanisms { joint_closure, ..none() }), Coulomb { normal, ..before });
-    let Sampling::Patches(mask) = of(Mechanisms { contact_area: Some(0.3), ..none() }).sampling else {
+    assert_eq!(with("joint_closure", &[1e7, 1e-4]), Coulomb { normal, ..before });
+    let Sampling::Patches(mask) = with("contact_area", &[0.3]).sampling else {
         panic!("it touches in patches")
     };
     assert_eq!(mask.count_ones(), 19);

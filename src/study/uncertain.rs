@@ -4,13 +4,12 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use crate::generate::Arrangement;
-use crate::math::radians;
 use crate::protocol::{Ends, Protocol};
 use crate::random::Family;
 use crate::study::catalogue::Catalogue;
+use crate::study::cause::Mechanisms;
 use crate::study::checked::{Arm, Study};
 use crate::study::fault::{Fault, Found, Place};
-use crate::study::mechanism::FrictionChange;
 use crate::study::quantity::quantity;
 use crate::study::raw::{Node, Value};
 use crate::study::reader::{Reader, join};
@@ -29,6 +28,8 @@ pub struct Parameter {
 /// Puts a value, in the key's unit, in the place of the number that is stated; `None` where there is no single one.
 #[derive(Clone, Copy, Debug)]
 enum Put {
+    /// The cause and the key of it that the path names.
+    Cause,
     Arm(fn(&mut Arm, f64) -> Option<()>),
     Load(fn(&mut Protocol, f64) -> Option<()>),
 }
@@ -47,15 +48,7 @@ pub static PARAMETERS: [Parameter; 16] = [
             Some(())
         })),
     },
-    Parameter {
-        key: FRICTION,
-        stream: "specimen tan_phi",
-        put: Some(Put::Arm(|arm, factor| {
-            let own = arm.mechanisms.friction?;
-            arm.mechanisms.friction = Some(FrictionChange { factor, ..own });
-            Some(())
-        })),
-    },
+    Parameter { key: FRICTION, stream: "specimen tan_phi", put: Some(Put::Cause) },
     Parameter {
         key: "joint.kn_over_ks",
         stream: "uncertain joint.kn_over_ks",
@@ -91,7 +84,7 @@ pub static PARAMETERS: [Parameter; 16] = [
         key: "block.density_kg_per_m3",
         stream: "uncertain block.density_kg_per_m3",
         put: Some(Put::Arm(|arm, x| {
-            let factor = arm.mechanisms.density.unwrap_or(1.0);
+            let factor = arm.mechanisms.value("density", "factor").unwrap_or(1.0);
             constant(&mut arm.layout.density, factor * x)
         })),
     },
@@ -125,28 +118,22 @@ pub static PARAMETERS: [Parameter; 16] = [
     Parameter {
         key: "mechanism.contact_inset.radius_m",
         stream: "uncertain mechanism.contact_inset.radius_m",
-        put: Some(Put::Arm(|arm, x| arm.mechanisms.contact_inset.replace(x).map(|_| ()))),
+        put: Some(Put::Cause),
     },
     Parameter {
         key: "mechanism.lean.angle_deg",
         stream: "uncertain mechanism.lean.angle_deg",
-        put: Some(Put::Arm(|arm, x| arm.mechanisms.lean.replace(radians(x)).map(|_| ()))),
+        put: Some(Put::Cause),
     },
     Parameter {
         key: "mechanism.joint_closure.initial_pa_per_m",
         stream: "uncertain mechanism.joint_closure.initial_pa_per_m",
-        put: Some(Put::Arm(|arm, x| {
-            arm.mechanisms.joint_closure.as_mut()?.initial = x;
-            Some(())
-        })),
+        put: Some(Put::Cause),
     },
     Parameter {
         key: "mechanism.joint_closure.closure_m",
         stream: "uncertain mechanism.joint_closure.closure_m",
-        put: Some(Put::Arm(|arm, x| {
-            arm.mechanisms.joint_closure.as_mut()?.closure = x;
-            Some(())
-        })),
+        put: Some(Put::Cause),
     },
 ];
 
@@ -196,6 +183,7 @@ impl Study {
             let Some(parameter) = Parameter::of(key) else { continue };
             let value = family.sample(&mut streams.of(parameter.stream));
             let put = match parameter.put {
+                Some(Put::Cause) => parameter.put_in(&mut drawn.arm.to_mut().mechanisms, value),
                 Some(Put::Arm(put)) => put(drawn.arm.to_mut(), value),
                 Some(Put::Load(put)) => put(&mut drawn.protocol, value),
                 None => None,
@@ -211,6 +199,12 @@ impl Parameter {
     /// The one of that key.
     pub fn of(key: &str) -> Option<&'static Parameter> {
         PARAMETERS.iter().find(|parameter| parameter.key == key)
+    }
+
+    /// Puts a value in the place of that of the cause that its path names.
+    fn put_in(&self, mechanisms: &mut Mechanisms, value: f64) -> Option<()> {
+        let (name, key) = self.key.strip_prefix("mechanism.")?.split_once('.')?;
+        mechanisms.put(name, key, value)
     }
 
     /// Its dimension in a design.
@@ -235,11 +229,12 @@ impl Arm {
                 false
             }
         };
-        let scatter = self.mechanisms.specimen_scatter;
+        let scatters =
+            |key: &str| self.mechanisms.value("specimen_scatter", key).is_some_and(|cov| cov > 0.0);
         match parameter.key {
             "wall_size_factor" => size_factor,
-            KN if scatter.is_some_and(|own| own.kn > 0.0) => true,
-            FRICTION if scatter.is_some_and(|own| own.friction > 0.0) => true,
+            KN if scatters("kn_cov") => true,
+            FRICTION if scatters("friction_cov") => true,
             key => self.uncertain.iter().any(|own| own.key == key),
         }
     }
@@ -289,12 +284,14 @@ pub(super) fn take_up(
 
 /// What is wrong with a parameter of an arm: found, allowed, and how to mend it.
 fn contradiction(arm: &Arm, own: &Uncertain, protocol: Option<&Protocol>) -> Option<[String; 3]> {
-    if arm.mechanisms.specimen_scatter.is_some() && [KN, FRICTION, PHI].contains(&own.key) {
+    if arm.mechanisms.has("specimen_scatter") && [KN, FRICTION, PHI].contains(&own.key) {
         let found = "is drawn here, and by mechanism.specimen_scatter";
         return Some([found, "one of the two", "remove mechanism.specimen_scatter"].map(str::to_owned));
     }
     let value = own.family.mean();
-    let put = match Parameter::of(own.key)?.put? {
+    let parameter = Parameter::of(own.key)?;
+    let put = match parameter.put? {
+        Put::Cause => parameter.put_in(&mut arm.mechanisms.clone(), value),
         Put::Arm(put) => put(&mut arm.clone(), value),
         Put::Load(put) => put(&mut protocol?.clone(), value),
     };

@@ -143,24 +143,25 @@ fn an_arm_that_has_the_mechanism_keeps_its_own_and_gauges_read_one_another() {
     let (_, read) =
         read_back(&leaning, &at("lean", &[("angle_deg", 1.0)]), &[at("lean", &[("angle_deg", 2.0)])]);
     for (study, found) in read.iter().zip([1.0, 2.0]) {
-        let lean = |arm: usize| study.arms[arm].mechanisms.lean.unwrap().to_degrees();
+        let lean = |arm: usize| study.arms[arm].mechanisms.value("lean", "angle_deg").unwrap();
         assert!((lean(0) - found).abs() < 1e-9 && (lean(1) - 3.0).abs() < 1e-9);
     }
     // A gauge of 2 x + 1 mm, read by one that adds 3 mm, and by one that trebles.
     let gauged = own("[arm.mechanism]\ngauge_offset = { offset_m = 0.001 }\ngauge_scale = { factor = 2 }");
     let gauges = |found: Point| {
         let (_, read) = read_back(&gauged, &found, &[]);
-        read[0]
-            .arms
-            .iter()
-            .map(|arm| (arm.mechanisms.gauge_scale, arm.mechanisms.gauge_offset))
-            .collect::<Vec<_>>()
+        read[0].arms.iter().map(gauges_of).collect::<Vec<_>>()
     };
     assert_eq!(
         gauges(at("gauge_offset", &[("offset_m", 0.003)])),
         [(None, Some(0.003)), (Some(2.0), Some(0.004))]
     );
     assert_eq!(gauges(at("gauge_scale", &[("factor", 3.0)])), [(Some(3.0), None), (Some(6.0), Some(0.003))]);
+}
+
+fn gauges_of(arm: &Arm) -> (Option<f64>, Option<f64>) {
+    let of = |name, key| arm.mechanisms.value(name, key);
+    (of("gauge_scale", "factor"), of("gauge_offset", "offset_m"))
 }
 
 #[test]
@@ -174,17 +175,16 @@ fn two_mechanisms_stand_beside_each_other_and_two_gauges_are_read_as_one() {
     let base = load(&folder.path("studies/tiny"), None);
     let pair = both(at("lean", &[("angle_deg", 1.0)]), at("density", &[("factor", 1.2)]));
     let (_, read) = read_back(&base, &pair, &[]);
-    let lean = |arm: &Arm| arm.mechanisms.lean.unwrap().to_degrees();
+    let lean = |arm: &Arm| arm.mechanisms.value("lean", "angle_deg").unwrap();
     for arm in &read[0].arms {
         assert!((lean(arm) - 1.0).abs() < 1e-9);
-        assert_eq!(arm.mechanisms.density, Some(1.2));
+        assert_eq!(arm.mechanisms.value("density", "factor"), Some(1.2));
     }
     // Three times what a gauge of 2 x + 1 mm shows, and 3 mm more.
     let gauges = both(at("gauge_offset", &[("offset_m", 0.003)]), at("gauge_scale", &[("factor", 3.0)]));
     let (_, read) = read_back(&base, &gauges, &[]);
-    let of = |arm: &Arm| (arm.mechanisms.gauge_scale, arm.mechanisms.gauge_offset);
     assert_eq!(
-        read[0].arms.iter().map(of).collect::<Vec<_>>(),
+        read[0].arms.iter().map(gauges_of).collect::<Vec<_>>(),
         [(Some(3.0), Some(0.003)), (Some(6.0), Some(0.006))]
     );
 }
@@ -201,7 +201,8 @@ fn a_mechanism_that_an_arm_refuses_stands_in_the_others_and_limit_analysis_goes_
         read_back(&base, &at("contact_area", &[("share", 0.5)]), &[at("contact_area", &[("share", 0.25)])]);
     assert!(text.contains("[arm.mechanism.contact_area]"), "{text}");
     for (study, share) in read.iter().zip([0.5, 0.25]) {
-        let shares: Vec<Option<f64>> = study.arms.iter().map(|arm| arm.mechanisms.contact_area).collect();
+        let shares: Vec<Option<f64>> =
+            study.arms.iter().map(|arm| arm.mechanisms.value("contact_area", "share")).collect();
         assert_eq!((&shares[..], study.agreement), (&[Some(share), None][..], true));
     }
     let creep = at("creep", &[("rate_per_deg", 0.01)]);

@@ -5,10 +5,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use pirca::math::{radians, tan};
-use pirca::protocol::{Compliance, Creep};
+use pirca::protocol::Compliance;
 use pirca::study::{
-    Acts, EndRelease, FrictionChange, INVENTORY, InLimitAnalysis, JointClosure, Mechanisms, SpecimenScatter,
-    StressStiffening, Unloading, WedgeLoss, described, key_reference, load_distributions,
+    Acts, CAUSES, Cause, InLimitAnalysis, Mechanisms, Unloading, described, key_reference, load_distributions,
 };
 
 use crate::scratch::{STUDY, Scratch};
@@ -20,7 +19,7 @@ fn distributions() -> PathBuf {
 #[test]
 fn the_table_the_keys_and_the_priors_agree() {
     let all = described(&distributions()).unwrap_or_else(|lacks| panic!("{lacks}"));
-    assert_eq!(all.len(), INVENTORY.len());
+    assert_eq!(all.len(), CAUSES.len());
     let reference = key_reference();
     let mut priors = BTreeSet::new();
     for mechanism in &all {
@@ -142,32 +141,33 @@ fn a_study_switches_all_of_them_on() {
     assert!(without.arms.iter().all(|arm| arm.mechanisms == Mechanisms::default()));
     append(&scratch, ALL);
     let study = scratch.load(None).unwrap_or_else(|faults| panic!("{faults}")).study;
-    let expected = Mechanisms {
-        contact_inset: Some(0.003),
-        joint_closure: Some(JointClosure { initial: 1e7, closure: 1e-4 }),
-        stress_stiffening: None,
-        contact_area: Some(0.5),
-        friction: Some(FrictionChange { factor: 0.9, residual: 0.8, distance: 0.001 }),
-        cohesion: Some(100.0),
-        lean: Some(radians(1.0)),
-        base_compliance: Some(Compliance { settlement: 5e6, rotation: 5e4 }),
-        wedge_loss: Some(WedgeLoss { share: 0.25, beyond: radians(7.0) }),
-        rope_slack: Some(0.002),
-        size_scatter: Some(1.1),
-        density: Some(1.05),
-        gauge_offset: Some(0.001),
-        gauge_scale: Some(1.02),
-        creep: Some(Creep { rate: pirca::math::degrees(0.01), hold_share: 0.05, hold_every: radians(5.0) }),
-        specimen_scatter: Some(SpecimenScatter { kn: 0.3, friction: 0.05 }),
-        end_release: Some(EndRelease { within: 0.2, friction: 0.5, stiffness: 0.4 }),
-        platform_friction: Some(tan(radians(20.0))),
-    };
+    let values: [(&str, &[f64]); 17] = [
+        ("contact_inset", &[0.003]),
+        ("joint_closure", &[1e7, 1e-4]),
+        ("contact_area", &[0.5]),
+        ("friction", &[0.9, 0.8, 0.001]),
+        ("cohesion", &[100.0]),
+        ("lean", &[1.0]),
+        ("base_compliance", &[5e6, 5e4]),
+        ("wedge_loss", &[0.25, 7.0]),
+        ("rope_slack", &[0.002]),
+        ("size_scatter", &[1.1]),
+        ("density", &[1.05]),
+        ("gauge_offset", &[0.001]),
+        ("gauge_scale", &[1.02]),
+        ("creep", &[0.01, 0.05, 5.0]),
+        ("specimen_scatter", &[0.3, 0.05]),
+        ("end_release", &[0.2, 0.5, 0.4]),
+        ("platform_friction", &[20.0]),
+    ];
+    let expected = values.iter().fold(Mechanisms::default(), |all, (name, values)| all.with(name, values));
     assert!(study.arms.iter().all(|arm| arm.mechanisms == expected), "{:?}", study.arms[0].mechanisms);
     assert_eq!(study.arms[0].layout.density.mean(), 1.05 * without.arms[0].layout.density.mean());
     assert_ne!(study.hash, without.hash);
     // Those that act on layout and restraint are in these.
-    assert_eq!(study.arms[0].restraint.base.compliance, expected.base_compliance);
-    assert_eq!(study.arms[0].restraint.base.tan_phi, expected.platform_friction);
+    let compliance = Compliance { settlement: 5e6, rotation: 5e4 };
+    assert_eq!(study.arms[0].restraint.base.compliance, Some(compliance));
+    assert_eq!(study.arms[0].restraint.base.tan_phi, Some(tan(radians(20.0))));
     let pirca::protocol::Ends::Ropes(rope) = study.arms[0].restraint.ends else {
         panic!("the ends are ropes")
     };
@@ -179,8 +179,7 @@ fn stiffness_that_grows_with_the_stress_has_a_floor_of_its_own() {
     let scratch = tilting("stiffening");
     append(&scratch, "[mechanism.stress_stiffening]\nat_1_mpa_pa_per_m = 2e9\nexponent = 0.5\n");
     let study = scratch.load(None).unwrap_or_else(|faults| panic!("{faults}")).study;
-    let stress_stiffening = Some(StressStiffening { at_1_mpa: 2e9, exponent: 0.5, floor: 1e6 });
-    let expected = Mechanisms { stress_stiffening, ..Mechanisms::default() };
+    let expected = Mechanisms::default().with("stress_stiffening", &[2e9, 0.5, 1e6]);
     assert!(study.arms.iter().all(|arm| arm.mechanisms == expected), "{:?}", study.arms[0].mechanisms);
 }
 
@@ -197,11 +196,11 @@ fn an_arm_or_a_variant_has_mechanisms_of_its_own() {
         let study = scratch.load(variant).unwrap_or_else(|faults| panic!("{faults}")).study;
         study.arms.into_iter().find(|arm| arm.name == name).expect("it has the arm").mechanisms
     };
-    let shared = Mechanisms { lean: Some(radians(1.0)), density: Some(1.1), ..Mechanisms::default() };
+    let shared = Mechanisms::default().with("lean", &[1.0]).with("density", &[1.1]);
     assert_eq!(of(None, "stack"), shared);
-    let running = Mechanisms { lean: Some(radians(2.0)), gauge_scale: Some(0.9), ..shared.clone() };
+    let running = shared.clone().with("lean", &[2.0]).with("gauge_scale", &[0.9]);
     assert_eq!(of(None, "running"), running);
-    assert_eq!(of(Some("corners"), "stack"), Mechanisms { cohesion: Some(50.0), ..shared });
+    assert_eq!(of(Some("corners"), "stack"), shared.with("cohesion", &[50.0]));
     assert_eq!(of(Some("corners"), "running"), running);
 }
 
@@ -253,11 +252,11 @@ fn what_does_not_go_together_is_refused_by_name() {
     // What limit analysis honours or does not care about goes with it.
     let scratch = tilting("honoured");
     let honoured = ALL.split("[mechanism.").filter(|table| {
-        let entry = INVENTORY.iter().find(|entry| table.starts_with(&format!("{}]", entry.name)));
-        entry.is_some_and(|entry| entry.limit != InLimitAnalysis::Refused)
+        let cause = CAUSES.iter().find(|cause| table.starts_with(&format!("{}]", cause.name)));
+        cause.is_some_and(|cause| !matches!(cause.limit, InLimitAnalysis::Refused(_)))
     });
     let tables: String = honoured.map(|table| format!("[mechanism.{table}")).collect();
-    assert_eq!(tables.matches("[mechanism.").count(), INVENTORY.len() - 5);
+    assert_eq!(tables.matches("[mechanism.").count(), CAUSES.len() - 5);
     append(&scratch, &tables);
     scratch.replace(STUDY, "agreement = false", "agreement = true");
     scratch.load(None).unwrap_or_else(|faults| panic!("{faults}"));
@@ -288,7 +287,7 @@ fn the_verb_prints_the_catalogue() {
     assert_eq!(code, Some(0));
     let value: serde_json::Value = serde_json::from_str(&json).expect("it is JSON");
     let list = value["mechanisms"].as_array().expect("a list");
-    assert_eq!(list.len(), INVENTORY.len());
+    assert_eq!(list.len(), CAUSES.len());
     let creep = list.iter().find(|m| m["name"] == "creep").expect("it is there");
     assert_eq!((&creep["acts"], &creep["unloading"]), (&"loading".into(), &"irreversible".into()));
     assert_eq!(creep["parameters"][2]["prior"]["value"], 5.0);
@@ -306,7 +305,7 @@ fn the_verb_prints_the_catalogue() {
 
 #[test]
 fn gauges_and_slip_are_said_to_stay_or_to_go() {
-    let of = |name: &str| INVENTORY.iter().find(|entry| entry.name == name).expect("it is there");
+    let of = |name: &str| Cause::named(name).expect("it is there");
     assert_eq!(
         (of("gauge_offset").acts, of("gauge_offset").unloading),
         (Acts::Readings, Unloading::Irreversible)

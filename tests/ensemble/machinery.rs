@@ -10,7 +10,7 @@ use pirca::ensemble::{
 };
 use pirca::model::{Level, Outcome};
 use pirca::random::{Family, Streams};
-use pirca::study::{SpecimenScatter, Study};
+use pirca::study::Study;
 use polars::prelude::DataFrame;
 use polars_io::prelude::{ParquetReader, SerReader};
 
@@ -355,8 +355,8 @@ fn an_arm_is_random_when_stones_or_joints_are_drawn_or_a_mechanism_draws() {
     assert!(is_random(&arm));
     // A mechanism that draws makes regular stones differ from wall to wall; one that does not leaves them alike.
     let mut arm = study.arms[0].clone();
-    arm.mechanisms.density = Some(1.1);
+    arm.mechanisms = arm.mechanisms.with("density", &[1.1]);
     assert!(!is_random(&arm));
-    arm.mechanisms.specimen_scatter = Some(SpecimenScatter { kn: 0.2, friction: 0.0 });
+    arm.mechanisms = arm.mechanisms.with("specimen_scatter", &[0.2, 0.0]);
     assert!(is_random(&arm));
 }

@@ -329,11 +329,13 @@ impl<'s> World<'s> {
 
     /// What gauges make of the displacements.
     fn gauge(&self, truth: &Truth) -> Mechanisms {
-        Mechanisms {
-            gauge_scale: self.parameter(truth, "gauge_scale", "factor"),
-            gauge_offset: self.parameter(truth, "gauge_offset", "offset_m"),
-            ..Mechanisms::default()
-        }
+        let gauges = [("gauge_scale", "factor"), ("gauge_offset", "offset_m")];
+        gauges.into_iter().fold(Mechanisms::default(), |on, (gauge, key)| {
+            match self.parameter(truth, gauge, key) {
+                Some(value) => on.with(gauge, &[value]),
+                None => on,
+            }
+        })
     }
 
     /// What is measured of a family apart from tilting: in a test on two stones the stiffness over the whole joint, and the

@@ -5,7 +5,7 @@ use crate::math::{STANDARD_GRAVITY, Vec3, radians, tan};
 use crate::model::Cell;
 use crate::protocol::{Ends, Protocol};
 use crate::solve::{Solver, limit};
-use crate::study::Arm;
+use crate::study::{Arm, OnPlate};
 
 /// Cells of the mesh over the height of a plate, and as many along it as make them square, up to so many.
 const ROWS: usize = 5;
@@ -64,15 +64,14 @@ pub enum NoPlate {
 /// [`NoPlate`] names what is in the way.
 pub fn check_plate(arm: &Arm, protocol: &Protocol) -> Result<(), NoPlate> {
     let joint = &arm.joint;
-    let bond =
-        joint.tension != 0.0 || joint.cohesion.support() != (0.0, 0.0) || arm.mechanisms.cohesion.is_some();
-    if bond {
+    let bond = joint.tension != 0.0 || joint.cohesion.support() != (0.0, 0.0);
+    if bond || arm.mechanisms.on_plate(OnPlate::Bonded) {
         return Err(NoPlate::Bond);
     }
     if let Some(unfit) = arm.unfit_for(&Solver::Limit(limit::Settings::default())).into_iter().next() {
         return Err(NoPlate::Unfit(unfit));
     }
-    if arm.turned || arm.mechanisms.lean.is_some_and(|lean| lean != 0.0) {
+    if arm.turned || arm.mechanisms.on_plate(OnPlate::Placed) {
         return Err(NoPlate::Placed);
     }
     if arm.restraint.base.strip_height.is_some() {

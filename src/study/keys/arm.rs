@@ -1,8 +1,9 @@
 //! Keys of `[[arm]]`: how many walls, how their stones are laid or which file holds them, wedges, limits of stones.
 
 use crate::study::angle::Angle;
+use crate::study::cause::MECHANISM;
 use crate::study::keys::run::RESTRAINT;
-use crate::study::keys::{BLOCK, JOINT, MECHANISM, SHARE, SIZE, UNCERTAIN, WALL, quantity, real};
+use crate::study::keys::{BLOCK, JOINT, SHARE, SIZE, UNCERTAIN, WALL, quantity, real};
 use crate::study::schema::Presence::{Default, Optional, Required, Unless};
 use crate::study::schema::{Interval, Key, Kind, Section};
 use crate::study::survey::MOST_ROWS;

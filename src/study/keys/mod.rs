@@ -4,31 +4,30 @@
 mod arm;
 mod base_motion;
 mod elements;
-mod mechanism;
 mod published;
 mod run;
 mod uncertain;
 
 pub use arm::ARM;
 pub use elements::{ELEMENT, ELEMENT_STUDY, ELEMENTS_PUBLISHED, REPORTED};
-pub use mechanism::MECHANISM;
 pub use published::{CLAIM, PUBLISHED};
 pub use run::SOLVER;
 pub use uncertain::UNCERTAIN;
 
 use crate::law::MOST_KNOTS;
 use crate::study::angle::Angle;
+use crate::study::cause::MECHANISM;
 use crate::study::keys::run::{LOAD, RESTRAINT};
 use crate::study::schema::Presence::{Default, Optional, Required};
 use crate::study::schema::{Interval, Key, Kind, Section};
 use crate::study::survey::MOST_ROWS;
 
 /// A length above 0 (m); a kilometre is a slip of the unit.
-const SIZE: Interval = Interval::above(0.0, 1000.0);
-const SHARE: Interval = Interval::closed(0.0, 1.0);
+pub(super) const SIZE: Interval = Interval::above(0.0, 1000.0);
+pub(super) const SHARE: Interval = Interval::closed(0.0, 1.0);
 const POSITIVE: Interval = Interval::open(0.0, f64::INFINITY);
 
-const fn real(unit: &'static str, within: Interval) -> Kind {
+pub(super) const fn real(unit: &'static str, within: Interval) -> Kind {
     Kind::Real { unit, within }
 }
 
