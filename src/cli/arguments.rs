@@ -23,7 +23,7 @@ pub(crate) struct Arguments {
 /// The verbs. The first line of each is its line in the list of verbs, where `help` groups them.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Verb {
-    /// Begin a study, as a template or a copy; or a table of measurements.
+    /// Begin a study (template, copy) or an empty measurements table.
     ///
     /// Writes a new folder with study.toml and README.md; a copy brings published.toml, measured.csv and the distributions that it
     /// would not find in its new place.
@@ -34,7 +34,7 @@ pub(crate) enum Verb {
     /// It runs nothing.
     #[command(after_help = check::HELP)]
     Check(check::Check),
-    /// Draw how one wall of a study falls, or write it to a file.
+    /// Draw one wall of a study, as it falls; or write it to a file.
     ///
     /// A picture shows the wall solved, its joints coloured by how far they open or slip, or by the pressure in them. A file is for
     /// ParaView or another program.
@@ -45,7 +45,7 @@ pub(crate) enum Verb {
     /// A run that was stopped goes on where it stood.
     #[command(after_help = run::ask::HELP)]
     Run(run::ask::Run),
-    /// Share a study out over a cluster (Slurm, Dask, any other).
+    /// Share a study over a cluster (Slurm, Dask, any); merge results.
     ///
     /// Plan how many shards there are, run them, look which are missing, and put them together.
     #[command(after_help = shards::ask::HELP)]
@@ -107,7 +107,7 @@ pub(crate) enum Verb {
     /// The wall is a wall.json or an OBJ file that somebody else made.
     #[command(after_help = analyse::ask::HELP)]
     Analyse(Box<analyse::ask::Analyse>),
-    /// List keys, columns and causes; write schemas and completions.
+    /// List keys of study.toml, columns, causes; schemas, completions.
     #[command(after_help = reference::HELP)]
     Reference(reference::Reference),
 }
