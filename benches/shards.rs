@@ -48,15 +48,17 @@ fn one(rows: u64) {
         let other =
             |value: Option<f64>, salt: u64| value.map(|value| value * (0.9 + 0.2 * noise(task.member, salt)));
         let mut row = Row { member: task.member, ..template.clone() };
-        row.collapse_angle_deg = other(row.collapse_angle_deg, 1);
-        row.fails_at_deg = row.collapse_angle_deg.map(|angle| angle + 0.05);
-        row.dip_mean_deg = other(row.dip_mean_deg, 2);
-        row.length_mean_m = other(row.length_mean_m, 3);
-        row.height_mean_m = other(row.height_mean_m, 4);
-        row.weight_n = other(row.weight_n, 5);
+        let tilting = &mut row.reading.tilting;
+        tilting.collapse_angle_deg = other(tilting.collapse_angle_deg, 1);
+        tilting.fails_at_deg = tilting.collapse_angle_deg.map(|angle| angle + 0.05);
+        let built = &mut row.built;
+        built.dip_mean_deg = other(built.dip_mean_deg, 2);
+        built.length_mean_m = other(built.length_mean_m, 3);
+        built.height_mean_m = other(built.height_mean_m, 4);
+        built.weight_n = other(built.weight_n, 5);
         for (number, step) in (10..).zip(&mut row.load_steps) {
-            step.top_displacement_m = other(step.top_displacement_m, number);
-            step.centre_m = step.top_displacement_m;
+            step.top.top_displacement_m = other(step.top.top_displacement_m, number);
+            step.top.centre_m = step.top.top_displacement_m;
         }
         row
     };
