@@ -35,7 +35,7 @@ pub struct Cause {
     pub limit: InLimitAnalysis,
     /// Causes, and keys of the base model, whose effect on a tilting test looks alike.
     pub confounded: &'static [&'static str],
-    /// Its table: numbers, [`MOST_KEYS`] of them at most.
+    /// Its table: numbers, four of them at most.
     pub section: Section,
     /// The files of its priors, one for each key, with their text.
     pub(in crate::study) priors: &'static [(&'static str, &'static str)],
