@@ -58,7 +58,7 @@ impl Study {
     /// Whether limit analysis beside the solver has to go for a mechanism.
     pub fn leaves_limit_analysis(&self, mechanism: &str) -> bool {
         let cause = Cause::named(mechanism);
-        self.agreement && cause.is_some_and(|cause| cause.limit == InLimitAnalysis::Refused)
+        self.agreement && cause.is_some_and(|cause| cause.limit() == InLimitAnalysis::Refused)
     }
 
     /// The arms that have a mechanism on.

@@ -253,7 +253,7 @@ fn what_does_not_go_together_is_refused_by_name() {
     let scratch = tilting("honoured");
     let honoured = ALL.split("[mechanism.").filter(|table| {
         let cause = CAUSES.iter().find(|cause| table.starts_with(&format!("{}]", cause.name)));
-        cause.is_some_and(|cause| !matches!(cause.limit, InLimitAnalysis::Refused))
+        cause.is_some_and(|cause| !matches!(cause.limit(), InLimitAnalysis::Refused))
     });
     let tables: String = honoured.map(|table| format!("[mechanism.{table}")).collect();
     assert_eq!(tables.matches("[mechanism.").count(), CAUSES.len() - 5);

@@ -3,7 +3,7 @@
 use crate::law::{NormalLaw, Stiffening};
 use crate::solve::Demand;
 use crate::study::cause::STIFFNESS;
-use crate::study::cause::entry::{Acts, Beside, Cause, Clash, InLimitAnalysis, Unloading, table};
+use crate::study::cause::entry::{Acts, Beside, Cause, Clash, Unloading, table};
 use crate::study::checked::{Arm, StatedLaw};
 use crate::study::keys::real;
 use crate::study::schema::Presence::{Default, Required};
@@ -19,7 +19,6 @@ pub static JOINT_CLOSURE: Cause = Cause {
     means: "joints touch by rough points and are soft until they have closed",
     acts: Acts::Joints,
     unloading: Unloading::Reversible,
-    limit: InLimitAnalysis::Refused,
     confounded: &[
         "joint.kn_pa_per_m",
         "stress_stiffening",
@@ -67,7 +66,6 @@ pub static STRESS_STIFFENING: Cause = Cause {
     means: "joints become stiffer as they are pressed together",
     acts: Acts::Joints,
     unloading: Unloading::Reversible,
-    limit: InLimitAnalysis::Refused,
     confounded: &["joint.kn_pa_per_m", "joint_closure"],
     section: table(
         "[mechanism.stress_stiffening]",

@@ -154,7 +154,7 @@ pub fn described(distributions: impl Into<Distributions>) -> Result<Vec<Describe
                 means: cause.means,
                 acts: cause.acts,
                 unloading: cause.unloading,
-                limit_analysis: cause.limit,
+                limit_analysis: cause.limit(),
                 confounded_with: cause.confounded,
                 cause,
             }

@@ -7,7 +7,7 @@ use crate::law::Coulomb;
 use crate::model::Wall;
 use crate::protocol::{Changes, Contacts, Protocol, Restraint};
 use crate::random::Streams;
-use crate::solve::Demand;
+use crate::solve::{Demand, Solver, limit};
 use crate::study::cause::mechanisms::Mechanisms;
 use crate::study::checked::{Arm, Joint};
 use crate::study::joints::JointSite;
@@ -31,8 +31,8 @@ pub struct Cause {
     pub acts: Acts,
     /// What becomes of its effect when the wall is unloaded.
     pub unloading: Unloading,
-    /// How limit analysis takes it.
-    pub limit: InLimitAnalysis,
+    /// Whether it has no bearing on rigid blocks and their loads, by what limit analysis is.
+    pub(super) no_bearing: bool,
     /// Causes, and keys of the base model, whose effect on a tilting test looks alike.
     pub confounded: &'static [&'static str],
     /// Its table: numbers, four of them at most.
@@ -151,6 +151,17 @@ pub enum InLimitAnalysis {
 }
 
 impl Cause {
+    /// How limit analysis takes it: that refuses what it demands, or has it. What is demanded at some values alone is nothing that limit
+    /// analysis refuses.
+    pub fn limit(&self) -> InLimitAnalysis {
+        let solver = Solver::Limit(limit::Settings::default());
+        match (self.demand)(Values::default()) {
+            Some((demand, _)) if solver.refuses(demand).is_some() => InLimitAnalysis::Refused,
+            _ if self.no_bearing => InLimitAnalysis::NoBearing,
+            _ => InLimitAnalysis::Honoured,
+        }
+    }
+
     /// A cause without a name that does nothing: what a cause does not say of itself.
     pub(super) const NOTHING: Cause = Cause {
         name: "",
@@ -158,7 +169,7 @@ impl Cause {
         means: "",
         acts: Acts::Wall,
         unloading: Unloading::AsWithout,
-        limit: InLimitAnalysis::Honoured,
+        no_bearing: false,
         confounded: &[],
         section: table("", "", &[]),
         priors: &[],

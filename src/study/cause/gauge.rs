@@ -1,7 +1,7 @@
 //! What is wrong with the gauges: it changes readings alone.
 
 use crate::study::cause::FACTOR;
-use crate::study::cause::entry::{Acts, Cause, InLimitAnalysis, Unloading, sheared, table};
+use crate::study::cause::entry::{Acts, Cause, Unloading, sheared, table};
 use crate::study::keys::real;
 use crate::study::schema::Presence::Required;
 use crate::study::schema::{Interval, Key};
@@ -16,7 +16,7 @@ pub static GAUGE_OFFSET: Cause = Cause {
     means: "the gauges moved, or their zero is wrong",
     acts: Acts::Readings,
     unloading: Unloading::Irreversible,
-    limit: InLimitAnalysis::NoBearing,
+    no_bearing: true,
     confounded: &["creep", "joint_closure"],
     section: table(
         "[mechanism.gauge_offset]",
@@ -44,7 +44,7 @@ pub static GAUGE_SCALE: Cause = Cause {
     means: "the gauges show too much or too little by a factor",
     acts: Acts::Readings,
     unloading: Unloading::Reversible,
-    limit: InLimitAnalysis::NoBearing,
+    no_bearing: true,
     confounded: &["joint.kn_pa_per_m", "joint_closure", "base_compliance"],
     section: table(
         "[mechanism.gauge_scale]",

@@ -5,7 +5,7 @@ use crate::model::Tag;
 use crate::protocol::{Creep, Loss};
 use crate::solve::Demand;
 use crate::study::cause::POSITIVE_SHARE;
-use crate::study::cause::entry::{Acts, Cause, InLimitAnalysis, Unloading, table, tilts};
+use crate::study::cause::entry::{Acts, Cause, Unloading, table, tilts};
 use crate::study::keys::real;
 use crate::study::schema::Presence::{Default, Required};
 use crate::study::schema::{Interval, Key};
@@ -20,7 +20,6 @@ pub static WEDGE_LOSS: Cause = Cause {
     means: "pinning stones fall out as the wall tilts",
     acts: Acts::Loading,
     unloading: Unloading::Irreversible,
-    limit: InLimitAnalysis::Refused,
     confounded: &["creep", "contact_area", "size_scatter"],
     section: table(
         "[mechanism.wedge_loss]",
@@ -65,7 +64,6 @@ pub static CREEP: Cause = Cause {
     means: "joints go on moving under load, and what they moved stays",
     acts: Acts::Loading,
     unloading: Unloading::Irreversible,
-    limit: InLimitAnalysis::Refused,
     confounded: &["joint.kn_over_ks", "gauge_offset", "friction", "wedge_loss"],
     section: table(
         "[mechanism.creep]",

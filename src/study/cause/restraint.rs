@@ -5,7 +5,7 @@ use crate::protocol::{Compliance, Ends};
 use crate::solve::Demand;
 use crate::study::angle::Angle;
 use crate::study::cause::STIFFNESS;
-use crate::study::cause::entry::{Acts, Cause, InLimitAnalysis, Unloading, sheared, table};
+use crate::study::cause::entry::{Acts, Cause, Unloading, sheared, table};
 use crate::study::checked::Arm;
 use crate::study::keys::{SIZE, real};
 use crate::study::schema::Presence::Required;
@@ -18,7 +18,6 @@ pub static BASE_COMPLIANCE: Cause = Cause {
     means: "what carries the wall gives way, the platform or the ground under it",
     acts: Acts::Restraint,
     unloading: Unloading::Reversible,
-    limit: InLimitAnalysis::Refused,
     confounded: &["joint.kn_pa_per_m", "joint_closure", "lean", "gauge_scale"],
     section: table(
         "[mechanism.base_compliance]",
@@ -54,7 +53,7 @@ pub static ROPE_SLACK: Cause = Cause {
     means: "the ropes let the wall move before they hold",
     acts: Acts::Restraint,
     unloading: Unloading::Reversible,
-    limit: InLimitAnalysis::NoBearing,
+    no_bearing: true,
     confounded: &["restraint.rope.stiffness_n_per_m", "end_release"],
     section: table(
         "[mechanism.rope_slack]",
