@@ -2,11 +2,11 @@
 
 use std::fs;
 use std::num::NonZero;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
+use crate::ensemble::ledger::Ledger;
 use crate::ensemble::{RunError, Settings, replace_file};
 use crate::generate::elements::Shapes;
 use crate::model::{Block, Heap, Support, Tag, Wall};
@@ -14,8 +14,13 @@ use crate::protocol::{Phase, Shoved, Stand, shove_heap, shove_wall};
 use crate::random::Streams;
 use crate::study::{ElementArm, ElementStudy};
 
+/// Name of the file that keeps what is evaluated, without ending.
+const LEDGER: &str = "elements";
+/// Name of the table of a run of element types.
+pub const ELEMENTS_CSV: &str = "elements.csv";
+
 /// One assembly of one type of element.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ElementRow {
     /// Name of the arm.
     pub arm: String,
@@ -58,14 +63,23 @@ impl ElementRow {
     }
 }
 
-/// A row, and the time it took to compute (s), which depends on the machine.
-pub type Timed = (ElementRow, f64);
+/// A row, and what it took to compute, which depends on the machine.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Timed {
+    /// What came out.
+    pub row: ElementRow,
+    /// Time on the clock (s).
+    pub seconds: f64,
+    /// Worker threads of the run that computed it.
+    pub threads: usize,
+}
 
-/// Evaluates every type of element and writes `elements.csv`, which is the same in every run, and `timing.csv`. `finished` is told,
-/// from the worker threads, of how many assemblies so many are done.
+/// Evaluates every type of element and writes `elements.csv`, which is the same in every run, and `timing.csv`. Assemblies that an
+/// earlier run of the study ended in the folder are not evaluated again, so that a run goes on where it was stopped and may grow.
+/// `finished` is told, from the worker threads, how many of how many assemblies are done.
 ///
 /// # Errors
-/// [`RunError`] when the folder or a file cannot be written.
+/// [`RunError`] when the folder or a file cannot be written, or holds assemblies of another study.
 pub fn run_elements(
     study: &ElementStudy,
     settings: &Settings,
@@ -78,16 +92,18 @@ pub fn run_elements(
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
     let tasks: Vec<(&ElementArm, u64)> =
         study.arms.iter().flat_map(|arm| (0..arm.members).map(move |member| (arm, member))).collect();
-    let done = AtomicUsize::new(0);
     let timed = |&(arm, member): &(&ElementArm, u64)| {
         let begun = Instant::now();
         let row = evaluate_element(study, arm, member);
-        finished(done.fetch_add(1, Ordering::Relaxed) + 1, tasks.len());
-        (row, begun.elapsed().as_secs_f64())
+        Timed { row, seconds: begun.elapsed().as_secs_f64(), threads }
     };
-    let rows: Vec<Timed> = pool.install(|| tasks.par_iter().with_max_len(1).map(timed).collect());
-    replace_file(&out.join("elements.csv"), csv(&rows).as_bytes())?;
-    replace_file(&out.join("timing.csv"), timing(&rows, threads).as_bytes())?;
+    let ledger = Ledger::of_study(out, LEDGER, &study.assemblies_hash, None)?;
+    let key = |(arm, member): &(&ElementArm, u64)| (arm.name.clone(), *member);
+    let rows = pool.install(|| ledger.rows(&tasks, key, finished, timed))?;
+    let rows: Vec<Timed> =
+        rows.into_iter().map(|row| row.expect("no task is left to another shard")).collect();
+    replace_file(&out.join(ELEMENTS_CSV), csv(&rows).as_bytes())?;
+    replace_file(&out.join("timing.csv"), timing(&rows).as_bytes())?;
     Ok(rows)
 }
 
@@ -146,7 +162,7 @@ fn csv(rows: &[Timed]) -> String {
     }
     text.push('\n');
     let or_empty = |value: Option<String>| value.unwrap_or_default();
-    for (row, _) in rows {
+    for Timed { row, .. } in rows {
         let mut cells = vec![
             row.arm.clone(),
             row.member.to_string(),
@@ -163,7 +179,7 @@ fn csv(rows: &[Timed]) -> String {
             cells.push(of(|p| p.to_fine.map(|n| n.to_string())));
             cells.push(of(|p| Some(p.cycles.to_string())));
             cells.push(of(|p| Some(p.moved.to_string())));
-            cells.push(of(|p| Some(p.unbalanced_ratio.to_string())));
+            cells.push(of(|p| p.unbalanced_ratio.map(|ratio| ratio.to_string())));
         }
         text.push_str(&cells.join(","));
         text.push('\n');
@@ -172,9 +188,9 @@ fn csv(rows: &[Timed]) -> String {
 }
 
 /// What each assembly took: kept apart from what came out, which must not depend on it.
-fn timing(rows: &[Timed], threads: usize) -> String {
+fn timing(rows: &[Timed]) -> String {
     let mut text = String::from("element,member,seconds,cycles_per_second,threads\n");
-    for (row, seconds) in rows {
+    for Timed { row, seconds, threads } in rows {
         let rate = row.cycles as f64 / seconds;
         text.push_str(&format!("{},{},{seconds:.6},{rate:.0},{threads}\n", row.arm, row.member));
     }

@@ -46,7 +46,7 @@ pub use built::{Built, weight};
 pub use cells::{AskedOfCells, CellRow, CellTask, check_cell, evaluate_cell, run_cells};
 pub use design::{Task, evaluations, is_random, plan};
 pub use draws::{Draws, Evaluated, drawn};
-pub use elements::{ElementRow, Timed, evaluate_element, run_elements};
+pub use elements::{ELEMENTS_CSV, ElementRow, Timed, evaluate_element, run_elements};
 pub use enough::{Look, come_to};
 pub use error::{MemberFault, RunError};
 pub use evaluate::{build, evaluate, solve};

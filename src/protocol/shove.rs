@@ -21,7 +21,7 @@ pub struct Shove {
 }
 
 /// What became of an assembly.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Stand {
     /// At rest under gravity and under the horizontal acceleration.
@@ -53,7 +53,7 @@ impl Stand {
 }
 
 /// What happened under one load.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Phase {
     /// Cycles until the unbalanced force ratio first fell below the coarse one; `None` if it never did.
     #[serde(rename = "cycles_to_coarse")]
@@ -66,8 +66,8 @@ pub struct Phase {
     /// Largest way of an element in the plane (m).
     #[serde(rename = "moved_m")]
     pub moved: f64,
-    /// Unbalanced force ratio at the end.
-    pub unbalanced_ratio: f64,
+    /// Unbalanced force ratio at the end; `None` where a position had become NaN or infinite.
+    pub unbalanced_ratio: Option<f64>,
 }
 
 /// What happened to an assembly.
@@ -198,7 +198,7 @@ fn under(elements: &mut impl Elements, gravity: Vec3, shove: &Shove) -> (Status,
         to_fine: at_rest.then_some(ended.steps),
         cycles: ended.steps,
         moved: moved(elements.bodies()),
-        unbalanced_ratio: ended.unbalanced_ratio,
+        unbalanced_ratio: Some(ended.unbalanced_ratio).filter(|ratio| ratio.is_finite()),
     };
     (ended.status, phase)
 }

@@ -57,6 +57,10 @@ pub struct ElementStudy {
     pub used: Vec<Used>,
     /// SHA-256 (hex) over every value that decides a result.
     pub hash: String,
+    /// Hash of all that decides what an assembly is and comes to: not how many there are.
+    pub assemblies_hash: String,
+    /// Every value that decides a result, by key.
+    pub effective: BTreeMap<String, String>,
 }
 
 /// One type of element.
@@ -129,7 +133,11 @@ impl ElementStudy {
                 let name = folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
                 let warnings = Faults::sorted(notes.warnings).faults;
                 let (used, hash) = (catalogue.used, hash_of(&effective));
-                Ok(ElementStudy { name, published, warnings, inputs, used, hash, ..study })
+                let of_assemblies = effective.iter().filter(|(key, _)| decides_an_assembly(key));
+                let of_assemblies = of_assemblies.map(|(key, value)| (key.clone(), value.clone())).collect();
+                let assemblies_hash = hash_of(&of_assemblies);
+                let study = ElementStudy { name, published, warnings, inputs, used, ..study };
+                Ok(ElementStudy { hash, assemblies_hash, effective, ..study })
             }
             _ => {
                 crate::check!(!faults.is_empty(), "the study was refused without a fault");
@@ -143,6 +151,11 @@ impl ElementStudy {
         let changed =
             BTreeMap::from([("study".to_owned(), self.hash), ("seed".to_owned(), seed.to_string())]);
         (self.seed, self.hash) = (seed, hash_of(&changed));
+        let changed = BTreeMap::from([
+            ("study".to_owned(), self.assemblies_hash),
+            ("seed".to_owned(), seed.to_string()),
+        ]);
+        self.assemblies_hash = hash_of(&changed);
         self
     }
 
@@ -156,6 +169,11 @@ impl ElementStudy {
         self.hash = hash_of(&changed);
         self
     }
+}
+
+/// Whether a key decides what an assembly comes to, beside its type and its index. How many there are and what is asked decides none.
+fn decides_an_assembly(key: &str) -> bool {
+    key != "study.question" && !key.ends_with(".members")
 }
 
 /// Everything but what comes from other files and the folder.
@@ -194,6 +212,8 @@ fn study(root: &Node, notes: &mut Notes, catalogue: &mut Catalogue) -> Option<El
         inputs: Vec::new(),
         used: Vec::new(),
         hash: String::new(),
+        assemblies_hash: String::new(),
+        effective: BTreeMap::new(),
     })
 }
 

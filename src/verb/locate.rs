@@ -48,8 +48,8 @@ pub(crate) fn any_study(which: &Which) -> Result<Loaded, Failure> {
     let folder = folder(&which.study)?;
     if ElementStudy::is_in(&folder) {
         let text = format!(
-            "{} compares types of elements: a few of them are shoved off one another, and no wall stands or falls; only run and check take \
-                 it",
+            "{} compares types of elements: each is shoved by one load and stands or falls, so that it has no capacity, no measured \
+             reading and no wall to draw; pirca run, report and check take it",
             folder.display()
         );
         return Err(Failure::Input(text));

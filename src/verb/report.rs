@@ -1,7 +1,7 @@
 //! `pirca report`: the page of a run, of a study or of a wall, and how to cite a run.
 
 use std::ffi::OsString;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser};
 use serde_json::json;
@@ -69,6 +69,7 @@ pub(crate) struct Report {
 /// Writes the page of a run that has ended, of a study, or of a wall.
 pub(crate) fn report(arguments: &Report) -> Result<Answer, Failure> {
     let of = &arguments.of;
+    not_of_elements(of)?;
     if arguments.cite || arguments.bibtex {
         return cite(arguments);
     }
@@ -86,6 +87,15 @@ pub(crate) fn report(arguments: &Report) -> Result<Answer, Failure> {
     // The folder of a run holds no study.toml.
     let is_study = of.join("study.toml").is_file() || of.file_name().is_some_and(|name| name == "study.toml");
     if is_study { of_study(arguments) } else { of_run(arguments) }
+}
+
+/// A run of element types has its page from its study, which goes on from what is there; it has no manifest to cite.
+fn not_of_elements(folder: &Path) -> Result<(), Failure> {
+    if !folder.join(ensemble::ELEMENTS_CSV).is_file() {
+        return Ok(());
+    }
+    let why = "holds a run of element types; give its study: pirca report STUDY writes the page and shoves no assembly again";
+    Err(Failure::Input(format!("{}: {why}", folder.display())))
 }
 
 /// The reference of a run.

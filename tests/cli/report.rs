@@ -260,17 +260,54 @@ fn a_study_and_a_wall_come_on_a_page_by_their_own_names() {
     assert!(error.contains("what stands behind -- is for a wall from a file"), "{error}");
 }
 
+/// A study of two types of elements that end at once.
+fn few_elements(folder: &Folder) {
+    let whole = include_str!("../../studies/element-types/study.toml");
+    let from = |name: &str| whole.find(&format!("[[element]]\nname = \"{name}\"")).expect("an element");
+    let end = from("clumps-with-overlap");
+    folder
+        .write_study(&whole[..end].replace("members = 5", "members = 2").replace("../../schemas", "schemas"));
+}
+
 #[test]
-fn a_study_of_elements_has_no_page() {
+fn a_study_of_elements_has_a_page_with_its_table_and_its_inputs() {
     let folder = Folder::with_study(STUDY);
-    let study = concat!(env!("CARGO_MANIFEST_DIR"), "/studies/element-types");
-    let output = folder.pirca(&["run", study, "--report"]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(
-        stderr(&output).contains("--report: its results are one table and have no page"),
-        "{}",
-        stderr(&output)
-    );
+    few_elements(&folder);
+    let output = folder.pirca(&["report", "studies/tiny", "--out", "page.html"]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let page = fs::read_to_string(folder.path("page.html")).expect("the page");
+    for part in
+        ["Types of elements in study tiny", "aligned-spheres", "falls under gravity (2 of 2)", "cube.side_m"]
+    {
+        assert!(page.contains(part), "{part}");
+    }
+}
+
+#[test]
+fn assemblies_that_are_there_are_not_shoved_again() {
+    let folder = Folder::with_study(STUDY);
+    few_elements(&folder);
+    let run = |more: &[&str]| {
+        let output = folder.pirca(&[&["run", "studies/tiny", "--out", "out"], more].concat());
+        assert!(output.status.success(), "{}", stderr(&output));
+        let read = |name: &str| fs::read_to_string(folder.path("out").join(name)).expect("a table");
+        (read("elements.csv"), read("timing.csv"))
+    };
+    let (few, first) = run(&[]);
+    let (more, second) = run(&["--members", "4", "--threads", "3"]);
+    let anew = folder.pirca(&["run", "studies/tiny", "--out", "anew", "--members", "4"]);
+    assert!(anew.status.success(), "{}", stderr(&anew));
+    assert_eq!(fs::read_to_string(folder.path("anew/elements.csv")).expect("a table"), more);
+    assert!(few.lines().all(|line| more.contains(line)), "{more}");
+    // Times are those of the run that computed an assembly: none of the first run's is measured again.
+    assert!(first.lines().all(|line| second.contains(line)), "{first}{second}");
+    assert_eq!(second.lines().filter(|line| line.ends_with(",3")).count(), 2, "{second}");
+    let run_alone = folder.pirca(&["report", "out"]);
+    assert_eq!(run_alone.status.code(), Some(3));
+    assert!(stderr(&run_alone).contains("give its study"), "{}", stderr(&run_alone));
+    let other = folder.pirca(&["run", "studies/tiny", "--out", "out", "--seed", "5"]);
+    assert_eq!(other.status.code(), Some(1), "{}", stderr(&other));
+    assert!(stderr(&other).contains("of another study"), "{}", stderr(&other));
 }
 
 /// Names that would do something if they were markup.

@@ -14,14 +14,14 @@ enum Cell {
 }
 use Cell::{Lacks, Works};
 
-const NO_WALL: Cell = Lacks("no wall stands or falls");
+const NO_WALL: Cell = Lacks("no wall to draw");
 
 /// Verb, its arguments behind the study, and its cells: drawn walls, `[uncertain]`, base motion, elements, a wall from a file.
 const TABLE: &[(&str, &str, [Cell; 5])] = &[
     ("check", "", [Works, Works, Works, Works, Works]),
     ("init", "copy --from", [Works, Works, Works, Works, Works]),
     ("run", "--out out", [Works, Works, Works, Works, Works]),
-    ("report", "--out out", [Works, Works, Lacks("takes a wall another way"), Lacks("have no page"), Works]),
+    ("report", "--out out", [Works, Works, Lacks("takes a wall another way"), Works, Works]),
     (
         "capacity",
         "--quantile 0.2 --out out",

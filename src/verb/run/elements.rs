@@ -9,17 +9,19 @@ use crate::terminal::answer::Answer;
 use crate::terminal::doing::doing;
 use crate::terminal::failure::Failure;
 use crate::verb::locate;
-use crate::verb::run::answer::element_table::{element_table, write_elements};
+use crate::verb::run::answer::element_table::{element_document, write_elements};
+use crate::verb::run::answer::page::element_page;
 use crate::verb::run::ask::Run;
+use crate::verb::run::origin::Origin;
+use crate::verb::run::page;
 
-/// Runs the study and answers with its table.
-pub(crate) fn run(folder: &Path, arguments: &Run) -> Result<Answer, Failure> {
+/// Runs the study and answers with its table; its page is written to `file`, or into the output folder if it is asked for.
+pub(crate) fn run(folder: &Path, arguments: &Run, file: Option<PathBuf>) -> Result<Answer, Failure> {
     let refused = [
         (arguments.which.variant.is_some(), "--variant: it has no variants"),
         (arguments.solver.is_some(), "--solver: spheres and polyhedra each have their own explicit one"),
         (arguments.beside.is_some(), "--beside: it draws no figure"),
         (arguments.csv, "--csv: elements.csv is what it writes anyway"),
-        (arguments.report, "--report: its results are one table and have no page"),
     ];
     if let Some((_, why)) = refused.iter().find(|(given, _)| *given) {
         return Err(Failure::Usage(format!("{} compares types of elements; {why}", folder.display())));
@@ -44,6 +46,15 @@ pub(crate) fn run(folder: &Path, arguments: &Run) -> Result<Answer, Failure> {
         ensemble::run_elements(&study, &settings, &told)
     })?;
     let summary = write_elements(&study, &rows, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
-    let text = format!("{}written to {}\n", element_table(&study, &rows), out.display());
+    let document = element_document(&study, &rows);
+    let file = file.or_else(|| arguments.report.then(|| out.join(page::PAGE)));
+    if let Some(file) = &file {
+        let origin = Origin::now(folder, arguments.threads).of_page();
+        let text =
+            element_page(&document, &study, &origin).map_err(|error| Failure::Run(format!("{error:#}")))?;
+        ensemble::replace_file(file, text.as_bytes())?;
+    }
+    let page = file.map(|file| format!(", with a page: {}", file.display())).unwrap_or_default();
+    let text = format!("{}written to {}{page}\n", document.text(), out.display());
     Ok(Answer::of(text, &summary)?.in_place(&out))
 }

@@ -27,7 +27,7 @@ pub(crate) fn run(arguments: &Run) -> Result<Answer, Failure> {
 pub(crate) fn with_page(arguments: &Run, page: Option<PathBuf>) -> Result<Answer, Failure> {
     let folder = locate::folder(&arguments.which.study)?;
     if ElementStudy::is_in(&folder) {
-        return elements::run(&folder, arguments);
+        return elements::run(&folder, arguments, page);
     }
     let loaded = locate::any_study(&arguments.which)?;
     let study = asked(loaded.study.clone(), arguments.solver, &arguments.ensemble)?;

@@ -1,4 +1,4 @@
-//! The table of a study of element types: ours beside what others report.
+//! The answer of a study of element types: ours beside what others report.
 
 use std::path::Path;
 
@@ -6,6 +6,7 @@ use anyhow::{Context, Result};
 use serde_json::{Value, json};
 
 use crate::ensemble::{ElementRow, Timed, replace_file};
+use crate::render::document::{Document, Layout, Part, Table};
 use crate::render::number::{or_dash, significant};
 use crate::study::{ElementStudy, Reported};
 use crate::verb::run::answer::files::SUMMARY_JSON;
@@ -23,7 +24,7 @@ pub fn write_elements(study: &ElementStudy, rows: &[Timed], dir: &Path) -> Resul
         "seed": study.seed,
         "study_hash": study.hash,
         "inputs": study.inputs.iter().map(|i| json!({"path": i.path, "sha256": i.sha256})).collect::<Vec<_>>(),
-        "elements": rows.iter().map(|(row, _)| row).collect::<Vec<_>>(),
+        "elements": rows.iter().map(|timed| &timed.row).collect::<Vec<_>>(),
         "published": verdicts,
     });
     let text =
@@ -45,7 +46,7 @@ fn compared(theirs: &Reported, rows: &[Timed]) -> Value {
 }
 
 fn of_arm<'r>(rows: &'r [Timed], name: &'r str) -> impl Iterator<Item = &'r ElementRow> {
-    rows.iter().map(|(row, _)| row).filter(move |row| row.arm == name)
+    rows.iter().map(|timed| &timed.row).filter(move |row| row.arm == name)
 }
 
 /// Reproduced where every assembly ends as theirs did; what was not said, or did not come out, cannot be judged.
@@ -58,44 +59,54 @@ fn verdict(theirs: &Reported, ours: &[&str]) -> Verdict {
     }
 }
 
-/// The table for people: one line per type of element, the first assembly of each, with the number that ends as it does;
-/// below each the line that others report.
-pub fn element_table(study: &ElementStudy, rows: &[Timed]) -> String {
-    let mut lines = vec![
-        [
-            "element",
-            "elements",
-            "time step",
-            "cycles/s",
-            "cycles",
-            "to coarse",
-            "to fine",
-            "time",
-            "ends",
-            "",
-        ]
-        .map(str::to_owned),
+/// The answer as a document: one line per type of element, the first assembly of each, with the number that ends as it does; below each the
+/// line that others report.
+pub fn element_document(study: &ElementStudy, rows: &[Timed]) -> Document<'static> {
+    let heads = [
+        "element",
+        "elements",
+        "time step",
+        "cycles/s",
+        "cycles",
+        "to coarse",
+        "to fine",
+        "time",
+        "ends",
+        "",
     ];
+    let mut lines = Vec::new();
     for arm in &study.arms {
-        let Some((row, seconds)) = rows.iter().find(|(row, _)| row.arm == arm.name) else { continue };
-        lines.push(own_line(row, *seconds, rows));
+        let Some(first) = rows.iter().find(|timed| timed.row.arm == arm.name) else { continue };
+        lines.push(own_line(first, rows).to_vec());
         for theirs in study.published.iter().filter(|p| p.name == arm.name) {
             let ours: Vec<&str> = of_arm(rows, &arm.name).map(ElementRow::ending).collect();
-            lines.push(their_line(theirs, verdict(theirs, &ours)));
+            lines.push(their_line(theirs, verdict(theirs, &ours)).to_vec());
         }
     }
-    let widths: Vec<usize> =
-        (0..lines[0].len()).map(|k| lines.iter().map(|l| l[k].chars().count()).fold(0, usize::max)).collect();
-    let mut text = String::new();
-    for line in &lines {
-        let cells: Vec<String> = line.iter().zip(&widths).map(|(cell, w)| format!("{cell:<w$}")).collect();
-        text.push_str(cells.join("  ").trim_end());
-        text.push('\n');
+    let table = Table {
+        caption: "Each line is the first assembly of a type, and how many of its assemblies end as it does. Below it is what others report. \
+                  Coarse and fine are the two unbalanced force ratios of the study, first under gravity, then under the horizontal \
+                  acceleration. Times are of this machine."
+            .to_owned(),
+        layout: Layout::Whole,
+        ..Table::new("Types of elements", &heads, lines)
+    };
+    Document {
+        title: format!("Types of elements in study {}", study.name),
+        question: study.question.clone(),
+        parts: vec![Part::Table(table)],
+        files: Vec::new(),
+        limits: vec![
+            "An assembly is shoved, and stands or falls: its answer is no load, and says nothing of walls of such elements.".to_owned(),
+            "Times and cycles per second are of one machine; all else is the same on each.".to_owned(),
+        ],
+        methods: "Elements fill a cube and lie free under gravity and then a small horizontal acceleration. Spheres and clumps move by the \
+                  explicit solver of grains, polyhedra by that of blocks, both with local damping."
+            .to_owned(),
     }
-    text
 }
 
-fn own_line(row: &ElementRow, seconds: f64, rows: &[Timed]) -> [String; 10] {
+fn own_line(Timed { row, seconds, .. }: &Timed, rows: &[Timed]) -> [String; 10] {
     let all: Vec<&str> = of_arm(rows, &row.arm).map(ElementRow::ending).collect();
     let alike = all.iter().filter(|end| **end == row.ending()).count();
     let reached =
@@ -108,7 +119,7 @@ fn own_line(row: &ElementRow, seconds: f64, rows: &[Timed]) -> [String; 10] {
         row.cycles.to_string(),
         reached(row.to_coarse()),
         reached(row.to_fine()),
-        format!("{} s", significant(seconds, 3)),
+        format!("{} s", significant(*seconds, 3)),
         format!("{} ({alike} of {})", row.ending().replace('_', " "), all.len()),
         row.no_room.clone().unwrap_or_default(),
     ]

@@ -31,7 +31,7 @@ pub(crate) mod undecided;
 pub use beside::{Earlier, Mean};
 pub use bounded::Bounded;
 pub use comparison::{Basis, Comparison};
-pub use element_table::{element_table, write_elements};
+pub use element_table::{element_document, write_elements};
 pub use files::{FRAGILITY, SUMMARY_JSON, write_all, write_gathered};
 pub use gathered::Gathered;
 pub use measured::{CalibrationEntry, ComparisonEntry, MeasuredSummary};

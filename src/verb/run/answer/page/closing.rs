@@ -4,7 +4,7 @@ use anyhow::Result;
 use serde::Serialize;
 
 use crate::render::document::{Document, Table, page};
-use crate::study::{Loaded, Study};
+use crate::study::{ElementStudy, Loaded, Study};
 use crate::verb::run::answer::page::cite::{Citation, citation};
 use crate::verb::run::answer::page::inputs::Given;
 use crate::verb::run::answer::page::limits;
@@ -36,6 +36,21 @@ pub fn document_page(
         limits,
         provenance: origin.of_study(study),
         methods: limits::evaluated(study, &document.methods),
+        citation: citation(Some(study.seed)),
+    };
+    page(document, &closing)
+}
+
+/// The page of a document about a study of element types.
+///
+/// # Errors
+/// As of [`document_page`].
+pub fn element_page(document: &Document<'_>, study: &ElementStudy, origin: &PageOrigin) -> Result<String> {
+    let closing = Closing {
+        given: Given::of_elements(study),
+        limits: document.limits.clone(),
+        provenance: origin.of_elements(study),
+        methods: document.methods.clone(),
         citation: citation(Some(study.seed)),
     };
     page(document, &closing)

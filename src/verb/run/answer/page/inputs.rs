@@ -5,11 +5,21 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::render::document::{Line, Table};
-use crate::study::{Loaded, Study, Used};
+use crate::study::{ElementStudy, Loaded, Study, Used};
 use crate::verb::run::answer::page::limits::built;
 
 /// Keys that name things and set nothing.
 const NAMES: [&str; 3] = ["arm", "revision of laws and solvers", "study.arms"];
+
+/// Heads of the tables of inputs.
+const HEADS: [&str; 3] = ["key, with its unit", "value", "source"];
+/// Status of a distribution that nobody measured.
+const ASSUMED: &str = "assumed";
+const STATED: &str = "stated in the study";
+
+const ALL: &str =
+    "Below is every value that decides a result, with its source. Units stand at the end of the keys.";
+const SOME_ASSUMED: &str = "Below is every value that decides a result, with its source. Units stand at the end of the keys. Only assumed:";
 
 /// Wall and inputs, as a page shows them.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -27,16 +37,26 @@ pub struct Given {
 impl Given {
     /// Of a study; `loaded` is the study as its files state it.
     pub fn of(study: &Study, loaded: &Loaded) -> Given {
-        let assumed = assumed(loaded);
-        let about = match assumed.is_empty() {
-            true => {
-                "Below is every value that decides a result, with its source. Units stand at the end of the keys."
-            }
-            false => {
-                "Below is every value that decides a result, with its source. Units stand at the end of the keys. Only assumed:"
-            }
+        Given::new(built(study), assumed(&loaded.used), inputs(study, loaded))
+    }
+
+    /// Of a study of element types.
+    pub fn of_elements(study: &ElementStudy) -> Given {
+        let line = |(key, value): (&String, &String)| {
+            let used = study.used.iter().find(|used| used.key == *key);
+            let marked = used.is_some_and(|used| used.status == ASSUMED);
+            let source = used.map_or_else(|| STATED.to_owned(), of_distribution);
+            Line { cells: vec![key.clone(), shown(value), source], marked, ..Line::default() }
         };
-        Given { about_wall: built(study), about, assumed, tables: inputs(study, loaded) }
+        let rows = entries(&study.effective).map(line).collect();
+        let table = Table { rows, ..Table::new("All types", &HEADS, Vec::new()) };
+        let filled = format!("Elements fill a cube of {} m.", study.side);
+        Given::new(filled, assumed(&study.used), vec![table])
+    }
+
+    fn new(about_wall: String, assumed: Vec<String>, tables: Vec<Table>) -> Given {
+        let about = if assumed.is_empty() { ALL } else { SOME_ASSUMED };
+        Given { about_wall, about, assumed, tables }
     }
 }
 
@@ -48,12 +68,12 @@ fn inputs(study: &Study, loaded: &Loaded) -> Vec<Table> {
         let rows = own.map(|(key, value)| {
             let used = loaded.used.iter().find(|used| used.key == *key);
             let changed = loaded.study.effective.get(key) != Some(value) || study.is_asked_for(key);
-            let marked = used.is_some_and(|used| used.status == "assumed");
+            let marked = used.is_some_and(|used| used.status == ASSUMED);
             let source = source(used, changed, loaded.stated.states(key));
             Line { cells: vec![key.clone(), shown(value), source], marked, ..Line::default() }
         });
         let rows = rows.collect();
-        Table { rows, ..Table::new(name, &["key, with its unit", "value", "source"], Vec::new()) }
+        Table { rows, ..Table::new(name, &HEADS, Vec::new()) }
     };
     let mut all = vec![of("All arms", &|key| !key.starts_with("arm."))];
     for arm in &study.arms {
@@ -67,9 +87,9 @@ fn inputs(study: &Study, loaded: &Loaded) -> Vec<Table> {
     all
 }
 
-/// The distributions that are only assumed, in words.
-pub fn assumed(loaded: &Loaded) -> Vec<String> {
-    let own = loaded.used.iter().filter(|used| used.status == "assumed");
+/// Those distributions that are only assumed, in words.
+pub fn assumed(used: &[Used]) -> Vec<String> {
+    let own = used.iter().filter(|used| used.status == ASSUMED);
     own.map(|used| format!("{}: {} ({})", used.key, used.reference, used.source)).collect()
 }
 
@@ -95,10 +115,14 @@ fn shown(value: &str) -> String {
 fn source(used: Option<&Used>, changed: bool, stated: bool) -> String {
     match used {
         _ if changed => "asked for with the command".to_owned(),
-        Some(used) => format!("{}: {} ({})", used.status, used.source, used.reference),
-        None if stated => "stated in the study".to_owned(),
+        Some(used) => of_distribution(used),
+        None if stated => STATED.to_owned(),
         None => "default".to_owned(),
     }
+}
+
+fn of_distribution(used: &Used) -> String {
+    format!("{}: {} ({})", used.status, used.source, used.reference)
 }
 
 #[cfg(test)]

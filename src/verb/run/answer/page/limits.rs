@@ -38,7 +38,7 @@ pub fn of_study(study: &Study, loaded: &Loaded) -> Vec<String> {
          model knows real walls."
             .to_owned(),
     ];
-    let assumed = assumed(loaded);
+    let assumed = assumed(&loaded.used);
     if !assumed.is_empty() {
         let inputs = assumed.join("; ");
         said.push(format!("Only assumed, and the first suspects where a prediction fails: {inputs}."));

@@ -10,7 +10,7 @@ mod strip;
 mod wall;
 
 pub use cite::{Citation, citation, citation_of_run};
-pub use closing::document_page;
+pub use closing::{document_page, element_page};
 pub use origin::PageOrigin;
 pub use run::{DrawnWall, RunPage, chosen_walls, run_page};
 pub use wall::{WallPage, WallTable, wall_page};

@@ -2,7 +2,7 @@
 
 use crate::ensemble::Manifest;
 use crate::render::document::Table;
-use crate::study::Study;
+use crate::study::{ElementStudy, Study};
 
 /// How and where results were made; no result depends on it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -32,6 +32,26 @@ impl PageOrigin {
         ];
         let files = manifest.inputs.iter().map(|(path, hash)| (path.as_str(), format!("SHA-256 {hash}")));
         self.table(own.into_iter().chain(files))
+    }
+
+    /// A table of it and of a study of element types.
+    pub fn of_elements(&self, study: &ElementStudy) -> Table {
+        let assemblies: Vec<String> =
+            study.arms.iter().map(|arm| format!("{} {}", arm.name, arm.members)).collect();
+        let facts = [
+            ("pirca", env!("CARGO_PKG_VERSION").to_owned()),
+            ("study", study.name.clone()),
+            ("seed", study.seed.to_string()),
+            ("assemblies", assemblies.join(", ")),
+            ("SHA-256 of all values", study.hash.clone()),
+        ];
+        let files: Vec<(String, String)> = study
+            .inputs
+            .iter()
+            .map(|input| (input.path.display().to_string(), format!("SHA-256 {}", input.sha256)))
+            .collect();
+        let files = files.iter().map(|(path, hash)| (path.as_str(), hash.clone()));
+        self.table(facts.into_iter().chain(files))
     }
 
     /// A table of it, after what else tells the origin.
