@@ -42,8 +42,14 @@ fn pushed(elements: &Elements, count: usize) -> Simulation {
 /// Polyhedra as they are laid, in true time.
 fn laid<'a>(elements: &Elements, law: &'a Coulomb) -> explicit::Simulation<'a> {
     let Shapes::Polyhedra(solids) = fill(elements) else { panic!("these scenes are made of polyhedra") };
-    let block =
-        |shape| Block { shape, density: DENSITY, support: Support::Free, tag: Tag::Stone, group: None };
+    let block = |shape| Block {
+        shape,
+        density: DENSITY,
+        support: Support::Free,
+        tag: Tag::Stone,
+        group: None,
+        scan: None,
+    };
     let wall = Wall { blocks: solids.into_iter().map(block).collect() }.with_base();
     let settings = explicit::Settings {
         unbalanced_ratio: 1e-3,

@@ -84,6 +84,7 @@ def analyse(
     step_deg: float | None = None,
     touch_tolerance: float | str | None = None,
     flatness: str | None = None,
+    scan_bearing: str | None = None,
     up: str | None = None,
     density: Known | None = None,
     walls: int | None = None,
@@ -130,7 +131,7 @@ def analyse(
         Weights (N) on blocks, and ways (m) that supports go down, by the id of the block.
     kn, ks : optional
         Normal and shear stiffness of the joints per area (Pa/m); ks is kn / 2 without it.
-    worst_direction, vertical, cohesion, flow, step_deg, touch_tolerance, flatness, up, density, walls, seed, colour
+    worst_direction, vertical, cohesion, flow, step_deg, touch_tolerance, flatness, scan_bearing, up, density, walls, seed, colour
         As the options of `pirca analyse`; see its help.
     fclib : path, optional
         File for the contact problem of one step, at the tilt `at_deg`: as the option of `pirca analyse`.
@@ -183,6 +184,7 @@ def analyse(
         "step_deg": step_deg,
         "touch_tolerance": touch_tolerance,
         "flatness": flatness,
+        "scan_bearing": scan_bearing,
         "up": up,
         "density": density,
         "walls": walls,
@@ -259,6 +261,7 @@ def _entry(block: Any, number: int) -> dict[str, Any]:
     if isinstance(block, Block):
         own = {"density": block.density, "fixed": block.fixed, "tag": block.tag}
         own |= {} if block.group is None else {"group": block.group}
+        own |= {} if block.scan is None else {"scan": block.scan}
         return {"id": block.id, "vertices": block.vertices.tolist(), "faces": _faces(block.faces, number), **own}
     if hasattr(block, "to_vertices_and_faces"):
         vertices, faces = block.to_vertices_and_faces()

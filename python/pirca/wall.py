@@ -36,6 +36,8 @@ class Block:
         What it is: "stone", "header", "wedge", "base", ...
     group : str or None
         The stone that it is a part of, where stones have several.
+    scan : dict or None
+        Volume, centroid and inertia of the stone itself, where the faces are those of the hull of its scan.
     """
 
     id: int
@@ -45,6 +47,7 @@ class Block:
     fixed: bool
     tag: str
     group: str | None = None
+    scan: dict[str, Any] | None = None
 
 
 class Wall:
@@ -128,4 +131,5 @@ def _block(entry: dict[str, Any]) -> Block:
         fixed=entry["fixed"],
         tag=entry["tag"],
         group=entry.get("group"),
+        scan=entry.get("scan"),
     )

@@ -232,6 +232,7 @@ mod tests {
             support: if i == 0 { Support::Fixed } else { Support::Free },
             tag: Tag::Stone,
             group: None,
+            scan: None,
         };
         Wall { blocks: places.iter().enumerate().map(block).collect() }
     }

@@ -54,6 +54,5 @@ impl Built {
 
 /// Weight of the stones (N), added in the order of their ids.
 pub fn weight(wall: &Wall) -> f64 {
-    wall.stones().map(|(_, stone)| stone.density * stone.shape.volume()).fold(0.0, |sum, mass| sum + mass)
-        * STANDARD_GRAVITY
+    wall.stones().map(|(_, stone)| stone.mass()).fold(0.0, |sum, mass| sum + mass) * STANDARD_GRAVITY
 }

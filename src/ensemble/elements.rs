@@ -131,8 +131,14 @@ pub fn evaluate_element(study: &ElementStudy, arm: &ElementArm, member: u64) -> 
         }
         Ok(Shapes::Polyhedra(solids)) => {
             let density = study.polyhedron_density;
-            let block =
-                |shape| Block { shape, density, support: Support::Free, tag: Tag::Stone, group: None };
+            let block = |shape| Block {
+                shape,
+                density,
+                support: Support::Free,
+                tag: Tag::Stone,
+                group: None,
+                scan: None,
+            };
             let wall = Wall { blocks: solids.into_iter().map(block).collect() }.with_base();
             filled(empty, shove_wall(&wall, &study.joint, study.sub_contacts, study.explicit, &study.shove))
         }

@@ -4,15 +4,19 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::exchange::fault::{Fault, WallFaults};
 use crate::exchange::mended::Mended;
+use crate::exchange::scan::scanned;
 use crate::exchange::solid::{diagonal, solid};
 use crate::exchange::{ReadOptions, Unit};
-use crate::math::Vec3;
+use crate::math::{Mat3, Vec3, cos, sin};
 use crate::model::{Block, Support, Tag, Wall};
+use crate::shape::{MassProperties, Polyhedron};
 
 /// Most blocks of a file.
 pub const MOST_BLOCKS: usize = 50_000;
 /// Most vertices, and most faces, of one block as the file gives them.
 pub const MOST_VERTICES: usize = 2_000;
+/// The same of a scan.
+pub const MOST_SCANNED: usize = 500_000;
 /// Largest coordinate (m): beyond it a position keeps fewer than 9 digits after the point.
 const FARTHEST: f64 = 1e7;
 /// Sizes of a block (m), corner to corner, that a wall can have: smaller or larger ones are a wrong unit.
@@ -46,6 +50,8 @@ pub struct Draft {
     pub tag: Tag,
     /// The stone that it is a part of.
     pub group: Option<String>,
+    /// What it holds where its vertices are those of a hull, in the file's unit.
+    pub scan: Option<MassProperties>,
     /// Whether the file's text about it could be read; if not, its faults have been told.
     pub readable: bool,
 }
@@ -61,6 +67,19 @@ pub struct WallFile {
     pub names: Vec<String>,
     /// What a careful reader would like to know.
     pub warnings: Vec<String>,
+}
+
+impl WallFile {
+    /// The wall as it stands: on its own fixed blocks, or on the platform.
+    pub fn on_ground(&self) -> WallFile {
+        let mut grounded = self.clone();
+        if !self.wall.has_base() {
+            grounded.wall = grounded.wall.with_base();
+            grounded.ids.push(u64::MAX);
+            grounded.names.push("the platform (the plane z = 0)".to_owned());
+        }
+        grounded
+    }
 }
 
 /// Checks every block and puts the wall together; `faults` holds what the reading has found already, ``options` what is allowed
@@ -88,7 +107,7 @@ pub fn build(
         WallFile { wall: Wall::default(), ids: Vec::new(), names: Vec::new(), warnings: Vec::new() };
     for draft in drafts.into_iter().filter(|draft| draft.readable) {
         let line = draft.line;
-        let found = match checked(&draft, unit, options.flatness, &mut mended, &mut warnings) {
+        let found = match checked(&draft, unit, options, &mut mended, &mut warnings) {
             Ok(block) => {
                 file.wall.blocks.push(block);
                 file.ids.push(draft.id.unwrap_or(0));
@@ -102,9 +121,21 @@ pub fn build(
             faults.push(fault.at(line, 0));
         }
     }
+    if options.scan_bearing.is_some() {
+        lower(&mut file.wall);
+    }
     warnings.extend(mended.told(options.flatness));
     file.warnings = warnings;
     if faults.is_empty() { Ok(file) } else { Err(faults) }
+}
+
+/// Lowers stones without ground onto the plane z = 0.
+fn lower(wall: &mut Wall) {
+    if wall.blocks.is_empty() || wall.blocks.iter().any(|block| block.support == Support::Fixed) {
+        return;
+    }
+    let down = Vec3::new(0.0, 0.0, -wall.bounds().0.z);
+    wall.blocks.iter_mut().for_each(|block| block.shift(&down));
 }
 
 fn same_ids(drafts: &[Draft], faults: &mut WallFaults) {
@@ -170,13 +201,17 @@ fn groups(drafts: &[Draft], faults: &mut WallFaults, warnings: &mut Vec<String>)
 fn checked(
     draft: &Draft,
     unit: Unit,
-    flatness: Option<f64>,
+    options: &ReadOptions,
     mended: &mut Mended,
     warnings: &mut Vec<String>,
 ) -> Result<Block, Vec<Fault>> {
-    let vertices: Vec<Vec3> = draft.vertices.iter().map(|v| v / unit.per_metre()).collect();
+    let turn = turned(options.turn);
+    let in_metres = |v: &Vec3| v / unit.per_metre();
+    let vertices: Vec<Vec3> =
+        draft.vertices.iter().map(|v| turn.map_or(in_metres(v), |t| t * in_metres(v))).collect();
+    let bearing = options.scan_bearing.filter(|_| !draft.fixed);
     let mut faults = density(draft);
-    let mut numbers = counts(draft);
+    let mut numbers = counts(draft, if bearing.is_some() { MOST_SCANNED } else { MOST_VERTICES });
     numbers.extend(coordinates(draft, &vertices));
     let (faces, outside) = indices(draft);
     numbers.extend(outside);
@@ -186,7 +221,11 @@ fn checked(
         return Err(faults);
     }
     faults.extend(size(draft, &vertices, unit));
-    let solid = solid(&draft.name, &vertices, &faces, flatness);
+    if let (Some(bearing), true) = (bearing, faults.is_empty()) {
+        let stone = scanned(&draft.name, &vertices, &faces, bearing)?;
+        return Ok(block(draft, stone.hull, Some(stone.holds)));
+    }
+    let solid = solid(&draft.name, &vertices, &faces, options.flatness);
     let (Ok(solid), true) = (&solid, faults.is_empty()) else {
         faults.extend(solid.err().unwrap_or_default());
         return Err(faults);
@@ -197,13 +236,38 @@ fn checked(
         let idle = vertices.len() - used.len();
         warnings.push(format!("{}: {idle} vertices belong to no face and are dropped", draft.name));
     }
-    Ok(Block {
-        shape: solid.shape.clone(),
+    let scan = draft.scan.map(|scan| {
+        let scan = in_unit(&scan, 1.0 / unit.per_metre());
+        turn.map_or(scan, |turn| scan.mapped(&turn))
+    });
+    Ok(block(draft, solid.shape.clone(), scan))
+}
+
+fn block(draft: &Draft, shape: Polyhedron, scan: Option<MassProperties>) -> Block {
+    Block {
+        shape,
         density: draft.density.unwrap_or(FIXED_DENSITY),
         support: if draft.fixed { Support::Fixed } else { Support::Free },
         tag: draft.tag.clone(),
         group: draft.group.clone(),
-    })
+        scan,
+    }
+}
+
+/// The turn about the z axis by an angle (rad); `None` of none, which leaves every bit as it is.
+fn turned(angle: f64) -> Option<Mat3> {
+    let (s, c) = (sin(angle), cos(angle));
+    (angle != 0.0).then(|| Mat3::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0))
+}
+
+/// In another unit of length, of which one of before has so many.
+fn in_unit(scan: &MassProperties, length: f64) -> MassProperties {
+    let volume = length * length * length;
+    MassProperties {
+        volume: scan.volume * volume,
+        centroid: scan.centroid * length,
+        inertia: scan.inertia * (volume * length * length),
+    }
 }
 
 fn density(draft: &Draft) -> Vec<Fault> {
@@ -222,17 +286,12 @@ fn density(draft: &Draft) -> Vec<Fault> {
     }
 }
 
-fn counts(draft: &Draft) -> Vec<Fault> {
+fn counts(draft: &Draft, most: usize) -> Vec<Fault> {
     let mut faults = Vec::new();
     for (n, what) in [(draft.vertices.len(), "vertices"), (draft.faces.len(), "faces")] {
-        if !(4..=MOST_VERTICES).contains(&n) {
+        if !(4..=most).contains(&n) {
             let fix = if n < 4 { "a solid needs at least 4" } else { "simplify the block's surface" };
-            faults.push(Fault::of(
-                &draft.name,
-                format!("{n} {what}"),
-                format!("4 to {MOST_VERTICES} {what}"),
-                fix,
-            ));
+            faults.push(Fault::of(&draft.name, format!("{n} {what}"), format!("4 to {most} {what}"), fix));
         }
     }
     faults

@@ -16,10 +16,20 @@ struct Entry<'a> {
     tag: &'a str,
     #[serde(skip_serializing_if = "Option::is_none")]
     group: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    scan: Option<Scan>,
+}
+
+/// What a stone holds where its faces are those of the hull of its scan.
+#[derive(Serialize)]
+struct Scan {
+    volume: f64,
+    centroid: Vec3,
+    inertia: [[f64; 3]; 3],
 }
 
 /// The wall as `wall.json`: `{"unit":"m","blocks":[{"id","vertices":[[x,y,z],...],"faces":[[i,j,k,...],...],"density",
-/// "fixed","tag","group"},...]}`; `group` for the parts of a stone only.
+/// "fixed","tag","group","scan"},...]}`; `group` for the parts of a stone only, `scan` for the hull of one.
 ///
 /// Axes: x along the wall, y out of plane (positive downhill), z up. Faces run counter-clockwise seen from outside
 /// and count their block's vertices from 0; densities are in kg/m^3. One block per line; every number is the
@@ -46,6 +56,12 @@ pub fn write_wall_json(wall: &Wall) -> String {
                 fixed: block.support == Support::Fixed,
                 tag: block.tag.name(),
                 group: block.group.as_deref(),
+                scan: block.scan.map(|scan| Scan {
+                    volume: scan.volume,
+                    centroid: scan.centroid,
+                    // Symmetric: rows are columns.
+                    inertia: scan.inertia.into(),
+                }),
             })
             .expect("numbers, lists and names always have a JSON form")
         })
@@ -68,6 +84,7 @@ mod tests {
             support: Support::Free,
             tag: Tag::Header,
             group: None,
+            scan: None,
         };
         Wall { blocks: vec![stone] }.with_base()
     }

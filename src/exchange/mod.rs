@@ -12,6 +12,7 @@ mod obj;
 mod read;
 mod read_json;
 mod read_obj;
+mod scan;
 mod solid;
 
 pub use draft::WallFile;

@@ -74,6 +74,7 @@ mod tests {
             support: Support::Free,
             tag: Tag::Stone,
             group: None,
+            scan: None,
         };
         let wall = Wall { blocks: vec![solid(0.0), solid(0.1 + 0.2)] };
         let (mut vertices, mut solids): (Vec<Vec3>, Vec<(String, Polyhedron)>) = (vec![], vec![]);

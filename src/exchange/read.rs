@@ -83,6 +83,11 @@ pub struct ReadOptions {
     /// and how far corners were moved is told. Without it, or where it is less, 1e-4 of the block's size is allowed, and
     /// nothing is moved.
     pub flatness: Option<f64>,
+    /// The objects of an OBJ file are scans of stones, of any shape: how far (m) above its lowest point a stone bears. Each touches others as
+    /// its hull, and weighs as its scan. A file without fixed blocks is lowered onto the plane z = 0.
+    pub scan_bearing: Option<f64>,
+    /// By how much all is turned about the z axis (rad), counter-clockwise seen from above.
+    pub turn: f64,
     /// Whether a wall without a fixed block is one: it stands on a platform that is put under it.
     pub on_platform: bool,
 }

@@ -10,18 +10,20 @@ use crate::exchange::fault::{Fault, WallFaults};
 use crate::exchange::json_node::{MOST_VALUES, Node, NodeSeed};
 use crate::exchange::json_place::syntax_fault;
 use crate::exchange::{ReadOptions, Unit};
-use crate::math::{Vec3, edit_distance};
+use crate::math::{Mat3, Vec3, edit_distance};
 use crate::model::Tag;
+use crate::shape::MassProperties;
 
 const KEYS: [&str; 2] = ["unit", "blocks"];
-const BLOCK_KEYS: [&str; 7] = ["id", "vertices", "faces", "density", "fixed", "tag", "group"];
+const BLOCK_KEYS: [&str; 8] = ["id", "vertices", "faces", "density", "fixed", "tag", "group", "scan"];
 
 /// A wall from the text of a `wall.json` (see [`crate::exchange::write_wall_json`]).
 ///
 /// `unit` is `m` (default), `cm` or `mm`. Every block has `id` (whole, unique), `vertices` and `faces`; `density`
 /// (kg/m^3) unless it is fixed; `fixed` (default false) and `tag` (default `stone`, or `base` where fixed): `stone`, `header`,
 /// `wedge`, `base`, `end` or a word of one's own, which is a stone. Blocks with the same `group` (a name) are the convex parts of
-/// one rigid stone. Other keys are refused. Corners of neighbouring faces within 1e-4 of the block are one, also where a corner
+/// one rigid stone. `scan` (`volume`, `centroid`, `inertia` about the centroid, at unit density) is what a stone holds whose faces are
+/// those of its hull. Other keys are refused. Corners of neighbouring faces within 1e-4 of the block are one, also where a corner
 /// of one face lies on the edge of another; coplanar faces are merged.
 ///
 /// # Errors
@@ -221,6 +223,7 @@ fn draft(reading: &Reading, place: usize, node: Node) -> Draft {
         fixed: false,
         tag: Tag::Stone,
         group: None,
+        scan: None,
         readable: true,
         name: name.clone(),
     };
@@ -250,8 +253,41 @@ fn draft(reading: &Reading, place: usize, node: Node) -> Draft {
         Some(node) => wrong("group", node, "a name that all parts of a stone have", "write it in quotes"),
         None => {}
     }
+    if let Some(node) = get("scan") {
+        block.scan = scan(node);
+        if block.scan.is_none() {
+            let allowed = "{\"volume\": V, \"centroid\": [x, y, z], \"inertia\": [[..], [..], [..]]} with a volume above 0";
+            wrong(
+                "scan",
+                node,
+                allowed,
+                "give what the stone itself holds, at unit density and in the file's unit of length",
+            );
+        }
+    }
     block.readable = reading.faults.borrow().count() == before;
     block
+}
+
+/// What a stone holds whose vertices are those of the hull of its scan.
+fn scan(node: &Node) -> Option<MassProperties> {
+    let Node::Object(entries) = node else { return None };
+    let get = |key: &str| entries.iter().find(|(k, _)| k == key).map(|(_, node)| node);
+    let triple = |node: &Node| match node {
+        Node::List(list) => match list[..] {
+            [Node::Number(x), Node::Number(y), Node::Number(z)] => Some(Vec3::new(x, y, z)),
+            _ => None,
+        },
+        _ => None,
+    };
+    let (Some(Node::Number(volume)), Some(Node::List(rows))) = (get("volume"), get("inertia")) else {
+        return None;
+    };
+    let [a, b, c] = rows.iter().map(triple).collect::<Option<Vec<Vec3>>>()?[..] else { return None };
+    let inertia = Mat3::from_rows(&[a.transpose(), b.transpose(), c.transpose()]);
+    let centroid = triple(get("centroid")?)?;
+    let is_whole = entries.len() == 3 && *volume > 0.0 && inertia.symmetric_eigenvalues().min() > 0.0;
+    is_whole.then_some(MassProperties { volume: *volume, centroid, inertia })
 }
 
 /// Unknown, repeated and missing keys.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::exchange::closing::closes;
-use crate::exchange::draft::{Draft, MOST_BLOCKS, MOST_VERTICES, WallFile, build};
+use crate::exchange::draft::{Draft, MOST_BLOCKS, MOST_SCANNED, MOST_VERTICES, WallFile, build};
 use crate::exchange::fault::{Fault, WallFaults};
 use crate::exchange::solid::{FLATNESS, diagonal};
 use crate::exchange::{ReadOptions, Unit};
@@ -45,6 +45,7 @@ pub fn read_obj(text: &str, options: &ReadOptions) -> Result<WallFile, WallFault
         by_groups: !text.lines().any(|line| line.split_whitespace().next() == Some("o")),
         place: 0,
         noted_density: None,
+        most: if options.scan_bearing.is_some() { MOST_SCANNED } else { MOST_VERTICES },
     };
     if text.trim().is_empty() {
         let fix = "see `pirca analyse --help`";
@@ -143,6 +144,8 @@ struct Reader {
     place: usize,
     /// The density that a comment has given to the next object (kg/m^3).
     noted_density: Option<f64>,
+    /// Most faces of an object.
+    most: usize,
 }
 
 impl Reader {
@@ -248,14 +251,15 @@ impl Reader {
         }
         let Some(object) = self.objects.last_mut() else { return };
         object.faces.push(face);
-        if object.faces.len() == MOST_VERTICES + 1 {
+        let most = self.most;
+        if object.faces.len() == most + 1 {
             self.fault(
                 line,
                 "too many faces".to_owned(),
-                &format!("at most {MOST_VERTICES} in a block"),
-                "one object per block; simplify its surface",
+                &format!("at most {most} in a block"),
+                "one object per block; simplify its surface, or say that it is a scan (--scan-bearing)",
             );
-        } else if object.faces.len() > MOST_VERTICES {
+        } else if object.faces.len() > most {
             object.faces.pop();
         }
     }
@@ -281,6 +285,7 @@ impl Reader {
                 fixed: fixed_by_name,
                 tag: tag(&object.name).unwrap_or(if fixed_by_name { Tag::Base } else { Tag::Stone }),
                 group: whole(&object.name).map(str::to_owned),
+                scan: None,
                 readable: object.readable,
             };
             if draft.fixed {

@@ -69,6 +69,7 @@ pub fn running_bond(courses: usize, whole: usize) -> Wall {
                 support: Support::Free,
                 tag: Tag::Stone,
                 group: None,
+                scan: None,
             });
         }
     }

@@ -103,8 +103,8 @@ pub fn mean_density(wall: &Wall) -> f64 {
 
 /// Mass (kg) and volume (m^3) of a wall's stones.
 fn mass_and_volume(wall: &Wall) -> [f64; 2] {
-    let mass = wall.stones().map(|(_, block)| block.density * block.shape.volume()).sum();
-    [mass, wall.stones().map(|(_, block)| block.shape.volume()).sum()]
+    let mass = wall.stones().map(|(_, block)| block.mass()).sum();
+    [mass, wall.stones().map(|(_, block)| block.volume()).sum()]
 }
 
 /// The wall of a file, its stones made as much heavier or lighter as their mean density (kg/m^3) asks.
@@ -176,6 +176,7 @@ fn finish(draft: Draft, stones: Vec<Stone>, attempts: u32) -> Generated {
                 support: Support::Free,
                 tag: stone.tag,
                 group: None,
+                scan: None,
             }
         })
         .collect();

@@ -1,6 +1,7 @@
 //! A block: a rigid convex stone, a wedge, or a piece of the surroundings.
 
-use crate::shape::Polyhedron;
+use crate::math::Vec3;
+use crate::shape::{MassProperties, Polyhedron};
 
 /// A rigid convex block in world coordinates.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,6 +18,34 @@ pub struct Block {
     /// convex parts make a concave stone. They may touch and overlap without a joint; what they share weighs twice.
     /// `None` (usual): a body of its own.
     pub group: Option<String>,
+    /// What the stone holds where `shape` is only the convex hull of its scan, by which it touches others: volume, centroid and inertia
+    /// of the scan. `None` (usual): the shape is the stone.
+    pub scan: Option<MassProperties>,
+}
+
+impl Block {
+    /// Volume (m^3), centroid (m) and inertia (m^5) of the stone at unit density, in world coordinates.
+    pub fn mass_properties(&self) -> MassProperties {
+        self.scan.unwrap_or_else(|| self.shape.mass_properties())
+    }
+
+    /// Volume of the stone (m^3).
+    pub fn volume(&self) -> f64 {
+        self.mass_properties().volume
+    }
+
+    /// Mass (kg).
+    pub fn mass(&self) -> f64 {
+        self.density * self.volume()
+    }
+
+    /// Moves it along `by` (m).
+    pub fn shift(&mut self, by: &Vec3) {
+        self.shape = self.shape.translated(by);
+        if let Some(scan) = &mut self.scan {
+            scan.centroid += by;
+        }
+    }
 }
 
 /// How a block is held.

@@ -15,7 +15,7 @@ use crate::model::Block;
 /// use pirca::shape::Polyhedron;
 /// // The smallest cell of a half bond: one stone of 0.4 x 0.3 x 0.2 m.
 /// let shape = Polyhedron::cuboid(Vec3::new(0.0, -0.15, 0.0), Vec3::new(0.4, 0.15, 0.2));
-/// let stone = Block { shape, density: 2400.0, support: Support::Free, tag: Tag::Stone, group: None };
+/// let stone = Block { shape, density: 2400.0, support: Support::Free, tag: Tag::Stone, group: None, scan: None };
 /// let cell = Cell { blocks: vec![stone], lattice: [[0.4, 0.0], [0.2, 0.2]], thickness: 0.3 };
 /// assert!((cell.area() - 0.08).abs() < 1e-15 && (cell.solid_share() - 1.0).abs() < 1e-12);
 /// // The stone on top of it to its left.
@@ -47,6 +47,6 @@ impl Cell {
 
     /// Share of the plate that is stone: 1 less the open slots in head joints.
     pub fn solid_share(&self) -> f64 {
-        self.blocks.iter().map(|block| block.shape.volume()).sum::<f64>() / (self.area() * self.thickness)
+        self.blocks.iter().map(Block::volume).sum::<f64>() / (self.area() * self.thickness)
     }
 }

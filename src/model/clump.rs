@@ -159,7 +159,14 @@ mod tests {
 
     fn block(support: Support, group: Option<&str>) -> Block {
         let shape = Polyhedron::cuboid(Vec3::zeros(), Vec3::new(0.2, 0.12, 0.06));
-        Block { shape, density: 2400.0, support, tag: Tag::Stone, group: group.map(str::to_owned) }
+        Block {
+            shape,
+            density: 2400.0,
+            support,
+            tag: Tag::Stone,
+            group: group.map(str::to_owned),
+            scan: None,
+        }
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::law::Coulomb;
-use crate::math::Vec3;
+use crate::math::{Mat3, Vec3};
 use crate::model::{Block, Support, Tag};
 use crate::shape::Polyhedron;
 
@@ -97,7 +97,7 @@ impl Wall {
     pub fn about_local_origin(&self) -> (Vec3, Wall) {
         let (origin, mut wall) = (self.local_origin(), self.clone());
         for block in &mut wall.blocks {
-            block.shape = block.shape.translated(&-origin);
+            block.shift(&-origin);
         }
         (origin, wall)
     }
@@ -108,6 +108,10 @@ impl Wall {
         for vertex in self.blocks.iter_mut().flat_map(|block| &mut block.shape.vertices) {
             vertex.y += slope * vertex.z;
         }
+        let lean = Mat3::new(1.0, 0.0, 0.0, 0.0, 1.0, slope, 0.0, 0.0, 1.0);
+        for scan in self.blocks.iter_mut().filter_map(|block| block.scan.as_mut()) {
+            *scan = scan.mapped(&lean);
+        }
         self
     }
 
@@ -116,6 +120,10 @@ impl Wall {
     pub fn turned(mut self, length: f64) -> Wall {
         for vertex in self.blocks.iter_mut().flat_map(|block| &mut block.shape.vertices) {
             (vertex.x, vertex.y) = (length - vertex.x, -vertex.y);
+        }
+        for scan in self.blocks.iter_mut().filter_map(|block| block.scan.as_mut()) {
+            *scan = scan.mapped(&Mat3::from_diagonal(&Vec3::new(-1.0, -1.0, 1.0)));
+            scan.centroid.x += length;
         }
         self
     }
@@ -140,6 +148,7 @@ impl Wall {
             support: Support::Fixed,
             tag: Tag::Base,
             group: None,
+            scan: None,
         });
         self
     }

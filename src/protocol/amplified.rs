@@ -62,9 +62,9 @@ fn bodies(wall: &Wall, centroids: &[Vec3]) -> Vec<Vec3> {
     let leads = wall.leads();
     let mut sums = vec![(0.0, Vec3::zeros()); centroids.len()];
     for (id, block) in wall.blocks.iter().enumerate() {
-        let mass = block.density * block.shape.volume();
+        let (mass, own) = (block.mass(), block.mass_properties().centroid);
         let (all, moment) = sums[leads[id]];
-        sums[leads[id]] = (all + mass, moment + centroids[id] * mass);
+        sums[leads[id]] = (all + mass, moment + own * mass);
     }
     let of = |id: usize| {
         let (mass, moment) = sums[leads[id]];

@@ -94,9 +94,7 @@ impl Events {
 /// Takes a wall along its load path until the event that is its capacity; `run` takes what is left of it, `none` being the load
 /// at the beginning of the path.
 pub fn in_parts(wall: &Wall, shares: &EventShares, none: Level, run: impl Fn(&Wall) -> Run) -> Run {
-    let weight = |wall: &Wall| {
-        movable(wall).map(|(_, stone)| stone.density * stone.shape.volume()).fold(0.0, |sum, w| sum + w)
-    };
+    let weight = |wall: &Wall| movable(wall).map(|(_, stone)| stone.mass()).fold(0.0, |sum, w| sum + w);
     let all = weight(wall);
     let (mut left, mut events) = (wall.clone(), Events::default());
     let mut seen: Option<Run> = None;

@@ -25,6 +25,7 @@ pub fn restrain(wall: &Wall, restraint: &Restraint, towards: Direction) -> Wall 
         support: Support::Fixed,
         tag,
         group: None,
+        scan: None,
     };
     if let Some(height) = restraint.base.strip_height {
         let (from, to) = strip(wall, height, towards);

@@ -79,6 +79,6 @@ pub fn typical_size(wall: &Wall) -> f64 {
     let leads = wall.leads();
     let (count, volume) = wall
         .stones()
-        .fold((0u32, 0.0), |(n, v), (id, block)| (n + u32::from(leads[id] == id), v + block.shape.volume()));
+        .fold((0u32, 0.0), |(n, v), (id, block)| (n + u32::from(leads[id] == id), v + block.volume()));
     cbrt(volume / f64::from(count.max(1)))
 }

@@ -249,7 +249,7 @@ impl<'l> Stiff<'l> {
         let corners = || moving().flat_map(|block| &block.shape.vertices).map(|v| v.z);
         let height = corners().fold(f64::NEG_INFINITY, f64::max) - corners().fold(f64::INFINITY, f64::min);
         let heaviest = moving().map(|block| block.density).fold(0.0, f64::max);
-        let volume = moving().map(|block| block.shape.volume()).fold(0.0, |sum, volume| sum + volume);
+        let volume = moving().map(|block| block.volume()).fold(0.0, |sum, volume| sum + volume);
         let size = cbrt(volume / moving().count() as f64);
         let closes = (CLOSES * size).max(SMOOTHS * misfit);
         let kn = heaviest * STANDARD_GRAVITY * height / closes;

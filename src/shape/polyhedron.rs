@@ -35,6 +35,18 @@ impl MassProperties {
         }
     }
 
+    /// Those of the solid that a linear map about the origin, which turns nothing inside out, makes of it.
+    pub fn mapped(&self, map: &Mat3) -> MassProperties {
+        let scale = map.determinant();
+        let second = Mat3::identity() * (0.5 * self.inertia.trace()) - self.inertia;
+        let second = map * second * map.transpose() * scale;
+        MassProperties {
+            volume: self.volume * scale,
+            centroid: map * self.centroid,
+            inertia: Mat3::identity() * second.trace() - second,
+        }
+    }
+
     /// Those of several solids as one; where two of them share a place it counts twice. Undefined for none.
     pub fn together(parts: &[MassProperties]) -> MassProperties {
         let volume: f64 = parts.iter().map(|part| part.volume).sum();

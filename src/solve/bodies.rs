@@ -92,7 +92,7 @@ impl Bodies {
         let mut shapes = Vec::with_capacity(wall.blocks.len());
         let (origin, wall) = wall.about_local_origin();
         for block in &wall.blocks {
-            let properties = block.shape.mass_properties();
+            let properties = block.mass_properties();
             let centred = block.shape.translated(&-properties.centroid);
             let radius = centred.vertices.iter().map(|v| v.norm()).fold(0.0, f64::max);
             let body = Body::at_rest(&properties, block.density, block.support, radius);
@@ -102,6 +102,10 @@ impl Bodies {
         let (carriers, centroids) = ((0..all.len()).collect(), vec![Vec3::zeros(); all.len()]);
         let (wholes, merged) = (BTreeMap::new(), BTreeSet::new());
         let mut bodies = Bodies { all, shapes, carriers, origin, wholes, merged, centroids };
+        for (block, properties) in wall.blocks.iter().enumerate().filter_map(|(id, b)| Some((id, b.scan?))) {
+            let off = wall.blocks[block].shape.mass_properties().centroid - properties.centroid;
+            bodies.centroids[block] = bodies.all[block].rotation.tr_mul(&off);
+        }
         for (lead, parts) in wall.parts() {
             bodies.unite(&wall, lead, &parts);
         }
@@ -112,7 +116,7 @@ impl Bodies {
     fn unite(&mut self, wall: &Wall, lead: usize, parts: &[usize]) {
         let own: Vec<MassProperties> = parts
             .iter()
-            .map(|&part| wall.blocks[part].shape.mass_properties().times(wall.blocks[part].density))
+            .map(|&part| wall.blocks[part].mass_properties().times(wall.blocks[part].density))
             .collect();
         let whole = MassProperties::together(&own);
         let far = |part: &usize| {
@@ -122,10 +126,11 @@ impl Bodies {
         let radius = parts.iter().map(far).fold(0.0, f64::max);
         // The masses are in the properties: the density is 1.
         let body = Body::at_rest(&whole, 1.0, wall.blocks[lead].support, radius);
-        for (&part, own) in parts.iter().zip(&own) {
+        for &part in parts {
             let shape = wall.blocks[part].shape.translated(&-body.position);
             self.shapes[part] = shape.moved(&body.rotation.transpose(), &Vec3::zeros());
-            self.centroids[part] = body.rotation.tr_mul(&(own.centroid - body.position));
+            let middle = wall.blocks[part].shape.mass_properties().centroid;
+            self.centroids[part] = body.rotation.tr_mul(&(middle - body.position));
             self.carriers[part] = lead;
             self.all[part].freedom = Freedom::Fixed;
         }

@@ -171,6 +171,7 @@ mod tests {
             support: Support::Free,
             tag: Tag::Stone,
             group: None,
+            scan: None,
         };
         let mut body = Bodies::from_wall(&Wall { blocks: vec![block] }).all.remove(0);
         let jack = Tie { travel: 2.0, two_sided: true, pretension: 0.0, ..ROPE };
@@ -186,7 +187,14 @@ mod tests {
     #[test]
     fn its_stiffness_is_that_of_central_differences() {
         let shape = Polyhedron::cuboid(Vec3::zeros(), Vec3::new(0.4, 0.3, 0.1));
-        let block = Block { shape, density: 2400.0, support: Support::Free, tag: Tag::Stone, group: None };
+        let block = Block {
+            shape,
+            density: 2400.0,
+            support: Support::Free,
+            tag: Tag::Stone,
+            group: None,
+            scan: None,
+        };
         let mut body = Bodies::from_wall(&Wall { blocks: vec![block] }).all.remove(0);
         let here = body.clone();
         body.place(&here, &Vec3::new(1e-3, 2e-3, -1e-3), &Vec3::new(0.02, -0.03, 0.05));

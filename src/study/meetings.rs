@@ -200,7 +200,7 @@ fn length(metres: f64) -> String {
 }
 
 fn deepest_allowed(wall: &Wall, pair: &Pair) -> f64 {
-    let edge = |i: usize| cbrt(wall.blocks[i].shape.volume());
+    let edge = |i: usize| cbrt(wall.blocks[i].volume());
     DEEPEST * edge(pair.blocks.0).min(edge(pair.blocks.1))
 }
 

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use crate::exchange::{self, ReadOptions, Unit, Up, WallFaults, WallFile, read_wall_bytes, wall_bytes};
 use crate::generate::{Arrangement, BatteredFace, Layout, Limits, Outline, Wythes, mean_density};
+use crate::math::radians;
 use crate::model::{Support, Tag, Wall};
 use crate::random::Family;
 use crate::study::catalogue::Catalogue;
@@ -16,9 +17,10 @@ use crate::study::meetings::{TOUCH, Tolerance, look};
 use crate::study::reader::{Reader, join};
 
 /// Options of `analyse` that messages about a file name, with the keys of an arm that say the same.
-const SAME: [(&str, &str); 3] = [
+const SAME: [(&str, &str); 4] = [
     ("--touch-tolerance", "touch_tolerance_m"),
     ("--flatness", "flatness_m"),
+    ("--scan-bearing", "scan_bearing_m"),
     ("--density-kg-per-m3", "unstated_density_kg_per_m3"),
 ];
 
@@ -81,7 +83,7 @@ impl WallFiles {
             }
         };
         let read = stones_first(read_wall_bytes(file, &bytes, &asked.options)?);
-        let fit = look(&on_ground(&read), asked.tolerance, file)?;
+        let fit = look(&read.on_ground(), asked.tolerance, file)?;
         Ok(Standing {
             wall: Arc::new(read.wall),
             joints: fit.joints,
@@ -109,17 +111,6 @@ fn stones_first(file: WallFile) -> WallFile {
         ordered.names.push(name);
     }
     ordered
-}
-
-/// The wall as it stands: on its own fixed blocks, or on the platform.
-fn on_ground(file: &WallFile) -> WallFile {
-    let mut grounded = file.clone();
-    if !file.wall.has_base() {
-        grounded.wall = grounded.wall.with_base();
-        grounded.ids.push(u64::MAX);
-        grounded.names.push("the platform (the plane z = 0)".to_owned());
-    }
-    grounded
 }
 
 /// What is wrong with a file, among the faults of a study.
@@ -218,7 +209,7 @@ fn of_standing(file: String, standing: &Standing, density: f64) -> Layout {
 fn asked(t: &mut Reader<'_>, file: &str) -> Option<Asked> {
     let before = t.notes.faults.len();
     if !file.to_ascii_lowercase().ends_with(".obj") {
-        for key in ["unit", "up_axis", "unstated_density_kg_per_m3"] {
+        for key in ["unit", "up_axis", "unstated_density_kg_per_m3", "scan_bearing_m"] {
             if t.has(key) {
                 t.fault(
                     key,
@@ -233,11 +224,14 @@ fn asked(t: &mut Reader<'_>, file: &str) -> Option<Asked> {
     let mut real = |key: &str| if t.has(key) { t.real(key) } else { None };
     let density = real("unstated_density_kg_per_m3");
     let (flatness, touch) = (real("flatness_m"), real("touch_tolerance_m"));
+    let (scan_bearing, turn) = (real("scan_bearing_m"), real("turn_deg"));
     let options = ReadOptions {
         unit,
         density,
         up: if up == Some("y") { Up::Y } else { Up::Z },
         flatness,
+        scan_bearing,
+        turn: radians(turn.unwrap_or(0.0)),
         on_platform: true,
     };
     let asked = Asked { options, tolerance: touch.map_or(Tolerance::Share(TOUCH), Tolerance::Length) };

@@ -25,7 +25,7 @@ fn overturns() -> f64 {
 fn block() -> Wall {
     let own = |support, low: [f64; 3], high: [f64; 3]| {
         let shape = Polyhedron::cuboid(Vec3::from(low), Vec3::from(high));
-        Block { shape, density: 2400.0, support, tag: Tag::Stone, group: None }
+        Block { shape, density: 2400.0, support, tag: Tag::Stone, group: None, scan: None }
     };
     Wall {
         blocks: vec![

@@ -34,7 +34,7 @@ pub fn dry(kn: f64, phi_deg: f64) -> Coulomb {
 
 /// A free stone.
 pub fn stone(shape: Polyhedron, density: f64) -> Block {
-    Block { shape, density, support: Support::Free, tag: Tag::Stone, group: None }
+    Block { shape, density, support: Support::Free, tag: Tag::Stone, group: None, scan: None }
 }
 
 /// A box of the given size resting on z = 0, centred on x = y = 0.

@@ -46,6 +46,7 @@ mod ropes;
 mod roughness;
 mod roughness_tables;
 mod roughness_walls;
+mod scanned;
 mod shapes;
 mod shear;
 mod side_thrust;

@@ -104,7 +104,7 @@ pub(super) fn plate_of(
 ) -> Result<Plate, NoPlate> {
     check_plate(arm, protocol)?;
     let outline = &arm.layout.outline;
-    let mass: f64 = cell.blocks.iter().map(|block| block.density * block.shape.volume()).sum();
+    let mass: f64 = cell.blocks.iter().map(|block| block.mass()).sum();
     let weight = mass * STANDARD_GRAVITY / cell.area();
     let (live, base_over_top) = match protocol {
         Protocol::Lateral(lateral) => (Vec3::y() * lateral.mean_pressure, lateral.base_over_top),

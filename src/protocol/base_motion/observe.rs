@@ -135,7 +135,7 @@ impl Observer {
         let bodies = &at_rest.bodies;
         let mut weights: BTreeMap<usize, f64> = BTreeMap::new();
         for (block, stone) in movable(wall) {
-            *weights.entry(bodies.carriers[block]).or_default() += stone.density * stone.shape.volume();
+            *weights.entry(bodies.carriers[block]).or_default() += stone.mass();
         }
         let stone = |(body, weight): (&usize, &f64)| Stone {
             body: *body,

@@ -245,7 +245,7 @@ impl Test {
         for (id, block) in movable(task.wall) {
             let height = now.centroid_in(before, id).z + now.origin.z - foot;
             if moved[id].x.abs() >= far * height && drift != 0.0 {
-                let own = block.density * block.shape.volume();
+                let own = block.mass();
                 turn += own * turns[id].y / drift;
                 mass += own;
             }

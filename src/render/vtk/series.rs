@@ -58,7 +58,14 @@ mod tests {
     fn a_replay_is_two_collections_with_a_file_for_every_state() {
         let shape = Polyhedron::cuboid(Vec3::zeros(), Vec3::new(1.0, 1.0, 1.0));
         let polygon = shape.vertices[..4].to_vec();
-        let block = Block { shape, density: 2400.0, support: Support::Free, tag: Tag::Stone, group: None };
+        let block = Block {
+            shape,
+            density: 2400.0,
+            support: Support::Free,
+            tag: Tag::Stone,
+            group: None,
+            scan: None,
+        };
         let wall = Wall { blocks: vec![block] };
         let joint = |blocks| BuiltJoint {
             blocks,

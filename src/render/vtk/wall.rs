@@ -60,7 +60,7 @@ fn written(
         array(text, "UInt8", "tag", 1, blocks.iter().map(|b| tag_number(&b.tag)));
         array(text, "UInt8", "held", 1, blocks.iter().map(|b| u8::from(b.support == Support::Fixed)));
         array(text, "Float64", "density", 1, blocks.iter().map(|b| b.density));
-        array(text, "Float64", "volume", 1, blocks.iter().map(|b| b.shape.volume()));
+        array(text, "Float64", "volume", 1, blocks.iter().map(|b| b.volume()));
         if let Some(moved) = moved {
             array(text, "Float64", "displacement", 3, moved.iter().map(|movement| vector(&movement.shift)));
         }
@@ -130,6 +130,7 @@ mod tests {
             support: Support::Free,
             tag,
             group: None,
+            scan: None,
         };
         let aside = solid.translated(&Vec3::new(2.0, 0.0, 0.0));
         Wall { blocks: vec![block(half.unwrap(), Tag::Wedge), block(aside, Tag::Stone)] }

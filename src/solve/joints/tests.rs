@@ -29,6 +29,7 @@ fn pair(law: &Coulomb) -> Assembly<'_> {
         support: Support::Free,
         tag: Tag::Stone,
         group: None,
+        scan: None,
     };
     let wall = Wall {
         blocks: vec![block([0.0, 0.0, 0.0], [0.4, 0.3, 0.1]), block([0.15, 0.05, 0.1], [0.5, 0.25, 0.25])],

@@ -77,7 +77,7 @@ pub(crate) struct Blocks {
 
 impl Rigid {
     pub fn of(block: &Block) -> Rigid {
-        let mass = block.shape.mass_properties();
+        let mass = block.mass_properties();
         let radius = block.shape.vertices.iter().map(|v| (v - mass.centroid).norm()).fold(0.0, f64::max);
         Rigid {
             centroid: mass.centroid,
@@ -205,7 +205,7 @@ impl Blocks {
 fn whole(wall: &Wall, parts: &[usize]) -> Rigid {
     let blocks = || parts.iter().map(|&part| &wall.blocks[part]);
     let masses: Vec<MassProperties> =
-        blocks().map(|block| block.shape.mass_properties().times(block.density)).collect();
+        blocks().map(|block| block.mass_properties().times(block.density)).collect();
     let MassProperties { volume: mass, centroid, .. } = MassProperties::together(&masses);
     let corners = blocks().flat_map(|block| &block.shape.vertices);
     let radius = corners.map(|v| (v - centroid).norm()).fold(0.0, f64::max);

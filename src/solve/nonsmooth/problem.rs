@@ -160,7 +160,7 @@ pub(super) mod fixture {
             let bottom = 0.2 * k as f64;
             let shape = Polyhedron::cuboid(Vec3::new(-0.2, -0.1, bottom), Vec3::new(0.2, 0.1, bottom + 0.2));
             let support = if k == 0 { Support::Fixed } else { Support::Upright };
-            Block { shape, density: 2400.0, support, tag: Tag::Stone, group: None }
+            Block { shape, density: 2400.0, support, tag: Tag::Stone, group: None, scan: None }
         };
         // The ground comes last.
         let blocks = (1..=n).chain([0]).map(block).collect();

@@ -97,6 +97,21 @@ pub static ARM: Section = Section {
         )
         .only(FROM_FILE),
         Key::new(
+            "scan_bearing_m",
+            real("m", Interval::above(0.0, 1.0)),
+            Optional,
+            "The objects of an OBJ file are scans of stones: each touches others as its hull, weighs as its scan, and bears up to this far above its \
+             lowest point.",
+        )
+        .only(FROM_FILE),
+        Key::new(
+            "turn_deg",
+            real("deg", Interval::closed(-360.0, 360.0)),
+            Optional,
+            "Turns the whole file about its z axis, counter-clockwise seen from above.",
+        )
+        .only(FROM_FILE),
+        Key::new(
             "touch_tolerance_m",
             real("m", Interval::above(0.0, 1.0)),
             Optional,

@@ -105,7 +105,7 @@ impl Answer {
     pub fn moving_share(&self, wall: &Wall) -> f64 {
         let weight = |block: &Block| match block.support {
             Support::Fixed => 0.0,
-            _ => block.density * block.shape.volume(),
+            _ => block.mass(),
         };
         let blocks = &wall.blocks;
         let all = blocks.iter().map(weight).fold(0.0, |sum, w| sum + w);

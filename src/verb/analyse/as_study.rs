@@ -143,6 +143,7 @@ fn arm_text(arguments: &Analyse, fit: &Fit) -> String {
     stated("unit", arguments.unit.map(|unit| format!("\"{}\"", unit.name())));
     stated("up_axis", arguments.up.map(|up| format!("\"{}\"", up.name())));
     stated("flatness_m", arguments.flatness.map(|own| format!("{own:?}")));
+    stated("scan_bearing_m", arguments.scan_bearing.map(|own| format!("{own:?}")));
     let touch = match arguments.touch_tolerance {
         Tolerance::Share(share) if share == TOUCH => None,
         Tolerance::Share(_) => Some(format!("{:?}", fit.contact.closed)),

@@ -170,6 +170,10 @@ pub(crate) struct Analyse {
     /// corners were moved is told [default: 1e-4 of a block is allowed, and nothing is moved].
     #[arg(long, value_name = "LENGTH", value_parser = numbers::length, allow_negative_numbers = true, help_heading = FILE)]
     pub flatness: Option<f64>,
+    /// Take the objects of an OBJ file for scans of stones: each touches others as its convex hull, and weighs as its scan. A rough
+    /// underside bears up to this length above its lowest point (5mm). Without fixed blocks the stones stand on the plane z = 0.
+    #[arg(long, value_name = "LENGTH", value_parser = numbers::length, allow_negative_numbers = true, help_heading = FILE)]
+    pub scan_bearing: Option<f64>,
     /// Axis of an OBJ file that points up [default: z]. With y, its x, y, z become x, z, -y: its -z is out of plane, to the front.
     #[arg(long, value_name = "NAME", help_heading = FILE)]
     pub up: Option<UpName>,

@@ -18,15 +18,15 @@ pub(crate) fn loaded(file: &WallFile, density: Option<f64>, weights: &[(u64, f64
     let mut wall = file.wall.clone();
     if let Some(density) = density {
         let free = || wall.blocks.iter().filter(|block| block.support != Support::Fixed);
-        let mass: f64 = free().map(|block| block.density * block.shape.volume()).sum();
-        let volume: f64 = free().map(|block| block.shape.volume()).sum();
+        let mass: f64 = free().map(|block| block.mass()).sum();
+        let volume: f64 = free().map(|block| block.volume()).sum();
         let factor = density * volume / mass;
         let moving = wall.blocks.iter_mut().filter(|block| block.support != Support::Fixed);
         moving.for_each(|block| block.density *= factor);
     }
     for (block, weight) in on_blocks(file, "--dead-load", "is fixed: it carries any load", false, weights)? {
         let block = &mut wall.blocks[block];
-        block.density += weight / (STANDARD_GRAVITY * block.shape.volume());
+        block.density += weight / (STANDARD_GRAVITY * block.volume());
     }
     Ok(wall)
 }

@@ -96,9 +96,9 @@ fn movements(wall: &Wall, found: &Limit) -> Vec<Movement> {
     let leads = wall.leads();
     let mut stones: BTreeMap<usize, (f64, Vec3)> = BTreeMap::new();
     for (block, lead) in wall.blocks.iter().zip(&leads) {
-        let mass = block.density * block.shape.volume();
+        let mass = block.mass();
         let stone = stones.entry(*lead).or_insert((0.0, Vec3::zeros()));
-        *stone = (stone.0 + mass, stone.1 + block.shape.mass_properties().centroid * mass);
+        *stone = (stone.0 + mass, stone.1 + block.mass_properties().centroid * mass);
     }
     let of = |((block, lead), motion): ((&Block, &usize), &BlockMotion)| {
         let (mass, moment) = stones[lead];

@@ -159,9 +159,14 @@ fn read(arguments: &Analyse) -> Result<(WallFile, Fit), WallFaults> {
         density: arguments.density_kg_per_m3.or(arguments.density.as_ref().map(Known::middle)),
         up: arguments.up.map_or(Up::Z, |up| if up == UpName::Y { Up::Y } else { Up::Z }),
         flatness: arguments.flatness,
-        on_platform: false,
+        scan_bearing: arguments.scan_bearing,
+        turn: 0.0,
+        on_platform: arguments.scan_bearing.is_some(),
     };
-    let file = read_wall(&arguments.wall, &options)?;
+    let mut file = read_wall(&arguments.wall, &options)?;
+    if arguments.scan_bearing.is_some() {
+        file = file.on_ground();
+    }
     let fit = look(&file, arguments.touch_tolerance, &arguments.wall.display().to_string())?;
     Ok((file, fit))
 }

@@ -9,6 +9,7 @@ use crate::model::{Replay, ReplayState, Support, Wall};
 use crate::render::gltf::{Actor, Role, write_glb};
 use crate::render::picture::{Picture, Stone};
 use crate::render::vtk::{SERIES, write_series};
+use crate::shape::MassProperties;
 use crate::terminal::failure::Failure;
 use crate::terminal::output;
 
@@ -71,6 +72,10 @@ pub(crate) fn in_state(wall: &Wall, state: &ReplayState) -> Wall {
         let mut block = block.clone();
         let centroid = block.shape.mass_properties().centroid;
         block.shape.vertices = pose.taking(centroid, &block.shape.vertices);
+        if let Some(scan) = &mut block.scan {
+            let moved = pose.taking(centroid, &[scan.centroid])[0];
+            *scan = MassProperties { centroid: moved, ..scan.mapped(&pose.rotation()) };
+        }
         block
     });
     Wall { blocks: moved.collect() }
