@@ -186,8 +186,9 @@ fn points_at_the_edge_are_an_inset() {
             };
             let exact = degrees(atan((half - inset) / HEIGHT));
             println!("{} {towards:?}: {found:.3}, inset {:.3}, {exact:.3}", solver.name(), degrees(worn));
-            // Brackets of 0.02 deg each, and springs that turn on a strip of 0.2 mm.
-            assert!((found - degrees(worn)).abs() < 0.06 && (found - exact).abs() < 0.2, "{}", solver.name());
+            // Brackets of 0.02 deg each. Springs turn on a strip of 0.2 mm, which is shorter, and so sinks in deeper, where it is one of points.
+            let near = (found - degrees(worn)).abs() < 0.12 && (found - exact).abs() < 0.25;
+            assert!(near, "{} {towards:?}: {found} {exact}", solver.name());
         }
     }
 }
