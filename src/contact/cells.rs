@@ -9,12 +9,14 @@ pub struct Cell {
     pub moments: Moments,
     /// Its outline; empty for a point sub-contact, which is open or closed as a whole.
     pub outline: Polygon,
+    /// How far (m) it lies behind the face: it touches where the gap of the faces is this far below zero.
+    pub recess: f64,
 }
 
 impl Cell {
     /// All of an outline.
     pub fn within(outline: Polygon) -> Cell {
-        Cell { moments: outline.moments(), outline }
+        Cell { moments: outline.moments(), outline, recess: 0.0 }
     }
 }
 
@@ -105,6 +107,7 @@ pub fn corners(polygon: &Polygon) -> Vec<Cell> {
                 tt: area * t * t,
             },
             outline: Polygon::default(),
+            recess: 0.0,
         })
         .collect()
 }

@@ -5,6 +5,7 @@ mod broad;
 mod cells;
 mod patch;
 mod periodic;
+mod seats;
 mod separation;
 mod survey;
 #[cfg(test)]
@@ -16,6 +17,7 @@ pub use cells::{Cell, corners, divide};
 use cells::{contains, patches};
 pub use patch::{Feature, Patch, Settings, facing, find_patch};
 pub use periodic::{PeriodicJoint, periodic_joints};
+use seats::seated;
 pub use separation::{EdgeAxis, FaceAxis, best_edge_axis, best_face_axis};
 pub use survey::{Pair, Survey, survey};
 pub use vertices::{area_shares, distinct, middle_line};

@@ -5,7 +5,8 @@
 //! polygon clipped by a straight line. Blocks that meet at a steep angle, edge to edge or corner to face touch in a
 //! patch of stated width instead: a strip along an edge, a square at a point.
 
-use crate::contact::{Cell, EdgeAxis, FaceAxis, best_edge_axis, best_face_axis, patches};
+use crate::contact::{Cell, EdgeAxis, FaceAxis, best_edge_axis, best_face_axis, patches, seated};
+use crate::law::Seating;
 use crate::math::Vec3;
 use crate::shape::{Frame, Plane, Polygon, Polyhedron};
 
@@ -101,7 +102,26 @@ impl Patch {
     /// Those of its `along` by `along` cells, eight at most, on the first block's face whose bit is set (`along i + j` for the cell
     /// `i` along its first and `j` along its second axis), in the coordinates of its polygon.
     pub fn pieces(&self, along: u32, mask: u64) -> Vec<Cell> {
-        let Some(uneven) = &self.uneven else { return patches(&self.polygon, along, mask) };
+        self.on_first(|polygon| patches(polygon, along, mask))
+    }
+
+    /// What bears on the first block's face, in the coordinates of its polygon: a patch about each seat that is at most `deepest` (m) behind the
+    /// face. `None` where it is no bed.
+    pub fn seats(&self, seating: &Seating, deepest: f64) -> Option<Vec<Cell>> {
+        let mut cells = self.is_bed().then(|| self.on_first(|polygon| seated(polygon, seating)))?;
+        cells.retain(|cell| cell.recess <= deepest);
+        Some(cells)
+    }
+
+    /// Whether it is a joint of two faces that lie closer to the level than to the upright.
+    fn is_bed(&self) -> bool {
+        const STEEPEST: f64 = std::f64::consts::FRAC_1_SQRT_2;
+        matches!(self.feature, Feature::Faces(..)) && self.plane.normal.z.abs() >= STEEPEST
+    }
+
+    /// Cells of the patch as it lies on the first block's face, in the coordinates of its polygon.
+    fn on_first(&self, divided: impl Fn(&Polygon) -> Vec<Cell>) -> Vec<Cell> {
+        let Some(uneven) = &self.uneven else { return divided(&self.polygon) };
         let there = |v: &[f64; 2]| uneven.project(&self.frame.lift(*v));
         let back = |v: &[f64; 2]| {
             let p = uneven.lift(*v);
@@ -113,8 +133,9 @@ impl Patch {
         let over = |polygon: &Polygon, onto: &dyn Fn(&[f64; 2]) -> [f64; 2]| Polygon {
             vertices: polygon.vertices.iter().rev().map(onto).collect(),
         };
-        let cells = patches(&over(&self.polygon, &there), along, mask);
-        cells.iter().map(|cell| Cell::within(over(&cell.outline, &back))).collect()
+        let cells = divided(&over(&self.polygon, &there));
+        let lifted = |cell: &Cell| Cell { recess: cell.recess, ..Cell::within(over(&cell.outline, &back)) };
+        cells.iter().map(lifted).collect()
     }
 }
 

@@ -34,7 +34,7 @@ const IN_LAYOUT: [(&str, &[&str]); 6] = [
     ("wedges", &["wedge", "wedge loss"]),
     ("wythes", &["header"]),
     ("densities", &["density"]),
-    ("joints", &["joint kn_factor", "joint phi", "joint cohesion", "joint contact_area"]),
+    ("joints", &["joint kn_factor", "joint phi", "joint cohesion", "joint contact_area", "joint bearing"]),
 ];
 
 /// The sources of an arm: every parameter that is drawn once per wall, the layout as a whole, and, where it has several, what it
@@ -86,6 +86,7 @@ fn is_drawn(arm: &Arm, name: &str) -> bool {
         ("joints", _) => {
             [&joint.kn_factor, &joint.phi_deg, &joint.cohesion].into_iter().any(scatters)
                 || arm.mechanisms.has("contact_area")
+                || joint.bearing.is_some()
         }
         _ => false,
     }

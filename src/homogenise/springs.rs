@@ -124,6 +124,10 @@ pub(super) fn points(
             let cells = patch.pieces(PATCHES_ALONG, mask);
             cells.iter().filter_map(|cell| touching(&cell.outline)).collect()
         }
+        Sampling::Seats(seating) => match patch.seats(&seating, closed) {
+            Some(cells) => cells.iter().filter_map(|cell| touching(&cell.outline)).collect(),
+            None => touching(&patch.polygon).into_iter().collect(),
+        },
         Sampling::Area => touching(&patch.polygon).into_iter().collect(),
     };
     let all = pieces.iter().flat_map(rule);

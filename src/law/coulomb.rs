@@ -1,7 +1,7 @@
 //! Coulomb's law with cohesion and a tension cut-off, per sub-contact (source paper Eq. 2 and 3, Fig. 8).
 
 use crate::law::weakening::Slipping;
-use crate::law::{NormalLaw, Weakening};
+use crate::law::{NormalLaw, Seating, Weakening};
 
 /// The law of one joint. Stresses are per joint area; compression positive.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -43,7 +43,7 @@ pub enum CohesionAfterSlip {
 pub const PATCHES_ALONG: u32 = 8;
 
 /// Where the joint's stress is sampled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Sampling {
     /// Integrated over the compressed area of the joint.
@@ -53,6 +53,9 @@ pub enum Sampling {
     /// Integrated over the compressed area of some of the 8 x 8 ([`PATCHES_ALONG`]) patches into which the joint is divided: bit `8 i + j` stands
     /// for the patch `i` along its first and `j` along its second axis. The other patches never touch.
     Patches(u64),
+    /// Integrated over the compressed area of a few patches of a bed joint, some of them behind the face. Joints of other faces, and of edges and
+    /// corners, touch over their whole area.
+    Seats(Seating),
 }
 
 /// What a point of a sub-contact remembers. A sub-contact that is integrated over its area has four, others one.

@@ -4,6 +4,7 @@ mod coulomb;
 mod crushing;
 mod damping;
 mod normal;
+mod seating;
 mod slopes;
 mod spheres;
 mod stiffening;
@@ -16,6 +17,7 @@ pub use coulomb::{
 pub use crushing::Crushing;
 pub use damping::local_damping;
 pub use normal::NormalLaw;
+pub use seating::{MOST_SEATS, Seat, Seating};
 pub use slopes::{PressedSlopes, ShearSlopes};
 pub use spheres::{Frictional, SphereSpring};
 pub use stiffening::Stiffening;

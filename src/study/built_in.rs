@@ -32,6 +32,8 @@ pub(super) fn distributions() -> impl Iterator<Item = (&'static str, &'static st
 /// What the studies read, in the order of their paths. Their banks are left out: they are large, and computed anew.
 const STUDIES: &[(&str, &str)] = texts![
     "studies/arrangements/study.toml",
+    "studies/bearing/published.toml",
+    "studies/bearing/study.toml",
     "studies/dry-shear-walls/distributions/mechanism/joint_closure/initial_pa_per_m.toml",
     "studies/dry-shear-walls/distributions/mechanism/stress_stiffening/at_1_mpa_pa_per_m.toml",
     "studies/dry-shear-walls/distributions/nuisance/kn_factor.toml",

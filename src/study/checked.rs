@@ -11,6 +11,7 @@ use crate::random::standard_normal::{cdf, quantile};
 use crate::random::{Design, Family, Move, Place, Quantities, RANDOMISATIONS, Streams, Taken};
 use crate::solve::Solver;
 use crate::stats::Statistic;
+use crate::study::bearing::Bearing;
 use crate::study::cause::Mechanisms;
 use crate::study::earthquakes::Earthquakes;
 use crate::study::measured::Measurement;
@@ -242,8 +243,8 @@ impl Arm {
     /// Whether its walls differ from one to the next: in their stones, in their joints, as a whole, or by a mechanism that draws.
     pub fn is_random(&self) -> bool {
         let drawn = |family: &Family| !matches!(family, Family::Constant { .. });
-        let Joint { kn_factor, phi_deg, cohesion, .. } = &self.joint;
-        let drawn_joints = [kn_factor, phi_deg, cohesion].into_iter().any(drawn);
+        let Joint { kn_factor, phi_deg, cohesion, bearing, .. } = &self.joint;
+        let drawn_joints = [kn_factor, phi_deg, cohesion].into_iter().any(drawn) || bearing.is_some();
         !self.layout.is_fixed() || drawn_joints || self.mechanisms.draws() || !self.uncertain.is_empty()
     }
 
@@ -308,6 +309,8 @@ pub struct Joint {
     pub normal_law: StatedLaw,
     /// Where stress is sampled.
     pub sampling: Sampling,
+    /// The few points of a bed on which stones bear; `None` where they bear on the whole face.
+    pub bearing: Option<Bearing>,
 }
 
 /// The normal law as a study states it.

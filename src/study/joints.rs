@@ -1,6 +1,6 @@
 //! The law of every joint of one wall: constants as stated, families drawn once per joint.
 
-use crate::law::{Coulomb, NormalLaw};
+use crate::law::{Coulomb, NormalLaw, Sampling};
 use crate::math::{Vec3, radians, tan};
 use crate::model::{JointLaws, Wall};
 use crate::random::{Family, Streams};
@@ -102,7 +102,10 @@ impl Joint {
             compressive_strength: self.compressive_strength,
             cohesion_after_slip: self.cohesion_after_slip,
             weakening: None,
-            sampling: self.sampling,
+            sampling: match &self.bearing {
+                Some(bearing) => Sampling::Seats(bearing.seating(streams, a, b)),
+                None => self.sampling,
+            },
             bonded: false,
         }
     }

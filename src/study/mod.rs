@@ -3,6 +3,7 @@
 mod angle;
 mod arm;
 mod averaged;
+mod bearing;
 mod build;
 mod built_in;
 mod catalogue;
@@ -45,6 +46,7 @@ mod wall_file;
 
 pub use crate::random::Design;
 pub use angle::Angle;
+pub use bearing::Bearing;
 pub use built_in::{BuiltInStudy, built_in_studies};
 pub use catalogue::{Distribution, DistributionFile, Used, load_distributions};
 pub use cause::{

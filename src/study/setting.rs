@@ -2,11 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use crate::law::{ClosureTable, LEAST_KNOTS, MOST_KNOTS};
+use crate::law::{ClosureTable, LEAST_KNOTS, MOST_KNOTS, Sampling};
 use crate::math::{radians, tan};
 use crate::protocol::{Base, Ends, Restraint, Rope};
 use crate::random::Family;
 use crate::study::arm::{WallKeys, wall};
+use crate::study::bearing::Bearing;
 use crate::study::catalogue::Catalogue;
 use crate::study::cause::Mechanisms;
 use crate::study::checked::{Joint, StatedLaw};
@@ -150,6 +151,7 @@ fn joints(t: &mut Reader<'_>, catalogue: &mut Catalogue) -> Option<Joints> {
     };
     let normal_law = normal_law(t);
     let sampling = t.choice("sampling");
+    let bearing = bearing(t, sampling);
     let sub_contacts = t.pair("sub_contacts");
     let [kn_over_ks, tension] = reals?;
     let joint = Joint {
@@ -162,8 +164,22 @@ fn joints(t: &mut Reader<'_>, catalogue: &mut Catalogue) -> Option<Joints> {
         cohesion_after_slip: cohesion_after_slip?,
         normal_law: normal_law?,
         sampling: sampling?,
+        bearing: bearing?,
     };
     Some(Joints { joint, kn_points: kn_points?, sub_contacts: sub_contacts? })
+}
+
+fn bearing(t: &mut Reader<'_>, sampling: Option<Sampling>) -> Option<Option<Bearing>> {
+    if !t.has("bearing") {
+        return Some(None);
+    }
+    let bearing = t.table("bearing").and_then(|mut t| Bearing::read(&mut t));
+    if sampling == Some(Sampling::Vertices) {
+        let allowed = "only where sampling = \"area\"";
+        t.fault("bearing", allowed, "remove it, or set sampling = \"area\"");
+        return None;
+    }
+    bearing.map(Some)
 }
 
 fn normal_law(t: &mut Reader<'_>) -> Option<StatedLaw> {

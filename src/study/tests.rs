@@ -125,6 +125,7 @@ fn joint() -> Joint {
         cohesion_after_slip: CohesionAfterSlip::Lost,
         normal_law: StatedLaw::Linear,
         sampling: Sampling::Vertices,
+        bearing: None,
     }
 }
 

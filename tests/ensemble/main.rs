@@ -1,6 +1,7 @@
 //! Runs as a user starts them: worker counts, kills, changed studies, full disks, shared random numbers.
 
 mod batches;
+mod bearing;
 mod columns;
 mod enough;
 mod failed_members;

@@ -2,6 +2,7 @@
 
 mod agreement;
 mod base_motion;
+mod bearing;
 mod cells;
 mod closed_form_cases;
 mod closed_forms;

@@ -61,6 +61,7 @@ fn joint() -> Joint {
         cohesion_after_slip: CohesionAfterSlip::Kept,
         normal_law: StatedLaw::Linear,
         sampling: Sampling::Area,
+        bearing: None,
     }
 }
 

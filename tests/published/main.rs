@@ -1,6 +1,7 @@
 //! Published statements against our numbers: what the studies' READMEs say comes out, does.
 
 mod arrangements;
+mod bearing;
 mod diagnoses;
 mod dry_shear_walls;
 mod edge_restraint;

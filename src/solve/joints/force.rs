@@ -75,7 +75,15 @@ impl Joint {
 
     /// Whether no part of the joint touches or holds.
     pub(super) fn is_wide_open(&self, gap: &Gap) -> bool {
-        let lowest = self.polygon.vertices.iter().map(|v| gap.at(v)).fold(f64::INFINITY, f64::min);
+        let lowest = |vertices: &[[f64; 2]], gap: &Gap| {
+            vertices.iter().map(|v| gap.at(v)).fold(f64::INFINITY, f64::min)
+        };
+        let lowest = if self.seated {
+            let each = self.cells.iter().map(|cell| lowest(&cell.outline.vertices, &gap.of(cell)));
+            each.fold(f64::INFINITY, f64::min)
+        } else {
+            lowest(&self.polygon.vertices, gap)
+        };
         lowest > 0.0 && !self.states.iter().any(|s| self.law.holds(s))
     }
 
@@ -111,7 +119,7 @@ impl Joint {
         pressed.clear();
         let each = self.points_each();
         let highest = self.polygon.vertices.iter().map(|v| gap.at(v)).fold(f64::NEG_INFINITY, f64::max);
-        let closed = highest <= 0.0;
+        let closed = highest <= 0.0 && self.cells.iter().all(|cell| cell.recess == 0.0);
         let mut sum = PressureSum::default();
         let bearing = Bearing::of(&self.law, &self.polygon, gap);
         if let (true, NormalLaw::Linear { kn }, None) =
@@ -125,6 +133,7 @@ impl Joint {
             return sum;
         }
         for (index, cell) in self.cells.iter().enumerate() {
+            let gap = &gap.of(cell);
             let states = &mut self.states[each * index..each * (index + 1)];
             if self.law.holds(&states[0]) && !self.law.bonded && tears(&self.law, cell, gap) {
                 states.iter_mut().for_each(|state| state.broken = true);
@@ -159,7 +168,7 @@ impl Joint {
     pub fn crushed_share(&self, bodies: &[Body]) -> f64 {
         let gap = self.pose(bodies).gap;
         let bearing = Bearing::of(&self.law, &self.polygon, &gap);
-        let crushed = self.cells.iter().filter_map(|cell| bearing.crushed(cell, &gap));
+        let crushed = self.cells.iter().filter_map(|cell| bearing.crushed(cell, &gap.of(cell)));
         crushed.map(|outline| outline.moments().area).sum::<f64>() / self.area()
     }
 
@@ -168,6 +177,7 @@ impl Joint {
         let bearing = Bearing::of(&self.law, &self.polygon, &gap);
         let of = |(cell, states): (&Cell, &[SubContact])| {
             let holds = self.law.holds(&states[0]);
+            let gap = gap.of(cell);
             let part = if holds { cell.moments } else { compressed(cell, &gap) };
             closure_energy(&bearing, cell, &part, &gap, holds)
         };

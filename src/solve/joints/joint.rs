@@ -1,6 +1,6 @@
 //! One joint: its geometry in its bodies' own axes, where it is now, and what it takes over from its past.
 
-use crate::contact::{self, Cell, Feature, Patch, corners, divide};
+use crate::contact::{self, Cell, Feature, Patch, area_shares, corners, distinct, divide};
 use crate::law::{Coulomb, PATCHES_ALONG, Sampling, SubContact};
 use crate::math::Vec3;
 use crate::shape::{Moments, Polygon};
@@ -35,6 +35,8 @@ pub struct Joint {
     /// The polygon, and the integrals over it or over the patches of it that can touch.
     pub(in crate::solve) polygon: Polygon,
     pub(super) whole: Moments,
+    /// Whether it bears on a few seats.
+    pub(super) seated: bool,
     /// Sub-contacts.
     pub(super) cells: Vec<Cell>,
     /// Where the points of each lie when it is closed.
@@ -49,6 +51,21 @@ pub struct Joint {
     pub(in crate::solve) given: Option<Vec3>,
 }
 
+/// A point at which a joint presses: where it lies in the joint's plane (m), its share of the area (m^2), how far it lies behind the face (m).
+#[derive(Clone, Copy, Debug)]
+pub(in crate::solve) struct Place {
+    pub at: [f64; 2],
+    pub area: f64,
+    pub recess: f64,
+}
+
+impl Place {
+    /// The gap there (m), where that of the faces is given.
+    pub fn gap(&self, faces: &Gap) -> f64 {
+        faces.at(&self.at) + self.recess
+    }
+}
+
 /// The gap between incident face and reference plane, less the distance at which they begin to press, at plane
 /// coordinates (s, t): `g0 + gs s + gt t` (m).
 #[derive(Clone, Copy, Debug)]
@@ -61,6 +78,11 @@ pub(in crate::solve) struct Gap {
 impl Gap {
     pub fn at(&self, v: &[f64; 2]) -> f64 {
         self.g0 + self.gs * v[0] + self.gt * v[1]
+    }
+
+    /// That of a sub-contact, which may lie behind the face.
+    pub fn of(&self, cell: &Cell) -> Gap {
+        Gap { g0: self.g0 + cell.recess, ..*self }
     }
 }
 
@@ -92,14 +114,20 @@ impl Joint {
             false => (carrier(second), carrier(first)),
         };
         let (i, r) = (&bodies.all[incident as usize], &bodies.all[reference as usize]);
-        let cells = match law.sampling {
-            Sampling::Area => divide(&patch.polygon, settings.sub_contacts),
+        let seats = match law.sampling {
+            Sampling::Seats(seating) => patch.seats(&seating, f64::INFINITY),
+            _ => None,
+        };
+        let seated = seats.is_some();
+        let cells = seats.unwrap_or_else(|| match law.sampling {
+            Sampling::Area | Sampling::Seats(_) => divide(&patch.polygon, settings.sub_contacts),
             Sampling::Vertices => corners(&patch.polygon),
             Sampling::Patches(mask) => patch.pieces(PATCHES_ALONG, mask),
-        };
+        });
         let whole = match law.sampling {
-            Sampling::Area | Sampling::Vertices => patch.polygon.moments(),
             Sampling::Patches(_) => total(&cells),
+            _ if seated => total(&cells),
+            _ => patch.polygon.moments(),
         };
         let on_plane = patch.frame.origin - patch.plane.normal * patch.plane.distance(&patch.frame.origin);
         Joint {
@@ -117,6 +145,7 @@ impl Joint {
             filled: 0.0,
             whole,
             polygon: patch.polygon.clone(),
+            seated,
             states: vec![SubContact::default(); cells.len() * points_of(&law)],
             spreads: cells.iter().map(|cell| Spread::new(&cell.moments)).collect(),
             cells,
@@ -136,6 +165,13 @@ impl Joint {
                 _ => self.meet(),
             }
         }
+        // What lies behind the face was never attached either.
+        let each = self.points_each();
+        if self.law.tension > 0.0 {
+            for (cell, states) in self.cells.iter().zip(self.states.chunks_exact_mut(each)) {
+                states.iter_mut().for_each(|state| state.broken |= cell.recess > closed);
+            }
+        }
     }
 
     /// A joint between blocks that met on the way: they touch, but nothing ever attached them.
@@ -148,7 +184,7 @@ impl Joint {
 
     /// Whether its blocks met on the way, so that what would hold them was never there.
     pub(in crate::solve) fn is_met(&self) -> bool {
-        self.states.iter().any(|state| state.broken)
+        !self.states.is_empty() && self.states.iter().all(|state| state.broken)
     }
 
     /// Notes that it slips, all of it.
@@ -166,16 +202,30 @@ impl Joint {
         points_of(&self.law)
     }
 
-    /// The points of all sub-contacts when they are closed: places in the plane and areas.
-    pub(in crate::solve) fn closed_points(&self) -> Vec<([f64; 2], f64)> {
+    /// The points of all sub-contacts when they are closed.
+    pub(in crate::solve) fn closed_points(&self) -> Vec<Place> {
         let mut all = Vec::with_capacity(self.states.len());
         for (cell, spread) in self.cells.iter().zip(&self.spreads) {
+            let (area, recess) = (cell.moments.area, cell.recess);
             match self.points_each() {
-                POINTS => all.extend(spread.places().map(|at| (at, 0.25 * cell.moments.area))),
-                _ => all.push((cell.moments.centroid(), cell.moments.area)),
+                POINTS => all.extend(spread.places().map(|at| Place { at, area: 0.25 * area, recess })),
+                _ => all.push(Place { at: cell.moments.centroid(), area, recess }),
             }
         }
         all
+    }
+
+    /// The corners of its patches with their shares of the area, where it bears on seats.
+    pub(in crate::solve) fn seat_corners(&self) -> Option<Vec<Place>> {
+        if !self.seated {
+            return None;
+        }
+        let corners = self.cells.iter().flat_map(|cell| {
+            let vertices = distinct(cell.outline.vertices.clone());
+            let shares = area_shares(&vertices);
+            vertices.into_iter().zip(shares).map(|(at, area)| Place { at, area, recess: cell.recess })
+        });
+        Some(corners.collect())
     }
 
     /// Takes over the history of the same pair's former joint, by nearness of the points.
@@ -186,8 +236,8 @@ impl Joint {
         let sign = if self.incident == before.incident { 1.0 } else { -1.0 };
         self.given = before.given.map(|force| force * sign);
         let place = |pose: &Pose, [s, t]: [f64; 2]| pose.origin + pose.s * s + pose.t * t;
-        let old: Vec<Vec3> = before.closed_points().into_iter().map(|(at, _)| place(&then, at)).collect();
-        for ((at, whole), state) in self.closed_points().into_iter().zip(&mut self.states) {
+        let old: Vec<Vec3> = before.closed_points().into_iter().map(|point| place(&then, point.at)).collect();
+        for (Place { at, area: whole, .. }, state) in self.closed_points().into_iter().zip(&mut self.states) {
             let here = place(&now, at);
             let nearest = old
                 .iter()
@@ -262,7 +312,7 @@ impl Joint {
     pub fn levers(&self, bodies: &[Body]) -> [(Vec3, Vec3); 2] {
         let pose = self.pose(bodies);
         let m = match self.law.sampling {
-            Sampling::Area | Sampling::Patches(_) => self.whole,
+            Sampling::Area | Sampling::Patches(_) | Sampling::Seats(_) => self.whole,
             Sampling::Vertices => total(&self.cells),
         };
         let (ss, st, tt) = (m.ss - m.s * m.s / m.area, m.st - m.s * m.t / m.area, m.tt - m.t * m.t / m.area);
@@ -277,7 +327,7 @@ impl Joint {
 /// Points of a sub-contact at which shear is followed: small patches and corners have one.
 fn points_of(law: &Coulomb) -> usize {
     match law.sampling {
-        Sampling::Area => POINTS,
+        Sampling::Area | Sampling::Seats(_) => POINTS,
         Sampling::Vertices | Sampling::Patches(_) => 1,
     }
 }

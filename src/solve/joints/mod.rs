@@ -19,6 +19,7 @@ use crate::model::JointLaws;
 use crate::solve::bodies::{Bodies, Body, Freedom};
 
 pub use joint::Joint;
+pub(in crate::solve) use joint::Place;
 pub use slopes::Slopes;
 
 /// What a joint starts a step from: what its sub-contacts remembered, and where its polygon lay on the reference body.

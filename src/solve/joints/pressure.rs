@@ -288,7 +288,7 @@ mod tests {
 
     fn cell() -> Cell {
         let outline = Polygon { vertices: vec![[0.1, 0.0], [0.5, 0.0], [0.5, 0.3], [0.1, 0.3]] };
-        Cell { moments: outline.moments(), outline }
+        Cell::within(outline)
     }
 
     /// A joint that is not crushed.
@@ -380,7 +380,7 @@ mod tests {
             assert_relative_eq!(energy, ramp + even, max_relative = 1e-12);
         }
         // A corner is crushed as a whole.
-        let corner = Cell { moments: part, outline: Polygon::default() };
+        let corner = Cell { moments: part, outline: Polygon::default(), recess: 0.0 };
         for (g0, stress) in [(-1e-4, 5e3), (-2e-4, 7.5e3)] {
             let gap = Gap { g0, gs: 0.0, gt: 0.0 };
             let found = pressure(&crushed(&linear), &corner, &part, &gap, false);
@@ -394,7 +394,7 @@ mod tests {
             NormalLaw::Linear { kn: 5e7 },
             NormalLaw::Table(ClosureTable::through(&[1e-4, 2e-4, 4e-4], &[3e3, 8e3, 3e4]).expect("it rises")),
         );
-        let point = Cell { moments: cell().moments, outline: Polygon::default() };
+        let point = Cell { moments: cell().moments, outline: Polygon::default(), recess: 0.0 };
         for (law, cell, holds, tolerance) in [
             (linear, cell(), false, 1e-7),
             (linear, cell(), true, 1e-7),

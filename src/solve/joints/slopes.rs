@@ -124,6 +124,7 @@ impl Joint {
         let mut before = Vec::with_capacity(self.states.len());
         let histories = self.states.chunks_exact(each).zip(anchor.states.chunks_exact(each));
         for (index, (cell, (states, earlier))) in self.cells.iter().zip(histories).enumerate() {
+            let gap = &gap.of(cell);
             let holds = self.law.holds(&states[0]);
             let part = if holds { cell.moments } else { compressed(cell, gap) };
             let share = pressure(&bearing, cell, &part, gap, holds);

@@ -220,17 +220,20 @@ fn whole(wall: &Wall, parts: &[usize]) -> Rigid {
 pub(super) fn contact_points(patch: &Patch, closed: f64, sampling: Sampling) -> Vec<ContactPoint> {
     let frame = &patch.frame;
     let touching = |outline: &Polygon| patch.touching(outline, closed);
-    let (vertices, area) = match (patch.feature, sampling) {
-        (Feature::Faces(..), Sampling::Patches(mask)) => {
-            let cells = patch.pieces(PATCHES_ALONG, mask);
+    let cells = match sampling {
+        Sampling::Patches(mask) => Some(patch.pieces(PATCHES_ALONG, mask)),
+        // What lies behind the face bears once it has closed, and that is a displacement.
+        Sampling::Seats(seating) => patch.seats(&seating, closed),
+        Sampling::Area | Sampling::Vertices => None,
+    };
+    let (vertices, area) = match (patch.feature, cells) {
+        (Feature::Faces(..), Some(cells)) => {
             let pieces: Vec<Polygon> = cells.iter().map(|cell| touching(&cell.outline)).collect();
             let corners = pieces.iter().flat_map(|piece| &piece.vertices).copied().collect();
             let area = pieces.iter().map(Polygon::area).sum();
             (distinct(Polygon::around(corners).vertices), Some(area))
         }
-        (Feature::Faces(..), Sampling::Area | Sampling::Vertices) => {
-            (distinct(touching(&patch.polygon).vertices), None)
-        }
+        (Feature::Faces(..), None) => (distinct(touching(&patch.polygon).vertices), None),
         (Feature::Steep(..) | Feature::Edges(..), _) => {
             let vertices = distinct(touching(&middle_line(&patch.polygon)).vertices);
             let share = patch.polygon.area() / vertices.len() as f64;

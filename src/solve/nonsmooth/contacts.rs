@@ -6,7 +6,7 @@ use crate::contact::{Feature, area_shares, distinct, middle_line};
 use crate::law::CohesionAfterSlip;
 use crate::math::Vec3;
 use crate::solve::bodies::Body;
-use crate::solve::joints::{Joint, Joints};
+use crate::solve::joints::{Joint, Joints, Place};
 use crate::solve::nonsmooth::Normal;
 use crate::solve::nonsmooth::point::{Bearing, Point, apart};
 use crate::solve::nonsmooth::problem::{Inertia, inertia_along};
@@ -16,8 +16,8 @@ use crate::solve::nonsmooth::problem::{Inertia, inertia_along};
 pub(super) struct Memory {
     /// The two blocks of the joint.
     pair: (u32, u32),
-    /// Where they lie in the joint's plane coordinates (m), and their shares of its area (m^2).
-    places: Vec<([f64; 2], f64)>,
+    /// Where they lie, with their shares of the joint's area.
+    places: Vec<Place>,
     /// Force of the last step (N), along normal and in-plane axes.
     pub forces: Vec<[f64; 3]>,
     /// Whether each has been torn off or, where cohesion is lost by it, has slipped.
@@ -53,7 +53,7 @@ impl Contacts {
             let pose = joint.pose(bodies);
             let points = (0..memory.places.len())
                 .map(|k| {
-                    let ([s, t], _) = memory.places[k];
+                    let [s, t] = memory.places[k].at;
                     let [n, a, b] = memory.forces[k];
                     Was {
                         at: pose.origin + pose.s * s + pose.t * t,
@@ -79,11 +79,13 @@ impl Contacts {
             let places = places(joint, normal);
             let n = places.len();
             let met = joint.is_met();
+            // What was laid with a gap was never attached.
+            let broken = places.iter().map(|place| met || place.recess > 0.0).collect();
             let mut memory = Memory {
                 pair: joint.pair(),
                 places,
                 forces: vec![[0.0; 3]; n],
-                broken: vec![met; n],
+                broken,
                 slipped: vec![false; n],
             };
             if let Some(past) = past.get(&joint.pair()) {
@@ -106,7 +108,7 @@ impl Contacts {
     pub fn overlap(&self, joints: &Joints, bodies: &[Body]) -> f64 {
         let of = |(joint, memory): (&Joint, &Memory)| {
             let gap = joint.pose(bodies).gap;
-            memory.places.iter().map(|(place, _)| -gap.at(place)).fold(0.0, f64::max)
+            memory.places.iter().map(|place| -place.gap(&gap)).fold(0.0, f64::max)
         };
         joints.all.iter().zip(&self.memories).map(of).fold(0.0, f64::max)
     }
@@ -127,10 +129,11 @@ impl Contacts {
             let bodies = [joint.incident as usize, joint.reference as usize];
             let axes = [pose.push, pose.e1, pose.e2];
             let [i, r] = bodies.map(|body| now[body].twist());
-            for (own, &([s, t], area)) in memory.places.iter().enumerate() {
+            for (own, place) in memory.places.iter().enumerate() {
+                let Place { at: [s, t], area, .. } = *place;
                 let at = pose.origin + pose.s * s + pose.t * t;
                 let arms = bodies.map(|body| at - now[body].position);
-                let gap = pose.gap.at(&[s, t]);
+                let gap = place.gap(&pose.gap);
                 let mut point = Point {
                     joint: index,
                     own,
@@ -223,8 +226,8 @@ impl Memory {
         let nearest: Vec<Option<usize>> = self
             .places
             .iter()
-            .map(|&([s, t], _)| {
-                let at = pose.origin + pose.s * s + pose.t * t;
+            .map(|place| {
+                let at = pose.origin + pose.s * place.at[0] + pose.t * place.at[1];
                 let apart = |k: &usize| (past.points[*k].at - at).norm_squared();
                 (0..past.points.len()).min_by(|a, b| apart(a).total_cmp(&apart(b)))
             })
@@ -258,9 +261,12 @@ impl Memory {
 }
 
 /// Where the points of a joint lie in its plane, and their shares of its area.
-fn places(joint: &Joint, normal: Normal) -> Vec<([f64; 2], f64)> {
+fn places(joint: &Joint, normal: Normal) -> Vec<Place> {
     if normal == Normal::Compliant {
         return joint.closed_points();
+    }
+    if let Some(corners) = joint.seat_corners() {
+        return corners;
     }
     let (vertices, shares) = match joint.feature {
         Feature::Faces(..) => {
@@ -276,5 +282,5 @@ fn places(joint: &Joint, normal: Normal) -> Vec<([f64; 2], f64)> {
             (vertices, shares)
         }
     };
-    vertices.into_iter().zip(shares).collect()
+    vertices.into_iter().zip(shares).map(|(at, area)| Place { at, area, recess: 0.0 }).collect()
 }

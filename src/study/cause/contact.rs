@@ -66,17 +66,22 @@ pub static CONTACT_AREA: Cause = Cause {
     shows: "The bed face of a stone touches its neighbour on all its area on the left, on scattered patches only on the right.",
     stronger_below: &["share"],
     draws: true,
-    idle: |_, arm, _| {
-        (arm.joint.sampling == Sampling::Vertices).then_some("joints are sampled at their corners")
+    idle: |_, arm, _| match arm.joint.bearing {
+        Some(_) => Some("stones bear on stated points of their beds"),
+        None => (arm.joint.sampling == Sampling::Vertices).then_some("joints are sampled at their corners"),
     },
     clashes: |_, beside| {
         let at_corners = beside.joint.sampling == Sampling::Vertices;
-        let clash = || Clash {
-            what: "does not go with joint.sampling = \"vertices\"".to_owned(),
-            allowed: "joints that are sampled over their area",
+        let clash = |what: &str, allowed| Clash {
+            what: format!("does not go with {what}"),
+            allowed,
             fix: "remove one of the two",
         };
-        at_corners.then(clash).into_iter().collect()
+        let at_corners = at_corners
+            .then(|| clash("joint.sampling = \"vertices\"", "joints that are sampled over their area"));
+        let seated = beside.joint.bearing;
+        let seated = seated.map(|_| clash("joint.bearing", "one part of each face that bears"));
+        at_corners.into_iter().chain(seated).collect()
     },
     demand: |_| Some((Demand::ContactArea, "contact_area")),
     law: |[share, ..], law, site| {

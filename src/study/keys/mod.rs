@@ -14,7 +14,7 @@ pub use published::{CLAIM, PUBLISHED};
 pub use run::SOLVER;
 pub use uncertain::UNCERTAIN;
 
-use crate::law::MOST_KNOTS;
+use crate::law::{MOST_KNOTS, MOST_SEATS};
 use crate::study::angle::Angle;
 use crate::study::cause::MECHANISM;
 use crate::study::keys::run::{LOAD, RESTRAINT};
@@ -230,6 +230,40 @@ static JOINT: Section = Section {
             Kind::Pair { low: 1, high: 32 },
             Default("[2, 2]"),
             "Sub-contacts of a joint along its two in-plane axes.",
+        ),
+        Key::new(
+            "bearing",
+            Kind::Table(&BEARING),
+            Optional,
+            "Stones that bear on few points of their beds, drawn per joint; without it they bear on the whole face.",
+        ),
+    ]],
+};
+
+static BEARING: Section = Section {
+    title: "[joint.bearing]",
+    doc: "Points of a bed joint on which a stone bears, in place of the whole face. They are uniform over the face, and hold its middle: stones \
+          are turned or shimmed as they are laid, until they do not rock. Head joints touch over their whole face.",
+    chooser: None,
+    keys: &[&[
+        Key::new(
+            "points",
+            real("1", Interval::closed(1.0, MOST_SEATS as f64)),
+            Required,
+            "Points of a joint; between two whole numbers joints have one or the other, so that this is their mean.",
+        ),
+        Key::new(
+            "relief_m",
+            real("m", Interval::closed(0.0, 0.1)),
+            Default("0"),
+            "Largest difference of the heights of a joint's points. The three on which a rigid stone rests touch from the start; each other one has \
+             the gap that is left there.",
+        ),
+        Key::new(
+            "share",
+            real("1", Interval::above(0.0, 1.0)),
+            Required,
+            "Share of the face that the patches about all points of a joint have together.",
         ),
     ]],
 };

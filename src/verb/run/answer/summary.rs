@@ -347,7 +347,13 @@ fn parameters(arm: &Arm) -> BTreeMap<String, serde_json::Value> {
     ];
     let entries = entries.into_iter().filter(|(key, _)| arm.file().is_none() || !OF_DRAWN.contains(key));
     let curve = arm.curve.iter().map(|curve| ("curve", serde_json::json!(curve)));
+    let bearing = joint.bearing.iter().map(|bearing| ("bearing", serde_json::json!(bearing)));
     let uncertain: BTreeMap<&str, _> = arm.uncertain.iter().map(|own| (own.key, &own.family)).collect();
     let uncertain = (!uncertain.is_empty()).then(|| ("uncertain", serde_json::json!(uncertain)));
-    entries.chain(curve).chain(uncertain).map(|(key, value)| (key.to_string(), value)).collect()
+    entries
+        .chain(bearing)
+        .chain(curve)
+        .chain(uncertain)
+        .map(|(key, value)| (key.to_string(), value))
+        .collect()
 }
