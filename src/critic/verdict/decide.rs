@@ -53,7 +53,7 @@ impl Judge<'_> {
             .zip(evidences.into_iter().zip(&shares).skip(1))
             .map(|(&cause, (found, share))| Examined {
                 cause,
-                check: in_question(&cause).then(|| check.p_value(Some(cause), &found.draws, campaign, seed)),
+                check: in_question(&cause).then(|| check.p_value(&found.draws, campaign, seed)),
                 conflict: None,
                 evidence: *share,
                 draws: found.draws,
@@ -150,8 +150,7 @@ impl Judge<'_> {
         let mut pairs: Vec<Examined<[usize; 2]>> = rows
             .map(|((cause, found), &evidence)| Examined {
                 cause,
-                check: (evidence >= limits.pair.named)
-                    .then(|| check.p_value(Causes::pair(cause[0], cause[1]), &found.draws, campaign, seed)),
+                check: (evidence >= limits.pair.named).then(|| check.p_value(&found.draws, campaign, seed)),
                 conflict: None,
                 evidence,
                 draws: found.draws,
