@@ -47,8 +47,8 @@ pub struct SelfTestRow {
     pub set_size: f64,
     /// Of those found, in how many sets each cause is.
     pub with: BTreeMap<usize, u64>,
-    /// From where on its first parameter that matters is detected: upwards, downwards or both; empty where no strength within the
-    /// prior is.
+    /// From where on its first parameter that matters is detected, if it acts on all joints alike: upwards, downwards or both; empty
+    /// where no strength within the prior is.
     #[serde(rename = "caught")]
     pub detection_limits: Vec<DetectionLimit>,
 }
@@ -114,7 +114,7 @@ impl Judge<'_> {
 
     fn tested(&self, cause: Option<usize>, seed: u64, number: u64) -> Tested {
         let streams = Streams::new(seed, number);
-        let truth = self.world.drawn(cause, &streams);
+        let truth = self.world.drawn(self.world.scoped(cause, &streams), &streams);
         let campaign = self.world.campaign(&self.design, &truth, &streams);
         let finding = self.compare(&campaign);
         let moved = cause.map_or(0.0, |_| self.moved(&truth, &campaign, &streams));
@@ -201,7 +201,9 @@ fn row(
         .flat_map(|tested| &tested.finding.ranked.set)
         .for_each(|cause| *with.entry(*cause).or_default() += 1);
     let shown = |parameter: usize| -> Vec<(f64, bool)> {
-        campaigns.iter().map(|tested| (tested.truth.parameters[parameter], is_found(&tested))).collect()
+        // A strength is one number where the cause acts on all joints alike.
+        let alike = campaigns.iter().filter(|tested| tested.truth.causes == cause.into());
+        alike.map(|tested| (tested.truth.parameters[parameter], is_found(&tested))).collect()
     };
     let parameters = mechanism.iter().flat_map(|own| own.parameters.iter().map(|p| own.stronger(p.key)));
     // The name of the stream is part of every draw.

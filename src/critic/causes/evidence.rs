@@ -58,15 +58,15 @@ pub fn evidence(
     sampled(world, design, campaign, causes.into(), &WHOLE, seed)
 }
 
-/// The logarithm of the evidence of causes, roughly.
+/// The evidence of causes, roughly.
 pub fn rough_evidence(
     world: &World<'_>,
     design: &Design,
     campaign: &Campaign,
     causes: Causes,
     seed: u64,
-) -> f64 {
-    sampled(world, design, campaign, causes, &SCOUTS, seed).log
+) -> Evidence {
+    sampled(world, design, campaign, causes, &SCOUTS, seed)
 }
 
 fn sampled(

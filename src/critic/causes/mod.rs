@@ -3,10 +3,12 @@
 mod evidence;
 mod likelihood;
 mod network;
+mod over_scopes;
 mod ranking;
 mod weighing;
 
 pub use evidence::{Evidence, evidence, rough_evidence};
 pub use network::softmax;
+pub use over_scopes::OverScopes;
 pub use ranking::{COVERED, Ranked, Ranking, inputs};
 pub use weighing::{reweighed, weighed};

@@ -2,7 +2,7 @@
 
 use crate::critic::causes::{Ranked, softmax};
 use crate::critic::conflict::PriorPredictive;
-use crate::critic::simulate::{Campaign, Causes};
+use crate::critic::simulate::{Campaign, Causes, Scope};
 use crate::critic::verdict::diagnosis::{Diagnosis, Examined, Verdict};
 use crate::critic::verdict::examine::Examination;
 use crate::critic::verdict::judge::Judge;
@@ -53,6 +53,8 @@ impl Judge<'_> {
             .zip(evidences.into_iter().zip(&shares).skip(1))
             .map(|(&cause, (found, share))| Examined {
                 cause,
+                scope: found.causes.scoped().next().map_or(Scope::All, |(_, scope)| scope),
+                scope_share: found.share,
                 check: in_question(&cause).then(|| check.p_value(&found.draws, campaign, seed)),
                 conflict: None,
                 evidence: *share,
@@ -104,7 +106,7 @@ impl Judge<'_> {
             }
             verdict => {
                 let own = diagnosis.examined.iter_mut().filter(|own| verdict.causes().contains(&own.cause));
-                own.for_each(|own| own.conflict = Some(conflict(Some(own.cause).into())));
+                own.for_each(|own| own.conflict = Some(conflict(Causes::one(own.cause, own.scope))));
             }
         }
         if let Verdict::Named(cause) = diagnosis.verdict
@@ -135,12 +137,13 @@ impl Judge<'_> {
             .iter()
             .filter(|other| **other != best && mechanisms[best].goes_with(mechanisms[**other].name));
         let pairs: Vec<[usize; 2]> = others.map(|&other| [best.min(other), best.max(other)]).collect();
-        let models = pairs.iter().map(|&[one, other]| Causes::pair(one, other));
-        let rough = self.rough(campaign, models, seed);
-        let promising = stats::smallest(rough.iter().map(|log| -log).zip(0..), PAIRS);
+        let models = |pairs: &[[usize; 2]]| -> Vec<Causes> {
+            pairs.iter().map(|&[one, other]| Causes::pair(one, other)).collect()
+        };
+        let rough = self.rough(campaign, &models(&pairs), seed);
+        let promising = stats::smallest(rough.iter().map(|found| -found.log).zip(0..), PAIRS);
         let pairs: Vec<[usize; 2]> = promising.into_iter().map(|at| pairs[at]).collect();
-        let models: Vec<Causes> = pairs.iter().map(|&[one, other]| Causes::pair(one, other)).collect();
-        let evidences = self.evidences(campaign, &models, seed);
+        let evidences = self.evidences(campaign, &models(&pairs), seed);
         let rare = ln(causes.len() as f64);
         let all: Vec<f64> =
             logs.iter().copied().chain(evidences.iter().map(|evidence| evidence.log - rare)).collect();
@@ -150,6 +153,8 @@ impl Judge<'_> {
         let mut pairs: Vec<Examined<[usize; 2]>> = rows
             .map(|((cause, found), &evidence)| Examined {
                 cause,
+                scope: Scope::All,
+                scope_share: 1.0,
                 check: (evidence >= limits.pair.named).then(|| check.p_value(&found.draws, campaign, seed)),
                 conflict: None,
                 evidence,
@@ -210,6 +215,8 @@ mod tests {
     fn what_is_possible_is_what_nothing_speaks_against() {
         let examined = |cause: usize, check: Option<f64>| Examined {
             cause,
+            scope: Scope::All,
+            scope_share: 1.0,
             check,
             conflict: None,
             evidence: 0.3,

@@ -2,7 +2,7 @@
 //! cause explains; and what that rests on.
 
 use crate::critic::discrepancy::ComponentEstimate;
-use crate::critic::simulate::Truth;
+use crate::critic::simulate::{Scope, Truth};
 use crate::critic::verdict::judge::Finding;
 
 /// What a campaign says of the base model.
@@ -62,14 +62,19 @@ pub struct Diagnosis {
 pub struct Examined<C> {
     /// Index of the mechanism; of both, ascending.
     pub cause: C,
-    /// Share of its own campaigns that fit no better; `None` where it was not checked, as it was not in question.
+    /// On which joints it acts, as the readings make likeliest; a pair on all.
+    pub scope: Scope,
+    /// Probability of this scope, if the cause acts.
+    pub scope_share: f64,
+    /// Share of the campaigns that it predicts which fit no better; `None` where it was not checked, as it was not in question.
     pub check: Option<f64>,
     /// Share of the campaigns that the physical priors predict which are as far out, along what the data pin down; `None` where it
     /// was not tested, as the verdict does not speak of it.
     pub conflict: Option<f64>,
-    /// Its share of the evidence: a cause's of all causes examined and of the base model, a pair's of these and of all pairs.
+    /// Its share of the evidence, over all scopes: a cause's of all causes examined and of the base model, a pair's of these and of all
+    /// pairs.
     pub evidence: f64,
-    /// What its parameters and the joints may be: draws, equally likely.
+    /// What its parameters and the joints may be with this scope: draws, equally likely.
     pub draws: Vec<Truth>,
 }
 

@@ -1,7 +1,8 @@
 //! What is found of what is hidden in campaigns, and whether anything is where nothing is.
 
+use crate::critic::causes::evidence;
 use crate::critic::fixture::{EFFORT, judged, made};
-use crate::critic::simulate::{Campaign, Causes, Design, Seen, Truth};
+use crate::critic::simulate::{Campaign, Causes, Design, Scope, Seen, Truth};
 use crate::critic::verdict::{Judge, Limits, Verdict};
 use crate::random::Streams;
 use crate::stats;
@@ -132,4 +133,29 @@ fn two_causes_that_act_together_are_named_together_and_one_alone_is_not() {
         "{together} of 8 best together or one of them named, {named} named together, {alone} of 8 alone"
     );
     assert!(together == 8 && named > 0 && alone == 0, "{together} {named} {alone}");
+}
+
+#[test]
+fn a_cause_that_acts_on_the_joints_of_the_stones_alone_is_seen_to_act_there() {
+    let made = made();
+    let area = made.cause("contact_area");
+    let made = made.moving(area);
+    let (world, (design, _)) = (made.world(), Design::of(&made.study));
+    let judge = Judge::trained(&world, &design, EFFORT, 78).expect("it can be told");
+    // Blocks, then both families of stones.
+    assert_eq!([0, 1, 2].map(|family| world.kind(family)), [0, 1, 1]);
+    let streams = Streams::new(51, 2);
+    let on_stones = Causes::one(area, Scope::Kind(1));
+    let mut truth = world.drawn(on_stones, &streams);
+    truth.parameters[0] = 1.0;
+    let shown = world.campaign(&design, &truth, &streams);
+    let log = |scope: Scope| evidence(&world, &design, &shown, Causes::one(area, scope), 3).log;
+    let [stones, blocks, all] = [Scope::Kind(1), Scope::Kind(0), Scope::All].map(log);
+    assert!(stones > all + 5.0 && stones > blocks + 5.0, "{stones} {blocks} {all}");
+    let diagnosis = judge.diagnosed(&shown, &Limits::default(), 1);
+    let examined = diagnosis.examined(area).expect("it has the evidence");
+    println!("{:?} {:?} {:?} {:?}", diagnosis.verdict, examined.scope, examined.scope_share, examined.check);
+    assert!(examined.scope == Scope::Kind(1) && examined.scope_share > 0.5, "{:?}", examined.scope);
+    assert!(examined.draws.iter().all(|draw| draw.causes == on_stones));
+    assert!(examined.check.is_some_and(|p| p > 0.05), "{:?}", examined.check);
 }

@@ -119,7 +119,8 @@ impl GainSummary {
             causes: choice
                 .causes
                 .iter()
-                .map(|(cause, share)| ShareEntry { cause: mechanisms[*cause].name, share: *share })
+                .flat_map(|(causes, share)| causes.each().map(move |cause| (cause, *share)))
+                .map(|(cause, share)| ShareEntry { cause: mechanisms[cause].name, share })
                 .collect(),
         });
         let families = gain.families.iter();

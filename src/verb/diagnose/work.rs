@@ -59,9 +59,8 @@ fn judged(arguments: &Diagnose) -> Result<Answer, Failure> {
     let kept = |judge: &Judge<'_>| judge::self_test(judge, &plan, seed, &folder);
     let analysis = critic::diagnose(&task, &OnStderr, kept).ok_or_else(judge::nothing_to_compare)?;
     let Analysis { diagnosis, residuals, self_test, extensions, gain, offered, are_left } = analysis;
-    let mut summary =
-        DiagnosisSummary::of(&study, seed, &plan.study.hash, &mechanisms, &design, &diagnosis, &self_test)
-            .beside(&study, &residuals);
+    let mut summary = DiagnosisSummary::of(&world, seed, &plan.study.hash, &design, &diagnosis, &self_test)
+        .beside(&study, &residuals);
     summary.notes = notes;
     let file = arguments.measured.as_deref().unwrap_or(Path::new(MEASURED));
     summary.measured = stated.measured().map(|(_, sha256)| DataEntry::of(file, sha256));
@@ -169,7 +168,9 @@ fn extended(
 
 /// The mechanisms of an extension.
 fn acting(extension: &Extension) -> Vec<&'static str> {
-    extension.median.acting.iter().map(|own| own.mechanism).collect()
+    let mut names: Vec<&str> = extension.median.acting.iter().map(|own| own.mechanism).collect();
+    names.dedup();
+    names
 }
 
 /// Name of an extension's folder.

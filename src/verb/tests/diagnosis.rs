@@ -6,16 +6,16 @@ use std::path::Path;
 
 use super::figure::folder;
 use crate::critic::{
-    Baseline, Contrast, Counted, Design, DetectionLimit, Diagnosis, Discrepancy, Examined, Feature, Finding,
-    Made, Offer, Offered, Ranked, SelfTest, SelfTestRow, Truth, Unused, Verdict, base_curves, best_curves,
-    cause_curves, fitted_curves, made,
+    Baseline, Causes, Contrast, Counted, Design, DetectionLimit, Diagnosis, Discrepancy, Examined, Feature,
+    Finding, Made, Offer, Offered, Ranked, Scope, SelfTest, SelfTestRow, Truth, Unused, Verdict, base_curves,
+    best_curves, cause_curves, fitted_curves, made,
 };
 use crate::render::draw::is_whole;
 use crate::study::MeasuredKind;
 use crate::verb::diagnose::advice::Advice;
 use crate::verb::diagnose::answer::{
     DataEntry, DiagnosisPage, DiagnosisSummary, ExpectedEntry, FamilyFigure, FitFigure, GroupEntry, Misfit,
-    diagnosis_page, diagnosis_text, headline, lines, write_diagnosis,
+    ScopeEntry, diagnosis_page, diagnosis_text, headline, lines, parameters, write_diagnosis,
 };
 use crate::verb::diagnose::gain::{GainEntry, GainSummary, GainedEntry, ScoresEntry};
 use crate::verb::run::answer::page::PageOrigin;
@@ -64,7 +64,15 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>, FitFigure) {
         let parameters = vec![0.5; made.mechanisms[cause].parameters.len()];
         let joints = vec![[0.0; 3]; world.joint_kinds()];
         let draws = vec![Truth { causes: Some(cause).into(), parameters, joints }];
-        Examined { cause, check: Some(0.4), conflict: Some(0.3), evidence: 0.45, draws }
+        Examined {
+            cause,
+            scope: Scope::All,
+            scope_share: 1.0,
+            check: Some(0.4),
+            conflict: Some(0.3),
+            evidence: 0.45,
+            draws,
+        }
     };
     let causes = [cause("creep"), cause("gauge_offset")];
     let rows = [None, Some(causes[0])].map(|cause| SelfTestRow {
@@ -106,8 +114,8 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>, FitFigure) {
     let residuals = Baseline::new(&world, &design, 2).residuals(&measured);
     let unmodelled = [10, 5].map(|campaigns| Counted { campaigns, found: 3, named: 0, misnamed: 1 });
     let test = SelfTest { rows: rows.to_vec(), unmodelled };
-    let summary = DiagnosisSummary::of(&made.study, 3, "00ff", &made.mechanisms, &design, &diagnosis, &test)
-        .beside(&made.study, &residuals);
+    let summary =
+        DiagnosisSummary::of(&world, 3, "00ff", &design, &diagnosis, &test).beside(&made.study, &residuals);
     let (base, under) = (base_curves(&world, &design, 4), cause_curves(&world, &design, &diagnosis, 4));
     let families = FamilyFigure::all(&made.study, &made.mechanisms, &residuals, &base, &under);
     let fitted = fitted_curves(&world, &design, &measured, 4);
@@ -175,6 +183,40 @@ fn what_is_not_explained_excludes_causes_and_says_why() {
         diagnosis_text(&summary)
             .contains("this cause explains the readings, but not surely enough to be named: ")
     );
+}
+
+#[test]
+fn a_cause_names_the_joints_that_it_acts_on_where_these_are_not_all() {
+    let made = made();
+    let (world, area) = (made.world(), made.cause("contact_area"));
+    let entry = |scope: Scope| {
+        let causes = Causes::one(area, scope);
+        let scores = |k: i32| vec![0.05 * f64::from(k); world.inputs(causes)];
+        let draws: Vec<Truth> = (-20..20).map(|k| world.truth(causes, &scores(k))).collect();
+        (ScopeEntry::of(&world, area, causes, 0.93), parameters(&world, area, &draws))
+    };
+    let (all, [parameter]) = (entry(Scope::All).0, &entry(Scope::All).1[..]) else { panic!("one parameter") };
+    assert_eq!((all, &parameter.arms), (None, &None));
+    let (stones, stones_parameters) = entry(Scope::Kind(1));
+    let stones = stones.expect("not on all");
+    assert_eq!((&stones.acts_on[..], stones.share), (&["sbl".to_owned(), "sbr".to_owned()][..], 0.93));
+    assert_eq!(stones.words, "the joints of sbl and sbr, not those of cbl");
+    assert!(stones_parameters[0].words().starts_with("share (sbl and sbr) "), "{stones_parameters:?}");
+    let (each, each_parameters) = entry(Scope::Each);
+    assert_eq!(
+        each.expect("each by parameters of its own").words,
+        "the joints of cbl; of sbl and sbr, each by parameters of their own"
+    );
+    let arms: Vec<Option<Vec<String>>> = each_parameters.into_iter().map(|own| own.arms).collect();
+    assert_eq!(arms, [Some(vec!["cbl".to_owned()]), Some(vec!["sbl".to_owned(), "sbr".to_owned()])]);
+    // In the verdict, on the page and on a terminal.
+    let (mut summary, ..) = diagnosed(&made);
+    summary.causes[0].scope = Some(stones);
+    assert!(summary.causes[0].meaning().ends_with(" (the joints of sbl and sbr, not those of cbl)"));
+    let text = diagnosis_text(&summary).split_whitespace().collect::<Vec<_>>().join(" ");
+    let sentence =
+        "creep: acts on the joints of sbl and sbr, not those of cbl (probability, if it acts: 0.93)";
+    assert!(text.contains(sentence), "{text}");
 }
 
 #[test]

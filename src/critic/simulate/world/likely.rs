@@ -54,7 +54,7 @@ impl World<'_> {
             random: *random,
         };
         likely.leave(&base, 0);
-        for (place, (cause, parameters)) in self.parts(truth).enumerate() {
+        for (place, (cause, parameters)) in self.acting(truth, self.kinds[family]).enumerate() {
             let Some(change) = self.changes.get(&(family, cause)) else { continue };
             let parameters = varying(self.mechanisms, Some(cause), parameters.iter().copied());
             let scores: Vec<f64> = joints.into_iter().chain(parameters).collect();

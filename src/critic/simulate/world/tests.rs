@@ -3,7 +3,7 @@
 use super::likely::NEIGHBOURS;
 use crate::critic::fixture::made;
 use crate::critic::simulate::queries::Queries;
-use crate::critic::simulate::{Campaign, Design, Seen, Truth};
+use crate::critic::simulate::{Campaign, Causes, Design, Scope, Seen, Truth};
 use crate::math::radians;
 use crate::random::Streams;
 use crate::stats;
@@ -444,4 +444,59 @@ fn truths_under_which_walls_do_not_stand_are_neither_drawn_nor_found() {
     let (design, campaign) = Design::of(&made.study);
     let found = crate::critic::evidence(&world, &design, &campaign, Some(lean), 3);
     assert!(found.log.is_finite() && found.draws.iter().all(|draw| world.stands(draw)));
+}
+
+#[test]
+fn a_cause_that_acts_on_joints_may_act_on_those_of_one_kind() {
+    let made = made();
+    let area = made.cause("contact_area");
+    let mut made = made.moving(area);
+    let (design, _) = Design::of(&made.study);
+    {
+        let world = made.world();
+        let (blocks, stones) = (Scope::Kind(world.kind(0)), Scope::Kind(world.kind(1)));
+        let sixth = 0.5 / 3.0;
+        assert_eq!(
+            world.scopes(area),
+            [(Scope::All, 0.5), (blocks, sixth), (stones, sixth), (Scope::Each, sixth)]
+        );
+        // What holds or loads a wall acts on every one.
+        for name in ["creep", "base_compliance", "gauge_offset"] {
+            assert_eq!(world.scopes(made.cause(name)), [(Scope::All, 1.0)], "{name}");
+        }
+        let shown = |causes: Causes, parameters: &[f64]| {
+            let parameters = parameters.to_vec();
+            let truth = Truth { causes, parameters, ..world.drawn(None, &Streams::new(9, 0)) };
+            world.values(&design, &truth, &Streams::new(9, 1))
+        };
+        let one = |scope: Scope| Causes::one(area, scope);
+        let [base, all, weak] =
+            [(Causes::default(), &[][..]), (one(Scope::All), &[1.0]), (one(Scope::All), &[-1.0])]
+                .map(|(causes, parameters)| shown(causes, parameters));
+        // Three specimens of the blocks, then six of the stones.
+        let both =
+            |blocks: &[Vec<Option<f64>>], stones: &[Vec<Option<f64>>]| [&blocks[..3], &stones[3..]].concat();
+        assert!(design.specimens.iter().map(|own| own.family).eq([0, 0, 0, 1, 1, 1, 2, 2, 2]));
+        assert_eq!(shown(one(stones), &[1.0]), both(&base, &all));
+        assert_eq!(shown(one(blocks), &[1.0]), both(&all, &base));
+        assert_eq!(shown(one(Scope::Each), &[-1.0, 1.0]), both(&weak, &all));
+        // Scopes are drawn as often as they are likely.
+        let drawn = |scope: Scope| {
+            (0..3000).filter(|&k| world.scoped(Some(area), &Streams::new(3, k)) == one(scope)).count()
+        };
+        let counts = [Scope::All, blocks, stones, Scope::Each].map(drawn);
+        // 1500 +- 27, and 500 +- 20 of each of the others.
+        assert!(
+            counts[0].abs_diff(1500) < 90 && counts[1..].iter().all(|n| n.abs_diff(500) < 65),
+            "{counts:?}"
+        );
+    }
+    // Joints of one kind: a cause acts on them or does not.
+    let arms = &mut made.study.arms;
+    (arms[0].joint, arms[0].kn_points) = (arms[1].joint.clone(), arms[1].kn_points.clone());
+    let world = made.world();
+    for cause in world.causes() {
+        assert_eq!(world.scopes(cause), [(Scope::All, 1.0)]);
+        assert_eq!(world.scoped(Some(cause), &Streams::new(3, 1)), Some(cause).into());
+    }
 }
