@@ -9,7 +9,11 @@ use crate::critic::verdict::judge::{Finding, Judge};
 use crate::critic::verdict::limits::Limits;
 
 /// So many causes, the most likely, are examined.
-const SHORTLIST: usize = 5;
+const LIKELIEST: usize = 5;
+/// And those whose rough evidence is within so much of the largest one's (nat): the ranking may know nothing of how they look.
+const NEAR: f64 = 6.0;
+/// But no more than this.
+const SHORTLIST: usize = 8;
 
 /// A finding with the evidence of its likely causes.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,12 +42,9 @@ impl Judge<'_> {
             let (shortlist, evidences, components) = (Vec::new(), Vec::new(), Vec::new());
             return Examination { finding, shortlist, evidences, components };
         }
-        let (ranked, _) = self.weighed(&finding.ranked, campaign, seed);
+        let (ranked, rough) = self.weighed(&finding.ranked, campaign, seed);
         let finding = Finding { ranked, ..finding };
-        let likely = finding.ranked.causes.iter().filter_map(|(cause, _)| *cause);
-        let open = |cause: &usize| finding.leaves_few() && finding.ranked.set.contains(cause);
-        let shortlist = likely.enumerate().filter(|(rank, cause)| *rank < SHORTLIST || open(cause));
-        let shortlist: Vec<usize> = shortlist.map(|(_, cause)| cause).collect();
+        let shortlist = shortlist(&finding, &rough);
         let models: Vec<Option<usize>> =
             std::iter::once(None).chain(shortlist.iter().copied().map(Some)).collect();
         let evidences = self.over_scopes(&models, |models| self.evidences(campaign, models, seed));
@@ -105,5 +106,58 @@ impl Judge<'_> {
         let units = self.reference.scale.units();
         SmoothDiscrepancy::new(&self.design, campaign, &known, &base, &units)
             .map_or_else(Vec::new, |free| free.components())
+    }
+}
+
+/// The causes that are worth being examined: those that the ranking finds likely or cannot put aside, where these are few, and those
+/// whose rough evidence is near the largest. Of too many those come first that stand high in either order.
+fn shortlist(finding: &Finding, rough: &[OverScopes]) -> Vec<usize> {
+    let likely: Vec<usize> = finding.ranked.causes.iter().filter_map(|(cause, _)| *cause).collect();
+    let evidence: Vec<(usize, f64)> =
+        rough.iter().filter_map(|rough| Some((rough.causes.each().next()?, rough.log))).collect();
+    let largest = evidence.iter().map(|(_, log)| *log).fold(f64::NEG_INFINITY, f64::max);
+    let open = |cause: usize| finding.leaves_few() && finding.ranked.set.contains(&cause);
+    let chosen = |(rank, cause): (usize, usize)| {
+        let log = evidence.iter().find(|(other, _)| *other == cause)?.1;
+        let further = evidence.iter().filter(|(_, other)| *other > log).count();
+        let is_chosen = rank < LIKELIEST || open(cause) || log >= largest - NEAR;
+        is_chosen.then_some((rank.min(further), rank, cause))
+    };
+    let mut chosen: Vec<(usize, usize, usize)> = likely.into_iter().enumerate().filter_map(chosen).collect();
+    chosen.sort_unstable();
+    chosen.into_iter().take(SHORTLIST).map(|(.., cause)| cause).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::critic::discrepancy::Discrepancy;
+    use crate::critic::simulate::Scope;
+
+    #[test]
+    fn what_has_the_evidence_is_examined_whatever_the_ranking_says_of_it() {
+        let examined = |logs: &dyn Fn(usize) -> f64, set: &[usize]| {
+            // Twelve causes, the later the less likely.
+            let causes = (0..12).map(|cause| (Some(cause), 1.0 / f64::from(2_u32 << cause))).collect();
+            let ranked = Ranked::new(causes, 0.0, set.to_vec());
+            let discrepancy = Discrepancy { excess: Default::default(), joints: Vec::new(), distance: 0.0 };
+            let finding = Finding { discrepancy, ranked, p_value: 0.001, p_by_statistic: [0.001; 3] };
+            let one = |cause: usize| OverScopes {
+                causes: Causes::one(cause, Scope::All),
+                share: 1.0,
+                log: logs(cause),
+                draws: Vec::new(),
+            };
+            let mut examined = shortlist(&finding, &(0..12).map(one).collect::<Vec<_>>());
+            examined.sort_unstable();
+            examined
+        };
+        let at = |cause: usize| if cause == 9 || cause == 11 { 3.0 } else { -10.0 };
+        assert_eq!(examined(&at, &[]), [0, 1, 2, 3, 4, 9, 11]);
+        // The seventh cannot be put aside, and of nine the one is left out that stands high in neither order.
+        assert_eq!(examined(&at, &[6]), [0, 1, 2, 3, 4, 6, 9, 11]);
+        assert_eq!(examined(&at, &[6, 7]), [0, 1, 2, 3, 4, 6, 9, 11]);
+        // Where all have as much, the likeliest.
+        assert_eq!(examined(&|_| 0.0, &[]), [0, 1, 2, 3, 4, 5, 6, 7]);
     }
 }
