@@ -180,7 +180,7 @@ fn a_mechanism_of_some_arms_stands_in_these_each_with_its_parameters() {
     };
     let factors = |acting: Vec<Acting>| {
         let (_, read) = read_back(&base, &Point { acting, joints: Vec::new() }, &[]);
-        let friction = |arm: &Arm| arm.mechanisms.friction.map(|friction| friction.factor);
+        let friction = |arm: &Arm| arm.mechanisms.value("friction", "factor");
         read[0].arms.iter().map(friction).collect::<Vec<_>>()
     };
     assert_eq!(factors(vec![of(0.8, &[1, 2])]), [None, Some(0.8), Some(0.8)]);
