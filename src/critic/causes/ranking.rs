@@ -140,6 +140,12 @@ impl Ranked {
         Ranked { causes, unmodelled, set }
     }
 
+    /// The same causes, where something unmodelled has this probability.
+    pub fn beside(&self, unmodelled: f64) -> Ranked {
+        let causes = self.causes.iter().map(|(cause, p)| (*cause, p / (1.0 - self.unmodelled)));
+        Ranked::new(causes.collect(), unmodelled, self.set.clone())
+    }
+
     /// How much more likely it is that something is off, by any cause or none that has a name, than the base model (logarithm of
     /// the odds).
     pub fn odds(&self) -> f64 {

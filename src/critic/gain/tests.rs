@@ -266,6 +266,7 @@ fn a_fold_that_names_no_cause_mixes_those_that_it_leaves_open() {
         causes: Some(cause).into(),
         parameters: vec![k as f64],
         joints: Vec::new(),
+        scatter: 0.0,
     };
     let part = |cause: usize| (0..20).map(|k| truth(cause, k)).collect::<Vec<_>>();
     let both = mixture(vec![(part(1), 0.75), (part(2), 0.25)]);

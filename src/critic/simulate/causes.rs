@@ -25,7 +25,13 @@ impl Causes {
 
     /// Two causes together, on all joints.
     pub fn pair(one: usize, other: usize) -> Causes {
-        Causes([one.min(other), one.max(other)].map(|cause| Some((cause, Scope::All))))
+        Causes::both([(one, Scope::All), (other, Scope::All)])
+    }
+
+    /// Two causes together, each with its scope.
+    pub fn both(mut two: [(usize, Scope); 2]) -> Causes {
+        two.sort_unstable();
+        Causes(two.map(Some))
     }
 
     /// Each of them with its scope, ascending.

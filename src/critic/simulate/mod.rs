@@ -16,5 +16,5 @@ pub use causes::{Causes, Scope};
 pub use design::{Campaign, Design, Seen, Specimen, Unused};
 pub use queries::Queries;
 pub use truth::Truth;
-pub(in crate::critic) use world::standing;
+pub(in crate::critic) use world::{MayShow, standing};
 pub use world::{Scored, World};

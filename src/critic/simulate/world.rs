@@ -8,6 +8,7 @@ mod standing;
 mod tests;
 
 use likely::Likely;
+pub(in crate::critic) use likely::MayShow;
 pub use scopes::Scored;
 use scopes::kinds;
 pub(in crate::critic) use standing::standing;
@@ -166,21 +167,22 @@ impl<'s> World<'s> {
         truth
     }
 
-    /// Scores that a truth with these causes has: three for each kind of joint, then [those of the causes](Self::scored).
+    /// Scores that a truth with these causes has: three for each kind of joint, one of how specimens differ, then
+    /// [those of the causes](Self::scored).
     pub fn inputs(&self, causes: impl Into<Causes>) -> usize {
-        3 * self.joint_kinds() + self.scored(causes).count()
+        3 * self.joint_kinds() + 1 + self.scored(causes).count()
     }
 
     /// The truth with these causes and these scores; those of the joints count [`PRIOR_WIDENING`] times.
     pub fn truth(&self, causes: impl Into<Causes>, scores: &[f64]) -> Truth {
         let causes = causes.into();
         crate::check!(scores.len() == self.inputs(causes), "{} scores for {causes:?}", scores.len());
-        let (joints, parameters) = scores.split_at(3 * self.joint_kinds());
+        let (joints, others) = scores.split_at(3 * self.joint_kinds());
         let joints = joints
             .chunks_exact(3)
             .map(|c| [PRIOR_WIDENING * c[0], PRIOR_WIDENING * c[1], PRIOR_WIDENING * c[2]])
             .collect();
-        Truth { causes, parameters: parameters.to_vec(), joints }
+        Truth { causes, parameters: others[1..].to_vec(), joints, scatter: others[0] }
     }
 
     /// A campaign of a design under a truth: a pure function of these and the streams.
@@ -329,9 +331,12 @@ fn shown(wall: &Curves, m: &Measurement, seen: &impl Fn(f64, [f64; 3]) -> [f64; 
     of_points(m.quantity, seen(tilt, points?))
 }
 
+fn varies(prior: &Family) -> bool {
+    !matches!(prior, Family::Constant { .. })
+}
+
 /// Scores of the parameters that vary.
 fn varying(mechanisms: &[Described], cause: Option<usize>, scores: impl Iterator<Item = f64>) -> Vec<f64> {
     let parameters = cause.map_or(&[][..], |index| &mechanisms[index].parameters);
-    let varies = |prior: &Family| !matches!(prior, Family::Constant { .. });
     parameters.iter().zip(scores).filter(|(p, _)| varies(&p.search)).map(|(_, score)| score).collect()
 }

@@ -2,16 +2,21 @@
 
 use rayon::prelude::*;
 
-use crate::critic::causes::{Evidence, OverScopes, Ranked, evidence, reweighed, rough_evidence, weighed};
+use crate::critic::causes::{
+    Evidence, OverScopes, RUNS, Ranked, evidence_again, outside_evidence, reweighed, rough_evidence, weighed,
+};
 use crate::critic::discrepancy::{ComponentEstimate, Predicted, SmoothDiscrepancy};
 use crate::critic::simulate::{Campaign, Causes, Truth};
 use crate::critic::verdict::judge::{Finding, Judge};
 use crate::critic::verdict::limits::Limits;
+use crate::math::ln;
 
 /// So many causes, the most likely, are examined.
 const LIKELIEST: usize = 5;
 /// And those whose rough evidence is within so much of the largest one's (nat): the ranking may know nothing of how they look.
 const NEAR: f64 = 6.0;
+/// A model whose rough evidence is further behind than this has no part in what is said (nat).
+const FAR: f64 = 12.0;
 /// But no more than this.
 const SHORTLIST: usize = 8;
 
@@ -24,6 +29,8 @@ pub struct Examination {
     pub shortlist: Vec<usize>,
     /// The evidence of the base model, then that of each of these over its scopes; empty where nothing was found.
     pub evidences: Vec<OverScopes>,
+    /// Logarithm of the evidence of something that is in no catalogue; `None` where nothing was found.
+    pub outside: Option<f64>,
     /// What the base model with fitted joints misses; empty where nothing was found.
     pub components: Vec<ComponentEstimate>,
 }
@@ -40,16 +47,19 @@ impl Judge<'_> {
     pub fn rank(&self, finding: Finding, campaign: &Campaign, limits: &Limits, seed: u64) -> Examination {
         if finding.p_value >= limits.found {
             let (shortlist, evidences, components) = (Vec::new(), Vec::new(), Vec::new());
-            return Examination { finding, shortlist, evidences, components };
+            return Examination { finding, shortlist, evidences, outside: None, components };
         }
         let (ranked, rough) = self.weighed(&finding.ranked, campaign, seed);
         let finding = Finding { ranked, ..finding };
         let shortlist = shortlist(&finding, &rough);
-        let models: Vec<Option<usize>> =
-            std::iter::once(None).chain(shortlist.iter().copied().map(Some)).collect();
-        let evidences = self.over_scopes(&models, |models| self.evidences(campaign, models, seed));
+        let in_rough = |cause: Option<usize>| rough.iter().find(|rough| rough.causes.each().next() == cause);
+        let models = std::iter::once(None).chain(shortlist.iter().copied().map(Some)).filter_map(in_rough);
+        let evidences = self.closely(campaign, &models.collect::<Vec<_>>(), seed);
         let components = self.components(campaign, &evidences[0].draws, seed.wrapping_add(2));
-        let mut examination = Examination { finding, shortlist, evidences, components };
+        let units = self.reference.scale.units();
+        let outside = outside_evidence(self.world, &self.design, campaign, &units, seed.wrapping_add(1)).log;
+        let mut examination =
+            Examination { finding, shortlist, evidences, outside: Some(outside), components };
         let ranked = &examination.finding.ranked;
         examination.finding.ranked = reweighed(ranked, &examination.shortlist, &examination.logs());
         examination
@@ -62,40 +72,64 @@ impl Judge<'_> {
         campaign: &Campaign,
         seed: u64,
     ) -> (Ranked, Vec<OverScopes>) {
-        let causes: Vec<Option<usize>> = ranked.causes.iter().map(|(cause, _)| *cause).collect();
-        let rough = self.over_scopes(&causes, |models| self.rough(campaign, models, seed));
+        let models = ranked.causes.iter().map(|(cause, _)| self.world.models(*cause)).collect();
+        let rough = self.roughly(campaign, models, seed);
         (weighed(ranked, &rough.iter().map(|rough| rough.log).collect::<Vec<_>>()), rough)
     }
 
-    /// The evidence of causes over their scopes, from that of models.
-    fn over_scopes(
+    /// The evidence of each of these over its models, all of which have a rough one. A model that is far behind keeps it, unless it is
+    /// the likeliest of its cause. Those that come near the largest are run several times: they alone can change places.
+    pub(super) fn closely(&self, campaign: &Campaign, rough: &[&OverScopes], seed: u64) -> Vec<OverScopes> {
+        let among = |all: &[(Causes, f64, Evidence)]| -> f64 {
+            all.iter().map(|(_, p, own)| ln(*p) + own.log).fold(f64::NEG_INFINITY, f64::max)
+        };
+        let run = |causes: Causes, number: u64| {
+            let seed = (seed.wrapping_add(1), number);
+            evidence_again(self.world, &self.design, campaign, causes, seed)
+        };
+        let largest = rough.iter().map(|own| among(&own.models)).fold(f64::NEG_INFINITY, f64::max);
+        let all: Vec<(usize, &(Causes, f64, Evidence))> =
+            rough.iter().enumerate().flat_map(|(k, own)| own.models.iter().map(move |m| (k, m))).collect();
+        let once = all.par_iter().map(|(k, (causes, p, roughly))| {
+            let is_far = *causes != rough[*k].causes && ln(*p) + roughly.log < largest - FAR;
+            let own = if is_far { roughly.clone() } else { run(*causes, 0) };
+            (*causes, *p, own)
+        });
+        let once: Vec<(Causes, f64, Evidence)> = once.collect();
+        let largest = among(&once);
+        let repeated = once.into_par_iter().map(|(causes, p, own)| {
+            let is_near = causes == Causes::default() || ln(p) + own.log >= largest - NEAR;
+            if own.draws.is_empty() || !is_near {
+                return own;
+            }
+            let again = (1..RUNS).into_par_iter().map(|number| run(causes, number));
+            Evidence::of_runs(std::iter::once(own).chain(again.collect::<Vec<_>>()).collect())
+        });
+        let mut repeated = repeated.collect::<Vec<_>>().into_iter();
+        let over = |own: &&OverScopes| {
+            let models = own.models.iter().map(|(causes, p, _)| (*causes, *p));
+            OverScopes::of(models, repeated.by_ref().take(own.models.len()).collect())
+        };
+        rough.iter().map(over).collect()
+    }
+
+    /// The rough evidence of each of these over its models, which come with their probabilities beforehand.
+    pub(super) fn roughly(
         &self,
-        causes: &[Option<usize>],
-        evidences: impl Fn(&[Causes]) -> Vec<Evidence>,
+        campaign: &Campaign,
+        models: Vec<Vec<(Causes, f64)>>,
+        seed: u64,
     ) -> Vec<OverScopes> {
-        let models: Vec<Vec<(Causes, f64)>> = causes.iter().map(|cause| self.world.models(*cause)).collect();
         let all: Vec<Causes> = models.iter().flatten().map(|(causes, _)| *causes).collect();
-        let mut evidences = evidences(&all).into_iter();
+        let rough = |causes: &Causes| {
+            rough_evidence(self.world, &self.design, campaign, *causes, seed.wrapping_add(1))
+        };
+        let mut evidences = all.par_iter().map(rough).collect::<Vec<_>>().into_iter();
         let over = |models: Vec<(Causes, f64)>| {
             let evidences = evidences.by_ref().take(models.len()).collect();
             OverScopes::of(models, evidences)
         };
         models.into_iter().map(over).collect()
-    }
-
-    /// The evidence of each model.
-    pub(super) fn evidences(&self, campaign: &Campaign, models: &[Causes], seed: u64) -> Vec<Evidence> {
-        let of =
-            |causes: &Causes| evidence(self.world, &self.design, campaign, *causes, seed.wrapping_add(1));
-        models.par_iter().map(of).collect()
-    }
-
-    /// The evidence of each model, roughly.
-    pub(super) fn rough(&self, campaign: &Campaign, models: &[Causes], seed: u64) -> Vec<Evidence> {
-        let rough = |causes: &Causes| {
-            rough_evidence(self.world, &self.design, campaign, *causes, seed.wrapping_add(1))
-        };
-        models.par_iter().map(rough).collect()
     }
 
     /// What the base model with these joints misses.
@@ -146,6 +180,8 @@ mod tests {
                 causes: Causes::one(cause, Scope::All),
                 share: 1.0,
                 log: logs(cause),
+                spread: 0.0,
+                models: Vec::new(),
                 draws: Vec::new(),
             };
             let mut examined = shortlist(&finding, &(0..12).map(one).collect::<Vec<_>>());

@@ -65,7 +65,7 @@ fn judged(arguments: &Diagnose) -> Result<Answer, Failure> {
     let file = arguments.measured.as_deref().unwrap_or(Path::new(MEASURED));
     summary.measured = stated.measured().map(|(_, sha256)| DataEntry::of(file, sha256));
     summary.advice = Advice::of(&self_test, &offered, are_left, &mechanisms);
-    summary.gain = gain.map(|gain| GainSummary::of(&gain, &study, &design, &mechanisms));
+    summary.gain = gain.map(|gain| GainSummary::of(&gain, &world, &design));
     let drawn = seed.wrapping_add(7 * SEEDS);
     let (base, causes, fitted, best) = doing("simulating the curves of the figures", |_| {
         let causes = cause_curves(&world, &design, &diagnosis, drawn);

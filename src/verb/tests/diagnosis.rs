@@ -63,11 +63,13 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>, FitFigure) {
     let examined = |cause: usize| {
         let parameters = vec![0.5; made.mechanisms[cause].parameters.len()];
         let joints = vec![[0.0; 3]; world.joint_kinds()];
-        let draws = vec![Truth { causes: Some(cause).into(), parameters, joints }];
+        let draws = vec![Truth { causes: Some(cause).into(), parameters, joints, scatter: 0.0 }];
         Examined {
             cause,
-            scope: Scope::All,
+            acting: Some(cause).into(),
             scope_share: 1.0,
+            log: 3.25,
+            spread: 0.125,
             check: Some(0.4),
             conflict: Some(0.3),
             evidence: 0.45,
@@ -80,6 +82,7 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>, FitFigure) {
         all: Counted { campaigns: 10, found: 5, named: 4, misnamed: 1 },
         strong: Counted { campaigns: 3, found: 3, named: 2, misnamed: 0 },
         judged: Counted { campaigns: 2, found: 1, named: 1, misnamed: 0 },
+        wrong_scope: 1,
         covered: 4,
         set_size: 1.5,
         with: BTreeMap::new(),
@@ -108,6 +111,7 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>, FitFigure) {
         },
         examined: causes.map(examined).to_vec(),
         pairs: Vec::new(),
+        outside: Some(-2.5),
         components: Vec::new(),
         verdict: Verdict::Ambiguous(causes.to_vec()),
     };
@@ -228,6 +232,7 @@ fn every_cause_is_detected_seen_in_part_or_hardly_seen() {
         all: Counted { campaigns: 100, found, named: 0, misnamed: 0 },
         strong: Counted { campaigns: 33, found: found / 3, named: 0, misnamed: 0 },
         judged: Counted::default(),
+        wrong_scope: 0,
         covered: 0,
         set_size: 0.0,
         with: BTreeMap::new(),
@@ -446,6 +451,9 @@ fn the_text_the_page_and_the_files_show_what_was_measured_beside_what_was_simula
         (33, 11)
     );
     let nameless = &json["self_test_nameless"];
+    assert_eq!(json["nameless_log_evidence"], -2.5);
+    let best = &json["causes"][0];
+    assert_eq!((&best["log_evidence"], &best["log_evidence_spread"]), (&3.25.into(), &0.125.into()));
     assert_eq!((&json["nameless_probability"], &nameless["judged"]["misnamed"]), (&0.25.into(), &1.into()));
     let bound = &json["residuals"][1];
     assert_eq!((bound["specimen"].as_str(), bound["kind"].as_str()), (Some("CBL1"), Some("below")));

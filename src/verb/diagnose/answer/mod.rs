@@ -29,8 +29,7 @@ pub use page::{DiagnosisPage, diagnosis_page};
 pub use parameter::parameters;
 #[cfg(test)]
 pub use residual::{ExpectedEntry, GroupEntry};
-#[cfg(test)]
-pub use scope::ScopeEntry;
+pub use scope::{ScopeEntry, enumerated};
 pub use summary::{DataEntry, DiagnosisSummary};
 pub use text::diagnosis_text;
 #[cfg(test)]

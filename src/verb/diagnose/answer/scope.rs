@@ -48,7 +48,7 @@ pub(super) fn acted_on(world: &World<'_>, kinds: &[usize]) -> Vec<Vec<String>> {
 }
 
 /// Names as a sentence has them.
-pub(super) fn enumerated(names: &[String]) -> String {
+pub fn enumerated(names: &[String]) -> String {
     match names {
         [others @ .., one, last] => {
             let others: String = others.iter().map(|name| format!("{name}, ")).collect();

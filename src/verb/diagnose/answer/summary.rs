@@ -38,6 +38,9 @@ pub struct DiagnosisSummary {
     pub base_probability: f64,
     /// Probability of something that is in no catalogue, as likely beforehand as one of them.
     pub nameless_probability: f64,
+    /// By how much the logarithm of its evidence, that of a smooth discrepancy, exceeds the largest of the base model's and of the causes
+    /// examined; `None` where nothing was found.
+    pub nameless_log_evidence: Option<f64>,
     /// Share of campaigns without any effect in which something is as far off.
     pub p_value: f64,
     /// How many such campaigns were simulated to tell.
@@ -109,6 +112,10 @@ pub struct CauseEntry {
     pub probability: f64,
     /// Its share of the evidence of the causes that were examined and of the base model; null for the others.
     pub evidence: Option<f64>,
+    /// By how much the logarithm of its evidence exceeds that of the base model; null for those that were not examined.
+    pub log_evidence: Option<f64>,
+    /// Standard error of the logarithm of its evidence: what differs by less than two of them is not ranked.
+    pub log_evidence_spread: Option<f64>,
     /// Whether the verdict speaks of it.
     pub in_verdict: bool,
     /// What speaks against it: `readings` where it fits them worse than nearly all campaigns that it predicts, `looks` where nine in
@@ -147,6 +154,8 @@ pub struct UnusedEntry {
 pub struct PairEntry {
     /// Names of the mechanisms.
     pub ids: [&'static str; 2],
+    /// On which joints each acts, as the readings make likeliest; null where that is on all alike.
+    pub scopes: [Option<ScopeEntry>; 2],
     /// Share of the evidence of all pairs, of the causes that were examined and of the base model.
     pub evidence: f64,
     /// Whether the verdict names the pair.
@@ -188,6 +197,8 @@ pub struct SelfTestEntry {
     pub strong: Counted,
     /// Some of them by the whole diagnosis.
     pub judged: Counted,
+    /// Of these in which the cause is named, on other joints than it acts on.
+    pub wrong_scope: u64,
 }
 
 impl DiagnosisSummary {
@@ -217,6 +228,7 @@ impl DiagnosisSummary {
         };
         let pairs = diagnosis.pairs.iter().map(|own| PairEntry {
             ids: own.cause.map(|cause| mechanisms[cause].name),
+            scopes: own.cause.map(|cause| ScopeEntry::of(world, cause, own.acting, own.scope_share)),
             evidence: own.evidence,
             in_verdict: diagnosis.verdict == Verdict::NamedPair(own.cause),
             guard_p_value: own.check,
@@ -236,6 +248,8 @@ impl DiagnosisSummary {
                     means: mechanisms[cause].means,
                     probability,
                     evidence: examined.map(|own| own.evidence),
+                    log_evidence: examined.map(|own| own.log),
+                    log_evidence_spread: examined.map(|own| own.spread),
                     in_verdict: spoken.contains(&cause),
                     excluded_by: diagnosis.excluded(cause).map(|by| match by {
                         Excluded::ByCheck => "readings",
@@ -267,6 +281,7 @@ impl DiagnosisSummary {
             all: row.all,
             strong: row.strong,
             judged: row.judged,
+            wrong_scope: row.wrong_scope,
         });
         DiagnosisSummary {
             study: study.name.clone(),
@@ -279,6 +294,7 @@ impl DiagnosisSummary {
             pairs: pairs.collect(),
             base_probability: base.map_or(0.0, |(_, probability)| *probability),
             nameless_probability: ranked.unmodelled,
+            nameless_log_evidence: diagnosis.outside,
             p_value: diagnosis.finding.p_value,
             p_value_campaigns: Effort::default().reference,
             looks: LooksEntry { furthest, together, likeness },

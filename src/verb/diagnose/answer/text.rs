@@ -212,6 +212,7 @@ pub(crate) fn reliability(summary: &DiagnosisSummary) -> Vec<String> {
     let (all, strong) = (sum(&hidden, |row| row.all), sum(&hidden, |row| row.strong));
     let (judged, nothing_judged) = (sum(&hidden, |row| row.judged), sum(&nothing, |row| row.judged));
     let (still, unmodelled) = (sum(&nothing, |row| row.all), summary.self_test_nameless.judged);
+    let wrong_scope = hidden.iter().map(|row| row.wrong_scope).sum::<u64>();
     let counted = |part: u64, whole: u64| format!("{part} of {whole}, {}", share(part, whole));
     let mut sentences = vec![
         format!(
@@ -237,7 +238,7 @@ pub(crate) fn reliability(summary: &DiagnosisSummary) -> Vec<String> {
               bank's folder (--out)."
             .to_string(),
         _ => format!(
-            "Named by the whole diagnosis: {}; another cause in {}; with nothing hidden a cause in {}, with something outside the \
+            "Named by the whole diagnosis: {}, {wrong_scope} of these on wrong joints; another cause in {}; with nothing hidden a cause in {}, with something outside the \
              catalogue in {}.",
             counted(judged.named, judged.campaigns),
             counted(judged.misnamed, judged.campaigns),
