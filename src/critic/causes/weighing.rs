@@ -42,8 +42,8 @@ pub fn reweighed(ranked: &Ranked, shortlist: &[usize], logs: &[f64]) -> Ranked {
 /// The probability of something that is in no catalogue beside the base model and the causes that were examined, all as likely
 /// beforehand; `logs` are the logarithms of their evidence and `outside` that of its own. Evidence counts here as it does among causes.
 pub fn outside(logs: &[f64], outside: f64) -> f64 {
-    let all: Vec<f64> = logs.iter().copied().chain([outside]).collect();
-    softmax(&all, POWERS[1] + POWER_EXAMINED)[logs.len()]
+    let all = logs.iter().copied().chain([outside]).map(|log| (POWERS[1] + POWER_EXAMINED) * log);
+    softmax(&all.collect::<Vec<_>>(), 1.0)[logs.len()]
 }
 
 #[cfg(test)]
