@@ -30,9 +30,9 @@ pub use calibrate::{
     AnglePoint, Calibration, CurvePoint, End, LEAST_POINTS, LeftOut, OtherPhi, angles_of, calibrate,
     calibrate_family, other_friction, points_of,
 };
-pub use causes::{COVERED, Evidence, Ranked, Ranking, evidence};
+pub use causes::{COVERED, Evidence, OverScopes, Ranked, Ranking, evidence};
 pub use compare::{Beside, Difference, Measured, Ours, Simulated, Walls, compare, log_likelihood, simulated};
-pub use conflict::{PriorPredictive, log_weight};
+pub use conflict::PriorPredictive;
 pub use detectability::{
     Cell, Change, Detectability, DetectabilitySettings, Effect, NoDetectability, Observable, SEEN, Sight,
     detectability,
@@ -53,7 +53,7 @@ pub use method::{Analysis, SEEDS, Step, Steps, Task, diagnose};
 pub use screening::{DataNote, Extent, data_notes, data_notes_by_simulation};
 pub use simulate::{
     BANK, Bank, Campaign, Causes, Design, Emulator, Held, NotThisBank, PRIOR_WIDENING, Path, Place, Plan,
-    Seen, Specimen, Truth, Unused, World, stand_in,
+    Scope, Scored, Seen, Specimen, Truth, Unused, World, stand_in,
 };
 pub use verdict::{
     Diagnosis, Effort, Examination, Examined, Excluded, Finding, Judge, Limits, MOST_AMBIGUOUS, PairLimits,

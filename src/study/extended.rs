@@ -15,12 +15,14 @@ pub struct Acting {
     pub mechanism: &'static str,
     /// Its parameters by key, in the key's unit.
     pub parameters: Vec<(&'static str, f64)>,
+    /// Indices of the arms that it acts on; none where that is every one that it can act on.
+    pub arms: Option<Vec<usize>>,
 }
 
 /// Mechanisms at one strength each, and joints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
-    /// The mechanisms.
+    /// The mechanisms; one that acts on some arms in another way than on others stands here once for each.
     pub acting: Vec<Acting>,
     /// Arms with other joints: the index of each, and factors on the middle of its points in kn, on its friction angle and on
     /// kn over ks, in the order of [`NUISANCES`](crate::study::NUISANCES).
@@ -29,7 +31,7 @@ pub struct Point {
 
 impl Study {
     /// What its files state with the mechanisms on and with other joints: the study itself at one point, a variant for each
-    /// of the others. A mechanism stands in `[mechanism]`, or in the arms that it can act on where another arm refuses it. An
+    /// of the others. A mechanism stands in `[mechanism]`, or in the arms that it acts on where that is not all, or where an arm refuses it. An
     /// arm that has it already keeps its own; but a gauge is read by the gauge found.
     ///
     /// # Errors
@@ -83,8 +85,8 @@ impl Study {
             set.insert(format!("{below}mechanism.{mechanism}.{key}"), value.into());
         };
         for own in &point.acting {
-            let Acting { mechanism, parameters } = own;
-            if everywhere {
+            let Acting { mechanism, parameters, arms } = own;
+            if everywhere && arms.is_none() {
                 parameters.iter().for_each(|(key, value)| put("", (mechanism, key, *value)));
             } else if self.reads_by_gauges(own) {
                 for arm in &self.arms {
@@ -93,7 +95,11 @@ impl Study {
                 }
             } else {
                 let idle = self.with_mechanism(mechanism, parameters)?.idle;
-                for arm in self.arms.iter().filter(|arm| !idle.contains_key(&arm.name)) {
+                let acts = |k: &usize| {
+                    arms.as_ref().is_none_or(|arms| arms.contains(k))
+                        && !idle.contains_key(&self.arms[*k].name)
+                };
+                for arm in (0..self.arms.len()).filter(acts).map(|k| &self.arms[k]) {
                     let below = format!("arm.{}.", arm.name);
                     parameters.iter().for_each(|(key, value)| put(&below, (mechanism, key, *value)));
                 }

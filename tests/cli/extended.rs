@@ -37,12 +37,15 @@ fn read_back(loaded: &Loaded, own: &Point, others: &[Point]) -> (String, Vec<Stu
 /// A point with each parameter at a quantile of its prior, and factors on the joints of some arms.
 fn point(mechanism: &pirca::study::Described, quantile: f64, joints: Vec<(usize, [f64; 3])>) -> Point {
     let parameters = mechanism.parameters.iter().map(|p| (p.key, p.prior.quantile(quantile)));
-    Point { acting: vec![Acting { mechanism: mechanism.name, parameters: parameters.collect() }], joints }
+    Point {
+        acting: vec![Acting { mechanism: mechanism.name, parameters: parameters.collect(), arms: None }],
+        joints,
+    }
 }
 
 /// The arms that a point makes of a study's own.
 fn expected(study: &Study, point: &Point) -> Vec<Arm> {
-    let [Acting { mechanism, parameters }] = &point.acting[..] else { panic!("one mechanism") };
+    let [Acting { mechanism, parameters, .. }] = &point.acting[..] else { panic!("one mechanism") };
     let on = study.with_mechanism(mechanism, parameters).unwrap_or_else(|faults| panic!("{faults}"));
     let mut arms = on.study.arms;
     for (arm, factors) in &point.joints {
@@ -127,7 +130,10 @@ fn a_study_that_is_changed_in_nothing_is_the_same_study() {
 }
 
 fn at(mechanism: &'static str, parameters: &[(&'static str, f64)]) -> Point {
-    Point { acting: vec![Acting { mechanism, parameters: parameters.to_vec() }], joints: Vec::new() }
+    Point {
+        acting: vec![Acting { mechanism, parameters: parameters.to_vec(), arms: None }],
+        joints: Vec::new(),
+    }
 }
 
 #[test]
@@ -162,6 +168,23 @@ fn an_arm_that_has_the_mechanism_keeps_its_own_and_gauges_read_one_another() {
 fn gauges_of(arm: &Arm) -> (Option<f64>, Option<f64>) {
     let of = |name, key| arm.mechanisms.value(name, key);
     (of("gauge_scale", "factor"), of("gauge_offset", "offset_m"))
+}
+
+#[test]
+fn a_mechanism_of_some_arms_stands_in_these_each_with_its_parameters() {
+    let base = load(&root("studies/tilting-table"), None);
+    let of = |factor: f64, arms: &[usize]| Acting {
+        mechanism: "friction",
+        parameters: vec![("factor", factor)],
+        arms: Some(arms.to_vec()),
+    };
+    let factors = |acting: Vec<Acting>| {
+        let (_, read) = read_back(&base, &Point { acting, joints: Vec::new() }, &[]);
+        let friction = |arm: &Arm| arm.mechanisms.value("friction", "factor");
+        read[0].arms.iter().map(friction).collect::<Vec<_>>()
+    };
+    assert_eq!(factors(vec![of(0.8, &[1, 2])]), [None, Some(0.8), Some(0.8)]);
+    assert_eq!(factors(vec![of(1.2, &[0]), of(0.8, &[1, 2])]), [Some(1.2), Some(0.8), Some(0.8)]);
 }
 
 #[test]

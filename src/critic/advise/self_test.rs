@@ -41,14 +41,17 @@ pub struct SelfTestRow {
     pub strong: Counted,
     /// Some of them by the whole diagnosis: with the evidence, the check and pairs.
     pub judged: Counted,
+    /// Of these in which the cause is named, on other joints than it acts on.
+    #[serde(default)]
+    pub wrong_scope: u64,
     /// Of those found, whose set holds the cause.
     pub covered: u64,
     /// Mean number of causes in the sets of those found.
     pub set_size: f64,
     /// Of those found, in how many sets each cause is.
     pub with: BTreeMap<usize, u64>,
-    /// From where on its first parameter that matters is detected: upwards, downwards or both; empty where no strength within the
-    /// prior is.
+    /// From where on its first parameter that matters is detected, if it acts on all joints alike: upwards, downwards or both; empty
+    /// where no strength within the prior is.
     #[serde(rename = "caught")]
     pub detection_limits: Vec<DetectionLimit>,
 }
@@ -85,8 +88,13 @@ impl Judge<'_> {
                 (0..count).into_par_iter().map(|k| self.tested(*cause, seed, k)).collect();
             let judged = if cause.is_none() { MORE * judged } else { judged };
             let whole = campaigns.par_iter().take(judged as usize);
-            let verdicts: Vec<Verdict> =
-                whole.map(|tested| self.diagnosed(&tested.campaign, limits, judging(seed)).verdict).collect();
+            let verdict = |tested: &Tested| {
+                let diagnosis = self.diagnosed(&tested.campaign, limits, judging(seed));
+                let is_wrong_scope =
+                    cause.is_some_and(|cause| has_wrong_scope(&diagnosis, cause, &tested.truth));
+                (diagnosis.verdict, is_wrong_scope)
+            };
+            let verdicts: Vec<(Verdict, bool)> = whole.map(verdict).collect();
             let mechanism = cause.map(|cause| &self.world.mechanisms()[cause]);
             row(*cause, mechanism, &campaigns, &verdicts, limits, seed)
         };
@@ -114,7 +122,7 @@ impl Judge<'_> {
 
     fn tested(&self, cause: Option<usize>, seed: u64, number: u64) -> Tested {
         let streams = Streams::new(seed, number);
-        let truth = self.world.drawn(cause, &streams);
+        let truth = self.world.drawn(self.world.scoped(cause, &streams), &streams);
         let campaign = self.world.campaign(&self.design, &truth, &streams);
         let finding = self.compare(&campaign);
         let moved = cause.map_or(0.0, |_| self.moved(&truth, &campaign, &streams));
@@ -164,6 +172,16 @@ impl Sum for Counted {
     }
 }
 
+/// Whether a cause is named that acts on other joints in truth, or by parameters that kinds of joint share where they do not.
+fn has_wrong_scope(diagnosis: &Diagnosis, cause: usize, truth: &Truth) -> bool {
+    let explained = diagnosis.explained_by();
+    let (true, Some((_, draws))) = (diagnosis.verdict.named().contains(&cause), explained.first()) else {
+        return false;
+    };
+    let scope = |truth: &Truth| truth.causes.scoped().find(|(acting, _)| *acting == cause);
+    draws.first().is_some_and(|draw| scope(draw) != scope(truth))
+}
+
 /// What would be named by the ranking alone; none where nothing is found.
 fn said(finding: &Finding, limits: &Limits) -> Option<Vec<usize>> {
     (finding.p_value < limits.found).then(|| finding.named(limits).into_iter().collect())
@@ -184,7 +202,7 @@ fn row(
     cause: Option<usize>,
     mechanism: Option<&Described>,
     campaigns: &[Tested],
-    verdicts: &[Verdict],
+    verdicts: &[(Verdict, bool)],
     limits: &Limits,
     seed: u64,
 ) -> SelfTestRow {
@@ -201,7 +219,9 @@ fn row(
         .flat_map(|tested| &tested.finding.ranked.set)
         .for_each(|cause| *with.entry(*cause).or_default() += 1);
     let shown = |parameter: usize| -> Vec<(f64, bool)> {
-        campaigns.iter().map(|tested| (tested.truth.parameters[parameter], is_found(&tested))).collect()
+        // A strength is one number where the cause acts on all joints alike.
+        let alike = campaigns.iter().filter(|tested| tested.truth.causes == cause.into());
+        alike.map(|tested| (tested.truth.parameters[parameter], is_found(&tested))).collect()
     };
     let parameters = mechanism.iter().flat_map(|own| own.parameters.iter().map(|p| own.stronger(p.key)));
     // The name of the stream is part of every draw.
@@ -213,7 +233,8 @@ fn row(
         cause,
         all: Counted::of(cause, by_size.iter().map(by_ranking)),
         strong: Counted::of(cause, strong.iter().map(by_ranking)),
-        judged: Counted::of(cause, verdicts.iter().map(named)),
+        judged: Counted::of(cause, verdicts.iter().map(|(verdict, _)| named(verdict))),
+        wrong_scope: verdicts.iter().filter(|(_, is_wrong_scope)| *is_wrong_scope).count() as u64,
         covered: cause.map_or(0, |cause| with.get(&cause).copied().unwrap_or(0)),
         set_size: stats::mean(&sizes).unwrap_or(0.0),
         with,
@@ -225,7 +246,9 @@ impl SelfTest {
     /// Whether its counts can be counts: of a file that was changed they may be anything.
     pub fn is_sound(&self) -> bool {
         let rows = self.rows.iter().flat_map(|row| [row.all, row.strong, row.judged]);
-        rows.chain(self.unmodelled).all(|own| own.found.max(own.named + own.misnamed) <= own.campaigns)
+        let scopes = self.rows.iter().all(|row| row.wrong_scope <= row.judged.named);
+        scopes
+            && rows.chain(self.unmodelled).all(|own| own.found.max(own.named + own.misnamed) <= own.campaigns)
     }
 
     /// Causes that the design cannot tell apart, in classes of two or more; `found` is the least share of campaigns in which a
@@ -267,6 +290,46 @@ impl SelfTest {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::critic::causes::Ranked;
+    use crate::critic::discrepancy::Discrepancy;
+    use crate::critic::simulate::{Causes, Scope};
+    use crate::critic::verdict::Examined;
+
+    #[test]
+    fn a_name_on_other_joints_than_the_cause_acts_on_has_the_wrong_scope() {
+        let truth = |scope: Scope| Truth {
+            causes: Causes::one(3, scope),
+            parameters: Vec::new(),
+            joints: Vec::new(),
+            scatter: 0.0,
+        };
+        let discrepancy = Discrepancy { excess: BTreeMap::new(), joints: Vec::new(), distance: 0.0 };
+        let ranked = Ranked::new(vec![(Some(3), 1.0)], 0.0, vec![3]);
+        let own = Examined {
+            cause: 3,
+            acting: Causes::one(3, Scope::Kind(1)),
+            scope_share: 1.0,
+            log: 0.0,
+            spread: 0.0,
+            check: None,
+            conflict: None,
+            evidence: 1.0,
+            draws: vec![truth(Scope::Kind(1))],
+        };
+        let mut diagnosis = Diagnosis {
+            finding: Finding { discrepancy, ranked, p_value: 0.001, p_by_statistic: [0.001; 3] },
+            examined: vec![own],
+            pairs: Vec::new(),
+            outside: None,
+            components: Vec::new(),
+            verdict: Verdict::Named(3),
+        };
+        let is_wrong = |diagnosis: &Diagnosis, scope: Scope| has_wrong_scope(diagnosis, 3, &truth(scope));
+        assert!(!is_wrong(&diagnosis, Scope::Kind(1)));
+        assert!([Scope::All, Scope::Each, Scope::Kind(0)].iter().all(|scope| is_wrong(&diagnosis, *scope)));
+        diagnosis.verdict = Verdict::Ambiguous(vec![3]);
+        assert!(!is_wrong(&diagnosis, Scope::All));
+    }
 
     #[test]
     fn causes_in_each_others_sets_make_a_class() {
@@ -275,6 +338,7 @@ mod tests {
             all: Counted { campaigns: 100, found, named: 0, misnamed: 0 },
             strong: Counted::default(),
             judged: Counted::default(),
+            wrong_scope: 0,
             covered: 0,
             set_size: 0.0,
             with: with.iter().copied().collect(),

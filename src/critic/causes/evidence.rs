@@ -3,23 +3,30 @@
 //! learnt from, and its last particles are draws from what the parameters and the joints may be.
 
 use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
 
+use crate::critic::causes::discrepant::Discrepant;
 use crate::critic::causes::likelihood::Likelihood;
 use crate::critic::simulate::{Campaign, Causes, Design, Truth, World, standing};
 use crate::math::{exp, ln};
-use crate::random::standard_normal::quantile;
+use crate::random::standard_normal::{cdf, quantile};
 use crate::random::{Stream, Streams};
+use crate::stats;
 
 /// How many particles are sent, and how often each is moved at every temperature.
 struct Swarm {
     particles: usize,
     moves: usize,
+    /// How far the logarithm scatters from run to run on the nine walls.
+    scatter: f64,
 }
 
 /// What evidence is computed by.
-const WHOLE: Swarm = Swarm { particles: 160, moves: 3 };
+const WHOLE: Swarm = Swarm { particles: 160, moves: 3, scatter: 1.2 };
+/// So often, where evidence is compared: how far it scatters tells which differences are none.
+pub const RUNS: u64 = 4;
 /// What shows which of many are worth a whole one, for a seventh of its cost; it is off by one or two (in the logarithm).
-const SCOUTS: Swarm = Swarm { particles: 48, moves: 1 };
+const SCOUTS: Swarm = Swarm { particles: 48, moves: 1, scatter: 2.0 };
 /// A temperature falls until so large a share of the particles still counts.
 const COUNTING: f64 = 0.5;
 /// Length of a random walk's steps in standard deviations of the particles, over the root of their dimensions (Roberts, Gelman
@@ -28,14 +35,18 @@ const STEP: f64 = 2.38;
 /// Scores beyond this, one in two million of their prior, are as good as impossible; the joints' count
 /// [`PRIOR_WIDENING`](crate::critic::PRIOR_WIDENING) times, and are numbers that a quantile still tells from infinity.
 const FURTHEST: f64 = 5.0;
+/// Standard deviation of a discrepancy that is in no catalogue, in those of the base model's readings.
+const SIZES: [f64; 2] = [0.25, 8.0];
 /// No more temperatures than this.
 const TEMPERATURES: usize = 60;
 
 /// What a campaign says of a cause.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Evidence {
-    /// Logarithm of the evidence, but for a constant that all causes share.
+    /// Logarithm of the evidence, but for a constant that all causes share; of several runs the mean.
     pub log: f64,
+    /// Standard error of that, from several runs; of one as it is on the nine walls.
+    pub spread: f64,
     /// Draws from the posterior, equally likely.
     pub draws: Vec<Truth>,
 }
@@ -55,18 +66,66 @@ pub fn evidence(
     causes: impl Into<Causes>,
     seed: u64,
 ) -> Evidence {
-    sampled(world, design, campaign, causes.into(), &WHOLE, seed)
+    sampled(world, design, campaign, causes.into(), &WHOLE, (seed, 0))
 }
 
-/// The logarithm of the evidence of causes, roughly.
+/// The evidence of causes by another of [`RUNS`]; the first is that of [`evidence`].
+pub fn evidence_again(
+    world: &World<'_>,
+    design: &Design,
+    campaign: &Campaign,
+    causes: Causes,
+    (seed, run): (u64, u64),
+) -> Evidence {
+    sampled(world, design, campaign, causes, &WHOLE, (seed, run))
+}
+
+/// The evidence of causes, roughly.
 pub fn rough_evidence(
     world: &World<'_>,
     design: &Design,
     campaign: &Campaign,
     causes: Causes,
     seed: u64,
-) -> f64 {
-    sampled(world, design, campaign, causes, &SCOUTS, seed).log
+) -> Evidence {
+    sampled(world, design, campaign, causes, &SCOUTS, (seed, 0))
+}
+
+/// The evidence of the base model beside which something is off that is in no catalogue: a [smooth](Discrepant::smooth) discrepancy with
+/// a standard deviation that is log-uniform over [`SIZES`]. `units` are the base model's standard deviations by specimen and reading.
+pub fn outside_evidence(
+    world: &World<'_>,
+    design: &Design,
+    campaign: &Campaign,
+    units: &[Vec<f64>],
+    seed: u64,
+) -> Evidence {
+    let discrepant = Discrepant::smooth(design, campaign, units);
+    let one = |run: u64| {
+        let likelihood = Likelihood::new(world, design, campaign);
+        let log = |truth: &Truth, others: &[f64]| {
+            let (size, errors) = others.split_last().expect("it has a size");
+            let size = SIZES[0] * exp(cdf(*size) * ln(SIZES[1] / SIZES[0]));
+            likelihood.log_beside(truth, errors, &discrepant, size * size)
+        };
+        let others = likelihood.common_errors() + 1;
+        let mut draws = Streams::new(seed, 0).of(&format!("evidence of outside {run}"));
+        sent(world, Causes::default(), others, log, &WHOLE, &mut draws)
+    };
+    Evidence::of_runs((0..RUNS).into_par_iter().map(one).collect())
+}
+
+impl Evidence {
+    /// Of one run or several of the same: the mean, how far that scatters, and all draws.
+    pub fn of_runs(runs: Vec<Evidence>) -> Evidence {
+        let logs: Vec<f64> = runs.iter().map(|run| run.log).collect();
+        let spread = match stats::sigma(&logs) {
+            Some(sigma) => sigma / (logs.len() as f64).sqrt(),
+            None => runs[0].spread,
+        };
+        let log = stats::sum(&logs) / logs.len() as f64;
+        Evidence { log, spread, draws: runs.into_iter().flat_map(|run| run.draws).collect() }
+    }
 }
 
 fn sampled(
@@ -75,17 +134,31 @@ fn sampled(
     campaign: &Campaign,
     causes: Causes,
     swarm: &Swarm,
-    seed: u64,
+    (seed, run): (u64, u64),
 ) -> Evidence {
     let likelihood = Likelihood::new(world, design, campaign);
+    let log = |truth: &Truth, errors: &[f64]| likelihood.log(truth, errors);
+    let name = if run == 0 { "evidence".to_owned() } else { format!("evidence {run}") };
+    let mut draws = Streams::new(seed, causes.number()).of(&name);
+    sent(world, causes, likelihood.common_errors(), log, swarm, &mut draws)
+}
+
+/// The evidence of a likelihood of truths with these causes and of so many other scores.
+fn sent(
+    world: &World<'_>,
+    causes: Causes,
+    others: usize,
+    log: impl Fn(&Truth, &[f64]) -> f64,
+    swarm: &Swarm,
+    draws: &mut Stream,
+) -> Evidence {
     let inputs = world.inputs(causes);
-    let dimensions = inputs + likelihood.common_errors();
+    let dimensions = inputs + others;
     // The prior is that of walls that stand: others have no readings.
     let log = |scores: &[f64]| {
         let truth = world.truth(causes, &scores[..inputs]);
-        if world.stands(&truth) { likelihood.log(&truth, &scores[inputs..]) } else { f64::NEG_INFINITY }
+        if world.stands(&truth) { log(&truth, &scores[inputs..]) } else { f64::NEG_INFINITY }
     };
-    let mut draws = Streams::new(seed, causes.number()).of("evidence");
     let mut particles: Vec<Particle> = (0..swarm.particles)
         .map(|_| {
             let next = || -> Vec<f64> { (0..dimensions).map(|_| quantile(draws.uniform())).collect() };
@@ -99,11 +172,11 @@ fn sampled(
         let (weights, mean) = weights(&particles, next - inverse);
         evidence += mean;
         inverse = next;
-        particles = resampled(&particles, &weights, &mut draws);
+        particles = resampled(&particles, &weights, draws);
         let walk = walk(&particles);
         for particle in &mut particles {
             for _ in 0..swarm.moves {
-                step(particle, &walk, inverse, &log, &mut draws);
+                step(particle, &walk, inverse, &log, draws);
             }
         }
         if inverse >= 1.0 {
@@ -111,14 +184,14 @@ fn sampled(
         }
     }
     let draws = particles.iter().map(|particle| world.truth(causes, &particle.scores[..inputs])).collect();
-    Evidence { log: evidence, draws }
+    Evidence { log: evidence, spread: swarm.scatter, draws }
 }
 
 /// Weights that a rise of the inverse temperature gives the particles, of sum 1, and the logarithm of their mean before that.
 fn weights(particles: &[Particle], rise: f64) -> (Vec<f64>, f64) {
     let largest = particles.iter().map(|p| p.log).fold(f64::NEG_INFINITY, f64::max);
     let raw: Vec<f64> = particles.iter().map(|p| exp(rise * (p.log - largest))).collect();
-    let sum = crate::stats::sum(&raw);
+    let sum = stats::sum(&raw);
     let mean = ln(sum / raw.len() as f64) + rise * largest;
     (raw.into_iter().map(|w| w / sum).collect(), mean)
 }
@@ -127,7 +200,7 @@ fn weights(particles: &[Particle], rise: f64) -> (Vec<f64>, f64) {
 fn next_temperature(particles: &[Particle], inverse: f64) -> f64 {
     let counting = |next: f64| {
         let squares: Vec<f64> = weights(particles, next - inverse).0.iter().map(|w| w * w).collect();
-        1.0 / (crate::stats::sum(&squares) * particles.len() as f64)
+        1.0 / (stats::sum(&squares) * particles.len() as f64)
     };
     if counting(1.0) >= COUNTING {
         return 1.0;
@@ -205,7 +278,6 @@ fn step(
 mod tests {
     use super::*;
     use crate::critic::fixture::made;
-    use crate::stats;
 
     /// The campaign of a truth that is drawn with a seed.
     fn campaign(world: &World<'_>, design: &Design, cause: Option<usize>, k: u64) -> (Truth, Campaign) {
@@ -234,6 +306,27 @@ mod tests {
         println!("{plain} {found:?}");
         // 160 particles scatter by some 0.2; the mean of eight by a third of it.
         assert!((mean - plain).abs() < 0.3, "{mean} {plain}");
+    }
+
+    #[test]
+    fn several_runs_tell_how_far_their_mean_scatters() {
+        let made = made();
+        let (world, (mut design, _)) = (made.world(), Design::of(&made.study));
+        design.specimens.iter_mut().for_each(|specimen| specimen.readings.truncate(1));
+        let (cause, streams) = (Causes::from(Some(made.cause("lean"))), Streams::new(41, 1));
+        let shown = world.campaign(&design, &world.drawn(cause, &streams), &streams);
+        let all = [0, 1, 2, 3].map(|run| evidence_again(&world, &design, &shown, cause, (9, run)));
+        let runs = all.clone().map(|run| run.log);
+        let own = Evidence::of_runs(all.to_vec());
+        let mean = runs.iter().sum::<f64>() / 4.0;
+        let square = runs.iter().map(|log| (log - mean) * (log - mean)).sum::<f64>() / 3.0;
+        assert!((own.log - mean).abs() < 1e-9 && (own.spread - (square / 4.0).sqrt()).abs() < 1e-9);
+        assert_eq!(own.draws.len(), 4 * WHOLE.particles);
+        assert!(own.spread > 0.01 && own.spread < 0.5, "{}", own.spread);
+        // One run is the first of them.
+        let first = evidence(&world, &design, &shown, cause, 9);
+        assert_eq!((first.log, first.spread), (runs[0], WHOLE.scatter));
+        assert_eq!(Evidence::of_runs(vec![first.clone()]), first);
     }
 
     #[test]

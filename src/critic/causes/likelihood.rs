@@ -1,24 +1,20 @@
 //! How likely a campaign is under a truth: the readings of a wall are as those of the paths that it may have, with their errors
 //! (a synthetic likelihood: multivariate Student's t with the mean and the covariance of these paths).
 
-use std::f64::consts::PI;
+use std::rc::Rc;
 
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
-
+use crate::critic::causes::density::{Density, Paths};
 use crate::critic::compare::reading_variance;
-use crate::critic::simulate::{Campaign, Design, Queries, Seen, Truth, World};
+use crate::critic::simulate::{Campaign, Design, MayShow, Queries, Seen, Truth, World};
 use crate::interrupt;
-use crate::math::{ln, ln_gamma};
+use crate::math::ln;
 use crate::random::standard_normal::cdf;
 use crate::study::{MeasuredKind, MeasuredQuantity, Measurement};
-
-/// Share of the walls' variance that counts as a reading's own: few paths do not span all that walls may do.
-const LEAST: f64 = 0.02;
 
 /// The likelihood of a campaign.
 pub struct Likelihood<'c> {
     world: &'c World<'c>,
-    families: Vec<Family<'c>>,
+    pub(super) families: Vec<Family<'c>>,
     /// What was measured apart: the family, the reading and what it showed.
     apart: Vec<(usize, &'c Measurement, Seen)>,
     /// [Instruments](MeasuredQuantity::instrument) whose readings share an error.
@@ -28,10 +24,10 @@ pub struct Likelihood<'c> {
 }
 
 /// The errors of readings.
-struct Errors<'l> {
-    of: &'l Likelihood<'l>,
+pub(super) struct Errors<'l> {
+    pub(super) of: &'l Likelihood<'l>,
     /// Scores of the shared errors, then of how much of the error they are.
-    scores: &'l [f64],
+    pub(super) scores: &'l [f64],
 }
 
 impl Errors<'_> {
@@ -48,7 +44,7 @@ impl Errors<'_> {
 }
 
 /// What was read on the specimens of a family.
-struct Family<'c> {
+pub(super) struct Family<'c> {
     family: usize,
     queries: Queries,
     /// By specimen, where every one is a wall of its own.
@@ -59,9 +55,11 @@ struct Family<'c> {
 
 /// What was read on a wall. Columns are those of [`Queries`].
 #[derive(Clone, Default)]
-struct Wall<'c> {
+pub(super) struct Wall<'c> {
     /// Readings with a value, by column.
     values: Vec<(usize, &'c Measurement, f64)>,
+    /// Where the readings of each specimen end among these.
+    ends: Vec<usize>,
     /// Readings of which only the bound's side is known.
     bounds: Vec<(usize, &'c Measurement)>,
     /// The first wall of the family on which the same has a value, with the same errors; they share a density.
@@ -102,33 +100,53 @@ impl<'c> Likelihood<'c> {
     pub fn log(&self, truth: &Truth, common: &[f64]) -> f64 {
         interrupt::look();
         let errors = Errors { of: self, scores: common };
-        let mut log = 0.0;
-        for Family { family, queries, each, all } in &self.families {
-            let (shown, random) = self.world.may_show(*family, queries, truth, each.len());
-            let paths = Paths::of(shown);
-            let walls = if random { &each[..] } else { &all[..] };
-            let first = |(k, wall): (usize, &Wall<'_>)| {
-                (wall.same_as == k).then(|| Density::of(wall, &paths, &errors))?
-            };
-            let densities: Vec<Option<Density>> = walls.iter().enumerate().map(first).collect();
-            for wall in walls {
-                let density = densities[wall.same_as].as_ref();
-                log += density.map_or(f64::NEG_INFINITY, |density| density.log(wall, &paths, &errors));
-                log += wall.bounds_log(&paths, &errors);
+        let mut log = self.apart_log(truth, &errors);
+        for family in &self.families {
+            let Some((paths, walls)) = self.walls(family, truth, &errors) else { return f64::NEG_INFINITY };
+            for (wall, density) in walls {
+                log += density.log(&wall.off(&paths, &errors)) + wall.bounds_log(&paths, &errors, || 0.0);
             }
         }
-        for (family, m, seen) in &self.apart {
+        log
+    }
+
+    /// The walls of a family on which anything was read, with the density of what was; `None` where that is no number. Where walls do
+    /// not differ it is one.
+    pub(super) fn walls<'l>(
+        &self,
+        Family { family, queries, each, all }: &'l Family<'c>,
+        truth: &Truth,
+        errors: &Errors<'_>,
+    ) -> Option<(Paths, Vec<(&'l Wall<'c>, Rc<Density>)>)> {
+        let MayShow { paths, random, by_stiffness } =
+            self.world.may_show(*family, queries, truth, each.len());
+        let paths = Paths::of(paths, by_stiffness);
+        let walls = if random { &each[..] } else { &all[..] };
+        let mut densities: Vec<Rc<Density>> = Vec::with_capacity(walls.len());
+        for (k, wall) in walls.iter().enumerate() {
+            let density = match wall.same_as == k {
+                true => Rc::new(Density::of(&wall.read(errors), &wall.ends, &paths)?),
+                false => densities[wall.same_as].clone(),
+            };
+            densities.push(density);
+        }
+        Some((paths, walls.iter().zip(densities).collect()))
+    }
+
+    /// The same of what was measured apart.
+    pub(super) fn apart_log(&self, truth: &Truth, errors: &Errors<'_>) -> f64 {
+        let one = |(family, m, seen): &(usize, &Measurement, Seen)| {
             let (variance, shared) = errors.of(m);
             let expected = shared + self.world.apart(*family, m, truth);
-            log += match seen {
+            match seen {
                 Seen::Value(value) => {
                     let off = value - expected;
                     -0.5 * (off * off / variance + ln(variance))
                 }
                 Seen::Beyond | Seen::Nothing => side_log(m, expected, variance),
-            };
-        }
-        log
+            }
+        };
+        self.apart.iter().fold(0.0, |sum, apart| sum + one(apart))
     }
 }
 
@@ -148,7 +166,9 @@ impl<'c> Family<'c> {
                     Seen::Nothing => {}
                 }
             }
+            wall.ends.push(wall.values.len());
             all.values.extend(&wall.values);
+            all.ends.push(all.values.len());
             all.bounds.extend(&wall.bounds);
             wall.same_as = each.iter().position(|other| other.has_readings_of(&wall)).unwrap_or(each.len());
             each.push(wall);
@@ -170,11 +190,30 @@ impl<'c> Wall<'c> {
         self.values.iter().map(read).eq(other.values.iter().map(read))
     }
 
-    /// Logarithm of the probability of its bounds' sides.
-    fn bounds_log(&self, paths: &Paths, errors: &Errors<'_>) -> f64 {
-        let one = |(column, m): &(usize, &Measurement)| {
+    /// Columns of its readings with a value, with the variances of their own errors.
+    fn read(&self, errors: &Errors<'_>) -> Vec<(usize, f64)> {
+        self.values.iter().map(|(column, m, _)| (*column, errors.of(m).0)).collect()
+    }
+
+    /// How far these are off what the paths show in the mean.
+    pub(super) fn off(&self, paths: &Paths, errors: &Errors<'_>) -> Vec<f64> {
+        let off =
+            |(column, m, value): &(usize, &Measurement, f64)| value - errors.of(m).1 - paths.mean[*column];
+        self.values.iter().map(off).collect()
+    }
+
+    /// Logarithm of the probability of its bounds' sides, where each has so much more variance.
+    pub(super) fn bounds_log(
+        &self,
+        paths: &Paths,
+        errors: &Errors<'_>,
+        mut more: impl FnMut() -> f64,
+    ) -> f64 {
+        let mut one = |(column, m): &(usize, &Measurement)| {
             let (variance, shared) = errors.of(m);
-            side_log(m, paths.mean[*column] + shared, variance + paths.variance[*column])
+            let by_stiffness = paths.by_stiffness[*column];
+            let walls = paths.variance[*column] + by_stiffness * by_stiffness + more();
+            side_log(m, paths.mean[*column] + shared, variance + walls)
         };
         self.bounds.iter().fold(0.0, |sum, bound| sum + one(bound))
     }
@@ -185,92 +224,6 @@ fn side_log(m: &Measurement, expected: f64, variance: f64) -> f64 {
     let inside = (m.value - expected) / variance.sqrt().max(f64::MIN_POSITIVE);
     let side = if m.kind == MeasuredKind::Below { inside } else { -inside };
     ln(cdf(side).max(f64::MIN_POSITIVE))
-}
-
-/// What the paths that a wall may have show, by column.
-struct Paths {
-    /// By path.
-    shown: Vec<Vec<f64>>,
-    mean: Vec<f64>,
-    variance: Vec<f64>,
-}
-
-impl Paths {
-    fn of(shown: Vec<Vec<f64>>) -> Paths {
-        let columns = shown[0].len();
-        // Path by path, as they lie in memory.
-        let mut mean = vec![0.0; columns];
-        for path in &shown {
-            mean.iter_mut().zip(path).for_each(|(sum, x)| *sum += x);
-        }
-        mean.iter_mut().for_each(|sum| *sum /= shown.len() as f64);
-        let mut variance = vec![0.0; columns];
-        for path in &shown {
-            let off = path.iter().zip(&mean).map(|(x, mean)| x - mean);
-            variance.iter_mut().zip(off).for_each(|(sum, off)| *sum += off * off);
-        }
-        let freedom = (shown.len() - 1) as f64;
-        variance.iter_mut().for_each(|sum| *sum /= freedom);
-        Paths { shown, mean, variance }
-    }
-}
-
-/// The density of readings with a value: Student's t, as the covariance is that of few paths and not known exactly.
-struct Density {
-    /// Degrees of freedom of the covariance.
-    freedom: f64,
-    /// Each reading's own standard deviation, of which none is free.
-    sd: Vec<f64>,
-    /// What the paths are off their mean in units of it, by reading and path, such that the readings' covariance is
-    /// 1 + spread spread'.
-    spread: DMatrix<f64>,
-    /// Woodbury: only the paths' side of that, 1 + spread' spread, is factored.
-    inner: Cholesky<f64, Dyn>,
-    /// Logarithm of the density where nothing is off: models that share a path among walls, and models that do not, are compared.
-    top: f64,
-}
-
-impl Density {
-    /// `None` where the paths are no numbers.
-    fn of(wall: &Wall<'_>, paths: &Paths, errors: &Errors<'_>) -> Option<Density> {
-        let (readings, count) = (wall.values.len(), paths.shown.len());
-        let freedom = (count - 1) as f64;
-        let sd = wall.values.iter().map(|(column, m, _)| {
-            (errors.of(m).0 + LEAST * paths.variance[*column]).sqrt().max(f64::MIN_POSITIVE)
-        });
-        let sd: Vec<f64> = sd.collect();
-        let unit: Vec<f64> = sd.iter().map(|sd| 1.0 / (sd * freedom.sqrt())).collect();
-        let spread = DMatrix::from_fn(readings, count, |k, path| {
-            let column = wall.values[k].0;
-            (paths.mean[column] - paths.shown[path][column]) * unit[k]
-        });
-        // The lower triangle is all that is asked for.
-        let mut inner = DMatrix::identity(count, count);
-        for column in 0..count {
-            for row in column..count {
-                inner[(row, column)] += spread.column(row).dot(&spread.column(column));
-            }
-        }
-        let inner = inner.cholesky()?;
-        let own = sd.iter().fold(0.0, |sum, sd| sum + ln(*sd));
-        let lower = inner.l_dirty();
-        let half_log_determinant = (0..count).fold(own, |sum, k| sum + ln(lower[(k, k)]));
-        let n = readings as f64;
-        let top = ln_gamma(0.5 * (freedom + n)) - ln_gamma(0.5 * freedom) - 0.5 * n * ln(PI * freedom);
-        Some(Density { freedom, sd, spread, inner, top: top - half_log_determinant })
-    }
-
-    /// Its logarithm, of a wall that is the [same](Wall::same_as).
-    fn log(&self, wall: &Wall<'_>, paths: &Paths, errors: &Errors<'_>) -> f64 {
-        let off = wall.values.iter().zip(&self.sd);
-        let off =
-            off.map(|((column, m, value), sd)| (value - errors.of(m).1 - paths.mean[*column]) / sd).collect();
-        let off = DVector::from_vec(off);
-        let along = self.spread.tr_mul(&off);
-        let square = off.dot(&off) - along.dot(&self.inner.solve(&along));
-        let power = 0.5 * (self.freedom + off.len() as f64);
-        self.top - power * ln(1.0 + square / self.freedom)
-    }
 }
 
 #[cfg(test)]

@@ -48,8 +48,8 @@ pub struct Ranked {
 }
 
 impl Ranking {
-    /// Trained on `count` campaigns of every cause, of the base model and of unmodelled effects, drawn from the priors; a pure
-    /// function of its arguments.
+    /// Trained on `count` campaigns of every cause, of the base model and of unmodelled effects, drawn from the priors, those of
+    /// the causes' scopes among them; a pure function of its arguments.
     pub fn trained(
         world: &World<'_>,
         design: &Design,
@@ -63,7 +63,10 @@ impl Ranking {
         let shown = |k: u64| -> Vec<Example> {
             // The same stones and errors under every cause.
             let streams = Streams::new(seed, k);
-            let of = |cause: &Option<usize>| world.campaign(design, &world.drawn(*cause, &streams), &streams);
+            let of = |cause: &Option<usize>| {
+                let truth = world.drawn(world.scoped(*cause, &streams), &streams);
+                world.campaign(design, &truth, &streams)
+            };
             let all = causes.iter().map(of).chain(std::iter::once(world.unmodelled(design, &streams)));
             all.map(|campaign| inputs(&reference.discrepancy(design, &campaign))).zip(0..).collect()
         };
@@ -135,6 +138,12 @@ impl Ranked {
         let unmodelled = unmodelled.min(SUREST);
         causes.iter_mut().for_each(|(_, p)| *p *= 1.0 - unmodelled);
         Ranked { causes, unmodelled, set }
+    }
+
+    /// The same causes, where something unmodelled has this probability.
+    pub fn beside(&self, unmodelled: f64) -> Ranked {
+        let causes = self.causes.iter().map(|(cause, p)| (*cause, p / (1.0 - self.unmodelled)));
+        Ranked::new(causes.collect(), unmodelled, self.set.clone())
     }
 
     /// How much more likely it is that something is off, by any cause or none that has a name, than the base model (logarithm of

@@ -39,10 +39,26 @@ pub fn reweighed(ranked: &Ranked, shortlist: &[usize], logs: &[f64]) -> Ranked {
     Ranked::new(shares, ranked.unmodelled, ranked.set.clone())
 }
 
+/// The probability of something that is in no catalogue beside the base model and the causes that were examined, all as likely
+/// beforehand; `logs` are the logarithms of their evidence and `outside` that of its own. Evidence counts here as it does among causes.
+pub fn outside(logs: &[f64], outside: f64) -> f64 {
+    let all = logs.iter().copied().chain([outside]).map(|log| (POWERS[1] + POWER_EXAMINED) * log);
+    softmax(&all.collect::<Vec<_>>(), 1.0)[logs.len()]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::math::exp;
+
+    #[test]
+    fn what_has_no_name_is_as_likely_as_its_evidence_says_beside_that_of_the_others() {
+        assert!((outside(&[-7.0, -7.0, -7.0], -7.0) - 0.25).abs() < 1e-12);
+        // Ten nats more than the others, of which four count.
+        let more = exp(4.0);
+        assert!((outside(&[-20.0, -20.0], -10.0) - more / (2.0 + more)).abs() < 1e-12);
+        assert!(outside(&[-20.0, 5.0], -10.0) < 0.003);
+    }
 
     #[test]
     fn the_evidence_of_some_moves_what_they_have_together_and_nothing_else() {

@@ -1,7 +1,7 @@
 //! Whether a cause explains all that was seen: the posterior predictive check.
 
 mod nearest;
+mod parts;
 mod posterior;
 
-pub use nearest::Nearest;
 pub use posterior::Check;

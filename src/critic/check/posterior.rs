@@ -1,30 +1,21 @@
 //! Does a cause explain all that was seen, or only what it was chosen by? A cause outside the catalogue fits the few numbers that
 //! the network sees better than it fits all others.
 //!
-//! There are two statistics. One sets single readings against those of the [nearest](super::nearest) of the cause's own campaigns.
-//! The other sets parts of the campaign, from the coarse to the fine, against what the cause predicts with the parameters and the
-//! joints that the campaign itself speaks for (a posterior predictive check, Gelman, Meng and Stern 1996).
-
-use std::collections::BTreeMap;
+//! A campaign is set among those that the cause predicts with the parameters and the joints that the campaign itself speaks for (a
+//! posterior predictive check, Gelman, Meng and Stern 1996), by two statistics. One sets single readings against those of the
+//! [nearest](super::nearest) of these campaigns. The other sets [parts](super::parts) of the campaign, from the coarse to the fine,
+//! against all of them. Of the campaigns that are predicted as many are refused as the level says: each is judged as the measured one.
 
 use rayon::prelude::*;
 
-use crate::critic::check::nearest::Nearest;
-use crate::critic::discrepancy::{Feature, Reference, Scale, features};
-use crate::critic::simulate::{Campaign, Causes, Design, Truth, World};
+use crate::critic::check::nearest::{Summary, misfit};
+use crate::critic::check::parts::{Parts, PredictedParts, parts};
+use crate::critic::discrepancy::Reference;
+use crate::critic::simulate::{Campaign, Design, Truth, World};
 use crate::random::Streams;
-use crate::stats;
-use crate::study::MeasuredQuantity;
 
 /// Campaigns that are predicted.
-const PREDICTED: u64 = 400;
-/// A part is judged that so large a share of them have.
-const COMMON: f64 = 0.5;
-/// No part is predicted better than this, in standard deviations of independent readings: where hardly anything varies, walls that
-/// differ by a step of a protractor would be off beyond all measure.
-const LEAST: f64 = 0.1;
-/// Number of statistics.
-const STATISTICS: f64 = 2.0;
+const PREDICTED: u64 = 600;
 
 /// The check of causes on campaigns of a design.
 #[derive(Clone, Copy, Debug)]
@@ -35,90 +26,74 @@ pub struct Check<'d> {
     pub design: &'d Design,
     /// The base model as the design sees it.
     pub reference: &'d Reference,
-    /// Campaigns of the causes, as far as they have been simulated.
-    pub nearest: &'d Nearest,
 }
 
-impl Check<'_> {
-    /// Share of the causes' own campaigns that fit them no better than this one does, by the worse of the two statistics, their number
-    /// accounted for; `draws` are what the campaign speaks for under the causes. A pure function of its arguments.
-    pub fn p_value(&self, causes: impl Into<Causes>, draws: &[Truth], campaign: &Campaign, seed: u64) -> f64 {
-        let Check { world, design, reference, nearest } = self;
-        let of_nearest = nearest.share(world, design, reference, (causes.into(), seed), campaign);
-        let shares = [of_nearest, self.predicted(draws, campaign, seed)];
-        (STATISTICS * shares[0].min(shares[1])).min(1.0)
+/// Campaigns that a cause predicts.
+#[derive(Debug)]
+struct Predictive<'d> {
+    check: Check<'d>,
+    summaries: Vec<Summary>,
+    parts: PredictedParts,
+    /// Both statistics of each campaign.
+    statistics: [Vec<f64>; 2],
+}
+
+impl<'d> Check<'d> {
+    /// Share of the campaigns that causes predict which fit them no better than this one does, by the worse of the two statistics;
+    /// `draws` are what the campaign speaks for under the causes. A pure function of its arguments.
+    pub fn p_value(&self, draws: &[Truth], campaign: &Campaign, seed: u64) -> f64 {
+        self.predictive(draws, seed).p_value(campaign)
     }
 
-    /// Share of the campaigns that draws predict which are as far off in any part.
-    fn predicted(&self, draws: &[Truth], campaign: &Campaign, seed: u64) -> f64 {
-        let Check { world, design, reference, .. } = self;
-        let shown: Vec<BTreeMap<Part, f64>> = (0..PREDICTED)
-            .into_par_iter()
-            .map(|k| {
-                let streams = Streams::new(seed.wrapping_add(1), k);
-                let truth = &draws[streams.of("predicted").below(draws.len())];
-                parts(design, &reference.scale, &world.campaign(design, truth, &streams))
-            })
-            .collect();
-        let mut by_part: BTreeMap<Part, Vec<f64>> = BTreeMap::new();
-        for (part, value) in shown.iter().flatten() {
-            by_part.entry(*part).or_default().push(*value);
-        }
-        by_part.retain(|_, values| values.len() as f64 >= COMMON * PREDICTED as f64);
-        let normal = |(part, values): (Part, Vec<f64>)| {
-            Some((part, (stats::mean(&values)?, stats::sigma(&values)?.max(LEAST))))
+    fn predictive(&self, draws: &[Truth], seed: u64) -> Predictive<'d> {
+        let one = |k: u64| {
+            let streams = Streams::new(seed.wrapping_add(1), k);
+            let truth = &draws[streams.of("predicted").below(draws.len())];
+            self.seen(&self.world.campaign(self.design, truth, &streams))
         };
-        let normals: BTreeMap<Part, (f64, f64)> = by_part.into_iter().filter_map(normal).collect();
-        let furthest = |parts: &BTreeMap<Part, f64>| {
-            let off = parts.iter().filter_map(|(part, value)| {
-                normals.get(part).map(|(mean, sigma)| ((value - mean) / sigma).abs())
-            });
-            off.fold(0.0, f64::max)
-        };
-        let own = furthest(&parts(design, &reference.scale, campaign));
-        let further = shown.iter().filter(|parts| furthest(parts) >= own).count();
-        (further + 1) as f64 / (PREDICTED + 1) as f64
+        let (summaries, shown): (Vec<Summary>, Vec<Parts>) = (0..PREDICTED).into_par_iter().map(one).unzip();
+        let parts = PredictedParts::of(&shown);
+        let misfits = (0..summaries.len()).into_par_iter();
+        let misfits = misfits.map(|k| misfit(&summaries[k], &summaries, Some(k))).collect();
+        let furthest = shown.iter().map(|shown| parts.furthest(shown)).collect();
+        Predictive { check: *self, summaries, parts, statistics: [misfits, furthest] }
+    }
+
+    fn seen(&self, campaign: &Campaign) -> (Summary, Parts) {
+        let Check { design, reference, .. } = self;
+        (Summary::of(design, reference, campaign), parts(design, &reference.scale, campaign))
     }
 }
 
-/// A part of a campaign.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Part {
-    /// What the ranking sees as well.
-    Feature(Feature),
-    /// Readings of a quantity on a family in a third of its tilts, or of its way over the drift (0 to 2).
-    Third(usize, MeasuredQuantity, usize),
-    /// Those on one specimen.
-    Own(usize, MeasuredQuantity, usize),
+impl Predictive<'_> {
+    fn p_value(&self, campaign: &Campaign) -> f64 {
+        let (summary, shown) = self.check.seen(campaign);
+        let statistics = [misfit(&summary, &self.summaries, None), self.parts.furthest(&shown)];
+        let [of_nearest, of_parts] = [0, 1].map(|k| {
+            let mut all = self.statistics[k].clone();
+            all.push(statistics[k]);
+            as_large(&all)
+        });
+        let worse: Vec<f64> = of_nearest.iter().zip(&of_parts).map(|(a, b)| a.min(*b)).collect();
+        let last = worse[worse.len() - 1];
+        worse.iter().filter(|share| **share <= last).count() as f64 / worse.len() as f64
+    }
 }
 
-/// The parts of a campaign, each in standard deviations of independent readings.
-fn parts(design: &Design, scale: &Scale, campaign: &Campaign) -> BTreeMap<Part, f64> {
-    let mut shown: BTreeMap<Part, Vec<f64>> = BTreeMap::new();
-    let mut readings = scale.readings(design, campaign).into_iter();
-    for (index, specimen) in design.specimens.iter().enumerate() {
-        let place = specimen.places();
-        let last = specimen.readings.iter().filter_map(|m| m.tilt).fold(f64::MIN_POSITIVE, f64::max);
-        for (m, (family, z)) in specimen.readings.iter().zip(&mut readings) {
-            let (Some(place), Some(z)) = (place(m), z) else { continue };
-            // As tilts stand to the largest one, to the last bit.
-            let thirds = m.tilt.map_or(3.0 * place, |tilt| 3.0 * tilt / last);
-            let third = (thirds.ceil() as usize).clamp(1, 3) - 1;
-            shown.entry(Part::Third(family, m.quantity, third)).or_default().push(z);
-            shown.entry(Part::Own(index, m.quantity, third)).or_default().push(z);
-        }
-    }
-    let mean = |(part, values): (Part, Vec<f64>)| {
-        let root = (values.len() as f64).sqrt();
-        Some((part, stats::mean(&values)? * root))
-    };
-    let coarse = features(design, scale, campaign).into_iter().map(|(f, value)| (Part::Feature(f), value));
-    shown.into_iter().filter_map(mean).chain(coarse).collect()
+/// For each of these values the share of them that is as large.
+fn as_large(values: &[f64]) -> Vec<f64> {
+    let mut ascending = values.to_vec();
+    ascending.sort_by(f64::total_cmp);
+    let count = values.len();
+    let share =
+        |value: &f64| (count - ascending.partition_point(|other| other < value)) as f64 / count as f64;
+    values.iter().map(share).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::critic::causes::evidence;
     use crate::critic::fixture::judged;
     use crate::critic::simulate::Seen;
 
@@ -127,9 +102,9 @@ mod tests {
         let (made, judge) = judged();
         let (world, design) = (judge.world, &judge.design);
         let truth = world.drawn(Some(made.cause("creep")), &Streams::new(23, 1));
-        let draws = vec![truth.clone(); 20];
+        let predictive = judge.posterior_check().predictive(&vec![truth.clone(); 20], 3);
         let shown = |k: u64| world.campaign(design, &truth, &Streams::new(24, k));
-        let few = (0..40).filter(|&k| judge.posterior_check().predicted(&draws, &shown(k), 3) < 0.1).count();
+        let few = (0..40).filter(|&k| predictive.p_value(&shown(k)) < 0.1).count();
         // One in ten, of forty: 4 +- 1.9.
         assert!(few <= 9, "{few}");
         // The second specimen of the stones moves 2 cm further from one tilt on.
@@ -141,9 +116,31 @@ mod tests {
                     *value += if tilt > 0.1 { 20e-3 } else { 0.0 };
                 }
             }
-            judge.posterior_check().predicted(&draws, &campaign, 3) < 0.02
+            predictive.p_value(&campaign) < 0.02
         });
         let further = further.count();
         assert!(further >= 8, "{further} of 10");
+    }
+
+    #[test]
+    fn of_the_campaigns_of_a_posterior_as_many_are_refused_as_the_level_says() {
+        let (made, judge) = judged();
+        let (world, design) = (judge.world, &judge.design);
+        let drawn = |truth: &Truth, streams: &Streams| world.campaign(design, truth, streams);
+        for cause in ["creep", "lean", "contact_area"].map(|name| made.cause(name)) {
+            let streams = Streams::new(25, cause as u64);
+            let measured = drawn(&world.drawn(Some(cause), &streams), &streams);
+            let draws = evidence(world, design, &measured, Some(cause), 3).draws;
+            let predictive = judge.posterior_check().predictive(&draws, 4);
+            let is_refused = |k: &u64| {
+                let streams = Streams::new(26, *k);
+                let truth = &draws[streams.of("posterior").below(draws.len())];
+                predictive.p_value(&drawn(truth, &streams)) < 0.05
+            };
+            let refused = (0..200).filter(is_refused).count();
+            println!("{cause}: {refused} of 200");
+            // 5 % of 200 are 10 +- 3.1, and the level itself comes from 600 campaigns, +- 1.8: 95 % within 3 to 17, 99.7 % within 0 to 21.
+            assert!((1..=20).contains(&refused), "{cause}: {refused}");
+        }
     }
 }

@@ -3,5 +3,4 @@
 mod physical_prior;
 mod prior_predictive;
 
-pub use physical_prior::log_weight;
 pub use prior_predictive::PriorPredictive;

@@ -121,7 +121,6 @@ fn beyond(within: DMatrix<f64>, wide: &DMatrix<f64>) -> DMatrix<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::critic::conflict::log_weight;
     use crate::critic::fixture::judged;
 
     #[test]
@@ -165,7 +164,7 @@ mod tests {
         let drawn: Vec<Truth> =
             (0..20_000).map(|k| judge.world.drawn(Some(creep), &Streams::new(93, k))).collect();
         let weights: Vec<f64> =
-            drawn.iter().map(|truth| crate::math::exp(log_weight(&made.mechanisms, truth))).collect();
+            drawn.iter().map(|truth| crate::math::exp(judge.world.log_weight(truth))).collect();
         let weighed = drawn.iter().zip(&weights).fold(0.0, |sum, (truth, w)| sum + w * rate(truth))
             / crate::stats::sum(&weights);
         // Of 20,000 draws two of whose parameters must lie in a quarter each, some 4,000 count.

@@ -2,6 +2,7 @@
 
 mod across;
 mod features;
+mod form;
 mod predicted;
 mod reference;
 mod residual;
@@ -10,9 +11,10 @@ mod smooth;
 mod tests;
 
 pub use features::{Contrast, Feature, Scale, features};
+pub use form::{Component, Lies};
 #[cfg(test)]
 pub use predicted::normal_score;
 pub use predicted::{Predicted, Score};
 pub use reference::{Discrepancy, Reference};
 pub use residual::{Band, Baseline, Expected, Group, Parts, Residual, Residuals, Side};
-pub use smooth::{Component, ComponentEstimate, SmoothDiscrepancy};
+pub use smooth::{ComponentEstimate, SmoothDiscrepancy};

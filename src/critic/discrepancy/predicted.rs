@@ -2,7 +2,7 @@
 //! continuous ranked probability score, and the square of its error (Gneiting and Raftery 2007).
 
 use crate::critic::compare::log_likelihood;
-use crate::critic::simulate::{Design, Queries, Seen, Specimen, Truth, World};
+use crate::critic::simulate::{Design, MayShow, Queries, Seen, Specimen, Truth, World};
 use crate::math::{exp, ln};
 use crate::random::Streams;
 use crate::random::standard_normal::{cdf, density, quantile};
@@ -40,31 +40,37 @@ impl Predicted {
     pub fn of(world: &World<'_>, design: &Design, draws: &[Truth], seed: u64) -> Predicted {
         let one = |(index, truth): (usize, &Truth)| -> Vec<Vec<Vec<f64>>> {
             let mut stones = Streams::new(seed, index as u64).of("predicted stones");
-            let families: Vec<(usize, Vec<Vec<f64>>, bool)> = design
+            let families: Vec<(usize, MayShow)> = design
                 .families()
                 .into_iter()
                 .map(|family| {
                     let own = design.specimens.iter().filter(|specimen| specimen.family == family);
                     let readings: Vec<&Measurement> = own.flat_map(|specimen| &specimen.readings).collect();
                     let queries = Queries::by(&readings);
-                    let (shown, random) = world.may_show(family, &queries, truth, 1);
-                    let all = |path: Vec<f64>| queries.by_reading.iter().map(|&at| path[at]).collect();
-                    (family, shown.into_iter().map(all).collect(), random)
+                    let mut shown = world.may_show(family, &queries, truth, 1);
+                    let all = |path: &mut Vec<f64>| {
+                        *path = queries.by_reading.iter().map(|&at| path[at]).collect();
+                    };
+                    shown.paths.iter_mut().chain([&mut shown.by_stiffness]).for_each(all);
+                    (family, shown)
                 })
                 .collect();
             (0..WALLS)
                 .map(|_| {
                     let mut first: Vec<usize> = vec![0; families.len()];
                     let shared: Vec<usize> =
-                        families.iter().map(|(_, shown, _)| stones.below(shown.len())).collect();
+                        families.iter().map(|(_, shown)| stones.below(shown.paths.len())).collect();
                     let of = |specimen: &Specimen| {
                         let at = families.iter().position(|(family, ..)| *family == specimen.family);
                         let at = at.unwrap_or_default();
-                        let (_, shown, random) = &families[at];
-                        let path = if *random { stones.below(shown.len()) } else { shared[at] };
+                        let MayShow { paths, random, by_stiffness } = &families[at].1;
+                        let path = if *random { stones.below(paths.len()) } else { shared[at] };
+                        let stiffness = quantile(stones.uniform());
                         let from = first[at];
                         first[at] += specimen.readings.len();
-                        shown[path][from..first[at]].to_vec()
+                        let read = from..first[at];
+                        let shown = paths[path][read.clone()].iter().zip(&by_stiffness[read]);
+                        shown.map(|(path, by)| path + stiffness * by).collect()
                     };
                     design.specimens.iter().map(of).collect()
                 })

@@ -8,23 +8,13 @@ mod tests;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use crate::critic::compare::reading_variance;
+use crate::critic::discrepancy::form::{Component, Lies, PARTS, half_of_order, kind};
 use crate::critic::discrepancy::predicted::{Predicted, Score, normal_score};
 use crate::critic::simulate::{Campaign, Design, Seen};
-use crate::math::{degrees, exp, ln};
+use crate::math::ln;
 use crate::stats;
-use crate::study::{MeasuredQuantity, Measurement};
+use crate::study::MeasuredQuantity;
 
-/// Over so many degrees of tilt a discrepancy changes.
-const LENGTH_DEG: f64 = 5.0;
-/// Over so large a factor on the drift (its logarithm) one does.
-const LENGTH_LN_DRIFT: f64 = 1.0;
-/// Share of its variance that is common to all families.
-const COMMON: f64 = 0.5;
-/// Variance of the left end less that of the middle, of the centre less that of the mean, and of the last test less that of a middle
-/// one, in that of a reading's level.
-const TWISTING: f64 = 0.5;
-const BENDING: f64 = 0.5;
-const DRIFTING: f64 = 0.5;
 /// Standard deviations of the discrepancy that are tried, in those of the base model's readings; the likeliest is taken.
 const TRIED: [f64; 7] = [0.0, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0];
 /// Variance (in those units) that no reading is without, so that covariances can be factored.
@@ -33,20 +23,13 @@ const NUGGET: f64 = 1e-6;
 /// A reading that was seen.
 struct At<'d> {
     place: (usize, usize),
-    family: usize,
-    m: &'d Measurement,
+    lies: Lies<'d>,
     seen: Seen,
     /// The base model's standard deviation of it.
     unit: f64,
     /// What the base model expects.
     mean: f64,
     known: bool,
-    /// 1 for the left end, -1 for the right one.
-    side: f64,
-    /// What a bow moves it by: 1 at the centre, -1/2 at the ends.
-    bow: f64,
-    /// Where the test lies in the order of all: -1 the first, 1 the last; 0 where that is not known.
-    order: f64,
 }
 
 /// The discrepancy, given the known readings.
@@ -64,19 +47,6 @@ pub struct SmoothDiscrepancy<'d> {
     weights: DVector<f64>,
     /// From the middle of the tests to the last (tests).
     half: f64,
-}
-
-/// The components of a discrepancy.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Component {
-    /// Of readings as they are, whatever the order of the tests.
-    Level,
-    /// Of the left end less the right one.
-    Twist,
-    /// Of the centre less the mean of the ends, where these were read each.
-    Bow,
-    /// Of a reading from each test to the next.
-    Drift,
 }
 
 /// A component of the discrepancy at a reading of a family.
@@ -109,28 +79,17 @@ impl<'d> SmoothDiscrepancy<'d> {
         units: &[Vec<f64>],
     ) -> Option<SmoothDiscrepancy<'d>> {
         let mut all: Vec<At<'d>> = Vec::new();
-        let orders = || design.specimens.iter().filter_map(|specimen| specimen.order).map(f64::from);
-        let (first, last) = (orders().fold(f64::INFINITY, f64::min), orders().fold(0.0, f64::max));
-        let half = 0.5 * (last - first).max(0.0);
-        for (specimen, own) in design.specimens.iter().enumerate() {
-            for (reading, m) in own.readings.iter().enumerate() {
-                let seen = campaign.specimens[specimen][reading];
-                if seen == Seen::Nothing {
-                    continue;
-                }
-                let mean = stats::mean(&base.reading(specimen, reading))?;
-                let (unit, is_value) = (units[specimen][reading], seen != Seen::Beyond);
-                let known = known[specimen][reading] && is_value;
-                let (side, bow) = match m.quantity {
-                    MeasuredQuantity::DisplacementLeft | MeasuredQuantity::RemainderLeft => (1.0, -0.5),
-                    MeasuredQuantity::DisplacementRight | MeasuredQuantity::RemainderRight => (-1.0, -0.5),
-                    MeasuredQuantity::DisplacementCentre | MeasuredQuantity::RemainderCentre => (0.0, 1.0),
-                    _ => (0.0, 0.0),
-                };
-                let order = own.order.map_or(0.0, |order| (f64::from(order) - first) / half.max(0.5) - 1.0);
-                let place = (specimen, reading);
-                all.push(At { place, family: own.family, m, seen, unit, mean, known, side, bow, order });
+        let half = half_of_order(design);
+        for (place, lies) in Lies::all(design) {
+            let (specimen, reading) = place;
+            let seen = campaign.specimens[specimen][reading];
+            if seen == Seen::Nothing {
+                continue;
             }
+            let mean = stats::mean(&base.reading(specimen, reading))?;
+            let (unit, is_value) = (units[specimen][reading], seen != Seen::Beyond);
+            let known = known[specimen][reading] && is_value;
+            all.push(At { place, lies, seen, unit, mean, known });
         }
         let columns = DMatrix::from_fn(base.walls.len(), all.len(), |draw, k| {
             let (specimen, reading) = all[k].place;
@@ -138,21 +97,23 @@ impl<'d> SmoothDiscrepancy<'d> {
         });
         let mut walls = columns.transpose() * &columns / (base.walls.len() as f64 - 1.0);
         for (k, at) in all.iter().enumerate() {
-            walls[(k, k)] += reading_variance(at.m) / (at.unit * at.unit) + NUGGET;
-            let shares_error = |other: &At<'_>| other.m.quantity.instrument() == at.m.quantity.instrument();
+            walls[(k, k)] += reading_variance(at.lies.m) / (at.unit * at.unit) + NUGGET;
+            let shares_error =
+                |other: &At<'_>| other.lies.m.quantity.instrument() == at.lies.m.quantity.instrument();
             for (j, other) in all.iter().enumerate().filter(|(_, other)| shares_error(other)) {
-                walls[(k, j)] += at.m.common_error / at.unit * (other.m.common_error / other.unit);
+                walls[(k, j)] += at.lies.m.common_error / at.unit * (other.lies.m.common_error / other.unit);
             }
         }
         let places: Vec<usize> = (0..all.len()).filter(|&k| all[k].known).collect();
         if places.is_empty() {
             return None;
         }
-        let smooth = PARTS
-            .map(|part| DMatrix::from_fn(all.len(), all.len(), |a, b| covariance(part, &all[a], &all[b])));
+        let smooth = PARTS.map(|part| {
+            DMatrix::from_fn(all.len(), all.len(), |a, b| all[a].lies.covariance(part, &all[b].lies))
+        });
         let off = DVector::from_fn(places.len(), |k, _| {
             let at = &all[places[k]];
-            (at.seen.number(at.m).unwrap_or(at.mean) - at.mean) / at.unit
+            (at.seen.number(at.lies.m).unwrap_or(at.mean) - at.mean) / at.unit
         });
         let tried = TRIED.into_iter().filter_map(|sigma| {
             let variance = sigma * sigma;
@@ -176,7 +137,7 @@ impl<'d> SmoothDiscrepancy<'d> {
             let variance =
                 (self.whole[(k, k)] - with_known.dot(&self.factored.solve(&with_known))).max(NUGGET);
             let mean = at.mean + at.unit * with_known.dot(&self.weights);
-            let score = normal_score(at.m, at.seen, mean, at.unit * variance.sqrt(), at.unit)?;
+            let score = normal_score(at.lies.m, at.seen, mean, at.unit * variance.sqrt(), at.unit)?;
             Some((at.place, score))
         })
         .collect()
@@ -188,12 +149,12 @@ impl<'d> SmoothDiscrepancy<'d> {
     pub fn components(&self) -> Vec<ComponentEstimate> {
         let mut components: Vec<ComponentEstimate> = Vec::new();
         for (k, at) in self.all.iter().enumerate().filter(|(_, at)| at.seen != Seen::Beyond) {
-            let (family, quantity, place) = (at.family, at.m.quantity, at.m.at());
+            let (family, quantity, place) = (at.lies.family, at.lies.m.quantity, at.lies.m.at());
             let beside = |is: fn(&At<'_>) -> bool| {
                 self.all.iter().position(|other| {
                     other.seen != Seen::Beyond
-                        && (other.family, other.m.at()) == (family, place)
-                        && kind(other.m.quantity) == kind(quantity)
+                        && (other.lies.family, other.lies.m.at()) == (family, place)
+                        && kind(other.lies.m.quantity) == kind(quantity)
                         && is(other)
                 })
             };
@@ -207,26 +168,27 @@ impl<'d> SmoothDiscrepancy<'d> {
                 if !components.iter().any(is_there) {
                     let (value, sd) =
                         self.estimate(if part == Component::Drift { &PARTS[3..] } else { &PARTS[..3] }, of);
-                    let (tilt, drift) = (at.m.tilt, at.m.drift);
+                    let (tilt, drift) = (at.lies.m.tilt, at.lies.m.drift);
                     components.push(ComponentEstimate { part, family, quantity, tilt, drift, value, sd });
                 }
             };
             add(Component::Level, &[(k, 1.0)]);
-            let ends: Vec<usize> = [beside(|other| other.side > 0.0), beside(|other| other.side < 0.0)]
-                .into_iter()
-                .flatten()
-                .collect();
+            let ends: Vec<usize> =
+                [beside(|other| other.lies.side > 0.0), beside(|other| other.lies.side < 0.0)]
+                    .into_iter()
+                    .flatten()
+                    .collect();
             match ends[..] {
-                [_, right] if at.side > 0.0 => add(Component::Twist, &[(k, 1.0), (right, -1.0)]),
-                [_, ..] if at.bow > 0.0 => {
+                [_, right] if at.lies.side > 0.0 => add(Component::Twist, &[(k, 1.0), (right, -1.0)]),
+                [_, ..] if at.lies.bow > 0.0 => {
                     let share = -1.0 / ends.len() as f64;
                     let ends = ends.iter().map(|end| (*end, share));
                     add(Component::Bow, &std::iter::once((k, 1.0)).chain(ends).collect::<Vec<_>>());
                 }
                 _ => {}
             }
-            if at.order.abs() == 1.0 && self.half > 0.0 {
-                add(Component::Drift, &[(k, at.order / self.half)]);
+            if at.lies.order.abs() == 1.0 && self.half > 0.0 {
+                add(Component::Drift, &[(k, at.lies.order / self.half)]);
             }
         }
         components
@@ -251,39 +213,6 @@ impl<'d> SmoothDiscrepancy<'d> {
     /// Covariances of a reading with those that are known.
     fn with_known(&self, covariance: &DMatrix<f64>, k: usize) -> DVector<f64> {
         DVector::from_fn(self.known.len(), |j, _| covariance[(k, self.known[j])])
-    }
-}
-
-/// All of them, as they are numbered.
-const PARTS: [Component; 4] = [Component::Level, Component::Twist, Component::Bow, Component::Drift];
-
-/// Quantities of different kinds have nothing in common.
-fn kind(quantity: MeasuredQuantity) -> u8 {
-    match quantity {
-        MeasuredQuantity::CollapseAngle => 0,
-        MeasuredQuantity::DisplacementCentreMinusEnds => 1,
-        MeasuredQuantity::RemainderCentreMinusEnds => 2,
-        other if other.is_remainder() => 3,
-        _ => 4,
-    }
-}
-
-/// Covariance of a component of the discrepancies of two readings, in the variance of a level.
-fn covariance(part: Component, a: &At<'_>, b: &At<'_>) -> f64 {
-    if kind(a.m.quantity) != kind(b.m.quantity) {
-        return 0.0;
-    }
-    let apart = match (a.m.drift, b.m.drift) {
-        (Some(one), Some(other)) => ln(one / other) / LENGTH_LN_DRIFT,
-        _ => degrees(a.m.tilt.unwrap_or(0.0) - b.m.tilt.unwrap_or(0.0)) / LENGTH_DEG,
-    };
-    let families = if a.family == b.family { 1.0 } else { COMMON };
-    let over_the_tilt = families * exp(-0.5 * apart * apart);
-    match part {
-        Component::Level => over_the_tilt,
-        Component::Twist => TWISTING * a.side * b.side * over_the_tilt,
-        Component::Bow => BENDING * a.bow * b.bow * over_the_tilt,
-        Component::Drift => DRIFTING * a.order * b.order,
     }
 }
 

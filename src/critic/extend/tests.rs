@@ -2,7 +2,7 @@
 
 use crate::critic::extend::extension;
 use crate::critic::fixture::made;
-use crate::critic::simulate::{Causes, Truth};
+use crate::critic::simulate::{Causes, Scope, Truth};
 use crate::random::Streams;
 
 #[test]
@@ -48,4 +48,24 @@ fn an_extension_is_the_median_of_its_truths_and_draws_from_all_of_them() {
         both.acting.iter().map(|own| (own.mechanism, own.parameters.len())).collect();
     assert_eq!(names, [("friction", 3), ("density", 1)]);
     assert_eq!(extension(&world, &[world.drawn(None, &Streams::new(3, 0))]), None);
+}
+
+#[test]
+fn a_cause_of_one_kind_of_joints_extends_the_arms_that_have_them() {
+    let made = made();
+    let (world, area) = (made.world(), made.cause("contact_area"));
+    let extended = |scope: Scope| {
+        let causes = Causes::one(area, scope);
+        let truths: Vec<Truth> = (0..61).map(|k| world.drawn(causes, &Streams::new(3, k))).collect();
+        let extension = extension(&world, &truths).expect("there are truths");
+        let arms: Vec<Option<Vec<usize>>> =
+            extension.median.acting.iter().map(|acting| acting.arms.clone()).collect();
+        let keys = extension.known.iter().map(|known| known.key.clone());
+        let keys: Vec<String> = keys.filter(|key| key.ends_with("mechanism.contact_area.share")).collect();
+        (arms, keys.join(" "))
+    };
+    assert_eq!(extended(Scope::All), (vec![None], "mechanism.contact_area.share".to_owned()));
+    let [cbl, sbl, sbr] = ["cbl", "sbl", "sbr"].map(|arm| format!("arm.{arm}.mechanism.contact_area.share"));
+    assert_eq!(extended(Scope::Kind(1)), (vec![Some(vec![1, 2])], format!("{sbl} {sbr}")));
+    assert_eq!(extended(Scope::Each), (vec![Some(vec![0]), Some(vec![1, 2])], format!("{cbl} {sbl} {sbr}")));
 }

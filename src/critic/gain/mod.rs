@@ -15,7 +15,7 @@ use rayon::prelude::*;
 
 use crate::critic::causes::{Ranked, evidence};
 use crate::critic::discrepancy::{Predicted, SmoothDiscrepancy};
-use crate::critic::simulate::{Campaign, Design, Truth};
+use crate::critic::simulate::{Campaign, Causes, Design, Truth};
 use crate::critic::verdict::{Effort, Judge, Limits, MOST_AMBIGUOUS};
 use crate::random::Streams;
 
@@ -33,9 +33,9 @@ const LEFT_OUT: f64 = 0.1;
 pub struct Choice {
     /// What was held out.
     pub held_out: HeldOut,
-    /// The causes that the extended model has in this fold, with their shares of it, of sum 1, the largest first; none where
-    /// nothing was found.
-    pub causes: Vec<(usize, f64)>,
+    /// The causes that the extended model has in this fold, each with its scope and its share of it, of sum 1, the largest first;
+    /// none where nothing was found.
+    pub causes: Vec<(Causes, f64)>,
 }
 
 /// The gain on readings that were held out.
@@ -121,14 +121,19 @@ impl<'j, 'w> Folds<'j, 'w> {
     }
 
     /// What is chosen in each fold.
-    fn choices(&self, campaign: &Campaign) -> Vec<Vec<(usize, f64)>> {
+    fn choices(&self, campaign: &Campaign) -> Vec<Vec<(Causes, f64)>> {
         let choice = |(fold, judge): &(Fold, usize)| {
             let (judge, known) = (&self.judges[*judge], fold.campaign(campaign));
             let finding = judge.compare(&known);
             if finding.p_value >= self.measuring.limits.found {
                 return Vec::new();
             }
-            mixed(&judge.weighed(&finding.ranked, &known, self.seed), self.measuring.limits.named)
+            let (ranked, rough) = judge.weighed(&finding.ranked, &known, self.seed);
+            let causes = mixed(&ranked, self.measuring.limits.named).into_iter();
+            // Each acts where these readings make it likeliest.
+            let models = || rough.iter().map(|rough| rough.causes);
+            let scoped = |cause: usize| models().find(|causes| causes.each().eq([cause]));
+            causes.filter_map(|(cause, share)| Some((scoped(cause)?, share))).collect()
         };
         self.folds.iter().map(choice).collect()
     }
@@ -190,19 +195,19 @@ impl<'j, 'w> Folds<'j, 'w> {
     fn rows(
         &self,
         campaign: &Campaign,
-        choices: &[Vec<(usize, f64)>],
+        choices: &[Vec<(Causes, f64)>],
         seed: u64,
         with_ceiling: bool,
     ) -> BTreeMap<Kind, Vec<Row>> {
         let judge = self.judge;
         let units = judge.reference.scale.units();
-        let of = |((fold, index), choice): (&(Fold, usize), &Vec<(usize, f64)>)| -> (Kind, Vec<Row>) {
+        let of = |((fold, index), choice): (&(Fold, usize), &Vec<(Causes, f64)>)| -> (Kind, Vec<Row>) {
             let known = &self.judges[*index].design;
             let seen = fold.campaign(campaign);
-            let draws = |cause: Option<usize>| evidence(judge.world, known, &seen, cause, seed).draws;
+            let draws = |causes: Causes| evidence(judge.world, known, &seen, causes, seed).draws;
             let walls = |draws: &[Truth]| Predicted::of(judge.world, &judge.design, draws, seed);
-            let base = walls(&draws(None));
-            let parts = choice.iter().map(|(cause, share)| (draws(Some(*cause)), *share)).collect::<Vec<_>>();
+            let base = walls(&draws(Causes::default()));
+            let parts = choice.iter().map(|(causes, share)| (draws(*causes), *share)).collect::<Vec<_>>();
             let extended = (!parts.is_empty()).then(|| walls(&mixture(parts)));
             let free = with_ceiling
                 .then(|| SmoothDiscrepancy::new(&judge.design, campaign, &fold.known, &base, &units))

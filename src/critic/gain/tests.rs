@@ -8,7 +8,7 @@ use crate::critic::fixture::{EFFORT, judged, made};
 use crate::critic::gain::fold::{Fold, HeldOut};
 use crate::critic::gain::gained::{Row, estimates, gained};
 use crate::critic::gain::{Folds, Kind, Measuring, mixed, mixture};
-use crate::critic::simulate::{Campaign, Design, Seen, Truth};
+use crate::critic::simulate::{Campaign, Causes, Design, Seen, Truth};
 use crate::critic::verdict::MOST_AMBIGUOUS;
 use crate::random::Streams;
 use crate::random::standard_normal::quantile;
@@ -199,7 +199,11 @@ fn a_strong_effect_is_a_gain_and_its_absence_is_none() {
     let (world, design) = (judge.world, &judge.design);
     let (creep, folds) = (made.cause("creep"), folds());
     let found = folds.gain(&crept()).expect("nine specimens");
-    assert!(found.choices.iter().all(|choice| choice.causes == [(creep, 1.0)]), "{:?}", found.choices);
+    assert!(
+        found.choices.iter().all(|choice| choice.causes == [(Causes::from(Some(creep)), 1.0)]),
+        "{:?}",
+        found.choices
+    );
     let specimens = found.specimens.as_ref().expect("nine specimens");
     println!("{specimens:?}\n{:?}", found.tilts);
     assert!(specimens.gain.iter().all(|gain| gain.ends[0] > 0.0 && gain.value > 0.0), "{:?}", specimens.gain);
@@ -230,10 +234,10 @@ fn where_nothing_was_chosen_nothing_is_gained_and_nothing_need_be_predicted() {
     let shown = world.campaign(design, &world.drawn(None, &streams), &streams);
     let folds = folds();
     let tilts = |(fold, _): &(Fold, usize)| match fold.held_out {
-        HeldOut::LargestTilts => vec![(made.cause("creep"), 1.0)],
+        HeldOut::LargestTilts => vec![(Causes::from(Some(made.cause("creep"))), 1.0)],
         _ => Vec::new(),
     };
-    let choices: Vec<Vec<(usize, f64)>> = folds.folds.iter().map(tilts).collect();
+    let choices: Vec<Vec<(Causes, f64)>> = folds.folds.iter().map(tilts).collect();
     let [all, some] = [true, false].map(|ceiling| folds.rows(&shown, &choices, 4, ceiling));
     assert_eq!((all.len(), some.keys().collect::<Vec<_>>()), (5, vec![&Kind::Tilts]));
     for (kind, rows) in &all {
@@ -262,6 +266,7 @@ fn a_fold_that_names_no_cause_mixes_those_that_it_leaves_open() {
         causes: Some(cause).into(),
         parameters: vec![k as f64],
         joints: Vec::new(),
+        scatter: 0.0,
     };
     let part = |cause: usize| (0..20).map(|k| truth(cause, k)).collect::<Vec<_>>();
     let both = mixture(vec![(part(1), 0.75), (part(2), 0.25)]);

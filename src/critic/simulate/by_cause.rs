@@ -8,7 +8,7 @@ use crate::critic::simulate::causes::Causes;
 /// Things that are pure functions of causes and a seed, as far as they have been asked for. Where many campaigns are judged, most
 /// questions are of the same few causes; pairs are many, seldom asked of twice, and not kept.
 #[derive(Debug)]
-pub struct ByCause<T>(Mutex<BTreeMap<(usize, u64), Arc<T>>>);
+pub struct ByCause<T>(Mutex<BTreeMap<(Causes, u64), Arc<T>>>);
 
 impl<T> Default for ByCause<T> {
     fn default() -> Self {
@@ -19,13 +19,15 @@ impl<T> Default for ByCause<T> {
 impl<T> ByCause<T> {
     /// That of causes with a seed, simulated if it is not there yet.
     pub fn of(&self, (causes, seed): (Causes, u64), simulated: impl FnOnce() -> T) -> Arc<T> {
-        let Some(cause) = causes.single() else { return Arc::new(simulated()) };
+        if !causes.is_single() {
+            return Arc::new(simulated());
+        }
         let all = || self.0.lock().expect("nothing panics that holds it");
-        let before = all().get(&(cause, seed)).cloned();
+        let before = all().get(&(causes, seed)).cloned();
         // All threads simulate: none may wait here meanwhile. Two that ask at once simulate the same.
         before.unwrap_or_else(|| {
             let own = Arc::new(simulated());
-            all().entry((cause, seed)).or_insert(own).clone()
+            all().entry((causes, seed)).or_insert(own).clone()
         })
     }
 }

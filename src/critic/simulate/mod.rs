@@ -12,9 +12,9 @@ mod world;
 
 pub use bank::{BANK, Bank, Emulator, Held, NotThisBank, PRIOR_WIDENING, Path, Place, Plan, Test, stand_in};
 pub(in crate::critic) use by_cause::ByCause;
-pub use causes::Causes;
+pub use causes::{Causes, Scope};
 pub use design::{Campaign, Design, Seen, Specimen, Unused};
 pub use queries::Queries;
 pub use truth::Truth;
-pub use world::World;
-pub(in crate::critic) use world::standing;
+pub(in crate::critic) use world::{MayShow, standing};
+pub use world::{Scored, World};

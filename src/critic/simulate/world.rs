@@ -1,11 +1,16 @@
 //! Campaigns that could have been measured, from a bank: truth in, readings out.
 
+mod apart;
 mod likely;
+mod scopes;
 mod standing;
 #[cfg(test)]
 mod tests;
 
 use likely::Likely;
+pub(in crate::critic) use likely::MayShow;
+pub use scopes::Scored;
+use scopes::kinds;
 pub(in crate::critic) use standing::standing;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -20,12 +25,11 @@ use crate::critic::simulate::truth::Truth;
 use crate::critic::simulate::unmodelled::Unmodelled;
 use crate::ensemble::{build, is_random, weight};
 use crate::interrupt;
-use crate::math::{atan, radians, tan};
 use crate::model::Outcome;
 use crate::protocol::Ends;
 use crate::random::standard_normal::quantile;
 use crate::random::{Family, Streams};
-use crate::study::{Acts, Arm, Described, MeasuredQuantity, Measurement, Mechanisms, Nuisance, Study};
+use crate::study::{Acts, Described, MeasuredQuantity, Measurement, Nuisance, Study};
 
 /// The mechanism that has a side, uphill or downhill.
 const SIDED: &str = "lean";
@@ -71,6 +75,8 @@ pub struct World<'s> {
     weights: BTreeMap<usize, [f64; 2]>,
     /// Kind of joint of each arm: arms whose joints are stated the same share one.
     kinds: Vec<usize>,
+    /// Kinds of joint in whose families each mechanism changes walls, ascending.
+    acted: Vec<Vec<usize>>,
 }
 
 impl<'s> World<'s> {
@@ -127,6 +133,12 @@ impl<'s> World<'s> {
             Some((family, [whole, whole / wall.stones().count() as f64]))
         };
         let weights = base.keys().map(|&family| weighed(family)).collect::<Option<BTreeMap<_, _>>>()?;
+        let kinds = kinds(&study.arms);
+        let acted = |cause: usize| -> BTreeSet<usize> {
+            let changed = changes.keys().filter(|(_, acting)| *acting == cause);
+            changed.map(|(family, _)| kinds[*family]).collect()
+        };
+        let acted = (0..mechanisms.len()).map(|cause| acted(cause).into_iter().collect()).collect();
         Some(World {
             study,
             test,
@@ -137,13 +149,9 @@ impl<'s> World<'s> {
             changes,
             planned,
             weights,
-            kinds: kinds(&study.arms),
+            kinds,
+            acted,
         })
-    }
-
-    /// Kinds of joints that differ in what is stated of them.
-    pub fn joint_kinds(&self) -> usize {
-        self.kinds.iter().max().map_or(0, |last| last + 1)
     }
 
     /// The truth with these causes, drawn from the search priors, those of the joints wider by [`PRIOR_WIDENING`], such that walls
@@ -159,22 +167,22 @@ impl<'s> World<'s> {
         truth
     }
 
-    /// Scores that a truth with these causes has: three for each kind of joint, then one for each parameter.
+    /// Scores that a truth with these causes has: three for each kind of joint, one of how specimens differ, then
+    /// [those of the causes](Self::scored).
     pub fn inputs(&self, causes: impl Into<Causes>) -> usize {
-        let parameters = causes.into().each().map(|cause| self.mechanisms[cause].parameters.len());
-        3 * self.joint_kinds() + parameters.sum::<usize>()
+        3 * self.joint_kinds() + 1 + self.scored(causes).count()
     }
 
     /// The truth with these causes and these scores; those of the joints count [`PRIOR_WIDENING`] times.
     pub fn truth(&self, causes: impl Into<Causes>, scores: &[f64]) -> Truth {
         let causes = causes.into();
         crate::check!(scores.len() == self.inputs(causes), "{} scores for {causes:?}", scores.len());
-        let (joints, parameters) = scores.split_at(3 * self.joint_kinds());
+        let (joints, others) = scores.split_at(3 * self.joint_kinds());
         let joints = joints
             .chunks_exact(3)
             .map(|c| [PRIOR_WIDENING * c[0], PRIOR_WIDENING * c[1], PRIOR_WIDENING * c[2]])
             .collect();
-        Truth { causes, parameters: parameters.to_vec(), joints }
+        Truth { causes, parameters: others[1..].to_vec(), joints, scatter: others[0] }
     }
 
     /// A campaign of a design under a truth: a pure function of these and the streams.
@@ -231,11 +239,6 @@ impl<'s> World<'s> {
             .collect()
     }
 
-    /// What is measured apart before its errors.
-    pub fn values_apart(&self, design: &Design, truth: &Truth) -> Vec<f64> {
-        design.apart.iter().map(|(family, m)| self.apart(*family, m, truth)).collect()
-    }
-
     /// Whether walls of a family differ in the base model. Where they do not, simulated ones differ by the emulator's error alone.
     pub fn is_random(&self, family: usize) -> bool {
         self.base.get(&self.stands_for[family]).is_some_and(|walls| walls.random)
@@ -255,11 +258,6 @@ impl<'s> World<'s> {
         self.study.arms[family].restraint.ends != Ends::Free
     }
 
-    /// Weight of a stone of a family as it is stated, in the mean over a wall (N).
-    pub fn stone_weight(&self, family: usize) -> f64 {
-        self.weights[&self.stands_for[family]][1]
-    }
-
     /// Whether a wall that is turned round stands as another one of its family does, but for a lean.
     pub fn can_turn(&self, family: usize) -> bool {
         self.study.arms[family].is_alike_from_both_sides()
@@ -267,28 +265,12 @@ impl<'s> World<'s> {
 
     /// What is true of a wall that is turned round: it leans the other way. The prior of that is the same for both.
     fn turned(&self, truth: &Truth) -> Truth {
-        let sides = truth.causes.each().flat_map(|cause| {
-            let Described { name, parameters, .. } = &self.mechanisms[cause];
-            parameters.iter().map(move |_| if *name == SIDED { -1.0 } else { 1.0 })
+        let sides = self.scored(truth.causes).map(|score| match self.mechanisms[score.cause].name {
+            SIDED => -1.0,
+            _ => 1.0,
         });
         let parameters = truth.parameters.iter().zip(sides).map(|(score, side)| side * score).collect();
         Truth { parameters, ..truth.clone() }
-    }
-
-    /// The parameters of the causes of a truth, each in its order and in the units of their keys.
-    pub fn parameters(&self, truth: &Truth) -> Vec<f64> {
-        let parameters = truth.causes.each().flat_map(|cause| &self.mechanisms[cause].parameters);
-        parameters.zip(&truth.parameters).map(|(p, score)| p.search.at_score(*score)).collect()
-    }
-
-    /// Each cause of a truth with the scores of its parameters.
-    fn parts<'t>(&self, truth: &'t Truth) -> impl Iterator<Item = (usize, &'t [f64])> {
-        let mut left = &truth.parameters[..];
-        truth.causes.each().map(move |cause| {
-            let (own, others) = left.split_at(self.mechanisms[cause].parameters.len());
-            left = others;
-            (cause, own)
-        })
     }
 
     /// Factors on the joints of a family (its arm's index) under a truth, in the order of
@@ -316,44 +298,6 @@ impl<'s> World<'s> {
     /// The mechanisms that its causes are indices of.
     pub fn mechanisms(&self) -> &'s [Described] {
         self.mechanisms
-    }
-
-    /// A parameter of a mechanism (in its key's unit), if it is among the causes.
-    fn parameter(&self, truth: &Truth, mechanism: &str, key: &str) -> Option<f64> {
-        let (cause, scores) =
-            self.parts(truth).find(|(cause, _)| self.mechanisms[*cause].name == mechanism)?;
-        let parameters = &self.mechanisms[cause].parameters;
-        let at = parameters.iter().position(|p| p.key == key)?;
-        Some(parameters[at].search.at_score(scores[at]))
-    }
-
-    /// What gauges make of the displacements.
-    fn gauge(&self, truth: &Truth) -> Mechanisms {
-        let gauges = [("gauge_scale", "factor"), ("gauge_offset", "offset_m")];
-        gauges.into_iter().fold(Mechanisms::default(), |on, (gauge, key)| {
-            match self.parameter(truth, gauge, key) {
-                Some(value) => on.with(gauge, &[value]),
-                None => on,
-            }
-        })
-    }
-
-    /// What is measured of a family apart from tilting: in a test on two stones the stiffness over the whole joint, and the
-    /// friction angle before it weakens; the weight of a specimen; what the gauge shows of a target that does not move.
-    pub(in crate::critic) fn apart(&self, family: usize, m: &Measurement, truth: &Truth) -> f64 {
-        let arm = &self.study.arms[family];
-        let factors = self.factors(truth, family);
-        let by = |mechanism: &str, key: &str| self.parameter(truth, mechanism, key).unwrap_or(1.0);
-        match m.quantity {
-            MeasuredQuantity::JointKn => {
-                arm.kn_points[arm.middle_point()] * factors[0] * by("contact_area", "share")
-            }
-            MeasuredQuantity::SpecimenWeight => {
-                self.weights[&self.stands_for[family]][0] * by("density", "factor")
-            }
-            MeasuredQuantity::FixedTarget => self.gauge(truth).reading(0.0),
-            _ => atan(tan(radians(arm.joint.phi_deg.mean() * factors[1])) * by("friction", "factor")),
-        }
     }
 
     /// Causes that cannot be diagnosed, as too few of their walls in the bank have a path.
@@ -387,23 +331,12 @@ fn shown(wall: &Curves, m: &Measurement, seen: &impl Fn(f64, [f64; 3]) -> [f64; 
     of_points(m.quantity, seen(tilt, points?))
 }
 
+fn varies(prior: &Family) -> bool {
+    !matches!(prior, Family::Constant { .. })
+}
+
 /// Scores of the parameters that vary.
 fn varying(mechanisms: &[Described], cause: Option<usize>, scores: impl Iterator<Item = f64>) -> Vec<f64> {
     let parameters = cause.map_or(&[][..], |index| &mechanisms[index].parameters);
-    let varies = |prior: &Family| !matches!(prior, Family::Constant { .. });
     parameters.iter().zip(scores).filter(|(p, _)| varies(&p.search)).map(|(_, score)| score).collect()
-}
-
-/// Numbers the kinds of joints.
-fn kinds(arms: &[Arm]) -> Vec<usize> {
-    let mut seen: Vec<&Arm> = Vec::new();
-    arms.iter()
-        .map(|arm| {
-            let same_joints = |other: &&Arm| other.joint == arm.joint && other.kn_points == arm.kn_points;
-            seen.iter().position(same_joints).unwrap_or_else(|| {
-                seen.push(arm);
-                seen.len() - 1
-            })
-        })
-        .collect()
 }

@@ -1,11 +1,11 @@
 //! How a verdict is come to: the examined causes in question are checked, and what is left is named or left open.
 
-use crate::critic::causes::{Ranked, softmax};
+use crate::critic::causes::{self, OverScopes, Ranked, softmax};
 use crate::critic::conflict::PriorPredictive;
 use crate::critic::simulate::{Campaign, Causes};
 use crate::critic::verdict::diagnosis::{Diagnosis, Examined, Verdict};
 use crate::critic::verdict::examine::Examination;
-use crate::critic::verdict::judge::Judge;
+use crate::critic::verdict::judge::{Finding, Judge};
 use crate::critic::verdict::limits::{Limits, MOST_AMBIGUOUS, POSSIBLE};
 use crate::math::ln;
 use crate::stats;
@@ -14,6 +14,8 @@ use crate::stats;
 const PAIRS: usize = 4;
 /// A cause that the ranking puts aside is not put aside where the evidence leaves it this probability or more.
 const LIKELY: f64 = 0.1;
+/// Evidence that differs by less than so many of its standard errors does not differ.
+const NOISE: f64 = 2.0;
 /// Causes are left open only where those that fit have together so large a share of the probability that something is off: where the
 /// likely ones are refused, and an unlikely one is not, or where it is likely unmodelled, none explains it.
 const MOST: f64 = 0.5;
@@ -34,26 +36,31 @@ impl Judge<'_> {
         seed: u64,
     ) -> Diagnosis {
         let logs = examination.logs();
-        let Examination { finding, shortlist, evidences, components } = examination;
+        let Examination { mut finding, shortlist, evidences, outside, components } = examination;
         if finding.p_value >= limits.found {
-            let (examined, pairs) = (Vec::new(), Vec::new());
-            return Diagnosis { finding, examined, pairs, components, verdict: Verdict::NothingFound };
+            let (examined, pairs, verdict) = (Vec::new(), Vec::new(), Verdict::NothingFound);
+            return Diagnosis { finding, examined, pairs, outside: None, components, verdict };
         }
-        let shares = softmax(&logs, 1.0);
-        let (named, few) = (finding.named(limits), finding.leaves_few());
-        // What all readings make likely is checked, however the ranking sees it.
-        let possible = |cause: &usize| {
-            let p = finding.ranked.probability(*cause);
-            few && p >= if finding.ranked.set.contains(cause) { POSSIBLE } else { LIKELY }
+        let (shares, spread) = (softmax(&logs, 1.0), evidences[0].spread);
+        let few = finding.leaves_few();
+        // What all readings make likely is checked, however the ranking sees it, and however likely something outside is.
+        let inside = Finding { ranked: finding.ranked.beside(0.0), ..finding.clone() };
+        let in_question = |cause: &usize, share: f64| {
+            let p = inside.ranked.probability(*cause);
+            let is_possible = p >= if inside.ranked.set.contains(cause) { POSSIBLE } else { LIKELY };
+            inside.named(limits) == Some(*cause) || few && (is_possible || share >= LIKELY)
         };
         let check = self.posterior_check();
-        let in_question = |cause: &usize| named == Some(*cause) || possible(cause);
         let mut examined: Vec<Examined<usize>> = shortlist
             .iter()
             .zip(evidences.into_iter().zip(&shares).skip(1))
             .map(|(&cause, (found, share))| Examined {
                 cause,
-                check: in_question(&cause).then(|| check.p_value(Some(cause), &found.draws, campaign, seed)),
+                acting: found.causes,
+                scope_share: found.share,
+                log: found.log - logs[0],
+                spread: found.spread,
+                check: in_question(&cause, *share).then(|| check.p_value(&found.draws, campaign, seed)),
                 conflict: None,
                 evidence: *share,
                 draws: found.draws,
@@ -65,22 +72,29 @@ impl Judge<'_> {
         examined.sort_by_key(place);
         let fits = |own: &&Examined<usize>| own.check.is_some_and(|p| p >= limits.check);
         let explain: Vec<usize> = examined.iter().filter(fits).map(|own| own.cause).collect();
-        let first = examined.iter().fold(None, |first: Option<&Examined<usize>>, own| match first {
-            Some(first) if first.evidence >= own.evidence => Some(first),
-            _ => Some(own),
+        // What looks like no cause to the ranking is no veto: where one fits, what is outside has the probability of its evidence.
+        if let (Some(outside), false) = (outside, explain.is_empty()) {
+            finding.ranked = finding.ranked.beside(causes::outside(&logs, outside));
+        }
+        let named = finding.named(limits);
+        // The base model with other joints, or another cause, may have more of the evidence.
+        let agreed = named.filter(|cause| {
+            let own = examined.iter().find(|own| own.cause == *cause);
+            let is_first = |own: &Examined<usize>| examined.iter().all(|other| !other.exceeds(own));
+            own.is_some_and(|own| own.log > NOISE * own.spread.hypot(spread) && is_first(own))
         });
-        // The base model with other joints may have more of the evidence than any cause.
-        let agreed = named
-            .filter(|cause| first.is_some_and(|first| first.cause == *cause && first.evidence > shares[0]));
         let verdict = match agreed.filter(|cause| explain.contains(cause)) {
-            Some(cause) => Verdict::Named(cause),
+            Some(cause) => named_or_level(cause, &examined, &explain, &finding.ranked),
             // What was as good as certain, and does not fit, speaks against the catalogue.
             None if named.is_some_and(|cause| !explain.contains(&cause)) || !few => Verdict::Unexplained,
             None => unnamed(&finding.ranked, explain),
         };
-        let mut diagnosis = Diagnosis { finding, examined, pairs: Vec::new(), components, verdict };
+        let best = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let outside = outside.map(|outside| outside - best);
+        let pairs = Vec::new();
+        let mut diagnosis = Diagnosis { finding, examined, pairs, outside, components, verdict };
         if diagnosis.verdict == Verdict::Unexplained {
-            diagnosis.pairs = self.pairs(campaign, &shortlist, &logs, limits, seed);
+            diagnosis.pairs = self.pairs(campaign, &diagnosis.examined, &logs, limits, seed);
             let fits = |pair: &&Examined<[usize; 2]>| pair.check.is_some_and(|p| p >= limits.pair.check);
             let named = diagnosis.pairs.iter().find(fits).filter(|_| diagnosis.finding.allows_pair(limits));
             diagnosis.verdict = named.map_or(Verdict::Unexplained, |pair| Verdict::NamedPair(pair.cause));
@@ -100,11 +114,11 @@ impl Judge<'_> {
         match diagnosis.verdict.clone() {
             Verdict::NamedPair(pair) => {
                 let own = diagnosis.pairs.iter_mut().filter(|own| own.cause == pair);
-                own.for_each(|own| own.conflict = Some(conflict(Causes::pair(pair[0], pair[1]))));
+                own.for_each(|own| own.conflict = Some(conflict(own.acting)));
             }
             verdict => {
                 let own = diagnosis.examined.iter_mut().filter(|own| verdict.causes().contains(&own.cause));
-                own.for_each(|own| own.conflict = Some(conflict(Some(own.cause).into())));
+                own.for_each(|own| own.conflict = Some(conflict(own.acting)));
             }
         }
         if let Verdict::Named(cause) = diagnosis.verdict
@@ -120,38 +134,46 @@ impl Judge<'_> {
     fn pairs(
         &self,
         campaign: &Campaign,
-        shortlist: &[usize],
+        examined: &[Examined<usize>],
         logs: &[f64],
         limits: &Limits,
         seed: u64,
     ) -> Vec<Examined<[usize; 2]>> {
-        let singles = logs[1..].iter().zip(shortlist);
-        let Some((_, &best)) = singles.reduce(|best, own| if own.0 > best.0 { own } else { best }) else {
+        let Some(best) = examined.iter().reduce(|best, own| if own.log > best.log { own } else { best })
+        else {
             return Vec::new();
         };
         let causes = self.world.causes();
         let mechanisms = self.world.mechanisms();
-        let others = causes
-            .iter()
-            .filter(|other| **other != best && mechanisms[best].goes_with(mechanisms[**other].name));
-        let pairs: Vec<[usize; 2]> = others.map(|&other| [best.min(other), best.max(other)]).collect();
-        let models = pairs.iter().map(|&[one, other]| Causes::pair(one, other));
-        let rough = self.rough(campaign, models, seed);
-        let promising = stats::smallest(rough.iter().map(|log| -log).zip(0..), PAIRS);
-        let pairs: Vec<[usize; 2]> = promising.into_iter().map(|at| pairs[at]).collect();
-        let models: Vec<Causes> = pairs.iter().map(|&[one, other]| Causes::pair(one, other)).collect();
-        let evidences = self.evidences(campaign, &models, seed);
+        let goes_with = |other: &usize| mechanisms[best.cause].goes_with(mechanisms[*other].name);
+        let others: Vec<usize> =
+            causes.iter().copied().filter(|other| *other != best.cause && goes_with(other)).collect();
+        // The one acts where it does alone, the other with every scope.
+        let own = best.acting.scoped().next();
+        let models = |other: &usize| -> Vec<(Causes, f64)> {
+            let scopes = self.world.scopes(*other).into_iter();
+            let both = |(scope, p)| Some((Causes::both([own?, (*other, scope)]), p));
+            scopes.filter_map(both).collect()
+        };
+        let rough = self.roughly(campaign, others.iter().map(models).collect(), seed);
+        let promising = stats::smallest(rough.iter().map(|found| -found.log).zip(0..), PAIRS);
+        let rough: Vec<&OverScopes> = promising.iter().map(|at| &rough[*at]).collect();
+        let others: Vec<usize> = promising.iter().map(|at| others[*at]).collect();
+        let evidences = self.closely(campaign, &rough, seed);
         let rare = ln(causes.len() as f64);
         let all: Vec<f64> =
             logs.iter().copied().chain(evidences.iter().map(|evidence| evidence.log - rare)).collect();
         let shares = softmax(&all, 1.0);
         let check = self.posterior_check();
-        let rows = pairs.into_iter().zip(evidences).zip(&shares[logs.len()..]);
+        let rows = others.into_iter().zip(evidences).zip(&shares[logs.len()..]);
         let mut pairs: Vec<Examined<[usize; 2]>> = rows
-            .map(|((cause, found), &evidence)| Examined {
-                cause,
-                check: (evidence >= limits.pair.named)
-                    .then(|| check.p_value(Causes::pair(cause[0], cause[1]), &found.draws, campaign, seed)),
+            .map(|((other, found), &evidence)| Examined {
+                cause: [best.cause.min(other), best.cause.max(other)],
+                acting: found.causes,
+                scope_share: found.share,
+                log: found.log - rare - logs[0],
+                spread: found.spread,
+                check: (evidence >= limits.pair.named).then(|| check.p_value(&found.draws, campaign, seed)),
                 conflict: None,
                 evidence,
                 draws: found.draws,
@@ -159,6 +181,30 @@ impl Judge<'_> {
             .collect();
         pairs.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
         pairs
+    }
+}
+
+impl<C> Examined<C> {
+    /// Whether it has more of the evidence than another by more than noise.
+    fn exceeds(&self, other: &Examined<C>) -> bool {
+        self.log - other.log > NOISE * self.spread.hypot(other.spread)
+    }
+}
+
+/// The verdict where one cause is named. Those that fit as well are left open beside it, where its evidence does not exceed theirs by
+/// more than noise and the ranking cannot put them aside.
+fn named_or_level(cause: usize, examined: &[Examined<usize>], explain: &[usize], ranked: &Ranked) -> Verdict {
+    let own = examined.iter().find(|own| own.cause == cause);
+    let is_level = |other: &&Examined<usize>| {
+        let possible = ranked.set.contains(&other.cause) && ranked.probability(other.cause) >= POSSIBLE;
+        explain.contains(&other.cause) && possible && own.is_some_and(|own| !own.exceeds(other))
+    };
+    let level = examined.iter().filter(|other| other.cause != cause).filter(is_level);
+    let all: Vec<usize> = std::iter::once(cause).chain(level.map(|other| other.cause)).collect();
+    match all.len() {
+        1 => Verdict::Named(cause),
+        2..=MOST_AMBIGUOUS => Verdict::Ambiguous(all),
+        _ => Verdict::Unexplained,
     }
 }
 
@@ -179,7 +225,6 @@ mod tests {
 
     use super::*;
     use crate::critic::discrepancy::Discrepancy;
-    use crate::critic::verdict::judge::Finding;
 
     #[test]
     fn few_causes_are_left_open_if_the_likely_ones_are_among_them() {
@@ -197,6 +242,32 @@ mod tests {
     }
 
     #[test]
+    fn a_name_stands_alone_only_where_no_other_has_as_much_of_the_evidence() {
+        let ranked = Ranked::new(vec![(Some(3), 0.9), (Some(1), 0.05), (Some(2), 0.05)], 0.0, vec![1, 2, 3]);
+        let own = |cause: usize, log: f64| Examined {
+            cause,
+            acting: Some(cause).into(),
+            scope_share: 1.0,
+            log,
+            spread: 0.3,
+            check: Some(0.5),
+            conflict: None,
+            evidence: 0.3,
+            draws: Vec::new(),
+        };
+        // Two spreads of the difference are 0.85.
+        let verdict = |second: f64, explain: &[usize], ranked: &Ranked| {
+            named_or_level(3, &[own(3, 5.0), own(1, second), own(2, 1.0)], explain, ranked)
+        };
+        assert_eq!(verdict(4.1, &[3, 1, 2], &ranked), Verdict::Named(3));
+        assert_eq!(verdict(4.3, &[3, 1, 2], &ranked), Verdict::Ambiguous(vec![3, 1]));
+        // What does not fit, or cannot be, is no rival.
+        assert_eq!(verdict(4.3, &[3, 2], &ranked), Verdict::Named(3));
+        let put_aside = Ranked { set: vec![3, 2], ..ranked };
+        assert_eq!(verdict(4.3, &[3, 1, 2], &put_aside), Verdict::Named(3));
+    }
+
+    #[test]
     fn what_is_perhaps_unmodelled_or_chance_is_no_pair() {
         let limits = Limits::default();
         let allows = |p_value: f64, unmodelled: f64| {
@@ -211,6 +282,10 @@ mod tests {
     fn what_is_possible_is_what_nothing_speaks_against() {
         let examined = |cause: usize, check: Option<f64>| Examined {
             cause,
+            acting: Some(cause).into(),
+            scope_share: 1.0,
+            log: 0.0,
+            spread: 0.0,
             check,
             conflict: None,
             evidence: 0.3,
@@ -224,6 +299,7 @@ mod tests {
             // The likeliest does not fit.
             examined: vec![examined(3, Some(0.0)), examined(1, Some(0.4)), examined(2, None)],
             pairs: Vec::new(),
+            outside: None,
             components: Vec::new(),
             verdict: Verdict::Unexplained,
         };

@@ -2,7 +2,7 @@
 //! cause explains; and what that rests on.
 
 use crate::critic::discrepancy::ComponentEstimate;
-use crate::critic::simulate::Truth;
+use crate::critic::simulate::{Causes, Truth};
 use crate::critic::verdict::judge::Finding;
 
 /// What a campaign says of the base model.
@@ -51,6 +51,9 @@ pub struct Diagnosis {
     pub examined: Vec<Examined<usize>>,
     /// Pairs of causes that were examined as no one explains the discrepancy, that with most of the evidence first.
     pub pairs: Vec<Examined<[usize; 2]>>,
+    /// By how much the logarithm of the evidence of something that is in no catalogue, a smooth discrepancy, exceeds the largest of the
+    /// base model's and of the causes that were examined; `None` where nothing was found.
+    pub outside: Option<f64>,
     /// What the base model with fitted joints misses, as components of a smooth discrepancy; empty where nothing was found.
     pub components: Vec<ComponentEstimate>,
     /// The verdict.
@@ -62,14 +65,24 @@ pub struct Diagnosis {
 pub struct Examined<C> {
     /// Index of the mechanism; of both, ascending.
     pub cause: C,
-    /// Share of its own campaigns that fit no better; `None` where it was not checked, as it was not in question.
+    /// What acts, and on which joints, as the readings make likeliest. Of a pair the one acts where it does alone.
+    pub acting: Causes,
+    /// Probability of this, if the cause acts.
+    pub scope_share: f64,
+    /// By how much the logarithm of its evidence exceeds that of the base model, over all scopes; of a pair beside how much rarer
+    /// pairs are.
+    pub log: f64,
+    /// Standard error of the logarithm of its evidence, by several runs.
+    pub spread: f64,
+    /// Share of the campaigns that it predicts which fit no better; `None` where it was not checked, as it was not in question.
     pub check: Option<f64>,
     /// Share of the campaigns that the physical priors predict which are as far out, along what the data pin down; `None` where it
     /// was not tested, as the verdict does not speak of it.
     pub conflict: Option<f64>,
-    /// Its share of the evidence: a cause's of all causes examined and of the base model, a pair's of these and of all pairs.
+    /// Its share of the evidence, over all scopes: a cause's of all causes examined and of the base model, a pair's of these and of all
+    /// pairs.
     pub evidence: f64,
-    /// What its parameters and the joints may be: draws, equally likely.
+    /// What its parameters and the joints may be with this scope: draws, equally likely.
     pub draws: Vec<Truth>,
 }
 

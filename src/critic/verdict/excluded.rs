@@ -6,7 +6,7 @@ use crate::critic::verdict::limits::{Limits, POSSIBLE};
 /// What speaks against a cause.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Excluded {
-    /// It fits the readings worse than nearly all of its own campaigns: the check.
+    /// It fits the readings worse than nearly all campaigns that it predicts: the check.
     ByCheck,
     /// Nine in ten of its campaigns rank it higher: the ranking.
     ByRanking,

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::critic::causes::{Ranked, Ranking};
-use crate::critic::check::{Check, Nearest};
+use crate::critic::check::Check;
 use crate::critic::conflict::PriorPredictive;
 use crate::critic::discrepancy::{Discrepancy, Reference};
 use crate::critic::simulate::{ByCause, Campaign, Design, World};
@@ -38,7 +38,6 @@ pub struct Judge<'w> {
     /// The causes as it can tell them apart.
     pub ranking: Ranking,
     detection: Detection,
-    nearest: Nearest,
     /// What the physical priors of causes predict.
     pub(super) predictions: ByCause<PriorPredictive>,
 }
@@ -94,14 +93,13 @@ impl<'w> Judge<'w> {
             reference,
             ranking,
             detection,
-            nearest: Nearest::default(),
             predictions: ByCause::default(),
         })
     }
 
     /// The posterior predictive check of causes on the design's campaigns.
     pub(in crate::critic) fn posterior_check(&self) -> Check<'_> {
-        Check { world: self.world, design: &self.design, reference: &self.reference, nearest: &self.nearest }
+        Check { world: self.world, design: &self.design, reference: &self.reference }
     }
 
     /// Compares a campaign with those of the base model, and ranks the causes by how it looks.

@@ -1,7 +1,8 @@
 //! What is found of what is hidden in campaigns, and whether anything is where nothing is.
 
+use crate::critic::causes::evidence;
 use crate::critic::fixture::{EFFORT, judged, made};
-use crate::critic::simulate::{Campaign, Causes, Design, Seen, Truth};
+use crate::critic::simulate::{Campaign, Causes, Design, Scope, Seen, Truth};
 use crate::critic::verdict::{Judge, Limits, Verdict};
 use crate::random::Streams;
 use crate::stats;
@@ -55,6 +56,44 @@ fn what_is_like_no_cause_is_seen_to_be_unmodelled() {
 }
 
 #[test]
+fn what_looks_like_no_cause_is_no_veto_where_a_cause_fits() {
+    let (made, judge) = judged();
+    let (world, design) = (judge.world, &judge.design);
+    let (creep, limits) = (made.cause("creep"), Limits::default());
+    let streams = Streams::new(31, 1);
+    let mut truth = world.drawn(Some(creep), &streams);
+    truth.parameters[0] = 1.5;
+    let diagnosed = |campaign: &Campaign| {
+        let mut examination = judge.rank(judge.compare(campaign), campaign, &limits, 1);
+        examination.finding.ranked = examination.finding.ranked.beside(0.95);
+        judge.check(examination, campaign, &limits, 1)
+    };
+    let fits = diagnosed(&world.campaign(design, &truth, &streams));
+    println!("{:?} {} {:?}", fits.verdict, fits.finding.ranked.unmodelled, fits.outside);
+    assert_eq!(fits.verdict.named(), [creep]);
+    assert!(fits.finding.ranked.unmodelled < 0.2 && fits.outside.expect("found") < 0.0);
+    // Where none fits, it is as likely as it looks.
+    let base = world.drawn(None, &streams);
+    let other = one_moves_alone(design, world.campaign(design, &base, &streams));
+    let found = diagnosed(&other);
+    println!("{:?} {} {:?}", found.verdict, found.finding.ranked.unmodelled, found.outside);
+    assert_eq!(found.verdict, Verdict::Unexplained);
+    assert!((found.finding.ranked.unmodelled - 0.95).abs() < 1e-9);
+}
+
+/// The same campaign, but one specimen of each family moves, and far.
+fn one_moves_alone(design: &Design, mut campaign: Campaign) -> Campaign {
+    for (specimen, seen) in design.specimens.iter().zip(&mut campaign.specimens) {
+        for (m, seen) in specimen.readings.iter().zip(seen).filter(|(m, _)| m.tilt.is_some()) {
+            if let (true, Seen::Value(value)) = (specimen.name.ends_with('1'), &*seen) {
+                *seen = Seen::of(value + 0.15, m);
+            }
+        }
+    }
+    campaign
+}
+
+#[test]
 #[ignore = "slow: 80 s of processor time"]
 fn a_cause_outside_the_catalogue_is_not_given_the_name_of_one_inside() {
     let (made, judge) = judged();
@@ -70,14 +109,7 @@ fn a_cause_outside_the_catalogue_is_not_given_the_name_of_one_inside() {
         right += usize::from(judge.diagnosed(&shown, &limits, 1).verdict.named() == [creep]);
         // One specimen of each family moves, and far; creep would move all of them.
         let base = world.drawn(None, &streams);
-        let mut other = world.campaign(design, &base, &streams);
-        for (specimen, seen) in design.specimens.iter().zip(&mut other.specimens) {
-            for (m, seen) in specimen.readings.iter().zip(seen).filter(|(m, _)| m.tilt.is_some()) {
-                if let (true, Seen::Value(value)) = (specimen.name.ends_with('1'), &*seen) {
-                    *seen = Seen::of(value + 0.15, m);
-                }
-            }
-        }
+        let other = one_moves_alone(design, world.campaign(design, &base, &streams));
         match judge.diagnosed(&other, &limits, 1).verdict {
             Verdict::Unexplained => unexplained += 1,
             verdict if !verdict.named().is_empty() => wrongly += 1,
@@ -132,4 +164,30 @@ fn two_causes_that_act_together_are_named_together_and_one_alone_is_not() {
         "{together} of 8 best together or one of them named, {named} named together, {alone} of 8 alone"
     );
     assert!(together == 8 && named > 0 && alone == 0, "{together} {named} {alone}");
+}
+
+#[test]
+fn a_cause_that_acts_on_the_joints_of_the_stones_alone_is_seen_to_act_there() {
+    let made = made();
+    let area = made.cause("contact_area");
+    let made = made.moving(area);
+    let (world, (design, _)) = (made.world(), Design::of(&made.study));
+    let judge = Judge::trained(&world, &design, EFFORT, 78).expect("it can be told");
+    // Blocks, then both families of stones.
+    assert_eq!([0, 1, 2].map(|family| world.kind(family)), [0, 1, 1]);
+    let streams = Streams::new(51, 2);
+    let on_stones = Causes::one(area, Scope::Kind(1));
+    let mut truth = world.drawn(on_stones, &streams);
+    truth.parameters[0] = 1.0;
+    let shown = world.campaign(&design, &truth, &streams);
+    let log = |scope: Scope| evidence(&world, &design, &shown, Causes::one(area, scope), 3).log;
+    let [stones, blocks, all] = [Scope::Kind(1), Scope::Kind(0), Scope::All].map(log);
+    assert!(stones > all + 5.0 && stones > blocks + 5.0, "{stones} {blocks} {all}");
+    let diagnosis = judge.diagnosed(&shown, &Limits::default(), 1);
+    let examined = diagnosis.examined(area).expect("it has the evidence");
+    println!("{:?} {:?} {:?} {:?}", diagnosis.verdict, examined.acting, examined.scope_share, examined.check);
+    let stones = Causes::one(area, Scope::Kind(1));
+    assert!(examined.acting == stones && examined.scope_share > 0.5, "{:?}", examined.acting);
+    assert!(examined.draws.iter().all(|draw| draw.causes == on_stones));
+    assert!(examined.check.is_some_and(|p| p > 0.05), "{:?}", examined.check);
 }

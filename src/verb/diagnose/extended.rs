@@ -87,7 +87,9 @@ pub fn remove_extended(mechanisms: &[Described], dir: &Path) {
 /// What it is, where it comes from, and what is known of its values, as comments.
 fn header(origin: &Origin<'_>, extension: &Extension) -> String {
     let Origin { study, stated, seed, bank } = origin;
-    let names: Vec<&str> = extension.median.acting.iter().map(|own| own.mechanism).collect();
+    let mut names: Vec<&str> = extension.median.acting.iter().map(|own| own.mechanism).collect();
+    // One that acts on some arms in another way than on others is there once for each.
+    names.dedup();
     let count = extension.draws.len();
     let variant = study.variant.as_ref().map(|variant| format!(", variant {variant}")).unwrap_or_default();
     let sha256 = stated.measured().map_or("none", |(_, sha256)| sha256);

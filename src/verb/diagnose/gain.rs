@@ -1,10 +1,10 @@
 //! What the extended model gains on readings that it has not seen, in the units and words of files.
 
-use crate::critic::{Design, Gain, Gained, HeldOut, Interval, Scores, stand_in};
+use crate::critic::{Design, Gain, Gained, HeldOut, Interval, Scores, World, stand_in};
 use crate::render::document::Table;
 use crate::render::number::{capital, significant, with_interval};
 use crate::render::text::wrapped;
-use crate::study::{Described, Study};
+use crate::verb::diagnose::answer::{ScopeEntry, enumerated};
 
 /// The gain.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -93,17 +93,20 @@ pub struct ChoiceEntry {
 }
 
 /// A part of a mixture.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct ShareEntry {
     /// The mechanism.
     pub cause: &'static str,
     /// Its share of the extended model.
     pub share: f64,
+    /// The families on whose joints it acts; null where it acts on all alike.
+    pub acts_on: Option<Vec<String>>,
 }
 
 impl GainSummary {
     /// From a gain measured on a design.
-    pub fn of(gain: &Gain, study: &Study, design: &Design, mechanisms: &[Described]) -> GainSummary {
+    pub fn of(gain: &Gain, world: &World<'_>, design: &Design) -> GainSummary {
+        let study = world.study();
         let is_sheared = !study.drifts().is_empty();
         let name = |family: usize| {
             let alike = design.families().into_iter().filter(|own| stand_in(study, *own) == family);
@@ -119,7 +122,12 @@ impl GainSummary {
             causes: choice
                 .causes
                 .iter()
-                .map(|(cause, share)| ShareEntry { cause: mechanisms[*cause].name, share: *share })
+                .flat_map(|(causes, share)| causes.each().map(move |cause| (cause, *causes, *share)))
+                .map(|(cause, causes, share)| ShareEntry {
+                    cause: world.mechanisms()[cause].name,
+                    share,
+                    acts_on: ScopeEntry::of(world, cause, causes, share).map(|scope| scope.acts_on),
+                })
                 .collect(),
         });
         let families = gain.families.iter();
@@ -215,12 +223,21 @@ impl ChoiceEntry {
     fn text(&self) -> String {
         match &self.causes[..] {
             [] => "none".to_string(),
-            [one] => one.cause.to_string(),
+            [one] => one.text(),
             several => {
-                let part = |own: &ShareEntry| format!("{:.2} {}", own.share, own.cause);
+                let part = |own: &ShareEntry| format!("{:.2} {}", own.share, own.text());
                 several.iter().map(part).collect::<Vec<_>>().join(" + ")
             }
         }
+    }
+}
+
+impl ShareEntry {
+    /// The mechanism, with the families on whose joints it acts.
+    fn text(&self) -> String {
+        let joints =
+            self.acts_on.as_ref().map_or_else(String::new, |arms| format!(" ({})", enumerated(arms)));
+        format!("{}{joints}", self.cause)
     }
 }
 

@@ -59,14 +59,13 @@ fn judged(arguments: &Diagnose) -> Result<Answer, Failure> {
     let kept = |judge: &Judge<'_>| judge::self_test(judge, &plan, seed, &folder);
     let analysis = critic::diagnose(&task, &OnStderr, kept).ok_or_else(judge::nothing_to_compare)?;
     let Analysis { diagnosis, residuals, self_test, extensions, gain, offered, are_left } = analysis;
-    let mut summary =
-        DiagnosisSummary::of(&study, seed, &plan.study.hash, &mechanisms, &design, &diagnosis, &self_test)
-            .beside(&study, &residuals);
+    let mut summary = DiagnosisSummary::of(&world, seed, &plan.study.hash, &design, &diagnosis, &self_test)
+        .beside(&study, &residuals);
     summary.notes = notes;
     let file = arguments.measured.as_deref().unwrap_or(Path::new(MEASURED));
     summary.measured = stated.measured().map(|(_, sha256)| DataEntry::of(file, sha256));
     summary.advice = Advice::of(&self_test, &offered, are_left, &mechanisms);
-    summary.gain = gain.map(|gain| GainSummary::of(&gain, &study, &design, &mechanisms));
+    summary.gain = gain.map(|gain| GainSummary::of(&gain, &world, &design));
     let drawn = seed.wrapping_add(7 * SEEDS);
     let (base, causes, fitted, best) = doing("simulating the curves of the figures", |_| {
         let causes = cause_curves(&world, &design, &diagnosis, drawn);
@@ -169,7 +168,9 @@ fn extended(
 
 /// The mechanisms of an extension.
 fn acting(extension: &Extension) -> Vec<&'static str> {
-    extension.median.acting.iter().map(|own| own.mechanism).collect()
+    let mut names: Vec<&str> = extension.median.acting.iter().map(|own| own.mechanism).collect();
+    names.dedup();
+    names
 }
 
 /// Name of an extension's folder.

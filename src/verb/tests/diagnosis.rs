@@ -6,16 +6,16 @@ use std::path::Path;
 
 use super::figure::folder;
 use crate::critic::{
-    Baseline, Contrast, Counted, Design, DetectionLimit, Diagnosis, Discrepancy, Examined, Feature, Finding,
-    Made, Offer, Offered, Ranked, SelfTest, SelfTestRow, Truth, Unused, Verdict, base_curves, best_curves,
-    cause_curves, fitted_curves, made,
+    Baseline, Causes, Contrast, Counted, Design, DetectionLimit, Diagnosis, Discrepancy, Examined, Feature,
+    Finding, Made, Offer, Offered, Ranked, Scope, SelfTest, SelfTestRow, Truth, Unused, Verdict, base_curves,
+    best_curves, cause_curves, fitted_curves, made,
 };
 use crate::render::draw::is_whole;
 use crate::study::MeasuredKind;
 use crate::verb::diagnose::advice::Advice;
 use crate::verb::diagnose::answer::{
     DataEntry, DiagnosisPage, DiagnosisSummary, ExpectedEntry, FamilyFigure, FitFigure, GroupEntry, Misfit,
-    diagnosis_page, diagnosis_text, headline, lines, write_diagnosis,
+    ScopeEntry, diagnosis_page, diagnosis_text, headline, lines, parameters, write_diagnosis,
 };
 use crate::verb::diagnose::gain::{GainEntry, GainSummary, GainedEntry, ScoresEntry};
 use crate::verb::run::answer::page::PageOrigin;
@@ -63,8 +63,18 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>, FitFigure) {
     let examined = |cause: usize| {
         let parameters = vec![0.5; made.mechanisms[cause].parameters.len()];
         let joints = vec![[0.0; 3]; world.joint_kinds()];
-        let draws = vec![Truth { causes: Some(cause).into(), parameters, joints }];
-        Examined { cause, check: Some(0.4), conflict: Some(0.3), evidence: 0.45, draws }
+        let draws = vec![Truth { causes: Some(cause).into(), parameters, joints, scatter: 0.0 }];
+        Examined {
+            cause,
+            acting: Some(cause).into(),
+            scope_share: 1.0,
+            log: 3.25,
+            spread: 0.125,
+            check: Some(0.4),
+            conflict: Some(0.3),
+            evidence: 0.45,
+            draws,
+        }
     };
     let causes = [cause("creep"), cause("gauge_offset")];
     let rows = [None, Some(causes[0])].map(|cause| SelfTestRow {
@@ -72,6 +82,7 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>, FitFigure) {
         all: Counted { campaigns: 10, found: 5, named: 4, misnamed: 1 },
         strong: Counted { campaigns: 3, found: 3, named: 2, misnamed: 0 },
         judged: Counted { campaigns: 2, found: 1, named: 1, misnamed: 0 },
+        wrong_scope: 1,
         covered: 4,
         set_size: 1.5,
         with: BTreeMap::new(),
@@ -100,14 +111,15 @@ fn diagnosed(made: &Made) -> (DiagnosisSummary, Vec<FamilyFigure>, FitFigure) {
         },
         examined: causes.map(examined).to_vec(),
         pairs: Vec::new(),
+        outside: Some(-2.5),
         components: Vec::new(),
         verdict: Verdict::Ambiguous(causes.to_vec()),
     };
     let residuals = Baseline::new(&world, &design, 2).residuals(&measured);
     let unmodelled = [10, 5].map(|campaigns| Counted { campaigns, found: 3, named: 0, misnamed: 1 });
     let test = SelfTest { rows: rows.to_vec(), unmodelled };
-    let summary = DiagnosisSummary::of(&made.study, 3, "00ff", &made.mechanisms, &design, &diagnosis, &test)
-        .beside(&made.study, &residuals);
+    let summary =
+        DiagnosisSummary::of(&world, 3, "00ff", &design, &diagnosis, &test).beside(&made.study, &residuals);
     let (base, under) = (base_curves(&world, &design, 4), cause_curves(&world, &design, &diagnosis, 4));
     let families = FamilyFigure::all(&made.study, &made.mechanisms, &residuals, &base, &under);
     let fitted = fitted_curves(&world, &design, &measured, 4);
@@ -178,6 +190,40 @@ fn what_is_not_explained_excludes_causes_and_says_why() {
 }
 
 #[test]
+fn a_cause_names_the_joints_that_it_acts_on_where_these_are_not_all() {
+    let made = made();
+    let (world, area) = (made.world(), made.cause("contact_area"));
+    let entry = |scope: Scope| {
+        let causes = Causes::one(area, scope);
+        let scores = |k: i32| vec![0.05 * f64::from(k); world.inputs(causes)];
+        let draws: Vec<Truth> = (-20..20).map(|k| world.truth(causes, &scores(k))).collect();
+        (ScopeEntry::of(&world, area, causes, 0.93), parameters(&world, area, &draws))
+    };
+    let (all, [parameter]) = (entry(Scope::All).0, &entry(Scope::All).1[..]) else { panic!("one parameter") };
+    assert_eq!((all, &parameter.arms), (None, &None));
+    let (stones, stones_parameters) = entry(Scope::Kind(1));
+    let stones = stones.expect("not on all");
+    assert_eq!((&stones.acts_on[..], stones.share), (&["sbl".to_owned(), "sbr".to_owned()][..], 0.93));
+    assert_eq!(stones.words, "the joints of sbl and sbr, not those of cbl");
+    assert!(stones_parameters[0].words().starts_with("share (sbl and sbr) "), "{stones_parameters:?}");
+    let (each, each_parameters) = entry(Scope::Each);
+    assert_eq!(
+        each.expect("each by parameters of its own").words,
+        "the joints of cbl; of sbl and sbr, each by parameters of their own"
+    );
+    let arms: Vec<Option<Vec<String>>> = each_parameters.into_iter().map(|own| own.arms).collect();
+    assert_eq!(arms, [Some(vec!["cbl".to_owned()]), Some(vec!["sbl".to_owned(), "sbr".to_owned()])]);
+    // In the verdict, on the page and on a terminal.
+    let (mut summary, ..) = diagnosed(&made);
+    summary.causes[0].scope = Some(stones);
+    assert!(summary.causes[0].meaning().ends_with(" (the joints of sbl and sbr, not those of cbl)"));
+    let text = diagnosis_text(&summary).split_whitespace().collect::<Vec<_>>().join(" ");
+    let sentence =
+        "creep: acts on the joints of sbl and sbr, not those of cbl (probability, if it acts: 0.93)";
+    assert!(text.contains(sentence), "{text}");
+}
+
+#[test]
 fn every_cause_is_detected_seen_in_part_or_hardly_seen() {
     let made = made();
     let cause = |name: &str| made.mechanisms.iter().position(|m| m.name == name).expect("in the catalogue");
@@ -186,6 +232,7 @@ fn every_cause_is_detected_seen_in_part_or_hardly_seen() {
         all: Counted { campaigns: 100, found, named: 0, misnamed: 0 },
         strong: Counted { campaigns: 33, found: found / 3, named: 0, misnamed: 0 },
         judged: Counted::default(),
+        wrong_scope: 0,
         covered: 0,
         set_size: 0.0,
         with: BTreeMap::new(),
@@ -404,6 +451,9 @@ fn the_text_the_page_and_the_files_show_what_was_measured_beside_what_was_simula
         (33, 11)
     );
     let nameless = &json["self_test_nameless"];
+    assert_eq!(json["nameless_log_evidence"], -2.5);
+    let best = &json["causes"][0];
+    assert_eq!((&best["log_evidence"], &best["log_evidence_spread"]), (&3.25.into(), &0.125.into()));
     assert_eq!((&json["nameless_probability"], &nameless["judged"]["misnamed"]), (&0.25.into(), &1.into()));
     let bound = &json["residuals"][1];
     assert_eq!((bound["specimen"].as_str(), bound["kind"].as_str()), (Some("CBL1"), Some("below")));

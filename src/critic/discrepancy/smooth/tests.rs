@@ -4,6 +4,7 @@ use super::*;
 use crate::critic::fixture::made;
 use crate::critic::simulate::{Truth, World};
 use crate::random::Streams;
+use crate::study::Measurement;
 
 /// The components of a campaign of a design whose readings of stones are off by so much (m), by their specimen's order and quantity.
 fn components(

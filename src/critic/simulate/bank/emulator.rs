@@ -12,6 +12,9 @@ use crate::stats;
 
 /// Scores beyond this are taken to be there: few walls tell of the far ends of their inputs.
 const FURTHEST: f64 = 2.5;
+/// Half of the way over which a slope is taken (in scores).
+const STEP: f64 = 0.2;
+
 /// The walls of a family under one cause, in few numbers.
 #[derive(Clone, Debug)]
 pub struct Emulator {
@@ -92,6 +95,22 @@ impl Emulator {
         }
         let nearest = stats::smallest(self.distances(&self.scores, &scores).zip(0..), count);
         Emulated { numbers, left: nearest.into_iter().map(|wall| &self.left[wall]).collect(), common }
+    }
+
+    /// How the expected numbers change with one of the scores there (per unit of it); beyond what the walls tell of as at the last
+    /// place that they do.
+    pub fn slope(&self, scores: &[f64], input: usize) -> [f64; NUMBERS] {
+        let at = |step: f64| {
+            let mut scores = held(scores);
+            scores[input] = scores[input].clamp(STEP - FURTHEST, FURTHEST - STEP) + step;
+            let mut numbers = [0.0; NUMBERS];
+            for curve in &self.curves {
+                curve.expect(&scores, &self.scores, &mut numbers);
+            }
+            numbers
+        };
+        let (above, below) = (at(STEP), at(-STEP));
+        std::array::from_fn(|k| (above[k] - below[k]) / (2.0 * STEP))
     }
 
     /// Whether walls at some scores stand at rest, as the nearest wall of the bank does.

@@ -33,7 +33,7 @@ impl World<'_> {
         self.base.iter().all(|(&family, walls)| {
             let joints = truth.joints[self.kinds[family]].map(|score| score / PRIOR_WIDENING);
             walls.emulator.stands(&joints)
-                && self.parts(truth).all(|(cause, parameters)| {
+                && self.acting(truth, self.kinds[family]).all(|(cause, parameters)| {
                     let parameters = varying(self.mechanisms, Some(cause), parameters.iter().copied());
                     let scores: Vec<f64> = joints.into_iter().chain(parameters).collect();
                     self.changes.get(&(family, cause)).is_none_or(|walls| walls.emulator.stands(&scores))

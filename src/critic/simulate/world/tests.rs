@@ -1,13 +1,16 @@
 //! Campaigns of walls whose formula is known: what is seen of them.
 
-use super::likely::NEIGHBOURS;
+use super::likely::{MayShow, NEIGHBOURS};
 use crate::critic::fixture::made;
 use crate::critic::simulate::queries::Queries;
-use crate::critic::simulate::{Campaign, Design, Seen, Truth};
+use crate::critic::simulate::{Campaign, Causes, Design, Scope, Seen, Truth};
 use crate::math::radians;
 use crate::random::Streams;
 use crate::stats;
 use crate::study::{MeasuredKind, MeasuredQuantity, Measurement};
+
+/// A score of the scatter between specimens at which there is none.
+const ALIKE: f64 = -40.0;
 
 #[test]
 fn the_papers_campaign_is_nine_specimens_with_their_bounds() {
@@ -75,6 +78,7 @@ fn walls_of_a_family_share_the_emulators_error_and_their_mean_scatters_by_it() {
     // Far out the curve through 90 walls is known badly.
     let mut truth = world.truth(None, &vec![0.0; world.inputs(None)]);
     truth.joints = vec![[3.0, -3.0, 3.0]; world.joint_kinds()];
+    truth.scatter = ALIKE;
     let emulated = world.base[&1].emulator.emulated(&[2.0, -2.0, 2.0], NEIGHBOURS);
     let variance = |values: &[f64]| {
         let mean = values.iter().sum::<f64>() / values.len() as f64;
@@ -104,7 +108,7 @@ fn walls_of_a_family_share_the_emulators_error_and_their_mean_scatters_by_it() {
         .collect();
     let queries = Queries::by(&falls);
     let shown = |walls: usize| {
-        let (paths, random) = world.may_show(1, &queries, &truth, walls);
+        let MayShow { paths, random, .. } = world.may_show(1, &queries, &truth, walls);
         assert!(random);
         variance(&paths.iter().map(|path| path[0]).collect::<Vec<_>>()) / left
     };
@@ -388,7 +392,7 @@ fn what_is_left_after_going_back_tells_of_creep_and_of_the_gauge() {
         let values = world.values(&design, &truth, &Streams::new(9, 1));
         // What the likelihood takes for possible lies around it.
         let queries = Queries::by(&[&left]);
-        let (paths, _) = world.may_show(1, &queries, &truth, 1);
+        let paths = world.may_show(1, &queries, &truth, 1).paths;
         let possible: Vec<f64> = paths.iter().map(|path| path[0]).collect();
         let value = values[sbl][last].expect("it stands");
         let (mean, sigma) = (stats::mean(&possible).expect("many"), stats::sigma(&possible).expect("many"));
@@ -444,4 +448,118 @@ fn truths_under_which_walls_do_not_stand_are_neither_drawn_nor_found() {
     let (design, campaign) = Design::of(&made.study);
     let found = crate::critic::evidence(&world, &design, &campaign, Some(lean), 3);
     assert!(found.log.is_finite() && found.draws.iter().all(|draw| world.stands(draw)));
+}
+
+#[test]
+fn a_cause_that_acts_on_joints_may_act_on_those_of_one_kind() {
+    let made = made();
+    let area = made.cause("contact_area");
+    let mut made = made.moving(area);
+    let (design, _) = Design::of(&made.study);
+    {
+        let world = made.world();
+        let (blocks, stones) = (Scope::Kind(world.kind(0)), Scope::Kind(world.kind(1)));
+        let sixth = 0.5 / 3.0;
+        assert_eq!(
+            world.scopes(area),
+            [(Scope::All, 0.5), (blocks, sixth), (stones, sixth), (Scope::Each, sixth)]
+        );
+        // What holds or loads a wall acts on every one.
+        for name in ["creep", "base_compliance", "gauge_offset"] {
+            assert_eq!(world.scopes(made.cause(name)), [(Scope::All, 1.0)], "{name}");
+        }
+        let shown = |causes: Causes, parameters: &[f64]| {
+            let parameters = parameters.to_vec();
+            let truth = Truth { causes, parameters, ..world.drawn(None, &Streams::new(9, 0)) };
+            world.values(&design, &truth, &Streams::new(9, 1))
+        };
+        let one = |scope: Scope| Causes::one(area, scope);
+        let [base, all, weak] =
+            [(Causes::default(), &[][..]), (one(Scope::All), &[1.0]), (one(Scope::All), &[-1.0])]
+                .map(|(causes, parameters)| shown(causes, parameters));
+        // Three specimens of the blocks, then six of the stones.
+        let both =
+            |blocks: &[Vec<Option<f64>>], stones: &[Vec<Option<f64>>]| [&blocks[..3], &stones[3..]].concat();
+        assert!(design.specimens.iter().map(|own| own.family).eq([0, 0, 0, 1, 1, 1, 2, 2, 2]));
+        assert_eq!(shown(one(stones), &[1.0]), both(&base, &all));
+        assert_eq!(shown(one(blocks), &[1.0]), both(&all, &base));
+        assert_eq!(shown(one(Scope::Each), &[-1.0, 1.0]), both(&weak, &all));
+        // Scopes are drawn as often as they are likely.
+        let drawn = |scope: Scope| {
+            (0..3000).filter(|&k| world.scoped(Some(area), &Streams::new(3, k)) == one(scope)).count()
+        };
+        let counts = [Scope::All, blocks, stones, Scope::Each].map(drawn);
+        // 1500 +- 27, and 500 +- 20 of each of the others.
+        assert!(
+            counts[0].abs_diff(1500) < 90 && counts[1..].iter().all(|n| n.abs_diff(500) < 65),
+            "{counts:?}"
+        );
+    }
+    // Joints of one kind: a cause acts on them or does not.
+    let arms = &mut made.study.arms;
+    (arms[0].joint, arms[0].kn_points) = (arms[1].joint.clone(), arms[1].kn_points.clone());
+    let world = made.world();
+    for cause in world.causes() {
+        assert_eq!(world.scopes(cause), [(Scope::All, 1.0)]);
+        assert_eq!(world.scoped(Some(cause), &Streams::new(3, 1)), Some(cause).into());
+    }
+}
+
+#[test]
+fn specimens_in_which_nothing_else_is_drawn_differ_by_their_stiffness() {
+    let made = made();
+    let world = made.world();
+    let (design, _) = Design::of(&made.study);
+    let blocks: Vec<usize> = (0..9).filter(|k| design.specimens[*k].family == 0).take(2).collect();
+    let readings = &design.specimens[blocks[0]].readings;
+    let fall = readings.iter().position(|m| m.quantity == MeasuredQuantity::CollapseAngle).expect("it fell");
+    let at = |scatter: f64| Truth { scatter, ..world.truth(None, &vec![0.0; world.inputs(None)]) };
+    let falls = |scatter: f64, k: u64| {
+        let values = world.values(&design, &at(scatter), &Streams::new(43, k));
+        [blocks[0], blocks[1]].map(|specimen| values[specimen][fall].expect("it falls"))
+    };
+    assert!((0..20).map(|k| falls(ALIKE, k)).all(|[one, other]| one == other));
+    // The logarithm of the angle goes with 0.05 of the score of kn.
+    let kn = |score: f64| crate::math::ln(made.nuisances[0].prior.at_score(score));
+    let expected = radians(19.0) * 0.05 / ((kn(0.2) - kn(-0.2)) / 0.4) * at(0.0).stiffness_scatter();
+    let off: Vec<f64> = (0..2000)
+        .map(|k| {
+            let [one, other] = falls(0.0, k);
+            (one - other) / 2.0_f64.sqrt()
+        })
+        .collect();
+    let seen = stats::sigma(&off).expect("many") / expected;
+    assert!((seen - 1.0).abs() < 0.1, "{seen}");
+    // The likelihood knows it, and that all else is one path.
+    let queries = Queries::by(&[&readings[fall]]);
+    let MayShow { random, by_stiffness, .. } = world.may_show(0, &queries, &at(0.0), 3);
+    assert!(!random && (by_stiffness[0] / expected - 1.0).abs() < 0.1, "{by_stiffness:?} {expected}");
+    assert!((at(0.0).stiffness_scatter() - 0.2 * 0.67449).abs() < 1e-5);
+}
+
+#[test]
+fn a_stiffer_specimen_is_stiffer_in_every_part_of_its_law() {
+    let made = made();
+    let closure = made.cause("joint_closure");
+    // The stiffer the joints are at first, the further walls move: no wall does, and so it is seen.
+    let made = made.moving(closure);
+    let world = made.world();
+    let (design, _) = Design::of(&made.study);
+    let mut left = design.specimens.iter().find(|s| s.family == 1).expect("stones").readings[0].clone();
+    (left.quantity, left.tilt) = (MeasuredQuantity::DisplacementLeft, Some(0.1));
+    let queries = Queries::by(&[&left]);
+    let relative = |cause: Option<usize>| {
+        let truth = world.truth(cause, &vec![0.0; world.inputs(cause)]);
+        let MayShow { paths, by_stiffness, .. } = world.may_show(1, &queries, &truth, 1);
+        let shown: Vec<f64> = paths.iter().map(|path| path[0]).collect();
+        by_stiffness[0] / stats::mean(&shown).expect("many") / truth.stiffness_scatter()
+    };
+    let slope = |of: &dyn Fn(f64) -> f64| (crate::math::ln(of(0.2)) - crate::math::ln(of(-0.2))) / 0.4;
+    let kn = slope(&|score| made.nuisances[0].prior.at_score(score));
+    let initial = slope(&|score| made.mechanisms[closure].parameters[0].search.at_score(score));
+    // By kn displacements go down, by the initial stiffness up: four times the normal density, whose top is 0.4.
+    let (plain, both) = (-0.4 / kn, -0.4 / kn + 4.0 * 0.399 / initial);
+    let (seen, with_closure) = (relative(None), relative(Some(closure)));
+    assert!((seen / plain - 1.0).abs() < 0.15, "{seen} {plain}");
+    assert!((with_closure / both - 1.0).abs() < 0.25, "{with_closure} {both}");
 }

@@ -120,8 +120,8 @@ fn predicted(summary: &DiagnosisSummary) -> Option<&'static str> {
 fn meaning(summary: &DiagnosisSummary) -> Option<String> {
     let spoken: Vec<&CauseEntry> = summary.causes.iter().filter(|cause| cause.in_verdict).collect();
     let by_name = |cause: &&CauseEntry| match spoken.len() {
-        1 => cause.means.to_string(),
-        _ => format!("{}: {}", cause.id, cause.means),
+        1 => cause.meaning(),
+        _ => format!("{}: {}", cause.id, cause.meaning()),
     };
     let means: Vec<String> = spoken.iter().map(by_name).collect();
     let means = (!means.is_empty()).then(|| format!("It would mean: {}.", means.join("; ")))?;

@@ -8,8 +8,10 @@ mod fit;
 mod fit_plot;
 mod page;
 mod painter;
+mod parameter;
 mod residual;
 mod residual_plot;
+mod scope;
 mod signs;
 mod sketch;
 mod summary;
@@ -24,7 +26,10 @@ pub use fit::FitFigure;
 pub use fit::Misfit;
 pub use page::{DiagnosisPage, diagnosis_page};
 #[cfg(test)]
+pub use parameter::parameters;
+#[cfg(test)]
 pub use residual::{ExpectedEntry, GroupEntry};
+pub use scope::{ScopeEntry, enumerated};
 pub use summary::{DataEntry, DiagnosisSummary};
 pub use text::diagnosis_text;
 #[cfg(test)]

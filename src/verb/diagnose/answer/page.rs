@@ -9,10 +9,9 @@ use crate::render::number::{bracketed, capital, or_dash as number_or_dash, signi
 use crate::study::{Study, in_plain_words};
 use crate::verb::diagnose::answer::conclusion::{below_headline, headline};
 use crate::verb::diagnose::answer::fit::{FitFigure, Misfit};
+use crate::verb::diagnose::answer::parameter::{ParameterEntry, amount};
 use crate::verb::diagnose::answer::sketch::sketch;
-use crate::verb::diagnose::answer::summary::{
-    CauseEntry, DataEntry, DiagnosisSummary, ParameterEntry, amount,
-};
+use crate::verb::diagnose::answer::summary::{CauseEntry, DataEntry, DiagnosisSummary};
 use crate::verb::diagnose::answer::text::{
     CAUSE, CAUSES, FORM, NO_FORM, OFF, beside_prior, by_chance, not_used, or_dash, others, pairs,
     reliability, worth_saying,
@@ -157,17 +156,19 @@ fn shown(cause: &CauseEntry) -> Cause {
     let row = |own: &ParameterEntry| {
         let unit = if own.unit == "1" { "" } else { own.unit };
         vec![
-            format!("{}: {}", own.key, own.meaning),
+            format!("{}: {}", own.place(), own.meaning),
             amount(own.median, own.interval, ""),
             bracketed(own.prior_interval, 3),
             unit.to_owned(),
         ]
     };
     let heads = ["parameter", "found: median and 90 % interval", "expected beforehand, 90 %", "unit"];
+    let scope = cause.scope.as_ref();
+    let acts_on = scope.map_or_else(String::new, |scope| format!(" It acts on {}.", scope.with_share()));
     Cause {
         id: cause.id,
         title: capital(&in_plain_words(cause.id)),
-        means: format!("It would mean: {}.", cause.means),
+        means: format!("It would mean: {}.{acts_on}", cause.means),
         sketch: sketch(cause.id, cause.title),
         parameters: Table::new("", &heads, cause.parameters.iter().map(row).collect()),
         beside_prior: beside_prior(cause),
@@ -202,7 +203,7 @@ fn stands(summary: &DiagnosisSummary, cause: &CauseEntry) -> &'static str {
         (true, _, "ambiguous") => "may be it",
         (true, ..) => "named",
         (_, Some("readings"), _) => {
-            "excluded: it fits the readings worse than nearly all of its own campaigns"
+            "excluded: it fits the readings worse than nearly all campaigns that it predicts"
         }
         (_, Some("looks"), _) => "excluded: nine in ten of its own campaigns look more like it",
         (_, Some("evidence"), _) => "excluded: the evidence leaves it less than 1 in 100",

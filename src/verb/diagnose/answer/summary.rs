@@ -4,20 +4,16 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::critic::{
-    Contrast, Counted, Design, Diagnosis, Effort, Excluded, Feature, Residuals, SelfTest, Truth, Unused,
-    Verdict, log_weight,
+    Contrast, Counted, Design, Diagnosis, Effort, Excluded, Feature, Residuals, SelfTest, Unused, Verdict,
+    World,
 };
-use crate::math::exp;
-use crate::render::number::{bracketed, significant, with_interval};
-use crate::stats;
-use crate::study::{Described, MeasuredQuantity, Parameter, Study};
+use crate::study::{MeasuredQuantity, Study};
 use crate::verb::diagnose::advice::Advice;
 use crate::verb::diagnose::answer::components::ComponentEntry;
+use crate::verb::diagnose::answer::parameter::{ParameterEntry, parameters};
 use crate::verb::diagnose::answer::residual::{GroupEntry, ResidualEntry};
+use crate::verb::diagnose::answer::scope::ScopeEntry;
 use crate::verb::diagnose::gain::GainSummary;
-
-/// Quantiles of a parameter.
-const INTERVAL: [f64; 2] = [0.05, 0.95];
 
 /// A diagnosis in the units and words of files.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -42,6 +38,9 @@ pub struct DiagnosisSummary {
     pub base_probability: f64,
     /// Probability of something that is in no catalogue, as likely beforehand as one of them.
     pub nameless_probability: f64,
+    /// By how much the logarithm of its evidence, that of a smooth discrepancy, exceeds the largest of the base model's and of the causes
+    /// examined; `None` where nothing was found.
+    pub nameless_log_evidence: Option<f64>,
     /// Share of campaigns without any effect in which something is as far off.
     pub p_value: f64,
     /// How many such campaigns were simulated to tell.
@@ -113,18 +112,32 @@ pub struct CauseEntry {
     pub probability: f64,
     /// Its share of the evidence of the causes that were examined and of the base model; null for the others.
     pub evidence: Option<f64>,
+    /// By how much the logarithm of its evidence exceeds that of the base model; null for those that were not examined.
+    pub log_evidence: Option<f64>,
+    /// Standard error of the logarithm of its evidence: what differs by less than two of them is not ranked.
+    pub log_evidence_spread: Option<f64>,
     /// Whether the verdict speaks of it.
     pub in_verdict: bool,
-    /// What speaks against it: `readings` where it fits them worse than nearly all of its own campaigns, `looks` where nine in
+    /// What speaks against it: `readings` where it fits them worse than nearly all campaigns that it predicts, `looks` where nine in
     /// ten of its campaigns look more like it, `evidence` where that leaves it hardly any probability; null where nothing does.
     pub excluded_by: Option<&'static str>,
-    /// Share of its own campaigns that fit the readings no better; null where it was not checked.
+    /// Share of the campaigns that it predicts which fit the readings no better; null where it was not checked.
     pub guard_p_value: Option<f64>,
     /// Share of the campaigns that its physical prior predicts which are as far out, along what the data pin down; null where the
     /// verdict does not speak of it.
     pub conflict_p_value: Option<f64>,
-    /// Its parameters, as far as the data tell them; empty where it was not examined.
+    /// On which joints it acts, as the readings make likeliest; null where that is on all alike, or where it was not examined.
+    pub scope: Option<ScopeEntry>,
+    /// Its parameters with this scope, as far as the data tell them; empty where it was not examined.
     pub parameters: Vec<ParameterEntry>,
+}
+
+impl CauseEntry {
+    /// What would be true, and of which joints, where that is not all.
+    pub(crate) fn meaning(&self) -> String {
+        let joints = self.scope.as_ref().map_or_else(String::new, |scope| format!(" ({})", scope.words));
+        format!("{}{joints}", self.means)
+    }
 }
 
 /// Lines of the measurements that were not used.
@@ -141,74 +154,16 @@ pub struct UnusedEntry {
 pub struct PairEntry {
     /// Names of the mechanisms.
     pub ids: [&'static str; 2],
+    /// On which joints each acts, as the readings make likeliest; null where that is on all alike.
+    pub scopes: [Option<ScopeEntry>; 2],
     /// Share of the evidence of all pairs, of the causes that were examined and of the base model.
     pub evidence: f64,
     /// Whether the verdict names the pair.
     pub in_verdict: bool,
-    /// Share of its own campaigns that fit the readings no better; null where it was not checked.
+    /// Share of the campaigns that it predicts which fit the readings no better; null where it was not checked.
     pub guard_p_value: Option<f64>,
     /// Share of the campaigns that the physical priors of both predict which are as far out; null where the verdict does not name it.
     pub conflict_p_value: Option<f64>,
-}
-
-/// A parameter of a cause.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
-pub struct ParameterEntry {
-    /// Its key.
-    pub key: &'static str,
-    /// Its unit.
-    pub unit: &'static str,
-    /// What it means.
-    pub meaning: &'static str,
-    /// Median, with the search prior.
-    pub median: f64,
-    /// 5 and 95 % quantile, with the search prior.
-    pub interval: [f64; 2],
-    /// 5 and 95 % quantile of its physical prior.
-    pub prior_interval: [f64; 2],
-    /// How many standard deviations of the physical prior the median lies from its centre; null for a constant.
-    pub prior_sd: Option<f64>,
-    /// What the physical prior makes of it; null where that leaves hardly any of the draws.
-    pub within_prior: Option<WithinPrior>,
-}
-
-/// A parameter with its physical prior.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-pub struct WithinPrior {
-    /// Median.
-    pub median: f64,
-    /// 5 and 95 % quantile.
-    pub interval: [f64; 2],
-}
-
-impl ParameterEntry {
-    /// In words: key, median, interval and unit.
-    pub(crate) fn words(&self) -> String {
-        let ParameterEntry { key, unit, median, interval, .. } = self;
-        format!("{key} {}", amount(*median, *interval, unit))
-    }
-
-    /// Where it lies in its physical prior, and what that makes of it; `None` for a constant.
-    pub(crate) fn beside_prior(&self) -> Option<String> {
-        let ParameterEntry { key, unit, prior_interval, prior_sd, within_prior, .. } = self;
-        let sd = (*prior_sd)?;
-        let side = if sd < 0.0 { "below" } else { "above" };
-        let within = within_prior.map_or_else(
-            || "with that prior hardly any of the posterior is left".to_owned(),
-            |own| format!("with that prior {}", amount(own.median, own.interval, unit)),
-        );
-        Some(format!(
-            "{key}: {} sd {side} the centre of its prior {}; {within}.",
-            significant(sd.abs(), 2),
-            bracketed(*prior_interval, 3)
-        ))
-    }
-}
-
-/// A median with its interval and unit.
-pub(crate) fn amount(median: f64, interval: [f64; 2], unit: &str) -> String {
-    let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
-    format!("{}{unit}", with_interval(Some(median), Some(interval), 3))
 }
 
 /// Something that is off.
@@ -242,19 +197,21 @@ pub struct SelfTestEntry {
     pub strong: Counted,
     /// Some of them by the whole diagnosis.
     pub judged: Counted,
+    /// Of these in which the cause is named, on other joints than it acts on.
+    pub wrong_scope: u64,
 }
 
 impl DiagnosisSummary {
     /// From a diagnosis.
     pub fn of(
-        study: &Study,
+        world: &World<'_>,
         seed: u64,
         bank: &str,
-        mechanisms: &[Described],
         design: &Design,
         diagnosis: &Diagnosis,
         self_test: &SelfTest,
     ) -> DiagnosisSummary {
+        let (study, mechanisms) = (world.study(), world.mechanisms());
         let (verdict, spoken): (&'static str, Vec<usize>) = match &diagnosis.verdict {
             Verdict::NothingFound => ("nothing_found", Vec::new()),
             Verdict::Named(cause) => ("named", vec![*cause]),
@@ -265,20 +222,13 @@ impl DiagnosisSummary {
         };
         let explained = diagnosis.explained_by();
         let drawn = |cause: usize| {
-            let own = explained.iter().find(|(causes, _)| causes.contains(&cause));
-            let parameters = |causes: &[usize], draws: &[Truth]| {
-                let before = causes.iter().take_while(|other| **other != cause);
-                let first = before.map(|other| mechanisms[*other].parameters.len()).sum();
-                parameters(mechanisms, &mechanisms[cause], first, draws)
-            };
-            match (own, diagnosis.examined(cause)) {
-                (Some((causes, draws)), _) => parameters(causes, draws),
-                (None, Some(own)) => parameters(&[cause], &own.draws),
-                (None, None) => Vec::new(),
-            }
+            let spoken = explained.iter().find(|(causes, _)| causes.contains(&cause));
+            let examined = || diagnosis.examined(cause).map(|own| &own.draws[..]);
+            spoken.map(|(_, draws)| *draws).or_else(examined).unwrap_or_default()
         };
         let pairs = diagnosis.pairs.iter().map(|own| PairEntry {
             ids: own.cause.map(|cause| mechanisms[cause].name),
+            scopes: own.cause.map(|cause| ScopeEntry::of(world, cause, own.acting, own.scope_share)),
             evidence: own.evidence,
             in_verdict: diagnosis.verdict == Verdict::NamedPair(own.cause),
             guard_p_value: own.check,
@@ -290,13 +240,16 @@ impl DiagnosisSummary {
             .iter()
             .filter_map(|&(cause, probability)| {
                 let cause = cause?;
-                let examined = diagnosis.examined(cause);
+                let (examined, draws) = (diagnosis.examined(cause), drawn(cause));
+                let share = examined.map_or(1.0, |own| own.scope_share);
                 Some(CauseEntry {
                     id: mechanisms[cause].name,
                     title: mechanisms[cause].title,
                     means: mechanisms[cause].means,
                     probability,
                     evidence: examined.map(|own| own.evidence),
+                    log_evidence: examined.map(|own| own.log),
+                    log_evidence_spread: examined.map(|own| own.spread),
                     in_verdict: spoken.contains(&cause),
                     excluded_by: diagnosis.excluded(cause).map(|by| match by {
                         Excluded::ByCheck => "readings",
@@ -305,7 +258,8 @@ impl DiagnosisSummary {
                     }),
                     guard_p_value: examined.and_then(|own| own.check),
                     conflict_p_value: examined.and_then(|own| own.conflict),
-                    parameters: drawn(cause),
+                    scope: draws.first().and_then(|truth| ScopeEntry::of(world, cause, truth.causes, share)),
+                    parameters: parameters(world, cause, draws),
                 })
             })
             .collect();
@@ -327,6 +281,7 @@ impl DiagnosisSummary {
             all: row.all,
             strong: row.strong,
             judged: row.judged,
+            wrong_scope: row.wrong_scope,
         });
         DiagnosisSummary {
             study: study.name.clone(),
@@ -339,6 +294,7 @@ impl DiagnosisSummary {
             pairs: pairs.collect(),
             base_probability: base.map_or(0.0, |(_, probability)| *probability),
             nameless_probability: ranked.unmodelled,
+            nameless_log_evidence: diagnosis.outside,
             p_value: diagnosis.finding.p_value,
             p_value_campaigns: Effort::default().reference,
             looks: LooksEntry { furthest, together, likeness },
@@ -382,68 +338,6 @@ fn unused(design: &Design) -> Vec<UnusedEntry> {
         },
     };
     by_reason.into_iter().map(entry).collect()
-}
-
-/// Draws that count with the physical prior must be worth so many at least, or nothing is said of it.
-const LEAST_DRAWS: f64 = 8.0;
-
-/// What the posterior says of a cause's parameters; `first` is the place of its first one in the draws.
-fn parameters(
-    mechanisms: &[Described],
-    mechanism: &Described,
-    first: usize,
-    draws: &[Truth],
-) -> Vec<ParameterEntry> {
-    let weights = physical_weights(mechanisms, draws);
-    let entry = |(k, parameter): (usize, &Parameter)| {
-        let values: Vec<f64> =
-            draws.iter().map(|truth| parameter.search.at_score(truth.parameters[first + k])).collect();
-        let at = |p: f64| stats::quantile(&values, p);
-        let median = at(0.5)?;
-        let weighed = weights.as_ref().map(|weights| {
-            let at = |p: f64| weighted_quantile(&values, weights, p);
-            WithinPrior { median: at(0.5), interval: INTERVAL.map(at) }
-        });
-        Some(ParameterEntry {
-            key: parameter.key,
-            unit: parameter.unit,
-            meaning: parameter.meaning,
-            median,
-            interval: [at(INTERVAL[0])?, at(INTERVAL[1])?],
-            prior_interval: INTERVAL.map(|p| parameter.prior.quantile(p)),
-            prior_sd: parameter.spreads_out(median),
-            within_prior: weighed,
-        })
-    };
-    mechanism.parameters.iter().enumerate().filter_map(entry).collect()
-}
-
-/// Weights of draws from the posterior of the search prior, of sum 1, under the physical prior; `None` where they leave too few.
-fn physical_weights(mechanisms: &[Described], draws: &[Truth]) -> Option<Vec<f64>> {
-    let logs: Vec<f64> = draws.iter().map(|truth| log_weight(mechanisms, truth)).collect();
-    let largest = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    if !largest.is_finite() {
-        return None;
-    }
-    let raw: Vec<f64> = logs.iter().map(|log| exp(log - largest)).collect();
-    let sum = stats::sum(&raw);
-    let weights: Vec<f64> = raw.iter().map(|w| w / sum).collect();
-    let squares: Vec<f64> = weights.iter().map(|w| w * w).collect();
-    (1.0 / stats::sum(&squares) >= LEAST_DRAWS).then_some(weights)
-}
-
-/// The smallest value up to which the weights reach a share.
-fn weighted_quantile(values: &[f64], weights: &[f64], share: f64) -> f64 {
-    let mut order: Vec<usize> = (0..values.len()).collect();
-    order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
-    let mut reached = 0.0;
-    for &k in &order {
-        reached += weights[k];
-        if reached >= share {
-            return values[k];
-        }
-    }
-    order.last().map_or(f64::NAN, |&k| values[k])
 }
 
 fn words(study: &Study, feature: Feature) -> String {

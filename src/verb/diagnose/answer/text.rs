@@ -79,6 +79,8 @@ fn causes(summary: &DiagnosisSummary) -> String {
     }
     let mut text = format!("\nCauses (*: in the verdict)\n{}\n{}", wrapped("  ", CAUSE), aligned(rows));
     for cause in summary.causes.iter().filter(|cause| cause.in_verdict) {
+        let scope = cause.scope.as_ref().map(|scope| format!("{}: acts on {}", cause.id, scope.with_share()));
+        text.push_str(&scope.map_or_else(String::new, |words| wrapped("  ", &words)));
         for parameter in &cause.parameters {
             text.push_str(&wrapped("  ", &format!("{}: {}", cause.id, parameter.words())));
         }
@@ -112,7 +114,7 @@ pub(crate) const OFF: &str =
 /// What the numbers of the causes are.
 pub(crate) const CAUSE: &str = "probability: posterior, all causes equally likely beforehand. \
     evidence: share of the marginal likelihood among the causes looked at closely; it is too sure of itself to be taken alone. \
-    predictive p: share of the cause's own simulated campaigns that fit worse. A dash: not computed. \
+    predictive p: share of the campaigns that the cause predicts, as the readings have it act, that fit worse. A dash: not computed. \
     search prior: four times the spread of the documented prior. \
     not in catalogue: smooth random effects that no cause here describes";
 /// What the numbers of a form are.
@@ -210,6 +212,7 @@ pub(crate) fn reliability(summary: &DiagnosisSummary) -> Vec<String> {
     let (all, strong) = (sum(&hidden, |row| row.all), sum(&hidden, |row| row.strong));
     let (judged, nothing_judged) = (sum(&hidden, |row| row.judged), sum(&nothing, |row| row.judged));
     let (still, unmodelled) = (sum(&nothing, |row| row.all), summary.self_test_nameless.judged);
+    let wrong_scope = hidden.iter().map(|row| row.wrong_scope).sum::<u64>();
     let counted = |part: u64, whole: u64| format!("{part} of {whole}, {}", share(part, whole));
     let mut sentences = vec![
         format!(
@@ -235,7 +238,7 @@ pub(crate) fn reliability(summary: &DiagnosisSummary) -> Vec<String> {
               bank's folder (--out)."
             .to_string(),
         _ => format!(
-            "Named by the whole diagnosis: {}; another cause in {}; with nothing hidden a cause in {}, with something outside the \
+            "Named by the whole diagnosis: {}, {wrong_scope} of these on wrong joints; another cause in {}; with nothing hidden a cause in {}, with something outside the \
              catalogue in {}.",
             counted(judged.named, judged.campaigns),
             counted(judged.misnamed, judged.campaigns),

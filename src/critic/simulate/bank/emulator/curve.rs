@@ -105,25 +105,37 @@ impl Curve {
         Some((Curve { numbers, shape, coefficients, known }, left))
     }
 
-    /// Adds what is expected at some scores to the numbers of its range, and says which share of the variance that it leaves is its
-    /// own error there; `walls` are the scores that it was fitted through.
-    pub(super) fn add(&self, scores: &[f64], walls: &[Vec<f64>], numbers: &mut [f64; NUMBERS]) -> f64 {
+    /// Adds what is expected at some scores to the numbers of its range; `walls` are the scores that it was fitted through. The terms of
+    /// the polynomial there, and the covariances with the walls of what is smooth.
+    pub(super) fn expect(
+        &self,
+        scores: &[f64],
+        walls: &[Vec<f64>],
+        numbers: &mut [f64; NUMBERS],
+    ) -> (Vec<f64>, Vec<f64>) {
         let own = terms(scores, self.shape.degree);
         let mut add = |share: f64, of: &[f64]| {
             let numbers = &mut numbers[self.numbers.clone()];
             numbers.iter_mut().zip(of).for_each(|(number, of)| *number += share * of);
         };
         own.iter().zip(&self.coefficients).for_each(|(term, of)| add(*term, of));
+        let Known::Smooth { weights, .. } = &self.known else { return (own, Vec::new()) };
+        let distances = walls.iter().map(|wall| self.shape.squared_distance(scores, wall));
+        let smooths = self.shape.covariances(distances);
+        smooths.iter().zip(weights).for_each(|(covariance, of)| add(*covariance, of));
+        (own, smooths)
+    }
+
+    /// The [same](Self::expect), and which share of the variance that it leaves is its own error there.
+    pub(super) fn add(&self, scores: &[f64], walls: &[Vec<f64>], numbers: &mut [f64; NUMBERS]) -> f64 {
+        let (own, smooths) = self.expect(scores, walls, numbers);
         // What the walls do not tell of the curve, in units of what the stones leave.
         let unknown = match &self.known {
             Known::Polynomial(covariance) => {
                 let own = DVector::from_vec(own);
                 own.dot(&(covariance * &own))
             }
-            Known::Smooth { inverse, terms, weights } => {
-                let distances = walls.iter().map(|wall| self.shape.squared_distance(scores, wall));
-                let smooths = self.shape.covariances(distances);
-                smooths.iter().zip(weights).for_each(|(covariance, of)| add(*covariance, of));
+            Known::Smooth { inverse, terms, .. } => {
                 let dot = |other: &[f64]| WIDE * own.iter().zip(other).fold(0.0, |sum, (a, b)| sum + a * b);
                 let covariances = smooths.iter().zip(terms).map(|(smooth, other)| smooth + dot(other));
                 let covariances = DVector::from_iterator(smooths.len(), covariances);
