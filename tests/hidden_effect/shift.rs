@@ -23,6 +23,8 @@ pub fn shift(judge: &Judge<'_>, label: &Label) -> f64 {
         causes: Some(index).into(),
         parameters: mechanism.parameters.iter().map(score).collect(),
         joints: label.joints.to_vec(),
+        // In the middle of what specimens may differ by.
+        scatter: 0.0,
     };
     let judge = judge.judge;
     judge.reference.shift(judge.world, &judge.design, &truth, CAMPAIGNS, SEED)
