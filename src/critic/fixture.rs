@@ -11,6 +11,9 @@ use crate::random::Streams;
 use crate::random::standard_normal::quantile;
 use crate::study::{Described, Nuisance, Study};
 
+/// A score of the scatter between specimens at which there is none.
+pub(crate) const ALIKE: f64 = -40.0;
+
 pub(crate) struct Made {
     pub(crate) study: Study,
     pub(crate) mechanisms: Vec<Described>,

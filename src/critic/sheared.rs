@@ -4,7 +4,7 @@ use std::path::Path as Folder;
 
 use crate::critic::causes::evidence;
 use crate::critic::discrepancy::Predicted;
-use crate::critic::fixture::EFFORT;
+use crate::critic::fixture::{ALIKE, EFFORT};
 use crate::critic::simulate::{Bank, Campaign, Design, Path, Plan, Seen, Truth, Unused, World};
 use crate::critic::verdict::Judge;
 use crate::math::ln;
@@ -90,8 +90,8 @@ fn arms_that_differ_in_their_names_alone_share_their_walls() {
     assert!(made.plan.places.iter().all(|place| [0, 2].contains(&place.family)));
     let (design, _) = Design::of(&made.study);
     assert_eq!((design.specimens.len(), design.unused.len()), (9, 0));
-    // Without errors of reading: nothing is drawn in these walls, so that those of one load are one.
-    let truth = world.truth(None, &vec![0.0; world.inputs(None)]);
+    // Without errors of reading and with specimens whose joints are alike: nothing else is drawn, so that those of one load are one.
+    let truth = Truth { scatter: ALIKE, ..world.truth(None, &vec![0.0; world.inputs(None)]) };
     let values = world.values(&design, &truth, &Streams::new(3, 1));
     let of = |name: &str| {
         let specimen = design.specimens.iter().position(|s| s.name == name).expect("it was tested");

@@ -20,8 +20,8 @@ fn a_family_that_moves_four_times_too_far_is_found_and_said_to() {
         }
     }
     let discrepancy = reference.discrepancy(&design, &campaign);
-    // One in 100,000 by chance for one feature, of some thirty.
-    assert!(discrepancy.largest() > 4.5, "{}", discrepancy.largest());
+    // One in 40,000 by chance for one feature, of some thirty.
+    assert!(discrepancy.largest() > 4.2, "{}", discrepancy.largest());
     let worst = discrepancy
         .excess
         .iter()

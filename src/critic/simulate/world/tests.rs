@@ -1,16 +1,13 @@
 //! Campaigns of walls whose formula is known: what is seen of them.
 
 use super::likely::{MayShow, NEIGHBOURS};
-use crate::critic::fixture::made;
+use crate::critic::fixture::{ALIKE, made};
 use crate::critic::simulate::queries::Queries;
 use crate::critic::simulate::{Campaign, Causes, Design, Scope, Seen, Truth};
 use crate::math::radians;
 use crate::random::Streams;
 use crate::stats;
 use crate::study::{MeasuredKind, MeasuredQuantity, Measurement};
-
-/// A score of the scatter between specimens at which there is none.
-const ALIKE: f64 = -40.0;
 
 #[test]
 fn the_papers_campaign_is_nine_specimens_with_their_bounds() {
@@ -215,7 +212,7 @@ fn an_error_of_which_nobody_knows_how_much_is_shared_is_drawn_and_fitted_as_such
 fn an_error_of_a_gauge_is_shared_by_all_its_points_and_by_a_target_that_does_not_move() {
     let made = made();
     let (world, (mut design, _)) = (made.world(), Design::of(&made.study));
-    let truth = world.truth(None, &vec![0.0; world.inputs(None)]);
+    let truth = Truth { scatter: ALIKE, ..world.truth(None, &vec![0.0; world.inputs(None)]) };
     use MeasuredQuantity as Q;
     let common = 5e-3;
     let read = |m: &Measurement, quantity| Measurement {
