@@ -70,6 +70,16 @@ pub struct NextEntry {
     pub of_bits: f64,
 }
 
+impl NextEntry {
+    /// In how many cases it would settle the cause: the share that it tells of what is not known.
+    pub(crate) fn cases(&self) -> String {
+        match (10.0 * self.bits / self.of_bits).round() {
+            tenths if tenths >= 1.0 => format!("about {tenths:.0} of 10 cases"),
+            _ => "fewer than 1 of 10 cases".to_owned(),
+        }
+    }
+}
+
 impl DetectionLimitEntry {
     /// Where it is found.
     fn from(&self) -> String {
@@ -148,14 +158,14 @@ impl Advice {
     pub fn tables(&self) -> Vec<Table> {
         let next = self.next.iter().map(|own| {
             let bits = with_interval(Some(own.bits), Some(own.interval), 2);
-            vec![own.what.clone(), bits, significant(own.hours, 2)]
+            vec![own.what.clone(), own.cases(), bits, significant(own.hours, 2)]
         });
         let open = if self.next_of_those_left { "open" } else { "open if the exclusions are chance" };
         let caption = self.next.first().map_or_else(String::new, |first| {
             let bits = significant(first.of_bits, 2);
             format!("Expected information about the cause, of {bits} bit {open}; hours of two people are our estimate.")
         });
-        let heads = ["measurement", "information (bit), 95 % interval", "hours"];
+        let heads = ["measurement", "would settle the cause in", "information (bit), 95 % interval", "hours"];
         let next = Table { caption, ..Table::new("Next measurement", &heads, next.collect()) };
         let caught = self.caught.iter().map(|own| {
             let from = own.from();
@@ -223,9 +233,10 @@ impl Advice {
             for own in &self.next {
                 let bits = with_interval(Some(own.bits), Some(own.interval), 2);
                 text.push_str(&format!(
-                    "  {bits:<19} bit in {:>4} h  {}\n",
+                    "  {bits:<19} bit in {:>4} h  {} (settles {})\n",
                     significant(own.hours, 2),
-                    own.what
+                    own.what,
+                    own.cases()
                 ));
             }
         }

@@ -2,6 +2,7 @@
 
 use crate::critic::MOST_AMBIGUOUS;
 use crate::render::number::{capital, how_often, significant};
+use crate::verb::diagnose::answer::parameter::ParameterEntry;
 use crate::verb::diagnose::answer::summary::{CauseEntry, DiagnosisSummary};
 use crate::verb::diagnose::answer::text::worth_saying;
 
@@ -80,8 +81,8 @@ fn chance(summary: &DiagnosisSummary) -> String {
 /// The verdict in plain words, as a page begins with it; it is not said without what its own tables hold against it.
 pub fn headline(summary: &DiagnosisSummary) -> String {
     let spoken: Vec<&CauseEntry> = summary.causes.iter().filter(|cause| cause.in_verdict).collect();
-    let titles: Vec<&str> = spoken.iter().map(|cause| cause.title).collect();
-    let (one, all) = (titles.first().copied().unwrap_or_default(), titles.join("; "));
+    let titles: Vec<String> = spoken.iter().map(|cause| sized(cause)).collect();
+    let (one, all) = (titles.first().cloned().unwrap_or_default(), titles.join("; "));
     let verdict = match (summary.verdict, titles.len()) {
         ("nothing_found", _) => {
             "Nothing is wrong that these readings could show: errors, scatter and joints within their priors account for them."
@@ -105,6 +106,13 @@ pub fn headline(summary: &DiagnosisSummary) -> String {
         Some(but) if !spoken.is_empty() => format!("{verdict} {but}"),
         _ => verdict,
     }
+}
+
+/// A cause in plain words, with its probability and its size.
+fn sized(cause: &CauseEntry) -> String {
+    let sizes: Vec<String> = cause.parameters.iter().map(ParameterEntry::words).collect();
+    let sizes = if sizes.is_empty() { String::new() } else { format!("; {}", sizes.join(", ")) };
+    format!("{} (probability {}{sizes})", cause.title, significant(cause.probability, 2))
 }
 
 /// Where the extended model does not predict better than the base model, though the verdict speaks of a cause.
@@ -157,9 +165,9 @@ fn next(summary: &DiagnosisSummary) -> Option<String> {
     let best =
         summary.advice.next.iter().max_by(|a, b| rate(a.bits, a.hours).total_cmp(&rate(b.bits, b.hours)))?;
     Some(format!(
-        "Next, the most information per hour: {} ({} bit in {} h).",
+        "Next, what would tell most per hour: {} ({} h; it would settle the cause in {}).",
         best.what,
-        significant(best.bits, 2),
-        significant(best.hours, 2)
+        significant(best.hours, 2),
+        best.cases()
     ))
 }

@@ -9,7 +9,7 @@ use crate::render::number::{bracketed, capital, or_dash as number_or_dash, signi
 use crate::study::{Study, in_plain_words};
 use crate::verb::diagnose::answer::conclusion::{below_headline, headline};
 use crate::verb::diagnose::answer::fit::{FitFigure, Misfit};
-use crate::verb::diagnose::answer::parameter::{ParameterEntry, amount};
+use crate::verb::diagnose::answer::parameter::{ParameterEntry, amount, as_read};
 use crate::verb::diagnose::answer::sketch::sketch;
 use crate::verb::diagnose::answer::summary::{CauseEntry, DataEntry, DiagnosisSummary};
 use crate::verb::diagnose::answer::text::{
@@ -42,6 +42,7 @@ struct Filled<'a> {
     title: String,
     question: String,
     headline: String,
+    about_fit: &'static str,
     answer: Vec<String>,
     fit: Option<&'a Drawing>,
     misfits: Table,
@@ -98,6 +99,7 @@ pub fn diagnosis_page(of: &DiagnosisPage<'_>) -> Result<String> {
             title: format!("Diagnosis of study {}{variant}", summary.study),
             question: "What does the simulation get wrong, and which cause explains it?".to_owned(),
             headline: headline(summary),
+            about_fit: if summary.verdict == "nothing_found" { "What was found" } else { "What is wrong" },
             answer: below_headline(summary),
             fit: of.fitted,
             misfits: misfits(of.fit),
@@ -154,15 +156,13 @@ fn misfits(fit: &FitFigure) -> Table {
 
 fn shown(cause: &CauseEntry) -> Cause {
     let row = |own: &ParameterEntry| {
-        let unit = if own.unit == "1" { "" } else { own.unit };
         vec![
             format!("{}: {}", own.place(), own.meaning),
-            amount(own.median, own.interval, ""),
-            bracketed(own.prior_interval, 3),
-            unit.to_owned(),
+            amount(own.median, own.interval, own.unit),
+            bracketed(own.prior_interval.map(|end| as_read(own.unit).0 * end), 3),
         ]
     };
-    let heads = ["parameter", "found: median and 90 % interval", "expected beforehand, 90 %", "unit"];
+    let heads = ["parameter", "found: median and 90 % interval", "expected beforehand, 90 %"];
     let scope = cause.scope.as_ref();
     let acts_on = scope.map_or_else(String::new, |scope| format!(" It acts on {}.", scope.with_share()));
     Cause {

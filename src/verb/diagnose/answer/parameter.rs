@@ -11,6 +11,9 @@ const INTERVAL: [f64; 2] = [0.05, 0.95];
 /// Draws that count with the physical prior must be worth so many at least, or nothing is said of it.
 const LEAST_DRAWS: f64 = 8.0;
 
+/// What keys with a unit end in.
+const UNITS: [&str; 7] = ["_n_m_per_rad", "_pa_per_m", "_n_per_m", "_per_deg", "_pa", "_deg", "_m"];
+
 /// A parameter of a cause.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct ParameterEntry {
@@ -50,10 +53,10 @@ impl ParameterEntry {
         format!("{} {}", self.place(), amount(*median, *interval, unit))
     }
 
-    /// Its key, and the families that it holds for.
+    /// Its name, and the families that it holds for.
     pub(crate) fn place(&self) -> String {
         let arms = self.arms.as_ref().map_or_else(String::new, |arms| format!(" ({})", enumerated(arms)));
-        format!("{}{arms}", self.key)
+        format!("{}{arms}", name(self.key))
     }
 
     /// Where it lies in its physical prior, and what that makes of it; `None` for a constant.
@@ -69,15 +72,31 @@ impl ParameterEntry {
             "{}: {} sd {side} the centre of its prior {}; {within}.",
             self.place(),
             significant(sd.abs(), 2),
-            bracketed(*prior_interval, 3)
+            bracketed(prior_interval.map(|end| as_read(unit).0 * end), 3)
         ))
     }
 }
 
 /// A median with its interval and unit.
-pub(crate) fn amount(median: f64, interval: [f64; 2], unit: &str) -> String {
-    let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
-    format!("{}{unit}", with_interval(Some(median), Some(interval), 3))
+pub(crate) fn amount(median: f64, interval: [f64; 2], unit: &'static str) -> String {
+    let (times, unit) = as_read(unit);
+    let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+    format!("{}{unit}", with_interval(Some(times * median), Some(interval.map(|end| times * end)), 3))
+}
+
+/// A key without the unit at its end, which the number has: in another unit it would contradict it.
+fn name(key: &str) -> String {
+    let bare = UNITS.iter().find_map(|unit| key.strip_suffix(unit)).unwrap_or(key);
+    bare.replace('_', " ")
+}
+
+/// The unit in which people read a quantity, and how many of it make one of the key's: what lengths of a cause do is a matter of millimetres.
+pub(crate) fn as_read(unit: &'static str) -> (f64, &'static str) {
+    match unit {
+        "m" => (1000.0, "mm"),
+        "1" => (1.0, ""),
+        unit => (1.0, unit),
+    }
 }
 
 /// What draws from a posterior say of a cause's parameters; nothing without a draw.

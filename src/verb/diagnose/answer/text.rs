@@ -99,10 +99,9 @@ pub(crate) fn beside_prior(cause: &CauseEntry) -> Vec<String> {
         false => "it may act within its physical prior",
     };
     let first = format!(
-        "{}: {verdict} (conflict p {}: share of the campaigns predicted with that prior which lie as far out, along what the data \
-         pin down).",
+        "{}: {verdict}. Of the campaigns that it predicts there, {} % lie as far out as the measurements.",
         cause.id,
-        significant(p, 2)
+        significant(100.0 * p, 2)
     );
     let parameters = cause.parameters.iter().filter_map(|own| own.beside_prior());
     std::iter::once(first).chain(parameters).collect()
@@ -234,7 +233,7 @@ pub(crate) fn reliability(summary: &DiagnosisSummary) -> Vec<String> {
         ),
     ];
     sentences.push(match judged.campaigns {
-        0 => "Named by the whole diagnosis: not counted yet. `pirca diagnose --prepare` does, with the same measurements (--measured) and the \
+        0 => "Named by the whole diagnosis: not counted yet. pirca diagnose --prepare does, with the same measurements (--measured) and the \
               bank's folder (--out)."
             .to_string(),
         _ => format!(
