@@ -6,7 +6,6 @@
 //! patch of stated width instead: a strip along an edge, a square at a point.
 
 use crate::contact::{Cell, EdgeAxis, FaceAxis, best_edge_axis, best_face_axis, patches, seated};
-use crate::law::Seating;
 use crate::math::Vec3;
 use crate::shape::{Frame, Plane, Polygon, Polyhedron};
 
@@ -106,9 +105,16 @@ impl Patch {
     }
 
     /// What bears on the first block's face, in the coordinates of its polygon: a patch about each seat that is at most `deepest` (m) behind the
-    /// face. `None` where it is no bed.
-    pub fn seats(&self, seating: &Seating, deepest: f64) -> Option<Vec<Cell>> {
-        let mut cells = self.is_bed().then(|| self.on_first(|polygon| seated(polygon, seating)))?;
+    /// face. A seat is where it lies, as uniform numbers, and how far behind the face (m); all patches have `share` of the area. `None` where it
+    /// is no bed.
+    pub fn seats(
+        &self,
+        share: f64,
+        seats: impl Iterator<Item = ([f64; 2], f64)> + Clone,
+        deepest: f64,
+    ) -> Option<Vec<Cell>> {
+        let mut cells =
+            self.is_bed().then(|| self.on_first(|polygon| seated(polygon, share, seats.clone())))?;
         cells.retain(|cell| cell.recess <= deepest);
         Some(cells)
     }

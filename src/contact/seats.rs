@@ -1,18 +1,17 @@
 //! A joint that bears on a few seats: what of its polygon is nearest to each, shrunk about it.
 
 use crate::contact::Cell;
-use crate::law::Seating;
 use crate::shape::Polygon;
 
 /// Parts of the polygon's area below which a patch is none.
 const SLIVER: f64 = 1e-9;
 
-/// The patches of a convex polygon on which it bears: the points that lie nearest to each seat, shrunk about it.
-pub fn seated(polygon: &Polygon, seating: &Seating) -> Vec<Cell> {
-    let seats: Vec<([f64; 2], f64)> =
-        seating.seats().iter().map(|seat| (place(polygon, seat.at), seat.recess)).collect();
-    let least = SLIVER * seating.share * polygon.area();
-    let shrink = seating.share.sqrt();
+/// The patches of a convex polygon on which it bears, with `share` of its area: the points that lie nearest to each seat, shrunk about it. A seat
+/// is where it lies ([`place`]) and how far behind the face (m).
+pub fn seated(polygon: &Polygon, share: f64, seats: impl Iterator<Item = ([f64; 2], f64)>) -> Vec<Cell> {
+    let seats: Vec<([f64; 2], f64)> = seats.map(|(at, recess)| (place(polygon, at), recess)).collect();
+    let least = SLIVER * share * polygon.area();
+    let shrink = share.sqrt();
     let cell = |(index, &(seat, recess)): (usize, &([f64; 2], f64))| {
         let others = seats.iter().enumerate().filter(|(other, _)| *other != index);
         let part = others.fold(polygon.clone(), |part, (_, (other, _))| nearer(&part, &seat, other));
@@ -67,8 +66,6 @@ fn chord(polygon: &Polygon, s: f64, within: f64) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::law::Seat;
-    use crate::random::Streams;
     use crate::shape::Moments;
     use approx::assert_relative_eq;
 
@@ -99,20 +96,19 @@ mod tests {
 
     #[test]
     fn patches_have_their_share_lie_in_the_face_and_do_not_overlap() {
-        let mut stream = Streams::new(3, 1).of("seats");
+        // Multiples of two irrational numbers are spread evenly, and no two alike.
+        let number = |k: usize, root: f64| (k as f64 * root).fract();
         for polygon in shapes() {
             for count in [1, 2, 3, 6, 16] {
                 for share in [1e-3, 0.2, 0.7, 1.0] {
-                    let drawn =
-                        |k| Seat { at: [stream.uniform(), stream.uniform()], recess: 1e-3 * f64::from(k) };
-                    let seats: Vec<Seat> = (0..count).map(drawn).collect();
-                    let seating = Seating::new(share, &seats);
-                    let cells = seated(&polygon, &seating);
+                    let at = |k: usize| [number(k, 2f64.sqrt()), number(k, 3f64.sqrt())];
+                    let seats: Vec<_> = (1..=count).map(|k| (at(k), 1e-3 * k as f64)).collect();
+                    let cells = seated(&polygon, share, seats.iter().copied());
                     assert_eq!(cells.len(), seats.len());
                     let sum = |of: fn(&Moments) -> f64| cells.iter().map(|c| of(&c.moments)).sum::<f64>();
                     assert_relative_eq!(sum(|m| m.area), share * polygon.area(), max_relative = 1e-9);
                     for (a, cell) in cells.iter().enumerate() {
-                        assert_eq!(cell.recess, seats[a].recess);
+                        assert_eq!(cell.recess, seats[a].1);
                         let inside = cell.outline.intersection(&polygon).area();
                         assert_relative_eq!(inside, cell.moments.area, max_relative = 1e-9);
                         for other in &cells[..a] {

@@ -124,7 +124,7 @@ pub(super) fn points(
             let cells = patch.pieces(PATCHES_ALONG, mask);
             cells.iter().filter_map(|cell| touching(&cell.outline)).collect()
         }
-        Sampling::Seats(seating) => match patch.seats(&seating, closed) {
+        Sampling::Seats(seating) => match patch.seats(seating.share, seating.laid(), closed) {
             Some(cells) => cells.iter().filter_map(|cell| touching(&cell.outline)).collect(),
             None => touching(&patch.polygon).into_iter().collect(),
         },

@@ -45,6 +45,10 @@ pub const PATCHES_ALONG: u32 = 8;
 /// Where the joint's stress is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "a law is copied freely, as its tables are, and few are alive at a time"
+)]
 pub enum Sampling {
     /// Integrated over the compressed area of the joint.
     Area,

@@ -37,4 +37,9 @@ impl Seating {
     pub fn seats(&self) -> &[Seat] {
         &self.seats[..self.count]
     }
+
+    /// Its seats as numbers: where each lies, and how far behind the face (m).
+    pub fn laid(&self) -> impl Iterator<Item = ([f64; 2], f64)> + Clone + '_ {
+        self.seats().iter().map(|seat| (seat.at, seat.recess))
+    }
 }

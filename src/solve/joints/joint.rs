@@ -115,7 +115,7 @@ impl Joint {
         };
         let (i, r) = (&bodies.all[incident as usize], &bodies.all[reference as usize]);
         let seats = match law.sampling {
-            Sampling::Seats(seating) => patch.seats(&seating, f64::INFINITY),
+            Sampling::Seats(seating) => patch.seats(seating.share, seating.laid(), f64::INFINITY),
             _ => None,
         };
         let seated = seats.is_some();

@@ -223,7 +223,7 @@ pub(super) fn contact_points(patch: &Patch, closed: f64, sampling: Sampling) -> 
     let cells = match sampling {
         Sampling::Patches(mask) => Some(patch.pieces(PATCHES_ALONG, mask)),
         // What lies behind the face bears once it has closed, and that is a displacement.
-        Sampling::Seats(seating) => patch.seats(&seating, closed),
+        Sampling::Seats(seating) => patch.seats(seating.share, seating.laid(), closed),
         Sampling::Area | Sampling::Vertices => None,
     };
     let (vertices, area) = match (patch.feature, cells) {
