@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::exchange::fault::{Fault, WallFaults};
 use crate::exchange::mended::Mended;
-use crate::exchange::scan::scanned;
+use crate::exchange::scan::{scanned, stated};
 use crate::exchange::solid::{diagonal, solid};
 use crate::exchange::{ReadOptions, Unit};
 use crate::math::{Mat3, Vec3, cos, sin};
@@ -225,6 +225,11 @@ fn checked(
         let stone = scanned(&draft.name, &vertices, &faces, bearing)?;
         return Ok(block(draft, stone.hull, Some(stone.holds)));
     }
+    if let (Some(scan), true) = (draft.scan, faults.is_empty()) {
+        let scan = in_unit(&scan, 1.0 / unit.per_metre());
+        let scan = turn.map_or(scan, |turn| scan.mapped(&turn));
+        return Ok(block(draft, stated(&draft.name, &vertices, &faces)?, Some(scan)));
+    }
     let solid = solid(&draft.name, &vertices, &faces, options.flatness);
     let (Ok(solid), true) = (&solid, faults.is_empty()) else {
         faults.extend(solid.err().unwrap_or_default());
@@ -236,11 +241,7 @@ fn checked(
         let idle = vertices.len() - used.len();
         warnings.push(format!("{}: {idle} vertices belong to no face and are dropped", draft.name));
     }
-    let scan = draft.scan.map(|scan| {
-        let scan = in_unit(&scan, 1.0 / unit.per_metre());
-        turn.map_or(scan, |turn| scan.mapped(&turn))
-    });
-    Ok(block(draft, solid.shape.clone(), scan))
+    Ok(block(draft, solid.shape.clone(), None))
 }
 
 fn block(draft: &Draft, shape: Polyhedron, scan: Option<MassProperties>) -> Block {

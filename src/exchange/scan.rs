@@ -4,12 +4,14 @@
 //! than the stone where that is hollow, so volume, centroid and inertia stay those of the scan ([`crate::model::Block::scan`]). A rough
 //! underside would stand on three points: what lies within the bearing depth of the lowest point bears, as one plane face.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use parry3d_f64::math::Vector;
 use parry3d_f64::transformation::try_convex_hull;
 
-use crate::exchange::closing::close;
+use crate::exchange::closing::{close, edges};
 use crate::exchange::fault::Fault;
-use crate::exchange::solid::{FLATNESS, diagonal, solid};
+use crate::exchange::solid::{FLATNESS, diagonal};
 use crate::math::{Vec3, cos, sin};
 use crate::shape::{MassProperties, Polyhedron};
 
@@ -46,12 +48,25 @@ pub fn scanned(
     let holds = mesh.mass_properties();
     // A mesh that is inside out encloses a negative volume, around the same centroid.
     let holds = if holds.volume < 0.0 { holds.times(-1.0) } else { holds };
-    let (triangles, corners) = hull(&raised(vertices, bearing)).ok_or_else(|| no_hull(block, bearing))?;
-    let hull = solid(block, &corners, &triangles, None)?.shape;
-    if !bears(&hull) {
-        return Err(no_hull(block, bearing));
+    let hull = hull(&raised(vertices, bearing)).filter(|hull| hull.validate(FLATNESS * size).is_ok());
+    Ok(Scanned { hull: hull.ok_or_else(|| no_hull(block, bearing))?, holds })
+}
+
+/// The hull of a scan as a file has it: no faces are put together, see [`hull`].
+///
+/// # Errors
+/// Why it is no convex solid.
+pub fn stated(block: &str, vertices: &[Vec3], faces: &[Vec<u32>]) -> Result<Polyhedron, Vec<Fault>> {
+    let hull = Polyhedron { vertices: vertices.to_vec(), faces: faces.to_vec() };
+    match hull.validate(FLATNESS * diagonal(vertices)) {
+        Ok(()) => Ok(hull),
+        Err(fault) => {
+            let fix =
+                "write the hull as pirca does, or leave out \"scan\" where the faces are those of the stone";
+            let allowed = "a convex solid with plane faces, each corner once: the hull of the scan";
+            Err(vec![Fault::of(block, format!("with \"scan\" {fault}"), allowed, fix)])
+        }
     }
-    Ok(Scanned { hull, holds })
 }
 
 fn no_hull(block: &str, bearing: f64) -> Vec<Fault> {
@@ -89,18 +104,34 @@ fn directions() -> impl Iterator<Item = Vec3> {
     })
 }
 
-/// Triangles and corners of the hull; `None` of points in a plane.
-fn hull(points: &[Vec3]) -> Option<(Vec<Vec<u32>>, Vec<Vec3>)> {
+/// The hull: triangles, and one face of all that lie lowest. `None` where none does, or where the points lie in a plane. Faces that are
+/// nearly in a plane stay apart: put together with what bears, they would tilt it.
+fn hull(points: &[Vec3]) -> Option<Polyhedron> {
     let points: Vec<Vector> = points.iter().map(|v| Vector::new(v.x, v.y, v.z)).collect();
     let (corners, triangles) = try_convex_hull(&points).ok()?;
-    let corners = corners.iter().map(|v| Vec3::new(v.x, v.y, v.z)).collect();
-    Some((triangles.iter().map(|triangle| triangle.to_vec()).collect(), corners))
+    let vertices: Vec<Vec3> = corners.iter().map(|v| Vec3::new(v.x, v.y, v.z)).collect();
+    let low = vertices.iter().map(|v| v.z).fold(f64::INFINITY, f64::min);
+    let is_low = |triangle: &[u32; 3]| triangle.iter().all(|&v| vertices[v as usize].z == low);
+    let (foot, others): (Vec<[u32; 3]>, Vec<[u32; 3]>) = triangles.into_iter().partition(is_low);
+    let mut faces = vec![around(&foot)?];
+    faces.extend(others.iter().map(|triangle| triangle.to_vec()));
+    Some(Polyhedron { vertices, faces })
 }
 
-/// Whether it has a face to stand on: one that looks straight down from its lowest corners.
-fn bears(hull: &Polyhedron) -> bool {
-    let low = hull.bounds().0.z;
-    (0..hull.faces.len()).any(|face| hull.face_vertices(face).all(|v| v.z == low))
+/// The corners around triangles of a plane, in their way round; `None` of no triangle, or where they do not hang together.
+fn around(triangles: &[[u32; 3]]) -> Option<Vec<u32>> {
+    let edges: BTreeSet<(u32, u32)> = triangles.iter().flat_map(|t| edges(t).collect::<Vec<_>>()).collect();
+    let next: BTreeMap<u32, u32> =
+        edges.iter().filter(|(a, b)| !edges.contains(&(*b, *a))).copied().collect();
+    let (first, _) = next.first_key_value()?;
+    let mut corners = vec![*first];
+    while let Some(corner) = next.get(corners.last()?).filter(|corner| *corner != first) {
+        if corners.len() == next.len() {
+            return None;
+        }
+        corners.push(*corner);
+    }
+    (corners.len() == next.len()).then_some(corners)
 }
 
 #[cfg(test)]
@@ -131,6 +162,42 @@ mod tests {
         // The hull is the box without what lies below the plane that bears.
         assert!((stone.hull.volume() - 0.4 * 0.3 * 0.599).abs() < 1e-12, "{}", stone.hull.volume());
         assert_eq!(stone.hull.bounds().0.z, 1e-3);
+    }
+
+    #[test]
+    fn a_rough_underside_bears_on_what_lies_within_the_depth() {
+        // A pebble: a ball of 0.2 m whose radius goes up and down by 5 %, with many corners near each other at the poles.
+        let (rings, around) = (40, 80);
+        let point = |i: usize, j: usize| {
+            let (up, way) = (
+                std::f64::consts::PI * i as f64 / rings as f64,
+                std::f64::consts::TAU * j as f64 / around as f64,
+            );
+            let radius = 0.2 * (1.0 + 0.05 * sin(3.0 * way) * sin(5.0 * up));
+            Vec3::new(sin(up) * cos(way), sin(up) * sin(way), cos(up)) * radius
+        };
+        let mut vertices = vec![point(0, 0)];
+        vertices.extend((1..rings).flat_map(|i| (0..around).map(move |j| point(i, j))));
+        vertices.push(point(rings, 0));
+        let (at, last) =
+            (|i: usize, j: usize| (1 + (i - 1) * around + j % around) as u32, vertices.len() as u32 - 1);
+        let mut faces: Vec<Vec<u32>> = Vec::new();
+        for j in 0..around {
+            faces.push(vec![0, at(1, j), at(1, j + 1)]);
+            faces.push(vec![last, at(rings - 1, j + 1), at(rings - 1, j)]);
+            faces
+                .extend((1..rings - 1).map(|i| vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]));
+        }
+        let mut before = 0.0;
+        for bearing in [1e-3, 2e-3, 5e-3, 1e-2, 2e-2] {
+            let stone = scanned("block 0", &vertices, &faces, bearing).expect("it stands");
+            let low = stone.hull.bounds().0.z;
+            let bears = |face: &usize| stone.hull.face_vertices(*face).all(|v| v.z < low + 1e-9);
+            let foot = (0..stone.hull.faces.len()).find(bears).expect("a foot");
+            let area = stone.hull.face_area_vector(foot).norm();
+            assert!(area > before, "{bearing}: {area}");
+            before = area;
+        }
     }
 
     #[test]

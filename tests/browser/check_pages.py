@@ -1,8 +1,8 @@
 """Opens the pages that pirca writes in a real browser, without a network.
 
-usage: check_pages.py CHROMIUM RUN WALL VERDICT CAPACITY COMPARE SENSITIVITY PLAN DETECTABILITY READINGS PLATE
+usage: check_pages.py CHROMIUM RUN WALL VERDICT CAPACITY COMPARE SENSITIVITY PLAN DETECTABILITY READINGS PLATE TYPES
         (CHROMIUM: the browser's program; RUN: report.html of a run with three random walls or more; WALL, VERDICT, ...: report.html of
-        analyse, diagnose, capacity, compare, sensitivity, plan-tests, detectability, readings and homogenise; needs the package of
+        analyse, diagnose, capacity, compare, sensitivity, plan-tests, detectability, readings, homogenise and run (of types of elements); needs the package of
         requirements.txt)
 
 Of every page: nothing is fetched, the console is silent, no script of a name runs, the words that must be there are seen, all that a
@@ -202,10 +202,10 @@ def check_paper(browser, path):
 
 
 def main():
-    if len(sys.argv) != 12:
+    if len(sys.argv) != 13:
         sys.exit(__doc__)
     chromium, (run, wall, verdict, *answers) = sys.argv[1], map(pathlib.Path, sys.argv[2:])
-    capacity, compare, sensitivity, plan, detectability, readings, plate = answers
+    capacity, compare, sensitivity, plan, detectability, readings, plate, types = answers
     shared = ["Limits of validity", "Provenance", "For a paper"]
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox", *SOFTWARE])
@@ -221,6 +221,7 @@ def main():
             (detectability, ["What came out", "What each mechanism was", "Wall and inputs", *shared]),
             (readings, ["What came out", "Statements", "Readings, the best ones first", "Wall and inputs", *shared]),
             (plate, ["What came out", "Stiffness at kn of the arm", "Size of the cells", "Wall and inputs", *shared]),
+            (types, ["What came out", "Types of elements", "Wall and inputs", *shared]),
         ]:
             found.append(f"{path}: {check(browser, path, words)} figures")
             check_names(browser, path)

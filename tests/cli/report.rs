@@ -276,9 +276,13 @@ fn a_study_of_elements_has_a_page_with_its_table_and_its_inputs() {
     let output = folder.pirca(&["report", "studies/tiny", "--out", "page.html"]);
     assert!(output.status.success(), "{}", stderr(&output));
     let page = fs::read_to_string(folder.path("page.html")).expect("the page");
-    for part in
-        ["Types of elements in study tiny", "aligned-spheres", "falls under gravity (2 of 2)", "cube.side_m"]
-    {
+    for part in [
+        "Types of elements in study tiny",
+        "2 of 2 types do not stand: aligned-spheres, sphere-cloud.",
+        "aligned-spheres",
+        "falls under gravity (2 of 2)",
+        "cube.side_m",
+    ] {
         assert!(page.contains(part), "{part}");
     }
 }

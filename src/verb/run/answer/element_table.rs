@@ -6,6 +6,7 @@ use anyhow::{Context, Result};
 use serde_json::{Value, json};
 
 use crate::ensemble::{ElementRow, Timed, replace_file};
+use crate::protocol::Stand;
 use crate::render::document::{Document, Layout, Part, Table};
 use crate::render::number::{or_dash, significant};
 use crate::study::{ElementStudy, Reported};
@@ -94,7 +95,7 @@ pub fn element_document(study: &ElementStudy, rows: &[Timed]) -> Document<'stati
     Document {
         title: format!("Types of elements in study {}", study.name),
         question: study.question.clone(),
-        parts: vec![Part::Table(table)],
+        parts: Part::sentences(endings(study, rows)).chain([Part::Table(table)]).collect(),
         files: Vec::new(),
         limits: vec![
             "An assembly is shoved, and stands or falls: its answer is no load, and says nothing of walls of such elements.".to_owned(),
@@ -104,6 +105,18 @@ pub fn element_document(study: &ElementStudy, rows: &[Timed]) -> Document<'stati
                   explicit solver of grains, polyhedra by that of blocks, both with local damping."
             .to_owned(),
     }
+}
+
+/// Which types stand, and which do not: a type stands where all its assemblies do.
+fn endings(study: &ElementStudy, rows: &[Timed]) -> Vec<String> {
+    let stands = |name: &str| of_arm(rows, name).all(|row| row.stand == Some(Stand::Stands));
+    let (up, down): (Vec<&str>, Vec<&str>) =
+        study.arms.iter().map(|arm| arm.name.as_str()).partition(|name| stands(name));
+    let sentence = |names: &[&str], verb: &str| {
+        (!names.is_empty())
+            .then(|| format!("{} of {} types {verb}: {}.", names.len(), study.arms.len(), names.join(", ")))
+    };
+    [sentence(&up, "stand"), sentence(&down, "do not stand")].into_iter().flatten().collect()
 }
 
 fn own_line(Timed { row, seconds, .. }: &Timed, rows: &[Timed]) -> [String; 10] {
