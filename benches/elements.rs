@@ -9,7 +9,7 @@ use pirca::contact;
 use pirca::generate::elements::{Elements, Shapes};
 use pirca::law::{CohesionAfterSlip, Coulomb, Frictional, NormalLaw, Sampling};
 use pirca::math::{radians, tan};
-use pirca::model::{Block, Heap, Support, Tag, Wall};
+use pirca::model::{Block, Heap, Wall};
 use pirca::random::Streams;
 use pirca::solve::explicit;
 use pirca::solve::grains::{Settings, Simulation};
@@ -42,14 +42,7 @@ fn pushed(elements: &Elements, count: usize) -> Simulation {
 /// Polyhedra as they are laid, in true time.
 fn laid<'a>(elements: &Elements, law: &'a Coulomb) -> explicit::Simulation<'a> {
     let Shapes::Polyhedra(solids) = fill(elements) else { panic!("these scenes are made of polyhedra") };
-    let block = |shape| Block {
-        shape,
-        density: DENSITY,
-        support: Support::Free,
-        tag: Tag::Stone,
-        group: None,
-        scan: None,
-    };
+    let block = |shape| Block::stone(shape, DENSITY);
     let wall = Wall { blocks: solids.into_iter().map(block).collect() }.with_base();
     let settings = explicit::Settings {
         unbalanced_ratio: 1e-3,

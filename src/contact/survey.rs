@@ -222,17 +222,13 @@ fn scattered(leads: &[usize], groups: &[Vec<usize>]) -> Vec<usize> {
 mod tests {
     use super::*;
     use crate::math::Vec3;
-    use crate::model::{Block, Tag};
+    use crate::model::Block;
 
     /// Cubes of 1 m in a row along x at these places, the first fixed.
     fn row(places: &[f64]) -> Wall {
         let block = |(i, x): (usize, &f64)| Block {
-            shape: Polyhedron::cuboid(Vec3::new(*x, 0.0, 0.0), Vec3::new(x + 1.0, 1.0, 1.0)),
-            density: 2400.0,
             support: if i == 0 { Support::Fixed } else { Support::Free },
-            tag: Tag::Stone,
-            group: None,
-            scan: None,
+            ..Block::stone(Polyhedron::cuboid(Vec3::new(*x, 0.0, 0.0), Vec3::new(x + 1.0, 1.0, 1.0)), 2400.0)
         };
         Wall { blocks: places.iter().enumerate().map(block).collect() }
     }

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::ensemble::ledger::Ledger;
 use crate::ensemble::{RunError, Settings, replace_file};
 use crate::generate::elements::Shapes;
-use crate::model::{Block, Heap, Support, Tag, Wall};
+use crate::model::{Block, Heap, Wall};
 use crate::protocol::{Phase, Shoved, Stand, shove_heap, shove_wall};
 use crate::random::Streams;
 use crate::study::{ElementArm, ElementStudy};
@@ -131,14 +131,7 @@ pub fn evaluate_element(study: &ElementStudy, arm: &ElementArm, member: u64) -> 
         }
         Ok(Shapes::Polyhedra(solids)) => {
             let density = study.polyhedron_density;
-            let block = |shape| Block {
-                shape,
-                density,
-                support: Support::Free,
-                tag: Tag::Stone,
-                group: None,
-                scan: None,
-            };
+            let block = |shape| Block::stone(shape, density);
             let wall = Wall { blocks: solids.into_iter().map(block).collect() }.with_base();
             filled(empty, shove_wall(&wall, &study.joint, study.sub_contacts, study.explicit, &study.shove))
         }

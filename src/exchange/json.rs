@@ -79,12 +79,11 @@ mod tests {
 
     fn wall() -> Wall {
         let stone = Block {
-            shape: Polyhedron::cuboid(Vec3::new(0.0, -0.1, 0.0), Vec3::new(0.1 + 0.2, 0.1, 1.0 / 3.0)),
-            density: 2400.0,
-            support: Support::Free,
             tag: Tag::Header,
-            group: None,
-            scan: None,
+            ..Block::stone(
+                Polyhedron::cuboid(Vec3::new(0.0, -0.1, 0.0), Vec3::new(0.1 + 0.2, 0.1, 1.0 / 3.0)),
+                2400.0,
+            )
         };
         Wall { blocks: vec![stone] }.with_base()
     }

@@ -68,13 +68,11 @@ mod tests {
 
     #[test]
     fn reading_the_objects_back_gives_the_same_solids() {
-        let solid = |x: f64| Block {
-            shape: Polyhedron::cuboid(Vec3::new(x, 0.0, 0.0), Vec3::new(x + 0.1, 0.2, 1.0 / 3.0)),
-            density: 2400.0,
-            support: Support::Free,
-            tag: Tag::Stone,
-            group: None,
-            scan: None,
+        let solid = |x: f64| {
+            Block::stone(
+                Polyhedron::cuboid(Vec3::new(x, 0.0, 0.0), Vec3::new(x + 0.1, 0.2, 1.0 / 3.0)),
+                2400.0,
+            )
         };
         let wall = Wall { blocks: vec![solid(0.0), solid(0.1 + 0.2)] };
         let (mut vertices, mut solids): (Vec<Vec3>, Vec<(String, Polyhedron)>) = (vec![], vec![]);

@@ -1,7 +1,7 @@
 //! Walls with known answers: the named scenes of tests, benches and doc examples.
 
 use crate::math::Vec3;
-use crate::model::{Block, Support, Tag, Wall};
+use crate::model::{Block, Wall};
 use crate::shape::Polyhedron;
 
 /// Length of a whole stone of the canonical walls, with its share of the head joints (m).
@@ -60,17 +60,13 @@ pub fn running_bond(courses: usize, whole: usize) -> Wall {
             let opening = |end: usize| if end == 0 || end == whole + 1 { 0.0 } else { 0.5 * HEAD_JOINT_GAP };
             let left = joint(stone) * STONE_LENGTH + opening(stone);
             let right = joint(stone + 1) * STONE_LENGTH - opening(stone + 1);
-            blocks.push(Block {
-                shape: Polyhedron::cuboid(
+            blocks.push(Block::stone(
+                Polyhedron::cuboid(
                     Vec3::new(left, -0.5 * THICKNESS, bottom),
                     Vec3::new(right, 0.5 * THICKNESS, top),
                 ),
-                density: DENSITY,
-                support: Support::Free,
-                tag: Tag::Stone,
-                group: None,
-                scan: None,
-            });
+                DENSITY,
+            ));
         }
     }
     Wall { blocks }
@@ -79,6 +75,7 @@ pub fn running_bond(courses: usize, whole: usize) -> Wall {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::{Support, Tag};
     use approx::assert_relative_eq;
 
     #[test]

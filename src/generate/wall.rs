@@ -4,7 +4,7 @@ use crate::generate::coursed::{self, Coursed};
 use crate::generate::cut::{self, Cuts};
 use crate::generate::draft::{Draft, Extent, Fault, Stone, Tally};
 use crate::generate::{Arrangement, Layout, regular, wedge};
-use crate::model::{Block, Support, Tag, Wall};
+use crate::model::{Block, Tag, Wall};
 use crate::random::{Family, Streams};
 
 /// A wall and what it took to make it.
@@ -171,12 +171,8 @@ fn finish(draft: Draft, stones: Vec<Stone>, attempts: u32) -> Generated {
         .map(|stone| {
             let quantity = if stone.tag == Tag::Wedge { "wedge density" } else { "density" };
             Block {
-                density: layout.density.sample(&mut draft.stream(quantity, stone.place)),
-                shape: stone.shape,
-                support: Support::Free,
                 tag: stone.tag,
-                group: None,
-                scan: None,
+                ..Block::stone(stone.shape, layout.density.sample(&mut draft.stream(quantity, stone.place)))
             }
         })
         .collect();

@@ -24,6 +24,11 @@ pub struct Block {
 }
 
 impl Block {
+    /// A stone that moves freely, a body of its own: its shape at rest (m) and its density (kg/m^3).
+    pub fn stone(shape: Polyhedron, density: f64) -> Block {
+        Block { shape, density, support: Support::Free, tag: Tag::Stone, group: None, scan: None }
+    }
+
     /// Volume (m^3), centroid (m) and inertia (m^5) of the stone at unit density, in world coordinates.
     pub fn mass_properties(&self) -> MassProperties {
         self.scan.unwrap_or_else(|| self.shape.mass_properties())

@@ -15,7 +15,7 @@ use crate::model::Block;
 /// use pirca::shape::Polyhedron;
 /// // The smallest cell of a half bond: one stone of 0.4 x 0.3 x 0.2 m.
 /// let shape = Polyhedron::cuboid(Vec3::new(0.0, -0.15, 0.0), Vec3::new(0.4, 0.15, 0.2));
-/// let stone = Block { shape, density: 2400.0, support: Support::Free, tag: Tag::Stone, group: None, scan: None };
+/// let stone = Block::stone(shape, 2400.0);
 /// let cell = Cell { blocks: vec![stone], lattice: [[0.4, 0.0], [0.2, 0.2]], thickness: 0.3 };
 /// assert!((cell.area() - 0.08).abs() < 1e-15 && (cell.solid_share() - 1.0).abs() < 1e-12);
 /// // The stone on top of it to its left.

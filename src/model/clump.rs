@@ -152,21 +152,13 @@ impl Heap {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::Tag;
 
     const ROWS: Rows = Rows { radius: 0.01, spacing: 0.02, phase: 0.0 };
     const MATERIAL: Frictional = Frictional { young: 1e7, ks_over_kn: 0.5, phi: 0.5 };
 
     fn block(support: Support, group: Option<&str>) -> Block {
         let shape = Polyhedron::cuboid(Vec3::zeros(), Vec3::new(0.2, 0.12, 0.06));
-        Block {
-            shape,
-            density: 2400.0,
-            support,
-            tag: Tag::Stone,
-            group: group.map(str::to_owned),
-            scan: None,
-        }
+        Block { support, group: group.map(str::to_owned), ..Block::stone(shape, 2400.0) }
     }
 
     #[test]

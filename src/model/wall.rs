@@ -140,15 +140,15 @@ impl Wall {
         let Some(density) = self.blocks.first().map(|b| b.density) else { return self };
         let (low, high) = self.bounds();
         self.blocks.push(Block {
-            shape: Polyhedron::cuboid(
-                Vec3::new(low.x - BASE_MARGIN, low.y - BASE_MARGIN, -BASE_MARGIN),
-                Vec3::new(high.x + BASE_MARGIN, high.y + BASE_MARGIN, 0.0),
-            ),
-            density,
             support: Support::Fixed,
             tag: Tag::Base,
-            group: None,
-            scan: None,
+            ..Block::stone(
+                Polyhedron::cuboid(
+                    Vec3::new(low.x - BASE_MARGIN, low.y - BASE_MARGIN, -BASE_MARGIN),
+                    Vec3::new(high.x + BASE_MARGIN, high.y + BASE_MARGIN, 0.0),
+                ),
+                density,
+            )
         });
         self
     }

@@ -20,12 +20,9 @@ pub fn restrain(wall: &Wall, restraint: &Restraint, towards: Direction) -> Wall 
     let mut assembly = wall.clone().with_base();
     let density = wall.blocks.first().map_or(0.0, |b| b.density);
     let fixed = |from: Vec3, to: Vec3, tag| Block {
-        shape: Polyhedron::cuboid(from, to),
-        density,
         support: Support::Fixed,
         tag,
-        group: None,
-        scan: None,
+        ..Block::stone(Polyhedron::cuboid(from, to), density)
     };
     if let Some(height) = restraint.base.strip_height {
         let (from, to) = strip(wall, height, towards);

@@ -131,7 +131,7 @@ impl Held {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{Block, Support, Tag, Wall};
+    use crate::model::{Block, Wall};
     use crate::shape::Polyhedron;
     use crate::solve::bodies::Bodies;
 
@@ -165,14 +165,7 @@ mod tests {
 
     #[test]
     fn a_jack_pushes_as_far_as_its_other_end_goes() {
-        let block = Block {
-            shape: Polyhedron::cuboid(Vec3::zeros(), Vec3::new(0.4, 0.3, 0.1)),
-            density: 2400.0,
-            support: Support::Free,
-            tag: Tag::Stone,
-            group: None,
-            scan: None,
-        };
+        let block = Block::stone(Polyhedron::cuboid(Vec3::zeros(), Vec3::new(0.4, 0.3, 0.1)), 2400.0);
         let mut body = Bodies::from_wall(&Wall { blocks: vec![block] }).all.remove(0);
         let jack = Tie { travel: 2.0, two_sided: true, pretension: 0.0, ..ROPE };
         let held = Held::new(jack, &body);
@@ -187,14 +180,7 @@ mod tests {
     #[test]
     fn its_stiffness_is_that_of_central_differences() {
         let shape = Polyhedron::cuboid(Vec3::zeros(), Vec3::new(0.4, 0.3, 0.1));
-        let block = Block {
-            shape,
-            density: 2400.0,
-            support: Support::Free,
-            tag: Tag::Stone,
-            group: None,
-            scan: None,
-        };
+        let block = Block::stone(shape, 2400.0);
         let mut body = Bodies::from_wall(&Wall { blocks: vec![block] }).all.remove(0);
         let here = body.clone();
         body.place(&here, &Vec3::new(1e-3, 2e-3, -1e-3), &Vec3::new(0.02, -0.03, 0.05));

@@ -148,14 +148,9 @@ impl ElementStudy {
 
     /// The same study with another seed.
     pub fn with_seed(mut self, seed: u64) -> ElementStudy {
-        let changed =
-            BTreeMap::from([("study".to_owned(), self.hash), ("seed".to_owned(), seed.to_string())]);
-        (self.seed, self.hash) = (seed, hash_of(&changed));
-        let changed = BTreeMap::from([
-            ("study".to_owned(), self.assemblies_hash),
-            ("seed".to_owned(), seed.to_string()),
-        ]);
-        self.assemblies_hash = hash_of(&changed);
+        let changed = |hash| changed(hash, "seed", seed);
+        (self.seed, self.hash) = (seed, changed(self.hash));
+        self.assemblies_hash = changed(self.assemblies_hash);
         self
     }
 
@@ -164,11 +159,14 @@ impl ElementStudy {
         for arm in self.arms.iter_mut().filter(|arm| !arm.elements.is_fixed()) {
             arm.members = members.max(1);
         }
-        let changed =
-            BTreeMap::from([("study".to_owned(), self.hash), ("members".to_owned(), members.to_string())]);
-        self.hash = hash_of(&changed);
+        self.hash = changed(self.hash, "members", members);
         self
     }
+}
+
+/// The hash of a study with another value of a key.
+fn changed(hash: String, key: &str, value: u64) -> String {
+    hash_of(&BTreeMap::from([("study".to_owned(), hash), (key.to_owned(), value.to_string())]))
 }
 
 /// Whether a key decides what an assembly comes to, beside its type and its index. How many there are and what is asked decides none.

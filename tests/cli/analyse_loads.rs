@@ -4,7 +4,7 @@ use std::fs;
 
 use pirca::exchange::write_wall_json;
 use pirca::math::{Vec3, atan, cos, degrees, radians, sin, tan};
-use pirca::model::{Block, Support, Tag, Wall};
+use pirca::model::{Block, Support, Wall};
 use pirca::shape::Polyhedron;
 use serde_json::Value;
 
@@ -15,7 +15,7 @@ const DENSITY: f64 = 2400.0;
 
 fn block(support: Support, low: [f64; 3], high: [f64; 3]) -> Block {
     let shape = Polyhedron::cuboid(Vec3::from(low), Vec3::from(high));
-    Block { shape, density: DENSITY, support, tag: Tag::Stone, group: None, scan: None }
+    Block { support, ..Block::stone(shape, DENSITY) }
 }
 
 /// Blocks 0.2 m deep along y and 0.4 m wide, one on the other from z = 0 up to these heights, on a wide fixed one, block 0.

@@ -5,7 +5,7 @@ use std::process::Command;
 
 use pirca::exchange::write_wall_json;
 use pirca::math::{Vec3, atan, degrees, radians, tan};
-use pirca::model::{Block, Support, Tag, Wall};
+use pirca::model::{Block, Support, Wall};
 use pirca::shape::Polyhedron;
 use serde_json::Value;
 
@@ -25,7 +25,7 @@ fn overturns() -> f64 {
 fn block() -> Wall {
     let own = |support, low: [f64; 3], high: [f64; 3]| {
         let shape = Polyhedron::cuboid(Vec3::from(low), Vec3::from(high));
-        Block { shape, density: 2400.0, support, tag: Tag::Stone, group: None, scan: None }
+        Block { support, ..Block::stone(shape, 2400.0) }
     };
     Wall {
         blocks: vec![

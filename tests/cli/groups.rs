@@ -13,7 +13,7 @@ use crate::walls::{Folder, GOOD_JSON, example};
 
 fn block(shape: Polyhedron, group: &str) -> Block {
     let group = (!group.is_empty()).then(|| group.to_owned());
-    Block { shape, density: 2400.0, support: Support::Free, tag: Tag::Stone, group, scan: None }
+    Block { group, ..Block::stone(shape, 2400.0) }
 }
 
 fn fixed(shape: Polyhedron) -> Block {

@@ -37,14 +37,7 @@ fn wall(small_on_a_wedge: bool) -> Wall {
             v.z = if v.z > 0.0 { slope * (1.0 - v.y) + 0.05 } else { 0.0 };
         }
         // No base, which would take the platform's place.
-        let fixed = Block {
-            shape: wedge,
-            density: 2400.0,
-            support: Support::Fixed,
-            tag: Tag::End,
-            group: None,
-            scan: None,
-        };
+        let fixed = Block { support: Support::Fixed, tag: Tag::End, ..Block::stone(wedge, 2400.0) };
         blocks.insert(0, small);
         blocks.push(fixed);
     } else {

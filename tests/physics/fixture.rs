@@ -6,7 +6,7 @@ use pirca::generate::{
 };
 use pirca::law::{CohesionAfterSlip, Coulomb, NormalLaw, Sampling};
 use pirca::math::{Vec3, cos, radians, sin, tan};
-use pirca::model::{Block, Support, Tag, Wall};
+use pirca::model::{Block, Wall};
 use pirca::protocol::{Changes, Confirmation, Criterion, LoadPath, Task};
 use pirca::random::{Family, Streams};
 use pirca::shape::Polyhedron;
@@ -34,7 +34,7 @@ pub fn dry(kn: f64, phi_deg: f64) -> Coulomb {
 
 /// A free stone.
 pub fn stone(shape: Polyhedron, density: f64) -> Block {
-    Block { shape, density, support: Support::Free, tag: Tag::Stone, group: None, scan: None }
+    Block::stone(shape, density)
 }
 
 /// A box of the given size resting on z = 0, centred on x = y = 0.

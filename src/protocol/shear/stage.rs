@@ -22,7 +22,7 @@ pub fn beam(wall: &Wall, shear: &Shear) -> Block {
         Head::Turns => Support::OutOfPlane,
         Head::Level => Support::Upright,
     };
-    Block { shape, density, support, tag: Tag::End, group: None, scan: None }
+    Block { support, tag: Tag::End, ..Block::stone(shape, density) }
 }
 
 /// The jack at the middle of a beam; its load factor is a drift.

@@ -51,21 +51,14 @@ fn collection(stem: &str, states: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{Block, BuiltJoint, JointReading, Level, Movement, ReplayState, Support, Tag};
+    use crate::model::{Block, BuiltJoint, JointReading, Level, Movement, ReplayState};
     use crate::shape::Polyhedron;
 
     #[test]
     fn a_replay_is_two_collections_with_a_file_for_every_state() {
         let shape = Polyhedron::cuboid(Vec3::zeros(), Vec3::new(1.0, 1.0, 1.0));
         let polygon = shape.vertices[..4].to_vec();
-        let block = Block {
-            shape,
-            density: 2400.0,
-            support: Support::Free,
-            tag: Tag::Stone,
-            group: None,
-            scan: None,
-        };
+        let block = Block::stone(shape, 2400.0);
         let wall = Wall { blocks: vec![block] };
         let joint = |blocks| BuiltJoint {
             blocks,

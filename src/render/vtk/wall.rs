@@ -124,14 +124,7 @@ mod tests {
     fn wall() -> Wall {
         let solid = Polyhedron::cuboid(Vec3::zeros(), Vec3::new(1.0, 1.0, 1.0));
         let (half, _) = solid.cut(&Plane::through(Vec3::zeros(), Vec3::new(1.0, -1.0, 0.0)), 1e-9);
-        let block = |shape: Polyhedron, tag: Tag| Block {
-            shape,
-            density: 2400.0,
-            support: Support::Free,
-            tag,
-            group: None,
-            scan: None,
-        };
+        let block = |shape: Polyhedron, tag: Tag| Block { tag, ..Block::stone(shape, 2400.0) };
         let aside = solid.translated(&Vec3::new(2.0, 0.0, 0.0));
         Wall { blocks: vec![block(half.unwrap(), Tag::Wedge), block(aside, Tag::Stone)] }
     }

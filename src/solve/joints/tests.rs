@@ -3,7 +3,7 @@
 use crate::contact;
 use crate::law::{ClosureTable, CohesionAfterSlip, Coulomb, NormalLaw, Sampling, Stiffening, Weakening};
 use crate::math::Vec3;
-use crate::model::{Block, Support, Tag, Wall};
+use crate::model::{Block, Wall};
 use crate::shape::Polyhedron;
 use crate::solve::Assembly;
 use crate::solve::joints::Anchor;
@@ -23,13 +23,8 @@ const DRY: Coulomb = Coulomb {
 
 /// Two blocks, one half over the edge of the other.
 fn pair(law: &Coulomb) -> Assembly<'_> {
-    let block = |low: [f64; 3], high: [f64; 3]| Block {
-        shape: Polyhedron::cuboid(Vec3::from(low), Vec3::from(high)),
-        density: 2400.0,
-        support: Support::Free,
-        tag: Tag::Stone,
-        group: None,
-        scan: None,
+    let block = |low: [f64; 3], high: [f64; 3]| {
+        Block::stone(Polyhedron::cuboid(Vec3::from(low), Vec3::from(high)), 2400.0)
     };
     let wall = Wall {
         blocks: vec![block([0.0, 0.0, 0.0], [0.4, 0.3, 0.1]), block([0.15, 0.05, 0.1], [0.5, 0.25, 0.25])],

@@ -148,7 +148,7 @@ pub(super) fn inertia_along(inertias: [&Inertia; 2], arms: &[Vec3; 2], direction
 #[cfg(test)]
 pub(super) mod fixture {
     use super::*;
-    use crate::model::{Block, Support, Tag, Wall};
+    use crate::model::{Block, Support, Wall};
     use crate::shape::Polyhedron;
     use crate::solve::bodies::Bodies;
     use crate::solve::nonsmooth::point::Bearing;
@@ -160,7 +160,7 @@ pub(super) mod fixture {
             let bottom = 0.2 * k as f64;
             let shape = Polyhedron::cuboid(Vec3::new(-0.2, -0.1, bottom), Vec3::new(0.2, 0.1, bottom + 0.2));
             let support = if k == 0 { Support::Fixed } else { Support::Upright };
-            Block { shape, density: 2400.0, support, tag: Tag::Stone, group: None, scan: None }
+            Block { support, ..Block::stone(shape, 2400.0) }
         };
         // The ground comes last.
         let blocks = (1..=n).chain([0]).map(block).collect();

@@ -44,9 +44,7 @@ impl Given {
     pub fn of_elements(study: &ElementStudy) -> Given {
         let line = |(key, value): (&String, &String)| {
             let used = study.used.iter().find(|used| used.key == *key);
-            let marked = used.is_some_and(|used| used.status == ASSUMED);
-            let source = used.map_or_else(|| STATED.to_owned(), of_distribution);
-            Line { cells: vec![key.clone(), shown(value), source], marked, ..Line::default() }
+            input(key, value, used, used.map_or_else(|| STATED.to_owned(), of_distribution))
         };
         let rows = entries(&study.effective).map(line).collect();
         let table = Table { rows, ..Table::new("All types", &HEADS, Vec::new()) };
@@ -68,9 +66,7 @@ fn inputs(study: &Study, loaded: &Loaded) -> Vec<Table> {
         let rows = own.map(|(key, value)| {
             let used = loaded.used.iter().find(|used| used.key == *key);
             let changed = loaded.study.effective.get(key) != Some(value) || study.is_asked_for(key);
-            let marked = used.is_some_and(|used| used.status == ASSUMED);
-            let source = source(used, changed, loaded.stated.states(key));
-            Line { cells: vec![key.clone(), shown(value), source], marked, ..Line::default() }
+            input(key, value, used, source(used, changed, loaded.stated.states(key)))
         });
         let rows = rows.collect();
         Table { rows, ..Table::new(name, &HEADS, Vec::new()) }
@@ -85,6 +81,12 @@ fn inputs(study: &Study, loaded: &Loaded) -> Vec<Table> {
         all.push(own);
     }
     all
+}
+
+/// An input with its source; one that is only assumed stands out.
+fn input(key: &str, value: &str, used: Option<&Used>, source: String) -> Line {
+    let marked = used.is_some_and(|used| used.status == ASSUMED);
+    Line { cells: vec![key.to_owned(), shown(value), source], marked, ..Line::default() }
 }
 
 /// Those distributions that are only assumed, in words.
