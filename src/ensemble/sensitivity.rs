@@ -85,7 +85,7 @@ fn is_drawn(arm: &Arm, name: &str) -> bool {
         ("densities", _) => scatters(&layout.density),
         ("joints", _) => {
             [&joint.kn_factor, &joint.phi_deg, &joint.cohesion].into_iter().any(scatters)
-                || arm.mechanisms.has("contact_area")
+                || ["contact_area", "bearing_points"].iter().any(|cause| arm.mechanisms.has(cause))
                 || joint.bearing.is_some()
         }
         _ => false,

@@ -48,11 +48,10 @@ fn the_table_the_keys_and_the_priors_agree() {
         files.keys().filter(|name| name.starts_with("mechanism/")).cloned().collect();
     assert_eq!(there, priors);
     // Every prior lies where its key allows values: a study of its mean and of its quartiles is sound.
-    for (at, other) in
-        [0.25, 0.5, 0.75].into_iter().zip(["joint_closure", "stress_stiffening"].into_iter().cycle())
-    {
-        // One law for the closure of a joint at a time.
-        let tables = all.iter().filter(|m| m.name != other).map(|m| {
+    let others = [["joint_closure", "bearing_points"], ["stress_stiffening", "contact_area"]];
+    for (at, others) in [0.25, 0.5, 0.75].into_iter().zip(others.into_iter().cycle()) {
+        // One law for the closure of a joint at a time, and one part of its face that touches.
+        let tables = all.iter().filter(|m| !others.contains(&m.name)).map(|m| {
             let value = |p: &pirca::study::Parameter| {
                 let x = if p.prior.sd() == 0.0 { p.prior.mean() } else { p.prior.quantile(at) };
                 format!("{} = {x:?}\n", p.key)
@@ -238,6 +237,8 @@ fn what_does_not_go_together_is_refused_by_name() {
         ("[mechanism.creeep]\nrate_per_deg = 0.1\n", "seed = 7", "seed = 8", "mechanism.creeep is not a known key"),
         ("[mechanism.creep]\nrate = 0.1\n", "seed = 7", "seed = 8", "mechanism.creep.rate is not a known key"),
         ("[mechanism.contact_area]\nshare = 0\n", "seed = 7", "seed = 8", "mechanism.contact_area.share = 0: allowed is a number above 0 and at most 1"),
+        ("[mechanism.contact_area]\nshare = 0.5\n[mechanism.bearing_points]\npoints = 3\nshare = 0.2\n", "seed = 7", "seed = 8", "mechanism.bearing_points does not go with mechanism.contact_area"),
+        ("[mechanism.bearing_points]\npoints = 3\nshare = 0.2\n", "sampling = \"area\"", "sampling = \"vertices\"", "mechanism.bearing_points does not go with joint.sampling = \"vertices\""),
         ("[mechanism.contact_area]\nshare = 0.5\n", "sampling = \"area\"", "sampling = \"vertices\"", "mechanism.contact_area does not go with joint.sampling = \"vertices\""),
     ]
     .into_iter()
@@ -256,7 +257,7 @@ fn what_does_not_go_together_is_refused_by_name() {
         cause.is_some_and(|cause| !matches!(cause.limit(), InLimitAnalysis::Refused))
     });
     let tables: String = honoured.map(|table| format!("[mechanism.{table}")).collect();
-    assert_eq!(tables.matches("[mechanism.").count(), CAUSES.len() - 5);
+    assert_eq!(tables.matches("[mechanism.").count(), CAUSES.len() - 6);
     append(&scratch, &tables);
     scratch.replace(STUDY, "agreement = false", "agreement = true");
     scratch.load(None).unwrap_or_else(|faults| panic!("{faults}"));

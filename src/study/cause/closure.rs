@@ -23,6 +23,7 @@ pub static JOINT_CLOSURE: Cause = Cause {
         "joint.kn_pa_per_m",
         "stress_stiffening",
         "contact_area",
+        "bearing_points",
         "base_compliance",
         "gauge_scale",
         "gauge_offset",

@@ -3,9 +3,11 @@
 use crate::law::{PATCHES_ALONG, Sampling};
 use crate::random::Stream;
 use crate::solve::Demand;
+use crate::study::bearing::Bearing;
 use crate::study::cause::POSITIVE_SHARE;
-use crate::study::cause::entry::{Acts, Cause, Clash, table};
-use crate::study::keys::real;
+use crate::study::cause::entry::{Acts, Beside, Cause, Clash, table};
+use crate::study::checked::Arm;
+use crate::study::keys::{BEARING, real};
 use crate::study::schema::Presence::Required;
 use crate::study::schema::{Interval, Key};
 
@@ -19,7 +21,7 @@ pub static CONTACT_INSET: Cause = Cause {
     title: "rounded arrises: joints that begin behind the faces",
     means: "joints begin behind the stated faces; rounded arrises, a soft bed that may open and a wall thinner than stated look the same",
     acts: Acts::Joints,
-    confounded: &["joint.kn_pa_per_m", "restraint.strip_height_m", "lean", "contact_area"],
+    confounded: &["joint.kn_pa_per_m", "restraint.strip_height_m", "lean", "contact_area", "bearing_points"],
     section: table(
         "[mechanism.contact_inset]",
         "Rounded or chipped arrises.",
@@ -50,6 +52,7 @@ pub static CONTACT_AREA: Cause = Cause {
         "size_scatter",
         "specimen_scatter",
         "wedge_loss",
+        "bearing_points",
     ],
     section: table(
         "[mechanism.contact_area]",
@@ -65,24 +68,10 @@ pub static CONTACT_AREA: Cause = Cause {
     sketch: include_str!("sketch/contact_area.svg"),
     shows: "The bed face of a stone touches its neighbour on all its area on the left, on scattered patches only on the right.",
     stronger_below: &["share"],
+    instead_of: &["bearing_points"],
     draws: true,
-    idle: |_, arm, _| match arm.joint.bearing {
-        Some(_) => Some("stones bear on stated points of their beds"),
-        None => (arm.joint.sampling == Sampling::Vertices).then_some("joints are sampled at their corners"),
-    },
-    clashes: |_, beside| {
-        let at_corners = beside.joint.sampling == Sampling::Vertices;
-        let clash = |what: &str, allowed| Clash {
-            what: format!("does not go with {what}"),
-            allowed,
-            fix: "remove one of the two",
-        };
-        let at_corners = at_corners
-            .then(|| clash("joint.sampling = \"vertices\"", "joints that are sampled over their area"));
-        let seated = beside.joint.bearing;
-        let seated = seated.map(|_| clash("joint.bearing", "one part of each face that bears"));
-        at_corners.into_iter().chain(seated).collect()
-    },
+    idle: |_, arm, _| otherwise_touching(arm, "bearing_points"),
+    clashes: |_, beside| clashes(beside, None),
     demand: |_| Some((Demand::ContactArea, "contact_area")),
     law: |[share, ..], law, site| {
         let [a, b] = site.blocks;
@@ -91,6 +80,65 @@ pub static CONTACT_AREA: Cause = Cause {
     },
     ..Cause::NOTHING
 };
+
+/// A few points of each bed; see [`Bearing`].
+pub static BEARING_POINTS: Cause = Cause {
+    name: "bearing_points",
+    title: "stones that bear on few points of their beds",
+    means: "stones bear on few points of their beds; many points look like partial contact, points at the edge like rounded arrises",
+    acts: Acts::Joints,
+    confounded: &[
+        "joint.kn_pa_per_m",
+        "contact_area",
+        "contact_inset",
+        "joint_closure",
+        "size_scatter",
+        "specimen_scatter",
+    ],
+    section: table(
+        "[mechanism.bearing_points]",
+        "Bed joints that bear on few points in place of the whole face, drawn per joint; the stiffness per area in contact stays.",
+        BEARING.keys,
+    ),
+    priors: priors!("bearing_points": "points", "relief_m", "share"),
+    sketch: include_str!("sketch/bearing_points.svg"),
+    shows: "The bed face of a stone touches its neighbour on all its area on the left, on three small patches only on the right.",
+    stronger_below: &["points", "share"],
+    instead_of: &["contact_area"],
+    draws: true,
+    idle: |_, arm, _| otherwise_touching(arm, "contact_area"),
+    clashes: |_, beside| clashes(beside, Some("contact_area")),
+    law: |[points, relief, share, ..], law, site| {
+        let [a, b] = site.blocks;
+        law.sampling = Sampling::Seats(Bearing { points, relief, share }.seating(site.streams, a, b));
+    },
+    ..Cause::NOTHING
+};
+
+/// Why the faces of an arm touch in another way already.
+fn otherwise_touching(arm: &Arm, other: &str) -> Option<&'static str> {
+    match arm.joint.bearing {
+        _ if arm.mechanisms.has(other) => Some("another part of each face touches"),
+        Some(_) => Some("stones bear on stated points of their beds"),
+        None => (arm.joint.sampling == Sampling::Vertices).then_some("joints are sampled at their corners"),
+    }
+}
+
+/// What of a study says otherwise where the faces of a joint touch; `other` is a cause that does.
+fn clashes(beside: &Beside<'_>, other: Option<&str>) -> Vec<Clash> {
+    let part = "one part of each face that touches";
+    let others =
+        other.filter(|other| beside.mechanisms.has(other)).map(|other| (format!("mechanism.{other}"), part));
+    let corners = (beside.joint.sampling == Sampling::Vertices)
+        .then(|| ("joint.sampling = \"vertices\"".to_owned(), "joints that are sampled over their area"));
+    let seated = beside.joint.bearing.map(|_| ("joint.bearing".to_owned(), part));
+    let clash = |(with, allowed): (String, &'static str)| Clash {
+        what: format!("does not go with {with}"),
+        allowed,
+        fix: "remove one of the two",
+    };
+    others.into_iter().chain(corners).chain(seated).map(clash).collect()
+}
 
 /// A mask of the patches nearest to a share, at least one. A stone settles until it is carried on all sides, so the parts of
 /// a joint, four patches each, take turns: in each of four rounds each has one more of its patches, in random order.

@@ -36,7 +36,7 @@ use crate::study::schema::Presence::Optional;
 use crate::study::schema::{Interval, Key, Kind, Section};
 
 /// All causes, in the order of their keys.
-pub static CAUSES: [&Cause; 18] = [
+pub static CAUSES: [&Cause; 19] = [
     &contact::CONTACT_INSET,
     &closure::JOINT_CLOSURE,
     &closure::STRESS_STIFFENING,
@@ -55,6 +55,7 @@ pub static CAUSES: [&Cause; 18] = [
     &specimen::SPECIMEN_SCATTER,
     &friction::END_RELEASE,
     &restraint::PLATFORM_FRICTION,
+    &contact::BEARING_POINTS,
 ];
 
 /// Keys of the causes: each is off unless its table is there.

@@ -14,7 +14,7 @@ pub static SPECIMEN_SCATTER: Cause = Cause {
     title: "joints that differ from specimen to specimen",
     means: "joints differ from specimen to specimen",
     acts: Acts::Joints,
-    confounded: &["size_scatter", "contact_area"],
+    confounded: &["size_scatter", "contact_area", "bearing_points"],
     section: table(
         "[mechanism.specimen_scatter]",
         "Joint properties that vary from specimen to specimen: lognormal factors of mean 1, drawn once per wall.",

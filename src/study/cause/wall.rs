@@ -45,7 +45,7 @@ pub static SIZE_SCATTER: Cause = Cause {
     title: "stones that differ more in size",
     means: "stones differ in size more than stated",
     acts: Acts::Wall,
-    confounded: &["specimen_scatter", "wedge_loss", "contact_area"],
+    confounded: &["specimen_scatter", "wedge_loss", "contact_area", "bearing_points"],
     section: table(
         "[mechanism.size_scatter]",
         "Stones that vary more in size than assumed.",

@@ -240,7 +240,7 @@ static JOINT: Section = Section {
     ]],
 };
 
-static BEARING: Section = Section {
+pub static BEARING: Section = Section {
     title: "[joint.bearing]",
     doc: "Points of a bed joint on which a stone bears, in place of the whole face. They are uniform over the face, and hold its middle: stones \
           are turned or shimmed as they are laid, until they do not rock. Head joints touch over their whole face.",

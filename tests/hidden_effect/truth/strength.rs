@@ -62,6 +62,8 @@ const AWAY: &[(&str, &str, Away)] = &[
     ("end_release", "friction_share", Away::Down),
     ("end_release", "stiffness_share", Away::Down),
     ("platform_friction", "phi_deg", Away::Down),
+    ("bearing_points", "points", Away::Down),
+    ("bearing_points", "share", Away::Down),
 ];
 
 impl Strength {

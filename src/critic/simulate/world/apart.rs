@@ -48,7 +48,8 @@ impl World<'_> {
         };
         match m.quantity {
             MeasuredQuantity::JointKn => {
-                arm.kn_points[arm.middle_point()] * factors[0] * by("contact_area", "share")
+                let part = by("contact_area", "share") * by("bearing_points", "share");
+                arm.kn_points[arm.middle_point()] * factors[0] * part
             }
             MeasuredQuantity::SpecimenWeight => {
                 self.weights[&self.stands_for[family]][0] * by("density", "factor")
