@@ -49,6 +49,7 @@ mod roughness_walls;
 mod shapes;
 mod shear;
 mod side_thrust;
+mod soft_closures;
 mod table;
 mod tilting;
 mod toppled;
