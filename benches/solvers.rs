@@ -204,14 +204,18 @@ struct Walls {
     count: u64,
 }
 
+/// Joints that are five hundred times softer until they have closed by a millimetre.
+const SOFT: (&str, &[(&str, f64)]) = ("joint_closure", &[("initial_pa_per_m", 1e5), ("closure_m", 1e-3)]);
+
 /// The kinds of wall that differ most in what they take.
-const WALLS: [Walls; 6] = [
+const WALLS: [Walls; 7] = [
     Walls { family: "sbl", variant: None, mechanism: None, count: 4 },
     Walls { family: "sbr", variant: None, mechanism: None, count: 4 },
     Walls { family: "sbl", variant: Some("two-wythes"), mechanism: None, count: 4 },
     Walls { family: "sbr", variant: Some("ropes-soft"), mechanism: None, count: 4 },
     Walls { family: "sbl", variant: None, mechanism: Some(("lean", &[("angle_deg", 4.0)])), count: 4 },
     Walls { family: "sbl", variant: None, mechanism: Some(("contact_area", &[("share", 0.25)])), count: 1 },
+    Walls { family: "sbl", variant: None, mechanism: Some(SOFT), count: 4 },
 ];
 
 /// The first walls of each kind to their fall.

@@ -112,6 +112,16 @@ impl NormalLaw {
         }
     }
 
+    /// A law that is soft until it has closed, with a share of its stiffness once it has; `None` where it is another law.
+    pub fn softened(&self, share: f64) -> Option<NormalLaw> {
+        match *self {
+            NormalLaw::Hyperbolic { kn, initial, closure } => {
+                Some(NormalLaw::Hyperbolic { kn: share * kn, initial, closure })
+            }
+            NormalLaw::Linear { .. } | NormalLaw::Stiffening(_) | NormalLaw::Table(_) => None,
+        }
+    }
+
     /// The law with so many times the stress at any closure.
     pub fn scaled(&self, factor: f64) -> NormalLaw {
         match *self {

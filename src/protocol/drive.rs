@@ -455,6 +455,10 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
             Way::Stands if self.judge.cannot_stand(from.assembly(), highest, &self.watch).is_some() => None,
             Way::Stands => {
                 self.doubted = true;
+                if rest.assembly().joints.close_softly() {
+                    // A path that was found says nothing of where it is lost: of such walls it is asked for more often.
+                    self.followed -= 1;
+                }
                 let further = (highest - level) / path.higher(0.0, 1);
                 Some(Verdict::Rest(self.read(rest, highest, ratio), further))
             }

@@ -51,6 +51,7 @@ mod scanned;
 mod shapes;
 mod shear;
 mod side_thrust;
+mod soft_closures;
 mod table;
 mod tilting;
 mod toppled;

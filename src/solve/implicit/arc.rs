@@ -6,6 +6,8 @@ use crate::solve::system::{DOF, held};
 
 /// Iterations of a step along the path of equilibria.
 const MOST_ARC_ITERATIONS: u32 = 10;
+/// The same where joints close softly: contacts found anew throw such a wall further off its balance.
+const MOST_SOFT_ITERATIONS: u32 = 20;
 /// A residual that grows so many times in an iteration is lost.
 const LOST: f64 = 30.0;
 /// What counts as no displacement at all (m): far below the rounding of a position.
@@ -60,6 +62,10 @@ impl Newton<'_, '_> {
         let mut moved = vec![0.0; DOF * self.assembly.bodies.all.len()];
         let (mut gone, mut before, mut fresh) = (0.0, f64::INFINITY, self.system.is_factorised());
         let mut iterations = 0;
+        let most = match self.assembly.joints.close_softly() {
+            true => MOST_SOFT_ITERATIONS,
+            false => MOST_ARC_ITERATIONS,
+        };
         if !fresh && !along.is_empty() {
             // Where nothing has moved yet every joint sticks: the matrix of one that slides is made where the step leads.
             let step: Vec<f64> = along.iter().map(|x| x * length).collect();
@@ -80,7 +86,7 @@ impl Newton<'_, '_> {
             let now = norm(&residual, &self.assembly.bodies.all);
             // The first step leaves the balance that it starts from; a later one that leaves it further does not come back.
             let lost = iterations > 1 && now > LOST * before;
-            if iterations == MOST_ARC_ITERATIONS || along.is_empty() || !now.is_finite() || lost {
+            if iterations == most || along.is_empty() || !now.is_finite() || lost {
                 return None;
             }
             if !fresh || now > GOOD_CONTRACTION * before {

@@ -68,6 +68,8 @@ impl<'a> Equilibrium<'a> {
     /// Equilibrium at the loads as they are: solves, looks for contacts anew, and solves again until none moves on.
     pub(super) fn solve(&mut self) -> (bool, f64) {
         let mut ratio = f64::INFINITY;
+        // A wall that has been at rest closes no joint by much any more.
+        let closes = self.assembly.joints.are_unloaded() && self.assembly.joints.close_softly();
         for _ in 0..ROUNDS {
             if !land(&mut self.assembly) {
                 return (false, ratio);
@@ -84,9 +86,13 @@ impl<'a> Equilibrium<'a> {
                 effort: &mut self.effort,
                 loose: &mut self.loose,
             };
-            let solved;
             let fresh = newton.system.is_factorised();
+            let start = closes.then(|| newton.assembly.bodies.all.clone());
+            let mut solved;
             (solved, ratio) = newton.solve(fresh);
+            if let (false, Some(start)) = (solved, start) {
+                (solved, ratio) = newton.solve_stiffening(&start);
+            }
             if !solved {
                 return (false, ratio);
             }

@@ -15,6 +15,7 @@ mod equilibrium;
 mod follow;
 mod loose;
 mod newton;
+mod stiffening;
 
 pub use equilibrium::Equilibrium;
 pub use newton::Effort;

@@ -55,6 +55,7 @@ impl Newton<'_, '_> {
     /// again at the end.
     pub fn solve(&mut self, mut fresh: bool) -> (bool, f64) {
         let from_scratch = !fresh;
+        let softly = self.assembly.joints.close_softly();
         let mut residual = self.residual();
         let mut ratio = self.assembly.unbalanced_ratio();
         let (mut spent, mut stuck) = (0, 0);
@@ -73,8 +74,8 @@ impl Newton<'_, '_> {
                 return (false, f64::NAN);
             }
             // At a corner of the law, where sub-contacts stick on one side and slip on the other, the search gets no
-            // further; the whole step leaps over it.
-            residual = if stuck == 1 { self.leap(&step) } else { self.search(&step, &residual) };
+            // further; the whole step leaps over it. Where joints close softly it would leap over the closure as well.
+            residual = if stuck == 1 && !softly { self.leap(&step) } else { self.search(&step, &residual) };
             let after = norm(&residual, &self.assembly.bodies.all);
             ratio = self.assembly.unbalanced_ratio();
             self.effort.steps += 1;

@@ -136,6 +136,16 @@ impl Joints {
         }
     }
 
+    /// Whether no joint has borne anything yet.
+    pub fn are_unloaded(&self) -> bool {
+        self.all.iter().all(Joint::is_unloaded)
+    }
+
+    /// Whether a joint is soft until it has closed.
+    pub fn close_softly(&self) -> bool {
+        self.all.iter().any(|joint| joint.law.normal.softened(1.0).is_some())
+    }
+
     /// What every joint starts its next step from.
     pub fn anchors(&self, bodies: &[Body]) -> Vec<Anchor> {
         self.all.iter().map(|joint| joint.anchor(bodies)).collect()
@@ -153,7 +163,7 @@ impl Joints {
     /// Hands out every joint's [`Slopes`] for a step that started at the anchors, by index; a joint without force has
     /// none. What the joints remember stays as it is.
     pub fn each_slope(&mut self, bodies: &[Body], anchors: &[Anchor], mut take: impl FnMut(usize, &Slopes)) {
-        let unloaded = self.all.iter().all(Joint::is_unloaded);
+        let unloaded = self.are_unloaded();
         for (index, (joint, anchor)) in self.all.iter().zip(anchors).enumerate() {
             if let Some(slopes) = joint.slopes(bodies, anchor, unloaded, &mut self.scratch) {
                 take(index, &slopes);
