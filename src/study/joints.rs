@@ -1,5 +1,7 @@
 //! The law of every joint of one wall: constants as stated, families drawn once per joint.
 
+use std::ops::Range;
+
 use crate::law::{Coulomb, NormalLaw, Sampling};
 use crate::math::{Vec3, radians, tan};
 use crate::model::{JointLaws, Wall};
@@ -27,6 +29,8 @@ struct Spans {
     stones: Vec<[f64; 2]>,
     /// That of the wall (m).
     wall: [f64; 2],
+    /// The numbers of the blocks that carry the wall: the base that it has, or the platform, which is the first behind it.
+    base: Range<u32>,
 }
 
 /// Where a joint lies in its wall, for causes that change its law.
@@ -42,10 +46,15 @@ impl JointSite<'_> {
     /// How far (m) the middle of what the two blocks share of the wall's length lies from the nearer end of the wall. What is not a
     /// stone is as long as the wall.
     pub fn to_end(&self) -> f64 {
-        let Spans { stones, wall } = self.spans;
+        let Spans { stones, wall, .. } = self.spans;
         let [[a0, a1], [b0, b1]] = self.blocks.map(|id| stones.get(id as usize).copied().unwrap_or(*wall));
         let middle = 0.5 * (a0.max(b0) + a1.min(b1));
         (middle - wall[0]).min(wall[1] - middle)
+    }
+
+    /// Whether one of the two blocks carries the wall: the platform, or a base of the wall.
+    pub fn is_under_the_wall(&self) -> bool {
+        self.spans.base.contains(&self.blocks[1])
     }
 }
 
@@ -61,6 +70,10 @@ impl<'s> DrawnJoints<'s> {
         let spans = Spans {
             stones: wall.blocks.iter().map(|block| span(block.shape.bounds())).collect(),
             wall: span(wall.bounds_of_stones()),
+            base: {
+                let first = wall.before_base();
+                first as u32..wall.blocks.len().max(first + 1) as u32
+            },
         };
         DrawnJoints { mechanisms: mechanisms.clone(), spans, ..self }
     }

@@ -190,6 +190,22 @@ fn joints_near_the_ends_are_released_and_no_others() {
 }
 
 #[test]
+fn the_joints_under_the_lowest_course_are_bedded_softly_and_no_others() {
+    let (joint, wall) = (joint(), running_bond(2, 7));
+    let plain = DrawnJoints::new(&joint, 1e8, Streams::new(2, 0));
+    let bedding = Mechanisms::default().with("bedding", &[0.25]);
+    // The platform is block 16, the first behind the stones; a strip and end blocks come behind it.
+    for wall in [wall.clone(), wall.with_base()] {
+        let softer = plain.clone().altered(&bedding, &wall);
+        for (a, b, is_bed) in [(0, 16, true), (7, 16, true), (0, 8, false), (3, 4, false), (0, 17, false)] {
+            let before = plain.of(a, b);
+            let expected = Coulomb { normal: before.normal.scaled(0.25), ks: 0.25 * before.ks, ..before };
+            assert_eq!(softer.of(b, a), if is_bed { expected } else { before }, "{a}-{b}");
+        }
+    }
+}
+
+#[test]
 fn a_specimen_has_factors_of_its_own_on_all_its_joints() {
     let (joint, wall) = (joint(), running_bond(2, 7));
     let of = |covs: [f64; 2], member| {

@@ -131,6 +131,8 @@ friction_share = 0.5
 stiffness_share = 0.4
 [mechanism.platform_friction]
 phi_deg = 20
+[mechanism.bedding]
+stiffness_share = 0.3
 ";
 
 #[test]
@@ -140,7 +142,7 @@ fn a_study_switches_all_of_them_on() {
     assert!(without.arms.iter().all(|arm| arm.mechanisms == Mechanisms::default()));
     append(&scratch, ALL);
     let study = scratch.load(None).unwrap_or_else(|faults| panic!("{faults}")).study;
-    let values: [(&str, &[f64]); 17] = [
+    let values: [(&str, &[f64]); 18] = [
         ("contact_inset", &[0.003]),
         ("joint_closure", &[1e7, 1e-4]),
         ("contact_area", &[0.5]),
@@ -158,6 +160,7 @@ fn a_study_switches_all_of_them_on() {
         ("specimen_scatter", &[0.3, 0.05]),
         ("end_release", &[0.2, 0.5, 0.4]),
         ("platform_friction", &[20.0]),
+        ("bedding", &[0.3]),
     ];
     let expected = values.iter().fold(Mechanisms::default(), |all, (name, values)| all.with(name, values));
     assert!(study.arms.iter().all(|arm| arm.mechanisms == expected), "{:?}", study.arms[0].mechanisms);
@@ -257,7 +260,7 @@ fn what_does_not_go_together_is_refused_by_name() {
         cause.is_some_and(|cause| !matches!(cause.limit(), InLimitAnalysis::Refused))
     });
     let tables: String = honoured.map(|table| format!("[mechanism.{table}")).collect();
-    assert_eq!(tables.matches("[mechanism.").count(), CAUSES.len() - 6);
+    assert_eq!(tables.matches("[mechanism.").count(), CAUSES.len() - 7);
     append(&scratch, &tables);
     scratch.replace(STUDY, "agreement = false", "agreement = true");
     scratch.load(None).unwrap_or_else(|faults| panic!("{faults}"));

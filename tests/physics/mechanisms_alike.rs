@@ -123,7 +123,7 @@ const CREEP: f64 = std::f64::consts::PI / 180.0;
 
 /// Every mechanism in turn, by its name, and some together.
 fn cases() -> Vec<(&'static str, Mechanisms)> {
-    let values: [(&str, &[f64]); 17] = [
+    let values: [(&str, &[f64]); 18] = [
         ("contact_inset", &[8e-3]),
         ("joint_closure", &[2e7, 1e-4]),
         ("stress_stiffening", &[1e9, 0.5, 1e7]),
@@ -142,6 +142,7 @@ fn cases() -> Vec<(&'static str, Mechanisms)> {
         // The wall slides as a whole at 6.8 deg: at the end a part of its base does.
         ("platform_friction", &[6.8428]),
         ("bearing_points", &[3.5, 1e-4, 0.3]),
+        ("bedding", &[0.2]),
     ];
     let many: [(&str, &[f64]); 8] = [
         ("contact_inset", &[3e-3]),

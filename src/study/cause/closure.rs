@@ -25,6 +25,7 @@ pub static JOINT_CLOSURE: Cause = Cause {
         "contact_area",
         "bearing_points",
         "base_compliance",
+        "bedding",
         "gauge_scale",
         "gauge_offset",
     ],

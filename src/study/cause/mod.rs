@@ -36,7 +36,7 @@ use crate::study::schema::Presence::Optional;
 use crate::study::schema::{Interval, Key, Kind, Section};
 
 /// All causes, in the order of their keys.
-pub static CAUSES: [&Cause; 19] = [
+pub static CAUSES: [&Cause; 20] = [
     &contact::CONTACT_INSET,
     &closure::JOINT_CLOSURE,
     &closure::STRESS_STIFFENING,
@@ -56,6 +56,7 @@ pub static CAUSES: [&Cause; 19] = [
     &friction::END_RELEASE,
     &restraint::PLATFORM_FRICTION,
     &contact::BEARING_POINTS,
+    &restraint::BEDDING,
 ];
 
 /// Keys of the causes: each is off unless its table is there.

@@ -4,8 +4,8 @@ use crate::math::{radians, tan};
 use crate::protocol::{Compliance, Ends};
 use crate::solve::Demand;
 use crate::study::angle::Angle;
-use crate::study::cause::STIFFNESS;
 use crate::study::cause::entry::{Acts, Cause, Unloading, sheared, table};
+use crate::study::cause::{POSITIVE_SHARE, STIFFNESS};
 use crate::study::checked::Arm;
 use crate::study::keys::{SIZE, real};
 use crate::study::schema::Presence::Required;
@@ -18,7 +18,7 @@ pub static BASE_COMPLIANCE: Cause = Cause {
     means: "what carries the wall gives way, the platform or the ground under it",
     acts: Acts::Restraint,
     unloading: Unloading::Reversible,
-    confounded: &["joint.kn_pa_per_m", "joint_closure", "lean", "gauge_scale"],
+    confounded: &["joint.kn_pa_per_m", "joint_closure", "bedding", "lean", "gauge_scale"],
     section: table(
         "[mechanism.base_compliance]",
         "A platform that settles and turns elastically, with the strip and the end blocks on it.",
@@ -42,6 +42,38 @@ pub static BASE_COMPLIANCE: Cause = Cause {
     demand: |_| Some((Demand::BaseCompliance, "base_compliance")),
     restraint: |[settlement, rotation, ..], restraint| {
         restraint.base.compliance = Some(Compliance { settlement, rotation });
+    },
+    ..Cause::NOTHING
+};
+
+/// Softer joints between the lowest course and what carries it.
+pub static BEDDING: Cause = Cause {
+    name: "bedding",
+    title: "a lowest course that is bedded softly",
+    means: "the lowest course lies on a softer bed than the stones on each other: boards, sand, small stones",
+    acts: Acts::Joints,
+    unloading: Unloading::Reversible,
+    confounded: &["joint.kn_pa_per_m", "joint_closure", "base_compliance", "lean"],
+    section: table(
+        "[mechanism.bedding]",
+        "A softer bed under the lowest course than between the stones.",
+        &[&[Key::new(
+            "stiffness_share",
+            real("1", POSITIVE_SHARE),
+            Required,
+            "Share of kn and ks that the joints under the lowest course have.",
+        )]],
+    ),
+    priors: priors!("bedding": "stiffness_share"),
+    sketch: include_str!("sketch/bedding.svg"),
+    shows: "On a firm plate the lowest course stays level; on a bed of sand it sinks in on one side, and the wall on it leans.",
+    stronger_below: &["stiffness_share"],
+    demand: |_| Some((Demand::Closure, "bedding")),
+    law: |[share, ..], law, site| {
+        if site.is_under_the_wall() {
+            law.ks *= share;
+            law.normal = law.normal.scaled(share);
+        }
     },
     ..Cause::NOTHING
 };

@@ -15,7 +15,7 @@ pub static LEAN: Cause = Cause {
     title: "a wall or a platform out of plumb",
     means: "the wall leaned before the test, or the platform was not level",
     acts: Acts::Wall,
-    confounded: &["wall.battered_face", "contact_inset", "base_compliance", "platform_friction"],
+    confounded: &["wall.battered_face", "contact_inset", "base_compliance", "bedding", "platform_friction"],
     section: table(
         "[mechanism.lean]",
         "A wall that was built, or moved, out of plumb.",

@@ -151,7 +151,7 @@ mod tests {
         let full = roster(&|_| 1.0, 5, &BTreeMap::new());
         let count = |group: Group| full.iter().filter(|label| label.group == group).count();
         assert_eq!((count(Group::Nothing), count(Group::PriorWrong)), (150, 80));
-        assert_eq!((count(Group::Mechanism), count(Group::OtherCode)), (19 * 3 * 4, 13 * 4));
+        assert_eq!((count(Group::Mechanism), count(Group::OtherCode)), (20 * 3 * 4, 13 * 4));
         assert_eq!((count(Group::Outside), count(Group::Law), count(Group::Pair)), (5 * 3 * 6, 24, 24));
         assert_eq!((count(Group::Unknown), count(Group::Decoy)), (14 * 5, 4 * 6));
         assert!(full.len() <= 900);

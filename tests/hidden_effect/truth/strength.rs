@@ -64,6 +64,7 @@ const AWAY: &[(&str, &str, Away)] = &[
     ("platform_friction", "phi_deg", Away::Down),
     ("bearing_points", "points", Away::Down),
     ("bearing_points", "share", Away::Down),
+    ("bedding", "stiffness_share", Away::Down),
 ];
 
 impl Strength {

@@ -111,7 +111,9 @@ impl Plan {
         }
         let priors =
             nuisances.iter().map(|n| (format!("bank.nuisance.{}", n.name), format!("{:?}", n.prior)));
-        let parameters = mechanisms.iter().flat_map(|m| {
+        // Causes that have no walls here are no part of the design: a bank outlives those that act under other loads.
+        let built_with: BTreeSet<usize> = places.iter().filter_map(|place| place.cause).collect();
+        let parameters = built_with.iter().map(|&cause| &mechanisms[cause]).flat_map(|m| {
             m.parameters
                 .iter()
                 .map(|p| (format!("bank.mechanism.{}.{}", m.name, p.key), format!("{:?}", p.search)))
