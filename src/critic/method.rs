@@ -1,9 +1,11 @@
 //! The method: what a measured campaign says of the base model, from simulated campaigns to advice.
 
 use crate::critic::advise::{Offered, SelfTest, offers};
+use crate::critic::causes::evidence;
+use crate::critic::check::Relation;
 use crate::critic::discrepancy::{Baseline, Residuals};
 use crate::critic::extend::{Extension, extension};
-use crate::critic::gain::{Folds, Gain, Measuring};
+use crate::critic::gain::{self, Between, Folds, Gain, Measuring};
 use crate::critic::simulate::{Campaign, Design, World};
 use crate::critic::verdict::{Diagnosis, Effort, Judge, Limits, Verdict};
 
@@ -59,6 +61,10 @@ pub struct Analysis {
     pub extensions: Vec<Extension>,
     /// How much better the extended model predicts; `None` where that was not measured.
     pub gain: Option<Gain>,
+    /// What the best explanation gains where one family is predicted from another; empty where the gain was not measured.
+    pub between: Vec<Between>,
+    /// How angles and displacements of a specimen go with each other; `None` where too few specimens have both.
+    pub relation: Option<Relation>,
     /// Measurements that would separate the causes that are possible, the most information per hour first.
     pub offered: Vec<Offered>,
     /// Whether these causes are those that nothing speaks against, see [`Diagnosis::possible`].
@@ -80,6 +86,7 @@ pub fn diagnose<'w>(
         let examination = judge.rank(finding, measured, &limits, part(1));
         judge.check(examination, measured, &limits, part(1))
     });
+    let relation = related(&judge, &diagnosis, measured, [part(8), part(9)]);
     let self_test = self_test(&judge);
     let residuals = steps.during(Step::Compare, || Baseline::new(world, design, part(6)).residuals(measured));
     let extensions = extend(world, &diagnosis);
@@ -89,7 +96,27 @@ pub fn diagnose<'w>(
         let folds = Folds::new(&judge, Measuring::default(), part(3));
         steps.during(Step::Predict, || folds.gain(measured))
     });
-    Some(Analysis { diagnosis, residuals, self_test, extensions, gain: gain.flatten(), offered, are_left })
+    let between =
+        gain.as_ref().and_then(|_| diagnosis.best()).and_then(|(_, draws)| Some(draws.first()?.causes));
+    let between = between.map_or_else(Vec::new, |causes| {
+        steps.during(Step::Predict, || gain::between(&judge, measured, causes, part(10)))
+    });
+    let gain = gain.flatten();
+    Some(Analysis { diagnosis, residuals, self_test, extensions, gain, between, relation, offered, are_left })
+}
+
+/// How angles and displacements go with each other beside what the best explanation predicts, or the base model where there is none.
+fn related(
+    judge: &Judge<'_>,
+    diagnosis: &Diagnosis,
+    measured: &Campaign,
+    [fitted, predicted]: [u64; 2],
+) -> Option<Relation> {
+    let draws = match diagnosis.best() {
+        Some((_, draws)) => draws.to_vec(),
+        None => evidence(judge.world, &judge.design, measured, None, fitted).draws,
+    };
+    judge.posterior_check().relation(&draws, measured, predicted)
 }
 
 /// The base model extended by the causes of a verdict.

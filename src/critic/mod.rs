@@ -31,6 +31,7 @@ pub use calibrate::{
     calibrate_family, other_friction, points_of,
 };
 pub use causes::{COVERED, Evidence, OverScopes, Ranked, Ranking, evidence};
+pub use check::Relation;
 pub use compare::{Beside, Difference, Measured, Ours, Simulated, Walls, compare, log_likelihood, simulated};
 pub use conflict::PriorPredictive;
 pub use detectability::{
@@ -47,7 +48,7 @@ pub use extend::{
 };
 #[cfg(test)]
 pub(crate) use fixture::{Made, made};
-pub use gain::{Choice, Folds, Gain, Gained, HeldOut, Interval, Measuring, Scores};
+pub use gain::{Between, Choice, Folds, Gain, Gained, HeldOut, Interval, Measuring, Scores};
 pub use joint_law::{Bend, KnownLaw, LawGain, LearntLaw, NamedForm, Nearness, NotLearnt, learnt_law};
 pub use method::{Analysis, SEEDS, Step, Steps, Task, diagnose};
 pub use screening::{DataNote, Extent, data_notes, data_notes_by_simulation};

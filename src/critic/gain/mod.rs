@@ -4,6 +4,7 @@
 //! because the choice of the cause is made on the same few specimens: intervals are widened until campaigns without any effect
 //! claim one in no more than one case in twenty.
 
+mod between;
 mod fold;
 mod gained;
 #[cfg(test)]
@@ -19,6 +20,7 @@ use crate::critic::simulate::{Campaign, Causes, Design, Truth};
 use crate::critic::verdict::{Effort, Judge, Limits, MOST_AMBIGUOUS};
 use crate::random::Streams;
 
+pub use between::{Between, between};
 use fold::Fold;
 pub use fold::HeldOut;
 pub use gained::{Gained, Interval, Scores};

@@ -9,13 +9,19 @@ use crate::study::MeasuredKind;
 const BENT: f64 = 1.0;
 /// And of its level: as good as free. A tighter one leaks into stresses that were not seen.
 const LEVEL: f64 = 20.0;
-/// Specimens of a family differ by so much in stiffness (logarithm).
-pub const SPECIMEN: f64 = 0.1;
+/// Specimens of a family differ by so much in stiffness (logarithm): the root of the mean square of what a diagnosis takes for its standard
+/// deviation, half-normal with 0.2.
+pub const SPECIMEN: f64 = 0.2;
 /// Steps of finite differences: of the logarithm of the compliance, and of scores.
 const STEPS: [f64; 2] = [0.1, 0.3];
-/// At most so many rounds, and so many halvings in one.
+/// At most so many rounds with few walls, so many with all of them, and so many for some of the specimens; and so many halvings in one.
 const ROUNDS: usize = 8;
-const HALVINGS: usize = 3;
+const LAST_ROUNDS: usize = 3;
+const SOME_ROUNDS: usize = 2;
+const HALVINGS: u32 = 3;
+/// Walls of a family in the first rounds, and in the last: as many as there are.
+const FEW: u64 = 2;
+const ALL: u64 = u64::MAX;
 /// No unknown moves further in a round.
 const FURTHEST: f64 = 1.5;
 /// No score is taken further from the middle of its prior.
@@ -39,10 +45,19 @@ struct Said {
     covariance: DMatrix<f64>,
 }
 
+/// What walls show at some unknowns, and how that changes with them, by specimen.
+#[derive(Clone, Debug)]
+struct Local {
+    freedom: Freedom,
+    unknowns: DVector<f64>,
+    shown: Vec<Shown>,
+    slopes: Vec<DMatrix<f64>>,
+}
+
 /// The most likely law.
 #[derive(Clone, Debug)]
 pub struct Fit {
-    freedom: Freedom,
+    local: Local,
     /// The unknowns: of the law first, then the scores.
     pub unknowns: DVector<f64>,
     /// Their covariance.
@@ -51,69 +66,114 @@ pub struct Fit {
     pub information: DMatrix<f64>,
 }
 
-impl Fit {
-    /// Of some of the specimens, from a first guess; `None` where no walls can be simulated.
-    pub fn of(
-        tested: &Tested<'_>,
-        freedom: Freedom,
-        specimens: &[usize],
-        start: &DVector<f64>,
-    ) -> Option<Fit> {
-        let prior = freedom.prior();
-        let middle = freedom.middle(tested);
-        let mut unknowns = start.clone();
-        let mut last = None;
-        for round in 0..=ROUNDS {
-            let said = said(tested, freedom, specimens, &unknowns)?;
-            let (information, towards) = weighed(&said)?;
-            let covariance = (&information + &prior).cholesky()?.inverse();
-            let away = &unknowns - &middle;
-            let step = &covariance * (towards - &prior * &away);
-            let most = step.amax();
-            let own = Fit { freedom, unknowns: unknowns.clone(), covariance, information };
-            if round == ROUNDS || most < 1e-3 {
-                return Some(own);
-            }
-            last = Some(own);
-            let step = if most > FURTHEST { step * (FURTHEST / most) } else { step };
-            let value = |off: &[DVector<f64>], at: &DVector<f64>| {
-                let away = at - &middle;
-                let misfit = off
-                    .iter()
-                    .zip(&said)
-                    .filter_map(|(off, said)| Some(off.dot(&said.covariance.clone().cholesky()?.solve(off))));
-                0.5 * (misfit.sum::<f64>() + away.dot(&(&prior * &away)))
-            };
-            let before = value(&said.iter().map(|said| said.off.clone()).collect::<Vec<_>>(), &unknowns);
-            // All halves of the step at once: they are as many walls as a round has anyhow.
-            let ways: Vec<DVector<f64>> =
-                (0..HALVINGS).map(|k| &unknowns + &step / f64::from(1u32 << k)).collect();
-            let tries: Vec<Try> = ways.iter().map(|way| freedom.tried(way)).collect();
-            let shown = tested.shown(&tries);
-            let values = ways.iter().zip(shown).filter_map(|(way, shown)| {
-                let off: Vec<DVector<f64>> = specimens
-                    .iter()
-                    .map(|&at| Some(DVector::from_vec(off(tested, at, &shown.as_ref()?[at]))))
-                    .collect::<Option<_>>()?;
-                Some((value(&off, way), way))
+impl Local {
+    /// By finite differences; `None` where no walls can be simulated.
+    fn at(tested: &Tested<'_>, freedom: Freedom, unknowns: &DVector<f64>, most: u64) -> Option<Local> {
+        let law = freedom.of_law();
+        let step = |k: usize| if k < law { STEPS[0] } else { STEPS[1] };
+        let moved = |k: usize| {
+            let mut own = unknowns.clone();
+            own[k] += step(k);
+            freedom.tried(&own)
+        };
+        let tries: Vec<Try> =
+            std::iter::once(freedom.tried(unknowns)).chain((0..unknowns.len()).map(moved)).collect();
+        let mut all: Vec<Vec<Shown>> = tested.shown(&tries, most).into_iter().collect::<Option<_>>()?;
+        let moved = all.split_off(1);
+        let shown = all.pop()?;
+        let slopes = shown.iter().enumerate().map(|(at, own)| {
+            let change = |row: usize, k: usize| (moved[k][at].means[row] - own.means[row]) / step(k);
+            DMatrix::from_fn(own.means.len(), unknowns.len(), change)
+        });
+        Some(Local { freedom, unknowns: unknowns.clone(), slopes: slopes.collect(), shown })
+    }
+
+    /// At other unknowns, the slopes corrected by what the walls show there (Broyden 1965): no wall is simulated for slopes.
+    fn moved(&self, unknowns: DVector<f64>, shown: Vec<Shown>) -> Local {
+        let by = &unknowns - &self.unknowns;
+        let each = self.slopes.iter().zip(self.shown.iter().zip(&shown));
+        let slopes = each.map(|(slopes, (before, after))| {
+            let changed =
+                DVector::from_column_slice(&after.means) - DVector::from_column_slice(&before.means);
+            slopes + (changed - slopes * &by) * by.transpose() / by.norm_squared().max(f64::MIN_POSITIVE)
+        });
+        Local { freedom: self.freedom, slopes: slopes.collect(), unknowns, shown }
+    }
+
+    /// A step of Gauss and Newton for some of the specimens, and what it gains; `None` where none gains anything.
+    fn stepped(&self, tested: &Tested<'_>, specimens: &[usize], most: u64) -> Option<(Local, f64)> {
+        let (prior, middle) = (self.freedom.prior(), self.freedom.middle(tested));
+        let said = said(tested, self, specimens);
+        let (information, towards) = weighed(&said)?;
+        let away = &self.unknowns - &middle;
+        let step = (&information + &prior).cholesky()?.solve(&(towards - &prior * &away));
+        let longest = step.amax();
+        let step = if longest > FURTHEST { step * (FURTHEST / longest) } else { step };
+        let roots: Vec<_> =
+            said.iter().map(|said| said.covariance.clone().cholesky()).collect::<Option<_>>()?;
+        let value = |at: &DVector<f64>, shown: &[Shown]| {
+            let misfit = specimens.iter().zip(&roots).map(|(&specimen, root)| {
+                let off = DVector::from_vec(off(tested, specimen, &shown[specimen]));
+                off.dot(&root.solve(&off))
             });
-            let best = values.min_by(|a, b| a.0.total_cmp(&b.0));
-            match best {
-                Some((value, way)) if value < before => {
-                    unknowns = way.clone();
-                    if before - value < ENOUGH {
-                        return last;
-                    }
-                }
-                _ => return last,
+            let away = at - &middle;
+            0.5 * (misfit.sum::<f64>() + away.dot(&(&prior * &away)))
+        };
+        let before = value(&self.unknowns, &self.shown);
+        (0..HALVINGS).find_map(|halvings| {
+            let unknowns = &self.unknowns + &step / f64::from(1u32 << halvings);
+            let shown = tested.shown(&[self.freedom.tried(&unknowns)], most).pop()??;
+            let gained = before - value(&unknowns, &shown);
+            (gained > 0.0).then(|| (self.moved(unknowns, shown), gained))
+        })
+    }
+
+    /// Steps until one gains too little, so many at most.
+    fn settled(mut self, tested: &Tested<'_>, specimens: &[usize], most: u64, rounds: usize) -> Local {
+        for _ in 0..rounds {
+            let Some((next, gained)) = self.stepped(tested, specimens, most) else { break };
+            self = next;
+            if gained < ENOUGH {
+                break;
             }
         }
-        last
+        self
+    }
+
+    /// What some of the specimens leave open here.
+    fn fit(self, tested: &Tested<'_>, specimens: &[usize]) -> Option<Fit> {
+        let (information, _) = weighed(&said(tested, &self, specimens))?;
+        let covariance = (&information + &self.freedom.prior()).cholesky()?.inverse();
+        Some(Fit { unknowns: self.unknowns.clone(), local: self, covariance, information })
+    }
+}
+
+impl Fit {
+    /// Of all specimens, from a first guess: with few walls as far as these lead, then with all, and slopes of their own. `None` where no
+    /// walls can be simulated.
+    pub fn of(tested: &Tested<'_>, freedom: Freedom, start: &DVector<f64>) -> Option<Fit> {
+        let all: Vec<usize> = (0..tested.specimens.len()).collect();
+        let few = Local::at(tested, freedom, start, FEW)?.settled(tested, &all, FEW, ROUNDS);
+        let mut local = Local::at(tested, freedom, &few.unknowns, ALL)?;
+        for _ in 0..LAST_ROUNDS {
+            let Some((next, gained)) = local.stepped(tested, &all, ALL) else { break };
+            if gained < ENOUGH {
+                local = next;
+                break;
+            }
+            local = Local::at(tested, freedom, &next.unknowns, ALL)?;
+        }
+        local.fit(tested, &all)
+    }
+
+    /// Of some of the specimens: their law is near that of all, and so are its slopes.
+    pub fn of_some(&self, tested: &Tested<'_>, specimens: &[usize]) -> Option<Fit> {
+        self.local.clone().settled(tested, specimens, ALL, SOME_ROUNDS).fit(tested, specimens)
     }
 
     /// The logarithm of the density that it gives to the readings of a specimen that it has not seen; `None` where it cannot tell.
     pub fn predicts(&self, tested: &Tested<'_>, specimen: usize) -> Option<f64> {
-        let said = said(tested, self.freedom, &[specimen], &self.unknowns)?.pop()?;
+        let said = said(tested, &self.local, &[specimen]).pop()?;
         let covariance = &said.covariance + &said.slopes * &self.covariance * said.slopes.transpose();
         let root = covariance.cholesky()?;
         let halves = root.l_dirty().diagonal().iter().map(|x| crate::math::ln(*x)).sum::<f64>();
@@ -127,7 +187,7 @@ impl Fit {
 
     /// The logarithms of the compliance at the knots.
     pub fn law(&self) -> Vec<f64> {
-        self.freedom.tried(&self.unknowns).ln_compliance
+        self.local.freedom.tried(&self.unknowns).ln_compliance
     }
 
     /// As a try.
@@ -137,7 +197,7 @@ impl Fit {
 
     /// Other unknowns as a try.
     pub fn tried_at(&self, unknowns: &DVector<f64>) -> Try {
-        self.freedom.tried(unknowns)
+        self.local.freedom.tried(unknowns)
     }
 }
 
@@ -159,7 +219,7 @@ impl Freedom {
     /// The same law, or a straight one, with other unknowns.
     pub fn from(self, other: &Fit) -> DVector<f64> {
         let (law, from) = (self.of_law(), other.law());
-        let scores = other.freedom.of_law();
+        let scores = other.local.freedom.of_law();
         DVector::from_fn(law + 2, |k, _| if k < law { from[k] } else { other.unknowns[scores + k - law] })
     }
 
@@ -193,30 +253,19 @@ impl Freedom {
 }
 
 /// What specimens say at these unknowns.
-fn said(
-    tested: &Tested<'_>,
-    freedom: Freedom,
-    specimens: &[usize],
-    unknowns: &DVector<f64>,
-) -> Option<Vec<Said>> {
-    let (law, n) = (freedom.of_law(), unknowns.len());
-    let step = |k: usize| if k < law { STEPS[0] } else { STEPS[1] };
-    let moved = |k: usize| {
-        let mut own = unknowns.clone();
-        own[k] += step(k);
-        freedom.tried(&own)
-    };
-    let tries: Vec<Try> = std::iter::once(freedom.tried(unknowns)).chain((0..n).map(moved)).collect();
-    let shown: Vec<Vec<Shown>> = tested.shown(&tries).into_iter().collect::<Option<_>>()?;
+fn said(tested: &Tested<'_>, local: &Local, specimens: &[usize]) -> Vec<Said> {
+    let law = local.freedom.of_law();
     let of = |at: &usize| {
         let readings = &tested.specimens[*at].readings;
-        let own = &shown[0][*at];
+        let own = &local.shown[*at];
         let off = off(tested, *at, own);
-        let slopes = DMatrix::from_fn(readings.len(), n, |row, k| {
+        let mut slopes = local.slopes[*at].clone();
+        for (row, m) in readings.iter().enumerate() {
             // A bound that is kept says nothing.
-            let counts = !readings[row].kind.is_censored() || off[row] != 0.0;
-            if counts { (shown[k + 1][*at].means[row] - own.means[row]) / step(k) } else { 0.0 }
-        });
+            if m.kind.is_censored() && off[row] == 0.0 {
+                slopes.row_mut(row).fill(0.0);
+            }
+        }
         let mut covariance = DMatrix::zeros(readings.len(), readings.len());
         for (k, m) in readings.iter().enumerate() {
             let [random, common] = m.errors(0.5);
@@ -242,7 +291,7 @@ fn said(
         }
         Said { off: DVector::from_vec(off), slopes, covariance }
     };
-    Some(specimens.iter().map(of).collect())
+    specimens.iter().map(of).collect()
 }
 
 /// What a specimen's readings are below what its walls show; 0 of a bound that is kept.

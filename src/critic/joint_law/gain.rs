@@ -1,6 +1,6 @@
 //! Whether a law predicts specimens that it has not seen: half of each family's specimens from the other half, and back.
 
-use crate::critic::joint_law::fit::{Fit, Freedom};
+use crate::critic::joint_law::fit::Fit;
 use crate::critic::joint_law::tested::Tested;
 use crate::stats;
 
@@ -30,8 +30,7 @@ pub(super) fn gained(tested: &Tested<'_>, free: &Fit, level: &Fit) -> Option<Law
     let mut gains = [Vec::new(), Vec::new()];
     for (fold, gains) in gains.iter_mut().enumerate() {
         let known = &folds[1 - fold];
-        let free = Fit::of(tested, Freedom::Knots, known, &free.unknowns)?;
-        let level = Fit::of(tested, Freedom::Level, known, &level.unknowns)?;
+        let [free, level] = [free.of_some(tested, known)?, level.of_some(tested, known)?];
         for &at in &folds[fold] {
             gains.push(free.predicts(tested, at)? - level.predicts(tested, at)?);
         }

@@ -93,10 +93,9 @@ pub enum NotLearnt {
 pub fn learnt_law(study: &Study, nuisances: &[Nuisance; 3]) -> Result<LearntLaw, NotLearnt> {
     let (design, _) = Design::of(study);
     let tested = Tested::of(study, &design, nuisances).ok_or(NotLearnt::NothingRead)?;
-    let all: Vec<usize> = (0..tested.specimens.len()).collect();
-    let level = Fit::of(&tested, Freedom::Level, &all, &Freedom::Level.middle(&tested));
+    let level = Fit::of(&tested, Freedom::Level, &Freedom::Level.middle(&tested));
     let level = level.ok_or(NotLearnt::NoWalls)?;
-    let free = Fit::of(&tested, Freedom::Knots, &all, &Freedom::Knots.from(&level));
+    let free = Fit::of(&tested, Freedom::Knots, &Freedom::Knots.from(&level));
     let free = free.ok_or(NotLearnt::NoWalls)?;
     let gain = gained(&tested, &free, &level);
     Ok(LearntLaw::of(&tested, &free, gain))

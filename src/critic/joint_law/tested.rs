@@ -1,5 +1,8 @@
 //! The tests that a law is learnt from, and what the walls of a study show of them under any law.
 
+use std::collections::BTreeMap;
+use std::sync::Mutex;
+
 use rayon::prelude::*;
 
 use crate::critic::compare::{Simulated, at_rest, simulated};
@@ -54,6 +57,8 @@ pub struct Tested<'s> {
     pub seen: [f64; 2],
     /// Walls by family.
     walls: Vec<u64>,
+    /// What was shown at a try by so many walls of a family at most. Fits ask for the same again: of all specimens, and of some.
+    kept: Mutex<BTreeMap<(Vec<u64>, u64), Option<Vec<Shown>>>>,
 }
 
 impl<'s> Tested<'s> {
@@ -84,7 +89,7 @@ impl<'s> Tested<'s> {
         let walls = families.iter().map(|&family| if is_random(&arms[family]) { WALLS } else { 1 });
         let walls = walls.collect();
         let study = finely_tilted(study.clone().without_limit_analysis(), &specimens);
-        Some(Tested { study, nuisances, families, specimens, knots, seen, walls })
+        Some(Tested { study, nuisances, families, specimens, knots, seen, walls, kept: Mutex::default() })
     }
 
     /// The logarithm of the compliance (m/Pa) that is stated.
@@ -102,11 +107,25 @@ impl<'s> Tested<'s> {
         with.closing_along(&self.knots.closures(&of.ln_compliance), self.knots.stresses())
     }
 
-    /// What the specimens show under each try; `None` for one that has no walls to tell of.
-    pub fn shown(&self, tries: &[Try]) -> Vec<Option<Vec<Shown>>> {
+    /// What the specimens show under each try, by so many walls of a family at most; `None` for one that has no walls to tell of.
+    pub fn shown(&self, tries: &[Try], most: u64) -> Vec<Option<Vec<Shown>>> {
+        let key = |own: &Try| {
+            let numbers = own.ln_compliance.iter().chain(&own.scores);
+            (numbers.map(|x| x.to_bits()).collect::<Vec<u64>>(), most)
+        };
+        let all = || self.kept.lock().expect("nothing panics that holds it");
+        let new: Vec<&Try> = tries.iter().filter(|own| !all().contains_key(&key(own))).collect();
+        let simulated = self.simulated(&new, most);
+        all().extend(new.iter().map(|own| key(own)).zip(simulated));
+        tries.iter().map(|own| all()[&key(own)].clone()).collect()
+    }
+
+    fn simulated(&self, tries: &[&Try], most: u64) -> Vec<Option<Vec<Shown>>> {
         let places = tries.iter().enumerate().flat_map(|(at, _)| {
             let walls = self.walls.iter().enumerate();
-            walls.flat_map(move |(family, &count)| (0..count).map(move |member| (at, family, member)))
+            walls.flat_map(move |(family, &count)| {
+                (0..count.min(most)).map(move |member| (at, family, member))
+            })
         });
         let studies: Vec<Option<Study>> = tries.iter().map(|own| self.study_of(own)).collect();
         let rows: Vec<((usize, usize), Option<Row>)> = places

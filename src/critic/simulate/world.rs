@@ -239,11 +239,6 @@ impl<'s> World<'s> {
             .collect()
     }
 
-    /// Whether walls of a family differ in the base model. Where they do not, simulated ones differ by the emulator's error alone.
-    pub fn is_random(&self, family: usize) -> bool {
-        self.base.get(&self.stands_for[family]).is_some_and(|walls| walls.random)
-    }
-
     /// What the emulators explain of walls of the base model that they do not know, by family: share of the variance of two
     /// numbers of their path. The rest is the stones' own and the emulator's error.
     pub fn explained(&self) -> Vec<(usize, [(&'static str, f64); 2])> {

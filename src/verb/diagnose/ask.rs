@@ -59,7 +59,7 @@ pub(crate) struct Diagnose {
     /// Do not measure what the extended model gains on readings held out: minutes on a large design.
     #[arg(long, help_heading = SOLUTION)]
     pub no_gain: bool,
-    /// Where the verdict is unexplained, learn a free law of the joints from the readings: half an hour on the nine walls.
+    /// Learn a free law of the joints from the readings as well, whatever the verdict: minutes on the nine walls.
     #[arg(long, help_heading = SOLUTION)]
     pub law: bool,
     /// Output folder [default: runs/<study>-diagnosis, with -<variant> in it if one is named].

@@ -175,7 +175,7 @@ fn set_aside(study: &Study, mechanisms: &mut Vec<Described>) -> Result<DataNote,
 }
 
 /// Prints notes on the data on standard error, and gives their words.
-pub(crate) fn noted(notes: &[DataNote]) -> Vec<String> {
+pub(crate) fn noted(notes: &[impl ToString]) -> Vec<String> {
     let words: Vec<String> = notes.iter().map(ToString::to_string).collect();
     words.iter().for_each(|words| output::note(&format!("note: {words}")));
     words

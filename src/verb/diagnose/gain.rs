@@ -1,6 +1,6 @@
 //! What the extended model gains on readings that it has not seen, in the units and words of files.
 
-use crate::critic::{Design, Gain, Gained, HeldOut, Interval, Scores, World, stand_in};
+use crate::critic::{Between, Design, Gain, Gained, HeldOut, Interval, Scores, World, stand_in};
 use crate::render::document::Table;
 use crate::render::number::{capital, significant, with_interval};
 use crate::render::text::wrapped;
@@ -15,6 +15,8 @@ pub struct GainSummary {
     pub largest_tilts_left_out: Option<GainedEntry>,
     /// All families left out but one, and those that are alike.
     pub one_family_known: Vec<FamilyEntry>,
+    /// What the cause of the verdict that has most of the evidence gains where one family is predicted from another.
+    pub between_families: Vec<BetweenEntry>,
     /// What was chosen in each fold, from what was known there.
     pub choices: Vec<ChoiceEntry>,
     /// Campaigns without any effect that the intervals are widened by.
@@ -83,6 +85,21 @@ pub struct FamilyEntry {
     pub gained: GainedEntry,
 }
 
+/// What is gained on one family from another, by the chain rule: log p(B given A) = log Z(A, B) - log Z(A).
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct BetweenEntry {
+    /// The family that is known, with those whose arms say the same.
+    pub known: String,
+    /// The family that is predicted.
+    pub predicted: String,
+    /// Specimens that are predicted.
+    pub specimens: usize,
+    /// Readings on them.
+    pub readings: usize,
+    /// Gain in the logarithm of the probability of all these readings together (nat), with a 95 % interval.
+    pub log_score: GainEntry,
+}
+
 /// What was chosen in a fold.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct ChoiceEntry {
@@ -105,7 +122,7 @@ pub struct ShareEntry {
 
 impl GainSummary {
     /// From a gain measured on a design.
-    pub fn of(gain: &Gain, world: &World<'_>, design: &Design) -> GainSummary {
+    pub fn of(gain: &Gain, between: &[Between], world: &World<'_>, design: &Design) -> GainSummary {
         let study = world.study();
         let is_sheared = !study.drifts().is_empty();
         let name = |family: usize| {
@@ -137,6 +154,16 @@ impl GainSummary {
             specimens_left_out: gain.specimens.as_ref().map(GainedEntry::of),
             largest_tilts_left_out: gain.tilts.as_ref().map(GainedEntry::of),
             one_family_known: families.collect(),
+            between_families: between
+                .iter()
+                .map(|own| BetweenEntry {
+                    known: name(own.known),
+                    predicted: name(own.predicted),
+                    specimens: own.specimens,
+                    readings: own.readings,
+                    log_score: GainEntry { value: own.gain.value, interval: own.gain.ends },
+                })
+                .collect(),
             choices: choices.collect(),
             nulls: gain.nulls,
             is_sheared,
@@ -150,6 +177,7 @@ impl GainSummary {
             specimens_left_out: Some(entry),
             largest_tilts_left_out: None,
             one_family_known: Vec::new(),
+            between_families: Vec::new(),
             choices: Vec::new(),
             nulls: 0,
             is_sheared: false,
@@ -190,6 +218,17 @@ impl GainSummary {
         for own in &self.one_family_known {
             tables.push(own.gained.table(&format!("fitted to {} alone, all others left out", own.family)));
         }
+        if !self.between_families.is_empty() {
+            let rows = self.between_families.iter().map(|own| {
+                let specimens = format!("{} readings of {} specimens", own.readings, own.specimens);
+                vec![own.known.clone(), own.predicted.clone(), specimens, own.log_score.text()]
+            });
+            let caption = "Logarithm of the probability of all readings of one family, given those of another: the likeliest cause of the \
+                           verdict less the base model (nat). Nothing is fitted or chosen anew.";
+            let heads = ["known", "predicted", "of", "gain, 95 % interval"];
+            let table = Table::new("One family predicted from another", &heads, rows.collect());
+            tables.push(Table { caption: caption.to_owned(), ..table });
+        }
         let chosen = self.choices.iter().map(|choice| vec![choice.left_out.clone(), choice.text()]);
         tables.push(Table::new(
             "Causes chosen without what was left out",
@@ -210,6 +249,15 @@ impl GainSummary {
         }
         for own in &self.one_family_known {
             text.push_str(&own.gained.text(&format!("fitted to {} alone, all others left out", own.family)));
+        }
+        if !self.between_families.is_empty() {
+            text.push_str(
+                "  one family predicted from another, by the likeliest cause (nat over all readings)\n",
+            );
+        }
+        for own in &self.between_families {
+            let pair = format!("{} from {}", own.predicted, own.known);
+            text.push_str(&format!("    {pair:<22} {}\n", own.log_score.text()));
         }
         let chosen: Vec<String> =
             self.choices.iter().map(|choice| format!("{} {}", choice.left_out, choice.text())).collect();

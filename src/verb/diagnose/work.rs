@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use crate::critic;
 use crate::critic::{
-    Analysis, BANK, Design, Extension, Judge, SEEDS, Step, Steps, Task, Verdict, World, base_curves,
-    best_curves, cause_curves, data_notes_by_simulation, fitted_curves,
+    Analysis, BANK, Design, Extension, Judge, Relation, SEEDS, Step, Steps, Task, Verdict, World,
+    base_curves, best_curves, cause_curves, data_notes_by_simulation, fitted_curves,
 };
 use crate::study::{Loaded, MEASURED, Nuisance, Study};
 use crate::terminal::answer::Answer;
@@ -58,14 +58,16 @@ fn judged(arguments: &Diagnose) -> Result<Answer, Failure> {
         Task { world: &world, design: &design, measured: &measured, seed, with_gain: !arguments.no_gain };
     let kept = |judge: &Judge<'_>| judge::self_test(judge, &plan, seed, &folder);
     let analysis = critic::diagnose(&task, &OnStderr, kept).ok_or_else(judge::nothing_to_compare)?;
-    let Analysis { diagnosis, residuals, self_test, extensions, gain, offered, are_left } = analysis;
+    let Analysis { diagnosis, residuals, self_test, extensions, gain, between, relation, offered, are_left } =
+        analysis;
+    notes.extend(bank::noted(relation.filter(Relation::is_odd).as_slice()));
     let mut summary = DiagnosisSummary::of(&world, seed, &plan.study.hash, &design, &diagnosis, &self_test)
         .beside(&study, &residuals);
     summary.notes = notes;
     let file = arguments.measured.as_deref().unwrap_or(Path::new(MEASURED));
     summary.measured = stated.measured().map(|(_, sha256)| DataEntry::of(file, sha256));
     summary.advice = Advice::of(&self_test, &offered, are_left, &mechanisms);
-    summary.gain = gain.map(|gain| GainSummary::of(&gain, &world, &design));
+    summary.gain = gain.map(|gain| GainSummary::of(&gain, &between, &world, &design));
     let drawn = seed.wrapping_add(7 * SEEDS);
     let (base, causes, fitted, best) = doing("simulating the curves of the figures", |_| {
         let causes = cause_curves(&world, &design, &diagnosis, drawn);
@@ -116,7 +118,7 @@ impl Steps for OnStderr {
     }
 }
 
-/// Learns a law of the joints where no cause explains the readings and it is asked for, writes it, and says what it is; else what can be
+/// Learns a law of the joints where that is asked for, writes it, and says what it is; where no cause explains the readings, that it can be
 /// asked for.
 fn learnt(
     origin: &Origin<'_>,
@@ -126,14 +128,10 @@ fn learnt(
     out: &Path,
 ) -> Result<String, Failure> {
     remove_law(out);
-    if !is_unexplained {
-        return Ok(String::new());
-    }
-    let is_sheared = !origin.study.drifts().is_empty();
-    if !is_asked && is_sheared {
-        return Ok(String::new());
-    }
     if !is_asked {
+        if !is_unexplained || !origin.study.drifts().is_empty() {
+            return Ok(String::new());
+        }
         return Ok("\nA free law of the joints may say more: add --law to learn it.\n".to_owned());
     }
     match doing("learning a law of the joints", |_| critic::learnt_law(origin.study, nuisances)) {

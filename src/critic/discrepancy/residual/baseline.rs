@@ -37,9 +37,8 @@ impl Baseline {
         }
         let readings = design.readings().enumerate();
         let readings = readings.map(|(place, (family, m))| Residual::new((family, m), place, &nested, world));
-        let groups = grouped.iter().filter_map(|((family, ..), members)| {
-            GroupBase::new(*family, members, &nested, world.is_random(*family))
-        });
+        let groups =
+            grouped.iter().filter_map(|((family, ..), members)| GroupBase::new(*family, members, &nested));
         Baseline { readings: readings.collect(), groups: groups.collect() }
     }
 

@@ -72,12 +72,7 @@ pub(super) struct GroupBase {
 
 impl GroupBase {
     /// Of readings of one family, quantity and tilt at these places of the design; `None` without any.
-    pub fn new(
-        family: usize,
-        members: &[(usize, &Measurement)],
-        nested: &Nested,
-        random: bool,
-    ) -> Option<GroupBase> {
+    pub fn new(family: usize, members: &[(usize, &Measurement)], nested: &Nested) -> Option<GroupBase> {
         let (_, first) = members.first()?;
         let over = |shown: &[Option<f64>]| -> Option<f64> {
             stats::mean(&members.iter().filter_map(|(place, _)| shown[*place]).collect::<Vec<_>>())
@@ -85,7 +80,7 @@ impl GroupBase {
         let by_truth = nested.each(|shown| over(&shown.values));
         let readings: Vec<&Measurement> = members.iter().map(|(_, m)| *m).collect();
         let expected = Band::of(&nested.all(|shown| over(&shown.read)))
-            .and_then(|band| Expected::of(&by_truth, error_of_mean(&readings), random, band));
+            .and_then(|band| Expected::of(&by_truth, error_of_mean(&readings), band));
         let read = nested.all(|shown| {
             let number = |(place, m): &(usize, &Measurement)| Seen::of(shown.read[*place]?, m).number(m);
             stats::mean(&members.iter().filter_map(number).collect::<Vec<_>>())

@@ -11,9 +11,10 @@ const LEAST: usize = 100;
 pub struct Parts {
     /// Of the readings: random errors, rounding and the error that readings share.
     pub measurement: f64,
-    /// Of the stones: from one wall to another with the same joints.
+    /// Of the specimens: from one wall to another under the same parameters, by its stones and by the stiffness of its joints. What a
+    /// finite simulation does not know of one wall is a part of it.
     pub scatter: f64,
-    /// Of the parameters: kn, phi and kn/ks within their priors, and what a finite simulation does not know.
+    /// Of the parameters: kn, phi and kn/ks within their priors.
     pub parameters: f64,
 }
 
@@ -37,11 +38,10 @@ pub struct Expected {
 }
 
 impl Expected {
-    /// From a number of simulated campaigns by truth, the error of its measurement, whether stones differ from wall to wall, and
-    /// its band; `None` where too few campaigns have it.
+    /// From a number of simulated campaigns by truth, the error of its measurement, and its band; `None` where too few campaigns have it.
     ///
     /// Analysis of variance in one way, truths being of different sizes (Searle, Casella and McCulloch 1992, section 3.6).
-    pub(super) fn of(by_truth: &[Vec<f64>], measurement: f64, random: bool, band: Band) -> Option<Expected> {
+    pub(super) fn of(by_truth: &[Vec<f64>], measurement: f64, band: Band) -> Option<Expected> {
         let all = by_truth.concat();
         if all.len() < LEAST {
             return None;
@@ -60,10 +60,8 @@ impl Expected {
         let within = if n > truths { (whole - apart).max(0.0) / (n - truths) } else { 0.0 };
         let size = (n - sum(&|(size, _)| size * size) / n) / (truths - 1.0).max(1.0);
         let between = if size > 0.0 { ((across - within) / size).max(0.0) } else { 0.0 };
-        // Walls that are all the same differ by the error of the emulator, which is knowledge that is missing.
-        let (scatter, unknown) = if random { (within, 0.0) } else { (0.0, within) };
-        let parameters = (between + unknown + across / n).sqrt();
-        Some(Expected { mean, parts: Parts { measurement, scatter: scatter.sqrt(), parameters }, band })
+        let parameters = (between + across / n).sqrt();
+        Some(Expected { mean, parts: Parts { measurement, scatter: within.sqrt(), parameters }, band })
     }
 
     /// How far a measured number lies above the mean, in standard deviations; `None` where there are none.

@@ -40,9 +40,8 @@ impl Residual {
     ) -> Residual {
         let by_truth = nested.each(|shown| shown.values[place]);
         let standing = by_truth.concat();
-        let expected = Band::of(&standing).and_then(|band| {
-            Expected::of(&by_truth, error_of_mean(&[reading]), world.is_random(family), band)
-        });
+        let expected =
+            Band::of(&standing).and_then(|band| Expected::of(&by_truth, error_of_mean(&[reading]), band));
         Residual {
             family,
             held: world.is_held(family),

@@ -219,7 +219,7 @@ fn an_error_of_a_gauge_is_shared_by_all_its_points_and_by_a_target_that_does_not
         quantity,
         kind: MeasuredKind::Exact,
         resolution: 0.0,
-        error: 1e-9,
+        error: 1e-5,
         common_error: common,
         ..m.clone()
     };
@@ -249,10 +249,11 @@ fn an_error_of_a_gauge_is_shared_by_all_its_points_and_by_a_target_that_does_not
         .collect();
     for off in &campaigns {
         for k in [1, 2, 3, 6] {
-            assert!((off[k] - off[0]).abs() < 1e-7, "{off:?}");
+            // Each reading is off by 0.01 mm alone: seven standard deviations of a difference.
+            assert!((off[k] - off[0]).abs() < 1e-4, "{off:?}");
         }
         // A difference of points is free of it, and a collapse angle has its own.
-        assert!(off[4].abs() < 1e-7 && (off[5] - off[0]).abs() > 1e-7, "{off:?}");
+        assert!(off[4].abs() < 1e-4 && (off[5] - off[0]).abs() > 1e-6, "{off:?}");
     }
     let sigma = stats::sigma(&campaigns.iter().map(|off| off[0]).collect::<Vec<_>>()).expect("many");
     assert!((sigma / common - 1.0).abs() < 0.15, "{sigma}");

@@ -110,7 +110,9 @@ pub fn headline(summary: &DiagnosisSummary) -> String {
 
 /// A cause in plain words, with its probability and its size.
 fn sized(cause: &CauseEntry) -> String {
-    let sizes: Vec<String> = cause.parameters.iter().map(ParameterEntry::words).collect();
+    // What nothing is known to differ in has no size.
+    let sizes = cause.parameters.iter().filter(|own| own.prior_sd.is_some());
+    let sizes: Vec<String> = sizes.map(ParameterEntry::words).collect();
     let sizes = if sizes.is_empty() { String::new() } else { format!("; {}", sizes.join(", ")) };
     format!("{} (probability {}{sizes})", cause.title, significant(cause.probability, 2))
 }
