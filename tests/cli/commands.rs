@@ -475,7 +475,7 @@ fn detectability_writes_the_map_and_names_what_has_no_number() {
     // Two walls, which are the same: one alone gives no interval.
     let table = stdout(&ends_with(&folder, 0, &["detectability", "studies/tiny", "--members", "2"]));
     for said in [
-        "tiny: data like these could see 8 of 20 mechanisms",
+        "tiny: data like these could see 9 of 20 mechanisms",
         "Seen: contact_inset (",
         "Not seen: ",
         "n/a",

@@ -98,7 +98,7 @@ fn a_diagnosis_that_may_build_no_bank_says_how_to_make_it() {
     let refused = ends_with(&folder, 3, &[&DIAGNOSE[..], &["--no-build"]].concat());
     assert!(
         stderr(&refused).contains(
-            "960 walls are to be simulated first, by\n  pirca diagnose studies/tiny --measured tests.csv --prepare"
+            "1080 walls are to be simulated first, by\n  pirca diagnose studies/tiny --measured tests.csv --prepare"
         ),
         "{}",
         stderr(&refused)
@@ -253,7 +253,7 @@ fn variants_have_banks_and_diagnoses_of_their_own() {
     ));
     let soft = ["studies/tiny", "--variant", "soft", "--measured", "tests.csv", "--points", "12"];
     let refused = ends_with(&folder, 3, &[&["diagnose", "--no-build"], &soft[..]].concat());
-    let wanted = "there is no runs/tiny-soft-bank/bank.parquet: 192 walls are to be simulated first, by\n  \
+    let wanted = "there is no runs/tiny-soft-bank/bank.parquet: 216 walls are to be simulated first, by\n  \
                   pirca diagnose studies/tiny --variant soft --measured tests.csv --prepare --points 12";
     assert!(stderr(&refused).contains(wanted), "{}", stderr(&refused));
     ends_with(&folder, 0, &[&["diagnose", "--no-gain"], &soft[..]].concat());

@@ -3,10 +3,10 @@
 use crate::critic::causes::{self, OverScopes, Ranked, softmax};
 use crate::critic::conflict::PriorPredictive;
 use crate::critic::simulate::{Campaign, Causes};
-use crate::critic::verdict::diagnosis::{Diagnosis, Examined, Verdict};
+use crate::critic::verdict::diagnosis::{Diagnosis, Examined, Verdict, fitting};
 use crate::critic::verdict::examine::Examination;
 use crate::critic::verdict::judge::{Finding, Judge};
-use crate::critic::verdict::limits::{Limits, MOST_AMBIGUOUS, POSSIBLE};
+use crate::critic::verdict::limits::{Limits, MOST_AMBIGUOUS, NOISE, POSSIBLE};
 use crate::math::ln;
 use crate::stats;
 
@@ -14,8 +14,6 @@ use crate::stats;
 const PAIRS: usize = 4;
 /// A cause that the ranking puts aside is not put aside where the evidence leaves it this probability or more.
 const LIKELY: f64 = 0.1;
-/// Evidence that differs by less than so many of its standard errors does not differ.
-const NOISE: f64 = 2.0;
 /// Causes are left open only where those that fit have together so large a share of the probability that something is off: where the
 /// likely ones are refused, and an unlikely one is not, or where it is likely unmodelled, none explains it.
 const MOST: f64 = 0.5;
@@ -70,8 +68,7 @@ impl Judge<'_> {
             finding.ranked.causes.iter().position(|(cause, _)| *cause == Some(own.cause))
         };
         examined.sort_by_key(place);
-        let fits = |own: &&Examined<usize>| own.check.is_some_and(|p| p >= limits.check);
-        let explain: Vec<usize> = examined.iter().filter(fits).map(|own| own.cause).collect();
+        let explain: Vec<usize> = fitting(&examined, limits).map(|own| own.cause).collect();
         // What looks like no cause to the ranking is no veto: where one fits, what is outside has the probability of its evidence.
         if let (Some(outside), false) = (outside, explain.is_empty()) {
             finding.ranked = finding.ranked.beside(causes::outside(&logs, outside));
@@ -265,6 +262,26 @@ mod tests {
         assert_eq!(verdict(4.3, &[3, 2], &ranked), Verdict::Named(3));
         let put_aside = Ranked { set: vec![3, 2], ..ranked };
         assert_eq!(verdict(4.3, &[3, 1, 2], &put_aside), Verdict::Named(3));
+    }
+
+    #[test]
+    fn a_cause_that_fits_is_put_aside_where_the_evidence_speaks_strongly_for_another() {
+        let own = |cause: usize, log: f64, check: f64| Examined {
+            cause,
+            acting: Some(cause).into(),
+            scope_share: 1.0,
+            log,
+            spread: 0.3,
+            check: Some(check),
+            conflict: None,
+            evidence: 0.3,
+            draws: Vec::new(),
+        };
+        // Three nats and two standard errors of the difference are 3.85.
+        let examined = [own(3, 5.0, 0.5), own(1, 1.3, 0.5), own(2, 1.0, 0.5), own(4, 9.0, 0.01)];
+        let left: Vec<usize> = fitting(&examined, &Limits::default()).map(|own| own.cause).collect();
+        // What does not fit speaks against none.
+        assert_eq!(left, [3, 1]);
     }
 
     #[test]

@@ -4,6 +4,7 @@
 use crate::critic::discrepancy::ComponentEstimate;
 use crate::critic::simulate::{Causes, Truth};
 use crate::critic::verdict::judge::Finding;
+use crate::critic::verdict::limits::{Limits, NOISE, STRONG};
 
 /// What a campaign says of the base model.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -84,6 +85,21 @@ pub struct Examined<C> {
     pub evidence: f64,
     /// What its parameters and the joints may be with this scope: draws, equally likely.
     pub draws: Vec<Truth>,
+}
+
+/// The causes that fit, and whose evidence is not far behind that of another one that does.
+pub(super) fn fitting<'e>(
+    examined: &'e [Examined<usize>],
+    limits: &Limits,
+) -> impl Iterator<Item = &'e Examined<usize>> {
+    let check = limits.check;
+    let fits = move |own: &&Examined<usize>| own.check.is_some_and(|p| p >= check);
+    examined.iter().filter(fits).filter(move |own| {
+        examined
+            .iter()
+            .filter(fits)
+            .all(|other| other.log - own.log <= STRONG + NOISE * own.spread.hypot(other.spread))
+    })
 }
 
 impl Diagnosis {

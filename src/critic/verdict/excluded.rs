@@ -1,6 +1,6 @@
 //! What speaks against a cause, and which causes nothing speaks against.
 
-use crate::critic::verdict::diagnosis::{Diagnosis, Verdict};
+use crate::critic::verdict::diagnosis::{Diagnosis, Verdict, fitting};
 use crate::critic::verdict::limits::{Limits, POSSIBLE};
 
 /// What speaks against a cause.
@@ -10,7 +10,7 @@ pub enum Excluded {
     ByCheck,
     /// Nine in ten of its campaigns rank it higher: the ranking.
     ByRanking,
-    /// All readings together leave it hardly any probability.
+    /// All readings together leave it hardly any probability, or speak strongly for another one that fits.
     ByEvidence,
 }
 
@@ -23,6 +23,9 @@ impl Diagnosis {
         let ranked = &self.finding.ranked;
         match self.examined(cause).and_then(|own| own.check) {
             Some(p) if p < Limits::default().check => Some(Excluded::ByCheck),
+            Some(_) if fitting(&self.examined, &Limits::default()).all(|own| own.cause != cause) => {
+                Some(Excluded::ByEvidence)
+            }
             Some(_) => None,
             None if !ranked.set.contains(&cause) => Some(Excluded::ByRanking),
             None if ranked.probability(cause) < POSSIBLE => Some(Excluded::ByEvidence),

@@ -4,6 +4,11 @@
 pub const MOST_AMBIGUOUS: usize = 3;
 /// A cause that the ranking cannot put aside is put aside by the evidence where this leaves it a smaller probability.
 pub const POSSIBLE: f64 = 0.01;
+/// Evidence that differs by less than so many of its standard errors does not differ.
+pub(super) const NOISE: f64 = 2.0;
+/// A cause that fits is put aside where its evidence lies further behind that of another one that fits, beyond noise (nat): 20 to 1, from
+/// where on Kass and Raftery (1995) call evidence strong.
+pub(super) const STRONG: f64 = 3.0;
 
 /// The limits of a verdict.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -166,7 +166,7 @@ fn what_is_not_explained_excludes_causes_and_says_why() {
         "no cause explains it surely; 1 of the catalogue cannot be excluded.",
         "Excluded within its search prior by the posterior predictive check: creep.",
         "Excluded within its search prior by the ranking (nine in ten of its own campaigns rank it higher): lean.",
-        "Excluded within its search prior by the evidence (below one in a hundred): density.",
+        "Excluded within its search prior by the evidence (20 to 1 or more against it): density.",
         "Not excluded: gauge_offset.",
     ] {
         assert!(text.contains(sentence), "{text}");
@@ -423,7 +423,7 @@ fn the_text_the_page_and_the_files_show_what_was_measured_beside_what_was_simula
         "these readings cannot tell which of these it is: joints that go on moving under load (probability 0.60; rate 0.178 1",
         "About 1 in 1,000 simulated campaigns",
         "<td>joints that go on moving under load (creep)</td><td>0.600</td><td>0.45</td><td>0.40</td><td>may be it</td>",
-        "excluded: the evidence leaves it less than 1 in 100",
+        "excluded: the evidence is 20 to 1 or more against it",
         "A stone under a constant load slips step by step",
         "<td>sbl: collapse angle</td>",
         "<td>not in catalogue</td><td>0.250</td>",

@@ -108,13 +108,14 @@ pub fn headline(summary: &DiagnosisSummary) -> String {
     }
 }
 
-/// A cause in plain words, with its probability and its size.
+/// A cause in plain words, with the joints that it acts on, its probability and its size.
 fn sized(cause: &CauseEntry) -> String {
     // What nothing is known to differ in has no size.
     let sizes = cause.parameters.iter().filter(|own| own.prior_sd.is_some());
     let sizes: Vec<String> = sizes.map(ParameterEntry::words).collect();
     let sizes = if sizes.is_empty() { String::new() } else { format!("; {}", sizes.join(", ")) };
-    format!("{} (probability {}{sizes})", cause.title, significant(cause.probability, 2))
+    let joints = cause.scope.as_ref().map_or_else(String::new, |scope| format!(", in {}", scope.words));
+    format!("{}{joints} (probability {}{sizes})", cause.title, significant(cause.probability, 2))
 }
 
 /// Where the extended model does not predict better than the base model, though the verdict speaks of a cause.

@@ -206,7 +206,7 @@ fn stands(summary: &DiagnosisSummary, cause: &CauseEntry) -> &'static str {
             "excluded: it fits the readings worse than nearly all campaigns that it predicts"
         }
         (_, Some("looks"), _) => "excluded: nine in ten of its own campaigns look more like it",
-        (_, Some("evidence"), _) => "excluded: the evidence leaves it less than 1 in 100",
+        (_, Some("evidence"), _) => "excluded: the evidence is 20 to 1 or more against it",
         (_, _, "nothing_found") => "not needed: nothing is off beyond chance",
         (_, _, "unexplained") => "not excluded, and not sure enough to be named",
         _ => "not excluded, and less likely",

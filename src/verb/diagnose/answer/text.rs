@@ -185,7 +185,7 @@ pub(crate) fn excluded(summary: &DiagnosisSummary) -> Vec<String> {
             "Excluded within its search prior by the ranking (nine in ten of its own campaigns rank it higher)",
             by(Some("looks")),
         ),
-        ("Excluded within its search prior by the evidence (below one in a hundred)", by(Some("evidence"))),
+        ("Excluded within its search prior by the evidence (20 to 1 or more against it)", by(Some("evidence"))),
         ("Not excluded", by(None)),
     ]
     .into_iter()
