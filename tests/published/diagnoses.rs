@@ -25,13 +25,24 @@ fn verdict(study: &str, points: &str, bank: &Path) -> Value {
     serde_json::from_slice(&ran.stdout).expect("a verdict")
 }
 
-/// `studies/tilting-table`: something is wrong, and nothing in the catalogue explains it.
+/// `studies/tilting-table`: something is wrong, and joints of the stones that are soft until they close are the likeliest of a few causes.
 #[test]
 #[ignore = "slow: 50 s of processor time"]
-fn the_nine_walls_stay_unexplained_as_sbl_moves_too_far() {
+fn the_nine_walls_have_a_likeliest_cause_and_sbl_moves_too_far() {
     let study = "studies/tilting-table";
     let found = verdict(study, "60", &Path::new(env!("CARGO_MANIFEST_DIR")).join(study));
-    assert_eq!(found["verdict"], "unexplained");
+    assert_eq!(found["verdict"], "ambiguous");
+    let causes = found["causes"].as_array().expect("causes");
+    let spoken: Vec<&str> =
+        causes.iter().filter(|own| own["in_verdict"] == true).filter_map(|own| own["id"].as_str()).collect();
+    assert_eq!(spoken, ["joint_closure", "end_release", "base_compliance"]);
+    // The stones' joints close by more than two millimetres, on their own.
+    let parameters = causes[0]["parameters"].as_array().expect("they are told");
+    let stones = serde_json::json!(["sbl", "sbr"]);
+    let closure = parameters.iter().find(|own| own["key"] == "closure_m" && own["arms"] == stones);
+    let closure = closure.and_then(|own| own["median"].as_f64()).expect("each kind has its own");
+    assert!((1.8e-3..2.9e-3).contains(&closure), "{closure}");
+    assert!(found["nameless_probability"].as_f64().is_some_and(|p| p < 0.1), "{found}");
     assert!(found["p_value"].as_f64().is_some_and(|p| p < 0.005), "{}", found["p_value"]);
     // Table 11: SBL at 5 deg 13.3 mm measured; beyond all that scatters, unless all errors are common to all means.
     let group = |family: &str, quantity: &str, tilt: Option<f64>| {

@@ -6,7 +6,7 @@ use crate::critic::simulate::{Campaign, Causes};
 use crate::critic::verdict::diagnosis::{Diagnosis, Examined, Verdict, fitting};
 use crate::critic::verdict::examine::Examination;
 use crate::critic::verdict::judge::{Finding, Judge};
-use crate::critic::verdict::limits::{Limits, MOST_AMBIGUOUS, NOISE, POSSIBLE};
+use crate::critic::verdict::limits::{Limits, MOST_AMBIGUOUS, NOISE, POSSIBLE, far_behind};
 use crate::math::ln;
 use crate::stats;
 
@@ -43,10 +43,15 @@ impl Judge<'_> {
         let few = finding.leaves_few();
         // What all readings make likely is checked, however the ranking sees it, and however likely something outside is.
         let inside = Finding { ranked: finding.ranked.beside(0.0), ..finding.clone() };
-        let in_question = |cause: &usize, share: f64| {
+        let strongest = evidences[1..].iter().map(|own| [own.log, own.spread]);
+        let strongest =
+            strongest.fold([f64::NEG_INFINITY, 0.0], |best, own| if own[0] > best[0] { own } else { best });
+        let in_question = |cause: &usize, found: &OverScopes, share: f64| {
             let p = inside.ranked.probability(*cause);
             let is_possible = p >= if inside.ranked.set.contains(cause) { POSSIBLE } else { LIKELY };
-            inside.named(limits) == Some(*cause) || few && (is_possible || share >= LIKELY)
+            inside.named(limits) == Some(*cause)
+                || few && (is_possible || share >= LIKELY)
+                || !far_behind([found.log, found.spread], strongest)
         };
         let check = self.posterior_check();
         let mut examined: Vec<Examined<usize>> = shortlist
@@ -58,7 +63,8 @@ impl Judge<'_> {
                 scope_share: found.share,
                 log: found.log - logs[0],
                 spread: found.spread,
-                check: in_question(&cause, *share).then(|| check.p_value(&found.draws, campaign, seed)),
+                check: in_question(&cause, &found, *share)
+                    .then(|| check.p_value(&found.draws, campaign, seed)),
                 conflict: None,
                 evidence: *share,
                 draws: found.draws,
@@ -83,7 +89,7 @@ impl Judge<'_> {
         let verdict = match agreed.filter(|cause| explain.contains(cause)) {
             Some(cause) => named_or_level(cause, &examined, &explain, &finding.ranked),
             // What was as good as certain, and does not fit, speaks against the catalogue.
-            None if named.is_some_and(|cause| !explain.contains(&cause)) || !few => Verdict::Unexplained,
+            None if named.is_some_and(|cause| !explain.contains(&cause)) => Verdict::Unexplained,
             None => unnamed(&finding.ranked, explain),
         };
         let best = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -277,8 +283,7 @@ mod tests {
             evidence: 0.3,
             draws: Vec::new(),
         };
-        // Three nats and two standard errors of the difference are 3.85.
-        let examined = [own(3, 5.0, 0.5), own(1, 1.3, 0.5), own(2, 1.0, 0.5), own(4, 9.0, 0.01)];
+        let examined = [own(3, 5.0, 0.5), own(1, 2.1, 0.5), own(2, 1.9, 0.5), own(4, 9.0, 0.01)];
         let left: Vec<usize> = fitting(&examined, &Limits::default()).map(|own| own.cause).collect();
         // What does not fit speaks against none.
         assert_eq!(left, [3, 1]);

@@ -4,7 +4,7 @@
 use crate::critic::discrepancy::ComponentEstimate;
 use crate::critic::simulate::{Causes, Truth};
 use crate::critic::verdict::judge::Finding;
-use crate::critic::verdict::limits::{Limits, NOISE, STRONG};
+use crate::critic::verdict::limits::{Limits, far_behind};
 
 /// What a campaign says of the base model.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -94,12 +94,11 @@ pub(super) fn fitting<'e>(
 ) -> impl Iterator<Item = &'e Examined<usize>> {
     let check = limits.check;
     let fits = move |own: &&Examined<usize>| own.check.is_some_and(|p| p >= check);
-    examined.iter().filter(fits).filter(move |own| {
-        examined
-            .iter()
-            .filter(fits)
-            .all(|other| other.log - own.log <= STRONG + NOISE * own.spread.hypot(other.spread))
-    })
+    let evidence = |own: &Examined<usize>| [own.log, own.spread];
+    let is_behind = move |own: &&Examined<usize>| {
+        examined.iter().filter(fits).any(|other| far_behind(evidence(own), evidence(other)))
+    };
+    examined.iter().filter(fits).filter(move |own| !is_behind(own))
 }
 
 impl Diagnosis {

@@ -6,9 +6,9 @@ pub const MOST_AMBIGUOUS: usize = 3;
 pub const POSSIBLE: f64 = 0.01;
 /// Evidence that differs by less than so many of its standard errors does not differ.
 pub(super) const NOISE: f64 = 2.0;
-/// A cause that fits is put aside where its evidence lies further behind that of another one that fits, beyond noise (nat): 20 to 1, from
-/// where on Kass and Raftery (1995) call evidence strong.
-pub(super) const STRONG: f64 = 3.0;
+/// A cause is put aside where its evidence lies further behind that of another one that fits, and by more than noise (nat): 20 to 1, from where
+/// on Kass and Raftery (1995) call evidence strong.
+const STRONG: f64 = 3.0;
 
 /// The limits of a verdict.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,4 +50,9 @@ impl Default for Limits {
             pair: PairLimits { named: 0.99, check: 0.25, unmodelled: 0.05 },
         }
     }
+}
+
+/// Whether evidence lies far behind other evidence: logarithms with their standard errors.
+pub(super) fn far_behind([log, spread]: [f64; 2], [other, others]: [f64; 2]) -> bool {
+    other - log > STRONG.max(NOISE * spread.hypot(others))
 }
