@@ -53,6 +53,9 @@ pub(super) struct Family<'c> {
     all: [Wall<'c>; 1],
 }
 
+/// Walls on which anything was read, each with the density of what was.
+type Densities<'l, 'c> = Vec<(&'l Wall<'c>, Rc<Density>)>;
+
 /// What was read on a wall. Columns are those of [`Queries`].
 #[derive(Clone, Default)]
 pub(super) struct Wall<'c> {
@@ -117,7 +120,7 @@ impl<'c> Likelihood<'c> {
         Family { family, queries, each, all }: &'l Family<'c>,
         truth: &Truth,
         errors: &Errors<'_>,
-    ) -> Option<(Paths, Vec<(&'l Wall<'c>, Rc<Density>)>)> {
+    ) -> Option<(Paths, Densities<'l, 'c>)> {
         let MayShow { paths, random, by_stiffness } =
             self.world.may_show(*family, queries, truth, each.len());
         let paths = Paths::of(paths, by_stiffness);

@@ -104,7 +104,7 @@ pub fn between(judge: &Judge<'_>, campaign: &Campaign, causes: Causes, seed: u64
             true => stats::student_quantile(UPPER, groups - 1.0) * jackknifed,
             false => f64::INFINITY,
         };
-        let reach = by_specimens.hypot(KNOWN * (of_known + of_whole).sqrt());
+        let reach = (by_specimens * by_specimens + KNOWN * KNOWN * (of_known + of_whole)).sqrt();
         let readings = pair.groups.iter().flatten().map(|k| judge.design.specimens[*k].readings.len());
         Between {
             known: pair.known,

@@ -42,6 +42,9 @@ pub struct Shown {
     pub apart: Vec<Vec<f64>>,
 }
 
+/// A try by the bits of its numbers, and how many walls of a family are asked for at most.
+type Key = (Vec<u64>, u64);
+
 /// Specimens whose joints are stated the same, and the study that simulates them.
 pub struct Tested<'s> {
     study: Study,
@@ -58,7 +61,7 @@ pub struct Tested<'s> {
     /// Walls by family.
     walls: Vec<u64>,
     /// What was shown at a try by so many walls of a family at most. Fits ask for the same again: of all specimens, and of some.
-    kept: Mutex<BTreeMap<(Vec<u64>, u64), Option<Vec<Shown>>>>,
+    kept: Mutex<BTreeMap<Key, Option<Vec<Shown>>>>,
 }
 
 impl<'s> Tested<'s> {

@@ -6,7 +6,7 @@ use crate::critic::simulate::{Campaign, Causes};
 use crate::critic::verdict::diagnosis::{Diagnosis, Examined, Verdict, fitting};
 use crate::critic::verdict::examine::Examination;
 use crate::critic::verdict::judge::{Finding, Judge};
-use crate::critic::verdict::limits::{Limits, MOST_AMBIGUOUS, NOISE, POSSIBLE, far_behind};
+use crate::critic::verdict::limits::{Limits, MOST_AMBIGUOUS, NOISE, POSSIBLE, far_behind, of_difference};
 use crate::math::ln;
 use crate::stats;
 
@@ -84,7 +84,7 @@ impl Judge<'_> {
         let agreed = named.filter(|cause| {
             let own = examined.iter().find(|own| own.cause == *cause);
             let is_first = |own: &Examined<usize>| examined.iter().all(|other| !other.exceeds(own));
-            own.is_some_and(|own| own.log > NOISE * own.spread.hypot(spread) && is_first(own))
+            own.is_some_and(|own| own.log > NOISE * of_difference(own.spread, spread) && is_first(own))
         });
         let verdict = match agreed.filter(|cause| explain.contains(cause)) {
             Some(cause) => named_or_level(cause, &examined, &explain, &finding.ranked),
@@ -190,7 +190,7 @@ impl Judge<'_> {
 impl<C> Examined<C> {
     /// Whether it has more of the evidence than another by more than noise.
     fn exceeds(&self, other: &Examined<C>) -> bool {
-        self.log - other.log > NOISE * self.spread.hypot(other.spread)
+        self.log - other.log > NOISE * of_difference(self.spread, other.spread)
     }
 }
 

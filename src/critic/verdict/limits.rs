@@ -54,5 +54,10 @@ impl Default for Limits {
 
 /// Whether evidence lies far behind other evidence: logarithms with their standard errors.
 pub(super) fn far_behind([log, spread]: [f64; 2], [other, others]: [f64; 2]) -> bool {
-    other - log > STRONG.max(NOISE * spread.hypot(others))
+    other - log > STRONG.max(NOISE * of_difference(spread, others))
+}
+
+/// Standard error of a difference, from those of its parts.
+pub(super) fn of_difference(one: f64, other: f64) -> f64 {
+    (one * one + other * other).sqrt()
 }
