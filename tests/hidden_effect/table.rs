@@ -9,7 +9,7 @@ use crate::truth::decoys::DECOYS;
 use crate::truth::designs::Design;
 use crate::truth::label::{Group, Label};
 use crate::truth::laws::LAWS;
-use crate::truth::roster::{SPREADS, catalogue};
+use crate::truth::roster::{SPREADS, recorded};
 use crate::truth::strength::{Strength, Within, outside};
 use crate::truth::unknown::UNKNOWN;
 
@@ -170,7 +170,7 @@ fn of_design(design: Design, judged: &[Judged], laws: &[Option<Learnt>]) -> Vec<
         let to = if high.is_finite() { format!("{low} to {high}") } else { format!("above {low}") };
         lines.of_mechanisms(&format!("mechanism, shift {to}"), &some);
     }
-    for mechanism in catalogue() {
+    for mechanism in recorded() {
         let some = |j: &&Judged| j.label.hidden[0].name == mechanism.name;
         let some: Vec<&Judged> = mechanisms.iter().copied().filter(some).collect();
         lines.of_mechanisms(mechanism.name, &some);
@@ -429,7 +429,7 @@ pub mod tests {
             |told: &[Judged], group: &str, measure: &str| line(&of(told, &[]), group, measure).counts;
         let wrong = |told: &[Judged]| counts(told, "mechanism", "another one named").expect("a share")[0];
         let other = |j: &Judged| {
-            let names = catalogue().into_iter().map(|mechanism| mechanism.name.to_owned());
+            let names = recorded().into_iter().map(|mechanism| mechanism.name.to_owned());
             names.into_iter().find(|name| !j.is_hidden(name)).expect("there are more")
         };
         let one = told.iter().position(|j| j.label.group == Group::Mechanism).expect("most");

@@ -42,6 +42,11 @@ pub fn catalogue() -> Vec<Described> {
     described(&root("distributions")).unwrap_or_else(|lacks| panic!("{lacks}"))
 }
 
+/// Those of them that are hidden.
+pub fn recorded() -> Vec<Described> {
+    catalogue().into_iter().take(RECORDED).collect()
+}
+
 /// A folder of the repository.
 pub fn root(folder: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)
@@ -50,8 +55,7 @@ pub fn root(folder: &str) -> PathBuf {
 /// The campaigns of a share of the full size of each group, at least one of each [kind](Label::kind), and so many more of a kind, in
 /// the place of those that cannot be solved. A larger share holds those of a smaller one.
 pub fn roster(share: &dyn Fn(Group) -> f64, master: u64, more: &BTreeMap<String, u64>) -> Vec<Label> {
-    let mut mechanisms = catalogue();
-    mechanisms.truncate(RECORDED);
+    let mechanisms = recorded();
     let mut labels = Vec::new();
     let mut add = |group: Group, kind: String, full: u64, make: &Make<'_>| {
         let count = ((full as f64 * share(group)).round() as u64).max(1);
