@@ -59,11 +59,12 @@ impl Check<'_> {
     /// The relation of what was read, beside that of campaigns of these draws; `None` where too little was read of the same specimens.
     /// A pure function of its arguments.
     pub fn relation(&self, draws: &[Truth], campaign: &Campaign, seed: u64) -> Option<Relation> {
-        let (correlation, specimens) = self.correlated(campaign)?;
+        let units = self.reference.scale.units();
+        let (correlation, specimens) = self.correlated(campaign, &units)?;
         let one = |k: u64| {
             let streams = Streams::new(seed, k);
             let truth = &draws[streams.of("related").below(draws.len())];
-            Some(self.correlated(&self.world.campaign(self.design, truth, &streams))?.0)
+            Some(self.correlated(&self.world.campaign(self.design, truth, &streams), &units)?.0)
         };
         let shown: Vec<f64> = (0..PREDICTED).into_par_iter().filter_map(one).collect();
         if shown.len() < LEAST {
@@ -82,8 +83,8 @@ impl Check<'_> {
     }
 
     /// The correlation over all families, and of how many specimens it is; `None` where there are few, or where all are alike.
-    fn correlated(&self, campaign: &Campaign) -> Option<(f64, usize)> {
-        let units = self.reference.scale.units();
+    /// `units` are the base model's standard deviations by specimen and reading.
+    fn correlated(&self, campaign: &Campaign, units: &[Vec<f64>]) -> Option<(f64, usize)> {
         // What has a value of the kind, by family, quantity and tilt: specimen and value in the base model's standard deviations.
         let mut kinds: BTreeMap<(usize, MeasuredQuantity, u64), Vec<(usize, f64)>> = BTreeMap::new();
         for (specimen, own) in self.design.specimens.iter().enumerate() {
@@ -99,7 +100,7 @@ impl Check<'_> {
         let mut off: BTreeMap<(usize, usize), [Vec<f64>; 2]> = BTreeMap::new();
         for ((family, quantity, _), values) in kinds {
             let is_angle = quantity == MeasuredQuantity::CollapseAngle;
-            // What remains after going back, and what is read of single points, has a scatter of its own.
+            // Differences of points, what is read at the ends, and what remains after going back are not asked.
             let moves = [MeasuredQuantity::DisplacementMean, MeasuredQuantity::DisplacementCentre];
             if !is_angle && !moves.contains(&quantity) || values.len() < 2 {
                 continue;

@@ -4,7 +4,7 @@
 use rayon::prelude::*;
 
 use crate::critic::causes::{Evidence, RUNS, evidence_again};
-use crate::critic::gain::fold::{Fold, HeldOut};
+use crate::critic::gain::fold::{campaign_of, design_of, whole};
 use crate::critic::gain::gained::Interval;
 use crate::critic::simulate::{Campaign, Causes};
 use crate::critic::verdict::Judge;
@@ -71,10 +71,8 @@ pub fn between(judge: &Judge<'_>, campaign: &Campaign, causes: Causes, seed: u64
     let evidences: Vec<[Evidence; 2]> = parts
         .par_iter()
         .map(|part| {
-            let known = judge.design.specimens.iter().zip(part);
-            let known = known.map(|(own, is_known)| vec![*is_known; own.readings.len()]).collect();
-            let fold = Fold { held_out: HeldOut::OtherFamilies(0), known };
-            let (design, seen) = (fold.design(&judge.design), fold.campaign(campaign));
+            let known = whole(&judge.design, |specimen| part[specimen]);
+            let (design, seen) = (design_of(&judge.design, &known), campaign_of(campaign, &known));
             [Causes::default(), causes].map(|causes| {
                 let run = |run: u64| evidence_again(judge.world, &design, &seen, causes, (seed, run));
                 Evidence::of_runs((0..RUNS).into_par_iter().map(run).collect())

@@ -33,11 +33,7 @@ impl Fold {
     pub fn all(design: &Design, stands_for: impl Fn(usize) -> usize) -> Vec<Fold> {
         let specimens = 0..design.specimens.len();
         let mut folds: Vec<Fold> = specimens
-            .map(|out| {
-                let known = design.specimens.iter().enumerate();
-                let known = known.map(|(index, specimen)| vec![index != out; specimen.readings.len()]);
-                Fold { held_out: HeldOut::Specimen(out), known: known.collect() }
-            })
+            .map(|out| Fold { held_out: HeldOut::Specimen(out), known: whole(design, |index| index != out) })
             .collect();
         let known = design.specimens.iter().map(|specimen| {
             let tilts = specimen.tilts();
@@ -48,8 +44,7 @@ impl Fold {
         folds.push(Fold { held_out: HeldOut::LargestTilts, known: known.collect() });
         let families: BTreeSet<usize> = design.families().into_iter().map(&stands_for).collect();
         folds.extend(families.into_iter().map(|family| {
-            let known = design.specimens.iter();
-            let known = known.map(|own| vec![stands_for(own.family) == family; own.readings.len()]).collect();
+            let known = whole(design, |index| stands_for(design.specimens[index].family) == family);
             Fold { held_out: HeldOut::OtherFamilies(family), known }
         }));
         folds.retain(|fold| {
@@ -59,24 +54,37 @@ impl Fold {
         folds
     }
 
-    /// The design that is known; specimens of which nothing is known are not in it.
+    /// The design that is known.
     pub fn design(&self, design: &Design) -> Design {
-        let mut part = design.clone();
-        for (specimen, known) in part.specimens.iter_mut().zip(&self.known) {
-            specimen.readings = kept(&specimen.readings, known);
-        }
-        part.specimens.retain(|specimen| !specimen.readings.is_empty());
-        part
+        design_of(design, &self.known)
     }
 
     /// What is known of a campaign, in the order of [`Self::design`].
     pub fn campaign(&self, campaign: &Campaign) -> Campaign {
-        let specimens = campaign.specimens.iter().zip(&self.known).map(|(seen, known)| kept(seen, known));
-        Campaign {
-            specimens: specimens.filter(|seen| !seen.is_empty()).collect(),
-            apart: campaign.apart.clone(),
-        }
+        campaign_of(campaign, &self.known)
     }
+}
+
+/// All readings of the specimens that are kept.
+pub(super) fn whole(design: &Design, keeps: impl Fn(usize) -> bool) -> Vec<Vec<bool>> {
+    let specimens = design.specimens.iter().enumerate();
+    specimens.map(|(index, specimen)| vec![keeps(index); specimen.readings.len()]).collect()
+}
+
+/// The design of the readings that are known; specimens of which nothing is known are not in it.
+pub(super) fn design_of(design: &Design, known: &[Vec<bool>]) -> Design {
+    let mut part = design.clone();
+    for (specimen, known) in part.specimens.iter_mut().zip(known) {
+        specimen.readings = kept(&specimen.readings, known);
+    }
+    part.specimens.retain(|specimen| !specimen.readings.is_empty());
+    part
+}
+
+/// What is known of a campaign, in the order of [`design_of`].
+pub(super) fn campaign_of(campaign: &Campaign, known: &[Vec<bool>]) -> Campaign {
+    let specimens = campaign.specimens.iter().zip(known).map(|(seen, known)| kept(seen, known));
+    Campaign { specimens: specimens.filter(|seen| !seen.is_empty()).collect(), apart: campaign.apart.clone() }
 }
 
 fn kept<T: Clone>(all: &[T], known: &[bool]) -> Vec<T> {

@@ -7,9 +7,9 @@ use crate::critic::discrepancy::{Predicted, Score, normal_score};
 use crate::critic::fixture::{EFFORT, judged, made};
 use crate::critic::gain::fold::{Fold, HeldOut};
 use crate::critic::gain::gained::{Row, estimates, gained};
-use crate::critic::gain::{Folds, Kind, Measuring, mixed, mixture};
+use crate::critic::gain::{Folds, Kind, Measuring, between, mixed, mixture};
 use crate::critic::simulate::{Campaign, Causes, Design, Seen, Truth};
-use crate::critic::verdict::MOST_AMBIGUOUS;
+use crate::critic::verdict::{Judge, MOST_AMBIGUOUS};
 use crate::random::Streams;
 use crate::random::standard_normal::quantile;
 use crate::stats;
@@ -273,4 +273,35 @@ fn a_fold_that_names_no_cause_mixes_those_that_it_leaves_open() {
     let of = |cause: usize| both.iter().filter(|own| own.causes == Some(cause).into()).collect::<Vec<_>>();
     assert_eq!((of(1).len(), of(2).len()), (15, 5));
     assert_eq!(of(2).iter().map(|own| own.parameters[0]).collect::<Vec<_>>(), [0.0, 4.0, 8.0, 12.0, 16.0]);
+}
+
+#[test]
+fn what_acts_on_all_walls_is_a_gain_from_each_family_to_the_other() {
+    let (made, all) = judged();
+    let of = |names: &[&str]| {
+        let mut design = all.design.clone();
+        design.specimens.retain(|specimen| names.contains(&specimen.name.as_str()));
+        Judge::trained(all.world, &design, EFFORT, 8).expect("it can be told")
+    };
+    let judge = of(&["SBL2", "SBL3", "SBR1", "SBR2"]);
+    let (creep, streams) = (Causes::from(Some(made.cause("creep"))), Streams::new(61, 1));
+    let mut truth = all.world.drawn(creep, &streams);
+    truth.parameters[0] = 1.5;
+    let campaign = all.world.campaign(&judge.design, &truth, &streams);
+    let found = between(&judge, &campaign, creep, 5);
+    let pairs: Vec<_> = found.iter().map(|own| (own.known, own.predicted, own.specimens)).collect();
+    assert_eq!(pairs, [(1, 2, 2), (2, 1, 2)]);
+    for own in &found {
+        let [low, high] = own.gain.ends;
+        assert!(own.gain.value > 1.0 && low < own.gain.value && own.gain.value < high, "{own:?}");
+        assert!(high.is_finite(), "{own:?}");
+    }
+    // The base model gains nothing over itself.
+    assert!(between(&judge, &campaign, Causes::default(), 5).iter().all(|own| own.gain.value == 0.0));
+    // One specimen does not tell how sure a gain is.
+    let judge = of(&["SBL2", "SBR1", "SBR2"]);
+    let campaign = all.world.campaign(&judge.design, &truth, &streams);
+    let ends: Vec<bool> =
+        between(&judge, &campaign, creep, 5).iter().map(|own| own.gain.ends[1].is_finite()).collect();
+    assert_eq!(ends, [true, false]);
 }
