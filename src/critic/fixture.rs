@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use crate::critic::discrepancy::Reference;
 use crate::critic::simulate::bank::tests::shipped;
-use crate::critic::simulate::{Bank, Design, Path, Plan, World};
+use crate::critic::simulate::{Bank, Design, NUMBERS, Path, Plan, World};
 use crate::critic::verdict::{Effort, Judge};
 use crate::math::{ln, radians};
 use crate::random::Streams;
@@ -33,7 +33,7 @@ pub(crate) fn made() -> Made {
         // A point has the same stones under every cause.
         let mut noise = Streams::new(5, place.point).of(&format!("stones {}", place.family));
         let mut draw = |sd: f64| if place.family == 0 { 0.0 } else { sd * quantile(noise.uniform()) };
-        let mut numbers = [0.0; 37];
+        let mut numbers = [0.0; NUMBERS];
         numbers[0] = ln(radians([19.0, 14.5, 19.5][place.family])) + 0.05 * kn + 0.01 * phi + draw(0.02);
         let level = draw(0.05);
         for k in 0..6 {

@@ -19,6 +19,8 @@ mod joint_law;
 mod method;
 mod screening;
 #[cfg(test)]
+mod shaken;
+#[cfg(test)]
 mod sheared;
 mod simulate;
 #[cfg(test)]
@@ -53,8 +55,8 @@ pub use joint_law::{Bend, KnownLaw, LawGain, LearntLaw, NamedForm, Nearness, Not
 pub use method::{Analysis, SEEDS, Step, Steps, Task, diagnose};
 pub use screening::{DataNote, Extent, data_notes, data_notes_by_simulation};
 pub use simulate::{
-    BANK, Bank, Campaign, Causes, Design, Emulator, Held, NotThisBank, PRIOR_WIDENING, Path, Place, Plan,
-    Scope, Scored, Seen, Specimen, Truth, Unused, World, stand_in,
+    BANK, Bank, Campaign, Causes, Design, Emulator, Held, MOST_SOUGHT, NotThisBank, PRIOR_WIDENING, Path,
+    Place, Plan, Scope, Scored, Seen, Specimen, Test, Truth, Unused, World, stand_in,
 };
 pub use verdict::{
     Diagnosis, Effort, Examination, Examined, Excluded, Finding, Judge, Limits, MOST_AMBIGUOUS, PairLimits,

@@ -5,7 +5,7 @@ use std::path::Path as Folder;
 use crate::critic::causes::evidence;
 use crate::critic::discrepancy::Predicted;
 use crate::critic::fixture::{ALIKE, EFFORT};
-use crate::critic::simulate::{Bank, Campaign, Design, Path, Plan, Seen, Truth, Unused, World};
+use crate::critic::simulate::{Bank, Campaign, Design, NUMBERS, Path, Plan, Seen, Truth, Unused, World};
 use crate::critic::verdict::Judge;
 use crate::math::ln;
 use crate::protocol::Protocol;
@@ -48,7 +48,7 @@ fn made() -> Made {
         };
         let stiffness = 1.5e7 * crate::math::exp(0.5 * kn + stiffens * ln(load));
         let bears = 3.6e4 * load * crate::math::exp(0.02 * phi);
-        let mut numbers = [0.0; 37];
+        let mut numbers = [0.0; NUMBERS];
         numbers[0] = ln(2.0);
         for (number, share) in numbers[1..].iter_mut().zip(SHARES) {
             *number = -ln(1.0 / (stiffness * 0.02 * share) + 1.0 / bears) - weakens;

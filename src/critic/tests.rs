@@ -32,6 +32,7 @@ pub fn measurement(
         family: "irregular".into(),
         tilt: tilt_deg.map(radians),
         drift: None,
+        under: None,
         quantity,
         value,
         kind: MeasuredKind::Exact,

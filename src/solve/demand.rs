@@ -34,6 +34,8 @@ pub enum Demand {
     BaseMotion,
     /// Damping by a ratio at two frequencies.
     RayleighDamping,
+    /// Impacts that give back a part of the speed.
+    Restitution,
     /// Another answer than that of limit analysis, to compare with it.
     Agreement,
 }

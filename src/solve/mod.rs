@@ -57,7 +57,9 @@ impl Solver {
     /// Why it refuses a demand; `None` where it has that.
     pub fn refuses(&self, demand: Demand) -> Option<&'static str> {
         match self {
-            Solver::Explicit(_) => None,
+            Solver::Explicit(_) => {
+                (demand == Demand::Restitution).then_some("elastic joints have no impacts")
+            }
             Solver::Implicit(_) => implicit::refuses(demand),
             Solver::Nonsmooth(settings) => settings.refuses(demand),
             Solver::Limit(_) => limit::refuses(demand),

@@ -64,7 +64,7 @@ pub struct Catalogue {
     distributions: Distributions,
     files: BTreeMap<String, Option<Held>>,
     /// The tables beside the study.
-    surveys: Surveys,
+    pub(in crate::study) surveys: Surveys,
     /// The walls beside it.
     pub walls: WallFiles,
     /// Faults of the files read.

@@ -7,7 +7,10 @@ use crate::motion::{Envelope, KanaiTajimi, Motion, RezaeianDerKiureghian};
 use crate::protocol::Direction;
 use crate::random::{Family, Streams};
 use crate::study::catalogue::Catalogue;
+use crate::study::cause::Meeting;
+use crate::study::checked::Study;
 use crate::study::fault::{Fault, Found};
+use crate::study::measured::{MeasuredQuantity, Under};
 use crate::study::pulses::pulses;
 use crate::study::quantity::quantity;
 use crate::study::reader::Reader;
@@ -68,6 +71,22 @@ pub struct Earthquakes {
     towards: Direction,
     /// What generates them; `None` of those from files and of pulses.
     generator: Option<Generator>,
+    /// What is looked for in the place of the intensities; empty in a study from files.
+    pub sought: Vec<Sought>,
+}
+
+/// What is looked for under a record.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sought {
+    /// Index of the record.
+    pub record: usize,
+    /// What was measured under it: of an outcome the scale is looked for at which the wall would just fall, of anything else the wall
+    /// is shaken once.
+    pub quantity: MeasuredQuantity,
+    /// Factor on the record as it was recorded: at which the wall is shaken, or from which on the scale is looked for.
+    pub scale: f64,
+    /// Place of the motion in the sequence that walls meet, from 0.
+    pub nth: u32,
 }
 
 /// A record.
@@ -77,6 +96,8 @@ pub struct Record {
     motion: Motion,
     /// Its peak ground acceleration (m/s^2) and velocity (m/s) there.
     peaks: [f64; 2],
+    /// The intensity at which it was recorded; 1 of one that is generated, whose strength is nothing but scaled.
+    pub recorded: f64,
 }
 
 /// How records are generated.
@@ -129,7 +150,57 @@ impl Record {
     }
 }
 
+impl Record {
+    /// Its motion at an intensity, as a wall meets it.
+    pub fn met(&self, intensity: f64, meeting: &Meeting) -> Motion {
+        let motion = self.at(intensity);
+        let motion = if meeting.factor == 1.0 { motion } else { motion.scaled(meeting.factor) };
+        if meeting.turn == 0.0 { motion } else { motion.turned(meeting.turn) }
+    }
+}
+
+impl Study {
+    /// The study that looks, in the place of its intensities, for what was measured under its records: each scale at which a wall just falls
+    /// once for a record, whatever the scales under which it fell or stood. Unchanged where no base moves.
+    pub fn seeking_what_was_measured(mut self) -> Study {
+        let Some(earthquakes) = &mut self.earthquakes else { return self };
+        let mut sought: Vec<Sought> = Vec::new();
+        for m in &self.measured {
+            let Some(under) = &m.under else { continue };
+            let named = |record: &Record| record.name() == under.record;
+            let Some(record) = earthquakes.records.iter().position(named) else { continue };
+            let (quantity, scale) = (m.quantity, under.scale);
+            let is_same = |own: &Sought| own.is_of(record, quantity, scale);
+            if !sought.iter().any(is_same) {
+                sought.push(Sought { record, quantity, scale, nth: m.stage });
+            }
+        }
+        earthquakes.sought = sought;
+        let told: Vec<String> = earthquakes.sought.iter().map(|own| own.name(&earthquakes.records)).collect();
+        self.stating([("load.sought", told.join(", "))])
+    }
+}
+
+impl Sought {
+    /// Whether a reading of a quantity under a record at a scale asks for this.
+    pub fn is_of(&self, record: usize, quantity: MeasuredQuantity, scale: f64) -> bool {
+        let is_outcome = quantity == MeasuredQuantity::Outcome;
+        self.record == record && self.quantity == quantity && (is_outcome || self.scale == scale)
+    }
+
+    /// Its name among the others.
+    pub fn name(&self, records: &[Record]) -> String {
+        format!("{} {} x {} as {}", self.quantity.name(), records[self.record].name(), self.scale, self.nth)
+    }
+}
+
 impl Earthquakes {
+    /// The place, among what is sought, of a quantity under a record at a scale.
+    pub fn place_of(&self, quantity: MeasuredQuantity, under: &Under) -> Option<usize> {
+        let record = self.records.iter().position(|record| record.name() == under.record)?;
+        self.sought.iter().position(|own| own.is_of(record, quantity, under.scale))
+    }
+
     /// Reads them from the table of the load. Generated ones are drawn when the seed is known, see [`Earthquakes::seeded`].
     pub fn read(
         t: &mut Reader<'_>,
@@ -174,7 +245,7 @@ impl Earthquakes {
             }
         }
         let intensities = intensities.filter(|_| !both)?;
-        Some(Earthquakes { measure, intensities, records: read, towards, generator })
+        Some(Earthquakes { measure, intensities, records: read, towards, generator, sought: Vec::new() })
     }
 
     /// With the records that a seed gives, where they are generated.
@@ -189,7 +260,8 @@ impl Earthquakes {
         });
         let record = |motion: Motion| {
             let record = scaled(&motion, self.measure, self.towards);
-            record.expect("a generated record moves horizontally")
+            let record = record.expect("a generated record moves horizontally");
+            Record { recorded: 1.0, ..record }
         };
         Earthquakes { records: drawn.map(record).collect(), ..self }
     }
@@ -211,13 +283,13 @@ fn scaled(motion: &Motion, measure: Measure, towards: Direction) -> Result<Recor
         return Err(format!("holds {}, which moves the ground up and down alone", motion.name));
     }
     let turned = motion.towards(&towards.unit()).map_err(|fault| fault.to_string())?;
-    let motion = match measure {
-        Measure::Pga => turned.scaled_to_pga(1.0),
-        Measure::Pgv => turned.scaled_to_pgv(1.0),
+    let (motion, recorded) = match measure {
+        Measure::Pga => (turned.scaled_to_pga(1.0), turned.pga()),
+        Measure::Pgv => (turned.scaled_to_pgv(1.0), turned.pgv()),
     };
     let motion = motion.map_err(|fault| format!("holds {}: {fault}", turned.name))?;
     let peaks = [motion.pga(), motion.pgv()];
-    Ok(Record { motion, peaks })
+    Ok(Record { motion, peaks, recorded })
 }
 
 /// What a record draws of its families, each from a stream of its own.

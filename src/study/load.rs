@@ -9,8 +9,10 @@ use crate::study::build::{self, Parts};
 use crate::study::catalogue::{Catalogue, Used};
 use crate::study::checked::{Arm, InputFile, Study, SweptArm, Until};
 use crate::study::demands::unfit_for;
+use crate::study::earthquakes::Earthquakes;
 use crate::study::fault::{Fault, Faults, Source};
 use crate::study::files::TextFile;
+use crate::study::measured::Known;
 use crate::study::raw::{self, Node};
 use crate::study::reader::{Notes, Reader, table_name};
 use crate::study::readings::reading_name;
@@ -56,6 +58,12 @@ pub(super) struct Reading {
     used: Vec<Used>,
 }
 
+/// Names of the records of a base that shakes; none where it does not.
+fn names(earthquakes: Option<&Earthquakes>) -> Vec<String> {
+    let records = earthquakes.iter().flat_map(|earthquakes| &earthquakes.records);
+    records.map(|record| record.name().to_owned()).collect()
+}
+
 impl Loaded {
     /// The same study with the measurements of another file.
     ///
@@ -66,7 +74,9 @@ impl Loaded {
         let file = files::read(path, &name, 0, csv::FORMAT).map_err(|fault| Faults::sorted(vec![*fault]))?;
         // As beside the study: a variant that evaluates fewer arms reads the same files.
         let arms = self.stated.arms();
-        let read = measured::read(&file.source, arms.as_deref()).map_err(Faults::sorted)?;
+        let records = names(self.study.earthquakes.as_ref());
+        let known = Known { arms: arms.as_deref(), records: Some(&records) };
+        let read = measured::read(&file.source, known).map_err(Faults::sorted)?;
         (self.study.measured, self.written) = (read.rows, read.written);
         let of_the_studys_own = |warning: &Fault| warning.file == measured::FILE;
         self.warnings.retain(|warning| !of_the_studys_own(warning));
@@ -109,8 +119,11 @@ impl Study {
             .map(|root| published::read(&root, arms.as_deref(), &mut notes))
             .unwrap_or_default();
         let measured_file = measurements(&folder, &mut inputs, &mut faults);
+        let parts = reading.as_ref().and_then(|reading| reading.parts.as_ref());
+        let records = parts.map(|parts| names(parts.earthquakes.as_ref()));
         let measured = measured_file.as_ref().and_then(|file| {
-            let read = measured::read(&file.source, arms.as_deref());
+            let known = Known { arms: arms.as_deref(), records: records.as_deref() };
+            let read = measured::read(&file.source, known);
             read.map_err(|mut found| faults.append(&mut found)).ok()
         });
         faults.append(&mut notes.faults);

@@ -50,14 +50,14 @@ pub use bearing::Bearing;
 pub use built_in::{BuiltInStudy, built_in_studies};
 pub use catalogue::{Distribution, DistributionFile, Used, load_distributions};
 pub use cause::{
-    Acts, CAUSES, Cause, Described, InLimitAnalysis, Mechanisms, OnPlate, Parameter, Stronger, Unloading,
-    WIDER, described, in_plain_words,
+    Acts, CAUSES, Cause, Described, InLimitAnalysis, Mechanisms, Meeting, OnPlate, Parameter, Stronger,
+    Unloading, WIDER, described, in_plain_words,
 };
 pub use checked::{
     Arm, Claim, ClaimTest, InputFile, Joint, StatedLaw, Study, SweptArm, SweptValue, TakenFrom, Until,
 };
 pub use distributions::{Distributions, Origin, distributions_among};
-pub use earthquakes::{Earthquakes, Measure, Record};
+pub use earthquakes::{Earthquakes, Measure, Record, Sought};
 pub use elements::{ElementArm, ElementStudy, Reported};
 pub use extended::{Acting, Point};
 pub(crate) use fault::listed;
@@ -67,7 +67,7 @@ pub use joints::DrawnJoints;
 pub use json_schema::Schema;
 pub use load::{Loaded, VariantName};
 pub use measured::{
-    FILE as MEASURED, MeasuredKind, MeasuredQuantity, Measurement, Template, Written, template,
+    FILE as MEASURED, MeasuredKind, MeasuredQuantity, Measurement, Template, Under, Written, template,
 };
 pub use meetings::{Fit, TOUCH, Tolerance, bounds, look};
 pub use nuisance::{NUISANCES, Nuisance, nuisances};

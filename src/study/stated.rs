@@ -14,7 +14,7 @@ use crate::study::files::TextFile;
 use crate::study::raw::{self, Entry, Node, Value};
 use crate::study::reader::{Notes, join, table_name};
 use crate::study::schema::{Kind, Section};
-use crate::study::survey::Asked;
+use crate::study::survey::{Asked, Recorded};
 use crate::study::{keys, load, variant};
 
 /// Paths of keys with the values that they are set to, as a variant sets them.
@@ -44,6 +44,8 @@ pub struct Stated {
     pub(super) measured: Option<TextFile>,
     /// The files of walls, by the names that arms give them.
     walls: BTreeMap<String, Arc<[u8]>>,
+    /// The records of ground motion, by the names that the load gives them.
+    records: BTreeMap<String, Arc<Recorded>>,
 }
 
 impl Stated {
@@ -61,7 +63,8 @@ impl Stated {
         write_out(&mut root, &keys::STUDY, "", catalogue);
         let written_out = std::mem::take(&mut catalogue.used);
         let walls = catalogue.walls.bytes.clone();
-        Stated { root, written_out, published, measured, walls }
+        let records = catalogue.surveys.records.clone();
+        Stated { root, written_out, published, measured, walls, records }
     }
 
     /// The text of published.toml, if there is one.
@@ -74,9 +77,10 @@ impl Stated {
         self.measured.as_ref().map(|file| (file.source.text.as_str(), file.sha256.as_str()))
     }
 
-    /// The files of walls, by the names that arms give them: they go with the study into any folder.
-    pub fn walls(&self) -> impl Iterator<Item = (&str, &[u8])> {
-        self.walls.iter().map(|(name, bytes)| (name.as_str(), &bytes[..]))
+    /// The files of walls and the records of ground motion, by the names that the study gives them: they go with it into any folder.
+    pub fn beside(&self) -> impl Iterator<Item = (&str, &[u8])> {
+        let walls = self.walls.iter().map(|(name, bytes)| (name.as_str(), &bytes[..]));
+        walls.chain(self.records.iter().map(|(name, record)| (name.as_str(), &record.bytes[..])))
     }
 
     /// Whether the study's files state the key of that path; what they do not state has its default.
@@ -118,6 +122,7 @@ impl Stated {
         // No reference is left that would be looked up.
         let mut catalogue = Catalogue::of(Distributions::of_study(Path::new("")));
         catalogue.walls.bytes.clone_from(&self.walls);
+        catalogue.surveys.records.clone_from(&self.records);
         load::read_all(&self.root, &variants, &[], &mut catalogue, &mut faults);
         if faults.is_empty() { Ok(self) } else { Err(Faults::sorted(faults)) }
     }

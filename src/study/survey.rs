@@ -22,10 +22,21 @@ pub struct Surveys {
     /// The study's folder; `None` where there is none, and so no survey.
     folder: Option<PathBuf>,
     files: BTreeMap<String, Option<Arc<Survey>>>,
+    /// The records of ground motion, by the names that the study gives them, each read once.
+    pub records: BTreeMap<String, Arc<Recorded>>,
     /// Faults of the files read.
     pub faults: Vec<Fault>,
     /// The files read, in that order.
     pub inputs: Vec<InputFile>,
+}
+
+/// A record of ground motion that was read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recorded {
+    motion: Motion,
+    sha256: String,
+    /// The bytes of its file.
+    pub bytes: Vec<u8>,
 }
 
 /// A table that was read.
@@ -63,7 +74,8 @@ impl Asked<'_> {
 impl Surveys {
     /// Those in the folder of a study.
     pub fn beside(folder: Option<PathBuf>) -> Surveys {
-        Surveys { folder, files: BTreeMap::new(), faults: Vec::new(), inputs: Vec::new() }
+        let (files, records) = (BTreeMap::new(), BTreeMap::new());
+        Surveys { folder, files, records, faults: Vec::new(), inputs: Vec::new() }
     }
 
     /// Where a file lies.
@@ -155,6 +167,9 @@ impl Surveys {
         file: &str,
         fault: &dyn Fn(String, &str) -> Box<Fault>,
     ) -> Result<(Motion, String), Box<Fault>> {
+        if let Some(known) = self.records.get(file) {
+            return Ok((known.motion.clone(), known.sha256.clone()));
+        }
         let path = self.beside_study(file, "a record", "records/one.at2", fault)?;
         let rank = 2000 + self.inputs.len();
         let motion = Motion::read(&path).map_err(|bad| {
@@ -171,7 +186,9 @@ impl Surveys {
         })?;
         let sha256 = files::sha256(&bytes);
         self.inputs.push(InputFile { path: PathBuf::from(file), sha256: sha256.clone() });
-        Ok((motion.named(file), sha256))
+        let read = Recorded { motion: motion.named(file), sha256, bytes };
+        let known = self.records.entry(file.to_owned()).or_insert(Arc::new(read));
+        Ok((known.motion.clone(), known.sha256.clone()))
     }
 
     fn read(&mut self, file: &str, path: &Path) -> Option<Survey> {

@@ -459,7 +459,7 @@ fn detectability_writes_the_map_and_names_what_has_no_number() {
         assert_eq!(read("a"), read("b"), "{name}");
     }
     let rows = told["mechanisms"].as_array().unwrap();
-    assert_eq!(rows.len(), 20);
+    assert_eq!(rows.len(), 24);
     let cells = |name: &str| rows.iter().find(|row| row["mechanism"] == name).unwrap()["cells"].clone();
     assert_eq!(cells("rope_slack")[0]["outcome"], "not applicable");
     assert_eq!(cells("wedge_loss")[1]["note"], "there are no wedges");
@@ -468,14 +468,14 @@ fn detectability_writes_the_map_and_names_what_has_no_number() {
     let errors = cells("gauge_offset")[1]["in_measurement_errors"].as_f64().unwrap();
     assert!((errors - 9.9446).abs() < 1e-3, "{errors}");
     let text = fs::read_to_string(folder.path("a/detectability.csv")).unwrap();
-    assert_eq!(text.lines().count(), 1 + 20 * 3);
+    assert_eq!(text.lines().count(), 1 + 24 * 3);
     let columns = text.lines().next().unwrap().split(',').count();
     assert!(text.lines().filter(|line| !line.contains('"')).all(|line| line.split(',').count() == columns));
     assert!(!text.contains("NaN") && !text.contains("inf"));
     // Two walls, which are the same: one alone gives no interval.
     let table = stdout(&ends_with(&folder, 0, &["detectability", "studies/tiny", "--members", "2"]));
     for said in [
-        "tiny: data like these could see 9 of 20 mechanisms",
+        "tiny: data like these could see 9 of 24 mechanisms",
         "Seen: contact_inset (",
         "Not seen: ",
         "n/a",

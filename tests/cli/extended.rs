@@ -66,6 +66,10 @@ fn written_and_read_again_the_arms_are_the_same_but_for_mechanism_and_joints() {
         let base = load(&root("studies/tilting-table"), variant);
         let joints = |f: f64| vec![(0, [f, 1.0 / f, f]), (2, [1.0 / f, f, 1.0])];
         for mechanism in &mechanisms {
+            // The base of these walls does not move.
+            if ["worn_bearing", "heading", "motion_scale", "restitution"].contains(&mechanism.name) {
+                continue;
+            }
             if variant == Some("table-7") && ["size_scatter", "wedge_loss"].contains(&mechanism.name) {
                 continue;
             }

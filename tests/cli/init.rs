@@ -118,6 +118,8 @@ fn nothing_is_forgotten_that_should_be_built_in() {
         .expect("studies can be listed")
         .flatten()
         .filter(|entry| entry.path().join("study.toml").is_file())
+        // What others must bring the files of cannot be copied.
+        .filter(|entry| !entry.path().join("prepare.py").is_file())
         .flat_map(|entry| {
             let here = read.into_iter().filter(|name| entry.path().join(name).is_file()).collect::<Vec<_>>();
             let own = Distributions::only_in(&entry.path().join("distributions"));

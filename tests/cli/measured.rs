@@ -41,6 +41,7 @@ fn a_sound_file_is_read_in_si_units() {
         family: "laid".into(),
         tilt: None,
         drift: None,
+        under: None,
         quantity: MeasuredQuantity::CollapseAngle,
         value: radians(13.5),
         kind: MeasuredKind::Rounded,

@@ -3,6 +3,10 @@
 use std::fmt::Write;
 use std::fs;
 
+use pirca::ensemble::{Task, evaluate};
+use pirca::math::{cos, ln, sin};
+use pirca::protocol::Verdict;
+use pirca::study::{MeasuredKind, Study, Under};
 use serde_json::Value;
 
 use crate::fixture::{Folder, stderr};
@@ -60,7 +64,7 @@ fn half_sine() -> String {
     let mut text = "t_s,a_m_per_s2\n".to_owned();
     for k in 0..961 {
         let (time, phase) = (f64::from(k) * step, f64::from(k) * step * w);
-        let value = if phase < std::f64::consts::PI { pirca::math::sin(phase) } else { 0.0 };
+        let value = if phase < std::f64::consts::PI { sin(phase) } else { 0.0 };
         writeln!(text, "{time:.3},{value:.9}").expect("a string takes all");
     }
     text
@@ -306,4 +310,151 @@ fn an_explicit_wall_is_damped_as_the_study_says() {
     folder.write_study(&text.replace("[0.5, 500]", "[50, 500]"));
     let curve = &run(&folder, "damped", &[])["shaken"]["curves"][0];
     assert_eq!(curve["counts"]["stands"], 2, "{curve}");
+}
+
+/// The block with what the pulse did to it, in a wide table, and causes that are on.
+fn measured(rows: &str, causes: &str) -> Folder {
+    let folder = Folder::with_study(&BLOCK.replace("agreement = true\n", "").replace(
+        "[load]\nprotocol = \"base_motion\"\n",
+        &format!("{causes}\n[load]\nprotocol = \"base_motion\"\ntwice = false\n"),
+    ));
+    fs::write(folder.path("studies/tiny/pulse.csv"), half_sine()).expect("it can be written");
+    let table = format!("specimen,family,record,scale,stage,outcome\n{rows}");
+    fs::write(folder.path("studies/tiny/measured.csv"), table).expect("it can be written");
+    folder
+}
+
+/// Between which amplitudes (m/s^2) the block of a study just falls under the pulse, whose amplitude is 1, for each outcome.
+fn just_falls(folder: &Folder) -> Vec<[f64; 2]> {
+    let study =
+        Study::load(&folder.path("studies/tiny"), None).unwrap_or_else(|faults| panic!("{faults}")).study;
+    let study = study.seeking_what_was_measured();
+    let row = evaluate(&study, Task { arm: 0, point: 0, member: 0 });
+    let sought = study.earthquakes.as_ref().expect("the base moves").sought.len();
+    let of = |number: usize| {
+        let runs = row.runs().filter(|run| run.stripe as usize == number);
+        let (mut stood, mut fell) = (f64::NAN, f64::NAN);
+        for run in runs {
+            match run.verdict {
+                Verdict::Stands => stood = run.pga_m_per_s2,
+                Verdict::Collapsed => fell = run.pga_m_per_s2,
+                other => panic!("{other:?}"),
+            }
+        }
+        [stood, fell]
+    };
+    (0..sought).map(of).collect()
+}
+
+/// The amplitude (m/s^2) of the half sine that just overturns a rigid block of 0.4 m x 1.2 m on an edge that lies so far (m) from its
+/// middle, by Runge and Kutta on the equation of its rotation; after the pulse the block is free.
+fn overturns_about(edge: f64) -> f64 {
+    let (half, g, w) = (0.6, 9.806_65, 2.0 * 3.410_17);
+    // Inertia about the edge over the mass; the turn is positive over the edge.
+    let inertia = (0.4 * 0.4 + 1.2 * 1.2) / 12.0 + edge * edge + half * half;
+    let falls = |amplitude: f64| {
+        let push = |t: f64| if w * t < std::f64::consts::PI { amplitude * sin(w * t) } else { 0.0 };
+        let spin = |t: f64, turn: f64| {
+            let (s, c) = (sin(turn), cos(turn));
+            (push(t) * (half * c + edge * s) - g * (edge * c - half * s)) / inertia
+        };
+        let (mut t, mut turn, mut speed, step) = (0.0, 0.0_f64, 0.0, 2e-4);
+        while t < 4.0 && turn < 1.0 {
+            let (a, b) = (speed, spin(t, turn));
+            let (c, d) = (speed + 0.5 * step * b, spin(t + 0.5 * step, turn + 0.5 * step * a));
+            let (e, f) = (speed + 0.5 * step * d, spin(t + 0.5 * step, turn + 0.5 * step * c));
+            let (k, l) = (speed + step * f, spin(t + step, turn + step * e));
+            turn += step * (a + 2.0 * c + 2.0 * e + k) / 6.0;
+            speed += step * (b + 2.0 * d + 2.0 * f + l) / 6.0;
+            if turn < 0.0 {
+                (turn, speed) = (0.0, 0.0);
+            }
+            t += step;
+        }
+        turn >= 1.0
+    };
+    let (mut low, mut high) = (0.1, 20.0);
+    for _ in 0..30 {
+        let middle = 0.5 * (low + high);
+        if falls(middle) { high = middle } else { low = middle }
+    }
+    0.5 * (low + high)
+}
+
+#[test]
+fn the_amplitude_at_which_a_block_just_falls_is_found_from_below_and_from_above() {
+    let wanted = overturns_about(0.2);
+    assert!((wanted / 5.892 - 1.0).abs() < 1e-3, "{wanted}");
+    for start in ["3", "5.8", "6", "14"] {
+        let folder = measured(&format!("a,block,pulse,{start},0,stood\n"), "");
+        let [stood, fell] = just_falls(&folder)[0];
+        assert!(stood < wanted && wanted < fell && fell / stood < 1.11, "from {start}: {stood} {fell}");
+    }
+    // Far beyond what is looked at: it stood, and never fell.
+    let [stood, fell] = just_falls(&measured("a,block,pulse,0.5,0,stood\n", ""))[0];
+    assert!(fell.is_nan() && stood < wanted, "{stood} {fell}");
+}
+
+#[test]
+fn a_narrower_bearing_a_stronger_motion_and_another_heading_do_what_the_equation_of_motion_says() {
+    let near = |causes: &str, start: f64, wanted: f64| {
+        let folder = measured(&format!("a,block,pulse,{start},0,fell\n"), causes);
+        let [stood, fell] = just_falls(&folder)[0];
+        // The search leaves a tenth; contact dynamics is within a thousandth of the equation.
+        assert!(stood < 1.002 * wanted && 0.998 * wanted < fell, "{causes}: {stood} {fell}, wanted {wanted}");
+    };
+    near("[mechanism.worn_bearing]\nat_first_m = 0.08\n", 4.0, overturns_about(0.12));
+    near("[mechanism.motion_scale]\nfactor = 1.6\n", 4.0, overturns_about(0.2) / 1.6);
+    // Blocks are as long as they are thick: a turn by a right angle changes nothing.
+    near("[mechanism.heading]\nturn_deg = 90\n", 6.0, overturns_about(0.2));
+    // Over a corner it takes more than over an edge.
+    let corner = just_falls(&measured("a,block,pulse,7,0,fell\n", "[mechanism.heading]\nturn_deg = 45\n"))[0];
+    assert!(corner[0] > 1.05 * overturns_about(0.2), "{corner:?}");
+    // Impacts play no part before a stone has rocked back.
+    near("[mechanism.restitution]\ncoefficient = 0.4\n", 6.0, overturns_about(0.2));
+}
+
+#[test]
+fn wear_narrows_the_bearing_with_every_motion_that_the_block_has_met() {
+    let rows = "a,block,pulse,3,10,fell\n";
+    let worn = "[mechanism.worn_bearing]\nat_first_m = 0.02\nper_test_m = 0.006\n";
+    let [stood, fell] = just_falls(&measured(rows, worn))[0];
+    let wanted = overturns_about(0.2 - 0.02 - 0.06);
+    assert!(stood < 1.002 * wanted && 0.998 * wanted < fell, "{stood} {fell}, wanted {wanted}");
+}
+
+#[test]
+fn outcomes_are_read_and_what_is_wrong_with_them_is_said() {
+    let folder = measured("a,block,pulse.csv,,0,Fell\na,block,PULSE,1,1,stood\n", "");
+    let said = stderr(&folder.pirca(&["check", "studies/tiny"]));
+    assert!(
+        said.contains("measured.csv:3: record = PULSE: allowed is the name of a record of study.toml"),
+        "{said}"
+    );
+    let folder = measured("a,block,pulse.csv,,0,Fell\na,block,pulse,2.5,1,stood\n", "");
+    let study =
+        Study::load(&folder.path("studies/tiny"), None).unwrap_or_else(|faults| panic!("{faults}")).study;
+    let read: Vec<_> =
+        study.measured.iter().map(|m| (m.kind, m.value, m.under.clone().expect("moved"))).collect();
+    let under = |scale: f64| Under { record: "pulse.csv".to_owned(), scale };
+    assert_eq!(read[0], (MeasuredKind::Below, 0.0, under(1.0)));
+    assert_eq!(read[1], (MeasuredKind::Above, ln(2.5), under(2.5)));
+    for (row, wanted) in [
+        ("a,block,pulse,1,0,fallen", "outcome = fallen: allowed is one of \"fell\", \"stood\""),
+        ("a,block,pulse,0,0,fell", "scale = 0: allowed is a number above 0"),
+        ("a,block,,1,0,fell", "record is missing: allowed is the name of a record of study.toml"),
+        ("a,block,pulse,1,0,fell\na,block,pulse,1,0,stood", "outcome of a was read in line 2 already"),
+    ] {
+        let said = stderr(&measured(&format!("{row}\n"), "").pirca(&["check", "studies/tiny"]));
+        assert!(said.contains(wanted), "{row}: {said}");
+    }
+    // A solver without impacts, and a base that does not move.
+    let explicit = BLOCK.replace("name = \"nonsmooth\"\ntime_step_s = 5e-4", "name = \"explicit\"");
+    let explicit = explicit
+        .replace("agreement = true\n", "")
+        .replace("[load]\n", "[mechanism.restitution]\ncoefficient = 0.2\n\n[load]\n");
+    let folder = Folder::with_study(&explicit);
+    fs::write(folder.path("studies/tiny/pulse.csv"), half_sine()).expect("it can be written");
+    let said = stderr(&folder.pirca(&["check", "studies/tiny"]));
+    assert!(said.contains("elastic joints have no impacts"), "{said}");
 }

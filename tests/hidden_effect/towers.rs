@@ -122,6 +122,7 @@ pub fn campaign(study: &Study, hidden: &Hidden, seed: u64) -> Vec<Measurement> {
                 family: study.arms[0].name.clone(),
                 tilt: tilt.map(radians),
                 drift: None,
+                under: None,
                 quantity,
                 value: value + error * normal(),
                 kind: MeasuredKind::Exact,

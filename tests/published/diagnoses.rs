@@ -115,7 +115,7 @@ fn hidden_effects_are_not_taken_for_slips_of_the_pen() {
                 }
                 Seen::Value(value) => Some(Measurement { value: *value, ..m.clone() }),
                 Seen::Beyond => Some(m.clone()),
-                Seen::Nothing => None,
+                Seen::Fell | Seen::Stood | Seen::Nothing => None,
             });
             let campaign = Study { measured: shown.collect(), ..study.clone() };
             judged += 1;

@@ -7,5 +7,6 @@ mod dry_shear_walls;
 mod edge_restraint;
 mod element_types;
 mod joint_arrangement;
+mod shaken_rocks;
 mod tilting_block;
 mod tilting_table;

@@ -24,6 +24,7 @@ fn reading(specimen: usize, angle: f64) -> Measurement {
         family: "a".into(),
         tilt: None,
         drift: None,
+        under: None,
         quantity: MeasuredQuantity::CollapseAngle,
         value: angle,
         kind: MeasuredKind::Exact,

@@ -72,7 +72,12 @@ fn is_in_shear(offer: Offer) -> bool {
 pub(super) fn planned(offer: Offer, judge: &Judge<'_>, fine: f64) -> Option<Design> {
     use MeasuredQuantity as Q;
     let design = &judge.design;
-    if judge.world.test() != Test::Tilting && !is_in_shear(offer) {
+    let is_possible = match judge.world.test() {
+        Test::Tilting => true,
+        Test::Shear { .. } => is_in_shear(offer),
+        Test::Shaking => offer == Offer::MoreSpecimens,
+    };
+    if !is_possible {
         return None;
     }
     let mut new = Design { specimens: Vec::new(), apart: Vec::new(), unused: Vec::new() };

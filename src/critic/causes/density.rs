@@ -37,6 +37,23 @@ impl Paths {
         variance.iter_mut().for_each(|sum| *sum /= freedom);
         Paths { shown, mean, variance, by_stiffness }
     }
+
+    /// Share of the variance of some columns that they have in common: that of the mean of a path's columns, less what independent ones
+    /// would have (each column in its standard deviation).
+    pub(super) fn shared(&self, columns: impl Iterator<Item = usize>) -> f64 {
+        let columns: Vec<usize> = columns.filter(|column| self.variance[*column] > 0.0).collect();
+        if columns.len() < 2 {
+            return 0.0;
+        }
+        let n = columns.len() as f64;
+        let mean = |path: &Vec<f64>| {
+            let off = |column: &usize| (path[*column] - self.mean[*column]) / self.variance[*column].sqrt();
+            columns.iter().fold(0.0, |sum, column| sum + off(column)) / n
+        };
+        let square = |path: &Vec<f64>| mean(path) * mean(path);
+        let variance = self.shown.iter().map(square).sum::<f64>() / (self.shown.len() - 1) as f64;
+        ((variance - 1.0 / n) / (1.0 - 1.0 / n)).clamp(0.0, 1.0)
+    }
 }
 
 /// The density of readings with a value: Student's t, as the covariance is that of few paths and not known exactly.

@@ -32,7 +32,7 @@ impl Discrepant {
             let ((unit, one), (another, other)) = (&values[one], &values[other]);
             unit * another * one.together(other)
         });
-        let bounds = seen(|seen| *seen == Seen::Beyond);
+        let bounds = seen(|seen| matches!(seen, Seen::Beyond | Seen::Fell | Seen::Stood));
         Discrepant {
             covariance,
             bounds: bounds.iter().map(|(unit, lies)| unit * unit * lies.together(lies)).collect(),

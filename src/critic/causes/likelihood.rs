@@ -5,11 +5,11 @@ use std::rc::Rc;
 
 use crate::critic::causes::density::{Density, Paths};
 use crate::critic::compare::reading_variance;
-use crate::critic::simulate::{Campaign, Design, MayShow, Queries, Seen, Truth, World};
+use crate::critic::simulate::{Campaign, Design, MayShow, Queries, Seen, Side, Truth, World};
 use crate::interrupt;
-use crate::math::ln;
+use crate::math::{exp, ln};
 use crate::random::standard_normal::cdf;
-use crate::study::{MeasuredKind, MeasuredQuantity, Measurement};
+use crate::study::{Earthquakes, MeasuredQuantity, Measurement};
 
 /// The likelihood of a campaign.
 pub struct Likelihood<'c> {
@@ -63,8 +63,8 @@ pub(super) struct Wall<'c> {
     values: Vec<(usize, &'c Measurement, f64)>,
     /// Where the readings of each specimen end among these.
     ends: Vec<usize>,
-    /// Readings of which only the bound's side is known.
-    bounds: Vec<(usize, &'c Measurement)>,
+    /// Readings of which only the side of their value is known.
+    bounds: Vec<(usize, &'c Measurement, Side)>,
     /// The first wall of the family on which the same has a value, with the same errors; they share a density.
     same_as: usize,
 }
@@ -75,7 +75,8 @@ impl<'c> Likelihood<'c> {
         let families = design.families().into_iter().map(|family| {
             let own = design.specimens.iter().zip(&campaign.specimens);
             let own = own.filter(|(specimen, _)| specimen.family == family);
-            Family::new(family, own.map(|(specimen, seen)| (&specimen.readings[..], &seen[..])).collect())
+            let own = own.map(|(specimen, seen)| (&specimen.readings[..], &seen[..])).collect();
+            Family::new(family, own, world.sought())
         });
         let families: Vec<Family<'c>> = families.collect();
         let apart = design.apart.iter().zip(&campaign.apart);
@@ -146,7 +147,7 @@ impl<'c> Likelihood<'c> {
                     let off = value - expected;
                     -0.5 * (off * off / variance + ln(variance))
                 }
-                Seen::Beyond | Seen::Nothing => side_log(m, expected, variance),
+                other => other.side(m).map_or(0.0, |side| side_log(side, m.value - expected, variance)),
             }
         };
         self.apart.iter().fold(0.0, |sum, apart| sum + one(apart))
@@ -155,9 +156,13 @@ impl<'c> Likelihood<'c> {
 
 impl<'c> Family<'c> {
     /// Of what was planned and seen, specimen by specimen.
-    fn new(family: usize, specimens: Vec<(&'c [Measurement], &[Seen])>) -> Family<'c> {
+    fn new(
+        family: usize,
+        specimens: Vec<(&'c [Measurement], &[Seen])>,
+        sought: Option<&Earthquakes>,
+    ) -> Family<'c> {
         let readings: Vec<&Measurement> = specimens.iter().flat_map(|(readings, _)| *readings).collect();
-        let queries = Queries::by(&readings);
+        let queries = Queries::by(&readings, sought);
         let mut columns = queries.by_reading.iter().copied();
         let (mut each, mut all): (Vec<Wall<'c>>, Wall<'c>) = (Vec::new(), Wall::default());
         for (readings, seen) in specimens {
@@ -165,8 +170,7 @@ impl<'c> Family<'c> {
             for ((m, seen), column) in readings.iter().zip(seen).zip(&mut columns) {
                 match seen {
                     Seen::Value(value) => wall.values.push((column, m, *value)),
-                    Seen::Beyond => wall.bounds.push((column, m)),
-                    Seen::Nothing => {}
+                    other => wall.bounds.extend(other.side(m).map(|side| (column, m, side))),
                 }
             }
             wall.ends.push(wall.values.len());
@@ -183,7 +187,7 @@ impl<'c> Family<'c> {
 impl<'c> Wall<'c> {
     /// Its readings that show anything.
     fn readings(&self) -> impl Iterator<Item = &'c Measurement> {
-        self.values.iter().map(|(_, m, _)| *m).chain(self.bounds.iter().map(|(_, m)| *m))
+        self.values.iter().map(|(_, m, _)| *m).chain(self.bounds.iter().map(|(_, m, _)| *m))
     }
 
     fn has_readings_of(&self, other: &Wall<'_>) -> bool {
@@ -212,20 +216,73 @@ impl<'c> Wall<'c> {
         errors: &Errors<'_>,
         mut more: impl FnMut() -> f64,
     ) -> f64 {
-        let mut one = |(column, m): &(usize, &Measurement)| {
+        let outcomes = self.bounds.iter().filter(|(_, m, _)| m.quantity == MeasuredQuantity::Outcome);
+        let share = paths.shared(outcomes.map(|(column, ..)| *column));
+        let (mut log, mut together) = (0.0, Vec::new());
+        for (column, m, side) in &self.bounds {
             let (variance, shared) = errors.of(m);
             let by_stiffness = paths.by_stiffness[*column];
-            let walls = paths.variance[*column] + by_stiffness * by_stiffness + more();
-            side_log(m, paths.mean[*column] + shared, variance + walls)
-        };
-        self.bounds.iter().fold(0.0, |sum, bound| sum + one(bound))
+            let (walls, more) = (paths.variance[*column], more());
+            let own = variance + by_stiffness * by_stiffness;
+            let off = m.value - paths.mean[*column] - shared;
+            match m.quantity {
+                MeasuredQuantity::Outcome => together.push(Outcome {
+                    side: *side,
+                    off,
+                    own: own + (1.0 - share) * walls + (1.0 - OF_ALL) * more,
+                    shared: (share * walls + OF_ALL * more).sqrt(),
+                }),
+                _ => log += side_log(*side, off, own + walls + more),
+            }
+        }
+        log + together_log(&together)
     }
 }
 
-/// Logarithm of the probability of a bound's side.
-fn side_log(m: &Measurement, expected: f64, variance: f64) -> f64 {
-    let inside = (m.value - expected) / variance.sqrt().max(f64::MIN_POSITIVE);
-    let side = if m.kind == MeasuredKind::Below { inside } else { -inside };
+/// What is seen of an outcome: on which side of its scale the wall just falls.
+struct Outcome {
+    side: Side,
+    /// How much more that scale is than what is expected (its logarithm).
+    off: f64,
+    /// Variance of what it has of its own: rocking is decided by chance.
+    own: f64,
+    /// Standard deviation of what all outcomes of the wall share: a stone that is weaker than the emulator says is so under every motion.
+    shared: f64,
+}
+
+/// Share of a discrepancy's variance that is the same under every motion: what is in no catalogue acts on motions of one kind more than on
+/// others.
+const OF_ALL: f64 = 0.5;
+
+/// Nodes and weights of Gauss and Hermite for a standard normal, by their size.
+const NODES: [(f64, f64); 4] = [
+    (0.0, 0.457_142_857_142_857),
+    (1.154_405_394_739_968, 0.240_123_178_605_013),
+    (2.366_759_410_734_541, 0.030_757_123_967_586),
+    (3.750_439_717_725_742, 0.000_548_268_855_972),
+];
+
+/// Logarithm of the probability of some outcomes together: normals with one factor in common (Dunnett and Sobel 1955).
+fn together_log(outcomes: &[Outcome]) -> f64 {
+    if outcomes.is_empty() {
+        return 0.0;
+    }
+    let at = |z: f64| {
+        outcomes.iter().fold(0.0, |sum, own| sum + side_log(own.side, own.off - own.shared * z, own.own))
+    };
+    let both = NODES.iter().flat_map(|&(z, weight)| match z {
+        0.0 => vec![ln(weight) + at(0.0)],
+        _ => [z, -z].map(|z| ln(weight) + at(z)).to_vec(),
+    });
+    let logs: Vec<f64> = both.collect();
+    let largest = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    largest + ln(logs.iter().fold(0.0, |sum, log| sum + exp(log - largest)))
+}
+
+/// Logarithm of the probability of a side of a value that is so much more than what is expected.
+fn side_log(side: Side, more: f64, variance: f64) -> f64 {
+    let inside = more / variance.sqrt().max(f64::MIN_POSITIVE);
+    let side = if side == Side::Below { inside } else { -inside };
     ln(cdf(side).max(f64::MIN_POSITIVE))
 }
 
@@ -233,7 +290,6 @@ fn side_log(m: &Measurement, expected: f64, variance: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::critic::fixture::made;
-    use crate::math::exp;
     use crate::random::Streams;
     use crate::study::MeasuredKind;
 
@@ -273,5 +329,19 @@ mod tests {
             let sum = sum(family, walls);
             assert!((sum - 1.0).abs() < 1e-3, "{walls} walls of family {family}: {sum}");
         }
+    }
+
+    #[test]
+    fn outcomes_that_share_all_are_as_likely_as_the_hardest_of_them_and_others_multiply() {
+        let seen = |off: f64, own: f64, shared: f64| Outcome { side: Side::Below, off, own, shared };
+        // Two sides of one normal: that which is less likely.
+        let one = together_log(&[seen(0.5, 1e-3, 1.0), seen(-0.5, 1e-3, 1.0)]);
+        assert!((exp(one) - cdf(-0.5)).abs() < 0.05, "{one}");
+        let apart = together_log(&[seen(0.5, 1.0, 0.0), seen(-0.5, 1.0, 0.0)]);
+        assert!((exp(apart) - cdf(0.5) * cdf(-0.5)).abs() < 1e-9, "{apart}");
+        // One outcome has its variance, whatever of it is shared.
+        let alone = together_log(&[seen(0.7, 0.6, 0.4_f64.sqrt())]);
+        assert!((exp(alone) - cdf(0.7)).abs() < 1e-4, "{alone}");
+        assert_eq!(together_log(&[]), 0.0);
     }
 }

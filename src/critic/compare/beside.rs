@@ -120,6 +120,9 @@ pub fn compare(study: &Study, rows: &[Row]) -> Vec<Beside> {
         };
         match (study.arms.get(arm), rising) {
             (None, _) => all.push(beside(Ours::None("the arm is not evaluated here"))),
+            _ if quantity.is_shaken() => {
+                all.push(beside(Ours::None("what motions of the base did is compared by `pirca diagnose`")));
+            }
             _ if quantity.has_drift() && !shears => {
                 all.push(beside(Ours::None("the walls are not sheared here")));
             }

@@ -47,7 +47,13 @@ pub fn simulated(quantity: MeasuredQuantity, at: Option<f64>, row: &Row) -> Opti
         | Q::RemainderMean
         | Q::RemainderCentreMinusEnds => displacement(quantity, at?, row),
         Q::ForceAtDrift => force(100.0 * at?, row),
-        Q::JointKn | Q::JointPhi | Q::BlockWeight | Q::FixedTarget => return None,
+        Q::JointKn
+        | Q::JointPhi
+        | Q::BlockWeight
+        | Q::FixedTarget
+        | Q::Outcome
+        | Q::PeakDisplacement
+        | Q::ResidualDisplacement => return None,
     };
     Some(found)
 }

@@ -19,11 +19,11 @@ use crate::study::{MeasuredQuantity, Measurement};
 /// The contrasts of a specimen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Contrast {
-    /// The collapse angle.
+    /// The collapse angle, or which motions of the base the wall outlives.
     Collapse,
     /// Displacements as a whole.
     Level,
-    /// Their growth with the tilt.
+    /// Their growth with the tilt; of what motions of the base do, that from the first to the last.
     Growth,
     /// Whether they grow ever faster: middle tilts against low and high ones.
     Curvature,
@@ -92,6 +92,10 @@ const LEAST_SCATTER: f64 = 0.05;
 const SLOWED: usize = 5;
 /// Tilts whose distances differ by no more than this share are evenly spaced.
 const UNEVEN: f64 = 0.01;
+/// No outcome is surer than this, nor less sure.
+const LEAST_CHANCE: f64 = 0.05;
+/// What counts as one standard deviation of the logarithm of the scale at which a wall just falls.
+const OF_SCALE: f64 = 0.3;
 /// A standard deviation below this share of the largest value counts as this: readings at a bound do not vary at all.
 const LEAST_SHARE: f64 = 1e-3;
 
@@ -131,6 +135,14 @@ impl Scale {
 impl Usual {
     /// From what campaigns of the base model show (SI).
     fn of(m: &Measurement, shown: &[f64]) -> Usual {
+        if m.quantity == MeasuredQuantity::Outcome {
+            // 1 where walls stood. None is so sure that one that does otherwise is off beyond all measure.
+            let bend = 1.0;
+            let share = stats::mean(shown).unwrap_or(0.5).clamp(LEAST_CHANCE, 1.0 - LEAST_CHANCE);
+            let step = asinh(1.0 / bend);
+            let sd = step * (share * (1.0 - share)).sqrt();
+            return Usual { sd: OF_SCALE, bend, counted: [step * share, sd], error: 0.0 };
+        }
         let largest = shown.iter().fold(m.value.abs(), |largest, x| largest.max(x.abs()));
         let error = reading_variance(m).sqrt();
         // What is rounded to nothing in all of them, without any other error, varies by its rounding.
@@ -208,7 +220,15 @@ fn contrasts(specimen: &Specimen, seen: &[Seen], scale: &[Usual]) -> Vec<(Contra
     for ((m, seen), usual) in specimen.readings.iter().zip(seen).zip(scale) {
         let (z, error) = (usual.scaled(*seen, m), usual.error);
         let Some(at) = m.at() else {
-            weighted.entry(Contrast::Collapse).or_default().extend(z.map(|z| [1.0, z, error]));
+            let contrast = match m.quantity {
+                Q::PeakDisplacement => Contrast::Level,
+                Q::ResidualDisplacement => Contrast::Left,
+                _ => Contrast::Collapse,
+            };
+            weighted.entry(contrast).or_default().extend(z.map(|z| [1.0, z, error]));
+            // From the first motion of the base to the last.
+            let growth = z.zip(place(m)).map(|(z, s)| [s - 0.5, z, error]);
+            weighted.entry(Contrast::Growth).or_default().extend(growth);
             continue;
         };
         read += 1.0;

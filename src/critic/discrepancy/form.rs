@@ -37,6 +37,9 @@ pub(super) const PARTS: [Component; 4] =
 pub(super) fn kind(quantity: MeasuredQuantity) -> u8 {
     match quantity {
         MeasuredQuantity::CollapseAngle => 0,
+        MeasuredQuantity::Outcome => 5,
+        MeasuredQuantity::PeakDisplacement => 6,
+        MeasuredQuantity::ResidualDisplacement => 7,
         MeasuredQuantity::DisplacementCentreMinusEnds => 1,
         MeasuredQuantity::RemainderCentreMinusEnds => 2,
         other if other.is_remainder() => 3,

@@ -46,7 +46,7 @@ impl Predicted {
                 .map(|family| {
                     let own = design.specimens.iter().filter(|specimen| specimen.family == family);
                     let readings: Vec<&Measurement> = own.flat_map(|specimen| &specimen.readings).collect();
-                    let queries = Queries::by(&readings);
+                    let queries = Queries::by(&readings, world.sought());
                     let mut shown = world.may_show(family, &queries, truth, 1);
                     let all = |path: &mut Vec<f64>| {
                         *path = queries.by_reading.iter().map(|&at| path[at]).collect();
@@ -136,6 +136,8 @@ fn observed(m: &Measurement, seen: Seen) -> Option<Measurement> {
     match seen {
         Seen::Value(value) => Some(Measurement { value, kind, ..m.clone() }),
         Seen::Beyond => Some(m.clone()),
+        Seen::Fell => Some(Measurement { kind: MeasuredKind::Below, ..m.clone() }),
+        Seen::Stood => Some(Measurement { kind: MeasuredKind::Above, ..m.clone() }),
         Seen::Nothing => None,
     }
 }

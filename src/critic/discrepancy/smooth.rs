@@ -87,7 +87,7 @@ impl<'d> SmoothDiscrepancy<'d> {
                 continue;
             }
             let mean = stats::mean(&base.reading(specimen, reading))?;
-            let (unit, is_value) = (units[specimen][reading], seen != Seen::Beyond);
+            let (unit, is_value) = (units[specimen][reading], seen.is_value());
             let known = known[specimen][reading] && is_value;
             all.push(At { place, lies, seen, unit, mean, known });
         }
@@ -148,11 +148,11 @@ impl<'d> SmoothDiscrepancy<'d> {
     /// order of the tests is known. A drift goes as the readings' standard deviations do, and so is another one at another reading.
     pub fn components(&self) -> Vec<ComponentEstimate> {
         let mut components: Vec<ComponentEstimate> = Vec::new();
-        for (k, at) in self.all.iter().enumerate().filter(|(_, at)| at.seen != Seen::Beyond) {
+        for (k, at) in self.all.iter().enumerate().filter(|(_, at)| at.seen.is_value()) {
             let (family, quantity, place) = (at.lies.family, at.lies.m.quantity, at.lies.m.at());
             let beside = |is: fn(&At<'_>) -> bool| {
                 self.all.iter().position(|other| {
-                    other.seen != Seen::Beyond
+                    other.seen.is_value()
                         && (other.lies.family, other.lies.m.at()) == (family, place)
                         && kind(other.lies.m.quantity) == kind(quantity)
                         && is(other)

@@ -107,6 +107,8 @@ fn curves(
     let steps = |end: f64| (0..=STEPS).map(|k| k as f64 / STEPS as f64 * end).collect::<Vec<f64>>();
     let (tilts, collapse) = match world.test() {
         Test::Shear { widest } => (steps(widest), None),
+        // Outcomes are no curve.
+        Test::Shaking => return None,
         Test::Tilting => {
             let angles = walls(vec![of(MeasuredQuantity::CollapseAngle, None, None)]);
             let collapse = Band::of(&angles.concat().into_iter().flatten().collect::<Vec<_>>())?;

@@ -1,11 +1,14 @@
-//! What is held out of a campaign: each specimen in turn, the largest tilts of all, and all families but one.
+//! What is held out of a campaign: each specimen in turn, the largest tilts of all or some of the motions, and all families but one.
 
 use std::collections::BTreeSet;
 
-use crate::critic::simulate::{Campaign, Design};
+use crate::critic::simulate::{Campaign, Design, Specimen};
+use crate::study::{Measurement, Under};
 
 /// Of a specimen's tilts this share, the largest, is held out.
 const LARGEST: f64 = 1.0 / 3.0;
+/// Motions are held out in so many parts, each of every so manieth.
+const PARTS: usize = 5;
 
 /// What is held out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -14,6 +17,8 @@ pub enum HeldOut {
     Specimen(usize),
     /// The upper third of every specimen's tilts or drifts, at least one of them, and its collapse angle.
     LargestTilts,
+    /// A part of the motions of the base (from 0), as every specimen met them: what one did is no reading of the next.
+    Motions(usize),
     /// All that was read on other families than this one (its arm), and those that are alike.
     OtherFamilies(usize),
 }
@@ -42,6 +47,16 @@ impl Fold {
             specimen.readings.iter().map(|m| m.at().is_some_and(|tilt| tilt <= last)).collect()
         });
         folds.push(Fold { held_out: HeldOut::LargestTilts, known: known.collect() });
+        let motions = motions(design);
+        let parts = 0..if motions.len() < PARTS { 0 } else { PARTS };
+        folds.extend(parts.map(|part| {
+            let is_known = |m: &Measurement| {
+                let own = motions.iter().position(|motion| Some(*motion) == m.under.as_ref());
+                own.is_none_or(|own| own % PARTS != part)
+            };
+            let known = |specimen: &Specimen| specimen.readings.iter().map(is_known).collect();
+            Fold { held_out: HeldOut::Motions(part), known: design.specimens.iter().map(known).collect() }
+        }));
         let families: BTreeSet<usize> = design.families().into_iter().map(&stands_for).collect();
         folds.extend(families.into_iter().map(|family| {
             let known = whole(design, |index| stands_for(design.specimens[index].family) == family);
@@ -63,6 +78,17 @@ impl Fold {
     pub fn campaign(&self, campaign: &Campaign) -> Campaign {
         campaign_of(campaign, &self.known)
     }
+}
+
+/// The motions that specimens met, each once, in the order of the design.
+fn motions(design: &Design) -> Vec<&Under> {
+    let mut motions: Vec<&Under> = Vec::new();
+    for under in design.readings().filter_map(|(_, m)| m.under.as_ref()) {
+        if !motions.contains(&under) {
+            motions.push(under);
+        }
+    }
+    motions
 }
 
 /// All readings of the specimens that are kept.

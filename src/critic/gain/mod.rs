@@ -45,7 +45,8 @@ pub struct Choice {
 pub struct Gain {
     /// Every specimen left out in turn; `None` for fewer than two specimens.
     pub specimens: Option<Gained>,
-    /// The largest tilts or drifts of all specimens left out; `None` where nothing is left then.
+    /// The largest tilts or drifts of all specimens left out, or each fifth of the motions of the base in turn; `None` where nothing is left
+    /// then.
     pub tilts: Option<Gained>,
     /// All families left out but one (its arm, with those that are alike); empty where there is only one.
     pub families: Vec<(usize, Gained)>,
@@ -254,7 +255,7 @@ impl Kind {
     fn of(held_out: HeldOut) -> Kind {
         match held_out {
             HeldOut::Specimen(_) => Kind::Specimens,
-            HeldOut::LargestTilts => Kind::Tilts,
+            HeldOut::LargestTilts | HeldOut::Motions(_) => Kind::Tilts,
             HeldOut::OtherFamilies(family) => Kind::Family(family),
         }
     }

@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::math::degrees;
 use crate::study::measured::Dimension;
-use crate::study::{Measurement, listed};
+use crate::study::{MeasuredKind, MeasuredQuantity, Measurement, listed};
 
 /// A note on lines of the measurements. SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -236,12 +236,17 @@ impl DataNote {
 
 /// A reading in words.
 fn described(m: &Measurement) -> String {
-    let value = shown(m.quantity.dimension(), m.value);
+    let value = match (m.quantity, m.kind) {
+        (MeasuredQuantity::Outcome, MeasuredKind::Below) => "fell".to_owned(),
+        (MeasuredQuantity::Outcome, _) => "stood".to_owned(),
+        _ => shown(m.quantity.dimension(), m.value),
+    };
     let at = m.quantity.at_or_after();
-    let place = match (m.tilt, m.drift) {
-        (Some(tilt), _) => format!(" {at} {}", shown(Dimension::Angle, tilt)),
-        (None, Some(drift)) => format!(" {at} a drift of {} %", (1e5 * drift).round() / 1e3),
-        (None, None) => String::new(),
+    let place = match (m.tilt, m.drift, &m.under) {
+        (Some(tilt), ..) => format!(" {at} {}", shown(Dimension::Angle, tilt)),
+        (None, Some(drift), _) => format!(" {at} a drift of {} %", (1e5 * drift).round() / 1e3),
+        (None, None, Some(under)) => format!(" under {} times {}", under.record, under.scale),
+        (None, None, None) => String::new(),
     };
     format!("{} of {} is {value}{place}", m.quantity.name(), m.specimen)
 }
@@ -253,6 +258,7 @@ fn shown(dimension: Dimension, value: f64) -> String {
         Dimension::Angle => (degrees(value), "deg"),
         Dimension::Stiffness => (value, "Pa/m"),
         Dimension::Force => (value, "N"),
+        Dimension::Outcome => (value, "of the motions survived"),
     };
     let rounded = format!("{number:.3e}").parse::<f64>().unwrap_or(number);
     if (1e-3..1e6).contains(&rounded.abs()) || rounded == 0.0 {

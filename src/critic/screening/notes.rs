@@ -11,7 +11,7 @@ use crate::protocol::Protocol;
 use crate::random::Streams;
 use crate::stats;
 use crate::study::measured::Dimension;
-use crate::study::{MeasuredKind, Measurement, Study};
+use crate::study::{MeasuredKind, MeasuredQuantity, Measurement, Study};
 
 /// Campaigns of the base model and of every cause that say what a reading may be.
 const CAMPAIGNS: u64 = 150;
@@ -91,7 +91,8 @@ pub fn data_notes_by_simulation(
     let apart = apart.map(|(k, (_, m))| (m, read(m, &|campaign| campaign.apart[k])));
     let mut fallen: Vec<&Measurement> = Vec::new();
     let mut out: Vec<(&Measurement, [f64; 2], Option<f64>)> = Vec::new();
-    for (m, (seen, shown)) in specimens.chain(apart) {
+    let is_number = |m: &Measurement| m.quantity != MeasuredQuantity::Outcome;
+    for (m, (seen, shown)) in specimens.chain(apart).filter(|(m, _)| is_number(m)) {
         if shown.is_empty() {
             fallen.push(m);
         }

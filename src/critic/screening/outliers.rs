@@ -58,7 +58,9 @@ impl Beside<'_> {
 /// Notes on specimens, then on single readings of others, in the order of the design.
 pub fn unit_outliers(design: &Design) -> Vec<DataNote> {
     let mut groups: BTreeMap<(usize, Option<MeasuredQuantity>), Specimens<'_>> = BTreeMap::new();
-    for (family, m) in design.readings().filter(|(_, m)| !m.kind.is_censored()) {
+    // What different motions do is not alike.
+    let alike = |m: &Measurement| !m.kind.is_censored() && m.under.is_none();
+    for (family, m) in design.readings().filter(|(_, m)| alike(m)) {
         // Displacements of one specimen are read by one gauge; what a fixed target shows is no matter of the wall.
         let alone = (!m.quantity.has_tilt()).then_some(m.quantity);
         if m.quantity != MeasuredQuantity::FixedTarget {

@@ -20,7 +20,7 @@ pub fn factors(dimension: Dimension) -> Vec<f64> {
         Dimension::Length => &[25.4],
         // Kilograms called newtons.
         Dimension::Force => &[9.81],
-        Dimension::Angle | Dimension::Stiffness => &[],
+        Dimension::Angle | Dimension::Stiffness | Dimension::Outcome => &[],
     };
     let least = if dimension == Dimension::Stiffness { 500.0 } else { 5.0 };
     let own = ratios(dimension).into_iter().filter(|ratio| *ratio > least);

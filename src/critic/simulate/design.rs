@@ -32,12 +32,15 @@ impl Specimen {
 
     /// Where its readings lie among each other: on the tilting table the tilt over the largest one; in shear, where the first readings
     /// are far closer to each other than the last, 0 at the smallest drift and 1 at the widest, by the logarithm. `None` of a
-    /// quantity that has neither.
+    /// quantity that has neither. Of motions of the base the place in their sequence, from 0 to 1.
     pub fn places(&self) -> impl Fn(&Measurement) -> Option<f64> + use<> {
         let tilted = self.readings.iter().filter_map(|m| m.tilt).fold(0.0, f64::max);
         let drifts = || self.readings.iter().filter_map(|m| m.drift).map(f64::abs);
         let (first, last) = (drifts().fold(f64::INFINITY, f64::min), drifts().fold(0.0, f64::max));
+        let stages = || self.readings.iter().filter(|m| m.under.is_some()).map(|m| f64::from(m.stage));
+        let (early, late) = (stages().fold(f64::INFINITY, f64::min), stages().fold(0.0, f64::max));
         move |m| match (m.tilt, m.drift) {
+            _ if m.under.is_some() => (late > early).then(|| (f64::from(m.stage) - early) / (late - early)),
             (Some(tilt), _) => Some(tilt / tilted),
             (None, Some(_)) if first >= last => Some(1.0),
             (None, drift) => Some(ln(drift?.abs() / first) / ln(last / first)),
@@ -86,6 +89,10 @@ pub enum Seen {
     Value(f64),
     /// That the value is on the bound's side, and no more.
     Beyond,
+    /// Of an outcome, that the wall fell.
+    Fell,
+    /// Of an outcome, that it stood.
+    Stood,
     /// Nothing: the wall had fallen.
     Nothing,
 }
@@ -96,7 +103,8 @@ impl Design {
         let mut design = Design { specimens: Vec::new(), apart: Vec::new(), unused: Vec::new() };
         let test = Test::of(study);
         let is_of_test = |m: &Measurement| match test {
-            Test::Tilting => !m.quantity.has_drift(),
+            Test::Tilting => !m.quantity.has_drift() && m.under.is_none(),
+            Test::Shaking => m.under.is_some(),
             // Along x+ alone: the other way of a wall is that of the same wall turned round.
             Test::Shear { .. } => m.drift.is_some_and(|drift| drift > 0.0),
         };
@@ -126,7 +134,12 @@ impl Design {
                 }
             }
         }
-        let seen = |m: &Measurement| if m.kind.is_censored() { Seen::Beyond } else { Seen::Value(m.value) };
+        let seen = |m: &Measurement| match (m.quantity, m.kind) {
+            (MeasuredQuantity::Outcome, MeasuredKind::Below) => Seen::Fell,
+            (MeasuredQuantity::Outcome, _) => Seen::Stood,
+            (_, kind) if kind.is_censored() => Seen::Beyond,
+            _ => Seen::Value(m.value),
+        };
         let specimens = design.specimens.iter().map(|s| s.readings.iter().map(seen).collect());
         let campaign = Campaign {
             specimens: specimens.collect(),
@@ -204,6 +217,9 @@ impl Campaign {
 impl Seen {
     /// What a value, its errors added, shows where a reading of this kind was taken.
     pub(in crate::critic) fn of(value: f64, m: &Measurement) -> Seen {
+        if m.quantity == MeasuredQuantity::Outcome {
+            return if value < m.value { Seen::Fell } else { Seen::Stood };
+        }
         match m.kind {
             MeasuredKind::Exact => Seen::Value(value),
             MeasuredKind::Rounded => Seen::Value((value / m.resolution).round() * m.resolution),
@@ -213,12 +229,43 @@ impl Seen {
         }
     }
 
-    /// As a number: what lies beyond a bound counts as lying on it. `None` where nothing was seen.
+    /// As a number: what lies beyond a bound counts as lying on it, and of outcomes 0 as fallen and 1 as standing. `None` where nothing was
+    /// seen.
     pub(in crate::critic) fn number(self, m: &Measurement) -> Option<f64> {
         match self {
             Seen::Value(value) => Some(value),
             Seen::Beyond => Some(m.value),
+            Seen::Fell => Some(0.0),
+            Seen::Stood => Some(1.0),
             Seen::Nothing => None,
         }
     }
+
+    /// Whether a value was seen, and no side of one alone.
+    pub(in crate::critic) fn is_value(self) -> bool {
+        matches!(self, Seen::Value(_))
+    }
+
+    /// Whether the truth is seen to lie on the side that a censored reading says.
+    pub(in crate::critic) fn is_as_said(self, m: &Measurement) -> bool {
+        self.side(m).is_some_and(|side| (side == Side::Below) == (m.kind == MeasuredKind::Below))
+    }
+
+    /// On which side of the reading's value the truth lies, where that is all that was seen.
+    pub(in crate::critic) fn side(self, m: &Measurement) -> Option<Side> {
+        match (self, m.kind) {
+            (Seen::Fell, _) | (Seen::Beyond, MeasuredKind::Below) => Some(Side::Below),
+            (Seen::Stood, _) | (Seen::Beyond, _) => Some(Side::Above),
+            (Seen::Value(_) | Seen::Nothing, _) => None,
+        }
+    }
+}
+
+/// A side of a value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::critic) enum Side {
+    /// Below it.
+    Below,
+    /// Above it.
+    Above,
 }

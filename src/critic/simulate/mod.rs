@@ -10,9 +10,14 @@ mod truth;
 mod unmodelled;
 mod world;
 
-pub use bank::{BANK, Bank, Emulator, Held, NotThisBank, PRIOR_WIDENING, Path, Place, Plan, Test, stand_in};
+#[cfg(test)]
+pub use bank::NUMBERS;
+pub use bank::{
+    BANK, Bank, Emulator, Held, MOST_SOUGHT, NotThisBank, PRIOR_WIDENING, Path, Place, Plan, Test, stand_in,
+};
 pub(in crate::critic) use by_cause::ByCause;
 pub use causes::{Causes, Scope};
+pub(in crate::critic) use design::Side;
 pub use design::{Campaign, Design, Seen, Specimen, Unused};
 pub use queries::Queries;
 pub use truth::Truth;

@@ -17,6 +17,8 @@ const FALL: [f64; 2] = [0.02, 0.3];
 const LEVEL: [f64; 2] = [0.05, 1.5];
 /// Logarithm of a factor on pushes: friction bounds what walls bear, joints what they bear at small drifts.
 const PUSH: [f64; 2] = [0.03, 1.0];
+/// Logarithm of a factor on the scale of motions.
+const MOTION: [f64; 2] = [0.05, 1.0];
 /// What a wall bows or twists by besides, over its mean displacement.
 const SHAPE: [f64; 2] = [0.05, 1.0];
 /// What a gauge shows besides (m).
@@ -37,6 +39,8 @@ enum On {
     Way(usize),
     /// The push of a wall that is sheared.
     Push,
+    /// The scale of the motions under which a wall falls, and what it does under them.
+    Motion,
     /// What is shown of the left, centre and right points, each by its share: a factor.
     Factor([f64; 3]),
     /// The same: an addition.
@@ -93,6 +97,12 @@ impl Unmodelled {
                         *number += sizes[specimen] * growth.at((ln(share) - first) / whole);
                     }
                 }
+                On::Motion => {
+                    let last = (NUMBERS - 1) as f64;
+                    for (k, number) in adding[1..].iter_mut().enumerate() {
+                        *number += sizes[specimen] * growth.at(k as f64 / last);
+                    }
+                }
                 On::Factor(_) | On::Shift(_) | On::End(_) => {}
             }
         }
@@ -115,7 +125,7 @@ impl Unmodelled {
                     let ended = points.iter_mut().zip(shares).filter(|(_, share)| **share != 0.0);
                     ended.for_each(|(point, _)| *point = point.min(sizes[specimen]));
                 }
-                On::Fall | On::Way(_) | On::Push => {}
+                On::Fall | On::Way(_) | On::Push | On::Motion => {}
             }
         }
         points
@@ -124,10 +134,12 @@ impl Unmodelled {
 
 impl Form {
     fn drawn(design: &Design, draws: &mut Stream) -> Form {
-        // A design of sheared walls reads pushes, one of tilted walls never does.
+        // A design of sheared walls reads pushes, one of shaken walls what motions do, one of tilted walls neither.
         let is_pushed = design.readings().any(|(_, m)| m.quantity.has_drift());
+        let is_shaken = design.readings().any(|(_, m)| m.under.is_some());
         let (on, [least, most]) = match draws.below(7) {
             _ if is_pushed => (On::Push, PUSH),
+            _ if is_shaken => (On::Motion, MOTION),
             0 => (On::Fall, FALL),
             1 => (On::Way(0), LEVEL),
             kind @ 2..=3 => (On::Way(kind - 1), SHAPE),

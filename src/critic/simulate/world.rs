@@ -25,11 +25,12 @@ use crate::critic::simulate::truth::Truth;
 use crate::critic::simulate::unmodelled::Unmodelled;
 use crate::ensemble::{build, is_random, weight};
 use crate::interrupt;
+use crate::math::exp;
 use crate::model::Outcome;
 use crate::protocol::Ends;
 use crate::random::standard_normal::quantile;
 use crate::random::{Family, Streams};
-use crate::study::{Acts, Described, MeasuredQuantity, Measurement, Nuisance, Study};
+use crate::study::{Acts, Described, Earthquakes, MeasuredQuantity, Measurement, Nuisance, Study};
 
 /// The mechanism that has a side, uphill or downhill.
 const SIDED: &str = "lean";
@@ -77,6 +78,8 @@ pub struct World<'s> {
     kinds: Vec<usize>,
     /// Kinds of joint in whose families each mechanism changes walls, ascending.
     acted: Vec<Vec<usize>>,
+    /// What is sought under the motions of a base; `None` where it does not move.
+    sought: Option<Earthquakes>,
 }
 
 impl<'s> World<'s> {
@@ -90,7 +93,7 @@ impl<'s> World<'s> {
         bank: &Bank,
     ) -> Option<World<'s>> {
         let test = Test::of(study);
-        let stands_for = (0..study.arms.len()).map(|family| stand_in(study, family)).collect();
+        let stands_for: Vec<usize> = (0..study.arms.len()).map(|family| stand_in(study, family)).collect();
         let mut unchanged: BTreeMap<(usize, u64), &Path> = BTreeMap::new();
         for (place, path) in plan.places.iter().zip(&bank.paths).filter(|(place, _)| place.cause.is_none()) {
             unchanged.extend(path.as_ref().map(|path| ((place.family, place.point), path)));
@@ -133,10 +136,20 @@ impl<'s> World<'s> {
             Some((family, [whole, whole / wall.stones().count() as f64]))
         };
         let weights = base.keys().map(|&family| weighed(family)).collect::<Option<BTreeMap<_, _>>>()?;
-        let kinds = kinds(&study.arms);
+        let kinds = match test {
+            // A stone stands on one stand as it does not on another.
+            Test::Shaking => (0..study.arms.len()).collect(),
+            Test::Tilting | Test::Shear { .. } => kinds(&study.arms),
+        };
+        let sought = match test {
+            Test::Shaking => study.clone().seeking_what_was_measured().earthquakes,
+            Test::Tilting | Test::Shear { .. } => None,
+        };
+        let measured = study.measured_arms();
         let acted = |cause: usize| -> BTreeSet<usize> {
             let changed = changes.keys().filter(|(_, acting)| *acting == cause);
-            changed.map(|(family, _)| kinds[*family]).collect()
+            let arms = changed.flat_map(|(family, _)| standing_for(&stands_for, *family));
+            arms.filter(|arm| measured.contains(arm)).map(|arm| kinds[arm]).collect()
         };
         let acted = (0..mechanisms.len()).map(|cause| acted(cause).into_iter().collect()).collect();
         Some(World {
@@ -151,6 +164,7 @@ impl<'s> World<'s> {
             weights,
             kinds,
             acted,
+            sought,
         })
     }
 
@@ -215,17 +229,21 @@ impl<'s> World<'s> {
         interrupt::look();
         let gauge = self.gauge(truth);
         // Specimens of a family are walls of one kind, those that are turned round of another.
-        let mut kinds: BTreeMap<(usize, bool), Likely> = BTreeMap::new();
+        let mut kinds: BTreeMap<(usize, usize, bool), Likely> = BTreeMap::new();
         let specimens = design.specimens.iter().enumerate();
         specimens
             .map(|(index, specimen)| {
-                let kind = kinds.entry((self.stands_for[specimen.family], specimen.turned));
+                let own = (self.stands_for[specimen.family], self.kinds[specimen.family]);
+                let kind = kinds.entry((own.0, own.1, specimen.turned));
                 let likely = kind.or_insert_with(|| match specimen.turned {
                     true => self.likely(specimen.family, &self.turned(truth)),
                     false => self.likely(specimen.family, truth),
                 });
                 let mut numbers = likely.wall(index, streams);
                 unmodelled.act(index, &mut numbers);
+                if let Some(sought) = &self.sought {
+                    return specimen.readings.iter().map(|m| sought.shown(&numbers, m)).collect();
+                }
                 if let Test::Shear { widest } = self.test {
                     let pushes = Pushes::of(&numbers, widest);
                     return specimen.readings.iter().map(|m| pushes.at(m.drift?)).collect();
@@ -275,6 +293,11 @@ impl<'s> World<'s> {
         std::array::from_fn(|k| self.nuisances[k].prior.at_score(scores[k]))
     }
 
+    /// What is sought under the motions of the base; `None` where it does not move.
+    pub fn sought(&self) -> Option<&Earthquakes> {
+        self.sought.as_ref()
+    }
+
     /// The study whose campaigns these are.
     pub fn study(&self) -> &'s Study {
         self.study
@@ -309,6 +332,20 @@ impl<'s> World<'s> {
     /// Whether the walls that a cause changes are known in some family.
     fn has_walls(&self, cause: usize) -> bool {
         self.changes.keys().any(|(_, own)| *own == cause)
+    }
+}
+
+/// The arms whose walls are those of a family.
+fn standing_for(stands_for: &[usize], family: usize) -> impl Iterator<Item = usize> {
+    stands_for.iter().enumerate().filter(move |(_, own)| **own == family).map(|(arm, _)| arm)
+}
+
+impl Earthquakes {
+    /// What a wall of these numbers shows of a reading before its errors: of an outcome the logarithm of the scale at which it would just
+    /// fall. `None` of what is not sought.
+    pub(in crate::critic) fn shown(&self, numbers: &[f64; NUMBERS], m: &Measurement) -> Option<f64> {
+        let number = numbers.get(1 + self.place_of(m.quantity, m.under.as_ref()?)?)?;
+        Some(if m.quantity == MeasuredQuantity::Outcome { *number } else { exp(*number) })
     }
 }
 

@@ -10,20 +10,22 @@ use crate::ensemble::evaluate::laws;
 use crate::ensemble::field::record;
 use crate::ensemble::limit_analysis::LimitAnalysis;
 use crate::ensemble::quantity::{Observed, Quantity};
+use crate::ensemble::reading::sought::sought;
 use crate::ensemble::reading::{StepRow, finite};
 use crate::ensemble::record::Row;
 use crate::generate::Generated;
 use crate::model::{Level, Outcome};
-use crate::protocol::{BaseMotion, Bounds, Event, Shaken, Verdict, shake_wall};
+use crate::protocol::{BaseMotion, Bounds, Contacts, Event, Shaken, Verdict, shake_wall};
+use crate::solve::{Solver, nonsmooth};
 use crate::stats::fragility::Outcome as CollapseUnder;
-use crate::study::{AsDrawn, Earthquakes, Measure, Study};
+use crate::study::{Arm, AsDrawn, DrawnJoints, Earthquakes, Measure, Meeting, Study};
 
 record! {
     /// A wall under a record at an intensity; see [`Shaken`]. Displacements are against the base, since rest.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     ShakenRow {
         record: u32 = "record", "", "number of the record, from 0";
-        /// Index of the intensity.
+        /// Index of the intensity, or of what is looked for.
         stripe: u32;
         pga_m_per_s2: f64 = "pga_m_per_s2", "m/s2", "peak ground acceleration";
         pgv_m_per_s: f64 = "pgv_m_per_s", "m/s", "peak ground velocity";
@@ -70,23 +72,15 @@ impl Row {
 pub fn shaken(study: &Study, earthquakes: &Earthquakes, task: Task, generated: &Generated) -> Row {
     let drawn = study.as_drawn(task.arm, task.member);
     let AsDrawn { arm, protocol, .. } = &drawn;
-    let base = &study.base_motion().expect("records come with a base that shakes");
+    let base = study.base_motion().expect("records come with a base that shakes");
     let wall = &generated.wall;
     let laws = laws(study, task, arm, wall);
-    let contacts = arm.contacts();
-    let stripes = earthquakes.intensities.len();
-    let runs = earthquakes.records.len() * stripes;
-    let steps = shake_wall(wall, &laws, base, &arm.restraint, contacts, &study.solver, |shake| {
-        let one = |run: usize| {
-            let (record, stripe) = (run / stripes, run % stripes);
-            let motion = earthquakes.records[record].at(earthquakes.intensities[stripe]);
-            let [seen, twin] = shake(motion);
-            step(earthquakes, base, [record, stripe], &seen, &twin)
-        };
-        (0..runs).into_par_iter().with_max_len(1).map(one).collect::<Vec<StepRow>>()
-    });
-    let (steps, joints) = steps.expect("a study is read with a solver that knows time");
-    let bounds = || Bounds::of(wall, &laws, protocol, &arm.restraint, contacts);
+    let table = Table { study, earthquakes, arm, base, generated, laws: &laws };
+    let (steps, joints) = match earthquakes.sought.is_empty() {
+        true => table.stripes(),
+        false => sought(&table),
+    };
+    let bounds = || Bounds::of(wall, &laws, protocol, &arm.restraint, arm.contacts());
     let limit = study.agreement.then(|| LimitAnalysis::alone(&bounds()));
     let outcome = outcome(earthquakes, &steps);
     Row {
@@ -98,22 +92,99 @@ pub fn shaken(study: &Study, earthquakes: &Earthquakes, task: Task, generated: &
     }
 }
 
+/// A wall on the base that shakes it.
+pub(super) struct Table<'t> {
+    study: &'t Study,
+    pub(super) earthquakes: &'t Earthquakes,
+    arm: &'t Arm,
+    base: BaseMotion,
+    generated: &'t Generated,
+    laws: &'t DrawnJoints<'t>,
+}
+
+/// Shakes the wall by a record (its index) at an intensity, as what is numbered so.
+pub(super) type Shake<'s> = &'s (dyn Fn(usize, f64, usize) -> StepRow + Sync);
+
+impl Table<'_> {
+    /// How the wall meets the motion at that place of its sequence.
+    pub(super) fn meeting(&self, nth: u32) -> Meeting {
+        self.arm.mechanisms.meeting(nth)
+    }
+
+    /// Every record at every intensity.
+    fn stripes(&self) -> (Vec<StepRow>, usize) {
+        let Table { earthquakes, .. } = self;
+        let stripes = earthquakes.intensities.len();
+        let runs = |records: std::ops::Range<usize>, shake: Shake<'_>| {
+            let one = |run: usize| {
+                let (record, stripe) = (run / stripes, run % stripes);
+                shake(record, earthquakes.intensities[stripe], stripe)
+            };
+            let runs = (records.start * stripes..records.end * stripes).into_par_iter();
+            runs.with_max_len(1).map(one).collect::<Vec<StepRow>>()
+        };
+        let records = earthquakes.records.len();
+        let is_alike = |nth: u32| Meeting { nth: 0, ..self.meeting(nth) } == self.meeting(0);
+        if (0..records as u32).all(is_alike) {
+            return self.bring_to_rest(&self.meeting(0), |shake| runs(0..records, shake));
+        }
+        // Each record meets another wall than the one before.
+        let each = (0..records).map(|record| {
+            self.bring_to_rest(&self.meeting(record as u32), |shake| runs(record..record + 1, shake))
+        });
+        each.fold((Vec::new(), 0), |(mut all, _), (steps, joints)| {
+            all.extend(steps);
+            (all, joints)
+        })
+    }
+
+    /// Brings the wall to rest as it meets a motion, and lets `each` shake it. Gives what that does, and the number of joints.
+    pub(super) fn bring_to_rest<R>(
+        &self,
+        meeting: &Meeting,
+        each: impl FnOnce(Shake<'_>) -> R,
+    ) -> (R, usize) {
+        let Table { study, earthquakes, arm, base, generated, laws } = self;
+        let contacts = arm.contacts();
+        let contacts = Contacts { inset: contacts.inset + meeting.inset, ..contacts };
+        let solver = bouncing(&study.solver, meeting.restitution);
+        let shaken = shake_wall(&generated.wall, *laws, base, &arm.restraint, contacts, &solver, |shake| {
+            each(&|record: usize, intensity: f64, number: usize| {
+                let [seen, twin] = shake(earthquakes.records[record].met(intensity, meeting));
+                let collapse = collapse(base.shares.capacity, &seen, &twin);
+                step(earthquakes, (record, intensity, number), collapse, &seen, &twin)
+            })
+        });
+        shaken.expect("a study is read with a solver that knows time")
+    }
+}
+
+/// A solver whose impacts give back a part of the speed.
+fn bouncing(solver: &Solver, restitution: Option<f64>) -> Solver {
+    match (*solver, restitution) {
+        (Solver::Nonsmooth(settings), Some(restitution)) => Solver::Nonsmooth(nonsmooth::Settings {
+            normal: nonsmooth::Normal::Velocity { restitution },
+            ..settings
+        }),
+        (solver, _) => solver,
+    }
+}
+
 /// One run.
 fn step(
     earthquakes: &Earthquakes,
-    base: &BaseMotion,
-    [record, stripe]: [usize; 2],
+    (record, intensity, stripe): (usize, f64, usize),
+    collapse: Option<CollapseUnder>,
     seen: &Shaken,
     twin: &Shaken,
 ) -> StepRow {
-    let intensity = earthquakes.intensities[stripe];
     let peak = |measure| earthquakes.records[record].peak(measure, intensity);
     let shaken = ShakenRow {
         record: record as u32,
         stripe: stripe as u32,
         pga_m_per_s2: peak(Measure::Pga),
         pgv_m_per_s: peak(Measure::Pgv),
-        collapse: collapse(base.shares.capacity, seen, twin),
+        collapse,
         verdict: seen.verdict,
         twin: twin.verdict,
         first_stone_s: seen.first_stone_s,
@@ -161,6 +232,13 @@ fn outcome(earthquakes: &Earthquakes, steps: &[StepRow]) -> Outcome {
         }
     };
     let runs = || steps.iter().filter_map(|step| step.shaken.as_ref());
+    if !earthquakes.sought.is_empty() {
+        // Walls are shaken until they fall, whatever the intensity.
+        return match runs().all(|run| run.verdict == Verdict::UnstableAtRest) {
+            true => Outcome::UnstableAtRest,
+            false => Outcome::Equilibrium,
+        };
+    }
     let lowest = |wanted: Option<CollapseUnder>| {
         runs().filter(|run| run.collapse == wanted).min_by_key(|run| run.stripe)
     };

@@ -4,6 +4,7 @@
 pub(super) mod base_motion;
 pub(super) mod lateral;
 pub(super) mod shear;
+mod sought;
 pub(super) mod tilting;
 
 use serde::{Deserialize, Serialize};

@@ -24,7 +24,8 @@ use crate::solve::Demand;
 
 /// What it does not have, with the reason.
 pub(super) fn refuses(demand: Demand) -> Option<&'static str> {
-    (demand == Demand::BaseMotion).then_some("Newton's method goes from rest to rest")
+    matches!(demand, Demand::BaseMotion | Demand::Restitution)
+        .then_some("Newton's method goes from rest to rest")
 }
 
 /// Settings of the implicit solver.

@@ -80,6 +80,7 @@ pub(super) fn refuses(demand: Demand) -> Option<&'static str> {
         Demand::Creep => Some("limit analysis knows no history"),
         Demand::Turning | Demand::BaseMotion => Some("limit analysis knows no time"),
         Demand::Displacements | Demand::Remainders => Some("rigid blocks do not move before they fall"),
+        Demand::Restitution => Some("limit analysis knows no time"),
         Demand::Agreement => Some("it would be compared with itself"),
         Demand::ContactArea | Demand::Weakening | Demand::ServiceDisplacement | Demand::RayleighDamping => {
             None

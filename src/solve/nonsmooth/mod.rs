@@ -140,6 +140,8 @@ impl Settings {
                 Some("a platform that turns steadily is followed by the explicit solver alone")
             }
             Demand::RayleighDamping => Some("impacts and friction take the energy"),
+            Demand::Restitution if !self.is_rigid() => Some("joints that give way have no impacts"),
+            Demand::Restitution => None,
             Demand::BaseCompliance | Demand::WedgeLoss | Demand::BaseMotion | Demand::Agreement => None,
         }
     }

@@ -21,7 +21,14 @@ pub static CONTACT_INSET: Cause = Cause {
     title: "rounded arrises: joints that begin behind the faces",
     means: "joints begin behind the stated faces; rounded arrises, a soft bed that may open and a wall thinner than stated look the same",
     acts: Acts::Joints,
-    confounded: &["joint.kn_pa_per_m", "restraint.strip_height_m", "lean", "contact_area", "bearing_points"],
+    confounded: &[
+        "joint.kn_pa_per_m",
+        "restraint.strip_height_m",
+        "lean",
+        "contact_area",
+        "bearing_points",
+        "worn_bearing",
+    ],
     section: table(
         "[mechanism.contact_inset]",
         "Rounded or chipped arrises.",
@@ -94,6 +101,7 @@ pub static BEARING_POINTS: Cause = Cause {
         "joint_closure",
         "size_scatter",
         "specimen_scatter",
+        "worn_bearing",
     ],
     section: table(
         "[mechanism.bearing_points]",

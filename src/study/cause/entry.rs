@@ -9,6 +9,7 @@ use crate::protocol::{Changes, Contacts, Protocol, Restraint};
 use crate::random::Streams;
 use crate::solve::{Demand, Solver, limit};
 use crate::study::cause::mechanisms::Mechanisms;
+use crate::study::cause::shaking::Meeting;
 use crate::study::checked::{Arm, Joint};
 use crate::study::joints::JointSite;
 use crate::study::schema::{Key, Section};
@@ -76,6 +77,8 @@ pub struct Cause {
     pub(super) law: fn(Values, &mut Coulomb, &JointSite<'_>),
     /// What it changes of a wall on its way.
     pub(super) changes: fn(Values, &mut Changes, &Wall, &Streams),
+    /// What it makes of how a wall meets a motion of its base.
+    pub(super) shaking: fn(Values, &mut Meeting),
     /// What a gauge shows of a displacement (m) since its zero reading.
     pub(super) reading: fn(Values, f64) -> f64,
 }
@@ -191,6 +194,7 @@ impl Cause {
         contacts: |_, _| {},
         law: |_, _, _| {},
         changes: |_, _, _, _| {},
+        shaking: |_, _| {},
         reading: |_, displacement| displacement,
     };
 }
@@ -215,6 +219,11 @@ pub(super) fn tilts(protocol: &Protocol) -> bool {
 /// A reason where the walls are sheared.
 pub(super) fn sheared(protocol: &Protocol, why: &'static str) -> Option<&'static str> {
     matches!(protocol, Protocol::Shear(_)).then_some(why)
+}
+
+/// A reason where the base moves.
+pub(super) fn shaken(protocol: &Protocol, why: &'static str) -> Option<&'static str> {
+    matches!(protocol, Protocol::BaseMotion(_)).then_some(why)
 }
 
 /// The table of a cause: how it is called, what it is, and its keys.

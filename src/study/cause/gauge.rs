@@ -1,11 +1,13 @@
 //! What is wrong with the gauges: it changes readings alone.
 
 use crate::study::cause::FACTOR;
-use crate::study::cause::entry::{Acts, Cause, Unloading, sheared, table};
+use crate::study::cause::entry::{Acts, Cause, Unloading, shaken, sheared, table};
 use crate::study::keys::real;
 use crate::study::schema::Presence::Required;
 use crate::study::schema::{Interval, Key};
 
+/// Why neither can act on a wall whose base moves.
+const NOT_TILTED: &str = "no displacement is read on a platform that tilts";
 /// Why neither can act on a wall that is sheared.
 const NOT_READ: &str = "no displacement out of plane is read";
 
@@ -32,7 +34,7 @@ pub static GAUGE_OFFSET: Cause = Cause {
     sketch: include_str!("sketch/gauge_offset.svg"),
     shows: "The wall stands still, but its dial gauge has shifted towards it, and the needle no longer points to zero.",
     either_way: &["offset_m"],
-    idle: |_, _, protocol| sheared(protocol, NOT_READ),
+    idle: |_, _, protocol| sheared(protocol, NOT_READ).or(shaken(protocol, NOT_TILTED)),
     reading: |[offset, ..], displacement| displacement + offset,
     ..Cause::NOTHING
 };
@@ -56,7 +58,7 @@ pub static GAUGE_SCALE: Cause = Cause {
     shows: "A stone has moved by three divisions of a true ruler; the gauge's ruler, with finer divisions, shows five.",
     either_way: &["factor"],
     first: true,
-    idle: |_, _, protocol| sheared(protocol, NOT_READ),
+    idle: |_, _, protocol| sheared(protocol, NOT_READ).or(shaken(protocol, NOT_TILTED)),
     reading: |[factor, ..], displacement| factor * displacement,
     ..Cause::NOTHING
 };

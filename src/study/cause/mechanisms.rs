@@ -9,6 +9,7 @@ use crate::random::Streams;
 use crate::solve::Demand;
 use crate::study::cause::CAUSES;
 use crate::study::cause::entry::{Beside, Cause, Clash, OnPlate, Values};
+use crate::study::cause::shaking::Meeting;
 use crate::study::checked::Arm;
 use crate::study::joints::JointSite;
 use crate::study::reader::Reader;
@@ -148,6 +149,13 @@ impl Mechanisms {
         let mut changes = Changes::default();
         self.on.iter().for_each(|on| (on.cause.changes)(on.values, &mut changes, wall, streams));
         changes
+    }
+
+    /// How a wall meets the motion of its base at that place in its sequence, from 0.
+    pub fn meeting(&self, nth: u32) -> Meeting {
+        let mut meeting = Meeting::stated(nth);
+        self.on.iter().for_each(|on| (on.cause.shaking)(on.values, &mut meeting));
+        meeting
     }
 
     /// What a gauge shows of a displacement (m) since its zero reading.

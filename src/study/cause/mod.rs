@@ -23,6 +23,7 @@ mod friction;
 mod gauge;
 mod loading;
 mod restraint;
+mod shaking;
 mod specimen;
 mod wall;
 
@@ -30,13 +31,14 @@ pub use described::{Described, Parameter, Stronger, WIDER, described, in_plain_w
 pub use entry::{Acts, Cause, InLimitAnalysis, OnPlate, Unloading};
 pub(super) use entry::{Beside, Clash};
 pub use mechanisms::Mechanisms;
+pub use shaking::Meeting;
 
 use crate::study::cause::entry::MOST_KEYS;
 use crate::study::schema::Presence::Optional;
 use crate::study::schema::{Interval, Key, Kind, Section};
 
 /// All causes, in the order of their keys.
-pub static CAUSES: [&Cause; 20] = [
+pub static CAUSES: [&Cause; 24] = [
     &contact::CONTACT_INSET,
     &closure::JOINT_CLOSURE,
     &closure::STRESS_STIFFENING,
@@ -57,6 +59,10 @@ pub static CAUSES: [&Cause; 20] = [
     &restraint::PLATFORM_FRICTION,
     &contact::BEARING_POINTS,
     &restraint::BEDDING,
+    &shaking::WORN_BEARING,
+    &shaking::HEADING,
+    &shaking::MOTION_SCALE,
+    &shaking::RESTITUTION,
 ];
 
 /// Keys of the causes: each is off unless its table is there.

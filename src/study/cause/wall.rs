@@ -15,7 +15,15 @@ pub static LEAN: Cause = Cause {
     title: "a wall or a platform out of plumb",
     means: "the wall leaned before the test, or the platform was not level",
     acts: Acts::Wall,
-    confounded: &["wall.battered_face", "contact_inset", "base_compliance", "bedding", "platform_friction"],
+    confounded: &[
+        "wall.battered_face",
+        "contact_inset",
+        "base_compliance",
+        "bedding",
+        "platform_friction",
+        "worn_bearing",
+        "motion_scale",
+    ],
     section: table(
         "[mechanism.lean]",
         "A wall that was built, or moved, out of plumb.",

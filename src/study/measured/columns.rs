@@ -24,7 +24,10 @@ pub const COLUMNS: &[Column] = &[
         "tilt of the platform at the reading, for a remainder that from which it has gone back (deg); empty where the quantity has none of its own",
     ),
     required("quantity", "what was measured"),
-    required("value", "the value, or the bound of a censored reading"),
+    required(
+        "value",
+        "the value, or the bound of a censored reading; of an outcome `fell` or `stood`, its unit, error and kind left empty",
+    ),
     required("unit", "unit of value, error, common_error and resolution"),
     required(
         "error",
@@ -39,6 +42,11 @@ pub const COLUMNS: &[Column] = &[
         "drift_percent",
         "drift at the reading, displacement over the height of the push (%); of a force_at_drift alone, which needs it",
     ),
+    optional(
+        "record",
+        "name of the record that moved the base, with or without its folder and its end; of an outcome, a peak_displacement or a residual_displacement, which need it",
+    ),
+    optional("scale", "factor on that record; empty for 1, as it was recorded"),
     optional("resolution", "distance of neighbouring values of a rounded reading"),
     optional("order", "place of the specimen in the order of the tests, from 1"),
     optional(
@@ -61,6 +69,7 @@ A wide table has a row per specimen and tilt and a column per quantity, in the p
 | `specimen`, `family`, `tilt_deg`, `order`, `stage` | as above |
 | `left`, `centre`, `right`, `mean`, `centre_minus_ends` | a displacement; `displacement_left` and so on are the same |
 | `collapse_angle_deg` | the collapse angle, in any one row of its specimen or the same in all; its own `collapse_angle_error` (deg) is needed |
+| `outcome`, with `record` and `scale` beside it | `fell` or `stood`; a row per shaking of a specimen, numbered in the column `stage` |
 | any other quantity, with its unit behind it: `joint_phi_deg`, `remainder_mean_mm` | its value |
 | `unit` | unit of the lengths whose columns have none in their name; `left_mm` needs none |
 | `error`, `common_error`, `resolution`, `kind` | said of all lengths; `error_mm` where these are `left_mm` |

@@ -13,7 +13,7 @@ use crate::study::measured::wide::Meant;
 use crate::study::schema::suggestion;
 
 /// Columns of a wide table that it shares with a long one.
-const SHARED: [&str; 10] = [
+const SHARED: [&str; 12] = [
     "specimen",
     "family",
     "tilt_deg",
@@ -24,6 +24,8 @@ const SHARED: [&str; 10] = [
     "resolution",
     "order",
     "stage",
+    "record",
+    "scale",
 ];
 
 /// What a column holds.
@@ -138,14 +140,20 @@ impl Header {
 
     /// One reading of a row of a wide table, its value in a column of its own.
     fn reading<'l>(&self, line: &'l Line, quantity: MeasuredQuantity, at: usize) -> Record<'l> {
-        let columns = ["specimen", "family", "tilt_deg", "order", "stage"].into_iter();
-        let mut fields = self.fields(line, columns.filter(|c| *c != "tilt_deg" || quantity.has_tilt()));
+        let columns = ["specimen", "family", "order", "stage"].into_iter();
+        let tilt = quantity.has_tilt().then_some("tilt_deg");
+        let under = ["record", "scale"].into_iter().filter(|_| quantity.is_shaken());
+        let mut fields = self.fields(line, columns.chain(tilt).chain(under));
         let (_, head) = &self.slots[at];
         let value = &line.cells[at];
         let stated = |text: &str| Field {
             name: head.text.clone(),
             cell: Cell { text: text.to_owned(), place: value.place.clone() },
         };
+        if quantity == MeasuredQuantity::Outcome {
+            fields.extend([("value", stated(&value.text)), ("quantity", stated(quantity.name()))]);
+            return Record { line, fields };
+        }
         for column in ["error", "common_error", "resolution", "kind"] {
             let field = self.said(quantity, column).and_then(|at| {
                 Some(Field { name: self.slots[at].1.text.clone(), cell: line.cells.get(at)?.clone() })
@@ -266,7 +274,12 @@ impl Header {
                 missing(column.name, column.doc, fix);
             }
         }
-        let others = self.quantities.iter().filter(|q| q.dimension() != Dimension::Length);
+        if self.quantities.iter().any(|quantity| quantity.is_shaken()) && self.shared("record").is_none() {
+            let doc = "name of the record that moved the base";
+            missing("record", doc, fix);
+        }
+        let without_error = [Dimension::Length, Dimension::Outcome];
+        let others = self.quantities.iter().filter(|q| !without_error.contains(&q.dimension()));
         for quantity in others.filter(|q| self.own(**q, "error").is_none()) {
             missing(
                 &format!("{}_error", quantity.name()),
@@ -288,7 +301,7 @@ impl Header {
             match meant.quantity {
                 Some(quantity) if meant.column == "value" => {
                     let dimension = quantity.dimension();
-                    if meant.unit.is_none() && dimension != Dimension::Length {
+                    if meant.unit.is_none() && !matches!(dimension, Dimension::Length | Dimension::Outcome) {
                         let names: Vec<String> =
                             dimension.units().iter().map(|unit| format!("{name}_{unit}")).collect();
                         fault(

@@ -13,9 +13,12 @@ pub struct Measurement {
     pub tilt: Option<f64>,
     /// Drift at the reading, displacement over height of the push; `None` where the quantity has none of its own.
     pub drift: Option<f64>,
+    /// Which motion of the base it was read under; `None` where the base did not move.
+    pub under: Option<Under>,
     /// What was measured.
     pub quantity: MeasuredQuantity,
-    /// The value, or the bound of a censored reading.
+    /// The value, or the bound of a censored reading. Of an outcome the logarithm of the motion's scale: the scale at which the wall would just
+    /// fall lies below that of a motion under which it fell, and above that of one under which it stood.
     pub value: f64,
     /// How the value is to be read.
     pub kind: MeasuredKind,
@@ -50,6 +53,15 @@ impl Measurement {
         let whole = self.error * self.error + self.common_error * self.common_error;
         [(1.0 - share) * whole, share * whole].map(f64::sqrt)
     }
+}
+
+/// A motion of the base.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Under {
+    /// Name of the record, as the study has it.
+    pub record: String,
+    /// Factor on the record as it was recorded.
+    pub scale: f64,
 }
 
 /// How a value is to be read.
@@ -124,11 +136,17 @@ pub enum MeasuredQuantity {
     FixedTarget,
     /// Push along a sheared wall when it first came to a drift (N).
     ForceAtDrift,
+    /// Whether the wall fell or stood under a motion of its base.
+    Outcome,
+    /// Largest displacement against the base, under a motion of it, of a stone that did not fall (m).
+    PeakDisplacement,
+    /// What is left of the displacements when the motion has ended, the largest of any stone (m).
+    ResidualDisplacement,
 }
 
 impl MeasuredQuantity {
     /// All of them.
-    pub const ALL: [MeasuredQuantity; 17] = [
+    pub const ALL: [MeasuredQuantity; 20] = [
         MeasuredQuantity::CollapseAngle,
         MeasuredQuantity::DisplacementLeft,
         MeasuredQuantity::DisplacementCentre,
@@ -146,6 +164,9 @@ impl MeasuredQuantity {
         MeasuredQuantity::BlockWeight,
         MeasuredQuantity::FixedTarget,
         MeasuredQuantity::ForceAtDrift,
+        MeasuredQuantity::Outcome,
+        MeasuredQuantity::PeakDisplacement,
+        MeasuredQuantity::ResidualDisplacement,
     ];
 
     /// Name in files.
@@ -168,6 +189,9 @@ impl MeasuredQuantity {
             MeasuredQuantity::BlockWeight => "block_weight",
             MeasuredQuantity::FixedTarget => "fixed_target",
             MeasuredQuantity::ForceAtDrift => "force_at_drift",
+            MeasuredQuantity::Outcome => "outcome",
+            MeasuredQuantity::PeakDisplacement => "peak_displacement",
+            MeasuredQuantity::ResidualDisplacement => "residual_displacement",
         }
     }
 
@@ -184,6 +208,7 @@ impl MeasuredQuantity {
             MeasuredQuantity::SpecimenWeight
             | MeasuredQuantity::BlockWeight
             | MeasuredQuantity::ForceAtDrift => Dimension::Force,
+            MeasuredQuantity::Outcome => Dimension::Outcome,
             _ => Dimension::Length,
         }
     }
@@ -214,12 +239,18 @@ impl MeasuredQuantity {
 
     /// Whether it is measured apart from the loading of walls.
     pub fn is_apart(self) -> bool {
-        !self.has_tilt() && !self.has_drift() && self != MeasuredQuantity::CollapseAngle
+        !self.has_tilt() && !self.has_drift() && !self.is_shaken() && self != MeasuredQuantity::CollapseAngle
     }
 
     /// Whether it is read at a drift of the wall.
     pub fn has_drift(self) -> bool {
         self == MeasuredQuantity::ForceAtDrift
+    }
+
+    /// Whether it is read under a motion of the base.
+    pub fn is_shaken(self) -> bool {
+        use MeasuredQuantity as Q;
+        matches!(self, Q::Outcome | Q::PeakDisplacement | Q::ResidualDisplacement)
     }
 
     /// The quantity that stands for all that share its common error: what a gauge is off at every point of a wall it is off at all of
@@ -228,6 +259,7 @@ impl MeasuredQuantity {
         use MeasuredQuantity as Q;
         match self {
             Q::DisplacementCentreMinusEnds | Q::RemainderCentreMinusEnds => Q::DisplacementCentreMinusEnds,
+            Q::PeakDisplacement | Q::ResidualDisplacement => Q::PeakDisplacement,
             other if other.dimension() == Dimension::Length => Q::DisplacementMean,
             other => other,
         }
@@ -240,6 +272,6 @@ impl MeasuredQuantity {
 
     /// Whether it is read at a tilt of the platform, or after it has gone back from one.
     pub fn has_tilt(self) -> bool {
-        self.dimension() == Dimension::Length && self != MeasuredQuantity::FixedTarget
+        self.dimension() == Dimension::Length && self != MeasuredQuantity::FixedTarget && !self.is_shaken()
     }
 }

@@ -14,7 +14,7 @@ mod unit;
 mod wide;
 
 pub(super) use columns::{COLUMNS, FORMS};
-pub use measurement::{MeasuredKind, MeasuredQuantity, Measurement};
+pub use measurement::{MeasuredKind, MeasuredQuantity, Measurement, Under};
 pub use template::{Template, template};
 pub use unit::Dimension;
 
@@ -47,6 +47,15 @@ pub struct Written {
     pub unfilled: Vec<usize>,
 }
 
+/// What the rows of a file may name.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Known<'s> {
+    /// The arms.
+    pub arms: Option<&'s [String]>,
+    /// The records; none of a study whose base does not move.
+    pub records: Option<&'s [String]>,
+}
+
 /// What was read from a file; of none by default.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Read {
@@ -58,11 +67,12 @@ pub(super) struct Read {
     pub warnings: Vec<Fault>,
 }
 
-/// Reads all measurements of a file; `arms` is `None` when the study's arms are faulty themselves.
+/// Reads all measurements of a file, of arms and under records of these names, each `None` when what the study says of them is faulty
+/// itself.
 ///
 /// # Errors
 /// All faults of the file: of its cells, its header, its rows, and of rows against one another.
-pub(super) fn read(source: &Arc<Source>, arms: Option<&[String]>) -> Result<Read, Vec<Fault>> {
+pub(super) fn read(source: &Arc<Source>, known: Known<'_>) -> Result<Read, Vec<Fault>> {
     let mut faults = Vec::new();
     let table = csv::cells::table(source, header::is_column, &mut faults);
     let Some((first, lines)) = table.lines.split_first() else {
@@ -88,7 +98,7 @@ pub(super) fn read(source: &Arc<Source>, arms: Option<&[String]>) -> Result<Read
             unfilled.push(line);
         }
         for record in records {
-            let Some((m, place)) = row::read(&record, arms, &mut numbers, &mut faults) else { continue };
+            let Some((m, place)) = row::read(&record, known, &mut numbers, &mut faults) else { continue };
             let unit = record.given("unit").map(|cell| cell.text.clone());
             units.entry(m.quantity).or_default().extend(unit);
             if !(header.is_wide() && said_before(&mut read, &m)) {
@@ -152,7 +162,7 @@ fn ill_sized(header: &Header, line: &Line, separator: char) -> Option<Fault> {
 /// Whether a row of a wide table repeats what a wall has but once, as its collapse angle; it then counts where it stands last in the
 /// sequence on the specimen.
 fn said_before(read: &mut [(Measurement, Place)], m: &Measurement) -> bool {
-    if m.quantity.has_tilt() {
+    if m.quantity.has_tilt() || m.quantity.is_shaken() {
         return false;
     }
     let same = |own: &Measurement| Measurement { line: m.line, stage: m.stage, ..own.clone() } == *m;

@@ -1,10 +1,11 @@
 //! The cells of one reading to one measurement.
 
-use crate::math::{degrees, radians};
+use crate::math::{degrees, ln, radians};
 use crate::study::csv::cells::Cell;
 use crate::study::csv::numbers::Numbers;
 use crate::study::fault::{Fault, Found, Place};
-use crate::study::measured::measurement::{MeasuredKind, MeasuredQuantity, Measurement};
+use crate::study::measured::Known;
+use crate::study::measured::measurement::{MeasuredKind, MeasuredQuantity, Measurement, Under};
 use crate::study::measured::record::Record;
 use crate::study::measured::unit::Dimension;
 use crate::study::schema::{Interval, Short, quoted, suggestion};
@@ -17,12 +18,12 @@ const OFF_GRID: f64 = 1e-6;
 /// Reads a reading; `None` when it is faulty, and the faults then say why. The place is that of the row.
 pub fn read(
     record: &Record<'_>,
-    arms: Option<&[String]>,
+    known: Known<'_>,
     numbers: &mut Numbers,
     faults: &mut Vec<Fault>,
 ) -> Option<(Measurement, Place)> {
     let place = record.line.place.clone();
-    Row { record, numbers, faults }.measurement(arms).map(|measurement| (measurement, place))
+    Row { record, numbers, faults }.measurement(known).map(|measurement| (measurement, place))
 }
 
 /// A common error of which nobody knows how much of the error it is.
@@ -40,6 +41,15 @@ fn limits(quantity: MeasuredQuantity) -> Interval {
     }
 }
 
+/// How a wall may come through a motion of its base.
+const OUTCOMES: [&str; 2] = ["fell", "stood"];
+
+/// A record's name without its folder and without the end that says how it is written.
+fn stem(record: &str) -> &str {
+    let file = record.rsplit('/').next().unwrap_or(record);
+    file.rsplit_once('.').map_or(file, |(stem, end)| if end.parse::<f64>().is_ok() { file } else { stem })
+}
+
 /// A reading's cells.
 struct Row<'r> {
     record: &'r Record<'r>,
@@ -48,15 +58,21 @@ struct Row<'r> {
 }
 
 impl Row<'_> {
-    fn measurement(&mut self, arms: Option<&[String]>) -> Option<Measurement> {
+    fn measurement(&mut self, known: Known<'_>) -> Option<Measurement> {
         let specimen = self.specimen();
-        let family = self.family(arms);
+        let family = self.family(known.arms);
         let quantity = self.quantity();
-        let kind = self.kind();
+        let is_outcome = quantity == Some(MeasuredQuantity::Outcome);
+        let kind = if is_outcome { self.fell_or_stood() } else { self.kind() };
         let (order, stage) = (self.whole("order", 1), self.whole("stage", 0));
         let tilt = quantity.and_then(|quantity| self.tilt(quantity));
         let drift = quantity.and_then(|quantity| self.drift(quantity));
+        let under = quantity.and_then(|quantity| self.under(quantity, known.records));
         let numbers = quantity.and_then(|quantity| {
+            if is_outcome {
+                let scale = under.as_ref()?.as_ref()?.scale;
+                return Some(([ln(scale), 0.0, 0.0, 0.0], false));
+            }
             let unit = self.unit(quantity.dimension())?;
             self.numbers(quantity, &unit, kind)
         });
@@ -66,6 +82,7 @@ impl Row<'_> {
             family: family?,
             tilt: tilt?,
             drift: drift?,
+            under: under?,
             quantity: quantity?,
             value,
             kind: kind?,
@@ -145,6 +162,70 @@ impl Row<'_> {
 
     fn kind(&mut self) -> Option<MeasuredKind> {
         MeasuredKind::named(&self.one_of("kind", &MeasuredKind::NAMES)?)
+    }
+
+    /// How an outcome is to be read: a wall that fell would have fallen under a weaker motion, one that stood stands still under a
+    /// stronger one.
+    fn fell_or_stood(&mut self) -> Option<MeasuredKind> {
+        for column in ["kind", "unit", "error", "common_error", "resolution"] {
+            let Some(cell) = self.given(column) else { continue };
+            let fix = "empty the cell: an outcome is one of two words";
+            self.refuse(&cell, column, "nothing where quantity = outcome", fix);
+            return None;
+        }
+        let allowed = format!("one of {}", quoted(&OUTCOMES));
+        let cell = self.needed("value", allowed.as_str(), "write how the wall came through")?;
+        match cell.text.to_ascii_lowercase().as_str() {
+            "fell" => Some(MeasuredKind::Below),
+            "stood" => Some(MeasuredKind::Above),
+            other => {
+                let fix = suggestion(other, &OUTCOMES);
+                self.refuse(&cell, "value", allowed, fix);
+                None
+            }
+        }
+    }
+
+    /// The motion that it was read under, or none where the quantity has none; the outer `None` is a fault.
+    fn under(&mut self, quantity: MeasuredQuantity, records: Option<&[String]>) -> Option<Option<Under>> {
+        let name = quantity.name();
+        if !quantity.is_shaken() {
+            for column in ["record", "scale"] {
+                let Some(cell) = self.given(column) else { continue };
+                self.refuse(&cell, column, format!("nothing where quantity = {name}"), "empty the cell");
+                return None;
+            }
+            return Some(None);
+        }
+        let allowed = "the name of a record of study.toml";
+        let cell = self.needed("record", allowed, "name the record that moved the base")?;
+        let scale = match self.given("scale") {
+            None => 1.0,
+            Some(cell) => {
+                let within = Interval::above(0.0, 1000.0);
+                self.number(&cell, "scale", within, &format!("a number {within}"))?
+            }
+        };
+        let Some(records) = records else { return Some(Some(Under { record: cell.text, scale })) };
+        let same = |record: &&String| **record == cell.text || stem(record) == stem(&cell.text);
+        let mut same = records.iter().filter(same);
+        match (same.next(), same.next()) {
+            (Some(record), None) => Some(Some(Under { record: record.clone(), scale })),
+            (Some(_), Some(_)) => {
+                self.refuse(&cell, "record", allowed, "write the whole name: several records end so");
+                None
+            }
+            (None, _) if records.is_empty() => {
+                let fix = "outcomes belong to a study with load.protocol = \"base_motion\"";
+                self.refuse(&cell, "record", "nothing, as no base moves in this study", fix);
+                None
+            }
+            (None, _) => {
+                let fix = suggestion(&cell.text, records);
+                self.refuse(&cell, "record", allowed, fix);
+                None
+            }
+        }
     }
 
     fn unit(&mut self, dimension: Dimension) -> Option<String> {

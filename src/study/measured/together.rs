@@ -17,7 +17,7 @@ const BEYOND: f64 = 3.0;
 pub fn check(rows: &[Read], faults: &mut Vec<Fault>) {
     let mut specimens: BTreeMap<&str, &Read> = BTreeMap::new();
     let mut orders: BTreeMap<(&str, u32), &Read> = BTreeMap::new();
-    let mut readings: BTreeMap<(&str, MeasuredQuantity, u64, u32), &Read> = BTreeMap::new();
+    let mut readings: BTreeMap<_, &Read> = BTreeMap::new();
     for row in rows {
         let (m, place) = row;
         let mut fault = |column: &str, found: String, allowed: String, fix: &str| {
@@ -58,13 +58,14 @@ pub fn check(rows: &[Read], faults: &mut Vec<Fault>) {
             }
         }
         // Bits, as two readings at one tilt are written the same.
-        let key = (m.specimen.as_str(), m.quantity, m.at().map_or(0, f64::to_bits), m.stage);
+        let under = m.under.as_ref().map(|under| (under.record.as_str(), under.scale.to_bits()));
+        let key = (m.specimen.as_str(), m.quantity, m.at().map_or(0, f64::to_bits), under, m.stage);
         let (same, _) = readings.entry(key).or_insert(row);
         if same.line != m.line {
             fault(
                 "quantity",
                 format!("{} of {} was read in line {} already", m.quantity.name(), m.specimen, same.line),
-                "one row per specimen, quantity, tilt or drift, and stage".to_owned(),
+                "one row per specimen, quantity, tilt, drift or record, and stage".to_owned(),
                 "remove one, or number the readings in the column stage",
             );
         }

@@ -13,6 +13,8 @@ pub enum Dimension {
     Stiffness,
     /// N inside.
     Force,
+    /// One of two words, and no number.
+    Outcome,
 }
 
 impl Dimension {
@@ -23,6 +25,7 @@ impl Dimension {
             Dimension::Angle => &["deg", "rad"],
             Dimension::Stiffness => &["Pa/m", "kPa/m", "MPa/m", "GPa/m", "N/mm3"],
             Dimension::Force => &["N", "kN"],
+            Dimension::Outcome => &[],
         }
     }
 

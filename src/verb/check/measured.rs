@@ -69,6 +69,7 @@ impl<'m> Group<'m> {
             Dimension::Angle => (degrees(1.0), "deg"),
             Dimension::Stiffness => (1.0, "Pa/m"),
             Dimension::Force => (1.0, "N"),
+            Dimension::Outcome => (1.0, ""),
         };
         let values = || self.readings.iter().map(|m| m.value);
         let range = [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)];

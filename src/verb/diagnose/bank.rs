@@ -8,7 +8,7 @@ use serde::Serialize;
 use serde_json::json;
 
 use crate::critic;
-use crate::critic::{BANK, DataNote, Design, NotThisBank, Plan, World, data_notes};
+use crate::critic::{BANK, DataNote, Design, MOST_SOUGHT, NotThisBank, Plan, World, data_notes};
 use crate::ensemble::{Settings, replace_file, run_with};
 use crate::protocol::Protocol;
 use crate::solve::Solver;
@@ -104,7 +104,7 @@ fn in_words(known: &[Explained]) -> String {
 
 /// The study that the arguments name, with the measurements of another file if one is named.
 pub(crate) fn measured(which: &Which, file: Option<&Path>) -> Result<Loaded, Failure> {
-    let loaded = locate::measurable(which)?;
+    let loaded = locate::any_study(which)?;
     match file {
         Some(file) => {
             let loaded = loaded.with_measured(file)?;
@@ -128,14 +128,22 @@ pub(crate) fn prepared(study: &Study, which: &Which, points: u64) -> Result<Prep
     let (done, needed) = match study.protocol {
         Protocol::Tilting(_) => ("tilted", "collapse angles or displacements"),
         Protocol::Shear(_) => ("sheared", "readings of force_at_drift"),
-        Protocol::Lateral(_) | Protocol::BaseMotion(_) => {
-            let text =
-                "the study neither tilts nor shears its walls: diagnoses are of such tests (load.protocol)";
+        Protocol::BaseMotion(_) => ("shaken", "outcomes of motions of the base"),
+        Protocol::Lateral(_) => {
+            let text = "the study neither tilts, shears nor shakes its walls: diagnoses are of such tests (load.protocol)";
             return Err(Failure::Input(format!("{}: {text}", study.name)));
         }
     };
     if let (Protocol::Shear(_), Solver::Limit(_)) = (&study.protocol, &study.solver) {
         let text = "limit analysis knows no drift: diagnose with solver.name = \"implicit\"";
+        return Err(Failure::Input(format!("{}: {text}", study.name)));
+    }
+    let sought =
+        study.clone().seeking_what_was_measured().earthquakes.map_or(0, |shaken| shaken.sought.len());
+    if sought > MOST_SOUGHT {
+        let text = format!(
+            "outcomes and displacements under {sought} motions: allowed are {MOST_SOUGHT}; take out the motions that all specimens outlive by far"
+        );
         return Err(Failure::Input(format!("{}: {text}", study.name)));
     }
     let (design, _) = Design::of(study);
@@ -151,7 +159,7 @@ pub(crate) fn prepared(study: &Study, which: &Which, points: u64) -> Result<Prep
     let mut notes = noted(&data_notes(study, &design));
     let distributions = locate::distributions(which)?;
     let mut mechanisms = described(&distributions).map_err(Failure::Input)?;
-    if let Protocol::Shear(_) = study.protocol {
+    if let Protocol::Shear(_) | Protocol::BaseMotion(_) = study.protocol {
         let idle = set_aside(study, &mut mechanisms)?;
         notes.extend(noted(&[idle]));
     }

@@ -49,12 +49,12 @@ pub fn write_extended(origin: &Origin<'_>, extension: &Extension, dir: &Path) ->
             None => drop(fs::remove_file(dir.join(name))),
         }
     }
-    write_walls(stated, dir)
+    write_beside(stated, dir)
 }
 
-/// Writes the files of a study's walls into the folder of another one, by the names that its arms give them.
-pub fn write_walls(stated: &Stated, dir: &Path) -> Result<()> {
-    for (name, bytes) in stated.walls() {
+/// Writes the files of a study's walls and its records into the folder of another one, by the names that it gives them.
+pub fn write_beside(stated: &Stated, dir: &Path) -> Result<()> {
+    for (name, bytes) in stated.beside() {
         let path = dir.join(name);
         let folder = path.parent().unwrap_or(dir);
         fs::create_dir_all(folder)

@@ -1,6 +1,6 @@
 //! What the extended model gains on readings that it has not seen, in the units and words of files.
 
-use crate::critic::{Between, Design, Gain, Gained, HeldOut, Interval, Scores, World, stand_in};
+use crate::critic::{Between, Design, Gain, Gained, HeldOut, Interval, Scores, Test, World, stand_in};
 use crate::render::document::Table;
 use crate::render::number::{capital, significant, with_interval};
 use crate::render::text::wrapped;
@@ -13,6 +13,9 @@ pub struct GainSummary {
     pub specimens_left_out: Option<GainedEntry>,
     /// The largest tilts and the collapse angles, or the largest drifts, of all specimens left out; null where nothing is left then.
     pub largest_tilts_left_out: Option<GainedEntry>,
+    /// Each fifth of the motions of the base left out in turn; only where it moves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub motions_left_out: Option<GainedEntry>,
     /// All families left out but one, and those that are alike.
     pub one_family_known: Vec<FamilyEntry>,
     /// What the cause of the verdict that has most of the evidence gains where one family is predicted from another.
@@ -21,9 +24,9 @@ pub struct GainSummary {
     pub choices: Vec<ChoiceEntry>,
     /// Campaigns without any effect that the intervals are widened by.
     pub nulls: u64,
-    /// Whether walls were sheared.
+    /// What was done to the walls.
     #[serde(skip)]
-    is_sheared: bool,
+    test: Test,
 }
 
 /// A gain on readings that were held out. Scores and errors in standard deviations of the base model's readings.
@@ -124,7 +127,6 @@ impl GainSummary {
     /// From a gain measured on a design.
     pub fn of(gain: &Gain, between: &[Between], world: &World<'_>, design: &Design) -> GainSummary {
         let study = world.study();
-        let is_sheared = !study.drifts().is_empty();
         let name = |family: usize| {
             let alike = design.families().into_iter().filter(|own| stand_in(study, *own) == family);
             alike.map(|own| study.arms[own].name.clone()).collect::<Vec<_>>().join(" and ")
@@ -132,8 +134,11 @@ impl GainSummary {
         let choices = gain.choices.iter().map(|choice| ChoiceEntry {
             left_out: match choice.held_out {
                 HeldOut::Specimen(index) => design.specimens[index].name.clone(),
-                HeldOut::LargestTilts if is_sheared => "largest drifts".to_string(),
+                HeldOut::LargestTilts if matches!(world.test(), Test::Shear { .. }) => {
+                    "largest drifts".to_string()
+                }
                 HeldOut::LargestTilts => "largest tilts".to_string(),
+                HeldOut::Motions(part) => format!("fifth {} of the motions", part + 1),
                 HeldOut::OtherFamilies(family) => format!("all but {}", name(family)),
             },
             causes: choice
@@ -150,9 +155,12 @@ impl GainSummary {
         let families = gain.families.iter();
         let families = families
             .map(|(family, gained)| FamilyEntry { family: name(*family), gained: GainedEntry::of(gained) });
+        let is_shaken = world.test() == Test::Shaking;
+        let [tilts, motions] = [0; 2].map(|_| gain.tilts.as_ref().map(GainedEntry::of));
         GainSummary {
             specimens_left_out: gain.specimens.as_ref().map(GainedEntry::of),
-            largest_tilts_left_out: gain.tilts.as_ref().map(GainedEntry::of),
+            largest_tilts_left_out: tilts.filter(|_| !is_shaken),
+            motions_left_out: motions.filter(|_| is_shaken),
             one_family_known: families.collect(),
             between_families: between
                 .iter()
@@ -166,7 +174,7 @@ impl GainSummary {
                 .collect(),
             choices: choices.collect(),
             nulls: gain.nulls,
-            is_sheared,
+            test: world.test(),
         }
     }
 
@@ -176,11 +184,12 @@ impl GainSummary {
         GainSummary {
             specimens_left_out: Some(entry),
             largest_tilts_left_out: None,
+            motions_left_out: None,
             one_family_known: Vec::new(),
             between_families: Vec::new(),
             choices: Vec::new(),
             nulls: 0,
-            is_sheared: false,
+            test: Test::Tilting,
         }
     }
 
@@ -188,13 +197,18 @@ impl GainSummary {
     fn parts(&self) -> [(&'static str, &'static str, &Option<GainedEntry>); 2] {
         [
             ("each specimen left out in turn", "it takes two specimens", &self.specimens_left_out),
-            match self.is_sheared {
-                true => (
+            match self.test {
+                Test::Shaking => (
+                    "each fifth of the motions left out in turn",
+                    "it takes five motions",
+                    &self.motions_left_out,
+                ),
+                Test::Shear { .. } => (
                     "the largest drifts left out",
                     "it takes two specimens that were read at two drifts",
                     &self.largest_tilts_left_out,
                 ),
-                false => (
+                Test::Tilting => (
                     "the largest tilts and the collapse angles left out",
                     "it takes two specimens that were read at two tilts",
                     &self.largest_tilts_left_out,

@@ -65,6 +65,8 @@ const AWAY: &[(&str, &str, Away)] = &[
     ("bearing_points", "points", Away::Down),
     ("bearing_points", "share", Away::Down),
     ("bedding", "stiffness_share", Away::Down),
+    ("heading", "turn_deg", Away::From(0.0)),
+    ("motion_scale", "factor", Away::From(1.0)),
 ];
 
 impl Strength {

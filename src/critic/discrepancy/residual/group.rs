@@ -5,9 +5,9 @@ use crate::critic::discrepancy::residual::band::Band;
 use crate::critic::discrepancy::residual::nested::Nested;
 use crate::critic::discrepancy::residual::parts::Expected;
 use crate::critic::discrepancy::residual::reading::agreeing;
-use crate::critic::simulate::Seen;
+use crate::critic::simulate::{Seen, Side as Lies};
 use crate::stats;
-use crate::study::{MeasuredKind, MeasuredQuantity, Measurement};
+use crate::study::{MeasuredQuantity, Measurement};
 
 /// A mean agrees at this p-value or above: it lies where nine in ten simulated means do.
 const AGREES: f64 = 0.1;
@@ -75,7 +75,12 @@ impl GroupBase {
     pub fn new(family: usize, members: &[(usize, &Measurement)], nested: &Nested) -> Option<GroupBase> {
         let (_, first) = members.first()?;
         let over = |shown: &[Option<f64>]| -> Option<f64> {
-            stats::mean(&members.iter().filter_map(|(place, _)| shown[*place]).collect::<Vec<_>>())
+            // Of outcomes the share that stood.
+            let own = |(place, m): &(usize, &Measurement)| match m.quantity {
+                MeasuredQuantity::Outcome => Seen::of(shown[*place]?, m).number(m),
+                _ => shown[*place],
+            };
+            stats::mean(&members.iter().filter_map(own).collect::<Vec<_>>())
         };
         let by_truth = nested.each(|shown| over(&shown.values));
         let readings: Vec<&Measurement> = members.iter().map(|(_, m)| *m).collect();
@@ -114,8 +119,8 @@ impl GroupBase {
     pub fn with(&self, seen: &[Seen]) -> Group {
         let own = || self.members.iter().map(|(place, m)| (seen[*place], m));
         let numbers: Vec<f64> = own().filter_map(|(seen, m)| seen.number(m)).collect();
-        let beyond = |kind| own().filter(|(seen, m)| *seen == Seen::Beyond && m.kind == kind).count();
-        let (below, above) = (beyond(MeasuredKind::Below), beyond(MeasuredKind::Above));
+        let on = |side| own().filter(|(seen, m)| seen.side(m) == Some(side)).count();
+        let (below, above) = (on(Lies::Below), on(Lies::Above));
         let measured = stats::mean(&numbers);
         let judged = measured.filter(|_| self.group.expected.is_some()).map(|mean| self.judged(mean));
         let in_sd = measured.filter(|_| below + above == 0).and_then(|mean| self.group.expected?.in_sd(mean));

@@ -64,9 +64,9 @@ impl Residual {
     pub(super) fn with(&self, seen: Seen) -> Residual {
         let in_sd = match seen {
             Seen::Value(value) => self.expected.and_then(|expected| expected.in_sd(value)),
-            Seen::Beyond | Seen::Nothing => None,
+            Seen::Beyond | Seen::Fell | Seen::Stood | Seen::Nothing => None,
         };
-        let agreeing = self.agreeing.filter(|_| seen == Seen::Beyond);
+        let agreeing = self.agreeing.filter(|_| seen.side(&self.reading).is_some());
         Residual { seen, in_sd, agreeing, ..self.clone() }
     }
 }
@@ -74,10 +74,7 @@ impl Residual {
 /// Share of the simulated readings at these places that lie on the sides of their bounds; `None` where there are none.
 pub(super) fn agreeing(places: &[(usize, &Measurement)], nested: &Nested) -> Option<f64> {
     let side = |(place, m): &(usize, &Measurement)| {
-        nested.all(|shown| {
-            let beyond = Seen::of(shown.read[*place]?, m) == Seen::Beyond;
-            Some(f64::from(u8::from(beyond)))
-        })
+        nested.all(|shown| Some(f64::from(u8::from(Seen::of(shown.read[*place]?, m).is_as_said(m)))))
     };
     crate::stats::mean(&places.iter().flat_map(side).collect::<Vec<_>>())
 }

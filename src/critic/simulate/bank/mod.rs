@@ -2,6 +2,7 @@
 //! once for a design, and serves all diagnoses of it.
 
 mod emulator;
+mod outcomes;
 mod path;
 mod plan;
 mod pushes;
@@ -11,6 +12,7 @@ mod test;
 pub mod tests;
 
 pub use emulator::{Emulated, Emulator};
+pub use outcomes::MOST_SOUGHT;
 pub use path::{Curves, NUMBERS, PLACES, Path};
 pub use plan::{PRIOR_WIDENING, Place, Plan};
 pub use pushes::{Pushes, SHARES};

@@ -14,8 +14,10 @@ pub const PLACES: [f64; 6] = [0.15, 0.3, 0.5, 0.7, 0.85, 1.0];
 /// What is given at every place: three of the displacement, three of what is left of it at the level.
 pub const KINDS: [&str; 6] =
     ["ln_mean_m_per_rad", "bow", "twist", "mean_remainder", "bow_remainder", "twist_remainder"];
-/// Numbers of a path: the collapse angle, and one of every kind at every place.
-pub const NUMBERS: usize = 1 + KINDS.len() * PLACES.len();
+/// Numbers of the path of a wall that is tilted: the collapse angle, and one of every kind at every place.
+pub const TILTED: usize = 1 + KINDS.len() * PLACES.len();
+/// Most numbers of a path: a wall that is shaken has one for each motion that specimens met.
+pub const NUMBERS: usize = 144;
 /// The one that tells how far it has moved when half of the collapse angle is reached (51 %).
 pub const HALF_WAY: usize = 1 + 3;
 /// Those of the way up come first.
@@ -78,7 +80,8 @@ impl Path {
         let [next, first] = [read[read.len() - 2], read[read.len() - 1]];
         let further = (1.0 - first.0) / (first.0 - next.0);
         read.push((1.0, [0, 1, 2].map(|kind| first.1[kind] + further * (first.1[kind] - next.1[kind]))));
-        let mut numbers = [ln(radians(collapse)); NUMBERS];
+        let mut numbers = [0.0; NUMBERS];
+        numbers[0] = ln(radians(collapse));
         for kind in 0..KINDS.len() {
             // Beyond the tilts from which it was taken back, as from the nearest.
             let read = if kind < 3 { &read } else { &back };
@@ -109,7 +112,7 @@ pub struct Curves {
     /// Over `q`, in the order of [`Path::numbers`].
     kinds: [Monotone<[f64; PLACES.len()]>; 3],
     /// The rest of the numbers: few ask for what is left at the level.
-    back: [f64; NUMBERS - NUMBERS_UP],
+    back: [f64; TILTED - NUMBERS_UP],
 }
 
 impl Curves {

@@ -71,6 +71,7 @@ impl Plan {
         points: u64,
     ) -> Result<Plan, Faults> {
         let base = study.clone().without_limit_analysis().with_remainders().with_steps_at_most(STEPS);
+        let base = base.seeking_what_was_measured();
         let built: BTreeSet<usize> = families.iter().map(|&family| stand_in(study, family)).collect();
         let (mut arms, mut places) = (Vec::new(), Vec::new());
         for point in 0..BASE * points {

@@ -83,7 +83,7 @@ impl Bank {
     pub fn of(plan: &Plan, rows: &[Row]) -> Bank {
         let test = Test::of(&plan.study);
         Bank {
-            paths: rows.iter().map(|row| test.path(row)).collect(),
+            paths: rows.iter().map(|row| test.path(&plan.study, row)).collect(),
             endings: rows.iter().map(|row| row.outcome.name().to_string()).collect(),
         }
     }
@@ -100,7 +100,7 @@ impl Bank {
             Column::from(Series::new("wall".into(), arms)),
             Column::from(Series::new("outcome".into(), &self.endings)),
         ];
-        for (number, name) in Test::of(&plan.study).names().into_iter().enumerate() {
+        for (number, name) in Test::of(&plan.study).names(&plan.study).into_iter().enumerate() {
             let values: Vec<Option<f64>> =
                 self.paths.iter().map(|path| path.as_ref().map(|path| path.numbers[number])).collect();
             columns.push(Column::from(Series::new(name.into(), values)));
@@ -148,7 +148,7 @@ impl Bank {
             };
             return Err(NotThisBank::Design { differs, found, wanted });
         }
-        let names = Test::of(&plan.study).names();
+        let names = Test::of(&plan.study).names(&plan.study);
         let numbers = names
             .iter()
             .map(|name| {

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::critic::simulate::bank::emulator::Emulator;
-use crate::critic::simulate::bank::path::{Curves, NUMBERS, PLACES, Path};
+use crate::critic::simulate::bank::path::{Curves, NUMBERS, PLACES, Path, TILTED};
 use crate::critic::simulate::bank::{Bank, NotThisBank, Plan, Test};
 use crate::critic::tests::fallen;
 use crate::ensemble::{Row, StepRow, TopStep};
@@ -157,7 +157,7 @@ fn an_emulator_finds_the_curve_and_knows_what_it_does_not_tell() {
     // Variances: the quadratic's 0.25 + 0.04 + 0.01 + 0.005, the noise's 0.01.
     assert!((explained[1] - 0.305 / 0.315).abs() < 0.02, "{explained:?}");
     // A curve through noise alone explains less than nothing of a wall that it does not know.
-    assert!(explained[2..].iter().all(|share| *share < 0.05), "{explained:?}");
+    assert!(explained[2..TILTED].iter().all(|share| *share < 0.05), "{explained:?}");
     let left: Vec<f64> = emulator.emulated(&at, 50).left.iter().map(|left| left[1]).collect();
     let sigma = crate::stats::sigma(&left).expect("fifty");
     // 0.1, from 50 values and with the error of a curve that does not know the wall: within 3 sigma of sigma.

@@ -65,9 +65,10 @@ impl Likely {
 impl World<'_> {
     /// The paths that the walls of a family may have under a truth.
     pub(super) fn likely(&self, family: usize, truth: &Truth) -> Likely {
+        let kind = self.kinds[family];
         let family = self.stands_for[family];
         let Walls { emulator, random } = &self.base[&family];
-        let joints = truth.joints[self.kinds[family]].map(|score| score / PRIOR_WIDENING);
+        let joints = truth.joints[kind].map(|score| score / PRIOR_WIDENING);
         let base = emulator.emulated(&joints, NEIGHBOURS);
         let mut likely = Likely {
             family,
@@ -80,7 +81,7 @@ impl World<'_> {
         likely.leave(&base, 0);
         let scatter = truth.stiffness_scatter();
         likely.stiffen(scatter, self.per_stiffness(&joints, emulator, None));
-        for (place, (cause, parameters)) in self.acting(truth, self.kinds[family]).enumerate() {
+        for (place, (cause, parameters)) in self.acting(truth, kind).enumerate() {
             let Some(change) = self.changes.get(&(family, cause)) else { continue };
             let parameters = varying(self.mechanisms, Some(cause), parameters.iter().copied());
             let scores: Vec<f64> = joints.into_iter().chain(parameters).collect();
@@ -127,6 +128,9 @@ impl World<'_> {
         let times = if random { (walls as f64).sqrt() } else { 1.0 };
         let apart = common.iter().cycle().skip(COMMON_APART);
         let shown = |numbers: &[f64; NUMBERS]| {
+            if self.sought.is_some() {
+                return queries.shaken(numbers);
+            }
             if let Test::Shear { widest } = self.test {
                 return queries.pushes(&Pushes::of(numbers, widest));
             }

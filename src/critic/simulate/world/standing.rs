@@ -1,9 +1,11 @@
 //! Truths under which walls stand at rest, before they are loaded: nobody measures walls that do not.
 
+use std::collections::BTreeSet;
+
 use crate::critic::simulate::bank::PRIOR_WIDENING;
 use crate::critic::simulate::causes::Causes;
 use crate::critic::simulate::truth::Truth;
-use crate::critic::simulate::world::{World, varying};
+use crate::critic::simulate::world::{World, standing_for, varying};
 use crate::random::Streams;
 use crate::random::standard_normal::quantile;
 
@@ -31,13 +33,17 @@ impl World<'_> {
     /// Whether walls stand at rest under a truth, as the nearest wall of the bank does, for each family and cause.
     pub fn stands(&self, truth: &Truth) -> bool {
         self.base.iter().all(|(&family, walls)| {
-            let joints = truth.joints[self.kinds[family]].map(|score| score / PRIOR_WIDENING);
-            walls.emulator.stands(&joints)
-                && self.acting(truth, self.kinds[family]).all(|(cause, parameters)| {
-                    let parameters = varying(self.mechanisms, Some(cause), parameters.iter().copied());
-                    let scores: Vec<f64> = joints.into_iter().chain(parameters).collect();
-                    self.changes.get(&(family, cause)).is_none_or(|walls| walls.emulator.stands(&scores))
-                })
+            let kinds: BTreeSet<usize> =
+                standing_for(&self.stands_for, family).map(|arm| self.kinds[arm]).collect();
+            kinds.into_iter().all(|kind| {
+                let joints = truth.joints[kind].map(|score| score / PRIOR_WIDENING);
+                walls.emulator.stands(&joints)
+                    && self.acting(truth, kind).all(|(cause, parameters)| {
+                        let parameters = varying(self.mechanisms, Some(cause), parameters.iter().copied());
+                        let scores: Vec<f64> = joints.into_iter().chain(parameters).collect();
+                        self.changes.get(&(family, cause)).is_none_or(|walls| walls.emulator.stands(&scores))
+                    })
+            })
         })
     }
 }

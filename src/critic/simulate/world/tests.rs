@@ -103,7 +103,7 @@ fn walls_of_a_family_share_the_emulators_error_and_their_mean_scatters_by_it() {
         .flat_map(|specimen| &specimen.readings)
         .filter(|m| m.quantity == MeasuredQuantity::CollapseAngle)
         .collect();
-    let queries = Queries::by(&falls);
+    let queries = Queries::by(&falls, None);
     let shown = |walls: usize| {
         let MayShow { paths, random, .. } = world.may_show(1, &queries, &truth, walls);
         assert!(random);
@@ -389,7 +389,7 @@ fn what_is_left_after_going_back_tells_of_creep_and_of_the_gauge() {
         let truth = Truth { causes: cause.into(), parameters, ..base.clone() };
         let values = world.values(&design, &truth, &Streams::new(9, 1));
         // What the likelihood takes for possible lies around it.
-        let queries = Queries::by(&[&left]);
+        let queries = Queries::by(&[&left], None);
         let paths = world.may_show(1, &queries, &truth, 1).paths;
         let possible: Vec<f64> = paths.iter().map(|path| path[0]).collect();
         let value = values[sbl][last].expect("it stands");
@@ -529,7 +529,7 @@ fn specimens_in_which_nothing_else_is_drawn_differ_by_their_stiffness() {
     let seen = stats::sigma(&off).expect("many") / expected;
     assert!((seen - 1.0).abs() < 0.1, "{seen}");
     // The likelihood knows it, and that all else is one path.
-    let queries = Queries::by(&[&readings[fall]]);
+    let queries = Queries::by(&[&readings[fall]], None);
     let MayShow { random, by_stiffness, .. } = world.may_show(0, &queries, &at(0.0), 3);
     assert!(!random && (by_stiffness[0] / expected - 1.0).abs() < 0.1, "{by_stiffness:?} {expected}");
     assert!((at(0.0).stiffness_scatter() - 0.2 * 0.67449).abs() < 1e-5);
@@ -545,7 +545,7 @@ fn a_stiffer_specimen_is_stiffer_in_every_part_of_its_law() {
     let (design, _) = Design::of(&made.study);
     let mut left = design.specimens.iter().find(|s| s.family == 1).expect("stones").readings[0].clone();
     (left.quantity, left.tilt) = (MeasuredQuantity::DisplacementLeft, Some(0.1));
-    let queries = Queries::by(&[&left]);
+    let queries = Queries::by(&[&left], None);
     let relative = |cause: Option<usize>| {
         let truth = world.truth(cause, &vec![0.0; world.inputs(cause)]);
         let MayShow { paths, by_stiffness, .. } = world.may_show(1, &queries, &truth, 1);

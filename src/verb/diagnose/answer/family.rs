@@ -143,7 +143,7 @@ fn mark(residual: &Residual, specimens: &[&str]) -> Option<Mark> {
     let (value, bound) = match residual.seen {
         Seen::Value(value) => (value, None),
         Seen::Beyond => (m.value, Some(m.kind)),
-        Seen::Nothing => return None,
+        Seen::Fell | Seen::Stood | Seen::Nothing => return None,
     };
     let shown = match (m.tilt, m.drift) {
         (Some(_), _) => millimetres,

@@ -343,7 +343,12 @@ fn unused(design: &Design) -> Vec<UnusedEntry> {
 fn words(study: &Study, feature: Feature) -> String {
     let family = |arm: usize| &study.arms[arm].name;
     let is_sheared = !study.drifts().is_empty();
+    let is_shaken = study.earthquakes.is_some();
     let of = |contrast| match contrast {
+        Contrast::Collapse if is_shaken => "motions that were withstood",
+        Contrast::Level if is_shaken => "displacements under motions",
+        Contrast::Growth if is_shaken => "change from the first motion to the last",
+        Contrast::Left if is_shaken => "what is left of displacements after motions",
         Contrast::Level if is_sheared => "push as a whole",
         Contrast::Growth if is_sheared => "growth of the push with the drift",
         Contrast::Curvature if is_sheared => "curvature of the push over the drift",

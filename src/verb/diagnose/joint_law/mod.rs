@@ -14,7 +14,7 @@ pub use text::law_text;
 
 use crate::critic::LearntLaw;
 use crate::ensemble::replace_file;
-use crate::verb::diagnose::extended::{EXTENDED, Origin, write_walls};
+use crate::verb::diagnose::extended::{EXTENDED, Origin, write_beside};
 use crate::verb::diagnose::joint_law::plot::LawPlot;
 use crate::verb::run::answer::files::write_figure;
 
@@ -42,7 +42,7 @@ pub fn write_law(origin: &Origin<'_>, law: &LearntLaw, dir: &Path) -> Result<Law
         ] {
             text.map_or(Ok(()), |text| replace_file(&folder.join(name), text.as_bytes()))?;
         }
-        write_walls(stated, &folder)?;
+        write_beside(stated, &folder)?;
         summary.extended = Some(format!("{EXTENDED}/{LAW}"));
     }
     let json = serde_json::to_string_pretty(&summary).context("the law cannot be written as JSON")? + "\n";

@@ -138,6 +138,7 @@ pub fn unit(quantity: MeasuredQuantity) -> &'static str {
         Dimension::Angle => "deg",
         Dimension::Stiffness => "Pa/m",
         Dimension::Force => "N",
+        Dimension::Outcome => "1",
     }
 }
 
