@@ -14,12 +14,13 @@ use crate::study::{Described, Nuisance, Study};
 /// A score of the scatter between specimens at which there is none.
 pub(crate) const ALIKE: f64 = -40.0;
 
+/// A study with a bank that no solver made.
 pub(crate) struct Made {
     pub(crate) study: Study,
     pub(crate) mechanisms: Vec<Described>,
     pub(crate) nuisances: [Nuisance; 3],
-    plan: Plan,
-    bank: Bank,
+    pub(super) plan: Plan,
+    pub(super) bank: Bank,
 }
 
 /// The nine walls, of a bank that no solver made: the collapse angle goes with kn and phi, displacements go with 1/kn, stones make

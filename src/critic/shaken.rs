@@ -5,14 +5,15 @@ use std::path::Path as Folder;
 use std::sync::OnceLock;
 
 use crate::critic::causes::evidence;
-use crate::critic::fixture::EFFORT;
+use crate::critic::fixture::{EFFORT, Made};
 use crate::critic::simulate::{
     Bank, Campaign, Causes, Design, NUMBERS, Path, Plan, Scope, Seen, Truth, Unused, World,
 };
 use crate::critic::verdict::{Judge, Limits, Verdict};
 use crate::math::ln;
 use crate::random::Streams;
-use crate::study::{Described, MeasuredQuantity, Nuisance, Study, described, nuisances};
+use crate::random::standard_normal::quantile;
+use crate::study::{Described, MeasuredQuantity, Study, described, nuisances};
 
 /// Motions that the stones meet, in this order.
 const MOTIONS: usize = 36;
@@ -20,15 +21,6 @@ const MOTIONS: usize = 36;
 const FURTHEST: f64 = 0.12;
 /// Half of the width that the stone stands on (m).
 const HALF: f64 = 0.1;
-
-/// Two stands of one stone, and a bank that no solver made.
-struct Made {
-    study: Study,
-    mechanisms: Vec<Described>,
-    nuisances: [Nuisance; 3],
-    plan: Plan,
-    bank: Bank,
-}
 
 /// The strength of a motion over what a stone on its whole face just withstands: from 0.4 to 2.5, out of order.
 fn strength(motion: usize) -> f64 {
@@ -67,7 +59,7 @@ fn study() -> Study {
     loaded.study
 }
 
-/// A stone falls under a motion that is as strong, for its face, as the part of the face that bears.
+/// Two stands of one stone. It falls under a motion that is as strong, for its face, as the part of the face that bears.
 fn made() -> &'static Made {
     static MADE: OnceLock<Made> = OnceLock::new();
     MADE.get_or_init(|| {
@@ -106,24 +98,13 @@ fn made() -> &'static Made {
     })
 }
 
-impl Made {
-    fn world(&self) -> World<'_> {
-        World::new(&self.study, &self.mechanisms, &self.nuisances, &self.plan, &self.bank)
-            .expect("enough walls")
-    }
-
-    fn cause(&self, name: &str) -> usize {
-        self.mechanisms.iter().position(|m| m.name == name).expect("it is one")
-    }
-
-    /// Outcomes under joints as stated, with parameters of causes as quantiles of their search priors.
-    fn campaign(&self, world: &World<'_>, causes: Causes, quantiles: &[f64], k: u64) -> Campaign {
-        let (design, _) = Design::of(&self.study);
-        let still = world.truth(None, &vec![0.0; world.inputs(None)]);
-        let parameters = quantiles.iter().map(|q| crate::random::standard_normal::quantile(*q)).collect();
-        let truth = Truth { causes, parameters, ..still };
-        world.campaign(&design, &truth, &Streams::new(71, k))
-    }
+/// Outcomes under joints as stated, with parameters of causes as quantiles of their search priors.
+fn campaign(made: &Made, world: &World<'_>, causes: Causes, quantiles: &[f64], k: u64) -> Campaign {
+    let (design, _) = Design::of(&made.study);
+    let still = world.truth(None, &vec![0.0; world.inputs(None)]);
+    let parameters = quantiles.iter().map(|q| quantile(*q)).collect();
+    let truth = Truth { causes, parameters, ..still };
+    world.campaign(&design, &truth, &Streams::new(71, k))
 }
 
 /// Quantile of a distance in its search prior, a triangle that falls from 0.
@@ -141,7 +122,7 @@ fn outcomes_are_sides_of_the_scale_at_which_a_stone_just_falls() {
     // The same stone: one bank serves both stands, and each stand is of a kind of its own.
     assert_eq!((world.stands_for(1), world.joint_kinds()), (0, 2));
     // Of 36 motions those fall that are stronger than the face withstands.
-    let shown = made.campaign(&world, Causes::default(), &[], 1);
+    let shown = campaign(made, &world, Causes::default(), &[], 1);
     for (motion, seen) in shown.specimens[0].iter().enumerate().filter(|(k, _)| ln(strength(*k)).abs() > 0.15)
     {
         assert_eq!(*seen == Seen::Fell, strength(motion) > 1.0, "motion {motion}: {}", strength(motion));
@@ -164,7 +145,7 @@ fn a_bearing_that_is_narrower_on_one_stand_is_found_there_and_its_width_with_it(
     let (one, all) = (Causes::one(worn, Scope::Kind(0)), Causes::one(worn, Scope::All));
     let (limits, mut named) = (Limits::default(), 0);
     for k in 0..5 {
-        let campaign = made.campaign(&world, one, &[quantile_of(0.035), 0.02], k);
+        let campaign = campaign(made, &world, one, &[quantile_of(0.035), 0.02], k);
         let finding = judge.compare(&campaign);
         assert!(finding.p_value < 0.01, "{k}: p {}", finding.p_value);
         let examination = judge.rank(finding, &campaign, &limits, 7);
@@ -185,11 +166,11 @@ fn a_bearing_that_is_narrower_on_one_stand_is_found_there_and_its_width_with_it(
     assert_eq!(named, 5);
     // Nothing is found where nothing is hidden.
     let nothing =
-        |k: u64| judge.compare(&made.campaign(&world, Causes::default(), &[], 100 + k)).p_value > 0.01;
+        |k: u64| judge.compare(&campaign(made, &world, Causes::default(), &[], 100 + k)).p_value > 0.01;
     assert!((0..10).filter(|k| nothing(*k)).count() >= 9);
     assert!(matches!(
         {
-            let campaign = made.campaign(&world, Causes::default(), &[], 200);
+            let campaign = campaign(made, &world, Causes::default(), &[], 200);
             let examination = judge.rank(judge.compare(&campaign), &campaign, &limits, 7);
             judge.check(examination, &campaign, &limits, 7).verdict
         },

@@ -4,28 +4,19 @@ use std::path::Path as Folder;
 
 use crate::critic::causes::evidence;
 use crate::critic::discrepancy::Predicted;
-use crate::critic::fixture::{ALIKE, EFFORT};
+use crate::critic::fixture::{ALIKE, EFFORT, Made};
 use crate::critic::simulate::{Bank, Campaign, Design, NUMBERS, Path, Plan, Seen, Truth, Unused, World};
 use crate::critic::verdict::Judge;
 use crate::math::ln;
 use crate::protocol::Protocol;
 use crate::random::Streams;
 use crate::stats;
-use crate::study::{Described, MeasuredQuantity, Nuisance, Study, described, nuisances};
+use crate::study::{MeasuredQuantity, Study, described, nuisances};
 
 /// The places of a curve, as shares of the widest drift.
 const SHARES: [f64; 9] = [0.0125, 0.025, 0.05, 0.09, 0.16, 0.28, 0.5, 0.75, 1.0];
 
-/// The nine walls of `studies/dry-shear-walls` and a bank that no solver made.
-struct Made {
-    study: Study,
-    mechanisms: Vec<Described>,
-    nuisances: [Nuisance; 3],
-    plan: Plan,
-    bank: Bank,
-}
-
-/// Pushes go with kn at small drifts, and with friction and the load at large ones. Under one cause they go with the load at small
+/// The nine walls of `studies/dry-shear-walls`. Pushes go with kn at small drifts, and with friction and the load at large ones. Under one cause they go with the load at small
 /// drifts as well; another weakens all of them by a factor.
 fn made() -> Made {
     let root = Folder::new(env!("CARGO_MANIFEST_DIR"));
@@ -61,26 +52,15 @@ fn made() -> Made {
     Made { study, mechanisms, nuisances, plan, bank }
 }
 
-impl Made {
-    fn world(&self) -> World<'_> {
-        World::new(&self.study, &self.mechanisms, &self.nuisances, &self.plan, &self.bank)
-            .expect("enough walls")
+/// A campaign under joints that are as stated, and a cause of this strength (as a score).
+fn campaign(made: &Made, world: &World<'_>, design: &Design, cause: Option<(&str, f64)>, k: u64) -> Campaign {
+    let mut truth = world.truth(None, &vec![0.0; world.inputs(None)]);
+    if let Some((name, score)) = cause {
+        let own = made.cause(name);
+        let parameters = vec![score; made.mechanisms[own].parameters.len()];
+        truth = Truth { causes: Some(own).into(), parameters, ..truth };
     }
-
-    fn cause(&self, name: &str) -> usize {
-        self.mechanisms.iter().position(|m| m.name == name).expect("it is one")
-    }
-
-    /// A campaign under joints that are as stated, and a cause of this strength (as a score).
-    fn campaign(&self, world: &World<'_>, design: &Design, cause: Option<(&str, f64)>, k: u64) -> Campaign {
-        let mut truth = world.truth(None, &vec![0.0; world.inputs(None)]);
-        if let Some((name, score)) = cause {
-            let own = self.cause(name);
-            let parameters = vec![score; self.mechanisms[own].parameters.len()];
-            truth = Truth { causes: Some(own).into(), parameters, ..truth };
-        }
-        world.campaign(design, &truth, &Streams::new(71, k))
-    }
+    world.campaign(design, &truth, &Streams::new(71, k))
 }
 
 #[test]
@@ -118,11 +98,11 @@ fn joints_that_stiffen_under_the_load_are_told_from_others_and_nothing_is_found_
     let judge = Judge::trained(&world, &design, EFFORT, 5).expect("it can be told");
     let stiffening = Some(made.cause("stress_stiffening"));
     let found = (0..10).filter(|&k| {
-        let finding = judge.compare(&made.campaign(&world, &design, Some(("stress_stiffening", 1.0)), k));
+        let finding = judge.compare(&campaign(&made, &world, &design, Some(("stress_stiffening", 1.0)), k));
         finding.p_value < 0.02 && finding.ranked.causes[0].0 == stiffening
     });
     assert!(found.count() >= 9);
-    let still = (0..10).filter(|&k| judge.compare(&made.campaign(&world, &design, None, k)).p_value > 0.01);
+    let still = (0..10).filter(|&k| judge.compare(&campaign(&made, &world, &design, None, k)).p_value > 0.01);
     assert!(still.count() >= 9);
 }
 
@@ -131,7 +111,7 @@ fn what_is_fitted_to_one_load_predicts_the_other_where_it_is_the_cause() {
     let made = made();
     let world = made.world();
     let (design, _) = Design::of(&made.study);
-    let campaign = made.campaign(&world, &design, Some(("stress_stiffening", 1.0)), 1);
+    let campaign = campaign(&made, &world, &design, Some(("stress_stiffening", 1.0)), 1);
     let mut known = design.clone();
     let light = |family: usize| world.stands_for(family) == 0;
     known.specimens.retain(|specimen| light(specimen.family));

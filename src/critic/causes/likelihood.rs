@@ -344,4 +344,24 @@ mod tests {
         assert!((exp(alone) - cdf(0.7)).abs() < 1e-4, "{alone}");
         assert_eq!(together_log(&[]), 0.0);
     }
+
+    #[test]
+    fn what_columns_have_in_common_is_told_from_what_each_has_of_its_own() {
+        let mut draws = Streams::new(7, 1).of("columns");
+        let mut draw = || crate::random::standard_normal::quantile(draws.uniform());
+        let mut shared = |common: f64, own: f64| {
+            let path = |_| {
+                let all = common * draw();
+                (0..40).map(|column| f64::from(column) + all + own * draw()).collect()
+            };
+            let paths: Vec<Vec<f64>> = (0..400).map(path).collect();
+            Paths::of(paths, vec![0.0; 40]).shared(0..40)
+        };
+        assert!((shared(1.0, 0.0) - 1.0).abs() < 1e-9);
+        // Of a variance of 2 one half is common; 400 paths tell it to 7 % of itself.
+        let half = shared(1.0, 1.0);
+        assert!((half - 0.5).abs() < 0.1, "{half}");
+        let none = shared(0.0, 1.0);
+        assert!(none < 0.02, "{none}");
+    }
 }

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use crate::critic::simulate::{Campaign, Design, Specimen};
-use crate::study::{Measurement, Under};
+use crate::critic::simulate::{Campaign, Design, Specimen, motions};
+use crate::study::Measurement;
 
 /// Of a specimen's tilts this share, the largest, is held out.
 const LARGEST: f64 = 1.0 / 3.0;
@@ -47,7 +47,7 @@ impl Fold {
             specimen.readings.iter().map(|m| m.at().is_some_and(|tilt| tilt <= last)).collect()
         });
         folds.push(Fold { held_out: HeldOut::LargestTilts, known: known.collect() });
-        let motions = motions(design);
+        let motions = motions(design.readings().map(|(_, m)| m));
         let parts = 0..if motions.len() < PARTS { 0 } else { PARTS };
         folds.extend(parts.map(|part| {
             let is_known = |m: &Measurement| {
@@ -78,17 +78,6 @@ impl Fold {
     pub fn campaign(&self, campaign: &Campaign) -> Campaign {
         campaign_of(campaign, &self.known)
     }
-}
-
-/// The motions that specimens met, each once, in the order of the design.
-fn motions(design: &Design) -> Vec<&Under> {
-    let mut motions: Vec<&Under> = Vec::new();
-    for under in design.readings().filter_map(|(_, m)| m.under.as_ref()) {
-        if !motions.contains(&under) {
-            motions.push(under);
-        }
-    }
-    motions
 }
 
 /// All readings of the specimens that are kept.

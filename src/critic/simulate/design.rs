@@ -7,7 +7,7 @@ use crate::critic::simulate::bank::Test;
 use crate::math::ln;
 use crate::random::Streams;
 use crate::random::standard_normal::quantile;
-use crate::study::{MeasuredKind, MeasuredQuantity, Measurement, Study};
+use crate::study::{MeasuredKind, MeasuredQuantity, Measurement, Study, Under};
 
 /// A test on a wall.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,6 +54,17 @@ pub fn tilts<'m>(readings: impl IntoIterator<Item = &'m Measurement>) -> Vec<f64
     tilts.sort_by(f64::total_cmp);
     tilts.dedup();
     tilts
+}
+
+/// The motions that readings were taken under, each once, in their order.
+pub fn motions<'m>(readings: impl IntoIterator<Item = &'m Measurement>) -> Vec<&'m Under> {
+    let mut motions: Vec<&Under> = Vec::new();
+    for under in readings.into_iter().filter_map(|m| m.under.as_ref()) {
+        if !motions.contains(&under) {
+            motions.push(under);
+        }
+    }
+    motions
 }
 
 /// All tests, and what was measured apart from them.

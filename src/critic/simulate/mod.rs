@@ -17,8 +17,8 @@ pub use bank::{
 };
 pub(in crate::critic) use by_cause::ByCause;
 pub use causes::{Causes, Scope};
-pub(in crate::critic) use design::Side;
 pub use design::{Campaign, Design, Seen, Specimen, Unused};
+pub(in crate::critic) use design::{Side, motions};
 pub use queries::Queries;
 pub use truth::Truth;
 pub(in crate::critic) use world::{MayShow, standing};

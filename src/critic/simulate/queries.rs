@@ -2,9 +2,9 @@
 
 use crate::critic::compare::of_points;
 use crate::critic::simulate::bank::{NUMBERS, Pushes};
-use crate::critic::simulate::design::tilts;
+use crate::critic::simulate::design::{motions, tilts};
 use crate::math::exp;
-use crate::study::{Earthquakes, MeasuredQuantity, Measurement, Under};
+use crate::study::{Earthquakes, MeasuredQuantity, Measurement};
 
 /// The quantities that readings are of.
 pub struct Queries {
@@ -25,13 +25,7 @@ impl Queries {
     pub fn by(readings: &[&Measurement], sought: Option<&Earthquakes>) -> Queries {
         let tilts = tilts(readings.iter().copied());
         let place = |tilt: f64| tilts.partition_point(|known| *known < tilt);
-        // Each motion that walls met, once.
-        let mut met: Vec<&Under> = Vec::new();
-        readings.iter().filter_map(|m| m.under.as_ref()).for_each(|under| {
-            if !met.contains(&under) {
-                met.push(under);
-            }
-        });
+        let met = motions(readings.iter().copied());
         let motion = |m: &Measurement| met.iter().position(|own| Some(*own) == m.under.as_ref());
         let all: Vec<_> =
             readings.iter().map(|m| (m.quantity, m.at().map(place).or_else(|| motion(m)))).collect();

@@ -106,44 +106,40 @@ pub(super) struct Table<'t> {
 pub(super) type Shake<'s> = &'s (dyn Fn(usize, f64, usize) -> StepRow + Sync);
 
 impl Table<'_> {
-    /// How the wall meets the motion at that place of its sequence.
-    pub(super) fn meeting(&self, nth: u32) -> Meeting {
-        self.arm.mechanisms.meeting(nth)
-    }
-
     /// Every record at every intensity.
     fn stripes(&self) -> (Vec<StepRow>, usize) {
-        let Table { earthquakes, .. } = self;
-        let stripes = earthquakes.intensities.len();
-        let runs = |records: std::ops::Range<usize>, shake: Shake<'_>| {
-            let one = |run: usize| {
-                let (record, stripe) = (run / stripes, run % stripes);
-                shake(record, earthquakes.intensities[stripe], stripe)
-            };
-            let runs = (records.start * stripes..records.end * stripes).into_par_iter();
-            runs.with_max_len(1).map(one).collect::<Vec<StepRow>>()
-        };
-        let records = earthquakes.records.len();
-        let is_alike = |nth: u32| Meeting { nth: 0, ..self.meeting(nth) } == self.meeting(0);
-        if (0..records as u32).all(is_alike) {
-            return self.bring_to_rest(&self.meeting(0), |shake| runs(0..records, shake));
-        }
-        // Each record meets another wall than the one before.
-        let each = (0..records).map(|record| {
-            self.bring_to_rest(&self.meeting(record as u32), |shake| runs(record..record + 1, shake))
-        });
-        each.fold((Vec::new(), 0), |(mut all, _), (steps, joints)| {
-            all.extend(steps);
-            (all, joints)
+        let Earthquakes { intensities, records, .. } = self.earthquakes;
+        let places: Vec<u32> = (0..records.len() as u32).collect();
+        self.each_from_rest(&places, |record, shake| {
+            let stripes = (0..intensities.len()).into_par_iter().with_max_len(1);
+            stripes.map(|stripe| shake(record, intensities[stripe], stripe)).collect()
         })
     }
 
-    /// Brings the wall to rest as it meets a motion, and lets `each` shake it. Gives what that does, and the number of joints.
-    pub(super) fn bring_to_rest<R>(
+    /// Does some work for each motion, by their places in the sequence that the wall meets: from one rest, unless the wall is another one by
+    /// the time that it meets the next. Gives the runs in that order, and the number of joints.
+    pub(super) fn each_from_rest(
         &self,
-        meeting: &Meeting,
-        each: impl FnOnce(Shake<'_>) -> R,
-    ) -> (R, usize) {
+        places: &[u32],
+        work: impl Fn(usize, Shake<'_>) -> Vec<StepRow> + Sync,
+    ) -> (Vec<StepRow>, usize) {
+        let meetings: Vec<Meeting> = places.iter().map(|nth| self.arm.mechanisms.meeting(*nth)).collect();
+        let is_alike = meetings.iter().all(|meeting| *meeting == meetings[0]);
+        let all: Vec<usize> = (0..meetings.len()).collect();
+        let of = |numbers: &[usize]| {
+            self.bring_to_rest(&meetings[numbers[0]], |shake| {
+                let each = numbers.par_iter().with_max_len(1).map(|number| work(*number, shake));
+                each.collect::<Vec<_>>().concat()
+            })
+        };
+        let sets = all.par_chunks(if is_alike { all.len().max(1) } else { 1 }).with_max_len(1);
+        let done: Vec<(Vec<StepRow>, usize)> = sets.map(of).collect();
+        let joints = done.first().map_or(0, |(_, joints)| *joints);
+        (done.into_iter().flat_map(|(steps, _)| steps).collect(), joints)
+    }
+
+    /// Brings the wall to rest as it meets a motion, and lets `each` shake it. Gives what that does, and the number of joints.
+    fn bring_to_rest<R>(&self, meeting: &Meeting, each: impl FnOnce(Shake<'_>) -> R) -> (R, usize) {
         let Table { study, earthquakes, arm, base, generated, laws } = self;
         let contacts = arm.contacts();
         let contacts = Contacts { inset: contacts.inset + meeting.inset, ..contacts };

@@ -3,12 +3,10 @@
 //! Whether a wall falls is no smooth function of anything; the scale at which it begins to is nearly one. A wall that rocks may fall under a
 //! motion and stand under a stronger one: what is looked for is the change next to the scale that the specimen met.
 
-use rayon::prelude::*;
-
 use crate::ensemble::reading::StepRow;
 use crate::ensemble::reading::base_motion::{Shake, Table};
 use crate::stats::fragility::Outcome;
-use crate::study::{MeasuredQuantity, Meeting, Sought};
+use crate::study::{MeasuredQuantity, Sought};
 
 /// Factors by which the scale goes up from one at which the wall stands, or down from one at which it falls, step after step; then the
 /// search ends.
@@ -19,26 +17,8 @@ const WITHIN: f64 = 1.1;
 /// The runs of everything that is looked for, in its order; and the number of joints.
 pub(super) fn sought(table: &Table<'_>) -> (Vec<StepRow>, usize) {
     let all = &table.earthquakes.sought;
-    let own = |number: usize| (number, &all[number]);
-    let together = |numbers: &[usize], shake: Shake<'_>| -> Vec<Vec<StepRow>> {
-        let one = |&number: &usize| runs(table, own(number), shake);
-        numbers.par_iter().with_max_len(1).map(one).collect()
-    };
-    let first = table.meeting(0);
-    let is_alike = |own: &Sought| Meeting { nth: 0, ..table.meeting(own.nth) } == first;
-    let numbers: Vec<usize> = (0..all.len()).collect();
-    if all.iter().all(is_alike) {
-        let (steps, joints) = table.bring_to_rest(&first, |shake| together(&numbers, shake));
-        return (steps.concat(), joints);
-    }
-    // Each motion meets another wall than the one before.
-    let each = |number: &usize| {
-        let meeting = table.meeting(all[*number].nth);
-        table.bring_to_rest(&meeting, |shake| together(&[*number], shake).concat())
-    };
-    let each: Vec<(Vec<StepRow>, usize)> = numbers.par_iter().with_max_len(1).map(each).collect();
-    let joints = each.first().map_or(0, |(_, joints)| *joints);
-    (each.into_iter().flat_map(|(steps, _)| steps).collect(), joints)
+    let places: Vec<u32> = all.iter().map(|own| own.nth).collect();
+    table.each_from_rest(&places, |number, shake| runs(table, (number, &all[number]), shake))
 }
 
 /// The runs of what is looked for, the last that stood and the last that fell being next to each other.

@@ -77,8 +77,8 @@ pub struct Cause {
     pub(super) law: fn(Values, &mut Coulomb, &JointSite<'_>),
     /// What it changes of a wall on its way.
     pub(super) changes: fn(Values, &mut Changes, &Wall, &Streams),
-    /// What it makes of how a wall meets a motion of its base.
-    pub(super) shaking: fn(Values, &mut Meeting),
+    /// What it makes of how a wall meets a motion of its base, by the place of the motion in the wall's sequence, from 0.
+    pub(super) shaking: fn(Values, u32, &mut Meeting),
     /// What a gauge shows of a displacement (m) since its zero reading.
     pub(super) reading: fn(Values, f64) -> f64,
 }
@@ -194,7 +194,7 @@ impl Cause {
         contacts: |_, _| {},
         law: |_, _, _| {},
         changes: |_, _, _, _| {},
-        shaking: |_, _| {},
+        shaking: |_, _, _| {},
         reading: |_, displacement| displacement,
     };
 }

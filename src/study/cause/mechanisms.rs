@@ -153,8 +153,8 @@ impl Mechanisms {
 
     /// How a wall meets the motion of its base at that place in its sequence, from 0.
     pub fn meeting(&self, nth: u32) -> Meeting {
-        let mut meeting = Meeting::stated(nth);
-        self.on.iter().for_each(|on| (on.cause.shaking)(on.values, &mut meeting));
+        let mut meeting = Meeting::STATED;
+        self.on.iter().for_each(|on| (on.cause.shaking)(on.values, nth, &mut meeting));
         meeting
     }
 

@@ -12,8 +12,6 @@ use crate::study::schema::{Interval, Key};
 /// How a wall meets a motion of its base; by default as the study states it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Meeting {
-    /// Place of the motion in the sequence that the wall meets, from 0.
-    pub nth: u32,
     /// Factor on the motion.
     pub factor: f64,
     /// By how much the motion is turned in plan (rad), positive from x to y.
@@ -25,10 +23,8 @@ pub struct Meeting {
 }
 
 impl Meeting {
-    /// The motion at that place of the sequence, as the study states it.
-    pub(super) fn stated(nth: u32) -> Meeting {
-        Meeting { nth, factor: 1.0, turn: 0.0, inset: 0.0, restitution: None }
-    }
+    /// As the study states it.
+    pub(super) const STATED: Meeting = Meeting { factor: 1.0, turn: 0.0, inset: 0.0, restitution: None };
 }
 
 /// Why none of these can act on a wall whose base does not move.
@@ -83,9 +79,7 @@ pub static WORN_BEARING: Cause = Cause {
         beside.mechanisms.has("contact_inset").then(|| clash("contact_inset")).into_iter().collect()
     },
     instead_of: &["contact_inset"],
-    shaking: |[at_first, per_test, ..], meeting| {
-        meeting.inset += at_first + per_test * f64::from(meeting.nth)
-    },
+    shaking: |[at_first, per_test, ..], nth, meeting| meeting.inset += at_first + per_test * f64::from(nth),
     ..Cause::NOTHING
 };
 
@@ -112,7 +106,7 @@ pub static HEADING: Cause = Cause {
     either_way: &["turn_deg"],
     needs: Some((|_, protocol| shakes(protocol), NEEDS)),
     idle: |_, _, protocol| still(protocol),
-    shaking: |[turn, ..], meeting| meeting.turn += radians(turn),
+    shaking: |[turn, ..], _, meeting| meeting.turn += radians(turn),
     ..Cause::NOTHING
 };
 
@@ -134,7 +128,7 @@ pub static MOTION_SCALE: Cause = Cause {
     either_way: &["factor"],
     needs: Some((|_, protocol| shakes(protocol), NEEDS)),
     idle: |_, _, protocol| still(protocol),
-    shaking: |[factor, ..], meeting| meeting.factor *= factor,
+    shaking: |[factor, ..], _, meeting| meeting.factor *= factor,
     ..Cause::NOTHING
 };
 
@@ -162,6 +156,6 @@ pub static RESTITUTION: Cause = Cause {
     needs: Some((|_, protocol| shakes(protocol), NEEDS)),
     idle: |_, _, protocol| still(protocol),
     demand: |_| Some((Demand::Restitution, "restitution")),
-    shaking: |[coefficient, ..], meeting| meeting.restitution = Some(coefficient),
+    shaking: |[coefficient, ..], _, meeting| meeting.restitution = Some(coefficient),
     ..Cause::NOTHING
 };

@@ -155,12 +155,12 @@ impl GainSummary {
         let families = gain.families.iter();
         let families = families
             .map(|(family, gained)| FamilyEntry { family: name(*family), gained: GainedEntry::of(gained) });
-        let is_shaken = world.test() == Test::Shaking;
-        let [tilts, motions] = [0; 2].map(|_| gain.tilts.as_ref().map(GainedEntry::of));
+        let within = gain.tilts.as_ref().map(GainedEntry::of);
+        let (tilts, motions) = if world.test() == Test::Shaking { (None, within) } else { (within, None) };
         GainSummary {
             specimens_left_out: gain.specimens.as_ref().map(GainedEntry::of),
-            largest_tilts_left_out: tilts.filter(|_| !is_shaken),
-            motions_left_out: motions.filter(|_| is_shaken),
+            largest_tilts_left_out: tilts,
+            motions_left_out: motions,
             one_family_known: families.collect(),
             between_families: between
                 .iter()
