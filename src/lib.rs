@@ -103,6 +103,7 @@
 //! | [`exchange`] | walls from and to other programs: wall.json, OBJ; names their faults |
 //! | [`render`] | numbers and tables as text, CSV, charts, documents, pictures of walls, VTU, glTF; knows no verb and no study |
 //! | [`contact`] | broad phase, separating axes, patches, sub-contacts |
+//! | [`mend`] | joints made planes in a wall that was measured |
 //! | [`generate`] | layouts to walls; `canonical` holds walls with known answers |
 //! | [`solve`] | bodies, joints with history; the solvers `explicit`, `implicit`, `nonsmooth`, `limit`; `grains` for bodies made of spheres |
 //! | [`homogenise`] | a wall as a plate: cells of stones, their stiffness and their strength |
@@ -129,6 +130,7 @@ pub mod homogenise;
 pub mod interrupt;
 pub mod law;
 pub mod math;
+pub mod mend;
 pub mod model;
 pub mod motion;
 pub mod protocol;

@@ -84,6 +84,9 @@ def analyse(
     step_deg: float | None = None,
     touch_tolerance: float | str | None = None,
     flatness: str | None = None,
+    mend: str | None = None,
+    parts: bool = False,
+    thickness: str | None = None,
     scan_bearing: str | None = None,
     up: str | None = None,
     density: Known | None = None,
@@ -116,7 +119,7 @@ def analyse(
     phi_deg : float, (low, high) or str
         Friction angle of the joints (deg), or what is known of it: a range, or "normal(34,2)".
     fixed : collection of int
-        Ids of the blocks that are supports.
+        Ids of the blocks that are supports; of a file, besides those that it says are.
     density_kg_per_m3 : float or list of float, optional
         Density of all blocks, or of each; of an OBJ file, of the objects that have none. 2400 with a warning without it.
     unit : {"m", "cm", "mm"}, optional
@@ -131,7 +134,7 @@ def analyse(
         Weights (N) on blocks, and ways (m) that supports go down, by the id of the block.
     kn, ks : optional
         Normal and shear stiffness of the joints per area (Pa/m); ks is kn / 2 without it.
-    worst_direction, vertical, cohesion, flow, step_deg, touch_tolerance, flatness, scan_bearing, up, density, walls, seed, colour
+    worst_direction, vertical, cohesion, flow, step_deg, touch_tolerance, flatness, mend, parts, thickness, scan_bearing, up, density, walls, seed, colour
         As the options of `pirca analyse`; see its help.
     fclib : path, optional
         File for the contact problem of one step, at the tilt `at_deg`: as the option of `pirca analyse`.
@@ -184,6 +187,9 @@ def analyse(
         "step_deg": step_deg,
         "touch_tolerance": touch_tolerance,
         "flatness": flatness,
+        "mend": mend,
+        "parts": parts,
+        "thickness": thickness,
         "scan_bearing": scan_bearing,
         "up": up,
         "density": density,
@@ -208,7 +214,7 @@ def analyse(
     of_file: dict[str, Any] = {"unit": unit, "density_kg_per_m3": density_kg_per_m3}
     is_whole = isinstance(wall, (str, Path, Wall))
     if is_whole and fixed:
-        raise UsageError("fixed: a file or a Wall says itself which of its blocks are supports; leave it out")
+        options["fixed"] = ",".join(str(block) for block in fixed)
     if isinstance(wall, (str, Path)):
         return Analysis(ask("analyse", wall, **options, **of_file))
     if isinstance(wall, Wall):

@@ -160,8 +160,13 @@ def test_blocks_that_make_no_wall_are_refused():
     refused(pirca.UsageError, "--kn PA_PER_M is required", solver="implicit")
     refused(pirca.UsageError, "allowed is a number from 0 to 89 degrees", phi_deg=95)
     refused(pirca.UsageError, r"a range is \(low, high\)", phi_deg=(30, 34, 38))
-    with pytest.raises(pirca.UsageError, match="leave it out"):
-        pirca.analyse("tower.json", phi_deg=35, fixed=[0])
+
+
+def test_blocks_of_a_file_are_fixed_besides_those_that_it_fixes(told):
+    assert told("--phi-deg", 35)["mechanism"] == [1, 2]
+    assert pirca.analyse("tower.json", phi_deg=35, fixed=[1]).moves == [2]
+    with pytest.raises(pirca.InputError, match="no block with the id 7"):
+        pirca.analyse("tower.json", phi_deg=35, fixed=[7])
 
 
 def test_the_same_question_as_a_study_has_the_same_answer(empty_folder):

@@ -27,7 +27,7 @@ VERBS = {
         {"progress", "build", "gain"},
         {"variant", "json", "seed", "threads", "no_build", "no_gain", "prepare", "judged"},
     ),
-    "analyse": (analyse, {"progress", "wall", "fixed"}, {"json"}),
+    "analyse": (analyse, {"progress", "wall"}, {"json"}),
     "wall": (
         Study.wall,
         {"base"},

@@ -34,6 +34,9 @@ pub struct Survey {
     pub gaps: Vec<Pair>,
     /// Pairs that touch on a part of a joint only, with the gap (m) on its far side, up to `within`.
     pub gaping: Vec<Pair>,
+    /// Joints of faces that are not parallel or overlap: by how much the gap differs over the joint as far as it touches within the tolerance, or how
+    /// deep they overlap (m).
+    pub uneven: Vec<Pair>,
     /// Parts of one stone that overlap by more than the tolerance, with the depth.
     pub shared: Vec<Pair>,
     /// The first parts of stones whose parts do not all hang together.
@@ -59,7 +62,7 @@ pub fn survey(wall: &Wall, settings: &Settings, within: f64) -> Option<Survey> {
     let (mut found, mut work) = (Found::default(), 0usize);
     for (a, b) in candidate_pairs_up_to(&shapes, within.max(2.0 * settings.reach), most)? {
         let (a, b) = (a as usize, b as usize);
-        if fixed(a) && fixed(b) {
+        if fixed(a) && fixed(b) && leads[a] != leads[b] {
             continue;
         }
         let meeting = meet(&shapes[a], &shapes[b], settings, within);
@@ -123,11 +126,17 @@ impl Found {
             Meeting::Overlap(depth) => {
                 self.survey.joints.push(blocks);
                 self.survey.overlaps.push(pair(depth));
+                self.survey.uneven.push(pair(depth));
                 self.survey.deepest = self.survey.deepest.max(depth);
             }
             Meeting::Joint([narrowest, widest]) => {
                 self.survey.joints.push(blocks);
                 self.survey.deepest = self.survey.deepest.max(-narrowest);
+                // A gap that is as wide everywhere is one plane to all solvers.
+                let apart = (widest.min(closed) - narrowest).max(-narrowest);
+                if apart > 0.0 {
+                    self.survey.uneven.push(pair(apart));
+                }
                 if widest > closed && widest <= within {
                     self.survey.gaping.push(pair(widest));
                 }
@@ -316,6 +325,13 @@ mod tests {
         let apart = grouped(&[0.0, 1.0, 2.05]);
         assert_eq!((apart.gaps.len(), apart.scattered, apart.floating.len()), (0, vec![1], 0));
         assert_eq!(grouped(&[0.0, 3.0, 4.0]).floating, [vec![1, 2]]);
+        // So do those of a support.
+        let mut frame = row(&[0.0, 1.0, 2.0]);
+        frame.blocks[..2].iter_mut().for_each(|block| {
+            (block.group, block.support) = (Some("frame".to_owned()), Support::Fixed);
+        });
+        let found = survey(&frame, &Settings::for_size(1.0, [2, 2]), 0.1).unwrap();
+        assert_eq!((found.joints, found.scattered), (vec![(1, 2)], vec![]));
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::exchange::fault::{Fault, WallFaults};
 use crate::exchange::mended::Mended;
 use crate::exchange::scan::{scanned, stated};
-use crate::exchange::solid::{diagonal, solid};
+use crate::exchange::solid::{diagonal, divided, solid};
 use crate::exchange::{ReadOptions, Unit};
 use crate::math::{Mat3, Vec3, cos, sin};
 use crate::model::{Block, Support, Tag, Wall};
@@ -27,7 +27,17 @@ const LARGEST_FIXED: f64 = 250.0;
 const LIGHTEST: f64 = 10.0;
 const HEAVIEST: f64 = 23_000.0;
 /// What a fixed block without a density gets (kg/m^3); its weight acts on nothing.
-const FIXED_DENSITY: f64 = 2400.0;
+const FIXED_DENSITY: f64 = USUAL_DENSITY;
+
+/// What a block gets whose file states no density (kg/m^3): a usual limestone.
+pub const USUAL_DENSITY: f64 = 2400.0;
+
+/// The warning of so many blocks that got it.
+pub fn assumed_density(blocks: usize) -> Option<String> {
+    (blocks > 0).then(|| {
+        format!("density of {blocks} object(s) not stated: {USUAL_DENSITY} kg/m^3 is taken; --density-kg-per-m3 sets another")
+    })
+}
 
 /// One block of a file.
 #[derive(Debug)]
@@ -80,12 +90,21 @@ impl WallFile {
         }
         grounded
     }
+
+    /// The wall as a file of so many blocks has it, without a platform that was put under it.
+    pub fn without_platform(mut self, read: &WallFile) -> WallFile {
+        let blocks = read.wall.blocks.len();
+        self.wall.blocks.truncate(blocks);
+        self.ids.truncate(blocks);
+        self.names.truncate(blocks);
+        self
+    }
 }
 
 /// Checks every block and puts the wall together; `faults` holds what the reading has found already, ``options` what is allowed
 /// beyond the usual.
 pub fn build(
-    drafts: Vec<Draft>,
+    mut drafts: Vec<Draft>,
     unit: Unit,
     options: &ReadOptions,
     mut faults: WallFaults,
@@ -99,19 +118,27 @@ pub fn build(
             "add blocks",
         ));
     }
+    hold(&mut drafts, &options.fixed, &mut faults);
     same_ids(&drafts, &mut faults);
     supports(&drafts, options.on_platform, &mut faults);
     groups(&drafts, &mut faults, &mut warnings);
     let mut mended = Mended::default();
+    let mut next_id = drafts.iter().filter_map(|draft| draft.id).max().map_or(0, |id| id.saturating_add(1));
     let mut file =
         WallFile { wall: Wall::default(), ids: Vec::new(), names: Vec::new(), warnings: Vec::new() };
     for draft in drafts.into_iter().filter(|draft| draft.readable) {
         let line = draft.line;
         let found = match checked(&draft, unit, options, &mut mended, &mut warnings) {
-            Ok(block) => {
-                file.wall.blocks.push(block);
-                file.ids.push(draft.id.unwrap_or(0));
-                file.names.push(draft.name);
+            Ok(blocks) => {
+                let several = blocks.len() > 1;
+                for (nth, block) in blocks.into_iter().enumerate() {
+                    file.wall.blocks.push(block);
+                    // The first part has the block's id, the others what no block has.
+                    file.ids.push(if nth == 0 { draft.id.unwrap_or(0) } else { next_id });
+                    next_id += u64::from(nth > 0);
+                    let part = if several { format!(", part {}", nth + 1) } else { String::new() };
+                    file.names.push(format!("{}{part}", draft.name));
+                }
                 continue;
             }
             Err(found) => found,
@@ -138,6 +165,31 @@ fn lower(wall: &mut Wall) {
     wall.blocks.iter_mut().for_each(|block| block.shift(&down));
 }
 
+/// Fixes the blocks with these ids.
+fn hold(drafts: &mut [Draft], ids: &[u64], faults: &mut WallFaults) {
+    for id in ids {
+        match drafts.iter_mut().find(|draft| draft.id == Some(*id)) {
+            Some(draft) => {
+                draft.fixed = true;
+                draft.tag = Tag::Base;
+            }
+            None => faults.push(Fault::of(
+                "",
+                format!("there is no block with the id {id}, which is to be fixed"),
+                format!("ids of the file, such as {}", ids_shown(drafts)),
+                "correct --fixed",
+            )),
+        }
+    }
+}
+
+/// Some ids of a file.
+fn ids_shown(drafts: &[Draft]) -> String {
+    let ids: Vec<String> =
+        drafts.iter().filter_map(|draft| draft.id).take(5).map(|id| id.to_string()).collect();
+    ids.join(", ")
+}
+
 fn same_ids(drafts: &[Draft], faults: &mut WallFaults) {
     let mut seen = BTreeMap::new();
     for (place, draft) in drafts.iter().enumerate() {
@@ -160,7 +212,7 @@ fn supports(drafts: &[Draft], on_platform: bool, faults: &mut WallFaults) {
             "",
             "there is no support: no block is fixed",
             "at least one fixed block, for example the ground",
-            "set \"fixed\": true on the ground's block (in OBJ: name its object base or fixed); to a generated wall, `pirca wall --with-base` adds one",
+            "set \"fixed\": true on the ground's block (in OBJ: name its object base or fixed), or ask --fixed ID; to a generated wall, `pirca wall --with-base` adds one",
         ));
     }
     if !drafts.is_empty() && readable && drafts.iter().all(|draft| draft.fixed) {
@@ -197,14 +249,14 @@ fn groups(drafts: &[Draft], faults: &mut WallFaults, warnings: &mut Vec<String>)
     }
 }
 
-/// The block, or all its faults.
+/// The block, or its convex parts where it is concave and may be divided; or all its faults.
 fn checked(
     draft: &Draft,
     unit: Unit,
     options: &ReadOptions,
     mended: &mut Mended,
     warnings: &mut Vec<String>,
-) -> Result<Block, Vec<Fault>> {
+) -> Result<Vec<Block>, Vec<Fault>> {
     let turn = turned(options.turn);
     let in_metres = |v: &Vec3| v / unit.per_metre();
     let vertices: Vec<Vec3> =
@@ -223,14 +275,24 @@ fn checked(
     faults.extend(size(draft, &vertices, unit));
     if let (Some(bearing), true) = (bearing, faults.is_empty()) {
         let stone = scanned(&draft.name, &vertices, &faces, bearing)?;
-        return Ok(block(draft, stone.hull, Some(stone.holds)));
+        return Ok(vec![block(draft, stone.hull, Some(stone.holds))]);
     }
     if let (Some(scan), true) = (draft.scan, faults.is_empty()) {
         let scan = in_unit(&scan, 1.0 / unit.per_metre());
         let scan = turn.map_or(scan, |turn| scan.mapped(&turn));
-        return Ok(block(draft, stated(&draft.name, &vertices, &faces)?, Some(scan)));
+        return Ok(vec![block(draft, stated(&draft.name, &vertices, &faces)?, Some(scan))]);
     }
     let solid = solid(&draft.name, &vertices, &faces, options.flatness);
+    if let (Err(_), true, true) = (&solid, options.parts, faults.is_empty())
+        && let Some(parts) = divided(&draft.name, &vertices, &faces)
+    {
+        let group = Some(draft.group.clone().unwrap_or_else(|| draft.name.clone()));
+        warnings.push(format!("{}: concave; taken as {} convex parts of one stone", draft.name, parts.len()));
+        return Ok(parts
+            .into_iter()
+            .map(|part| Block { group: group.clone(), ..block(draft, part, None) })
+            .collect());
+    }
     let (Ok(solid), true) = (&solid, faults.is_empty()) else {
         faults.extend(solid.err().unwrap_or_default());
         return Err(faults);
@@ -241,7 +303,7 @@ fn checked(
         let idle = vertices.len() - used.len();
         warnings.push(format!("{}: {idle} vertices belong to no face and are dropped", draft.name));
     }
-    Ok(block(draft, solid.shape.clone(), None))
+    Ok(vec![block(draft, solid.shape.clone(), None)])
 }
 
 fn block(draft: &Draft, shape: Polyhedron, scan: Option<MassProperties>) -> Block {

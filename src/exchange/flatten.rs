@@ -58,7 +58,7 @@ pub fn flattened(
             );
             return refused(
                 found,
-                "divide the block into convex parts of one group: \"group\" in a wall.json, objects name.part1, name.part2 in OBJ",
+                "--parts divides it into convex parts of one stone; by hand: parts of one \"group\" in a wall.json, objects name.part1, name.part2 in OBJ",
             );
         }
     }

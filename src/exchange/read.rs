@@ -6,12 +6,17 @@ use std::path::Path;
 
 use crate::exchange::draft::WallFile;
 use crate::exchange::fault::{Fault, WallFaults};
+use crate::exchange::read_compas::{compas, read_compas};
 use crate::exchange::read_json::read_json;
 use crate::exchange::read_obj::read_obj;
+use crate::exchange::read_table::read_table;
 use crate::math::Vec3;
 
 /// Largest file that is read (bytes).
 pub const LARGEST_FILE: u64 = 64 << 20;
+
+/// So much of a file (bytes) has the type that COMPAS states at its beginning.
+const BEGINNING: u64 = 4096;
 
 /// The unit of a file's coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -71,7 +76,7 @@ impl Up {
 }
 
 /// What a file does not say about itself, and what is allowed of it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReadOptions {
     /// Unit of the coordinates of an OBJ file; metres without it.
     pub unit: Option<Unit>,
@@ -86,13 +91,43 @@ pub struct ReadOptions {
     /// The objects of an OBJ file are scans of stones, of any shape: how far (m) above its lowest point a stone bears. Each touches others as
     /// its hull, and weighs as its scan. A file without fixed blocks is lowered onto the plane z = 0.
     pub scan_bearing: Option<f64>,
+    /// Concave blocks become convex parts of one stone, which fill it exactly; without it they are refused.
+    pub parts: bool,
+    /// How deep (m) stones of a table are of which it says nothing.
+    pub thickness: Option<f64>,
+    /// Blocks that are fixed besides those of which the file says so, by their ids.
+    pub fixed: Vec<u64>,
     /// By how much all is turned about the z axis (rad), counter-clockwise seen from above.
     pub turn: f64,
     /// Whether a wall without a fixed block is one: it stands on a platform that is put under it.
     pub on_platform: bool,
 }
 
-/// Reads a wall from a `.json` or `.obj` file.
+/// Whether a file states neither its unit nor its densities, by its ending and its beginning: OBJ, tables, and JSON of COMPAS.
+pub fn leaves_units_open(path: &Path) -> bool {
+    let mut beginning = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(BEGINNING).read_to_end(&mut beginning));
+    read.is_ok() && states_no_units(&path.display().to_string(), &beginning)
+}
+
+/// The same by the file's name and its bytes, or its first ones.
+pub fn states_no_units(name: &str, bytes: &[u8]) -> bool {
+    match ending(name) {
+        Some(Ending::Obj | Ending::Csv) => true,
+        Some(Ending::Json) => {
+            let beginning = &bytes[..bytes.len().min(BEGINNING as usize)];
+            compas(&String::from_utf8_lossy(beginning)).is_some()
+        }
+        None => false,
+    }
+}
+
+/// Whether a file is a table of the stones of an elevation, which stand on the platform, by its ending.
+pub fn is_elevation(path: &Path) -> bool {
+    matches!(ending(&path.display().to_string()), Some(Ending::Csv))
+}
+
+/// Reads a wall from a `.json`, `.obj` or `.csv` file.
 ///
 /// # Errors
 /// Everything that is wrong with the file, block by block; see [`WallFaults`].
@@ -108,7 +143,7 @@ pub fn read_wall(path: &Path, options: &ReadOptions) -> Result<WallFile, WallFau
 pub fn wall_bytes(path: &Path, name: &str) -> Result<Vec<u8>, WallFaults> {
     if ending(name).is_none() {
         let found = "the ending of the file says no format that is read";
-        return refused(name, Fault::of("", found, ".json or .obj", "rename or convert the file"));
+        return refused(name, Fault::of("", found, ".json, .obj or .csv", "rename or convert the file"));
     }
     let mut bytes = Vec::new();
     // One byte more than allowed tells a file that is too large, also where its length cannot be asked for.
@@ -136,7 +171,11 @@ pub fn read_wall_bytes(name: &str, bytes: &[u8], options: &ReadOptions) -> Resul
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let read = match ending(name) {
         Some(Ending::Obj) => read_obj(text, options),
-        Some(Ending::Json) | None => read_json(text, options),
+        Some(Ending::Csv) => read_table(text, options),
+        Some(Ending::Json) | None => match compas(text) {
+            Some(kind) => read_compas(kind, text, options),
+            None => read_json(text, options),
+        },
     };
     read.map_err(|faults| WallFaults { file: name.to_owned(), ..faults })
 }
@@ -145,12 +184,14 @@ pub fn read_wall_bytes(name: &str, bytes: &[u8], options: &ReadOptions) -> Resul
 enum Ending {
     Json,
     Obj,
+    Csv,
 }
 
 fn ending(name: &str) -> Option<Ending> {
     match Path::new(name).extension()?.to_str()?.to_ascii_lowercase().as_str() {
         "json" => Some(Ending::Json),
         "obj" => Some(Ending::Obj),
+        "csv" => Some(Ending::Csv),
         _ => None,
     }
 }

@@ -54,12 +54,6 @@ pub(super) fn read_json(text: &str, options: &ReadOptions) -> Result<WallFile, W
         faults.push(Fault::of("", "the file is empty", "a JSON object with \"blocks\"", fix));
         return Err(faults);
     }
-    if let Some(kind) = compas(text) {
-        let found = format!("this is JSON of COMPAS ({kind}), which is not read");
-        let fix = "write the meshes of its blocks from COMPAS as the objects of one OBJ file, a name each";
-        faults.push(Fault::of("", found, "a wall.json, an object with \"blocks\", or an OBJ file", fix));
-        return Err(faults);
-    }
     let reading = Reading { faults: RefCell::new(faults), left: Cell::new(MOST_VALUES) };
     let mut deserializer = serde_json::Deserializer::from_str(text);
     let read = WholeSeed(&reading).deserialize(&mut deserializer).and_then(|whole| {
@@ -74,16 +68,6 @@ pub(super) fn read_json(text: &str, options: &ReadOptions) -> Result<WallFile, W
             Err(faults)
         }
     }
-}
-
-/// The type that COMPAS states of its data at the beginning of its files (`"dtype": "compas.datastructures/Mesh"`); `None` of others.
-fn compas(text: &str) -> Option<&str> {
-    ["\"dtype\"", "\"datatype\""].iter().find_map(|key| {
-        let (_, rest) = text.split_once(key)?;
-        let value = rest.trim_start().strip_prefix(':')?.trim_start().strip_prefix('"')?;
-        let kind = value.split('"').next()?;
-        kind.starts_with("compas").then_some(kind)
-    })
 }
 
 /// What the seeds share while the text is read.

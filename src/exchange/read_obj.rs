@@ -3,15 +3,15 @@
 use std::collections::BTreeMap;
 
 use crate::exchange::closing::closes;
-use crate::exchange::draft::{Draft, MOST_BLOCKS, MOST_SCANNED, MOST_VERTICES, WallFile, build};
+use crate::exchange::draft::{
+    Draft, MOST_BLOCKS, MOST_SCANNED, MOST_VERTICES, USUAL_DENSITY, WallFile, assumed_density, build,
+};
 use crate::exchange::fault::{Fault, WallFaults};
 use crate::exchange::solid::{FLATNESS, diagonal};
 use crate::exchange::{ReadOptions, Unit};
 use crate::math::Vec3;
 use crate::model::Tag;
 
-/// Density of objects that nobody gave one (kg/m^3): a usual limestone.
-const USUAL_DENSITY: f64 = 2400.0;
 /// Words in an object's name that make it a support.
 const FIXED_WORDS: [&str; 5] = ["base", "end", "fixed", "ground", "support"];
 /// What the name of a part of a stone ends in, before its number.
@@ -295,12 +295,7 @@ impl Reader {
             }
             drafts.push(draft);
         }
-        let mut warnings = Vec::new();
-        if assumed > 0 {
-            warnings.push(format!(
-                "density of {assumed} object(s) not stated: {USUAL_DENSITY} kg/m^3 is taken; --density-kg-per-m3 sets another"
-            ));
-        }
+        let mut warnings: Vec<String> = assumed_density(assumed).into_iter().collect();
         if !fixed.is_empty() {
             let shown = fixed.iter().take(5).cloned().collect::<Vec<_>>().join(", ");
             let rest = if fixed.len() > 5 { format!(" and {} more", fixed.len() - 5) } else { String::new() };

@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 use crate::exchange::closing::{Closed, Face, close, edges};
 use crate::exchange::fault::Fault;
 use crate::exchange::flatten::flattened;
+use crate::exchange::parts::convex_parts;
 use crate::math::Vec3;
 use crate::shape::{Polyhedron, ShapeFault};
 
@@ -62,6 +63,20 @@ pub fn solid(
     };
     sound(block, &shape, size, flat)?;
     Ok(Solid { shape, apart, moved })
+}
+
+/// The convex parts of a closed solid with plane faces that is concave; `None` where there are none.
+pub fn divided(block: &str, vertices: &[Vec3], faces: &[Vec<u32>]) -> Option<Vec<Polyhedron>> {
+    let size = diagonal(vertices);
+    let flat = FLATNESS * size;
+    let closed = close(block, vertices, faces, size, flat).ok()?;
+    if !bent_faces(block, &closed.vertices, &closed.faces, flat).is_empty() {
+        return None;
+    }
+    let merged = merge(&closed.vertices, closed.faces.clone(), flat, flat);
+    let parts = convex_parts(&closed.vertices, &merged, size)
+        .or_else(|| convex_parts(&closed.vertices, &closed.faces, size))?;
+    parts.iter().all(|part| sound(block, part, size, 0.0).is_ok()).then_some(parts)
 }
 
 /// The faces to be made plane; `None` where no more than the usual is allowed, or where that leaves them as they are: so a face
@@ -313,7 +328,7 @@ fn told(
                 if distance < NEARLY_CONVEX * flat {
                     format!("let warped faces be made plane: --flatness {:.3}mm", 1.1e3 * distance)
                 } else {
-                    "divide the block into convex parts of one group: \"group\" in a wall.json, objects name.part1, name.part2 in OBJ".to_owned()
+                    "--parts divides it into convex parts of one stone; by hand: parts of one \"group\" in a wall.json, objects name.part1, name.part2 in OBJ".to_owned()
                 },
             )
         }

@@ -9,6 +9,7 @@ mod polygon;
 mod polyhedron;
 #[cfg(test)]
 mod tests;
+mod triangles;
 mod union;
 
 pub use balls::{Ball, union_of_balls};
@@ -18,4 +19,5 @@ pub use overlap::overlap_depth;
 pub use plane::{Frame, Plane};
 pub use polygon::{Moments, Polygon};
 pub use polyhedron::{MassProperties, Polyhedron, ShapeFault};
+pub use triangles::triangles;
 pub use union::convex_union;

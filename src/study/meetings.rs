@@ -184,6 +184,7 @@ fn told(file: &WallFile, found: &Survey, touch: f64) -> Vec<String> {
             1e3 * ABOVE * narrowest.length
         ));
     }
+    warnings.extend(uneven(found, TOUCH * (bounds(&file.wall).1 - bounds(&file.wall).0).norm()));
     for lead in &found.scattered {
         let group = file.wall.blocks[*lead].group.as_deref().unwrap_or_default();
         warnings.push(format!(
@@ -193,8 +194,23 @@ fn told(file: &WallFile, found: &Survey, touch: f64) -> Vec<String> {
     warnings
 }
 
+/// Joints whose faces are not one plane, which a wider tolerance than usual hides: by more than rounding (m).
+fn uneven(found: &Survey, rounding: f64) -> Option<String> {
+    let joints = found.uneven.iter().filter(|pair| pair.length > rounding);
+    let (count, most) = joints.fold((0, 0.0_f64), |(count, most), pair| (count + 1, most.max(pair.length)));
+    (count > 0).then(|| {
+        format!(
+            "in {count} of {} joints the faces are not one plane, by up to {}: wedges, edges and overlaps, which every solver reads in its own way; \
+             --mend {:.3}mm makes them planes",
+            found.joints.len(),
+            length(most),
+            1e3 * ABOVE * most
+        )
+    })
+}
+
 /// A length in millimetres.
-fn length(metres: f64) -> String {
+pub(super) fn length(metres: f64) -> String {
     let mm = 1000.0 * metres;
     if mm >= 0.001 { format!("{} mm", (mm * 1e4).round() / 1e4) } else { format!("{mm:.1e} mm") }
 }
@@ -215,7 +231,7 @@ pub fn bounds(wall: &Wall) -> (Vec3, Vec3) {
 }
 
 /// Edge of the cube with the mean volume of the stones that move (m), the parts of one taken together.
-fn stone_size(wall: &Wall) -> f64 {
+pub(super) fn stone_size(wall: &Wall) -> f64 {
     let leads = wall.leads();
     let bodies =
         wall.blocks.iter().enumerate().filter(|(id, b)| b.support != Support::Fixed && leads[*id] == *id);

@@ -24,6 +24,7 @@ mod keys;
 mod load;
 pub mod measured;
 mod meetings;
+mod mending;
 mod nuisance;
 mod overturning;
 mod published;
@@ -70,6 +71,7 @@ pub use measured::{
     FILE as MEASURED, MeasuredKind, MeasuredQuantity, Measurement, Template, Under, Written, template,
 };
 pub use meetings::{Fit, TOUCH, Tolerance, bounds, look};
+pub use mending::{mended, wider};
 pub use nuisance::{NUISANCES, Nuisance, nuisances};
 pub use readings::{Reading, reading_name, readings};
 pub use reference::key_reference;

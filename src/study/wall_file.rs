@@ -1,10 +1,13 @@
 //! Walls from files: an arm whose stones a file beside the study describes.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::exchange::{self, ReadOptions, Unit, Up, WallFaults, WallFile, read_wall_bytes, wall_bytes};
+use crate::exchange::{
+    self, ReadOptions, Unit, Up, WallFaults, WallFile, leaves_units_open, read_wall_bytes, states_no_units,
+    wall_bytes,
+};
 use crate::generate::{Arrangement, BatteredFace, Layout, Limits, Outline, Wythes, mean_density};
 use crate::math::radians;
 use crate::model::{Support, Tag, Wall};
@@ -14,12 +17,17 @@ use crate::study::checked::InputFile;
 use crate::study::fault::{Fault, Found};
 use crate::study::files::sha256;
 use crate::study::meetings::{TOUCH, Tolerance, look};
+use crate::study::mending::{mended, wider};
 use crate::study::reader::{Reader, join};
 
 /// Options of `analyse` that messages about a file name, with the keys of an arm that say the same.
-const SAME: [(&str, &str); 4] = [
+const SAME: [(&str, &str); 8] = [
     ("--touch-tolerance", "touch_tolerance_m"),
     ("--flatness", "flatness_m"),
+    ("--mend", "mend_m"),
+    ("--fixed", "fixed"),
+    ("--parts", "parts"),
+    ("--thickness", "thickness_m"),
     ("--scan-bearing", "scan_bearing_m"),
     ("--density-kg-per-m3", "unstated_density_kg_per_m3"),
 ];
@@ -29,6 +37,8 @@ const SAME: [(&str, &str); 4] = [
 pub struct Asked {
     /// What it does not say about itself.
     options: ReadOptions,
+    /// Up to which length (m) joints are mended.
+    mend: Option<f64>,
     /// How far apart blocks may be that touch.
     tolerance: Tolerance,
 }
@@ -59,6 +69,16 @@ pub struct WallFiles {
 }
 
 impl WallFiles {
+    /// Whether a file states its unit and its densities. One that cannot be read is told as such later.
+    fn states_units(&self, file: &str, path: &Path) -> bool {
+        match self.bytes.get(file) {
+            Some(bytes) => !states_no_units(file, bytes),
+            None => {
+                !leaves_units_open(path) && (path.is_file() || !file.to_ascii_lowercase().ends_with(".obj"))
+            }
+        }
+    }
+
     /// The wall in a file, which lies at `path` where its bytes are not known already.
     fn wall(&mut self, file: &str, path: PathBuf, asked: &Asked) -> Read {
         if let Some((.., known)) = self.read.iter().find(|(name, how, _)| name == file && how == asked) {
@@ -82,7 +102,10 @@ impl WallFiles {
                 bytes
             }
         };
-        let read = stones_first(read_wall_bytes(file, &bytes, &asked.options)?);
+        let mut read = stones_first(read_wall_bytes(file, &bytes, &asked.options)?);
+        if let Some(within) = asked.mend {
+            read = mended(&read.on_ground(), within, file)?.0.without_platform(&read);
+        }
         let fit = look(&read.on_ground(), asked.tolerance, file)?;
         Ok(Standing {
             wall: Arc::new(read.wall),
@@ -142,7 +165,6 @@ fn same_keys(message: &str) -> String {
 /// Reads an arm whose stones a file describes. `density` (kg/m^3) is what the arm says of its stones in the place of the file.
 pub fn layout(t: &mut Reader<'_>, density: Option<&Family>, catalogue: &mut Catalogue) -> Option<Layout> {
     let (file, node) = t.file("file")?;
-    let asked = asked(t, &file)?;
     let path = join(&t.path, "file");
     let fault = |allowed: String, fix: &str| {
         Box::new(Fault::at(&node.place, &path, Found::Value(node.shown.clone()), allowed, fix))
@@ -154,6 +176,8 @@ pub fn layout(t: &mut Reader<'_>, density: Option<&Family>, catalogue: &mut Cata
             return None;
         }
     };
+    let states_units = catalogue.walls.states_units(&file, &place);
+    let asked = asked(t, &file, states_units)?;
     let standing = match catalogue.walls.wall(&file, place, &asked) {
         Ok(standing) => standing,
         Err(faults) => {
@@ -206,35 +230,54 @@ fn of_standing(file: String, standing: &Standing, density: f64) -> Layout {
 }
 
 /// How the file is to be read.
-fn asked(t: &mut Reader<'_>, file: &str) -> Option<Asked> {
+fn asked(t: &mut Reader<'_>, file: &str, states_units: bool) -> Option<Asked> {
     let before = t.notes.faults.len();
-    if !file.to_ascii_lowercase().ends_with(".obj") {
-        for key in ["unit", "up_axis", "unstated_density_kg_per_m3", "scan_bearing_m"] {
+    if states_units {
+        for key in ["unit", "up_axis", "unstated_density_kg_per_m3"] {
             if t.has(key) {
                 t.fault(
                     key,
-                    "only for .obj files: a wall.json states it itself, and its z points up",
+                    "only for files that state none (OBJ, COMPAS): a wall.json states it itself, and its z points up",
                     "remove it",
                 );
             }
         }
     }
+    if !file.to_ascii_lowercase().ends_with(".obj") && t.has("scan_bearing_m") {
+        t.fault(
+            "scan_bearing_m",
+            "only for .obj files: a wall.json has the scan of a block itself",
+            "remove it",
+        );
+    }
+    let fixed: Vec<u64> = match t.has("fixed").then(|| t.list("fixed")).flatten() {
+        Some(ids) if ids.iter().any(|id| id.fract() != 0.0) => {
+            t.fault("fixed", "ids of blocks, which are whole numbers", "write them as in the file");
+            Vec::new()
+        }
+        ids => ids.unwrap_or_default().into_iter().map(|id| id as u64).collect(),
+    };
+    let thickness = t.has("thickness_m").then(|| t.real("thickness_m")).flatten();
+    let parts = t.has("parts").then(|| t.flag("parts")).flatten().unwrap_or(false);
     let unit = if t.has("unit") { t.choice_name("unit").and_then(Unit::named) } else { None };
     let up = if t.has("up_axis") { t.choice_name("up_axis") } else { None };
     let mut real = |key: &str| if t.has(key) { t.real(key) } else { None };
     let density = real("unstated_density_kg_per_m3");
-    let (flatness, touch) = (real("flatness_m"), real("touch_tolerance_m"));
+    let (flatness, mend, touch) = (real("flatness_m"), real("mend_m"), real("touch_tolerance_m"));
     let (scan_bearing, turn) = (real("scan_bearing_m"), real("turn_deg"));
     let options = ReadOptions {
         unit,
         density,
         up: if up == Some("y") { Up::Y } else { Up::Z },
-        flatness,
+        flatness: wider(flatness, mend),
         scan_bearing,
+        parts,
+        thickness,
+        fixed,
         turn: radians(turn.unwrap_or(0.0)),
         on_platform: true,
     };
-    let asked = Asked { options, tolerance: touch.map_or(Tolerance::Share(TOUCH), Tolerance::Length) };
+    let asked = Asked { options, mend, tolerance: touch.map_or(Tolerance::Share(TOUCH), Tolerance::Length) };
     (t.notes.faults.len() == before).then_some(asked)
 }
 

@@ -73,14 +73,15 @@ pub(crate) fn report(arguments: &Report) -> Result<Answer, Failure> {
     if arguments.cite || arguments.bibtex {
         return cite(arguments);
     }
-    let is_wall =
-        of.extension().is_some_and(|end| ["json", "obj"].iter().any(|own| end.eq_ignore_ascii_case(own)));
+    let is_wall = of
+        .extension()
+        .is_some_and(|end| ["json", "obj", "csv"].iter().any(|own| end.eq_ignore_ascii_case(own)));
     if is_wall {
         return of_wall(arguments);
     }
     if !arguments.asked.is_empty() {
         return Err(Failure::Usage(format!(
-            "what stands behind -- is for a wall from a file (.json or .obj), and {} is none; leave it out",
+            "what stands behind -- is for a wall from a file (.json, .obj or .csv), and {} is none; leave it out",
             of.display()
         )));
     }

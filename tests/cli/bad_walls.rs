@@ -168,7 +168,10 @@ fn blocks_that_are_dented_overlapping_floating_or_in_millimetres_are_named() {
         (
             "dented",
             wall("m", &[dented.to_owned()]),
-            &["block 5: the solid is not convex: vertex", "divide the block into convex parts of one group"],
+            &[
+                "block 5: the solid is not convex: vertex",
+                "--parts divides it into convex parts of one stone",
+            ],
         ),
         (
             "millimetres",

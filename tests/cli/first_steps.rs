@@ -62,9 +62,9 @@ fn a_wall_or_a_table_in_the_place_of_a_study_is_named() {
     }
 }
 
-/// Files of COMPAS are JSON as well: their type is named, and no key of theirs is called unknown.
+/// Files of COMPAS are JSON as well: of those that are no assembly the type is named, and no key of theirs is called unknown.
 #[test]
-fn json_of_compas_is_named_in_the_place_of_a_wall() {
+fn json_of_compas_without_blocks_is_named_in_the_place_of_a_wall() {
     let folder = Folder::with_study(STUDY);
     for (text, kind) in [
         (
@@ -82,7 +82,7 @@ fn json_of_compas_is_named_in_the_place_of_a_wall() {
     ] {
         fs::write(folder.path("wall.json"), text).unwrap();
         let found = said(&folder, 3, &["analyse", "wall.json", "--phi-deg", "35"]);
-        let words = format!("this is JSON of COMPAS ({kind}), which is not read; allowed is");
+        let words = format!("this is JSON of COMPAS ({kind}) without a graph of blocks; allowed is");
         assert!(found.contains(&words) && found.contains("the objects of one OBJ file"), "{found}");
         assert!(!found.contains("not a known key"), "{found}");
     }

@@ -19,6 +19,8 @@ const HOUSE: &[(&str, &[&str])] = &[
     // How an answer is written: a leaf that knows no verb and no study.
     ("render", &["math", "shape", "model"]),
     ("contact", &["math", "shape", "model"]),
+    // Joints made planes in a wall that was measured.
+    ("mend", &["math", "shape", "model", "contact"]),
     ("generate", &["math", "shape", "random", "law", "model"]),
     ("solve", &["interrupt", "math", "shape", "law", "model", "contact"]),
     // A wall seen as a plate: solvers' answers for cells of stones, put together.
@@ -29,8 +31,8 @@ const HOUSE: &[(&str, &[&str])] = &[
     (
         "study",
         &[
-            "math", "shape", "random", "stats", "motion", "law", "model", "exchange", "contact", "generate",
-            "solve", "protocol",
+            "math", "shape", "random", "stats", "motion", "law", "model", "exchange", "contact", "mend",
+            "generate", "solve", "protocol",
         ],
     ),
     (
@@ -64,6 +66,7 @@ const HOUSE: &[(&str, &[&str])] = &[
             "exchange",
             "render",
             "contact",
+            "mend",
             "solve",
             "homogenise",
             "protocol",

@@ -112,6 +112,11 @@ pub fn collapse_angle(
 
 /// An irregular wall on its base, beds leaning both ways, with wedges in it; 2 x 1 m are some thirty stones.
 pub fn irregular(member: u64, length: f64, height: f64) -> Wall {
+    cut(member, [length, height], Family::Uniform { low: radians(-10.0), high: radians(10.0) }, true)
+}
+
+/// The same with another dip of its joints (rad), with or without wedges.
+pub fn cut(member: u64, [length, height]: [f64; 2], dip: Family, wedges: bool) -> Wall {
     let layout = Layout {
         outline: Outline {
             length,
@@ -126,13 +131,13 @@ pub fn irregular(member: u64, length: f64, height: f64) -> Wall {
                 height: Family::TruncatedNormal { mean: 0.2, sd: 0.03, low: 0.1, high: 0.3 },
             },
             wall_size_factor: Family::Lognormal { mean: 1.0, sd: 0.1 },
-            dip: Family::Uniform { low: radians(-10.0), high: radians(10.0) },
+            dip,
             dip_about: DipAbout::Both,
         },
         density: Family::Normal { mean: 2400.0, sd: 50.0 },
         wythes: Wythes { count: 1, header_share: 0.0 },
         head_joint_gap: 0.0,
-        wedges: Some(Wedges {
+        wedges: wedges.then_some(Wedges {
             share: 0.2,
             height: Family::Uniform { low: 0.02, high: 0.05 },
             depth: Family::Uniform { low: 0.05, high: 0.12 },

@@ -30,6 +30,7 @@ mod limit_solver;
 mod mechanisms_alike;
 mod mechanisms_joints;
 mod mechanisms_loading;
+mod mended;
 mod nonsmooth;
 mod nonsmooth_random;
 mod objectivity;

@@ -97,6 +97,34 @@ pub static ARM: Section = Section {
         )
         .only(FROM_FILE),
         Key::new(
+            "thickness_m",
+            real("m", Interval::above(0.0, 25.0)),
+            Optional,
+            "How deep the stones of a table (.csv) are of which it says nothing.",
+        )
+        .only(FROM_FILE),
+        Key::new(
+            "parts",
+            Kind::Flag,
+            Optional,
+            "Whether concave blocks are divided into convex parts of one stone, which fill it exactly; without it they are refused.",
+        )
+        .only(FROM_FILE),
+        Key::new(
+            "fixed",
+            Kind::Reals { unit: "1", within: Interval::closed(0.0, 1e15), at_most: 1000, ascending: true },
+            Optional,
+            "Ids of blocks that are fixed besides those that the file fixes.",
+        )
+        .only(FROM_FILE),
+        Key::new(
+            "mend_m",
+            real("m", Interval::above(0.0, 1.0)),
+            Optional,
+            "Faces of neighbours that belong together and are up to this far apart, or overlap by as much, become one plane; what was done is told.",
+        )
+        .only(FROM_FILE),
+        Key::new(
             "scan_bearing_m",
             real("m", Interval::above(0.0, 1.0)),
             Optional,

@@ -20,6 +20,7 @@ const SEISMIC: &str =
     "a0/g of the static limit state; a0 = alpha0 g / (e* FC) with e* = FC = 1 (Circolare 617/2009, C8A.4.4)";
 
 /// What came of a wall.
+#[derive(Clone)]
 pub(crate) struct Answer {
     /// How it ended.
     pub outcome: Outcome,
@@ -57,7 +58,7 @@ impl Answer {
     }
 
     /// The collapse multiplier alpha0, the horizontal load over the weight: of a tilt its tangent.
-    fn collapse_multiplier(&self) -> Option<f64> {
+    pub fn collapse_multiplier(&self) -> Option<f64> {
         match self.outcome {
             Outcome::Collapsed { at: Level::Tilt(angle) } => Some(tan(angle)),
             Outcome::Collapsed { at: Level::Multiplier(multiplier) } => Some(multiplier),
@@ -69,7 +70,7 @@ impl Answer {
     /// dry joints of rigid blocks bear the same then.
     fn as_seismic_coefficient(&self, asked: &Analyse) -> Option<String> {
         let is_near =
-            asked.growing() == Growing::Tilt && (asked.solver != SolverName::Limit || asked.cohesion > 0.0);
+            asked.growing() == Growing::Tilt && (asked.solver() != SolverName::Limit || asked.cohesion > 0.0);
         let near = if is_near { ", nearly; --load lateral gives it itself" } else { "" };
         self.collapse_multiplier().map(|_| format!("{SEISMIC}{near}"))
     }
@@ -156,7 +157,7 @@ impl Answer {
             "bracket": self.shown_bracket(asked),
             "bracket_unit": self.bracket.map(|_| if asked.growing() == Growing::Tilt { "deg" } else { "1" }),
             "meaning": self.meaning,
-            "solver": asked.solver.name(),
+            "solver": asked.solver().name(),
             "load": asked.load.name(),
             "vertical": (asked.growing() == Growing::Lateral).then(|| asked.vertical.unwrap_or(0.0)),
             "dead_loads": listed(&asked.dead_loads, "weight_n"),
@@ -215,7 +216,7 @@ impl Answer {
     /// The same for people: what came out, what that number is, what moves, and then the rest.
     pub fn text(&self, asked: &Analyse, file: &WallFile, fit: &Fit, seconds: f64) -> String {
         let mut text =
-            format!("{}\n  {} solver: {}\n", self.headline(asked), asked.solver.name(), self.meaning);
+            format!("{}\n  {} solver: {}\n", self.headline(asked), asked.solver().name(), self.meaning);
         if let Some(own) = &self.undecided {
             text.push_str(&format!("  {}\n", own.reason()));
         }

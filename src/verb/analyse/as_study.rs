@@ -109,8 +109,8 @@ fn text(arguments: &Analyse, fit: &Fit) -> String {
         "end_deg = {LARGEST_TILT_DEG:?}\nbracket_deg = {BRACKET_DEG:?}\nrunaway_share = {RUNS_AWAY:?}\ncapacity = \"first_stone\""
     ));
     line("\n[restraint]\nbase = \"fixed\"\nends = \"free\"".to_owned());
-    line(format!("\n[solver]\nname = \"{}\"", arguments.solver.name()));
-    if arguments.solver == SolverName::Limit {
+    line(format!("\n[solver]\nname = \"{}\"", arguments.solver().name()));
+    if arguments.solver() == SolverName::Limit {
         line(format!("flow = \"{}\"", arguments.flow.unwrap_or(FlowName::Associative).name()));
     }
     if random {
@@ -143,6 +143,10 @@ fn arm_text(arguments: &Analyse, fit: &Fit) -> String {
     stated("unit", arguments.unit.map(|unit| format!("\"{}\"", unit.name())));
     stated("up_axis", arguments.up.map(|up| format!("\"{}\"", up.name())));
     stated("flatness_m", arguments.flatness.map(|own| format!("{own:?}")));
+    stated("thickness_m", arguments.thickness.map(|own| format!("{own:?}")));
+    stated("parts", arguments.parts.then(|| "true".to_owned()));
+    stated("fixed", (!arguments.fixed.is_empty()).then(|| format!("{:?}", arguments.fixed)));
+    stated("mend_m", arguments.mend.map(|own| format!("{own:?}")));
     stated("scan_bearing_m", arguments.scan_bearing.map(|own| format!("{own:?}")));
     let touch = match arguments.touch_tolerance {
         Tolerance::Share(share) if share == TOUCH => None,

@@ -43,7 +43,12 @@ piece is a closed solid. A block is fixed when a word of its name is base, end, 
 Left_support.001). Objects keystone.part1, keystone.part2, ... are one rigid body. A comment \"# density 2400 kg/m^3\" holds for the \
 next object.
 
-In both, triangles of one plane are merged into faces; corners within 1e-4 of the block are one, also where each face has its own, \
+Table (.csv): a row per stone of an elevation, with the columns x, z (left end, underside), length, height, and where known depth, dip (deg), \
+density (kg/m3), name; units in the head, as \"Length (cm)\". The stones stand on the plane z = 0. --mend closes what was measured apart.
+
+COMPAS: JSON of an assembly, a block for each node; --fixed says which are supports where the file does not.
+
+In all, triangles of one plane are merged into faces; corners within 1e-4 of the block are one, also where each face has its own, \
 and a corner may lie on the edge of another face. Joints have no tensile strength. Limits: 64 MiB, 50000 blocks, 2000 vertices and \
 faces of a block in the file, 200 corners after merging; stones of 1 mm to 25 m; faces plane and convex to 1e-4 of the block (more \
 with --flatness); overlaps up to 1 % of the smaller block, other than among the parts of a group.
@@ -60,11 +65,12 @@ const SEEN: &str = "seen";
 #[derive(Clone, Args, Debug)]
 #[command(group(ArgGroup::new(SEEN).args(["out", "report"]).multiple(true)))]
 pub(crate) struct Analyse {
-    /// The wall: a .json or .obj file.
+    /// The wall: a .json, .obj or .csv file.
     pub wall: PathBuf,
-    /// Solver. Limit analysis and contact dynamics take rigid blocks and need no stiffness.
-    #[arg(long, value_name = "NAME", default_value = "limit", help_heading = SOLUTION)]
-    pub solver: SolverName,
+    /// Solver. Limit analysis and contact dynamics take rigid blocks and need no stiffness. Several as limit,implicit,nonsmooth: the first
+    /// answers, the others say what they find, and a sentence how they stand to each other.
+    #[arg(long = "solver", value_name = "NAME,..", value_delimiter = ',', default_value = "limit", help_heading = SOLUTION)]
+    pub solvers: Vec<SolverName>,
     /// Load: gravity turns towards the direction (to at most 89 deg), a multiple of the weight pushes there (to at most 10), or the ground
     /// moves as --record says, for nonsmooth and explicit.
     #[arg(long, value_name = "NAME", default_value = "tilt", help_heading = LOAD)]
@@ -170,6 +176,19 @@ pub(crate) struct Analyse {
     /// corners were moved is told [default: 1e-4 of a block is allowed, and nothing is moved].
     #[arg(long, value_name = "LENGTH", value_parser = numbers::length, allow_negative_numbers = true, help_heading = FILE)]
     pub flatness: Option<f64>,
+    /// Mend a wall whose corners are off by up to some length (3mm): faces that belong together and are up to this length apart, or overlap by as
+    /// much, become one plane, as every joint of the solvers is. No face moves further; what was done is told stone by stone.
+    #[arg(long, value_name = "LENGTH", value_parser = numbers::length, allow_negative_numbers = true, help_heading = FILE)]
+    pub mend: Option<f64>,
+    /// How deep the stones of a table (.csv) are of which it says nothing (45cm).
+    #[arg(long, value_name = "LENGTH", value_parser = numbers::length, allow_negative_numbers = true, help_heading = FILE)]
+    pub thickness: Option<f64>,
+    /// Divide concave blocks into convex parts of one stone, which fill it exactly [default: they are refused].
+    #[arg(long, help_heading = FILE)]
+    pub parts: bool,
+    /// Fix these blocks besides those that the file fixes, by their ids: as 0,3.
+    #[arg(long, value_name = "ID,..", value_delimiter = ',', help_heading = FILE)]
+    pub fixed: Vec<u64>,
     /// Take the objects of an OBJ file for scans of stones: each touches others as its convex hull, and weighs as its scan. A rough
     /// underside bears up to this length above its lowest point (5mm). Without fixed blocks the stones stand on the plane z = 0.
     #[arg(long, value_name = "LENGTH", value_parser = numbers::length, allow_negative_numbers = true, help_heading = FILE)]
@@ -232,6 +251,11 @@ pub(crate) struct Analyse {
 }
 
 impl Analyse {
+    /// The solver that answers.
+    pub fn solver(&self) -> SolverName {
+        self.solvers.first().copied().unwrap_or(SolverName::Limit)
+    }
+
     /// What grows until the wall falls. Under a base motion nothing does, and nobody asks.
     pub fn growing(&self) -> Growing {
         match self.load {

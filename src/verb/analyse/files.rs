@@ -17,9 +17,9 @@ use crate::terminal::failure::Failure;
 use crate::terminal::output;
 use crate::verb::analyse::answer::Answer;
 use crate::verb::analyse::ask::Analyse;
-use crate::verb::analyse::joints;
 use crate::verb::analyse::page::{Told, page};
 use crate::verb::analyse::state::State;
+use crate::verb::analyse::{joints, mended};
 use crate::verb::arguments::SolverName;
 use crate::verb::wall::condition::hinges;
 use crate::verb::wall::drawn::{Measure, seams, sides};
@@ -58,13 +58,16 @@ pub(crate) fn write(folder: &Path, of: &Seen<'_>, object: &Value, told: &Told<'_
     let mut files = vec![
         ("report.html", page(asked, file, (answer, state), (&picture, replay), told)?),
         ("mechanism.svg", picture.svg()),
-        ("rest.vtu", write_vtu(&file.wall, (asked.solver != SolverName::Limit).then_some(&rests[..]))),
+        ("rest.vtu", write_vtu(&file.wall, (asked.solver() != SolverName::Limit).then_some(&rests[..]))),
         ("blocks.csv", blocks_csv(file, answer, state)),
         ("joints.csv", joints_csv(file, state)),
         ("analysis.json", format!("{:#}\n", with_tables(object, file, answer, state))),
     ];
     if state.falls {
         files.push(("mechanism.vtu", write_vtu(&drawn(&file.wall, state, picture.magnification), None)));
+    }
+    if let Some(done) = told.mended {
+        files.push(("mended.csv", mended::csv(file, done)));
     }
     for (name, text) in files {
         replace_file(&folder.join(name), text.as_bytes())?;
@@ -94,14 +97,14 @@ fn picture(asked: &Analyse, (file, fit): (&WallFile, &Fit), answer: &Answer, sta
         seams,
         hinges: hinges(&state.joints, &state.conditions),
         thrusts: state.thrusts.clone(),
-        measure: said(asked.colour, asked.solver).to_owned(),
+        measure: said(asked.colour, asked.solver()).to_owned(),
         unit: asked.colour.unit(),
         from_front,
         magnification,
         title: format!(
             "{}: {} solver, phi {} deg",
             asked.title(),
-            asked.solver.name(),
+            asked.solver().name(),
             asked.phi_deg.middle()
         ),
         remarks,

@@ -4,13 +4,15 @@ use std::fs;
 
 use crate::exchange::WallFile;
 use crate::math::Vec3;
+use crate::mend::Mended;
 use crate::model::{Replay, Support};
 use crate::render::number::significant;
 use crate::render::picture::{Picture, Stone};
-use crate::study::sha256;
+use crate::study::{Tolerance, sha256};
 use crate::terminal::failure::Failure;
 use crate::verb::analyse::answer::Answer;
 use crate::verb::analyse::ask::{Analyse, Growing};
+use crate::verb::analyse::mended;
 use crate::verb::analyse::state::State;
 use crate::verb::arguments::SolverName;
 use crate::verb::run::answer::page::{WallPage, WallTable, wall_page};
@@ -28,6 +30,8 @@ pub(crate) struct Told<'a> {
     pub text: &'a str,
     /// What looks wrong.
     pub warnings: &'a [String],
+    /// What was done to its stones before it was solved.
+    pub mended: Option<&'a Mended>,
 }
 
 /// The page; `picture` is the one in the folder, `replay` the states that the wall goes through.
@@ -41,7 +45,19 @@ pub(crate) fn page(
     let bytes = fs::read(&asked.wall)
         .map_err(|error| Failure::Run(format!("cannot read {} again: {error}", asked.wall.display())))?;
     let wall = asked.title();
-    let by_rates = asked.solver == SolverName::Limit && state.falls;
+    let by_rates = asked.solver() == SolverName::Limit && state.falls;
+    let mended = told.mended.filter(|done| !done.stones.is_empty());
+    let mended = mended.map(|done| WallTable {
+        name: "Mended stones",
+        heads: mended::HEADS,
+        rows: mended::rows(file, done),
+    });
+    let tables = [
+        mended,
+        Some(WallTable { name: "Blocks", heads: BLOCKS, rows: blocks(file, answer, state, by_rates) }),
+        Some(WallTable { name: "Joints", heads: JOINTS, rows: joints(file, state) }),
+    ];
+    let tables = tables.into_iter().flatten().collect();
     let page = WallPage {
         wall: &wall,
         question: question(asked),
@@ -59,12 +75,9 @@ pub(crate) fn page(
                  blocks.csv and joints.csv hold all digits."
             }
         },
-        tables: vec![
-            WallTable { name: "Blocks", heads: BLOCKS, rows: blocks(file, answer, state, by_rates) },
-            WallTable { name: "Joints", heads: JOINTS, rows: joints(file, state) },
-        ],
+        tables,
         inputs: inputs(asked),
-        solver: asked.solver.name(),
+        solver: asked.solver().name(),
         sha256: sha256(&bytes),
         origin: &Origin::now(&asked.wall, None).of_page(),
     };
@@ -89,7 +102,7 @@ fn question(asked: &Analyse) -> String {
 /// What was given, with what was not as it is by default.
 pub(crate) fn inputs(asked: &Analyse) -> Vec<(&'static str, String)> {
     let mut all = vec![
-        ("solver", asked.solver.name().to_owned()),
+        ("solver", asked.solver().name().to_owned()),
         ("load", asked.load.name().to_owned()),
         ("direction", asked.direction.to_string()),
         (
@@ -99,15 +112,33 @@ pub(crate) fn inputs(asked: &Analyse) -> Vec<(&'static str, String)> {
         ("cohesion of the joints", format!("{} Pa", asked.cohesion)),
     ];
     let stiffness = |own: f64| format!("{own:.3e} Pa/m");
-    if let Some(kn) = asked.kn.as_ref().filter(|_| asked.solver.is_elastic()) {
+    if let Some(kn) = asked.kn.as_ref().filter(|_| asked.solver().is_elastic()) {
         all.push(("normal stiffness of the joints", kn.said(stiffness)));
         let ks = asked.ks.map_or_else(|| "half the normal one".to_owned(), stiffness);
         all.push(("shear stiffness of the joints", ks));
     }
     let density = |own: f64| format!("{} kg/m3", own.round());
     all.extend(asked.density.as_ref().map(|own| ("mean density of the blocks that move", own.said(density))));
-    if asked.solver == SolverName::Limit {
+    if asked.solver() == SolverName::Limit {
         all.push(("flow", asked.flow.map_or("associative", |flow| flow.name()).to_owned()));
+    }
+    all.extend(asked.unit.map(|unit| ("unit of the file", unit.name().to_owned())));
+    all.extend(asked.up.map(|up| ("axis of the file that points up", up.name().to_owned())));
+    all.extend(asked.density_kg_per_m3.map(|own| ("density where the file states none", density(own))));
+    let length = |own: f64| format!("{} mm", significant(1e3 * own, 4));
+    if let Tolerance::Length(own) = asked.touch_tolerance {
+        all.push(("gaps up to which blocks touch", length(own)));
+    }
+    all.extend(asked.flatness.map(|own| ("warped faces made plane within", length(own))));
+    all.extend(asked.mend.map(|own| ("joints mended within", length(own))));
+    all.extend(asked.scan_bearing.map(|own| ("scans bear up to above their lowest point", length(own))));
+    all.extend(asked.thickness.map(|own| ("depth of stones where the table states none", length(own))));
+    if asked.parts {
+        all.push(("concave blocks", "divided into convex parts".to_owned()));
+    }
+    if !asked.fixed.is_empty() {
+        let ids: Vec<String> = asked.fixed.iter().map(u64::to_string).collect();
+        all.push(("blocks fixed besides those of the file", ids.join(", ")));
     }
     all.extend(asked.vertical.map(|share| ("vertical share of the load", share.to_string())));
     let listed = |of: &[(u64, f64)], unit: &str| {

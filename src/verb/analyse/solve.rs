@@ -33,7 +33,7 @@ pub(crate) const RUNS_AWAY: f64 = 0.1;
 
 /// The law of all joints, with the middle of what is not known exactly: no tension, cohesion kept after slip, ks = kn / 2 unless it is given.
 pub(crate) fn law(arguments: &Analyse) -> Coulomb {
-    let is_elastic = arguments.solver.is_elastic();
+    let is_elastic = arguments.solver().is_elastic();
     let kn = arguments.kn.as_ref().filter(|_| is_elastic).map_or(ANY_STIFFNESS, Known::middle);
     Coulomb {
         normal: NormalLaw::Linear { kn },
@@ -70,8 +70,8 @@ pub(crate) fn solve(
     recorder: Option<&Recorder>,
 ) -> (Answer, Found) {
     let mut what =
-        format!("solving {} blocks by the {} solver", wall.0.blocks.len(), arguments.solver.name());
-    if arguments.solver == SolverName::Nonsmooth {
+        format!("solving {} blocks by the {} solver", wall.0.blocks.len(), arguments.solver().name());
+    if arguments.solver() == SolverName::Nonsmooth {
         what.push_str(&format!(" ({})", estimate(fit.joints)));
     }
     doing(&what, |doing| {
@@ -87,7 +87,7 @@ pub(crate) fn solve_seen_by(
     fit: &Fit,
     witness: Witness<'_>,
 ) -> (Answer, Found) {
-    match arguments.solver {
+    match arguments.solver() {
         SolverName::Limit => by_limit_analysis(arguments, wall, law, fit, witness),
         SolverName::Implicit => {
             let settings = implicit::Settings::default();

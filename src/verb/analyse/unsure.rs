@@ -60,11 +60,11 @@ pub(crate) fn refused(arguments: &Analyse) -> Result<(), Failure> {
                 .to_owned(),
         ));
     }
-    if !arguments.solver.is_elastic() && asked.iter().any(|own| own.unsure.name == KN.0) {
+    if !arguments.solver().is_elastic() && asked.iter().any(|own| own.unsure.name == KN.0) {
         return Err(Failure::Usage(format!(
             "--kn takes a range for elastic joints, and {} is of rigid blocks, whose joints have no stiffness: ask --solver implicit, \
              or leave --kn out",
-            arguments.solver.method()
+            arguments.solver().method()
         )));
     }
     Ok(())
@@ -167,7 +167,7 @@ impl Given<'_> {
                 let is_alike = ends.iter().all(|(_, other, whole)| (other, whole) == (fall, is_whole));
                 fall.filter(|_| is_alike).map(|fall| fall.without_friction(*is_whole))
             }
-            name if name == DENSITY.0 && !self.arguments.solver.is_elastic() && is_dry => {
+            name if name == DENSITY.0 && !self.arguments.solver().is_elastic() && is_dry => {
                 Some("of rigid blocks with dry joints all forces grow with the weight".to_owned())
             }
             _ => None,

@@ -4,14 +4,17 @@ use std::time::Instant;
 
 use serde_json::json;
 
-use crate::exchange::{ReadOptions, Unit, Up, WallFaults, WallFile, read_wall};
+use crate::exchange::{
+    ReadOptions, Unit, Up, WallFaults, WallFile, is_elevation, leaves_units_open, read_wall,
+};
 use crate::law::Coulomb;
 use crate::math::compact;
+use crate::mend::Mended;
 use crate::model::{Outcome, Support, Wall};
 use crate::protocol::{Direction, Recorder, Settlement, Witness};
 use crate::solve::STANDARD_GRAVITY;
 use crate::study::Angle;
-use crate::study::{Fit, bounds, look};
+use crate::study::{self, Fit, bounds, look, wider};
 use crate::terminal::answer::Answer;
 use crate::terminal::doing::doing;
 use crate::terminal::failure::Failure;
@@ -20,6 +23,7 @@ use crate::verb::analyse::files::Seen;
 use crate::verb::analyse::known::Known;
 use crate::verb::analyse::loads::{loaded, settlements};
 use crate::verb::analyse::open::left_open;
+use crate::verb::analyse::opinions::{Opinions, opinions};
 use crate::verb::analyse::page::Told;
 use crate::verb::analyse::shaken::shaken;
 use crate::verb::analyse::solve::{law, solve, solve_seen_by};
@@ -27,7 +31,7 @@ use crate::verb::analyse::state::State;
 use crate::verb::analyse::uncertainty::{uncertainty_text, write_uncertainty};
 use crate::verb::analyse::unsure::{Given, asked, refused};
 use crate::verb::analyse::worst::{Tried, tried, weakest};
-use crate::verb::analyse::{as_study, fclib, files, shaken, upright};
+use crate::verb::analyse::{as_study, fclib, files, mended, shaken, upright};
 use crate::verb::arguments::SolverName;
 use crate::verb::wall::one_wall::MOST_STATES;
 
@@ -38,7 +42,7 @@ const PRESTRESS: f64 = 0.1;
 pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
     let begun = Instant::now();
     let mut warnings = asked_in_vain(arguments)?;
-    let (read, fit) = match read(arguments) {
+    let (read, fit, done) = match read(arguments) {
         Ok(found) => found,
         Err(faults) if arguments.json => {
             return Err(Failure::Said(json!({
@@ -79,6 +83,8 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
             is_obj(arguments),
         ));
     }
+    let others = opinions(arguments, wall, &fit, (&answer, begun.elapsed().as_secs_f64()));
+    warnings.extend(others.as_ref().and_then(Opinions::warning));
     let given = Given { arguments, file: &read, fit: &fit, settlements: &settlements };
     let sure = given.how_sure(asked(arguments), (&file.wall, &answer, &found))?;
     let seconds = begun.elapsed().as_secs_f64();
@@ -92,10 +98,17 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
     if let Some(sure) = &sure {
         object["uncertain"] = json!(sure);
     }
+    if let Some(done) = &done {
+        object["mended"] = mended::object(&read, done, arguments.mend);
+    }
     if let Some(folder) = &arguments.study {
         object["study"] = json!(folder);
     }
     let mut text = answer.text(arguments, &file, &fit, seconds);
+    text += &others.as_ref().map_or_else(String::new, |others| others.text(arguments));
+    if let Some(others) = &others {
+        object["opinions"] = others.object();
+    }
     text += &arguments.study.as_ref().map_or_else(String::new, |folder| {
         format!("  the same question as a study written to {0}; next: pirca run {0}\n", folder.display())
     });
@@ -112,7 +125,7 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
     if is_seen {
         let replay = recorder.map(|own| own.replay(file.wall.blocks.len())).unwrap_or_default();
         let state = State::of(&file.wall, &fit.contact, &found);
-        let told = Told { text: &text, warnings: &warnings };
+        let told = Told { text: &text, warnings: &warnings, mended: done.as_ref() };
         let of = Seen {
             asked: arguments,
             file: &file,
@@ -151,24 +164,33 @@ fn directions(arguments: &Analyse, wall: (&Wall, &[Settlement]), law: &Coulomb, 
 }
 
 /// The file, fit to be solved.
-fn read(arguments: &Analyse) -> Result<(WallFile, Fit), WallFaults> {
+fn read(arguments: &Analyse) -> Result<(WallFile, Fit, Option<Mended>), WallFaults> {
     let unit = arguments.unit.map(|unit| Unit::named(unit.name()).unwrap_or_default());
     let options = ReadOptions {
         unit,
         // What is scaled to a mean may as well begin there.
         density: arguments.density_kg_per_m3.or(arguments.density.as_ref().map(Known::middle)),
         up: arguments.up.map_or(Up::Z, |up| if up == UpName::Y { Up::Y } else { Up::Z }),
-        flatness: arguments.flatness,
+        flatness: wider(arguments.flatness, arguments.mend),
         scan_bearing: arguments.scan_bearing,
+        parts: arguments.parts,
+        thickness: arguments.thickness,
+        fixed: arguments.fixed.clone(),
         turn: 0.0,
         on_platform: arguments.scan_bearing.is_some(),
     };
     let mut file = read_wall(&arguments.wall, &options)?;
-    if arguments.scan_bearing.is_some() {
+    if arguments.scan_bearing.is_some() || is_elevation(&arguments.wall) {
         file = file.on_ground();
     }
-    let fit = look(&file, arguments.touch_tolerance, &arguments.wall.display().to_string())?;
-    Ok((file, fit))
+    let name = arguments.wall.display().to_string();
+    let mut done = None;
+    if let Some(within) = arguments.mend {
+        let (sound, all) = study::mended(&file, within, &name)?;
+        (file, done) = (sound, Some(all));
+    }
+    let fit = look(&file, arguments.touch_tolerance, &name)?;
+    Ok((file, fit, done))
 }
 
 pub(crate) fn is_obj(arguments: &Analyse) -> bool {
@@ -180,14 +202,27 @@ fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
     refused(arguments)?;
     shaken::refused(arguments)?;
     as_study::refused(arguments)?;
-    let solver = arguments.solver.name();
+    let solver = arguments.solver().name();
+    let is_asked = |own: SolverName| arguments.solvers.contains(&own);
+    let elastic = arguments.solvers.iter().find(|solver| solver.is_elastic());
     let mut warnings = in_radians(arguments);
-    if !is_obj(arguments) && (arguments.unit.is_some() || arguments.density_kg_per_m3.is_some()) {
+    if arguments.solvers.len() > 1 && arguments.load == LoadName::BaseMotion {
+        return Err(Failure::Usage("--load base-motion takes one solver: ask for each in turn".to_owned()));
+    }
+    // A file that is not there is told as such.
+    let states_units = !is_obj(arguments) && arguments.wall.is_file() && !leaves_units_open(&arguments.wall);
+    if states_units && (arguments.unit.is_some() || arguments.density_kg_per_m3.is_some()) {
         return Err(Failure::Usage(
-            "--unit and --density-kg-per-m3 are for .obj files; a wall.json states both itself".to_owned(),
+            "--unit and --density-kg-per-m3 are for files that state neither (OBJ, COMPAS); a wall.json states both itself"
+                .to_owned(),
         ));
     }
-    if !is_obj(arguments) && arguments.up.is_some() {
+    if arguments.thickness.is_some() && !is_elevation(&arguments.wall) {
+        return Err(Failure::Usage(
+            "--thickness is for a table of stones (.csv); other files state it themselves".to_owned(),
+        ));
+    }
+    if states_units && arguments.up.is_some() {
         return Err(Failure::Usage("--up is for .obj files; in a wall.json z points up".to_owned()));
     }
     if arguments.vertical.is_some() && arguments.growing() == Growing::Tilt {
@@ -201,34 +236,37 @@ fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
             "--fclib is for dry joints: its form knows no cohesion; leave --cohesion out".to_owned(),
         ));
     }
-    if !arguments.solver.is_elastic() && (arguments.kn.is_some() || arguments.ks.is_some()) {
-        let method = arguments.solver.method();
+    if elastic.is_none() && (arguments.kn.is_some() || arguments.ks.is_some()) {
+        let method = arguments.solver().method();
         warnings.push(format!("{method} is of rigid blocks: --kn and --ks do not matter"));
     }
-    if arguments.solver == SolverName::Nonsmooth && !arguments.settlements.is_empty() {
+    if is_asked(SolverName::Nonsmooth) && !arguments.settlements.is_empty() {
         return Err(Failure::Usage(
             "--settle is for elastic joints: rigid blocks drop after a support that goes down, and what their impacts leave is another state \
              than that of a gradual settlement; ask --solver implicit --kn PA_PER_M, or move the support in the file"
                 .to_owned(),
         ));
     }
-    if arguments.solver == SolverName::Limit {
-        if !arguments.settlements.is_empty() {
-            return Err(Failure::Usage(
-                "--settle is for elastic joints: to rigid blocks a small settlement is a movement without forces, which no multiplier \
-                 depends on; ask --solver implicit --kn PA_PER_M, or move the support in the file"
-                    .to_owned(),
-            ));
-        }
+    if is_asked(SolverName::Limit) && !arguments.settlements.is_empty() {
+        return Err(Failure::Usage(
+            "--settle is for elastic joints: to rigid blocks a small settlement is a movement without forces, which no multiplier \
+             depends on; ask --solver implicit --kn PA_PER_M, or move the support in the file"
+                .to_owned(),
+        ));
+    }
+    if let Some(elastic) = elastic
+        && arguments.kn.is_none()
+    {
+        return Err(Failure::Usage(format!(
+            "--kn PA_PER_M is required for the {} solver: the normal stiffness of the joints per area, for example --kn 1e9; --solver limit and nonsmooth need none",
+            elastic.name()
+        )));
+    }
+    if arguments.solver() == SolverName::Limit {
         if arguments.step_deg.is_some() {
             warnings.push("limit analysis takes no steps: --step-deg does not matter".to_owned());
         }
         return Ok(warnings);
-    }
-    if arguments.solver.is_elastic() && arguments.kn.is_none() {
-        return Err(Failure::Usage(format!(
-            "--kn PA_PER_M is required for the {solver} solver: the normal stiffness of the joints per area, for example --kn 1e9; --solver limit and nonsmooth need none"
-        )));
     }
     if arguments.flow == Some(FlowName::Associative) {
         warnings.push(format!("--flow is for limit analysis; joints of the {solver} solver do not dilate"));
@@ -251,7 +289,7 @@ fn in_radians(arguments: &Analyse) -> Vec<String> {
 
 /// Blocks that overlap as built press on each other from the start: how hard, for the solvers that are elastic.
 fn prestress(arguments: &Analyse, wall: &Wall, fit: &Fit) -> Option<String> {
-    let kn = arguments.kn.as_ref().filter(|_| arguments.solver.is_elastic())?.middle();
+    let kn = arguments.kn.as_ref().filter(|_| arguments.solver().is_elastic())?.middle();
     let (low, high) = bounds(wall);
     let moving = wall.blocks.iter().filter(|b| b.support != Support::Fixed);
     let heaviest = moving.map(|b| b.density).fold(0.0, f64::max);

@@ -328,6 +328,16 @@ fn a_group_is_said_in_words_with_how_far_it_is_off() {
         )
     );
     assert!(said(bounds(2, "below")).contains("1.00 mm (2 of 3 only bounds) measured"));
+    // Outcomes under motions are counted.
+    let outcomes =
+        GroupEntry { quantity: "outcome", tilt_deg: None, unit: "1", readings: 33, ..bounds(22, "below") };
+    let mut outcomes = GroupEntry { above: 11, measured: Some(1.0 / 3.0), ..outcomes };
+    let simulated = outcomes.simulated.as_mut().expect("simulated");
+    (simulated.median, simulated.band_90) = (0.6, [0.5, 0.7]);
+    assert_eq!(
+        said(outcomes),
+        "sbl: outcome: 11 of 33 stood measured, 19.8 [16.5, 23.1] simulated: too few stood (p 0.010)"
+    );
     // Walls that had fallen show nothing.
     let few = GroupEntry { fallen_share: 0.3, ..group(3e-3, "within", 0.8, 0.0) };
     assert!(said(few).ends_with("agrees (p 0.80); 30 % of the simulated walls had fallen"));

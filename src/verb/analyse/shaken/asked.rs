@@ -27,7 +27,7 @@ pub(crate) fn refused(asked_for: &Analyse) -> Result<(), Failure> {
             "--load base-motion needs --record FILE: PEER .AT2, ESM, ITACA or K-NET ASCII, COSMOS or CSMIP V2, or CSV with units in its heads",
         );
     }
-    match asked_for.solver {
+    match asked_for.solver() {
         SolverName::Limit | SolverName::Implicit => {
             return usage(
                 "--load base-motion is for solvers that know time: ask --solver nonsmooth, or --solver explicit --kn PA_PER_M",
@@ -92,7 +92,7 @@ pub(crate) fn motion(asked: &Analyse, path: &Path) -> Result<Motion, Failure> {
 
 /// The solver as asked for.
 pub(crate) fn solver(asked: &Analyse, task: &Task<'_>) -> InTime {
-    if asked.solver == SolverName::Explicit {
+    if asked.solver() == SolverName::Explicit {
         let rayleigh = asked.rayleigh.unwrap_or_else(|| Rayleigh::of_joints(&task.assembled()));
         return InTime::Explicit(explicit::Settings::default(), rayleigh);
     }

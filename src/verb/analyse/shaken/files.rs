@@ -151,7 +151,7 @@ fn picture(of: &Common<'_>, run: &Ran) -> Picture {
         title: format!(
             "{}: {} solver, {} times {}",
             asked.title(),
-            asked.solver.name(),
+            asked.solver().name(),
             run.motion.name,
             run.scale
         ),
@@ -192,7 +192,7 @@ fn page(
             WallTable { name: "Joints", heads: JOINTS, rows: joints(of, run) },
         ],
         inputs: given,
-        solver: asked.solver.name(),
+        solver: asked.solver().name(),
         sha256: sha256(&bytes),
         origin: &Origin::now(&asked.wall, None).of_page(),
     };

@@ -40,7 +40,7 @@ pub(crate) fn text(of: &Common<'_>, runs: &[Ran], seconds: f64) -> String {
     let mut text = format!("Of {} runs: {}.\n", runs.len(), said.join(", "));
     text += &format!(
         "  {} solver, towards {} deg from x+\n",
-        of.asked.solver.name(),
+        of.asked.solver().name(),
         of.asked.direction.angle_deg()
     );
     text += &one::ground(of.asked);
@@ -80,7 +80,7 @@ pub(crate) fn object(of: &Common<'_>, runs: &[Ran], warnings: &[String], seconds
     json!({
         "outcomes": outcomes,
         "runs": runs.iter().map(each).collect::<Vec<Value>>(),
-        "solver": of.asked.solver.name(),
+        "solver": of.asked.solver().name(),
         "load": of.asked.load.name(),
         "blocks": of.file.wall.blocks.len(),
         "joints": of.fit.joints,

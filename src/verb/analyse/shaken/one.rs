@@ -64,7 +64,7 @@ pub(crate) fn object(of: &Common<'_>, run: &Ran, warnings: &[String], seconds: f
             "block": of.name(settled.block),
             "displacement_m": settled.displacement_m,
         })),
-        "solver": asked.solver.name(),
+        "solver": asked.solver().name(),
         "load": asked.load.name(),
         "record": {
             "name": motion.name,
@@ -77,7 +77,7 @@ pub(crate) fn object(of: &Common<'_>, run: &Ran, warnings: &[String], seconds: f
         "direction_deg": asked.direction.angle_deg(),
         "lean_deg": asked.lean_deg.unwrap_or(0.0),
         "lean_direction_deg": asked.lean_deg.map(|_| asked.lean_direction.unwrap_or(asked.direction).angle_deg()),
-        "restitution": (asked.solver == SolverName::Nonsmooth).then(|| asked.restitution.unwrap_or(0.0)),
+        "restitution": (asked.solver() == SolverName::Nonsmooth).then(|| asked.restitution.unwrap_or(0.0)),
         "first_stone_s": seen.first_stone_s,
         "tenth_weight_s": seen.part_s,
         "half_weight_s": seen.most_s,
@@ -108,7 +108,7 @@ pub(crate) fn object(of: &Common<'_>, run: &Ran, warnings: &[String], seconds: f
 
 pub(crate) fn text(of: &Common<'_>, run: &Ran, seconds: f64) -> String {
     let (Common { asked, file, fit }, Ran { motion, seen, .. }) = (of, run);
-    let mut text = format!("{}\n  {} solver; record {}", headline(run), asked.solver.name(), motion.name);
+    let mut text = format!("{}\n  {} solver; record {}", headline(run), asked.solver().name(), motion.name);
     text += &format!(
         ", PGA {:.2} m/s2, PGV {:.3} m/s, towards {} deg from x+\n",
         motion.pga(),

@@ -119,6 +119,9 @@ fn name(group: &GroupEntry) -> String {
 
 fn measured(group: &GroupEntry) -> String {
     let Some(mean) = group.measured else { return "nothing".to_string() };
+    if is_outcome(group) {
+        return format!("{:.0} of {} stood", scale(group) * mean, group.readings);
+    }
     let mean = format!("{} {}", shown(group, mean), shown_unit(group));
     let all = |bounds: usize| bounds == group.readings;
     let number = match group.readings {
@@ -152,7 +155,8 @@ fn finding(group: &GroupEntry) -> String {
         "within" => format!("agrees ({p})"),
         side => format!("{} ({sd}{p})", amount(group, simulated, side == "above")),
     };
-    finding.push_str(&group.agreeing_share.map_or_else(String::new, |share| kept(share, "")));
+    let bounds = group.agreeing_share.filter(|_| !is_outcome(group));
+    finding.push_str(&bounds.map_or_else(String::new, |share| kept(share, "")));
     finding.push_str(&gone(group.fallen_share, ""));
     finding
 }
@@ -175,6 +179,8 @@ fn amount(group: &GroupEntry, simulated: &ExpectedEntry, above: bool) -> String 
     let words = match (group.unit, above) {
         ("m", true) => "too far",
         ("m", false) => "too little",
+        _ if is_outcome(group) && above => "too many stood",
+        _ if is_outcome(group) => "too few stood",
         (_, true) => "too high",
         (_, false) => "too low",
     };
@@ -189,6 +195,11 @@ fn amount(group: &GroupEntry, simulated: &ExpectedEntry, above: bool) -> String 
     format!("{} {} {words}", shown(group, off), shown_unit(group))
 }
 
+/// Whether the group is of walls that fell or stood under a motion of their base.
+fn is_outcome(group: &GroupEntry) -> bool {
+    group.quantity == MeasuredQuantity::Outcome.name()
+}
+
 /// A number in the unit of text and figures.
 fn shown(group: &GroupEntry, x: f64) -> String {
     significant(scale(group) * x, 3)
@@ -197,6 +208,8 @@ fn shown(group: &GroupEntry, x: f64) -> String {
 /// How many of the unit of text and figures one of the group's unit is.
 fn scale(group: &GroupEntry) -> f64 {
     match (group.unit, group.drift_percent) {
+        // Of outcomes the share that stood, told as their number.
+        _ if is_outcome(group) => group.readings as f64,
         ("m", _) => 1e3,
         ("N", Some(_)) => 1e-3,
         _ => 1.0,
