@@ -243,7 +243,9 @@ fn values(kind: &Kind, below: Stated, definitions: &mut Definitions) -> Value {
         Kind::Files { at_most } => json!({
             "type": "array", "items": { "type": "string", "minLength": 1 }, "minItems": 1, "maxItems": at_most, "uniqueItems": true,
         }),
-        Kind::WallFile => json!({ "type": "string", "pattern": "\\.([jJ][sS][oO][nN]|[oO][bB][jJ])$" }),
+        Kind::WallFile => {
+            json!({ "type": "string", "pattern": "\\.([jJ][sS][oO][nN]|[oO][bB][jJ]|[cC][sS][vV])$" })
+        }
         Kind::Paths => json!({ "type": "array", "items": { "type": "string" } }),
     }
 }

@@ -263,7 +263,9 @@ impl Kind {
             Kind::Files { at_most } => {
                 format!("1 to {at_most} files in the study's folder, each once, as [\"records/one.at2\"]")
             }
-            Kind::WallFile => "a .json or .obj file in the study's folder, as \"walls/left.json\"".to_owned(),
+            Kind::WallFile => {
+                "a .json, .obj or .csv file in the study's folder, as \"walls/left.json\"".to_owned()
+            }
             Kind::Table(section) => format!("a table {}", section.title),
             Kind::Tables(section) => format!("one or more tables {}", section.title),
             Kind::Settings => {

@@ -132,7 +132,8 @@ fn a_study_of_a_mended_wall_has_the_answer_of_the_wall() {
         assert!(output.status.success(), "{asked:?}: {}", stderr(&output));
         serde_json::from_slice(&output.stdout).expect("one JSON object")
     };
-    let alone = told(&["analyse", "wall.obj", "--phi-deg", "35", "--mend", "3mm", "--study", "mine", "--json"]);
+    let alone =
+        told(&["analyse", "wall.obj", "--phi-deg", "35", "--mend", "3mm", "--study", "mine", "--json"]);
     let study = fs::read_to_string(folder.path("mine/study.toml")).expect("a study");
     assert!(study.contains("mend_m = 0.003"), "{study}");
     let run = told(&["run", "mine", "--out", "out", "--json"]);

@@ -8,10 +8,11 @@ use serde_json::Value;
 use sha2::{Digest, Sha256};
 
 /// Keys whose values say when, where and how fast a command ran, or which state of the program it was.
-const PASSING: [&str; 13] = [
+const PASSING: [&str; 14] = [
     "seconds",
     "host",
     "processor",
+    "processors",
     "threads",
     "begun",
     "ended",
