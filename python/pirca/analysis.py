@@ -134,8 +134,10 @@ def analyse(
         Weights (N) on blocks, and ways (m) that supports go down, by the id of the block.
     kn, ks : optional
         Normal and shear stiffness of the joints per area (Pa/m); ks is kn / 2 without it.
-    worst_direction, vertical, cohesion, flow, step_deg, touch_tolerance, flatness, mend, parts, thickness, scan_bearing, up, density, walls, seed, colour
+    worst_direction, vertical, cohesion, flow, step_deg, touch_tolerance, flatness, mend, parts, thickness, scan_bearing, up
         As the options of `pirca analyse`; see its help.
+    density, walls, seed, colour
+        As those options as well.
     fclib : path, optional
         File for the contact problem of one step, at the tilt `at_deg`: as the option of `pirca analyse`.
     record : path or list of paths, optional

@@ -9,7 +9,7 @@ use crate::model::{Support, Wall};
 use crate::shape::{Polyhedron, overlap_depth};
 
 /// Near pairs per block beyond which a wall is no wall but a tangle, whose search would fill the memory.
-const MOST_NEAR: usize = 300;
+pub const MOST_NEAR: usize = 300;
 /// Most work on overlaps, as a sum of (corners)^3 over the pairs; a second or so per 2e8. Two million pairs of boxes.
 const MOST_WORK: usize = 2_000_000_000;
 

@@ -8,7 +8,7 @@ use crate::exchange::closing::Face;
 use crate::exchange::fault::Fault;
 use crate::exchange::solid::{bent_faces, polyhedron};
 use crate::math::Vec3;
-use crate::shape::{Plane, Polyhedron};
+use crate::shape::{Plane, Polyhedron, corners_apart};
 
 /// Planes within the allowed flatness of their corners meet near these, unless they meet at a very sharp angle: corners that
 /// would move by so many times the flatness are refused.
@@ -69,7 +69,7 @@ pub fn flattened(
     if let Err(fault) = shape.validate(SOUND * size) {
         return refused(format!("with plane faces the solid is degenerate: {fault}"), "repair the block");
     }
-    let moved = farthest(&used, &shape.vertices).max(farthest(&shape.vertices, &used));
+    let moved = corners_apart(&used, &shape.vertices);
     if moved > MOST_MOVED * allowed {
         return refused(
             format!("making its faces plane would move a corner by {moved:.3e} m"),
@@ -77,10 +77,4 @@ pub fn flattened(
         );
     }
     Ok((shape, moved))
-}
-
-/// The farthest of some points from the nearest of others (m).
-fn farthest(of: &[Vec3], from: &[Vec3]) -> f64 {
-    let nearest = |p: &Vec3| from.iter().map(|q| (p - q).norm()).fold(f64::INFINITY, f64::min);
-    of.iter().map(nearest).fold(0.0, f64::max)
 }

@@ -4,6 +4,7 @@
 //! wholly inside or outside. Cells inside that make up a convex solid are put together again. The parts fill the solid exactly.
 
 use crate::exchange::closing::Face;
+use crate::exchange::solid::polyhedron;
 use crate::math::{Vec3, atan2};
 use crate::shape::{Frame, Plane, Polyhedron, convex_union, triangles};
 
@@ -23,8 +24,8 @@ struct Piece {
 
 /// The convex parts of a closed solid whose faces are plane, of a size (m); `None` where there is no such solid, or too many parts.
 pub fn convex_parts(vertices: &[Vec3], faces: &[Face], size: f64) -> Option<Vec<Polyhedron>> {
-    let surface: Vec<Piece> =
-        faces.iter().map(|face| pieces(vertices, face)).collect::<Option<Vec<_>>>()?.concat();
+    let whole = polyhedron(vertices, faces);
+    let surface = (0..faces.len()).map(|face| pieces(&whole, face)).collect::<Option<Vec<_>>>()?.concat();
     let used: Vec<Vec3> = surface.iter().flat_map(|piece| piece.corners.iter().copied()).collect();
     let (low, high) = Polyhedron { vertices: used, faces: Vec::new() }.bounds();
     let margin = Vec3::repeat(0.01 * size);
@@ -48,15 +49,14 @@ pub fn convex_parts(vertices: &[Vec3], faces: &[Face], size: f64) -> Option<Vec<
     }
     let parts = put_together(inside);
     let filled: f64 = parts.iter().map(Polyhedron::volume).sum();
-    let volume = volume(&surface);
+    let volume = whole.volume();
     (volume > 0.0 && (filled - volume).abs() <= FILLED * volume).then_some(parts)
 }
 
 /// A face as triangles, which a concave face needs as well.
-fn pieces(vertices: &[Vec3], face: &Face) -> Option<Vec<Piece>> {
-    let corners: Vec<Vec3> = face.corners.iter().map(|v| vertices[*v as usize]).collect();
-    let around = corners[1..].windows(2).map(|pair| (pair[0] - corners[0]).cross(&(pair[1] - corners[0])));
-    let plane = Plane::through(corners.iter().sum::<Vec3>() / corners.len() as f64, around.sum());
+fn pieces(whole: &Polyhedron, face: usize) -> Option<Vec<Piece>> {
+    let corners: Vec<Vec3> = whole.face_vertices(face).collect();
+    let plane = whole.face_plane(face);
     if !plane.offset.is_finite() {
         return None;
     }
@@ -116,11 +116,6 @@ fn encloses(surface: &[Piece], point: &Vec3) -> bool {
         2.0 * atan2(a.dot(&b.cross(&c)), below)
     };
     surface.iter().map(angle).sum::<f64>() > 2.0 * std::f64::consts::PI
-}
-
-fn volume(surface: &[Piece]) -> f64 {
-    let of = |piece: &Piece| piece.corners[0].dot(&piece.corners[1].cross(&piece.corners[2])) / 6.0;
-    surface.iter().map(of).sum()
 }
 
 /// Cells put together as long as two of them make up a convex solid.

@@ -106,8 +106,9 @@ pub struct ReadOptions {
 /// Whether a file states neither its unit nor its densities, by its ending and its beginning: OBJ, tables, and JSON of COMPAS.
 pub fn leaves_units_open(path: &Path) -> bool {
     let mut beginning = Vec::new();
-    let read = File::open(path).and_then(|file| file.take(BEGINNING).read_to_end(&mut beginning));
-    read.is_ok() && states_no_units(&path.display().to_string(), &beginning)
+    // What cannot be read is told when it is to be read.
+    let _ = File::open(path).and_then(|file| file.take(BEGINNING).read_to_end(&mut beginning));
+    states_no_units(&path.display().to_string(), &beginning)
 }
 
 /// The same by the file's name and its bytes, or its first ones.

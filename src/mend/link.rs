@@ -1,12 +1,9 @@
 //! Pairs of faces that are to be one plane: those that look at each other across a joint, and those of
 //! neighbours that lie flush in a face of the wall.
 
+use crate::contact::FACE_COSINE;
 use crate::mend::face::{Face, farthest};
 use crate::shape::{Frame, Hull, Polygon};
-
-/// Cosine of the largest angle between faces that belong together: 20 degrees, as in contact detection. What is further apart over its extent
-/// than the tolerance does not belong together, whatever its angle.
-const SAME_WAY: f64 = 0.939_692_620_785_908_4;
 
 /// Two faces (their numbers), and the area (m^2) on which they see each other; 0 where they lie flush.
 #[derive(Clone, Copy, Debug)]
@@ -32,9 +29,9 @@ pub fn links(faces: &[Face], near: &[(u32, u32)], within: f64) -> Vec<Link> {
     for pair in pairs {
         let (one, other) = (&faces[pair.0], &faces[pair.1]);
         let cosine = one.plane.normal.dot(&other.plane.normal);
-        if cosine >= SAME_WAY {
+        if cosine >= FACE_COSINE {
             same_way.push(pair);
-        } else if cosine <= -SAME_WAY
+        } else if cosine <= -FACE_COSINE
             && let Some((area, is_slit)) = shared_area(one, other, within)
         {
             links.push(Link { faces: pair, area, is_slit });

@@ -12,7 +12,7 @@ mod stone;
 
 pub use report::{Mended, Moved};
 
-use crate::contact::candidate_pairs_up_to;
+use crate::contact::{MOST_NEAR, candidate_pairs_up_to};
 use crate::mend::cut::cut_overlaps;
 use crate::mend::face::faces;
 use crate::mend::link::links;
@@ -21,8 +21,6 @@ use crate::mend::stone::rebuilt;
 use crate::model::Wall;
 use crate::shape::Polyhedron;
 
-/// Near pairs per block beyond which a wall is a tangle.
-const MOST_NEAR: usize = 300;
 /// Share of a block's size within which planes are the same and corners lie on them: rounding alone.
 pub(crate) const ROUNDING: f64 = 1e-9;
 

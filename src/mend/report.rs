@@ -2,9 +2,8 @@
 
 use crate::mend::face::{Face, farthest};
 use crate::mend::plane::Shared;
-use crate::mend::stone::moved;
 use crate::model::{Support, Wall};
-use crate::shape::Polyhedron;
+use crate::shape::{Polyhedron, corners_apart};
 
 /// What became of a stone.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
@@ -58,7 +57,7 @@ impl Mended {
         let stones = changed
             .map(|(block, (own, now))| Moved {
                 block,
-                moved_m: moved(&own.shape, now),
+                moved_m: corners_apart(&own.shape.vertices, &now.vertices),
                 volume_share: volumes[block].1 / volumes[block].0 - 1.0,
             })
             .collect();

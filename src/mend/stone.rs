@@ -1,6 +1,5 @@
 //! The stones behind their planes.
 
-use crate::math::Vec3;
 use crate::mend::ROUNDING;
 use crate::mend::face::{Face, farthest};
 use crate::model::Wall;
@@ -46,16 +45,4 @@ pub fn sound(shape: Polyhedron, of: &Polyhedron) -> Option<Polyhedron> {
     shape.validate(100.0 * ROUNDING * of.diameter()).ok()?;
     let (now, then) = (shape.volume(), of.volume());
     ((now - then).abs() <= MOST_CHANGED * then).then_some(shape)
-}
-
-/// How far (m) the corners of a shape are from those of another, at most.
-pub fn moved(from: &Polyhedron, to: &Polyhedron) -> f64 {
-    if from == to {
-        return 0.0;
-    }
-    let nearest = |corner: &Vec3, of: &Polyhedron| {
-        of.vertices.iter().map(|v| (v - corner).norm()).fold(f64::INFINITY, f64::min)
-    };
-    let one = to.vertices.iter().map(|corner| nearest(corner, from)).fold(0.0, f64::max);
-    from.vertices.iter().map(|corner| nearest(corner, to)).fold(one, f64::max)
 }

@@ -50,7 +50,7 @@ fn beyond([from, to]: [[f64; 2]; 2], point: [f64; 2]) -> f64 {
 }
 
 /// Twice the area of a triangle, positive where it goes to the left.
-fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+pub(super) fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 

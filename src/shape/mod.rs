@@ -18,6 +18,6 @@ pub use outline::{OutlineFault, Rows};
 pub use overlap::overlap_depth;
 pub use plane::{Frame, Plane};
 pub use polygon::{Moments, Polygon};
-pub use polyhedron::{MassProperties, Polyhedron, ShapeFault};
+pub use polyhedron::{MassProperties, Polyhedron, ShapeFault, corners_apart};
 pub use triangles::triangles;
 pub use union::convex_union;

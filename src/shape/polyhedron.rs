@@ -367,6 +367,15 @@ impl Polyhedron {
     }
 }
 
+/// How far (m) the farthest of some corners is from the nearest of others, whichever way (Hausdorff's distance).
+pub fn corners_apart(one: &[Vec3], other: &[Vec3]) -> f64 {
+    let farthest = |of: &[Vec3], from: &[Vec3]| {
+        let nearest = |p: &Vec3| from.iter().map(|q| (p - q).norm()).fold(f64::INFINITY, f64::min);
+        of.iter().map(nearest).fold(0.0, f64::max)
+    };
+    farthest(one, other).max(farthest(other, one))
+}
+
 /// Builds a closed solid from faces of a cut solid: adds the cap, and keeps only the vertices in use.
 fn close(vertices: &[Vec3], mut faces: Vec<Vec<u32>>) -> Option<Polyhedron> {
     // An edge used in one direction only borders the cap; the cap runs it the other way.

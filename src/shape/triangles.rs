@@ -1,5 +1,7 @@
 //! Polygons of any shape as triangles.
 
+use crate::shape::hull::turn;
+
 /// The triangles of a simple polygon, counter-clockwise, as numbers of its corners: ears are cut off one by one (Meisters 1975). Corners on a straight line are no
 /// fault. `None` of a polygon that crosses itself, or runs clockwise.
 ///
@@ -48,8 +50,7 @@ pub fn triangles(corners: &[[f64; 2]]) -> Option<Vec<[usize; 3]>> {
 
 /// Twice the area of a triangle, positive where it runs counter-clockwise.
 fn area(corners: &[[f64; 2]], [a, b, c]: [usize; 3]) -> f64 {
-    let [p, q, r] = [a, b, c].map(|k| corners[k]);
-    (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
+    turn(corners[a], corners[b], corners[c])
 }
 
 /// Its area over its longest side.

@@ -63,13 +63,8 @@ pub fn look(file: &WallFile, tolerance: Tolerance, path: &str) -> Result<Fit, Wa
         Tolerance::Length(length) => length,
     };
     let within = TOLD_WITHIN * size;
-    if touch > within {
-        faults.push(Fault::of(
-            "",
-            format!("--touch-tolerance is {}", length(touch)),
-            format!("at most {}, a tenth of a stone", length(within)),
-            "give a shorter one, or close the gaps in the file",
-        ));
+    if let Some(fault) = above_a_tenth("--touch-tolerance", touch, size, "or close the gaps in the file") {
+        faults.push(fault);
         return Err(faults);
     }
     let contact = contact::Settings {
@@ -78,12 +73,7 @@ pub fn look(file: &WallFile, tolerance: Tolerance, path: &str) -> Result<Fit, Wa
         ..standard
     };
     let Some(found) = survey(&file.wall, &contact, within) else {
-        faults.push(Fault::of(
-            "",
-            "the blocks are entangled: far too many of them overlap or nearly touch",
-            "blocks that touch their neighbours only",
-            "check the unit and whether blocks are there several times",
-        ));
+        faults.push(entangled());
         return Err(faults);
     };
     let mut deepest_first: Vec<&Pair> = found.overlaps.iter().collect();
@@ -114,6 +104,25 @@ pub fn look(file: &WallFile, tolerance: Tolerance, path: &str) -> Result<Fit, Wa
         deepest: found.deepest,
         warnings: told(file, &found, touch),
     })
+}
+
+/// The fault of a length (m) that was asked for by an option and is above a tenth of a stone of a size (m).
+pub(super) fn above_a_tenth(option: &str, asked: f64, size: f64, or: &str) -> Option<Fault> {
+    let most = TOLD_WITHIN * size;
+    (asked > most).then(|| {
+        let allowed = format!("at most {}, a tenth of a stone", length(most));
+        Fault::of("", format!("{option} is {}", length(asked)), allowed, format!("give a shorter one, {or}"))
+    })
+}
+
+/// The fault of a wall with too many near pairs to be looked over.
+pub(super) fn entangled() -> Fault {
+    Fault::of(
+        "",
+        "the blocks are entangled: far too many of them overlap or nearly touch",
+        "blocks that touch their neighbours only",
+        "check the unit and whether blocks are there several times",
+    )
 }
 
 fn floating(file: &WallFile, group: &[usize], found: &Survey) -> Fault {

@@ -2,10 +2,8 @@
 
 use crate::exchange::{Fault, WallFaults, WallFile};
 use crate::mend::{Mended, Moved, mend};
-use crate::study::meetings::{length, stone_size};
+use crate::study::meetings::{above_a_tenth, entangled, length, stone_size};
 
-/// Largest length of mending, as a share of a stone's size: beyond it stones would get another shape.
-const MOST: f64 = 0.1;
 /// Stones and pairs that are named.
 const NAMED: usize = 5;
 
@@ -14,26 +12,16 @@ const NAMED: usize = 5;
 /// # Errors
 /// A length above a tenth of a stone, and a wall too entangled to be looked over.
 pub fn mended(file: &WallFile, within: f64, path: &str) -> Result<(WallFile, Mended), WallFaults> {
-    let refused = |found: String, allowed: String, fix: &str| {
+    let refused = |fault: Fault| {
         let mut faults = WallFaults::new(path);
-        faults.push(Fault::of("", found, allowed, fix));
+        faults.push(fault);
         faults
     };
-    let most = MOST * stone_size(&file.wall);
-    if within > most {
-        return Err(refused(
-            format!("--mend is {}", length(within)),
-            format!("at most {}, a tenth of a stone", length(most)),
-            "give a shorter one: about twice what corners are off",
-        ));
+    let size = stone_size(&file.wall);
+    if let Some(fault) = above_a_tenth("--mend", within, size, "about twice what corners are off") {
+        return Err(refused(fault));
     }
-    let Some(done) = mend(&file.wall, within) else {
-        return Err(refused(
-            "the blocks are entangled: far too many of them overlap or nearly touch".to_owned(),
-            "blocks that touch their neighbours only".to_owned(),
-            "check the unit and whether blocks are there several times",
-        ));
-    };
+    let done = mend(&file.wall, within).ok_or_else(|| refused(entangled()))?;
     let mut file = WallFile { wall: done.wall.clone(), ..file.clone() };
     file.warnings.extend(words(&file, &done, within));
     Ok((file, done))

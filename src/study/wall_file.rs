@@ -73,9 +73,7 @@ impl WallFiles {
     fn states_units(&self, file: &str, path: &Path) -> bool {
         match self.bytes.get(file) {
             Some(bytes) => !states_no_units(file, bytes),
-            None => {
-                !leaves_units_open(path) && (path.is_file() || !file.to_ascii_lowercase().ends_with(".obj"))
-            }
+            None => !leaves_units_open(path),
         }
     }
 

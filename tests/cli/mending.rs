@@ -29,10 +29,16 @@ fn column(off: [f64; 2]) -> String {
     write_obj(&Wall { blocks })
 }
 
-/// The answer of `analyse` to such a column, and what it says on the side.
-fn analysed(off: [f64; 2], more: &[&str]) -> (Value, String) {
+/// A folder with such a column.
+fn with_column(off: [f64; 2]) -> Folder {
     let folder = Folder::new();
     fs::write(folder.path("wall.obj"), column(off)).expect("written");
+    folder
+}
+
+/// The answer of `analyse` to such a column, and what it says on the side.
+fn analysed(off: [f64; 2], more: &[&str]) -> (Value, String) {
+    let folder = with_column(off);
     let asked = [&["analyse", "wall.obj", "--phi-deg", "35", "--load", "lateral", "--json"], more].concat();
     let output = folder.pirca(&asked);
     assert!(output.status.success(), "{}", stderr(&output));
@@ -82,8 +88,7 @@ fn a_mended_wall_bears_what_the_sound_one_does_and_says_what_was_done() {
 
 #[test]
 fn a_length_of_mending_that_would_change_stones_is_refused() {
-    let folder = Folder::new();
-    fs::write(folder.path("wall.obj"), column([0.0, 0.0])).expect("written");
+    let folder = with_column([0.0, 0.0]);
     let output = folder.pirca(&["analyse", "wall.obj", "--phi-deg", "35", "--mend", "5cm"]);
     assert_eq!(output.status.code(), Some(3));
     let said = stderr(&output);
@@ -112,8 +117,7 @@ fn several_solvers_answer_in_one_call_and_are_set_beside_each_other() {
 
 #[test]
 fn an_elastic_solver_among_several_needs_a_stiffness() {
-    let folder = Folder::new();
-    fs::write(folder.path("wall.obj"), column([0.0, 0.0])).expect("written");
+    let folder = with_column([0.0, 0.0]);
     let output = folder.pirca(&["analyse", "wall.obj", "--phi-deg", "35", "--solver", "limit,implicit"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(
@@ -125,8 +129,7 @@ fn an_elastic_solver_among_several_needs_a_stiffness() {
 
 #[test]
 fn a_study_of_a_mended_wall_has_the_answer_of_the_wall() {
-    let folder = Folder::new();
-    fs::write(folder.path("wall.obj"), column([-1e-3, 1e-3])).expect("written");
+    let folder = with_column([-1e-3, 1e-3]);
     let told = |asked: &[&str]| -> Value {
         let output = folder.pirca(asked);
         assert!(output.status.success(), "{asked:?}: {}", stderr(&output));

@@ -107,92 +107,114 @@ impl Opinions {
 
 /// How opinions stand to each other; `stiffer` asks an elastic solver again with stiffer joints.
 fn verdict(all: &[Opinion], kn: f64, stiffer: &dyn Fn(SolverName) -> Answer) -> Verdict {
-    let falls = |own: &Opinion| own.answer.collapse_multiplier();
-    let kinds: Vec<&str> = all.iter().map(|own| own.answer.name()).collect();
-    if kinds.iter().any(|kind| *kind != kinds[0]) {
-        let said: Vec<String> =
-            all.iter().map(|own| format!("{} by {}", ended(&own.answer), own.solver.method())).collect();
-        let is_open = all.iter().any(|own| own.answer.undecided.is_some());
-        return Verdict {
-            is_explained: is_open,
-            words: match is_open {
-                true => format!(
-                    "the solvers end differently, as rigid blocks leave open which: {}",
-                    said.join(", ")
-                ),
-                false => format!(
-                    "the solvers contradict each other: {}; look at the joints: faces that are not one plane (--mend), gaps, wedges",
-                    said.join(", ")
-                ),
-            },
-        };
+    if let Some(verdict) = ends_differ(all) {
+        return verdict;
     }
-    let Some(most) = all.iter().filter_map(falls).reduce(f64::max) else {
-        return Verdict {
-            is_explained: true,
-            words: format!("all solvers say the same: {}", ended(&all[0].answer)),
-        };
+    let loads: Vec<(SolverName, f64)> =
+        all.iter().filter_map(|own| Some((own.solver, own.answer.collapse_multiplier()?))).collect();
+    let Some(most) = loads.iter().map(|(_, at)| *at).reduce(f64::max) else {
+        let words = format!("all solvers say the same: {}", ended(&all[0].answer));
+        return Verdict { is_explained: true, words };
     };
     let near = |a: f64, b: f64| (a - b).abs() <= ALIKE * most;
-    let rigid: Vec<(&Opinion, f64)> = all
-        .iter()
-        .filter(|own| !own.solver.is_elastic())
-        .filter_map(|own| Some((own, falls(own)?)))
-        .collect();
-    let elastic: Vec<(&Opinion, f64)> =
-        all.iter().filter(|own| own.solver.is_elastic()).filter_map(|own| Some((own, falls(own)?))).collect();
-    let (mut words, mut is_explained) = (Vec::new(), true);
-    let of = |solver: SolverName| rigid.iter().find(|(own, _)| own.solver == solver).map(|(_, at)| *at);
-    if let (Some(bound), Some(found)) = (of(SolverName::Limit), of(SolverName::Nonsmooth)) {
-        if near(bound, found) {
-            words.push(format!("rigid blocks fall at the same load by limit analysis and by contact dynamics ({bound:.4}, {found:.4})"));
-        } else if found < bound {
-            words.push(format!(
-                "contact dynamics, {found:.4}, is below limit analysis, {bound:.4}, as it may be: joints that slide do not dilate, and limit \
-                 analysis is an upper bound; take the lower one"
-            ));
-        } else {
-            is_explained = false;
-            words.push(format!("contact dynamics, {found:.4}, is above limit analysis, {bound:.4}, which is an upper bound: nothing explains that"));
-        }
+    let (elastic, rigid): (Vec<_>, Vec<_>) =
+        loads.iter().copied().partition(|(solver, _)| solver.is_elastic());
+    let findings = [
+        rigid_blocks(&rigid, &near),
+        elastic_joints(&elastic, &near),
+        softness(&rigid, &elastic, &near, kn, &|solver| stiffer(solver).collapse_multiplier()),
+    ];
+    let findings: Vec<Verdict> = findings.into_iter().flatten().collect();
+    if findings.is_empty() {
+        let ends: Vec<String> = loads.iter().map(|(_, at)| format!("{at:.4}")).collect();
+        let words = format!("collapse multipliers {}", ends.join(", "));
+        return Verdict { is_explained: true, words };
     }
-    if let [(_, a), (_, b)] = elastic[..]
-        && !near(a, b)
-    {
-        is_explained = false;
-        words
-            .push(format!("the two elastic solvers differ, {a:.4} and {b:.4}: the way to the limit matters"));
+    let words: Vec<&str> = findings.iter().map(|own| own.words.as_str()).collect();
+    Verdict { is_explained: findings.iter().all(|own| own.is_explained), words: words.join("; ") }
+}
+
+/// The verdict where the solvers end in different ways.
+fn ends_differ(all: &[Opinion]) -> Option<Verdict> {
+    if all.iter().all(|own| own.answer.name() == all[0].answer.name()) {
+        return None;
     }
-    let lowest_rigid = rigid.iter().map(|(_, at)| *at).reduce(f64::min);
-    if let (Some(rigid), Some((own, soft))) = (lowest_rigid, elastic.first()) {
-        if near(rigid, *soft) {
-            words.push(format!("elastic joints of kn {} change little ({soft:.4})", compact(kn)));
-        } else if *soft > rigid {
-            is_explained = false;
-            words.push(format!(
-                "elastic joints bear more, {soft:.4}, than rigid blocks, {rigid:.4}: nothing explains that"
-            ));
-        } else {
-            let stiff = stiffer(own.solver).collapse_multiplier();
-            let nearer = stiff.is_some_and(|stiff| rigid - stiff <= 0.5 * (rigid - soft));
-            is_explained &= nearer;
-            let stiff = stiff.map_or_else(|| "none".to_owned(), |stiff| format!("{stiff:.4}"));
-            words.push(match nearer {
-                true => format!(
-                    "elastic joints lean before they fall: {soft:.4} at kn {}, {stiff} at ten times as much, {rigid:.4} with rigid blocks",
-                    compact(kn)
-                ),
-                false => format!(
-                    "elastic joints fall at {soft:.4}, at ten times the stiffness at {stiff}, rigid blocks at {rigid:.4}: stiffness does not explain that"
-                ),
-            });
-        }
+    let said: Vec<String> =
+        all.iter().map(|own| format!("{} by {}", ended(&own.answer), own.solver.method())).collect();
+    let said = said.join(", ");
+    let is_explained = all.iter().any(|own| own.answer.undecided.is_some());
+    let words = match is_explained {
+        true => format!("the solvers end differently, as rigid blocks leave open which: {said}"),
+        false => format!(
+            "the solvers contradict each other: {said}; look at the joints: faces that are not one plane (--mend), gaps, wedges"
+        ),
+    };
+    Some(Verdict { is_explained, words })
+}
+
+/// Contact dynamics beside limit analysis, where both were asked.
+fn rigid_blocks(rigid: &[(SolverName, f64)], near: &dyn Fn(f64, f64) -> bool) -> Option<Verdict> {
+    let of = |solver: SolverName| rigid.iter().find(|(own, _)| *own == solver).map(|(_, at)| *at);
+    let (bound, found) = (of(SolverName::Limit)?, of(SolverName::Nonsmooth)?);
+    let words = if near(bound, found) {
+        format!(
+            "rigid blocks fall at the same load by limit analysis and by contact dynamics ({bound:.4}, {found:.4})"
+        )
+    } else if found < bound {
+        format!(
+            "contact dynamics, {found:.4}, is below limit analysis, {bound:.4}, as it may be: joints that slide do not dilate, and limit \
+             analysis is an upper bound; take the lower one"
+        )
+    } else {
+        format!(
+            "contact dynamics, {found:.4}, is above limit analysis, {bound:.4}, which is an upper bound: nothing explains that"
+        )
+    };
+    Some(Verdict { is_explained: near(bound, found) || found < bound, words })
+}
+
+/// The two elastic solvers beside each other, where they differ.
+fn elastic_joints(elastic: &[(SolverName, f64)], near: &dyn Fn(f64, f64) -> bool) -> Option<Verdict> {
+    let [(_, a), (_, b)] = elastic[..] else { return None };
+    (!near(a, b)).then(|| Verdict {
+        is_explained: false,
+        words: format!("the two elastic solvers differ, {a:.4} and {b:.4}: the way to the limit matters"),
+    })
+}
+
+/// Elastic joints beside rigid blocks, where both were asked.
+fn softness(
+    rigid: &[(SolverName, f64)],
+    elastic: &[(SolverName, f64)],
+    near: &dyn Fn(f64, f64) -> bool,
+    kn: f64,
+    stiffer: &dyn Fn(SolverName) -> Option<f64>,
+) -> Option<Verdict> {
+    let rigid = rigid.iter().map(|(_, at)| *at).reduce(f64::min)?;
+    let (solver, soft) = *elastic.first()?;
+    let kn = compact(kn);
+    if near(rigid, soft) {
+        let words = format!("elastic joints of kn {kn} change little ({soft:.4})");
+        return Some(Verdict { is_explained: true, words });
     }
-    if words.is_empty() {
-        let ends = all.iter().filter_map(falls).map(|at| format!("{at:.4}"));
-        words.push(format!("collapse multipliers {}", ends.collect::<Vec<_>>().join(", ")));
+    if soft > rigid {
+        let words = format!(
+            "elastic joints bear more, {soft:.4}, than rigid blocks, {rigid:.4}: nothing explains that"
+        );
+        return Some(Verdict { is_explained: false, words });
     }
-    Verdict { is_explained, words: words.join("; ") }
+    let stiff = stiffer(solver);
+    let is_explained = stiff.is_some_and(|stiff| rigid - stiff <= 0.5 * (rigid - soft));
+    let stiff = stiff.map_or_else(|| "none".to_owned(), |stiff| format!("{stiff:.4}"));
+    let words = match is_explained {
+        true => format!(
+            "elastic joints lean before they fall: {soft:.4} at kn {kn}, {stiff} at ten times as much, {rigid:.4} with rigid blocks"
+        ),
+        false => format!(
+            "elastic joints fall at {soft:.4}, at ten times the stiffness at {stiff}, rigid blocks at {rigid:.4}: stiffness does not explain that"
+        ),
+    };
+    Some(Verdict { is_explained, words })
 }
 
 /// How a wall ended, in two words.

@@ -104,11 +104,11 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
     if let Some(folder) = &arguments.study {
         object["study"] = json!(folder);
     }
-    let mut text = answer.text(arguments, &file, &fit, seconds);
-    text += &others.as_ref().map_or_else(String::new, |others| others.text(arguments));
     if let Some(others) = &others {
         object["opinions"] = others.object();
     }
+    let mut text = answer.text(arguments, &file, &fit, seconds);
+    text += &others.as_ref().map_or_else(String::new, |others| others.text(arguments));
     text += &arguments.study.as_ref().map_or_else(String::new, |folder| {
         format!("  the same question as a study written to {0}; next: pirca run {0}\n", folder.display())
     });
@@ -210,7 +210,7 @@ fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
         return Err(Failure::Usage("--load base-motion takes one solver: ask for each in turn".to_owned()));
     }
     // A file that is not there is told as such.
-    let states_units = !is_obj(arguments) && arguments.wall.is_file() && !leaves_units_open(&arguments.wall);
+    let states_units = arguments.wall.is_file() && !leaves_units_open(&arguments.wall);
     if states_units && (arguments.unit.is_some() || arguments.density_kg_per_m3.is_some()) {
         return Err(Failure::Usage(
             "--unit and --density-kg-per-m3 are for files that state neither (OBJ, COMPAS); a wall.json states both itself"
