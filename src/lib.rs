@@ -100,7 +100,8 @@
 //! | [`motion`] | ground motions: records read, generated, measured |
 //! | [`law`] | constitutive laws: normal laws, Coulomb, weakening, contact of spheres, damping |
 //! | [`model`] | the nouns: block, wall, cell, clump of spheres, outcome |
-//! | [`exchange`] | walls from and to other programs: wall.json, OBJ; names their faults |
+//! | [`face`] | outlines of stones as polygons that share the lines of their joints |
+//! | [`exchange`] | walls from and to other programs, drawings and pictures; names their faults |
 //! | [`render`] | numbers and tables as text, CSV, charts, documents, pictures of walls, VTU, glTF; knows no verb and no study |
 //! | [`contact`] | broad phase, separating axes, patches, sub-contacts |
 //! | [`mend`] | joints made planes in a wall that was measured |
@@ -125,6 +126,7 @@ pub mod contact;
 pub mod critic;
 pub mod ensemble;
 pub mod exchange;
+pub mod face;
 pub mod generate;
 pub mod homogenise;
 pub mod interrupt;

@@ -87,6 +87,9 @@ def analyse(
     mend: str | None = None,
     parts: bool = False,
     thickness: str | None = None,
+    pixel: str | None = None,
+    width: str | None = None,
+    section: bool = False,
     scan_bearing: str | None = None,
     up: str | None = None,
     density: Known | None = None,
@@ -113,9 +116,9 @@ def analyse(
     Parameters
     ----------
     wall : path, Wall, or list of blocks
-        A `wall.json` or `.obj` file; a `pirca.Wall`; or convex blocks, each a pair (vertices, faces), a trimesh or COMPAS mesh
-        (anything with `vertices` and `faces`, or `to_vertices_and_faces()`), a `pirca.Block`, or a mapping as in `wall.json`. They
-        are numbered from 0 in the order of the list, or by their own ids. Axes: z up.
+        A file or a folder that `pirca analyse` reads; a `pirca.Wall`; or convex blocks, each a pair (vertices, faces), a
+        trimesh or COMPAS mesh (anything with `vertices` and `faces`, or `to_vertices_and_faces()`), a `pirca.Block`, or a
+        mapping as in `wall.json`. They are numbered from 0 in the order of the list, or by their own ids. Axes: z up.
     phi_deg : float, (low, high) or str
         Friction angle of the joints (deg), or what is known of it: a range, or "normal(34,2)".
     fixed : collection of int
@@ -134,7 +137,9 @@ def analyse(
         Weights (N) on blocks, and ways (m) that supports go down, by the id of the block.
     kn, ks : optional
         Normal and shear stiffness of the joints per area (Pa/m); ks is kn / 2 without it.
-    worst_direction, vertical, cohesion, flow, step_deg, touch_tolerance, flatness, mend, parts, thickness, scan_bearing, up
+    worst_direction, vertical, cohesion, flow, step_deg, touch_tolerance, flatness, mend, parts, thickness
+        As the options of `pirca analyse`; see its help.
+    pixel, width, section, scan_bearing, up
         As the options of `pirca analyse`; see its help.
     density, walls, seed, colour
         As those options as well.
@@ -192,6 +197,9 @@ def analyse(
         "mend": mend,
         "parts": parts,
         "thickness": thickness,
+        "pixel": pixel,
+        "width": width,
+        "section": section,
         "scan_bearing": scan_bearing,
         "up": up,
         "density": density,

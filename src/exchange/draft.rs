@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::exchange::fault::{Fault, WallFaults};
 use crate::exchange::mended::Mended;
-use crate::exchange::scan::{scanned, stated};
+use crate::exchange::scan::{hulled, scanned, stated};
 use crate::exchange::solid::{diagonal, divided, solid};
 use crate::exchange::{ReadOptions, Unit};
 use crate::math::{Mat3, Vec3, cos, sin};
@@ -77,6 +77,19 @@ pub struct WallFile {
     pub names: Vec<String>,
     /// What a careful reader would like to know.
     pub warnings: Vec<String>,
+    /// What was drawn, where the file shows the face of the wall.
+    pub drawn: Option<Drawn>,
+}
+
+/// What a drawing or a picture shows of a wall: its face in x and z, or its section in y and z (m).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawn {
+    /// Whether it is a section.
+    pub section: bool,
+    /// The outlines before their joints were closed, by block.
+    pub outlines: Vec<Vec<[f64; 2]>>,
+    /// Where a picture lies: its left, lower, right and upper rim; `None` of a drawing.
+    pub frame: Option<[f64; 4]>,
 }
 
 impl WallFile {
@@ -124,8 +137,13 @@ pub fn build(
     groups(&drafts, &mut faults, &mut warnings);
     let mut mended = Mended::default();
     let mut next_id = drafts.iter().filter_map(|draft| draft.id).max().map_or(0, |id| id.saturating_add(1));
-    let mut file =
-        WallFile { wall: Wall::default(), ids: Vec::new(), names: Vec::new(), warnings: Vec::new() };
+    let mut file = WallFile {
+        wall: Wall::default(),
+        ids: Vec::new(),
+        names: Vec::new(),
+        warnings: Vec::new(),
+        drawn: None,
+    };
     for draft in drafts.into_iter().filter(|draft| draft.readable) {
         let line = draft.line;
         let found = match checked(&draft, unit, options, &mut mended, &mut warnings) {
@@ -148,7 +166,7 @@ pub fn build(
             faults.push(fault.at(line, 0));
         }
     }
-    if options.scan_bearing.is_some() {
+    if options.scan_bearing.is_some() || options.any_shape {
         lower(&mut file.wall);
     }
     warnings.extend(mended.told(options.flatness));
@@ -263,7 +281,9 @@ fn checked(
         draft.vertices.iter().map(|v| turn.map_or(in_metres(v), |t| t * in_metres(v))).collect();
     let bearing = options.scan_bearing.filter(|_| !draft.fixed);
     let mut faults = density(draft);
-    let mut numbers = counts(draft, if bearing.is_some() { MOST_SCANNED } else { MOST_VERTICES });
+    let is_mesh = options.any_shape && !draft.fixed;
+    let mut numbers =
+        counts(draft, if bearing.is_some() || is_mesh { MOST_SCANNED } else { MOST_VERTICES }, is_mesh);
     numbers.extend(coordinates(draft, &vertices));
     let (faces, outside) = indices(draft);
     numbers.extend(outside);
@@ -282,7 +302,12 @@ fn checked(
         let scan = turn.map_or(scan, |turn| scan.mapped(&turn));
         return Ok(vec![block(draft, stated(&draft.name, &vertices, &faces)?, Some(scan))]);
     }
-    let solid = solid(&draft.name, &vertices, &faces, options.flatness);
+    // What is a hull anyway need not be a solid with few corners.
+    let solid = if is_mesh && faces.len() > MOST_VERTICES {
+        Err(Vec::new())
+    } else {
+        solid(&draft.name, &vertices, &faces, options.flatness)
+    };
     if let (Err(_), true, true) = (&solid, options.parts, faults.is_empty())
         && let Some(parts) = divided(&draft.name, &vertices, &faces)
     {
@@ -292,6 +317,11 @@ fn checked(
             .into_iter()
             .map(|part| Block { group: group.clone(), ..block(draft, part, None) })
             .collect());
+    }
+    if let (Err(_), true, true) = (&solid, is_mesh, faults.is_empty()) {
+        let stone = hulled(&draft.name, &vertices, &faces, options.flatness)?;
+        warnings.push(format!("{}: {}", draft.name, stone.told()));
+        return Ok(vec![block(draft, stone.hull, stone.holds)]);
     }
     let (Ok(solid), true) = (&solid, faults.is_empty()) else {
         faults.extend(solid.err().unwrap_or_default());
@@ -349,9 +379,13 @@ fn density(draft: &Draft) -> Vec<Fault> {
     }
 }
 
-fn counts(draft: &Draft, most: usize) -> Vec<Fault> {
+/// Too few or too many vertices and faces; a mesh of triangles has twice as many faces, and a cloud of points none.
+fn counts(draft: &Draft, most: usize, is_mesh: bool) -> Vec<Fault> {
     let mut faults = Vec::new();
     for (n, what) in [(draft.vertices.len(), "vertices"), (draft.faces.len(), "faces")] {
+        if is_mesh && what == "faces" && (n == 0 || (most..=2 * most).contains(&n)) {
+            continue;
+        }
         if !(4..=most).contains(&n) {
             let fix = if n < 4 { "a solid needs at least 4" } else { "simplify the block's surface" };
             faults.push(Fault::of(&draft.name, format!("{n} {what}"), format!("4 to {most} {what}"), fix));

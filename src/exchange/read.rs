@@ -5,11 +5,15 @@ use std::io::Read;
 use std::path::Path;
 
 use crate::exchange::draft::WallFile;
+use crate::exchange::drawing::{Drawing, Size, built, read_dxf, read_geojson, read_picture, read_svg};
 use crate::exchange::fault::{Fault, WallFaults};
+use crate::exchange::format::{Format, WALL_FILES};
+use crate::exchange::mesh::{Coded, read_folder, read_mesh};
 use crate::exchange::read_compas::{compas, read_compas};
 use crate::exchange::read_json::read_json;
 use crate::exchange::read_obj::read_obj;
-use crate::exchange::read_table::read_table;
+use crate::exchange::read_table::{numbered, read_rows, read_table};
+use crate::exchange::sheet::sheet_rows;
 use crate::math::Vec3;
 
 /// Largest file that is read (bytes).
@@ -58,6 +62,8 @@ impl Unit {
 /// The axis of a file that points up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Up {
+    /// The first one: the file's x, y, z become z, x, y of the wall.
+    X,
     /// The second one, as programs for pictures have it: the file's x, y, z become x, z, -y of the wall.
     Y,
     /// The third one.
@@ -66,9 +72,15 @@ pub enum Up {
 }
 
 impl Up {
+    /// By its name in files: `x`, `y` or `z`.
+    pub fn named(name: &str) -> Option<Up> {
+        [("x", Up::X), ("y", Up::Y), ("z", Up::Z)].iter().find(|(own, _)| *own == name).map(|(_, up)| *up)
+    }
+
     /// A point of the file in the wall's axes.
     pub fn of_wall(&self, point: &Vec3) -> Vec3 {
         match self {
+            Up::X => Vec3::new(point.y, point.z, point.x),
             Up::Y => Vec3::new(point.x, -point.z, point.y),
             Up::Z => *point,
         }
@@ -91,10 +103,20 @@ pub struct ReadOptions {
     /// The objects of an OBJ file are scans of stones, of any shape: how far (m) above its lowest point a stone bears. Each touches others as
     /// its hull, and weighs as its scan. A file without fixed blocks is lowered onto the plane z = 0.
     pub scan_bearing: Option<f64>,
+    /// Blocks that are not convex become their hulls, and weigh as they did; so do those of meshes (`.ply`, `.stl`) always.
+    pub any_shape: bool,
     /// Concave blocks become convex parts of one stone, which fill it exactly; without it they are refused.
     pub parts: bool,
-    /// How deep (m) stones of a table are of which it says nothing.
+    /// How deep (m) stones of an elevation are of which it says nothing.
     pub thickness: Option<f64>,
+    /// How large a pixel of a picture is (m).
+    pub pixel: Option<f64>,
+    /// How long all stones of a picture or of a drawing are together (m).
+    pub width: Option<f64>,
+    /// A drawing or a picture shows the wall in section, its thickness to the right: a slice as long as `thickness`, or 1 m.
+    pub section: bool,
+    /// Up to which width (m) the joints of a picture or of a drawing are closed.
+    pub closing: Option<f64>,
     /// Blocks that are fixed besides those of which the file says so, by their ids.
     pub fixed: Vec<u64>,
     /// By how much all is turned about the z axis (rad), counter-clockwise seen from above.
@@ -113,27 +135,25 @@ pub fn leaves_units_open(path: &Path) -> bool {
 
 /// The same by the file's name and its bytes, or its first ones.
 pub fn states_no_units(name: &str, bytes: &[u8]) -> bool {
-    match ending(name) {
-        Some(Ending::Obj | Ending::Csv) => true,
-        Some(Ending::Json) => {
+    match Format::of(name) {
+        Some(Format::Json) => {
             let beginning = &bytes[..bytes.len().min(BEGINNING as usize)];
             compas(&String::from_utf8_lossy(beginning)).is_some()
         }
+        Some(_) => true,
         None => false,
     }
 }
 
-/// Whether a file is a table of the stones of an elevation, which stand on the platform, by its ending.
-pub fn is_elevation(path: &Path) -> bool {
-    matches!(ending(&path.display().to_string()), Some(Ending::Csv))
-}
-
-/// Reads a wall from a `.json`, `.obj` or `.csv` file.
+/// Reads a wall from a file, whose format its ending tells ([`Format`]), or from a folder with a mesh for each stone.
 ///
 /// # Errors
 /// Everything that is wrong with the file, block by block; see [`WallFaults`].
 pub fn read_wall(path: &Path, options: &ReadOptions) -> Result<WallFile, WallFaults> {
     let name = path.display().to_string();
+    if path.is_dir() {
+        return read_folder(path, options).map_err(|faults| WallFaults { file: name, ..faults });
+    }
     read_wall_bytes(&name, &wall_bytes(path, &name)?, options)
 }
 
@@ -142,9 +162,9 @@ pub fn read_wall(path: &Path, options: &ReadOptions) -> Result<WallFile, WallFau
 /// # Errors
 /// The fault of a file that cannot be one, or cannot be read.
 pub fn wall_bytes(path: &Path, name: &str) -> Result<Vec<u8>, WallFaults> {
-    if ending(name).is_none() {
+    if Format::of(name).is_none() {
         let found = "the ending of the file says no format that is read";
-        return refused(name, Fault::of("", found, ".json, .obj or .csv", "rename or convert the file"));
+        return refused(name, Fault::of("", found, WALL_FILES, "rename or convert the file"));
     }
     let mut bytes = Vec::new();
     // One byte more than allowed tells a file that is too large, also where its length cannot be asked for.
@@ -166,34 +186,37 @@ pub fn wall_bytes(path: &Path, name: &str) -> Result<Vec<u8>, WallFaults> {
 /// # Errors
 /// As [`read_wall`].
 pub fn read_wall_bytes(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<WallFile, WallFaults> {
-    let Ok(text) = std::str::from_utf8(bytes) else {
-        return refused(name, Fault::of("", "the file is no text", "UTF-8 text", "save it as UTF-8"));
-    };
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let read = match ending(name) {
-        Some(Ending::Obj) => read_obj(text, options),
-        Some(Ending::Csv) => read_table(text, options),
-        Some(Ending::Json) | None => match compas(text) {
-            Some(kind) => read_compas(kind, text, options),
-            None => read_json(text, options),
-        },
+    let of_rows =
+        |(rows, warnings): (Vec<Vec<String>>, Vec<String>)| read_rows(&numbered(rows), warnings, options);
+    let drawn = |drawing: Drawing| built(drawing, Size::OfUnits, options);
+    let read = match Format::of(name) {
+        Some(Format::Picture) => {
+            read_picture(bytes).and_then(|picture| built(picture, Size::OfPixels, options))
+        }
+        Some(Format::Dxf) => read_dxf(bytes).and_then(drawn),
+        Some(Format::Xlsx) => sheet_rows(bytes).and_then(of_rows),
+        Some(Format::Ply) => read_mesh(bytes, Coded::Ply, options),
+        Some(Format::Stl) => read_mesh(bytes, Coded::Stl, options),
+        format => {
+            let Ok(text) = std::str::from_utf8(bytes) else {
+                return refused(name, Fault::of("", "the file is no text", "UTF-8 text", "save it as UTF-8"));
+            };
+            of_text(format, text.strip_prefix('\u{feff}').unwrap_or(text), options)
+        }
     };
     read.map_err(|faults| WallFaults { file: name.to_owned(), ..faults })
 }
 
-/// The formats, by the ending of the file.
-enum Ending {
-    Json,
-    Obj,
-    Csv,
-}
-
-fn ending(name: &str) -> Option<Ending> {
-    match Path::new(name).extension()?.to_str()?.to_ascii_lowercase().as_str() {
-        "json" => Some(Ending::Json),
-        "obj" => Some(Ending::Obj),
-        "csv" => Some(Ending::Csv),
-        _ => None,
+fn of_text(format: Option<Format>, text: &str, options: &ReadOptions) -> Result<WallFile, WallFaults> {
+    match (format, compas(text)) {
+        (Some(Format::Obj), _) => read_obj(text, options),
+        (Some(Format::Csv), _) => read_table(text, options),
+        (Some(Format::Svg), _) => read_svg(text).and_then(|drawing| built(drawing, Size::OfUnits, options)),
+        (Some(Format::GeoJson), _) => {
+            read_geojson(text).and_then(|drawing| built(drawing, Size::OfUnits, options))
+        }
+        (_, Some(kind)) => read_compas(kind, text, options),
+        (_, None) => read_json(text, options),
     }
 }
 

@@ -38,6 +38,25 @@ const IGNORED: [&str; 11] = ["vn", "vt", "vp", "s", "l", "p", "mtllib", "usemtl"
 /// assert_eq!(read_obj(&write_obj(&wall), &ReadOptions::default()).unwrap().wall, wall);
 /// ```
 pub fn read_obj(text: &str, options: &ReadOptions) -> Result<WallFile, WallFaults> {
+    let read = obj_drafts(text, options)?;
+    build(read.drafts, options.unit.unwrap_or(Unit::Metre), options, read.faults, read.warnings)
+}
+
+/// The objects of a file, before anything about them is believed.
+pub struct ObjDrafts {
+    /// The objects.
+    pub drafts: Vec<Draft>,
+    /// What is wrong with their text.
+    pub faults: WallFaults,
+    /// What was assumed of them.
+    pub warnings: Vec<String>,
+}
+
+/// The objects in the text of an OBJ file; see [`read_obj`].
+///
+/// # Errors
+/// An empty text.
+pub fn obj_drafts(text: &str, options: &ReadOptions) -> Result<ObjDrafts, WallFaults> {
     let mut reader = Reader {
         faults: WallFaults::new("wall.obj"),
         vertices: Vec::new(),
@@ -45,7 +64,7 @@ pub fn read_obj(text: &str, options: &ReadOptions) -> Result<WallFile, WallFault
         by_groups: !text.lines().any(|line| line.split_whitespace().next() == Some("o")),
         place: 0,
         noted_density: None,
-        most: if options.scan_bearing.is_some() { MOST_SCANNED } else { MOST_VERTICES },
+        most: if options.scan_bearing.is_some() || options.any_shape { MOST_SCANNED } else { MOST_VERTICES },
     };
     if text.trim().is_empty() {
         let fix = "see `pirca analyse --help`";
@@ -69,7 +88,7 @@ pub fn read_obj(text: &str, options: &ReadOptions) -> Result<WallFile, WallFault
             break;
         }
     }
-    reader.into_wall(options)
+    Ok(reader.into_drafts(options))
 }
 
 /// One object of the file.
@@ -265,7 +284,7 @@ impl Reader {
     }
 
     /// The objects as drafts, each with its own vertices in the order of the file.
-    fn into_wall(self, options: &ReadOptions) -> Result<WallFile, WallFaults> {
+    fn into_drafts(self, options: &ReadOptions) -> ObjDrafts {
         let Reader { faults, vertices, mut objects, .. } = self;
         objects.retain(Object::is_block);
         let allowed = options.flatness.map_or(0.0, |m| m * options.unit.unwrap_or_default().per_metre());
@@ -301,7 +320,7 @@ impl Reader {
             let rest = if fixed.len() > 5 { format!(" and {} more", fixed.len() - 5) } else { String::new() };
             warnings.push(format!("fixed by their names: {shown}{rest}"));
         }
-        build(drafts, options.unit.unwrap_or(Unit::Metre), options, faults, warnings)
+        ObjDrafts { drafts, faults, warnings }
     }
 }
 

@@ -37,10 +37,24 @@ struct Column {
 /// The wall in such a table. Stones are boxes: x (left end) and z (underside) in the face, the depth behind it along y, turned in the face by their
 /// dip about the middle, counter-clockwise seen from the front. The lowest stone stands on the platform, the plane z = 0.
 pub(super) fn read_table(text: &str, options: &ReadOptions) -> Result<WallFile, WallFaults> {
-    let mut faults = WallFaults::new("elevation.csv");
     let separator = separator(text);
-    let lines: Vec<(usize, Vec<String>)> =
-        text.lines().enumerate().map(|(at, line)| (at + 1, cells(line, separator))).collect();
+    let plain = |cell: String| if separator == ',' { cell } else { cell.replace(',', ".") };
+    let rows = text.lines().map(|line| cells(line, separator).into_iter().map(plain).collect());
+    read_rows(&numbered(rows), Vec::new(), options)
+}
+
+/// Rows with their numbers, from 1.
+pub(super) fn numbered(rows: impl IntoIterator<Item = Vec<String>>) -> Vec<(usize, Vec<String>)> {
+    (1..).zip(rows).collect()
+}
+
+/// The wall in the rows of a table, with decimal points.
+pub(super) fn read_rows(
+    lines: &[(usize, Vec<String>)],
+    noted: Vec<String>,
+    options: &ReadOptions,
+) -> Result<WallFile, WallFaults> {
+    let mut faults = WallFaults::new("elevation.csv");
     let head = lines.iter().take(MOST_TITLES).find_map(|(at, cells)| Some((*at, head(cells)?)));
     let Some((at, columns)) = head else {
         let fix = "name the columns in the first line, with their units";
@@ -52,7 +66,7 @@ pub(super) fn read_table(text: &str, options: &ReadOptions) -> Result<WallFile, 
     let (mut drafts, mut remarks, mut unstated) = (Vec::<Draft>::new(), 0, 0);
     for (line, cells) in lines.iter().filter(|(line, _)| *line > at) {
         let cell = |what: &str| place(what).and_then(|at| cells.get(at)).map_or("", |cell| cell.trim());
-        let number = |what: &str| written(cell(what), separator);
+        let number = |what: &str| written(cell(what));
         if number("x").or(number("z")).is_none() {
             // An empty line, a title of a course, a sum: nothing that lies somewhere.
             remarks += usize::from(cells.iter().any(|cell| !cell.trim().is_empty()));
@@ -125,7 +139,8 @@ pub(super) fn read_table(text: &str, options: &ReadOptions) -> Result<WallFile, 
     }
     let lowest = drafts.iter().flat_map(|draft| &draft.vertices).map(|v| v.z).fold(f64::INFINITY, f64::min);
     drafts.iter_mut().flat_map(|draft| &mut draft.vertices).for_each(|v| v.z -= lowest);
-    let mut warnings: Vec<String> = assumed_density(unstated).into_iter().collect();
+    let mut warnings = noted;
+    warnings.extend(assumed_density(unstated));
     if remarks > 0 {
         warnings.push(format!("{remarks} line(s) of the table are no stones and were passed over"));
     }
@@ -200,10 +215,8 @@ fn column(cell: &str) -> Option<Column> {
     Some(Column { what, unit })
 }
 
-/// A number as people write it: with a decimal comma where commas do not part cells.
-fn written(cell: &str, separator: char) -> Option<f64> {
-    let plain = if separator == ',' { cell.to_owned() } else { cell.replace(',', ".") };
-    plain.parse().ok().filter(|number: &f64| number.is_finite())
+fn written(cell: &str) -> Option<f64> {
+    cell.parse().ok().filter(|number: &f64| number.is_finite())
 }
 
 /// The corners and faces of a stone that lies in the face at x and z (m), turned about its middle.

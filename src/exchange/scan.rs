@@ -11,7 +11,7 @@ use parry3d_f64::transformation::try_convex_hull;
 
 use crate::exchange::closing::{close, edges};
 use crate::exchange::fault::Fault;
-use crate::exchange::solid::{FLATNESS, diagonal};
+use crate::exchange::solid::{FLATNESS, diagonal, solid};
 use crate::math::{Vec3, cos, sin};
 use crate::shape::{MassProperties, Polyhedron};
 
@@ -52,6 +52,71 @@ pub fn scanned(
     Ok(Scanned { hull: hull.ok_or_else(|| no_hull(block, bearing))?, holds })
 }
 
+/// A stone of any shape as its hull.
+#[derive(Clone, Debug)]
+pub struct Hulled {
+    /// The hull (m).
+    pub hull: Polyhedron,
+    /// What the mesh holds, at unit density; `None` where it does not close.
+    pub holds: Option<MassProperties>,
+}
+
+impl Hulled {
+    /// What became of the stone.
+    pub fn told(&self) -> String {
+        match &self.holds {
+            Some(holds) => format!(
+                "touches as its convex hull, which has {:.1} % more volume, and weighs as its mesh",
+                100.0 * (self.hull.volume() / holds.volume - 1.0)
+            ),
+            None => "its surface does not close: touches and weighs as its convex hull".to_owned(),
+        }
+    }
+}
+
+/// The hull of a mesh with these vertices (m) and faces, or of a cloud of points, which has none; faces that lie within `flatness` (m) of one
+/// plane are one.
+///
+/// # Errors
+/// Points that lie in a plane.
+pub fn hulled(
+    block: &str,
+    vertices: &[Vec3],
+    faces: &[Vec<u32>],
+    flatness: Option<f64>,
+) -> Result<Hulled, Vec<Fault>> {
+    let size = diagonal(vertices);
+    let closed = close(block, vertices, faces, size, FLATNESS * size).ok();
+    let holds = closed.map(|closed| {
+        let faces = closed.faces.into_iter().map(|face| face.corners).collect();
+        Polyhedron { vertices: closed.vertices, faces }.mass_properties()
+    });
+    let holds = holds.map(|own| if own.volume < 0.0 { own.times(-1.0) } else { own });
+    let whole = triangulated(vertices);
+    let merged = |(vertices, triangles): &(Vec<Vec3>, Vec<Vec<u32>>)| {
+        solid(block, vertices, triangles, flatness).ok().map(|solid| solid.shape)
+    };
+    // A hull with more corners than a block may have reaches as far as the stone in many directions.
+    let hull = whole.as_ref().and_then(merged).or_else(|| {
+        let fewer = triangulated(&farthest(vertices, std::iter::empty()))?;
+        let plain = || {
+            let (vertices, faces) = fewer.clone();
+            Some(Polyhedron { vertices, faces }).filter(|hull| hull.validate(FLATNESS * size).is_ok())
+        };
+        merged(&fewer).or_else(plain)
+    });
+    let refused = || {
+        let fix = "look at the file: a stone has a volume";
+        vec![Fault::of(
+            block,
+            "its points have no convex hull: they lie in a plane or on a line",
+            "a body",
+            fix,
+        )]
+    };
+    Ok(Hulled { hull: hull.ok_or_else(refused)?, holds })
+}
+
 /// The hull of a scan as a file has it: no faces are put together, see [`hull`].
 ///
 /// # Errors
@@ -82,13 +147,17 @@ fn raised(vertices: &[Vec3], bearing: f64) -> Vec<Vec3> {
     let bearing: Vec<Vec3> = all.iter().filter(|v| v.z == low).copied().collect();
     let around = (0..AROUND).map(|k| {
         let angle = std::f64::consts::TAU * k as f64 / AROUND as f64;
-        (Vec3::new(cos(angle), sin(angle), 0.0), &bearing)
+        (Vec3::new(cos(angle), sin(angle), 0.0), &bearing[..])
     });
-    let farthest = |(direction, points): (Vec3, &Vec<Vec3>)| {
+    farthest(&all, around)
+}
+
+/// Of points the farthest in every direction, and of others those along directions of their own.
+fn farthest<'p>(all: &'p [Vec3], others: impl Iterator<Item = (Vec3, &'p [Vec3])>) -> Vec<Vec3> {
+    let last = |(direction, points): (Vec3, &[Vec3])| {
         points.iter().copied().max_by(|a, b| a.dot(&direction).total_cmp(&b.dot(&direction)))
     };
-    let mut kept: Vec<Vec3> =
-        directions().map(|way| (way, &all)).chain(around).filter_map(farthest).collect();
+    let mut kept: Vec<Vec3> = directions().map(|way| (way, all)).chain(others).filter_map(last).collect();
     kept.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
     kept.dedup();
     kept
@@ -107,19 +176,24 @@ fn directions() -> impl Iterator<Item = Vec3> {
 /// The hull: triangles, and one face of all that lie lowest. `None` where none does, or where the points lie in a plane. Faces that are
 /// nearly in a plane stay apart: put together with what bears, they would tilt it.
 fn hull(points: &[Vec3]) -> Option<Polyhedron> {
-    let points: Vec<Vector> = points.iter().map(|v| Vector::new(v.x, v.y, v.z)).collect();
-    let (corners, triangles) = try_convex_hull(&points).ok()?;
-    let vertices: Vec<Vec3> = corners.iter().map(|v| Vec3::new(v.x, v.y, v.z)).collect();
+    let (vertices, triangles) = triangulated(points)?;
     let low = vertices.iter().map(|v| v.z).fold(f64::INFINITY, f64::min);
-    let is_low = |triangle: &[u32; 3]| triangle.iter().all(|&v| vertices[v as usize].z == low);
-    let (foot, others): (Vec<[u32; 3]>, Vec<[u32; 3]>) = triangles.into_iter().partition(is_low);
-    let mut faces = vec![around(&foot)?];
-    faces.extend(others.iter().map(|triangle| triangle.to_vec()));
+    let is_low = |triangle: &Vec<u32>| triangle.iter().all(|&v| vertices[v as usize].z == low);
+    let (foot, others): (Vec<Vec<u32>>, Vec<Vec<u32>>) = triangles.into_iter().partition(is_low);
+    let faces = std::iter::once(around(&foot)?).chain(others).collect();
     Some(Polyhedron { vertices, faces })
 }
 
+/// The corners of the hull of points, and its triangles; `None` of points in a plane.
+fn triangulated(points: &[Vec3]) -> Option<(Vec<Vec3>, Vec<Vec<u32>>)> {
+    let points: Vec<Vector> = points.iter().map(|v| Vector::new(v.x, v.y, v.z)).collect();
+    let (corners, triangles) = try_convex_hull(&points).ok()?;
+    let vertices = corners.iter().map(|v| Vec3::new(v.x, v.y, v.z)).collect();
+    Some((vertices, triangles.iter().map(|triangle| triangle.to_vec()).collect()))
+}
+
 /// The corners around triangles of a plane, in their way round; `None` of no triangle, or where they do not hang together.
-fn around(triangles: &[[u32; 3]]) -> Option<Vec<u32>> {
+fn around(triangles: &[Vec<u32>]) -> Option<Vec<u32>> {
     let edges: BTreeSet<(u32, u32)> = triangles.iter().flat_map(|t| edges(t).collect::<Vec<_>>()).collect();
     let next: BTreeMap<u32, u32> =
         edges.iter().filter(|(a, b)| !edges.contains(&(*b, *a))).copied().collect();

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::generate::Sizes;
+use crate::generate::{Sizes, Unseen};
 use crate::model::Wall;
 use crate::random::Family;
 
@@ -45,8 +45,10 @@ impl Layout {
         let bond = !self.draws_sizes();
         let headers_drawn =
             self.wythes.count > 1 && self.wythes.header_share > 0.0 && self.wythes.header_share < 1.0;
+        let unseen_drawn =
+            matches!(&self.arrangement, Arrangement::File { unseen: Some(unseen), .. } if !unseen.is_fixed());
         let wedges_drawn = self.wedges.as_ref().is_some_and(|wedges| wedges.share > 0.0);
-        bond && !headers_drawn && !wedges_drawn && self.density.sd() == 0.0
+        bond && !headers_drawn && !wedges_drawn && !unseen_drawn && self.density.sd() == 0.0
     }
 }
 
@@ -160,6 +162,9 @@ pub enum Arrangement {
         /// Its stones, and behind them the fixed blocks that it stands on; without them it stands on a platform, the plane z = 0.
         #[serde(skip)]
         wall: Arc<Wall>,
+        /// What is drawn behind the face that the file shows; without it every stone is as deep as the file says.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        unseen: Option<Unseen>,
     },
 }
 

@@ -15,10 +15,12 @@ mod sizes;
 mod sorted;
 #[cfg(test)]
 mod tests;
+mod unseen;
 mod wall;
 mod wedge;
 
 pub use cell::{CellFault, GeneratedCell, check_cell, generate_cell};
 pub use layout::*;
 pub use sizes::Sizes;
+pub use unseen::Unseen;
 pub use wall::{Generated, InvalidGeometry, Realised, generate, mean_density};

@@ -77,7 +77,10 @@ pub fn generate(layout: &Layout, streams: &Streams) -> Result<Generated, Invalid
     let build =
         |lay: &dyn Fn(&mut Draft) -> Result<Vec<Stone>, Fault>| build(layout, Extent::Wall, streams, lay);
     match &layout.arrangement {
-        Arrangement::File { wall, .. } => Ok(stated(wall, layout.density.mean())),
+        Arrangement::File { wall, unseen, .. } => {
+            let drawn = unseen.as_ref().map(|unseen| unseen.drawn(wall, streams)).transpose()?;
+            Ok(stated(drawn.as_ref().unwrap_or(wall), layout.density.mean()))
+        }
         Arrangement::Continuous { length, height } => {
             build(&|draft| regular::lay(draft, *length, *height, 0.0))
         }

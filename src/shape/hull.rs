@@ -1,5 +1,7 @@
 //! Convex hulls of points in the plane.
 
+use crate::shape::polygon::sides;
+
 /// A convex hull: its corners counter-clockwise, without points on its sides; of points on one line its ends.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hull {
@@ -25,7 +27,7 @@ impl Hull {
         if self.corners.len() < 3 {
             return f64::NEG_INFINITY;
         }
-        self.sides().map(|side| beyond(side, point)).fold(f64::INFINITY, f64::min)
+        sides(&self.corners).map(|side| beyond(side, point)).fold(f64::INFINITY, f64::min)
     }
 
     /// The least width (m) of all directions, which is across one of its sides; 0 without area.
@@ -34,12 +36,7 @@ impl Hull {
             return 0.0;
         }
         let across = |side| self.corners.iter().map(|corner| beyond(side, *corner)).fold(0.0, f64::max);
-        self.sides().map(across).fold(f64::INFINITY, f64::min)
-    }
-
-    fn sides(&self) -> impl Iterator<Item = [[f64; 2]; 2]> {
-        let next = self.corners.iter().cycle().skip(1);
-        self.corners.iter().zip(next).map(|(from, to)| [*from, *to])
+        sides(&self.corners).map(across).fold(f64::INFINITY, f64::min)
     }
 }
 

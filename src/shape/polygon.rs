@@ -2,6 +2,8 @@
 //!
 //! Clipping is plain Sutherland-Hodgman on convex polygons.
 
+use crate::shape::hull::Hull;
+
 /// A convex polygon in plane coordinates (m), counter-clockwise.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Polygon {
@@ -39,28 +41,14 @@ impl Polygon {
         moments(&self.vertices)
     }
 
-    /// The convex polygon around some points, without points on its edges (Andrew's monotone chain).
-    pub fn around(mut points: Vec<[f64; 2]>) -> Polygon {
-        points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-        let turns_left = |a: &[f64; 2], b: &[f64; 2], c: &[f64; 2]| {
-            (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0.0
-        };
-        let half = |points: &mut dyn Iterator<Item = [f64; 2]>| {
-            let mut chain: Vec<[f64; 2]> = Vec::new();
-            for point in points {
-                while let [.., a, b] = chain[..]
-                    && !turns_left(&a, &b, &point)
-                {
-                    chain.pop();
-                }
-                chain.push(point);
-            }
-            chain.pop();
-            chain
-        };
-        let mut vertices = half(&mut points.iter().copied());
-        vertices.extend(half(&mut points.iter().rev().copied()));
-        Polygon { vertices }
+    /// The convex polygon around some points, without points on its sides.
+    pub fn around(points: Vec<[f64; 2]>) -> Polygon {
+        Polygon { vertices: Hull::of(points).corners }
+    }
+
+    /// Its sides in order, each from corner to corner.
+    pub fn sides(&self) -> impl Iterator<Item = [[f64; 2]; 2]> + '_ {
+        sides(&self.vertices)
     }
 
     /// Area (m^2).
@@ -90,6 +78,18 @@ impl Polygon {
         }
         current
     }
+}
+
+/// The sides of a closed line in order, each from corner to corner.
+pub fn sides(corners: &[[f64; 2]]) -> impl Iterator<Item = [[f64; 2]; 2]> + '_ {
+    let next = corners.iter().cycle().skip(1);
+    corners.iter().zip(next).map(|(from, to)| [*from, *to])
+}
+
+/// The least and greatest coordinates of points: of s, of t, then the greatest ones.
+pub fn bounds<'p>(points: impl IntoIterator<Item = &'p [f64; 2]>) -> [f64; 4] {
+    let start = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+    points.into_iter().fold(start, |b, [s, t]| [b[0].min(*s), b[1].min(*t), b[2].max(*s), b[3].max(*t)])
 }
 
 /// Appends to `out` the part of the convex polygon `vertices` on which the affine function `value` is not positive.

@@ -277,7 +277,11 @@ impl Arm {
     /// The height (m) of the top of its walls above the plane z = 0.
     pub fn top(&self) -> f64 {
         match &self.layout.arrangement {
-            Arrangement::File { wall, .. } => wall.bounds_of_stones().1.z,
+            Arrangement::File { wall, unseen, .. } => {
+                let rise =
+                    unseen.as_ref().map_or(0.0, |own| own.most_rise() * self.layout.outline.base_thickness);
+                wall.bounds_of_stones().1.z + rise
+            }
             _ => self.layout.outline.height,
         }
     }

@@ -3,6 +3,7 @@
 
 use std::fmt;
 
+use crate::exchange::WALL_FILES;
 use crate::study::angle::Angle;
 
 /// A table of the input and its keys.
@@ -264,7 +265,7 @@ impl Kind {
                 format!("1 to {at_most} files in the study's folder, each once, as [\"records/one.at2\"]")
             }
             Kind::WallFile => {
-                "a .json, .obj or .csv file in the study's folder, as \"walls/left.json\"".to_owned()
+                format!("a file in the study's folder ({WALL_FILES}), as \"walls/left.json\"")
             }
             Kind::Table(section) => format!("a table {}", section.title),
             Kind::Tables(section) => format!("one or more tables {}", section.title),

@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::exchange::{
-    self, ReadOptions, Unit, Up, WallFaults, WallFile, leaves_units_open, read_wall_bytes, states_no_units,
-    wall_bytes,
+    self, Format, ReadOptions, Unit, Up, WallFaults, WallFile, leaves_units_open, read_wall_bytes,
+    states_no_units, wall_bytes,
 };
-use crate::generate::{Arrangement, BatteredFace, Layout, Limits, Outline, Wythes, mean_density};
+use crate::generate::{Arrangement, BatteredFace, Layout, Limits, Outline, Unseen, Wythes, mean_density};
 use crate::math::radians;
 use crate::model::{Support, Tag, Wall};
 use crate::random::Family;
@@ -18,10 +18,13 @@ use crate::study::fault::{Fault, Found};
 use crate::study::files::sha256;
 use crate::study::meetings::{TOUCH, Tolerance, look};
 use crate::study::mending::{mended, wider};
+use crate::study::quantity::quantity;
 use crate::study::reader::{Reader, join};
 
 /// Options of `analyse` that messages about a file name, with the keys of an arm that say the same.
-const SAME: [(&str, &str); 8] = [
+const SAME: [(&str, &str); 10] = [
+    ("--pixel", "pixel_m"),
+    ("--width", "width_m"),
     ("--touch-tolerance", "touch_tolerance_m"),
     ("--flatness", "flatness_m"),
     ("--mend", "mend_m"),
@@ -31,6 +34,9 @@ const SAME: [(&str, &str); 8] = [
     ("--scan-bearing", "scan_bearing_m"),
     ("--density-kg-per-m3", "unstated_density_kg_per_m3"),
 ];
+
+/// Stones whose depths differ by less than this share go through the wall alike: rounding.
+const SAME_DEPTH: f64 = 1e-9;
 
 /// A file as an arm reads it.
 #[derive(Clone, Debug, PartialEq)]
@@ -101,7 +107,8 @@ impl WallFiles {
             }
         };
         let mut read = stones_first(read_wall_bytes(file, &bytes, &asked.options)?);
-        if let Some(within) = asked.mend {
+        let is_drawn = Format::of(file).is_some_and(Format::is_drawn);
+        if let Some(within) = asked.mend.filter(|_| !is_drawn) {
             read = mended(&read.on_ground(), within, file)?.0.without_platform(&read);
         }
         let fit = look(&read.on_ground(), asked.tolerance, file)?;
@@ -117,10 +124,12 @@ impl WallFiles {
 
 /// The blocks that move before those that are fixed. Fixed blocks are the base, and blocks that move are stones, whatever they are called.
 fn stones_first(file: WallFile) -> WallFile {
-    let WallFile { wall, ids, names, warnings } = file;
+    let WallFile { wall, ids, names, warnings, .. } = file;
     let mut all: Vec<_> = wall.blocks.into_iter().zip(ids).zip(names).collect();
     all.sort_by_key(|((block, _), _)| block.support == Support::Fixed);
-    let mut ordered = WallFile { wall: Wall::default(), ids: Vec::new(), names: Vec::new(), warnings };
+    // What was drawn is of the blocks in their former order, and nobody asks for it here.
+    let mut ordered =
+        WallFile { wall: Wall::default(), ids: Vec::new(), names: Vec::new(), warnings, drawn: None };
     for ((mut block, id), name) in all {
         block.tag = match (block.support, block.tag) {
             (Support::Fixed, _) => Tag::Base,
@@ -190,11 +199,22 @@ pub fn layout(t: &mut Reader<'_>, density: Option<&Family>, catalogue: &mut Cata
         t.notes.warnings.push(Fault::at(&node.place, &path, found, "this", fix));
     }
     let density = mean(t, density, mean_density(&standing.wall))?;
-    Some(of_standing(file, &standing, density))
+    let has_unseen = t.has("unseen");
+    if has_unseen && !goes_through(&standing.wall) {
+        let allowed =
+            "only for a wall whose file shows its face alone: stones of this file have depths of their own";
+        t.fault("unseen", allowed, "remove it");
+        return None;
+    }
+    let unseen = t.table("unseen").and_then(|mut own| unseen(&mut own, &standing.wall, catalogue));
+    if has_unseen && unseen.is_none() {
+        return None;
+    }
+    Some(of_standing(file, &standing, density, unseen))
 }
 
 /// The layout of a wall that was read, with a mean density (kg/m^3).
-fn of_standing(file: String, standing: &Standing, density: f64) -> Layout {
+fn of_standing(file: String, standing: &Standing, density: f64, unseen: Option<Unseen>) -> Layout {
     let (low, high) = standing.wall.bounds_of_stones();
     let size = high - low;
     Layout {
@@ -211,6 +231,7 @@ fn of_standing(file: String, standing: &Standing, density: f64) -> Layout {
             joints: standing.joints,
             touch: standing.touch,
             wall: standing.wall.clone(),
+            unseen,
         },
         density: Family::Constant { value: density },
         wythes: Wythes { count: 1, header_share: 0.0 },
@@ -225,6 +246,32 @@ fn of_standing(file: String, standing: &Standing, density: f64) -> Layout {
             max_attempts: 1,
         },
     }
+}
+
+/// Whether every stone goes through the wall, as those do of which a file shows the face.
+fn goes_through(wall: &Wall) -> bool {
+    let (low, high) = wall.bounds_of_stones();
+    wall.stones().all(|(_, block)| {
+        let (near, far) = block.shape.bounds();
+        (near.y - low.y).max(high.y - far.y) <= SAME_DEPTH * (high.y - low.y)
+    })
+}
+
+/// What is drawn behind the face of a wall.
+fn unseen(t: &mut Reader<'_>, wall: &Wall, catalogue: &mut Catalogue) -> Option<Unseen> {
+    let (through_share, depth_share) =
+        (quantity(t, "through_share", catalogue), quantity(t, "depth_share", catalogue));
+    let dip = quantity(t, "dip_deg", catalogue).map(|dip| dip.scaled(radians(1.0)));
+    let (dip, depth_share, through_share) = (dip?, depth_share?, through_share?);
+    if wall.has_base() && dip != (Family::Constant { value: 0.0 }) {
+        t.fault(
+            "dip_deg",
+            "0 on a ground that the file shows: beds dip where the wall stands on the plane z = 0",
+            "set it to 0",
+        );
+        return None;
+    }
+    Some(Unseen { through_share, depth_share, dip })
 }
 
 /// How the file is to be read.
@@ -248,6 +295,32 @@ fn asked(t: &mut Reader<'_>, file: &str, states_units: bool) -> Option<Asked> {
             "remove it",
         );
     }
+    let is_elevation = Format::of(file).is_some_and(Format::is_elevation);
+    let is_drawn = Format::of(file).is_some_and(Format::is_drawn);
+    let keys = [
+        (
+            "unit",
+            Format::of(file) == Some(Format::Picture),
+            "of coordinates; a picture has pixel_m or width_m",
+        ),
+        ("up_axis", is_elevation, "for .obj files: in an elevation z points up"),
+        (
+            "thickness_m",
+            !is_elevation,
+            "for elevations (tables, drawings, pictures): other files state it themselves",
+        ),
+        ("pixel_m", !is_drawn, "for pictures: other files state their unit, or take the key unit"),
+        (
+            "width_m",
+            !is_drawn,
+            "for drawings and pictures: other files state their unit, or take the key unit",
+        ),
+    ];
+    for (key, is_vain, allowed) in keys {
+        if is_vain && t.has(key) {
+            t.fault(key, allowed, "remove it");
+        }
+    }
     let fixed: Vec<u64> = match t.has("fixed").then(|| t.list("fixed")).flatten() {
         Some(ids) if ids.iter().any(|id| id.fract() != 0.0) => {
             t.fault("fixed", "ids of blocks, which are whole numbers", "write them as in the file");
@@ -257,20 +330,27 @@ fn asked(t: &mut Reader<'_>, file: &str, states_units: bool) -> Option<Asked> {
     };
     let thickness = t.has("thickness_m").then(|| t.real("thickness_m")).flatten();
     let parts = t.has("parts").then(|| t.flag("parts")).flatten().unwrap_or(false);
+    let section = t.has("section").then(|| t.flag("section")).flatten().unwrap_or(false);
     let unit = if t.has("unit") { t.choice_name("unit").and_then(Unit::named) } else { None };
     let up = if t.has("up_axis") { t.choice_name("up_axis") } else { None };
     let mut real = |key: &str| if t.has(key) { t.real(key) } else { None };
     let density = real("unstated_density_kg_per_m3");
     let (flatness, mend, touch) = (real("flatness_m"), real("mend_m"), real("touch_tolerance_m"));
     let (scan_bearing, turn) = (real("scan_bearing_m"), real("turn_deg"));
+    let (pixel, width) = (real("pixel_m"), real("width_m"));
     let options = ReadOptions {
         unit,
         density,
-        up: if up == Some("y") { Up::Y } else { Up::Z },
+        up: up.and_then(Up::named).unwrap_or_default(),
+        any_shape: Format::of(file).is_some_and(Format::is_mesh),
         flatness: wider(flatness, mend),
         scan_bearing,
         parts,
         thickness,
+        pixel,
+        width,
+        closing: mend,
+        section,
         fixed,
         turn: radians(turn.unwrap_or(0.0)),
         on_platform: true,

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::ensemble::Manifest;
+use crate::exchange::Format;
 use crate::math::edit_distance;
 use crate::study::{Distributions, ElementStudy, Fault, Loaded, Study, built_in_studies};
 use crate::terminal::failure::Failure;
@@ -131,13 +132,12 @@ pub(crate) fn folder(path: &Path) -> Result<PathBuf, Failure> {
     Err(Failure::Input(format!("no study: {found}\n{}", known(path))))
 }
 
-/// Whether a file is a wall that `analyse` reads.
+/// Whether a file is a wall that `analyse` reads. Tables and other JSON may be anything.
 fn is_wall(path: &Path) -> bool {
-    let ending = path.extension().and_then(|ending| ending.to_str()).map(str::to_ascii_lowercase);
-    match ending.as_deref() {
-        Some("obj") => true,
-        Some("json") => fs::read_to_string(path).is_ok_and(|text| text.contains("\"blocks\"")),
-        _ => false,
+    match Format::of(&path.display().to_string()) {
+        Some(Format::Json) => fs::read_to_string(path).is_ok_and(|text| text.contains("\"blocks\"")),
+        Some(Format::Csv | Format::Xlsx) | None => false,
+        Some(_) => true,
     }
 }
 

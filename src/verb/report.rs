@@ -7,6 +7,7 @@ use clap::{Args, Parser};
 use serde_json::json;
 
 use crate::ensemble;
+use crate::exchange::Format;
 use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
 use crate::verb::analyse::Analyse;
@@ -43,7 +44,7 @@ const CITATION: &str = "Citation";
 /// Arguments of `report`.
 #[derive(Args, Debug)]
 pub(crate) struct Report {
-    /// The output folder of a run, a study (its folder or its study.toml, which is run as far as it has not been), or a wall (.json, .obj).
+    /// The output folder of a run, a study (its folder or its study.toml, which is run as far as it has not been), or a wall from a file.
     #[arg(value_name = "RUN|STUDY|WALL")]
     pub of: PathBuf,
     /// Folder of the study that was run [default: where it was run from, else studies/<study>].
@@ -73,15 +74,12 @@ pub(crate) fn report(arguments: &Report) -> Result<Answer, Failure> {
     if arguments.cite || arguments.bibtex {
         return cite(arguments);
     }
-    let is_wall = of
-        .extension()
-        .is_some_and(|end| ["json", "obj", "csv"].iter().any(|own| end.eq_ignore_ascii_case(own)));
-    if is_wall {
+    if Format::of(&of.display().to_string()).is_some() {
         return of_wall(arguments);
     }
     if !arguments.asked.is_empty() {
         return Err(Failure::Usage(format!(
-            "what stands behind -- is for a wall from a file (.json, .obj or .csv), and {} is none; leave it out",
+            "what stands behind -- is for a wall from a file, and {} is none; leave it out",
             of.display()
         )));
     }

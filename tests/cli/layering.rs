@@ -15,7 +15,9 @@ const HOUSE: &[(&str, &[&str])] = &[
     ("motion", &["math", "random"]),
     ("law", &["math"]),
     ("model", &["math", "shape", "law"]),
-    ("exchange", &["math", "shape", "model"]),
+    // Outlines become polygons that share the lines of their joints.
+    ("face", &["shape"]),
+    ("exchange", &["math", "shape", "face", "model"]),
     // How an answer is written: a leaf that knows no verb and no study.
     ("render", &["math", "shape", "model"]),
     ("contact", &["math", "shape", "model"]),

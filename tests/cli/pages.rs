@@ -16,6 +16,8 @@ use std::process::Command;
 enum Step {
     /// Write a file.
     Write { name: String, text: String },
+    /// Save a picture of the page.
+    Save(String),
     /// Type a command.
     Run(Example),
 }
@@ -63,7 +65,10 @@ fn steps(page: &Path, text: &str) -> Vec<Step> {
     let mut all = Vec::new();
     let mut lines = text.lines();
     while let Some(line) = lines.next() {
-        let Some(kind) = line.strip_prefix("```") else { continue };
+        let Some(kind) = line.strip_prefix("```") else {
+            all.extend(picture(line).map(Step::Save));
+            continue;
+        };
         let block: Vec<&str> = lines.by_ref().take_while(|line| *line != "```").collect();
         let file = match kind.split_once(' ') {
             Some((_, name)) => Some(name),
@@ -93,6 +98,12 @@ fn steps(page: &Path, text: &str) -> Vec<Step> {
         }
     }
     all
+}
+
+/// The picture beside the page that a line shows.
+fn picture(line: &str) -> Option<String> {
+    let name = line.strip_prefix("![")?.split_once("](")?.1.strip_suffix(')')?;
+    (name.ends_with(".png") && !name.contains('/')).then(|| name.to_owned())
 }
 
 /// Whether a line is what is shown, `[..]` standing for anything.
@@ -170,6 +181,10 @@ fn follow(page: &Path, slow: bool) -> usize {
                 let path = folder.join(name);
                 fs::create_dir_all(path.parent().expect("it has one")).expect("a scratch folder");
                 fs::write(path, text).expect("a scratch file");
+            }
+            Step::Save(name) => {
+                fs::copy(root().join(page).with_file_name(name), folder.join(name))
+                    .expect("a picture beside the page");
             }
             // What is slow may need what was done before it.
             Step::Run(example) if slow || !example.slow => {

@@ -116,8 +116,18 @@ pub fn irregular(member: u64, length: f64, height: f64) -> Wall {
 }
 
 /// The same with another dip of its joints (rad), with or without wedges.
-pub fn cut(member: u64, [length, height]: [f64; 2], dip: Family, wedges: bool) -> Wall {
-    let layout = Layout {
+pub fn cut(member: u64, size: [f64; 2], dip: Family, wedges: bool) -> Wall {
+    built(member, &layout(size, dip, wedges))
+}
+
+/// A wall of a layout, on its base.
+pub fn built(member: u64, layout: &Layout) -> Wall {
+    generate(layout, &Streams::new(7, member)).expect("a wall comes out").wall.with_base()
+}
+
+/// How such walls are laid out.
+pub fn layout([length, height]: [f64; 2], dip: Family, wedges: bool) -> Layout {
+    Layout {
         outline: Outline {
             length,
             height,
@@ -149,8 +159,7 @@ pub fn cut(member: u64, [length, height]: [f64; 2], dip: Family, wedges: bool) -
             max_redraws: 100,
             max_attempts: 20,
         },
-    };
-    generate(&layout, &Streams::new(7, member)).expect("a wall comes out").wall.with_base()
+    }
 }
 
 /// Size (m) of a block of 2400 kg/m3, the area (m2) it stands on and its weight (N).

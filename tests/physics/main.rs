@@ -10,6 +10,7 @@ mod crushing;
 mod dynamics;
 mod elastic;
 mod events;
+mod faces;
 mod fixture;
 mod gaps;
 mod grains;

@@ -77,9 +77,9 @@ pub static ARM: Section = Section {
         .only(FROM_FILE),
         Key::new(
             "up_axis",
-            Kind::Choice(&["y", "z"]),
+            Kind::Choice(&["x", "y", "z"]),
             Optional,
-            "Axis of an OBJ file that points up; without it z. With y, its x, y, z become x, z, -y.",
+            "Axis of a file of meshes (.obj, .ply, .stl) that points up; without it z. With y, its x, y, z become x, z, -y; with x, they become z, x, y.",
         )
         .only(FROM_FILE),
         Key::new(
@@ -100,7 +100,28 @@ pub static ARM: Section = Section {
             "thickness_m",
             real("m", Interval::above(0.0, 25.0)),
             Optional,
-            "How deep the stones of a table (.csv) are of which it says nothing.",
+            "How deep the stones of an elevation are: of a drawing, of a picture, of a table that says nothing of it.",
+        )
+        .only(FROM_FILE),
+        Key::new(
+            "pixel_m",
+            real("m", Interval::above(0.0, 1.0)),
+            Optional,
+            "Size of a pixel of a picture.",
+        )
+        .only(FROM_FILE),
+        Key::new(
+            "width_m",
+            real("m", Interval::above(0.0, 1000.0)),
+            Optional,
+            "Length of all stones of a drawing or a picture together.",
+        )
+        .only(FROM_FILE),
+        Key::new(
+            "section",
+            Kind::Flag,
+            Optional,
+            "Whether a drawing or a picture shows the wall in section, its front to the right: a slice as long as thickness_m, or 1 m.",
         )
         .only(FROM_FILE),
         Key::new(
@@ -121,7 +142,8 @@ pub static ARM: Section = Section {
             "mend_m",
             real("m", Interval::above(0.0, 1.0)),
             Optional,
-            "Faces of neighbours that belong together and are up to this far apart, or overlap by as much, become one plane; what was done is told.",
+            "Faces of neighbours that belong together and are up to this far apart, or overlap by as much, become one plane; what was done is told. Joints \
+             of a drawing or a picture are closed where they are up to this wide.",
         )
         .only(FROM_FILE),
         Key::new(
@@ -235,8 +257,44 @@ pub static ARM: Section = Section {
             Optional,
             "What this arm says otherwise than [uncertain].",
         ),
+        Key::new(
+            "unseen",
+            Kind::Table(&UNSEEN),
+            Optional,
+            "What the face of a wall does not show, drawn for each wall: for drawings, pictures and tables of a face.",
+        )
+        .only(FROM_FILE),
         Key::new("wedges", Kind::Table(&WEDGES), Optional, "Wedge stones cut into bed joints.").only(DRAWN),
         Key::new("limits", Kind::Table(&LIMITS), Default("{}"), "What a stone must at least be.").only(DRAWN),
+    ]],
+};
+
+static UNSEEN: Section = Section {
+    title: "[arm.unseen]",
+    doc: "What the face of a wall does not show, drawn for each wall. The face stays as the file shows it; the pattern of a stone is the same in front and behind.",
+    chooser: None,
+    keys: &[&[
+        Key::new(
+            "through_share",
+            quantity("1", Interval::closed(0.0, 1.0)),
+            Default("{ family = \"uniform\", low = 0, high = 0.3 }"),
+            "Share of the stones that go through the wall, drawn once per wall. The default is a judgement: from a wall without throughs to one with \
+             a through in every square metre of small stones.",
+        ),
+        Key::new(
+            "depth_share",
+            quantity("1", Interval::closed(0.05, 0.95)),
+            Default("{ family = \"uniform\", low = 0.35, high = 0.65 }"),
+            "Depth of the other stones as a share of the thickness, drawn per stone; a stone behind each has the rest. The default is a judgement: two \
+             leaves that interlock.",
+        ),
+        Key::new(
+            "dip_deg",
+            quantity("deg", Interval::closed(-20.0, 20.0)),
+            Default("0"),
+            "Dip of all beds through the wall, drawn once per wall: above 0 they rise away from the face.",
+        )
+        .angle(Angle::Dip),
     ]],
 };
 

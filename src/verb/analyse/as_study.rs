@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::ensemble::{Scale, Spread, replace_file};
+use crate::exchange::{Format, leaves_units_open};
 use crate::study::{Fit, Study, TOUCH, Tolerance};
 use crate::terminal::failure::Failure;
 use crate::terminal::output;
@@ -13,7 +14,6 @@ use crate::verb::analyse::known::Known;
 use crate::verb::analyse::solve::{BRACKET_DEG, LARGEST_TILT_DEG, RUNS_AWAY, STEP_DEG, law};
 use crate::verb::analyse::uncertainty::AskedOfWall;
 use crate::verb::analyse::unsure::{SEED, WALLS, asked};
-use crate::verb::analyse::verb::is_obj;
 use crate::verb::arguments::{SolverName, quoted};
 use crate::verb::locate;
 
@@ -32,6 +32,10 @@ pub(crate) fn refused(arguments: &Analyse) -> Result<(), Failure> {
         (
             arguments.load == LoadName::BaseMotion,
             "--load base-motion asks about one motion, and load.protocol = \"base_motion\" of a study about the intensity at which walls fall",
+        ),
+        (
+            arguments.wall.is_dir(),
+            "an arm reads one file, and not a folder: ask --out FOLDER without --study, and then for a study of the wall.json in it",
         ),
         (
             !arguments.dead_loads.is_empty(),
@@ -126,6 +130,12 @@ fn text(arguments: &Analyse, fit: &Fit) -> String {
     text + &arm_text(arguments, fit)
 }
 
+/// What the face of a wall does not show, to be filled in.
+const UNSEEN: &str = "\n# What the face does not show. Without the marks it is drawn for each wall; raise members then.\n# [arm.unseen]\n\
+# through_share = { family = \"uniform\", low = 0, high = 0.3 }    # share of stones that go through the wall: a judgement\n\
+# depth_share = { family = \"uniform\", low = 0.35, high = 0.65 }  # depth of the others over the thickness: a judgement\n\
+# dip_deg = 0                                                    # of all beds through the wall; above 0 they rise from the face";
+
 /// Its arm.
 fn arm_text(arguments: &Analyse, fit: &Fit) -> String {
     let title = arguments.title();
@@ -144,6 +154,9 @@ fn arm_text(arguments: &Analyse, fit: &Fit) -> String {
     stated("up_axis", arguments.up.map(|up| format!("\"{}\"", up.name())));
     stated("flatness_m", arguments.flatness.map(|own| format!("{own:?}")));
     stated("thickness_m", arguments.thickness.map(|own| format!("{own:?}")));
+    stated("pixel_m", arguments.pixel.map(|own| format!("{own:?}")));
+    stated("width_m", arguments.width.map(|own| format!("{own:?}")));
+    stated("section", arguments.section.then(|| "true".to_owned()));
     stated("parts", arguments.parts.then(|| "true".to_owned()));
     stated("fixed", (!arguments.fixed.is_empty()).then(|| format!("{:?}", arguments.fixed)));
     stated("mend_m", arguments.mend.map(|own| format!("{own:?}")));
@@ -158,10 +171,13 @@ fn arm_text(arguments: &Analyse, fit: &Fit) -> String {
     let unstated = arguments.density_kg_per_m3.or(arguments.density.as_ref().map(Known::middle));
     stated(
         "unstated_density_kg_per_m3",
-        unstated.filter(|_| is_obj(arguments)).map(|own| format!("{own:?}")),
+        unstated.filter(|_| leaves_units_open(&arguments.wall)).map(|own| format!("{own:?}")),
     );
     if let Some(Known::Exactly(density)) = &arguments.density {
         line(format!("\n[arm.block]\ndensity_kg_per_m3 = {density:?}"));
+    }
+    if Format::of(&title).is_some_and(Format::is_elevation) && !arguments.section {
+        line(UNSEEN.to_owned());
     }
     text
 }

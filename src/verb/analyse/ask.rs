@@ -43,8 +43,17 @@ piece is a closed solid. A block is fixed when a word of its name is base, end, 
 Left_support.001). Objects keystone.part1, keystone.part2, ... are one rigid body. A comment \"# density 2400 kg/m^3\" holds for the \
 next object.
 
-Table (.csv): a row per stone of an elevation, with the columns x, z (left end, underside), length, height, and where known depth, dip (deg), \
+Meshes (.ply, .stl; a folder with a .ply, .stl or .obj file for each stone): what is not convex touches as its hull and weighs as its mesh, or is \
+divided by --parts. Without fixed blocks the lowest stone lies on the plane z = 0.
+
+Table (.csv, .xlsx): a row per stone of an elevation, with the columns x, z (left end, underside), length, height, and where known depth, dip (deg), \
 density (kg/m3), name; units in the head, as \"Length (cm)\". The stones stand on the plane z = 0. --mend closes what was measured apart.
+
+Drawing (.dxf, .svg, .geojson): a closed outline around each stone of an elevation; layers, groups or properties called ground or opening are that. \
+It needs --thickness; --mend closes the joints.
+
+Picture (.png, .tif, .jpg): an elevation with one colour per stone, or light stones and dark joints. It needs --thickness, and --pixel or --width; \
+--mend closes the joints.
 
 COMPAS: JSON of an assembly, a block for each node; --fixed says which are supports where the file does not.
 
@@ -65,7 +74,8 @@ const SEEN: &str = "seen";
 #[derive(Clone, Args, Debug)]
 #[command(group(ArgGroup::new(SEEN).args(["out", "report"]).multiple(true)))]
 pub(crate) struct Analyse {
-    /// The wall: a .json, .obj or .csv file.
+    /// The wall: a file (.json, .obj, .ply, .stl), a drawing of its face (.dxf, .svg, .geojson), a picture (.png, .tif, .jpg), a table (.csv, .xlsx), or
+    /// a folder with a mesh for each stone.
     pub wall: PathBuf,
     /// Solver. Limit analysis and contact dynamics take rigid blocks and need no stiffness. Several as limit,implicit,nonsmooth: the first
     /// answers, the others say what they find, and a sentence how they stand to each other.
@@ -177,12 +187,22 @@ pub(crate) struct Analyse {
     #[arg(long, value_name = "LENGTH", value_parser = numbers::length, allow_negative_numbers = true, help_heading = FILE)]
     pub flatness: Option<f64>,
     /// Mend a wall whose corners are off by up to some length (3mm): faces that belong together and are up to this length apart, or overlap by as
-    /// much, become one plane, as every joint of the solvers is. No face moves further; what was done is told stone by stone.
+    /// much, become one plane, as every joint of the solvers is. No face moves further; what was done is told stone by stone. Joints of a drawing
+    /// or a picture are closed where they are up to this wide, each half to one of its stones [default of a picture: 3 pixels].
     #[arg(long, value_name = "LENGTH", value_parser = numbers::length, allow_negative_numbers = true, help_heading = FILE)]
     pub mend: Option<f64>,
-    /// How deep the stones of a table (.csv) are of which it says nothing (45cm).
+    /// How deep the stones of an elevation are: of a drawing, of a picture, of a table that says nothing of it (45cm).
     #[arg(long, value_name = "LENGTH", value_parser = numbers::length, allow_negative_numbers = true, help_heading = FILE)]
     pub thickness: Option<f64>,
+    /// Size of a pixel of a picture (2mm).
+    #[arg(long, value_name = "LENGTH", value_parser = numbers::length, allow_negative_numbers = true, conflicts_with = "width", help_heading = FILE)]
+    pub pixel: Option<f64>,
+    /// Length of all stones of a drawing or a picture together (3.2m).
+    #[arg(long, value_name = "LENGTH", value_parser = numbers::length, allow_negative_numbers = true, help_heading = FILE)]
+    pub width: Option<f64>,
+    /// The drawing or the picture shows the wall in section, its front to the right: a slice as long as --thickness says [default: 1m].
+    #[arg(long, help_heading = FILE)]
+    pub section: bool,
     /// Divide concave blocks into convex parts of one stone, which fill it exactly [default: they are refused].
     #[arg(long, help_heading = FILE)]
     pub parts: bool,
@@ -193,10 +213,11 @@ pub(crate) struct Analyse {
     /// underside bears up to this length above its lowest point (5mm). Without fixed blocks the stones stand on the plane z = 0.
     #[arg(long, value_name = "LENGTH", value_parser = numbers::length, allow_negative_numbers = true, help_heading = FILE)]
     pub scan_bearing: Option<f64>,
-    /// Axis of an OBJ file that points up [default: z]. With y, its x, y, z become x, z, -y: its -z is out of plane, to the front.
+    /// Axis of a file of meshes (.obj, .ply, .stl) that points up [default: z]. With y, its x, y, z become x, z, -y: its -z is out of plane, to the
+    /// front. With x, they become z, x, y.
     #[arg(long, value_name = "NAME", help_heading = FILE)]
     pub up: Option<UpName>,
-    /// Unit of the coordinates of an OBJ file [default: m].
+    /// Unit of the coordinates of a file that states none: a mesh, a drawing, a table [default: m].
     #[arg(long, value_name = "NAME", help_heading = FILE)]
     pub unit: Option<UnitName>,
     /// Density (kg/m^3) of the objects of an OBJ file that have no density comment [default: 2400, with a warning].
@@ -311,6 +332,8 @@ names! {
 names! {
     /// Axes that may point up.
     UpName {
+        /// The first one.
+        X = "x",
         /// The second one, as programs for pictures have it.
         Y = "y",
         /// The third one.

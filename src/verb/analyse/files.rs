@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use crate::ensemble::replace_file;
-use crate::exchange::WallFile;
+use crate::exchange::{Format, WallFile, write_wall_json};
 use crate::math::Vec3;
 use crate::model::{Block, Movement, Replay, Support, Wall};
 use crate::protocol::JointState;
@@ -17,9 +17,9 @@ use crate::terminal::failure::Failure;
 use crate::terminal::output;
 use crate::verb::analyse::answer::Answer;
 use crate::verb::analyse::ask::Analyse;
-use crate::verb::analyse::page::{Told, page};
+use crate::verb::analyse::page::{Told, again, page};
 use crate::verb::analyse::state::State;
-use crate::verb::analyse::{joints, mended};
+use crate::verb::analyse::{drawn, joints, mended};
 use crate::verb::arguments::SolverName;
 use crate::verb::wall::condition::hinges;
 use crate::verb::wall::drawn::{Measure, seams, sides};
@@ -68,6 +68,13 @@ pub(crate) fn write(folder: &Path, of: &Seen<'_>, object: &Value, told: &Told<'_
     }
     if let Some(done) = told.mended {
         files.push(("mended.csv", mended::csv(file, done)));
+    }
+    // What was read of another format, mended or closed: an arm of a study takes it.
+    if Format::of(&asked.title()) != Some(Format::Json) {
+        files.push(("wall.json", write_wall_json(&file.wall)));
+    }
+    if file.drawn.is_some() {
+        files.extend(drawn::svg(file, &asked.wall, &again(&asked.wall)?).map(|svg| ("read.svg", svg)));
     }
     for (name, text) in files {
         replace_file(&folder.join(name), text.as_bytes())?;

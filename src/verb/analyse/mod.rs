@@ -3,6 +3,7 @@
 mod answer;
 mod as_study;
 pub(crate) mod ask;
+mod drawn;
 mod fall;
 mod fclib;
 mod files;

@@ -1,8 +1,9 @@
 //! The page of a wall: the answer, the picture, and the tables of blocks and joints for people.
 
-use std::fs;
+use std::path::Path;
+use std::{fs, io};
 
-use crate::exchange::WallFile;
+use crate::exchange::{WallFile, meshes_of};
 use crate::math::Vec3;
 use crate::mend::Mended;
 use crate::model::{Replay, Support};
@@ -12,8 +13,8 @@ use crate::study::{Tolerance, sha256};
 use crate::terminal::failure::Failure;
 use crate::verb::analyse::answer::Answer;
 use crate::verb::analyse::ask::{Analyse, Growing};
-use crate::verb::analyse::mended;
 use crate::verb::analyse::state::State;
+use crate::verb::analyse::{drawn, mended};
 use crate::verb::arguments::SolverName;
 use crate::verb::run::answer::page::{WallPage, WallTable, wall_page};
 use crate::verb::run::origin::Origin;
@@ -42,8 +43,7 @@ pub(crate) fn page(
     (picture, replay): (&Picture, &Replay),
     told: &Told<'_>,
 ) -> Result<String, Failure> {
-    let bytes = fs::read(&asked.wall)
-        .map_err(|error| Failure::Run(format!("cannot read {} again: {error}", asked.wall.display())))?;
+    let bytes = again(&asked.wall)?;
     let wall = asked.title();
     let by_rates = asked.solver() == SolverName::Limit && state.falls;
     let mended = told.mended.filter(|done| !done.stones.is_empty());
@@ -63,6 +63,7 @@ pub(crate) fn page(
         question: question(asked),
         answer: told.text.lines().map(|line| line.trim().to_owned()).collect(),
         warnings: told.warnings,
+        read: drawn::svg(file, &asked.wall, &bytes),
         picture,
         replay,
         about_tables: match by_rates {
@@ -132,7 +133,12 @@ pub(crate) fn inputs(asked: &Analyse) -> Vec<(&'static str, String)> {
     all.extend(asked.flatness.map(|own| ("warped faces made plane within", length(own))));
     all.extend(asked.mend.map(|own| ("joints mended within", length(own))));
     all.extend(asked.scan_bearing.map(|own| ("scans bear up to above their lowest point", length(own))));
-    all.extend(asked.thickness.map(|own| ("depth of stones where the table states none", length(own))));
+    all.extend(asked.thickness.map(|own| ("depth of stones where the file states none", length(own))));
+    all.extend(asked.pixel.map(|own| ("size of a pixel", length(own))));
+    all.extend(asked.width.map(|own| ("length of all stones together", length(own))));
+    if asked.section {
+        all.push(("what the file shows", "a section".to_owned()));
+    }
     if asked.parts {
         all.push(("concave blocks", "divided into convex parts".to_owned()));
     }
@@ -148,6 +154,18 @@ pub(crate) fn inputs(asked: &Analyse) -> Vec<(&'static str, String)> {
     all.extend(listed(&asked.dead_loads, "N").map(|said| ("dead loads", said)));
     all.extend(listed(&asked.settlements, "m down").map(|said| ("settlements", said)));
     all
+}
+
+/// The bytes of the file of a wall, or of all files of a folder one after another.
+pub(crate) fn again(path: &Path) -> Result<Vec<u8>, Failure> {
+    let read = || -> io::Result<Vec<u8>> {
+        if !path.is_dir() {
+            return fs::read(path);
+        }
+        let files: io::Result<Vec<Vec<u8>>> = meshes_of(path)?.iter().map(fs::read).collect();
+        Ok(files?.concat())
+    };
+    read().map_err(|error| Failure::Run(format!("cannot read {} again: {error}", path.display())))
 }
 
 fn blocks(file: &WallFile, answer: &Answer, state: &State, by_rates: bool) -> Vec<Vec<String>> {

@@ -8,9 +8,10 @@ use crate::study::Fit;
 use crate::verb::analyse::ask::UpName;
 
 /// Asks whether another axis of the file points up, where a wall that is unstable at rest would stand so.
-pub(crate) fn question(wall: &Wall, law: &Coulomb, fit: &Fit, up: UpName, is_obj: bool) -> Option<String> {
+pub(crate) fn question(wall: &Wall, law: &Coulomb, fit: &Fit, up: UpName, is_turned: bool) -> Option<String> {
     // The axes of the file in those of the wall.
     let axes = match up {
+        UpName::X => [("y", Vec3::x()), ("z", Vec3::y())],
         UpName::Z => [("x", Vec3::x()), ("y", Vec3::y())],
         UpName::Y => [("x", Vec3::x()), ("z", -Vec3::y())],
     };
@@ -24,8 +25,8 @@ pub(crate) fn question(wall: &Wall, law: &Coulomb, fit: &Fit, up: UpName, is_obj
         return None;
     }
     let (name, _) = axes.into_iter().find(|(_, axis)| stands(axis))?;
-    let how = match (is_obj, name) {
-        (true, "y" | "z") => format!("ask with --up {name}"),
+    let how = match (is_turned, name) {
+        (true, _) => format!("ask with --up {name}"),
         _ => "turn it so that z points up".to_owned(),
     };
     Some(format!(

@@ -4,9 +4,7 @@ use std::time::Instant;
 
 use serde_json::json;
 
-use crate::exchange::{
-    ReadOptions, Unit, Up, WallFaults, WallFile, is_elevation, leaves_units_open, read_wall,
-};
+use crate::exchange::{Format, ReadOptions, Unit, Up, WallFaults, WallFile, leaves_units_open, read_wall};
 use crate::law::Coulomb;
 use crate::math::compact;
 use crate::mend::Mended;
@@ -80,7 +78,7 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
             &law,
             &fit,
             arguments.up.unwrap_or(UpName::Z),
-            is_obj(arguments),
+            is_turned(arguments),
         ));
     }
     let others = opinions(arguments, wall, &fit, (&answer, begun.elapsed().as_secs_f64()));
@@ -165,27 +163,35 @@ fn directions(arguments: &Analyse, wall: (&Wall, &[Settlement]), law: &Coulomb, 
 
 /// The file, fit to be solved.
 fn read(arguments: &Analyse) -> Result<(WallFile, Fit, Option<Mended>), WallFaults> {
+    let format = format(arguments);
+    // A folder holds a mesh for each stone.
+    let is_mesh = format.is_some_and(Format::is_mesh) || arguments.wall.is_dir();
     let unit = arguments.unit.map(|unit| Unit::named(unit.name()).unwrap_or_default());
     let options = ReadOptions {
         unit,
         // What is scaled to a mean may as well begin there.
         density: arguments.density_kg_per_m3.or(arguments.density.as_ref().map(Known::middle)),
-        up: arguments.up.map_or(Up::Z, |up| if up == UpName::Y { Up::Y } else { Up::Z }),
+        up: arguments.up.and_then(|up| Up::named(up.name())).unwrap_or_default(),
+        any_shape: is_mesh,
         flatness: wider(arguments.flatness, arguments.mend),
         scan_bearing: arguments.scan_bearing,
         parts: arguments.parts,
         thickness: arguments.thickness,
+        pixel: arguments.pixel,
+        width: arguments.width,
+        closing: arguments.mend,
+        section: arguments.section,
         fixed: arguments.fixed.clone(),
         turn: 0.0,
-        on_platform: arguments.scan_bearing.is_some(),
+        on_platform: arguments.scan_bearing.is_some() || is_mesh,
     };
     let mut file = read_wall(&arguments.wall, &options)?;
-    if arguments.scan_bearing.is_some() || is_elevation(&arguments.wall) {
+    if arguments.scan_bearing.is_some() || is_mesh || format.is_some_and(Format::is_elevation) {
         file = file.on_ground();
     }
     let name = arguments.wall.display().to_string();
     let mut done = None;
-    if let Some(within) = arguments.mend {
+    if let Some(within) = arguments.mend.filter(|_| !format.is_some_and(Format::is_drawn)) {
         let (sound, all) = study::mended(&file, within, &name)?;
         (file, done) = (sound, Some(all));
     }
@@ -193,8 +199,13 @@ fn read(arguments: &Analyse) -> Result<(WallFile, Fit, Option<Mended>), WallFaul
     Ok((file, fit, done))
 }
 
-pub(crate) fn is_obj(arguments: &Analyse) -> bool {
-    arguments.wall.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj"))
+fn format(arguments: &Analyse) -> Option<Format> {
+    Format::of(&arguments.wall.display().to_string())
+}
+
+/// Whether any axis of the file may point up.
+fn is_turned(arguments: &Analyse) -> bool {
+    arguments.wall.is_dir() || format(arguments).is_some_and(|own| own == Format::Obj || own.is_mesh())
 }
 
 /// Arguments that are missing, and warnings of those that mean nothing for what is asked.
@@ -217,10 +228,26 @@ fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
                 .to_owned(),
         ));
     }
-    if arguments.thickness.is_some() && !is_elevation(&arguments.wall) {
+    if arguments.thickness.is_some() && !format(arguments).is_none_or(Format::is_elevation) {
         return Err(Failure::Usage(
-            "--thickness is for a table of stones (.csv); other files state it themselves".to_owned(),
+            "--thickness is for elevations, which are tables, drawings and pictures; other files state it themselves"
+                .to_owned(),
         ));
+    }
+    let of_drawn = arguments.pixel.is_some() || arguments.width.is_some() || arguments.section;
+    if of_drawn && !format(arguments).is_none_or(Format::is_drawn) {
+        return Err(Failure::Usage(
+            "--pixel, --width and --section are for drawings and pictures; other files state their unit, or take --unit"
+                .to_owned(),
+        ));
+    }
+    if format(arguments) == Some(Format::Picture) && arguments.unit.is_some() {
+        return Err(Failure::Usage(
+            "--unit is for coordinates; of a picture say --pixel or --width".to_owned(),
+        ));
+    }
+    if format(arguments).is_some_and(Format::is_elevation) && arguments.up.is_some() {
+        return Err(Failure::Usage("--up is for .obj files; in an elevation z points up".to_owned()));
     }
     if states_units && arguments.up.is_some() {
         return Err(Failure::Usage("--up is for .obj files; in a wall.json z points up".to_owned()));

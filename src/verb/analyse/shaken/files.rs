@@ -1,6 +1,5 @@
 //! What `analyse --out` writes of a wall on ground that moves: a page, a picture of its end, its replay, and tables.
 
-use std::fs;
 use std::path::Path;
 
 use serde_json::{Value, json};
@@ -14,7 +13,8 @@ use crate::render::picture::{Picture, Seam, Stone};
 use crate::study::sha256;
 use crate::terminal::failure::Failure;
 use crate::terminal::output;
-use crate::verb::analyse::page::inputs;
+use crate::verb::analyse::drawn;
+use crate::verb::analyse::page::{again, inputs};
 use crate::verb::analyse::shaken::{Common, Ran, one};
 use crate::verb::run::answer::page::{WallPage, WallTable, wall_page};
 use crate::verb::run::origin::Origin;
@@ -170,8 +170,7 @@ fn page(
     warnings: &[String],
 ) -> Result<String, Failure> {
     let asked = of.asked;
-    let bytes = fs::read(&asked.wall)
-        .map_err(|error| Failure::Run(format!("cannot read {} again: {error}", asked.wall.display())))?;
+    let bytes = again(&asked.wall)?;
     let wall = asked.title();
     let mut given = inputs(asked);
     given.extend([
@@ -184,6 +183,7 @@ fn page(
         question: format!("Does the wall stand {}, times {}?", run.motion.name, run.scale),
         answer: text.lines().map(|line| line.trim().to_owned()).collect(),
         warnings,
+        read: drawn::svg(of.file, &asked.wall, &bytes),
         picture,
         replay: &run.replay,
         about_tables: "Displacements, turns, openings and slips are those at the end, since the wall was built. blocks.csv holds all digits.",

@@ -14,6 +14,10 @@ use crate::verb::run::answer::page::cite::{Citation, citation};
 use crate::verb::run::answer::page::limits;
 use crate::verb::run::answer::page::origin::PageOrigin;
 
+/// What the picture of what was read shows.
+const READ: &str =
+    "What was read: the stones in blue with their numbers, joints closed, over what was drawn.";
+
 /// A table of the page: blocks, or joints.
 pub struct WallTable {
     /// What it holds.
@@ -34,6 +38,8 @@ pub struct WallPage<'a> {
     pub answer: Vec<String>,
     /// What looks wrong.
     pub warnings: &'a [String],
+    /// What was read of a drawing or a picture, as SVG.
+    pub read: Option<String>,
     /// How the wall gives way.
     pub picture: &'a Picture,
     /// The states that it goes through.
@@ -59,6 +65,7 @@ struct Filled<'a> {
     question: &'a str,
     answer: &'a [String],
     warnings: &'a [String],
+    read: Option<Drawing>,
     picture: Drawing,
     solid: Option<Solid>,
     about_tables: &'static str,
@@ -101,6 +108,7 @@ pub fn wall_page(of: &WallPage<'_>) -> Result<String> {
             question: &of.question,
             answer: &of.answer,
             warnings: of.warnings,
+            read: of.read.as_ref().map(|svg| Drawing::picture("figure-read", "What was read", READ, svg)),
             picture: Drawing::described(
                 "figure-mechanism",
                 &format!("The wall {}", of.wall),

@@ -1,0 +1,187 @@
+//! Walls from meshes and workbooks: a file for each stone, stones of any shape, tables of spreadsheets.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::io::Write as _;
+
+use serde_json::Value;
+use zip::write::SimpleFileOptions;
+
+use crate::fixture::stderr;
+use crate::walls::Folder;
+
+const ASKED: [&str; 5] = ["--phi-deg", "70", "--load", "lateral", "--json"];
+
+fn answer(folder: &Folder, wall: &str, more: &[&str]) -> Result<Value, String> {
+    let output = folder.pirca(&[&["analyse", wall], &ASKED[..], more].concat());
+    let told: Value = serde_json::from_slice(&output.stdout).map_err(|_| stderr(&output))?;
+    if output.status.success() { Ok(told) } else { Err(told.to_string()) }
+}
+
+/// A box as PLY with x up, in millimetres, its faces looking anywhere.
+fn ply([low, high]: [f64; 2]) -> String {
+    let mut text =
+        "ply\nformat ascii 1.0\nelement vertex 8\nproperty double x\nproperty double y\nproperty double z\n\
+                    element face 6\nproperty list uchar int vertex_indices\nend_header\n"
+            .to_owned();
+    for x in [low, high] {
+        for (y, z) in [(0, 0), (500, 0), (500, 300), (0, 300)] {
+            writeln!(text, "{x} {y} {z}").expect("text");
+        }
+    }
+    text + "4 0 1 2 3\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n"
+}
+
+#[test]
+fn a_folder_of_meshes_is_a_wall() {
+    let folder = Folder::new();
+    fs::create_dir(folder.path("stones")).expect("a folder");
+    for (number, heights) in [[0.0, 200.0], [200.0, 400.0], [400.0, 600.0]].into_iter().enumerate() {
+        fs::write(folder.path(&format!("stones/stone_{}.ply", number + 8)), ply(heights)).expect("written");
+    }
+    let told =
+        answer(&folder, "stones", &["--unit", "mm", "--up", "x", "--out", "answer"]).expect("an answer");
+    // 0.3 m deep and 0.6 m high.
+    assert!((told["collapse_multiplier"].as_f64().expect("it falls") - 0.5).abs() < 2e-3, "{told}");
+    assert_eq!((told["blocks"].as_u64(), told["joints"].as_u64()), (Some(4), Some(3)));
+    assert_eq!(told["mechanism"].to_string(), "[8,9,10]");
+    // What it wrote is the same wall.
+    let again = answer(&folder, "answer/wall.json", &[]).expect("an answer");
+    assert_eq!(again["collapse_multiplier"], told["collapse_multiplier"]);
+    let output = folder.pirca(&["analyse", "stones", "--phi-deg", "70", "--study", "mine"]);
+    let refused = stderr(&output);
+    assert!(refused.contains("an arm reads one file"), "{refused}");
+    fs::create_dir(folder.path("nothing")).expect("a folder");
+    let empty = answer(&folder, "nothing", &[]).expect_err("no meshes");
+    assert!(empty.contains("the folder has no meshes"), "{empty}");
+    fs::write(folder.path("stones/stone_9.ply"), "ply\nformat ascii 1.0\n").expect("written");
+    let spoilt = answer(&folder, "stones", &["--unit", "mm", "--up", "x"]).expect_err("a file that is cut");
+    assert!(spoilt.contains("stone_9.ply"), "{spoilt}");
+}
+
+/// A box of 0.5 x 0.3 x 0.2 m as STL, whose top is dented in the middle by half its height.
+fn dented() -> String {
+    let (low, high) = ([[0.0, 0.0], [0.5, 0.0], [0.5, 0.3], [0.0, 0.3]], 0.2);
+    let mut text = "solid dented\n".to_owned();
+    let mut triangle = |corners: [[f64; 3]; 3]| {
+        text += "facet normal 0 0 0\nouter loop\n";
+        corners.iter().for_each(|[x, y, z]| writeln!(text, "vertex {x} {y} {z}").expect("text"));
+        text += "endloop\nendfacet\n";
+    };
+    let at = |k: usize, z: f64| [low[k % 4][0], low[k % 4][1], z];
+    triangle([at(0, 0.0), at(2, 0.0), at(1, 0.0)]);
+    triangle([at(0, 0.0), at(3, 0.0), at(2, 0.0)]);
+    for k in 0..4 {
+        triangle([at(k, 0.0), at(k + 1, 0.0), at(k + 1, high)]);
+        triangle([at(k, 0.0), at(k + 1, high), at(k, high)]);
+        triangle([at(k, high), at(k + 1, high), [0.25, 0.15, 0.1]]);
+    }
+    text + "endsolid dented\n"
+}
+
+#[test]
+fn a_concave_mesh_touches_as_its_hull_and_weighs_as_itself() {
+    let folder = Folder::new();
+    fs::write(folder.path("stone.stl"), dented()).expect("written");
+    let told = answer(&folder, "stone.stl", &[]).expect("an answer");
+    // The dent is a pyramid with a third of its base times its depth: a sixth of the box.
+    let warnings = told["warnings"].to_string();
+    assert!(
+        warnings.contains("convex hull, which has 20.0 % more volume, and weighs as its mesh"),
+        "{warnings}"
+    );
+    // It topples about its edge: half its depth over the height of its centroid, which the dent lowers.
+    let centroid = (0.1 - 0.175 / 6.0) / (1.0 - 1.0 / 6.0);
+    assert!(
+        (told["collapse_multiplier"].as_f64().expect("it falls") - 0.15 / centroid).abs() < 2e-3,
+        "{told}"
+    );
+    let parts = answer(&folder, "stone.stl", &["--parts"]).expect("an answer");
+    assert!(parts["warnings"].to_string().contains("convex parts of one stone"), "{parts}");
+    // A mesh with a hole weighs as its hull.
+    let open = dented().replacen("facet normal", "facet  normal", 1);
+    let first = open.find("facet  normal").expect("a facet");
+    let end = open[first..].find("endfacet\n").expect("its end") + first + "endfacet\n".len();
+    fs::write(folder.path("open.stl"), format!("{}{}", &open[..first], &open[end..])).expect("written");
+    let told = answer(&folder, "open.stl", &[]).expect("an answer");
+    assert!(told["warnings"].to_string().contains("does not close"), "{told}");
+}
+
+/// A workbook of one sheet.
+fn workbook(rows: &[&[&str]]) -> Vec<u8> {
+    let mut sheet = String::new();
+    for (r, row) in (1..).zip(rows) {
+        write!(sheet, "<row r=\"{r}\">").expect("text");
+        for (column, cell) in ('A'..).zip(row.iter()) {
+            match cell.parse::<f64>() {
+                Ok(number) => write!(sheet, "<c r=\"{column}{r}\"><v>{number}</v></c>"),
+                Err(_) => write!(sheet, "<c r=\"{column}{r}\" t=\"inlineStr\"><is><t>{cell}</t></is></c>"),
+            }
+            .expect("text");
+        }
+        sheet += "</row>";
+    }
+    let main = "http://schemas.openxmlformats.org/spreadsheetml/2006/main";
+    let relations = "http://schemas.openxmlformats.org/officeDocument/2006/relationships";
+    let package = "http://schemas.openxmlformats.org/package/2006";
+    let files = [
+        (
+            "[Content_Types].xml",
+            format!(
+                "<Types xmlns=\"{package}/content-types\"><Default Extension=\"xml\" ContentType=\"application/xml\"/></Types>"
+            ),
+        ),
+        (
+            "_rels/.rels",
+            format!(
+                "<Relationships xmlns=\"{package}/relationships\"><Relationship Id=\"r1\" Type=\"{relations}/officeDocument\" Target=\"xl/workbook.xml\"/></Relationships>"
+            ),
+        ),
+        (
+            "xl/workbook.xml",
+            format!(
+                "<workbook xmlns=\"{main}\" xmlns:r=\"{relations}\"><sheets><sheet name=\"North\" sheetId=\"1\" r:id=\"r1\"/></sheets></workbook>"
+            ),
+        ),
+        (
+            "xl/_rels/workbook.xml.rels",
+            format!(
+                "<Relationships xmlns=\"{package}/relationships\"><Relationship Id=\"r1\" Type=\"{relations}/worksheet\" Target=\"worksheets/sheet1.xml\"/></Relationships>"
+            ),
+        ),
+        (
+            "xl/worksheets/sheet1.xml",
+            format!("<worksheet xmlns=\"{main}\"><sheetData>{sheet}</sheetData></worksheet>"),
+        ),
+    ];
+    let mut zip = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    for (name, text) in files {
+        zip.start_file(name, SimpleFileOptions::default()).expect("begun");
+        zip.write_all(text.as_bytes()).expect("written");
+    }
+    zip.finish().expect("a workbook").into_inner()
+}
+
+#[test]
+fn a_workbook_is_read_as_its_table() {
+    let folder = Folder::new();
+    let rows: [&[&str]; 6] = [
+        &["North wall"],
+        &["Stone", "x (cm)", "z (cm)", "Length (cm)", "Height (cm)"],
+        &["A", "0", "0", "50", "20"],
+        &["B", "0", "20.4", "50", "19.6"],
+        &["C", "0", "40.2", "50", "19.8"],
+        &["Sum", "", "", "", "59.4"],
+    ];
+    fs::write(folder.path("wall.xlsx"), workbook(&rows)).expect("written");
+    let csv: Vec<String> = rows.iter().map(|row| row.join(";")).collect();
+    fs::write(folder.path("wall.csv"), csv.join("\n")).expect("written");
+    let more = ["--thickness", "30cm", "--mend", "1cm"];
+    let (one, other) = (answer(&folder, "wall.xlsx", &more), answer(&folder, "wall.csv", &more));
+    let (one, other) = (one.expect("an answer"), other.expect("an answer"));
+    assert_eq!(one["collapse_multiplier"], other["collapse_multiplier"]);
+    assert!((one["collapse_multiplier"].as_f64().expect("it falls") - 0.5).abs() < 2e-3, "{one}");
+    fs::write(folder.path("wall.xlsx"), "no workbook").expect("written");
+    let said = answer(&folder, "wall.xlsx", &more).expect_err("a text");
+    assert!(said.contains("workbook"), "{said}");
+}
