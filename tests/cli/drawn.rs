@@ -80,9 +80,11 @@ fn a_column_is_read_from_pictures_of_any_kind() {
         let warnings = told["warnings"].to_string();
         assert!(warnings.contains("read 3 stones, 0.500 m long and 0.620 m high"), "{name}: {warnings}");
         assert!(warnings.contains("closed 2 joints, 10.0 mm wide in the median"), "{name}: {warnings}");
-        // The length of all stones together says the same.
+        // The length of all stones together says the same; at four times that size the wall is as much higher.
         let told = asked(name, &bytes, &["--width", "50cm"]).expect("an answer");
         assert!((falls(&told) - FALLS).abs() < 2e-3, "{name}: {told}");
+        let told = asked(name, &bytes, &["--width", "2m"]).expect("an answer");
+        assert!((falls(&told) - FALLS / 4.0).abs() < 2e-3, "{name}: {told}");
     }
 }
 

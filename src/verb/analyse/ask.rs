@@ -192,13 +192,13 @@ pub(crate) struct Analyse {
     #[arg(long, value_name = "LENGTH", value_parser = numbers::length, allow_negative_numbers = true, help_heading = FILE)]
     pub mend: Option<f64>,
     /// How deep the stones of an elevation are: of a drawing, of a picture, of a table that says nothing of it (45cm).
-    #[arg(long, value_name = "LENGTH", value_parser = numbers::length, allow_negative_numbers = true, help_heading = FILE)]
+    #[arg(long, value_name = "LENGTH", value_parser = numbers::size, allow_negative_numbers = true, help_heading = FILE)]
     pub thickness: Option<f64>,
     /// Size of a pixel of a picture (2mm).
     #[arg(long, value_name = "LENGTH", value_parser = numbers::length, allow_negative_numbers = true, conflicts_with = "width", help_heading = FILE)]
     pub pixel: Option<f64>,
     /// Length of all stones of a drawing or a picture together (3.2m).
-    #[arg(long, value_name = "LENGTH", value_parser = numbers::length, allow_negative_numbers = true, help_heading = FILE)]
+    #[arg(long, value_name = "LENGTH", value_parser = numbers::size, allow_negative_numbers = true, help_heading = FILE)]
     pub width: Option<f64>,
     /// The drawing or the picture shows the wall in section, its front to the right: a slice as long as --thickness says [default: 1m].
     #[arg(long, help_heading = FILE)]

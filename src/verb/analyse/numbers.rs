@@ -108,18 +108,29 @@ pub(crate) fn tolerance(text: &str) -> Result<Tolerance, String> {
         .map_err(|error| format!("{error}, or a length with its unit, as 2mm"))
 }
 
-/// A length (m) from a number with its unit.
+/// Longest wall (m) whose size is asked for.
+const LARGEST_WALL: f64 = 1000.0;
+
+/// A length (m) of a detail from a number with its unit.
 pub(crate) fn length(text: &str) -> Result<f64, String> {
-    let allowed = "allowed is a length with its unit above 0, up to 1 m: 2mm, 0.5cm, 0.002 m";
+    up_to(text, 1.0)
+        .ok_or_else(|| "allowed is a length with its unit above 0, up to 1 m: 2mm, 0.5cm, 0.002 m".to_owned())
+}
+
+/// The thickness or the length (m) of a wall from a number with its unit.
+pub(crate) fn size(text: &str) -> Result<f64, String> {
+    let most = LARGEST_WALL;
+    up_to(text, most)
+        .ok_or_else(|| format!("allowed is a length with its unit above 0, up to {most} m: 45cm, 3.2m"))
+}
+
+/// A length (m) above 0, up to `most`.
+fn up_to(text: &str, most: f64) -> Option<f64> {
     let units = [("mm", 1000.0), ("cm", 100.0), ("m", 1.0)];
-    let (number, per_metre) = units
-        .into_iter()
-        .find_map(|(unit, per_metre)| Some((text.trim().strip_suffix(unit)?, per_metre)))
-        .ok_or(allowed)?;
-    match number.trim().parse::<f64>().map(|x| x / per_metre) {
-        Ok(metres) if metres > 0.0 && metres <= 1.0 => Ok(metres),
-        _ => Err(allowed.to_owned()),
-    }
+    let (number, per_metre) =
+        units.into_iter().find_map(|(unit, per_metre)| Some((text.trim().strip_suffix(unit)?, per_metre)))?;
+    let metres = number.trim().parse::<f64>().ok()? / per_metre;
+    (metres > 0.0 && metres <= most).then_some(metres)
 }
 
 /// Horizontal direction: the name of an axis, or an angle (deg).
