@@ -66,6 +66,25 @@ pub struct Draft {
     pub readable: bool,
 }
 
+impl Draft {
+    /// A stone or a support of this shape, of which the file says nothing else.
+    pub fn plain(name: String, id: u64, fixed: bool, (vertices, faces): (Vec<Vec3>, Vec<Vec<i64>>)) -> Draft {
+        Draft {
+            name,
+            id: Some(id),
+            line: 0,
+            vertices,
+            faces,
+            density: Some(USUAL_DENSITY),
+            fixed,
+            tag: if fixed { Tag::Base } else { Tag::Stone },
+            group: None,
+            scan: None,
+            readable: true,
+        }
+    }
+}
+
 /// A wall from a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WallFile {

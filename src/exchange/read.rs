@@ -8,7 +8,7 @@ use crate::exchange::draft::WallFile;
 use crate::exchange::drawing::{Drawing, Size, built, read_dxf, read_geojson, read_picture, read_svg};
 use crate::exchange::fault::{Fault, WallFaults};
 use crate::exchange::format::{Format, WALL_FILES};
-use crate::exchange::mesh::{Coded, read_folder, read_mesh};
+use crate::exchange::mesh::{self, read_folder, read_ply, read_stl};
 use crate::exchange::read_compas::{compas, read_compas};
 use crate::exchange::read_json::read_json;
 use crate::exchange::read_obj::read_obj;
@@ -189,14 +189,15 @@ pub fn read_wall_bytes(name: &str, bytes: &[u8], options: &ReadOptions) -> Resul
     let of_rows =
         |(rows, warnings): (Vec<Vec<String>>, Vec<String>)| read_rows(&numbered(rows), warnings, options);
     let drawn = |drawing: Drawing| built(drawing, Size::OfUnits, options);
+    let stones = |meshes| mesh::stones(meshes, options);
     let read = match Format::of(name) {
         Some(Format::Picture) => {
             read_picture(bytes).and_then(|picture| built(picture, Size::OfPixels, options))
         }
         Some(Format::Dxf) => read_dxf(bytes).and_then(drawn),
         Some(Format::Xlsx) => sheet_rows(bytes).and_then(of_rows),
-        Some(Format::Ply) => read_mesh(bytes, Coded::Ply, options),
-        Some(Format::Stl) => read_mesh(bytes, Coded::Stl, options),
+        Some(Format::Ply) => read_ply(bytes).and_then(stones),
+        Some(Format::Stl) => read_stl(bytes).and_then(stones),
         format => {
             let Ok(text) = std::str::from_utf8(bytes) else {
                 return refused(name, Fault::of("", "the file is no text", "UTF-8 text", "save it as UTF-8"));

@@ -4,12 +4,11 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use crate::exchange::draft::{Draft, USUAL_DENSITY, WallFile, assumed_density, build};
+use crate::exchange::draft::{Draft, WallFile, assumed_density, build};
 use crate::exchange::fault::{Fault, WallFaults};
 use crate::exchange::json_place::syntax_fault;
 use crate::exchange::{ReadOptions, Unit};
 use crate::math::Vec3;
-use crate::model::Tag;
 
 /// What is read of COMPAS.
 const READ: &str = "an Assembly, whose graph has a block at each node";
@@ -136,22 +135,11 @@ pub(super) fn read_compas(kind: &str, text: &str, options: &ReadOptions) -> Resu
         faces.sort_by_key(|(key, _)| (key.parse().unwrap_or(u64::MAX), *key));
         let fixed = node.is_support == Some(true);
         unstated += usize::from(!fixed && options.density.is_none());
-        drafts.push(Draft {
-            name,
-            id: Some(key.parse().unwrap_or(place as u64)),
-            line: 0,
-            vertices: vertex
-                .values()
-                .map(|own| options.up.of_wall(&Vec3::new(own.x, own.y, own.z)))
-                .collect(),
-            faces: faces.iter().map(|(_, own)| own.iter().map(number).collect()).collect(),
-            density: options.density.or(Some(USUAL_DENSITY)),
-            fixed,
-            tag: if fixed { Tag::Base } else { Tag::Stone },
-            group: None,
-            scan: None,
-            readable: true,
-        });
+        let id = key.parse().unwrap_or(place as u64);
+        let corners = vertex.values().map(|own| options.up.of_wall(&Vec3::new(own.x, own.y, own.z)));
+        let faces = faces.iter().map(|(_, own)| own.iter().map(number).collect());
+        let plain = Draft::plain(name, id, fixed, (corners.collect(), faces.collect()));
+        drafts.push(Draft { density: options.density.or(plain.density), ..plain });
     }
     let warnings = assumed_density(unstated).into_iter().collect();
     build(drafts, options.unit.unwrap_or(Unit::Metre), options, faults, warnings)

@@ -1,10 +1,9 @@
 //! Reading an elevation as a mason's sketch gives it: a table with a row per stone, where it lies in the face of the wall and how large it is.
 
-use crate::exchange::draft::{Draft, USUAL_DENSITY, WallFile, assumed_density, build};
+use crate::exchange::draft::{Draft, WallFile, assumed_density, build};
 use crate::exchange::fault::{Fault, WallFaults};
 use crate::exchange::{ReadOptions, Unit};
 use crate::math::{Vec3, cos, edit_distance, radians, sin};
-use crate::model::Tag;
 use crate::shape::Polyhedron;
 
 /// Lines above the head that are looked at for it.
@@ -115,20 +114,9 @@ pub(super) fn read_rows(
         }
         let density = number("density").or(options.density);
         unstated += usize::from(density.is_none());
-        let (vertices, faces) = turned_box([x, z, along, high, deep], radians(dip.unwrap_or(0.0)));
-        drafts.push(Draft {
-            name,
-            id: Some(before as u64),
-            line: *line,
-            vertices,
-            faces,
-            density: density.or(Some(USUAL_DENSITY)),
-            fixed: false,
-            tag: Tag::Stone,
-            group: None,
-            scan: None,
-            readable: true,
-        });
+        let shape = turned_box([x, z, along, high, deep], radians(dip.unwrap_or(0.0)));
+        let plain = Draft::plain(name, before as u64, false, shape);
+        drafts.push(Draft { line: *line, density: density.or(plain.density), ..plain });
     }
     if !faults.is_empty() {
         return Err(faults);

@@ -2,9 +2,8 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use crate::face::line::{dot, minus};
 use crate::face::outline::Outline;
-use crate::shape::sides;
+use crate::shape::{distance, sides};
 
 /// Most points along one outline.
 const MOST_POINTS: f64 = 1000.0;
@@ -103,11 +102,6 @@ impl Border {
         }
         found
     }
-}
-
-fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
-    let between = minus(a, b);
-    dot(between, between).sqrt()
 }
 
 /// Points in the middle of equal parts of the sides of a closed line: corners belong to no side.

@@ -3,7 +3,7 @@
 use crate::face::cell::near;
 use crate::face::line::minus;
 use crate::face::outline::Outline;
-use crate::shape::{Polygon, bounds, sides};
+use crate::shape::{Polygon, bounds, encloses};
 
 /// Two stones of which one covers this share of the other are one drawn twice, or one within the other.
 const COVERED: f64 = 0.5;
@@ -60,7 +60,7 @@ pub fn troubles(outlines: &[Outline], hulls: &[Polygon], follow_pixels: bool) ->
         let share = both.area() / hulls[outline].area();
         // The hull of a concave stone may cover one that lies in its notch, which its outline does not.
         let middle = both.moments().centroid();
-        let is_in_both = [a, b].iter().all(|own| is_inside(&outlines[*own].points, middle));
+        let is_in_both = [a, b].iter().all(|own| encloses(&outlines[*own].points, middle));
         if share > COVERED && is_in_both {
             found.push(Trouble::Covered { outline, by, share });
         }
@@ -99,15 +99,4 @@ fn meet((a, b): ([f64; 2], [f64; 2]), (c, d): ([f64; 2], [f64; 2])) -> Option<[f
     let (s, t) = (cross(between, other) / turn, cross(between, along) / turn);
     let within = 0.0..=1.0;
     (within.contains(&s) && within.contains(&t)).then(|| [a[0] + s * along[0], a[1] + s * along[1]])
-}
-
-/// Whether a point lies inside a closed line.
-fn is_inside(corners: &[[f64; 2]], point: [f64; 2]) -> bool {
-    let crossed = sides(corners).filter(|[from, to]| {
-        (from[1] > point[1]) != (to[1] > point[1]) && {
-            let share = (point[1] - from[1]) / (to[1] - from[1]);
-            from[0] + share * (to[0] - from[0]) > point[0]
-        }
-    });
-    crossed.count() % 2 == 1
 }

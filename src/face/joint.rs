@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::face::border::Meeting;
 use crate::face::line::{Fit, Line, dot, followed, minus};
+use crate::math::Sets;
 use crate::shape::Polygon;
 
 /// A joint is at least this many spacings of its points long, and this many times as long as wide. What is shorter are corners that meet: they
@@ -123,11 +124,11 @@ fn straighten(
         of_stone[joint.stones.0].push(at);
         of_stone[joint.stones.1].push(at);
     }
-    let mut groups = Groups::of(joints.len());
+    let mut sets = Sets::new(joints.len());
     let beside = neighbours(joints, &of_stone);
     let across = beyond_corners(joints, &of_stone, meetings);
     let pairs = beside.iter().map(|(_, pair)| *pair).chain(across);
-    groups.unite(joints, pairs, tolerance);
+    unite(&mut sets, joints, pairs, tolerance);
     let parted = beside.iter().filter(|(stone, (one, other))| {
         let cuts = |a: usize, b: usize| {
             let middle = [0, 1].map(|k| 0.5 * (joints[b].ends[0][k] + joints[b].ends[1][k]));
@@ -136,7 +137,7 @@ fn straighten(
         cuts(*one, *other) || cuts(*other, *one)
     });
     let parted: Vec<(usize, usize)> = parted.map(|(_, pair)| *pair).collect();
-    groups.unite(joints, parted.into_iter(), widest);
+    unite(&mut sets, joints, parted.into_iter(), widest);
 }
 
 /// Pairs of joints along the same side of a stone, with the stone.
@@ -170,45 +171,24 @@ fn beyond_corners(
     found
 }
 
-/// Joints that share a line.
-struct Groups {
-    /// The group of each.
-    of_joint: Vec<usize>,
-    members: Vec<Vec<usize>>,
-}
-
-impl Groups {
-    /// So many joints, each by itself.
-    fn of(joints: usize) -> Groups {
-        Groups { of_joint: (0..joints).collect(), members: (0..joints).map(|at| vec![at]).collect() }
-    }
-
-    /// Puts the groups of pairs together whose ends all lie within `tolerance` (m) of one line, those first that are least off it, and gives all
-    /// joints the lines of their groups.
-    fn unite(&mut self, joints: &mut [Joint], pairs: impl Iterator<Item = (usize, usize)>, tolerance: f64) {
-        let off = |(one, other): (usize, usize)| {
-            Some((off_one_line(&[&joints[one], &joints[other]], tolerance)?, one, other))
-        };
-        let mut pairs: Vec<(f64, usize, usize)> = pairs.filter_map(off).collect();
-        pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
-        for (_, one, other) in pairs {
-            let (one, other) = (self.of_joint[one], self.of_joint[other]);
-            if one == other {
-                continue;
-            }
-            let both = [&self.members[one][..], &self.members[other][..]].concat();
-            let all: Vec<&Joint> = both.iter().map(|at| &joints[*at]).collect();
-            if off_one_line(&all, tolerance).is_some() {
-                both.iter().for_each(|at| self.of_joint[*at] = one);
-                self.members[one] = both;
-                self.members[other].clear();
-            }
+/// Puts the sets of pairs together whose ends all lie within `tolerance` (m) of one line, those first that are least off it, and gives all joints
+/// the lines of their sets.
+fn unite(sets: &mut Sets, joints: &mut [Joint], pairs: impl Iterator<Item = (usize, usize)>, tolerance: f64) {
+    let off =
+        |pair: (usize, usize)| Some((off_one_line(&[&joints[pair.0], &joints[pair.1]], tolerance)?, pair));
+    let mut pairs: Vec<(f64, (usize, usize))> = pairs.filter_map(off).collect();
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    for (_, pair) in pairs {
+        let [one, other] = [pair.0, pair.1].map(|at| sets.members(sets.root(at)));
+        let all: Vec<&Joint> = one.iter().chain(other).map(|at| &joints[*at]).collect();
+        if sets.root(pair.0) != sets.root(pair.1) && off_one_line(&all, tolerance).is_some() {
+            sets.join(pair);
         }
-        for together in self.members.iter().filter(|own| own.len() > 1) {
-            let fit = together.iter().map(|at| joints[*at].fit).reduce(|a, b| a.with(&b));
-            if let Some(line) = fit.and_then(|fit| fit.line()) {
-                together.iter().for_each(|at| joints[*at].line = line.towards(joints[*at].line.normal));
-            }
+    }
+    for together in sets.shared() {
+        let fit = together.iter().map(|at| joints[*at].fit).reduce(|a, b| a.with(&b));
+        if let Some(line) = fit.and_then(|fit| fit.line()) {
+            together.iter().for_each(|at| joints[*at].line = line.towards(joints[*at].line.normal));
         }
     }
 }

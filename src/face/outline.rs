@@ -1,6 +1,6 @@
 //! What a drawing or a picture shows of a wall's face: closed outlines.
 
-use crate::shape::{Polygon, moments, sides};
+use crate::shape::{Polygon, distance, moments, sides};
 
 /// What an outline surrounds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -30,9 +30,7 @@ pub struct Outline {
 impl Outline {
     /// Its length (in the unit of its points).
     pub fn perimeter(&self) -> f64 {
-        let length =
-            |[a, b]: [[f64; 2]; 2]| ((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1])).sqrt();
-        sides(&self.points).map(length).sum()
+        sides(&self.points).map(|[from, to]| distance(from, to)).sum()
     }
 
     /// Its area, whichever way it runs (square of the unit of its points).

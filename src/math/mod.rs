@@ -1,11 +1,12 @@
 //! Vectors, elementary functions on libm, angles at the border, and the invariant check that stays on in release;
-//! monotone curves, how far words are apart, numbers as people read them, and standard gravity.
+//! monotone curves, disjoint sets, how far words are apart, numbers as people read them, and standard gravity.
 
 mod curve;
 mod elementary;
 mod exponentials;
 mod invariant;
 mod monotone;
+mod sets;
 mod words;
 mod written;
 
@@ -13,6 +14,7 @@ pub use curve::{Monotone, Share};
 pub use elementary::*;
 pub use exponentials::exp_all;
 pub use monotone::monotone_slopes;
+pub use sets::Sets;
 pub use words::edit_distance;
 pub use written::{compact, ends, significant, within};
 

@@ -1,5 +1,6 @@
 //! Which faces become one plane, and which.
 
+use crate::math::Sets;
 use crate::mend::ROUNDING;
 use crate::mend::face::{Face, farthest, nearest_plane};
 use crate::mend::link::Link;
@@ -27,14 +28,13 @@ pub fn shared_planes(faces: &[Face], links: Vec<Link>, within: f64) -> Shared {
         }
         for link in whole.links {
             let (a, b) = (sets.root(link.faces.0), sets.root(link.faces.1));
-            if a != b && fit(faces, &[&sets.members[a][..], &sets.members[b][..]].concat(), within).is_some()
-            {
+            if a != b && fit(faces, &[sets.members(a), sets.members(b)].concat(), within).is_some() {
                 sets.join((a, b));
             }
         }
     }
     let mut planes = vec![None; faces.len()];
-    for set in sets.members.iter().filter(|set| set.len() > 1) {
+    for set in sets.shared() {
         let plane = fit(faces, set, within).expect("it has been found before");
         for &member in set {
             let own = &faces[member];
@@ -79,41 +79,11 @@ fn components(count: usize, links: &[Link]) -> Vec<Component> {
         let root = sets.root(link.faces.0);
         if place[root] == usize::MAX {
             place[root] = all.len();
-            let mut faces = sets.members[root].clone();
+            let mut faces = sets.members(root).to_vec();
             faces.sort_unstable();
             all.push(Component { faces, links: Vec::new() });
         }
         all[place[root]].links.push(*link);
     }
     all
-}
-
-/// Disjoint sets of faces, with their members.
-struct Sets {
-    of: Vec<usize>,
-    members: Vec<Vec<usize>>,
-}
-
-impl Sets {
-    fn new(count: usize) -> Sets {
-        Sets { of: (0..count).collect(), members: (0..count).map(|member| vec![member]).collect() }
-    }
-
-    fn root(&self, member: usize) -> usize {
-        self.of[member]
-    }
-
-    fn join(&mut self, (a, b): (usize, usize)) {
-        let (mut into, mut from) = (self.root(a), self.root(b));
-        if into == from {
-            return;
-        }
-        // The smaller set moves, so that all of it takes n log n.
-        if self.members[into].len() < self.members[from].len() {
-            std::mem::swap(&mut into, &mut from);
-        }
-        let moved = std::mem::take(&mut self.members[from]);
-        moved.iter().for_each(|member| self.of[*member] = into);
-        self.members[into].extend(moved);
-    }
 }

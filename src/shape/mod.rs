@@ -17,7 +17,7 @@ pub use hull::Hull;
 pub use outline::{OutlineFault, Rows};
 pub use overlap::overlap_depth;
 pub use plane::{Frame, Plane};
-pub use polygon::{Moments, Polygon, bounds, moments, sides};
+pub use polygon::{Moments, Polygon, bounds, distance, encloses, moments, sides};
 pub use polyhedron::{MassProperties, Polyhedron, ShapeFault, corners_apart};
 pub use triangles::triangles;
 pub use union::convex_union;

@@ -86,6 +86,23 @@ pub fn sides(corners: &[[f64; 2]]) -> impl Iterator<Item = [[f64; 2]; 2]> + '_ {
     corners.iter().zip(next).map(|(from, to)| [*from, *to])
 }
 
+/// The distance (m) between two points.
+pub fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    let [s, t] = [a[0] - b[0], a[1] - b[1]];
+    (s * s + t * t).sqrt()
+}
+
+/// Whether a point lies within a closed line, convex or not: a line from it to the right crosses an odd number of sides.
+pub fn encloses(corners: &[[f64; 2]], point: [f64; 2]) -> bool {
+    let crossed = sides(corners).filter(|[from, to]| {
+        (from[1] > point[1]) != (to[1] > point[1]) && {
+            let share = (point[1] - from[1]) / (to[1] - from[1]);
+            from[0] + share * (to[0] - from[0]) > point[0]
+        }
+    });
+    crossed.count() % 2 == 1
+}
+
 /// The least and greatest coordinates of points: of s, of t, then the greatest ones.
 pub fn bounds<'p>(points: impl IntoIterator<Item = &'p [f64; 2]>) -> [f64; 4] {
     let start = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];

@@ -16,7 +16,7 @@ const HOUSE: &[(&str, &[&str])] = &[
     ("law", &["math"]),
     ("model", &["math", "shape", "law"]),
     // Outlines become polygons that share the lines of their joints.
-    ("face", &["shape"]),
+    ("face", &["math", "shape"]),
     ("exchange", &["math", "shape", "face", "model"]),
     // How an answer is written: a leaf that knows no verb and no study.
     ("render", &["math", "shape", "model"]),

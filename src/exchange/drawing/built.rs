@@ -1,12 +1,11 @@
 //! The wall in a drawing: its outlines with their joints closed, as deep as is asked for.
 
-use crate::exchange::draft::{Draft, Drawn, MOST_BLOCKS, USUAL_DENSITY, WallFile, assumed_density, build};
+use crate::exchange::draft::{Draft, Drawn, MOST_BLOCKS, WallFile, assumed_density, build};
 use crate::exchange::drawing::Drawing;
 use crate::exchange::fault::{Fault, WallFaults};
 use crate::exchange::{ReadOptions, Unit};
 use crate::face::{Closing, Face, Outline, Part, Trouble};
 use crate::math::{Vec3, significant};
-use crate::model::Tag;
 use crate::shape::{Polygon, bounds, moments};
 
 /// Joints of a picture are closed up to so many pixels where nothing else is asked for.
@@ -119,18 +118,16 @@ fn unit(
     if let (Some(stated), Some(asked)) = (stated, asked)
         && stated != asked
     {
-        let found =
-            format!("the file says that its unit is {} m, and {asked} m is asked for", compact(stated));
+        let found = format!(
+            "the file says that its unit is {} m, and {asked} m is asked for",
+            significant(stated, 6)
+        );
         return Err(Box::new(Fault::of("", found, "one unit", "leave out --unit, or correct the file")));
     }
     if stated.or(asked).is_none() {
         warnings.push("no unit is said: metres are taken; ask --unit, or --width".to_owned());
     }
     Ok(stated.or(asked).unwrap_or(1.0))
-}
-
-fn compact(length: f64) -> String {
-    significant(length, 6)
 }
 
 /// What was read, in a sentence.
@@ -251,20 +248,10 @@ fn draft(at: usize, outline: &Outline, polygon: &[[f64; 2]], deep: f64, options:
     };
     let plane = |behind: f64| polygon.iter().map(move |point| place(point, behind));
     let sides = (0..n).map(|k| vec![k, k + n, (k + 1) % n + n, (k + 1) % n]);
-    let fixed = outline.part == Part::Ground;
-    Draft {
-        name: outline.name.clone(),
-        id: Some(at as u64),
-        line: outline.line,
-        vertices: plane(0.0).chain(plane(deep)).collect(),
-        faces: [(0..n).collect(), (n..2 * n).rev().collect()].into_iter().chain(sides).collect(),
-        density: options.density.or(Some(USUAL_DENSITY)),
-        fixed,
-        tag: if fixed { Tag::Base } else { Tag::Stone },
-        group: None,
-        scan: None,
-        readable: true,
-    }
+    let faces = [(0..n).collect(), (n..2 * n).rev().collect()].into_iter().chain(sides).collect();
+    let shape = (plane(0.0).chain(plane(deep)).collect(), faces);
+    let plain = Draft::plain(outline.name.clone(), at as u64, outline.part == Part::Ground, shape);
+    Draft { line: outline.line, density: options.density.or(plain.density), ..plain }
 }
 
 /// A length (m) for a person.

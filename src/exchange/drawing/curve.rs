@@ -73,10 +73,7 @@ pub(super) fn cubic(corners: [[f64; 2]; 4], tolerance: f64) -> impl Iterator<Ite
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
-        ((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1])).sqrt()
-    }
+    use crate::shape::distance;
 
     #[test]
     fn a_bulge_of_one_is_a_half_circle_on_the_right() {

@@ -1,6 +1,7 @@
 //! Frames: rectangles around everything else.
 
 use crate::face::Part;
+use crate::shape::bounds;
 
 /// How near a corner is to the drawing's corner, in parts of the drawing's size.
 const NEAR: f64 = 1e-6;
@@ -17,8 +18,8 @@ pub(super) struct Extent {
 impl Extent {
     /// Of points; turned inside out where there are none.
     pub fn of<'a>(points: impl IntoIterator<Item = &'a [f64; 2]>) -> Extent {
-        let none = Extent { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
-        points.into_iter().fold(none, |all, p| all.with(&Extent { low: *p, high: *p }))
+        let [left, low, right, high] = bounds(points);
+        Extent { low: [left, low], high: [right, high] }
     }
 
     /// Around two.

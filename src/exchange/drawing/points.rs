@@ -2,6 +2,7 @@
 
 use crate::exchange::drawing::frame::Extent;
 use crate::exchange::drawing::gather::{Unread, cut, shown_number};
+use crate::shape::distance;
 
 /// Largest coordinate, in any unit.
 const FARTHEST: f64 = 1e12;
@@ -57,11 +58,6 @@ pub(super) fn stays_open(points: &[[f64; 2]], layer: &str) -> String {
     let [x, z, x_last, z_last, gap] =
         [first[0], first[1], last[0], last[1], distance(first, last)].map(shown_number);
     format!("a line of layer \"{}\" is open from ({x}, {z}) to ({x_last}, {z_last}), {gap} apart", cut(layer))
-}
-
-fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
-    let [dx, dz] = [a[0] - b[0], a[1] - b[1]];
-    (dx * dx + dz * dz).sqrt()
 }
 
 #[cfg(test)]

@@ -11,28 +11,13 @@ use crate::exchange::mesh::{Mesh, read_ply, read_stl};
 use crate::exchange::read::wall_bytes;
 use crate::exchange::read_obj::{is_support, obj_drafts};
 use crate::exchange::{Format, ReadOptions, Unit};
-use crate::model::Tag;
 
-/// How a mesh is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::exchange) enum Coded {
-    /// As PLY.
-    Ply,
-    /// As STL.
-    Stl,
-}
-
-/// The wall in a file of meshes, a stone for each that hangs together.
+/// The wall of meshes, a stone for each that hangs together.
 ///
 /// # Errors
-/// All that is wrong with the file and with its stones.
-pub(in crate::exchange) fn read_mesh(
-    bytes: &[u8],
-    coded: Coded,
-    options: &ReadOptions,
-) -> Result<WallFile, WallFaults> {
-    let drafts = drafts(bytes, coded, options)?;
-    finished(drafts, WallFaults::new("mesh"), Vec::new(), options)
+/// All that is wrong with its stones.
+pub(in crate::exchange) fn stones(meshes: Vec<Mesh>, options: &ReadOptions) -> Result<WallFile, WallFaults> {
+    finished(drafts(meshes, options), WallFaults::new("mesh"), Vec::new(), options)
 }
 
 /// The wall in a folder with a mesh for each stone (.obj, .ply, .stl), by their names.
@@ -117,9 +102,9 @@ fn numbered(drafts: &mut [Draft]) {
 
 fn of_file(path: &Path, file: &str, options: &ReadOptions) -> Result<(Vec<Draft>, Vec<String>), WallFaults> {
     let bytes = wall_bytes(path, file)?;
-    let coded = match Format::of(file) {
-        Some(Format::Ply) => Coded::Ply,
-        Some(Format::Stl) => Coded::Stl,
+    let meshes = match Format::of(file) {
+        Some(Format::Ply) => read_ply(&bytes)?,
+        Some(Format::Stl) => read_stl(&bytes)?,
         _ => {
             // The densities of all are told together.
             let of_object =
@@ -128,38 +113,26 @@ fn of_file(path: &Path, file: &str, options: &ReadOptions) -> Result<(Vec<Draft>
             return if read.faults.is_empty() { Ok((read.drafts, read.warnings)) } else { Err(read.faults) };
         }
     };
-    Ok((drafts(&bytes, coded, options)?, Vec::new()))
+    Ok((drafts(meshes, options), Vec::new()))
 }
 
-/// The stones of a file of meshes.
-fn drafts(bytes: &[u8], coded: Coded, options: &ReadOptions) -> Result<Vec<Draft>, WallFaults> {
-    let meshes = match coded {
-        Coded::Ply => read_ply(bytes)?,
-        Coded::Stl => read_stl(bytes)?,
-    };
+/// The stones of meshes, each with a number of its own.
+fn drafts(meshes: Vec<Mesh>, options: &ReadOptions) -> Vec<Draft> {
     let all = meshes.into_iter().flat_map(pieces).enumerate();
-    Ok(all.map(|(place, mesh)| draft(place as u64, mesh, options)).collect())
+    all.map(|(place, mesh)| draft(place as u64, mesh, options)).collect()
 }
 
 fn draft(place: u64, mut mesh: Mesh, options: &ReadOptions) -> Draft {
     orient(&mut mesh);
     let fixed = mesh.name.as_deref().is_some_and(is_support);
-    Draft {
-        name: match &mesh.name {
-            Some(name) => format!("block {place} ({name})"),
-            None => format!("block {place}"),
-        },
-        id: Some(place),
-        line: mesh.line,
-        vertices: mesh.vertices.iter().map(|own| options.up.of_wall(own)).collect(),
-        faces: mesh.faces.iter().map(|face| face.iter().map(|own| i64::from(*own)).collect()).collect(),
-        density: options.density.or(Some(USUAL_DENSITY)),
-        fixed,
-        tag: if fixed { Tag::Base } else { Tag::Stone },
-        group: None,
-        scan: None,
-        readable: true,
-    }
+    let name = match &mesh.name {
+        Some(name) => format!("block {place} ({name})"),
+        None => format!("block {place}"),
+    };
+    let corners = mesh.vertices.iter().map(|own| options.up.of_wall(own)).collect();
+    let faces = mesh.faces.iter().map(|face| face.iter().map(|own| i64::from(*own)).collect()).collect();
+    let plain = Draft::plain(name, place, fixed, (corners, faces));
+    Draft { line: mesh.line, density: options.density.or(plain.density), ..plain }
 }
 
 fn finished(

@@ -9,9 +9,9 @@ mod stl;
 pub(super) mod twisted;
 
 pub use built::meshes_of;
-pub(super) use built::{Coded, read_folder, read_mesh};
-use ply::read_ply;
-use stl::read_stl;
+pub(super) use built::{read_folder, stones};
+pub(super) use ply::read_ply;
+pub(super) use stl::read_stl;
 
 use crate::exchange::fault::Fault;
 use crate::math::Vec3;

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use crate::exchange::closing::edges;
 use crate::exchange::mesh::{Mesh, bits};
 use crate::math::Vec3;
 
@@ -10,7 +11,7 @@ pub fn orient(mesh: &mut Mesh) {
     let corner = corners(&mesh.vertices);
     let mut beside: HashMap<(u32, u32), Vec<usize>> = HashMap::new();
     for (face, corners) in mesh.faces.iter().enumerate() {
-        for (a, b) in edges(corners, &corner) {
+        for (a, b) in placed(corners, &corner) {
             beside.entry((a.min(b), a.max(b))).or_default().push(face);
         }
     }
@@ -25,12 +26,12 @@ pub fn orient(mesh: &mut Mesh) {
         while next < piece.len() {
             let face = piece[next];
             next += 1;
-            for (a, b) in edges(&mesh.faces[face], &corner) {
+            for (a, b) in placed(&mesh.faces[face], &corner) {
                 let &[one, two] = &beside[&(a.min(b), a.max(b))][..] else { continue };
                 let other = if one == face { two } else { one };
                 if other != face && turned[other].is_none() {
                     // Both run along the edge the same way where one of them is turned and the other is not.
-                    let same = edges(&mesh.faces[other], &corner).any(|edge| edge == (a, b));
+                    let same = placed(&mesh.faces[other], &corner).any(|edge| edge == (a, b));
                     turned[other] = Some(turned[face] == Some(!same));
                     piece.push(other);
                 }
@@ -60,9 +61,9 @@ fn corners(vertices: &[Vec3]) -> Vec<u32> {
     (0..).zip(vertices).map(|(number, at)| *first.entry(bits(at)).or_insert(number)).collect()
 }
 
-fn edges<'f>(face: &'f [u32], corner: &'f [u32]) -> impl Iterator<Item = (u32, u32)> + 'f {
-    let place = move |k: usize| corner[face[k % face.len()] as usize];
-    (0..face.len()).map(move |k| (place(k), place(k + 1)))
+/// The edges of a face by the places of their ends, in its own way round.
+fn placed<'f>(face: &'f [u32], corner: &'f [u32]) -> impl Iterator<Item = (u32, u32)> + 'f {
+    edges(face).map(|(a, b)| (corner[a as usize], corner[b as usize]))
 }
 
 /// Six times the volume between a face and the first corner of the mesh.

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use crate::exchange::closing::edges;
 use crate::exchange::mesh::{Mesh, bits};
 
 /// The parts of a mesh that share no corner, in the order of their first faces, as `name part 1` and so on; the mesh itself where it is one
@@ -30,11 +31,10 @@ pub(in crate::exchange) fn pieces(mesh: Mesh) -> Vec<Mesh> {
 
 /// Corners of edges that only one face has.
 fn open_corners(faces: &[Vec<u32>]) -> Vec<u32> {
-    let edge = |(&a, &b): (&u32, &u32)| (a.min(b), a.max(b));
-    let mut edges: Vec<(u32, u32)> =
-        faces.iter().flat_map(|face| face.iter().zip(face.iter().cycle().skip(1)).map(edge)).collect();
-    edges.sort_unstable();
-    let open = edges.chunk_by(|a, b| a == b).filter(|same| same.len() == 1);
+    let sorted = |(a, b): (u32, u32)| (a.min(b), a.max(b));
+    let mut all: Vec<(u32, u32)> = faces.iter().flat_map(|face| edges(face).map(sorted)).collect();
+    all.sort_unstable();
+    let open = all.chunk_by(|a, b| a == b).filter(|same| same.len() == 1);
     open.flat_map(|same| [same[0].0, same[0].1]).collect()
 }
 

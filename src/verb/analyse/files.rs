@@ -17,9 +17,9 @@ use crate::terminal::failure::Failure;
 use crate::terminal::output;
 use crate::verb::analyse::answer::Answer;
 use crate::verb::analyse::ask::Analyse;
-use crate::verb::analyse::page::{Told, again, page};
+use crate::verb::analyse::page::{Source, Told, page};
 use crate::verb::analyse::state::State;
-use crate::verb::analyse::{drawn, joints, mended};
+use crate::verb::analyse::{joints, mended};
 use crate::verb::arguments::SolverName;
 use crate::verb::wall::condition::hinges;
 use crate::verb::wall::drawn::{Measure, seams, sides};
@@ -45,7 +45,8 @@ pub(crate) struct Seen<'a> {
 /// Writes its page alone.
 pub(crate) fn write_page(path: &Path, of: &Seen<'_>, told: &Told<'_>) -> Result<(), Failure> {
     let picture = picture(of.asked, (of.file, of.fit), of.answer, of.state);
-    let text = page(of.asked, of.file, (of.answer, of.state), (&picture, of.replay), told)?;
+    let source = Source::again(&of.asked.wall, of.file)?;
+    let text = page(of.asked, (of.file, &source), (of.answer, of.state), (&picture, of.replay), told)?;
     Ok(replace_file(path, text.as_bytes())?)
 }
 
@@ -55,8 +56,9 @@ pub(crate) fn write(folder: &Path, of: &Seen<'_>, object: &Value, told: &Told<'_
     output::folder(folder)?;
     let picture = picture(asked, (file, fit), answer, state);
     let rests: Vec<Movement> = state.stones.iter().map(|stone| at_rest(state, stone)).collect();
+    let source = Source::again(&asked.wall, file)?;
     let mut files = vec![
-        ("report.html", page(asked, file, (answer, state), (&picture, replay), told)?),
+        ("report.html", page(asked, (file, &source), (answer, state), (&picture, replay), told)?),
         ("mechanism.svg", picture.svg()),
         ("rest.vtu", write_vtu(&file.wall, (asked.solver() != SolverName::Limit).then_some(&rests[..]))),
         ("blocks.csv", blocks_csv(file, answer, state)),
@@ -73,9 +75,7 @@ pub(crate) fn write(folder: &Path, of: &Seen<'_>, object: &Value, told: &Told<'_
     if Format::of(&asked.title()) != Some(Format::Json) {
         files.push(("wall.json", write_wall_json(&file.wall)));
     }
-    if file.drawn.is_some() {
-        files.extend(drawn::svg(file, &asked.wall, &again(&asked.wall)?).map(|svg| ("read.svg", svg)));
-    }
+    files.extend(source.read.map(|svg| ("read.svg", svg)));
     for (name, text) in files {
         replace_file(&folder.join(name), text.as_bytes())?;
     }

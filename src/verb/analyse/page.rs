@@ -38,12 +38,11 @@ pub(crate) struct Told<'a> {
 /// The page; `picture` is the one in the folder, `replay` the states that the wall goes through.
 pub(crate) fn page(
     asked: &Analyse,
-    file: &WallFile,
+    (file, source): (&WallFile, &Source),
     (answer, state): (&Answer, &State),
     (picture, replay): (&Picture, &Replay),
     told: &Told<'_>,
 ) -> Result<String, Failure> {
-    let bytes = again(&asked.wall)?;
     let wall = asked.title();
     let by_rates = asked.solver() == SolverName::Limit && state.falls;
     let mended = told.mended.filter(|done| !done.stones.is_empty());
@@ -63,7 +62,7 @@ pub(crate) fn page(
         question: question(asked),
         answer: told.text.lines().map(|line| line.trim().to_owned()).collect(),
         warnings: told.warnings,
-        read: drawn::svg(file, &asked.wall, &bytes),
+        read: source.read.clone(),
         picture,
         replay,
         about_tables: match by_rates {
@@ -79,7 +78,7 @@ pub(crate) fn page(
         tables,
         inputs: inputs(asked),
         solver: asked.solver().name(),
-        sha256: sha256(&bytes),
+        sha256: source.sha256.clone(),
         origin: &Origin::now(&asked.wall, None).of_page(),
     };
     wall_page(&page).map_err(|error| Failure::Run(format!("{error:#}")))
@@ -156,16 +155,29 @@ pub(crate) fn inputs(asked: &Analyse) -> Vec<(&'static str, String)> {
     all
 }
 
-/// The bytes of the file of a wall, or of all files of a folder one after another.
-pub(crate) fn again(path: &Path) -> Result<Vec<u8>, Failure> {
-    let read = || -> io::Result<Vec<u8>> {
-        if !path.is_dir() {
-            return fs::read(path);
-        }
-        let files: io::Result<Vec<Vec<u8>>> = meshes_of(path)?.iter().map(fs::read).collect();
-        Ok(files?.concat())
-    };
-    read().map_err(|error| Failure::Run(format!("cannot read {} again: {error}", path.display())))
+/// The file of a wall as its page shows it.
+pub(crate) struct Source {
+    /// SHA-256 of it, or of all files of a folder one after another.
+    pub sha256: String,
+    /// What was read of a drawing or a picture, as SVG.
+    pub read: Option<String>,
+}
+
+impl Source {
+    /// The file at a path, from which a wall was read.
+    pub fn again(path: &Path, file: &WallFile) -> Result<Source, Failure> {
+        let bytes = bytes(path)
+            .map_err(|error| Failure::Run(format!("cannot read {} again: {error}", path.display())))?;
+        Ok(Source { sha256: sha256(&bytes), read: drawn::svg(file, path, &bytes) })
+    }
+}
+
+fn bytes(path: &Path) -> io::Result<Vec<u8>> {
+    if !path.is_dir() {
+        return fs::read(path);
+    }
+    let files: io::Result<Vec<Vec<u8>>> = meshes_of(path)?.iter().map(fs::read).collect();
+    Ok(files?.concat())
 }
 
 fn blocks(file: &WallFile, answer: &Answer, state: &State, by_rates: bool) -> Vec<Vec<String>> {

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use crate::math::atan2;
+use crate::shape::moments;
 
 /// A piece of a line, from its first point to its last one.
 #[derive(Clone, Debug)]
@@ -220,25 +221,12 @@ impl Net {
                 half = after;
             }
             // Around the whole net the way goes clockwise.
-            if doubled_area(&points) > 0.0 {
+            if moments(&points).area > 0.0 {
                 cells.push(Put { line, points, closed: true });
             }
         }
         cells
     }
-}
-
-/// Twice the area within points, above 0 where they go counter-clockwise.
-fn doubled_area(points: &[[f64; 2]]) -> f64 {
-    let Some(origin) = points.first() else { return 0.0 };
-    let arm = |p: &[f64; 2]| [p[0] - origin[0], p[1] - origin[1]];
-    points
-        .windows(2)
-        .map(|pair| {
-            let [a, b] = [arm(&pair[0]), arm(&pair[1])];
-            a[0] * b[1] - a[1] * b[0]
-        })
-        .sum()
 }
 
 #[cfg(test)]
@@ -282,7 +270,7 @@ mod tests {
         ];
         let joined = join(pieces(&two), 1e-6);
         assert_eq!((joined.lines.len(), joined.cells, joined.repeated), (2, 2, 1), "{joined:?}");
-        assert!(joined.lines.iter().all(|line| line.points.len() == 4 && doubled_area(&line.points) > 0.0));
+        assert!(joined.lines.iter().all(|line| line.points.len() == 4 && moments(&line.points).area > 0.0));
         assert_eq!(joined.loose, [(9, [3.0, 1.0])]);
         assert_eq!(joined.fork.map(|fork| fork.1), Some([1.0, 0.0]));
     }

@@ -10,7 +10,7 @@ use image::{DynamicImage, GenericImageView, GrayImage, ImageDecoder, ImageReader
 
 use crate::exchange::drawing::Drawing;
 use crate::exchange::drawing::picture::stones::{Areas, NONE, areas};
-use crate::exchange::drawing::picture::trace::traced;
+use crate::exchange::drawing::picture::trace::around;
 use crate::exchange::fault::{Fault, WallFaults};
 use crate::face::{Outline, Part};
 
@@ -43,12 +43,14 @@ pub(in crate::exchange) fn read_picture(bytes: &[u8]) -> Result<Drawing, WallFau
     let (width, height) = picture.dimensions();
     let mut drawing = Drawing { picture: Some([width, height].map(f64::from)), ..Drawing::default() };
     let colours = colours(&picture);
-    let labels = if is_two_toned(&picture) { None } else { labelled(&colours, width as usize) };
+    let grey = picture.to_luma8();
+    let tones = Tones::of(&grey);
+    let labels = if is_two_toned(&picture, &tones) { None } else { labelled(&colours, width as usize) };
     let found = match labels {
         Some(areas) => areas,
-        None => two_tones(&picture, &colours, &mut drawing.warnings).map_err(|fault| refused(*fault))?,
+        None => two_tones(&grey, &tones, &colours, &mut drawing.warnings).map_err(|fault| refused(*fault))?,
     };
-    let Areas { of_pixel, count, notes, .. } = found;
+    let Areas { of_pixel, count, first, notes } = found;
     drawing.warnings.extend(notes);
     if count > MOST_STONES {
         let found = format!("{count} areas of one colour");
@@ -62,12 +64,14 @@ pub(in crate::exchange) fn read_picture(bytes: &[u8]) -> Result<Drawing, WallFau
         let allowed = "one colour per stone, or light stones and dark joints";
         return Err(refused(told("no stones are seen in it", allowed, "fill each stone with a colour")));
     }
-    let traces = traced(&of_pixel, width as usize, count);
-    let outlines = traces.into_iter().enumerate().map(|(stone, points)| Outline {
+    let outlines = first.into_iter().enumerate().map(|(stone, start)| Outline {
         name: format!("stone {stone}"),
         line: 0,
         part: Part::Stone,
-        points: points.into_iter().map(|[x, y]| [f64::from(x), f64::from(height) - f64::from(y)]).collect(),
+        points: around(&of_pixel, width as usize, start)
+            .into_iter()
+            .map(|[x, y]| [f64::from(x), f64::from(height) - f64::from(y)])
+            .collect(),
     });
     drawing.outlines = outlines.collect();
     Ok(drawing)
@@ -212,27 +216,24 @@ struct Tones {
 }
 
 /// Whether a picture shows two greys with what smoothing or compression makes of them, rather than labels.
-fn is_two_toned(picture: &DynamicImage) -> bool {
-    if matches!(picture, DynamicImage::ImageLuma16(_)) {
+fn is_two_toned(picture: &DynamicImage, tones: &Tones) -> bool {
+    if matches!(picture, DynamicImage::ImageLuma16(_)) || !tones.is_clear() || tones.noise >= NOISE {
         return false;
     }
     let rgb = picture.to_rgb8();
     let coloured = rgb.pixels().filter(|own| {
         own.0.iter().max() > own.0.iter().min().map(|low| low.saturating_add(COLOURED)).as_ref()
     });
-    let tones = Tones::of(&picture.to_luma8());
     (coloured.count() as f64) < 0.01 * f64::from(rgb.width()) * f64::from(rgb.height())
-        && tones.is_clear()
-        && tones.noise < NOISE
 }
 
 /// The stones of a picture in two tones: the one of which there are more areas. What is transparent is no stone.
 fn two_tones(
-    picture: &DynamicImage,
+    grey: &GrayImage,
+    tones: &Tones,
     colours: &[u64],
     warnings: &mut Vec<String>,
 ) -> Result<Areas, Box<Fault>> {
-    let grey = picture.to_luma8();
     let width = grey.width() as usize;
     let transparent = colours.iter().filter(|own| **own == 0).count() as f64 / colours.len() as f64;
     if transparent > TRANSPARENT {
@@ -240,7 +241,6 @@ fn two_tones(
         let tones: Vec<u64> = colours.iter().map(|own| u64::from(*own > 0)).collect();
         return Ok(areas(&tones, width, &|tone| tone == 1));
     }
-    let tones = Tones::of(&grey);
     if !tones.is_clear() {
         return Err(Box::new(told(
             "it looks like a photograph: neither one colour per stone nor two colours",

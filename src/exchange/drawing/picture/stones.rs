@@ -26,8 +26,8 @@ pub struct Areas {
 pub fn areas(values: &[u64], width: usize, wanted: &dyn Fn(u64) -> bool) -> Areas {
     let is_core: Vec<bool> =
         (0..values.len()).map(|at| wanted(values[at]) && is_core(values, width, at)).collect();
-    let mut grown = connected(values, width, &|at| is_core[at]);
-    let cores = grown.sizes.clone();
+    let grown = connected(values, width, &|at| is_core[at]);
+    let cores = &grown.sizes;
     let whole = connected(values, width, &|at| wanted(values[at]));
     let mut notes = Vec::new();
     let mut sorted = cores.clone();
@@ -80,7 +80,6 @@ pub fn areas(values: &[u64], width: usize, wanted: &dyn Fn(u64) -> bool) -> Area
         }
         *own = *number;
     }
-    grown.of_pixel.clear();
     Areas { of_pixel, count: first.len(), first, notes }
 }
 

@@ -1,23 +1,11 @@
 //! The outline of an area of pixels, along their sides.
 
-use crate::exchange::drawing::picture::stones::NONE;
-
-/// The outlines of areas, counter-clockwise seen with y upwards, as corners of pixels: x from the left, y from above. Holes are left out.
-pub fn traced(of_pixel: &[u32], width: usize, count: usize) -> Vec<Vec<[u32; 2]>> {
-    let mut first = vec![None; count];
-    for (at, area) in of_pixel.iter().enumerate() {
-        if *area != NONE && first[*area as usize].is_none() {
-            first[*area as usize] = Some(at);
-        }
-    }
-    first.into_iter().flatten().map(|at| around(of_pixel, width, at)).collect()
-}
-
 /// Steps along sides of pixels, each to the left of the one before.
 const STEPS: [[i64; 2]; 4] = [[0, 1], [1, 0], [0, -1], [-1, 0]];
 
-/// The outline of the area whose first pixel, from above and from the left, is at `start`: down its left side first, the area on the left hand.
-fn around(of_pixel: &[u32], width: usize, start: usize) -> Vec<[u32; 2]> {
+/// The outline of the area whose first pixel, from above and from the left, is at `start`: counter-clockwise seen with y upwards, as corners of
+/// pixels with x from the left and y from above. It goes down the left side first, the area on the left hand. Holes are left out.
+pub fn around(of_pixel: &[u32], width: usize, start: usize) -> Vec<[u32; 2]> {
     let area = of_pixel[start];
     let height = of_pixel.len() / width;
     let is_own = |x: i64, y: i64| {

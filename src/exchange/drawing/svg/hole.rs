@@ -1,6 +1,7 @@
 //! Holes: contours of a path within others of the same path.
 
 use crate::exchange::drawing::frame::Extent;
+use crate::shape::encloses;
 
 /// Contours around one another that are counted.
 const DEEPEST: usize = 64;
@@ -19,26 +20,12 @@ pub(super) fn holes(contours: &[Vec<[f64; 2]>]) -> Vec<bool> {
         let around = |j: &&usize| {
             let outer = &extents[**j];
             let reaches = (0..2).all(|k| outer.low[k] <= inner.low[k] && inner.high[k] <= outer.high[k]);
-            reaches && outer != inner && contours[i].first().is_some_and(|p| is_within(*p, &contours[**j]))
+            reaches && outer != inner && contours[i].first().is_some_and(|p| encloses(&contours[**j], *p))
         };
         is_hole[i] = open.iter().filter(around).take(DEEPEST).count() % 2 == 1;
         open.push(i);
     }
     is_hole
-}
-
-/// Whether a point lies within a closed line.
-fn is_within(point: [f64; 2], line: &[[f64; 2]]) -> bool {
-    let mut within = false;
-    for (i, b) in line.iter().enumerate() {
-        let a = line[(i + line.len() - 1) % line.len()];
-        if (a[1] > point[1]) != (b[1] > point[1])
-            && point[0] < a[0] + (b[0] - a[0]) * (point[1] - a[1]) / (b[1] - a[1])
-        {
-            within = !within;
-        }
-    }
-    within
 }
 
 #[cfg(test)]

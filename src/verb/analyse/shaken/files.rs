@@ -10,11 +10,9 @@ use crate::model::{BuiltJoint, JointReading, Movement, ReplayState, Support};
 use crate::render::csv::Csv;
 use crate::render::number::significant;
 use crate::render::picture::{Picture, Seam, Stone};
-use crate::study::sha256;
 use crate::terminal::failure::Failure;
 use crate::terminal::output;
-use crate::verb::analyse::drawn;
-use crate::verb::analyse::page::{again, inputs};
+use crate::verb::analyse::page::{Source, inputs};
 use crate::verb::analyse::shaken::{Common, Ran, one};
 use crate::verb::run::answer::page::{WallPage, WallTable, wall_page};
 use crate::verb::run::origin::Origin;
@@ -170,7 +168,7 @@ fn page(
     warnings: &[String],
 ) -> Result<String, Failure> {
     let asked = of.asked;
-    let bytes = again(&asked.wall)?;
+    let source = Source::again(&asked.wall, of.file)?;
     let wall = asked.title();
     let mut given = inputs(asked);
     given.extend([
@@ -183,7 +181,7 @@ fn page(
         question: format!("Does the wall stand {}, times {}?", run.motion.name, run.scale),
         answer: text.lines().map(|line| line.trim().to_owned()).collect(),
         warnings,
-        read: drawn::svg(of.file, &asked.wall, &bytes),
+        read: source.read,
         picture,
         replay: &run.replay,
         about_tables: "Displacements, turns, openings and slips are those at the end, since the wall was built. blocks.csv holds all digits.",
@@ -193,7 +191,7 @@ fn page(
         ],
         inputs: given,
         solver: asked.solver().name(),
-        sha256: sha256(&bytes),
+        sha256: source.sha256,
         origin: &Origin::now(&asked.wall, None).of_page(),
     };
     wall_page(&page).map_err(|error| Failure::Run(format!("{error:#}")))
