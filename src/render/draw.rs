@@ -1,11 +1,10 @@
-//! Figures as SVG text and as PNG files. The same numbers give the same bytes; text is set in the bundled font.
+//! Figures as SVG text and as PNG images. The same numbers give the same bytes; text is set in the bundled font.
 
-use std::fs::File;
-use std::io::{Read, Seek, SeekFrom};
-use std::path::Path;
 use std::sync::OnceLock;
 
-use anyhow::{Result, anyhow, ensure};
+use anyhow::{Result, anyhow};
+use image::codecs::png::PngEncoder;
+use image::{ExtendedColorType, ImageEncoder};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
@@ -40,11 +39,11 @@ pub fn svg(plot: &impl Figure) -> Result<String> {
     Ok(text)
 }
 
-/// Writes a figure at [`IMAGE_SCALE`] as PNG; the name must end in `.png`.
+/// A figure at [`IMAGE_SCALE`], halved, as the bytes of a PNG file.
 ///
 /// # Errors
-/// Where the file cannot be written, or not whole.
-pub fn png_into(path: &Path, plot: &impl Figure) -> Result<()> {
+/// Those of the backend.
+pub fn png(plot: &impl Figure) -> Result<Vec<u8>> {
     register_font();
     let (width, height) = plot.size();
     let mut pixels = vec![255; 3 * width as usize * height as usize];
@@ -54,23 +53,9 @@ pub fn png_into(path: &Path, plot: &impl Figure) -> Result<()> {
         root.present().map_err(|fault| anyhow!("{fault}"))?;
     }
     let smooth = halved(&pixels, width as usize, height as usize);
-    let mut image = BitMapBackend::new(path, (width / 2, height / 2));
-    image.blit_bitmap((0, 0), (width / 2, height / 2), &smooth).map_err(|fault| anyhow!("{fault}"))?;
-    image.present().map_err(|fault| anyhow!("{fault}"))?;
-    drop(image);
-    // The encoder's last buffer is written without its error being seen: a full disk shows as a missing end.
-    ensure!(is_whole(path)?, "the image was cut short (is the disk full?)");
-    Ok(())
-}
-
-/// True when a PNG file has its closing chunk.
-pub fn is_whole(path: &Path) -> Result<bool> {
-    const END: [u8; 12] = [0, 0, 0, 0, b'I', b'E', b'N', b'D', 0xae, 0x42, 0x60, 0x82];
-    let mut file = File::open(path)?;
-    let mut last = [0; END.len()];
-    file.seek(SeekFrom::End(-(END.len() as i64)))?;
-    file.read_exact(&mut last)?;
-    Ok(last == END)
+    let mut bytes = Vec::new();
+    PngEncoder::new(&mut bytes).write_image(&smooth, width / 2, height / 2, ExtendedColorType::Rgb8)?;
+    Ok(bytes)
 }
 
 /// An RGB image of half the width and height: means of two by two pixels, rounded down.

@@ -1,16 +1,15 @@
 //! A figure of a document: its file, its words, and how it is drawn.
 
-use std::path::Path;
 use std::rc::Rc;
 
 use anyhow::Result;
 
 use crate::render::chart::Chart;
 use crate::render::document::{Drawing, ReadOff};
-use crate::render::draw::{Figure, IMAGE_SCALE, png_into, svg};
+use crate::render::draw::{Figure, IMAGE_SCALE, png, svg};
 
 type Svg<'a> = Box<dyn Fn() -> Result<String> + 'a>;
-type Png<'a> = Box<dyn Fn(&Path) -> Result<()> + 'a>;
+type Png<'a> = Box<dyn Fn() -> Result<Vec<u8>> + 'a>;
 
 /// A figure with its words.
 pub struct Captioned<'a> {
@@ -41,7 +40,7 @@ impl<'a> Captioned<'a> {
             caption: caption.into(),
             read_off: None,
             svg: Box::new(move || svg(&at(1))),
-            png: Box::new(move |path| png_into(path, &large(IMAGE_SCALE))),
+            png: Box::new(move || png(&large(IMAGE_SCALE))),
         }
     }
 
@@ -69,12 +68,12 @@ impl<'a> Captioned<'a> {
         (self.svg)()
     }
 
-    /// Writes it as an image; the name must end in `.png`.
+    /// As the bytes of a PNG file.
     ///
     /// # Errors
-    /// Where the file cannot be written, or not whole.
-    pub fn png_into(&self, path: &Path) -> Result<()> {
-        (self.png)(path)
+    /// A figure that cannot be drawn.
+    pub fn png(&self) -> Result<Vec<u8>> {
+        (self.png)()
     }
 
     /// As a page has it.

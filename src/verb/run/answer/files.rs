@@ -1,6 +1,5 @@
 //! The files of a report, each written whole or not at all.
 
-use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result};
@@ -126,16 +125,5 @@ pub(crate) fn write_figure<F: Figure>(dir: &Path, name: &str, at: impl Fn(u32) -
 pub(crate) fn write_captioned(dir: &Path, figure: &Captioned<'_>) -> Result<()> {
     let name = &figure.file;
     replace_file(&dir.join(format!("{name}.svg")), figure.svg()?.as_bytes())?;
-    // Lets the image writer, which wants a path and chooses its format by the ending, write a temporary file, flushes it to
-    // the disk and gives it its name.
-    let (path, temporary) = (dir.join(format!("{name}.png")), dir.join(format!(".unfinished-{name}.png")));
-    let written = figure
-        .png_into(&temporary)
-        .and_then(|()| Ok(fs::File::open(&temporary)?.sync_all()?))
-        .and_then(|()| Ok(fs::rename(&temporary, &path)?));
-    if written.is_err() {
-        // The reason of the first failure is what matters; a leftover is overwritten next time.
-        let _ = fs::remove_file(&temporary);
-    }
-    written.with_context(|| format!("cannot write {}", path.display()))
+    Ok(replace_file(&dir.join(format!("{name}.png")), &figure.png()?)?)
 }
