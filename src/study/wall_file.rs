@@ -297,23 +297,25 @@ fn asked(t: &mut Reader<'_>, file: &str, states_units: bool) -> Option<Asked> {
     }
     let is_elevation = Format::of(file).is_some_and(Format::is_elevation);
     let is_drawn = Format::of(file).is_some_and(Format::is_drawn);
+    let is_picture = Format::of(file) == Some(Format::Picture);
     let keys = [
-        (
-            "unit",
-            Format::of(file) == Some(Format::Picture),
-            "of coordinates; a picture has pixel_m or width_m",
-        ),
+        ("unit", is_picture, "of coordinates; a picture has pixel_m or width_m"),
         ("up_axis", is_elevation, "for .obj files: in an elevation z points up"),
         (
             "thickness_m",
             !is_elevation,
             "for elevations (tables, drawings, pictures): other files state it themselves",
         ),
-        ("pixel_m", !is_drawn, "for pictures: other files state their unit, or take the key unit"),
+        ("pixel_m", !is_picture, "for pictures: other files state their unit, or take the key unit"),
         (
             "width_m",
             !is_drawn,
             "for drawings and pictures: other files state their unit, or take the key unit",
+        ),
+        (
+            "width_m",
+            t.has("pixel_m") || t.has("unit"),
+            "the size of the drawing once: pixel_m or unit says it already",
         ),
     ];
     for (key, is_vain, allowed) in keys {

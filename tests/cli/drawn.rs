@@ -186,6 +186,10 @@ fn layers_say_what_is_ground_and_what_is_open() {
     let warnings = told["warnings"].to_string();
     assert!(warnings.contains("read 3 stones on 1 outline(s) of ground"), "{warnings}");
     assert!(warnings.contains("1 opening(s) stay open"), "{warnings}");
+    let said = asked("wall.svg", SVG.as_bytes(), &["--pixel", "1mm"]).expect_err("it has no pixels");
+    assert!(said.contains("--pixel is for pictures"), "{said}");
+    let said = asked("wall.svg", SVG.as_bytes(), &["--width", "2m", "--unit", "cm"]).expect_err("two sizes");
+    assert!(said.contains("leave one of them out"), "{said}");
     let apart = asked("wall.svg", SVG.as_bytes(), &[]).expect_err("it floats");
     assert!(apart.contains("floats free"), "{apart}");
 }

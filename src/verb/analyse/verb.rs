@@ -241,6 +241,16 @@ fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
                 .to_owned(),
         ));
     }
+    if arguments.pixel.is_some() && !format(arguments).is_none_or(|own| own == Format::Picture) {
+        return Err(Failure::Usage(
+            "--pixel is for pictures; of a drawing say --unit, or --width".to_owned(),
+        ));
+    }
+    if arguments.width.is_some() && arguments.unit.is_some() {
+        return Err(Failure::Usage(
+            "--width and --unit both say how large the drawing is: leave one of them out".to_owned(),
+        ));
+    }
     if format(arguments) == Some(Format::Picture) && arguments.unit.is_some() {
         return Err(Failure::Usage(
             "--unit is for coordinates; of a picture say --pixel or --width".to_owned(),

@@ -137,8 +137,7 @@ fn labelled(colours: &[u64], width: usize) -> Option<Areas> {
     let ground = behind(colours, width, &found, &of_colour);
     let mut kept = areas(colours, width, &|colour| !ground.contains(&colour));
     for colour in &ground {
-        kept.notes
-            .push(format!("no stone is what is {}: joints and what lies around the wall", named(*colour)));
+        kept.notes.push(format!("what is {} is taken for joints and background", named(*colour)));
     }
     Some(kept)
 }
