@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::ensemble::ledger::Ledger;
 use crate::ensemble::table::parquet;
 use crate::ensemble::{Observed, Quantity, RunError, Task, evaluate};
-use crate::generate::Arrangement;
+use crate::generate::{Arrangement, Unseen};
 use crate::random::{Family, PARTNER, Quantities};
 use crate::stats::BasePoint;
 use crate::study::{Arm, Study, TakenFrom, parameters};
@@ -28,12 +28,16 @@ pub struct Source {
 /// Name of the source that the layout is as a whole.
 pub const LAYOUT: &str = "layout";
 /// Quantities of a wall's layout, how they begin.
-const IN_LAYOUT: [(&str, &[&str]); 6] = [
+const IN_LAYOUT: [(&str, &[&str]); 10] = [
     ("dips", &["bed dip", "joint dip"]),
     ("sizes", &["course height", "stone length", "stone height"]),
     ("wedges", &["wedge", "wedge loss"]),
     ("wythes", &["header"]),
     ("densities", &["density"]),
+    ("throughs", &["unseen through"]),
+    ("depths", &["unseen depths"]),
+    ("core", &["unseen core share"]),
+    ("beds through the wall", &["unseen dip"]),
     ("joints", &["joint kn_factor", "joint phi", "joint cohesion", "joint contact_area", "joint bearing"]),
 ];
 
@@ -75,6 +79,11 @@ fn is_drawn(arm: &Arm, name: &str) -> bool {
     let scatters = |family: &Family| family.sd() > 0.0;
     let (layout, joint) = (&arm.layout, &arm.joint);
     let has_wedges = layout.wedges.as_ref().is_some_and(|wedges| wedges.share > 0.0);
+    // What an arrangement does not draw of a wall behind its face has no source.
+    let unseen = |drawn: fn(&Unseen) -> bool| match &layout.arrangement {
+        Arrangement::File { unseen, .. } => unseen.as_ref().is_some_and(drawn),
+        _ => false,
+    };
     match (name, &layout.arrangement) {
         ("dips", Arrangement::Coursed { dip, .. } | Arrangement::Cut { dip, .. }) => scatters(dip),
         ("sizes", Arrangement::Coursed { sizes, .. } | Arrangement::Cut { sizes, .. }) => sizes.scatter(),
@@ -82,6 +91,10 @@ fn is_drawn(arm: &Arm, name: &str) -> bool {
         ("wythes", _) => {
             layout.wythes.count > 1 && layout.wythes.header_share > 0.0 && layout.wythes.header_share < 1.0
         }
+        ("throughs", _) => unseen(Unseen::draws_throughs),
+        ("depths", _) => unseen(Unseen::draws_depths),
+        ("core", _) => unseen(|own| own.core_share.sd() > 0.0),
+        ("beds through the wall", _) => unseen(|own| own.dip.sd() > 0.0),
         ("densities", _) => scatters(&layout.density),
         ("joints", _) => {
             [&joint.kn_factor, &joint.phi_deg, &joint.cohesion].into_iter().any(scatters)

@@ -21,6 +21,7 @@ mod read_table;
 mod scan;
 mod sheet;
 mod solid;
+mod vain;
 
 pub use draft::{Drawn, WallFile};
 pub use fault::{Fault, WallFaults};
@@ -33,3 +34,4 @@ pub use read::{
 };
 pub use read_json::{read_wall_json, read_wall_json_with};
 pub use read_obj::read_obj;
+pub use vain::{Choice, Nature};

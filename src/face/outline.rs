@@ -8,6 +8,8 @@ pub enum Part {
     /// A stone.
     #[default]
     Stone,
+    /// A stone that goes through the wall: a header.
+    Header,
     /// What the wall stands on, and what does not move.
     Ground,
     /// A hole in the wall: a door, a window. Nothing is there.

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::exchange::{
-    self, Format, ReadOptions, Unit, Up, WallFaults, WallFile, leaves_units_open, read_wall_bytes,
-    states_no_units, wall_bytes,
+    self, Choice, Format, Nature, ReadOptions, Unit, Up, WallFaults, WallFile, leaves_units_open,
+    read_wall_bytes, states_no_units, wall_bytes,
 };
 use crate::generate::{Arrangement, BatteredFace, Layout, Limits, Outline, Unseen, Wythes, mean_density};
 use crate::math::radians;
@@ -20,20 +20,6 @@ use crate::study::meetings::{TOUCH, Tolerance, look};
 use crate::study::mending::{mended, wider};
 use crate::study::quantity::quantity;
 use crate::study::reader::{Reader, join};
-
-/// Options of `analyse` that messages about a file name, with the keys of an arm that say the same.
-const SAME: [(&str, &str); 10] = [
-    ("--pixel", "pixel_m"),
-    ("--width", "width_m"),
-    ("--touch-tolerance", "touch_tolerance_m"),
-    ("--flatness", "flatness_m"),
-    ("--mend", "mend_m"),
-    ("--fixed", "fixed"),
-    ("--parts", "parts"),
-    ("--thickness", "thickness_m"),
-    ("--scan-bearing", "scan_bearing_m"),
-    ("--density-kg-per-m3", "unstated_density_kg_per_m3"),
-];
 
 /// Stones whose depths differ by less than this share go through the wall alike: rounding.
 const SAME_DEPTH: f64 = 1e-9;
@@ -165,8 +151,10 @@ fn as_fault(file: &str, rank: usize, fault: &exchange::Fault) -> Fault {
 
 /// Behind a message, the keys that stand for the options which it names.
 fn same_keys(message: &str) -> String {
-    let named = SAME.iter().filter(|(option, _)| message.contains(option));
-    named.map(|(option, key)| format!(" ({option} is {key} of the arm)")).collect()
+    let named = [("--touch-tolerance", "touch_tolerance_m"), ("--fixed", "fixed")];
+    let all = Choice::ALL.map(|own| (own.option(), own.key())).into_iter().chain(named);
+    let said = all.filter(|(option, _)| message.contains(option));
+    said.map(|(option, key)| format!(" ({option} is {key} of the arm)")).collect()
 }
 
 /// Reads an arm whose stones a file describes. `density` (kg/m^3) is what the arm says of its stones in the place of the file.
@@ -253,16 +241,16 @@ fn goes_through(wall: &Wall) -> bool {
     let (low, high) = wall.bounds_of_stones();
     wall.stones().all(|(_, block)| {
         let (near, far) = block.shape.bounds();
-        (near.y - low.y).max(high.y - far.y) <= SAME_DEPTH * (high.y - low.y)
+        block.scan.is_none() && (near.y - low.y).max(high.y - far.y) <= SAME_DEPTH * (high.y - low.y)
     })
 }
 
 /// What is drawn behind the face of a wall.
 fn unseen(t: &mut Reader<'_>, wall: &Wall, catalogue: &mut Catalogue) -> Option<Unseen> {
-    let (through_share, depth_share) =
-        (quantity(t, "through_share", catalogue), quantity(t, "depth_share", catalogue));
+    let [through_share, depth_share, core_share] =
+        ["through_share", "depth_share", "core_share"].map(|key| quantity(t, key, catalogue));
     let dip = quantity(t, "dip_deg", catalogue).map(|dip| dip.scaled(radians(1.0)));
-    let (dip, depth_share, through_share) = (dip?, depth_share?, through_share?);
+    let (dip, core_share, depth_share, through_share) = (dip?, core_share?, depth_share?, through_share?);
     if wall.has_base() && dip != (Family::Constant { value: 0.0 }) {
         t.fault(
             "dip_deg",
@@ -271,56 +259,17 @@ fn unseen(t: &mut Reader<'_>, wall: &Wall, catalogue: &mut Catalogue) -> Option<
         );
         return None;
     }
-    Some(Unseen { through_share, depth_share, dip })
+    Some(Unseen { through_share, depth_share, core_share, dip })
 }
 
 /// How the file is to be read.
 fn asked(t: &mut Reader<'_>, file: &str, states_units: bool) -> Option<Asked> {
     let before = t.notes.faults.len();
-    if states_units {
-        for key in ["unit", "up_axis", "unstated_density_kg_per_m3"] {
-            if t.has(key) {
-                t.fault(
-                    key,
-                    "only for files that state none (OBJ, COMPAS): a wall.json states it itself, and its z points up",
-                    "remove it",
-                );
-            }
-        }
-    }
-    if !file.to_ascii_lowercase().ends_with(".obj") && t.has("scan_bearing_m") {
-        t.fault(
-            "scan_bearing_m",
-            "only for .obj files: a wall.json has the scan of a block itself",
-            "remove it",
-        );
-    }
-    let is_elevation = Format::of(file).is_some_and(Format::is_elevation);
-    let is_drawn = Format::of(file).is_some_and(Format::is_drawn);
-    let is_picture = Format::of(file) == Some(Format::Picture);
-    let keys = [
-        ("unit", is_picture, "of coordinates; a picture has pixel_m or width_m"),
-        ("up_axis", is_elevation, "for .obj files: in an elevation z points up"),
-        (
-            "thickness_m",
-            !is_elevation,
-            "for elevations (tables, drawings, pictures): other files state it themselves",
-        ),
-        ("pixel_m", !is_picture, "for pictures: other files state their unit, or take the key unit"),
-        (
-            "width_m",
-            !is_drawn,
-            "for drawings and pictures: other files state their unit, or take the key unit",
-        ),
-        (
-            "width_m",
-            t.has("pixel_m") || t.has("unit"),
-            "the size of the drawing once: pixel_m or unit says it already",
-        ),
-    ];
-    for (key, is_vain, allowed) in keys {
-        if is_vain && t.has(key) {
-            t.fault(key, allowed, "remove it");
+    let nature = Nature { format: Format::of(file), states_units };
+    let stated: Vec<Choice> = Choice::ALL.into_iter().filter(|own| t.has(own.key())).collect();
+    for choice in &stated {
+        if let Some(why) = choice.in_vain(nature, &stated) {
+            t.fault(choice.key(), why, "remove it");
         }
     }
     let fixed: Vec<u64> = match t.has("fixed").then(|| t.list("fixed")).flatten() {

@@ -189,9 +189,27 @@ fn layers_say_what_is_ground_and_what_is_open() {
     let said = asked("wall.svg", SVG.as_bytes(), &["--pixel", "1mm"]).expect_err("it has no pixels");
     assert!(said.contains("--pixel is for pictures"), "{said}");
     let said = asked("wall.svg", SVG.as_bytes(), &["--width", "2m", "--unit", "cm"]).expect_err("two sizes");
-    assert!(said.contains("leave one of them out"), "{said}");
+    assert!(said.contains("--width is the size a second time"), "{said}");
+    let said = asked("wall.svg", SVG.as_bytes(), &["--mend", "2cm", "--parts"]).expect_err("convex already");
+    assert!(said.contains("becomes convex"), "{said}");
     let apart = asked("wall.svg", SVG.as_bytes(), &[]).expect_err("it floats");
     assert!(apart.contains("floats free"), "{apart}");
+}
+
+#[test]
+fn a_layer_of_headers_marks_stones_that_go_through() {
+    let marked = SVG.replace(r#"<rect x="50" y="49" width="50" height="20"/>"#, "").replace(
+        r#"<g id="ground">"#,
+        r#"<g id="Headers"><rect x="50" y="49" width="50" height="20"/></g><g id="ground">"#,
+    );
+    let folder = Folder::new();
+    fs::write(folder.path("wall.svg"), marked).expect("written");
+    let asked = ["analyse", "wall.svg", "--thickness", "30cm", "--mend", "2cm", "--json", "--out", "answer"];
+    let output = folder.pirca(&asked);
+    let told = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(told.contains("read 3 stones, 1 of them headers on 1 outline(s) of ground"), "{told}");
+    let read = fs::read_to_string(folder.path("answer/wall.json")).expect("the wall");
+    assert_eq!(read.matches("\"header\"").count(), 1, "{read}");
 }
 
 #[test]

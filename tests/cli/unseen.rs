@@ -2,6 +2,9 @@
 
 use std::fs;
 
+use pirca::ensemble::sources;
+use pirca::math::{atan, degrees};
+use pirca::study::Study;
 use serde_json::Value;
 
 use crate::fixture::stderr;
@@ -73,6 +76,37 @@ fn walls_with_one_face_differ_by_what_is_behind_it() {
     let (low, high) =
         unseen.iter().fold((f64::MAX, 0.0_f64), |(low, high), own| (low.min(*own), high.max(*own)));
     assert!(low > 10.0 && high <= 35.01 && high - low > 0.3, "{unseen:?}");
+}
+
+#[test]
+fn a_core_of_which_nothing_ties_the_leaves_weakens_the_wall() {
+    let angle = |core: &str| {
+        let unseen = format!("\n[arm.unseen]\nthrough_share = 0\ndepth_share = 0.5\ncore_share = {core}\n");
+        angles(&unseen).expect("walls")[0]
+    };
+    // Each leaf topples by itself, as a block of its own depth does: 0.14 m with a core of 0.12 m, both 0.5 m high.
+    let (cored, whole) = (angle("0.3"), angle("0"));
+    assert!((cored - degrees(atan(0.14 / 0.5))).abs() < 0.02, "{cored}");
+    assert!(whole > cored + 3.0, "leaves that touch lean on each other: {whole}");
+}
+
+#[test]
+fn the_scatter_of_what_is_unseen_has_its_sources() {
+    let of = |unseen: &str| {
+        let folder = Folder::new();
+        fs::create_dir(folder.path("face")).expect("a folder");
+        fs::write(folder.path("face/study.toml"), study(unseen)).expect("written");
+        fs::write(folder.path("face/wall.csv"), TABLE).expect("written");
+        let study = Study::load(&folder.path("face"), None).expect("a study").study;
+        let names: Vec<String> = sources(&study.arms[0]).into_iter().map(|own| own.name).collect();
+        names
+    };
+    let all = of(
+        "\n[arm.unseen]\ncore_share = { family = \"uniform\", low = 0, high = 0.2 }\ndip_deg = { family = \"uniform\", low = -2, high = 2 }\n",
+    );
+    assert_eq!(all, ["layout", "throughs", "depths", "core", "beds through the wall"]);
+    assert_eq!(of("\n[arm.unseen]\nthrough_share = 0.3\ndepth_share = 0.5\n"), ["layout"]);
+    assert_eq!(of("\n[arm.unseen]\nthrough_share = 1\n"), Vec::<String>::new());
 }
 
 #[test]

@@ -152,7 +152,7 @@ fn what_a_file_states_is_taken_and_what_does_not_go_with_it_is_refused_with_its_
             one.replace("[joint]", "[block]\ndensity_kg_per_m3 = 2000\n\n[joint]"),
             "block has nothing to act on",
         ),
-        (one.clone() + "unit = \"mm\"\n", "only for files that state none"),
+        (one.clone() + "unit = \"mm\"\n", "for files that state no unit"),
         (one.clone() + "length_m = 2\n", "means nothing where arrangement = \"file\""),
         (one.clone() + "wall.turned = true\n", "means nothing where arrangement = \"file\""),
         (

@@ -208,6 +208,7 @@ fn unseen() -> Unseen {
     Unseen {
         through_share: Family::Uniform { low: 0.0, high: 0.3 },
         depth_share: Family::Uniform { low: 0.35, high: 0.65 },
+        core_share: Family::Constant { value: 0.0 },
         dip: Family::Uniform { low: radians(-3.0), high: radians(3.0) },
     }
 }
@@ -234,10 +235,13 @@ fn what_is_unseen_matters_and_what_is_known_of_it_narrows_the_answer() {
     };
     let known = Unseen { through_share: Family::Constant { value: 0.9 }, ..unseen() };
     let ((mean, scatter), (tied, narrow)) = (spread(&unseen()), spread(&known));
+    let cored = Unseen { core_share: Family::Constant { value: 0.4 }, ..unseen() };
+    let (leaves, _) = spread(&cored);
     println!(
-        "solid {solid:.2} deg, unseen {mean:.2} deg, mostly through {tied:.2} deg; scatter {scatter:.3}, {narrow:.3}"
+        "solid {solid:.2} deg, unseen {mean:.2} deg, mostly through {tied:.2} deg, with a core {leaves:.2} deg; scatter {scatter:.3}, {narrow:.3}"
     );
     assert!(mean < solid - 0.3 && tied > mean && narrow < scatter, "{solid} {mean} {tied}");
+    assert!(leaves < mean - 0.3, "leaves that do not touch lean on nothing: {leaves} {mean}");
     // The same member is the same wall.
     assert_eq!(draw(&unseen(), 5), draw(&unseen(), 5));
 }

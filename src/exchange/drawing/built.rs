@@ -6,6 +6,7 @@ use crate::exchange::fault::{Fault, WallFaults};
 use crate::exchange::{ReadOptions, Unit};
 use crate::face::{Closing, Face, Outline, Part, Trouble};
 use crate::math::{Vec3, significant};
+use crate::model::Tag;
 use crate::shape::{Polygon, bounds, moments};
 
 /// Joints of a picture are closed up to so many pixels where nothing else is asked for.
@@ -135,7 +136,9 @@ fn read(outlines: &[Outline], length: f64, height: f64) -> String {
     let grounds = outlines.iter().filter(|own| own.part == Part::Ground).count();
     let ground = if grounds > 0 { format!(" on {grounds} outline(s) of ground") } else { String::new() };
     let stones = outlines.len() - grounds;
-    format!("read {stones} stones{ground}, {length:.3} m long and {height:.3} m high together")
+    let headers = outlines.iter().filter(|own| own.part == Part::Header).count();
+    let headers = if headers > 0 { format!(", {headers} of them headers") } else { String::new() };
+    format!("read {stones} stones{headers}{ground}, {length:.3} m long and {height:.3} m high together")
 }
 
 /// What the outlines fill with their joints closed.
@@ -251,7 +254,8 @@ fn draft(at: usize, outline: &Outline, polygon: &[[f64; 2]], deep: f64, options:
     let faces = [(0..n).collect(), (n..2 * n).rev().collect()].into_iter().chain(sides).collect();
     let shape = (plane(0.0).chain(plane(deep)).collect(), faces);
     let plain = Draft::plain(outline.name.clone(), at as u64, outline.part == Part::Ground, shape);
-    Draft { line: outline.line, density: options.density.or(plain.density), ..plain }
+    let tag = if outline.part == Part::Header { Tag::Header } else { plain.tag };
+    Draft { line: outline.line, density: options.density.or(plain.density), tag, ..plain }
 }
 
 /// A length (m) for a person.

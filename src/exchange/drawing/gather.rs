@@ -236,7 +236,7 @@ impl Gatherer {
         let (mut numbers, mut outlines) = ([0; 3], Vec::with_capacity(settled.len()));
         for Settled { line, own, part, points } in settled {
             let (kind, number) = match part {
-                Part::Stone => ("stone", &mut numbers[0]),
+                Part::Stone | Part::Header => ("stone", &mut numbers[0]),
                 Part::Ground => ("ground", &mut numbers[1]),
                 Part::Opening => ("opening", &mut numbers[2]),
             };

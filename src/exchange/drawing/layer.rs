@@ -60,6 +60,27 @@ const OPENING: [&str; 24] = [
     "void",
     "window",
 ];
+/// Words of stones that go through the wall.
+const HEADER: [&str; 18] = [
+    "ankerstein",
+    "binder",
+    "bondstone",
+    "boutisse",
+    "diatone",
+    "diatoni",
+    "diatono",
+    "durchbinder",
+    "header",
+    "llave",
+    "parpaing",
+    "pasante",
+    "passante",
+    "perpiaño",
+    "through",
+    "throughstone",
+    "tizon",
+    "tizón",
+];
 /// Words of what is drawn about a wall and is no part of it.
 const PASSED: [&str; 51] = [
     "achse",
@@ -134,6 +155,8 @@ pub(super) fn shown(name: &str) -> Shown {
         Shown::Part(Part::Opening)
     } else if has(&GROUND) {
         Shown::Part(Part::Ground)
+    } else if has(&HEADER) {
+        Shown::Part(Part::Header)
     } else {
         Shown::Part(Part::Stone)
     }
@@ -174,6 +197,9 @@ mod tests {
         for stones in ["", "0", "STONES", "Steine_2", "basement", "void-free?no", "Texture"] {
             let expected = if stones.starts_with("void") { Part::Opening } else { Part::Stone };
             assert_eq!(part(stones), Some(expected), "{stones}");
+        }
+        for header in ["Headers", "through-stones", "DIATONI", "Binder 3", "bondstones"] {
+            assert_eq!(part(header), Some(Part::Header), "{header}");
         }
         for ground in ["Ground", "GroundLine_2", "A-BASE-01", "gelände", "fixed blocks", "SUELO"] {
             assert_eq!(part(ground), Some(Part::Ground), "{ground}");

@@ -278,15 +278,22 @@ static UNSEEN: Section = Section {
             "through_share",
             quantity("1", Interval::closed(0.0, 1.0)),
             Default("{ family = \"uniform\", low = 0, high = 0.3 }"),
-            "Share of the stones that go through the wall, drawn once per wall. The default is a judgement: from a wall without throughs to one with \
+            "Share of the stones that go through the wall, drawn once per wall; stones that the file marks as headers do in every wall. The default is a judgement: from a wall without throughs to one with \
              a through in every square metre of small stones.",
         ),
         Key::new(
             "depth_share",
             quantity("1", Interval::closed(0.05, 0.95)),
             Default("{ family = \"uniform\", low = 0.35, high = 0.65 }"),
-            "Depth of the other stones as a share of the thickness, drawn per stone; a stone behind each has the rest. The default is a judgement: two \
-             leaves that interlock.",
+            "Depth of the other stones as a share of the thickness without the core, drawn per stone; a stone behind each has the rest. The default is a \
+             judgement: two leaves that interlock.",
+        ),
+        Key::new(
+            "core_share",
+            quantity("1", Interval::closed(0.0, 0.8)),
+            Default("0"),
+            "Thickness of the core as a share of the wall's, drawn once per wall. It lies between the stones that do not go through and counts as empty: \
+             a loose core bears nothing, and its weight is left out.",
         ),
         Key::new(
             "dip_deg",
