@@ -21,7 +21,7 @@ use crate::verb::{
 };
 
 /// Does what arguments ask, of which the first is the name of the program, prints what comes out, and gives the exit code: 0 done,
-/// 1 the run or its files failed, 2 the arguments make no sense, 3 the study or the wall is invalid.
+/// 1 the run or its files failed, 2 the arguments make no sense, 3 the study or the wall is invalid, 4 a demand is not met and was to be.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     output::report_full_files();
     let given: Vec<OsString> = arguments.into_iter().collect();
@@ -31,8 +31,9 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Err(error) => return output::usage(&error),
     };
     output::set_quiet(arguments.quiet);
-    match done(&arguments.verb).and_then(|answer| answer.tell(arguments.verb.is_json())) {
-        Ok(()) => 0,
+    let told = |answer: Answer| answer.tell(arguments.verb.is_json()).map(|()| answer.code);
+    match done(&arguments.verb).and_then(told) {
+        Ok(code) => code,
         Err(failure) => {
             output::failed(&failure);
             failure.code()

@@ -13,6 +13,7 @@ use crate::solve::Solver;
 use crate::stats::Statistic;
 use crate::study::bearing::Bearing;
 use crate::study::cause::Mechanisms;
+use crate::study::demand::Demand;
 use crate::study::earthquakes::Earthquakes;
 use crate::study::measured::Measurement;
 use crate::study::uncertain::{Uncertain, parameters};
@@ -53,6 +54,8 @@ pub struct Study {
     pub published: Vec<Claim>,
     /// What was measured on specimens of the arms, from measured.csv; decides no simulated result.
     pub measured: Vec<Measurement>,
+    /// What its walls must bear, or how far they may move; none in a study from files, and decides no simulated result.
+    pub demand: Option<Demand>,
     /// Every input file with its SHA-256, in the order read.
     pub inputs: Vec<InputFile>,
     /// Every value that decides a result, after the variant has been applied and with defaults and referenced

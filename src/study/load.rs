@@ -151,6 +151,7 @@ impl Study {
                     solver: parts.solver,
                     agreement: parts.agreement,
                     published: claims,
+                    demand: None,
                     measured: read.rows,
                     inputs,
                     effective,

@@ -11,6 +11,7 @@ mod cause;
 mod checked;
 mod closing;
 mod csv;
+mod demand;
 mod demands;
 mod distributions;
 mod earthquakes;
@@ -49,7 +50,7 @@ pub use crate::random::Design;
 pub use angle::Angle;
 pub use bearing::Bearing;
 pub use built_in::{BuiltInStudy, built_in_studies};
-pub use catalogue::{Distribution, DistributionFile, Used, load_distributions};
+pub use catalogue::{Distribution, DistributionFile, Used, load_distributions, read_distributions};
 pub use cause::{
     Acts, CAUSES, Cause, Described, InLimitAnalysis, Mechanisms, Meeting, OnPlate, Parameter, Stronger,
     Unloading, WIDER, described, in_plain_words,
@@ -57,6 +58,7 @@ pub use cause::{
 pub use checked::{
     Arm, Claim, ClaimTest, InputFile, Joint, StatedLaw, Study, SweptArm, SweptValue, TakenFrom, Until,
 };
+pub use demand::{Amount, Demand};
 pub use distributions::{Distributions, Origin, distributions_among};
 pub use earthquakes::{Earthquakes, Measure, Record, Sought};
 pub use elements::{ElementArm, ElementStudy, Reported};

@@ -18,6 +18,8 @@ pub struct Answer {
     pub out: Option<PathBuf>,
     /// What looks wrong; the JSON object has it as well.
     pub warnings: Vec<String>,
+    /// The exit code: 0, unless a program that waits for it asked for more than was shown.
+    pub code: u8,
     /// Whether the text is for a file or a program, and is printed as it is.
     is_verbatim: bool,
 }
@@ -27,7 +29,7 @@ impl Answer {
     pub(crate) fn of(text: String, object: &impl Serialize) -> Result<Answer, Failure> {
         let json = serde_json::to_string_pretty(object)
             .map_err(|error| Failure::Run(format!("cannot write JSON: {error}")))?;
-        Ok(Answer { text, json: json + "\n", out: None, warnings: Vec::new(), is_verbatim: false })
+        Ok(Answer { text, json: json + "\n", out: None, warnings: Vec::new(), code: 0, is_verbatim: false })
     }
 
     /// A text that a file or a program takes, and an object of it.
@@ -38,6 +40,11 @@ impl Answer {
     /// The same with files in a folder, or a file.
     pub(crate) fn in_place(self, out: &Path) -> Answer {
         Answer { out: Some(out.to_path_buf()), ..self }
+    }
+
+    /// The same with another exit code.
+    pub(crate) fn with_code(self, code: u8) -> Answer {
+        Answer { code, ..self }
     }
 
     /// The same with what looks wrong.

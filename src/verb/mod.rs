@@ -2,7 +2,7 @@
 
 macro_rules! codes {
     () => {
-        "Exit codes: 0 done; 1 the run or a file failed; 2 wrong arguments; 3 invalid study or wall."
+        "Exit codes: 0 done; 1 the run or a file failed; 2 wrong arguments; 3 invalid study or wall; 4 a demand is not met (--assert)."
     };
 }
 pub(crate) use codes;
@@ -13,6 +13,7 @@ pub(crate) mod arms;
 pub mod capacity;
 pub(crate) mod check;
 pub mod compare;
+pub(crate) mod demand;
 pub mod detectability;
 pub mod diagnose;
 pub mod homogenise;

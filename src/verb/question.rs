@@ -4,9 +4,10 @@ use clap::Args;
 use serde::Serialize;
 
 use crate::ensemble::{Quantity, RANDOMISATIONS};
-use crate::study::{Angle, Design, Study};
+use crate::study::{Angle, Demand, Design, Study};
 use crate::terminal::failure::Failure;
 use crate::terminal::output;
+use crate::verb::demand;
 
 /// What is asked of walls: one question, or none.
 #[derive(Args, Debug)]
@@ -16,6 +17,10 @@ pub(crate) struct Asked {
     /// Which share of walls lie below the value sought.
     #[arg(long, value_name = "P", value_parser = probability, allow_negative_numbers = true)]
     pub quantile: Option<f64>,
+    /// How probable is it that a wall does not bear this, or moves further: a tilt (8.5deg), a share of its weight (0.15g), a force (12kN), a multiple
+    /// of the full load (1.2), a displacement (4mm)?
+    #[arg(long, value_name = "VALUE", value_parser = demand::demand, allow_negative_numbers = true)]
+    pub demand: Option<Demand>,
     /// How probable is a collapse before this tilt (deg)?
     #[arg(long, value_name = "DEG", value_parser = level, allow_negative_numbers = true)]
     pub below_deg: Option<f64>,
@@ -51,6 +56,13 @@ pub(crate) fn asked(asked: &Asked, quantity: Quantity, study: &Study) -> Result<
             output::warning(&format!("{option}: {doubt}"));
         }
         return Ok(Some(question(level)));
+    }
+    if let Some(demand) = &asked.demand {
+        let level = demand::level(demand, quantity, study)?;
+        return Ok(Some(match quantity {
+            Quantity::TopDisplacement => Question::Above(level),
+            _ => Question::Below(level),
+        }));
     }
     Ok(asked.quantile.map(Question::Quantile))
 }

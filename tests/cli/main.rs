@@ -11,6 +11,7 @@ mod catalogue;
 mod commands;
 mod compare;
 mod compas;
+mod demand;
 mod diagnose;
 mod drawn;
 mod elevation;

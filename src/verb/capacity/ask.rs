@@ -7,8 +7,8 @@ use clap::Args;
 
 use crate::verb::arguments::{Ensemble, OUTPUT, SOLUTION, STUDY, Which};
 use crate::verb::capacity::rare::Method;
-use crate::verb::question;
 use crate::verb::question::Asked;
+use crate::verb::{demand, question};
 
 /// Of `capacity`.
 pub(crate) const HELP: &str = concat!(
@@ -54,8 +54,11 @@ pub(crate) struct Capacity {
     #[arg(long, requires = "walls", conflicts_with_all = ["measured", "quantile", "half_width"], help_heading = STUDY)]
     pub batches: bool,
     /// Add walls, up to --walls, until half the width of a quantile's interval is below this share of the quantile.
-    #[arg(long, value_name = "H", conflicts_with_all = ["measured", "members", "below_deg", "above_m", "below_n"], value_parser = question::relative, allow_negative_numbers = true, help_heading = STUDY)]
+    #[arg(long, value_name = "H", conflicts_with_all = ["measured", "members", "demand", "below_deg", "above_m", "below_n"], value_parser = question::relative, allow_negative_numbers = true, help_heading = STUDY)]
     pub half_width: Option<f64>,
+    /// Exit with 4 unless the demand is met: the interval of the probability that a wall fails ends at SHARE or below, in every arm.
+    #[arg(long, value_name = "SHARE", value_parser = demand::share, num_args = 0..=1, default_missing_value = demand::MAY_FAIL, require_equals = true, requires = "demand", help_heading = OUTPUT)]
+    pub assert: Option<f64>,
     /// Coefficient of variation of such walls, where more than these walls tell it: 0.1 is 10 %.
     #[arg(long, value_name = "V", value_parser = question::variation, allow_negative_numbers = true, help_heading = STUDY)]
     pub known_cov: Option<f64>,

@@ -16,7 +16,7 @@ use crate::verb::capacity::rare;
 use crate::verb::capacity::rare::Waiting;
 use crate::verb::question::{CAPACITY, Question};
 use crate::verb::run::page::{Place, told};
-use crate::verb::{locate, question};
+use crate::verb::{demand, locate, question};
 
 /// Answers the question from specimens, or from walls that are evaluated as far as they have not been.
 pub(crate) fn capacity(arguments: &Capacity) -> Result<Answer, Failure> {
@@ -47,7 +47,8 @@ pub(crate) fn capacity(arguments: &Capacity) -> Result<Answer, Failure> {
         }
         let summary = CapacitySummary::measured(&study, question, known);
         let text = capacity_document(&summary).text();
-        return Ok(Answer::of(text, &summary)?.with_warnings(capacity_warnings(&summary)));
+        let answer = Answer::of(text, &summary)?.with_warnings(capacity_warnings(&summary));
+        return Ok(demand::judged(answer, arguments.assert, summary.at_most()));
     }
     if !study.arms.iter().any(is_random) {
         return Err(Failure::Input(format!(
@@ -79,7 +80,8 @@ pub(crate) fn capacity(arguments: &Capacity) -> Result<Answer, Failure> {
         report: arguments.report,
     };
     let answer = told(&capacity_document(&summary), &summary, &place)?;
-    Ok(answer.with_warnings(capacity_warnings(&summary)))
+    let answer = answer.with_warnings(capacity_warnings(&summary));
+    Ok(demand::judged(answer, arguments.assert, summary.at_most()))
 }
 
 /// That the answer waits for walls, and how they are evaluated.

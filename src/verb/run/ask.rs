@@ -6,12 +6,14 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::verb::arguments::{Ensemble, OUTPUT, SOLUTION, SolverName, Which};
+use crate::verb::demand::Demanded;
 
 /// Of `run`.
 pub(crate) const HELP: &str = concat!(
     "\
 Example: pirca run studies/joint-arrangement --members 5 --out runs/first-try
          pirca run studies/joint-arrangement --beside runs/explicit --out runs/both
+         pirca run studies/tilting-table --demand 0.15g
 
 Stopped and started again with the same arguments, it goes on where it stood and ends with the same files. With more members, \
 another stiffness or another arm in the same folder it computes only what is new, and says what it takes over. A wall that falls or \
@@ -40,6 +42,8 @@ pub(crate) struct Run {
     /// Output folder of an earlier run of the same study, whose means are drawn into the figure as hollow markers.
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub beside: Option<PathBuf>,
+    #[command(flatten)]
+    pub demanded: Demanded,
     /// Write report.html into the output folder as well: the run on a page, as `report` does.
     #[arg(long, help_heading = OUTPUT)]
     pub report: bool,
@@ -59,6 +63,7 @@ impl Run {
             threads: None,
             solver: None,
             beside: None,
+            demanded: Demanded::default(),
             csv: false,
             report: true,
         }

@@ -12,6 +12,7 @@ use crate::terminal::{output, progress};
 use crate::verb::arguments::{Ensemble, SolverName};
 use crate::verb::locate;
 use crate::verb::run::answer::beside::Earlier;
+use crate::verb::run::answer::demand::DemandSummary;
 use crate::verb::run::answer::files::write_all;
 use crate::verb::run::answer::table::terminal_table;
 use crate::verb::run::ask::Run;
@@ -34,6 +35,7 @@ pub(crate) fn with_page(arguments: &Run, page: Option<PathBuf>) -> Result<Answer
     if arguments.report || arguments.beside.is_some() {
         locate::not_shaken(&study, page::SHAKEN)?;
     }
+    let study = arguments.demanded.of(study)?;
     let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, ""));
     let quantity = Quantity::of(&study);
     let beside = arguments.beside.as_ref().map(|dir| Earlier::read(dir, &study.name, quantity));
@@ -56,7 +58,10 @@ pub(crate) fn with_page(arguments: &Run, page: Option<PathBuf>) -> Result<Answer
         page::write(&file, (&study, &loaded), &rows, &origin)?;
     }
     let text = format!("{}\nwritten to {}\n", terminal_table(&summary).trim_end(), out.display());
-    Ok(Answer::of(text, &summary)?.in_place(&out))
+    let answer = Answer::of(text, &summary)?.in_place(&out);
+    // A demand of which nothing is known is not met.
+    let at_most = summary.demand.as_ref().map_or(1.0, DemandSummary::at_most);
+    Ok(arguments.demanded.judged(answer, at_most))
 }
 
 /// The study with what is asked for in the place of its own values.

@@ -102,6 +102,7 @@ pub(crate) fn summary_of(populations: &[Population], claims: &[Claim]) -> Summar
         seed: 1,
         study_hash: "00ff".into(),
         sweep: Vec::new(),
+        demand: None,
         arms: populations.iter().map(|population| describe(population.clone(), 1, BTreeMap::new())).collect(),
         comparisons: comparisons(populations, claims),
         published: judge_all(claims, populations),

@@ -91,6 +91,16 @@ impl CapacitySummary {
         CapacitySummary::new(study, Quantity::CollapseAngle, question, known, groups)
     }
 
+    /// The upper end of the interval of the answer, the largest of all groups: the answer itself of walls that are all alike, and 1 where
+    /// nothing is known. Walls that brought no value count as failing.
+    pub fn at_most(&self) -> f64 {
+        let of = |group: &CapacityGroup| match group.random || group.kn_pa_per_m.is_none() {
+            true => group.failed.whatever().or(group.interval).map_or(1.0, |[_, high]| high),
+            false => group.answer.value().filter(|_| group.failed.walls == 0).unwrap_or(1.0),
+        };
+        self.groups.iter().map(of).fold(0.0, f64::max)
+    }
+
     fn new(
         study: &Study,
         quantity: Quantity,

@@ -6,6 +6,7 @@ pub(crate) mod by_member;
 pub(crate) mod comparison;
 pub(crate) mod conclusion;
 pub(crate) mod csv;
+pub(crate) mod demand;
 pub(crate) mod drift;
 pub(crate) mod element_table;
 pub(crate) mod figure;

@@ -8,6 +8,7 @@ use crate::stats::{EmpiricalStep, Estimate, Sorted, Statistic};
 use crate::study::{Arm, Study, SweptArm, Until};
 use crate::verb::run::answer::bounded::Bounded;
 use crate::verb::run::answer::comparison::{Comparison, comparisons};
+use crate::verb::run::answer::demand::DemandSummary;
 use crate::verb::run::answer::gathered::populations;
 use crate::verb::run::answer::measured::{MeasuredSummary, measured};
 use crate::verb::run::answer::population::Population;
@@ -35,6 +36,9 @@ pub struct Summary {
     /// What a sweep set in which arm; left out where there is none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub sweep: Vec<SweptArm>,
+    /// What came of a demand; left out where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub demand: Option<DemandSummary>,
     /// Ratios of means between arms, kn by kn.
     pub comparisons: Vec<Comparison>,
     /// Published statements beside our numbers.
@@ -217,6 +221,8 @@ pub fn summarise(study: &Study, rows: &[Row]) -> Summary {
 pub(crate) fn summary_of(study: &Study, populations: Vec<Population>, rows: &[Row]) -> Summary {
     let comparisons = comparisons(&populations, &study.published);
     let published = judge_all(&study.published, &populations);
+    let demanded = |demand| DemandSummary::of(demand, Quantity::of(study), &populations);
+    let demand = study.demand.as_ref().and_then(demanded);
     let arms = populations.into_iter().map(|population| {
         let arm = study.arms.iter().find(|arm| arm.name == population.arm);
         let until = arm.and_then(|arm| arm.until);
@@ -235,6 +241,7 @@ pub(crate) fn summary_of(study: &Study, populations: Vec<Population>, rows: &[Ro
         study_hash: study.hash.clone(),
         arms: arms.collect(),
         sweep: study.sweep.clone(),
+        demand,
         comparisons,
         published,
         measured: measured(study, rows),

@@ -6,6 +6,7 @@ use crate::render::number::{
 };
 use crate::render::text::{aligned, side_by_side, wrapped};
 use crate::verb::run::answer::conclusion::conclusion;
+use crate::verb::run::answer::demand::DemandSummary;
 use crate::verb::run::answer::figure::LONGEST_NAME;
 use crate::verb::run::answer::measured;
 use crate::verb::run::answer::shaken::text as shaken_text;
@@ -27,13 +28,20 @@ pub fn terminal_table(summary: &Summary) -> String {
     if let Some(shaken) = &summary.shaken {
         return shaken_text(summary, shaken);
     }
-    let mut text = conclusion(summary);
+    let mut text = summary
+        .demand
+        .as_ref()
+        .and_then(DemandSummary::sentence)
+        .map(|said| wrapped("", &said))
+        .unwrap_or_default();
+    text.push_str(&conclusion(summary));
     text.push_str(&format!("\nResults ({} solver, seed {})\n", summary.solver, summary.seed));
     if let Some(arm) = summary.arms.first() {
         text.push_str(&wrapped("", &explanation(arm.shown)));
         text.push('\n');
     }
     text.push_str(&arms(&summary.arms));
+    text.push_str(&summary.demand.as_ref().map(DemandSummary::text).unwrap_or_default());
     text.push_str(&ratios(summary));
     text.push_str(&measured::text(summary.measured.as_ref()));
     text.push_str(&published(summary));

@@ -14,6 +14,7 @@ use crate::render::picture::Picture;
 use crate::shape::Polyhedron;
 use crate::study::{Loaded, Study};
 use crate::verb::run::answer::conclusion::sentences;
+use crate::verb::run::answer::demand::DemandSummary;
 use crate::verb::run::answer::figure::title;
 use crate::verb::run::answer::figures::{figures, force_figure};
 use crate::verb::run::answer::measured;
@@ -130,6 +131,9 @@ pub fn run_page(of: &RunPage<'_>) -> Result<String> {
         // The means are the answer; how many walls they rest on comes behind.
         answer.swap(0, 1);
     }
+    let demand = summary.demand.as_ref();
+    answer.splice(0..0, demand.and_then(DemandSummary::sentence));
+    let against = demand.map(|own| Table::headed(&own.heading(), own.rows()));
     let filled_with = Filled {
         title: format!("Study {}", title(&summary)),
         question: summary.question.clone(),
@@ -137,8 +141,9 @@ pub fn run_page(of: &RunPage<'_>) -> Result<String> {
         explanation: explanation(quantity),
         arms: Table::headed("", arm_rows(&summary.arms)),
         notes: summary.arms.iter().flat_map(arm_notes).flatten().collect(),
-        tables: [endings(&summary), quantiles(&summary), ratios(&summary), published(&summary)]
+        tables: against
             .into_iter()
+            .chain([endings(&summary), quantiles(&summary), ratios(&summary), published(&summary)])
             .filter(|table| !table.rows.is_empty())
             .collect(),
         measured: measured::text(summary.measured.as_ref()).trim().to_owned(),
