@@ -66,7 +66,8 @@ class Analysis(Answer):
 def analyse(
     wall: Any,
     *,
-    phi_deg: Known,
+    phi_deg: Known | None = None,
+    demand: str | None = None,
     fixed: Collection[int] = (),
     density_kg_per_m3: float | Sequence[float] | None = None,
     unit: str | None = None,
@@ -120,7 +121,10 @@ def analyse(
         trimesh or COMPAS mesh (anything with `vertices` and `faces`, or `to_vertices_and_faces()`), a `pirca.Block`, or a
         mapping as in `wall.json`. They are numbered from 0 in the order of the list, or by their own ids. Axes: z up.
     phi_deg : float, (low, high) or str
-        Friction angle of the joints (deg), or what is known of it: a range, or "normal(34,2)".
+        Friction angle of the joints (deg), or what is known of it: a range, or "normal(34,2)". Default: 25 to 38, the range of
+        published joints of stone.
+    demand : str, optional
+        What the wall must bear, with its unit: "0.15g", "8.5deg". `answer["demand"]` says whether it does.
     fixed : collection of int
         Ids of the blocks that are supports; of a file, besides those that it says are.
     density_kg_per_m3 : float or list of float, optional
@@ -180,6 +184,7 @@ def analyse(
     """
     options: dict[str, Any] = {
         "phi_deg": phi_deg,
+        "demand": demand,
         "solver": solver,
         "load": load,
         "direction": direction,

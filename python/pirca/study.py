@@ -90,6 +90,7 @@ class Study:
         out: Path_ | None = None,
         solver: str | None = None,
         beside: Path_ | None = None,
+        demand: str | None = None,
         csv: bool = False,
         report: bool = False,
         progress: bool = False,
@@ -106,6 +107,9 @@ class Study:
             Solver in the place of the study's.
         beside : path, optional
             Folder of an earlier run of the study, whose means are drawn into the figure.
+        demand : str, optional
+            What a wall must bear, or how far it may move, with its unit: "0.15g", "8.5deg", "12kN", "4mm". The summary's `demand` has
+            the share of walls that fails in each arm.
         csv : bool
             Write `members.csv` and `steps.csv` as well.
         report : bool
@@ -128,12 +132,13 @@ class Study:
             asked = {"members": self._members, "seed": self._seed, "solver": solver}
             self._on(client, out, shards, progress, asked)
             answered = ask("shards", "merge", out, study=self.path)
-        if client is None or beside or csv or report:
+        if client is None or beside or demand or csv or report:
             answered = self._ask(
                 "run",
                 out=out,
                 solver=solver,
                 beside=beside,
+                demand=demand,
                 csv=csv,
                 report=report,
                 members=self._members,
@@ -207,6 +212,7 @@ class Study:
         self,
         *,
         quantile: float | None = None,
+        demand: str | None = None,
         below_deg: float | None = None,
         above_m: float | None = None,
         below_n: float | None = None,
@@ -228,6 +234,8 @@ class Study:
         ----------
         quantile : float, optional
             Which share of walls lie below the value sought.
+        demand : str, optional
+            How probable is it that a wall does not bear this, or moves further: "0.15g", "8.5deg", "12kN", "4mm"?
         below_deg, above_m, below_n : float, optional
             How probable is a collapse before this tilt (deg), a displacement beyond this (m), a shear capacity below this (N)?
         measured : bool
@@ -249,6 +257,7 @@ class Study:
                 "capacity",
                 measured=measured,
                 quantile=quantile,
+                demand=demand,
                 below_deg=below_deg,
                 above_m=above_m,
                 below_n=below_n,
@@ -302,6 +311,7 @@ class Study:
         arms: Sequence[str] | None = None,
         *,
         quantile: float | None = None,
+        demand: str | None = None,
         below_deg: float | None = None,
         above_m: float | None = None,
         below_n: float | None = None,
@@ -322,7 +332,7 @@ class Study:
         ----------
         arms : list of str, optional
             The arms to compare; all without it.
-        quantile, below_deg, above_m, below_n : float, optional
+        quantile, demand, below_deg, above_m, below_n : optional
             What is compared, as in `capacity`; the mean without one.
         point : int
             Number of the kn point, from 0.
@@ -340,6 +350,7 @@ class Study:
                 "compare",
                 arms=None if arms is None else list(arms),
                 quantile=quantile,
+                demand=demand,
                 below_deg=below_deg,
                 above_m=above_m,
                 below_n=below_n,

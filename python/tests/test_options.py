@@ -8,13 +8,14 @@ import pytest
 import pirca
 from pirca import Study, analyse
 
-#: By verb: what is asked in Python; arguments of its own; options that are said otherwise: of the study, by what is answered, by others.
+#: By verb: what is asked in Python; arguments of its own; options that are said otherwise: of the study, by what is answered (--assert
+#: is for exit codes), by others.
 VERBS = {
-    "run": (Study.run, {"progress", "client", "shards"}, {"variant", "json", "members", "seed", "threads"}),
+    "run": (Study.run, {"progress", "client", "shards"}, {"variant", "json", "members", "seed", "threads", "assert"}),
     "capacity": (
         Study.capacity,
         {"progress", "client", "shards"},
-        {"variant", "json", "members", "seed", "threads", "batches"},
+        {"variant", "json", "members", "seed", "threads", "batches", "assert"},
     ),
     "sensitivity": (Study.sensitivity, {"progress"}, {"variant", "json", "seed", "threads", "shard"}),
     "compare": (Study.compare, {"progress"}, {"variant", "json", "seed", "threads"}),
@@ -27,7 +28,7 @@ VERBS = {
         {"progress", "build", "gain"},
         {"variant", "json", "seed", "threads", "no_build", "no_gain", "prepare", "judged"},
     ),
-    "analyse": (analyse, {"progress", "wall"}, {"json"}),
+    "analyse": (analyse, {"progress", "wall"}, {"json", "assert"}),
     "wall": (
         Study.wall,
         {"base"},

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use crate::math::compact;
 use crate::motion::Motion;
 use crate::random::Family;
 use crate::study::checked::InputFile;
@@ -42,6 +43,30 @@ pub struct Distribution {
     pub n: Option<u64>,
     /// What a user should know.
     pub note: Option<String>,
+}
+
+impl Distribution {
+    /// Its values in words: `25 to 28`, `mean 0.2, standard deviation 0.05, from 0.1 to 0.4`.
+    pub fn words(&self) -> String {
+        let shown =
+            |x: f64| if x != 0.0 && !(1e-3..1e5).contains(&x.abs()) { compact(x) } else { x.to_string() };
+        match &self.family {
+            Family::Constant { value } => shown(*value),
+            Family::Uniform { low, high } => format!("{} to {}", shown(*low), shown(*high)),
+            Family::Empirical { values } => {
+                format!("one of {}", values.iter().map(|value| shown(*value)).collect::<Vec<_>>().join(", "))
+            }
+            other => {
+                let (low, high) = other.support();
+                let ends = if high.is_finite() {
+                    format!(", from {} to {}", shown(low), shown(high))
+                } else {
+                    String::new()
+                };
+                format!("mean {}, standard deviation {}{ends}", shown(other.mean()), shown(other.sd()))
+            }
+        }
+    }
 }
 
 /// An entry that a study takes, for telling which of its inputs are only assumed.

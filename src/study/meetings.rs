@@ -10,8 +10,8 @@ use crate::shape::Polyhedron;
 
 /// An overlap deeper than this share of the smaller block's size (edge of the cube of its volume) is no modelling gap.
 const DEEPEST: f64 = 0.01;
-/// Overlaps and gaps listed one by one.
-const LISTED: usize = 20;
+/// Overlaps and gaps of a kind that are named.
+const LISTED: usize = 3;
 /// Faces that look at each other across at most this share of a stone's size are told of: they may be meant as a joint.
 const TOLD_WITHIN: f64 = 0.1;
 /// A gap that is to be a joint needs a tolerance above it by this factor.
@@ -149,44 +149,77 @@ fn floating(file: &WallFile, group: &[usize], found: &Survey) -> Fault {
     Fault::of(&whom, what, "a chain of touching blocks from every block to a fixed one", fix)
 }
 
-/// Overlaps, the deepest first, and gaps, the narrowest first.
+/// Overlaps, the deepest first, and gaps, the narrowest first: one warning of each kind.
 fn told(file: &WallFile, found: &Survey, touch: f64) -> Vec<String> {
-    let names = |pair: &Pair| (file.names[pair.blocks.0].as_str(), file.names[pair.blocks.1].as_str());
-    let mut warnings = Vec::new();
-    let mut list = |pairs: &[Pair], said: &dyn Fn(&Pair) -> String, what: &str| {
-        for pair in pairs.iter().take(LISTED) {
-            warnings.push(said(pair));
-        }
-        if let (more @ 1.., Some(last)) = (pairs.len().saturating_sub(LISTED), pairs.last()) {
-            warnings.push(format!("... and {more} more {what} to {}", length(last.length)));
-        }
+    let names = |pair: &Pair| {
+        let [a, b] = [pair.blocks.0, pair.blocks.1].map(|at| file.names[at].as_str());
+        format!("{a} and {b}")
     };
     let sorted = |pairs: &[Pair], sign: f64| {
         let mut pairs = pairs.to_vec();
         pairs.sort_by(|a, b| (sign * a.length).total_cmp(&(sign * b.length)));
         pairs
     };
-    let overlap = |pair: &Pair| {
-        let (a, b) = names(pair);
-        format!("{a} and {b} overlap by {}", length(pair.length))
+    // Of many the number, the range and the first ones say where to look.
+    let listed = |pairs: &[Pair]| {
+        let first =
+            pairs.iter().take(LISTED).map(|pair| format!("{} ({})", names(pair), length(pair.length)));
+        let more = if pairs.len() > LISTED { ", ..." } else { "" };
+        format!("{}{more}", first.collect::<Vec<_>>().join(", "))
     };
-    list(&sorted(&found.overlaps, -1.0), &overlap, "overlaps, down");
-    let shared = |pair: &Pair| {
-        let group = file.wall.blocks[pair.blocks.0].group.as_deref().unwrap_or_default();
-        format!("{}: parts of group \"{group}\": what they share weighs twice", overlap(pair))
-    };
-    list(&sorted(&found.shared, -1.0), &shared, "overlaps of parts, down");
-    let (tolerance, gaps) = (length(touch), sorted(&found.gaps, 1.0));
-    let gap = |pair: &Pair| {
-        let ((a, b), wide) = (names(pair), length(pair.length));
-        format!("a gap of {wide} between {a} and {b}: they do not touch (tolerance {tolerance})")
-    };
-    list(&gaps, &gap, "gaps, up");
-    let gaping = |pair: &Pair| {
-        let ((a, b), wide) = (names(pair), length(pair.length));
-        format!("the joint between {a} and {b} gapes by up to {wide}: it carries only where it touches")
-    };
-    list(&sorted(&found.gaping, 1.0), &gaping, "joints that gape, up");
+    let kind =
+        |pairs: &[Pair], one: &dyn Fn(&Pair) -> String, many: &dyn Fn([String; 2]) -> String| match pairs {
+            [] => None,
+            [only] => Some(one(only)),
+            [first, .., last] => {
+                let said = many([length(first.length), length(last.length)]);
+                Some(format!("{} {said}: {}", pairs.len(), listed(pairs)))
+            }
+        };
+    let tolerance = length(touch);
+    let gaps = sorted(&found.gaps, 1.0);
+    let group = |pair: &Pair| file.wall.blocks[pair.blocks.0].group.as_deref().unwrap_or_default();
+    let kinds = [
+        kind(
+            &sorted(&found.overlaps, -1.0),
+            &|pair| format!("{} overlap by {}", names(pair), length(pair.length)),
+            &|[most, least]| format!("pairs of blocks overlap, by {most} down to {least}"),
+        ),
+        kind(
+            &sorted(&found.shared, -1.0),
+            &|pair| {
+                let (names, by) = (names(pair), length(pair.length));
+                format!(
+                    "{names} overlap by {by}: parts of group \"{}\": what they share weighs twice",
+                    group(pair)
+                )
+            },
+            &|[most, _]| {
+                format!("pairs of parts of one stone overlap, by up to {most}; what they share weighs twice")
+            },
+        ),
+        kind(
+            &gaps,
+            &|pair| {
+                let (names, wide) = (names(pair), length(pair.length));
+                format!("a gap of {wide} between {names}: they do not touch (tolerance {tolerance})")
+            },
+            &|[least, most]| {
+                format!(
+                    "gaps between blocks, {least} to {most} wide: they do not touch (tolerance {tolerance})"
+                )
+            },
+        ),
+        kind(
+            &sorted(&found.gaping, -1.0),
+            &|pair| {
+                let (names, wide) = (names(pair), length(pair.length));
+                format!("the joint between {names} gapes by up to {wide}: it carries only where it touches")
+            },
+            &|[most, _]| format!("joints gape, by up to {most}, and carry only where they touch"),
+        ),
+    ];
+    let mut warnings: Vec<String> = kinds.into_iter().flatten().collect();
     if let Some(narrowest) = gaps.first() {
         warnings.push(format!(
             "gaps carry nothing; for those that are meant as joints raise the tolerance, as --touch-tolerance {:.3}mm does for the narrowest",

@@ -508,8 +508,7 @@ fn arguments_that_make_no_sense_are_refused_with_what_is_allowed() {
     let folder = Folder::new();
     fs::write(folder.path("wall.json"), GOOD_JSON).unwrap();
     for (more, said) in [
-        (&[][..], "--phi-deg"),
-        (&["--phi-deg", "-5"], "allowed is a number from 0 to 89 degrees"),
+        (&["--phi-deg", "-5"][..], "allowed is a number from 0 to 89 degrees"),
         (&["--phi-deg", "nan"], "allowed is a number from 0 to 89 degrees"),
         (&["--phi-deg", "90"], "allowed is a number from 0 to 89 degrees"),
         (&["--phi-deg", "30", "--kn", "-1e9"], "1000 to 1e16 Pa/m"),
@@ -521,9 +520,12 @@ fn arguments_that_make_no_sense_are_refused_with_what_is_allowed() {
         (&["--phi-deg", "30", "--direction", "400"], "-360 to 360 degrees"),
         (&["--phi-deg", "30", "--solver", "magic"], "limit"),
         (&["--phi-deg", "30", "--load", "seismic"], "lateral"),
-        (&["--phi-deg", "30", "--solver", "implicit"], "--kn PA_PER_M is required for the implicit solver"),
+        (
+            &["--phi-deg", "30", "--solver", "limit,implicit"],
+            "--kn PA_PER_M is required for the implicit solver",
+        ),
         (&["--phi-deg", "30", "--solver", "explicit"], "--kn PA_PER_M is required for the explicit solver"),
-        (&["--phi-deg", "30", "--unit", "mm"], "a wall.json states both itself"),
+        (&["--phi-deg", "30", "--unit", "mm"], "a wall.json states its own"),
     ] {
         let output = folder.pirca(&[&["analyse", "wall.json"], more].concat());
         assert_eq!(output.status.code(), Some(2), "{more:?}: {}", text(&output));

@@ -208,7 +208,7 @@ fn a_range_that_is_none_or_in_vain_is_refused() {
     }
 }
 
-/// The multiplier is told beside the angle, as the seismic coefficient that it is.
+/// The multiplier stands beside the angle. No code is cited: its checks need more than a multiplier.
 #[test]
 fn a_tilt_has_its_multiplier_beside_it() {
     let tilt = analysed(&["--phi-deg", "35"]);
@@ -217,7 +217,6 @@ fn a_tilt_has_its_multiplier_beside_it() {
     close(&lateral["collapse_multiplier"], DEPTH / HEIGHT, 1e-5);
     let elastic = analysed(&["--phi-deg", "35", "--solver", "implicit", "--kn", "1e9"]);
     close(&elastic["collapse_multiplier"], tan(radians(number(&elastic["collapse_angle_deg"]))), 1e-9);
-    let said = |answer: &Value| answer["as_seismic_coefficient"].as_str().unwrap().to_owned();
-    assert!(said(&tilt).contains("a0 = alpha0 g / (e* FC)") && said(&tilt) == said(&lateral));
-    assert!(said(&elastic).contains("nearly"));
+    let (_, printed, _) = said(&folder(), &["--phi-deg", "35"]);
+    assert!(!printed.contains("Circolare") && !printed.contains("FC"), "{printed}");
 }

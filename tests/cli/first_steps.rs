@@ -186,9 +186,9 @@ fn the_reason_of_failed_walls_stands_in_the_text() {
     assert!(text.contains("3 invalid geometry (wall 0: "), "{text}{}", stderr(&output));
 }
 
-/// A spreadsheet's line of means below a table counts as one more specimen, on the unsafe side: it is named.
+/// A spreadsheet's line of means below a table would count as one more specimen, on the unsafe side: it is left out, and named.
 #[test]
-fn a_row_that_sums_the_others_up_is_named() {
+fn a_row_that_sums_the_others_up_is_left_out() {
     let folder = Folder::with_study(STUDY);
     let head = "specimen,family,tilt_deg,quantity,value,unit,error,kind\n";
     let row = |name: &str, angle: f64| format!("{name},random,,collapse_angle,{angle},deg,0,exact\n");
@@ -198,10 +198,14 @@ fn a_row_that_sums_the_others_up_is_named() {
         said(&folder, 0, &["check", "studies/tiny"])
     };
     let alone = measured(format!("{head}{rows}"));
-    assert!(!alone.contains("one more specimen"), "{alone}");
+    assert!(!alone.contains("left out"), "{alone}");
     for name in ["mean", "Mittelwert", "Average"] {
         let warned = measured(format!("{head}{rows}{}", row(name, 19.33)));
-        let words = format!("measured.csv:5: specimen is \"{name}\", and counts as one more specimen");
+        let words =
+            format!("measured.csv:5: specimen is \"{name}\", which sums others up: the row was left out");
         assert!(warned.contains(&words), "{warned}");
+        let output = folder.pirca(&["check", "studies/tiny"]);
+        let told = crate::commands::stdout(&output);
+        assert!(told.contains("3 values on 3 specimens"), "{told}");
     }
 }

@@ -283,6 +283,17 @@ fn an_empty_folder_is_enough() {
     let folder = Folder::with_study(&referring());
     let listed = ends_with(&folder, 0, &["reference", "causes"]);
     assert!(stdout(&listed).contains("creep: Shear tractions that relax"), "{}", stdout(&listed));
+    let listed = ends_with(&folder, 0, &["reference", "priors"]);
+    let said = stdout(&listed);
+    assert!(said.contains("joint/friction: friction angle of a joint, phi (deg)"), "{said}");
+    assert!(said.contains("limestone: 35 to 36; literature, source paper Table 10"), "{said}");
+    assert!(!said.contains("mechanism/"), "{said}");
+    let density = ends_with(&folder, 0, &["reference", "priors", "block/density", "--json"]);
+    let density: Value = serde_json::from_slice(&density.stdout).expect("JSON");
+    let entry = &density["priors"]["block/density"]["entries"]["paper-table-5"];
+    assert_eq!(entry["family"]["value"].as_f64(), Some(2400.0), "{density}");
+    let refused = ends_with(&folder, 2, &["reference", "priors", "mortar"]);
+    assert!(stderr(&refused).contains("there are no such distributions; allowed is"), "{}", stderr(&refused));
     let refused = ends_with(&folder, 3, &["reference", "causes", "--distributions", "nowhere"]);
     assert!(stderr(&refused).contains("there is no such folder"), "{}", stderr(&refused));
     ends_with(&folder, 0, &["run", "studies/tiny", "--members", "1", "--solver", "implicit", "--out", "out"]);

@@ -109,15 +109,16 @@ const STAGES: &[(&str, &[&str])] = &[
 /// everybody's, and those named here.
 const VERBS: &[(&str, &[&str])] = &[
     ("arguments", &[]),
-    ("question", &[]),
     ("arms", &[]),
     ("share", &[]),
     ("locate", &["arguments"]),
+    ("demand", &["locate"]),
+    ("question", &["demand"]),
     ("reference", &["arguments"]),
     ("init", &["arguments", "locate"]),
     ("wall", &["arguments", "question", "arms", "locate"]),
-    ("run", &["arguments", "question", "locate", "wall"]),
-    ("capacity", &["arguments", "question", "locate", "run"]),
+    ("run", &["arguments", "question", "locate", "demand", "wall"]),
+    ("capacity", &["arguments", "question", "locate", "demand", "run"]),
     ("compare", &["arguments", "question", "arms", "locate", "run"]),
     ("sensitivity", &["arguments", "question", "arms", "locate", "share", "run"]),
     ("homogenise", &["arguments", "question", "arms", "locate", "share", "run"]),
@@ -128,7 +129,7 @@ const VERBS: &[(&str, &[&str])] = &[
     ("diagnose", &["arguments", "locate", "run"]),
     ("check", &["arguments", "locate", "diagnose"]),
     ("shards", &["arguments", "question", "locate", "run", "diagnose"]),
-    ("analyse", &["arguments", "question", "locate", "wall", "run"]),
+    ("analyse", &["arguments", "question", "locate", "demand", "wall", "run"]),
     // The page of a wall is what `analyse` says of it.
     ("report", &["arguments", "locate", "wall", "run", "analyse"]),
 ];

@@ -110,11 +110,11 @@ pub(super) fn read(source: &Arc<Source>, known: Known<'_>) -> Result<Read, Vec<F
         faults.push(columns::no_rows(source));
     }
     faults.extend(numbers.mixed());
+    let summed = summed::left_out(&mut read);
     together::check(&read, &mut faults);
     if !faults.is_empty() {
         return Err(Fault::gathered(faults));
     }
-    let summed = summed::warnings(&read);
     let in_radians: Vec<Fault> = read.iter().filter_map(|(m, place)| in_radians(m, place)).collect();
     let mut rows: Vec<Measurement> = read.into_iter().map(|(measurement, _)| measurement).collect();
     let odd = unfilled.iter().filter(|line| !unfilled::had_fallen(&header, line, &rows, &mut numbers));

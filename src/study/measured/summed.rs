@@ -32,18 +32,19 @@ const NAMES: [&str; 23] = [
     "count",
 ];
 
-/// A warning for each specimen that is called as a row that sums others up.
-pub(super) fn warnings(rows: &[(Measurement, Place)]) -> Vec<Fault> {
-    let mut seen = BTreeSet::new();
+/// Leaves such rows out, with a warning for each specimen.
+pub(super) fn left_out(rows: &mut Vec<(Measurement, Place)>) -> Vec<Fault> {
     let is_summed = |m: &Measurement| {
         let bare: String = m.specimen.to_lowercase().chars().filter(|c| c.is_alphabetic()).collect();
         NAMES.contains(&bare.as_str()) && m.specimen.chars().all(|c| !c.is_ascii_digit())
     };
-    let own = rows.iter().filter(|(m, _)| is_summed(m) && seen.insert(m.specimen.clone()));
+    let out: Vec<(Measurement, Place)> = rows.extract_if(.., |(m, _)| is_summed(m)).collect();
+    let mut seen = BTreeSet::new();
+    let own = out.iter().filter(|(m, _)| seen.insert(m.specimen.clone()));
     let warning = |(m, place): &(Measurement, Place)| {
-        let found = Found::Words(format!("is \"{}\", and counts as one more specimen", m.specimen));
-        let fix = "remove the row if it sums the others up, or give the specimen another name";
-        Fault::at(place, "specimen", found, "this", fix)
+        let found =
+            Found::Words(format!("is \"{}\", which sums others up: the row was left out", m.specimen));
+        Fault::at(place, "specimen", found, "this", "give the specimen another name if it is one")
     };
     own.map(warning).collect()
 }

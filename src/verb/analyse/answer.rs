@@ -11,13 +11,7 @@ use crate::verb::analyse::ask::{Analyse, Growing};
 use crate::verb::analyse::loads::listed;
 use crate::verb::analyse::worst::Tried;
 use crate::verb::analyse::{joints, open};
-use crate::verb::arguments::SolverName;
 use crate::verb::wall::condition::resting;
-
-/// What the collapse multiplier is in a seismic assessment, and what it is not. Only the multiplier is computed: the participating mass
-/// and the confidence are the assessor's.
-const SEISMIC: &str =
-    "a0/g of the static limit state; a0 = alpha0 g / (e* FC) with e* = FC = 1 (Circolare 617/2009, C8A.4.4)";
 
 /// What came of a wall.
 #[derive(Clone)]
@@ -64,15 +58,6 @@ impl Answer {
             Outcome::Collapsed { at: Level::Multiplier(multiplier) } => Some(multiplier),
             _ => None,
         }
-    }
-
-    /// What that multiplier is as a seismic coefficient. A tilt by an angle takes the weight across the platform down to its cosine; only
-    /// dry joints of rigid blocks bear the same then.
-    fn as_seismic_coefficient(&self, asked: &Analyse) -> Option<String> {
-        let is_near =
-            asked.growing() == Growing::Tilt && (asked.solver() != SolverName::Limit || asked.cohesion > 0.0);
-        let near = if is_near { ", nearly; --load lateral gives it itself" } else { "" };
-        self.collapse_multiplier().map(|_| format!("{SEISMIC}{near}"))
     }
 
     /// The share of the settlement that the wall bears; `None` where no support goes down, or it did not come so far.
@@ -151,7 +136,6 @@ impl Answer {
             "collapse_angle_deg": angle,
             "multiplier": multiplier,
             "collapse_multiplier": self.collapse_multiplier(),
-            "as_seismic_coefficient": self.as_seismic_coefficient(asked),
             "undecided": self.undecided.as_ref().map(|own| open::object(asked, own)),
             "between": self.between.map(|ends| self.in_unit(asked, ends)),
             "bracket": self.shown_bracket(asked),
@@ -219,13 +203,6 @@ impl Answer {
             format!("{}\n  {} solver: {}\n", self.headline(asked), asked.solver().name(), self.meaning);
         if let Some(own) = &self.undecided {
             text.push_str(&format!("  {}\n", own.reason()));
-        }
-        if let (Some(multiplier), Some(what)) =
-            (self.collapse_multiplier(), self.as_seismic_coefficient(asked))
-        {
-            let range = self.undecided.as_ref().map(|own| open::multipliers(asked, own));
-            let multiplier = range.unwrap_or_else(|| format!("{multiplier:.4}"));
-            text.push_str(&format!("  seismic coefficient {multiplier}: {what}\n"));
         }
         // A bracket whose ends read alike says no more than the load itself.
         if let Some([low, high]) = self.shown_bracket(asked).and_then(ends) {

@@ -134,6 +134,7 @@ fn text(arguments: &Analyse, fit: &Fit) -> String {
 const UNSEEN: &str = "\n# What the face does not show. Without the marks it is drawn for each wall; raise members then.\n# [arm.unseen]\n\
 # through_share = { family = \"uniform\", low = 0, high = 0.3 }    # share of stones that go through the wall: a judgement\n\
 # depth_share = { family = \"uniform\", low = 0.35, high = 0.65 }  # depth of the others over the thickness: a judgement\n\
+# core_share = 0                                                 # thickness of an empty core, as a share\n\
 # dip_deg = 0                                                    # of all beds through the wall; above 0 they rise from the face";
 
 /// Its arm.

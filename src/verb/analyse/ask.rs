@@ -10,6 +10,7 @@ use crate::study::Tolerance;
 use crate::verb::analyse::known::Known;
 use crate::verb::analyse::{known, numbers};
 use crate::verb::arguments::{FILE, JOINTS, LOAD, OUTPUT, SOLUTION, SolverName, names};
+use crate::verb::demand::Demanded;
 use crate::verb::question;
 use crate::verb::run::page::PAGE;
 use crate::verb::wall::drawn::Measure;
@@ -158,11 +159,14 @@ pub(crate) struct Analyse {
         help_heading = LOAD
     )]
     pub settlements: Vec<(u64, f64)>,
-    /// Friction angle of the joints (deg), 0 to 89: a number, a range 30..38, or a distribution as normal(34,2).
-    #[arg(long, value_name = "F|LOW..HIGH", value_parser = known::friction_angle, allow_negative_numbers = true, help_heading = JOINTS)]
+    #[command(flatten)]
+    pub demanded: Demanded,
+    /// Friction angle of the joints (deg), 0 to 89: a number, a range 30..38, or a distribution as normal(34,2). The default is the range of published
+    /// joints of stone (distributions/joint/friction.toml).
+    #[arg(long, value_name = "F|LOW..HIGH", default_value = known::USUAL_FRICTION, value_parser = known::friction_angle, allow_negative_numbers = true, help_heading = JOINTS)]
     pub phi_deg: Known,
-    /// Normal stiffness of the joints per area (Pa/m); required for implicit and explicit. A number, a range 5e7..5e8 (even in the
-    /// logarithm), or a distribution as lognormal(1e8,3e7).
+    /// Normal stiffness of the joints per area (Pa/m), for implicit and explicit: a number, a range 5e7..5e8 (even in the logarithm), or a
+    /// distribution as lognormal(1e8,3e7) [default for implicit: 5e7..1e9, the range of published joints, distributions/joint/stiffness.toml].
     #[arg(long, value_name = "PA_PER_M", value_parser = known::stiffness, allow_negative_numbers = true, help_heading = JOINTS)]
     pub kn: Option<Known>,
     /// Shear stiffness of the joints per area (Pa/m) [default: kn / 2].

@@ -6,6 +6,11 @@ use crate::ensemble::{Scale, Spread};
 use crate::verb::analyse::numbers;
 use crate::verb::analyse::numbers::{DENSITIES, FRICTION_ANGLES, STIFFNESSES};
 
+/// Friction angles (deg) where none is stated: the least and the most of distributions/joint/friction.toml, which are those of walls.
+pub(crate) const USUAL_FRICTION: &str = "25..38";
+/// Stiffnesses (Pa/m) where none is stated: the least and the most of distributions/joint/stiffness.toml.
+pub(crate) const USUAL_STIFFNESS: &str = "5e7..1e9";
+
 /// A number as the user knows it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Known {
@@ -26,6 +31,16 @@ impl Known {
         match self {
             Known::Exactly(x) => *x,
             Known::Within { spread, .. } => spread.middle(),
+        }
+    }
+
+    /// The range that is taken where nothing is stated, if it is one.
+    pub fn usual(&self) -> Option<&str> {
+        match self {
+            Known::Within { stated, .. } => {
+                Some(&stated[..]).filter(|own| [USUAL_FRICTION, USUAL_STIFFNESS].contains(own))
+            }
+            Known::Exactly(_) => None,
         }
     }
 
@@ -81,6 +96,25 @@ fn known(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_nobody_states_is_the_range_of_the_distributions() {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("distributions");
+        let files = crate::study::load_distributions(&folder).unwrap();
+        let ends = |name: &str| {
+            let all = || files[name].entries.values().map(|own| own.family.support());
+            let low = all().map(|(low, _)| low).fold(f64::MAX, f64::min);
+            [low, all().map(|(_, high)| high).fold(0.0, f64::max)]
+        };
+        let usual = |known: Known| match known {
+            Known::Within { spread, .. } => spread.ends(),
+            Known::Exactly(x) => [x, x],
+        };
+        assert_eq!(usual(friction_angle(USUAL_FRICTION).unwrap()), ends("joint/friction"));
+        assert_eq!(usual(stiffness(USUAL_STIFFNESS).unwrap()), ends("joint/stiffness"));
+        assert_eq!(friction_angle(USUAL_FRICTION).unwrap().usual(), Some(USUAL_FRICTION));
+        assert_eq!(friction_angle("30..38").unwrap().usual(), None);
+    }
 
     #[test]
     fn a_number_stays_one_and_what_is_neither_is_told_what_is_allowed() {

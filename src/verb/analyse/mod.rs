@@ -3,6 +3,7 @@
 mod answer;
 mod as_study;
 pub(crate) mod ask;
+mod demand;
 mod drawn;
 mod fall;
 mod fclib;

@@ -47,6 +47,11 @@ fn ends(asked: &Analyse, open: &Undecided) -> Ends {
     }
 }
 
+/// What the wall bears at least and at most, in the unit of the answer.
+pub(crate) fn levels(asked: &Analyse, open: &Undecided) -> [Option<f64>; 2] {
+    ends(asked, open).unit
+}
+
 /// A load in the unit of the answer: degrees of tilt, or a multiplier.
 fn in_unit(asked: &Analyse, level: f64) -> f64 {
     if asked.growing() == Growing::Tilt { degrees(level) } else { level }
@@ -79,10 +84,6 @@ pub(crate) fn headline(asked: &Analyse, open: &Undecided) -> String {
 }
 
 /// The collapse multiplier as a range.
-pub(crate) fn multipliers(asked: &Analyse, open: &Undecided) -> String {
-    multiplier_range(ends(asked, open).multipliers)
-}
-
 fn multiplier_range([low, high]: [Option<f64>; 2]) -> String {
     let low = low.unwrap_or_default();
     high.map_or_else(|| format!("{low:.4} or more"), |high| format!("{low:.4} to {high:.4}"))

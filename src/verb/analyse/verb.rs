@@ -4,7 +4,9 @@ use std::time::Instant;
 
 use serde_json::json;
 
-use crate::exchange::{Format, ReadOptions, Unit, Up, WallFaults, WallFile, leaves_units_open, read_wall};
+use crate::exchange::{
+    Choice, Format, Nature, ReadOptions, Unit, Up, WallFaults, WallFile, leaves_units_open, read_wall,
+};
 use crate::law::Coulomb;
 use crate::math::compact;
 use crate::mend::Mended;
@@ -17,8 +19,10 @@ use crate::terminal::answer::Answer;
 use crate::terminal::doing::doing;
 use crate::terminal::failure::Failure;
 use crate::verb::analyse::ask::{Analyse, FlowName, Growing, LoadName, UpName};
+use crate::verb::analyse::demand::Demanded;
+use crate::verb::analyse::fall::Fall;
 use crate::verb::analyse::files::Seen;
-use crate::verb::analyse::known::Known;
+use crate::verb::analyse::known::{Known, USUAL_STIFFNESS};
 use crate::verb::analyse::loads::{loaded, settlements};
 use crate::verb::analyse::open::left_open;
 use crate::verb::analyse::opinions::{Opinions, opinions};
@@ -29,7 +33,7 @@ use crate::verb::analyse::state::State;
 use crate::verb::analyse::uncertainty::{uncertainty_text, write_uncertainty};
 use crate::verb::analyse::unsure::{Given, asked, refused};
 use crate::verb::analyse::worst::{Tried, tried, weakest};
-use crate::verb::analyse::{as_study, fclib, files, mended, shaken, upright};
+use crate::verb::analyse::{as_study, demand, fclib, files, known, mended, shaken, upright};
 use crate::verb::arguments::SolverName;
 use crate::verb::wall::one_wall::MOST_STATES;
 
@@ -40,6 +44,8 @@ const PRESTRESS: f64 = 0.1;
 pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
     let begun = Instant::now();
     let mut warnings = asked_in_vain(arguments)?;
+    let arguments = &with_usual_stiffness(arguments);
+    warnings.extend(usual(arguments));
     let (read, fit, done) = match read(arguments) {
         Ok(found) => found,
         Err(faults) if arguments.json => {
@@ -58,6 +64,9 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
     warnings.extend(fit.warnings.iter().cloned());
     warnings.extend(prestress(arguments, &file.wall, &fit));
     let law = law(arguments);
+    if let Some(demand) = &arguments.demanded.demand {
+        demand::level(arguments, demand)?;
+    }
     if arguments.load == LoadName::BaseMotion {
         return shaken(arguments, &file, (&law, &fit), warnings, begun);
     }
@@ -85,6 +94,10 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
     warnings.extend(others.as_ref().and_then(Opinions::warning));
     let given = Given { arguments, file: &read, fit: &fit, settlements: &settlements };
     let sure = given.how_sure(asked(arguments), (&file.wall, &answer, &found))?;
+    let is_demanded = arguments.demanded.demand.is_some();
+    let fall = || Fall::of(&State::of(&file.wall, &fit.contact, &found), &answer.moving);
+    let fall = if is_demanded { fall() } else { None };
+    let demanded = Demanded::of(arguments, (&answer, fall), sure.as_ref())?;
     let seconds = begun.elapsed().as_secs_f64();
     if let Some(path) = &arguments.fclib {
         fclib::write(path, arguments, &file, (&law, &fit), &answer)?;
@@ -96,6 +109,9 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
     if let Some(sure) = &sure {
         object["uncertain"] = json!(sure);
     }
+    if let Some(own) = &demanded {
+        object["demand"] = own.object();
+    }
     if let Some(done) = &done {
         object["mended"] = mended::object(&read, done, arguments.mend);
     }
@@ -105,7 +121,8 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
     if let Some(others) = &others {
         object["opinions"] = others.object();
     }
-    let mut text = answer.text(arguments, &file, &fit, seconds);
+    let mut text = demanded.as_ref().map(Demanded::text).unwrap_or_default();
+    text += &answer.text(arguments, &file, &fit, seconds);
     text += &others.as_ref().map_or_else(String::new, |others| others.text(arguments));
     text += &arguments.study.as_ref().map_or_else(String::new, |folder| {
         format!("  the same question as a study written to {0}; next: pirca run {0}\n", folder.display())
@@ -141,11 +158,15 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
             files::write_page(page, &of, &told)?;
         }
     }
+    let judged = |answer: Answer| match &demanded {
+        Some(own) => arguments.demanded.judged(answer, own.at_most()),
+        None => answer,
+    };
     let Some(place) = arguments.out.as_ref().or(page.as_ref()) else {
-        return Ok(Answer::of(text, &object)?.with_warnings(warnings));
+        return Ok(judged(Answer::of(text, &object)?.with_warnings(warnings)));
     };
     text += &format!("written to {}\n", place.display());
-    Ok(Answer::of(text, &object)?.in_place(place).with_warnings(warnings))
+    Ok(judged(Answer::of(text, &object)?.in_place(place).with_warnings(warnings)))
 }
 
 /// All directions that are tried where the weakest one is asked for, with what the wall bears in each.
@@ -220,48 +241,7 @@ fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
     if arguments.solvers.len() > 1 && arguments.load == LoadName::BaseMotion {
         return Err(Failure::Usage("--load base-motion takes one solver: ask for each in turn".to_owned()));
     }
-    // A file that is not there is told as such.
-    let states_units = arguments.wall.is_file() && !leaves_units_open(&arguments.wall);
-    if states_units && (arguments.unit.is_some() || arguments.density_kg_per_m3.is_some()) {
-        return Err(Failure::Usage(
-            "--unit and --density-kg-per-m3 are for files that state neither (OBJ, COMPAS); a wall.json states both itself"
-                .to_owned(),
-        ));
-    }
-    if arguments.thickness.is_some() && !format(arguments).is_none_or(Format::is_elevation) {
-        return Err(Failure::Usage(
-            "--thickness is for elevations, which are tables, drawings and pictures; other files state it themselves"
-                .to_owned(),
-        ));
-    }
-    let of_drawn = arguments.pixel.is_some() || arguments.width.is_some() || arguments.section;
-    if of_drawn && !format(arguments).is_none_or(Format::is_drawn) {
-        return Err(Failure::Usage(
-            "--pixel, --width and --section are for drawings and pictures; other files state their unit, or take --unit"
-                .to_owned(),
-        ));
-    }
-    if arguments.pixel.is_some() && !format(arguments).is_none_or(|own| own == Format::Picture) {
-        return Err(Failure::Usage(
-            "--pixel is for pictures; of a drawing say --unit, or --width".to_owned(),
-        ));
-    }
-    if arguments.width.is_some() && arguments.unit.is_some() {
-        return Err(Failure::Usage(
-            "--width and --unit both say how large the drawing is: leave one of them out".to_owned(),
-        ));
-    }
-    if format(arguments) == Some(Format::Picture) && arguments.unit.is_some() {
-        return Err(Failure::Usage(
-            "--unit is for coordinates; of a picture say --pixel or --width".to_owned(),
-        ));
-    }
-    if format(arguments).is_some_and(Format::is_elevation) && arguments.up.is_some() {
-        return Err(Failure::Usage("--up is for .obj files; in an elevation z points up".to_owned()));
-    }
-    if states_units && arguments.up.is_some() {
-        return Err(Failure::Usage("--up is for .obj files; in a wall.json z points up".to_owned()));
-    }
+    read_in_vain(arguments)?;
     if arguments.vertical.is_some() && arguments.growing() == Growing::Tilt {
         return Err(Failure::Usage(
             "--vertical is for --load lateral, whose force has a direction; a tilt turns the whole weight: ask for that load, or leave --vertical out"
@@ -291,9 +271,9 @@ fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
                 .to_owned(),
         ));
     }
-    if let Some(elastic) = elastic
-        && arguments.kn.is_none()
-    {
+    // What implicit answers alone is known over a range of stiffnesses; that of several solvers is compared at one.
+    let has_usual = arguments.solvers == [SolverName::Implicit];
+    if let Some(elastic) = elastic.filter(|_| arguments.kn.is_none() && !has_usual) {
         return Err(Failure::Usage(format!(
             "--kn PA_PER_M is required for the {} solver: the normal stiffness of the joints per area, for example --kn 1e9; --solver limit and nonsmooth need none",
             elastic.name()
@@ -312,6 +292,59 @@ fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
         warnings.push("the steps of the multiplier are the tangent of --step-deg".to_owned());
     }
     Ok(warnings)
+}
+
+/// Refuses what is said of how the file is read and means nothing for it.
+fn read_in_vain(arguments: &Analyse) -> Result<(), Failure> {
+    let stated = |choice: &Choice| match choice {
+        Choice::Unit => arguments.unit.is_some(),
+        Choice::Up => arguments.up.is_some(),
+        Choice::Density => arguments.density_kg_per_m3.is_some(),
+        Choice::Thickness => arguments.thickness.is_some(),
+        Choice::Pixel => arguments.pixel.is_some(),
+        Choice::Width => arguments.width.is_some(),
+        Choice::Section => arguments.section,
+        Choice::Flatness => arguments.flatness.is_some(),
+        Choice::Parts => arguments.parts,
+        Choice::ScanBearing => arguments.scan_bearing.is_some(),
+        Choice::Mend => arguments.mend.is_some(),
+    };
+    let stated: Vec<Choice> = Choice::ALL.into_iter().filter(stated).collect();
+    let nature = Nature {
+        format: format(arguments),
+        // A file that is not there is told as such.
+        states_units: arguments.wall.is_file() && !leaves_units_open(&arguments.wall),
+    };
+    let why = |choice: &Choice| choice.in_vain(nature, &stated).map(|why| (choice.option(), why));
+    match stated.iter().find_map(why) {
+        Some((option, why)) => Err(Failure::Usage(format!("{option} is {why}"))),
+        None => Ok(()),
+    }
+}
+
+/// The arguments, of elastic joints with a range of stiffnesses where none is stated.
+fn with_usual_stiffness(arguments: &Analyse) -> Analyse {
+    let is_open = arguments.kn.is_none() && arguments.solvers == [SolverName::Implicit];
+    let usual = || known::stiffness(USUAL_STIFFNESS).ok();
+    Analyse { kn: if is_open { usual() } else { arguments.kn.clone() }, ..arguments.clone() }
+}
+
+/// Says which ranges are taken where nothing is stated.
+fn usual(arguments: &Analyse) -> Option<String> {
+    let all = [
+        ("friction", "deg", "--phi-deg", Some(&arguments.phi_deg)),
+        ("stiffness", "Pa/m", "--kn", arguments.kn.as_ref()),
+    ];
+    let taken = all.into_iter().filter_map(|(what, unit, option, known)| {
+        Some(format!("{what} {} {unit} ({option})", known?.usual()?))
+    });
+    let taken: Vec<String> = taken.collect();
+    (!taken.is_empty()).then(|| {
+        format!(
+            "taken where nothing is stated: {}, the range of published joints of stone; a narrower one makes the answer surer",
+            taken.join(" and ")
+        )
+    })
 }
 
 /// Angles that look as if they were not in degrees.

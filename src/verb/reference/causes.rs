@@ -1,13 +1,14 @@
 //! `pirca reference causes`: the catalogue of what the base model leaves out.
 
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::study::{Described, Distributions, described};
+use crate::study::{Described, described};
 use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
+use crate::verb::reference::folder;
 
 /// Of `reference causes`.
 pub(super) const HELP: &str = concat!(
@@ -34,17 +35,7 @@ pub(crate) struct Causes {
 
 /// The catalogue.
 pub(super) fn causes(arguments: &Causes) -> Result<Answer, Failure> {
-    let distributions = match &arguments.distributions {
-        Some(folder) if !folder.is_dir() => {
-            return Err(Failure::Input(format!(
-                "--distributions {}: there is no such folder; leave it out for the priors of the nearest folder \
-                 `distributions`, or else for those that are built in",
-                folder.display()
-            )));
-        }
-        Some(folder) => Distributions::only_in(folder),
-        None => Distributions::of_study(Path::new(".")),
-    };
+    let distributions = folder(arguments.distributions.as_deref())?;
     let all = described(distributions).map_err(Failure::Input)?;
     let mut text = String::new();
     for mechanism in &all {

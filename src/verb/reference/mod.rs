@@ -3,13 +3,16 @@
 mod causes;
 mod completions;
 mod man;
+mod priors;
 mod schema;
+
+use std::path::Path;
 
 use clap::{Args, Command, Subcommand};
 use serde_json::json;
 
 use crate::ensemble::column_reference;
-use crate::study::key_reference;
+use crate::study::{Distributions, key_reference};
 use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
 
@@ -54,6 +57,9 @@ pub(crate) enum What {
     /// what it is confounded with, and whether limit analysis honours it.
     #[command(after_help = causes::HELP)]
     Causes(causes::Causes),
+    /// List what is known of stones and joints: friction, stiffness, density, sizes, with their sources.
+    #[command(after_help = priors::HELP)]
+    Priors(priors::Priors),
     /// Print the JSON Schema of a study, for editors.
     ///
     /// An editor that knows it completes keys, shows what each means, and marks what is wrong while a study is written.
@@ -72,7 +78,11 @@ pub(crate) enum What {
 impl What {
     /// Whether the answer is asked for as an object.
     pub fn is_json(&self) -> bool {
-        matches!(self, What::Causes(asked) if asked.json)
+        match self {
+            What::Causes(asked) => asked.json,
+            What::Priors(asked) => asked.json,
+            _ => false,
+        }
     }
 }
 
@@ -82,9 +92,23 @@ pub(crate) fn reference(arguments: &Reference, command: Command) -> Result<Answe
         What::Keys => listed(key_reference()),
         What::Columns => listed(column_reference()),
         What::Causes(asked) => causes::causes(asked),
+        What::Priors(asked) => priors::priors(asked),
         What::Schema(asked) => schema::schema(asked),
         What::Completions(asked) => completions::completions(asked, command),
         What::Man(asked) => man::man(asked, command),
+    }
+}
+
+/// The distributions in a folder, or the nearest ones.
+fn folder(asked: Option<&Path>) -> Result<Distributions, Failure> {
+    match asked {
+        Some(folder) if !folder.is_dir() => Err(Failure::Input(format!(
+            "--distributions {}: there is no such folder; leave it out for those of the nearest folder `distributions`, or else for \
+             those that are built in",
+            folder.display()
+        ))),
+        Some(folder) => Ok(Distributions::only_in(folder)),
+        None => Ok(Distributions::of_study(Path::new("."))),
     }
 }
 

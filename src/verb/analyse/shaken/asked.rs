@@ -27,6 +27,11 @@ pub(crate) fn refused(asked_for: &Analyse) -> Result<(), Failure> {
             "--load base-motion needs --record FILE: PEER .AT2, ESM, ITACA or K-NET ASCII, COSMOS or CSMIP V2, or CSV with units in its heads",
         );
     }
+    if asked_for.demanded.demand.is_some() {
+        return usage(
+            "--demand is for a tilt or a push: a record is a demand by itself; ask for it at a --scale, or leave --demand out",
+        );
+    }
     match asked_for.solver() {
         SolverName::Limit | SolverName::Implicit => {
             return usage(

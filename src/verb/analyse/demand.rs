@@ -1,0 +1,213 @@
+//! A wall against what is demanded of it: whether it bears it, by how much, and over ranges how surely.
+
+use serde_json::{Value, json};
+
+use crate::ensemble::{Failing, Met, Observed, Quantity};
+use crate::math::{atan, degrees};
+use crate::model::{Level, Outcome};
+use crate::render::number::{or_dash, significant, with_interval};
+use crate::study::Demand;
+use crate::terminal::failure::Failure;
+use crate::verb::analyse::answer::Answer;
+use crate::verb::analyse::ask::{Analyse, FlowName, Growing};
+use crate::verb::analyse::fall::Fall;
+use crate::verb::analyse::open;
+use crate::verb::analyse::solve::{LARGEST_MULTIPLIER, LARGEST_TILT_DEG};
+use crate::verb::analyse::uncertainty::UncertaintySummary;
+use crate::verb::arguments::SolverName;
+
+/// Digits of a load.
+const DIGITS: usize = 4;
+
+/// What came of a demand.
+pub(crate) struct Demanded {
+    /// As it was stated.
+    stated: String,
+    /// The same in the unit of the load: degrees, or a multiple of the weight.
+    level: f64,
+    unit: &'static str,
+    /// What the wall bears at least; `None` where that is not known.
+    bears: Option<f64>,
+    met: Met,
+    /// Whether joints slip in limit analysis with dilatancy, whose number is an upper bound then: no proof that the wall bears it.
+    is_upper_bound: bool,
+    over: Option<Over>,
+}
+
+/// What came of it over ranges.
+struct Over {
+    interval: [Option<f64>; 2],
+    failing: Failing,
+}
+
+/// A demand in the unit of the load.
+pub(crate) fn level(asked: &Analyse, demand: &Demand) -> Result<f64, Failure> {
+    let level = match asked.growing() {
+        Growing::Tilt => Quantity::CollapseAngle.level(demand),
+        Growing::Lateral => demand.multiplier(),
+    };
+    level.map_err(|allowed| {
+        let found = format!("--demand {}: a wall falls at a tilt or under a push", demand.stated);
+        Failure::Usage(format!("{found}; allowed is {allowed}"))
+    })
+}
+
+impl Demanded {
+    /// Of the answer with how the wall falls, and of all walls over the ranges; `None` where nothing is demanded.
+    pub fn of(
+        asked: &Analyse,
+        (answer, fall): (&Answer, Option<Fall>),
+        sure: Option<&UncertaintySummary>,
+    ) -> Result<Option<Demanded>, Failure> {
+        let Some(demand) = &asked.demanded.demand else { return Ok(None) };
+        let level = level(asked, demand)?;
+        let [least, most] = borne(asked, answer);
+        let met = match (least, most) {
+            (Some(least), _) if least > level => Met::Bears,
+            (_, Some(most)) if most <= level => Met::Fails,
+            _ => Met::Unknown,
+        };
+        let over = sure.map(|sure| {
+            let mut failing = Failing::default();
+            // Loads of both kinds are the larger, the stronger.
+            let met = |observed: Observed| Met::of(Quantity::CollapseAngle, level, observed);
+            sure.points.iter().for_each(|(_, ended)| failing.take(met(ended.observed)));
+            Over { interval: sure.answer.interval, failing }
+        });
+        let dilates = asked.solver() == SolverName::Limit && asked.flow != Some(FlowName::NonAssociative);
+        Ok(Some(Demanded {
+            stated: demand.stated.clone(),
+            level,
+            unit: if asked.growing() == Growing::Tilt { "deg" } else { "of its weight" },
+            bears: least.filter(|own| own.is_finite()),
+            met,
+            is_upper_bound: dilates && fall.is_none(),
+            over,
+        }))
+    }
+
+    /// The share of walls that is shown with 95 % confidence not to be exceeded: of a single wall none, or all.
+    pub fn at_most(&self) -> f64 {
+        match (&self.over, self.met) {
+            (Some(over), _) => over.failing.at_most().unwrap_or(1.0),
+            (None, Met::Bears) => 0.0,
+            (None, Met::Fails | Met::Unknown) => 1.0,
+        }
+    }
+
+    /// What the wall bears over the demand.
+    fn ratio(&self) -> Option<f64> {
+        self.bears.map(|bears| bears / self.level)
+    }
+
+    /// In a sentence.
+    pub fn headline(&self) -> String {
+        let level = significant(self.level, DIGITS);
+        let asked = match self.stated == level {
+            true => format!("{level} {}", self.unit),
+            false => format!("{level} {} ({})", self.unit, self.stated),
+        };
+        let bears = self.over.as_ref().and_then(|over| over.interval[0].zip(over.interval[1]));
+        let bears = match bears {
+            Some((low, high)) => with_interval(self.bears, Some([low, high]), DIGITS),
+            None => or_dash(self.bears, DIGITS),
+        };
+        let ratio = self
+            .ratio()
+            .map_or_else(String::new, |own| format!(", {} times as much", significant(own, DIGITS)));
+        let said = match (self.met, &self.over) {
+            (Met::Bears, None) if self.bears.is_none() => {
+                format!("stands: no load of this kind brings it down, and {asked} is asked for")
+            }
+            (Met::Bears, Some(over)) if over.failing.fail + over.failing.unknown > 0 => {
+                format!("stands at the middle of the ranges: it bears {bears} against {asked}{ratio}")
+            }
+            (Met::Bears, _) => format!("stands: it bears {bears} against {asked}{ratio}"),
+            (Met::Fails, _) => format!("fails: it bears {bears} against {asked}"),
+            (Met::Unknown, _) => format!("is not decided: it is shown to bear {bears} against {asked}"),
+        };
+        let share = self.over.as_ref().map_or_else(String::new, |over| format!("; {}", fails(&over.failing)));
+        format!("The wall {said}{share}.")
+    }
+
+    /// The sentence, and what it leaves out.
+    pub fn text(&self) -> String {
+        let caution = match self.met == Met::Bears && self.is_upper_bound {
+            true => {
+                "  with joints that dilate the multiplier is an upper bound: --flow non-associative asks for less\n"
+            }
+            false => "",
+        };
+        format!("{}\n{caution}", self.headline())
+    }
+
+    /// The same in the JSON object.
+    pub fn object(&self) -> Value {
+        let met = match self.met {
+            Met::Bears => "bears",
+            Met::Fails => "fails",
+            Met::Unknown => "not_known",
+        };
+        let over = self.over.as_ref().map(|over| {
+            json!({
+                "fail": over.failing.fail,
+                "unknown": over.failing.unknown,
+                "walls": over.failing.walls,
+                "share": over.failing.share(),
+                "share_ci": over.failing.interval(),
+            })
+        });
+        json!({
+            "stated": self.stated,
+            "level": self.level,
+            "unit": if self.unit == "deg" { "deg" } else { "1" },
+            "met": met,
+            "bears": self.bears,
+            "ratio": self.ratio(),
+            "over_ranges": over,
+        })
+    }
+}
+
+/// How many walls fail, of how many.
+fn fails(failing: &Failing) -> String {
+    let percent = |x: f64| 100.0 * x;
+    let share = with_interval(failing.share().map(percent), failing.interval().map(|ci| ci.map(percent)), 2);
+    let unknown = match failing.unknown {
+        0 => String::new(),
+        some => format!(", and of {some} it is not known"),
+    };
+    format!("over the ranges it fails in {share} % of {} walls{unknown}", failing.walls)
+}
+
+/// What the wall bears at least and at most in the unit of the load, as far as it is known.
+fn borne(asked: &Analyse, answer: &Answer) -> [Option<f64>; 2] {
+    let in_unit = |level: f64| if asked.growing() == Growing::Tilt { degrees(level) } else { level };
+    let of_multiplier = |x: f64| if asked.growing() == Growing::Tilt { degrees(atan(x)) } else { x };
+    let largest = match asked.growing() {
+        Growing::Tilt => LARGEST_TILT_DEG,
+        Growing::Lateral => LARGEST_MULTIPLIER,
+    };
+    if let Some(own) = &answer.undecided {
+        return open::levels(asked, own);
+    }
+    if let Some(between) = answer.between {
+        return between.map(|end| Some(of_multiplier(end)));
+    }
+    match &answer.outcome {
+        Outcome::Equilibrium => [Some(largest), None],
+        Outcome::Unbounded => [Some(f64::INFINITY), None],
+        Outcome::UnstableAtRest => [Some(0.0), Some(0.0)],
+        Outcome::Collapsed { .. } => {
+            let falls = in_unit(answer.borne(largest));
+            let [low, high] = answer.bracket.map_or([falls, falls], |ends| ends.map(in_unit));
+            [Some(low.min(falls)), Some(high.max(falls))]
+        }
+        // What it bore before it was given up.
+        Outcome::NotConverged { at: at @ (Level::Tilt(_) | Level::Multiplier(_)), .. } => {
+            [Some(in_unit(at.value())), None]
+        }
+        Outcome::NotConverged { .. } => [Some(0.0), None],
+        Outcome::NonFinite { .. } | Outcome::InvalidGeometry { .. } => [None, None],
+    }
+}
