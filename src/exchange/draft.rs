@@ -7,6 +7,7 @@ use crate::exchange::mended::Mended;
 use crate::exchange::scan::{hulled, scanned, stated};
 use crate::exchange::solid::{diagonal, divided, solid};
 use crate::exchange::{ReadOptions, Unit};
+use crate::face::Closed;
 use crate::math::{Mat3, Vec3, cos, sin};
 use crate::model::{Block, Support, Tag, Wall};
 use crate::shape::{MassProperties, Polyhedron};
@@ -107,6 +108,10 @@ pub struct Drawn {
     pub section: bool,
     /// The outlines before their joints were closed, by block.
     pub outlines: Vec<Vec<[f64; 2]>>,
+    /// The joints that were closed; none of a drawing that is taken as it is.
+    pub joints: Vec<Closed>,
+    /// Area gained by closing them, as a share of what the outline surrounds, by block; negative where it lost.
+    pub gained: Vec<f64>,
     /// Where a picture lies: its left, lower, right and upper rim; `None` of a drawing.
     pub frame: Option<[f64; 4]>,
 }

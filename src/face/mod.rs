@@ -16,13 +16,13 @@ mod tests;
 pub use check::Trouble;
 pub use outline::{Outline, Part};
 
-use crate::face::border::Border;
+use crate::face::border::{Border, Meeting};
 use crate::face::cell::cells;
 use crate::face::check::troubles;
-use crate::face::joint::joints;
+use crate::face::joint::{Joint, joints};
 use crate::face::line::Line;
 use crate::face::simple::simplified;
-use crate::shape::Polygon;
+use crate::shape::{Polygon, distance};
 
 /// Points along outlines are this share of the widest joint apart.
 const FINE: f64 = 0.1;
@@ -40,6 +40,17 @@ pub struct Closing {
     pub grain: f64,
 }
 
+/// A joint that was closed: the gap between two outlines, of which each has half.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Closed {
+    /// The outlines.
+    pub stones: (usize, usize),
+    /// Width (m) of the gap: its mean along the joint, and the greatest.
+    pub widths: [f64; 2],
+    /// Length (m) along which the outlines face each other.
+    pub length: f64,
+}
+
 /// The stones of a face, with their joints closed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Face {
@@ -47,8 +58,8 @@ pub struct Face {
     pub polygons: Vec<Polygon>,
     /// Area gained by each, as a share of what its outline surrounds; negative where it lost.
     pub gained: Vec<f64>,
-    /// The joints, by the outlines that meet.
-    pub joints: Vec<(usize, usize)>,
+    /// The joints, by their outlines.
+    pub joints: Vec<Closed>,
     /// Widths (m) that were closed: the median one and the greatest.
     pub widths: [f64; 2],
     /// Outlines that stand on the lowest level, where there is no outline of a ground.
@@ -112,11 +123,19 @@ impl Face {
             alone: alone.collect(),
             polygons,
             gained,
-            joints: joints.iter().map(|joint| joint.stones).collect(),
+            joints: joints.iter().filter_map(|own| closed(own, meetings.get(&own.stones)?)).collect(),
             widths: [widths.get(widths.len() / 2).copied().unwrap_or(0.0), widest],
             standing: (0..outlines.len()).filter(|stone| grounds[*stone].is_some()).collect(),
         })
     }
+}
+
+/// A joint with the widths of its gap, which are in order of size.
+fn closed(joint: &Joint, meeting: &Meeting) -> Option<Closed> {
+    let widths = &meeting.widths;
+    let mean = widths.iter().sum::<f64>() / widths.len() as f64;
+    let [from, to] = joint.ends;
+    Some(Closed { stones: joint.stones, widths: [mean, *widths.last()?], length: distance(from, to) })
 }
 
 /// The lowest level of the stones, on which they stand where no ground is drawn.

@@ -15,5 +15,5 @@ pub(crate) mod text;
 pub(crate) mod vtk;
 
 pub use gltf::{Actor, Role, write_glb};
-pub use picture::{Hinge, Picture, Seam, Stage, Stone, Thrust};
+pub use picture::{Hinge, Picture, Seam, Shade, Stage, Stone, Thrust, Views};
 pub use vtk::{SERIES, write_series, write_vtu};

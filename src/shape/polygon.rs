@@ -78,6 +78,20 @@ impl Polygon {
         }
         current
     }
+
+    /// What is left of it outside another counter-clockwise convex polygon in the same plane: convex polygons that do not overlap.
+    pub fn without(&self, other: &Polygon) -> Vec<Polygon> {
+        let (mut rest, mut outside) = (self.clone(), Vec::new());
+        for [a, b] in other.sides() {
+            // As in `intersection`: what lies on the right of a side is outside.
+            let (ex, ey) = (b[0] - a[0], b[1] - a[1]);
+            let g0 = ex * a[1] - ey * a[0];
+            outside.push(rest.clip(-g0, -ey, ex));
+            rest = rest.clip(g0, ey, -ex);
+        }
+        outside.retain(|part| part.vertices.len() >= 3 && part.area() > 0.0);
+        outside
+    }
 }
 
 /// The sides of a closed line in order, each from corner to corner.

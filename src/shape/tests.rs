@@ -187,3 +187,21 @@ fn the_polygon_around_points_has_their_outer_corners_only() {
     assert!(Polygon::around(vec![[1.0, 1.0]; 3]).vertices.len() < 3);
     assert!(Polygon::around(Vec::new()).vertices.is_empty());
 }
+
+/// What lies outside another polygon: nothing of what is within it, all of what does not meet it, and parts that fill the rest without overlap.
+#[test]
+fn what_is_left_of_a_polygon_outside_another_fills_the_rest() {
+    let square = |[s, t]: [f64; 2], size: f64| Polygon {
+        vertices: vec![[s, t], [s + size, t], [s + size, t + size], [s, t + size]],
+    };
+    let area = |own: &Polygon, other: &Polygon| own.without(other).iter().map(Polygon::area).sum::<f64>();
+    let (large, small) = (square([0.0, 0.0], 4.0), square([1.0, 1.0], 2.0));
+    assert_eq!(area(&large, &small), 12.0);
+    assert_eq!(area(&small, &large), 0.0);
+    assert_eq!(area(&small, &square([8.0, 0.0], 1.0)), 4.0);
+    let parts = large.without(&small);
+    for (k, part) in parts.iter().enumerate() {
+        assert!(parts[k + 1..].iter().all(|other| part.intersection(other).area() == 0.0));
+        assert_eq!(part.intersection(&small).area(), 0.0);
+    }
+}

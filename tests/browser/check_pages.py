@@ -212,7 +212,7 @@ def main():
         found = []
         for path, words in [
             (run, ["What came out", "Wall and inputs", "Statistics", "The walls", "Limits of validity", "Provenance", "For a paper"]),
-            (wall, ["What came out", "Blocks and joints", "Inputs", "Limits of validity", "Provenance"]),
+            (wall, ["What came out", "The wall from three sides, before the load", "Blocks and joints", "Inputs", "Limits of validity", "Provenance"]),
             (verdict, ["What is wrong", "Measured beside simulated", "Causes", "How often such verdicts are right", *shared]),
             (capacity, ["What came out", "Answers", "Values that these walls support", "Wall and inputs", *shared]),
             (compare, ["What came out", "Arms, the best first", "Every pair of arms", "Wall and inputs", *shared]),

@@ -666,6 +666,12 @@ fn joints_carry_what_stands_on_them_and_a_tower_turns_about_its_foot() {
             );
         }
         assert!(file("mechanism.svg").contains("The wall collapses at a tilt of"));
+        // The tower is 0.5 m long and 1.2 m high, and pushed towards y+ in the section and in the plan.
+        let views = file("views.svg");
+        assert!(views.contains(">0.500 m<") && views.contains(">1.200 m<"), "{views}");
+        assert_eq!(views.matches(">load y+<").count(), 2, "{views}");
+        let page = file("report.html");
+        assert!(page.contains("figure-views") && !page.contains("figure-mended"));
         // The foot alone is open but for its front edge.
         let states: Vec<&Value> = joints.iter().map(|joint| &joint["state"]).collect();
         assert_eq!(states, ["hinge", "closed", "closed", "closed", "closed", "closed"], "{solver}");

@@ -86,6 +86,24 @@ fn a_mended_wall_bears_what_the_sound_one_does_and_says_what_was_done() {
     assert!(untouched["warnings"].to_string().contains("nothing to mend within 3 mm"));
 }
 
+/// The wall that needs nothing has no drawing of what was moved.
+#[test]
+fn what_was_moved_is_drawn() {
+    for (off, is_drawn) in [([-1e-3, 1e-3], true), ([0.0, 0.0], false)] {
+        let folder = with_column(off);
+        let asked = ["analyse", "wall.obj", "--phi-deg", "35", "--mend", "3mm", "--out", "seen"];
+        let output = folder.pirca(&asked);
+        assert!(output.status.success(), "{}", stderr(&output));
+        let page = fs::read_to_string(folder.path("seen/report.html")).expect("a page");
+        assert_eq!(page.contains("figure-mended"), is_drawn);
+        let drawn = fs::read_to_string(folder.path("seen/mended.svg"));
+        assert_eq!(
+            drawn.is_ok_and(|svg| svg.contains("mm: largest distance that a corner was moved")),
+            is_drawn
+        );
+    }
+}
+
 #[test]
 fn a_length_of_mending_that_would_change_stones_is_refused() {
     let folder = with_column([0.0, 0.0]);

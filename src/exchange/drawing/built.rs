@@ -71,9 +71,16 @@ pub(in crate::exchange) fn built(
     warnings.insert(0, read(&outlines, unit * (right - left), unit * (high - low)));
     let grain = if size == Size::OfPixels { unit } else { 0.0 };
     let usual = (size == Size::OfPixels).then_some(PIXELS * unit);
-    let polygons = match options.closing.or(usual) {
-        Some(widest) => closed(&outlines, &Closing { widest, grain }, &mut warnings)?,
-        None => outlines.iter().map(counter_clockwise).collect(),
+    let face = match options.closing.or(usual) {
+        Some(widest) => Some(closed(&outlines, &Closing { widest, grain }, &mut warnings)?),
+        None => None,
+    };
+    let (polygons, joints, gained) = match face {
+        Some(face) => {
+            let polygons = face.polygons.into_iter().map(|own| own.vertices);
+            (polygons.collect(), face.joints, face.gained)
+        }
+        None => (outlines.iter().map(counter_clockwise).collect::<Vec<_>>(), Vec::new(), Vec::new()),
     };
     let unstated = if options.density.is_none() { outlines.len() } else { 0 };
     warnings.extend(assumed_density(unstated));
@@ -87,6 +94,8 @@ pub(in crate::exchange) fn built(
     let drawn = Drawn {
         section: options.section,
         outlines: outlines.into_iter().map(|own| own.points).collect(),
+        joints,
+        gained,
         frame,
     };
     Ok(WallFile { drawn: Some(drawn), ..build(drafts, Unit::Metre, &options, faults, warnings)? })
@@ -141,12 +150,8 @@ fn read(outlines: &[Outline], length: f64, height: f64) -> String {
     format!("read {stones} stones{headers}{ground}, {length:.3} m long and {height:.3} m high together")
 }
 
-/// What the outlines fill with their joints closed.
-fn closed(
-    outlines: &[Outline],
-    closing: &Closing,
-    warnings: &mut Vec<String>,
-) -> Result<Vec<Vec<[f64; 2]>>, WallFaults> {
+/// The outlines with their joints closed.
+fn closed(outlines: &[Outline], closing: &Closing, warnings: &mut Vec<String>) -> Result<Face, WallFaults> {
     let mut faults = WallFaults::new("drawing");
     let mut areas: Vec<f64> = outlines.iter().map(Outline::area).collect();
     areas.sort_by(f64::total_cmp);
@@ -175,7 +180,7 @@ fn closed(
         return Err(faults);
     }
     warnings.push(told(outlines, &face));
-    Ok(face.polygons.into_iter().map(|own| own.vertices).collect())
+    Ok(face)
 }
 
 /// What closing did, in a sentence.

@@ -6,6 +6,8 @@ use crate::math::Vec3;
 use crate::render::picture::view::View;
 use crate::shape::Polyhedron;
 
+/// Outlines that overlap by less than this share of the wall's height do not hide each other.
+pub const GRAZES: f64 = 5e-3;
 /// Cosine to the line of sight below which a plane is seen edge-on, so that neither side of it hides the other.
 const EDGE_ON: f64 = 1e-9;
 

@@ -1,21 +1,14 @@
 //! The picture as SVG text, from the furthest block to the nearest.
 
 use crate::math::Vec3;
-use crate::render::markup::escaped;
 use crate::render::number::{range, significant};
-use crate::render::pen::FONT_NAME;
 use crate::render::picture::colour;
-use crate::render::picture::order::back_to_front;
+use crate::render::picture::ink::{FORCE, HEADLINE, LINE, MARGIN, WIDTH, bar, label, path, polygon, sheet};
+use crate::render::picture::order::{GRAZES, back_to_front};
 use crate::render::picture::scene::{Picture, Seam, Stage, height};
 use crate::render::picture::view::View;
 use crate::shape::{Plane, Polyhedron};
 
-/// Width of the picture and of its margins (pixels).
-const WIDTH: f64 = 960.0;
-const MARGIN: f64 = 24.0;
-/// Height of a line of text, and room for the headline (pixels).
-const LINE: f64 = 22.0;
-const HEADLINE: f64 = 50.0;
 /// The wall is drawn at most so high (pixels).
 const TALLEST: f64 = 620.0;
 /// The ground reaches so far beyond the wall, as a share of its height.
@@ -25,17 +18,12 @@ const LEAST: f64 = 0.02;
 /// Two directions or points are the same to this (cosine; share of the wall's height).
 const PARALLEL: f64 = 0.99;
 const ON_FACE: f64 = 1e-3;
-/// Outlines that overlap by less than this share of the wall's height do not hide each other.
-const GRAZES: f64 = 5e-3;
 /// Radius of a dot (pixels).
 const DOT: f64 = 5.0;
 /// Cosine to the line of sight from which on an edge leads away from the viewer.
 const LEADS_AWAY: f64 = 0.5;
 /// The largest force is drawn as a line of this share of the wall's height, smaller ones as much shorter.
 const LONGEST_THRUST: f64 = 0.2;
-const THRUST: &str = "#003d7a";
-/// Steps of the colour bar.
-const STEPS: usize = 40;
 
 impl Picture {
     /// The picture as SVG; the same picture gives the same bytes.
@@ -67,14 +55,9 @@ impl Picture {
         let of_dots = if dots.is_empty() { 0.0 } else { LINE };
         let most = self.thrusts.iter().map(|own| own.force.norm()).fold(0.0, f64::max);
         let legend = of_dots + if most > 0.0 { LINE } else { 0.0 };
-        let bar = legend + if coloured { 3.0 * LINE } else { 0.0 };
-        let tall = (below + bar + LINE * (self.remarks.len() as f64 + 1.0)).ceil();
-        let mut text = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{tall}\" viewBox=\"0 0 {WIDTH} {tall}\" \
-             font-family=\"{FONT_NAME}\" stroke-linejoin=\"round\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n"
-        );
-        text += &label(MARGIN, 32.0, 20, &self.title);
-        text += &polygon(&canvas.path(&ground), "#f1ede4", "#c9c2b2", 1.0);
+        let to_remarks = legend + if coloured { 3.0 * LINE } else { 0.0 };
+        let tall = (below + to_remarks + LINE * (self.remarks.len() as f64 + 1.0)).ceil();
+        let mut text = polygon(&canvas.path(&ground), "#f1ede4", "#c9c2b2", 1.0);
         for seam in self.seams.iter().filter(|seam| seam.blocks.iter().any(|b| *b >= shapes.len())) {
             text += &self.patch(seam, largest, &canvas, &seam.polygon);
         }
@@ -93,7 +76,8 @@ impl Picture {
             text += &dot(&canvas.path(&[seen_of(&ends, &view)]));
         }
         if coloured {
-            text += &self.bar(below + legend, largest);
+            let least = format!("below {} % of the largest not coloured", 100.0 * LEAST);
+            text += &bar(below + legend, largest, self.unit, &self.measure, &least);
         }
         if !dots.is_empty() {
             let (x, y) = (MARGIN + DOT, below + 4.0);
@@ -112,9 +96,9 @@ impl Picture {
             text += &label(MARGIN + 5.0 * DOT, y + DOT, 14, &said);
         }
         for (place, remark) in self.remarks.iter().enumerate() {
-            text += &label(MARGIN, below + bar + LINE * (place as f64 + 0.5), 15, remark);
+            text += &label(MARGIN, below + to_remarks + LINE * (place as f64 + 0.5), 15, remark);
         }
-        text + "</svg>\n"
+        sheet(tall, &self.title, &text)
     }
 
     /// Corners of the ground around the wall.
@@ -175,31 +159,6 @@ impl Picture {
         let fill = colour::of_share(seam.value / largest);
         polygon(&canvas.path(points), &fill, &fill, 0.7)
     }
-
-    /// The colour bar with its ends.
-    fn bar(&self, top: f64, largest: f64) -> String {
-        let (width, tall) = (360.0, 14.0);
-        let step = width / STEPS as f64;
-        let mut text = String::new();
-        for k in 0..STEPS {
-            let fill = colour::of_share((k as f64 + 0.5) / STEPS as f64);
-            let x = MARGIN + step * k as f64;
-            // A little wider than a step, so that no gap shows between two.
-            text += &format!(
-                "<rect x=\"{x:.1}\" y=\"{top:.1}\" width=\"{:.1}\" height=\"{tall}\" fill=\"{fill}\"/>\n",
-                step + 0.5
-            );
-        }
-        for share in [0.0, 0.5, 1.0] {
-            let value = significant(self.unit.1 * share * largest, 2);
-            let value = if share == 0.0 { "0".to_string() } else { value };
-            text += &label(MARGIN + share * width, top + tall + 17.0, 14, &value);
-        }
-        let beside = MARGIN + width + 40.0;
-        text += &label(beside, top + tall - 2.0, 14, &format!("{}: {}", self.unit.0, self.measure));
-        let least = format!("below {} % of the largest not coloured", 100.0 * LEAST);
-        text + &label(beside, top + tall + 17.0, 14, &least)
-    }
 }
 
 /// Where the view lies on the paper.
@@ -215,16 +174,10 @@ struct Canvas {
 impl Canvas {
     /// Points as SVG writes them.
     fn path(&self, points: &[Vec3]) -> String {
-        let words: Vec<String> = points
-            .iter()
-            .map(|point| {
-                let [x, y] = self.view.place(point);
-                // Adding zero turns a rounded -0.0 into 0.0.
-                let pixel = |length: f64| (10.0 * self.scale * length).round() / 10.0 + 0.0;
-                format!("{},{}", pixel(x - self.left), pixel(self.top - y))
-            })
-            .collect();
-        words.join(" ")
+        path(points.iter().map(|point| {
+            let [x, y] = self.view.place(point);
+            [self.scale * (x - self.left), self.scale * (self.top - y)]
+        }))
     }
 }
 
@@ -246,7 +199,7 @@ fn line(points: &str) -> String {
         )
     };
     // With a light rim, so that it shows on dark joints.
-    drawn("#ffffff", 4.5) + &drawn(THRUST, 2.5)
+    drawn("#ffffff", 4.5) + &drawn(FORCE, 2.5)
 }
 
 /// A dot at a point as SVG writes it.
@@ -255,15 +208,6 @@ fn dot(place: &str) -> String {
     format!(
         "<circle cx=\"{x}\" cy=\"{y}\" r=\"{DOT}\" fill=\"#14213d\" stroke=\"#ffffff\" stroke-width=\"1.5\"/>\n"
     )
-}
-
-fn polygon(points: &str, fill: &str, stroke: &str, width: f64) -> String {
-    format!("<polygon points=\"{points}\" fill=\"{fill}\" stroke=\"{stroke}\" stroke-width=\"{width}\"/>\n")
-}
-
-fn label(x: f64, y: f64, size: u32, text: &str) -> String {
-    let text = escaped(text);
-    format!("<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{size}\" fill=\"#000000\">{text}</text>\n")
 }
 
 /// Unit normal of a polygon; `None` where it has no area.

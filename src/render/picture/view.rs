@@ -6,6 +6,11 @@ use crate::math::{Vec3, cos, radians, sin};
 const ASIDE_DEG: f64 = 32.0;
 const ABOVE_DEG: f64 = 20.0;
 
+/// The wall's axes.
+const X: Vec3 = Vec3::new(1.0, 0.0, 0.0);
+const Y: Vec3 = Vec3::new(0.0, 1.0, 0.0);
+const Z: Vec3 = Vec3::new(0.0, 0.0, 1.0);
+
 /// A view from far away: parallel lines stay parallel, and lengths across the line of sight stay true.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
@@ -18,6 +23,13 @@ pub struct View {
 }
 
 impl View {
+    /// Square on the face, towards +y: x to the right, z up.
+    pub const FACE: View = View { right: X, up: Z, viewer: Vec3::new(0.0, -1.0, 0.0) };
+    /// Square on the end, towards -x: y to the right, z up.
+    pub const END: View = View { right: Y, up: Z, viewer: X };
+    /// From above: x to the right, y up.
+    pub const PLAN: View = View { right: X, up: Y, viewer: Z };
+
     /// From the front (+y) or the back of a wall; in both the viewer's left end of the wall is the nearer one.
     pub fn on(front: bool) -> View {
         let aside = radians(ASIDE_DEG) + if front { 0.0 } else { std::f64::consts::PI };

@@ -19,7 +19,8 @@ use crate::verb::analyse::answer::Answer;
 use crate::verb::analyse::ask::Analyse;
 use crate::verb::analyse::page::{Source, Told, page};
 use crate::verb::analyse::state::State;
-use crate::verb::analyse::{joints, mended};
+use crate::verb::analyse::views::AlongAxes;
+use crate::verb::analyse::{closed, joints, mended};
 use crate::verb::arguments::SolverName;
 use crate::verb::wall::condition::hinges;
 use crate::verb::wall::drawn::{Measure, seams, sides};
@@ -46,7 +47,9 @@ pub(crate) struct Seen<'a> {
 pub(crate) fn write_page(path: &Path, of: &Seen<'_>, told: &Told<'_>) -> Result<(), Failure> {
     let picture = picture(of.asked, (of.file, of.fit), of.answer, of.state);
     let source = Source::again(&of.asked.wall, of.file)?;
-    let text = page(of.asked, (of.file, &source), (of.answer, of.state), (&picture, of.replay), told)?;
+    let views = AlongAxes::of(of.asked, of.file, told.mended);
+    let text =
+        page(of.asked, (of.file, &source), (of.answer, of.state), (&picture, &views, of.replay), told)?;
     Ok(replace_file(path, text.as_bytes())?)
 }
 
@@ -57,9 +60,11 @@ pub(crate) fn write(folder: &Path, of: &Seen<'_>, object: &Value, told: &Told<'_
     let picture = picture(asked, (file, fit), answer, state);
     let rests: Vec<Movement> = state.stones.iter().map(|stone| at_rest(state, stone)).collect();
     let source = Source::again(&asked.wall, file)?;
+    let views = AlongAxes::of(asked, file, told.mended);
     let mut files = vec![
-        ("report.html", page(asked, (file, &source), (answer, state), (&picture, replay), told)?),
+        ("report.html", page(asked, (file, &source), (answer, state), (&picture, &views, replay), told)?),
         ("mechanism.svg", picture.svg()),
+        ("views.svg", views.whole.svg()),
         ("rest.vtu", write_vtu(&file.wall, (asked.solver() != SolverName::Limit).then_some(&rests[..]))),
         ("blocks.csv", blocks_csv(file, answer, state)),
         ("joints.csv", joints_csv(file, state)),
@@ -71,6 +76,8 @@ pub(crate) fn write(folder: &Path, of: &Seen<'_>, object: &Value, told: &Told<'_
     if let Some(done) = told.mended {
         files.push(("mended.csv", mended::csv(file, done)));
     }
+    files.extend(closed::csv(file).map(|csv| ("closed-joints.csv", csv)));
+    files.extend(views.moved.map(|views| ("mended.svg", views.svg())));
     // What was read of another format, mended or closed: an arm of a study takes it.
     if Format::of(&asked.title()) != Some(Format::Json) {
         files.push(("wall.json", write_wall_json(&file.wall)));

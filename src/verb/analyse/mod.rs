@@ -3,6 +3,7 @@
 mod answer;
 mod as_study;
 pub(crate) mod ask;
+mod closed;
 mod demand;
 mod drawn;
 mod fall;
@@ -23,6 +24,7 @@ pub(crate) mod uncertainty;
 mod unsure;
 mod upright;
 mod verb;
+mod views;
 mod worst;
 
 pub(crate) use ask::Analyse;

@@ -14,7 +14,8 @@ use crate::terminal::failure::Failure;
 use crate::verb::analyse::answer::Answer;
 use crate::verb::analyse::ask::{Analyse, Growing};
 use crate::verb::analyse::state::State;
-use crate::verb::analyse::{drawn, mended};
+use crate::verb::analyse::views::AlongAxes;
+use crate::verb::analyse::{closed, drawn, mended};
 use crate::verb::arguments::SolverName;
 use crate::verb::run::answer::page::{WallPage, WallTable, wall_page};
 use crate::verb::run::origin::Origin;
@@ -35,12 +36,12 @@ pub(crate) struct Told<'a> {
     pub mended: Option<&'a Mended>,
 }
 
-/// The page; `picture` is the one in the folder, `replay` the states that the wall goes through.
+/// The page; `picture` and `views` are those in the folder, `replay` the states that the wall goes through.
 pub(crate) fn page(
     asked: &Analyse,
     (file, source): (&WallFile, &Source),
     (answer, state): (&Answer, &State),
-    (picture, replay): (&Picture, &Replay),
+    (picture, views, replay): (&Picture, &AlongAxes, &Replay),
     told: &Told<'_>,
 ) -> Result<String, Failure> {
     let wall = asked.title();
@@ -51,8 +52,15 @@ pub(crate) fn page(
         heads: mended::HEADS,
         rows: mended::rows(file, done),
     });
+    let joints_closed = closed::rows(file);
+    let closed = (!joints_closed.is_empty()).then_some(WallTable {
+        name: "Joints that were closed",
+        heads: closed::HEADS,
+        rows: joints_closed,
+    });
     let tables = [
         mended,
+        closed,
         Some(WallTable { name: "Blocks", heads: BLOCKS, rows: blocks(file, answer, state, by_rates) }),
         Some(WallTable { name: "Joints", heads: JOINTS, rows: joints(file, state) }),
     ];
@@ -64,6 +72,8 @@ pub(crate) fn page(
         warnings: told.warnings,
         read: source.read.clone(),
         picture,
+        views: &views.whole,
+        moved: views.moved.as_ref(),
         replay,
         about_tables: match by_rates {
             true => {

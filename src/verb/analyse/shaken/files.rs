@@ -14,6 +14,7 @@ use crate::terminal::failure::Failure;
 use crate::terminal::output;
 use crate::verb::analyse::page::{Source, inputs};
 use crate::verb::analyse::shaken::{Common, Ran, one};
+use crate::verb::analyse::views::views;
 use crate::verb::run::answer::page::{WallPage, WallTable, wall_page};
 use crate::verb::run::origin::Origin;
 use crate::verb::wall::drawn::sides;
@@ -42,6 +43,7 @@ pub(crate) fn write(
     let files = [
         ("report.html", page(of, run, (&picture, text), warnings)?),
         ("end.svg", picture.svg()),
+        ("views.svg", views(of.asked, of.file).svg()),
         ("blocks.csv", blocks_csv(of, run)),
         ("analysis.json", format!("{whole:#}\n")),
     ];
@@ -183,6 +185,8 @@ fn page(
         warnings,
         read: source.read,
         picture,
+        views: &views(asked, of.file),
+        moved: None,
         replay: &run.replay,
         about_tables: "Displacements, turns, openings and slips are those at the end, since the wall was built. blocks.csv holds all digits.",
         tables: vec![

@@ -8,7 +8,7 @@ use crate::render::document::Drawing;
 use crate::render::document::Table;
 use crate::render::document::filled;
 use crate::render::document::{Solid, SolidWall};
-use crate::render::picture::Picture;
+use crate::render::picture::{Picture, Views};
 use crate::shape::Polyhedron;
 use crate::verb::run::answer::page::cite::{Citation, citation};
 use crate::verb::run::answer::page::limits;
@@ -42,6 +42,10 @@ pub struct WallPage<'a> {
     pub read: Option<String>,
     /// How the wall gives way.
     pub picture: &'a Picture,
+    /// The wall along its axes, before the load.
+    pub views: &'a Views,
+    /// What mending moved, where it moved anything.
+    pub moved: Option<&'a Views>,
     /// The states that it goes through.
     pub replay: &'a Replay,
     /// What the numbers of its tables are.
@@ -68,6 +72,8 @@ struct Filled<'a> {
     read: Option<Drawing>,
     picture: Drawing,
     solid: Option<Solid>,
+    views: Drawing,
+    moved: Option<Drawing>,
     about_tables: &'static str,
     tables: Vec<Table>,
     inputs: Table,
@@ -116,6 +122,8 @@ pub fn wall_page(of: &WallPage<'_>) -> Result<String> {
                 &of.picture.svg(),
             ),
             solid: Solid::of("figure-solid", caption, &[solid]),
+            views: along_axes("figure-views", "The wall from three sides, before the load", of.views),
+            moved: of.moved.map(|views| along_axes("figure-mended", "Stones that mending changed", views)),
             about_tables: of.about_tables,
             tables: of.tables.iter().map(table).collect(),
             inputs: Table::of_pairs(of.inputs.iter().map(|(name, value)| (*name, value.clone()))),
@@ -124,4 +132,18 @@ pub fn wall_page(of: &WallPage<'_>) -> Result<String> {
             citation: citation(None),
         },
     )
+}
+
+/// Views of the wall with its size in words.
+fn along_axes(id: &str, title: &str, views: &Views) -> Drawing {
+    let size = views.size();
+    let described = format!(
+        "Without fixed blocks the wall is {:.3} m long, {:.3} m high and {:.3} m thick; the section lies at x = {:.3} m. {}",
+        size.x,
+        size.z,
+        size.y,
+        views.section_at(),
+        views.remarks.join(" ")
+    );
+    Drawing::described(id, title, &described, &views.svg())
 }
