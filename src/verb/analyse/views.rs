@@ -66,7 +66,7 @@ fn drawn(file: &WallFile, title: String, load: Option<(Vec3, String)>, shade: Op
         load,
         shade,
         remarks: vec![
-            "In brackets the axes to the right and up; the face is seen from the back (-y), the section towards -x."
+            "In brackets the axes to the right and up; the face is seen from the back (-y), the section A-A towards -x."
                 .to_owned(),
             "Dimensions are those of all blocks that are not fixed.".to_owned(),
         ],

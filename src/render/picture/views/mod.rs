@@ -12,7 +12,7 @@ use crate::render::picture::ink::{HEADLINE, LINE, MARGIN, WIDTH, bar, label, pat
 use crate::render::picture::order::GRAZES;
 use crate::render::picture::view::View;
 use crate::render::picture::views::pane::{Pane, arrow, round_length, scale_bar, words};
-use crate::render::picture::views::seen::{Seen, along, busiest, section, shown};
+use crate::render::picture::views::seen::{Seen, along, busiest, cut, section, shown};
 use crate::shape::{Polygon, Polyhedron};
 
 /// Fixed blocks are seen up to this share of the wall's height beyond it.
@@ -91,13 +91,14 @@ impl Views {
         let (paper, x) = (self.paper(), self.section_at());
         let [low, high] = self.wall();
         let depth = GRAZES * (high.z - low.z);
+        let cut = if self.is_large() { cut(&self.shapes, x) } else { section(&self.shapes, x, depth) };
         let mut text = name(&paper.face, ABOVE, "Face (x, z)");
         text += &self.view(&paper.face, &View::FACE, || along(&self.shapes, &View::FACE, depth));
         text += &paper.face.mark(x, "A");
         text += &paper.face.across([low.x, high.x], DIMENSION);
         text += &paper.face.upright([low.z, high.z], DIMENSION);
         text += &name(&paper.end, ABOVE, &format!("A-A (y, z) at x = {x:.3} m"));
-        text += &self.blocks(&paper.end, section(&self.shapes, x, depth));
+        text += &self.blocks(&paper.end, cut);
         text += &self.loaded(&paper.end, &View::END);
         text += &paper.end.across([low.y, high.y], DIMENSION);
         let mut below = paper.face.end()[1] + BELOW;

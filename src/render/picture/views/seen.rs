@@ -29,20 +29,19 @@ pub(super) fn along(shapes: &[Polyhedron], view: &View, depth: f64) -> Vec<Seen>
     back_to_front(shapes, view, depth).into_iter().map(seen).collect()
 }
 
-/// The section at `x` (m), seen towards -x: what lies beyond it, and in front of that what it cuts.
+/// What a section at `x` (m) cuts, seen towards -x.
+pub(super) fn cut(shapes: &[Polyhedron], x: f64) -> Vec<Seen> {
+    let all = shapes.iter().enumerate().filter(|(_, shape)| is_cut(shape, x));
+    all.map(|(block, shape)| Seen { block, outline: cut_of(shape, x), is_cut: true }).collect()
+}
+
+/// The same with what lies beyond the section before it in the list, as it is further away.
 pub(super) fn section(shapes: &[Polyhedron], x: f64, depth: f64) -> Vec<Seen> {
-    let (mut cut, mut beyond) = (Vec::new(), Vec::new());
-    for (block, shape) in shapes.iter().enumerate() {
-        if is_cut(shape, x) {
-            cut.push(Seen { block, outline: cut_of(shape, x), is_cut: true });
-        } else if shape.bounds().1.x <= x {
-            beyond.push(block);
-        }
-    }
+    let beyond: Vec<usize> = (0..shapes.len()).filter(|block| shapes[*block].bounds().1.x <= x).collect();
     let behind: Vec<Polyhedron> = beyond.iter().map(|block| shapes[*block].clone()).collect();
     let mut all = along(&behind, &View::END, depth);
     all.iter_mut().for_each(|own| own.block = beyond[own.block]);
-    all.extend(cut);
+    all.extend(cut(shapes, x));
     all
 }
 
