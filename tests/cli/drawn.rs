@@ -146,9 +146,10 @@ fn the_page_shows_what_was_read_over_the_picture() {
     let joints = fs::read_to_string(folder.path("answer/closed-joints.csv")).expect("a table");
     let heads = "block_a,block_b,gap_mean_m,gap_largest_m,length_m,area_share_a,area_share_b";
     assert_eq!(joints.lines().next(), Some(heads));
-    let told = stderr(&output);
-    assert!(told.contains(&format!("closed {} joints", joints.lines().count() - 1)), "{told}{joints}");
-    assert!(page.contains(&format!("Joints that were closed ({})", joints.lines().count() - 1)), "{joints}");
+    let closed = joints.lines().count() - 1;
+    for words in [format!("closed {closed} joints"), format!("Joints that were closed ({closed})")] {
+        assert!(page.contains(&words), "{words}: {joints}");
+    }
     // The study has the same wall, which falls at the same tilt.
     let output = folder.pirca(&["run", "mine", "--json"]);
     assert!(output.status.success(), "{}", stderr(&output));
