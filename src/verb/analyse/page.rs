@@ -121,6 +121,7 @@ pub(crate) fn inputs(asked: &Analyse) -> Vec<(&'static str, String)> {
         ),
         ("cohesion of the joints", format!("{} Pa", asked.cohesion)),
     ];
+    all.extend(asked.demanded.demand.as_ref().map(|own| ("demand", own.stated.clone())));
     let stiffness = |own: f64| format!("{own:.3e} Pa/m");
     if let Some(kn) = asked.kn.as_ref().filter(|_| asked.solver().is_elastic()) {
         all.push(("normal stiffness of the joints", kn.said(stiffness)));
