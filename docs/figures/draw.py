@@ -1,6 +1,6 @@
 """Draws the figures of the theory pages from their equations.
 
-usage: python3 docs/figures/draw.py PIRCA [--check]    (PIRCA: the program, which generates the walls of one figure)
+usage: python3 docs/figures/draw.py PIRCA [--check]    (PIRCA: the program, which generates the walls of one figure and draws another)
 
 Writes the .svg files beside this script. With --check it writes nothing, and exits with 1 where a file is not what it would write.
 Needs Python alone. Colours are those of Okabe and Ito, as in all figures of the project; lines differ by their dashes and are named
@@ -301,6 +301,16 @@ def arrangements(program):
     return drawing
 
 
+def falling_wall(program):
+    """The last state of a fall, in true size, as the program draws it."""
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        study = HERE.parent.parent / "studies/arrangements"
+        asked = ["--arm", "headers", "--out", folder / "wall.svg", "--frames", folder / "frames"]
+        subprocess.run([program, "wall", study, *asked], check=True, capture_output=True)
+        return max((folder / "frames").glob("frame-*.svg")).read_text()
+
+
 def quantile(density, low, high, p):
     """The value that a share p of a density lies below, by Simpson's rule and halving."""
 
@@ -396,12 +406,13 @@ def main():
         "limit-point": limit_point(), "joint": joint(), "normal-laws": normal_laws(), "shear": shear(),
         "three-solvers": three_solvers(), "arrangements": arrangements(program), "intervals": intervals(), "diagnosis": diagnosis(),
     }
+    texts = {name: drawing.svg() for name, drawing in drawn.items()} | {"falling-wall": falling_wall(program)}
     wrong = []
-    for name, drawing in drawn.items():
+    for name, text in texts.items():
         path = HERE / f"{name}.svg"
         if "--check" not in sys.argv:
-            path.write_text(drawing.svg())
-        elif not path.is_file() or path.read_text() != drawing.svg():
+            path.write_text(text)
+        elif not path.is_file() or path.read_text() != text:
             wrong.append(f"{path.name} is not what {pathlib.Path(__file__).name} draws: run it without --check")
     if wrong:
         sys.exit("\n".join(wrong))
