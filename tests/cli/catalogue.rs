@@ -28,8 +28,10 @@ fn every_distribution_loads_with_its_unit_and_source() {
     for (name, file) in &files {
         for (entry, distribution) in &file.entries {
             // A publication has its year.
-            let has_year =
-                |source: &str| source.split(' ').any(|word| word.len() == 4 && word.parse::<u32>().is_ok());
+            let has_year = |source: &str| {
+                let words = source.split(|c: char| !c.is_ascii_digit());
+                words.into_iter().any(|word| word.len() == 4)
+            };
             let source = &distribution.source;
             let known =
                 source.contains("source paper") || has_year(source) || distribution.status == "assumed";
