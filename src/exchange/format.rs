@@ -17,6 +17,8 @@ pub enum Format {
     Ply,
     /// A mesh, as STL.
     Stl,
+    /// A scene of meshes, as glTF.
+    Gltf,
     /// A drawing of an elevation, as DXF.
     Dxf,
     /// The same as SVG.
@@ -28,13 +30,15 @@ pub enum Format {
 }
 
 /// The formats by the endings of files.
-const ENDINGS: [(&str, Format); 14] = [
+const ENDINGS: [(&str, Format); 16] = [
     ("json", Format::Json),
     ("obj", Format::Obj),
     ("csv", Format::Csv),
     ("xlsx", Format::Xlsx),
     ("ply", Format::Ply),
     ("stl", Format::Stl),
+    ("glb", Format::Gltf),
+    ("gltf", Format::Gltf),
     ("dxf", Format::Dxf),
     ("svg", Format::Svg),
     ("geojson", Format::GeoJson),
@@ -46,7 +50,7 @@ const ENDINGS: [(&str, Format); 14] = [
 ];
 
 /// The endings in words.
-pub const WALL_FILES: &str = ".json, .obj, .ply or .stl; a drawing (.dxf, .svg, .geojson), a picture (.png, .tif, .jpg) or a table (.csv, .xlsx)";
+pub const WALL_FILES: &str = ".json, .obj, .ply, .stl, .glb or .gltf; a drawing (.dxf, .svg, .geojson), a picture (.png, .tif, .jpg) or a table (.csv, .xlsx)";
 
 impl Format {
     /// That of a file, by its name.
@@ -65,8 +69,8 @@ impl Format {
         matches!(self, Format::Dxf | Format::Svg | Format::GeoJson | Format::Picture)
     }
 
-    /// Whether it holds meshes of any shape, of which none is the ground unless its name says so.
+    /// Whether it holds meshes of any shape, of which none need be the ground.
     pub fn is_mesh(self) -> bool {
-        matches!(self, Format::Ply | Format::Stl)
+        matches!(self, Format::Ply | Format::Stl | Format::Gltf)
     }
 }

@@ -8,7 +8,7 @@ use crate::exchange::draft::WallFile;
 use crate::exchange::drawing::{Drawing, Size, built, read_dxf, read_geojson, read_picture, read_svg};
 use crate::exchange::fault::{Fault, WallFaults};
 use crate::exchange::format::{Format, WALL_FILES};
-use crate::exchange::mesh::{self, read_folder, read_ply, read_stl};
+use crate::exchange::mesh::{self, read_folder, read_gltf, read_ply, read_stl, with_buffers};
 use crate::exchange::read_compas::{compas, read_compas};
 use crate::exchange::read_json::read_json;
 use crate::exchange::read_obj::read_obj;
@@ -77,6 +77,11 @@ impl Up {
         [("x", Up::X), ("y", Up::Y), ("z", Up::Z)].iter().find(|(own, _)| *own == name).map(|(_, up)| *up)
     }
 
+    /// The axis that points up in files of a format unless somebody says otherwise: in glTF it is the second one by its specification.
+    pub fn usual(format: Format) -> Up {
+        if format == Format::Gltf { Up::Y } else { Up::Z }
+    }
+
     /// A point of the file in the wall's axes.
     pub fn of_wall(&self, point: &Vec3) -> Vec3 {
         match self {
@@ -94,8 +99,8 @@ pub struct ReadOptions {
     pub unit: Option<Unit>,
     /// Density (kg/m^3) of the objects of an OBJ file without a density comment; 2400 with a warning without it.
     pub density: Option<f64>,
-    /// The axis of an OBJ file that points up; the third one unless it is changed.
-    pub up: Up,
+    /// The axis of a file of meshes that points up; without it the usual one of the format ([`Up::usual`]).
+    pub up: Option<Up>,
     /// How far (m) corners may lie off the plane of their face, or outside the plane of another one: such faces are made plane,
     /// and how far corners were moved is told. Without it, or where it is less, 1e-4 of the block's size is allowed, and
     /// nothing is moved.
@@ -103,7 +108,7 @@ pub struct ReadOptions {
     /// The objects of an OBJ file are scans of stones, of any shape: how far (m) above its lowest point a stone bears. Each touches others as
     /// its hull, and weighs as its scan. A file without fixed blocks is lowered onto the plane z = 0.
     pub scan_bearing: Option<f64>,
-    /// Blocks that are not convex become their hulls, and weigh as they did; so do those of meshes (`.ply`, `.stl`) always.
+    /// Blocks that are not convex become their hulls, and weigh as they did; so do those of meshes (`.ply`, `.stl`, glTF) always.
     pub any_shape: bool,
     /// Concave blocks become convex parts of one stone, which fill it exactly; without it they are refused.
     pub parts: bool,
@@ -157,7 +162,8 @@ pub fn read_wall(path: &Path, options: &ReadOptions) -> Result<WallFile, WallFau
     read_wall_bytes(&name, &wall_bytes(path, &name)?, options)
 }
 
-/// The bytes of a file that may be a wall, by its ending and its size; messages call it `name`.
+/// The bytes of a file that may be a wall, by its ending and its size; messages call it `name`. The bytes of a `.gltf` hold those of the files
+/// beside it.
 ///
 /// # Errors
 /// The fault of a file that cannot be one, or cannot be read.
@@ -178,6 +184,9 @@ pub fn wall_bytes(path: &Path, name: &str) -> Result<Vec<u8>, WallFaults> {
         let fault = Fault::of("", "the file is too large", allowed, "divide or simplify the wall");
         return refused(name, fault);
     }
+    if Format::of(name) == Some(Format::Gltf) {
+        return with_buffers(path, bytes, LARGEST_FILE).or_else(|fault| refused(name, *fault));
+    }
     Ok(bytes)
 }
 
@@ -189,8 +198,10 @@ pub fn read_wall_bytes(name: &str, bytes: &[u8], options: &ReadOptions) -> Resul
     let of_rows =
         |(rows, warnings): (Vec<Vec<String>>, Vec<String>)| read_rows(&numbered(rows), warnings, options);
     let drawn = |drawing: Drawing| built(drawing, Size::OfUnits, options);
-    let stones = |meshes| mesh::stones(meshes, options);
-    let read = match Format::of(name) {
+    let format = Format::of(name);
+    let up = format.map_or(Up::Z, Up::usual);
+    let stones = |meshes| mesh::stones(meshes, Vec::new(), up, options);
+    let read = match format {
         Some(Format::Picture) => {
             read_picture(bytes).and_then(|picture| built(picture, Size::OfPixels, options))
         }
@@ -198,6 +209,7 @@ pub fn read_wall_bytes(name: &str, bytes: &[u8], options: &ReadOptions) -> Resul
         Some(Format::Xlsx) => sheet_rows(bytes).and_then(of_rows),
         Some(Format::Ply) => read_ply(bytes).and_then(stones),
         Some(Format::Stl) => read_stl(bytes).and_then(stones),
+        Some(Format::Gltf) => read_gltf(bytes).and_then(stones),
         format => {
             let Ok(text) = std::str::from_utf8(bytes) else {
                 return refused(name, Fault::of("", "the file is no text", "UTF-8 text", "save it as UTF-8"));

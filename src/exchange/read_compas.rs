@@ -136,7 +136,9 @@ pub(super) fn read_compas(kind: &str, text: &str, options: &ReadOptions) -> Resu
         let fixed = node.is_support == Some(true);
         unstated += usize::from(!fixed && options.density.is_none());
         let id = key.parse().unwrap_or(place as u64);
-        let corners = vertex.values().map(|own| options.up.of_wall(&Vec3::new(own.x, own.y, own.z)));
+        let corners = vertex
+            .values()
+            .map(|own| options.up.unwrap_or_default().of_wall(&Vec3::new(own.x, own.y, own.z)));
         let faces = faces.iter().map(|(_, own)| own.iter().map(number).collect());
         let plain = Draft::plain(name, id, fixed, (corners.collect(), faces.collect()));
         drafts.push(Draft { density: options.density.or(plain.density), ..plain });

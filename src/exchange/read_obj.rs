@@ -289,6 +289,7 @@ impl Reader {
         objects.retain(Object::is_block);
         let allowed = options.flatness.map_or(0.0, |m| m * options.unit.unwrap_or_default().per_metre());
         let objects = put_together(objects, &vertices, allowed);
+        let up = options.up.unwrap_or_default();
         let (mut assumed, mut fixed) = (0, Vec::new());
         let mut drafts = Vec::with_capacity(objects.len());
         for (place, object) in objects.into_iter().enumerate() {
@@ -298,7 +299,7 @@ impl Reader {
                 name: title(place, &object.name),
                 id: Some(place as u64),
                 line: object.line,
-                vertices: own.iter().map(|v| options.up.of_wall(v)).collect(),
+                vertices: own.iter().map(|v| up.of_wall(v)).collect(),
                 faces: faces.iter().map(|face| face.iter().map(|&v| i64::from(v)).collect()).collect(),
                 density: object.density.or(options.density).or(Some(USUAL_DENSITY)),
                 fixed: fixed_by_name,

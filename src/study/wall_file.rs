@@ -292,7 +292,7 @@ fn asked(t: &mut Reader<'_>, file: &str, states_units: bool) -> Option<Asked> {
     let options = ReadOptions {
         unit,
         density,
-        up: up.and_then(Up::named).unwrap_or_default(),
+        up: up.and_then(Up::named),
         any_shape: Format::of(file).is_some_and(Format::is_mesh),
         flatness: wider(flatness, mend),
         scan_bearing,

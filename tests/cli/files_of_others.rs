@@ -324,7 +324,7 @@ fn y_may_be_up_and_is_asked_for_where_the_wall_would_stand_so() {
         z_up += &(object(name) + &corners_per_face(shape, 0.0, &mut draws));
         y_up += &(object(name) + &corners_per_face(&file, 0.0, &mut draws));
     }
-    let options = ReadOptions { up: Up::Y, ..ReadOptions::default() };
+    let options = ReadOptions { up: Some(Up::Y), ..ReadOptions::default() };
     assert_eq!(read_obj(&y_up, &options).unwrap().wall, read(&z_up).wall);
     fs::write(folder.path("tower.obj"), y_up).unwrap();
     let asked = ["--phi-deg", "40"];

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::io::Write as _;
 
-use serde_json::Value;
+use serde_json::{Value, json};
 use zip::write::SimpleFileOptions;
 
 use crate::fixture::stderr;
@@ -105,6 +105,88 @@ fn a_concave_mesh_touches_as_its_hull_and_weighs_as_itself() {
     fs::write(folder.path("open.stl"), format!("{}{}", &open[..first], &open[end..])).expect("written");
     let told = answer(&folder, "open.stl", &[]).expect("an answer");
     assert!(told["warnings"].to_string().contains("does not close"), "{told}");
+}
+
+/// Three slabs of 0.5 x 0.3 m and 0.2 m high on each other as glTF: one mesh at three nodes, y up, its numbers in the file `bin`.
+fn slabs(bin: &str) -> (Value, Vec<u8>) {
+    let mut bytes = Vec::new();
+    for y in [0.0_f32, 0.2] {
+        for (x, z) in [(0.0_f32, 0.0_f32), (0.5, 0.0), (0.5, 0.3), (0.0, 0.3)] {
+            [x, y, z].iter().for_each(|number| bytes.extend(number.to_le_bytes()));
+        }
+    }
+    let quads = [[0_u8, 1, 2, 3], [4, 7, 6, 5], [0, 4, 5, 1], [1, 5, 6, 2], [2, 6, 7, 3], [3, 7, 4, 0]];
+    quads.iter().for_each(|[a, b, c, d]| bytes.extend([a, b, c, a, c, d]));
+    let nodes: Vec<Value> = ["ground", "lower", "upper"]
+        .iter()
+        .enumerate()
+        .map(|(k, name)| json!({ "name": name, "mesh": 0, "translation": [0.0, 0.2 * k as f64, 0.0] }))
+        .collect();
+    let description = json!({
+        "asset": { "version": "2.0" },
+        "scene": 0,
+        "scenes": [{ "nodes": [0, 1, 2] }],
+        "nodes": nodes,
+        "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 }, "indices": 1 }] }],
+        "accessors": [
+            { "bufferView": 0, "componentType": 5126, "count": 8, "type": "VEC3" },
+            { "bufferView": 1, "componentType": 5121, "count": 36, "type": "SCALAR" }
+        ],
+        "bufferViews": [
+            { "buffer": 0, "byteLength": 96 },
+            { "buffer": 0, "byteOffset": 96, "byteLength": 36 }
+        ],
+        "buffers": [{ "uri": bin, "byteLength": 132 }]
+    });
+    (description, bytes)
+}
+
+#[test]
+fn a_scene_of_gltf_is_a_wall_with_the_files_beside_it() {
+    let folder = Folder::new();
+    let (scene, bytes) = slabs("more/its%20numbers.bin");
+    fs::write(folder.path("slabs.gltf"), scene.to_string()).expect("written");
+    let missing = answer(&folder, "slabs.gltf", &[]).expect_err("no numbers");
+    assert!(missing.contains("buffer 0") && missing.contains("cannot be read"), "{missing}");
+    fs::create_dir(folder.path("more")).expect("a folder");
+    fs::write(folder.path("more/its numbers.bin"), bytes).expect("written");
+    let told = answer(&folder, "slabs.gltf", &[]).expect("an answer");
+    // The two upper ones move, 0.3 m deep and 0.4 m high.
+    assert!((told["collapse_multiplier"].as_f64().expect("it falls") - 0.75).abs() < 2e-3, "{told}");
+    assert_eq!((told["blocks"].as_u64(), told["joints"].as_u64()), (Some(3), Some(2)));
+    assert_eq!(told["mechanism"].to_string(), "[1,2]");
+    // With the file's x up they lie beside each other, held on one side by friction alone.
+    let lying = answer(&folder, "slabs.gltf", &["--up", "x"]).expect("an answer");
+    assert_eq!(lying["outcome"], "unstable_at_rest", "{lying}");
+    assert!(lying["warnings"].to_string().contains("ask with --up y"), "{lying}");
+    // The copy in a study has the numbers in it.
+    let output = folder.pirca(&["analyse", "slabs.gltf", "--phi-deg", "70", "--study", "mine"]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    fs::remove_dir_all(folder.path("more")).expect("removed");
+    let copied = answer(&folder, "mine/slabs.gltf", &[]).expect("an answer");
+    assert_eq!(copied["collapse_multiplier"], told["collapse_multiplier"]);
+    for bin in ["../its.bin", "/its.bin", "http://a.org/its.bin"] {
+        fs::write(folder.path("away.gltf"), slabs(bin).0.to_string()).expect("written");
+        let away = answer(&folder, "away.gltf", &[]).expect_err("elsewhere");
+        assert!(away.contains("a file in the folder of the .gltf file"), "{bin}: {away}");
+    }
+}
+
+#[test]
+fn a_written_animation_is_the_wall_as_it_was_built() {
+    let folder = Folder::new();
+    fs::create_dir(folder.path("stones")).expect("a folder");
+    for (number, heights) in [[0.0, 200.0], [200.0, 400.0], [400.0, 600.0]].into_iter().enumerate() {
+        fs::write(folder.path(&format!("stones/stone_{number}.ply")), ply(heights)).expect("written");
+    }
+    let told = answer(&folder, "stones", &["--unit", "mm", "--up", "x", "--out", "answer"]);
+    let told = told.expect("an answer");
+    let again = answer(&folder, "answer/wall.glb", &[]).expect("an answer");
+    let [one, other] = [&told, &again].map(|own| own["collapse_multiplier"].as_f64().expect("it falls"));
+    assert!((one - other).abs() < 1e-6, "{one} {other}");
+    // The platform is held there by the name of its material.
+    assert_eq!((again["blocks"].as_u64(), again["joints"].as_u64()), (Some(4), Some(3)));
+    assert_eq!(again["mechanism"].to_string(), "[0,1,2]");
 }
 
 /// A workbook of one sheet.

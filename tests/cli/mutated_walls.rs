@@ -177,7 +177,7 @@ fn spoil(count: usize, seed: u64) -> usize {
             _ => (made_up(&mut draws), false),
         };
         let flatness = [None, Some(1e-3), Some(0.05)][i % 3];
-        let up = if i % 5 == 0 { Up::Y } else { Up::Z };
+        let up = (i % 5 == 0).then_some(Up::Y);
         let options = ReadOptions { flatness, up, ..ReadOptions::default() };
         let read = if is_obj { read_obj(&text, &options) } else { read_wall_json_with(&text, flatness) };
         good += usize::from(must_be_good(read, &text));

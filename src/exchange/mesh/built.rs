@@ -7,20 +7,25 @@ use crate::exchange::draft::{Draft, MOST_BLOCKS, USUAL_DENSITY, WallFile, assume
 use crate::exchange::fault::{Fault, WallFaults};
 use crate::exchange::mesh::oriented::orient;
 use crate::exchange::mesh::split::pieces;
-use crate::exchange::mesh::{Mesh, read_ply, read_stl};
+use crate::exchange::mesh::{Mesh, read_gltf, read_ply, read_stl};
 use crate::exchange::read::wall_bytes;
 use crate::exchange::read_obj::{is_support, obj_drafts};
-use crate::exchange::{Format, ReadOptions, Unit};
+use crate::exchange::{Format, ReadOptions, Unit, Up};
 
-/// The wall of meshes, a stone for each that hangs together.
+/// The wall of meshes, a stone for each that hangs together. `usual` is the axis that points up unless the options say otherwise.
 ///
 /// # Errors
 /// All that is wrong with its stones.
-pub(in crate::exchange) fn stones(meshes: Vec<Mesh>, options: &ReadOptions) -> Result<WallFile, WallFaults> {
-    finished(drafts(meshes, options), WallFaults::new("mesh"), Vec::new(), options)
+pub(in crate::exchange) fn stones(
+    meshes: Vec<Mesh>,
+    warnings: Vec<String>,
+    usual: Up,
+    options: &ReadOptions,
+) -> Result<WallFile, WallFaults> {
+    finished(drafts(meshes, usual, options), WallFaults::new("mesh"), warnings, options)
 }
 
-/// The wall in a folder with a mesh for each stone (.obj, .ply, .stl), by their names.
+/// The wall in a folder with a mesh for each stone (.obj, .ply, .stl, .glb, .gltf), by their names.
 ///
 /// # Errors
 /// All that is wrong with the files and with their stones.
@@ -33,7 +38,12 @@ pub(in crate::exchange) fn read_folder(folder: &Path, options: &ReadOptions) -> 
     });
     if files.is_empty() && faults.is_empty() {
         let found = "the folder has no meshes";
-        faults.push(Fault::of("", found, "a file for each stone (.obj, .ply, .stl)", "check the path"));
+        faults.push(Fault::of(
+            "",
+            found,
+            "a file for each stone (.obj, .ply, .stl, .glb, .gltf)",
+            "check the path",
+        ));
     }
     for path in files {
         let title = stem(&path);
@@ -102,9 +112,11 @@ fn numbered(drafts: &mut [Draft]) {
 
 fn of_file(path: &Path, file: &str, options: &ReadOptions) -> Result<(Vec<Draft>, Vec<String>), WallFaults> {
     let bytes = wall_bytes(path, file)?;
-    let meshes = match Format::of(file) {
+    let format = Format::of(file);
+    let meshes = match format {
         Some(Format::Ply) => read_ply(&bytes)?,
         Some(Format::Stl) => read_stl(&bytes)?,
+        Some(Format::Gltf) => read_gltf(&bytes)?,
         _ => {
             // The densities of all are told together.
             let of_object =
@@ -113,23 +125,29 @@ fn of_file(path: &Path, file: &str, options: &ReadOptions) -> Result<(Vec<Draft>
             return if read.faults.is_empty() { Ok((read.drafts, read.warnings)) } else { Err(read.faults) };
         }
     };
-    Ok((drafts(meshes, options), Vec::new()))
+    Ok((drafts(meshes, format.map_or(Up::Z, Up::usual), options), Vec::new()))
 }
 
 /// The stones of meshes, each with a number of its own.
-fn drafts(meshes: Vec<Mesh>, options: &ReadOptions) -> Vec<Draft> {
+fn drafts(meshes: Vec<Mesh>, usual: Up, options: &ReadOptions) -> Vec<Draft> {
     let all = meshes.into_iter().flat_map(pieces).enumerate();
-    all.map(|(place, mesh)| draft(place as u64, mesh, options)).collect()
+    all.map(|(place, mesh)| draft(place as u64, mesh, usual, options)).collect()
 }
 
-fn draft(place: u64, mut mesh: Mesh, options: &ReadOptions) -> Draft {
+fn draft(place: u64, mut mesh: Mesh, usual: Up, options: &ReadOptions) -> Draft {
     orient(&mut mesh);
-    let fixed = mesh.name.as_deref().is_some_and(is_support);
+    let fixed = mesh.is_support.unwrap_or_else(|| mesh.name.as_deref().is_some_and(is_support));
+    let block = format!("block {place}");
+    // A written wall has such names already.
+    let has_number =
+        |name: &str| name.strip_prefix(&block).is_some_and(|rest| rest.is_empty() || rest.starts_with(" ("));
     let name = match &mesh.name {
-        Some(name) => format!("block {place} ({name})"),
-        None => format!("block {place}"),
+        Some(name) if has_number(name) => name.clone(),
+        Some(name) => format!("{block} ({name})"),
+        None => block,
     };
-    let corners = mesh.vertices.iter().map(|own| options.up.of_wall(own)).collect();
+    let up = options.up.unwrap_or(usual);
+    let corners = mesh.vertices.iter().map(|own| up.of_wall(own)).collect();
     let faces = mesh.faces.iter().map(|face| face.iter().map(|own| i64::from(*own)).collect()).collect();
     let plain = Draft::plain(name, place, fixed, (corners, faces));
     Draft { line: mesh.line, density: options.density.or(plain.density), ..plain }

@@ -1,6 +1,7 @@
 //! Meshes and clouds of points: one or more bodies as corners and faces.
 
 mod built;
+mod gltf;
 mod oriented;
 mod ply;
 mod split;
@@ -10,6 +11,7 @@ pub(super) mod twisted;
 
 pub use built::meshes_of;
 pub(super) use built::{read_folder, stones};
+pub(super) use gltf::{read_gltf, with_buffers};
 pub(super) use ply::read_ply;
 pub(super) use stl::read_stl;
 
@@ -30,6 +32,8 @@ const AGAIN: &str = "the file is cut off or damaged: export it again";
 pub struct Mesh {
     /// Its name, where the file gives one.
     pub name: Option<String>,
+    /// Whether the file says that it is held; `None` where its name does.
+    pub is_support: Option<bool>,
     /// Line where it begins, from 1; 0 in a binary file.
     pub line: usize,
     /// Corners, in the file's unit, as found.

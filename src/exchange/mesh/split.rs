@@ -41,7 +41,7 @@ fn open_corners(faces: &[Vec<u32>]) -> Vec<u32> {
 /// A mesh for each set of corners that has faces.
 fn divided(mesh: Mesh, sets: &mut Sets) -> Vec<Mesh> {
     const NONE: u32 = u32::MAX;
-    let Mesh { name, line, vertices, faces } = mesh;
+    let Mesh { name, is_support, line, vertices, faces } = mesh;
     // By the number of a vertex: the part of its set, and its own number there.
     let (mut part, mut own) = (vec![NONE; vertices.len()], vec![NONE; vertices.len()]);
     let mut parts: Vec<Mesh> = Vec::new();
@@ -50,7 +50,7 @@ fn divided(mesh: Mesh, sets: &mut Sets) -> Vec<Mesh> {
         let set = sets.of(corner) as usize;
         if part[set] == NONE {
             part[set] = parts.len() as u32;
-            parts.push(Mesh { name: name.clone(), line, ..Mesh::default() });
+            parts.push(Mesh { name: name.clone(), is_support, line, ..Mesh::default() });
         }
     }
     for (number, at) in vertices.into_iter().enumerate() {
@@ -117,7 +117,7 @@ mod tests {
     }
 
     fn mesh(vertices: Vec<Vec3>, faces: Vec<Vec<u32>>) -> Mesh {
-        Mesh { name: Some("a".to_owned()), line: 3, vertices, faces }
+        Mesh { name: Some("a".to_owned()), line: 3, vertices, faces, ..Mesh::default() }
     }
 
     #[test]

@@ -79,7 +79,7 @@ pub static ARM: Section = Section {
             "up_axis",
             Kind::Choice(&["x", "y", "z"]),
             Optional,
-            "Axis of a file of meshes (.obj, .ply, .stl) that points up; without it z. With y, its x, y, z become x, z, -y; with x, they become z, x, y.",
+            "Axis of a file of meshes (.obj, .ply, .stl, .glb) that points up; without it z, of glTF y. With y, its x, y, z become x, z, -y; with x, they become z, x, y.",
         )
         .only(FROM_FILE),
         Key::new(

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::ensemble::{Scale, Spread, replace_file};
-use crate::exchange::{Format, leaves_units_open};
+use crate::exchange::{Format, leaves_units_open, wall_bytes};
 use crate::study::{Fit, Study, TOUCH, Tolerance};
 use crate::terminal::failure::Failure;
 use crate::terminal::output;
@@ -65,8 +65,8 @@ pub(crate) fn refused(arguments: &Analyse) -> Result<(), Failure> {
 
 /// Writes the study with a copy of the wall's file, and reads it once.
 pub(crate) fn write(arguments: &Analyse, fit: &Fit, folder: &Path) -> Result<(), Failure> {
-    let bytes = fs::read(&arguments.wall)
-        .map_err(|error| Failure::Run(format!("cannot read {}: {error}", arguments.wall.display())))?;
+    let bytes = wall_bytes(&arguments.wall, &arguments.wall.display().to_string())
+        .map_err(|faults| Failure::Run(faults.to_string()))?;
     output::folder(folder)?;
     replace_file(&folder.join(arguments.title()), &bytes)?;
     replace_file(&folder.join("study.toml"), text(arguments, fit).as_bytes())?;

@@ -44,8 +44,8 @@ piece is a closed solid. A block is fixed when a word of its name is base, end, 
 Left_support.001). Objects keystone.part1, keystone.part2, ... are one rigid body. A comment \"# density 2400 kg/m^3\" holds for the \
 next object.
 
-Meshes (.ply, .stl; a folder with a .ply, .stl or .obj file for each stone): what is not convex touches as its hull and weighs as its mesh, or is \
-divided by --parts. Without fixed blocks the lowest stone lies on the plane z = 0.
+Meshes (.ply, .stl, .glb, .gltf; a folder with such a file, or an .obj file, for each stone): what is not convex touches as its hull and \
+weighs as its mesh, or is divided by --parts. In glTF (.glb, .gltf) each node with a mesh is a stone, and y is up. Without fixed blocks the lowest stone lies on the plane z = 0.
 
 Table (.csv, .xlsx): a row per stone of an elevation, with the columns x, z (left end, underside), length, height, and where known depth, dip (deg), \
 density (kg/m3), name; units in the head, as \"Length (cm)\". The stones stand on the plane z = 0. --mend closes what was measured apart.
@@ -75,7 +75,7 @@ const SEEN: &str = "seen";
 #[derive(Clone, Args, Debug)]
 #[command(group(ArgGroup::new(SEEN).args(["out", "report"]).multiple(true)))]
 pub(crate) struct Analyse {
-    /// The wall: a file (.json, .obj, .ply, .stl), a drawing of its face (.dxf, .svg, .geojson), a picture (.png, .tif, .jpg), a table (.csv, .xlsx), or
+    /// The wall: a file (.json, .obj, .ply, .stl, .glb, .gltf), a drawing of its face (.dxf, .svg, .geojson), a picture (.png, .tif, .jpg), a table (.csv, .xlsx), or
     /// a folder with a mesh for each stone.
     pub wall: PathBuf,
     /// Solver. Limit analysis and contact dynamics take rigid blocks and need no stiffness. Several as limit,implicit,nonsmooth: the first
@@ -217,7 +217,7 @@ pub(crate) struct Analyse {
     /// underside bears up to this length above its lowest point (5mm). Without fixed blocks the stones stand on the plane z = 0.
     #[arg(long, value_name = "LENGTH", value_parser = numbers::length, allow_negative_numbers = true, help_heading = FILE)]
     pub scan_bearing: Option<f64>,
-    /// Axis of a file of meshes (.obj, .ply, .stl) that points up [default: z]. With y, its x, y, z become x, z, -y: its -z is out of plane, to the
+    /// Axis of a file of meshes (.obj, .ply, .stl, .glb) that points up [default: z; of glTF y]. With y, its x, y, z become x, z, -y: its -z is out of plane, to the
     /// front. With x, they become z, x, y.
     #[arg(long, value_name = "NAME", help_heading = FILE)]
     pub up: Option<UpName>,

@@ -5,7 +5,8 @@ use std::time::Instant;
 use serde_json::json;
 
 use crate::exchange::{
-    Choice, Format, Nature, ReadOptions, Unit, Up, WallFaults, WallFile, leaves_units_open, read_wall,
+    Choice, Format, Nature, ReadOptions, Unit, Up, WallFaults, WallFile, leaves_units_open, meshes_of,
+    read_wall,
 };
 use crate::law::Coulomb;
 use crate::math::compact;
@@ -82,13 +83,7 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
     answer.undecided = answer.undecided.or_else(|| left_open(arguments, &file.wall, &law, &fit, &found));
     warnings.extend(answer.warning(&file));
     if answer.outcome == Outcome::UnstableAtRest {
-        warnings.extend(upright::question(
-            &file.wall,
-            &law,
-            &fit,
-            arguments.up.unwrap_or(UpName::Z),
-            is_turned(arguments),
-        ));
+        warnings.extend(upright::question(&file.wall, &law, &fit, up(arguments), is_turned(arguments)));
     }
     let others = opinions(arguments, wall, &fit, (&answer, begun.elapsed().as_secs_f64()));
     warnings.extend(others.as_ref().and_then(Opinions::warning));
@@ -192,7 +187,7 @@ fn read(arguments: &Analyse) -> Result<(WallFile, Fit, Option<Mended>), WallFaul
         unit,
         // What is scaled to a mean may as well begin there.
         density: arguments.density_kg_per_m3.or(arguments.density.as_ref().map(Known::middle)),
-        up: arguments.up.and_then(|up| Up::named(up.name())).unwrap_or_default(),
+        up: arguments.up.and_then(|up| Up::named(up.name())),
         any_shape: is_mesh,
         flatness: wider(arguments.flatness, arguments.mend),
         scan_bearing: arguments.scan_bearing,
@@ -222,6 +217,17 @@ fn read(arguments: &Analyse) -> Result<(WallFile, Fit, Option<Mended>), WallFaul
 
 fn format(arguments: &Analyse) -> Option<Format> {
     Format::of(&arguments.wall.display().to_string())
+}
+
+/// The axis of the file that points up; in a folder that of the first mesh.
+fn up(arguments: &Analyse) -> UpName {
+    let first = || Format::of(&meshes_of(&arguments.wall).ok()?.first()?.display().to_string());
+    let usual = match format(arguments).or_else(first).map_or(Up::Z, Up::usual) {
+        Up::X => UpName::X,
+        Up::Y => UpName::Y,
+        Up::Z => UpName::Z,
+    };
+    arguments.up.unwrap_or(usual)
 }
 
 /// Whether any axis of the file may point up.
