@@ -101,7 +101,7 @@ fn welded(vertices: &[Vec3], faces: &[Vec<u32>], tolerance: f64) -> Closed {
 }
 
 /// For every vertex the one that stands for it: the one of lowest number in the same place.
-fn weld(vertices: &[Vec3], tolerance: f64) -> Vec<u32> {
+pub fn weld(vertices: &[Vec3], tolerance: f64) -> Vec<u32> {
     let mut parent: Vec<u32> = (0..vertices.len() as u32).collect();
     fn root(parent: &mut [u32], mut v: u32) -> u32 {
         while parent[v as usize] != v {
@@ -124,7 +124,7 @@ fn weld(vertices: &[Vec3], tolerance: f64) -> Vec<u32> {
 }
 
 /// The face by the vertices that stand for its own; an edge that has shrunk to nothing is gone.
-fn without_repeats(face: &[u32], stands: &[u32]) -> Vec<u32> {
+pub fn without_repeats(face: &[u32], stands: &[u32]) -> Vec<u32> {
     let mut corners: Vec<u32> = face.iter().map(|&v| stands[v as usize]).collect();
     corners.dedup();
     while corners.len() > 1 && corners.first() == corners.last() {

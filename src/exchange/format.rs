@@ -19,6 +19,8 @@ pub enum Format {
     Stl,
     /// A scene of meshes, as glTF.
     Gltf,
+    /// Blocks as commands of 3DEC.
+    ThreeDec,
     /// A drawing of an elevation, as DXF.
     Dxf,
     /// The same as SVG.
@@ -30,7 +32,7 @@ pub enum Format {
 }
 
 /// The formats by the endings of files.
-const ENDINGS: [(&str, Format); 16] = [
+const ENDINGS: [(&str, Format); 18] = [
     ("json", Format::Json),
     ("obj", Format::Obj),
     ("csv", Format::Csv),
@@ -39,6 +41,8 @@ const ENDINGS: [(&str, Format); 16] = [
     ("stl", Format::Stl),
     ("glb", Format::Gltf),
     ("gltf", Format::Gltf),
+    ("3ddat", Format::ThreeDec),
+    ("dat", Format::ThreeDec),
     ("dxf", Format::Dxf),
     ("svg", Format::Svg),
     ("geojson", Format::GeoJson),
@@ -50,7 +54,7 @@ const ENDINGS: [(&str, Format); 16] = [
 ];
 
 /// The endings in words.
-pub const WALL_FILES: &str = ".json, .obj, .ply, .stl, .glb or .gltf; a drawing (.dxf, .svg, .geojson), a picture (.png, .tif, .jpg) or a table (.csv, .xlsx)";
+pub const WALL_FILES: &str = ".json, .obj, .ply, .stl, .glb, .gltf or .3ddat; a drawing (.dxf, .svg, .geojson), a picture (.png, .tif, .jpg) or a table (.csv, .xlsx)";
 
 impl Format {
     /// That of a file, by its name.
@@ -71,6 +75,6 @@ impl Format {
 
     /// Whether it holds meshes of any shape, of which none need be the ground.
     pub fn is_mesh(self) -> bool {
-        matches!(self, Format::Ply | Format::Stl | Format::Gltf)
+        matches!(self, Format::Ply | Format::Stl | Format::Gltf | Format::ThreeDec)
     }
 }

@@ -21,6 +21,7 @@ mod read_table;
 mod scan;
 mod sheet;
 mod solid;
+mod threedec;
 mod vain;
 
 pub use draft::{Drawn, WallFile};

@@ -14,6 +14,7 @@ use crate::exchange::read_json::read_json;
 use crate::exchange::read_obj::read_obj;
 use crate::exchange::read_table::{numbered, read_rows, read_table};
 use crate::exchange::sheet::sheet_rows;
+use crate::exchange::threedec::read_3dec;
 use crate::math::Vec3;
 
 /// Largest file that is read (bytes).
@@ -210,6 +211,9 @@ pub fn read_wall_bytes(name: &str, bytes: &[u8], options: &ReadOptions) -> Resul
         Some(Format::Ply) => read_ply(bytes).and_then(stones),
         Some(Format::Stl) => read_stl(bytes).and_then(stones),
         Some(Format::Gltf) => read_gltf(bytes).and_then(stones),
+        // Remarks in it may be of any coding.
+        Some(Format::ThreeDec) => read_3dec(&String::from_utf8_lossy(bytes))
+            .and_then(|(meshes, warnings)| mesh::stones(meshes, warnings, up, options)),
         format => {
             let Ok(text) = std::str::from_utf8(bytes) else {
                 return refused(name, Fault::of("", "the file is no text", "UTF-8 text", "save it as UTF-8"));

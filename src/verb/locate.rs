@@ -132,11 +132,11 @@ pub(crate) fn folder(path: &Path) -> Result<PathBuf, Failure> {
     Err(Failure::Input(format!("no study: {found}\n{}", known(path))))
 }
 
-/// Whether a file is a wall that `analyse` reads. Tables and other JSON may be anything.
+/// Whether a file is a wall that `analyse` reads. Tables, lists of commands and other JSON may be anything.
 fn is_wall(path: &Path) -> bool {
     match Format::of(&path.display().to_string()) {
         Some(Format::Json) => fs::read_to_string(path).is_ok_and(|text| text.contains("\"blocks\"")),
-        Some(Format::Csv | Format::Xlsx) | None => false,
+        Some(Format::Csv | Format::Xlsx | Format::ThreeDec) | None => false,
         Some(_) => true,
     }
 }

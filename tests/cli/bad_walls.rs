@@ -322,7 +322,7 @@ fn files_that_cannot_be_read_as_text_are_refused() {
     };
     let refused = |name: &str, bytes: &[u8]| read(name, bytes).unwrap_err().to_string();
     assert!(refused("wall.json", b"\xff\xfe{\0}\0").contains("the file is no text"));
-    assert!(refused("wall.step", b"solid").contains(".json, .obj, .ply, .stl, .glb or .gltf"));
+    assert!(refused("wall.step", b"solid").contains(".json, .obj, .ply, .stl, .glb, .gltf or .3ddat"));
     assert!(
         read("wall.json", format!("\u{feff}{GOOD_JSON}").as_bytes()).is_ok(),
         "a byte order mark is no fault"

@@ -189,6 +189,35 @@ fn a_written_animation_is_the_wall_as_it_was_built() {
     assert_eq!(again["mechanism"].to_string(), "[0,1,2]");
 }
 
+/// A slab on its base, by commands of two versions of 3DEC, and one on it by its faces, which run clockwise seen from outside.
+const THREE_DEC: &str = "; three slabs\nnew\n\
+poly brick 0,0.5 0,0.3 -0.2,0 region 1\n\
+block create prism face-1 (0 0 0) (0.5 0 0) (0.5 0.3 0) (0 0.3 0) ...\n  face-2 (0 0 0.2) (0.5 0 0.2) (0.5 0.3 0.2) (0 0.3 0.2) region 2\n\
+poly region 2 face 0,0,.2 .5,0,.2 .5,.3,.2 0,.3,.2 &\n face 0,0,.4 0,.3,.4 .5,.3,.4 .5,0,.4 &\n face 0,0,.2 0,0,.4 .5,0,.4 .5,0,.2 &\n\
+ face .5,0,.2 .5,0,.4 .5,.3,.4 .5,.3,.2 face .5,.3,.2 .5,.3,.4 0,.3,.4 0,.3,.2 face 0,.3,.2 0,.3,.4 0,0,.4 0,0,.2\n\
+prop mat 1 dens 2400\ngravity 0 0 -9.81\nfix region 1\nhist unbal\nreturn\n";
+
+#[test]
+fn blocks_of_3dec_are_a_wall_that_its_fix_holds() {
+    let folder = Folder::new();
+    fs::write(folder.path("slabs.3ddat"), THREE_DEC).expect("written");
+    let told = answer(&folder, "slabs.3ddat", &[]).expect("an answer");
+    // 0.3 m deep and 0.4 m high.
+    assert!((told["collapse_multiplier"].as_f64().expect("it falls") - 0.75).abs() < 2e-3, "{told}");
+    assert_eq!((told["blocks"].as_u64(), told["joints"].as_u64()), (Some(3), Some(2)));
+    assert_eq!(told["mechanism"].to_string(), "[1,2]");
+    let warnings = told["warnings"].to_string();
+    assert!(warnings.contains("3 commands that make no blocks were passed over: gravity (1)"), "{warnings}");
+    assert!(!warnings.contains("hull") && !warnings.contains("may hold"), "{warnings}");
+    fs::write(folder.path("ids.DAT"), THREE_DEC.replace("fix region 1", "fix range id 1")).expect("written");
+    let told = answer(&folder, "ids.DAT", &["--fixed", "0"]).expect("an answer");
+    assert!(told["warnings"].to_string().contains("line 12 (fix range id 1)"), "{told}");
+    assert_eq!(told["mechanism"].to_string(), "[1,2]");
+    fs::write(folder.path("cut.3ddat"), THREE_DEC.replace("hist unbal", "jset dip 30")).expect("written");
+    let refused = answer(&folder, "cut.3ddat", &[]).expect_err("blocks that are cut");
+    assert!(refused.contains("jset dip 30") && refused.contains("\"line\":13"), "{refused}");
+}
+
 /// A workbook of one sheet.
 fn workbook(rows: &[&[&str]]) -> Vec<u8> {
     let mut sheet = String::new();

@@ -82,7 +82,9 @@ pub fn meshes_of(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let mut files = entries.map(|own| own.map(|own| own.path())).collect::<io::Result<Vec<PathBuf>>>()?;
     files.retain(|path| {
         let format = Format::of(&path.display().to_string());
-        format.is_some_and(|format| format == Format::Obj || format.is_mesh()) && path.is_file()
+        let is_mesh =
+            |format: Format| format == Format::Obj || format.is_mesh() && format != Format::ThreeDec;
+        format.is_some_and(is_mesh) && path.is_file()
     });
     files.sort_by_cached_key(|path| (number(&stem(path)), path.clone()));
     Ok(files)

@@ -47,6 +47,9 @@ next object.
 Meshes (.ply, .stl, .glb, .gltf; a folder with such a file, or an .obj file, for each stone): what is not convex touches as its hull and \
 weighs as its mesh, or is divided by --parts. In glTF (.glb, .gltf) each node with a mesh is a stone, and y is up. Without fixed blocks the lowest stone lies on the plane z = 0.
 
+3DEC (.3ddat, .dat): blocks by poly or block create brick, prism, polyhedron, tetrahedron, held by fix where its range says exactly which. What else makes \
+or changes blocks (functions of FISH, jset, cut, call) is refused with its line.
+
 Table (.csv, .xlsx): a row per stone of an elevation, with the columns x, z (left end, underside), length, height, and where known depth, dip (deg), \
 density (kg/m3), name; units in the head, as \"Length (cm)\". The stones stand on the plane z = 0. --mend closes what was measured apart.
 
@@ -75,7 +78,7 @@ const SEEN: &str = "seen";
 #[derive(Clone, Args, Debug)]
 #[command(group(ArgGroup::new(SEEN).args(["out", "report"]).multiple(true)))]
 pub(crate) struct Analyse {
-    /// The wall: a file (.json, .obj, .ply, .stl, .glb, .gltf), a drawing of its face (.dxf, .svg, .geojson), a picture (.png, .tif, .jpg), a table (.csv, .xlsx), or
+    /// The wall: a file (.json, .obj, .ply, .stl, .glb, .gltf, .3ddat), a drawing of its face (.dxf, .svg, .geojson), a picture (.png, .tif, .jpg), a table (.csv, .xlsx), or
     /// a folder with a mesh for each stone.
     pub wall: PathBuf,
     /// Solver. Limit analysis and contact dynamics take rigid blocks and need no stiffness. Several as limit,implicit,nonsmooth: the first
