@@ -23,7 +23,7 @@ record! {
         non_associative_angle_deg: Option<f64> =
             "limit_angle_non_associative_deg", "deg", "the same without dilatancy, neither a bound nor unique";
         multiplier: Option<f64> = "limit_multiplier", "",
-            "factor on the load at collapse by limit analysis with associative flow; in shear the push over the vertical load";
+            "factor on the load at collapse by limit analysis with associative flow; in shear the push over the vertical load, of what a wall holds back its height (m)";
         non_associative_multiplier: Option<f64> =
             "limit_multiplier_non_associative", "", "the same without dilatancy";
         agreement: Agreement = "agreement", "",
@@ -102,6 +102,10 @@ fn push_over_load(protocol: &Protocol, run: &protocol::Run) -> Option<f64> {
 /// sheared bears its push as a factor on the vertical load.
 fn by_itself(run: &protocol::Run, pushed: Option<f64>, flow: Flow) -> Option<LimitAnalysis> {
     let borne = run.steps.get(1)?.level;
+    if matches!(borne, Level::Height(_)) {
+        // That has columns of its own.
+        return None;
+    }
     let falls = match run.outcome {
         Outcome::Collapsed { .. } => true,
         // More than the full load is a capacity; the end of a tilt is not.

@@ -1,6 +1,6 @@
 //! What a study's protocol measures of each wall.
 
-use crate::ensemble::reading::{base_motion, lateral, shear, tilting};
+use crate::ensemble::reading::{base_motion, lateral, retaining, shear, tilting};
 use crate::ensemble::record::Row;
 use crate::model::Outcome;
 use crate::protocol::Protocol;
@@ -19,6 +19,8 @@ pub enum Quantity {
     LoadFactor,
     /// The lowest intensity at which some record brings the wall down, in this measure.
     CollapseIntensity(Measure),
+    /// The height (m) of fill or water behind a wall at which it falls, the highest one borne, of walls that collapse.
+    RetainedHeight,
 }
 
 /// What a wall says about the quantity.
@@ -40,6 +42,7 @@ impl Quantity {
             Protocol::Tilting(tilting) => tilting::quantity(tilting),
             Protocol::Shear(_) => Quantity::ShearCapacity,
             Protocol::BaseMotion(_) => base_motion::quantity(study),
+            Protocol::Retaining(_) => Quantity::RetainedHeight,
         }
     }
 
@@ -50,14 +53,18 @@ impl Quantity {
             Quantity::CollapseAngle
             | Quantity::ShearCapacity
             | Quantity::LoadFactor
-            | Quantity::CollapseIntensity(_) => value,
+            | Quantity::CollapseIntensity(_)
+            | Quantity::RetainedHeight => value,
         }
     }
 
     /// Whether a wall that ended so has a value of it, if that is finite.
     pub fn counts(self, outcome: &Outcome) -> bool {
         match outcome {
-            Outcome::Equilibrium => !matches!(self, Quantity::CollapseAngle | Quantity::CollapseIntensity(_)),
+            Outcome::Equilibrium => !matches!(
+                self,
+                Quantity::CollapseAngle | Quantity::CollapseIntensity(_) | Quantity::RetainedHeight
+            ),
             Outcome::Collapsed { .. } => self != Quantity::TopDisplacement,
             _ => false,
         }
@@ -71,6 +78,7 @@ impl Quantity {
             Quantity::CollapseAngle => tilting::fell(row),
             Quantity::ShearCapacity => shear::capacity(row),
             Quantity::CollapseIntensity(measure) => base_motion::collapses(row, measure),
+            Quantity::RetainedHeight => retaining::fell(row),
         }
     }
 }

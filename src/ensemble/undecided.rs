@@ -39,6 +39,10 @@ impl Row {
             row.reading.tilting.collapse_angle_deg = Some(angle);
             row.outcome = Outcome::Collapsed { at: Level::Tilt(radians(angle)) };
         }
+        if let (Some(height), Some(retained)) = (open.stiff_multiplier, &mut row.reading.retained) {
+            retained.fell_at_m = Some(height);
+            row.outcome = Outcome::Collapsed { at: Level::Height(height) };
+        }
         if let (Some(capacity), Some(shear)) = (open.stiff_capacity_n, &mut row.reading.shear) {
             shear.capacity_n = Some(capacity);
         }

@@ -24,6 +24,8 @@ pub enum Level {
     Velocity(f64),
     /// Time since the ground began to move (s).
     Time(f64),
+    /// Height of fill or water above the foot of the back that holds it (m).
+    Height(f64),
 }
 
 impl Level {
@@ -37,7 +39,8 @@ impl Level {
             | Level::Settlement(x)
             | Level::Acceleration(x)
             | Level::Velocity(x)
-            | Level::Time(x) => x,
+            | Level::Time(x)
+            | Level::Height(x) => x,
         }
     }
 }
@@ -53,6 +56,7 @@ impl fmt::Display for Level {
             Level::Acceleration(x) => write!(f, "a peak ground acceleration of {} m/s2", shown(*x)),
             Level::Velocity(x) => write!(f, "a peak ground velocity of {} m/s", shown(*x)),
             Level::Time(x) => write!(f, "{x:.2} s"),
+            Level::Height(x) => write!(f, "a height of {x:.4} m behind it"),
         }
     }
 }

@@ -7,8 +7,8 @@ use crate::protocol::pressure::back_loads;
 use crate::protocol::rigid::{Rigid, level};
 use crate::protocol::shear::push_on;
 use crate::protocol::stage::Stage;
-use crate::protocol::{Contacts, Protocol, Restraint};
-use crate::solve::limit::{Flow, Limit, Settings};
+use crate::protocol::{Behind, Contacts, Protocol, Restraint, Retaining, highest};
+use crate::solve::limit::{Analysis, Flow, Limit, Loads, Settings};
 
 /// What limit analysis says of a wall under a protocol's loads: a tilt (rad), a factor on the protocol's load, or the push over
 /// the vertical load.
@@ -108,6 +108,7 @@ pub fn limit_of(
             let jack = stage.ties.remove(0);
             (Growing::Factor, vec![push_on(&jack, shear.vertical_load)])
         }
+        Protocol::Retaining(retaining) => return retained(&stage, retaining, flow),
     };
     let rigid = Rigid {
         wall: &stage.assembly,
@@ -118,6 +119,17 @@ pub fn limit_of(
         growing,
     };
     rigid.ask(Settings { flow, ..Settings::default() }).0
+}
+
+/// The height of what is behind a wall that it bears; a wall without a back bears any.
+fn retained(stage: &Stage<'_>, retaining: &Retaining, flow: Flow) -> Limit {
+    let settings = Settings { flow, ..Settings::default() };
+    let analysis =
+        Analysis::new(&stage.assembly, &stage.laws, stage.contact, settings).with_ties(&stage.ties);
+    match Behind::new(&stage.assembly, stage.towards, &retaining.retained) {
+        Ok(behind) => highest(&analysis, &behind, retaining.lifts).limit,
+        Err(_) => analysis.multiplier(&Loads::weight()),
+    }
 }
 
 #[cfg(test)]

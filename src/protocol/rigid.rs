@@ -76,7 +76,6 @@ pub(super) fn rigid(task: &Task<'_>, settings: Settings, witness: Witness<'_>) -
         Outcome::Equilibrium | Outcome::Unbounded => (Outcome::Equilibrium, Some(path.end)),
         other => (other, None),
     };
-    let falls = matches!(outcome, Outcome::Collapsed { .. });
     let undecided = match outcome {
         Outcome::Collapsed { .. } => undecided(task, &analysis, last, last),
         // Without a bound as well: what presses without end may press only where statics lets it.
@@ -86,42 +85,66 @@ pub(super) fn rigid(task: &Task<'_>, settings: Settings, witness: Witness<'_>) -
         }
         _ => None,
     };
-    let step = |level: f64, solver_steps: u32| LoadStep {
-        level: path.level(level),
-        top_displacement: f64::NAN,
-        points: None,
-        remainders: None,
-        push: None,
-        unbalanced_ratio: limit.accuracy.residual,
-        solver_steps: u64::from(solver_steps),
+    // Tilt pushes with the tangent of the angle and leaves the weight as it is.
+    let scale = match (path.growing, last) {
+        (Growing::Tilt(_), Some(tilt)) => cos(tilt),
+        _ => 1.0,
     };
-    let mut steps = vec![step(0.0, limit.iterations)];
-    steps.extend(last.map(|at| step(at, 0)));
-    // As with the other solvers, the last step of a wall that falls is the one that it does not bear.
-    steps.extend(last.filter(|_| falls).map(|at| step(at, 0)));
-    let fell = falls || outcome == Outcome::UnstableAtRest;
-    if let Some(recorder) = witness.recorder {
-        // Tilt pushes with the tangent of the angle and leaves the weight as it is.
-        let scale = match (path.growing, last) {
-            (Growing::Tilt(_), Some(tilt)) => cos(tilt),
-            _ => 1.0,
+    let (rest, last) = (path.level(0.0), last.map(|at| path.level(at)));
+    let found = Found { limit: &limit, joints: analysis.joints(), outcome, levels: (rest, last), scale };
+    Run { undecided, ..found.run(task, witness) }
+}
+
+/// What limit analysis found of a task.
+pub(super) struct Found<'f> {
+    pub limit: &'f Limit,
+    /// Joints of the wall.
+    pub joints: usize,
+    /// How the wall ends, at a level of its load.
+    pub outcome: Outcome,
+    /// The level at rest under its weight, and the one that it is about: where it falls, or the last that it is known to bear.
+    pub levels: (Level, Option<Level>),
+    /// Of the forces that were found to those of that level.
+    pub scale: f64,
+}
+
+impl Found<'_> {
+    /// As a run, shown to a witness.
+    pub fn run(self, task: &Task<'_>, witness: Witness<'_>) -> Run {
+        let Found { limit, joints, outcome, levels: (rest, last), scale } = self;
+        let falls = matches!(outcome, Outcome::Collapsed { .. });
+        let step = |level: Level, solver_steps: u32| LoadStep {
+            level,
+            top_displacement: f64::NAN,
+            points: None,
+            remainders: None,
+            push: None,
+            unbalanced_ratio: limit.accuracy.residual,
+            solver_steps: u64::from(solver_steps),
         };
-        let at = (path.level(last.unwrap_or(0.0)), scale);
-        recorder.takes(amplified((wall, &contact), &limit, at, fell));
-    }
-    Run {
-        bracket: last.filter(|_| falls).map(|at| [at; 2]),
-        failure: fell.then(|| failure_by(task, &limit.mechanism)).flatten(),
-        outcome,
-        steps,
-        displacements: vec![Vec3::zeros(); wall.blocks.len()],
-        turns: vec![Vec3::zeros(); wall.blocks.len()],
-        joints: analysis.joints(),
-        events: Events::default(),
-        joint_states: Vec::new(),
-        settled_joints: Vec::new(),
-        shear: None,
-        undecided,
+        let mut steps = vec![step(rest, limit.iterations)];
+        steps.extend(last.map(|at| step(at, 0)));
+        // As with the other solvers, the last step of a wall that falls is the one that it does not bear.
+        steps.extend(last.filter(|_| falls).map(|at| step(at, 0)));
+        let fell = falls || outcome == Outcome::UnstableAtRest;
+        if let Some(recorder) = witness.recorder {
+            let at = (last.unwrap_or(rest), scale);
+            recorder.takes(amplified((task.wall, &task.contact), limit, at, fell));
+        }
+        Run {
+            bracket: last.filter(|_| falls).map(|at| [at.value(); 2]),
+            failure: fell.then(|| failure_by(task, &limit.mechanism)).flatten(),
+            outcome,
+            steps,
+            displacements: vec![Vec3::zeros(); task.wall.blocks.len()],
+            turns: vec![Vec3::zeros(); task.wall.blocks.len()],
+            joints,
+            events: Events::default(),
+            joint_states: Vec::new(),
+            settled_joints: Vec::new(),
+            shear: None,
+            undecided: None,
+        }
     }
 }
 
@@ -144,7 +167,9 @@ fn failure_by(task: &Task<'_>, mechanism: &[BlockMotion]) -> Option<Failure> {
 /// The level of collapse that an analysis found.
 pub(super) fn level(limit: &Limit) -> Option<f64> {
     match limit.outcome {
-        Outcome::Collapsed { at: Level::Tilt(x) | Level::Multiplier(x) | Level::Factor(x) } => Some(x),
+        Outcome::Collapsed {
+            at: Level::Tilt(x) | Level::Multiplier(x) | Level::Factor(x) | Level::Height(x),
+        } => Some(x),
         _ => None,
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::math::Vec3;
 use crate::model::{Tag, Wall};
-use crate::protocol::pressure::is_covered;
+use crate::protocol::faces::is_covered;
 use crate::protocol::{Direction, Rope};
 use crate::shape::Polyhedron;
 use crate::solve::Tie;

@@ -5,6 +5,7 @@ use crate::protocol::drive::drive_seen_by;
 use crate::protocol::events::in_parts;
 use crate::protocol::path::LoadPath;
 use crate::protocol::pressure::back_loads;
+use crate::protocol::retaining::hold;
 use crate::protocol::shear::{Begin, by_limit, push};
 use crate::protocol::stage::{Stage, thickness};
 use crate::protocol::tilting::turn;
@@ -100,6 +101,11 @@ pub fn run_seen_by(
                 Solver::Explicit(settings) => push(&task, shear, Begin::Explicit(*settings), witness),
                 Solver::Nonsmooth(settings) => push(&task, shear, Begin::Nonsmooth(*settings), witness),
             }
+        }
+        Protocol::Retaining(retaining) => {
+            let criterion = Criterion::AnyBlock(retaining.collapse_share * thickness);
+            let task = task(&stage, &stage.assembly, LoadPath::factor(1), criterion, thickness);
+            hold(&task, retaining, solver, witness)
         }
         Protocol::BaseMotion(_) => {
             let criterion = Criterion::AnyBlock(thickness);

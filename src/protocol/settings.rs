@@ -5,6 +5,7 @@ use crate::model::Wall;
 use crate::protocol::base_motion::BaseMotion;
 use crate::protocol::direction::Direction;
 use crate::protocol::events::EventShares;
+use crate::protocol::retaining::Retaining;
 use crate::protocol::shear::Shear;
 use crate::protocol::stage::typical_size;
 
@@ -219,4 +220,6 @@ pub enum Protocol {
     Shear(Shear),
     /// A base that shakes, see [`shake_wall`](crate::protocol::shake_wall).
     BaseMotion(BaseMotion),
+    /// Fill or water that rises behind the wall.
+    Retaining(Retaining),
 }

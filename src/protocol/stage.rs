@@ -36,7 +36,7 @@ impl<'a> Stage<'a> {
         contacts: Contacts,
     ) -> Self {
         let towards = match protocol {
-            Protocol::Lateral(_) => Direction::YPlus,
+            Protocol::Lateral(_) | Protocol::Retaining(_) => Direction::YPlus,
             Protocol::Tilting(tilting) => tilting.towards,
             Protocol::Shear(_) => Direction::XPlus,
             Protocol::BaseMotion(base) => base.towards,

@@ -96,6 +96,23 @@ pub struct Run {
 }
 
 impl<'t> Task<'t> {
+    /// The same wall under other loads along another path.
+    pub(super) fn under(&self, loads: Vec<Load>, path: LoadPath) -> Task<'t> {
+        Task {
+            wall: self.wall,
+            laws: self.laws,
+            contact: self.contact,
+            loads,
+            ties: self.ties.clone(),
+            platform: self.platform.clone(),
+            changes: self.changes.clone(),
+            path,
+            piles: self.piles.clone(),
+            criterion: self.criterion,
+            confirmation: self.confirmation,
+        }
+    }
+
     /// The assembly as built, with its loads.
     pub(crate) fn assembled(&self) -> Assembly<'t> {
         let mut built = Assembly::new(self.wall, self.laws, self.contact);

@@ -12,8 +12,9 @@ use crate::math::{Vec3, cbrt};
 use crate::model::{JointLaws, Outcome, Support, Wall};
 use crate::protocol::drive::drive;
 use crate::protocol::path::{Growing, LoadPath};
+use crate::protocol::retaining::{Behind, Lifts, raise};
 use crate::protocol::rigid::{borne, level};
-use crate::protocol::{Changes, Run, Task};
+use crate::protocol::{Changes, Run, Task, Witness};
 use crate::solve::implicit::{self, Equilibrium};
 use crate::solve::limit::{Analysis, Flow, Loads, PointLoad, Settings, When, is_upright};
 use crate::solve::{Assembly, Equilibrate, STANDARD_GRAVITY, Solver, Status, Tie};
@@ -133,19 +134,8 @@ pub fn undecided(
             by: Lower::SmoothSides(misfit),
         });
     };
-    let stiff = Task {
-        wall: task.wall,
-        laws: &laws,
-        contact: task.contact,
-        loads: task.loads.clone(),
-        ties: task.ties.iter().map(|tie| laws.tie(tie)).collect(),
-        platform: None,
-        changes: Changes::default(),
-        path: LoadPath { end: goal, steps: STEPS, bracket: BRACKET * goal, goes_back: false, ..task.path },
-        piles: task.piles.clone(),
-        criterion: task.criterion,
-        confirmation: task.confirmation,
-    };
+    let path = LoadPath { end: goal, steps: STEPS, bracket: BRACKET * goal, goes_back: false, ..task.path };
+    let stiff = Task { path, ..laws.task(task) };
     let run = drive(&stiff, &Solver::Implicit(implicit::Settings::default()));
     let (lower, by) = match &run.outcome {
         Outcome::Equilibrium => return None,
@@ -158,6 +148,19 @@ pub fn undecided(
     };
     let without_dilatancy = is_bound.then(|| without_dilatancy(task, analysis, found)).flatten();
     Some(Undecided { lower, upper: found, needed, at_rest: thrust_at_rest(&stiff), without_dilatancy, by })
+}
+
+/// The height of what is behind a wall that stiff joints bear; `None` where the wall cannot have such joints, or their solver is lost.
+pub(super) fn height_of_stiff_joints(task: &Task<'_>, behind: &Behind) -> Option<f64> {
+    let laws = Stiff::of(task.wall, task.laws, misfit(task))??;
+    let solver = Solver::Implicit(implicit::Settings::default());
+    let run = raise(&laws.task(task), behind, Lifts::COARSE, &solver, Witness::NOBODY);
+    match run.outcome {
+        Outcome::Collapsed { at } => Some(at.value()),
+        Outcome::Equilibrium => Some(behind.height),
+        Outcome::UnstableAtRest => Some(0.0),
+        _ => None,
+    }
 }
 
 /// What a wall bears without dilatancy, where what it bears with dilatancy was `found` and is clearly more.
@@ -254,6 +257,17 @@ impl<'l> Stiff<'l> {
         let closes = (CLOSES * size).max(SMOOTHS * misfit);
         let kn = heaviest * STANDARD_GRAVITY * height / closes;
         (kn.is_finite() && kn > 0.0).then(|| (closes <= SOFT * size).then_some(Stiff { laws, kn, size }))
+    }
+
+    /// A task with these joints; nothing changes on its way.
+    fn task<'s>(&'s self, task: &Task<'s>) -> Task<'s> {
+        Task {
+            laws: self,
+            ties: task.ties.iter().map(|tie| self.tie(tie)).collect(),
+            platform: None,
+            changes: Changes::default(),
+            ..task.under(task.loads.clone(), task.path)
+        }
     }
 
     /// A rope that stretches as little as joints close, and is taut.

@@ -2,7 +2,8 @@
 
 use crate::math::radians;
 use crate::protocol::{
-    BaseMotion, Direction, Ends, EventShares, History, Lateral, Protocol, Rate, Shear, Tilting, Turning,
+    BaseMotion, Direction, Ends, EventShares, Fill, History, Lateral, Lifts, Protocol, Rate, Retained,
+    Retaining, Shear, Tilting, Turning, WATER,
 };
 use crate::random::{Design, RANDOMISATIONS};
 use crate::solve::explicit::Rayleigh;
@@ -171,14 +172,20 @@ fn check_shear(top: &mut Reader<'_>, arms: &[Arm], protocol: &Protocol) -> Optio
                     );
                 }
             }
-            Protocol::Lateral(_) | Protocol::Tilting(_) | Protocol::BaseMotion(_)
+            Protocol::Lateral(_)
+            | Protocol::Tilting(_)
+            | Protocol::BaseMotion(_)
+            | Protocol::Retaining(_)
                 if arm.vertical_load.is_some() =>
             {
                 let (key, found) =
                     (format!("arm.{}.vertical_load_n", arm.name), "has no beam to weigh".to_owned());
                 fault("arm", &key, found, "load.protocol = \"shear\"", "remove it, or shear the walls");
             }
-            Protocol::Lateral(_) | Protocol::Tilting(_) | Protocol::BaseMotion(_) => {}
+            Protocol::Lateral(_)
+            | Protocol::Tilting(_)
+            | Protocol::BaseMotion(_)
+            | Protocol::Retaining(_) => {}
         }
     }
     (top.notes.faults.len() == before).then_some(())
@@ -213,6 +220,7 @@ fn load(t: &mut Reader<'_>, catalogue: &mut Catalogue) -> Option<(Protocol, Opti
     match t.chosen()? {
         "lateral" => lateral(t).map(Protocol::Lateral).map(alone),
         "shear" => shear(t).map(Protocol::Shear).map(alone),
+        "retaining" => retaining(t).map(Protocol::Retaining).map(alone),
         "base_motion" => {
             let towards = towards(t);
             let (base, earthquakes) = (base_motion(t, towards), Earthquakes::read(t, towards, catalogue));
@@ -250,6 +258,49 @@ fn lateral(t: &mut Reader<'_>) -> Option<Lateral> {
     let steps = t.whole32("steps");
     let [mean_pressure, base_over_top, collapse_share] = reals?;
     Some(Lateral { mean_pressure, base_over_top, steps: steps?, collapse_share })
+}
+
+/// What a wall holds back, and how it rises.
+fn retaining(t: &mut Reader<'_>) -> Option<Retaining> {
+    let reals = t.reals(["bracket_share", "runaway_share"]);
+    let (retained, count) = (retained(t), t.whole32("lifts"));
+    let [bracket, collapse_share] = reals?;
+    Some(Retaining { retained: retained?, lifts: Lifts { count: count?, bracket }, collapse_share })
+}
+
+fn retained(t: &mut Reader<'_>) -> Option<Retained> {
+    const NEEDED: [&str; 2] = ["fill_density_kg_per_m3", "fill_phi_deg"];
+    const MORE: [&str; 4] = ["wall_friction_share", "fill_slope_deg", "surcharge_pa", "drained"];
+    if t.choice_name("retained")? == "water" {
+        let stated = NEEDED.iter().chain(&MORE).find(|key| t.has(key));
+        return match stated {
+            Some(key) => {
+                t.fault(key, "none where retained = \"water\"", "remove it, or set retained = \"fill\"");
+                None
+            }
+            None => Some(Retained::Water(WATER)),
+        };
+    }
+    if let Some(missing) = NEEDED.iter().find(|key| !t.has(key)) {
+        t.fault(missing, "a number where retained = \"fill\"", format!("add {missing}"));
+        return None;
+    }
+    let [density, phi] = t.reals(NEEDED)?;
+    let mut or_none = |key: &str| if t.has(key) { t.real(key) } else { Some(0.0) };
+    let [wall_friction, slope, surcharge] = [MORE[0], MORE[1], MORE[2]].map(&mut or_none);
+    let (wall_friction, slope, surcharge) = (wall_friction?, slope?, surcharge?);
+    let drained = if t.has("drained") { t.flag("drained")? } else { true };
+    if slope > phi {
+        t.fault("fill_slope_deg", "at most fill_phi_deg: no soil without cohesion lies steeper", "lower it");
+        return None;
+    }
+    if !drained && density <= WATER {
+        let allowed = "above that of water, 1000, where drained = false: soil with its pores full of water";
+        t.fault("fill_density_kg_per_m3", allowed, "raise it, or remove drained");
+        return None;
+    }
+    let (phi, slope) = (radians(phi), radians(slope));
+    Some(Retained::Fill(Fill { density, phi, wall_friction, slope, surcharge, drained }))
 }
 
 /// Percents end here.

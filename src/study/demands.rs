@@ -47,7 +47,7 @@ pub fn unfit_for(solver: &Solver, arms: &[Arm], protocol: &Protocol, agreement: 
             let damped = base.rayleigh != Rayleigh::default();
             vec![(true, Demand::BaseMotion, what), (damped, Demand::RayleighDamping, "load.rayleigh_ratio")]
         }
-        Protocol::Shear(_) => Vec::new(),
+        Protocol::Shear(_) | Protocol::Retaining(_) => Vec::new(),
     };
     let compared = (agreement, Demand::Agreement, "solver.agreement");
     let of_study = refused(solver, of_load.into_iter().chain([compared]));

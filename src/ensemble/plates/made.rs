@@ -80,7 +80,7 @@ pub fn check_plate(arm: &Arm, protocol: &Protocol) -> Result<(), NoPlate> {
     let backwards = match protocol {
         Protocol::Tilting(tilting) => tilting.towards.is_backwards(),
         Protocol::Lateral(_) => false,
-        Protocol::Shear(_) | Protocol::BaseMotion(_) => return Err(NoPlate::Load),
+        Protocol::Shear(_) | Protocol::BaseMotion(_) | Protocol::Retaining(_) => return Err(NoPlate::Load),
     };
     match arm.restraint.ends {
         Ends::JointSprings => Err(NoPlate::Springs),
@@ -109,7 +109,7 @@ pub(super) fn plate_of(
     let (live, base_over_top) = match protocol {
         Protocol::Lateral(lateral) => (Vec3::y() * lateral.mean_pressure, lateral.base_over_top),
         Protocol::Tilting(tilting) => (tilting.towards.unit() * weight, 1.0),
-        Protocol::Shear(_) | Protocol::BaseMotion(_) => return Err(NoPlate::Load),
+        Protocol::Shear(_) | Protocol::BaseMotion(_) | Protocol::Retaining(_) => return Err(NoPlate::Load),
     };
     let end = match arm.restraint.ends {
         Ends::FixedEndBlocks => Edge::Held,

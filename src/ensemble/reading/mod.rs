@@ -3,6 +3,7 @@
 
 pub(super) mod base_motion;
 pub(super) mod lateral;
+pub(super) mod retaining;
 pub(super) mod shear;
 mod sought;
 pub(super) mod tilting;
@@ -13,6 +14,7 @@ use crate::ensemble::columns::{Block, Column, Members, Steps, of_record};
 use crate::ensemble::field::record;
 use crate::ensemble::reading::base_motion::ShakenRow;
 use crate::ensemble::reading::lateral::TopStep;
+use crate::ensemble::reading::retaining::{RetainedRow, RetainedStep};
 use crate::ensemble::reading::shear::{ShearRow, ShearStep};
 use crate::ensemble::reading::tilting::{TiltingRow, tilt};
 use crate::ensemble::record::Row;
@@ -30,6 +32,9 @@ record! {
         /// What is read on a tilting table.
         #[serde(flatten)]
         tilting: TiltingRow;
+        /// What is read off a wall that holds back fill or water; `None` of others.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        retained: Option<RetainedRow>;
         /// What is read off a wall that is sheared; `None` of others.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         shear: Option<ShearRow>;
@@ -45,6 +50,9 @@ record! {
         /// What a jack does along the wall.
         #[serde(flatten)]
         jack: ShearStep;
+        /// How high fill or water stands behind the wall.
+        #[serde(flatten)]
+        behind: RetainedStep;
         /// How far the top has moved.
         #[serde(flatten)]
         top: TopStep;
@@ -64,6 +72,7 @@ impl Reading {
         Reading {
             top_displacement_m: lateral::top_displacement(run, gauge),
             tilting: TiltingRow::of(run),
+            retained: RetainedRow::of(run),
             shear: run.shear.as_ref().map(ShearRow::of),
         }
     }
@@ -76,6 +85,7 @@ impl StepRow {
             load_factor: matches!(step.level, Level::Factor(_)).then(|| step.level.value()),
             tilt_deg: tilt(step.level),
             jack: ShearStep::of(step),
+            behind: RetainedStep::of(step),
             top: TopStep::of(number, step, gauge),
             unbalanced_ratio: finite(step.unbalanced_ratio),
             solver_steps: step.solver_steps,
@@ -85,8 +95,14 @@ impl StepRow {
 }
 
 /// The columns that tables have only where some wall fills them, in their order.
-pub(super) static BLOCKS: [Block; 4] =
-    [shear::SHEARED, shear::PUSHED, undecided::UNDECIDED, base_motion::SHAKEN];
+pub(super) static BLOCKS: [Block; 6] = [
+    retaining::HELD,
+    retaining::RAISED,
+    shear::SHEARED,
+    shear::PUSHED,
+    undecided::UNDECIDED,
+    base_motion::SHAKEN,
+];
 
 /// The columns that every table of members has.
 pub(super) fn members() -> Vec<Column<Members>> {

@@ -10,10 +10,11 @@ const LATERAL: &[&str] = &["lateral"];
 const TILTING: &[&str] = &["tilting"];
 const SHEAR: &[&str] = &["shear"];
 const BASE_MOTION: &[&str] = &["base_motion"];
+const RETAINING: &[&str] = &["retaining"];
 const FALLS_IN_PARTS: &[&str] = &["tilting", "base_motion"];
 /// More intensities than anybody needs for a curve.
 const MOST_INTENSITIES: usize = 50;
-const RUNS_AWAY: &[&str] = &["tilting", "shear"];
+const RUNS_AWAY: &[&str] = &["tilting", "shear", "retaining"];
 const EXPLICIT: &[&str] = &["explicit"];
 const IMPLICIT: &[&str] = &["implicit"];
 const LIMIT: &[&str] = &["limit"];
@@ -24,15 +25,15 @@ const AT_REST: &str = "At rest when the unbalanced force ratio falls below this.
 pub static LOAD: Section = Section {
     title: "[load]",
     doc: "Gravity, then a trapezoidal pressure on the back face in equal steps, a platform that tilts, a beam on the wall's \
-          top that is pushed along the wall, or a base that shakes.",
+          top that is pushed along the wall, a base that shakes, or fill or water that rises behind the wall.",
     chooser: Some("protocol"),
     keys: &[&[
         Key::new(
             "protocol",
-            Kind::Choice(&["lateral", "tilting", "shear", "base_motion"]),
+            Kind::Choice(&["lateral", "tilting", "shear", "base_motion", "retaining"]),
             Required,
-            "What is done to each wall: pressure on its back, a tilting table, shear in its plane under a constant load, or a base that \
-             shakes: every wall under every record at every intensity.",
+            "What is done to each wall: pressure on its back, a tilting table, shear in its plane under a constant load, a base that \
+             shakes: every wall under every record at every intensity, or fill or water that rises behind it until it falls.",
         ),
         Key::new(
             "mean_pressure_pa",
@@ -232,6 +233,67 @@ pub static LOAD: Section = Section {
              doubles the time.",
         )
         .only(BASE_MOTION),
+        Key::new("retained", Kind::Choice(&["fill", "water"]), Required, "What the wall holds back.")
+            .only(RETAINING),
+        Key::new(
+            "fill_density_kg_per_m3",
+            real("kg/m3", Interval::closed(100.0, 5000.0)),
+            Optional,
+            "Density of the fill, which a fill needs; of one that is not drained that of the soil with its pores full of water.",
+        )
+        .only(RETAINING),
+        Key::new(
+            "fill_phi_deg",
+            real("deg", Interval::closed(1.0, 60.0)),
+            Optional,
+            "Friction angle of the fill, which a fill needs.",
+        )
+        .only(RETAINING)
+        .angle(Angle::Friction),
+        Key::new(
+            "wall_friction_share",
+            real("1", Interval::closed(0.0, 1.0)),
+            Optional,
+            "The share of its friction angle with which the fill rubs on the back of the wall; 0 where it is not given, the safe side.",
+        )
+        .only(RETAINING),
+        Key::new(
+            "fill_slope_deg",
+            real("deg", Interval::closed(-45.0, 60.0)),
+            Optional,
+            "Slope of the surface of the fill, above 0 where it rises away from the wall; 0 where it is not given.",
+        )
+        .only(RETAINING)
+        .angle(Angle::Tilt),
+        Key::new(
+            "surcharge_pa",
+            real("Pa", Interval::closed(0.0, 1e6)),
+            Optional,
+            "Weight on the surface of the fill, per horizontal area; 0 where it is not given.",
+        )
+        .only(RETAINING),
+        Key::new(
+            "drained",
+            Kind::Flag,
+            Optional,
+            "Whether water runs off. Else it stands in the fill up to its surface: it presses by itself, and the soil weighs so much less. true \
+             where it is not given.",
+        )
+        .only(RETAINING),
+        Key::new(
+            "lifts",
+            Kind::Whole { low: 1, high: 1000 },
+            Default("10"),
+            "Equal lifts from the foot of the back to its top, each of which is tried.",
+        )
+        .only(RETAINING),
+        Key::new(
+            "bracket_share",
+            real("1", Interval::above(1e-6, 0.1)),
+            Default("0.001"),
+            "The height of the fall is bracketed to this share of the height of the back.",
+        )
+        .only(RETAINING),
         Key::new(
             "rayleigh_ratio",
             real("1", Interval::below(0.0, 1.0)),

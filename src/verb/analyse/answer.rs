@@ -8,7 +8,9 @@ use crate::model::{Block, Level, Outcome, Support, Wall};
 use crate::protocol::{JointState, Undecided};
 use crate::study::Fit;
 use crate::verb::analyse::ask::{Analyse, Growing};
+use crate::verb::analyse::held::{Held, counted};
 use crate::verb::analyse::loads::listed;
+use crate::verb::analyse::solve::LARGEST_FACTOR;
 use crate::verb::analyse::worst::Tried;
 use crate::verb::analyse::{joints, open};
 use crate::verb::wall::condition::resting;
@@ -32,6 +34,8 @@ pub(crate) struct Answer {
     pub between: Option<[f64; 2]>,
     /// The last load borne and the lowest at which it falls (rad or multipliers), of a solver that goes by steps.
     pub bracket: Option<[f64; 2]>,
+    /// What is known of what is behind the wall; `None` under another load.
+    pub held: Option<Held>,
     /// The joints at rest on the supports that went down, before the load grew; empty where none went, or the wall fell meanwhile.
     pub settled: Vec<JointState>,
 }
@@ -46,16 +50,21 @@ impl Answer {
     fn collapse(&self) -> (Option<f64>, Option<f64>) {
         match self.outcome {
             Outcome::Collapsed { at: Level::Tilt(angle) } => (Some(degrees(angle)), None),
-            Outcome::Collapsed { at: Level::Multiplier(multiplier) } => (None, Some(multiplier)),
+            Outcome::Collapsed { at: Level::Multiplier(multiplier) | Level::Factor(multiplier) } => {
+                (None, Some(multiplier))
+            }
             _ => (None, None),
         }
     }
 
-    /// The collapse multiplier alpha0, the horizontal load over the weight: of a tilt its tangent.
+    /// The collapse multiplier alpha0, the horizontal load over the weight: of a tilt its tangent. Of what is behind the wall its height (m), of another
+    /// load the factor on it.
     pub fn collapse_multiplier(&self) -> Option<f64> {
         match self.outcome {
             Outcome::Collapsed { at: Level::Tilt(angle) } => Some(tan(angle)),
-            Outcome::Collapsed { at: Level::Multiplier(multiplier) } => Some(multiplier),
+            Outcome::Collapsed {
+                at: Level::Multiplier(load) | Level::Factor(load) | Level::Height(load),
+            } => Some(load),
             _ => None,
         }
     }
@@ -83,7 +92,7 @@ impl Answer {
     fn shown_bracket(&self, asked: &Analyse) -> Option<[f64; 2]> {
         self.bracket.map(|ends| match asked.growing() {
             Growing::Tilt => ends.map(degrees),
-            Growing::Lateral => ends,
+            Growing::Lateral | Growing::Height | Growing::Factor => ends,
         })
     }
 
@@ -102,7 +111,7 @@ impl Answer {
     fn in_unit(&self, asked: &Analyse, ends: [f64; 2]) -> [f64; 2] {
         match asked.growing() {
             Growing::Tilt => ends.map(|x| degrees(atan(x))),
-            Growing::Lateral => ends,
+            Growing::Lateral | Growing::Height | Growing::Factor => ends,
         }
     }
 
@@ -139,7 +148,7 @@ impl Answer {
             "undecided": self.undecided.as_ref().map(|own| open::object(asked, own)),
             "between": self.between.map(|ends| self.in_unit(asked, ends)),
             "bracket": self.shown_bracket(asked),
-            "bracket_unit": self.bracket.map(|_| if asked.growing() == Growing::Tilt { "deg" } else { "1" }),
+            "bracket_unit": self.bracket.map(|_| open::unit(asked)),
             "meaning": self.meaning,
             "solver": asked.solver().name(),
             "load": asked.load.name(),
@@ -171,6 +180,12 @@ impl Answer {
             _ if self.undecided.is_some() => {
                 self.undecided.as_ref().map(|own| open::headline(asked, own)).unwrap_or_default()
             }
+            (Outcome::Collapsed { at: Level::Height(height) }, ..) => {
+                format!("collapses at {height:.3} m of {}, which pushes it towards {to}", asked.load.name())
+            }
+            (_, Growing::Factor, (_, Some(factor))) => {
+                format!("collapses at {factor:.4} times {} towards {to}", counted(asked))
+            }
             (_, _, (Some(angle), _)) => {
                 let multiplier = self.collapse_multiplier().unwrap_or_default();
                 format!(
@@ -192,6 +207,15 @@ impl Answer {
             (Outcome::Equilibrium, Growing::Lateral, _) => {
                 format!("stands to the largest horizontal load towards {to}")
             }
+            (Outcome::Equilibrium, Growing::Height, _) => {
+                self.held.map_or_else(String::new, |held| held.stands(asked))
+            }
+            (Outcome::Equilibrium, Growing::Factor, _) => {
+                format!(
+                    "stands under the most that is asked for, {LARGEST_FACTOR} times {} towards {to}",
+                    counted(asked)
+                )
+            }
             (other, ..) => format!("is {}: {}", self.name().replace('_', " "), other.reason()),
         };
         format!("The wall {said}.")
@@ -201,16 +225,19 @@ impl Answer {
     pub fn text(&self, asked: &Analyse, file: &WallFile, fit: &Fit, seconds: f64) -> String {
         let mut text =
             format!("{}\n  {} solver: {}\n", self.headline(asked), asked.solver().name(), self.meaning);
+        if let Some(held) = &self.held {
+            text.push_str(&format!("  {}\n", held.line(asked)));
+        }
         if let Some(own) = &self.undecided {
             text.push_str(&format!("  {}\n", own.reason()));
         }
         // A bracket whose ends read alike says no more than the load itself.
         if let Some([low, high]) = self.shown_bracket(asked).and_then(ends) {
-            let unit = if asked.growing() == Growing::Tilt { "deg" } else { "of its weight" };
+            let unit = open::unit_in_words(asked);
             text.push_str(&format!("  bracket: {low} to {high} {unit}\n"));
         }
         if let Some(between) = self.between.map(|between| self.in_unit(asked, between)) {
-            let unit = if asked.growing() == Growing::Tilt { "deg" } else { "of its weight" };
+            let unit = open::unit_in_words(asked);
             text.push_str(&match ends(between) {
                 Some([low, high]) => format!("  between {low} and {high} {unit}\n"),
                 None => format!("  near {} {unit}\n", within(between[0], 0.0)),

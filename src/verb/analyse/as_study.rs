@@ -9,7 +9,7 @@ use crate::exchange::{Format, leaves_units_open, wall_bytes};
 use crate::study::{Fit, Study, TOUCH, Tolerance};
 use crate::terminal::failure::Failure;
 use crate::terminal::output;
-use crate::verb::analyse::ask::{Analyse, FlowName, LoadName};
+use crate::verb::analyse::ask::{Analyse, FlowName, Growing, LoadName};
 use crate::verb::analyse::known::Known;
 use crate::verb::analyse::solve::{BRACKET_DEG, LARGEST_TILT_DEG, RUNS_AWAY, STEP_DEG, law};
 use crate::verb::analyse::uncertainty::AskedOfWall;
@@ -32,6 +32,10 @@ pub(crate) fn refused(arguments: &Analyse) -> Result<(), Failure> {
         (
             arguments.load == LoadName::BaseMotion,
             "--load base-motion asks about one motion, and load.protocol = \"base_motion\" of a study about the intensity at which walls fall",
+        ),
+        (
+            matches!(arguments.growing(), Growing::Height | Growing::Factor),
+            "it is for --load tilt; fill and water are load.protocol = \"retaining\" of a study, and a pressure is \"lateral\": write those with an arm of this file",
         ),
         (
             arguments.wall.is_dir(),

@@ -7,6 +7,7 @@ use clap::{ArgGroup, Args, ValueEnum};
 use crate::protocol::Direction;
 use crate::solve::explicit::Rayleigh;
 use crate::study::Tolerance;
+use crate::verb::analyse::held::ask::Behind;
 use crate::verb::analyse::known::Known;
 use crate::verb::analyse::{known, numbers};
 use crate::verb::arguments::{FILE, JOINTS, LOAD, OUTPUT, SOLUTION, SolverName, names};
@@ -24,6 +25,7 @@ Example: pirca analyse wall.json --phi-deg 30
          pirca analyse wall.json --phi-deg 35 --worst-direction --out seen
          pirca analyse wall.json --phi-deg 35 --load lateral --vertical 0.3 --dead-load 12=1500
          pirca analyse wall.json --phi-deg 35 --solver implicit --kn 1e9 --settle 0=0.01
+         pirca analyse wall.json --phi-deg 35 --load fill --fill-density 1800 --fill-phi-deg 35 --wall-friction 0.67
          pirca analyse wall.json --phi-deg 35 --solver nonsmooth --fclib step.json --at-deg 5
          pirca analyse wall.json --phi-deg 30..38 --solver implicit --kn 5e7..5e8 --density normal(2200,80)
          pirca analyse wall.json --phi-deg 30..38 --study my-wall
@@ -85,8 +87,9 @@ pub(crate) struct Analyse {
     /// answers, the others say what they find, and a sentence how they stand to each other.
     #[arg(long = "solver", value_name = "NAME,..", value_delimiter = ',', default_value = "limit", help_heading = SOLUTION)]
     pub solvers: Vec<SolverName>,
-    /// Load: gravity turns towards the direction (to at most 89 deg), a multiple of the weight pushes there (to at most 10), or the ground
-    /// moves as --record says, for nonsmooth and explicit.
+    /// Load: gravity turns towards the direction (to at most 89 deg); a multiple of the weight pushes there (to at most 10); the ground
+    /// moves as --record says, for nonsmooth and explicit; fill or water rises behind the wall; a pressure on its back or a load on its crest grows
+    /// (to at most 10 times).
     #[arg(long, value_name = "NAME", default_value = "tilt", help_heading = LOAD)]
     pub load: LoadName,
     /// Direction of the load: x+, x-, y+ or y-, or an angle in degrees from x+, counter-clockwise seen from above (90 is y+).
@@ -164,6 +167,8 @@ pub(crate) struct Analyse {
     pub settlements: Vec<(u64, f64)>,
     #[command(flatten)]
     pub demanded: Demanded,
+    #[command(flatten)]
+    pub behind: Behind,
     /// Friction angle of the joints (deg), 0 to 89: a number, a range 30..38, or a distribution as normal(34,2). The default is the range of published
     /// joints of stone (distributions/joint/friction.toml).
     #[arg(long, value_name = "F|LOW..HIGH", default_value = known::USUAL_FRICTION, value_parser = known::friction_angle, allow_negative_numbers = true, help_heading = JOINTS)]
@@ -289,6 +294,8 @@ impl Analyse {
         match self.load {
             LoadName::Tilt | LoadName::BaseMotion => Growing::Tilt,
             LoadName::Lateral => Growing::Lateral,
+            LoadName::Fill | LoadName::Water => Growing::Height,
+            LoadName::Pressure | LoadName::Point => Growing::Factor,
         }
     }
 
@@ -314,6 +321,14 @@ names! {
         Lateral = "lateral",
         /// The ground moves as a record says.
         BaseMotion = "base-motion",
+        /// Soil rises behind the wall.
+        Fill = "fill",
+        /// Water rises behind the wall.
+        Water = "water",
+        /// A pressure on its back grows.
+        Pressure = "pressure",
+        /// A force on its crest grows.
+        Point = "point",
     }
 }
 
@@ -324,6 +339,10 @@ pub(crate) enum Growing {
     Tilt,
     /// The multiple of the weight.
     Lateral,
+    /// The height of what is behind the wall.
+    Height,
+    /// The factor on a pressure or a force.
+    Factor,
 }
 
 names! {

@@ -33,9 +33,10 @@ pub(crate) fn write(
     let task = task(asked, (&file.wall, &[]), law, fit);
     let level = match (asked.growing(), asked.at_deg.map(radians)) {
         (Growing::Tilt, Some(tilt)) => tilt,
-        (Growing::Lateral, Some(tilt)) => tan(tilt),
         (Growing::Tilt, None) => answer.borne(radians(LARGEST_TILT_DEG)),
-        (Growing::Lateral, None) => answer.borne(LARGEST_MULTIPLIER),
+        // The others that --fclib does not go with are refused before anything is solved.
+        (_, Some(tilt)) => tan(tilt),
+        (_, None) => answer.borne(LARGEST_MULTIPLIER),
     };
     let mut wall = Simulation::new(&file.wall, law, Settings::default(), task.contact);
     let (gravity, factor) = task.path.loads(level);
@@ -45,7 +46,7 @@ pub(crate) fn write(
     };
     let load = match asked.growing() {
         Growing::Tilt => json!({ "kind": "tilt", "tilt_deg": degrees(level) }),
-        Growing::Lateral => json!({ "kind": "lateral", "multiplier": level }),
+        _ => json!({ "kind": asked.load.name(), "multiplier": level }),
     };
     let object = object(&asked.title(), file, (&problem, &solution), load);
     replace_file(path, format!("{object}\n").as_bytes())?;

@@ -9,6 +9,7 @@ mod drawn;
 mod fall;
 mod fclib;
 mod files;
+mod held;
 mod joints;
 mod known;
 mod loads;

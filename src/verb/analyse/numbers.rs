@@ -93,6 +93,51 @@ fn of_a_block(text: &str, form: &str, range: RangeInclusive<f64>, unit: &str) ->
     Ok((id, within(number.trim(), range, unit)?))
 }
 
+/// Density of a fill (kg/m^3).
+pub(crate) fn fill_density(text: &str) -> Result<f64, String> {
+    within(text, 100.0..=5000.0, "kg/m^3")
+}
+
+/// Friction angle of a fill (deg).
+pub(crate) fn fill_friction(text: &str) -> Result<f64, String> {
+    within(text, 1.0..=60.0, "degrees")
+}
+
+/// Share of that angle on the back of a wall.
+pub(crate) fn wall_friction(text: &str) -> Result<f64, String> {
+    within(text, 0.0..=1.0, "of the friction angle of the fill")
+}
+
+/// Slope of the surface of a fill (deg).
+pub(crate) fn fill_slope(text: &str) -> Result<f64, String> {
+    within(text, -45.0..=60.0, "degrees")
+}
+
+/// Weight on the surface of a fill (Pa).
+pub(crate) fn surcharge(text: &str) -> Result<f64, String> {
+    within(text, 0.0..=1e6, "Pa")
+}
+
+/// Mean pressure on a back (Pa).
+pub(crate) fn pressure(text: &str) -> Result<f64, String> {
+    within(text, 1e-3..=1e7, "Pa")
+}
+
+/// Pressure at the base over that at the top.
+pub(crate) fn base_over_top(text: &str) -> Result<f64, String> {
+    within(text, 0.01..=100.0, "of the pressure at the top")
+}
+
+/// Force on a crest (N, or N/m).
+pub(crate) fn force(text: &str) -> Result<f64, String> {
+    within(text, 1e-3..=1e9, "N, or N/m along the crest")
+}
+
+/// By how much a force points below the horizontal (deg).
+pub(crate) fn below_horizontal(text: &str) -> Result<f64, String> {
+    within(text, -90.0..=90.0, "degrees")
+}
+
 /// Density (kg/m^3).
 pub(crate) fn density(text: &str) -> Result<f64, String> {
     within(text, DENSITIES, "kg/m^3")

@@ -5,11 +5,12 @@ use serde_json::{Value, json};
 use crate::law::Coulomb;
 use crate::math::{degrees, tan};
 use crate::model::{Outcome, Wall};
-use crate::protocol::{Lower, Undecided, undecided};
+use crate::protocol::{Highest, Lower, Undecided, left_open_at, undecided};
 use crate::solve::limit::{Analysis, Settings};
 use crate::study::Fit;
 use crate::terminal::doing::doing;
 use crate::verb::analyse::ask::{Analyse, Growing};
+use crate::verb::analyse::held::{behind, counted};
 use crate::verb::analyse::solve::task;
 use crate::verb::analyse::state::Found;
 
@@ -29,6 +30,13 @@ pub(crate) fn left_open(
     };
     let analysis = Analysis::new(wall, law, fit.contact, Settings::default());
     let task = task(arguments, (wall, &[]), law, fit);
+    if let Some(Ok(behind)) = behind(arguments, wall) {
+        let height = if let Some(height) = bears { height } else { behind.height };
+        let found = Highest { limit: (**found).clone(), height, bracket: None };
+        return doing("asking stiff joints for the thrust", |_| {
+            left_open_at(&task, &analysis, &behind, &found)
+        });
+    }
     doing("asking stiff joints for the thrust", |_| undecided(&task, &analysis, bears, bears))
 }
 
@@ -57,6 +65,25 @@ fn in_unit(asked: &Analyse, level: f64) -> f64 {
     if asked.growing() == Growing::Tilt { degrees(level) } else { level }
 }
 
+/// The unit of the answer in the JSON object.
+pub(crate) fn unit(asked: &Analyse) -> &'static str {
+    match asked.growing() {
+        Growing::Tilt => "deg",
+        Growing::Height => "m",
+        Growing::Lateral | Growing::Factor => "1",
+    }
+}
+
+/// The same in words.
+pub(crate) fn unit_in_words(asked: &Analyse) -> &'static str {
+    match asked.growing() {
+        Growing::Tilt => "deg",
+        Growing::Lateral => "of its weight",
+        Growing::Height => "m",
+        Growing::Factor => "times the load",
+    }
+}
+
 /// The range in the headline: what the wall does between the two.
 pub(crate) fn headline(asked: &Analyse, open: &Undecided) -> String {
     let to = asked.direction;
@@ -67,6 +94,22 @@ pub(crate) fn headline(asked: &Analyse, open: &Undecided) -> String {
         (Growing::Tilt, Some(high)) => format!(
             "collapses at a tilt between {low:.2} and {high:.2} deg towards {to} (collapse multiplier {multipliers})"
         ),
+        (Growing::Height, Some(high)) => {
+            format!(
+                "collapses between {low:.3} and {high:.3} m of {}, which pushes it towards {to}",
+                asked.load.name()
+            )
+        }
+        (Growing::Height, None) => format!(
+            "collapses at {low:.3} m of {}, which pushes it towards {to}, or stands with it to the top of its back",
+            asked.load.name()
+        ),
+        (Growing::Factor, Some(high)) => {
+            format!("collapses between {low:.4} and {high:.4} times {} towards {to}", counted(asked))
+        }
+        (Growing::Factor, None) => {
+            format!("collapses at {low:.4} times {} towards {to}, or at no more of it", counted(asked))
+        }
         (Growing::Tilt, None) => {
             format!("collapses at a tilt of {low:.2} deg towards {to}, or stands to the largest tilt")
         }
@@ -95,7 +138,7 @@ pub(crate) fn object(asked: &Analyse, open: &Undecided) -> Value {
     json!({
         "lower": lower,
         "upper": upper,
-        "unit": if asked.growing() == Growing::Tilt { "deg" } else { "1" },
+        "unit": unit(asked),
         "lower_multiplier": lower_multiplier,
         "upper_multiplier": upper_multiplier,
         "lower_by": match open.by {

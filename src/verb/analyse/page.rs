@@ -13,6 +13,7 @@ use crate::study::{Tolerance, sha256};
 use crate::terminal::failure::Failure;
 use crate::verb::analyse::answer::Answer;
 use crate::verb::analyse::ask::{Analyse, Growing};
+use crate::verb::analyse::held::counted;
 use crate::verb::analyse::state::State;
 use crate::verb::analyse::views::AlongAxes;
 use crate::verb::analyse::{closed, drawn, mended};
@@ -103,6 +104,15 @@ fn question(asked: &Analyse) -> String {
         (Growing::Lateral, false) => {
             format!("Which share of its weight, pushing towards {towards}, does the wall bear?")
         }
+        (Growing::Height, _) => {
+            format!(
+                "Up to which height does the wall hold {} that pushes towards {towards}?",
+                asked.load.name()
+            )
+        }
+        (Growing::Factor, _) => {
+            format!("How many times {} does the wall bear towards {towards}?", counted(asked))
+        }
         (Growing::Lateral, true) => {
             "In which direction does the wall bear the least push, and how much?".to_owned()
         }
@@ -155,6 +165,26 @@ pub(crate) fn inputs(asked: &Analyse) -> Vec<(&'static str, String)> {
     if !asked.fixed.is_empty() {
         let ids: Vec<String> = asked.fixed.iter().map(u64::to_string).collect();
         all.push(("blocks fixed besides those of the file", ids.join(", ")));
+    }
+    let behind = &asked.behind;
+    let of_behind = [
+        ("density of the fill", behind.fill_density, "kg/m3"),
+        ("friction angle of the fill", behind.fill_phi_deg, "deg"),
+        ("share of it on the back of the wall", behind.wall_friction, ""),
+        ("slope of the fill", behind.fill_slope_deg, "deg"),
+        ("weight on the fill", behind.surcharge_pa, "Pa"),
+        ("mean pressure on the back", behind.pressure_pa, "Pa"),
+        ("pressure at the base over that at the top", behind.base_over_top, ""),
+        ("force on the crest", behind.crest_force, "N"),
+        ("its place from the left, seen from behind", behind.crest_at, "m"),
+        ("force along the crest", behind.crest_line, "N/m"),
+        ("its angle below the horizontal", behind.crest_down_deg, "deg"),
+    ];
+    let stated =
+        of_behind.into_iter().filter_map(|(name, own, unit)| Some((name, format!("{} {unit}", own?))));
+    all.extend(stated.map(|(name, own)| (name, own.trim_end().to_owned())));
+    if behind.undrained {
+        all.push(("water in the fill", "up to its surface".to_owned()));
     }
     all.extend(asked.vertical.map(|share| ("vertical share of the load", share.to_string())));
     let listed = |of: &[(u64, f64)], unit: &str| {

@@ -4,8 +4,8 @@ use crate::law::{CohesionAfterSlip, Coulomb, NormalLaw, Sampling};
 use crate::math::{atan, cos, radians, tan};
 use crate::model::{Level, Outcome, Wall};
 use crate::protocol::{
-    Changes, Confirmation, Criterion, LoadPath, Recorder, Run, Settlement, Task, Witness, amplified,
-    drive_seen_by,
+    self, Behind, Changes, Confirmation, Criterion, Lifts, LoadPath, Recorder, Settlement, Task, Witness,
+    amplified, drive_seen_by, highest, raise,
 };
 use crate::solve::implicit::Equilibrium;
 use crate::solve::{Equilibrate, Solver, explicit, implicit, limit, nonsmooth};
@@ -13,6 +13,7 @@ use crate::study::Fit;
 use crate::terminal::doing::doing;
 use crate::verb::analyse::answer::Answer;
 use crate::verb::analyse::ask::{Analyse, FlowName, Growing};
+use crate::verb::analyse::held::{Held, behind, factored};
 use crate::verb::analyse::known::Known;
 use crate::verb::analyse::state::Found;
 use crate::verb::arguments::SolverName;
@@ -25,6 +26,11 @@ const MOVES: f64 = 0.01;
 pub(crate) const STEP_DEG: f64 = 0.5;
 pub(crate) const LARGEST_TILT_DEG: f64 = 89.0;
 pub(crate) const LARGEST_MULTIPLIER: f64 = 10.0;
+/// The largest factor on a pressure or a force, its step and its bracket.
+pub(crate) const LARGEST_FACTOR: f64 = 10.0;
+const FACTOR_STEP: f64 = 0.1;
+/// Heights that differ by less (m) are the same.
+pub(crate) const BRACKET_M: f64 = 1e-3;
 /// Width of the bracket around the collapse: angle (deg) and multiplier.
 pub(crate) const BRACKET_DEG: f64 = 0.01;
 pub(crate) const BRACKET: f64 = 1e-4;
@@ -95,17 +101,17 @@ pub(crate) fn solve_seen_by(
             let mut at_rest = Equilibrium::new(wall, law, settings, task.contact);
             at_rest.settle(&mut |_| false);
             let loose = Some(at_rest.loose().iter().map(|&i| i as usize).collect());
-            let (answer, found) = by_steps(drive_seen_by(&task, &Solver::Implicit(settings), witness));
+            let (answer, found) = by_steps(arguments, &task, &Solver::Implicit(settings), witness);
             (Answer { loose, ..answer }, found)
         }
         SolverName::Explicit => {
             let solver = Solver::Explicit(explicit::Settings::default());
-            by_steps(drive_seen_by(&task(arguments, (wall, settlements), law, fit), &solver, witness))
+            by_steps(arguments, &task(arguments, (wall, settlements), law, fit), &solver, witness)
         }
         SolverName::Nonsmooth => {
             let solver = Solver::Nonsmooth(nonsmooth::Settings::default());
             let (answer, found) =
-                by_steps(drive_seen_by(&task(arguments, (wall, settlements), law, fit), &solver, witness));
+                by_steps(arguments, &task(arguments, (wall, settlements), law, fit), &solver, witness);
             let meaning = format!("{}; rigid blocks without dilatancy, in time", answer.meaning);
             (Answer { meaning, ..answer }, found)
         }
@@ -124,12 +130,21 @@ pub(crate) fn task<'t>(
         Growing::Tilt => LoadPath::tilt(towards, step, radians(LARGEST_TILT_DEG), radians(BRACKET_DEG)),
         Growing::Lateral => LoadPath::multiplier(towards, tan(step), LARGEST_MULTIPLIER, BRACKET)
             .with_vertical(arguments.vertical.unwrap_or(0.0)),
+        // Of what rises behind it each height has a path of its own.
+        Growing::Height => LoadPath::factor(1),
+        Growing::Factor => LoadPath {
+            growing: protocol::Growing::Factor,
+            end: LARGEST_FACTOR,
+            steps: LARGEST_FACTOR / FACTOR_STEP,
+            bracket: BRACKET,
+            goes_back: false,
+        },
     };
     Task {
         wall,
         laws: law,
         contact: fit.contact,
-        loads: Vec::new(),
+        loads: factored(arguments, wall),
         ties: Vec::new(),
         platform: None,
         changes: Changes { settlements: settlements.to_vec(), ..Changes::default() },
@@ -140,7 +155,16 @@ pub(crate) fn task<'t>(
     }
 }
 
-fn by_steps(run: Run) -> (Answer, Found) {
+fn by_steps(arguments: &Analyse, task: &Task<'_>, solver: &Solver, witness: Witness<'_>) -> (Answer, Found) {
+    let behind = behind(arguments, task.wall).and_then(Result::ok);
+    let run = match &behind {
+        Some(behind) => raise(task, behind, Lifts::COARSE, solver, witness),
+        None => drive_seen_by(task, solver, witness),
+    };
+    let meaning = match &behind {
+        Some(_) => format!("the highest borne, {} heights", run.steps.len().saturating_sub(1)),
+        None => format!("the largest load borne on the way, {} load steps", run.steps.len()),
+    };
     let answer = Answer {
         clamped: Vec::new(),
         undecided: run.undecided.clone(),
@@ -152,7 +176,8 @@ fn by_steps(run: Run) -> (Answer, Found) {
         loose: None,
         settled: run.settled_joints.clone(),
         bracket: run.bracket,
-        meaning: format!("the largest load borne on the way, {} load steps", run.steps.len()),
+        meaning,
+        held: behind.map(|behind| held(&behind, None)),
         outcome: run.outcome.clone(),
     };
     (answer, Found::Steps(Box::new(run)))
@@ -172,11 +197,21 @@ fn by_limit_analysis(
     let settings = limit::Settings { flow, ..limit::Settings::default() };
     let analysis = limit::Analysis::new(wall, law, fit.contact, settings);
     let direction = arguments.direction.unit();
+    let (behind, mut bracket) = (behind(arguments, wall).and_then(Result::ok), None);
     let found = match arguments.growing() {
         Growing::Tilt => analysis.tilt(direction, &[]),
         Growing::Lateral => {
             analysis.multiplier(&limit::Loads::seismic(direction, arguments.vertical.unwrap_or(0.0)))
         }
+        Growing::Factor => analysis.multiplier(&live(factored(arguments, wall))),
+        Growing::Height => match &behind {
+            Some(behind) => {
+                let highest = highest(&analysis, behind, Lifts::default());
+                bracket = highest.bracket;
+                highest.limit
+            }
+            None => analysis.multiplier(&limit::Loads::weight()),
+        },
     };
     let speed = |i: usize| {
         let (motion, block) = (&found.mechanism[i], &wall.blocks[i]);
@@ -187,12 +222,17 @@ fn by_limit_analysis(
     let falls = matches!(found.outcome, Outcome::Collapsed { .. } | Outcome::UnstableAtRest);
     let scale = match arguments.growing() {
         Growing::Tilt => cos(atan(found.multiplier)),
-        Growing::Lateral => 1.0,
+        Growing::Lateral | Growing::Height | Growing::Factor => 1.0,
     };
     if let Some(recorder) = witness.recorder {
         let level = match arguments.growing() {
             Growing::Tilt => Level::Tilt(atan(found.multiplier)),
             Growing::Lateral => Level::Multiplier(found.multiplier),
+            Growing::Factor => Level::Factor(found.multiplier),
+            Growing::Height => match found.outcome {
+                Outcome::Collapsed { at } => at,
+                _ => Level::Height(behind.as_ref().map_or(0.0, |behind| behind.height)),
+            },
         };
         recorder.takes(amplified((wall, &fit.contact), &found, (level, scale), falls));
     }
@@ -201,13 +241,34 @@ fn by_limit_analysis(
         undecided: None,
         between: found.between,
         settled: Vec::new(),
-        bracket: None,
+        bracket,
+        held: behind.map(|behind| held(&behind, margin(&found))),
         moving: (0..found.mechanism.len()).filter(|&i| falls && speed(i) > MOVES * fastest).collect(),
         loose: None,
         meaning: format!("{}: {}", arguments.flow.unwrap_or(FlowName::Associative).name(), flow.meaning()),
         outcome: found.outcome.clone(),
     };
     (answer, Found::Limit { found: Box::new(found), falls, scale })
+}
+
+/// Loads that grow beside the weight.
+fn live(loads: Vec<protocol::Load>) -> limit::Loads {
+    let of = |load: protocol::Load| limit::PointLoad {
+        block: load.block,
+        point: load.point,
+        force: load.force,
+        when: limit::When::Live,
+    };
+    limit::Loads { points: loads.into_iter().map(of).collect(), ..limit::Loads::weight() }
+}
+
+fn held(behind: &Behind, margin: Option<f64>) -> Held {
+    Held { back: behind.height, lean: behind.lean, coefficient: behind.coefficient, margin }
+}
+
+/// How many times the pressure of its whole back a wall bears that stands to its top.
+fn margin(found: &limit::Limit) -> Option<f64> {
+    (found.outcome == Outcome::Equilibrium).then_some(found.multiplier)
 }
 
 /// The blocks that stand at rest only by forces that no weight causes.

@@ -17,7 +17,7 @@ use crate::verb::analyse::fall::Fall;
 use crate::verb::analyse::known::Known;
 use crate::verb::analyse::loads::loaded;
 use crate::verb::analyse::solve::{
-    BRACKET, BRACKET_DEG, LARGEST_MULTIPLIER, LARGEST_TILT_DEG, law, solve_seen_by,
+    BRACKET, BRACKET_DEG, BRACKET_M, LARGEST_FACTOR, LARGEST_MULTIPLIER, LARGEST_TILT_DEG, law, solve_seen_by,
 };
 use crate::verb::analyse::state::{Found, State};
 use crate::verb::analyse::uncertainty::{Answered, AskedOfWall, Ended, UncertaintySummary};
@@ -150,7 +150,7 @@ impl Given<'_> {
     fn came(&self, wall: &Wall, answer: &Answer, found: &Found) -> Came {
         let observed = match (&answer.outcome, bears(&answer.outcome)) {
             (_, Some(load)) => Observed::Value(load),
-            (Outcome::Equilibrium | Outcome::Unbounded, _) => Observed::Above(self.largest()),
+            (Outcome::Equilibrium | Outcome::Unbounded, _) => Observed::Above(self.largest(answer)),
             _ => Observed::Nothing,
         };
         let fall = Fall::of(&State::of(wall, &self.fit.contact, found), &answer.moving);
@@ -160,7 +160,8 @@ impl Given<'_> {
 
     /// Why a parameter does not matter, if it does not: what the mechanisms at its middle and its ends have in common.
     fn why(&self, own: &AskedOfWall, middle: &Came, ends: &[Came]) -> Option<String> {
-        let is_dry = self.arguments.cohesion == 0.0 && self.arguments.dead_loads.is_empty();
+        let by_weight = matches!(self.arguments.growing(), Growing::Tilt | Growing::Lateral);
+        let is_dry = by_weight && self.arguments.cohesion == 0.0 && self.arguments.dead_loads.is_empty();
         match own.unsure.name {
             name if name == PHI.0 => {
                 let (_, fall, is_whole) = middle;
@@ -174,10 +175,12 @@ impl Given<'_> {
         }
     }
 
-    fn largest(&self) -> f64 {
+    fn largest(&self, answer: &Answer) -> f64 {
         match self.arguments.growing() {
             Growing::Tilt => LARGEST_TILT_DEG,
             Growing::Lateral => LARGEST_MULTIPLIER,
+            Growing::Height => answer.held.map_or(0.0, |held| held.back),
+            Growing::Factor => LARGEST_FACTOR,
         }
     }
 
@@ -185,6 +188,8 @@ impl Given<'_> {
         match self.arguments.growing() {
             Growing::Tilt => Answered { name: "collapse_angle_deg", unit: "deg", resolution: BRACKET_DEG },
             Growing::Lateral => Answered { name: "multiplier", unit: "of its weight", resolution: BRACKET },
+            Growing::Height => Answered { name: "collapse_height_m", unit: "m", resolution: BRACKET_M },
+            Growing::Factor => Answered { name: "factor", unit: "times the load", resolution: BRACKET },
         }
     }
 }

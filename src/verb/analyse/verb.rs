@@ -34,7 +34,7 @@ use crate::verb::analyse::state::State;
 use crate::verb::analyse::uncertainty::{uncertainty_text, write_uncertainty};
 use crate::verb::analyse::unsure::{Given, asked, refused};
 use crate::verb::analyse::worst::{Tried, tried, weakest};
-use crate::verb::analyse::{as_study, demand, fclib, files, known, mended, shaken, upright};
+use crate::verb::analyse::{as_study, demand, fclib, files, held, known, mended, shaken, upright};
 use crate::verb::arguments::SolverName;
 use crate::verb::wall::one_wall::MOST_STATES;
 
@@ -71,6 +71,7 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
     if arguments.load == LoadName::BaseMotion {
         return shaken(arguments, &file, (&law, &fit), warnings, begun);
     }
+    held::checked(arguments, &file.wall)?;
     let settlements = settlements(&file, &arguments.settlements)?;
     let wall = (&file.wall, &settlements[..]);
     let directions = directions(arguments, wall, &law, &fit);
@@ -101,6 +102,9 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
         as_study::write(arguments, &fit, folder)?;
     }
     let mut object = answer.object(arguments, &file, &fit, (&warnings, &directions), seconds);
+    if let Some(held) = &answer.held {
+        object["held"] = held.object(&answer.outcome);
+    }
     if let Some(sure) = &sure {
         object["uncertain"] = json!(sure);
     }
@@ -239,6 +243,7 @@ fn is_turned(arguments: &Analyse) -> bool {
 fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
     refused(arguments)?;
     shaken::refused(arguments)?;
+    held::refused(arguments)?;
     as_study::refused(arguments)?;
     let solver = arguments.solver().name();
     let is_asked = |own: SolverName| arguments.solvers.contains(&own);
@@ -248,7 +253,7 @@ fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
         return Err(Failure::Usage("--load base-motion takes one solver: ask for each in turn".to_owned()));
     }
     read_in_vain(arguments)?;
-    if arguments.vertical.is_some() && arguments.growing() == Growing::Tilt {
+    if arguments.vertical.is_some() && arguments.growing() != Growing::Lateral {
         return Err(Failure::Usage(
             "--vertical is for --load lateral, whose force has a direction; a tilt turns the whole weight: ask for that load, or leave --vertical out"
                 .to_owned(),

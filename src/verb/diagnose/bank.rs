@@ -129,7 +129,7 @@ pub(crate) fn prepared(study: &Study, which: &Which, points: u64) -> Result<Prep
         Protocol::Tilting(_) => ("tilted", "collapse angles or displacements"),
         Protocol::Shear(_) => ("sheared", "readings of force_at_drift"),
         Protocol::BaseMotion(_) => ("shaken", "outcomes of motions of the base"),
-        Protocol::Lateral(_) => {
+        Protocol::Lateral(_) | Protocol::Retaining(_) => {
             let text = "the study neither tilts, shears nor shakes its walls: diagnoses are of such tests (load.protocol)";
             return Err(Failure::Input(format!("{}: {text}", study.name)));
         }

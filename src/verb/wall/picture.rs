@@ -116,7 +116,7 @@ pub(crate) fn of_wall(chosen: &OneWall, run: &Run, colour: Measure, magnify: Opt
 
 fn direction(protocol: &Protocol) -> Direction {
     match protocol {
-        Protocol::Lateral(_) => Direction::YPlus,
+        Protocol::Lateral(_) | Protocol::Retaining(_) => Direction::YPlus,
         Protocol::Tilting(tilting) => tilting.towards,
         Protocol::Shear(_) => Direction::XPlus,
         Protocol::BaseMotion(base) => base.towards,

@@ -36,7 +36,7 @@ impl Test {
         match study.protocol {
             Protocol::Shear(shear) => Test::Shear { widest: shear.history.widest() },
             Protocol::BaseMotion(_) => Test::Shaking,
-            Protocol::Tilting(_) | Protocol::Lateral(_) => Test::Tilting,
+            Protocol::Tilting(_) | Protocol::Lateral(_) | Protocol::Retaining(_) => Test::Tilting,
         }
     }
 
@@ -113,6 +113,6 @@ pub fn stand_in(study: &Study, family: usize) -> usize {
     };
     match study.protocol {
         Protocol::Shear(_) | Protocol::BaseMotion(_) => study.arms.iter().position(alike).unwrap_or(family),
-        Protocol::Tilting(_) | Protocol::Lateral(_) => family,
+        Protocol::Tilting(_) | Protocol::Lateral(_) | Protocol::Retaining(_) => family,
     }
 }

@@ -61,7 +61,10 @@ pub fn readings(study: &Study, rows: &[Row], asked: &Asked) -> Vec<Reading> {
         Quantity::CollapseAngle => asked.error_deg,
         Quantity::TopDisplacement => asked.error_m,
         // A load cell, and a shaking table, are exact beside the scatter of walls.
-        Quantity::ShearCapacity | Quantity::LoadFactor | Quantity::CollapseIntensity(_) => 0.0,
+        Quantity::ShearCapacity
+        | Quantity::LoadFactor
+        | Quantity::CollapseIntensity(_)
+        | Quantity::RetainedHeight => 0.0,
     };
     let mut all = vec![Reading {
         name: quantity.name().replace('_', " "),

@@ -106,6 +106,7 @@ fn shown(summary: &Summary) -> Option<String> {
         "deg" => "Mean collapse angle",
         "N" => "Mean of the largest push",
         "1" => "Mean load at collapse",
+        "m" if quantity == Quantity::RetainedHeight => "Mean height behind the wall at its fall",
         _ => "Mean displacement at the top",
     };
     let head = format!("{what} in {} at kn {}: ", quantity.shown_unit(), stiffness(first.kn_pa_per_m));

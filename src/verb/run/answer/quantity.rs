@@ -11,6 +11,7 @@ impl Quantity {
             Quantity::CollapseAngle => "collapse_angle",
             Quantity::ShearCapacity => "shear_capacity",
             Quantity::LoadFactor => "load_factor",
+            Quantity::RetainedHeight => "retained_height",
             Quantity::CollapseIntensity(Measure::Pga) => "collapse_acceleration",
             Quantity::CollapseIntensity(Measure::Pgv) => "collapse_velocity",
         }
@@ -19,7 +20,7 @@ impl Quantity {
     /// Unit in `summary.json`.
     pub fn unit(self) -> &'static str {
         match self {
-            Quantity::TopDisplacement => "m",
+            Quantity::TopDisplacement | Quantity::RetainedHeight => "m",
             Quantity::CollapseAngle => "deg",
             Quantity::ShearCapacity => "N",
             Quantity::LoadFactor => "1",
@@ -31,6 +32,7 @@ impl Quantity {
     pub fn shown_unit(self) -> &'static str {
         match self {
             Quantity::TopDisplacement => "mm",
+            Quantity::RetainedHeight => "m",
             Quantity::CollapseAngle => "deg",
             Quantity::ShearCapacity => "kN",
             Quantity::LoadFactor => "full loads",
@@ -45,6 +47,7 @@ impl Quantity {
             Quantity::CollapseAngle => x,
             Quantity::ShearCapacity => x * 1e-3,
             Quantity::LoadFactor => x,
+            Quantity::RetainedHeight => x,
             Quantity::CollapseIntensity(_) => x,
         }
     }
@@ -56,6 +59,7 @@ impl Quantity {
             Quantity::CollapseAngle => "collapse angle (deg)",
             Quantity::ShearCapacity => "largest push along the wall (kN)",
             Quantity::LoadFactor => "load at collapse over the full load",
+            Quantity::RetainedHeight => "height behind the wall at its fall (m)",
             Quantity::CollapseIntensity(Measure::Pga) => "lowest PGA of a collapse (m/s2)",
             Quantity::CollapseIntensity(Measure::Pgv) => "lowest PGV of a collapse (m/s)",
         }
@@ -68,6 +72,7 @@ impl Quantity {
             Quantity::CollapseAngle => "capacity",
             Quantity::ShearCapacity => "shear",
             Quantity::LoadFactor => "load-factor",
+            Quantity::RetainedHeight => "retained-height",
             Quantity::CollapseIntensity(_) => "fragility",
         }
     }
@@ -83,6 +88,9 @@ impl Quantity {
             }
             Quantity::ShearCapacity => {
                 "the largest push along the wall that it bears under its constant vertical load"
+            }
+            Quantity::RetainedHeight => {
+                "the height of what is behind the wall, above the foot of its back, at which it falls: the highest one borne"
             }
             Quantity::LoadFactor => {
                 "the factor on the full load at which rigid blocks fall, by limit analysis: a wall bears its load from 1 on"
@@ -102,6 +110,7 @@ impl Quantity {
             Quantity::TopDisplacement => "collapsed, not converged, non-finite, invalid geometry",
             Quantity::CollapseAngle => "not standing at rest, not converged, non-finite, invalid geometry",
             Quantity::ShearCapacity => "not standing at rest, not converged, non-finite, invalid geometry",
+            Quantity::RetainedHeight => "not standing at rest, not converged, non-finite, invalid geometry",
             Quantity::LoadFactor => "not standing at rest, not converged, non-finite, invalid geometry",
             Quantity::CollapseIntensity(_) => {
                 "not standing at rest, undecided, without a verdict, invalid geometry"

@@ -259,7 +259,8 @@ pub(crate) fn describe(
         Quantity::CollapseAngle
         | Quantity::ShearCapacity
         | Quantity::LoadFactor
-        | Quantity::CollapseIntensity(_) => population.sample().summary_of_positive(),
+        | Quantity::CollapseIntensity(_)
+        | Quantity::RetainedHeight => population.sample().summary_of_positive(),
         Quantity::TopDisplacement => population.sample().summary(),
     };
     let [sigma_bootstrap, cov_bootstrap] = bootstraps(&population, seed);
@@ -322,7 +323,8 @@ fn distribution(population: Population) -> (Vec<QuantileEntry>, Vec<EmpiricalSte
         Quantity::TopDisplacement
         | Quantity::ShearCapacity
         | Quantity::LoadFactor
-        | Quantity::CollapseIntensity(_) => Vec::new(),
+        | Quantity::CollapseIntensity(_)
+        | Quantity::RetainedHeight => Vec::new(),
         Quantity::CollapseAngle => stats::empirical_of(&sorted, &above),
     };
     (quantiles(&of), steps)
