@@ -108,7 +108,7 @@
 //! | [`generate`] | layouts to walls; `canonical` holds walls with known answers |
 //! | [`solve`] | bodies, joints with history; the solvers `explicit`, `implicit`, `nonsmooth`, `limit`; `grains` for bodies made of spheres |
 //! | [`homogenise`] | a wall as a plate: cells of stones, their stiffness and their strength |
-//! | [`protocol`] | load paths (lateral, tilting, shear), base motion, restraint, what is observed, when a collapse is confirmed |
+//! | [`protocol`] | load paths (lateral, tilting, shear, retaining), base motion, restraint, what is observed, when a collapse is confirmed |
 //! | [`study`] | text to checked studies, every fault at once |
 //! | [`ensemble`] | plan, run in parallel, record, resume |
 //! | [`critic`] | measured beside simulated; the joint stiffness that measured collapse angles speak for |

@@ -4,7 +4,8 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use crate::generate::Arrangement;
-use crate::protocol::{Ends, Protocol};
+use crate::math::radians;
+use crate::protocol::{Ends, Fill, Protocol, Retained, Retaining};
 use crate::random::Family;
 use crate::study::catalogue::Catalogue;
 use crate::study::cause::Mechanisms;
@@ -36,7 +37,7 @@ enum Put {
 
 /// All of them. The place of each is its dimension in a [`Design`](crate::random::Design): further ones come at the end, so that
 /// no study changes. The mean size of a wall's stones is drawn by the generator.
-pub static PARAMETERS: [Parameter; 16] = [
+pub static PARAMETERS: [Parameter; 19] = [
     Parameter { key: "wall_size_factor", stream: "wall size", put: None },
     // The streams of specimen_scatter, so that a wall is the same, whichever way its stiffness is said to scatter.
     Parameter {
@@ -135,7 +136,39 @@ pub static PARAMETERS: [Parameter; 16] = [
         stream: "uncertain mechanism.joint_closure.closure_m",
         put: Some(Put::Cause),
     },
+    Parameter {
+        key: "load.fill_density_kg_per_m3",
+        stream: "uncertain load.fill_density_kg_per_m3",
+        put: Some(Put::Load(|protocol, x| {
+            fill_of(protocol)?.density = x;
+            Some(())
+        })),
+    },
+    Parameter {
+        key: "load.fill_phi_deg",
+        stream: "uncertain load.fill_phi_deg",
+        put: Some(Put::Load(|protocol, x| {
+            fill_of(protocol)?.phi = radians(x);
+            Some(())
+        })),
+    },
+    Parameter {
+        key: "load.wall_friction_share",
+        stream: "uncertain load.wall_friction_share",
+        put: Some(Put::Load(|protocol, x| {
+            fill_of(protocol)?.wall_friction = x;
+            Some(())
+        })),
+    },
 ];
+
+/// The fill behind the walls of a study, where there is one.
+fn fill_of(protocol: &mut Protocol) -> Option<&mut Fill> {
+    match protocol {
+        Protocol::Retaining(Retaining { retained: Retained::Fill(fill), .. }) => Some(fill),
+        _ => None,
+    }
+}
 
 /// Keys that the mechanism specimen_scatter draws as well.
 const KN: &str = "joint.kn_pa_per_m";

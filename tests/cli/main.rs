@@ -43,6 +43,7 @@ mod plan_tests;
 mod readings;
 mod records;
 mod report;
+mod retaining;
 mod scratch;
 mod sensitivity;
 mod shaken;

@@ -8,7 +8,7 @@ use polars_io::prelude::ParquetReader;
 use serde_json::Value;
 
 use crate::fixture::{Folder, STUDY, stderr};
-use crate::loads::{BASE_MOTION, LATERAL, SHEAR, TILTING, loaded};
+use crate::loads::{BASE_MOTION, LATERAL, RETAINING, SHEAR, TILTING, loaded};
 
 /// Studies of every kind.
 fn studies() -> Vec<String> {
@@ -33,6 +33,9 @@ fn studies() -> Vec<String> {
         loaded(SHEAR, "name = \"implicit\""),
         // Tall stacks that a heavy beam presses: friction between them takes thrust that only the push brings about.
         loaded(&heavy(SHEAR), "name = \"limit\"").replace("height_m = 0.3\n", "height_m = 0.9\n"),
+        // Walls too thin to hold water up to their tops.
+        loaded(RETAINING, "name = \"limit\"")
+            .replace("= 0.2\ntop_thickness_m = 0.16", "= 0.09\ntop_thickness_m = 0.07"),
         loaded(BASE_MOTION, "name = \"explicit\""),
         between_blocks(
             "protocol = \"tilting\"\ntowards = \"y+\"\nstep_deg = 4\nbracket_deg = 0.5\nend_deg = 40",

@@ -39,6 +39,7 @@ mod pressure;
 mod regular_rows;
 mod remainders;
 mod replay;
+mod retaining;
 mod rocking;
 mod rocking_block;
 mod rocking_closed_forms;

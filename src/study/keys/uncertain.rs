@@ -36,6 +36,20 @@ pub static UNCERTAIN: Section = Section {
             .usual(Interval::closed(500.0, 8000.0)),
         drawn("load.mean_pressure_pa", "Pa", POSITIVE, "Mean pressure of load.protocol = \"lateral\"."),
         drawn("load.vertical_load_n", "N", POSITIVE, "Vertical load of load.protocol = \"shear\"."),
+        drawn(
+            "load.fill_density_kg_per_m3",
+            "kg/m3",
+            Interval::closed(100.0, 5000.0),
+            "Density of the fill of load.protocol = \"retaining\".",
+        ),
+        drawn("load.fill_phi_deg", "deg", Interval::closed(1.0, 60.0), "Friction angle of that fill.")
+            .angle(Angle::Friction),
+        drawn(
+            "load.wall_friction_share",
+            "1",
+            Interval::closed(0.0, 1.0),
+            "The share of that angle on the back of the wall.",
+        ),
         drawn("restraint.rope.stiffness_n_per_m", "N/m", POSITIVE, "Stiffness of the ropes."),
         drawn(
             "mechanism.contact_inset.radius_m",

@@ -59,8 +59,9 @@ impl Held {
 
     /// What presses, in a line.
     pub fn line(&self, asked: &Analyse) -> String {
-        let lean = 0.1 * (10.0 * degrees(self.lean)).round();
-        let back = format!("back {:.3} m high, leaning {} deg", self.back, significant(lean, 3));
+        // What rounds to 0 has no sign.
+        let lean = Some(degrees(self.lean)).filter(|lean| lean.abs() >= 0.05).unwrap_or(0.0);
+        let back = format!("back {:.3} m high, leaning {lean:.1} deg", self.back);
         match retained(asked) {
             Some(Retained::Fill(fill)) => {
                 let rubs = match fill.wall_friction {
