@@ -220,22 +220,23 @@ fn the_same_wall_turned_round_holds_as_much() {
     );
 }
 
+/// Friction of soil on its ground and on the wall (rad); the floor under the wall is smooth. Blocks: 0 the wedge, 1 the wall, 2 the ground, 3 the floor.
+struct Rubs(f64, f64);
+impl JointLaws for Rubs {
+    fn of(&self, a: u32, b: u32) -> Coulomb {
+        let angle = match (a.min(b), a.max(b)) {
+            (0, 1) => self.1,
+            (0, 2) => self.0,
+            _ => 0.0,
+        };
+        Coulomb { tan_phi: tan(angle), ..dry(1e9, 0.0) }
+    }
+}
+
 /// The formula by the solver: a wedge of soil is a block on a plane and against a wall that can only go outwards. Least push that holds it, over all planes the largest.
 #[test]
 fn a_wedge_of_soil_as_a_block_presses_as_coulombs_formula() {
     let (phi, delta) = (radians(35.0), radians(20.0));
-    struct Rubs(f64, f64);
-    impl JointLaws for Rubs {
-        fn of(&self, a: u32, b: u32) -> Coulomb {
-            // 0: wedge, 1: wall, 2: ground under the wedge, 3: floor under the wall, which is smooth.
-            let angle = match (a.min(b), a.max(b)) {
-                (0, 1) => self.1,
-                (0, 2) => self.0,
-                _ => 0.0,
-            };
-            Coulomb { tan_phi: tan(angle), ..dry(1e9, 0.0) }
-        }
-    }
     let push = |angle: f64| {
         let run = 1.0 / tan(angle);
         let prism = |outline: [[f64; 2]; 4]| {
