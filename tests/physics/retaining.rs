@@ -151,9 +151,8 @@ fn the_forces_add_up_to_coulombs_thrust() {
         let at = |z: f64| {
             [corner(0.0, false, z), corner(2.0, false, z), corner(2.0, true, z), corner(0.0, true, z)]
         };
-        let [a, b, c, d] = at(low);
-        let [e, f, g, h] = at(high);
-        stone(Polyhedron::hexahedron([a, b, c, d, e, f, g, h]), 2000.0)
+        let corners: Vec<Vec3> = [at(low), at(high)].concat();
+        stone(Polyhedron::hexahedron(corners.try_into().expect("eight corners")), 2000.0)
     };
     let wall = on_floor([0.0, 1.0, 2.0].map(slices).to_vec());
     let soil = Fill { surcharge: 3e3, ..fill(35.0, 2.0 / 3.0) };
