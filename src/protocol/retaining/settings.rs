@@ -31,8 +31,8 @@ impl Default for Lifts {
 }
 
 impl Lifts {
-    /// For solvers that go by steps, where each height takes a run of its own.
-    pub const COARSE: Lifts = Lifts { count: 10, bracket: 0.01 };
+    /// For solvers that go by steps, where each height takes a run of its own. A fifth of the hundredth within which answers of several solvers are one.
+    pub const COARSE: Lifts = Lifts { count: 10, bracket: 0.002 };
 
     /// The heights (m) of the lifts on a back of this height.
     pub(super) fn heights(self, back: f64) -> impl Iterator<Item = f64> {
