@@ -28,6 +28,8 @@ impl Quantity {
             (Quantity::ShearCapacity, _) => Err("a force (12kN)"),
             (Quantity::LoadFactor, Amount::Factor(own)) => Ok(own),
             (Quantity::LoadFactor, _) => Err("a multiple of the full load (1.2)"),
+            (Quantity::RetainedHeight, Amount::Length(own)) => Ok(own),
+            (Quantity::RetainedHeight, _) => Err("a height (2.1m)"),
             (Quantity::CollapseIntensity(Measure::Pga), Amount::Gravity(own)) => Ok(own * STANDARD_GRAVITY),
             (Quantity::CollapseIntensity(Measure::Pga), Amount::Acceleration(own)) => Ok(own),
             (Quantity::CollapseIntensity(Measure::Pga), _) => Err("an acceleration (0.15g, 1.5m/s2)"),
@@ -142,6 +144,7 @@ mod tests {
         assert_eq!(Quantity::ShearCapacity.level(&demand("12kN")), Ok(12e3));
         assert_eq!(Quantity::LoadFactor.level(&demand("120%")), Ok(1.2));
         assert!(Quantity::LoadFactor.level(&demand("0.15g")).is_err(), "a load is no multiple of gravity");
+        assert_eq!(Quantity::RetainedHeight.level(&demand("2.1m")), Ok(2.1));
         assert_eq!(Quantity::CollapseIntensity(Measure::Pga).level(&demand("0.1g")), Ok(0.980_665));
         assert_eq!(Quantity::CollapseIntensity(Measure::Pgv).level(&demand("0.3m/s")), Ok(0.3));
         assert!((demand("45deg").multiplier().unwrap() - 1.0).abs() < 1e-15);

@@ -1,9 +1,10 @@
 //! Loads on the crest of a wall.
 
 use crate::math::Vec3;
-use crate::model::{Support, Wall};
+use crate::model::Wall;
 use crate::protocol::Direction;
 use crate::protocol::faces::{Face, faces_against};
+use crate::protocol::observe::{extent, movable};
 use crate::protocol::pressure::Load;
 
 /// The crest is what looks up in this share of the height from the top.
@@ -21,16 +22,15 @@ pub enum OnCrest {
 
 /// The loads of a force on the crest of a wall that it pushes towards a direction; none where nothing looks up.
 pub fn crest_loads(wall: &Wall, towards: Direction, on: OnCrest) -> Vec<Load> {
-    let moves = |face: &Face| !matches!(wall.blocks[face.block].support, Support::Fixed | Support::Absent);
-    let up: Vec<Face> = faces_against(wall, -Vec3::z()).into_iter().filter(moves).collect();
+    let up = faces_against(wall, -Vec3::z());
     let heights = || up.iter().map(|face| face.frame.origin.z);
     let top = heights().fold(f64::NEG_INFINITY, f64::max);
-    let foot = wall.bounds_of_stones().0.z;
+    let foot = extent(wall).0.z;
     let crest: Vec<&Face> =
         up.iter().filter(|face| face.frame.origin.z >= top - CREST * (top - foot)).collect();
     let across = towards.unit();
     let along = Vec3::new(across.y, -across.x, 0.0);
-    let stones = wall.stones().flat_map(|(_, stone)| &stone.shape.vertices).map(|v| v.dot(&along));
+    let stones = movable(wall).flat_map(|(_, stone)| &stone.shape.vertices).map(|v| v.dot(&along));
     let [left, right] = stones.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, r], x| [l.min(x), r.max(x)]);
     match on {
         OnCrest::Point(force, at) => {

@@ -2,6 +2,7 @@
 
 use crate::math::Vec3;
 use crate::model::Wall;
+use crate::protocol::observe::movable;
 use crate::shape::{Frame, Moments, Polygon};
 
 /// A face of a stone, or the part of it below some height.
@@ -14,11 +15,11 @@ pub(super) struct Face {
     outline: Polygon,
 }
 
-/// The faces of stones that look against a direction, with no stone behind their middle: the back of a wall that is pushed there. Within 45 degrees: a bed that
+/// The faces of stones that can move which look against a direction, with no stone behind their middle: the back of a wall that is pushed there. Within 45 degrees: a bed that
 /// leans is no back.
 pub(super) fn faces_against(wall: &Wall, towards: Vec3) -> Vec<Face> {
     let mut faces = Vec::new();
-    for (block, stone) in wall.stones() {
+    for (block, stone) in movable(wall) {
         for face in 0..stone.shape.faces.len() {
             let plane = stone.shape.face_plane(face);
             let centre = stone.shape.face_vertices(face).sum::<Vec3>() / stone.shape.faces[face].len() as f64;

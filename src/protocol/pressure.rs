@@ -3,6 +3,7 @@
 use crate::math::Vec3;
 use crate::model::Wall;
 use crate::protocol::faces::{Face, faces_against};
+use crate::protocol::observe::extent;
 use crate::protocol::{Direction, Lateral};
 
 /// A force (N) at a point (m) of a block.
@@ -27,7 +28,7 @@ pub fn back_loads(wall: &Wall, lateral: &Lateral) -> Vec<Load> {
 /// The same towards any direction: its mean over the height of the stones (Pa), and the pressure at the base over that at the top.
 pub fn trapezoid(wall: &Wall, towards: Direction, mean: f64, base_over_top: f64) -> Vec<Load> {
     let towards = towards.unit();
-    let (low, high) = wall.bounds_of_stones();
+    let (low, high) = extent(wall);
     let at_top = 2.0 * mean / (base_over_top + 1.0);
     let slope = at_top * (1.0 - base_over_top) / (high.z - low.z);
     let at_base = at_top * base_over_top;

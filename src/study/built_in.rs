@@ -47,6 +47,7 @@ const STUDIES: &[(&str, &str)] = texts![
     "studies/homogenisation/study.toml",
     "studies/joint-arrangement/published.toml",
     "studies/joint-arrangement/study.toml",
+    "studies/retaining/study.toml",
     "studies/sources-of-scatter/study.toml",
     "studies/tilting-block/published.toml",
     "studies/tilting-block/study.toml",

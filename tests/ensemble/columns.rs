@@ -8,7 +8,10 @@ use polars_io::prelude::ParquetReader;
 use serde_json::Value;
 
 use crate::fixture::{Folder, STUDY, stderr};
-use crate::loads::{BASE_MOTION, LATERAL, RETAINING, SHEAR, TILTING, loaded};
+use crate::loads::{BASE_MOTION, LATERAL, SHEAR, TILTING, loaded};
+
+/// Water that rises behind walls.
+const RETAINING: &str = "protocol = \"retaining\"\nretained = \"water\"\nlifts = 4\nbracket_share = 0.01";
 
 /// Studies of every kind.
 fn studies() -> Vec<String> {

@@ -14,9 +14,6 @@ pub const BASE_MOTION: &str = "protocol = \"base_motion\"\npga_m_per_s2 = [1, 40
      from = \"kanai_tajimi\"\ncount = 1\nground_hz = 1\ncorner_hz = 0.4\ncorner_damping = 1\nrise_s = 0.2\n\
      strong_s = 1\ndecay_per_s = 8";
 
-/// Water that rises behind walls.
-pub const RETAINING: &str = "protocol = \"retaining\"\nretained = \"water\"\nlifts = 4\nbracket_share = 0.01";
-
 /// The small study with another load between free ends, and another solver.
 pub fn loaded(load: &str, solver: &str) -> String {
     changed(LATERAL, load).replace("joint_springs", "free").replace("unbalanced_ratio = 1e-4", solver)

@@ -217,6 +217,7 @@ pub const CASES: &[Case] = &[
             "analyse tower.json --phi-deg 35 --solver nonsmooth --json",
             "analyse tower.json --phi-deg 35 --load lateral --json",
             "analyse tower.json --phi-deg 35 --worst-direction --json",
+            "analyse tower.json --phi-deg 35 --load water --direction y- --demand 0.2m --json",
             "analyse tower.json --phi-deg 30..38 --walls 32 --out ranges --json",
             "analyse missing.json --phi-deg 35 --json",
             "analyse tower.json --phi-deg 95 --json",

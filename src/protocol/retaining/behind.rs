@@ -1,7 +1,7 @@
 //! What presses on the back of one wall at every height of the fill or the water behind it.
 
 use crate::math::{Vec3, atan, cos, degrees, sin};
-use crate::model::{Support, Wall};
+use crate::model::Wall;
 use crate::protocol::Direction;
 use crate::protocol::faces::{Face, faces_against};
 use crate::protocol::pressure::Load;
@@ -54,9 +54,7 @@ impl Behind {
     /// [`NoBack`] says why nothing can press.
     pub fn new(wall: &Wall, towards: Direction, retained: &Retained) -> Result<Behind, NoBack> {
         let towards = towards.unit();
-        let moves =
-            |face: &Face| !matches!(wall.blocks[face.block].support, Support::Fixed | Support::Absent);
-        let faces: Vec<Face> = faces_against(wall, towards).into_iter().filter(moves).collect();
+        let faces = faces_against(wall, towards);
         let [foot, top] = faces
             .iter()
             .map(Face::heights)

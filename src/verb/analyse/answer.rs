@@ -10,7 +10,7 @@ use crate::study::Fit;
 use crate::verb::analyse::ask::{Analyse, Growing};
 use crate::verb::analyse::held::{Held, counted};
 use crate::verb::analyse::loads::listed;
-use crate::verb::analyse::solve::LARGEST_FACTOR;
+use crate::verb::analyse::solve::{LARGEST_FACTOR, LARGEST_MULTIPLIER, LARGEST_TILT_DEG};
 use crate::verb::analyse::worst::Tried;
 use crate::verb::analyse::{joints, open};
 use crate::verb::wall::condition::resting;
@@ -78,6 +78,16 @@ impl Answer {
         }
     }
 
+    /// The largest load that it is asked for, in the unit of the answer.
+    pub fn largest(&self, asked: &Analyse) -> f64 {
+        match asked.growing() {
+            Growing::Tilt => LARGEST_TILT_DEG,
+            Growing::Lateral => LARGEST_MULTIPLIER,
+            Growing::Height => self.held.map_or(0.0, |held| held.back),
+            Growing::Factor => LARGEST_FACTOR,
+        }
+    }
+
     /// The last load that it bears (rad or a multiplier): 0 where it does not stand at rest, and the largest asked for where it stands.
     pub fn borne(&self, largest: f64) -> f64 {
         match &self.outcome {
@@ -108,7 +118,7 @@ impl Answer {
     }
 
     /// Multipliers as the load is stated: tilts (deg), or multipliers.
-    fn in_unit(&self, asked: &Analyse, ends: [f64; 2]) -> [f64; 2] {
+    pub fn in_unit(&self, asked: &Analyse, ends: [f64; 2]) -> [f64; 2] {
         match asked.growing() {
             Growing::Tilt => ends.map(|x| degrees(atan(x))),
             Growing::Lateral | Growing::Height | Growing::Factor => ends,

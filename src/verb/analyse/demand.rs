@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::ensemble::{Failing, Met, Observed, Quantity};
-use crate::math::{atan, degrees};
+use crate::math::degrees;
 use crate::model::{Level, Outcome};
 use crate::render::number::{or_dash, significant, with_interval};
 use crate::study::Demand;
@@ -12,7 +12,6 @@ use crate::verb::analyse::answer::Answer;
 use crate::verb::analyse::ask::{Analyse, FlowName, Growing};
 use crate::verb::analyse::fall::Fall;
 use crate::verb::analyse::open;
-use crate::verb::analyse::solve::{LARGEST_MULTIPLIER, LARGEST_TILT_DEG};
 use crate::verb::analyse::uncertainty::UncertaintySummary;
 use crate::verb::arguments::SolverName;
 
@@ -23,9 +22,10 @@ const DIGITS: usize = 4;
 pub(crate) struct Demanded {
     /// As it was stated.
     stated: String,
-    /// The same in the unit of the load: degrees, or a multiple of the weight.
+    /// The same in the unit of the load: degrees, a multiple of the weight, m, a factor.
     level: f64,
-    unit: &'static str,
+    /// That unit in words, and in the JSON object.
+    units: [&'static str; 2],
     /// What the wall bears at least; `None` where that is not known.
     bears: Option<f64>,
     met: Met,
@@ -45,9 +45,11 @@ pub(crate) fn level(asked: &Analyse, demand: &Demand) -> Result<f64, Failure> {
     let level = match asked.growing() {
         Growing::Tilt => Quantity::CollapseAngle.level(demand),
         Growing::Lateral => demand.multiplier(),
+        Growing::Height => Quantity::RetainedHeight.level(demand),
+        Growing::Factor => Quantity::LoadFactor.level(demand),
     };
     level.map_err(|allowed| {
-        let found = format!("--demand {}: a wall falls at a tilt or under a push", demand.stated);
+        let found = format!("--demand {} does not fit --load {}", demand.stated, asked.load.name());
         Failure::Usage(format!("{found}; allowed is {allowed}"))
     })
 }
@@ -78,7 +80,7 @@ impl Demanded {
         Ok(Some(Demanded {
             stated: demand.stated.clone(),
             level,
-            unit: if asked.growing() == Growing::Tilt { "deg" } else { "of its weight" },
+            units: [open::unit_in_words(asked), open::unit(asked)],
             bears: least.filter(|own| own.is_finite()),
             met,
             is_upper_bound: dilates && fall.is_none(),
@@ -104,8 +106,8 @@ impl Demanded {
     pub fn headline(&self) -> String {
         let level = significant(self.level, DIGITS);
         let asked = match self.stated == level {
-            true => format!("{level} {}", self.unit),
-            false => format!("{level} {} ({})", self.unit, self.stated),
+            true => format!("{level} {}", self.units[0]),
+            false => format!("{level} {} ({})", self.units[0], self.stated),
         };
         let bears = self.over.as_ref().and_then(|over| over.interval[0].zip(over.interval[1]));
         let bears = match bears {
@@ -160,7 +162,7 @@ impl Demanded {
         json!({
             "stated": self.stated,
             "level": self.level,
-            "unit": if self.unit == "deg" { "deg" } else { "1" },
+            "unit": self.units[1],
             "met": met,
             "bears": self.bears,
             "ratio": self.ratio(),
@@ -182,17 +184,13 @@ fn fails(failing: &Failing) -> String {
 
 /// What the wall bears at least and at most in the unit of the load, as far as it is known.
 fn borne(asked: &Analyse, answer: &Answer) -> [Option<f64>; 2] {
+    let largest = answer.largest(asked);
     let in_unit = |level: f64| if asked.growing() == Growing::Tilt { degrees(level) } else { level };
-    let of_multiplier = |x: f64| if asked.growing() == Growing::Tilt { degrees(atan(x)) } else { x };
-    let largest = match asked.growing() {
-        Growing::Tilt => LARGEST_TILT_DEG,
-        Growing::Lateral => LARGEST_MULTIPLIER,
-    };
     if let Some(own) = &answer.undecided {
         return open::levels(asked, own);
     }
     if let Some(between) = answer.between {
-        return between.map(|end| Some(of_multiplier(end)));
+        return answer.in_unit(asked, between).map(Some);
     }
     match &answer.outcome {
         Outcome::Equilibrium => [Some(largest), None],
@@ -204,9 +202,10 @@ fn borne(asked: &Analyse, answer: &Answer) -> [Option<f64>; 2] {
             [Some(low.min(falls)), Some(high.max(falls))]
         }
         // What it bore before it was given up.
-        Outcome::NotConverged { at: at @ (Level::Tilt(_) | Level::Multiplier(_)), .. } => {
-            [Some(in_unit(at.value())), None]
-        }
+        Outcome::NotConverged {
+            at: at @ (Level::Tilt(_) | Level::Multiplier(_) | Level::Height(_) | Level::Factor(_)),
+            ..
+        } => [Some(in_unit(at.value())), None],
         Outcome::NotConverged { .. } => [Some(0.0), None],
         Outcome::NonFinite { .. } | Outcome::InvalidGeometry { .. } => [None, None],
     }

@@ -16,9 +16,7 @@ use crate::verb::analyse::ask::{Analyse, Growing};
 use crate::verb::analyse::fall::Fall;
 use crate::verb::analyse::known::Known;
 use crate::verb::analyse::loads::loaded;
-use crate::verb::analyse::solve::{
-    BRACKET, BRACKET_DEG, BRACKET_M, LARGEST_FACTOR, LARGEST_MULTIPLIER, LARGEST_TILT_DEG, law, solve_seen_by,
-};
+use crate::verb::analyse::solve::{BRACKET, BRACKET_DEG, BRACKET_M, law, solve_seen_by};
 use crate::verb::analyse::state::{Found, State};
 use crate::verb::analyse::uncertainty::{Answered, AskedOfWall, Ended, UncertaintySummary};
 use crate::verb::analyse::worst::bears;
@@ -150,7 +148,7 @@ impl Given<'_> {
     fn came(&self, wall: &Wall, answer: &Answer, found: &Found) -> Came {
         let observed = match (&answer.outcome, bears(&answer.outcome)) {
             (_, Some(load)) => Observed::Value(load),
-            (Outcome::Equilibrium | Outcome::Unbounded, _) => Observed::Above(self.largest(answer)),
+            (Outcome::Equilibrium | Outcome::Unbounded, _) => Observed::Above(answer.largest(self.arguments)),
             _ => Observed::Nothing,
         };
         let fall = Fall::of(&State::of(wall, &self.fit.contact, found), &answer.moving);
@@ -172,15 +170,6 @@ impl Given<'_> {
                 Some("of rigid blocks with dry joints all forces grow with the weight".to_owned())
             }
             _ => None,
-        }
-    }
-
-    fn largest(&self, answer: &Answer) -> f64 {
-        match self.arguments.growing() {
-            Growing::Tilt => LARGEST_TILT_DEG,
-            Growing::Lateral => LARGEST_MULTIPLIER,
-            Growing::Height => answer.held.map_or(0.0, |held| held.back),
-            Growing::Factor => LARGEST_FACTOR,
         }
     }
 
