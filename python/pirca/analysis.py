@@ -78,6 +78,18 @@ def analyse(
     vertical: float | None = None,
     dead_load: Mapping[int, float] | None = None,
     settle: Mapping[int, float] | None = None,
+    fill_density: float | None = None,
+    fill_phi_deg: float | None = None,
+    wall_friction: float | None = None,
+    fill_slope_deg: float | None = None,
+    surcharge_pa: float | None = None,
+    undrained: bool = False,
+    pressure_pa: float | None = None,
+    base_over_top: float | None = None,
+    crest_force: float | None = None,
+    crest_at: str | None = None,
+    crest_line: float | None = None,
+    crest_down_deg: float | None = None,
     kn: Known | None = None,
     ks: float | None = None,
     cohesion: float | None = None,
@@ -133,12 +145,20 @@ def analyse(
         Unit of the coordinates of blocks, or of an OBJ file; "m" without it.
     solver : {"limit", "implicit", "explicit", "nonsmooth"}
         Limit analysis of rigid blocks, elastic joints, which need `kn`, or contact dynamics of rigid blocks.
-    load : {"tilt", "lateral", "base-motion"}
-        Gravity turns towards the direction, a multiple of the weight pushes there, or the ground moves as `record` says.
+    load : {"tilt", "lateral", "base-motion", "fill", "water", "pressure", "point"}
+        Gravity turns towards the direction, a multiple of the weight pushes there, the ground moves as `record` says, fill or water
+        rises behind the wall, or a pressure on its back or a load on its crest grows.
     direction : str or float, optional
         "x+", "x-", "y+", "y-", or an angle (deg) from x+ seen from above; "y+" without it.
     dead_load, settle : dict, optional
         Weights (N) on blocks, and ways (m) that supports go down, by the id of the block.
+    fill_density, fill_phi_deg, wall_friction, fill_slope_deg, surcharge_pa, undrained : optional
+        The fill of `load="fill"`: density (kg/m^3), friction angle (deg), its share on the back of the wall, slope of the surface
+        (deg), weight on it (Pa), and whether water stands in it.
+    pressure_pa, base_over_top : float, optional
+        Of `load="pressure"`: the mean pressure (Pa), and that at the base over that at the top.
+    crest_force, crest_at, crest_line, crest_down_deg : optional
+        Of `load="point"`: a force (N) and where it acts ("1.2m"), or a force per length (N/m), and by how much it points down (deg).
     kn, ks : optional
         Normal and shear stiffness of the joints per area (Pa/m); ks is kn / 2 without it.
     worst_direction, vertical, cohesion, flow, step_deg, touch_tolerance, flatness, mend, parts, thickness
@@ -192,6 +212,18 @@ def analyse(
         "vertical": vertical,
         "dead_load": dead_load,
         "settle": settle,
+        "fill_density": fill_density,
+        "fill_phi_deg": fill_phi_deg,
+        "wall_friction": wall_friction,
+        "fill_slope_deg": fill_slope_deg,
+        "surcharge_pa": surcharge_pa,
+        "undrained": undrained,
+        "pressure_pa": pressure_pa,
+        "base_over_top": base_over_top,
+        "crest_force": crest_force,
+        "crest_at": crest_at,
+        "crest_line": crest_line,
+        "crest_down_deg": crest_down_deg,
         "kn": kn,
         "ks": ks,
         "cohesion": cohesion,
