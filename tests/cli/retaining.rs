@@ -196,7 +196,8 @@ fn a_study_finds_the_height_at_which_its_walls_fall() {
         close(&arm["mean"], known, within);
     };
     height("seed = 1", "seed = 1", 2e-3);
-    height("name = \"limit\"", "name = \"implicit\"\n", 0.03);
+    // Elastic joints sink at the toe, so that the stack leans before it falls: at 1e9 Pa/m some 4 % earlier.
+    height("name = \"limit\"", "name = \"implicit\"\n", 0.06);
     let (text, _, _folder) =
         of_study(&["run", "mine", "--out", "out"], "fill_phi_deg = 30", "fill_phi_deg = 45");
     assert!(text.contains("1 stood to the end of the load path"), "{text}");
