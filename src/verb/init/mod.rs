@@ -28,7 +28,7 @@ Example: pirca init my-wall
          pirca init my-tests --from tilting-table
          pirca init my-tests.csv --measured studies/tilting-table --wide
 
-Built in are arrangements, bearing, dry-shear-walls, earthquake, edge-restraint, element-types, homogenisation, joint-arrangement, \
+Built in are arrangements, bearing, dry-shear-walls, earthquake, edge-restraint, element-types, homogenisation, joint-arrangement, retaining, \
 sources-of-scatter, tilting-block and tilting-table. A folder that exists is left alone: choose another name. \
 With --measured it writes an empty table for a spreadsheet, for measurements on the arms of a study; `pirca check --measured` reads it.
 
