@@ -3,13 +3,13 @@
 
 use std::cell::OnceCell;
 
-use crate::math::Vec3;
 use crate::protocol::mechanism::{Failure, failure};
+use crate::protocol::undecided::loads;
 use crate::protocol::watch::{LoadStep, Watch};
 use crate::protocol::{Changes, Task};
 use crate::solve::bodies::Bodies;
 use crate::solve::explicit::{self, Simulation};
-use crate::solve::limit::{self, Analysis, Loads, PointLoad, When};
+use crate::solve::limit::{self, Analysis};
 use crate::solve::{Assembly, Equilibrate, Status, nonsmooth};
 
 /// A wall that has come back to this share of how far it had gone swings about an equilibrium.
@@ -173,7 +173,7 @@ impl<'t, 'a> Judge<'t, 'a> {
 
     /// How the wall falls at a level where limit analysis finds that it cannot stand.
     pub(super) fn cannot_stand(&self, from: &Assembly<'a>, level: f64, watch: &Watch) -> Option<Fall<'a>> {
-        let stands = |analysis: &Analysis, level: f64| analysis.stands(&self.loads(level));
+        let stands = |analysis: &Analysis, level: f64| analysis.stands(&loads(self.task, level));
         let rigid = self.rigid.get_or_init(|| {
             let Task { wall, laws, contact, .. } = *self.task;
             // The bound is that of the wall with all its blocks where they were built.
@@ -197,18 +197,6 @@ impl<'t, 'a> Judge<'t, 'a> {
             body.place(&here, &(motion.velocity * limit), &(motion.spin * limit));
         }
         Some(Fall { by_bound: true, ..self.fall(from, away, watch, level, f64::NAN) })
-    }
-
-    /// The loads of a level for limit analysis.
-    fn loads(&self, level: f64) -> Loads {
-        let (gravity, factor) = self.task.path.loads(level);
-        let points = self.task.loads.iter().map(|load| PointLoad {
-            block: load.block,
-            point: load.point,
-            force: load.force * factor,
-            when: When::Dead,
-        });
-        Loads { dead: gravity, live: Vec3::zeros(), points: points.collect() }
     }
 
     /// A wall that has run away since it was at rest.

@@ -4,7 +4,6 @@
 use crate::model::{Level, Outcome};
 use crate::protocol::back::back_to_0;
 use crate::protocol::confirm::{Fall, Judge, Told, watch_fall};
-use crate::protocol::events::Events;
 use crate::protocol::fallen::has_fallen;
 use crate::protocol::kept::keeps_contacts;
 use crate::protocol::mechanism::{Failure, failure, joint_states};
@@ -162,19 +161,14 @@ fn climb_seen_by<'a, S: Equilibrate<'a>>(
     if let Some([last, failed]) = bracket {
         witness.falls(task, assembly, (last, failed), &climber.watch);
     }
+    let (now, built) = (&assembly.bodies.all, &climber.built.bodies);
+    let moved = [displacements(now, &built.all, built), turns(now, &built.all, built)];
     Run {
-        outcome,
         bracket,
-        steps: climber.steps,
-        displacements: displacements(&assembly.bodies.all, &climber.built.bodies.all, &climber.built.bodies),
-        turns: turns(&assembly.bodies.all, &climber.built.bodies.all, &climber.built.bodies),
-        joints,
         failure,
-        events: Events::default(),
         joint_states: joint_states(assembly, &at_rest),
         settled_joints,
-        shear: None,
-        undecided: None,
+        ..Run::ended(outcome, climber.steps, moved, joints)
     }
 }
 
@@ -584,19 +578,8 @@ impl<'a, S: Equilibrate<'a>> Climber<'_, 'a, S> {
             }
             None => (Outcome::UnstableAtRest, self.built.bodies.all.clone(), None),
         };
-        Run {
-            outcome,
-            bracket: None,
-            steps: self.steps,
-            displacements: displacements(&bodies, &self.built.bodies.all, &self.built.bodies),
-            turns: turns(&bodies, &self.built.bodies.all, &self.built.bodies),
-            joints,
-            failure,
-            events: Events::default(),
-            joint_states: Vec::new(),
-            settled_joints: Vec::new(),
-            shear: None,
-            undecided: None,
-        }
+        let built = &self.built.bodies;
+        let moved = [displacements(&bodies, &built.all, built), turns(&bodies, &built.all, built)];
+        Run { failure, ..Run::ended(outcome, self.steps, moved, joints) }
     }
 }

@@ -58,8 +58,10 @@ pub use piles::pile_thicknesses;
 pub use pressure::{Load, back_loads, trapezoid};
 pub use recorder::Recorder;
 pub use retaining::{
-    Behind, Fill, Highest, Lifts, NoBack, Retained, Retaining, WATER, Wedge, highest, left_open_at, raise,
+    Behind, Fill, Highest, Lifts, NoBack, NoFill, Retained, Retaining, WATER, Wedge, highest, left_open_at,
+    raise,
 };
+pub use rigid::borne;
 pub use ropes::ropes;
 pub use run::{Way, run, run_changing, run_seen_by};
 pub use settings::{

@@ -5,6 +5,7 @@ use crate::model::Wall;
 use crate::protocol::faces::{Face, faces_against};
 use crate::protocol::observe::extent;
 use crate::protocol::{Direction, Lateral};
+use crate::solve::limit::{PointLoad, When};
 
 /// A force (N) at a point (m) of a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,6 +16,13 @@ pub struct Load {
     pub point: Vec3,
     /// The force.
     pub force: Vec3,
+}
+
+impl Load {
+    /// The same for limit analysis, there from the start or growing with the multiplier.
+    pub fn when(&self, when: When) -> PointLoad {
+        PointLoad { block: self.block, point: self.point, force: self.force, when }
+    }
 }
 
 /// The pressure on every face that looks backwards (-y) with no stone behind its middle, towards +y.

@@ -4,13 +4,12 @@ use crate::contact;
 use crate::math::{Vec3, cos};
 use crate::model::{JointLaws, Level, Outcome, Wall};
 use crate::protocol::amplified::amplified;
-use crate::protocol::events::Events;
 use crate::protocol::mechanism::{Failure, failure};
 use crate::protocol::path::Growing;
 use crate::protocol::pressure::Load;
 use crate::protocol::watch::LoadStep;
 use crate::protocol::{Run, Task, Witness, undecided};
-use crate::solve::limit::{Analysis, BlockMotion, Limit, Loads, PointLoad, Settings, When};
+use crate::solve::limit::{Analysis, BlockMotion, Limit, Loads, Settings, When};
 use crate::solve::{Assembly, Tie};
 
 /// How far (share of the wall's thickness) the fastest corner is moved along the mechanism for its shape to be read off.
@@ -36,11 +35,8 @@ impl Rigid<'_> {
 }
 
 /// What an analysis finds of a load that grows.
-pub(super) fn borne(analysis: &Analysis, growing: Growing, loads: &[Load]) -> Limit {
-    let points = |when| {
-        let of = |load: &Load| PointLoad { block: load.block, point: load.point, force: load.force, when };
-        loads.iter().map(of).collect::<Vec<_>>()
-    };
+pub fn borne(analysis: &Analysis, growing: Growing, loads: &[Load]) -> Limit {
+    let points = |when| loads.iter().map(|load| load.when(when)).collect::<Vec<_>>();
     match growing {
         Growing::Tilt(towards) => analysis.tilt(towards.unit(), &points(When::Dead)),
         Growing::Factor | Growing::Drift => {
@@ -131,19 +127,11 @@ impl Found<'_> {
             let at = (last.unwrap_or(rest), scale);
             recorder.takes(amplified((task.wall, &task.contact), limit, at, fell));
         }
+        let still = vec![Vec3::zeros(); task.wall.blocks.len()];
         Run {
             bracket: last.filter(|_| falls).map(|at| [at.value(); 2]),
             failure: fell.then(|| failure_by(task, &limit.mechanism)).flatten(),
-            outcome,
-            steps,
-            displacements: vec![Vec3::zeros(); task.wall.blocks.len()],
-            turns: vec![Vec3::zeros(); task.wall.blocks.len()],
-            joints,
-            events: Events::default(),
-            joint_states: Vec::new(),
-            settled_joints: Vec::new(),
-            shear: None,
-            undecided: None,
+            ..Run::ended(outcome, steps, [still.clone(), still], joints)
         }
     }
 }

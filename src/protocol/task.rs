@@ -95,6 +95,31 @@ pub struct Run {
     pub undecided: Option<Undecided>,
 }
 
+impl Run {
+    /// A run of a wall with so many joints that ended so after these steps, each block displaced and turned by so much. Of all else nothing is known.
+    pub(super) fn ended(
+        outcome: Outcome,
+        steps: Vec<LoadStep>,
+        [displacements, turns]: [Vec<Vec3>; 2],
+        joints: usize,
+    ) -> Run {
+        Run {
+            outcome,
+            bracket: None,
+            steps,
+            displacements,
+            turns,
+            joints,
+            failure: None,
+            events: Events::default(),
+            joint_states: Vec::new(),
+            settled_joints: Vec::new(),
+            shear: None,
+            undecided: None,
+        }
+    }
+}
+
 impl<'t> Task<'t> {
     /// The same wall under other loads along another path.
     pub(super) fn under(&self, loads: Vec<Load>, path: LoadPath) -> Task<'t> {

@@ -1,7 +1,6 @@
 //! The tilting table: the platform turns about its edge towards a side, in steps or steadily.
 
 use crate::model::Outcome;
-use crate::protocol::events::Events;
 use crate::protocol::fallen::has_fallen;
 use crate::protocol::mechanism::joint_states;
 use crate::protocol::path::LoadPath;
@@ -38,19 +37,11 @@ pub fn turn(task: &Task<'_>, turning: &Turning, at_rest: Settings, witness: Witn
     let mut watch = Watch::new(task, &built.bodies);
     let mut level = Simulation::of(built.clone(), at_rest);
     let settled = level.settle(&mut |bodies| watch.runs_away(bodies));
-    let run = |outcome, steps, assembly: &Assembly<'_>| Run {
-        outcome,
-        bracket: None,
-        steps,
-        displacements: displacements(&assembly.bodies.all, &built.bodies.all, &built.bodies),
-        turns: turns(&assembly.bodies.all, &built.bodies.all, &built.bodies),
-        joints,
-        failure: None,
-        events: Events::default(),
-        joint_states: Vec::new(),
-        settled_joints: Vec::new(),
-        shear: None,
-        undecided: None,
+    let run = |outcome, steps, assembly: &Assembly<'_>| {
+        let now = &assembly.bodies.all;
+        let (before, bodies) = (&built.bodies.all, &built.bodies);
+        let moved = [displacements(now, before, bodies), turns(now, before, bodies)];
+        Run::ended(outcome, steps, moved, joints)
     };
     let at = task.path.level(0.0);
     let unbalanced_ratio = settled.unbalanced_ratio;

@@ -14,9 +14,9 @@ use crate::protocol::drive::drive;
 use crate::protocol::path::{Growing, LoadPath};
 use crate::protocol::retaining::{Behind, Lifts, raise};
 use crate::protocol::rigid::{borne, level};
-use crate::protocol::{Changes, Run, Task, Witness};
+use crate::protocol::{Changes, Load, Run, Task, Witness};
 use crate::solve::implicit::{self, Equilibrium};
-use crate::solve::limit::{Analysis, Flow, Loads, PointLoad, Settings, When, is_upright};
+use crate::solve::limit::{Analysis, Flow, Loads, Settings, When, is_upright};
 use crate::solve::{Assembly, Equilibrate, STANDARD_GRAVITY, Solver, Status, Tie};
 
 /// A wall whose stiff joints bear this share of what rigid statics finds is decided.
@@ -226,12 +226,7 @@ fn side_thrust(assembly: &Assembly<'_>) -> f64 {
 /// The loads of a level for limit analysis.
 pub(super) fn loads(task: &Task<'_>, level: f64) -> Loads {
     let (gravity, factor) = task.path.loads(level);
-    let points = task.loads.iter().map(|load| PointLoad {
-        block: load.block,
-        point: load.point,
-        force: load.force * factor,
-        when: When::Dead,
-    });
+    let points = task.loads.iter().map(|load| Load { force: load.force * factor, ..*load }.when(When::Dead));
     Loads { dead: gravity, live: Vec3::zeros(), points: points.collect() }
 }
 

@@ -2,8 +2,8 @@
 
 use crate::math::radians;
 use crate::protocol::{
-    BaseMotion, Direction, Ends, EventShares, Fill, History, Lateral, Lifts, Protocol, Rate, Retained,
-    Retaining, Shear, Tilting, Turning, WATER,
+    BaseMotion, Direction, Ends, EventShares, Fill, History, Lateral, Lifts, NoFill, Protocol, Rate,
+    Retained, Retaining, Shear, Tilting, Turning, WATER,
 };
 use crate::random::{Design, RANDOMISATIONS};
 use crate::solve::explicit::Rayleigh;
@@ -290,17 +290,20 @@ fn retained(t: &mut Reader<'_>) -> Option<Retained> {
     let [wall_friction, slope, surcharge] = [MORE[0], MORE[1], MORE[2]].map(&mut or_none);
     let (wall_friction, slope, surcharge) = (wall_friction?, slope?, surcharge?);
     let drained = if t.has("drained") { t.flag("drained")? } else { true };
-    if slope > phi {
-        t.fault("fill_slope_deg", "at most fill_phi_deg: no soil without cohesion lies steeper", "lower it");
-        return None;
-    }
-    if !drained && density <= WATER {
-        let allowed = "above that of water, 1000, where drained = false: soil with its pores full of water";
-        t.fault("fill_density_kg_per_m3", allowed, "raise it, or remove drained");
-        return None;
-    }
-    let (phi, slope) = (radians(phi), radians(slope));
-    Some(Retained::Fill(Fill { density, phi, wall_friction, slope, surcharge, drained }))
+    let fill = Fill { density, phi: radians(phi), wall_friction, slope: radians(slope), surcharge, drained };
+    let (key, allowed, fix) = match fill.wrong() {
+        None => return Some(Retained::Fill(fill)),
+        Some(NoFill::TooSteep) => {
+            ("fill_slope_deg", "at most fill_phi_deg: no soil without cohesion lies steeper", "lower it")
+        }
+        Some(NoFill::TooLight) => (
+            "fill_density_kg_per_m3",
+            "above that of water, 1000, where drained = false: soil with its pores full of water",
+            "raise it, or remove drained",
+        ),
+    };
+    t.fault(key, allowed, fix);
+    None
 }
 
 /// Percents end here.

@@ -16,7 +16,7 @@ const NOT_SHOWN: u8 = 4;
 /// What walls must bear, and whether the exit code says so.
 #[derive(Args, Clone, Debug, Default)]
 #[command(next_help_heading = "Demand")]
-pub(crate) struct Demanded {
+pub(crate) struct DemandOptions {
     /// What a wall must bear: a tilt (8.5deg), a share of its weight (0.15g), a force (12kN), a multiple of the full load (1.2); or how far it may
     /// move (4mm). The answer says whether it does, by how much, and which share of walls fails.
     #[arg(long, value_name = "VALUE", value_parser = demand, allow_negative_numbers = true)]
@@ -27,7 +27,12 @@ pub(crate) struct Demanded {
     pub assert: Option<f64>,
 }
 
-impl Demanded {
+impl DemandOptions {
+    /// The demand as it was stated; empty where there is none.
+    pub fn stated(&self) -> String {
+        self.demand.as_ref().map_or_else(String::new, |own| own.stated.clone())
+    }
+
     /// The study with what its walls must bear, which must be of what it observes.
     pub fn of(&self, study: Study) -> Result<Study, Failure> {
         let Some(demand) = self.demand.clone() else { return Ok(study) };

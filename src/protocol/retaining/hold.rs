@@ -2,7 +2,6 @@
 
 use crate::math::Vec3;
 use crate::model::{Level, Outcome};
-use crate::protocol::events::Events;
 use crate::protocol::path::LoadPath;
 use crate::protocol::retaining::behind::Behind;
 use crate::protocol::retaining::lifts::raise;
@@ -78,18 +77,6 @@ pub fn left_open_at(
 
 /// The run of a wall that nothing can press on.
 fn without_back(task: &Task<'_>, reason: String) -> Run {
-    Run {
-        outcome: Outcome::InvalidGeometry { reason },
-        bracket: None,
-        steps: Vec::new(),
-        displacements: vec![Vec3::zeros(); task.wall.blocks.len()],
-        turns: vec![Vec3::zeros(); task.wall.blocks.len()],
-        joints: 0,
-        failure: None,
-        events: Events::default(),
-        joint_states: Vec::new(),
-        settled_joints: Vec::new(),
-        shear: None,
-        undecided: None,
-    }
+    let still = vec![Vec3::zeros(); task.wall.blocks.len()];
+    Run::ended(Outcome::InvalidGeometry { reason }, Vec::new(), [still.clone(), still], 0)
 }

@@ -9,7 +9,7 @@ use crate::math::{Vec3, cbrt};
 use crate::model::{Level, Outcome};
 use crate::protocol::retaining::behind::Behind;
 use crate::protocol::retaining::settings::Lifts;
-use crate::solve::limit::{Analysis, Limit, Loads, PointLoad, When};
+use crate::solve::limit::{Analysis, Limit, Loads, When};
 
 /// Heights that are looked at most between two lifts.
 const PATIENCE: u32 = 60;
@@ -107,14 +107,8 @@ fn tried(analysis: &Analysis, behind: &Behind, height: f64) -> Tried {
 }
 
 fn loads(behind: &Behind, height: f64) -> Loads {
-    let of = |load: crate::protocol::Load| PointLoad {
-        block: load.block,
-        point: load.point,
-        force: load.force,
-        when: When::Live,
-    };
     Loads {
-        points: behind.loads(height).into_iter().map(of).collect(),
+        points: behind.loads(height).iter().map(|load| load.when(When::Live)).collect(),
         live: Vec3::zeros(),
         ..Loads::weight()
     }

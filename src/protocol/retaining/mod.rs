@@ -17,6 +17,6 @@ pub(super) use hold::hold;
 pub use hold::left_open_at;
 pub use lifts::raise;
 pub use limit::{Highest, highest};
-pub use retained::{Fill, Retained, WATER};
+pub use retained::{Fill, NoFill, Retained, WATER};
 pub use settings::{Lifts, Retaining};
 pub use wedge::Wedge;

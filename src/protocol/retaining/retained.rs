@@ -74,17 +74,26 @@ impl Retained {
             }
         }
     }
+}
 
-    /// What it is, in a word.
-    pub fn word(&self) -> &'static str {
-        match self {
-            Retained::Fill(_) => "fill",
-            Retained::Water(_) => "water",
-        }
-    }
+/// Why there is no such fill.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoFill {
+    /// Its surface is steeper than its friction angle: no soil without cohesion lies so.
+    TooSteep,
+    /// It is full of water, and no heavier than water.
+    TooLight,
 }
 
 impl Fill {
+    /// Why there is no such fill, where there is none.
+    pub fn wrong(&self) -> Option<NoFill> {
+        if self.slope > self.phi {
+            return Some(NoFill::TooSteep);
+        }
+        (!self.drained && self.density <= WATER).then_some(NoFill::TooLight)
+    }
+
     /// Angle of friction (rad) on the back of the wall.
     pub fn delta(&self) -> f64 {
         self.wall_friction * self.phi

@@ -1,7 +1,6 @@
 //! The loop over the way of the jack.
 
 use crate::model::{Level, Outcome};
-use crate::protocol::events::Events;
 use crate::protocol::mechanism::{Failure, FailureMode, failure, joint_states};
 use crate::protocol::observe::{extent, movable};
 use crate::protocol::shear::readings::{ShearMode, Sheared};
@@ -186,19 +185,13 @@ pub fn push(task: &Task<'_>, shear: &Shear, begin: Begin, witness: Witness<'_>) 
     });
     let opening = states.iter().fold(0.0, |widest: f64, joint| widest.max(joint.opening));
     let read = moved.as_ref().and_then(|_| Sheared::of(&test.steps, shear.force_height, mode, opening));
+    let after = &now.bodies.all;
+    let moved_by = [displacements(after, &before.all, before), turns(after, &before.all, before)];
     Run {
-        outcome: outcome.unwrap_or(Outcome::Equilibrium),
-        bracket: None,
-        steps: test.steps,
-        displacements: displacements(&now.bodies.all, &before.all, before),
-        turns: turns(&now.bodies.all, &before.all, before),
-        joints,
         failure: moved,
-        events: Events::default(),
         joint_states: states,
-        settled_joints: Vec::new(),
         shear: read,
-        undecided: None,
+        ..Run::ended(outcome.unwrap_or(Outcome::Equilibrium), test.steps, moved_by, joints)
     }
 }
 

@@ -11,7 +11,7 @@ use crate::verb::analyse::held::ask::Behind;
 use crate::verb::analyse::known::Known;
 use crate::verb::analyse::{known, numbers};
 use crate::verb::arguments::{FILE, JOINTS, LOAD, OUTPUT, SOLUTION, SolverName, names};
-use crate::verb::demand::Demanded;
+use crate::verb::demand::DemandOptions;
 use crate::verb::question;
 use crate::verb::run::page::PAGE;
 use crate::verb::wall::drawn::Measure;
@@ -166,7 +166,7 @@ pub(crate) struct Analyse {
     )]
     pub settlements: Vec<(u64, f64)>,
     #[command(flatten)]
-    pub demanded: Demanded,
+    pub demanded: DemandOptions,
     #[command(flatten)]
     pub behind: Behind,
     /// Friction angle of the joints (deg), 0 to 89: a number, a range 30..38, or a distribution as normal(34,2). The default is the range of published

@@ -55,14 +55,13 @@ pub(crate) fn level(asked: &Analyse, demand: &Demand) -> Result<f64, Failure> {
 }
 
 impl Demanded {
-    /// Of the answer with how the wall falls, and of all walls over the ranges; `None` where nothing is demanded.
+    /// Of a demand at a [`level`], the answer with how the wall falls, and all walls over the ranges.
     pub fn of(
         asked: &Analyse,
+        level: f64,
         (answer, fall): (&Answer, Option<Fall>),
         sure: Option<&UncertaintySummary>,
-    ) -> Result<Option<Demanded>, Failure> {
-        let Some(demand) = &asked.demanded.demand else { return Ok(None) };
-        let level = level(asked, demand)?;
+    ) -> Demanded {
         let [least, most] = borne(asked, answer);
         let met = match (least, most) {
             (Some(least), _) if least > level => Met::Bears,
@@ -77,15 +76,15 @@ impl Demanded {
             Over { interval: sure.answer.interval, failing }
         });
         let dilates = asked.solver() == SolverName::Limit && asked.flow != Some(FlowName::NonAssociative);
-        Ok(Some(Demanded {
-            stated: demand.stated.clone(),
+        Demanded {
+            stated: asked.demanded.stated(),
             level,
             units: [open::unit_in_words(asked), open::unit(asked)],
             bears: least.filter(|own| own.is_finite()),
             met,
             is_upper_bound: dilates && fall.is_none(),
             over,
-        }))
+        }
     }
 
     /// The share of walls that is shown with 95 % confidence not to be exceeded: of a single wall none, or all.

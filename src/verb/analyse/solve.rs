@@ -5,7 +5,7 @@ use crate::math::{atan, cos, radians, tan};
 use crate::model::{Level, Outcome, Wall};
 use crate::protocol::{
     self, Behind, Changes, Confirmation, Criterion, Lifts, LoadPath, Recorder, Settlement, Task, Witness,
-    amplified, drive_seen_by, highest, raise,
+    amplified, borne, drive_seen_by, highest, raise,
 };
 use crate::solve::implicit::Equilibrium;
 use crate::solve::{Equilibrate, Solver, explicit, implicit, limit, nonsmooth};
@@ -203,7 +203,7 @@ fn by_limit_analysis(
         Growing::Lateral => {
             analysis.multiplier(&limit::Loads::seismic(direction, arguments.vertical.unwrap_or(0.0)))
         }
-        Growing::Factor => analysis.multiplier(&live(factored(arguments, wall))),
+        Growing::Factor => borne(&analysis, protocol::Growing::Factor, &factored(arguments, wall)),
         Growing::Height => match &behind {
             Some(behind) => {
                 let highest = highest(&analysis, behind, Lifts::default());
@@ -249,17 +249,6 @@ fn by_limit_analysis(
         outcome: found.outcome.clone(),
     };
     (answer, Found::Limit { found: Box::new(found), falls, scale })
-}
-
-/// Loads that grow beside the weight.
-fn live(loads: Vec<protocol::Load>) -> limit::Loads {
-    let of = |load: protocol::Load| limit::PointLoad {
-        block: load.block,
-        point: load.point,
-        force: load.force,
-        when: limit::When::Live,
-    };
-    limit::Loads { points: loads.into_iter().map(of).collect(), ..limit::Loads::weight() }
 }
 
 fn held(behind: &Behind, margin: Option<f64>) -> Held {

@@ -44,8 +44,8 @@ const PRESTRESS: f64 = 0.1;
 /// Solves a wall from a file.
 pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
     let begun = Instant::now();
-    let mut warnings = asked_in_vain(arguments)?;
     let arguments = &with_usual_stiffness(arguments);
+    let mut warnings = asked_in_vain(arguments)?;
     warnings.extend(usual(arguments));
     let (read, fit, done) = match read(arguments) {
         Ok(found) => found,
@@ -65,9 +65,7 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
     warnings.extend(fit.warnings.iter().cloned());
     warnings.extend(prestress(arguments, &file.wall, &fit));
     let law = law(arguments);
-    if let Some(demand) = &arguments.demanded.demand {
-        demand::level(arguments, demand)?;
-    }
+    let demand = arguments.demanded.demand.as_ref().map(|own| demand::level(arguments, own)).transpose()?;
     if arguments.load == LoadName::BaseMotion {
         return shaken(arguments, &file, (&law, &fit), warnings, begun);
     }
@@ -90,10 +88,9 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
     warnings.extend(others.as_ref().and_then(Opinions::warning));
     let given = Given { arguments, file: &read, fit: &fit, settlements: &settlements };
     let sure = given.how_sure(asked(arguments), (&file.wall, &answer, &found))?;
-    let is_demanded = arguments.demanded.demand.is_some();
-    let fall = || Fall::of(&State::of(&file.wall, &fit.contact, &found), &answer.moving);
-    let fall = if is_demanded { fall() } else { None };
-    let demanded = Demanded::of(arguments, (&answer, fall), sure.as_ref())?;
+    let state = (is_seen || demand.is_some()).then(|| State::of(&file.wall, &fit.contact, &found));
+    let fall = state.as_ref().and_then(|state| Fall::of(state, &answer.moving));
+    let demanded = demand.map(|level| Demanded::of(arguments, level, (&answer, fall), sure.as_ref()));
     let seconds = begun.elapsed().as_secs_f64();
     if let Some(path) = &arguments.fclib {
         fclib::write(path, arguments, &file, (&law, &fit), &answer)?;
@@ -136,18 +133,10 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
             None => format!("  it falls in none of {} directions that were tried\n", directions.len()),
         };
     }
-    if is_seen {
+    if let Some(state) = state.as_ref().filter(|_| is_seen) {
         let replay = recorder.map(|own| own.replay(file.wall.blocks.len())).unwrap_or_default();
-        let state = State::of(&file.wall, &fit.contact, &found);
         let told = Told { text: &text, warnings: &warnings, mended: done.as_ref() };
-        let of = Seen {
-            asked: arguments,
-            file: &file,
-            fit: &fit,
-            answer: &answer,
-            state: &state,
-            replay: &replay,
-        };
+        let of = Seen { asked: arguments, file: &file, fit: &fit, answer: &answer, state, replay: &replay };
         if let Some(folder) = &arguments.out {
             files::write(folder, &of, &object, &told)?;
             let written = sure.as_ref().map_or(Ok(()), |sure| write_uncertainty(sure, folder));
@@ -282,9 +271,7 @@ fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
                 .to_owned(),
         ));
     }
-    // What implicit answers alone is known over a range of stiffnesses; that of several solvers is compared at one.
-    let has_usual = arguments.solvers == [SolverName::Implicit];
-    if let Some(elastic) = elastic.filter(|_| arguments.kn.is_none() && !has_usual) {
+    if let Some(elastic) = elastic.filter(|_| arguments.kn.is_none()) {
         return Err(Failure::Usage(format!(
             "--kn PA_PER_M is required for the {} solver: the normal stiffness of the joints per area, for example --kn 1e9; --solver limit and nonsmooth need none",
             elastic.name()
@@ -333,7 +320,8 @@ fn read_in_vain(arguments: &Analyse) -> Result<(), Failure> {
     }
 }
 
-/// The arguments, of elastic joints with a range of stiffnesses where none is stated.
+/// The arguments, with a range of stiffnesses where implicit answers alone and none is stated: several solvers are compared at one, and runs of explicit
+/// take too long for a range.
 fn with_usual_stiffness(arguments: &Analyse) -> Analyse {
     let is_open = arguments.kn.is_none() && arguments.solvers == [SolverName::Implicit];
     let usual = || known::stiffness(USUAL_STIFFNESS).ok();

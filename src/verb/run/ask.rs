@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::verb::arguments::{Ensemble, OUTPUT, SOLUTION, SolverName, Which};
-use crate::verb::demand::Demanded;
+use crate::verb::demand::DemandOptions;
 
 /// Of `run`.
 pub(crate) const HELP: &str = concat!(
@@ -43,7 +43,7 @@ pub(crate) struct Run {
     #[arg(long, value_name = "DIR", help_heading = OUTPUT)]
     pub beside: Option<PathBuf>,
     #[command(flatten)]
-    pub demanded: Demanded,
+    pub demanded: DemandOptions,
     /// Write report.html into the output folder as well: the run on a page, as `report` does.
     #[arg(long, help_heading = OUTPUT)]
     pub report: bool,
@@ -63,7 +63,7 @@ impl Run {
             threads: None,
             solver: None,
             beside: None,
-            demanded: Demanded::default(),
+            demanded: DemandOptions::default(),
             csv: false,
             report: true,
         }

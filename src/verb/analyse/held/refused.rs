@@ -1,8 +1,9 @@
 //! What is asked in vain of a wall that holds something back, or is missing.
 
-use crate::protocol::WATER;
+use crate::protocol::{NoFill, Retained, WATER};
 use crate::terminal::failure::Failure;
 use crate::verb::analyse::ask::{Analyse, Growing, LoadName};
+use crate::verb::analyse::held::pressing::retained;
 
 /// Before the wall is read.
 pub(crate) fn refused(asked: &Analyse) -> Result<(), Failure> {
@@ -25,20 +26,19 @@ pub(crate) fn refused(asked: &Analyse) -> Result<(), Failure> {
     if !missing.is_empty() {
         return usage(format!("--load {load} needs {missing}"));
     }
-    if let (Some(slope), Some(phi)) = (behind.fill_slope_deg, behind.fill_phi_deg)
-        && slope > phi
+    if let Some(Retained::Fill(fill)) = retained(asked)
+        && let Some(wrong) = fill.wrong()
     {
-        return usage(format!(
-            "--fill-slope-deg {slope} is above --fill-phi-deg {phi}: no soil without cohesion lies steeper than its friction angle; give at most {phi}"
-        ));
-    }
-    if behind.undrained
-        && let Some(density) = behind.fill_density.filter(|density| *density <= WATER)
-    {
-        return usage(format!(
-            "--fill-density {density} with --undrained is that of soil full of water, which is heavier than water, {} kg/m^3: give it so, or leave --undrained out",
-            WATER
-        ));
+        let [slope, phi] = [behind.fill_slope_deg, behind.fill_phi_deg].map(Option::unwrap_or_default);
+        return usage(match wrong {
+            NoFill::TooSteep => format!(
+                "--fill-slope-deg {slope} is above --fill-phi-deg {phi}: no soil without cohesion lies steeper than its friction angle; give at most {phi}"
+            ),
+            NoFill::TooLight => format!(
+                "--fill-density {} with --undrained is that of soil full of water, which is heavier than water, {WATER} kg/m^3: give it so, or leave --undrained out",
+                fill.density
+            ),
+        });
     }
     if !matches!(asked.growing(), Growing::Height | Growing::Factor) {
         return Ok(());
