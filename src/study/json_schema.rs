@@ -6,6 +6,7 @@ use serde_json::{Map, Value, json};
 use crate::study::keys;
 use crate::study::schema::{Interval, Key, Kind, Presence, Section};
 use crate::study::setting::LAID_OVER;
+use crate::study::with_unit;
 
 /// The draft that editors for TOML read.
 const DRAFT: &str = "http://json-schema.org/draft-07/schema#";
@@ -214,14 +215,14 @@ fn values(kind: &Kind, below: Stated, definitions: &mut Definitions) -> Value {
             json!({ "anyOf": [whole(low, high), definitions.reference(rule, Stated::Whole)] })
         }
         Kind::Statistic => json!({ "type": "string", "pattern": "^(mean|sigma|quantile-[0-9.eE-]+)$" }),
-        Kind::Real { within, .. } => number(within),
-        Kind::Quantity { within, .. } => json!({
-            "anyOf": [number(within), reference(), definitions.reference(&keys::FAMILY, Stated::Whole)]
+        Kind::Real { unit, within } => written(unit, within),
+        Kind::Quantity { unit, within } => json!({
+            "anyOf": [written(unit, within), reference(), definitions.reference(&keys::FAMILY, Stated::Whole)]
         }),
         Kind::Distribution { .. } => {
             json!({ "anyOf": [reference(), definitions.reference(&keys::FAMILY, Stated::Whole)] })
         }
-        Kind::Reals { within, at_most, .. } => list(number(within), 1, at_most),
+        Kind::Reals { unit, within, at_most, .. } => list(written(unit, within), 1, at_most),
         Kind::Values { at_most } => json!({
             "anyOf": [list(number(Interval::any()), 1, at_most), { "type": "string", "pattern": "^[^:]+:[^:]+$" }]
         }),
@@ -254,6 +255,16 @@ fn name() -> Value {
     json!({ "type": "string", "pattern": "^[a-z0-9_-]{1,64}$" })
 }
 
+/// A number, or one with its unit; bounds hold for plain numbers, the program checks the others.
+fn written(unit: &str, within: Interval) -> Value {
+    let mut schema = number(within);
+    if let Some(pattern) = with_unit::pattern(unit) {
+        schema["type"] = json!(["number", "string"]);
+        schema["pattern"] = pattern.into();
+    }
+    schema
+}
+
 fn number(within: Interval) -> Value {
     let mut schema = json!({ "type": "number" });
     let mut bound = |value: f64, is_open: bool, open: &str, closed: &str| {
@@ -278,7 +289,10 @@ mod tests {
     fn a_key_says_what_it_means_what_is_allowed_and_its_default() {
         let schema = Schema::Study.json();
         let height = &schema["definitions"]["wall"]["properties"]["height_m"];
-        assert_eq!((&height["type"], &height["exclusiveMinimum"]), (&json!("number"), &json!(0.0)));
+        assert_eq!(
+            (&height["type"], &height["exclusiveMinimum"]),
+            (&json!(["number", "string"]), &json!(0.0))
+        );
         assert_eq!(height["description"], "Height. Allowed is a number above 0 and at most 1000 (m).");
         let wythes = &schema["definitions"]["wall"]["properties"]["wythes"];
         assert_eq!((&wythes["default"], &wythes["maximum"]), (&json!(1), &json!(10)));

@@ -45,6 +45,7 @@ mod sweep;
 mod uncertain;
 mod variant;
 mod wall_file;
+mod with_unit;
 
 pub use crate::random::Design;
 pub use angle::Angle;

@@ -10,6 +10,7 @@ use crate::study::raw::{Node, Value};
 use crate::study::reader::{Reader, join};
 use crate::study::schema::{Interval, Key, Kind, Short};
 use crate::study::survey::Asked;
+use crate::study::with_unit;
 
 /// A list of more values than this is recorded by its hash.
 const LONG: usize = 20;
@@ -28,6 +29,10 @@ pub fn quantity(reader: &mut Reader<'_>, name: &str, catalogue: &mut Catalogue) 
             return None;
         }
         Value::Whole(_) | Value::Real(_) => {
+            let value = reader.one_real(&node, key, within)?;
+            Family::Constant { value }
+        }
+        Value::Text(number) if with_unit::is_number(number) && matches!(key.kind, Kind::Quantity { .. }) => {
             let value = reader.one_real(&node, key, within)?;
             Family::Constant { value }
         }

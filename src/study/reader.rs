@@ -6,6 +6,7 @@ use crate::stats::Statistic;
 use crate::study::fault::{Fault, Found, Place};
 use crate::study::raw::{self, Node, Table, Value};
 use crate::study::schema::{Interval, Key, Kind, Presence, Section, Short, suggestion};
+use crate::study::with_unit;
 
 /// What came to light while reading.
 #[derive(Debug, Default)]
@@ -436,6 +437,20 @@ impl<'n> Reader<'n> {
         let x = match node.value {
             Value::Whole(whole) => whole as f64,
             Value::Real(real) => real,
+            Value::Text(ref text) => match with_unit::read(text, key.kind.unit()) {
+                Some(x) => x,
+                None => {
+                    let names = with_unit::names(key.kind.unit());
+                    let fix = match names.is_empty() {
+                        true => "write a plain number".to_owned(),
+                        false => {
+                            format!("write a number, or one with its unit in quotes: {}", names.join(", "))
+                        }
+                    };
+                    self.refuse(node, key, fix);
+                    return None;
+                }
+            },
             _ => {
                 self.refuse_kind(node, key);
                 return None;
@@ -465,13 +480,7 @@ impl<'n> Reader<'n> {
     /// Warns when a value lies outside the usual interval of its key.
     pub fn warn_if_unusual(&mut self, node: &Node, key: &Key, x: f64) {
         if let Some(usual) = key.usual.filter(|usual| !usual.contains(x)) {
-            let unit = match key.kind {
-                Kind::Real { unit, .. }
-                | Kind::Quantity { unit, .. }
-                | Kind::Distribution { unit, .. }
-                | Kind::Reals { unit, .. } => unit,
-                _ => "",
-            };
+            let unit = key.kind.unit();
             let path = join(&self.path, key.name);
             let allowed = format!("this, but usual is {usual} ({unit})");
             let fix = "check its magnitude and unit";

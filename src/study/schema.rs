@@ -314,6 +314,17 @@ impl Key {
 }
 
 impl Kind {
+    /// The unit of its numbers; empty where it has none.
+    pub fn unit(&self) -> &'static str {
+        match self {
+            Kind::Real { unit, .. }
+            | Kind::Quantity { unit, .. }
+            | Kind::Distribution { unit, .. }
+            | Kind::Reals { unit, .. } => unit,
+            _ => "",
+        }
+    }
+
     /// The keys of a table that may stand here.
     pub fn below(&self) -> Option<&'static Section> {
         match self {

@@ -54,6 +54,21 @@ fn a_variant_may_say_what_it_sets() {
     refused("joint.phi_deg=", &["cannot be read as TOML"]);
 }
 
+/// The study is the same, and so is its hash.
+#[test]
+fn a_number_may_carry_its_unit() {
+    let (plain, written) = (Scratch::new("plain-numbers"), Scratch::new("numbers-with-units"));
+    for (from, to) in [
+        ("phi_deg = 30", "phi_deg = \"30 deg\""),
+        ("height_m = 1.0", "height_m = \"100 cm\""),
+        ("length_m = 4.0", "length_m = \"4000mm\""),
+    ] {
+        written.replace(STUDY, from, to);
+    }
+    assert_eq!(hash(&plain, None), hash(&written, None));
+    assert_eq!(hash(&plain, Some("joint.phi_deg=32")), hash(&written, Some("joint.phi_deg=32deg")));
+}
+
 /// Where two change the same key the later one holds, and a warning says which.
 #[test]
 fn of_two_variants_that_change_one_key_the_later_one_holds_and_it_is_said() {
