@@ -109,6 +109,7 @@
 //! | [`solve`] | bodies, joints with history; the solvers `explicit`, `implicit`, `nonsmooth`, `limit`; `grains` for bodies made of spheres |
 //! | [`homogenise`] | a wall as a plate: cells of stones, their stiffness and their strength |
 //! | [`protocol`] | load paths (lateral, tilting, shear, retaining), base motion, restraint, what is observed, when a collapse is confirmed |
+//! | [`verify`] | local mechanisms checked as codes ask for it: spectra, capacity curves, limit states |
 //! | [`study`] | text to checked studies, every fault at once |
 //! | [`ensemble`] | plan, run in parallel, record, resume |
 //! | [`critic`] | measured beside simulated; the joint stiffness that measured collapse angles speak for |
@@ -144,3 +145,4 @@ pub mod stats;
 pub mod study;
 pub mod terminal;
 pub mod verb;
+pub mod verify;

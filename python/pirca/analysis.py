@@ -68,6 +68,7 @@ def analyse(
     *,
     phi_deg: Known | None = None,
     demand: str | None = None,
+    verify: str | Path | None = None,
     fixed: Collection[int] = (),
     density_kg_per_m3: float | Sequence[float] | None = None,
     unit: str | None = None,
@@ -137,6 +138,8 @@ def analyse(
         published joints of stone.
     demand : str, optional
         What the wall must bear, with its unit: "0.15g", "8.5deg". `answer["demand"]` says whether it does.
+    verify : path, optional
+        The file with a code, the ground and the place by which the wall's mechanism is checked. `answer["verification"]` has the checks.
     fixed : collection of int
         Ids of the blocks that are supports; of a file, besides those that it says are.
     density_kg_per_m3 : float or list of float, optional
@@ -205,6 +208,7 @@ def analyse(
     options: dict[str, Any] = {
         "phi_deg": phi_deg,
         "demand": demand,
+        "verify": verify,
         "solver": solver,
         "load": load,
         "direction": direction,

@@ -1,6 +1,6 @@
 //! A block: a rigid convex stone, a wedge, or a piece of the surroundings.
 
-use crate::math::Vec3;
+use crate::math::{Mat3, Vec3};
 use crate::shape::{MassProperties, Polyhedron};
 
 /// A rigid convex block in world coordinates.
@@ -27,6 +27,16 @@ impl Block {
     /// A stone that moves freely, a body of its own: its shape at rest (m) and its density (kg/m^3).
     pub fn stone(shape: Polyhedron, density: f64) -> Block {
         Block { shape, density, support: Support::Free, tag: Tag::Stone, group: None, scan: None }
+    }
+
+    /// The same block after x -> turn x + shift.
+    pub fn moved(&self, turn: &Mat3, shift: &Vec3) -> Block {
+        let scan = self.scan.map(|own| MassProperties {
+            centroid: turn * own.centroid + shift,
+            inertia: turn * own.inertia * turn.transpose(),
+            ..own
+        });
+        Block { shape: self.shape.moved(turn, shift), scan, ..self.clone() }
     }
 
     /// Volume (m^3), centroid (m) and inertia (m^5) of the stone at unit density, in world coordinates.

@@ -12,6 +12,7 @@ mod measures;
 mod peak;
 mod pulse;
 mod read;
+mod response;
 #[cfg(test)]
 mod tests;
 

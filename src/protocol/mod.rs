@@ -20,6 +20,7 @@ mod pace;
 mod path;
 mod piles;
 mod pressure;
+mod pushover;
 mod recorder;
 mod restraint;
 mod retaining;
@@ -56,6 +57,7 @@ pub use mechanism::{Failure, FailureMode, JointState};
 pub use path::{Growing, LoadPath};
 pub use piles::pile_thicknesses;
 pub use pressure::{Load, back_loads, trapezoid};
+pub use pushover::Pushover;
 pub use recorder::Recorder;
 pub use retaining::{
     Behind, Fill, Highest, Lifts, NoBack, NoFill, Retained, Retaining, WATER, Wedge, highest, left_open_at,

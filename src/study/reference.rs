@@ -14,6 +14,7 @@ pub fn key_reference() -> String {
         &keys::PUBLISHED,
         &keys::ELEMENT_STUDY,
         &keys::ELEMENTS_PUBLISHED,
+        &keys::SITE,
         &keys::HEAD,
         &keys::ENTRY,
         &keys::FAMILY,

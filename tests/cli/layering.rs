@@ -29,12 +29,14 @@ const HOUSE: &[(&str, &[&str])] = &[
     ("homogenise", &["interrupt", "math", "shape", "law", "model", "contact", "solve"]),
     // `shape`, beyond the house's first plan: a pressure is integrated over faces, and end blocks are shapes.
     ("protocol", &["math", "shape", "law", "motion", "model", "contact", "solve"]),
+    // What codes ask of a mechanism: numbers against numbers.
+    ("verify", &["math", "motion"]),
     // `exchange` and `contact`: an arm may be a wall from a file, which is looked over (which blocks touch, overlap, float) as it is read.
     (
         "study",
         &[
             "math", "shape", "random", "stats", "motion", "law", "model", "exchange", "contact", "mend",
-            "generate", "solve", "protocol",
+            "generate", "solve", "protocol", "verify",
         ],
     ),
     (
@@ -72,6 +74,7 @@ const HOUSE: &[(&str, &[&str])] = &[
             "solve",
             "homogenise",
             "protocol",
+            "verify",
             "stats",
             "study",
             "ensemble",

@@ -54,6 +54,7 @@ mod survey;
 mod sweep;
 mod uncertain;
 mod unseen;
+mod verify;
 mod wall_arms;
 mod walls;
 mod ways_in;

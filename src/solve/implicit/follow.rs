@@ -48,18 +48,18 @@ const MOST_DOUBTS: u32 = 4;
 
 /// A state on the path.
 #[derive(Clone)]
-struct State<'a> {
-    at: Equilibrium<'a>,
-    level: f64,
+pub(super) struct State<'a> {
+    pub at: Equilibrium<'a>,
+    pub level: f64,
     ratio: f64,
     /// Direction in which the path goes on, of unit length.
     along: Vec<f64>,
     /// Growth of the level per length that way.
-    slope: f64,
+    pub slope: f64,
     stable: bool,
     /// Length of the step that led here, and its iterations.
-    length: f64,
-    iterations: u32,
+    pub length: f64,
+    pub iterations: u32,
 }
 
 impl<'a> Equilibrium<'a> {
@@ -133,7 +133,7 @@ impl<'a> Equilibrium<'a> {
     }
 
     /// Largest displacement of a block's centroid since another state (m).
-    fn moved_since(&self, other: &Self) -> f64 {
+    pub(super) fn moved_since(&self, other: &Self) -> f64 {
         let (now, then) = (&self.assembly().bodies.all, &other.assembly().bodies.all);
         let square = |(a, b): (&Body, &Body)| (a.position - b.position).norm_squared();
         now.iter().zip(then).map(square).fold(0.0, f64::max).sqrt()
@@ -172,7 +172,7 @@ impl<'a> Followed<Equilibrium<'a>> {
 
 impl<'a> State<'a> {
     /// At rest where the path begins.
-    fn at_rest(at: &Equilibrium<'a>, ahead: &Ahead<'_>) -> Option<Self> {
+    pub fn at_rest(at: &Equilibrium<'a>, ahead: &Ahead<'_>) -> Option<Self> {
         let mut at = at.clone();
         let here = at.step_along(ahead, ahead.from, &[], 0.0)?;
         Some(State::of(at, here))
@@ -263,7 +263,7 @@ impl<'a> State<'a> {
     }
 
     /// The next state along the path; a step that does not converge is halved.
-    fn next(&self, ahead: &Ahead<'_>, mut length: f64) -> Option<Self> {
+    pub fn next(&self, ahead: &Ahead<'_>, mut length: f64) -> Option<Self> {
         for _ in 0..=MOST_HALVINGS {
             let mut at = self.at.clone();
             let found = at.step_along(ahead, self.level, &self.along, length);

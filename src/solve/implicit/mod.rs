@@ -16,9 +16,11 @@ mod follow;
 mod loose;
 mod newton;
 mod stiffening;
+mod trace;
 
 pub use equilibrium::Equilibrium;
 pub use newton::Effort;
+pub use trace::{TraceEnd, Traced};
 
 use crate::solve::Demand;
 

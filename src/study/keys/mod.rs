@@ -6,12 +6,14 @@ mod base_motion;
 mod elements;
 mod published;
 mod run;
+mod site;
 mod uncertain;
 
 pub use arm::ARM;
 pub use elements::{ELEMENT, ELEMENT_STUDY, ELEMENTS_PUBLISHED, REPORTED};
 pub use published::{CLAIM, PUBLISHED};
 pub use run::SOLVER;
+pub use site::{MODE, SITE};
 pub use uncertain::UNCERTAIN;
 
 use crate::law::{MOST_KNOTS, MOST_SEATS};

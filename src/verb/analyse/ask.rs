@@ -167,6 +167,10 @@ pub(crate) struct Analyse {
     pub settlements: Vec<(u64, f64)>,
     #[command(flatten)]
     pub demanded: DemandOptions,
+    /// Check the mechanism under a horizontal load towards --direction as a code asks for it, by acceleration and by displacement, against
+    /// the ground and the place that this file states (`pirca reference keys`, site.toml).
+    #[arg(long, value_name = "SITE.toml", help_heading = "Demand")]
+    pub verify: Option<PathBuf>,
     #[command(flatten)]
     pub behind: Behind,
     /// Friction angle of the joints (deg), 0 to 89: a number, a range 30..38, or a distribution as normal(34,2). The default is the range of published

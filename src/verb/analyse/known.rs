@@ -34,6 +34,14 @@ impl Known {
         }
     }
 
+    /// The number, the low end of a range, or the 5 % point of a distribution.
+    pub fn low(&self) -> f64 {
+        match self {
+            Known::Exactly(x) => *x,
+            Known::Within { spread, .. } => spread.ends()[0],
+        }
+    }
+
     /// The range that is taken where nothing is stated, if it is one.
     pub fn usual(&self) -> Option<&str> {
         match self {

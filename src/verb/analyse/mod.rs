@@ -25,6 +25,7 @@ pub(crate) mod uncertainty;
 mod unsure;
 mod upright;
 mod verb;
+mod verify;
 mod views;
 mod worst;
 

@@ -7,6 +7,7 @@ use crate::exchange::{WallFile, meshes_of};
 use crate::math::Vec3;
 use crate::mend::Mended;
 use crate::model::{Replay, Support};
+use crate::render::document::Drawing;
 use crate::render::number::significant;
 use crate::render::picture::{Picture, Stone};
 use crate::study::{Tolerance, sha256};
@@ -35,6 +36,8 @@ pub(crate) struct Told<'a> {
     pub warnings: &'a [String],
     /// What was done to its stones before it was solved.
     pub mended: Option<&'a Mended>,
+    /// Figures of the answer.
+    pub figures: &'a [Drawing],
 }
 
 /// The page; `picture` and `views` are those in the folder, `replay` the states that the wall goes through.
@@ -73,6 +76,7 @@ pub(crate) fn page(
         warnings: told.warnings,
         read: source.read.clone(),
         picture,
+        figures: told.figures,
         views: &views.whole,
         moved: views.moved.as_ref(),
         replay,

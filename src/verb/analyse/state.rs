@@ -92,7 +92,7 @@ impl State {
 }
 
 /// How every block moves in the mechanism. The parts of a stone turn about its centroid, not about their own.
-fn movements(wall: &Wall, found: &Limit) -> Vec<Movement> {
+pub(crate) fn movements(wall: &Wall, found: &Limit) -> Vec<Movement> {
     let leads = wall.leads();
     let mut stones: BTreeMap<usize, (f64, Vec3)> = BTreeMap::new();
     for (block, lead) in wall.blocks.iter().zip(&leads) {

@@ -129,7 +129,8 @@ impl Given<'_> {
         })
     }
 
-    fn solved(&self, asked: &[AskedOfWall], values: &[f64]) -> Result<Came, Failure> {
+    /// The arguments and the wall at some values of its parameters.
+    pub fn varied(&self, asked: &[AskedOfWall], values: &[f64]) -> Result<(Analyse, Wall), Failure> {
         let mut own = self.arguments.clone();
         for (parameter, &value) in asked.iter().zip(values) {
             let known = Known::Exactly(value);
@@ -140,6 +141,11 @@ impl Given<'_> {
             }
         }
         let wall = loaded(self.file, own.density.as_ref().map(Known::middle), &own.dead_loads)?;
+        Ok((own, wall))
+    }
+
+    fn solved(&self, asked: &[AskedOfWall], values: &[f64]) -> Result<Came, Failure> {
+        let (own, wall) = self.varied(asked, values)?;
         let (answer, found) =
             solve_seen_by(&own, (&wall, self.settlements), &law(&own), self.fit, Witness::NOBODY);
         Ok(self.came(&wall, &answer, &found))

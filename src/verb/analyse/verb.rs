@@ -13,6 +13,7 @@ use crate::math::compact;
 use crate::mend::Mended;
 use crate::model::{Outcome, Support, Wall};
 use crate::protocol::{Direction, Recorder, Settlement, Witness};
+use crate::render::document::Drawing;
 use crate::solve::STANDARD_GRAVITY;
 use crate::study::Angle;
 use crate::study::{self, Fit, bounds, look, wider};
@@ -31,10 +32,11 @@ use crate::verb::analyse::page::Told;
 use crate::verb::analyse::shaken::shaken;
 use crate::verb::analyse::solve::{law, solve, solve_seen_by};
 use crate::verb::analyse::state::State;
-use crate::verb::analyse::uncertainty::{uncertainty_text, write_uncertainty};
+use crate::verb::analyse::uncertainty::{uncertainty_figure, uncertainty_text, write_uncertainty};
 use crate::verb::analyse::unsure::{Given, asked, refused};
+use crate::verb::analyse::verify::{Verification, verified};
 use crate::verb::analyse::worst::{Tried, tried, weakest};
-use crate::verb::analyse::{as_study, demand, fclib, files, held, known, mended, shaken, upright};
+use crate::verb::analyse::{as_study, demand, fclib, files, held, known, mended, shaken, upright, verify};
 use crate::verb::arguments::SolverName;
 use crate::verb::wall::one_wall::MOST_STATES;
 
@@ -87,6 +89,8 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
     let others = opinions(arguments, wall, &fit, (&answer, begun.elapsed().as_secs_f64()));
     warnings.extend(others.as_ref().and_then(Opinions::warning));
     let given = Given { arguments, file: &read, fit: &fit, settlements: &settlements };
+    let verification = verified(&given, &file.wall, &asked(arguments))?;
+    warnings.extend(verification.iter().flat_map(|own| own.site.warnings.iter().cloned()));
     let sure = given.how_sure(asked(arguments), (&file.wall, &answer, &found))?;
     let state = (is_seen || demand.is_some()).then(|| State::of(&file.wall, &fit.contact, &found));
     let fall = state.as_ref().and_then(|state| Fall::of(state, &answer.moving));
@@ -108,6 +112,9 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
     if let Some(own) = &demanded {
         object["demand"] = own.object();
     }
+    if let Some(own) = &verification {
+        object["verification"] = own.object();
+    }
     if let Some(done) = &done {
         object["mended"] = mended::object(&read, done, arguments.mend);
     }
@@ -118,6 +125,7 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
         object["opinions"] = others.object();
     }
     let mut text = demanded.as_ref().map(Demanded::text).unwrap_or_default();
+    text += &verification.as_ref().map(Verification::text).unwrap_or_default();
     text += &answer.text(arguments, &file, &fit, seconds);
     text += &others.as_ref().map_or_else(String::new, |others| others.text(arguments));
     text += &arguments.study.as_ref().map_or_else(String::new, |folder| {
@@ -135,12 +143,16 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
     }
     if let Some(state) = state.as_ref().filter(|_| is_seen) {
         let replay = recorder.map(|own| own.replay(file.wall.blocks.len())).unwrap_or_default();
-        let told = Told { text: &text, warnings: &warnings, mended: done.as_ref() };
+        let figures =
+            [sure.as_ref().map(uncertainty_figure), verification.as_ref().and_then(Verification::drawing)];
+        let figures: Vec<Drawing> = figures.into_iter().flatten().collect();
+        let told = Told { text: &text, warnings: &warnings, mended: done.as_ref(), figures: &figures };
         let of = Seen { asked: arguments, file: &file, fit: &fit, answer: &answer, state, replay: &replay };
         if let Some(folder) = &arguments.out {
             files::write(folder, &of, &object, &told)?;
             let written = sure.as_ref().map_or(Ok(()), |sure| write_uncertainty(sure, folder));
             written.map_err(|error| Failure::Run(format!("{error:#}")))?;
+            verification.as_ref().map_or(Ok(()), |own| own.write(folder))?;
         }
         if let Some(page) = &page {
             files::write_page(page, &of, &told)?;
@@ -233,6 +245,7 @@ fn asked_in_vain(arguments: &Analyse) -> Result<Vec<String>, Failure> {
     refused(arguments)?;
     shaken::refused(arguments)?;
     held::refused(arguments)?;
+    verify::refused(arguments)?;
     as_study::refused(arguments)?;
     let solver = arguments.solver().name();
     let is_asked = |own: SolverName| arguments.solvers.contains(&own);

@@ -185,6 +185,7 @@ fn page(
         warnings,
         read: source.read,
         picture,
+        figures: &[],
         views: &views(asked, of.file),
         moved: None,
         replay: &run.replay,

@@ -42,6 +42,8 @@ pub struct WallPage<'a> {
     pub read: Option<String>,
     /// How the wall gives way.
     pub picture: &'a Picture,
+    /// How surely, and what a code says of it, as figures.
+    pub figures: &'a [Drawing],
     /// The wall along its axes, before the load.
     pub views: &'a Views,
     /// What mending moved, where it moved anything.
@@ -71,6 +73,7 @@ struct Filled<'a> {
     warnings: &'a [String],
     read: Option<Drawing>,
     picture: Drawing,
+    figures: &'a [Drawing],
     solid: Option<Solid>,
     views: Drawing,
     moved: Option<Drawing>,
@@ -121,6 +124,7 @@ pub fn wall_page(of: &WallPage<'_>) -> Result<String> {
                 &described,
                 &of.picture.svg(),
             ),
+            figures: of.figures,
             solid: Solid::of("figure-solid", caption, &[solid]),
             views: along_axes("figure-views", "The wall from three sides, before the load", of.views),
             moved: of.moved.map(|views| along_axes("figure-mended", "Stones that mending changed", views)),
