@@ -164,6 +164,9 @@ fn names(all: &[&str]) -> String {
     }
 }
 
+/// What the two columns of means are: walls of arms are paired, and the best arm has others than each arm.
+pub(crate) const MEANS: &str = "mean: over the walls that the arm shares with the best one; best: that of the best arm over the same walls.";
+
 /// A line per arm, with the heads in the first row.
 pub(crate) fn table(summary: &SelectionSummary) -> Vec<Vec<String>> {
     let unit = summary.shown.shown_unit();
@@ -177,18 +180,21 @@ pub(crate) fn table(summary: &SelectionSummary) -> Vec<Vec<String>> {
         "kn Pa/m".to_owned(),
         "n".to_owned(),
         format!("mean {unit}"),
+        format!("best {unit}"),
         "COV %".to_owned(),
     ];
     header.extend(asked);
     header.extend(["behind the best", "shown", "falls by", "hinge m"].map(str::to_owned));
     let mut rows = vec![header];
+    let mean = |value: Option<f64>| or_dash(value.map(|x| summary.shown.shown(x)), 3);
     for arm in &summary.arms {
         let rival = summary.of_best().find(|own| own.over == arm.name);
         let mut row = vec![
             arm.name.clone(),
             compact(arm.kn_pa_per_m),
             arm.walls.to_string(),
-            or_dash(arm.mean.value.map(|x| summary.shown.shown(x)), 3),
+            mean(rival.map_or(arm.mean.value, |own| own.means.map(|[_, own]| own))),
+            mean(rival.and_then(|own| own.means).map(|[best, _]| best)),
             or_dash(arm.cov.map(|cov| 100.0 * cov), 2),
         ];
         row.extend(match summary.question {
