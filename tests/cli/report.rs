@@ -192,6 +192,11 @@ fn a_run_leaves_no_page_of_fewer_walls_and_no_figure_that_it_does_not_draw() {
         assert_eq!(figure.exists(), is_drawn, "{more:?}");
     }
     assert!(folder.path("one/figure-10.csv").is_file());
+    let output = folder.pirca(&[&one[..], &["--report"]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let page = fs::read_to_string(folder.path("one/report.html")).expect("the page was written");
+    holds_together(&page);
+    assert!(!page.contains("id=\"figures\""), "no heading without a figure");
 }
 
 #[test]

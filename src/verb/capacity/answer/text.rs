@@ -37,16 +37,14 @@ fn without_scatter(summary: &CapacitySummary, groups: &[&CapacityGroup]) -> Stri
         Some(kn) if groups.len() > 1 => format!(" at kn {}", compact(kn)),
         _ => String::new(),
     };
-    let said = |group: &&CapacityGroup| {
-        let value = group.answer.value()?;
-        Some(match summary.question {
-            Question::Quantile(_) => {
-                let (value, unit) = (significant(summary.shown.shown(value), 3), summary.shown.shown_unit());
-                format!("{value} {unit}{}", at(group))
-            }
-            // A share of walls that are all alike is 0 or 1.
-            _ => format!("{}{}", if value > 0.5 { "yes" } else { "no" }, at(group)),
-        })
+    let said = |group: &&CapacityGroup| match summary.question {
+        Question::Quantile(_) => {
+            // One wall shows no quantile, and has a value.
+            let value = summary.shown.shown(group.rungs.first()?.level);
+            Some(format!("{} {}{}", significant(value, 3), summary.shown.shown_unit(), at(group)))
+        }
+        // A share of walls that are all alike is 0 or 1.
+        _ => Some(format!("{}{}", if group.answer.value()? > 0.5 { "yes" } else { "no" }, at(group))),
     };
     let said: Vec<String> = groups.iter().filter_map(said).collect();
     let said = if said.is_empty() { String::new() } else { format!(": {}", said.join(", ")) };
