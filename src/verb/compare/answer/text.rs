@@ -73,9 +73,9 @@ fn answer(summary: &SelectionSummary) -> String {
         (_, 0, 0) => {
             format!("{best} is the best, by {} (confidence {}).", measure(summary), summary.confidence)
         }
-        (0, _, 0) => format!("{best} and {} cannot be told apart within {zone}.", names(&same)),
+        (0, _, 0) => format!("{best} and {} are the same within {zone}.", names(&same)),
         (_, _, 0) => format!(
-            "{best} is better than {}; it cannot be told apart from {} within {zone}.",
+            "{best} is better than {}, and the same as {} within {zone}.",
             names(&better),
             names(&same)
         ),
@@ -93,7 +93,7 @@ fn nearest(summary: &SelectionSummary, rival: &ArmDifference) -> String {
     );
     let next = rival.next_wall.interval.map(|ends| ends.map(|x| (100.0 * x).round() / 100.0));
     format!(
-        "Over {}: {by}{}{unit}; stronger with {} (the next wall) and {} (the mean).",
+        "Over {}: {by}{}{unit}; stronger with a probability of {} (the next wall) and {} (the mean).",
         shortened(&rival.over, LONGEST_NAME),
         if unit.is_empty() { "" } else { " " },
         with_interval(rival.next_wall.probability, next, 2),

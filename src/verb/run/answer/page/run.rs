@@ -13,6 +13,7 @@ use crate::render::number::{compact, or_dash, significant, stiffness, with_inter
 use crate::render::picture::Picture;
 use crate::shape::Polyhedron;
 use crate::study::{Loaded, Study};
+use crate::verb::run::answer::comparison::Comparison;
 use crate::verb::run::answer::conclusion::sentences;
 use crate::verb::run::answer::demand::DemandSummary;
 use crate::verb::run::answer::figure::title;
@@ -375,15 +376,16 @@ fn quantiles(summary: &Summary) -> Table {
 }
 
 fn ratios(summary: &Summary) -> Table {
+    let is_exact = |one: &Comparison| one.ratio_ci.is_some_and(|[low, high]| low == high);
     let rows = summary.comparisons.iter().map(|one| {
-        let exact = one.ratio_ci.is_some_and(|[low, high]| low == high);
-        let ratio = match exact {
+        let ratio = match is_exact(one) {
             true => or_dash(one.ratio, 3),
             false => with_interval_against(one.ratio, one.ratio_ci, 3, 1.0),
         };
         vec![one.arm.clone(), one.over.clone(), compact(one.kn_pa_per_m), ratio]
     });
-    let caption = "Without brackets: neither arm is random.".to_owned();
+    let has_exact = summary.comparisons.iter().any(is_exact);
+    let caption = if has_exact { "Without brackets: neither arm is random." } else { "" }.to_owned();
     Table { caption, ..Table::new("Ratios of means", &["arm", "over", "kn Pa/m", "ratio"], rows.collect()) }
 }
 
